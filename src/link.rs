@@ -1,0 +1,139 @@
+//! One rigid link: its mass, and how it moves.
+
+use crate::error::{finite, not_negative};
+use crate::transfer::Transfer;
+use crate::Error;
+
+/// Mass properties of a rigid link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Link {
+    mass: f64,
+    inertia: f64,
+    com: [f64; 2],
+}
+
+impl Link {
+    /// A link of `mass` (kg) with `inertia` about its own centre of mass (kg·m²), which lies at `com = [u, v]` (m)
+    /// in the link's frame: u along the link, v = u turned by +90°.
+    ///
+    /// # Errors
+    /// Mass or inertia negative, or anything not finite.
+    pub fn new(mass: f64, inertia: f64, com: [f64; 2]) -> Result<Self, Error> {
+        Ok(Self {
+            mass: not_negative("mass", mass)?,
+            inertia: not_negative("inertia", inertia)?,
+            com: [
+                finite("centre of mass u", com[0])?,
+                finite("centre of mass v", com[1])?,
+            ],
+        })
+    }
+
+    /// A body that only turns about its own centre of mass: a wheel, a shaft, a flywheel.
+    ///
+    /// # Errors
+    /// Inertia negative or not finite.
+    pub fn rotor(inertia: f64) -> Result<Self, Error> {
+        Self::new(0.0, inertia, [0.0, 0.0])
+    }
+
+    /// Mass (kg).
+    pub const fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// Inertia about the centre of mass (kg·m²).
+    pub const fn inertia(&self) -> f64 {
+        self.inertia
+    }
+
+    /// Centre of mass in the link's frame (m).
+    pub const fn com(&self) -> [f64; 2] {
+        self.com
+    }
+
+    /// This link's share of the reduced inertia, m·(x′² + y′²) + J·ψ′² as one term of (6.4), with its first and
+    /// second derivative by φ.
+    #[must_use]
+    pub fn reduced_inertia(&self, frame: &Frame) -> [f64; 3] {
+        let [x, y] = frame.point(self.com);
+        let mut sum = [0.0; 3];
+        for (weight, f) in [(self.mass, x), (self.mass, y), (self.inertia, frame.psi)] {
+            sum[0] += weight * f.d1 * f.d1;
+            sum[1] += weight * 2.0 * f.d1 * f.d2;
+            sum[2] += weight * 2.0 * (f.d2 * f.d2 + f.d1 * f.d3);
+        }
+        sum
+    }
+
+    /// Potential energy U = −m·g·r_c in the field `gravity` (m/s²) and its derivative by φ, (3.8), (3.9).
+    #[must_use]
+    pub fn potential_energy(&self, frame: &Frame, gravity: [f64; 2]) -> [f64; 2] {
+        let [x, y] = frame.point(self.com);
+        [
+            -self.mass * (gravity[0] * x.value + gravity[1] * y.value),
+            -self.mass * (gravity[0] * x.d1 + gravity[1] * y.d1),
+        ]
+    }
+}
+
+/// Where a link's frame is, as functions of φ: origin (x, y) and angle ψ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// Origin of the frame, x (m).
+    pub x: Transfer,
+    /// Origin of the frame, y (m).
+    pub y: Transfer,
+    /// Angle of the frame's u axis from +x (rad).
+    pub psi: Transfer,
+    sin: Transfer,
+    cos: Transfer,
+}
+
+impl Frame {
+    /// A link that turns about the fixed point `pivot` by the angle `psi`.
+    #[must_use]
+    pub fn turning(pivot: [f64; 2], psi: Transfer) -> Self {
+        let (sin, cos) = psi.sin_cos();
+        Self {
+            x: Transfer::constant(pivot[0]),
+            y: Transfer::constant(pivot[1]),
+            psi,
+            sin,
+            cos,
+        }
+    }
+
+    /// A link that translates without turning.
+    #[must_use]
+    pub const fn translating(origin: [Transfer; 2]) -> Self {
+        Self {
+            x: origin[0],
+            y: origin[1],
+            psi: Transfer::constant(0.0),
+            sin: Transfer::constant(0.0),
+            cos: Transfer::constant(1.0),
+        }
+    }
+
+    /// A link in general plane motion, its angle given by sine and cosine.
+    #[must_use]
+    pub fn moving(origin: [Transfer; 2], sin: Transfer, cos: Transfer) -> Self {
+        Self {
+            x: origin[0],
+            y: origin[1],
+            psi: Transfer::angle(sin, cos),
+            sin,
+            cos,
+        }
+    }
+
+    /// A point of the link, given in its frame as `[u, v]` (m), in global coordinates.
+    #[must_use]
+    pub fn point(&self, [u, v]: [f64; 2]) -> [Transfer; 2] {
+        [
+            self.x + self.cos * u - self.sin * v,
+            self.y + self.sin * u + self.cos * v,
+        ]
+    }
+}

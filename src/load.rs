@@ -1,0 +1,169 @@
+//! Forces and moments that act on the links, other than gravity.
+
+use crate::error::{finite, not_negative, positive};
+use crate::link::Frame;
+use crate::motion::Law;
+use crate::{Error, math};
+
+/// What a load does to its link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Action {
+    /// A force with the global components [x, y] (N), whatever the direction of motion.
+    Force([f64; 2]),
+    /// A moment (N·m), counter-clockwise positive, whatever the direction of motion.
+    Moment(f64),
+    /// A force of this size (N) against the velocity of its point: friction, a blank holder, cutting both ways.
+    OpposingForce(f64),
+    /// A moment of this size (N·m) against the link's rotation.
+    OpposingMoment(f64),
+    /// A force c·v (c in N·s/m) against the velocity of its point.
+    ViscousForce(f64),
+    /// A moment c·ψ̇ (c in N·m·s/rad) against the link's rotation.
+    ViscousMoment(f64),
+}
+
+/// The part of the turn in which a load acts.
+///
+/// It rises from nothing at `from` to its full size over `ramp`, and falls to nothing over `ramp` before `to`, each
+/// by the 3-4-5 polynomial, so that the reduced torque keeps two continuous derivatives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Window {
+    from: f64,
+    width: f64,
+    ramp: f64,
+}
+
+impl Window {
+    /// A window from `from` on to `to` with edges of width `ramp` (rad of the drive link; `to` may lie past the
+    /// turn's end).
+    ///
+    /// # Errors
+    /// A window wider than a turn or narrower than its two ramps; a ramp that is not positive.
+    pub fn new(from: f64, to: f64, ramp: f64) -> Result<Self, Error> {
+        use core::f64::consts::TAU;
+        let from = finite("start of the load's window", from)?;
+        let ramp = positive("ramp of the load's window", ramp)?;
+        let width = positive(
+            "width of the load's window",
+            finite("end of the load's window", to)? - from,
+        )?;
+        if width > TAU || width < 2.0 * ramp {
+            return Err(Error::OutOfRange {
+                what: "width of the load's window (rad)",
+                value: width,
+                min: 2.0 * ramp,
+                max: TAU,
+            });
+        }
+        Ok(Self { from, width, ramp })
+    }
+
+    /// How much of the load acts at `phi` (rad): 0 to 1.
+    #[must_use]
+    pub fn factor(&self, phi: f64) -> f64 {
+        use core::f64::consts::TAU;
+        let turns = (phi - self.from) / TAU;
+        let into = (turns - math::floor(turns)) * TAU;
+        let edge = into.min(self.width - into).max(0.0);
+        Law::Polynomial345.at((edge / self.ramp).min(1.0))[0]
+    }
+}
+
+/// A load on one link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Load {
+    link: usize,
+    at: [f64; 2],
+    action: Action,
+    window: Option<Window>,
+}
+
+impl Load {
+    /// A load on link number `link` (see the mechanism's list), acting at the origin of the link's frame over the
+    /// whole turn.
+    ///
+    /// # Errors
+    /// A value that is not finite; a motion-opposing or viscous size that is negative.
+    pub fn new(link: usize, action: Action) -> Result<Self, Error> {
+        match action {
+            Action::Force([x, y]) => {
+                finite("force x", x)?;
+                finite("force y", y)?;
+            }
+            Action::Moment(m) => {
+                finite("moment", m)?;
+            }
+            Action::OpposingForce(f) => {
+                not_negative("opposing force", f)?;
+            }
+            Action::OpposingMoment(m) => {
+                not_negative("opposing moment", m)?;
+            }
+            Action::ViscousForce(c) | Action::ViscousMoment(c) => {
+                not_negative("viscous coefficient", c)?;
+            }
+        }
+        Ok(Self {
+            link,
+            at: [0.0, 0.0],
+            action,
+            window: None,
+        })
+    }
+
+    /// The same load at the point `[u, v]` (m) of the link's frame.
+    ///
+    /// # Errors
+    /// A coordinate that is not finite.
+    pub fn at(self, point: [f64; 2]) -> Result<Self, Error> {
+        finite("point of the load u", point[0])?;
+        finite("point of the load v", point[1])?;
+        Ok(Self { at: point, ..self })
+    }
+
+    /// The same load in a part of the turn only.
+    #[must_use]
+    pub const fn within(mut self, window: Window) -> Self {
+        self.window = Some(window);
+        self
+    }
+
+    /// Index of the link.
+    pub const fn link(&self) -> usize {
+        self.link
+    }
+
+    /// The load's share of the reduced torque at `phi` (rad), (6.2), for its link's `frame`.
+    #[must_use]
+    pub fn reduce(&self, frame: &Frame, phi: f64) -> LoadCurves {
+        let part = self.window.map_or(1.0, |w| w.factor(phi));
+        let [x, y] = frame.point(self.at);
+        let speed_squared = x.d1 * x.d1 + y.d1 * y.d1;
+        let turn = frame.psi.d1;
+        let mut curves = LoadCurves::default();
+        match self.action {
+            Action::Force([fx, fy]) => curves.process = part * (fx * x.d1 + fy * y.d1),
+            Action::Moment(m) => curves.process = part * m * turn,
+            Action::OpposingForce(f) => curves.coulomb = part * f * math::sqrt(speed_squared),
+            Action::OpposingMoment(m) => curves.coulomb = part * m * math::abs(turn),
+            Action::ViscousForce(c) => curves.viscous = part * c * speed_squared,
+            Action::ViscousMoment(c) => curves.viscous = part * c * turn * turn,
+        }
+        curves
+    }
+}
+
+/// A load's share of the reduced torque.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LoadCurves {
+    /// Signed process torque (N·m), in +φ direction.
+    pub process: f64,
+    /// b in −b·ω (N·m·s/rad).
+    pub viscous: f64,
+    /// c in −c·sgn ω (N·m).
+    pub coulomb: f64,
+}

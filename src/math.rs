@@ -1,0 +1,63 @@
+//! The only door to `libm`. Called by path, so that `std`'s methods never stand in for them in tests.
+
+/// A binary floating-point number: `f32` or `f64`. Sealed.
+///
+/// Motion laws are written once for both: firmware runs them in `f32`, the host in `f64`.
+pub trait Real:
+    Copy
+    + PartialOrd
+    + core::ops::Add<Output = Self>
+    + core::ops::Sub<Output = Self>
+    + core::ops::Mul<Output = Self>
+    + core::ops::Div<Output = Self>
+    + core::ops::Neg<Output = Self>
+    + core::fmt::Debug
+    + crate::sealed::Sealed
+{
+    /// The nearest value to a constant.
+    fn from_f64(value: f64) -> Self;
+    /// Sine and cosine by `libm`, correct to 1 ulp. In `f32` this computes in double precision inside.
+    fn sin_cos(self) -> (Self, Self);
+}
+
+impl Real for f32 {
+    fn from_f64(value: f64) -> Self {
+        value as Self
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        libm::sincosf(self)
+    }
+}
+
+impl Real for f64 {
+    fn from_f64(value: f64) -> Self {
+        value
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        libm::sincos(self)
+    }
+}
+
+pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
+    libm::sincos(x)
+}
+
+pub(crate) fn sqrt(x: f64) -> f64 {
+    libm::sqrt(x)
+}
+
+pub(crate) fn atan2(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
+}
+
+pub(crate) fn asin(x: f64) -> f64 {
+    libm::asin(x)
+}
+
+pub(crate) fn floor(x: f64) -> f64 {
+    libm::floor(x)
+}
+
+pub(crate) fn abs(x: f64) -> f64 {
+    libm::fabs(x)
+}

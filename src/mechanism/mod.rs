@@ -1,0 +1,45 @@
+//! Mechanisms: from the angle of the drive link to the position of every link.
+
+mod slider_crank;
+mod train;
+
+pub use slider_crank::{Branch, SliderCrank};
+pub use train::{Mesh, Stage, Train};
+
+use crate::link::{Frame, Link};
+use crate::{Domain, Error};
+
+/// The most links that a mechanism may have.
+pub const MAX_LINKS: usize = 16;
+
+/// The frames of all links at one angle, in the order of [`Mechanism::links`].
+pub type Frames = heapless::Vec<Frame, MAX_LINKS>;
+
+/// A planar mechanism with one degree of freedom.
+///
+/// Implement it for a mechanism of your own: everything after it (reduction, tables, model) works unchanged.
+pub trait Mechanism {
+    /// Mass properties of the moving links.
+    fn links(&self) -> &[Link];
+
+    /// Range of the drive link.
+    fn domain(&self) -> Domain;
+
+    /// Position of every link, with transfer functions, at the drive link's angle `phi` (rad).
+    ///
+    /// # Errors
+    /// A dead point or a position that cannot be assembled; a mechanism checked when built returns none within its domain.
+    fn frames(&self, phi: f64) -> Result<Frames, Error>;
+}
+
+impl<M: Mechanism + ?Sized> Mechanism for &M {
+    fn links(&self) -> &[Link] {
+        (**self).links()
+    }
+    fn domain(&self) -> Domain {
+        (**self).domain()
+    }
+    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+        (**self).frames(phi)
+    }
+}

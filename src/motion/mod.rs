@@ -1,0 +1,87 @@
+//! Motion laws and moves: how the drive link is to go.
+
+mod law;
+
+pub use law::Law;
+
+use crate::Error;
+use crate::math::Real;
+
+/// Position, speed and acceleration of the drive link.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct State<R> {
+    /// φ (rad, or m)
+    pub phi: R,
+    /// ω (rad/s, or m/s)
+    pub omega: R,
+    /// α (rad/s², or m/s²)
+    pub alpha: R,
+}
+
+/// A move over a distance in a given time by a motion law; a distance of zero is a dwell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Move<R> {
+    law: Law,
+    start: R,
+    distance: R,
+    duration: R,
+}
+
+impl<R: Real> Move<R> {
+    /// A move from `start` over `distance` (rad) in `duration` (s).
+    ///
+    /// # Errors
+    /// A duration that is not positive, a value that is not finite, or a law that is not valid.
+    pub fn new(law: Law, start: R, distance: R, duration: R) -> Result<Self, Error> {
+        let zero = R::from_f64(0.0);
+        let finite = |x: R| x - x == zero;
+        for (what, value) in [
+            ("start of the move", start),
+            ("distance of the move", distance),
+            ("duration of the move", duration),
+        ] {
+            if !finite(value) {
+                return Err(Error::NotFinite(what));
+            }
+        }
+        if duration <= zero {
+            return Err(Error::NotPositive("duration of the move", 0.0));
+        }
+        law.check()?;
+        Ok(Self {
+            law,
+            start,
+            distance,
+            duration,
+        })
+    }
+
+    /// Duration (s).
+    pub const fn duration(&self) -> R {
+        self.duration
+    }
+
+    /// Distance (rad).
+    pub const fn distance(&self) -> R {
+        self.distance
+    }
+
+    /// The law.
+    pub const fn law(&self) -> Law {
+        self.law
+    }
+
+    /// The state at `t` (s) after the start; before and after the move it stands at the ends.
+    #[must_use]
+    pub fn at(&self, t: R) -> State<R> {
+        let [s, v, a] = self.law.at(t / self.duration);
+        let speed = self.distance / self.duration;
+        State {
+            phi: self.start + self.distance * s,
+            omega: speed * v,
+            alpha: speed / self.duration * a,
+        }
+    }
+}

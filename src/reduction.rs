@@ -1,0 +1,268 @@
+//! The method of reduction: a machine replaced by one rotating link.
+//!
+//! ```text
+//! J_red(φ) = Σ m·(x_c′² + y_c′²) + J_c·ψ′²          (6.4)
+//! T_red(φ, ω) = Σ F·r′ + M·ψ′                        (6.2)
+//!             = −U′(φ) + process(φ) − b(φ)·ω − c(φ)·sgn ω
+//! J·α + ½·J′·ω² = T_motor + T_red(φ, ω)              (7.12)
+//! ```
+//!
+//! V. G. Nazarenko, *Dynamics of mechanisms*, Minsk 2002. For a sliding drive link read m_red for J, F for T (7.10).
+
+use crate::error::{finite, not_negative};
+use crate::load::Load;
+use crate::mechanism::{Frames, MAX_LINKS, Mechanism};
+use crate::{Domain, Error};
+
+/// The most loads of a machine.
+pub const MAX_LOADS: usize = 16;
+
+/// Anything that can be reduced to one link: the source of tables.
+pub trait Reducible {
+    /// Range of the drive link.
+    fn domain(&self) -> Domain;
+
+    /// The reduced link at the drive link's position `phi` (rad, or m for a sliding link).
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed there, or the reduced inertia is not positive.
+    fn reduction(&self, phi: f64) -> Result<Reduction, Error>;
+}
+
+/// The reduced link at one position.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Reduction {
+    /// J_red (kg·m²), dJ/dφ, d²J/dφ².
+    pub inertia: [f64; 3],
+    /// Potential energy U of gravity (J) and U′ (N·m).
+    pub potential_energy: [f64; 2],
+    /// Signed process torque (N·m), in +φ direction.
+    pub process: f64,
+    /// b in −b·ω (N·m·s/rad).
+    pub viscous: f64,
+    /// c in −c·sgn ω (N·m): Coulomb friction and every other load that opposes the motion.
+    pub coulomb: f64,
+}
+
+impl Reduction {
+    /// The part of the reduced torque that does not depend on ω: −U′ + process (N·m).
+    #[must_use]
+    pub fn load_torque(&self) -> f64 {
+        self.process - self.potential_energy[1]
+    }
+
+    /// Reduced torque T_red(φ, ω) (N·m); sgn 0 = 0.
+    #[must_use]
+    pub fn reduced_torque(&self, omega: f64) -> f64 {
+        self.load_torque() - self.viscous * omega - self.coulomb * sign(omega)
+    }
+
+    /// Drive torque that the motion (ω, α) needs, term by term.
+    #[must_use]
+    pub fn torque(&self, omega: f64, alpha: f64) -> TorqueTerms {
+        TorqueTerms {
+            acceleration: self.inertia[0] * alpha,
+            velocity: 0.5 * self.inertia[1] * omega * omega,
+            potential: self.potential_energy[1],
+            process: -self.process,
+            viscous: self.viscous * omega,
+            coulomb: self.coulomb * sign(omega),
+        }
+    }
+
+    /// Acceleration α (rad/s²) that the drive torque `torque` (N·m) gives at speed ω (7.12).
+    #[must_use]
+    pub fn acceleration(&self, omega: f64, torque: f64) -> f64 {
+        (torque + self.reduced_torque(omega) - 0.5 * self.inertia[1] * omega * omega)
+            / self.inertia[0]
+    }
+}
+
+/// sgn x, with sgn 0 = 0.
+fn sign(x: f64) -> f64 {
+    if x > 0.0 {
+        1.0
+    } else if x < 0.0 {
+        -1.0
+    } else {
+        0.0
+    }
+}
+
+/// The drive torque of a motion, term by term (N·m). Their sum is what the motor must give.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct TorqueTerms {
+    /// J·α
+    pub acceleration: f64,
+    /// ½·J′·ω²
+    pub velocity: f64,
+    /// U′: against gravity
+    pub potential: f64,
+    /// Against the signed process loads
+    pub process: f64,
+    /// b·ω
+    pub viscous: f64,
+    /// c·sgn ω
+    pub coulomb: f64,
+}
+
+impl TorqueTerms {
+    /// The names of the terms, in the order of [`values`](Self::values).
+    pub const NAMES: [&'static str; 6] = [
+        "acceleration",
+        "velocity",
+        "potential",
+        "process",
+        "viscous",
+        "coulomb",
+    ];
+
+    /// The terms, in the order of [`NAMES`](Self::NAMES) (N·m).
+    #[must_use]
+    pub const fn values(&self) -> [f64; 6] {
+        [
+            self.acceleration,
+            self.velocity,
+            self.potential,
+            self.process,
+            self.viscous,
+            self.coulomb,
+        ]
+    }
+
+    /// The drive torque (N·m).
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.values().iter().sum()
+    }
+}
+
+/// A mechanism with gravity, loads and whatever else turns with its drive link.
+#[derive(Clone, Debug)]
+pub struct Machine<M> {
+    mechanism: M,
+    gravity: [f64; 2],
+    loads: heapless::Vec<Load, MAX_LOADS>,
+    flywheel: f64,
+}
+
+impl<M: Mechanism> Machine<M> {
+    /// The bare mechanism: no gravity, no loads.
+    pub const fn new(mechanism: M) -> Self {
+        Self {
+            mechanism,
+            gravity: [0.0, 0.0],
+            loads: heapless::Vec::new(),
+            flywheel: 0.0,
+        }
+    }
+
+    /// With gravity, as an acceleration vector (m/s²) in the mechanism's coordinates.
+    ///
+    /// # Errors
+    /// A component that is not finite.
+    pub fn with_gravity(mut self, gravity: [f64; 2]) -> Result<Self, Error> {
+        self.gravity = [
+            finite("gravity x", gravity[0])?,
+            finite("gravity y", gravity[1])?,
+        ];
+        Ok(self)
+    }
+
+    /// With an inertia (kg·m²) that turns with the drive link: a flywheel, or the drive train reduced to the drive
+    /// link. Repeated calls add up.
+    ///
+    /// # Errors
+    /// An inertia negative or not finite.
+    pub fn with_flywheel(mut self, inertia: f64) -> Result<Self, Error> {
+        self.flywheel += not_negative("flywheel inertia", inertia)?;
+        Ok(self)
+    }
+
+    /// With one more load.
+    ///
+    /// # Errors
+    /// A link that does not exist, or more than [`MAX_LOADS`] loads.
+    pub fn with_load(mut self, load: Load) -> Result<Self, Error> {
+        let links = self.mechanism.links().len();
+        if load.link() >= links {
+            return Err(Error::NoSuchLink {
+                link: load.link(),
+                links,
+            });
+        }
+        self.loads.push(load).map_err(|_| Error::TooMany {
+            what: "loads",
+            capacity: MAX_LOADS,
+        })?;
+        Ok(self)
+    }
+
+    /// The mechanism.
+    pub const fn mechanism(&self) -> &M {
+        &self.mechanism
+    }
+
+    /// The loads.
+    pub fn loads(&self) -> &[Load] {
+        &self.loads
+    }
+
+    /// Inertia that turns with the drive link beside the mechanism's own (kg·m²).
+    pub const fn flywheel(&self) -> f64 {
+        self.flywheel
+    }
+
+    /// Each link's share of [J, J′, J″], in the order of the mechanism's links.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed at `phi`.
+    pub fn link_inertias(&self, phi: f64) -> Result<heapless::Vec<[f64; 3], MAX_LINKS>, Error> {
+        let frames = self.mechanism.frames(phi)?;
+        Ok(self.each_link(&frames).collect())
+    }
+
+    fn each_link<'a>(&'a self, frames: &'a Frames) -> impl Iterator<Item = [f64; 3]> + 'a {
+        let links = self.mechanism.links().iter();
+        links.zip(frames).map(|(link, frame)| link.reduced_inertia(frame))
+    }
+}
+
+impl<M: Mechanism> Reducible for Machine<M> {
+    fn domain(&self) -> Domain {
+        self.mechanism.domain()
+    }
+
+    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+        let frames = self.mechanism.frames(phi)?;
+        let mut reduction = Reduction {
+            inertia: [self.flywheel, 0.0, 0.0],
+            ..Reduction::default()
+        };
+        for share in self.each_link(&frames) {
+            for (sum, part) in reduction.inertia.iter_mut().zip(share) {
+                *sum += part;
+            }
+        }
+        for (link, frame) in self.mechanism.links().iter().zip(&frames) {
+            let [energy, slope] = link.potential_energy(frame, self.gravity);
+            reduction.potential_energy[0] += energy;
+            reduction.potential_energy[1] += slope;
+        }
+        for load in &self.loads {
+            if let Some(frame) = frames.get(load.link()) {
+                let curves = load.reduce(frame, phi);
+                reduction.process += curves.process;
+                reduction.viscous += curves.viscous;
+                reduction.coulomb += curves.coulomb;
+            }
+        }
+        if reduction.inertia[0] > 0.0 {
+            Ok(reduction)
+        } else {
+            Err(Error::NoInertia { phi })
+        }
+    }
+}

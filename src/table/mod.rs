@@ -1,0 +1,3 @@
+//! Tables.
+mod spline;
+pub use spline::{CubicSpline, MIN_CELLS, control_points, fit_bounded, fit_periodic};
