@@ -16,11 +16,16 @@ pub trait Real:
 {
     /// The nearest value to a constant.
     fn from_f64(value: f64) -> Self;
+    /// Neither NaN nor infinite.
+    fn is_finite(self) -> bool;
     /// Sine and cosine by `libm`, correct to 1 ulp. In `f32` this computes in double precision inside.
     fn sin_cos(self) -> (Self, Self);
 }
 
 impl Real for f32 {
+    fn is_finite(self) -> bool {
+        self.is_finite()
+    }
     fn from_f64(value: f64) -> Self {
         value as Self
     }
@@ -30,6 +35,9 @@ impl Real for f32 {
 }
 
 impl Real for f64 {
+    fn is_finite(self) -> bool {
+        self.is_finite()
+    }
     fn from_f64(value: f64) -> Self {
         value
     }

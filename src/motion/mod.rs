@@ -36,13 +36,12 @@ impl<R: Real> Move<R> {
     /// A duration that is not positive, a value that is not finite, or a law that is not valid.
     pub fn new(law: Law, start: R, distance: R, duration: R) -> Result<Self, Error> {
         let zero = R::from_f64(0.0);
-        let finite = |x: R| x - x == zero;
         for (what, value) in [
             ("start of the move", start),
             ("distance of the move", distance),
             ("duration of the move", duration),
         ] {
-            if !finite(value) {
+            if !value.is_finite() {
                 return Err(Error::NotFinite(what));
             }
         }
