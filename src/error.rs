@@ -64,6 +64,8 @@ pub enum Error {
         /// Index of the table cell.
         cell: u32,
     },
+    /// The table made is not sound.
+    Table(crate::TableError),
     /// No table within the buffer meets the torque error asked for.
     TorqueErrorNotReached {
         /// Torque error asked for (N·m).
@@ -128,6 +130,7 @@ impl fmt::Display for Error {
                 f,
                 "a curve leaves the fixed-point range in table cell {cell}: choose a larger {base} base"
             ),
+            Self::Table(error) => error.fmt(f),
             Self::TorqueErrorNotReached {
                 asked,
                 reached,

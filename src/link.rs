@@ -1,8 +1,8 @@
 //! One rigid link: its mass, and how it moves.
 
+use crate::Error;
 use crate::error::{finite, not_negative};
 use crate::transfer::Transfer;
-use crate::Error;
 
 /// Mass properties of a rigid link.
 #[derive(Clone, Copy, Debug, PartialEq)]

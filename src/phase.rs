@@ -81,7 +81,8 @@ impl Phase {
     #[must_use]
     pub fn sin_cos_approx(self) -> (f32, f32) {
         // As a signed angle in [−π, π), where micromath is best.
-        let angle = micromath::F32(self.0 as i32 as f32 * (core::f32::consts::PI / 2_147_483_648.0));
+        let angle =
+            micromath::F32(self.0 as i32 as f32 * (core::f32::consts::PI / 2_147_483_648.0));
         (angle.sin().0, angle.cos().0)
     }
 }
@@ -102,19 +103,19 @@ impl Sub for Phase {
     }
 }
 
-/// The range of the drive link.
+/// The range of the drive link; `f64` for mechanisms, `f32` in table images.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Domain {
+pub enum Domain<R = f64> {
     /// A link that turns fully, φ in radians; every curve is periodic.
     Turn,
     /// A stroke from `from` to `to`: metres for a sliding link, radians for one that swings. Positions outside are
     /// clamped to the ends.
     Stroke {
         /// Start of the stroke.
-        from: f64,
+        from: R,
         /// End of the stroke, greater than `from`.
-        to: f64,
+        to: R,
     },
 }
 
@@ -157,6 +158,40 @@ impl Domain {
         match self {
             Self::Turn => fraction * TAU,
             Self::Stroke { from, to } => from + fraction * (to - from),
+        }
+    }
+
+    /// The same range in single precision, as table images hold it.
+    #[must_use]
+    pub fn to_f32(self) -> Domain<f32> {
+        match self {
+            Self::Turn => Domain::Turn,
+            Self::Stroke { from, to } => Domain::Stroke {
+                from: from as f32,
+                to: to as f32,
+            },
+        }
+    }
+}
+
+impl Domain<f32> {
+    /// Length of the range: 2π or the stroke.
+    #[must_use]
+    pub fn span(self) -> f32 {
+        match self {
+            Self::Turn => core::f32::consts::TAU,
+            Self::Stroke { from, to } => to - from,
+        }
+    }
+
+    /// The phase of a position: wrapped for a turn, clamped for a stroke. No double precision.
+    #[must_use]
+    pub fn phase(self, position: f32) -> Phase {
+        match self {
+            Self::Turn => Phase::from_radians_f32(position),
+            Self::Stroke { from, to } => {
+                Phase(((position - from) / (to - from) * 4_294_967_296.0) as u32)
+            }
         }
     }
 }

@@ -226,7 +226,9 @@ impl<M: Mechanism> Machine<M> {
 
     fn each_link<'a>(&'a self, frames: &'a Frames) -> impl Iterator<Item = [f64; 3]> + 'a {
         let links = self.mechanism.links().iter();
-        links.zip(frames).map(|(link, frame)| link.reduced_inertia(frame))
+        links
+            .zip(frames)
+            .map(|(link, frame)| link.reduced_inertia(frame))
     }
 }
 

@@ -27,7 +27,9 @@ impl AnyMechanism {
     pub fn link_names(&self) -> Vec<String> {
         match self {
             Self::SliderCrank(_) => ["crank", "rod", "slider"].map(String::from).into(),
-            Self::Train(t) => (1..=t.links().len()).map(|k| format!("shaft-{k}")).collect(),
+            Self::Train(t) => (1..=t.links().len())
+                .map(|k| format!("shaft-{k}"))
+                .collect(),
         }
     }
 }

@@ -20,7 +20,10 @@ struct Piece {
 
 #[derive(Clone, Debug)]
 enum Kind {
-    Constant { phi: f64, omega: f64 },
+    Constant {
+        phi: f64,
+        omega: f64,
+    },
     Move(Move<f64>),
     Profile {
         deviation: CubicSpline<Vec<f64>>,

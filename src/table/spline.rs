@@ -35,7 +35,10 @@ pub fn fit_periodic(samples: &[f64], control: &mut [f64]) -> Result<(), Error> {
     // Causal filter y[k] = f[k] + z·y[k−1], started with the periodic sum Σ z^j·f[−j].
     let at = |index: usize| samples.get(index % cells).copied().unwrap_or(0.0);
     let wrap = 1.0 / (1.0 - power(pole, cells));
-    let mut y = (0..cells).rev().fold(0.0, |sum, j| sum * pole + at(cells - j)) * wrap;
+    let mut y = (0..cells)
+        .rev()
+        .fold(0.0, |sum, j| sum * pole + at(cells - j))
+        * wrap;
     // Control point k of the formula above sits at index k + 1: the cell before the first needs one, too.
     if let Some(first) = control.get_mut(1) {
         *first = y;
@@ -49,7 +52,10 @@ pub fn fit_periodic(samples: &[f64], control: &mut [f64]) -> Result<(), Error> {
     // Anticausal filter x[k] = y[k] + z·x[k+1], and the gain −6z, of which the stored sixth is −z.
     let mut x = {
         let filtered = |index: usize| control.get(1 + index % cells).copied().unwrap_or(0.0);
-        (0..cells).rev().fold(0.0, |sum, j| sum * pole + filtered(cells - 1 + j)) * wrap
+        (0..cells)
+            .rev()
+            .fold(0.0, |sum, j| sum * pole + filtered(cells - 1 + j))
+            * wrap
     };
     for slot in control.iter_mut().skip(1).take(cells).rev().enumerate() {
         let (k, slot) = slot;

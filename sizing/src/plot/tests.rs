@@ -1,0 +1,219 @@
+use super::*;
+use roxmltree::{Document, Node};
+use std::collections::HashSet;
+
+const AXES: Axes = Axes {
+    title: "a <&\"> 'b' $x$",
+    x: "φ [deg]",
+    y: "ω² <&\">",
+};
+
+fn one(points: Vec<(f64, f64)>, style: Style) -> Vec<Series<'static>> {
+    vec![Series {
+        name: "J′·ω² <&\">",
+        points,
+        style,
+    }]
+}
+
+/// Parses as XML, with no number in it that a browser could not draw.
+fn sound(svg: &str) -> Document<'_> {
+    let document = Document::parse(svg).expect("well-formed");
+    let words = |node: Node| {
+        node.attributes()
+            .map(|a| a.value().to_owned())
+            .collect::<Vec<_>>()
+    };
+    for value in document.descendants().flat_map(words) {
+        assert!(!value.contains("NaN") && !value.contains("inf"), "{value}");
+    }
+    let texts = document.descendants().filter_map(|n| n.text());
+    assert!(
+        !texts.into_iter().any(|t| t == "NaN" || t == "inf"),
+        "{svg}"
+    );
+    document
+}
+
+fn drawn_paths(svg: &str) -> usize {
+    sound(svg)
+        .descendants()
+        .filter(|n| n.has_tag_name("path"))
+        .count()
+}
+
+#[test]
+fn user_text_is_escaped_and_shown_as_given() {
+    let points = vec![(0.0, 1.0), (1.0, 2.0)];
+    let group = [("<g&\">", vec![("<b&\">\u{1}", 1.0)])];
+    let all = [
+        lines(&AXES, &one(points.clone(), Style::Line)),
+        lines_two_axes(
+            &AXES,
+            &one(points.clone(), Style::Dots),
+            "<r&\">",
+            &one(points, Style::Dashed),
+        ),
+        bars(&AXES, &group),
+    ];
+    let shown = [
+        vec!["J′·ω² <&\">"],
+        vec!["<r&\">"],
+        vec!["<g&\">", "<b&\"> "],
+    ];
+    for (svg, shown) in all.iter().zip(shown) {
+        let document = sound(svg);
+        let texts: HashSet<&str> = document.descendants().filter_map(|n| n.text()).collect();
+        for text in [AXES.title, AXES.x, AXES.y].iter().chain(&shown) {
+            assert!(texts.contains(text), "{text} is missing in {texts:?}");
+        }
+    }
+}
+
+#[test]
+fn size_is_left_to_the_page() {
+    for series in [vec![], one(vec![(0.0, 0.0), (1.0, 1.0)], Style::Line)] {
+        let svg = lines(&AXES, &series);
+        let document = sound(&svg);
+        let root = document.root_element();
+        assert_eq!(root.attribute("viewBox"), Some("0 0 760 340"));
+        assert!(root.attribute("width").is_none() && root.attribute("height").is_none());
+    }
+}
+
+#[test]
+fn ids_are_unique_on_a_page() {
+    let data = || one(vec![(0.0, 1.0), (1.0, 2.0)], Style::Line);
+    let group = [("g", vec![("b", 1.0)])];
+    let plots = [
+        lines(&AXES, &data()),
+        lines(&AXES, &data()),
+        bars(&AXES, &group),
+        lines_two_axes(&AXES, &data(), "", &data()),
+    ];
+    let page = format!("<div>{}</div>", plots.concat());
+    let document = sound(&page);
+    let ids: Vec<&str> = document
+        .descendants()
+        .filter_map(|n| n.attribute("id"))
+        .collect();
+    assert_eq!(ids.iter().collect::<HashSet<_>>().len(), ids.len());
+    let used: HashSet<&str> = document
+        .descendants()
+        .filter_map(|n| n.attribute("clip-path"))
+        .collect();
+    assert_eq!(used.len(), plots.len());
+}
+
+#[test]
+fn degenerate_input_is_drawn_without_nonsense() {
+    let bad = [
+        f64::NAN,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        f64::MAX,
+        f64::MIN_POSITIVE,
+        0.0,
+    ];
+    let mut inputs: Vec<Vec<(f64, f64)>> =
+        vec![vec![], vec![(3.0, 4.0)], vec![(0.0, 5.0), (9.0, 5.0)]];
+    inputs.extend([
+        vec![(2.0, 1.0), (2.0, 7.0)],
+        vec![(0.0, 1e6), (1.0, 1e6 + 1e-5)],
+        vec![(1e-9, -1e9), (2e-9, 1e-9)],
+    ]);
+    inputs.extend([
+        bad.map(|v| (v, 1.0)).to_vec(),
+        bad.map(|v| (1.0, v)).to_vec(),
+        vec![(-1e99, 1e99), (1e99, -1e99)],
+    ]);
+    for points in inputs {
+        for style in [Style::Line, Style::Dashed, Style::Dots] {
+            sound(&lines(&AXES, &one(points.clone(), style)));
+            sound(&lines_two_axes(
+                &AXES,
+                &one(points.clone(), style),
+                "r",
+                &[],
+            ));
+            sound(&lines_two_axes(
+                &AXES,
+                &[],
+                "r",
+                &one(points.clone(), style),
+            ));
+        }
+        sound(&bars(
+            &AXES,
+            &[
+                ("g", points.iter().map(|p| ("b", p.1)).collect()),
+                ("none", vec![]),
+            ],
+        ));
+    }
+    for empty in [
+        lines(&AXES, &[]),
+        lines_two_axes(&AXES, &[], "r", &[]),
+        bars(&AXES, &[]),
+    ] {
+        let ticks = sound(&empty)
+            .descendants()
+            .filter(|n| n.attribute("text-anchor") == Some("end"))
+            .count();
+        assert!(ticks >= 4, "no axes: {empty}");
+    }
+}
+
+#[test]
+fn a_line_is_broken_where_a_point_is_missing() {
+    let gap = vec![
+        (0.0, 0.0),
+        (1.0, 1.0),
+        (2.0, f64::NAN),
+        (3.0, 1.0),
+        (4.0, 0.0),
+    ];
+    assert_eq!(drawn_paths(&lines(&AXES, &one(gap, Style::Line))), 2);
+    let whole = vec![(0.0, 0.0), (1.0, 1.0), (3.0, 1.0), (4.0, 0.0)];
+    assert_eq!(drawn_paths(&lines(&AXES, &one(whole, Style::Line))), 1);
+}
+
+#[test]
+fn two_thousand_points_stay_below_60_kilobytes() {
+    let noisy = |i: u32| (f64::from(i), f64::from(i.wrapping_mul(2_654_435_761) >> 7));
+    for style in [Style::Line, Style::Dashed, Style::Dots] {
+        let svg = lines(&AXES, &one((0..2000).map(noisy).collect(), style));
+        assert!(svg.len() < 60_000, "{style:?}: {} bytes", svg.len());
+        assert!(svg.len() > 20_000, "{style:?}: points are lost");
+    }
+}
+
+#[test]
+fn both_vertical_axes_share_the_grid() {
+    let curve = |f: f64| {
+        one(
+            (0..9)
+                .map(|i| (f64::from(i), f * f64::from(i * i - 20)))
+                .collect(),
+            Style::Line,
+        )
+    };
+    for factor in [1.0, 0.013, -7e-5, 123.0] {
+        let svg = lines_two_axes(&AXES, &curve(1.0), "right", &curve(factor));
+        let document = sound(&svg);
+        let heights = |anchor: &str| -> HashSet<String> {
+            let ticks = document
+                .descendants()
+                .filter(|n| n.attribute("text-anchor") == Some(anchor));
+            ticks
+                .filter_map(|n| n.attribute("y"))
+                .map(str::to_owned)
+                .collect()
+        };
+        let (left, right) = (heights("end"), heights("start"));
+        assert!(
+            left.len() >= 5 && left.is_subset(&right),
+            "{factor}: {left:?} {right:?}"
+        );
+    }
+}

@@ -1,0 +1,366 @@
+//! The table image: a machine's curves as the tool exports them and firmware uses them, in place from flash.
+//!
+//! The layout is documented word by word in `docs/table-image.md`. Everything is a little-endian 32-bit word, so an
+//! image needs 4-byte alignment and nothing else; no number is copied or converted on loading. A CRC-32 covers all
+//! of it. [`Image::new`] checks header and CRC, [`Image::model`] the table itself: what passes both can be ticked.
+
+use core::fmt;
+
+use crate::scalar::Scalar;
+use crate::table::{Table, TableError, control_points, curves};
+use crate::{Domain, Error, Model, Scale};
+
+/// "JRED" in the file's first four bytes.
+const MAGIC: u32 = u32::from_le_bytes(*b"JRED");
+/// Version of the layout.
+pub const VERSION: u16 = 1;
+/// Words of the header.
+pub const HEADER_WORDS: usize = 16;
+/// Code of the uniform cubic B-spline.
+const CUBIC_B_SPLINE: u8 = 1;
+/// Domain codes.
+const TURN: u8 = 0;
+const STROKE: u8 = 1;
+
+const CRC: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
+
+/// Why an image is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum ImageError {
+    /// The bytes do not start on a 4-byte boundary, or are not whole words.
+    Misaligned,
+    /// This processor is big-endian; images are little-endian and used in place.
+    BigEndian,
+    /// Shorter than a header, or not as long as the header says.
+    Length {
+        /// Words that the image must have.
+        needed: u32,
+        /// Words given.
+        given: u32,
+    },
+    /// The first word is not "JRED".
+    NotAnImage(u32),
+    /// Made for another version of the layout.
+    Version {
+        /// Version of the image.
+        found: u16,
+        /// Version that this library reads.
+        supported: u16,
+    },
+    /// The contents were damaged.
+    Crc {
+        /// CRC-32 stored in the image.
+        stored: u32,
+        /// CRC-32 of its contents.
+        computed: u32,
+    },
+    /// A header field has a value that this version does not know or that is out of range; the word's index.
+    Header(u8),
+    /// The image holds another number type; its code (1 = f32, 2 = q31).
+    NumberType(u8),
+    /// The image has other curves than the model's type; the image's set of [`curves`].
+    Curves(u8),
+    /// The table is not sound.
+    Table(TableError),
+}
+
+impl fmt::Display for ImageError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Misaligned => {
+                write!(
+                    f,
+                    "the image is not a whole number of words on a 4-byte boundary"
+                )
+            }
+            Self::BigEndian => write!(f, "images are little-endian, this processor is not"),
+            Self::Length { needed, given } => {
+                write!(
+                    f,
+                    "the image has {given} words, but {needed} are needed: truncated?"
+                )
+            }
+            Self::NotAnImage(word) => {
+                write!(
+                    f,
+                    "not a table image: it starts with {word:#010x} instead of \"JRED\""
+                )
+            }
+            Self::Version { found, supported } => write!(
+                f,
+                "image version {found}, this library reads version {supported}: export the table anew"
+            ),
+            Self::Crc { stored, computed } => write!(
+                f,
+                "the image is damaged: CRC-32 {computed:#010x}, stored {stored:#010x}"
+            ),
+            Self::Header(word) => write!(f, "header word {word} of the image has no meaning"),
+            Self::NumberType(code) => {
+                write!(
+                    f,
+                    "the image holds numbers of type {code} (1 = f32, 2 = q31)"
+                )
+            }
+            Self::Curves(set) => write!(f, "the image has the set of curves {set:#05b}"),
+            Self::Table(error) => error.fmt(f),
+        }
+    }
+}
+
+impl core::error::Error for ImageError {}
+
+impl From<TableError> for ImageError {
+    fn from(error: TableError) -> Self {
+        Self::Table(error)
+    }
+}
+
+/// What the table was made for and how exact it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Validity {
+    /// Largest speed (rad/s, or m/s).
+    pub omega: f32,
+    /// Largest acceleration (rad/s², or m/s²).
+    pub alpha: f32,
+    /// Largest error of the motor torque within these (N·m, or N).
+    pub torque_error: f32,
+}
+
+/// A table image whose header and CRC were checked.
+#[derive(Clone, Copy, Debug)]
+pub struct Image<'a> {
+    rows: &'a [u32],
+    code: u8,
+    curves: u8,
+    cells: u32,
+    domain: Domain<f32>,
+    scale: Scale,
+    validity: Validity,
+}
+
+impl<'a> Image<'a> {
+    /// Checks an image given as words: a `static` array as `jred export --format rust` writes it.
+    ///
+    /// # Errors
+    /// What [`ImageError`] lists, except for the table's own errors.
+    pub fn new(words: &'a [u32]) -> Result<Self, ImageError> {
+        if cfg!(target_endian = "big") {
+            return Err(ImageError::BigEndian);
+        }
+        let given = words.len() as u32;
+        let short = ImageError::Length {
+            needed: HEADER_WORDS as u32 + 1,
+            given,
+        };
+        let (header, rest) = words.split_first_chunk::<HEADER_WORDS>().ok_or(short)?;
+        let (stored, rows) = rest.split_last().ok_or(short)?;
+        let &[
+            magic,
+            version,
+            length,
+            kind,
+            cells,
+            from,
+            to,
+            torque,
+            speed,
+            inertia,
+            omega,
+            alpha,
+            torque_error,
+            ..,
+        ] = header;
+        if magic != MAGIC {
+            return Err(ImageError::NotAnImage(magic));
+        }
+        if version != word_of(VERSION, HEADER_WORDS as u16) {
+            return Err(ImageError::Version {
+                found: version as u16,
+                supported: VERSION,
+            });
+        }
+        if length != given {
+            return Err(ImageError::Length {
+                needed: length,
+                given,
+            });
+        }
+        let covered = words.get(..words.len() - 1).unwrap_or_default();
+        let computed = CRC.checksum(bytemuck::cast_slice(covered));
+        if computed != *stored {
+            return Err(ImageError::Crc {
+                stored: *stored,
+                computed,
+            });
+        }
+        let [code, set, interpolant, domain] = kind.to_le_bytes();
+        let (from, to) = (f32::from_bits(from), f32::from_bits(to));
+        let domain = match domain {
+            TURN => Domain::Turn,
+            STROKE if to > from && (to - from).is_finite() => Domain::Stroke { from, to },
+            _ => return Err(ImageError::Header(5)),
+        };
+        if interpolant != CUBIC_B_SPLINE || set > curves::ALL {
+            return Err(ImageError::Header(3));
+        }
+        if header.get(13..) != Some(&[0; 3]) {
+            return Err(ImageError::Header(13));
+        }
+        let scale = Scale::from_bases([torque, speed, inertia].map(f32::from_bits));
+        if !scale.is_sound() {
+            return Err(ImageError::Header(7));
+        }
+        let validity = Validity {
+            omega: f32::from_bits(omega),
+            alpha: f32::from_bits(alpha),
+            torque_error: f32::from_bits(torque_error),
+        };
+        let limits = [validity.omega, validity.alpha, validity.torque_error];
+        if !limits.iter().all(|x| x.is_finite() && *x >= 0.0) {
+            return Err(ImageError::Header(10));
+        }
+        Ok(Self {
+            rows,
+            code,
+            curves: set,
+            cells,
+            domain,
+            scale,
+            validity,
+        })
+    }
+
+    /// Checks an image given as bytes, such as `include_bytes!` or a flash region.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); the bytes must lie on a 4-byte boundary ([`include_image!`](crate::include_image)
+    /// sees to it).
+    pub fn from_bytes(bytes: &'a [u8]) -> Result<Self, ImageError> {
+        Self::new(bytemuck::try_cast_slice(bytes).map_err(|_| ImageError::Misaligned)?)
+    }
+
+    /// The model, its table in place in the image.
+    ///
+    /// # Errors
+    /// Another number type or other curves than the image has, or a table that is not sound.
+    pub fn model<S: Scalar, const CURVES: u8>(&self) -> Result<Model<'a, S, CURVES>, ImageError> {
+        if S::CODE != Some(self.code) {
+            return Err(ImageError::NumberType(self.code));
+        }
+        if self.curves != CURVES {
+            return Err(ImageError::Curves(self.curves));
+        }
+        let rows = bytemuck::try_cast_slice(self.rows).map_err(|_| ImageError::Misaligned)?;
+        let periodic = matches!(self.domain, Domain::Turn);
+        let table = Table::new(rows, self.cells, periodic)?;
+        Ok(Model::new(table, S::span_f32(self.domain), &self.scale)?)
+    }
+
+    /// The machine units.
+    pub const fn scale(&self) -> &Scale {
+        &self.scale
+    }
+
+    /// Range of the drive link.
+    pub const fn domain(&self) -> Domain<f32> {
+        self.domain
+    }
+
+    /// The set of [`curves`] beside the inertia.
+    pub const fn curves(&self) -> u8 {
+        self.curves
+    }
+
+    /// Number of cells.
+    pub const fn cells(&self) -> u32 {
+        self.cells
+    }
+
+    /// What the table was made for and how exact it is.
+    pub const fn validity(&self) -> Validity {
+        self.validity
+    }
+}
+
+/// Two half-words in one word.
+const fn word_of(low: u16, high: u16) -> u32 {
+    low as u32 | (high as u32) << 16
+}
+
+/// Words of the image of a table.
+#[must_use]
+pub const fn image_words(cells: u32, set: u8) -> usize {
+    HEADER_WORDS + control_points(cells as usize) * curves::width(set) + 1
+}
+
+/// Writes the image of `table` and returns it. The table was checked when it was built.
+///
+/// # Errors
+/// A buffer shorter than [`image_words`], or a number type that is not stored in images (f64).
+pub fn encode<'b, S: Scalar, const CURVES: u8>(
+    table: &Table<'_, S, CURVES>,
+    domain: Domain,
+    scale: &Scale,
+    validity: Validity,
+    buffer: &'b mut [u32],
+) -> Result<&'b [u32], Error> {
+    let needed = image_words(table.cells(), CURVES);
+    let given = buffer.len();
+    let short = Error::BufferTooShort { needed, given };
+    let code = S::CODE.ok_or(Error::NotFinite(
+        "f64 tables have no image: the number type",
+    ))?;
+    let image = buffer.get_mut(..needed).ok_or(short)?;
+    let (domain_code, from, to) = match domain.to_f32() {
+        Domain::Turn => (TURN, 0.0, 0.0),
+        Domain::Stroke { from, to } => (STROKE, from, to),
+    };
+    let header: [u32; HEADER_WORDS] = [
+        MAGIC,
+        word_of(VERSION, HEADER_WORDS as u16),
+        needed as u32,
+        u32::from_le_bytes([code, CURVES, CUBIC_B_SPLINE, domain_code]),
+        table.cells(),
+        from.to_bits(),
+        to.to_bits(),
+        scale.torque().to_bits(),
+        scale.speed().to_bits(),
+        scale.inertia().to_bits(),
+        validity.omega.to_bits(),
+        validity.alpha.to_bits(),
+        validity.torque_error.to_bits(),
+        0,
+        0,
+        0,
+    ];
+    let rows: &[u32] = bytemuck::cast_slice(table.words());
+    let contents = header.iter().chain(rows);
+    for (slot, word) in image.iter_mut().zip(contents) {
+        *slot = *word;
+    }
+    if let Some((crc, covered)) = image.split_last_mut() {
+        *crc = CRC.checksum(bytemuck::cast_slice(covered));
+    }
+    Ok(image)
+}
+
+/// Bytes on a 4-byte boundary; made by [`include_image!`](crate::include_image).
+#[repr(C, align(4))]
+#[derive(Clone, Copy, Debug)]
+pub struct Aligned<T: ?Sized>(pub T);
+
+/// A table image from a file, as a `&'static [u8]` on a 4-byte boundary, for [`Image::from_bytes`].
+///
+/// The path is relative to the source file, as for `include_bytes!`.
+#[macro_export]
+macro_rules! include_image {
+    ($path:expr) => {{
+        static IMAGE: $crate::Aligned<[u8; include_bytes!($path).len()]> =
+            $crate::Aligned(*include_bytes!($path));
+        let bytes: &'static [u8] = &IMAGE.0;
+        bytes
+    }};
+}
