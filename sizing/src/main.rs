@@ -1,1 +1,19 @@
-fn main() {}
+//! The command `jred`.
+
+use std::process::ExitCode;
+
+use clap::Parser as _;
+use jred_sizing::cli::Cli;
+use jred_sizing::commands::{Done, run};
+
+fn main() -> ExitCode {
+    // clap itself ends with 2 on a wrong command line.
+    match run(&Cli::parse().command) {
+        Ok(Done::Holds) => ExitCode::SUCCESS,
+        Ok(Done::Violated) => ExitCode::from(1),
+        Err(report) => {
+            eprintln!("{report:?}");
+            ExitCode::from(2)
+        }
+    }
+}

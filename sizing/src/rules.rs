@@ -3,7 +3,7 @@
 /// Limits of the sizing rules. All can be overridden in `[rules]` of the machine file, and all are printed.
 ///
 /// The defaults and their sources are listed in `docs/sizing-rules.md`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Rules {
     /// RMS torque as a share of the S1 torque at mean speed.
     pub rms_torque: f64,

@@ -4,7 +4,7 @@ mod slider_crank;
 mod train;
 
 pub use slider_crank::{Branch, SliderCrank};
-pub use train::{Mesh, Stage, Train};
+pub use train::{Mesh, Stage, Train, TrainInput};
 
 use crate::link::{Frame, Link};
 use crate::{Domain, Error};

@@ -98,7 +98,7 @@ impl Stage {
 ///
 /// As a [`Mechanism`] its links are the shafts and its reduced inertia is (6.9),
 /// J_red = J₁ + (J₂ + J₃)/i₁₂² + J₄/i₁₄²; a belt gives (5.16). Losses do not belong to the reduction: they are
-/// applied by [`input_torque`](Self::input_torque), where the direction of power is known.
+/// applied by [`input`](Self::input), where the direction of power is known.
 ///
 /// Accuracy: 1e-12 against exact rationals (tests `gear_train_golden`, `belt_drive_golden`).
 #[derive(Clone, Debug, PartialEq)]
@@ -160,25 +160,48 @@ impl Train {
         sum
     }
 
-    /// Torque at the input (N·m) for `torque` (N·m) delivered at the output shaft, which moves with `omega` (rad/s)
-    /// and `alpha` (rad/s²): shaft by shaft, T_in = T_out/(i·η) where power flows to the output and T_out·η/i
-    /// where it flows back.
+    /// What the input shaft must give so that the output shaft delivers `torque` (N·m) while it moves with `omega`
+    /// (rad/s) and `alpha` (rad/s²).
+    ///
+    /// Shaft by shaft: T_in = T_out/(i·η) where power flows to the output and T_out·η/i where it flows back; at
+    /// standstill the first. `torque_per_alpha` (kg·m²) is how `torque` itself changes with α: with it, the result
+    /// says how the input torque changes, and forward dynamics through the losses is a Newton step away.
     #[must_use]
-    pub fn input_torque(&self, torque: f64, omega: f64, alpha: f64) -> f64 {
-        let (mut torque, mut omega, mut alpha) = (torque, omega, alpha);
+    pub fn input(&self, torque: f64, torque_per_alpha: f64, omega: f64, alpha: f64) -> TrainInput {
+        let mut input = TrainInput {
+            torque,
+            torque_per_alpha,
+            loss: 0.0,
+        };
+        let (mut omega, mut alpha, mut ratio) = (omega, alpha, 1.0);
         for stage in self.stages.iter().rev() {
-            torque += stage.driven * alpha;
-            let loss = if torque * omega < 0.0 {
+            let delivered = input.torque + stage.driven * alpha;
+            let loss = if delivered * omega < 0.0 {
                 stage.efficiency
             } else {
                 1.0 / stage.efficiency
             };
+            let slope = input.torque_per_alpha + stage.driven * ratio;
+            input.loss += delivered * omega * (loss - 1.0);
             omega *= stage.ratio;
             alpha *= stage.ratio;
-            torque = torque / stage.ratio * loss + stage.driver * alpha;
+            ratio *= stage.ratio;
+            input.torque = delivered / stage.ratio * loss + stage.driver * alpha;
+            input.torque_per_alpha = slope / stage.ratio * loss + stage.driver * ratio;
         }
-        torque
+        input
     }
+}
+
+/// What a drive train needs at its input shaft.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TrainInput {
+    /// Torque (N·m).
+    pub torque: f64,
+    /// Its derivative by the acceleration of the *output* shaft (kg·m²).
+    pub torque_per_alpha: f64,
+    /// Power lost in the stages (W).
+    pub loss: f64,
 }
 
 impl Mechanism for Train {

@@ -1,16 +1,16 @@
 //! Axis ranges, distances of ticks and texts of numbers, without any drawing.
 
 /// Range of an axis: a number of steps from tick to tick, except for a tight horizontal one.
-pub struct Span {
-    pub lo: f64,
-    pub hi: f64,
-    pub step: f64,
-    pub intervals: usize,
+pub(super) struct Span {
+    pub(super) lo: f64,
+    pub(super) hi: f64,
+    pub(super) step: f64,
+    pub(super) intervals: usize,
 }
 
 impl Span {
     /// The ends get a hair of slack, lest rounding errors cost the outermost ticks.
-    pub fn new(lo: f64, step: f64, intervals: usize) -> Self {
+    pub(super) fn new(lo: f64, step: f64, intervals: usize) -> Self {
         let (lo, hi) = (lo - 1e-9 * step, lo + (to_f64(intervals) + 1e-9) * step);
         Self {
             lo,
@@ -21,14 +21,14 @@ impl Span {
     }
 
     /// The narrowest axis of 4 to 8 intervals around a range.
-    pub fn of(range: (f64, f64)) -> Self {
+    pub(super) fn of(range: (f64, f64)) -> Self {
         let spans = (4..=8).map(|n| Self::with_intervals(range, n));
         let narrowest = spans.min_by(|a, b| (a.hi - a.lo).total_cmp(&(b.hi - b.lo)));
         narrowest.unwrap_or_else(|| Self::with_intervals(range, 5))
     }
 
     /// Adds some air, but does not cross zero for it; includes zero if it is near.
-    pub fn with_intervals((lo, hi): (f64, f64), intervals: usize) -> Self {
+    pub(super) fn with_intervals((lo, hi): (f64, f64), intervals: usize) -> Self {
         let air = 0.02 * (hi - lo);
         let low = if lo >= 0.0 && lo < 0.3 * hi {
             0.0
@@ -54,7 +54,7 @@ impl Span {
 
 /// The multiple of a power of ten from 1, 2, 2.5 and 5 that is nearest to a positive distance; the
 /// same choice as the library makes for the right axis, which takes no step.
-pub fn nice_step(distance: f64) -> f64 {
+pub(super) fn nice_step(distance: f64) -> f64 {
     let magnitude = 10f64.powf(distance.log10().floor());
     let limits = [(1.5, 1.0), (2.25, 2.0), (3.5, 2.5), (7.5, 5.0)];
     let fitting = limits.iter().find(|l| distance / magnitude < l.0);
@@ -62,7 +62,7 @@ pub fn nice_step(distance: f64) -> f64 {
 }
 
 /// Writes one of several values of about the given size with the decimals that the step needs.
-pub fn number(value: f64, size: f64, step: f64) -> String {
+pub(super) fn number(value: f64, size: f64, step: f64) -> String {
     let value = if value.abs() < 1e-6 * step {
         0.0
     } else {
@@ -87,17 +87,17 @@ pub fn number(value: f64, size: f64, step: f64) -> String {
 }
 
 #[expect(clippy::cast_precision_loss, reason = "numbers of bars and ticks")]
-pub fn to_f64(n: usize) -> f64 {
+pub(super) fn to_f64(n: usize) -> f64 {
     n as f64
 }
 
 /// Values beyond 1e100 would overflow inside the library.
-pub fn usable(value: f64) -> bool {
+pub(super) fn usable(value: f64) -> bool {
     value.abs() < 1e100
 }
 
 /// Range of the usable values, widened if there is none or nothing but rounding noise.
-pub fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+pub(super) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let values: Vec<f64> = values.filter(|&v| usable(v)).collect();
     let lo = values.iter().copied().fold(f64::INFINITY, f64::min);
     let hi = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);

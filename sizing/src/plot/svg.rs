@@ -5,7 +5,7 @@ use kuva::prelude::SvgBackend;
 use kuva::render::render::{PathData, Primitive, Scene};
 
 /// Crops the scene to the common height and writes it.
-pub fn finish(mut scene: Scene) -> String {
+pub(super) fn finish(mut scene: Scene) -> String {
     scene.height = HEIGHT;
     scene.elements.iter_mut().for_each(compact);
     responsive(&SvgBackend::new().render_scene(&scene))

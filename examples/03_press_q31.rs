@@ -1,0 +1,109 @@
+//! The same cycle in fixed point, for cores without a floating-point unit, and what that costs in accuracy.
+//!
+//! Numbers are per unit: a `Q31` of 1 stands for the base that the image's `Scale` names. Results that do not fit are
+//! limited and say so; nothing wraps.
+//!
+//! ```text
+//! cargo run -p jred --example 03_press_q31 --release --target thumbv6m-none-eabi
+//! ```
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+mod support;
+
+use core::f32::consts::{PI, TAU};
+
+use jred::motion::{Law, Move};
+use jred::table::curves;
+use jred::{Image, Model, Q31, include_image};
+use support::{Failure, milli, println, program};
+
+/// Length of a tick (s).
+const TICK: f32 = 0.001;
+/// The cycle lasts 1 s: 0.75 s for the stroke, then 0.25 s at rest.
+const TICKS: u32 = 1000;
+/// The round trip must come back to within this many units of 2⁻³¹.
+const BOUND: u32 = 8;
+/// Largest difference (N·m) between the torques in fixed point and in single precision.
+const DIFFERENCE: f32 = 0.001;
+
+fn run() -> Result<(), Failure> {
+    let image = Image::from_bytes(include_image!("data/press_q31.jred"))?;
+    let press: Model<'_, Q31, { curves::ALL }> = image.model()?;
+    let scale = image.scale();
+    println!(
+        "1.0 is {} mN m, {} mrad/s, {} mrad/s2",
+        milli(scale.torque()),
+        milli(scale.speed()),
+        milli(scale.acceleration())
+    );
+    // To compare with: firmware carries one of the two images.
+    let float = Image::from_bytes(include_image!("data/press_f32.jred"))?;
+    let float: Model<'_, f32, { curves::ALL }> = float.model()?;
+    let stroke =
+        Move::new(Law::Polynomial345, PI, TAU, 0.75).map_err(|_| "the move is not valid")?;
+
+    println!("  ms     phase   torque bits     torque   acceleration bits");
+    let (mut worst, mut apart, mut saturated, mut checksum) = (0u32, 0.0f32, 0u32, 0u32);
+    for tick in 0..TICKS {
+        let wanted = stroke.at(tick as f32 * TICK);
+        let phase = image.domain().phase(wanted.phi);
+        // SI to machine units: here from the motion law; a drive that plans in machine units has nothing to convert.
+        let omega = scale.omega(wanted.omega);
+        let alpha = scale.alpha(wanted.alpha);
+        let torque = press.torque(phase, omega.value, alpha.value);
+        let back = press.acceleration(phase, omega.value, torque.value);
+
+        worst = worst.max(back.value.to_bits().abs_diff(alpha.value.to_bits()));
+        let exact = float.torque(phase, wanted.omega, wanted.alpha).value;
+        apart = apart.max((scale.torque_si(torque.value) - exact).abs());
+        for flag in [
+            omega.saturated,
+            alpha.saturated,
+            torque.saturated,
+            back.saturated,
+        ] {
+            saturated += u32::from(flag);
+        }
+        for value in [torque.value, back.value] {
+            checksum = (checksum ^ value.to_bits() as u32).wrapping_mul(16_777_619);
+        }
+        if tick % 25 == 0 {
+            println!(
+                "{:4}  {:08x}  {:08x} {:8} mN m  {:08x} {:7} mrad/s2",
+                tick,
+                phase.to_bits(),
+                torque.value.to_bits(),
+                milli(scale.torque_si(torque.value)),
+                back.value.to_bits(),
+                milli(scale.alpha_si(back.value))
+            );
+        }
+    }
+    println!(
+        "checksum of all {} ticks {:08x}, saturated {}",
+        TICKS, checksum, saturated
+    );
+    println!("largest round-trip difference {} units of 2^-31", worst);
+    println!(
+        "largest torque difference from f32 {} uN m",
+        milli(apart * 1000.0)
+    );
+
+    // Beyond the bases the answer is the end of the range, and the flag says that it is not the answer.
+    let too_much = scale.alpha::<Q31>(1.0e6);
+    println!(
+        "1e6 rad/s2: {:08x}, saturated {}",
+        too_much.value.to_bits(),
+        too_much.saturated
+    );
+
+    if worst > BOUND {
+        Err("the round trip does not come back to the acceleration it started from".into())
+    } else if apart > DIFFERENCE {
+        Err("fixed point and single precision disagree".into())
+    } else {
+        Ok(())
+    }
+}
+
+program!(run);

@@ -1,0 +1,89 @@
+//! A link gate: this program links for a Cortex-M only if no panic can be reached from the calls below.
+//!
+//! Its panic handler calls a function that does not exist. Where the optimiser proves that no call can panic, the handler
+//! is thrown away; one forgotten index, and the linker says `undefined symbol: a_panic_is_reachable`.
+//!
+//! `scripts/test gates` builds it three times: as it is; with `GATE_PANIC=1`, which must not link; and with
+//! `GATE_DOUBLE=1`, in which double-precision routines must be found by the search that must not find any otherwise.
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+use core::hint::black_box;
+use core::num::NonZeroU32;
+
+use jred::motion::{Law, Move};
+use jred::table::curves;
+use jred::{Image, ImageError, Model, Outcome, Phase, Q31, Scalar, include_image};
+
+/// Everything that firmware calls, with arguments that the optimiser knows nothing about.
+fn calls() -> Result<(), ImageError> {
+    every_tick::<f32>(include_image!("data/press_f32.jred"))?;
+    every_tick::<Q31>(include_image!("data/press_q31.jred"))?;
+
+    let stroke = Move::new(
+        Law::Polynomial345,
+        black_box(0.0f32),
+        black_box(6.28),
+        black_box(0.75),
+    );
+    if let Ok(stroke) = stroke {
+        black_box(stroke.at(black_box(0.1)));
+    }
+    if let Some(per_turn) = NonZeroU32::new(black_box(4096)) {
+        let sum = Phase::from_counts(black_box(1), per_turn) + Phase::from_bits(black_box(2));
+        black_box((sum - Phase::from_radians_f32(black_box(1.0))).cell(black_box(100)));
+        #[cfg(feature = "micromath")]
+        black_box(sum.sin_cos_approx());
+    }
+
+    if option_env!("GATE_PANIC").is_some() {
+        black_box([1, 2, 3][black_box(1usize)]);
+    }
+    if option_env!("GATE_DOUBLE").is_some() {
+        black_box(Phase::from_radians(black_box(1.0)).radians());
+    }
+    Ok(())
+}
+
+fn every_tick<S: Scalar>(bytes: &'static [u8]) -> Result<(), ImageError> {
+    let image = Image::from_bytes(black_box(bytes))?;
+    let model: Model<'_, S, { curves::ALL }> = image.model()?;
+    let scale = image.scale();
+    let phase = image.domain().phase(black_box(1.0));
+    let omega: Outcome<S> = scale.omega(black_box(10.0));
+    let alpha: Outcome<S> = scale.alpha(black_box(50.0));
+    let limit: Outcome<S> = scale.to_torque(black_box(100.0));
+    let torque = model.torque(phase, omega.value, alpha.value);
+    let back = model.acceleration(phase, omega.value, limit.value);
+    black_box((scale.torque_si(torque.value), scale.alpha_si(back.value)));
+    Ok(())
+}
+
+#[cfg(not(target_os = "none"))]
+fn main() -> Result<(), ImageError> {
+    calls()
+}
+
+#[cfg(target_os = "none")]
+mod target {
+    use cortex_m_semihosting::debug;
+
+    #[panic_handler]
+    fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
+        // SAFETY: never called; a program that could call it does not link.
+        unsafe extern "C" {
+            safe fn a_panic_is_reachable() -> !;
+        }
+        a_panic_is_reachable()
+    }
+
+    #[cortex_m_rt::entry]
+    fn main() -> ! {
+        let status = match super::calls() {
+            Ok(()) => debug::EXIT_SUCCESS,
+            Err(_) => debug::EXIT_FAILURE,
+        };
+        loop {
+            debug::exit(status);
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! What every example needs and firmware does not: printing, and an exit code. One source for host and target.
+
+use core::fmt;
+
+use jred::ImageError;
+
+#[cfg(target_os = "none")]
+pub(crate) use cortex_m_semihosting::hprintln as println;
+#[cfg(target_os = "none")]
+use panic_semihosting as _;
+#[cfg(not(target_os = "none"))]
+pub(crate) use std::println;
+
+/// Why an example fails.
+pub(crate) enum Failure {
+    /// The table image was refused.
+    Image(ImageError),
+    /// Something the example claims does not hold.
+    Claim(&'static str),
+}
+
+impl From<ImageError> for Failure {
+    fn from(error: ImageError) -> Self {
+        Self::Image(error)
+    }
+}
+
+impl From<&'static str> for Failure {
+    fn from(claim: &'static str) -> Self {
+        Self::Claim(claim)
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Image(error) => error.fmt(f),
+            Self::Claim(claim) => f.write_str(claim),
+        }
+    }
+}
+
+/// `x` in thousandths of its unit, rounded.
+///
+/// Printed numbers are integers: `core::fmt` for floats would be most of the program, and would need double precision.
+pub(crate) fn milli(x: f32) -> i32 {
+    let scaled = x * 1000.0;
+    (if scaled < 0.0 {
+        scaled - 0.5
+    } else {
+        scaled + 0.5
+    }) as i32
+}
+
+/// Makes `run` the program: `main` on the host, the reset handler on the target. A failure is printed and gives
+/// exit code 1, which QEMU hands on as its own.
+macro_rules! program {
+    ($run:ident) => {
+        #[cfg(not(target_os = "none"))]
+        fn main() -> std::process::ExitCode {
+            match $run() {
+                Ok(()) => std::process::ExitCode::SUCCESS,
+                Err(failure) => {
+                    $crate::support::println!("FAILED: {failure}");
+                    std::process::ExitCode::FAILURE
+                }
+            }
+        }
+
+        #[cfg(target_os = "none")]
+        #[cortex_m_rt::entry]
+        fn main() -> ! {
+            use cortex_m_semihosting::debug;
+            let status = match $run() {
+                Ok(()) => debug::EXIT_SUCCESS,
+                Err(failure) => {
+                    $crate::support::println!("FAILED: {}", failure);
+                    debug::EXIT_FAILURE
+                }
+            };
+            loop {
+                debug::exit(status);
+            }
+        }
+    };
+}
+pub(crate) use program;

@@ -1,0 +1,123 @@
+//! The command line: declarations only.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+use crate::export::{Form, Number};
+use crate::output::Format;
+use crate::reduce::Over;
+
+/// Reduced inertia, drive sizing, simulation and firmware tables for machines whose inertia depends on the angle.
+#[derive(Debug, Parser)]
+#[command(name = "jred", version, about, after_help = EXIT_CODES)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXIT_CODES: &str = "Exit codes: 0 done, every rule holds; 1 a sizing rule is violated (or a torque error not \
+     reached); 2 bad input.\nMachine files are described in docs/machine-file.md; machines/press.toml is one to start \
+     from.";
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Reduced inertia J(φ), J′, J″, reduced torque and the motion's drive torque.
+    Reduce(Reduce),
+    /// Check every motor and gearbox of the catalogue against the motion, and rank what fits.
+    Size(Size),
+    /// Integrate the free motion under the motor torque of [simulation].
+    Simulate(Simulate),
+    /// Write the smallest table for the firmware that meets a torque error.
+    Export(Export),
+}
+
+/// `jred reduce`
+#[derive(Debug, Args)]
+pub struct Reduce {
+    /// Machine file.
+    pub file: PathBuf,
+    /// Number of positions.
+    #[arg(long, default_value_t = 36, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    pub positions: u32,
+    /// What the rows run over.
+    #[arg(long, value_enum, default_value_t)]
+    pub over: Over,
+    /// Each link's share of the reduced inertia as well.
+    #[arg(long)]
+    pub links: bool,
+    /// How to write the result.
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+/// `jred size`
+#[derive(Debug, Args)]
+pub struct Size {
+    /// Machine file, with a [motion].
+    pub file: PathBuf,
+    /// Motors from this CSV file instead of the built-in ones.
+    #[arg(long, value_name = "CSV")]
+    pub motors: Option<PathBuf>,
+    /// Gearboxes from this CSV file instead of the built-in ones.
+    #[arg(long, value_name = "CSV")]
+    pub gearboxes: Option<PathBuf>,
+    /// Time steps of the cycle.
+    #[arg(long, default_value_t = crate::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=10_000_000))]
+    pub steps: u32,
+    /// Number of ranked drives to list.
+    #[arg(long, default_value_t = 10)]
+    pub top: usize,
+    /// List every refused drive with its reasons.
+    #[arg(long)]
+    pub refused: bool,
+    /// Write a report: one self-contained HTML page.
+    #[arg(long, value_name = "HTML")]
+    pub report: Option<PathBuf>,
+    /// How to write the result.
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+/// `jred simulate`
+#[derive(Debug, Args)]
+pub struct Simulate {
+    /// Machine file, with a [simulation].
+    pub file: PathBuf,
+    /// How to write the result.
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+    /// Write plots of speed, torque and energy: one self-contained HTML page.
+    #[arg(long, value_name = "HTML")]
+    pub plot: Option<PathBuf>,
+}
+
+/// `jred export`
+#[derive(Debug, Args)]
+pub struct Export {
+    /// Machine file.
+    pub file: PathBuf,
+    /// What to write.
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Form,
+    /// Number type of the table.
+    #[arg(long = "type", value_enum, default_value_t)]
+    pub number: Number,
+    /// Largest error of the motor torque at the drive link, e.g. "0.5 N m".
+    #[arg(long, value_parser = crate::input::torque_argument)]
+    pub torque_error: f64,
+    /// Largest speed of the drive link, e.g. "90 rpm"; from the motion if not given.
+    #[arg(long, value_parser = crate::input::speed_argument)]
+    pub omega: Option<f64>,
+    /// Largest acceleration of the drive link in rad/s^2; from the motion if not given.
+    #[arg(long)]
+    pub alpha: Option<f64>,
+    /// Most cells to try.
+    #[arg(long, default_value_t = 4096, value_parser = clap::value_parser!(u32).range(4..=65536))]
+    pub max_cells: u32,
+    /// File to write.
+    #[arg(long, short)]
+    pub out: PathBuf,
+}

@@ -1,0 +1,158 @@
+//! The duty: what one cycle of the motion asks of the drive, independent of any motor.
+
+use jred::{Error, Reducible, TorqueTerms};
+
+use crate::machine::MachineFile;
+use crate::motion::Motion;
+
+/// One instant of the cycle. "Input" is the input shaft of the machine's fixed drive train: what a motor or the
+/// output of its gearbox is coupled to.
+#[derive(Clone, Copy, Debug)]
+pub struct Instant {
+    /// Time (s).
+    pub t: f64,
+    /// Weight in the integral over the cycle (s).
+    pub weight: f64,
+    /// φ of the drive link (rad), as the motion counts it.
+    pub phi: f64,
+    /// ω of the drive link (rad/s).
+    pub omega: f64,
+    /// α of the drive link (rad/s²).
+    pub alpha: f64,
+    /// J_red of the mechanism at the drive link, without drive train (kg·m²).
+    pub inertia: f64,
+    /// Torque at the drive link, term by term, without drive train (N·m).
+    pub terms: TorqueTerms,
+    /// Torque at the input (N·m), losses and inertia of the drive train included.
+    pub input_torque: f64,
+    /// Speed at the input (rad/s).
+    pub input_speed: f64,
+    /// Acceleration at the input (rad/s²).
+    pub input_alpha: f64,
+    /// J at the input: (J_red + drive train) reduced to it (kg·m²).
+    pub input_inertia: f64,
+}
+
+/// A cycle as a row of instants with integration weights.
+#[derive(Clone, Debug)]
+pub struct Duty {
+    /// The instants, in order of time.
+    pub instants: Vec<Instant>,
+    /// Length of the cycle (s).
+    pub duration: f64,
+    /// Largest torque against gravity at the input over the whole turn (N·m), without losses.
+    pub hold_torque: f64,
+}
+
+/// Root mean square, extremes and the rest of a quantity over the cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct Figures {
+    /// Smallest value.
+    pub min: f64,
+    /// Mean over time.
+    pub mean: f64,
+    /// Largest value.
+    pub max: f64,
+    /// Root mean square over time.
+    pub rms: f64,
+}
+
+impl Figures {
+    /// Largest magnitude.
+    pub fn peak(&self) -> f64 {
+        self.max.max(-self.min)
+    }
+}
+
+/// Default number of time steps of a cycle.
+pub const STEPS: usize = 2000;
+
+impl Duty {
+    /// Samples the machine's motion in about `steps` time steps. Each smooth stretch of the motion is cut into an
+    /// even number of equal steps with Simpson's weights; the ends of a stretch are taken from inside, so that a
+    /// jump of the acceleration belongs to both sides.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub fn new(file: &MachineFile, motion: &Motion, steps: usize) -> Result<Self, Error> {
+        const INSIDE: f64 = 1e-9;
+        let duration = motion.duration();
+        let train = &file.drive_train;
+        let ratio = train.ratio();
+        let train_inertia = train.inertia_at_input();
+        let mut instants = Vec::with_capacity(steps + 64);
+        for (from, to) in motion.stretches() {
+            let span = to - from;
+            let share = (steps as f64 * span / duration / 2.0).ceil().max(8.0);
+            let n = 2 * share as usize;
+            let step = span / n as f64;
+            for k in 0..=n {
+                let weight = match k {
+                    _ if k == 0 || k == n => 1.0,
+                    _ if k % 2 == 1 => 4.0,
+                    _ => 2.0,
+                } * step
+                    / 3.0;
+                let place = (k as f64 / n as f64).clamp(INSIDE, 1.0 - INSIDE);
+                let t = from + place * span;
+                let state = motion.at(t);
+                let reduction = file.machine.reduction(state.phi)?;
+                let terms = reduction.torque(state.omega, state.alpha);
+                let input = train.input(
+                    terms.total(),
+                    reduction.inertia[0],
+                    state.omega,
+                    state.alpha,
+                );
+                instants.push(Instant {
+                    t,
+                    weight,
+                    phi: state.phi,
+                    omega: state.omega,
+                    alpha: state.alpha,
+                    inertia: reduction.inertia[0],
+                    terms,
+                    input_torque: input.torque,
+                    input_speed: state.omega * ratio,
+                    input_alpha: state.alpha * ratio,
+                    input_inertia: reduction.inertia[0] / (ratio * ratio) + train_inertia,
+                });
+            }
+        }
+        let mut hold_torque = 0.0f64;
+        for k in 0..720 {
+            let phi = std::f64::consts::TAU * f64::from(k) / 720.0;
+            let slope = file.machine.reduction(phi)?.potential_energy[1];
+            hold_torque = hold_torque.max((slope / ratio).abs());
+        }
+        Ok(Self {
+            instants,
+            duration,
+            hold_torque,
+        })
+    }
+
+    /// Integral of a quantity over the cycle.
+    pub fn integral(&self, quantity: impl Fn(&Instant) -> f64) -> f64 {
+        self.instants.iter().map(|i| i.weight * quantity(i)).sum()
+    }
+
+    /// Extremes, mean and RMS of a quantity.
+    pub fn figures(&self, quantity: impl Fn(&Instant) -> f64) -> Figures {
+        let (mut min, mut max) = (f64::INFINITY, f64::NEG_INFINITY);
+        let (mut sum, mut squares) = (0.0, 0.0);
+        for instant in &self.instants {
+            let value = quantity(instant);
+            min = min.min(value);
+            max = max.max(value);
+            sum += instant.weight * value;
+            squares += instant.weight * value * value;
+        }
+        Figures {
+            min,
+            mean: sum / self.duration,
+            max,
+            rms: (squares / self.duration).sqrt(),
+        }
+    }
+}

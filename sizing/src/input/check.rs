@@ -1,0 +1,62 @@
+//! What can only be checked on the whole machine.
+
+use std::f64::consts::TAU;
+
+use jred::{Error, Reducible};
+
+use crate::machine::MachineFile;
+
+use super::problem::{Problem, Result};
+use super::section::Section;
+
+/// Samples of a turn.
+const SAMPLES: u32 = 720;
+
+/// An inertia that falls below this share of its largest value is zero.
+const ZERO: f64 = 1e-12;
+
+/// Checks that the reduced inertia is positive at every angle, drive train included.
+pub(super) fn inertia(file: &MachineFile, mechanism: &Section) -> Result<()> {
+    let report = |error: &Error| no_inertia(mechanism, error);
+    let machine = file.with_drive_train().map_err(|error| report(&error))?;
+    let inertia = |phi: f64| {
+        Ok(machine
+            .reduction(phi)
+            .map_err(|error| report(&error))?
+            .inertia[0])
+    };
+    let step = TAU / f64::from(SAMPLES);
+    let (mut largest, mut smallest, mut place) = (0.0_f64, f64::INFINITY, 0.0);
+    for k in 0..SAMPLES {
+        let phi = step * f64::from(k);
+        let value = inertia(phi)?;
+        largest = largest.max(value);
+        if value < smallest {
+            (smallest, place) = (value, phi);
+        }
+    }
+    // Between the samples the smallest value is found by thirds.
+    let (mut low, mut high) = (place - step, place + step);
+    for _ in 0..80 {
+        let third = (high - low) / 3.0;
+        if inertia(low + third)? < inertia(high - third)? {
+            high -= third;
+        } else {
+            low += third;
+        }
+    }
+    let phi = low.midpoint(high);
+    if inertia(phi)? <= ZERO * largest {
+        return Err(report(&Error::NoInertia {
+            phi: phi.rem_euclid(TAU),
+        }));
+    }
+    Ok(())
+}
+
+fn no_inertia(mechanism: &Section, error: &Error) -> Problem {
+    mechanism.problem(error.to_string(), "in this machine").help(
+        "a real drive link has a moment of inertia: give the mass and inertia of the crank or shaft, \
+         or add flywheel = \"0.05 kg m^2\" under [mechanism]",
+    )
+}

@@ -1,0 +1,189 @@
+//! The kinds of quantities: what each is called, measured in, and how large it may be.
+
+use super::unit::Dimension;
+
+/// What a quantity measures, and which units and sizes it may have.
+#[derive(Debug)]
+pub(super) struct Kind {
+    /// With its article: "a length".
+    pub(super) name: &'static str,
+    /// A typical value with its unit.
+    pub(super) example: &'static str,
+    /// The unit to suggest.
+    pub(super) unit: &'static str,
+    /// Units to choose from, for messages.
+    pub(super) units: &'static str,
+    pub(super) dimension: Dimension,
+    /// Whether the angle may be left out of the unit ("N m s" for "N m s/rad").
+    pub(super) angle_optional: bool,
+    /// Larger values (SI) can only be a slip.
+    pub(super) largest: f64,
+    /// Where zero makes no sense, smaller values (SI) do not either.
+    pub(super) smallest: f64,
+}
+
+const fn kind(
+    [name, example, unit, units]: [&'static str; 4],
+    [length, mass, time, angle]: [i8; 4],
+    [smallest, largest]: [f64; 2],
+) -> Kind {
+    Kind {
+        name,
+        example,
+        unit,
+        units,
+        dimension: Dimension {
+            length,
+            mass,
+            time,
+            angle,
+        },
+        angle_optional: angle < 0,
+        largest,
+        smallest,
+    }
+}
+
+pub(super) const LENGTH: Kind = kind(
+    ["a length", "120 mm", "mm", "m, cm, mm, µm"],
+    [1, 0, 0, 0],
+    [1e-6, 1e3],
+);
+pub(super) const MASS: Kind = kind(
+    ["a mass", "3.5 kg", "kg", "kg, g, t"],
+    [0, 1, 0, 0],
+    [1e-9, 1e6],
+);
+pub(super) const INERTIA: Kind = kind(
+    [
+        "a moment of inertia",
+        "2.4 kg cm^2",
+        "kg m^2",
+        "kg m^2, kg cm^2, g mm^2",
+    ],
+    [2, 1, 0, 0],
+    [1e-12, 1e8],
+);
+pub(super) const ANGLE: Kind = kind(
+    ["an angle", "90 deg", "deg", "deg, rad"],
+    [0, 0, 0, 1],
+    [1e-9, 1e7],
+);
+pub(super) const ANGULAR_SPEED: Kind = kind(
+    ["an angular speed", "1450 rpm", "rpm", "rpm, rad/s, deg/s"],
+    [0, 0, -1, 1],
+    [1e-6, 1e6],
+);
+pub(super) const TIME: Kind = kind(
+    ["a time", "0.25 s", "s", "s, ms"],
+    [0, 0, 1, 0],
+    [1e-6, 1e7],
+);
+pub(super) const FORCE: Kind = kind(
+    ["a force", "150 N", "N", "N, kN"],
+    [1, 1, -2, 0],
+    [1e-9, 1e10],
+);
+pub(super) const TORQUE: Kind = kind(
+    ["a torque", "12 N m", "N m", "N m, kN m, mN m"],
+    [2, 1, -2, 0],
+    [1e-9, 1e10],
+);
+pub(super) const ACCELERATION: Kind = kind(
+    ["an acceleration", "9.81 m/s^2", "m/s^2", "m/s^2, mm/s^2"],
+    [1, 0, -2, 0],
+    [1e-9, 1e6],
+);
+pub(super) const VISCOUS_FORCE: Kind = kind(
+    [
+        "a viscous coefficient (force per speed)",
+        "30 N s/m",
+        "N s/m",
+        "N s/m, N s/mm",
+    ],
+    [0, 1, -1, 0],
+    [1e-9, 1e10],
+);
+pub(super) const VISCOUS_MOMENT: Kind = kind(
+    [
+        "a viscous coefficient (moment per angular speed)",
+        "0.4 N m s/rad",
+        "N m s/rad",
+        "N m s/rad, N m/rpm",
+    ],
+    [2, 1, -1, -1],
+    [1e-9, 1e10],
+);
+pub(super) const SHARE: Kind = kind(
+    ["a share", "97 %", "%", "%, or a plain number such as 0.97"],
+    [0, 0, 0, 0],
+    [1e-6, 1e3],
+);
+
+/// Kinds that no key asks for but that people write.
+const OTHERS: [(&str, [i8; 4]); 8] = [
+    ("a frequency", [0, 0, -1, 0]),
+    ("a speed", [1, 0, -1, 0]),
+    ("an angular acceleration", [0, 0, -2, 1]),
+    ("a torsional stiffness", [2, 1, -2, -1]),
+    ("a stiffness (force per length)", [0, 1, -2, 0]),
+    ("a power", [2, 1, -3, 0]),
+    ("an area", [2, 0, 0, 0]),
+    ("a mass times length", [1, 1, 0, 0]),
+];
+
+/// 1/s, which is not an angular speed.
+pub(super) const FREQUENCY: Dimension = dimension_of([0, 0, -1, 0]);
+
+const fn dimension_of([length, mass, time, angle]: [i8; 4]) -> Dimension {
+    Dimension {
+        length,
+        mass,
+        time,
+        angle,
+    }
+}
+
+/// What a quantity of this dimension is called.
+pub(super) fn describe(found: Dimension) -> String {
+    let kinds = [
+        &LENGTH,
+        &MASS,
+        &INERTIA,
+        &ANGLE,
+        &ANGULAR_SPEED,
+        &TIME,
+        &FORCE,
+        &TORQUE,
+        &ACCELERATION,
+        &VISCOUS_FORCE,
+        &VISCOUS_MOMENT,
+    ];
+    if found == SHARE.dimension {
+        return "a plain number".to_owned();
+    }
+    if let Some(kind) = kinds.iter().find(|k| k.dimension == found) {
+        return kind.name.to_owned();
+    }
+    if let Some((name, _)) = OTHERS.iter().find(|(_, d)| dimension_of(*d) == found) {
+        return (*name).to_owned();
+    }
+    let powers = [
+        ("m", found.length),
+        ("kg", found.mass),
+        ("s", found.time),
+        ("rad", found.angle),
+    ];
+    let text: Vec<String> = powers
+        .iter()
+        .filter(|(_, power)| *power != 0)
+        .map(|(unit, power)| {
+            if *power == 1 {
+                (*unit).to_owned()
+            } else {
+                format!("{unit}^{power}")
+            }
+        })
+        .collect();
+    format!("a quantity in {}", text.join(" "))
+}

@@ -1,0 +1,205 @@
+//! `[[load]]`: what acts on the links.
+
+use std::f64::consts::TAU;
+
+use jred::{Action, Load, MAX_LOADS, Window};
+
+use crate::machine::{AnyMechanism, NamedLoad};
+
+use super::item::Item;
+use super::kind::{ANGLE, FORCE, Kind, LENGTH, TORQUE, VISCOUS_FORCE, VISCOUS_MOMENT};
+use super::problem::{Problem, Result};
+use super::section::Section;
+
+/// What a load can do, as keys.
+const ACTIONS: [&str; 6] = [
+    "force",
+    "moment",
+    "opposing_force",
+    "opposing_moment",
+    "viscous_force",
+    "viscous_moment",
+];
+
+/// All loads of the file.
+pub(super) fn read(root: &Section, mechanism: &AnyMechanism) -> Result<Vec<NamedLoad>> {
+    let Some(item) = root.get("load") else {
+        return Ok(Vec::new());
+    };
+    let sections = item.sections("[[load]]")?;
+    if let Some(surplus) = sections.get(MAX_LOADS) {
+        return Err(surplus
+            .problem(format!("more than {MAX_LOADS} loads"), "one too many")
+            .help("combine loads that act on the same link"));
+    }
+    sections
+        .iter()
+        .map(|section| load(section, mechanism))
+        .collect()
+}
+
+fn load(section: &Section, mechanism: &AnyMechanism) -> Result<NamedLoad> {
+    let links = mechanism.link_names();
+    let name = section
+        .get("name")
+        .map(|item| item.text("pressing force"))
+        .transpose()?;
+    let example = format!("on = \"{}\"", links.last().map_or("slider", String::as_str));
+    let on = section.require("on", &example)?;
+    let link = on.choice(&links)?;
+    let (key, item) = action_key(section)?;
+    let action = action(key, &item)?;
+    let at = section.get("at");
+    let point = section.point("at", &LENGTH)?;
+    let window = window(section)?;
+    section.finish()?;
+
+    let link_name = links.get(link).map_or("", String::as_str);
+    let of_a_force = key.ends_with("force");
+    if let (Some(at), false) = (&at, of_a_force) {
+        return Err(Problem::new(format!(
+            "`at` has no meaning for `{key}` in {}",
+            section.title()
+        ))
+        .at(at.key_span(), "remove this")
+        .help("a moment acts on the link as a whole; only forces have a point of application"));
+    }
+    let slides = matches!(mechanism, AnyMechanism::SliderCrank(_)) && link_name == "slider";
+    let has_fixed_pivot = !slides && link_name != "rod";
+    if slides && !of_a_force {
+        return Err(item
+            .problem("does nothing: the slider does not turn", "acts on the slider")
+            .help("use force, opposing_force or viscous_force for the slider, or name another link in `on`"));
+    }
+    if has_fixed_pivot && of_a_force && point == [0.0, 0.0] {
+        return Err(item
+            .problem(
+                &format!("does nothing: it acts on the fixed pivot of \"{link_name}\""),
+                "acts on the pivot",
+            )
+            .help("give the point it acts on, in the link's frame: at = [\"30 mm\", \"0 mm\"], or use a moment"));
+    }
+    let mut load = Load::new(link, action)
+        .and_then(|load| load.at(point))
+        .map_err(|error| section.problem(error.to_string(), "in this load"))?;
+    if let Some(window) = window {
+        load = load.within(window);
+    }
+    let name = name.map_or_else(
+        || format!("{} on {link_name}", key.replace('_', " ")),
+        ToOwned::to_owned,
+    );
+    Ok(NamedLoad { name, load })
+}
+
+/// The one key that says what the load does.
+fn action_key<'a>(section: &Section<'a>) -> Result<(&'static str, Item<'a>)> {
+    let mut found = ACTIONS
+        .into_iter()
+        .filter_map(|key| Some((key, section.get(key)?)));
+    let Some((key, item)) = found.next() else {
+        let missing = format!(
+            "`force` or another action is missing in {}",
+            section.title()
+        );
+        return Err(section.finish().err().unwrap_or_else(|| {
+            section
+                .problem(missing, "what does this load do?")
+                .help(format!(
+                    "add exactly one of {}, such as opposing_force = \"150 N\"",
+                    ACTIONS.join(", ")
+                ))
+        }));
+    };
+    if let Some((second, other)) = found.next() {
+        return Err(Problem::new(format!(
+            "{} has both `{key}` and `{second}`",
+            section.title()
+        ))
+        .at(item.key_span(), "one action")
+        .at(other.key_span(), "another action")
+        .help("write a [[load]] of its own for each"));
+    }
+    Ok((key, item))
+}
+
+fn action(key: &str, item: &Item) -> Result<Action> {
+    let size = |kind: &'static Kind| {
+        let value = item.quantity(kind)?;
+        if value.si < 0.0 {
+            let what = format!("is {}, but must not be negative", value.shown());
+            return Err(value.problem(&what, "negative").help(
+                "it always acts against the motion, so only its size is given; \
+                 a load with a direction is a `force` or a `moment`",
+            ));
+        }
+        Ok(value.si)
+    };
+    Ok(match key {
+        "force" => Action::Force(item.pair([&FORCE, &FORCE])?.map(|value| value.si)),
+        "moment" => Action::Moment(item.quantity(&TORQUE)?.si),
+        "opposing_force" => Action::OpposingForce(size(&FORCE)?),
+        "opposing_moment" => Action::OpposingMoment(size(&TORQUE)?),
+        "viscous_force" => Action::ViscousForce(size(&VISCOUS_FORCE)?),
+        _ => Action::ViscousMoment(size(&VISCOUS_MOMENT)?),
+    })
+}
+
+/// The part of the turn in which the load acts.
+fn window(section: &Section) -> Result<Option<Window>> {
+    let (between, ramp) = (section.get("between"), section.optional("ramp", &ANGLE)?);
+    let (between, ramp) = match (between, ramp) {
+        (None, None) => return Ok(None),
+        (Some(between), Some(ramp)) => (between, ramp),
+        (Some(_), None) => {
+            return Err(section.missing(
+                "ramp",
+                "ramp = \"10 deg\": the angle over which the load rises and falls",
+            ));
+        }
+        (None, Some(_)) => {
+            return Err(section.missing(
+                "between",
+                "between = [\"315 deg\", \"360 deg\"]: where the load acts",
+            ));
+        }
+    };
+    ramp.check_positive()?;
+    let [from, to] = between.pair([&ANGLE, &ANGLE])?;
+    let end = if to.si < from.si { to.si + TAU } else { to.si };
+    let width = end - from.si;
+    if width <= 0.0 || width > TAU * (1.0 + 1e-12) {
+        return Err(between
+            .problem("must span more than nothing and at most one turn", "check these angles")
+            .help(format!(
+                "the load acts from the first angle on to the second, which may be smaller: then it lies one turn later; \
+                 here that is {}",
+                to.show(width)
+            )));
+    }
+    // Kept a hair below one turn, so that rounding cannot make it wider.
+    let start = from.si.rem_euclid(TAU);
+    let end = start + width.min(TAU * (1.0 - 1e-14));
+    if width < 2.0 * ramp.si {
+        let what = format!(
+            "is {}, too long for the range of {}",
+            ramp.shown(),
+            from.show(width)
+        );
+        let help = format!(
+            "the load rises over one ramp and falls over another: at most {}",
+            ramp.show(width / 2.0)
+        );
+        // Rounding may leave two ramps a hair wider than the range.
+        if width < 2.0 * ramp.si * (1.0 - 1e-12) {
+            return Err(ramp
+                .problem(&what, "too long")
+                .at(between.span(), "range")
+                .help(help));
+        }
+    }
+    let ramp = ramp.si.min((end - start) / 2.0);
+    Window::new(start, end, ramp).map(Some).map_err(|error| {
+        between.problem(&format!("is not possible: {error}"), "check these angles")
+    })
+}

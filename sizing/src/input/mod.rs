@@ -1,0 +1,156 @@
+//! Machine files: TOML in, a checked [`MachineFile`] in SI units out.
+//!
+//! What a machine file may say is listed in `docs/machine-file.md`. Every error shows the line, names the quantity,
+//! its value and the limit, and says what to do.
+
+mod argument;
+mod check;
+mod drive_train;
+mod file;
+mod item;
+mod kind;
+mod loads;
+mod mechanism;
+mod motion;
+mod problem;
+mod profile;
+mod quantity;
+mod rules;
+mod section;
+mod simulation;
+mod stage;
+mod unit;
+
+pub use argument::{speed_argument, torque_argument};
+
+use std::path::Path;
+
+use jred::Machine;
+use miette::Report;
+use toml::de::DeTable;
+
+use crate::machine::MachineFile;
+
+use kind::ACCELERATION;
+use problem::{Problem, Result};
+use section::Section;
+
+/// The largest machine file (bytes).
+const MAX_SIZE: u64 = 1 << 20;
+
+/// Reads the machine file at `path`.
+///
+/// # Errors
+/// A file that cannot be read, or anything that [`parse`] reports.
+pub fn read(path: &Path) -> std::result::Result<MachineFile, Report> {
+    let name = path.display().to_string();
+    let text = file::read(path, MAX_SIZE).map_err(|fault| {
+        Problem::new(format!(
+            "cannot read the machine file {name}: {}",
+            fault.message
+        ))
+        .help(fault.help)
+        .into_report(&name, "")
+    })?;
+    parse(&name, &text, path.parent().unwrap_or(Path::new("")))
+}
+
+/// Reads a machine file from its `text`. The `name` is used in messages; a profile's CSV file is looked for in
+/// `folder`.
+///
+/// # Errors
+/// Whatever is wrong with the file: the first thing found, with its place and what to do.
+pub fn parse(name: &str, text: &str, folder: &Path) -> std::result::Result<MachineFile, Report> {
+    machine(name, text, folder).map_err(|problem| problem.into_report(name, text))
+}
+
+fn machine(name: &str, text: &str, folder: &Path) -> Result<MachineFile> {
+    if text.len() as u64 > MAX_SIZE {
+        let fault = file::too_large(&file::size(text.len() as u64), MAX_SIZE);
+        return Err(Problem::new(format!(
+            "cannot read the machine file {name}: {}",
+            fault.message
+        ))
+        .help(fault.help));
+    }
+    let tree = DeTable::parse(text).map_err(|error| syntax(&error, text))?;
+    if tree.get_ref().is_empty() {
+        return Err(Problem::new(format!("the machine file {name} is empty")).help(
+            "a machine file needs at least gravity = [\"9.81 m/s^2\", \"0 m/s^2\"] and a [mechanism] with its type",
+        ));
+    }
+    let root = Section::new(String::new(), 0..0, tree.get_ref());
+    let title = match root.get("title") {
+        Some(item) => item.text("Servo press")?.to_owned(),
+        None => name.to_owned(),
+    };
+    let gravity = root
+        .require(
+            "gravity",
+            "gravity = [\"9.81 m/s^2\", \"0 m/s^2\"], its x and y component; \
+             gravity = [\"0 m/s^2\", \"0 m/s^2\"] for a machine that moves in a horizontal plane",
+        )?
+        .pair([&ACCELERATION, &ACCELERATION])?
+        .map(|value| value.si);
+    let section = root.section("mechanism")?;
+    let (mechanism, flywheel) = mechanism::read(&section)?;
+    let loads = loads::read(&root, &mechanism)?;
+    let drive_train = drive_train::read(&root)?;
+    let motion = motion::read(&root, folder)?;
+    let simulation = simulation::read(&root)?;
+    let rules = rules::read(&root)?;
+    root.finish()?;
+
+    let machine = Machine::new(mechanism)
+        .with_gravity(gravity)
+        .and_then(|machine| machine.with_flywheel(flywheel))
+        .and_then(|machine| {
+            loads
+                .iter()
+                .try_fold(machine, |m, named| m.with_load(named.load))
+        })
+        .map_err(|error| section.problem(error.to_string(), "in this machine"))?;
+    let file = MachineFile {
+        title,
+        machine,
+        flywheel,
+        loads,
+        drive_train,
+        motion,
+        simulation,
+        rules,
+    };
+    check::inertia(&file, &section)?;
+    Ok(file)
+}
+
+/// Text that is not TOML.
+fn syntax(error: &toml::de::Error, text: &str) -> Problem {
+    let message = error.message();
+    let span = error.span().unwrap_or(0..0);
+    let line = text
+        .get(..span.start)
+        .map_or(0, |before| before.rfind('\n').map_or(0, |at| at + 1));
+    let line = text
+        .get(line..)
+        .and_then(|rest| rest.lines().next())
+        .unwrap_or_default();
+    let bare = line
+        .split_once('=')
+        .filter(|(_, value)| !value.contains(['"', '[', '{', '\'']));
+    let help = match bare {
+        _ if message.contains("duplicate") => "remove or rename one of the two".to_owned(),
+        Some((key, value)) if !value.trim().is_empty() => {
+            let value = value.split('#').next().unwrap_or_default().trim();
+            format!(
+                "texts and quantities are written in quotes: {} = \"{value}\"",
+                key.trim()
+            )
+        }
+        _ => "a line is key = \"value\", a [table] or a [[table of a list]]; texts stand in quotes"
+            .to_owned(),
+    };
+    Problem::new(format!("the file is not valid TOML: {message}"))
+        .at(span, "here")
+        .help(help)
+}

@@ -1,0 +1,127 @@
+//! One thing that is wrong with a machine file: what, where, and what to do about it.
+
+use std::ops::Range;
+
+use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
+
+/// What reading a part of the file gives.
+pub(super) type Result<T> = std::result::Result<T, Problem>;
+
+/// A diagnostic on its way to the text it belongs to.
+pub(super) struct Problem(Box<Parts>);
+
+struct Parts {
+    diagnostic: MietteDiagnostic,
+    /// The text shown, if it is not the machine file's.
+    source: Option<NamedSource<String>>,
+}
+
+impl Problem {
+    /// A problem described by one sentence.
+    pub(super) fn new(message: impl Into<String>) -> Self {
+        Self(Box::new(Parts {
+            diagnostic: MietteDiagnostic::new(message),
+            source: None,
+        }))
+    }
+
+    /// Marks a place in the text.
+    pub(super) fn at(mut self, span: Range<usize>, label: impl Into<String>) -> Self {
+        let labels = self.0.diagnostic.labels.get_or_insert_default();
+        labels.push(LabeledSpan::at(span, label));
+        self
+    }
+
+    /// Says what to do.
+    pub(super) fn help(mut self, help: impl Into<String>) -> Self {
+        self.0.diagnostic.help = Some(help.into());
+        self
+    }
+
+    /// The places are in this text instead of the machine file.
+    pub(super) fn in_file(mut self, name: &str, text: &str) -> Self {
+        self.0.source = Some(NamedSource::new(name, text.to_owned()));
+        self
+    }
+
+    /// A report that shows the places in the machine file `text`.
+    pub(super) fn into_report(self, name: &str, text: &str) -> Report {
+        let Parts {
+            mut diagnostic,
+            source,
+        } = *self.0;
+        let source = source.unwrap_or_else(|| NamedSource::new(name, text.to_owned()));
+        if source.inner().is_empty() {
+            diagnostic.labels = None; // nothing to point at
+        }
+        Report::new(diagnostic).with_source_code(source)
+    }
+}
+
+/// What is wrong with a value, before it is known which key it belongs to.
+#[derive(Debug)]
+pub(super) struct Fault {
+    /// Continues "`length` in [mechanism.crank] …".
+    pub(super) message: String,
+    /// What to do.
+    pub(super) help: String,
+    /// What stands at the place of the fault.
+    pub(super) label: String,
+}
+
+impl Fault {
+    pub(super) fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+            help: help.into(),
+            label: "here".to_owned(),
+        }
+    }
+
+    /// The same fault with a label for its place.
+    pub(super) fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = label.into();
+        self
+    }
+}
+
+/// `"a", "b", "c"`
+pub(super) fn quoted<S: AsRef<str>>(words: &[S]) -> String {
+    let quoted: Vec<String> = words
+        .iter()
+        .map(|w| format!("\"{}\"", w.as_ref()))
+        .collect();
+    quoted.join(", ")
+}
+
+/// The word that `wrong` was most likely meant to be.
+pub(super) fn closest<S: AsRef<str>>(wrong: &str, words: &[S]) -> Option<String> {
+    let lower = wrong.to_lowercase();
+    let allowed = (lower.chars().count() / 3).clamp(1, 3);
+    let distance = |word: &str| strsim::damerau_levenshtein(&lower, &word.to_lowercase());
+    words
+        .iter()
+        .map(|w| (distance(w.as_ref()), w.as_ref()))
+        .filter(|(distance, _)| *distance <= allowed)
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, word)| word.to_owned())
+}
+
+/// A figure for a message: at most six significant digits, no trailing zeros.
+pub(super) fn figure(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let exponent = value.abs().log10().floor();
+    if !(-4.0..9.0).contains(&exponent) {
+        let rounded = format!("{value:.3e}").parse().unwrap_or(value);
+        return format!("{rounded:e}");
+    }
+    let decimals = (5.0 - exponent).max(0.0) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}

@@ -1,0 +1,275 @@
+//! Units: which ones a machine file may use, and what one of them is in SI.
+//!
+//! The size and the SI dimension of a unit come from `dyn_quantity`. What it cannot tell apart is decided here:
+//! angles from plain numbers (rad, deg), revolutions from radians (rpm), and text that is not a unit at all.
+
+use std::f64::consts::TAU;
+use std::str::FromStr;
+
+use dyn_quantity::DynQuantity;
+
+use super::problem::{Fault, closest};
+
+/// Powers of m, kg, s and of the angle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Dimension {
+    pub(super) length: i8,
+    pub(super) mass: i8,
+    pub(super) time: i8,
+    pub(super) angle: i8,
+}
+
+/// A unit as read.
+#[derive(Clone, Debug)]
+pub(super) struct Unit {
+    /// How it was written, tidied up.
+    pub(super) text: String,
+    /// One of it in SI.
+    pub(super) scale: f64,
+    pub(super) dimension: Dimension,
+}
+
+/// Every unit word, with the power of an angle that it contains.
+const WORDS: [(&str, i8); 31] = [
+    ("mm", 0),
+    ("m", 0),
+    ("km", 0),
+    ("dm", 0),
+    ("cm", 0),
+    ("um", 0),
+    ("kg", 0),
+    ("g", 0),
+    ("mg", 0),
+    ("t", 0),
+    ("s", 0),
+    ("ms", 0),
+    ("us", 0),
+    ("N", 0),
+    ("kN", 0),
+    ("MN", 0),
+    ("mN", 0),
+    ("Nm", 0),
+    ("kNm", 0),
+    ("MNm", 0),
+    ("mNm", 0),
+    ("rad", 1),
+    ("mrad", 1),
+    ("deg", 1),
+    ("degree", 1),
+    ("rpm", 1),
+    ("Hz", 0),
+    ("kHz", 0),
+    ("W", 0),
+    ("kW", 0),
+    ("%", 0),
+];
+
+/// Words that are units elsewhere, and what to write instead.
+const FOREIGN: [(&[&str], &str); 18] = [
+    (&["min"], "1 min = 60 s; turns per minute are \"rpm\""),
+    (&["h", "hr", "hour"], "1 h = 3600 s"),
+    (&["sec", "second", "seconds"], "seconds are \"s\""),
+    (
+        &["turn", "turns", "rev", "revolution", "revolutions", "U"],
+        "1 turn = 360 deg; turns per minute are \"rpm\"",
+    ),
+    (&["grad", "gon"], "1 gon = 0.9 deg"),
+    (&["degrees", "Deg", "DEG", "Grad"], "degrees are \"deg\""),
+    (&["in", "inch", "inches", "\""], "1 in = 25.4 mm"),
+    (&["ft", "foot", "feet"], "1 ft = 304.8 mm"),
+    (&["nm", "NM"], "newton metres are \"N m\""),
+    (&["lb", "lbs", "lbm"], "1 lb = 0.45359237 kg"),
+    (&["lbf"], "1 lbf = 4.4482216 N"),
+    (&["oz"], "1 oz = 28.349523 g"),
+    (&["ozf"], "1 ozf = 0.27801385 N"),
+    (&["kp", "kgf"], "1 kgf = 9.80665 N"),
+    (&["daN"], "1 daN = 10 N"),
+    (&["J", "kJ"], "1 J = 1 N m; a torque is in \"N m\""),
+    (&["RPM", "Rpm", "U/min"], "turns per minute are \"rpm\""),
+    (&["percent", "pct"], "per cent is \"%\""),
+];
+
+/// Reads a unit such as "mm", "kg cm^2", "N m s/rad" or "N/(m s)"; the text must be [tidy](tidy).
+pub(super) fn read(text: &str) -> Result<Unit, Fault> {
+    let factors = factors(text)?;
+    let mut canonical = String::from("1");
+    let (mut angle, mut turns) = (0, 0);
+    for (word, power) in &factors {
+        canonical.push_str(&format!(" {word}^{power}").replace("%^1", "%"));
+        angle += power * WORDS.iter().find(|(w, _)| w == word).map_or(0, |w| w.1);
+        if *word == "rpm" {
+            turns += i32::from(*power);
+        }
+    }
+    let unreadable = |_| {
+        Fault::new(
+            format!("has the unit \"{text}\", which cannot be read"),
+            SHAPE,
+        )
+    };
+    let quantity = DynQuantity::<f64>::from_str(&canonical).map_err(unreadable)?;
+    Ok(Unit {
+        text: text.to_owned(),
+        scale: quantity.value * TAU.powi(turns),
+        dimension: Dimension {
+            length: quantity.unit.meter,
+            mass: quantity.unit.kilogram,
+            time: quantity.unit.second,
+            angle,
+        },
+    })
+}
+
+/// How a unit is written.
+const SHAPE: &str = "write units one after another with blanks between, powers with ^, and at most one \"/\": \
+                     \"N m\", \"kg cm^2\", \"m/s^2\", \"N m s/rad\"";
+
+/// The words of a unit with their powers.
+fn factors(text: &str) -> Result<Vec<(&str, i8)>, Fault> {
+    let (above, below) = match text.split_once('/') {
+        None => (text, ""),
+        Some((_, below)) if below.trim().is_empty() || below.contains('/') => {
+            return Err(Fault::new(
+                format!("has the unit \"{text}\", which is not clear"),
+                SHAPE,
+            ));
+        }
+        Some((above, below)) => (above, below.trim()),
+    };
+    let mut factors = Vec::new();
+    if above.trim() != "1" || below.is_empty() {
+        for token in words(above) {
+            factors.push(factor(token)?);
+        }
+        if factors.is_empty() {
+            return Err(Fault::new("begins its unit with \"/\"", SHAPE));
+        }
+    }
+    let bracketed = below.strip_prefix('(').and_then(|b| b.strip_suffix(')'));
+    let divisors: Vec<&str> = words(bracketed.unwrap_or(below)).collect();
+    if bracketed.is_none() && divisors.len() > 1 {
+        return Err(Fault::new(
+            format!("has the unit \"{text}\", which can be read in two ways"),
+            format!(
+                "put what is divided by in brackets: \"{}/({})\", or write it in front of the \"/\"",
+                above.trim(),
+                divisors.join(" ")
+            ),
+        ));
+    }
+    for token in divisors {
+        let (word, power) = factor(token)?;
+        factors.push((word, -power));
+    }
+    if factors.len() > 8 {
+        return Err(Fault::new("has a unit of more than eight words", SHAPE));
+    }
+    Ok(factors)
+}
+
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split([' ', '*']).filter(|token| !token.is_empty())
+}
+
+/// One word with its power: "cm^2".
+fn factor(token: &str) -> Result<(&str, i8), Fault> {
+    if token.starts_with(|c: char| c.is_ascii_digit() || ".+-".contains(c)) {
+        return Err(Fault::new(
+            format!("contains more than one number (\"{token}\" is the second)"),
+            "write one number and its unit, and work out sums and fractions beforehand",
+        ));
+    }
+    if let Some(sign) = token.chars().find(|c| "()+,;=".contains(*c)) {
+        return Err(Fault::new(
+            format!("contains \"{sign}\" in its unit"),
+            SHAPE,
+        ));
+    }
+    let (word, power) = match token.split_once('^') {
+        None => (token, 1),
+        Some((word, power)) => match power.parse::<i8>() {
+            Ok(power) if (1..=4).contains(&power.abs()) => (word, power),
+            _ => {
+                return Err(Fault::new(
+                    format!("has the power \"^{power}\" in its unit"),
+                    "a power is a whole number from -4 to 4, as in \"m^2\" or \"s^-1\"",
+                ));
+            }
+        },
+    };
+    if WORDS.iter().any(|(known, _)| *known == word) && (word != "%" || power == 1) {
+        return Ok((word, power));
+    }
+    Err(Fault::new(format!("has the unknown unit \"{word}\""), cure(word)).label("unknown unit"))
+}
+
+/// What to write instead of an unknown unit.
+fn cure(word: &str) -> String {
+    if let Some((_, cure)) = FOREIGN.iter().find(|(words, _)| words.contains(&word)) {
+        return format!("this unit is not accepted here: {cure}");
+    }
+    let letters = word.trim_end_matches(|c: char| c.is_ascii_digit());
+    let power = word.get(letters.len()..).unwrap_or_default();
+    if let Some(words) = split(letters, 4) {
+        let power = if power.is_empty() {
+            String::new()
+        } else {
+            format!("^{power}")
+        };
+        return format!("write it as \"{}{power}\"", words.join(" "));
+    }
+    let known: Vec<&str> = WORDS.iter().map(|(word, _)| *word).collect();
+    closest(word, &known).map_or_else(
+        || format!("units are made of {}", known.join(", ")),
+        |near| format!("did you mean \"{near}\"?"),
+    )
+}
+
+/// Splits words that were written without a blank: "kgcm" into "kg", "cm".
+fn split(letters: &str, most: usize) -> Option<Vec<&'static str>> {
+    if letters.is_empty() {
+        return Some(Vec::new());
+    }
+    if most == 0 {
+        return None;
+    }
+    let mut known: Vec<&'static str> = WORDS.iter().map(|(word, _)| *word).collect();
+    known.sort_by_key(|word| std::cmp::Reverse(word.len()));
+    known.into_iter().find_map(|word| {
+        let rest = split(letters.strip_prefix(word)?, most - 1)?;
+        Some([vec![word], rest].concat())
+    })
+}
+
+/// Brings signs that mean the same to one form: · and × to *, superscripts to ^, − to -, µ to u, ° to deg.
+pub(super) fn tidy(text: &str) -> String {
+    const SUPERSCRIPTS: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+    let mut tidy = String::with_capacity(text.len());
+    let mut raised = false;
+    for c in text.chars() {
+        let digit = SUPERSCRIPTS.chars().position(|s| s == c);
+        let was_raised = std::mem::replace(&mut raised, digit.is_some() || c == '⁻');
+        if raised && !was_raised {
+            tidy.push('^');
+        }
+        match c {
+            '⁻' | '−' => tidy.push('-'),
+            '·' | '⋅' | '×' | '∙' | '•' => tidy.push('*'),
+            'µ' | 'μ' => tidy.push('u'),
+            '°' => tidy.push_str("deg"),
+            c if c.is_whitespace() => tidy.push(' '),
+            c => tidy.extend(digit.map_or(Some(c), |d| char::from_digit(d as u32, 10))),
+        }
+    }
+    // Blanks around the signs that bind a unit together carry no meaning.
+    let mut text = tidy.trim().to_owned();
+    while text.contains("  ") {
+        text = text.replace("  ", " ");
+    }
+    for sign in ["^", "/", "*"] {
+        text = text
+            .replace(&format!(" {sign}"), sign)
+            .replace(&format!("{sign} "), sign);
+    }
+    text
+}

@@ -1,0 +1,152 @@
+//! Columns of numbers as an aligned table, CSV or JSON.
+
+use std::fmt::Write as _;
+
+use comfy_table::{CellAlignment, ContentArrangement, LineStyle, TableStyle};
+use serde_json::{Map, Value, json};
+
+/// How a result is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Format {
+    /// An aligned table for reading, rounded to six digits.
+    #[default]
+    Table,
+    /// Comma-separated, every digit: reading it back gives the same numbers.
+    Csv,
+    /// JSON, every digit.
+    Json,
+}
+
+/// Named columns of numbers; `None` is an empty cell.
+#[derive(Clone, Debug, Default)]
+pub struct Columns {
+    names: Vec<String>,
+    rows: Vec<Vec<Option<f64>>>,
+}
+
+impl Columns {
+    /// Columns with these names; each name carries its unit, as "omega [rad/s]".
+    pub fn new(names: impl IntoIterator<Item = impl Into<String>>) -> Self {
+        Self {
+            names: names.into_iter().map(Into::into).collect(),
+            rows: Vec::new(),
+        }
+    }
+
+    /// Adds a row with one value for each column.
+    pub fn push(&mut self, row: impl IntoIterator<Item = impl Into<Option<f64>>>) {
+        let row: Vec<Option<f64>> = row.into_iter().map(Into::into).collect();
+        debug_assert_eq!(row.len(), self.names.len());
+        self.rows.push(row);
+    }
+
+    /// The names.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The rows.
+    pub fn rows(&self) -> &[Vec<Option<f64>>] {
+        &self.rows
+    }
+
+    /// The columns in one of the formats, under a title for tables and JSON.
+    pub fn write(&self, format: Format, title: &str) -> String {
+        match format {
+            Format::Table => format!("{title}\n{}\n", self.table()),
+            Format::Csv => self.csv(),
+            Format::Json => {
+                let mut map = Map::new();
+                map.insert("title".into(), title.into());
+                map.extend(self.json());
+                format!("{:#}\n", Value::Object(map))
+            }
+        }
+    }
+
+    /// `columns` and `rows` for JSON.
+    pub fn json(&self) -> Map<String, Value> {
+        let mut map = Map::new();
+        map.insert("columns".into(), json!(self.names));
+        map.insert("rows".into(), json!(self.rows));
+        map
+    }
+
+    fn table(&self) -> String {
+        let mut table = text_table(&self.names);
+        // What is nothing but rounding beside the column's largest number reads as zero.
+        let mut largest = vec![0.0f64; self.names.len()];
+        for row in &self.rows {
+            for (most, value) in largest.iter_mut().zip(row) {
+                *most = most.max(value.map_or(0.0, f64::abs));
+            }
+        }
+        for row in &self.rows {
+            let cells = row.iter().zip(&largest).map(|(value, most)| match value {
+                Some(x) if x.abs() < 1e-12 * most => "0".to_owned(),
+                Some(x) => rounded(*x),
+                None => String::new(),
+            });
+            table.add_row(cells);
+        }
+        for column in table.column_iter_mut() {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+        table.to_string()
+    }
+
+    fn csv(&self) -> String {
+        let mut text = self.names.join(",") + "\n";
+        for row in &self.rows {
+            for (k, value) in row.iter().enumerate() {
+                let comma = if k > 0 { "," } else { "" };
+                // `{}` writes the shortest digits that read back to the same number.
+                let cell = value.map_or(String::new(), |x| x.to_string());
+                let _ = write!(text, "{comma}{cell}");
+            }
+            text.push('\n');
+        }
+        text
+    }
+}
+
+/// Only a line under the header.
+const STYLE: TableStyle =
+    TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
+
+/// An empty table with this header, in the tool's style.
+pub fn text_table(header: &[impl ToString]) -> comfy_table::Table {
+    let mut table = comfy_table::Table::new();
+    table
+        .load_style(STYLE)
+        .set_content_arrangement(ContentArrangement::Disabled)
+        .set_header(header.iter().map(ToString::to_string));
+    table
+}
+
+/// A number with four significant digits.
+pub fn short(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return rounded(x);
+    }
+    let scale = 10f64.powi(3 - x.abs().log10().floor() as i32);
+    rounded((x * scale).round() / scale)
+}
+
+/// A number with six significant digits, plain between 1e-4 and 1e6, else with an exponent.
+pub fn rounded(x: f64) -> String {
+    if x == 0.0 {
+        return "0".into();
+    }
+    let magnitude = x.abs();
+    if !(1e-4..1e6).contains(&magnitude) {
+        return format!("{x:.5e}");
+    }
+    let digits = (5 - magnitude.log10().floor() as i32).max(0) as usize;
+    let text = format!("{x:.digits$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}

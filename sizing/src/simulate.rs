@@ -1,0 +1,288 @@
+//! `jred simulate`: the free motion φ(t), ω(t) under a motor torque, (7.12) and (7.13).
+//!
+//! The integrator is Dormand and Prince's method of order 8(5,3) (crate `ode_solvers`) with the tolerance of the
+//! file. Beside φ and ω it integrates the work of the motor, of the signed process loads, and the losses, so that
+//! the energy balance closes only if motion and reduction agree.
+
+use std::cell::RefCell;
+
+use jred::{Error, Machine, Reducible};
+use ode_solvers::{Dop853, SVector, System};
+
+use crate::machine::{AnyMechanism, MachineFile, Shaft, Simulation};
+use crate::output::Columns;
+
+/// φ, ω, work of the motor, work of the process loads, losses.
+type State = SVector<f64, 5>;
+
+/// Why a simulation did not come to its end.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+pub enum SimulationError {
+    /// The machine cannot be placed.
+    #[error(transparent)]
+    Machine(#[from] Error),
+    /// The integrator gave up.
+    #[error("the integrator stopped at t = {t} s: {reason}")]
+    #[diagnostic(help(
+        "loosen `tolerance` in [simulation], or look for a torque that grows without bound"
+    ))]
+    Integrator {
+        /// Time reached (s).
+        t: f64,
+        /// What the integrator says.
+        reason: String,
+    },
+}
+
+/// The machine with its drive and motor torque, moving in one direction.
+struct Plant<'a> {
+    file: &'a MachineFile,
+    machine: &'a Machine<AnyMechanism>,
+    simulation: &'a Simulation,
+    /// Direction that friction opposes: +1, −1, or 0 at rest.
+    direction: f64,
+    /// The integrator cannot pass on errors: the first one waits here.
+    fault: &'a RefCell<Option<Error>>,
+}
+
+/// What happens at one state.
+struct Instant {
+    alpha: f64,
+    motor_power: f64,
+    process_power: f64,
+    loss: f64,
+}
+
+impl Plant<'_> {
+    fn motor_torque(&self, omega: f64) -> f64 {
+        let ratio = match self.simulation.at {
+            Shaft::Motor => self.file.drive_train.ratio(),
+            Shaft::DriveLink => 1.0,
+        };
+        interpolate(&self.simulation.torque, omega * ratio)
+    }
+
+    /// The acceleration that solves the equation of motion through the losses of the drive train.
+    ///
+    /// The torque that the motor must give is piecewise linear and monotone in α (each stage's efficiency changes
+    /// sides with its power), so Newton's method ends after a few steps.
+    fn instant(&self, phi: f64, omega: f64) -> Result<Instant, Error> {
+        let point = self.machine.reduction(phi)?;
+        let load = point.load_torque() - point.viscous * omega - point.coulomb * self.direction;
+        let resisting = 0.5 * point.inertia[1] * omega * omega - load;
+        let torque = self.motor_torque(omega);
+        let train = &self.file.drive_train;
+        let ratio = train.ratio();
+        let rotor = self.simulation.rotor_inertia;
+        // With the torque at the drive link, what sits in front of it only drags along.
+        let (at_motor, at_link) = match self.simulation.at {
+            Shaft::Motor => (torque, 0.0),
+            Shaft::DriveLink => (0.0, torque),
+        };
+        let mut alpha = 0.0;
+        let mut input = train.input(0.0, 0.0, omega, alpha);
+        for _ in 0..50 {
+            let asked = point.inertia[0] * alpha + resisting - at_link;
+            input = train.input(asked, point.inertia[0], omega, alpha);
+            let excess = input.torque + rotor * ratio * alpha - at_motor;
+            let slope = input.torque_per_alpha + rotor * ratio;
+            let step = excess / slope;
+            alpha -= step;
+            if step.abs() <= 1e-15 * alpha.abs() {
+                break;
+            }
+        }
+        let motor_speed = match self.simulation.at {
+            Shaft::Motor => omega * ratio,
+            Shaft::DriveLink => omega,
+        };
+        Ok(Instant {
+            alpha,
+            motor_power: torque * motor_speed,
+            process_power: point.process * omega,
+            loss: input.loss + (point.viscous * omega + point.coulomb * self.direction) * omega,
+        })
+    }
+
+    /// The way the machine starts to move from rest at `phi`: +1, −1, or 0 if friction holds it.
+    fn start_direction(&self, phi: f64) -> Result<f64, Error> {
+        for direction in [1.0, -1.0] {
+            let plant = Plant { direction, ..*self };
+            // A hair of speed puts each stage's losses on the side of the motion to come.
+            if plant.instant(phi, direction * 1e-12)?.alpha * direction > 0.0 {
+                return Ok(direction);
+            }
+        }
+        Ok(0.0)
+    }
+}
+
+impl System<f64, State> for &Plant<'_> {
+    fn system(&self, _t: f64, y: &State, dy: &mut State) {
+        match self.instant(y[0], y[1]) {
+            Ok(now) => {
+                *dy = State::from([
+                    y[1],
+                    now.alpha,
+                    now.motor_power,
+                    now.process_power,
+                    now.loss,
+                ]);
+            }
+            Err(error) => {
+                self.fault.borrow_mut().get_or_insert(error);
+                *dy = State::zeros();
+            }
+        }
+    }
+}
+
+/// Runs the simulation of the file: t, φ, ω, α, J, energies, and the balance
+/// (E + U) − (E + U)₀ − W_motor − W_process + losses, which is zero up to the tolerance.
+///
+/// # Errors
+/// Those of the machine and the integrator.
+pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Columns, SimulationError> {
+    let fault = RefCell::new(None);
+    let machine = &file.machine;
+    let mut plant = Plant {
+        file,
+        machine,
+        simulation,
+        direction: 0.0,
+        fault: &fault,
+    };
+    let mut y = State::from([
+        simulation.start_angle,
+        simulation.start_speed,
+        0.0,
+        0.0,
+        0.0,
+    ]);
+    plant.direction = heading(&plant, &y)?;
+    let mut columns = Columns::new([
+        "t [s]",
+        "phi [deg]",
+        "omega [rad/s]",
+        "alpha [rad/s^2]",
+        "motor torque [N m]",
+        "J_red [kg m^2]",
+        "kinetic energy [J]",
+        "potential energy [J]",
+        "motor work [J]",
+        "process work [J]",
+        "losses [J]",
+        "energy balance [J]",
+    ]);
+    // The rotor and the drive train turn with the drive link.
+    let ratio = file.drive_train.ratio();
+    let drive = (file.drive_train.inertia_at_input() + simulation.rotor_inertia) * ratio * ratio;
+    let mut start_energy = None;
+    let steps = (simulation.duration / simulation.output_step).round().max(1.0) as usize;
+    let mut t = 0.0;
+    for k in 0..=steps {
+        let end = simulation.duration * k as f64 / steps as f64;
+        y = advance(&mut plant, t, end, y)?;
+        t = end;
+        let point = machine.reduction(y[0])?;
+        let now = plant.instant(y[0], y[1])?;
+        let alpha = if plant.direction == 0.0 {
+            0.0
+        } else {
+            now.alpha
+        };
+        let inertia = point.inertia[0] + drive;
+        let kinetic = 0.5 * inertia * y[1] * y[1];
+        let energy = kinetic + point.potential_energy[0];
+        let start = *start_energy.get_or_insert(energy);
+        let balance = energy - start - y[2] - y[3] + y[4];
+        columns.push([
+            t,
+            y[0].to_degrees(),
+            y[1],
+            alpha,
+            plant.motor_torque(y[1]),
+            inertia,
+            kinetic,
+            point.potential_energy[0],
+            y[2],
+            y[3],
+            y[4],
+            balance,
+        ]);
+    }
+    Ok(columns)
+}
+
+/// The direction of motion at a state; at rest, the way it will start.
+fn heading(plant: &Plant, y: &State) -> Result<f64, Error> {
+    if y[1] == 0.0 {
+        plant.start_direction(y[0])
+    } else {
+        Ok(y[1].signum())
+    }
+}
+
+/// Integrates from `t` to `end`; where the machine comes to rest, friction turns round or holds it.
+fn advance(
+    plant: &mut Plant,
+    mut t: f64,
+    end: f64,
+    mut y: State,
+) -> Result<State, SimulationError> {
+    // Enough for a machine that reverses many times within one output step.
+    for _ in 0..10_000 {
+        if t >= end || plant.direction == 0.0 {
+            return Ok(y);
+        }
+        let next = integrate(plant, t, end, &y)?;
+        if next[1] * plant.direction >= 0.0 {
+            return Ok(next);
+        }
+        // ω changed its sign on the way: halve the interval down to the instant of rest.
+        let (mut before, mut after, mut at_rest) = (t, end, y);
+        while after - before > 1e-12 * (1.0 + end.abs()) {
+            let middle = 0.5 * (before + after);
+            let state = integrate(plant, t, middle, &y)?;
+            if state[1] * plant.direction >= 0.0 {
+                (before, at_rest) = (middle, state);
+            } else {
+                after = middle;
+            }
+        }
+        y = at_rest;
+        y[1] = 0.0;
+        t = after.min(end);
+        plant.direction = plant.start_direction(y[0])?;
+    }
+    Ok(y)
+}
+
+fn integrate(plant: &Plant, t: f64, end: f64, y: &State) -> Result<State, SimulationError> {
+    if end <= t {
+        return Ok(*y);
+    }
+    let tolerance = plant.simulation.tolerance;
+    // The equations do not contain the time: counted from here, short intervals keep all their digits.
+    let span = end - t;
+    let mut solver = Dop853::new(plant, 0.0, span, span, *y, tolerance, tolerance);
+    let outcome = solver.integrate();
+    if let Some(error) = plant.fault.borrow_mut().take() {
+        return Err(error.into());
+    }
+    outcome.map_err(|error| SimulationError::Integrator {
+        t,
+        reason: error.to_string(),
+    })?;
+    Ok(solver.y_out().last().copied().unwrap_or(*y))
+}
+
+/// Straight lines between (x, y) points, the end values beyond the ends.
+fn interpolate(points: &[(f64, f64)], x: f64) -> f64 {
+    let right = points.partition_point(|p| p.0 < x);
+    match (right.checked_sub(1).and_then(|k| points.get(k)), points.get(right)) {
+        (Some(a), Some(b)) => a.1 + (b.1 - a.1) * (x - a.0) / (b.0 - a.0),
+        (Some(only), None) | (None, Some(only)) => only.1,
+        (None, None) => 0.0,
+    }
+}

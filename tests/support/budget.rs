@@ -1,0 +1,85 @@
+//! Every tolerance of the suite, each with its reason. All are bounds on |found − expected|, so both signs count.
+
+/// Golden data are correctly rounded 50-digit numbers; a closed form of some thirty operations, each good to 2⁻⁵³, may
+/// lose a few hundred units in the last place: relative to the column's largest magnitude.
+pub(crate) const GOLDEN: f64 = 1e-12;
+
+/// Two closed forms of the same quantity, both in f64 with a few tens of operations; relative to the largest term.
+pub(crate) const CLOSED_FORM: f64 = 1e-13;
+
+/// Central differences extrapolated twice (order 6) at a step of 1/64: truncation h⁶·f⁽⁷⁾ and rounding 2⁻⁵³/h are both
+/// near 1e-11 for functions of size one; geometry close to a dead centre has large high derivatives. Relative to the
+/// largest derivative seen.
+pub(crate) const RICHARDSON: f64 = 2e-8;
+
+/// Identities of differentiation (sin² + cos² = 1, q·g = f): up to 30 operations on numbers up to 100 in size.
+pub(crate) const IDENTITY: f64 = 1e-12;
+
+/// Roundings of one tick in floating point, in units of the type's epsilon times the sum of the terms' sizes: four
+/// products, three sums, one quotient, each half a unit, there and back.
+pub(crate) const TICK_ROUNDINGS: f64 = 8.0;
+
+/// Ratio of two errors between step h and h/2 for a method of order p is 2ᵖ; the next order of the series may change
+/// it by this share.
+pub(crate) const ORDER_SHARE: f64 = 0.2;
+
+/// Energy error of RK4 at 32 steps a cell over four turns, as a share of the energy: 1.4e-8 at 8 steps, and sixteen
+/// times less with each halving.
+pub(crate) const ENERGY: f64 = 1e-10;
+
+/// At least this with the slope of a linear table, whatever the step: at 32 cells its J is off by h²/8·J″, about 1 % of
+/// a J that swings by its own size.
+pub(crate) const INCONSISTENT_ENERGY: f64 = 1e-2;
+
+/// Power balance: the time derivative of the energy by differences, as a share of the largest power.
+pub(crate) const POWER: f64 = 1e-7;
+
+/// Periodic filters and the tridiagonal solution end at 2⁻⁵³ times the samples' size, with a gain of up to 10.
+pub(crate) const SPLINE_KNOT: f64 = 4e-15;
+
+/// Slope and curvature multiply that by cells and cells².
+pub(crate) const SPLINE_END: f64 = 2e-14;
+
+/// `Phase::from_radians` promises half a unit of 2⁻³² turn; division and TAU add 2⁻⁵³ of a turn (5e-7 units).
+pub(crate) const PHASE_UNITS: f64 = 0.5 + 1e-6;
+
+/// `Phase::from_radians_f32` promises 6e-8 of a turn for |φ| ≤ 2π.
+pub(crate) const PHASE_F32_TURNS: f64 = 6e-8;
+
+/// `Phase::sin_cos_approx` promises this, and is not better than half of it: the promise is not slack.
+pub(crate) const SIN_COS_APPROX: f64 = 1.2e-3;
+
+/// A law in f32 against f64: z is rounded to 2⁻²⁴, S″ varies by up to 40 a unit of z, ten roundings of numbers up to
+/// 20 in size.
+pub(crate) const LAW_F32: f64 = 2e-5;
+
+/// Table in f64 of a smooth machine at 128 cells against the exact reduction: h⁴/384·J⁗ for the value, h³/24·J⁗ for the
+/// slope, relative to the torque's size.
+pub(crate) const STROKE_TABLE: f64 = 2e-4;
+
+/// One unit of Q31.
+pub(crate) const Q31_UNIT: f64 = 1.0 / 2_147_483_648.0;
+
+/// Arithmetic of `Model::<Q31>::torque`, in units of 2⁻³¹ of the torque base, found − exact. Every product rounds
+/// towards −∞, so J·α, slope·factor (times ω² ≤ 1), slope·ω² and b·ω lower the sum by at most one unit each; ω² is low
+/// by at most one unit and is multiplied by a slope of either sign.
+pub(crate) const Q31_TORQUE_UNITS: [f64; 2] = [-5.0, 1.0];
+
+/// Mean of the same: each floor loses half a unit on average where its product is not an integer; the ω² part averages
+/// out over the slope's signs; ω² ≤ 1 makes the second smaller. Expected −0.5 (J·α) −0.17 −0.5 (slope·ω²) −0.5 (b·ω).
+pub(crate) const Q31_TORQUE_BIAS: [f64; 2] = [-1.9, -1.4];
+
+/// RMS of the same: the bias, and four independent floors with a variance of 1/12 each.
+pub(crate) const Q31_TORQUE_RMS: [f64; 2] = [1.4, 2.1];
+
+/// `Table::<Q31>::at` in units of 2⁻³¹: three floors for the value, two for the slope, none upwards.
+pub(crate) const Q31_VALUE_UNITS: f64 = 3.0;
+/// See [`Q31_VALUE_UNITS`].
+pub(crate) const Q31_SLOPE_UNITS: f64 = 2.0;
+
+/// The factor ½·cells/span·J_b·ω_b²/T_b is computed in f32 in six operations with span rounded once: relative.
+pub(crate) const FACTOR_ROUNDING: f64 = 7.0 * 5.97e-8;
+
+/// Largest table error between the places that `tabulate` checks (eight a cell) over the largest at them. The error
+/// curve of a cell has a half wave of at least a quarter cell, checked every eighth: cos(π/4) at worst, so 1.42.
+pub(crate) const DENSE_GRID: f64 = 1.42;

@@ -1,0 +1,90 @@
+//! What the test files share.
+#![allow(dead_code, reason = "every test file uses its own part")]
+
+pub(crate) mod budget;
+pub(crate) mod golden;
+pub(crate) mod machines;
+
+use jred::tabulate::{fill, scratch_len};
+use jred::table::{control_points, curves};
+use jred::{Domain, Error, Model, Reducible, Scalar, Scale, Table};
+use proptest::strategy::{Strategy, ValueTree};
+use proptest::test_runner::{Config, RngSeed, TestRunner};
+
+/// The same cases every time, and no files written.
+pub(crate) fn config(cases: u32, seed: u64) -> Config {
+    Config {
+        cases,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(seed),
+        max_global_rejects: 100 * cases,
+        ..Config::default()
+    }
+}
+
+/// `count` values of a strategy, the same every time: for figures over many cases (largest, RMS, bias).
+pub(crate) fn samples<T: Strategy>(count: u32, seed: u64, strategy: &T) -> Vec<T::Value> {
+    let mut runner = TestRunner::new(config(count, seed));
+    let mut next = || strategy.new_tree(&mut runner).unwrap().current();
+    (0..count).map(|_| next()).collect()
+}
+
+/// Fails on NaN, too.
+#[track_caller]
+pub(crate) fn assert_near(what: &str, found: f64, expected: f64, budget: f64) {
+    let error = (found - expected).abs();
+    assert!(
+        error <= budget,
+        "{what}: {found:e}, expected {expected:e}, off by {error:e} > {budget:e}"
+    );
+}
+
+/// f′(x) by central differences, extrapolated twice: order 6.
+pub(crate) fn derivative(f: impl Fn(f64) -> f64, x: f64, step: f64) -> f64 {
+    let central = |h: f64| (f(x + h) - f(x - h)) / (2.0 * h);
+    let [a, b, c] = [central(step), central(step / 2.0), central(step / 4.0)];
+    let [ab, bc] = [b + (b - a) / 3.0, c + (c - b) / 3.0];
+    bc + (bc - ab) / 15.0
+}
+
+/// One step of the classical Runge-Kutta method for y′ = f(x, y).
+pub(crate) fn rk4(f: impl Fn(f64, f64) -> f64, x: f64, y: f64, h: f64) -> f64 {
+    let k1 = f(x, y);
+    let k2 = f(x + h / 2.0, y + h / 2.0 * k1);
+    let k3 = f(x + h / 2.0, y + h / 2.0 * k2);
+    let k4 = f(x + h, y + h * k3);
+    y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+}
+
+/// Largest magnitude.
+pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |most, v| v.abs().max(most))
+}
+
+/// The words of a table with exactly `cells` cells.
+pub(crate) fn words<S: Scalar, const CURVES: u8>(
+    machine: &impl Reducible,
+    cells: u32,
+    scale: &Scale,
+) -> Result<Vec<S::Word>, Error> {
+    let mut scratch = vec![0.0; scratch_len(cells, CURVES)];
+    let mut words = zeros::<S>(control_points(cells as usize) * curves::width(CURVES));
+    fill::<S, CURVES>(machine, cells, scale, &mut scratch, &mut words)?;
+    Ok(words)
+}
+
+/// A buffer for a table.
+pub(crate) fn zeros<S: Scalar>(len: usize) -> Vec<S::Word> {
+    vec![S::default().to_word(); len]
+}
+
+/// The model over such words.
+pub(crate) fn model<'a, S: Scalar, const CURVES: u8>(
+    words: &'a [S::Word],
+    cells: u32,
+    domain: Domain,
+    scale: &Scale,
+) -> Model<'a, S, CURVES> {
+    let table = Table::new(words, cells, domain == Domain::Turn).unwrap();
+    Model::new(table, S::span(domain), scale).unwrap()
+}
