@@ -18,7 +18,11 @@ fn massless() -> Link {
 }
 
 fn slider_only(r: f64, l: f64, mass: f64) -> Machine<SliderCrank> {
-    let links = [massless(), massless(), Link::new(mass, 0.0, [0.0, 0.0]).unwrap()];
+    let links = [
+        massless(),
+        massless(),
+        Link::new(mass, 0.0, [0.0, 0.0]).unwrap(),
+    ];
     Machine::new(SliderCrank::new(r, l, 0.0, Branch::Right, links).unwrap())
 }
 
@@ -40,16 +44,27 @@ fn central_slider_crank_is_the_lecture_notes_4_1() {
         let x = r * cos + l * root;
         let x1 = -r * sin - r * lambda * (2.0 * phi).sin() / (2.0 * root);
         let x2 = -r * cos
-            - r * lambda * ((2.0 * phi).cos() / root
-                + lambda * lambda * (2.0 * phi).sin().powi(2) / (4.0 * root.powi(3)));
+            - r * lambda
+                * ((2.0 * phi).cos() / root
+                    + lambda * lambda * (2.0 * phi).sin().powi(2) / (4.0 * root.powi(3)));
         let found = machine.mechanism().frames(phi).unwrap()[SliderCrank::SLIDER].x;
         assert_near("x", found.value, x, budget::CLOSED_FORM * l);
         assert_near("x'", found.d1, x1, budget::CLOSED_FORM * r);
         assert_near("x''", found.d2, x2, budget::CLOSED_FORM * r);
         if x1.abs() > 1e-3 * r {
             let reduced = machine.reduction(phi).unwrap();
-            assert_near("J", reduced.inertia[0], m * x1 * x1, budget::CLOSED_FORM * m * r * r);
-            assert_near("J'", reduced.inertia[1], 2.0 * m * x1 * x2, budget::CLOSED_FORM * m * r * r);
+            assert_near(
+                "J",
+                reduced.inertia[0],
+                m * x1 * x1,
+                budget::CLOSED_FORM * m * r * r,
+            );
+            assert_near(
+                "J'",
+                reduced.inertia[1],
+                2.0 * m * x1 * x2,
+                budget::CLOSED_FORM * m * r * r,
+            );
         }
     }
 }
@@ -67,7 +82,12 @@ fn long_rod_is_a_scotch_yoke() {
     };
     let [near, far] = [miss(1e2), miss(1e3)];
     // J − m·r²·sin²φ = m·r²·λ·sin φ·sin 2φ + …, largest 2·sin²φ·cos φ = 4/(3√3).
-    assert_near("λ·4/(3√3)", near, m * r * r * 1e-3 * 4.0 / 27f64.sqrt(), 0.02 * near);
+    assert_near(
+        "λ·4/(3√3)",
+        near,
+        m * r * r * 1e-3 * 4.0 / 27f64.sqrt(),
+        0.02 * near,
+    );
     assert_near("order 1", near / far, 10.0, 0.05);
 }
 
@@ -76,34 +96,59 @@ fn crank_as_a_disc_off_its_centre_follows_steiner() {
     let (mass, radius, [u, v]) = (3.0, 0.25, [0.04, -0.03]);
     let disc = Link::new(mass, 0.5 * mass * radius * radius, [u, v]).unwrap();
     let mechanism = SliderCrank::new(0.1, 0.4, 0.05, Branch::Left, [disc, massless(), massless()]);
-    let machine = Machine::new(mechanism.unwrap()).with_gravity([0.0, -9.81]).unwrap();
+    let machine = Machine::new(mechanism.unwrap())
+        .with_gravity([0.0, -9.81])
+        .unwrap();
     let steiner = mass * (0.5 * radius * radius + u * u + v * v);
     for phi in [0.0, 0.4, 2.0, 3.9, 6.1] {
         let reduced = machine.reduction(phi).unwrap();
-        assert_near("J", reduced.inertia[0], steiner, budget::CLOSED_FORM * steiner);
+        assert_near(
+            "J",
+            reduced.inertia[0],
+            steiner,
+            budget::CLOSED_FORM * steiner,
+        );
         assert_near("J'", reduced.inertia[1], 0.0, budget::CLOSED_FORM * steiner);
-        assert_near("J''", reduced.inertia[2], 0.0, budget::CLOSED_FORM * steiner);
+        assert_near(
+            "J''",
+            reduced.inertia[2],
+            0.0,
+            budget::CLOSED_FORM * steiner,
+        );
         // A pendulum: U = m·g·(u·sin φ + v·cos φ).
         let height = u * phi.sin() + v * phi.cos();
         let lever = u * phi.cos() - v * phi.sin();
         let [energy, slope] = reduced.potential_energy;
         assert_near("U", energy, mass * 9.81 * height, budget::CLOSED_FORM);
         assert_near("U'", slope, mass * 9.81 * lever, budget::CLOSED_FORM);
-        assert_near("load", reduced.load_torque(), -mass * 9.81 * lever, budget::CLOSED_FORM);
+        assert_near(
+            "load",
+            reduced.load_torque(),
+            -mass * 9.81 * lever,
+            budget::CLOSED_FORM,
+        );
     }
 }
 
 /// The work of a windowed constant torque over a turn: torque·(width − ramp), as the 3-4-5 edge has mean ½.
 #[test]
 fn windows_bound_a_load_and_keep_its_work() {
-    for (from, to, ramp) in [(1.0, 2.5, 0.2), (5.5, 7.0, 0.3), (0.5, 0.5 + TAU, 0.1), (-9.0, -8.0, 0.5)] {
+    for (from, to, ramp) in [
+        (1.0, 2.5, 0.2),
+        (5.5, 7.0, 0.3),
+        (0.5, 0.5 + TAU, 0.1),
+        (-9.0, -8.0, 0.5),
+    ] {
         let window = Window::new(from, to, ramp).unwrap();
         let load = Load::new(0, Action::Moment(30.0)).unwrap().within(window);
         let machine = slider_only(0.1, 0.4, 1.0).with_flywheel(1.0).unwrap();
         let machine = machine.with_load(load).unwrap();
         let count = 20_000;
         let places = (0..count).map(|k| TAU * f64::from(k) / f64::from(count));
-        let work: f64 = places.clone().map(|phi| machine.reduction(phi).unwrap().process).sum();
+        let work: f64 = places
+            .clone()
+            .map(|phi| machine.reduction(phi).unwrap().process)
+            .sum();
         let work = work * TAU / f64::from(count);
         assert_near("work", work, 30.0 * (to - from - ramp), 1e-6 * 30.0);
         let middle = 0.5 * (from + to);
@@ -115,14 +160,23 @@ fn windows_bound_a_load_and_keep_its_work() {
             let turns = (phi - from).rem_euclid(TAU);
             let factor = window.factor(phi);
             assert!((0.0..=1.0).contains(&factor), "{factor} at {phi}");
-            assert!(turns <= to - from + 1e-9 || factor == 0.0, "acts outside, at {phi}");
+            assert!(
+                turns <= to - from + 1e-9 || factor == 0.0,
+                "acts outside, at {phi}"
+            );
             let whole = turns > ramp + 1e-9 && turns < to - from - ramp - 1e-9;
-            assert!(!whole || factor >= 1.0 - 1e-15, "not whole inside, at {phi}");
+            assert!(
+                !whole || factor >= 1.0 - 1e-15,
+                "not whole inside, at {phi}"
+            );
         }
         for k in 0..200 {
             let phi = from + (to - from) * f64::from(k) / 200.0;
             let slope = derivative(|x| window.factor(x), phi, 1e-3);
-            assert!(slope.abs() <= 1.875 / ramp * 1.001, "steeper than the law, at {phi}");
+            assert!(
+                slope.abs() <= 1.875 / ramp * 1.001,
+                "steeper than the law, at {phi}"
+            );
         }
     }
 }

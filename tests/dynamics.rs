@@ -6,7 +6,10 @@ use std::f64::consts::TAU;
 
 use jred::mechanism::{Mesh, SliderCrank, Stage, Train};
 use jred::table::curves;
-use jred::{Domain, Error, Machine, Mechanism, Model, Phase, Q31, Reducible, Reduction, Scalar, Scale, Table};
+use jred::{
+    Domain, Error, Machine, Mechanism, Model, Phase, Q31, Reducible, Reduction, Scalar, Scale,
+    Table,
+};
 use proptest::prelude::*;
 use support::machines::{Spec, spec};
 use support::{assert_near, budget, config, derivative, largest, model, rk4, words};
@@ -139,9 +142,12 @@ fn energy_drift<const CURVES: u8>(
 ) -> f64 {
     let steps = CELLS * per_cell;
     let width = TAU / f64::from(steps);
-    let phase = |places: f64| Phase::from_bits((places * 4_294_967_296.0 / f64::from(steps)) as u64 as u32);
+    let phase =
+        |places: f64| Phase::from_bits((places * 4_294_967_296.0 / f64::from(steps)) as u64 as u32);
     let (mut speed, mut potential) = (omega, 0.0);
-    let energy = |places, speed: f64, potential| 0.5 * table.at(phase(places)).inertia * speed * speed + potential;
+    let energy = |places, speed: f64, potential| {
+        0.5 * table.at(phase(places)).inertia * speed * speed + potential
+    };
     let start = energy(0.0, speed, 0.0);
     let mut drift = 0.0;
     for step in 0..4 * steps {
@@ -168,14 +174,22 @@ fn drifts<const CURVES: u8>(machine: &impl Reducible, omega: f64) {
     // The same machine with J′ from the secants of its own J: not the derivative of the J of the energy.
     let inconsistent = |phase: Phase, w: f64| {
         let cell = phase.cell(CELLS).0;
-        let knot = |k: u32| model.table().at(Phase::from_bits((1 << 27) * (k % CELLS))).inertia;
+        let knot = |k: u32| {
+            model
+                .table()
+                .at(Phase::from_bits((1 << 27) * (k % CELLS)))
+                .inertia
+        };
         let secant = (knot(cell + 1) - knot(cell)) * f64::from(CELLS) / TAU;
         let read = model.table().at(phase);
         (read.load - 0.5 * secant * w * w) / read.inertia
     };
     let [coarse, fine] = [2, 32].map(|n| energy_drift(model.table(), omega, n, inconsistent));
     println!("energy drift with a linear table's slope {coarse:.2e}, {fine:.2e}");
-    assert!(fine > budget::INCONSISTENT_ENERGY, "an inconsistent J' must show: {fine:e}");
+    assert!(
+        fine > budget::INCONSISTENT_ENERGY,
+        "an inconsistent J' must show: {fine:e}"
+    );
 }
 
 fn press() -> Spec {
@@ -218,7 +232,11 @@ impl AtTheSlider {
         let [mut low, mut high] = self.phi;
         for _ in 0..80 {
             let middle = 0.5 * (low + high);
-            if self.slider(middle).value > place { low = middle } else { high = middle }
+            if self.slider(middle).value > place {
+                low = middle
+            } else {
+                high = middle
+            }
         }
         0.5 * (low + high)
     }
@@ -235,8 +253,15 @@ impl Reducible for AtTheSlider {
         let (x, by_phi) = (self.slider(phi), self.machine.reduction(phi)?);
         let [j, j1, _] = by_phi.inertia;
         Ok(Reduction {
-            inertia: [j / (x.d1 * x.d1), (j1 - 2.0 * j * x.d2 / x.d1) / x.d1.powi(3), f64::NAN],
-            potential_energy: [by_phi.potential_energy[0], by_phi.potential_energy[1] / x.d1],
+            inertia: [
+                j / (x.d1 * x.d1),
+                (j1 - 2.0 * j * x.d2 / x.d1) / x.d1.powi(3),
+                f64::NAN,
+            ],
+            potential_energy: [
+                by_phi.potential_energy[0],
+                by_phi.potential_energy[1] / x.d1,
+            ],
             process: by_phi.process / x.d1,
             viscous: by_phi.viscous / (x.d1 * x.d1),
             coulomb: by_phi.coulomb / x.d1.abs(),
@@ -246,8 +271,14 @@ impl Reducible for AtTheSlider {
 
 #[test]
 fn sliding_drive_link_is_the_same_machine() {
-    let spec = Spec { loads: [150.0, 40.0, 12.0, 0.01], ..press() };
-    let sliding = AtTheSlider { machine: spec.machine(), phi: [0.6, 2.4] };
+    let spec = Spec {
+        loads: [150.0, 40.0, 12.0, 0.01],
+        ..press()
+    };
+    let sliding = AtTheSlider {
+        machine: spec.machine(),
+        phi: [0.6, 2.4],
+    };
     let domain = sliding.domain();
     let words = words::<f64, { curves::ALL }>(&sliding, 128, &Scale::SI).unwrap();
     let model: Model<'_, f64, { curves::ALL }> = model(&words, 128, domain, &Scale::SI);
@@ -263,7 +294,12 @@ fn sliding_drive_link_is_the_same_machine() {
             // T·ω = F·v, and at rest by virtual work: T = F·x′.
             let size = largest(terms.values());
             worst = largest([worst, (force * x.d1 - terms.total()) / size]);
-            assert_near("T = F·x'", force * x.d1, terms.total(), budget::STROKE_TABLE * size);
+            assert_near(
+                "T = F·x'",
+                force * x.d1,
+                terms.total(),
+                budget::STROKE_TABLE * size,
+            );
             let back = model.acceleration(phase, speed, terms.total() / x.d1).value;
             let found = (back - x.d2 * omega * omega) / x.d1;
             let inertia = terms.acceleration / alpha;

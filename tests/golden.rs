@@ -10,12 +10,28 @@ use support::{assert_near, budget};
 fn slider_crank(case: &Case) -> Machine<SliderCrank> {
     let input = |path| case.input(path);
     let links = [
-        Link::new(input("/m1"), input("/I1"), [input("/crank_com/0"), input("/crank_com/1")]),
-        Link::new(input("/m2"), input("/I2"), [input("/coupler_com/0"), input("/coupler_com/1")]),
-        Link::new(input("/m3"), 0.0, [input("/slider_com/0"), input("/slider_com/1")]),
+        Link::new(
+            input("/m1"),
+            input("/I1"),
+            [input("/crank_com/0"), input("/crank_com/1")],
+        ),
+        Link::new(
+            input("/m2"),
+            input("/I2"),
+            [input("/coupler_com/0"), input("/coupler_com/1")],
+        ),
+        Link::new(
+            input("/m3"),
+            0.0,
+            [input("/slider_com/0"), input("/slider_com/1")],
+        ),
     ]
     .map(Result::unwrap);
-    let branch = if input("/branch") > 0.0 { Branch::Right } else { Branch::Left };
+    let branch = if input("/branch") > 0.0 {
+        Branch::Right
+    } else {
+        Branch::Left
+    };
     let mechanism = SliderCrank::new(input("/r"), input("/l"), input("/e"), branch, links).unwrap();
     let force = Action::Force([input("/F_slider/F/0"), input("/F_slider/F/1")]);
     let at = [input("/F_slider/at/0"), input("/F_slider/at/1")];
@@ -58,9 +74,21 @@ fn slider_crank_golden_motion() {
     // The law itself, so that the columns are known to be what they are called.
     let times = table.column("t");
     let law = |f: &dyn Fn(f64) -> f64| times.iter().copied().map(f).collect::<Vec<_>>();
-    table.compare("phi", &law(&|t| phi0 + w * t + a * (nu * t).sin()), budget::GOLDEN);
-    table.compare("omega", &law(&|t| w + a * nu * (nu * t).cos()), budget::GOLDEN);
-    table.compare("alpha", &law(&|t| -a * nu * nu * (nu * t).sin()), budget::GOLDEN);
+    table.compare(
+        "phi",
+        &law(&|t| phi0 + w * t + a * (nu * t).sin()),
+        budget::GOLDEN,
+    );
+    table.compare(
+        "omega",
+        &law(&|t| w + a * nu * (nu * t).cos()),
+        budget::GOLDEN,
+    );
+    table.compare(
+        "alpha",
+        &law(&|t| -a * nu * nu * (nu * t).sin()),
+        budget::GOLDEN,
+    );
     let states: Vec<[f64; 3]> = times
         .iter()
         .map(|t| {
@@ -72,11 +100,27 @@ fn slider_crank_golden_motion() {
     let slider = |phi| machine.mechanism().frames(phi).unwrap()[SliderCrank::SLIDER].x;
     let rod = |phi| machine.mechanism().frames(phi).unwrap()[SliderCrank::ROD].psi;
     table.compare("xB", &at(&|[phi, ..]| slider(phi).value), budget::GOLDEN);
-    table.compare("xB_t", &at(&|[phi, w, _]| slider(phi).velocity(w)), budget::GOLDEN);
-    table.compare("xB_tt", &at(&|[phi, w, a]| slider(phi).acceleration(w, a)), budget::GOLDEN);
+    table.compare(
+        "xB_t",
+        &at(&|[phi, w, _]| slider(phi).velocity(w)),
+        budget::GOLDEN,
+    );
+    table.compare(
+        "xB_tt",
+        &at(&|[phi, w, a]| slider(phi).acceleration(w, a)),
+        budget::GOLDEN,
+    );
     table.compare("th", &at(&|[phi, ..]| rod(phi).value), budget::GOLDEN);
-    table.compare("th_t", &at(&|[phi, w, _]| rod(phi).velocity(w)), budget::GOLDEN);
-    table.compare("th_tt", &at(&|[phi, w, a]| rod(phi).acceleration(w, a)), budget::GOLDEN);
+    table.compare(
+        "th_t",
+        &at(&|[phi, w, _]| rod(phi).velocity(w)),
+        budget::GOLDEN,
+    );
+    table.compare(
+        "th_tt",
+        &at(&|[phi, w, a]| rod(phi).acceleration(w, a)),
+        budget::GOLDEN,
+    );
     let torque = |[phi, w, a]: [f64; 3]| machine.reduction(phi).unwrap().torque(w, a).total();
     table.compare("T_drive", &at(&torque), budget::GOLDEN);
 }
@@ -84,19 +128,32 @@ fn slider_crank_golden_motion() {
 #[test]
 fn start_from_rest_golden_states() {
     let case = Case::new(include_str!("data/07_slider_crank_start_A.json"));
-    let machine = slider_crank(&case).with_flywheel(case.input("/flywheel_I")).unwrap();
+    let machine = slider_crank(&case)
+        .with_flywheel(case.input("/flywheel_I"))
+        .unwrap();
     let drive = case.input("/T_drive");
     let table = case.table("run");
     let (phis, omegas) = (table.column("phi"), table.column("omega"));
     let at = |f: &dyn Fn(f64, f64) -> f64| {
-        phis.iter().zip(&omegas).map(|(phi, omega)| f(*phi, *omega)).collect::<Vec<_>>()
+        phis.iter()
+            .zip(&omegas)
+            .map(|(phi, omega)| f(*phi, *omega))
+            .collect::<Vec<_>>()
     };
     let reduced = |phi| machine.reduction(phi).unwrap();
     let slider = |phi| machine.mechanism().frames(phi).unwrap()[SliderCrank::SLIDER].x;
     table.compare("xB", &at(&|phi, _| slider(phi).value), budget::GOLDEN);
-    table.compare("xB_t", &at(&|phi, w| slider(phi).velocity(w)), budget::GOLDEN);
+    table.compare(
+        "xB_t",
+        &at(&|phi, w| slider(phi).velocity(w)),
+        budget::GOLDEN,
+    );
     table.compare("J", &at(&|phi, _| reduced(phi).inertia[0]), budget::GOLDEN);
-    table.compare("alpha", &at(&|phi, w| reduced(phi).acceleration(w, drive)), budget::GOLDEN);
+    table.compare(
+        "alpha",
+        &at(&|phi, w| reduced(phi).acceleration(w, drive)),
+        budget::GOLDEN,
+    );
     let kinetic = |phi, w: f64| 0.5 * reduced(phi).inertia[0] * w * w;
     table.compare("kinetic_energy", &at(&kinetic), budget::GOLDEN);
     // Work and energy: drive and load torque by the angle, the slider's force by its way, weight by U.
@@ -127,8 +184,16 @@ fn gear_train_golden() {
     let case = Case::new(include_str!("data/05_gear_train_A.json"));
     let teeth = [0, 1, 2, 3].map(|k| case.input(&format!("/z/{k}")) as u32);
     let inertia = [0, 1, 2, 3].map(|k| case.input(&format!("/J/{k}")));
-    let first = Stage::gears([teeth[0], teeth[1]], [inertia[0], inertia[1]], Mesh::External);
-    let second = Stage::gears([teeth[2], teeth[3]], [inertia[2], inertia[3]], Mesh::External);
+    let first = Stage::gears(
+        [teeth[0], teeth[1]],
+        [inertia[0], inertia[1]],
+        Mesh::External,
+    );
+    let second = Stage::gears(
+        [teeth[2], teeth[3]],
+        [inertia[2], inertia[3]],
+        Mesh::External,
+    );
     let train = Train::new(&[first.unwrap(), second.unwrap()]).unwrap();
     compare(&case, "i_12", train.stages()[0].ratio());
     compare(&case, "i_34", train.stages()[1].ratio());
@@ -153,7 +218,11 @@ fn gear_train_golden() {
         let t = case.input("/t");
         compare(&case, "omega_1(t)", eps * t);
         compare(&case, "phi_1(t)", 0.5 * eps * t * t);
-        compare(&case, "kinetic_energy(t)", 0.5 * reduced.inertia[0] * (eps * t) * (eps * t));
+        compare(
+            &case,
+            "kinetic_energy(t)",
+            0.5 * reduced.inertia[0] * (eps * t) * (eps * t),
+        );
         let frames = train.frames(phi).unwrap();
         compare(&case, "omega_4(t)", frames[2].psi.velocity(eps * t));
         compare(&case, "eps_2", frames[1].psi.acceleration(eps * t, eps));
@@ -161,7 +230,12 @@ fn gear_train_golden() {
         let out = frames[2].psi.d1 * eps;
         let input = train.input(-t4, 0.0, 1.0, out);
         assert_near("T1", input.torque, case.input("/T1"), 1e-12);
-        assert_near("dT/dα", input.torque_per_alpha, reduced.inertia[0] * train.ratio(), 1e-12);
+        assert_near(
+            "dT/dα",
+            input.torque_per_alpha,
+            reduced.inertia[0] * train.ratio(),
+            1e-12,
+        );
         assert_near("loss", input.loss, 0.0, 0.0);
     }
     let ring = Stage::gears([18, 54], [0.0, 0.0], Mesh::Internal).unwrap();
@@ -171,7 +245,8 @@ fn gear_train_golden() {
 #[test]
 fn belt_drive_golden() {
     let case = Case::new(include_str!("data/05_belt_drive_A.json"));
-    let [r1, r2, j1, j2, weight, g] = ["/r1", "/r2", "/J1", "/J2", "/P", "/g"].map(|n| case.input(n));
+    let [r1, r2, j1, j2, weight, g] =
+        ["/r1", "/r2", "/J1", "/J2", "/P", "/g"].map(|n| case.input(n));
     let belt = Stage::belt([r1, r2], [j1, j2], weight / g).unwrap();
     let train = Train::new(&[belt]).unwrap();
     let machine = Machine::new(train.clone())
@@ -189,7 +264,11 @@ fn belt_drive_golden() {
     compare_exact(&case, "eps_1", eps);
     let driven = train.frames(0.7).unwrap()[1].psi;
     compare(&case, "eps_2", driven.acceleration(10.0, eps));
-    compare(&case, "belt_acceleration", driven.acceleration(10.0, eps) * r2);
+    compare(
+        &case,
+        "belt_acceleration",
+        driven.acceleration(10.0, eps) * r2,
+    );
     let t = case.input("/t");
     compare(&case, "omega_1(t)", eps * t);
     compare(&case, "phi_1(t)", 0.5 * eps * t * t);

@@ -4,11 +4,13 @@ mod support;
 
 use std::f64::consts::TAU;
 
-use jred::table::{CubicSpline, MAX_CELLS, MIN_CELLS, control_points, curves, fit_bounded, fit_periodic};
+use jred::table::{
+    CubicSpline, MAX_CELLS, MIN_CELLS, control_points, curves, fit_bounded, fit_periodic,
+};
 use jred::{Model, Phase, Q31, Reducible, Scalar, Scale, Table, TableError};
 use proptest::prelude::*;
 use support::machines::{Wave, spec};
-use support::{assert_near, budget, config, largest, words};
+use support::{assert_near, budget, config, largest, number, words};
 
 fn periodic(samples: &[f64]) -> CubicSpline<Vec<f64>> {
     let mut control = vec![0.0; control_points(samples.len())];
@@ -110,7 +112,12 @@ proptest! {
 }
 
 /// Largest error of value and slope on a dense grid, for `cells` cells.
-fn errors(cells: usize, fit: impl Fn(&[f64]) -> CubicSpline<Vec<f64>>, turn: bool, f: impl Fn(f64) -> [f64; 2]) -> [f64; 2] {
+fn errors(
+    cells: usize,
+    fit: impl Fn(&[f64]) -> CubicSpline<Vec<f64>>,
+    turn: bool,
+    f: impl Fn(f64) -> [f64; 2],
+) -> [f64; 2] {
     let knots = if turn { cells } else { cells + 1 };
     let samples: Vec<f64> = (0..knots).map(|k| f(k as f64 / cells as f64)[0]).collect();
     let curve = fit(&samples);
@@ -130,16 +137,30 @@ fn value_converges_with_order_4_and_slope_with_3() {
             [cells, 2 * cells].map(|n| errors(n, periodic, true, turn)),
             [cells, 2 * cells].map(|n| errors(n, bounded, false, stroke)),
         ] {
-            println!("{cells} cells: {coarse:.2e?}, orders {:.2} {:.2}", coarse[0] / fine[0], coarse[1] / fine[1]);
-            assert_near("order 4", coarse[0] / fine[0], 16.0, 16.0 * budget::ORDER_SHARE);
-            assert_near("order 3", coarse[1] / fine[1], 8.0, 8.0 * budget::ORDER_SHARE);
+            println!(
+                "{cells} cells: {coarse:?}, orders {:.2} {:.2}",
+                coarse[0] / fine[0],
+                coarse[1] / fine[1]
+            );
+            assert_near(
+                "order 4",
+                coarse[0] / fine[0],
+                16.0,
+                16.0 * budget::ORDER_SHARE,
+            );
+            assert_near(
+                "order 3",
+                coarse[1] / fine[1],
+                8.0,
+                8.0 * budget::ORDER_SHARE,
+            );
         }
     }
 }
 
 /// Four good rows and three more: J of one over a turn.
 fn good<S: Scalar>() -> Vec<S::Word> {
-    vec![S::from_f64(0.0625).unwrap().to_word(); control_points(MIN_CELLS)]
+    vec![number::<S>(0.0625).to_word(); control_points(MIN_CELLS)]
 }
 
 fn refused<S: Scalar>(words: &[S::Word], cells: u32, periodic: bool) -> TableError {
@@ -157,36 +178,85 @@ fn every_kind_of_unsound_table_is_refused() {
     assert!(Table::<f32, { curves::INERTIA }>::new(&good::<f32>(), 4, true).is_ok());
     assert!(Table::<Q31, { curves::INERTIA }>::new(&good::<Q31>(), 4, true).is_ok());
 
-    assert_eq!(refused::<f32>(&good::<f32>(), 3, true), TableError::Cells(3));
-    assert_eq!(refused::<f32>(&good::<f32>(), MAX_CELLS + 1, true), TableError::Cells(MAX_CELLS + 1));
-    assert_eq!(refused::<f32>(&good::<f32>(), u32::MAX, true), TableError::Cells(u32::MAX));
+    assert_eq!(
+        refused::<f32>(&good::<f32>(), 3, true),
+        TableError::Cells(3)
+    );
+    assert_eq!(
+        refused::<f32>(&good::<f32>(), MAX_CELLS + 1, true),
+        TableError::Cells(MAX_CELLS + 1)
+    );
+    assert_eq!(
+        refused::<f32>(&good::<f32>(), u32::MAX, true),
+        TableError::Cells(u32::MAX)
+    );
     for given in [0, 6, 8] {
         let words = vec![0.1f32; given];
         let needed = 7;
-        assert_eq!(refused::<f32>(&words, 4, true), TableError::Length { needed, given: given as u32 });
+        assert_eq!(
+            refused::<f32>(&words, 4, true),
+            TableError::Length {
+                needed,
+                given: given as u32
+            }
+        );
     }
     // A number spoils the first cell that reads it, whichever of the four it is.
     for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e31] {
         for (index, cell) in [(0, 0), (3, 0), (4, 1), (6, 3)] {
-            assert_eq!(refused_with(index, value), TableError::Range { curve: 0, cell });
+            assert_eq!(
+                refused_with(index, value),
+                TableError::Range { curve: 0, cell }
+            );
         }
     }
-    assert_eq!(refused_with(2, f64::NAN), TableError::Range { curve: 0, cell: 0 });
+    assert_eq!(
+        refused_with(2, f64::NAN),
+        TableError::Range { curve: 0, cell: 0 }
+    );
     for value in [Q31::MAX, Q31::MIN] {
-        assert_eq!(refused_with(5, value), TableError::Range { curve: 0, cell: 2 });
+        assert_eq!(
+            refused_with(5, value),
+            TableError::Range { curve: 0, cell: 2 }
+        );
     }
     // J = 0 and J < 0 at a knot, J < 0 between knots only.
-    assert_eq!(refused_with(1, -0.03125f32), TableError::NoInertia { cell: 0 });
-    assert_eq!(refused_with(6, -0.3125f32), TableError::NoInertia { cell: 3 });
-    assert_eq!(refused_with(6, Q31::from_f64(-0.3125).unwrap()), TableError::NoInertia { cell: 3 });
+    assert_eq!(
+        refused_with(1, -0.03125f32),
+        TableError::NoInertia { cell: 0 }
+    );
+    assert_eq!(
+        refused_with(6, -0.3125f32),
+        TableError::NoInertia { cell: 3 }
+    );
+    let mut words = vec![number::<Q31>(1.0 / 32.0).to_bits(); 7];
+    words[6] = number::<Q31>(-5.0 / 32.0).to_bits(); // J is 0 at the end of the last cell
+    assert_eq!(
+        refused::<Q31>(&words, 4, false),
+        TableError::NoInertia { cell: 3 }
+    );
+    words[6] += 1;
+    assert!(
+        Table::<Q31, { curves::INERTIA }>::new(&words, 4, false).is_ok(),
+        "one unit above zero"
+    );
     let nothing = vec![0.0f32; 7];
-    assert_eq!(refused::<f32>(&nothing, 4, true), TableError::NoInertia { cell: 0 });
+    assert_eq!(
+        refused::<f32>(&nothing, 4, true),
+        TableError::NoInertia { cell: 0 }
+    );
     // Any of the six rows that must repeat.
     for index in [0, 1, 2, 4, 5, 6] {
         let mut words = good::<f32>();
         words[index] *= 1.5;
-        assert_eq!(refused::<f32>(&words, 4, true), TableError::NotClosed { curve: 0 });
-        assert!(Table::<f32, { curves::INERTIA }>::new(&words, 4, false).is_ok(), "a stroke need not close");
+        assert_eq!(
+            refused::<f32>(&words, 4, true),
+            TableError::NotClosed { curve: 0 }
+        );
+        assert!(
+            Table::<f32, { curves::INERTIA }>::new(&words, 4, false).is_ok(),
+            "a stroke need not close"
+        );
     }
     // Curves are named by their place in the row.
     let mut rows = [0.0625f32, 0.0, 0.0].repeat(7);
@@ -212,9 +282,14 @@ fn velocity_torque_outside_the_base_is_refused() {
     assert_eq!(build(3.99), Ok(()));
     // J' is −0.25·sin φ, largest at a quarter turn: the cells beside knot 16.
     let error = build(4.02).unwrap_err();
-    assert!(matches!(error, TableError::VelocityTorque { cell: 13..=16 }), "{error:?}");
+    assert!(
+        matches!(error, TableError::VelocityTorque { cell: 13..=16 }),
+        "{error:?}"
+    );
     for span in [0.0, -1.0, f32::NAN, f32::INFINITY] {
-        let words = words::<Q31, { curves::INERTIA }>(&machine, 64, &Scale::new(2.0, 1.0, 1.5).unwrap()).unwrap();
+        let words =
+            words::<Q31, { curves::INERTIA }>(&machine, 64, &Scale::new(2.0, 1.0, 1.5).unwrap())
+                .unwrap();
         let table = Table::<Q31, { curves::INERTIA }>::new(&words, 64, true).unwrap();
         let refused = Model::new(table, span, &Scale::new(2.0, 1.0, 1.5).unwrap());
         assert!(refused.is_err(), "span {span}");

@@ -15,7 +15,12 @@ fn parts(t: Transfer) -> [f64; 4] {
 #[track_caller]
 fn assert_same(what: &str, found: Transfer, expected: Transfer, size: f64) {
     for (k, (f, e)) in parts(found).iter().zip(parts(expected)).enumerate() {
-        assert_near(&format!("{what}, order {k}"), *f, e, budget::IDENTITY * size);
+        assert_near(
+            &format!("{what}, order {k}"),
+            *f,
+            e,
+            budget::IDENTITY * size,
+        );
     }
 }
 

@@ -100,7 +100,9 @@ pub enum CatalogueError {
     Wrong(Box<Misplaced>),
     /// No row at all.
     #[error("the catalogue {0} is empty: it holds no {1}")]
-    #[diagnostic(help("add at least one row below the header; docs/catalogue.md shows the columns"))]
+    #[diagnostic(help(
+        "add at least one row below the header; docs/catalogue.md shows the columns"
+    ))]
     Empty(String, &'static str),
 }
 
@@ -166,7 +168,12 @@ fn motor(row: &mut Row) -> Result<Motor, CatalogueError> {
         mass: row.optional("mass")?,
         source: row.text("source")?,
     };
-    row.at_least("peak_torque", motor.peak_torque, "rated_torque", motor.rated_torque)?;
+    row.at_least(
+        "peak_torque",
+        motor.peak_torque,
+        "rated_torque",
+        motor.rated_torque,
+    )?;
     if let Some(max) = motor.max_speed {
         row.at_least("max_speed", max, "rated_speed", motor.rated_speed)?;
     }

@@ -77,7 +77,11 @@ impl Check {
             } else {
                 Verdict::Fail
             },
-            note: format!("{:.0} % of {} {unit}, the {what}", share * 100.0, short(rating)),
+            note: format!(
+                "{:.0} % of {} {unit}, the {what}",
+                share * 100.0,
+                short(rating)
+            ),
         }
     }
 

@@ -66,7 +66,10 @@ fn run_simulate(options: &cli::Simulate) -> Result<Done> {
     })?;
     let columns = simulate::simulate(&file, simulation)?;
     if let Some(path) = &options.plot {
-        write(path, report::simulation_page(&file.title, &columns).as_bytes())?;
+        write(
+            path,
+            report::simulation_page(&file.title, &columns).as_bytes(),
+        )?;
     }
     let title = format!(
         "{}: free motion, Dormand-Prince 8(5,3), tolerance {:e}",
@@ -114,7 +117,11 @@ fn run_export(options: &cli::Export) -> Result<Done> {
         Err(error) => return Err(error).into_diagnostic(),
     };
     write(&options.out, &export.write(options.format))?;
-    print(&format!("{}written to {}\n", export.summary(), options.out.display()))
+    print(&format!(
+        "{}written to {}\n",
+        export.summary(),
+        options.out.display()
+    ))
 }
 
 fn run_size(options: &cli::Size) -> Result<Done> {
@@ -149,7 +156,12 @@ fn motion(file: &MachineFile) -> Result<&Motion> {
     })
 }
 
-fn size_text(options: &cli::Size, file: &MachineFile, duty: &Duty, selection: &Selection) -> String {
+fn size_text(
+    options: &cli::Size,
+    file: &MachineFile,
+    duty: &Duty,
+    selection: &Selection,
+) -> String {
     let mut text = format!("{}\n\nDuty at the input of the drive train\n", file.title);
     let mut table = text_table(&["", "min", "mean", "max", "RMS"]);
     let input_power = |i: &crate::duty::Instant| i.input_torque * i.input_speed;
@@ -172,9 +184,19 @@ fn size_text(options: &cli::Size, file: &MachineFile, duty: &Duty, selection: &S
     let all = selection.fit.len() + selection.refused.len();
     if let Some(best) = selection.fit.first() {
         text += &format!("Best drive: {}\n{}\n", best.drive.name(), rules_table(best));
-        text += &format!("\n{} of {all} drives hold every rule\n", selection.fit.len());
+        text += &format!(
+            "\n{} of {all} drives hold every rule\n",
+            selection.fit.len()
+        );
         let mut table = text_table(&[
-            "rank", "motor", "gearbox", "rated [kW]", "RMS used", "peak used", "speed used", "λ max",
+            "rank",
+            "motor",
+            "gearbox",
+            "rated [kW]",
+            "RMS used",
+            "peak used",
+            "speed used",
+            "λ max",
         ]);
         for (k, judged) in selection.fit.iter().take(options.top).enumerate() {
             table.add_row(rank_row(k + 1, judged));
@@ -251,15 +273,7 @@ fn size_csv(selection: &Selection) -> Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer
         .write_record([
-            "rank",
-            "motor",
-            "gearbox",
-            "ratio",
-            "verdict",
-            "rule",
-            "figure",
-            "limit",
-            "unit",
+            "rank", "motor", "gearbox", "ratio", "verdict", "rule", "figure", "limit", "unit",
             "note",
         ])
         .into_diagnostic()?;
@@ -322,9 +336,9 @@ fn size_json(file: &MachineFile, duty: &Duty, selection: &Selection) -> Value {
 /// Prints to stdout; a closed pipe (`jred … | head`) is no error.
 fn print(text: &str) -> Result<Done> {
     match std::io::stdout().write_all(text.as_bytes()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(error).into_diagnostic().wrap_err("cannot write the result")
-        }
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error)
+            .into_diagnostic()
+            .wrap_err("cannot write the result"),
         _ => Ok(Done::Holds),
     }
 }

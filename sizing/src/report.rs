@@ -166,9 +166,12 @@ pub fn simulation_page(title: &str, run: &Columns) -> String {
 
 fn answer(best: &Judged, found: bool) -> String {
     let motor = best.drive.motor;
-    let gearbox = best.drive.gearbox.map_or("coupled directly".to_owned(), |g| {
-        format!("with {} {} (i = {})", g.maker, g.model, g.ratio)
-    });
+    let gearbox = best
+        .drive
+        .gearbox
+        .map_or("coupled directly".to_owned(), |g| {
+            format!("with {} {} (i = {})", g.maker, g.model, g.ratio)
+        });
     let drive = escape(&format!("{} {} {gearbox}", motor.maker, motor.model));
     if found {
         format!("<b>{drive}</b><br>is the smallest drive of the catalogue that holds every rule.")
@@ -309,7 +312,10 @@ fn notes(best: &Judged, file: &MachineFile, duty: &Duty) -> Vec<String> {
     ];
     notes.extend(best.assumptions.iter().map(|a| format!("Assumed: {a}.")));
     let drive = &best.drive;
-    notes.push(format!("Source of {}: {}", drive.motor.model, drive.motor.source));
+    notes.push(format!(
+        "Source of {}: {}",
+        drive.motor.model, drive.motor.source
+    ));
     if let Some(gearbox) = drive.gearbox {
         notes.push(format!("Source of {}: {}", gearbox.model, gearbox.source));
     }

@@ -7,6 +7,7 @@
 use std::cell::RefCell;
 
 use jred::{Error, Machine, Reducible};
+use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, SVector, System};
 
 use crate::machine::{AnyMechanism, MachineFile, Shaft, Simulation};
@@ -178,7 +179,9 @@ pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Columns, 
     let ratio = file.drive_train.ratio();
     let drive = (file.drive_train.inertia_at_input() + simulation.rotor_inertia) * ratio * ratio;
     let mut start_energy = None;
-    let steps = (simulation.duration / simulation.output_step).round().max(1.0) as usize;
+    let steps = (simulation.duration / simulation.output_step)
+        .round()
+        .max(1.0) as usize;
     let mut t = 0.0;
     for k in 0..=steps {
         let end = simulation.duration * k as f64 / steps as f64;
@@ -266,6 +269,8 @@ fn integrate(plant: &Plant, t: f64, end: f64, y: &State) -> Result<State, Simula
     // The equations do not contain the time: counted from here, short intervals keep all their digits.
     let span = end - t;
     let mut solver = Dop853::new(plant, 0.0, span, span, *y, tolerance, tolerance);
+    // Only the steps themselves: their last is the end, to full order.
+    solver.set_output(OutputType::Sparse);
     let outcome = solver.integrate();
     if let Some(error) = plant.fault.borrow_mut().take() {
         return Err(error.into());
@@ -280,7 +285,10 @@ fn integrate(plant: &Plant, t: f64, end: f64, y: &State) -> Result<State, Simula
 /// Straight lines between (x, y) points, the end values beyond the ends.
 fn interpolate(points: &[(f64, f64)], x: f64) -> f64 {
     let right = points.partition_point(|p| p.0 < x);
-    match (right.checked_sub(1).and_then(|k| points.get(k)), points.get(right)) {
+    match (
+        right.checked_sub(1).and_then(|k| points.get(k)),
+        points.get(right),
+    ) {
         (Some(a), Some(b)) => a.1 + (b.1 - a.1) * (x - a.0) / (b.0 - a.0),
         (Some(only), None) | (None, Some(only)) => only.1,
         (None, None) => 0.0,

@@ -41,7 +41,13 @@ impl Case {
         Table {
             columns: columns.map(|c| c.as_str().unwrap().to_owned()).collect(),
             rows: rows
-                .map(|row| row.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect())
+                .map(|row| {
+                    row.as_array()
+                        .unwrap()
+                        .iter()
+                        .map(|x| x.as_f64().unwrap())
+                        .collect()
+                })
                 .collect(),
         }
     }

@@ -62,7 +62,11 @@ impl Spec {
 
     /// The mechanism.
     pub(crate) fn mechanism(&self) -> SliderCrank {
-        let branch = if self.left { Branch::Left } else { Branch::Right };
+        let branch = if self.left {
+            Branch::Left
+        } else {
+            Branch::Right
+        };
         let offset = self.offset_ratio * self.crank;
         SliderCrank::new(self.crank, self.rod(), offset, branch, self.links()).unwrap()
     }
@@ -75,7 +79,9 @@ impl Spec {
     /// Without gravity and loads.
     pub(crate) fn bare(&self) -> Machine<SliderCrank> {
         let flywheel = self.flywheel * self.mass[2] * self.crank * self.crank;
-        Machine::new(self.mechanism()).with_flywheel(flywheel).unwrap()
+        Machine::new(self.mechanism())
+            .with_flywheel(flywheel)
+            .unwrap()
     }
 
     /// With gravity.
@@ -89,7 +95,12 @@ impl Spec {
         let on = |link, action| Load::new(link, action).unwrap();
         self.heavy()
             .with_load(on(SliderCrank::SLIDER, Action::Force([force, 0.0])))
-            .and_then(|m| m.with_load(on(SliderCrank::CRANK, Action::OpposingMoment(0.01 * friction))))
+            .and_then(|m| {
+                m.with_load(on(
+                    SliderCrank::CRANK,
+                    Action::OpposingMoment(0.01 * friction),
+                ))
+            })
             .and_then(|m| m.with_load(on(SliderCrank::SLIDER, Action::ViscousForce(viscous))))
             .and_then(|m| m.with_load(on(SliderCrank::ROD, Action::ViscousMoment(moment))))
             .unwrap()
@@ -116,7 +127,14 @@ pub(crate) struct Wave {
 impl Wave {
     /// Inertia only, over a turn.
     pub(crate) const fn bare(mean: f64, swing: f64) -> Self {
-        Self { mean, swing, load: 0.0, viscous: 0.0, coulomb: 0.0, domain: Domain::Turn }
+        Self {
+            mean,
+            swing,
+            load: 0.0,
+            viscous: 0.0,
+            coulomb: 0.0,
+            domain: Domain::Turn,
+        }
     }
 }
 
@@ -128,7 +146,11 @@ impl Reducible for Wave {
     fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
         let (sin, cos) = phi.sin_cos();
         Ok(Reduction {
-            inertia: [self.mean + self.swing * cos, -self.swing * sin, -self.swing * cos],
+            inertia: [
+                self.mean + self.swing * cos,
+                -self.swing * sin,
+                -self.swing * cos,
+            ],
             potential_energy: [0.0, 0.0],
             process: self.load * sin,
             viscous: self.viscous,

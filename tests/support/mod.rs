@@ -5,8 +5,8 @@ pub(crate) mod budget;
 pub(crate) mod golden;
 pub(crate) mod machines;
 
-use jred::tabulate::{fill, scratch_len};
 use jred::table::{control_points, curves};
+use jred::tabulate::{fill, scratch_len};
 use jred::{Domain, Error, Model, Reducible, Scalar, Scale, Table};
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngSeed, TestRunner};
@@ -87,4 +87,9 @@ pub(crate) fn model<'a, S: Scalar, const CURVES: u8>(
 ) -> Model<'a, S, CURVES> {
     let table = Table::new(words, cells, domain == Domain::Turn).unwrap();
     Model::new(table, S::span(domain), scale).unwrap()
+}
+
+/// The nearest number of a type; its own name for it is reachable from generic code only.
+pub(crate) fn number<S: Scalar>(value: f64) -> S {
+    S::from_f64(value).unwrap()
 }

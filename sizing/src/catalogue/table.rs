@@ -84,7 +84,10 @@ impl Table {
                     title,
                     format!("column \"{name}\" has the unit [{unit}]"),
                     "not a unit of this quantity",
-                    format!("write the unit into the header as one of {}", accepted.join(", ")),
+                    format!(
+                        "write the unit into the header as one of {}",
+                        accepted.join(", ")
+                    ),
                 ));
             };
             table.columns.insert(known, (index, *factor));
@@ -231,7 +234,9 @@ impl Row<'_> {
             column,
             format!("{column} of \"{}\" is below its {other}", self.name()),
             "too small",
-            format!("check {column} and {other} against the data sheet, and the units in the header"),
+            format!(
+                "check {column} and {other} against the data sheet, and the units in the header"
+            ),
         ))
     }
 
@@ -285,16 +290,20 @@ impl Row<'_> {
                 "",
                 format!("the column \"{column}\" is missing"),
                 "in this header",
-                format!("add the column \"{column}\" with its unit; docs/catalogue.md shows all columns"),
+                format!(
+                    "add the column \"{column}\" with its unit; docs/catalogue.md shows all columns"
+                ),
             )
         }
     }
 
     fn wrong(&self, column: &str, message: String, label: &str, help: String) -> CatalogueError {
         let from = self.record.position().map_or(0, |p| p.byte() as usize);
-        let cell = self.table.columns.get(column).map_or("", |c| {
-            self.record.get(c.0).unwrap_or("")
-        });
+        let cell = self
+            .table
+            .columns
+            .get(column)
+            .map_or("", |c| self.record.get(c.0).unwrap_or(""));
         let cell = if cell.is_empty() { self.name() } else { cell };
         self.table.wrong(from, cell, message, label, help)
     }

@@ -67,6 +67,11 @@ impl<'a> Section<'a> {
         if !known.contains(&key) {
             known.push(key);
         }
+        self.peek(key)
+    }
+
+    /// The value of `key`, which stays unknown: for keys that only a message is to be made of.
+    pub(super) fn peek(&self, key: &'static str) -> Option<Item<'a>> {
         let (found, value) = self.table.get_key_value(key)?;
         Some(Item::new(self.name(key), key, found.span(), value))
     }

@@ -105,7 +105,7 @@ fn pulley(section: &Section, key: &'static str) -> Result<(f64, f64)> {
     let pulley = section
         .require(key, &example)?
         .section(format!("`{key}` of {}", section.title()))?;
-    if let Some(diameter) = pulley.get("diameter") {
+    if let Some(diameter) = pulley.peek("diameter") {
         return Err(diameter
             .problem(
                 "is not known: a pulley is given by its radius",

@@ -248,9 +248,15 @@ pub(super) fn simulation(run: &Columns) -> Vec<(&'static str, String)> {
         "losses [J]",
     ];
     vec![
-        ("Speed of the drive link", plot("ω [rad/s]", &["omega [rad/s]"])),
+        (
+            "Speed of the drive link",
+            plot("ω [rad/s]", &["omega [rad/s]"]),
+        ),
         ("Angle of the drive link", plot("φ [deg]", &["phi [deg]"])),
-        ("Motor torque", plot("torque [N·m]", &["motor torque [N m]"])),
+        (
+            "Motor torque",
+            plot("torque [N·m]", &["motor torque [N m]"]),
+        ),
         ("Energies", plot("energy [J]", &energies)),
         (
             "Energy balance: zero but for the integrator's error",

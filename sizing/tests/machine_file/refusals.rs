@@ -1,0 +1,342 @@
+//! Wrong entries, and the words that tell the user what to do.
+
+use crate::{GEARS, PRESS, refuses, refuses_edit};
+
+#[test]
+fn wrong_quantities_are_shown_with_their_cure() {
+    let length = "length = \"30 mm\"";
+    let edits: [(&str, &str, &[&str]); 16] = [
+        (
+            length,
+            "length = 30",
+            &[
+                "machine.toml:15",
+                "`length` in [mechanism.crank]",
+                "no unit",
+                "\"30 mm\"",
+            ],
+        ),
+        (
+            length,
+            "length = \"30\"",
+            &["no unit", "\"30 mm\"", "possible units"],
+        ),
+        (
+            length,
+            "length = \"30 kg\"",
+            &["must be a length, but \"30 kg\" is a mass", "m, cm, mm"],
+        ),
+        (
+            length,
+            "length = \"0 mm\"",
+            &["[mechanism.crank] is 0 mm", "greater than zero"],
+        ),
+        (
+            length,
+            "length = \"1e-9 mm\"",
+            &["smaller than any machine"],
+        ),
+        (length, "length = nan", &["not a finite number"]),
+        (length, "length = \"nan mm\"", &["not a finite number"]),
+        (
+            length,
+            "length = [\"30 mm\"]",
+            &["text in quotes", "is a list", "length = \"120 mm\""],
+        ),
+        (length, "length = true", &["is true or false"]),
+        (
+            length,
+            "length = 30 mm",
+            &["not valid TOML", "length = \"30 mm\""],
+        ),
+        (
+            length,
+            "length = \"30 mm\"\nlength = \"31 mm\"",
+            &["duplicate key", "remove"],
+        ),
+        (
+            "mass = \"42 kg\"",
+            "mass = \"-42 kg\"",
+            &["is -42 kg, but must not be negative"],
+        ),
+        (
+            "mass = \"42 kg\"",
+            "mass = \"42000 t\"",
+            &["larger than any machine", "at most 1000 t"],
+        ),
+        (
+            "com = [\"6 mm\", \"0 mm\"]",
+            "com = [\"6 mm\"]",
+            &["must have two values, but has 1"],
+        ),
+        (
+            "\"9.81 m/s^2\"",
+            "\"9.81 m/s\"",
+            &["value 1 of `gravity`", "is a speed", "m/s^2"],
+        ),
+        ("97 %", "103 %", &["`efficiency`", "is 103 %", "100 %"]),
+    ];
+    for (from, to, words) in edits {
+        refuses_edit(PRESS, from, to, words);
+    }
+    refuses_edit(
+        PRESS,
+        "efficiency = \"97 %\"",
+        "efficiency = 97",
+        &["must not be larger than 1", "\"97 %\""],
+    );
+}
+
+#[test]
+fn wrong_words_are_shown_with_the_right_ones() {
+    let edits: [(&str, &str, &[&str]); 20] = [
+        (
+            "length = \"30 mm\"",
+            "lenght = \"30 mm\"",
+            &["`lenght`", "did you mean \"length\"?"],
+        ),
+        (
+            "offset =",
+            "ofset =",
+            &[
+                "`ofset` in [mechanism]",
+                "did you mean \"offset\"?",
+                "branch",
+            ],
+        ),
+        (
+            "[simulation]",
+            "[simulaton]",
+            &["`simulaton`", "did you mean \"simulation\"?"],
+        ),
+        (
+            "\"slider-crank\"",
+            "\"slidercrank\"",
+            &["did you mean \"slider-crank\"?", "\"belt\""],
+        ),
+        ("\"right\"", "\"up\"", &["\"up\"", "\"right\", \"left\""]),
+        (
+            "\"polynomial-345\"",
+            "\"poly5\"",
+            &["`law`", "\"poly5\"", "modified-sine"],
+        ),
+        (
+            "on = \"crank\"",
+            "on = \"shaft\"",
+            &[
+                "`on` in [[load]] number 3",
+                "\"crank\", \"rod\", \"slider\"",
+            ],
+        ),
+        (
+            "opposing_force",
+            "opposing_moment",
+            &["must be a torque", "is a force"],
+        ),
+        (
+            "opposing_force = \"150 N\"",
+            "opposing_moment = \"150 N m\"",
+            &["the slider does not turn"],
+        ),
+        (
+            "opposing_force = \"150 N\"",
+            "opposing_force = \"-150 N\"",
+            &["must not be negative", "against the motion"],
+        ),
+        (
+            "opposing_force = \"150 N\"",
+            "opposing_force = \"150 N\"\nmoment = \"1 N m\"",
+            &["both `moment` and `opposing_force`"],
+        ),
+        (
+            "opposing_force = \"150 N\"",
+            "",
+            &["action is missing", "exactly one of", "opposing_force"],
+        ),
+        (
+            "viscous_moment = \"0.4 N m s/rad\"",
+            "opposing_force = \"3 N\"",
+            &["fixed pivot", "at = ["],
+        ),
+        (
+            "viscous_moment",
+            "at = [\"1 mm\", \"0 mm\"]\nviscous_moment",
+            &["`at` has no meaning", "remove"],
+        ),
+        (
+            "ramp = \"15 deg\"",
+            "ramp = \"25 deg\"",
+            &["too long for the range of 45 deg", "at most 22.5 deg"],
+        ),
+        (
+            "\"360 deg\"]",
+            "\"315 deg\"]",
+            &["`between`", "at most one turn", "315 deg"],
+        ),
+        (
+            "driver = { radius = \"40 mm\",",
+            "driver = { diameter = \"80 mm\",",
+            &["`diameter`", "by its radius", "half"],
+        ),
+        (
+            "gravity =",
+            "# gravity =",
+            &["`gravity` is missing", "horizontal plane"],
+        ),
+        (
+            "flywheel =",
+            "efficiency = 0.9\nflywheel =",
+            &["efficiency belongs to [[drive_train]]"],
+        ),
+        (
+            "mass = \"42 kg\"",
+            "mass = \"42 kg\"\ninertia = \"1 kg m^2\"",
+            &["the slider does not turn"],
+        ),
+    ];
+    for (from, to, words) in edits {
+        refuses_edit(PRESS, from, to, words);
+    }
+}
+
+#[test]
+fn machines_that_cannot_work_are_refused_with_figures() {
+    refuses_edit(
+        PRESS,
+        "180 mm",
+        "25 mm",
+        &["too short", "φ = 56.44°", "crank + |offset| = 30 mm"],
+    );
+    refuses_edit(
+        PRESS,
+        "offset = \"0 mm\"",
+        "offset = \"-200 mm\"",
+        &["`length` in [mechanism.rod]", "230 mm"],
+    );
+    // Every mass and inertia but the slider's is zero: nothing moves at the dead centres.
+    let mut massless = PRESS.to_owned();
+    for weight in [
+        "0.05 kg",
+        "9 kg",
+        "0.018 kg",
+        "6.5 kg",
+        "0.03 kg",
+        "0.0006 kg",
+        "0.6 kg",
+    ] {
+        massless = massless.replace(&format!("\"{weight}"), "\"0 kg");
+    }
+    refuses(
+        &massless,
+        &["reduced inertia is not positive", "flywheel = "],
+    );
+    let stage = GEARS.split("[[mechanism.stage]]").nth(1).unwrap();
+    let stage = format!("[[mechanism.stage]]{stage}");
+    let many = GEARS.replacen(&stage, &stage.repeat(8), 1);
+    refuses(&many, &["more than 8 stages", "combine stages"]);
+    let load = "[[load]]\non = \"slider\"\nopposing_force = \"1 N\"\n";
+    refuses(
+        &format!("{PRESS}\n{}", load.repeat(14)),
+        &["more than 16 loads"],
+    );
+}
+
+#[test]
+fn motions_and_simulations_that_make_no_sense_are_refused() {
+    let edits: [(&str, &str, &[&str]); 17] = [
+        (
+            "\"360 deg\"\nduration",
+            "\"350 deg\"\nduration",
+            &["add up to 350 deg", "a move of 10 deg", "point-to-point"],
+        ),
+        (
+            "dwell = \"0.25 s\"",
+            "dwell = \"0.25 s\"\nmove = \"10 deg\"",
+            &["both `move` and `dwell`", "two [[motion.segment]]"],
+        ),
+        (
+            "dwell = \"0.25 s\"",
+            "dwell = \"0 s\"",
+            &[
+                "`dwell` in [[motion.segment]] number 2",
+                "greater than zero",
+            ],
+        ),
+        (
+            "dwell = \"0.25 s\"",
+            "duration = \"0.25 s\"",
+            &["missing", "dwell = \"0.25 s\""],
+        ),
+        (
+            "move = \"360 deg\"",
+            "move = \"0 deg\"",
+            &["nothing moves", "dwell"],
+        ),
+        (
+            "move = \"360 deg\"",
+            "move = \"360\"",
+            &["no unit", "\"360 deg\""],
+        ),
+        (
+            "\"polynomial-345\"",
+            "\"trapezoid\"\naccelerate = \"80 %\"",
+            &["113.333 %", "together at most 100 %"],
+        ),
+        (
+            "\"polynomial-345\"",
+            "\"cycloidal\"\naccelerate = \"80 %\"",
+            &["only the law \"trapezoid\""],
+        ),
+        (
+            "type = \"cycle\"",
+            "type = \"cycles\"",
+            &["did you mean \"cycle\"?"],
+        ),
+        (
+            "type = \"cycle\"",
+            "type = \"constant-speed\"\nspeed = \"0 rpm\"",
+            &["`segment`", "segments belong to the types"],
+        ),
+        (
+            "type = \"cycle\"",
+            "type = \"profile\"\nfile = \"turn.csv\"",
+            &["`start`", "first position"],
+        ),
+        (
+            "at = \"motor\"",
+            "at = \"motor\"\ntorque = \"3 N m\"",
+            &["both `torque` and `torque_speed`"],
+        ),
+        (
+            "\"1500 rpm\"",
+            "\"3500 rpm\"",
+            &[
+                "is 3000 rpm",
+                "larger than the speed of the point before, 3500 rpm",
+            ],
+        ),
+        (
+            "\"1500 rpm\"",
+            "\"25 Hz\"",
+            &["is a frequency", "rpm", "rad/s"],
+        ),
+        (
+            "output_step = \"5 ms\"",
+            "output_step = \"5 us\"",
+            &["300000 steps", "from 15 us"],
+        ),
+        (
+            "rotor_inertia",
+            "tolerance = 1\nrotor_inertia",
+            &["`tolerance`", "between"],
+        ),
+        (
+            "rotor_inertia = \"12 kg cm^2\"",
+            "[rules]\ninertia_ratio = 3",
+            &["inertia_ratio_warning", "above"],
+        ),
+    ];
+    for (from, to, words) in edits {
+        refuses_edit(PRESS, from, to, words);
+    }
+}
