@@ -19,8 +19,8 @@ use support::{Failure, milli, println, program};
 
 /// Length of a tick (s).
 const TICK: f32 = 0.001;
-/// The cycle lasts 1 s: 0.75 s for the stroke, then 0.25 s at rest.
-const TICKS: u32 = 1000;
+/// The cycle lasts 0.5 s: 0.4 s for the stroke, then 0.1 s at rest.
+const TICKS: u32 = 500;
 /// The round trip must come back to within this (rad/s²).
 const BOUND: f32 = 0.001;
 
@@ -30,7 +30,7 @@ fn run() -> Result<(), Failure> {
     // From top dead centre (180 deg) to top dead centre; before and after, the move stands still. The 3-4-5 polynomial
     // needs no sine, and in f32 no double precision.
     let stroke =
-        Move::new(Law::Polynomial345, PI, TAU, 0.75).map_err(|_| "the move is not valid")?;
+        Move::new(Law::Polynomial345, PI, TAU, 0.4).map_err(|_| "the move is not valid")?;
 
     println!("  ms     phase   torque bits     torque   acceleration bits");
     let (mut worst, mut saturated, mut checksum) = (0.0f32, 0u32, 0u32);
@@ -45,7 +45,7 @@ fn run() -> Result<(), Failure> {
         for bits in [torque.value.to_bits(), alpha.value.to_bits()] {
             checksum = (checksum ^ bits).wrapping_mul(16_777_619);
         }
-        if tick % 25 == 0 {
+        if tick % 20 == 0 {
             println!(
                 "{:4}  {:08x}  {:08x} {:8} mN m  {:08x} {:7} mrad/s2",
                 tick,

@@ -19,8 +19,8 @@ use support::{Failure, milli, println, program};
 
 /// Length of a tick (s).
 const TICK: f32 = 0.001;
-/// The cycle lasts 1 s: 0.75 s for the stroke, then 0.25 s at rest.
-const TICKS: u32 = 1000;
+/// The cycle lasts 0.5 s: 0.4 s for the stroke, then 0.1 s at rest.
+const TICKS: u32 = 500;
 /// The round trip must come back to within this many units of 2⁻³¹.
 const BOUND: u32 = 8;
 /// Largest difference (N·m) between the torques in fixed point and in single precision.
@@ -40,7 +40,7 @@ fn run() -> Result<(), Failure> {
     let float = Image::from_bytes(include_image!("data/press_f32.jred"))?;
     let float: Model<'_, f32, { curves::ALL }> = float.model()?;
     let stroke =
-        Move::new(Law::Polynomial345, PI, TAU, 0.75).map_err(|_| "the move is not valid")?;
+        Move::new(Law::Polynomial345, PI, TAU, 0.4).map_err(|_| "the move is not valid")?;
 
     println!("  ms     phase   torque bits     torque   acceleration bits");
     let (mut worst, mut apart, mut saturated, mut checksum) = (0u32, 0.0f32, 0u32, 0u32);
@@ -67,7 +67,7 @@ fn run() -> Result<(), Failure> {
         for value in [torque.value, back.value] {
             checksum = (checksum ^ value.to_bits() as u32).wrapping_mul(16_777_619);
         }
-        if tick % 25 == 0 {
+        if tick % 20 == 0 {
             println!(
                 "{:4}  {:08x}  {:08x} {:8} mN m  {:08x} {:7} mrad/s2",
                 tick,

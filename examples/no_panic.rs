@@ -22,8 +22,8 @@ fn calls() -> Result<(), ImageError> {
     let stroke = Move::new(
         Law::Polynomial345,
         black_box(0.0f32),
-        black_box(6.28),
-        black_box(0.75),
+        black_box(core::f32::consts::TAU),
+        black_box(0.4),
     );
     if let Ok(stroke) = stroke {
         black_box(stroke.at(black_box(0.1)));

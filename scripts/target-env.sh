@@ -1,11 +1,11 @@
-# Source this: `. scripts/target-env.sh`. Afterwards plain `cargo … --target thumb…` works in the same shell with
+# For a shell: `. scripts/target-env.sh; use_targets`. Then plain `cargo … --target thumb…` works in it with
 #
 #  - a rustup toolchain that has the targets: nothing is changed;
 #  - Debian's rustc, cargo and rust-src (packages rustc-web, cargo-web, rust-web-src, lld) where there is no rustup, or
 #    where it cannot fetch the targets: their core and alloc are compiled once, half a minute for each target, into
 #    target/debian-toolchain, and its bin/ is put first in PATH.
 #
-# Without either it says what to install and returns 1. THUMB_TARGETS names the targets.
+# Without either it says what to install and returns 1. THUMB_TARGETS names the targets. scripts/test does this itself.
 # shellcheck shell=sh
 
 THUMB_TARGETS=${THUMB_TARGETS:-thumbv6m-none-eabi thumbv7m-none-eabi thumbv7em-none-eabi thumbv7em-none-eabihf \
@@ -83,5 +83,3 @@ use_targets() {
         return 1
     fi
 }
-
-use_targets

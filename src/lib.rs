@@ -1,6 +1,98 @@
 #![no_std]
 #![forbid(unsafe_code)]
-//! guide to come
+#![cfg_attr(docsrs, feature(doc_cfg))]
+//! Reduced inertia and torque of machines with one degree of freedom: presses, slider-cranks, linkages, gear trains.
+//!
+//! A machine with one degree of freedom moves like a single rotating link, its *drive link*, whose inertia and load
+//! depend on the angle. This crate makes that link from the machine's dimensions, tabulates it, and evaluates it in
+//! every control tick: the torque that a motion needs, and the acceleration that a torque gives. It is `no_std`,
+//! allocates nothing, contains no unsafe code, and its tick has no panic path.
+//!
+//! # The equation
+//!
+//! ```text
+//! J(φ)·α + ½·J′(φ)·ω² = T + T_red(φ, ω)        (7.12)
+//! T_red(φ, ω) = load(φ) − b(φ)·ω − c(φ)·sgn ω
+//! ```
+//!
+//! | symbol | meaning | unit | sign |
+//! |---|---|---|---|
+//! | φ, ω, α | angle, speed, acceleration of the drive link | rad, rad/s, rad/s² | counter-clockwise positive |
+//! | J, J′ | reduced inertia and dJ/dφ | kg·m², kg·m²/rad | J > 0 |
+//! | T | torque of the drive on the drive link | N·m | in +φ |
+//! | load | torque of weight and process loads on the drive link | N·m | in +φ |
+//! | b | viscous coefficient | N·m·s/rad | opposes ω |
+//! | c | Coulomb friction and other loads that oppose the motion | N·m | opposes ω |
+//!
+//! For a drive link that slides read s, v, a, the reduced mass m_red and the force F (7.10). Equation numbers are those
+//! of V. G. Nazarenko, *Dynamics of mechanisms*, lecture notes, Minsk 2002.
+//!
+//! # The way of the data
+//!
+//! ```text
+//! Link, Mechanism ─► Machine ─► Reduction ─► tabulate ─► Table ─► Model ─► torque, acceleration
+//!  masses, closed     gravity,   J, J′, J″,   smallest     f32, f64,        every tick
+//!  forms              loads      T_red        for an error  Q31
+//!                                                └─► encode ─► Image (flash) ─┘
+//! ```
+//!
+//! A layer knows the one before it and nothing after it; each can be used alone.
+//!
+//! # From dimensions to a tick
+//!
+//! ```
+//! use jred::mechanism::{Branch, SliderCrank};
+//! use jred::table::curves;
+//! use jred::tabulate::{Request, scratch_len, tabulate};
+//! use jred::{Domain, Error, Link, Machine, Model, Phase, Reducible, Scale, Table};
+//!
+//! fn main() -> Result<(), Error> {
+//!     // Crank 50 mm, rod 200 mm; masses in kg, inertias about the centres of mass in kg·m².
+//!     let crank = Link::new(0.8, 0.0006, [0.015, 0.0])?;
+//!     let rod = Link::new(0.45, 0.0021, [0.075, 0.0])?;
+//!     let slider = Link::new(0.6, 0.0, [0.0, 0.0])?;
+//!     let mechanism = SliderCrank::new(0.05, 0.2, 0.0, Branch::Right, [crank, rod, slider])?;
+//!     let machine = Machine::new(mechanism).with_gravity([0.0, -9.81])?;
+//!
+//!     // The smallest f32 table whose motor torque is right to 0.01 N·m up to 60 rad/s and 400 rad/s².
+//!     const MOST: u32 = 128;
+//!     let request = Request { torque_error: 0.01, omega: 60.0, alpha: 400.0, max_cells: MOST };
+//!     let mut scratch = [0.0; scratch_len(MOST, curves::LOAD)];
+//!     let mut words = [0.0f32; 2 * (MOST as usize + 3)];
+//!     let found = tabulate::<f32, { curves::LOAD }>(&machine, &request, &Scale::SI, &mut scratch, &mut words)?;
+//!     assert!(found.torque_error <= 0.01);
+//!
+//!     // The tick: torque for a motion, and back.
+//!     let rows = &words[..2 * (found.cells as usize + 3)];
+//!     let table = Table::<f32, { curves::LOAD }>::new(rows, found.cells, true).map_err(Error::Table)?;
+//!     let model = Model::new(table, core::f32::consts::TAU, &Scale::SI).map_err(Error::Table)?;
+//!     let phase = Phase::from_radians(0.5);
+//!     let torque = model.torque(phase, 40.0, 200.0).value;
+//!     let alpha = model.acceleration(phase, 40.0, torque).value;
+//!     assert!((alpha - 200.0).abs() < 0.01);
+//!
+//!     // Against the exact reduction.
+//!     let exact = machine.reduction(0.5)?.torque(40.0, 200.0).total();
+//!     assert!((f64::from(torque) - exact).abs() < 0.01);
+//!     # assert_eq!(machine.domain(), Domain::Turn);
+//!     Ok(())
+//! }
+//! ```
+//!
+//! Firmware more often loads an [`Image`] that the command `jred export` made from a machine file.
+//!
+//! # Numbers
+//!
+//! Mechanisms, reduction and tabulation run in `f64`: once, on the host or in firmware after a change of payload.
+//! Ticks run in the table's type: `f32` (SI units, no double precision anywhere), [`Q31`] (fixed point in per-unit, see
+//! [`Scale`]; integers only), or `f64`. The same code gives the same bits on every processor.
+//!
+//! # Features
+//!
+//! - `defmt`: `defmt::Format` for the public value types;
+//! - `micromath`: `Phase::sin_cos_approx`.
+//!
+//! Neither is on by default.
 
 mod error;
 mod fixed;
@@ -40,3 +132,8 @@ mod sealed {
     impl Sealed for f64 {}
     impl Sealed for crate::Q31 {}
 }
+
+/// The README's program is compiled and run with the documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

@@ -86,9 +86,9 @@ fn long_rod_is_a_scotch_yoke() {
         "λ·4/(3√3)",
         near,
         m * r * r * 1e-3 * 4.0 / 27f64.sqrt(),
-        0.02 * near,
+        budget::YOKE * near,
     );
-    assert_near("order 1", near / far, 10.0, 0.05);
+    assert_near("order 1", near / far, 10.0, 10.0 * budget::YOKE);
 }
 
 #[test]
@@ -150,12 +150,27 @@ fn windows_bound_a_load_and_keep_its_work() {
             .map(|phi| machine.reduction(phi).unwrap().process)
             .sum();
         let work = work * TAU / f64::from(count);
-        assert_near("work", work, 30.0 * (to - from - ramp), 1e-6 * 30.0);
+        assert_near(
+            "work",
+            work,
+            30.0 * (to - from - ramp),
+            budget::WINDOW_WORK * 30.0,
+        );
         let middle = 0.5 * (from + to);
         assert_near("full", window.factor(middle), 1.0, 0.0);
         assert_near("a turn on", window.factor(middle + TAU), 1.0, 0.0);
-        assert_near("half way up", window.factor(from + ramp / 2.0), 0.5, 1e-12);
-        assert_near("half way down", window.factor(to - ramp / 2.0), 0.5, 1e-12);
+        assert_near(
+            "half way up",
+            window.factor(from + ramp / 2.0),
+            0.5,
+            budget::IDENTITY,
+        );
+        assert_near(
+            "half way down",
+            window.factor(to - ramp / 2.0),
+            0.5,
+            budget::IDENTITY,
+        );
         for phi in places {
             let turns = (phi - from).rem_euclid(TAU);
             let factor = window.factor(phi);
@@ -203,8 +218,7 @@ proptest! {
         let [a, b] = [machine.reduction(phi).unwrap(), image.reduction(PI - phi).unwrap()];
         let size = over_a_turn(|phi| machine.reduction(phi).unwrap().inertia[2].abs());
         let size = size + machine.reduction(phi).unwrap().inertia[0];
-        // Reflection turns π − φ by a rounding; near a short rod's limit J'' grows.
-        let rounding = 1e-11;
+        let rounding = budget::MIRROR;
         assert_near("J", b.inertia[0], a.inertia[0], rounding * size);
         assert_near("J'", b.inertia[1], -a.inertia[1], rounding * size);
         assert_near("J''", b.inertia[2], a.inertia[2], rounding * size);

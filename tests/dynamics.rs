@@ -77,7 +77,7 @@ proptest! {
     /// T·ω = d/dt(½·J·ω² + U) − process·ω + b·ω² + c·|ω| along a random motion.
     #[test]
     fn power_balance(
-        spec in spec(), phi0 in 0.0..6.28, w in -30f64..30.0, a in 0.1f64..1.0, nu in 5f64..40.0, t in 0.0..1.0,
+        spec in spec(), phi0 in 0.0..6.2, w in -30f64..30.0, a in 0.1f64..1.0, nu in 5f64..40.0, t in 0.0..1.0,
     ) {
         let machine = spec.machine();
         let phi = |t: f64| phi0 + w * t + a * (nu * t).sin();
@@ -233,9 +233,9 @@ impl AtTheSlider {
         for _ in 0..80 {
             let middle = 0.5 * (low + high);
             if self.slider(middle).value > place {
-                low = middle
+                low = middle;
             } else {
-                high = middle
+                high = middle;
             }
         }
         0.5 * (low + high)

@@ -229,12 +229,12 @@ fn gear_train_golden() {
         // The same torque from the output side through the lossless train.
         let out = frames[2].psi.d1 * eps;
         let input = train.input(-t4, 0.0, 1.0, out);
-        assert_near("T1", input.torque, case.input("/T1"), 1e-12);
+        assert_near("T1", input.torque, case.input("/T1"), budget::GOLDEN);
         assert_near(
             "dT/dα",
             input.torque_per_alpha,
             reduced.inertia[0] * train.ratio(),
-            1e-12,
+            budget::GOLDEN,
         );
         assert_near("loss", input.loss, 0.0, 0.0);
     }

@@ -66,8 +66,9 @@ proptest! {
                 assert_near("cubic", *found, expected, budget::SPLINE_END * size);
             }
         }
-        prop_assert_eq!(curve.at(-1.0), curve.at(0.0));
-        prop_assert_eq!(curve.at(2.0), curve.at(1.0));
+        let bits = |x: f64| curve.at(x).map(f64::to_bits);
+        prop_assert_eq!(bits(-1.0), bits(0.0));
+        prop_assert_eq!(bits(2.0), bits(1.0));
     }
 
     #[test]
@@ -235,10 +236,10 @@ fn every_kind_of_unsound_table_is_refused() {
         refused::<Q31>(&words, 4, false),
         TableError::NoInertia { cell: 3 }
     );
-    words[6] += 1;
+    words[6] += 64;
     assert!(
         Table::<Q31, { curves::INERTIA }>::new(&words, 4, false).is_ok(),
-        "one unit above zero"
+        "64 units above zero"
     );
     let nothing = vec![0.0f32; 7];
     assert_eq!(
@@ -267,6 +268,25 @@ fn every_kind_of_unsound_table_is_refused() {
     rows[3 * 5 + 1] = f32::NAN;
     let error = Table::<f32, { curves::LOAD | curves::COULOMB }>::new(&rows, 4, true).unwrap_err();
     assert_eq!(error, TableError::Range { curve: 1, cell: 2 });
+}
+
+/// c₁ + 4c₂ + c₃, six times J at the end of the last cell, is −7 units: single precision rounds it to +32.
+#[test]
+fn inertia_just_below_zero_is_refused() {
+    let knot = 1 << 26;
+    let words = [
+        knot,
+        knot,
+        knot,
+        knot,
+        knot + 13,
+        knot + 5,
+        -(5 * knot + 40),
+    ];
+    assert_eq!(
+        refused::<Q31>(&words, 4, false),
+        TableError::NoInertia { cell: 3 }
+    );
 }
 
 /// The torque ½·J′·ω_b² must fit the torque base of fixed point: refused just above, accepted just below.

@@ -73,7 +73,7 @@ impl Columns {
     }
 
     fn table(&self) -> String {
-        let mut table = text_table(&self.names);
+        let mut table = text_table(&self.names.iter().map(|n| narrow(n)).collect::<Vec<_>>());
         // What is nothing but rounding beside the column's largest number reads as zero.
         let mut largest = vec![0.0f64; self.names.len()];
         for row in &self.rows {
@@ -108,6 +108,13 @@ impl Columns {
         }
         text
     }
+}
+
+/// A column's name over several lines: one word a line, the unit whole.
+fn narrow(name: &str) -> String {
+    let (words, unit) = name.split_at(name.find('[').unwrap_or(name.len()));
+    let lines = words.split_whitespace().chain(std::iter::once(unit));
+    lines.filter(|l| !l.is_empty()).collect::<Vec<_>>().join("\n")
 }
 
 /// Only a line under the header.

@@ -27,6 +27,7 @@ struct Page {
     cards: Vec<(&'static str, String)>,
     drive: String,
     checks: Vec<CheckRow>,
+    assumptions: String,
     plane: String,
     torque_time: String,
     speed_time: String,
@@ -112,6 +113,7 @@ pub fn page(
         ],
         drive: best.drive.name(),
         checks: best.checks.iter().map(check_row).collect(),
+        assumptions: best.assumptions.join("; "),
         plane: figures::torque_speed_plane(best, duty, rules),
         torque_time: figures::torque_over_time(best, duty),
         speed_time: figures::speed_over_time(best, duty),
@@ -310,7 +312,6 @@ fn notes(best: &Judged, file: &MachineFile, duty: &Duty) -> Vec<String> {
          mounting dimensions between motor and gearbox, stiffness (rigid-body validity, VDI 2149), backlash."
             .to_owned(),
     ];
-    notes.extend(best.assumptions.iter().map(|a| format!("Assumed: {a}.")));
     let drive = &best.drive;
     notes.push(format!(
         "Source of {}: {}",

@@ -1,5 +1,7 @@
 //! Machine files: what they say in SI units, and what a user is told about a wrong one.
 
+#[path = "machine_file/documented.rs"]
+mod documented;
 #[path = "machine_file/files.rs"]
 mod files;
 #[path = "machine_file/profiles.rs"]
@@ -15,7 +17,7 @@ use jred_sizing::input;
 use jred_sizing::machine::MachineFile;
 use miette::{GraphicalReportHandler, GraphicalTheme, Report};
 
-const PRESS: &str = include_str!("../../machines/press.toml");
+const PRESS: &str = include_str!("data/press.toml");
 const GEARS: &str = include_str!("data/gear-train.toml");
 
 fn data() -> PathBuf {
@@ -23,14 +25,22 @@ fn data() -> PathBuf {
 }
 
 fn parse(text: &str) -> Result<MachineFile, Report> {
-    input::parse("machine.toml", text, &data())
+    parse_as("machine.toml", text)
+}
+
+fn parse_as(name: &str, text: &str) -> Result<MachineFile, Report> {
+    input::parse(name, text, &data())
 }
 
 /// The report as a user sees it, without colours.
 fn rendered(report: &Report) -> String {
+    rendered_in(report, 1000)
+}
+
+fn rendered_in(report: &Report, width: usize) -> String {
     let mut text = String::new();
     GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor())
-        .with_width(1000)
+        .with_width(width)
         .render_report(&mut text, report.as_ref())
         .unwrap();
     text

@@ -30,9 +30,9 @@ mod target {
         let press: Model<'_, f32, { curves::ALL }> = image.model()?;
         defmt::info!("{=u32} cells, {}", image.cells(), image.validity());
 
-        let stroke: Result<Move<f32>, Error> = Move::new(Law::Polynomial345, PI, TAU, 0.75);
+        let stroke: Result<Move<f32>, Error> = Move::new(Law::Polynomial345, PI, TAU, 0.4);
         if let Ok(stroke) = stroke {
-            for tick in (0..=750u32).step_by(150) {
+            for tick in (0..=400u32).step_by(80) {
                 let wanted = stroke.at(tick as f32 * 0.001);
                 let torque =
                     press.torque(image.domain().phase(wanted.phi), wanted.omega, wanted.alpha);

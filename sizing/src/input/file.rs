@@ -67,7 +67,7 @@ pub(super) fn too_large(size: &str, limit: u64) -> Fault {
 
 /// A size in words.
 pub(super) fn size(bytes: u64) -> String {
-    if bytes < 1 << 20 {
+    if bytes < 1 << 21 && !bytes.is_multiple_of(1 << 20) {
         format!("{bytes} bytes")
     } else {
         format!(

@@ -217,7 +217,13 @@ impl<'a> Item<'a> {
 
     /// Two quantities.
     pub(super) fn pair(&self, kinds: [&'static Kind; 2]) -> Result<[Value; 2]> {
-        let example = format!("[\"{}\", \"{}\"]", kinds[0].example, kinds[1].example);
+        let [first, second] = kinds;
+        let second = if std::ptr::eq(first, second) {
+            format!("0 {}", second.unit)
+        } else {
+            second.example.to_owned()
+        };
+        let example = format!("[\"{}\", \"{second}\"]", first.example);
         let list = self.list("value", &example)?;
         let [first, second] = list.as_slice() else {
             let count = list.len();

@@ -82,7 +82,9 @@ fn machine(name: &str, text: &str, folder: &Path) -> Result<MachineFile> {
     let root = Section::new(String::new(), 0..0, tree.get_ref());
     let title = match root.get("title") {
         Some(item) => item.text("Servo press")?.to_owned(),
-        None => name.to_owned(),
+        None => Path::new(name)
+            .file_name()
+            .map_or_else(|| name.to_owned(), |name| name.display().to_string()),
     };
     let gravity = root
         .require(
@@ -128,16 +130,16 @@ fn machine(name: &str, text: &str, folder: &Path) -> Result<MachineFile> {
 fn syntax(error: &toml::de::Error, text: &str) -> Problem {
     let message = error.message();
     let span = error.span().unwrap_or(0..0);
-    let line = text
+    let start = text
         .get(..span.start)
         .map_or(0, |before| before.rfind('\n').map_or(0, |at| at + 1));
     let line = text
-        .get(line..)
+        .get(start..)
         .and_then(|rest| rest.lines().next())
         .unwrap_or_default();
-    let bare = line
-        .split_once('=')
-        .filter(|(_, value)| !value.contains(['"', '[', '{', '\'']));
+    let bare = line.split_once('=').filter(|(key, value)| {
+        !value.contains(['"', '[', '{', '\'']) && span.start > start + key.len()
+    });
     let help = match bare {
         _ if message.contains("duplicate") => "remove or rename one of the two".to_owned(),
         Some((key, value)) if !value.trim().is_empty() => {

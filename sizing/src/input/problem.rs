@@ -51,11 +51,46 @@ impl Problem {
             source,
         } = *self.0;
         let source = source.unwrap_or_else(|| NamedSource::new(name, text.to_owned()));
-        if source.inner().is_empty() {
-            diagnostic.labels = None; // nothing to point at
-        }
+        point(&mut diagnostic, source.inner());
         Report::new(diagnostic).with_source_code(source)
     }
+}
+
+/// The longest line that is shown; longer ones are named by number.
+const MAX_LINE: usize = 400;
+
+/// Moves the diagnostic's labels to where they can be seen in `text`.
+fn point(diagnostic: &mut MietteDiagnostic, text: &str) {
+    let Some(labels) = diagnostic.labels.take() else {
+        return;
+    };
+    // The end of the text has no line of its own: the last character stands for it.
+    let last = text
+        .trim_end()
+        .char_indices()
+        .last()
+        .map_or(0, |(at, _)| at);
+    let mut shown = Vec::new();
+    for label in labels {
+        let start = text.floor_char_boundary(label.offset().min(last));
+        let end = text.floor_char_boundary((label.offset() + label.len()).min(text.len()));
+        let before = text.get(..start).unwrap_or_default();
+        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+        let line = text.get(line_start..).and_then(|rest| rest.lines().next());
+        let number = before.matches('\n').count() + 1;
+        match line.map_or(0, str::len) {
+            0 if text.is_empty() => {}
+            length if length > MAX_LINE => {
+                diagnostic.message = format!("line {number}: {}", diagnostic.message);
+            }
+            _ => shown.push(LabeledSpan::new(
+                label.label().map(ToOwned::to_owned),
+                start,
+                end.saturating_sub(start),
+            )),
+        }
+    }
+    diagnostic.labels = Some(shown);
 }
 
 /// What is wrong with a value, before it is known which key it belongs to.

@@ -147,6 +147,11 @@ pub(super) fn torque_speed_plane(best: &Judged, duty: &Duty, rules: &Rules) -> S
         x: "speed |n| [rpm]",
         y: "torque |T| [N·m]",
     };
+    // A dot would be lost among the duty's: a cross.
+    let (n, rms) = (best.duty.mean_speed / RPM, best.duty.torque.rms);
+    let (dn, dt) = (0.012 * top / RPM, 0.03 * best.drive.motor.peak_torque);
+    let gap = (f64::NAN, f64::NAN);
+    let cross = vec![(n - dn, rms), (n + dn, rms), gap, (n, rms - dt), (n, rms + dt)];
     let allowed = |n: f64| rules.peak_torque * envelope.peak_torque(n);
     let continuous = |n: f64| rules.rms_torque * envelope.continuous_torque(n);
     lines(
@@ -161,11 +166,7 @@ pub(super) fn torque_speed_plane(best: &Judged, duty: &Duty, rules: &Rules) -> S
                 points: points.collect(),
                 style: Style::Dots,
             },
-            Series {
-                name: "RMS at mean speed",
-                points: vec![(best.duty.mean_speed / RPM, best.duty.torque.rms)],
-                style: Style::Dots,
-            },
+            line("RMS at mean speed", cross),
         ],
     )
 }

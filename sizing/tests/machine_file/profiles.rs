@@ -53,7 +53,7 @@ fn a_recorded_turn_is_read() {
         let z = f64::from(k) / 40.0;
         let state = motion.at(2.0 * z);
         assert!((state.phi - (TAU * z + 0.5 * (TAU * z).sin())).abs() < 1e-6);
-        assert!((state.omega - (TAU + 0.5 * TAU * (TAU * z).cos()) / 2.0).abs() < 1e-3);
+        assert!((state.omega - TAU * (0.5 + 0.25 * (TAU * z).cos())).abs() < 1e-3);
     }
     assert!(data().join("turn.csv").exists());
 }
@@ -156,7 +156,11 @@ fn wrong_profiles_are_shown_in_the_csv_file() {
             "",
             &["has 4 rows", "at least 5"],
         ),
-        (String::new(), "", &["is not known"]),
+        (
+            String::new(),
+            "",
+            &["one column for the time", "the first line must be"],
+        ),
         (
             turn(header, |_| None),
             "cyclic = \"yes\"",

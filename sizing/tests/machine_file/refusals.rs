@@ -89,7 +89,7 @@ fn wrong_quantities_are_shown_with_their_cure() {
 
 #[test]
 fn wrong_words_are_shown_with_the_right_ones() {
-    let edits: [(&str, &str, &[&str]); 20] = [
+    let edits: [(&str, &str, &[&str]); 10] = [
         (
             "length = \"30 mm\"",
             "lenght = \"30 mm\"",
@@ -120,6 +120,35 @@ fn wrong_words_are_shown_with_the_right_ones() {
             "\"poly5\"",
             &["`law`", "\"poly5\"", "modified-sine"],
         ),
+        (
+            "driver = { radius = \"40 mm\",",
+            "driver = { diameter = \"80 mm\",",
+            &["`diameter`", "by its radius", "half"],
+        ),
+        (
+            "gravity =",
+            "# gravity =",
+            &["`gravity` is missing", "horizontal plane"],
+        ),
+        (
+            "flywheel =",
+            "efficiency = 0.9\nflywheel =",
+            &["efficiency belongs to [[drive_train]]"],
+        ),
+        (
+            "mass = \"42 kg\"",
+            "mass = \"42 kg\"\ninertia = \"1 kg m^2\"",
+            &["the slider does not turn"],
+        ),
+    ];
+    for (from, to, words) in edits {
+        refuses_edit(PRESS, from, to, words);
+    }
+}
+
+#[test]
+fn loads_that_make_no_sense_are_refused() {
+    let edits: [(&str, &str, &[&str]); 10] = [
         (
             "on = \"crank\"",
             "on = \"shaft\"",
@@ -172,26 +201,6 @@ fn wrong_words_are_shown_with_the_right_ones() {
             "\"360 deg\"]",
             "\"315 deg\"]",
             &["`between`", "at most one turn", "315 deg"],
-        ),
-        (
-            "driver = { radius = \"40 mm\",",
-            "driver = { diameter = \"80 mm\",",
-            &["`diameter`", "by its radius", "half"],
-        ),
-        (
-            "gravity =",
-            "# gravity =",
-            &["`gravity` is missing", "horizontal plane"],
-        ),
-        (
-            "flywheel =",
-            "efficiency = 0.9\nflywheel =",
-            &["efficiency belongs to [[drive_train]]"],
-        ),
-        (
-            "mass = \"42 kg\"",
-            "mass = \"42 kg\"\ninertia = \"1 kg m^2\"",
-            &["the slider does not turn"],
         ),
     ];
     for (from, to, words) in edits {

@@ -8,15 +8,11 @@ use jred::{Action, Load, Mechanism, Window};
 use jred_sizing::input;
 use jred_sizing::machine::{AnyMechanism, Shaft};
 
-use crate::{GEARS, PRESS, close, parse, rendered};
+use crate::{GEARS, PRESS, close, data, parse, rendered};
 
 #[test]
 fn the_press_is_read_in_si_units() {
-    let press = input::read(Path::new(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../machines/press.toml"
-    )))
-    .unwrap();
+    let press = input::read(&data().join("press.toml")).unwrap();
     assert_eq!(press.title, "Servo press, 60 mm stroke, 20 kN");
     let AnyMechanism::SliderCrank(mechanism) = press.machine.mechanism() else {
         panic!("not a slider-crank");
@@ -148,12 +144,8 @@ fn every_line_of_the_press_is_optional_or_missed_by_name() {
         let Some((key, _)) = line.split_once(" = ").filter(|_| !line.starts_with('#')) else {
             continue;
         };
-        let text: String = PRESS
-            .lines()
-            .enumerate()
-            .filter(|(k, _)| *k != number)
-            .map(|(_, line)| format!("{line}\n"))
-            .collect();
+        let others = PRESS.lines().enumerate().filter(|(k, _)| *k != number);
+        let text = others.map(|(_, line)| line).collect::<Vec<_>>().join("\n");
         match parse(&text) {
             Ok(_) => assert!(optional.contains(&key), "line {}: {line}", number + 1),
             Err(report) => {
@@ -180,4 +172,23 @@ fn every_line_of_the_press_is_optional_or_missed_by_name() {
             }
         }
     }
+}
+
+#[test]
+fn every_machine_of_the_collection_is_read() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../machines");
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "toml")
+        {
+            if let Err(report) = input::read(&path) {
+                panic!("{}", rendered(&report));
+            }
+            count += 1;
+        }
+    }
+    assert!(count > 0);
 }

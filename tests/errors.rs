@@ -1,0 +1,348 @@
+//! Every error of the core: some input produces it, and its text names quantity, value and cure.
+
+mod support;
+
+use std::f64::consts::PI;
+
+use jred::mechanism::{Branch, Mesh, SliderCrank, Stage, Train};
+use jred::motion::{Law, Move};
+use jred::table::{CubicSpline, MAX_CELLS, fit_bounded, fit_periodic};
+use jred::tabulate::{Request, fill, tabulate};
+use jred::{Action, Domain, Error, Link, Load, Machine, Mechanism, Q31, Reducible, Scale, Window};
+use support::machines::Wave;
+use support::{assert_near, budget, words};
+
+/// The error, after checking that its text holds every part.
+#[track_caller]
+fn says<T: std::fmt::Debug>(result: Result<T, Error>, parts: &[&str]) -> Error {
+    let error = result.unwrap_err();
+    let text = error.to_string();
+    for part in parts {
+        assert!(text.contains(part), "\"{text}\" does not say \"{part}\"");
+    }
+    error
+}
+
+fn links() -> [Link; 3] {
+    [0.1, 0.2, 0.3].map(|mass| Link::new(mass, 0.001, [0.0, 0.0]).unwrap())
+}
+
+fn slider_crank(r: f64, l: f64, e: f64) -> Result<SliderCrank, Error> {
+    SliderCrank::new(r, l, e, Branch::Right, links())
+}
+
+fn machine() -> Machine<SliderCrank> {
+    Machine::new(slider_crank(0.1, 0.3, 0.0).unwrap())
+}
+
+#[test]
+fn values_out_of_bounds_are_named() {
+    let error = says(
+        slider_crank(-0.1, 0.3, 0.0),
+        &["crank length", "-0.1", "greater than zero"],
+    );
+    assert_eq!(error, Error::NotPositive("crank length", -0.1));
+    says(
+        slider_crank(0.1, 0.0, 0.0),
+        &["rod length", "0", "greater than zero"],
+    );
+    let error = says(
+        Link::new(-2.5, 0.0, [0.0; 2]),
+        &["mass", "-2.5", "not be negative"],
+    );
+    assert_eq!(error, Error::Negative("mass", -2.5));
+    says(Link::rotor(-0.5), &["inertia", "-0.5"]);
+    says(Link::rotor(f64::NAN), &["inertia", "not a finite number"]);
+    says(
+        Stage::gears([0, 20], [0.0; 2], Mesh::External),
+        &["teeth of the driver", "0"],
+    );
+    says(
+        Stage::gears([20, 0], [0.0; 2], Mesh::Internal),
+        &["teeth of the driven", "0"],
+    );
+    says(Stage::new(0.0, [0.0; 2]), &["ratio", "0"]);
+    says(
+        Stage::new(2.0, [-0.5, 0.0]),
+        &["inertia of the driver", "-0.5"],
+    );
+    says(
+        Stage::new(2.0, [0.0, -0.5]),
+        &["inertia of the driven", "-0.5"],
+    );
+    says(
+        Stage::belt([0.1, 0.0], [0.0; 2], 1.0),
+        &["radius of the driven", "0"],
+    );
+    says(
+        Stage::belt([0.1, 0.2], [0.0; 2], -1.0),
+        &["mass of the belt", "-1"],
+    );
+    let stage = Stage::new(2.0, [0.0; 2]).unwrap();
+    says(
+        stage.with_efficiency(1.25),
+        &["efficiency", "1.25", "outside 0 to 1"],
+    );
+    says(stage.with_efficiency(0.0), &["efficiency", "0"]);
+    says(machine().with_flywheel(-0.25), &["flywheel", "-0.25"]);
+    says(
+        Load::new(0, Action::OpposingForce(-3.0)),
+        &["opposing force", "-3"],
+    );
+    says(
+        Load::new(0, Action::OpposingMoment(-3.0)),
+        &["opposing moment", "-3"],
+    );
+    says(Load::new(0, Action::ViscousForce(-3.0)), &["viscous", "-3"]);
+    says(
+        Load::new(0, Action::ViscousMoment(-3.0)),
+        &["viscous", "-3"],
+    );
+    says(Window::new(1.0, 1.5, 0.0), &["ramp", "0"]);
+    says(Window::new(1.0, 0.5, 0.1), &["width", "-0.5"]);
+    says(Window::new(1.0, 1.5, 0.3), &["width", "0.5", "0.6"]);
+    says(Window::new(0.0, 7.0, 0.3), &["width", "7", "6.28"]);
+    says(Scale::new(0.0, 1.0, 1.0), &["torque base", "0"]);
+    says(Scale::new(1.0, -2.0, 1.0), &["speed base", "-2"]);
+    says(Scale::new(1.0, 1.0, -2.0), &["inertia base", "-2"]);
+    says(
+        Scale::covering(&machine(), -2.0, 1.0, 8),
+        &["largest speed", "-2"],
+    );
+    says(
+        Scale::covering(&machine(), 2.0, -1.0, 8),
+        &["largest acceleration", "-1"],
+    );
+    says(Domain::stroke(2.0, 1.5), &["length of the stroke", "-0.5"]);
+    let trapezoid = |accelerate, decelerate| {
+        Law::Trapezoid {
+            accelerate,
+            decelerate,
+        }
+        .check()
+    };
+    says(trapezoid(0.75, 0.5), &["accelerate", "1.25", "1"]);
+    says(trapezoid(0.0, 0.5), &["accelerate", "0"]);
+    says(trapezoid(0.5, -0.5), &["decelerate", "-0.5"]);
+    says(
+        Move::new(trapezoid_law(), 0.0, 1.0, 0.0),
+        &["duration", "0"],
+    );
+}
+
+fn trapezoid_law() -> Law {
+    Law::Trapezoid {
+        accelerate: 0.5,
+        decelerate: 0.5,
+    }
+}
+
+/// The text names the value given.
+#[test]
+fn negative_duration_is_named() {
+    says(
+        Move::new(Law::Cycloidal, 0.0, 1.0, -2.5),
+        &["duration of the move", "-2.5"],
+    );
+}
+
+/// A negative inertia is refused, whatever the belt adds to it.
+#[test]
+fn negative_pulley_is_refused_beside_a_heavy_belt() {
+    says(
+        Stage::belt([0.5, 0.2], [-0.01, 0.0], 1.0),
+        &["inertia of the driver", "-0.01"],
+    );
+}
+
+/// The number and its limit agree: four samples over a stroke are too few, five are enough.
+#[test]
+fn too_few_samples_are_counted() {
+    says(
+        fit_periodic(&[1.0; 3], &mut [0.0; 6]),
+        &["number of samples", "3", "4"],
+    );
+    assert!(fit_bounded(&[1.0; 5], &mut [0.0; 7]).is_ok());
+    says(
+        fit_bounded(&[1.0; 4], &mut [0.0; 6]),
+        &["number of samples", "4", "outside 5"],
+    );
+}
+
+/// l < r + |e|: where the rod no longer reaches the guide, by geometry, for each sign of e and l − |e|.
+#[test]
+fn short_rod_names_its_angle() {
+    for (r, l, e) in [
+        (0.1, 0.08, 0.01),
+        (0.1, 0.08, -0.01),
+        (0.1, 0.12, 0.05),
+        (0.1, 0.12, -0.05),
+        (0.2, 0.2, 0.0),
+    ] {
+        let error = says(
+            slider_crank(r, l, e),
+            &["make the rod longer than", "shorten the crank"],
+        );
+        let Error::CannotTurn { phi, shortest_rod } = error else {
+            panic!("{error:?}")
+        };
+        assert_near("shortest rod", shortest_rod, r + e.abs(), f64::EPSILON);
+        let degrees = format!("φ = {:.2}°", phi.to_degrees());
+        assert!(
+            error.to_string().contains(&degrees),
+            "{error} does not say {degrees}"
+        );
+        // Walk: the rod reaches until φ, and no longer just after (at its very end when l = r + |e|).
+        let reaches = |phi: f64| (e - r * phi.sin()).abs() <= l * (1.0 + budget::IDENTITY);
+        let steps = 10_000;
+        assert!(
+            (0..=steps).all(|k| reaches(phi * f64::from(k) / f64::from(steps))),
+            "fails before {phi}"
+        );
+        assert_near(
+            "at the end of its reach",
+            (e - r * phi.sin()).abs(),
+            l,
+            budget::CLOSED_FORM,
+        );
+        assert!(
+            l >= r + e.abs() || !reaches(phi + 1e-3),
+            "goes on after {phi}"
+        );
+    }
+    // A guide further away than the rod is long is not reached at φ = 0.
+    let error = says(slider_crank(0.1, 0.3, -0.4), &["φ = 0.00°", "0.5 m"]);
+    assert_eq!(
+        error,
+        Error::CannotTurn {
+            phi: 0.0,
+            shortest_rod: 0.5
+        }
+    );
+}
+
+/// l = r + |e| exactly, but for a rounding: the angle is 270°, not a full turn.
+#[test]
+fn rod_of_the_limit_length_names_its_angle() {
+    let (r, e) = (0.1, 0.2);
+    let error = slider_crank(r, r + e, e).unwrap_err();
+    let Error::CannotTurn { phi, .. } = error else {
+        panic!("{error:?}")
+    };
+    assert_near("φ", phi, 1.5 * PI, budget::LIMIT_ANGLE);
+}
+
+#[test]
+fn a_rod_at_its_limit_is_a_dead_point() {
+    let r = 0.807_812_5; // one for which l·(1/l) rounds to r/l = 1
+    let mechanism = slider_crank(r, f64::next_up(r), 0.0).unwrap();
+    let error = says(mechanism.frames(PI / 2.0), &["dead point", "90.00°"]);
+    assert_eq!(error, Error::DeadPoint { phi: PI / 2.0 });
+}
+
+#[test]
+fn capacities_and_indices_are_named() {
+    let load = Load::new(3, Action::Moment(1.0)).unwrap();
+    let error = says(machine().with_load(load), &["no link 3", "0 to 2"]);
+    assert_eq!(error, Error::NoSuchLink { link: 3, links: 3 });
+    let mut full = machine();
+    for _ in 0..jred::MAX_LOADS {
+        full = full
+            .with_load(Load::new(0, Action::Moment(1.0)).unwrap())
+            .unwrap();
+    }
+    assert_eq!(full.loads().len(), 16);
+    says(
+        full.with_load(Load::new(0, Action::Moment(1.0)).unwrap()),
+        &["too many loads", "16"],
+    );
+    let stage = Stage::new(2.0, [0.0; 2]).unwrap();
+    assert!(Train::new(&[stage; Train::MAX_STAGES]).is_ok());
+    says(
+        Train::new(&[stage; Train::MAX_STAGES + 1]),
+        &["too many stages", "8"],
+    );
+}
+
+#[test]
+fn tables_that_cannot_be_made_say_why() {
+    let nothing = Link::rotor(0.0).unwrap();
+    let massless = SliderCrank::new(0.1, 0.3, 0.0, Branch::Right, [nothing; 3]).unwrap();
+    says(
+        Machine::new(massless).reduction(1.0),
+        &["reduced inertia", "57.30°", "give the drive link"],
+    );
+    let wave = Wave::bare(1.0, 0.5);
+    let small = Scale::new(1.0, 1.0, 1.0).unwrap();
+    let error = says(
+        words::<Q31, 0>(&wave, 16, &small),
+        &["inertia base", "cell", "larger"],
+    );
+    assert!(matches!(
+        error,
+        Error::Overflow {
+            base: "inertia",
+            ..
+        }
+    ));
+    let loaded = Wave { load: 9.0, ..wave };
+    let enough = Scale::new(1.0, 1.0, 4.0).unwrap();
+    let error = says(
+        words::<Q31, 1>(&loaded, 16, &enough),
+        &["torque base", "larger"],
+    );
+    assert!(matches!(error, Error::Overflow { base: "torque", .. }));
+    // The spline of samples that touch zero goes below it.
+    let dips = Wave::bare(1.0, 0.999);
+    says(
+        words::<f32, 0>(&dips, 5, &Scale::SI),
+        &["reduced inertia", "not positive"],
+    );
+    let error = says(
+        words::<f32, 0>(&wave, MAX_CELLS + 1, &Scale::SI),
+        &["65537 cells", "4 to 65536"],
+    );
+    assert!(matches!(error, Error::Table(_)));
+    let mut rows = [0.0f32; 19];
+    let error = says(
+        fill::<f32, 0>(&wave, 16, &Scale::SI, &mut [0.0; 37], &mut rows),
+        &["holds 37", "38"],
+    );
+    assert_eq!(
+        error,
+        Error::BufferTooShort {
+            needed: 38,
+            given: 37
+        }
+    );
+    says(
+        fill::<f32, 0>(&wave, 16, &Scale::SI, &mut [0.0; 38], &mut rows[..18]),
+        &["holds 18", "19"],
+    );
+    let request = Request {
+        torque_error: 1e-9,
+        omega: 10.0,
+        alpha: 10.0,
+        max_cells: 16,
+    };
+    let parts = ["1e-9", "16 cells reach", "allow a larger error"];
+    let error = says(
+        tabulate::<f32, 0>(&wave, &request, &Scale::SI, &mut [0.0; 38], &mut rows),
+        &parts,
+    );
+    let Error::TorqueErrorNotReached { reached, .. } = error else {
+        panic!("{error:?}")
+    };
+    assert!(reached > 1e-9 && reached < 1.0);
+    for [torque_error, omega, alpha] in [[0.0, 1.0, 1.0], [1.0, -1.0, 1.0], [1.0, 1.0, 0.0]] {
+        let bad = Request {
+            torque_error,
+            omega,
+            alpha,
+            max_cells: 16,
+        };
+        let refused = tabulate::<f32, 0>(&wave, &bad, &Scale::SI, &mut [0.0; 38], &mut rows);
+        says(refused, &["greater than zero"]);
+    }
+    says(CubicSpline::new([0.0; 6]), &["holds 6", "7"]);
+}

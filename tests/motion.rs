@@ -1,0 +1,197 @@
+//! Motion laws and moves: ends, continuity, derivatives, and the coefficients of VDI 2143.
+
+mod support;
+
+use std::f64::consts::{PI, TAU};
+
+use jred::motion::{Law, Move};
+use proptest::prelude::*;
+use support::{assert_near, budget, config, derivative, largest};
+
+const TRAPEZOID: Law = Law::Trapezoid {
+    accelerate: 0.25,
+    decelerate: 0.5,
+};
+const LAWS: [Law; 4] = [
+    TRAPEZOID,
+    Law::Polynomial345,
+    Law::Cycloidal,
+    Law::ModifiedSine,
+];
+
+fn places(count: u32) -> impl Iterator<Item = f64> {
+    (0..=count).map(move |k| f64::from(k) / f64::from(count))
+}
+
+#[test]
+fn laws_rise_from_rest_to_rest() {
+    for law in LAWS {
+        law.check().unwrap();
+        for (z, end) in [
+            (0.0, 0.0),
+            (1.0, 1.0),
+            (-0.5, 0.0),
+            (1.5, 1.0),
+            (f64::NEG_INFINITY, 0.0),
+        ] {
+            let [s, v, _] = law.at(z);
+            assert_near("S", s, end, budget::LAW_END);
+            assert_near("S'", v, 0.0, budget::LAW_END);
+        }
+        for z in [-0.5, 1.5] {
+            assert_near("S'' at rest", law.at(z)[2], 0.0, 0.0);
+        }
+        let mut before = 0.0;
+        for z in places(1000) {
+            let [s, v, _] = law.at(z);
+            assert!(
+                s >= before - budget::LAW_END && v >= -budget::LAW_END,
+                "{law:?} turns back at {z}"
+            );
+            before = s;
+        }
+    }
+    // The laws without a jerk jump start with zero acceleration as well.
+    for law in [Law::Polynomial345, Law::Cycloidal, Law::ModifiedSine] {
+        for z in [0.0, 1.0] {
+            assert_near("S''", law.at(z)[2], 0.0, 40.0 * budget::LAW_END);
+        }
+    }
+}
+
+/// A law is its own mirror image: S(1 − z) = 1 − S(z); a trapezoid is that of the exchanged shares.
+#[test]
+fn laws_are_symmetric() {
+    for law in LAWS {
+        let mirror = match law {
+            Law::Trapezoid {
+                accelerate,
+                decelerate,
+            } => Law::Trapezoid {
+                accelerate: decelerate,
+                decelerate: accelerate,
+            },
+            other => other,
+        };
+        for z in places(500).filter(|z| law.breaks().iter().flatten().all(|b| (z - b).abs() > 1e-9))
+        {
+            let ([s, v, a], [t, w, b]) = (law.at(z), mirror.at(1.0 - z));
+            assert_near("S", t, 1.0 - s, budget::LAW_END);
+            assert_near("S'", w, v, 10.0 * budget::LAW_END);
+            // S'' of an inner end: the trapezoid's first and last instants are steps.
+            if z > 0.0 && z < 1.0 {
+                assert_near("S''", b, -a, 40.0 * budget::LAW_END);
+            }
+        }
+    }
+}
+
+#[test]
+fn speed_and_acceleration_are_derivatives() {
+    for law in LAWS {
+        let step = 1e-3;
+        let breaks = law.breaks().into_iter().flatten().chain([0.0, 1.0]);
+        let breaks: Vec<f64> = breaks.collect();
+        for z in places(997).filter(|z| breaks.iter().all(|b| (z - b).abs() > 2.0 * step)) {
+            let [_, v, a] = law.at(z);
+            assert_near(
+                "S'",
+                v,
+                derivative(|z| law.at(z)[0], z, step),
+                budget::LAW_DIFFERENCES,
+            );
+            assert_near(
+                "S''",
+                a,
+                derivative(|z| law.at(z)[1], z, step),
+                budget::LAW_DIFFERENCES,
+            );
+        }
+        // Across a break position and speed go on; the trapezoid's acceleration may jump there, no other's.
+        for at in law.breaks().into_iter().flatten() {
+            let [before, after] = [law.at(at - 1e-9), law.at(at + 1e-9)];
+            assert_near("S", after[0], before[0], budget::LAW_BREAK);
+            assert_near("S'", after[1], before[1], 10.0 * budget::LAW_BREAK);
+            if law == TRAPEZOID {
+                assert!((after[2] - before[2]).abs() > 1.0, "S'' jumps at {at}");
+            } else {
+                assert_near("S''", after[2], before[2], 100.0 * budget::LAW_BREAK);
+            }
+        }
+    }
+}
+
+/// Largest S′ and |S″| of VDI 2143 Blatt 1, as closed forms.
+#[test]
+fn coefficients_of_vdi_2143() {
+    let trapezoid = 1.0 / (1.0 - 0.75 / 2.0);
+    for (law, speed, acceleration) in [
+        (Law::Polynomial345, 1.875, 10.0 / 3f64.sqrt()),
+        (Law::Cycloidal, 2.0, TAU),
+        (
+            Law::ModifiedSine,
+            4.0 * PI / (4.0 + PI),
+            4.0 * PI * PI / (4.0 + PI),
+        ),
+        (TRAPEZOID, trapezoid, trapezoid / 0.25),
+    ] {
+        // The grid misses a maximum by at most half a step: S‴·(step/2)²/2 of it.
+        let most = |order: usize| largest(places(100_000).map(|z| law.at(z)[order]));
+        assert_near("largest S'", most(1), speed, budget::LAW_MAXIMUM * speed);
+        assert_near(
+            "largest S''",
+            most(2),
+            acceleration,
+            budget::LAW_MAXIMUM * acceleration,
+        );
+    }
+}
+
+proptest! {
+    #![proptest_config(config(256, 0x0006))]
+
+    #[test]
+    fn single_precision_follows_double(z in 0f32..=1.0, which in 0usize..4) {
+        let law = LAWS[which];
+        let [single, double] = [law.at(z).map(f64::from), law.at(f64::from(z))];
+        for (s, d) in single.iter().zip(double) {
+            assert_near("law in f32", *s, d, budget::LAW_F32);
+        }
+    }
+
+    #[test]
+    fn trapezoids_of_any_shares(accelerate in 0.01f32..0.99, rest in 0.01f32..1.0, z in 0f64..1.0) {
+        let decelerate = (1.0 - accelerate) * rest;
+        let law = Law::Trapezoid { accelerate, decelerate };
+        law.check().unwrap();
+        let [a, d] = [accelerate, decelerate].map(f64::from);
+        let top = 1.0 / (1.0 - f64::midpoint(a, d));
+        // Area under the speed's trapezoid up to z.
+        let left = z.min(a);
+        let middle = (z.min(1.0 - d) - a).max(0.0);
+        let right = (z - (1.0 - d)).max(0.0);
+        let area = left * left / (2.0 * a) + middle + right - right * right / (2.0 * d);
+        assert_near("S", law.at(z)[0], top * area, 1e3 * budget::LAW_END);
+    }
+
+    #[test]
+    fn moves_scale_their_law(
+        which in 0usize..4, start in -9.0..9.0, distance in -9.0..9.0, duration in 0.1f64..9.0, z in 0f64..1.0,
+    ) {
+        let law = LAWS[which];
+        let travel = Move::<f64>::new(law, start, distance, duration).unwrap();
+        prop_assert_eq!((travel.duration(), travel.distance(), travel.law()), (duration, distance, law));
+        let (state, [s, v, a]) = (travel.at(z * duration), law.at(z));
+        // z comes back from z·duration with a rounding: beside a break S'' may be that of the other side.
+        prop_assume!(law.breaks().iter().flatten().all(|b| (z - b).abs() > 1e-12));
+        assert_near("φ", state.phi, start + distance * s, 1e3 * budget::LAW_END);
+        assert_near("ω", state.omega, distance / duration * v, 1e3 * budget::LAW_END / duration);
+        let rounding = 1e4 * budget::LAW_END / duration.powi(2);
+        assert_near("α", state.alpha, distance / duration.powi(2) * a, rounding);
+        for (t, end) in [(-1.0, start), (duration + 1.0, start + distance)] {
+            let state = travel.at(t);
+            assert_near("end", state.phi, end, 0.0);
+            prop_assert_eq!((state.omega, state.alpha), (0.0, 0.0));
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! Nothing that is not a finite number gets into the core.
+
+mod support;
+
+use jred::mechanism::{Branch, Mesh, SliderCrank, Stage, Train};
+use jred::motion::{Law, Move};
+use jred::table::CubicSpline;
+use jred::tabulate::{Request, tabulate};
+use jred::{Action, Domain, Error, Link, Load, Machine, Mechanism, Reducible, Scale, Window};
+use support::machines::Wave;
+
+fn slider_crank(r: f64, l: f64, e: f64) -> Result<SliderCrank, Error> {
+    let link = Link::new(0.1, 0.001, [0.0, 0.0])?;
+    SliderCrank::new(r, l, e, Branch::Right, [link; 3])
+}
+
+fn machine() -> Machine<SliderCrank> {
+    Machine::new(slider_crank(0.1, 0.3, 0.0).unwrap())
+}
+
+type Case = (&'static str, fn(f64) -> Result<(), Error>);
+
+/// NaN and infinity in every argument of every constructor.
+#[test]
+fn nothing_that_is_not_finite_gets_into_a_machine() {
+    let cases: &[Case] = &[
+        ("mass", |x| Link::new(x, 0.0, [0.0; 2]).map(drop)),
+        ("inertia", |x| Link::new(0.0, x, [0.0; 2]).map(drop)),
+        ("com u", |x| Link::new(0.0, 0.0, [x, 0.0]).map(drop)),
+        ("com v", |x| Link::new(0.0, 0.0, [0.0, x]).map(drop)),
+        ("rotor", |x| Link::rotor(x).map(drop)),
+        ("crank", |x| slider_crank(x, 0.3, 0.0).map(drop)),
+        ("rod", |x| slider_crank(0.1, x, 0.0).map(drop)),
+        ("offset", |x| slider_crank(0.1, 0.3, x).map(drop)),
+        ("crank angle", |x| machine().reduction(x).map(drop)),
+        ("input angle", |x| Train::new(&[])?.frames(x).map(drop)),
+        ("ratio", |x| Stage::new(x, [0.0; 2]).map(drop)),
+        ("driver", |x| Stage::new(1.0, [x, 0.0]).map(drop)),
+        ("driven", |x| Stage::new(1.0, [0.0, x]).map(drop)),
+        ("gears", |x| {
+            Stage::gears([9, 9], [x, 0.0], Mesh::Internal).map(drop)
+        }),
+        ("gears", |x| {
+            Stage::gears([9, 9], [0.0, x], Mesh::Internal).map(drop)
+        }),
+        ("pulley", |x| Stage::belt([x, 0.1], [0.0; 2], 0.0).map(drop)),
+        ("pulley", |x| Stage::belt([0.1, x], [0.0; 2], 0.0).map(drop)),
+        ("pulley", |x| {
+            Stage::belt([0.1, 0.1], [x, 0.0], 0.0).map(drop)
+        }),
+        ("pulley", |x| {
+            Stage::belt([0.1, 0.1], [0.0, x], 0.0).map(drop)
+        }),
+        ("belt", |x| Stage::belt([0.1, 0.1], [0.0; 2], x).map(drop)),
+        ("efficiency", |x| {
+            Stage::new(1.0, [0.0; 2])?.with_efficiency(x).map(drop)
+        }),
+        ("gravity", |x| machine().with_gravity([x, 0.0]).map(drop)),
+        ("gravity", |x| machine().with_gravity([0.0, x]).map(drop)),
+        ("flywheel", |x| machine().with_flywheel(x).map(drop)),
+        ("force", |x| Load::new(0, Action::Force([x, 0.0])).map(drop)),
+        ("force", |x| Load::new(0, Action::Force([0.0, x])).map(drop)),
+        ("moment", |x| Load::new(0, Action::Moment(x)).map(drop)),
+        ("friction", |x| {
+            Load::new(0, Action::OpposingForce(x)).map(drop)
+        }),
+        ("friction", |x| {
+            Load::new(0, Action::OpposingMoment(x)).map(drop)
+        }),
+        ("viscous", |x| {
+            Load::new(0, Action::ViscousForce(x)).map(drop)
+        }),
+        ("viscous", |x| {
+            Load::new(0, Action::ViscousMoment(x)).map(drop)
+        }),
+        ("point", |x| {
+            Load::new(0, Action::Moment(1.0))?.at([x, 0.0]).map(drop)
+        }),
+        ("point", |x| {
+            Load::new(0, Action::Moment(1.0))?.at([0.0, x]).map(drop)
+        }),
+    ];
+    refused(cases);
+}
+
+#[test]
+fn nothing_that_is_not_finite_gets_into_motions_scales_and_requests() {
+    let cases: &[Case] = &[
+        ("window", |x| Window::new(x, 1.0, 0.1).map(drop)),
+        ("window", |x| Window::new(0.0, x, 0.1).map(drop)),
+        ("window", |x| Window::new(0.0, 1.0, x).map(drop)),
+        ("scale", |x| Scale::new(x as f32, 1.0, 1.0).map(drop)),
+        ("scale", |x| Scale::new(1.0, x as f32, 1.0).map(drop)),
+        ("scale", |x| Scale::new(1.0, 1.0, x as f32).map(drop)),
+        ("covering", |x| {
+            Scale::covering(&machine(), x, 1.0, 4).map(drop)
+        }),
+        ("covering", |x| {
+            Scale::covering(&machine(), 1.0, x, 4).map(drop)
+        }),
+        ("stroke", |x| Domain::stroke(x, 1.0).map(drop)),
+        ("stroke", |x| Domain::stroke(0.0, x).map(drop)),
+        ("move", |x| Move::new(Law::Cycloidal, x, 1.0, 1.0).map(drop)),
+        ("move", |x| Move::new(Law::Cycloidal, 0.0, x, 1.0).map(drop)),
+        ("move", |x| Move::new(Law::Cycloidal, 0.0, 1.0, x).map(drop)),
+        ("move f32", |x| {
+            Move::new(Law::Cycloidal, 0.0, 1.0, x as f32).map(drop)
+        }),
+        ("law", |x| {
+            Law::Trapezoid {
+                accelerate: x as f32,
+                decelerate: 0.1,
+            }
+            .check()
+        }),
+        ("law", |x| {
+            Law::Trapezoid {
+                accelerate: 0.1,
+                decelerate: x as f32,
+            }
+            .check()
+        }),
+        ("spline", |x| {
+            CubicSpline::new([0.0, 0.0, 0.0, x, 0.0, 0.0, 0.0]).map(drop)
+        }),
+        ("request", |x| request(x, 1.0, 1.0)),
+        ("request", |x| request(1.0, x, 1.0)),
+        ("request", |x| request(1.0, 1.0, x)),
+    ];
+    refused(cases);
+}
+
+fn refused(cases: &[Case]) {
+    for (name, build) in cases {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let found = build(value);
+            assert!(
+                matches!(found, Err(Error::NotFinite(_))),
+                "{name} {value}: {found:?}"
+            );
+        }
+    }
+}
+
+fn request(torque_error: f64, omega: f64, alpha: f64) -> Result<(), Error> {
+    let request = Request {
+        torque_error,
+        omega,
+        alpha,
+        max_cells: 8,
+    };
+    tabulate::<f32, 0>(
+        &Wave::bare(1.0, 0.1),
+        &request,
+        &Scale::SI,
+        &mut [0.0; 22],
+        &mut [0.0; 11],
+    )
+    .map(drop)
+}

@@ -1,0 +1,68 @@
+//! Images to test with, and an independent CRC.
+
+use jred::table::curves;
+use jred::{Domain, Image, ImageError, Q31, Scalar, Scale, Table, Validity, encode, image_words};
+
+use super::machines::Wave;
+use super::words;
+
+/// CRC-32 as IEEE 802.3 defines it, bit by bit: polynomial 0x04C11DB7 reflected, start and end inverted.
+pub(crate) fn crc32(words: &[u32]) -> u32 {
+    !words
+        .iter()
+        .flat_map(|w| w.to_le_bytes())
+        .fold(u32::MAX, |crc, byte| {
+            (0..8).fold(crc ^ u32::from(byte), |crc, _| {
+                (crc >> 1) ^ (0xEDB8_8320 & (crc & 1).wrapping_neg())
+            })
+        })
+}
+
+/// Makes the CRC right again.
+pub(crate) fn sealed(mut image: Vec<u32>) -> Vec<u32> {
+    let last = image.len() - 1;
+    image[last] = crc32(&image[..last]);
+    image
+}
+
+pub(crate) const VALIDITY: Validity = Validity {
+    omega: 10.0,
+    alpha: 100.0,
+    torque_error: 0.01,
+};
+
+pub(crate) fn encoded<S: Scalar, const CURVES: u8>(
+    machine: &Wave,
+    cells: u32,
+    scale: &Scale,
+) -> Vec<u32> {
+    let words = words::<S, CURVES>(machine, cells, scale).unwrap();
+    let periodic = machine.domain == Domain::Turn;
+    let table = Table::<S, CURVES>::new(&words, cells, periodic).unwrap();
+    let mut buffer = vec![0; image_words(cells, CURVES) + 3];
+    encode(&table, machine.domain, scale, VALIDITY, &mut buffer)
+        .unwrap()
+        .to_vec()
+}
+
+/// The smallest image there is: four cells, inertia only.
+pub(crate) fn small() -> Vec<u32> {
+    encoded::<f32, { curves::INERTIA }>(&Wave::bare(1.0, 0.25), 4, &Scale::SI)
+}
+
+pub(crate) fn stroke() -> Vec<u32> {
+    let domain = Domain::stroke(-0.5, 1.5).unwrap();
+    let wave = Wave {
+        mean: 1.0,
+        swing: 0.25,
+        load: 3.0,
+        viscous: 0.1,
+        coulomb: 0.5,
+        domain,
+    };
+    encoded::<Q31, { curves::ALL }>(&wave, 12, &Scale::new(60.0, 11.0, 2.0).unwrap())
+}
+
+pub(crate) fn refused(image: &[u32]) -> ImageError {
+    Image::new(image).map(|_| ()).unwrap_err()
+}
