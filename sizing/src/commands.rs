@@ -162,28 +162,21 @@ fn size_text(
     duty: &Duty,
     selection: &Selection,
 ) -> String {
-    let mut text = format!("{}\n\nDuty at the input of the drive train\n", file.title);
-    let mut table = text_table(&["", "min", "mean", "max", "RMS"]);
     let input_power = |i: &crate::duty::Instant| i.input_torque * i.input_speed;
-    for (name, figures, unit) in [
+    let input = figures_table(&[
         ("torque [N m]", duty.figures(|i| i.input_torque), 1.0),
         ("speed [rpm]", duty.figures(|i| i.input_speed), RPM),
         ("power [W]", duty.figures(input_power), 1.0),
         ("inertia [kg cm^2]", duty.figures(|i| i.input_inertia), 1e-4),
-    ] {
-        let Figures {
-            min,
-            mean,
-            max,
-            rms,
-        } = figures;
-        let cells = [min, mean, max, rms].map(|x| rounded(x / unit));
-        table.add_row(std::iter::once(name.to_owned()).chain(cells));
-    }
-    text += &format!("{table}\n\n");
+    ]);
+    let mut text = format!(
+        "{}\n\nDuty at the input of the drive train, cycle {} s\n{input}\n\n",
+        file.title,
+        rounded(duty.duration)
+    );
     let all = selection.fit.len() + selection.refused.len();
     if let Some(best) = selection.fit.first() {
-        text += &format!("Best drive: {}\n{}\n", best.drive.name(), rules_table(best));
+        text += &format!("Best drive: {}\n{}\n", best.drive.name(), drive_text(best));
         text += &format!(
             "\n{} of {all} drives hold every rule\n",
             selection.fit.len()
@@ -206,7 +199,7 @@ fn size_text(
         text += &format!(
             "No drive of {all} holds every rule. The one that misses by least: {}\n{}\n",
             nearest.drive.name(),
-            rules_table(nearest)
+            drive_text(nearest)
         );
     }
     if options.refused {
@@ -224,6 +217,39 @@ fn size_text(
         text += &format!("report written to {}\n", path.display());
     }
     text
+}
+
+/// Rows of min, mean, max and RMS, each in its unit.
+fn figures_table(rows: &[(&str, Figures, f64)]) -> String {
+    let mut table = text_table(&["", "min", "mean", "max", "RMS"]);
+    for (name, figures, unit) in rows {
+        let Figures {
+            min,
+            mean,
+            max,
+            rms,
+        } = figures;
+        let cells = [min, mean, max, rms].map(|x| rounded(x / unit));
+        table.add_row(std::iter::once((*name).to_owned()).chain(cells));
+    }
+    table.to_string()
+}
+
+/// A drive's duty and how every rule came out.
+fn drive_text(judged: &Judged) -> String {
+    let duty = &judged.duty;
+    let figures = figures_table(&[
+        ("motor torque [N m]", duty.torque, 1.0),
+        ("motor speed [rpm]", duty.speed, RPM),
+        ("motor power [W]", duty.power, 1.0),
+        ("inertia ratio λ", duty.inertia_ratio, 1.0),
+    ]);
+    format!(
+        "{figures}\nper cycle {} J put in, {} J regenerated\n\n{}",
+        rounded(duty.motoring_energy),
+        rounded(duty.regenerative_energy),
+        rules_table(judged)
+    )
 }
 
 fn rules_table(judged: &Judged) -> String {

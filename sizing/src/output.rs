@@ -114,7 +114,10 @@ impl Columns {
 fn narrow(name: &str) -> String {
     let (words, unit) = name.split_at(name.find('[').unwrap_or(name.len()));
     let lines = words.split_whitespace().chain(std::iter::once(unit));
-    lines.filter(|l| !l.is_empty()).collect::<Vec<_>>().join("\n")
+    lines
+        .filter(|l| !l.is_empty())
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 /// Only a line under the header.

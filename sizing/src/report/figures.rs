@@ -151,7 +151,13 @@ pub(super) fn torque_speed_plane(best: &Judged, duty: &Duty, rules: &Rules) -> S
     let (n, rms) = (best.duty.mean_speed / RPM, best.duty.torque.rms);
     let (dn, dt) = (0.012 * top / RPM, 0.03 * best.drive.motor.peak_torque);
     let gap = (f64::NAN, f64::NAN);
-    let cross = vec![(n - dn, rms), (n + dn, rms), gap, (n, rms - dt), (n, rms + dt)];
+    let cross = vec![
+        (n - dn, rms),
+        (n + dn, rms),
+        gap,
+        (n, rms - dt),
+        (n, rms + dt),
+    ];
     let allowed = |n: f64| rules.peak_torque * envelope.peak_torque(n);
     let continuous = |n: f64| rules.rms_torque * envelope.continuous_torque(n);
     lines(
