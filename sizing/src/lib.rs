@@ -12,6 +12,7 @@ pub mod duty;
 pub mod envelope;
 pub mod export;
 pub mod input;
+pub mod listing;
 pub mod machine;
 pub mod motion;
 pub mod output;

@@ -217,7 +217,10 @@ fn wrong_command_lines() {
         (&[] as &[&str], &["Usage"] as &[&str]),
         (&["weigh", press], &["unrecognized subcommand", "Usage"]),
         (&["size"], &["<FILE>"]),
-        (&["size", press, "--tpo", "3"], &["--tpo", "--top"]),
+        (
+            &["size", press, "--fromat", "csv"],
+            &["--fromat", "--format"],
+        ),
         (&["size", press, "--steps", "15"], &["15", "16"]),
         (&["size", press, "--steps", "1e3"], &["invalid"]),
         (&["size", press, "--top", "-1"], &["-1"]),
