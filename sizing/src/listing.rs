@@ -28,18 +28,22 @@ pub fn text(list: List, file: &MachineFile, duty: &Duty, selection: &Selection) 
         ("power [W]", duty.figures(input_power), 1.0),
         ("inertia [kg cm^2]", duty.figures(|i| i.input_inertia), 1e-4),
     ]);
-    let mut text = format!(
-        "{}\n\nDuty at the input of the drive train, cycle {} s\n{input}\n\n",
+    let mut parts = vec![format!(
+        "{}\n\nDuty at the input of the drive train, cycle {} s\n{input}\n",
         file.title,
         rounded(duty.duration)
-    );
+    )];
     let all = selection.fit.len() + selection.refused.len();
     if let Some(best) = selection.fit.first() {
-        text += &format!("Best drive: {}\n{}\n", best.drive.name(), drive_text(best));
-        text += &format!(
-            "\n{} of {all} drives hold every rule\n",
+        parts.push(format!(
+            "Best drive: {}\n{}",
+            best.drive.name(),
+            drive_text(best)
+        ));
+        parts.push(format!(
+            "\n{} of {all} drives hold every rule",
             selection.fit.len()
-        );
+        ));
         let mut table = text_table(&[
             "rank",
             "motor",
@@ -53,26 +57,26 @@ pub fn text(list: List, file: &MachineFile, duty: &Duty, selection: &Selection) 
         for (k, judged) in selection.fit.iter().take(list.top).enumerate() {
             table.add_row(rank_row(k + 1, judged));
         }
-        text += &format!("{table}\nranked: {RANKING}\n");
+        parts.push(format!("{table}\nranked: {RANKING}"));
     } else if let Some(nearest) = selection.refused.first() {
-        text += &format!(
-            "No drive of {all} holds every rule. The one that misses by least: {}\n{}\n",
+        parts.push(format!(
+            "No drive of {all} holds every rule. The one that misses by least: {}\n{}",
             nearest.drive.name(),
             drive_text(nearest)
-        );
+        ));
     }
     if list.refused {
-        text += "\nRefused\n";
+        parts.push("\nRefused".to_owned());
         for judged in &selection.refused {
-            text += &format!("  {}: {}\n", judged.drive.name(), judged.reasons());
+            parts.push(format!("  {}: {}", judged.drive.name(), judged.reasons()));
         }
     } else if !selection.refused.is_empty() {
-        text += &format!(
-            "{} refused; --refused lists them with their reasons\n",
+        parts.push(format!(
+            "{} refused; --refused lists them with their reasons",
             selection.refused.len()
-        );
+        ));
     }
-    text
+    parts.join("\n") + "\n"
 }
 
 /// Rows of min, mean, max and RMS, each in its unit.
@@ -121,11 +125,8 @@ fn rules_table(judged: &Judged) -> String {
             check.note.clone(),
         ]);
     }
-    let mut text = table.to_string();
-    for assumption in &judged.assumptions {
-        text += &format!("\nassumed: {assumption}");
-    }
-    text
+    let assumed = judged.assumptions.iter().map(|a| format!("\nassumed: {a}"));
+    table.to_string() + &assumed.collect::<String>()
 }
 
 fn used(check: &Check) -> String {

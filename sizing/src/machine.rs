@@ -7,6 +7,7 @@ use crate::motion::Motion;
 use crate::rules::Rules;
 
 /// A mechanism that a machine file can name.
+#[expect(clippy::large_enum_variant, reason = "a run has one machine")]
 #[derive(Clone, Debug)]
 pub enum AnyMechanism {
     /// `type = "slider-crank"`
