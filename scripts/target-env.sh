@@ -59,7 +59,7 @@ END
         (
             cd "$dir/sysroot" && env -u CARGO_BUILD_TARGET -u CARGO_TARGET_DIR \
                 RUSTC=/usr/bin/rustc RUSTC_BOOTSTRAP=1 RUSTFLAGS="-Cembed-bitcode=yes" \
-                /usr/bin/cargo build --quiet --offline --release -Zbuild-std=core,alloc --target "$target"
+                /usr/bin/cargo build --quiet --release -Zbuild-std=core,alloc --target "$target"
         ) || return
         mkdir -p "$dir/lib/rustlib/$target/lib"
         cp "$dir/sysroot/target/$target/release/deps"/lib*.rlib "$dir/lib/rustlib/$target/lib/" || return

@@ -64,6 +64,8 @@ pub enum Error {
         /// Index of the table cell.
         cell: u32,
     },
+    /// Tables of this number type are not stored in images.
+    NoImage(&'static str),
     /// The table made is not sound.
     Table(crate::TableError),
     /// No table within the buffer meets the torque error asked for.
@@ -129,6 +131,10 @@ impl fmt::Display for Error {
             Self::Overflow { base, cell } => write!(
                 f,
                 "a curve leaves the fixed-point range in table cell {cell}: choose a larger {base} base"
+            ),
+            Self::NoImage(name) => write!(
+                f,
+                "tables of {name} are not stored in images: use f32 or q31"
             ),
             Self::Table(error) => error.fmt(f),
             Self::TorqueErrorNotReached {

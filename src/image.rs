@@ -176,7 +176,7 @@ impl<'a> Image<'a> {
         if magic != MAGIC {
             return Err(ImageError::NotAnImage(magic));
         }
-        if version != word_of(VERSION, HEADER_WORDS as u16) {
+        if version as u16 != VERSION {
             return Err(ImageError::Version {
                 found: version as u16,
                 supported: VERSION,
@@ -196,12 +196,16 @@ impl<'a> Image<'a> {
                 computed,
             });
         }
+        if (version >> 16) as usize != HEADER_WORDS {
+            return Err(ImageError::Header(1));
+        }
         let [code, set, interpolant, domain] = kind.to_le_bytes();
         let (from, to) = (f32::from_bits(from), f32::from_bits(to));
         let domain = match domain {
             TURN => Domain::Turn,
             STROKE if to > from && (to - from).is_finite() => Domain::Stroke { from, to },
-            _ => return Err(ImageError::Header(5)),
+            STROKE => return Err(ImageError::Header(5)),
+            _ => return Err(ImageError::Header(3)),
         };
         if interpolant != CUBIC_B_SPLINE || set > curves::ALL {
             return Err(ImageError::Header(3));

@@ -16,6 +16,8 @@ pub trait Real:
 {
     /// The nearest value to a constant.
     fn from_f64(value: f64) -> Self;
+    /// The same number in double precision.
+    fn to_f64(self) -> f64;
     /// Neither NaN nor infinite.
     fn is_finite(self) -> bool;
     /// Sine and cosine by `libm`, correct to 1 ulp. In `f32` this computes in double precision inside.
@@ -23,6 +25,9 @@ pub trait Real:
 }
 
 impl Real for f32 {
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
     fn is_finite(self) -> bool {
         self.is_finite()
     }
@@ -35,6 +40,9 @@ impl Real for f32 {
 }
 
 impl Real for f64 {
+    fn to_f64(self) -> f64 {
+        self
+    }
     fn is_finite(self) -> bool {
         self.is_finite()
     }

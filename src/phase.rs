@@ -48,7 +48,8 @@ impl Phase {
     }
 
     /// From an angle in radians in single precision, without any double-precision code: 6e-8 of a turn for
-    /// |φ| ≤ 2π. Range ±6.7e8 rad; beyond, and for NaN, the phase is 0.
+    /// |φ| ≤ 2π. Beyond ±6e8 rad, where a single-precision number no longer tells turns apart, and for NaN, the phase
+    /// is 0.
     #[must_use]
     pub fn from_radians_f32(phi: f32) -> Self {
         const TURNS_PER_RADIAN: f32 = core::f32::consts::FRAC_1_PI * 0.5;
@@ -56,7 +57,8 @@ impl Phase {
         if !(turns > -1.0e8 && turns < 1.0e8) {
             return Self(0);
         }
-        let fraction = turns - (turns as i32) as f32; // exact, in (−1, 1)
+        // The difference is exact, in (−1, 1); the rest of 1/2π counts 4e-8 of a turn at 2π.
+        let fraction = turns - (turns as i32) as f32 + phi * 6.420_638e-9;
         Self((fraction * 4_294_967_296.0) as i64 as u32)
     }
 

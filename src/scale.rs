@@ -81,19 +81,22 @@ impl Scale {
         const MARGIN: f64 = 1.05;
         positive("largest speed", omega)?;
         positive("largest acceleration", alpha)?;
-        let (mut least, mut most, mut torque, mut others) = (f64::INFINITY, 0.0f64, 0.0f64, 0.0f64);
+        let (mut least, mut most) = (f64::INFINITY, 0.0f64);
+        let (mut torque, mut resisting) = (0.0f64, 0.0f64);
         for k in 0..positions {
             let place = f64::from(k) / f64::from(positions);
             let point = machine.reduction(machine.domain().position(place))?;
             least = least.min(point.inertia[0]);
             most = most.max(point.inertia[0]);
             let terms = point.torque(omega, alpha).values();
-            torque = torque.max(terms.iter().map(|t| crate::math::abs(*t)).sum());
-            others = others.max(crate::math::abs(terms[1]));
+            let against: f64 = terms.iter().skip(1).map(|t| crate::math::abs(*t)).sum();
+            torque = torque.max(crate::math::abs(terms[0]) + against);
+            resisting = resisting.max(against);
         }
-        let torque = (torque * most / least).max(alpha * most).max(others);
+        // What resists may add to the torque; the margin counts twice, as J_b has it, too, and ω_b² has it squared.
+        let torque = (torque + resisting) * most / least;
         Self::new(
-            (torque * MARGIN) as f32,
+            (torque * MARGIN * MARGIN) as f32,
             (omega * MARGIN) as f32,
             (most * MARGIN) as f32,
         )

@@ -200,6 +200,39 @@ fn mirrored(spec: &Spec, com: [f64; 2]) -> [f64; 2] {
     [com[0] * spec.crank, -com[1] * spec.crank]
 }
 
+/// A window scales every kind of load by the same factor.
+#[test]
+fn windows_scale_every_kind_of_load() {
+    let window = Window::new(0.5, 2.0, 0.4).unwrap();
+    let frame = slider_only(0.1, 0.4, 1.0).mechanism().frames(0.6).unwrap()[SliderCrank::ROD];
+    let part = window.factor(0.6);
+    assert!(part > 0.01 && part < 0.99);
+    for action in [
+        Action::Force([3.0, -2.0]),
+        Action::Moment(2.0),
+        Action::OpposingForce(5.0),
+        Action::OpposingMoment(4.0),
+        Action::ViscousForce(7.0),
+        Action::ViscousMoment(6.0),
+    ] {
+        let load = Load::new(SliderCrank::ROD, action).unwrap();
+        let curves = |load: Load| {
+            let c = load.reduce(&frame, 0.6);
+            [c.process, c.viscous, c.coulomb]
+        };
+        let [whole, windowed] = [curves(load), curves(load.within(window))];
+        assert!(largest(whole) > 0.0, "{action:?}");
+        for (found, whole) in windowed.iter().zip(whole) {
+            assert_near(
+                "windowed",
+                *found,
+                part * whole,
+                budget::CLOSED_FORM * largest([whole]),
+            );
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(config(64, 0x0001))]
 

@@ -165,12 +165,16 @@ fn conversions_flag_what_does_not_fit() {
     );
 }
 
-fn cell_rows() -> impl Strategy<Value = Vec<i32>> {
-    let rows = prop::collection::vec(-1.0..1.0, 7);
-    (rows, 0.02..0.5f64).prop_map(|(rows, size)| {
-        rows.iter()
-            .map(|row: &f64| number::<Q31>(size * row).to_bits())
-            .collect()
+/// Rows of the load and, in the same place, of an inertia; some leave the range.
+fn cell_rows() -> impl Strategy<Value = [Vec<i32>; 2]> {
+    let rows = prop::collection::vec(-1f64..1.0, 7);
+    (rows, -0.25..0.25, -8.0..-1.0).prop_map(|(rows, mean, size)| {
+        let load = |row: &f64| number::<Q31>(mean + f64::exp2(size) * row).to_bits();
+        let inertia = |row: &f64| number::<Q31>(0.07 * (1.0 + 0.5 * row)).to_bits();
+        [
+            rows.iter().map(load).collect(),
+            rows.iter().map(inertia).collect(),
+        ]
     })
 }
 
@@ -179,21 +183,34 @@ proptest! {
 
     /// A cell that is let in is read without a wrap, whatever its size: floors are all that separates it from exact.
     #[test]
-    fn sound_cells_never_wrap(rows in cell_rows(), bits: u32) {
-        let c0 = number::<Q31>(0.1).to_bits();
-        let words: Vec<i32> = rows.iter().flat_map(|row| [c0, *row]).collect();
+    fn sound_cells_never_wrap([load, inertia] in cell_rows(), bits: u32) {
+        let words: Vec<i32> = inertia.iter().zip(&load).flat_map(|(j, load)| [*j, *load]).collect();
         let Ok(table) = Table::<Q31, { curves::LOAD }>::new(&words, 4, false) else {
             return Err(TestCaseError::reject("leaves the range"));
         };
         let phase = Phase::from_bits(bits);
         let (cell, fraction) = phase.cell(4);
         let u = f64::from(fraction) / 4_294_967_296.0;
-        let [a, b, c, d] = [0, 1, 2, 3].map(|k| f64::from(rows[cell as usize + k]));
-        // The B-spline's own basis functions (in sixths), not the power form of the code.
-        let value = a * (1.0 - u).powi(3) + b * (3.0 * u.powi(3) - 6.0 * u * u + 4.0)
-            + c * (-3.0 * u.powi(3) + 3.0 * u * u + 3.0 * u + 1.0) + d * u.powi(3);
-        let error = f64::from(table.at(phase).load.to_bits()) - value;
-        prop_assert!((-budget::Q31_VALUE_UNITS..=0.001).contains(&error), "{error} units");
+        // The B-spline's own basis functions (in sixths) and their slopes, not the power form of the code.
+        let basis = [
+            (1.0 - u).powi(3),
+            3.0 * u.powi(3) - 6.0 * u * u + 4.0,
+            -3.0 * u.powi(3) + 3.0 * u * u + 3.0 * u + 1.0,
+            u.powi(3),
+        ];
+        let slopes = [-3.0 * (1.0 - u).powi(2), 9.0 * u * u - 12.0 * u, -9.0 * u * u + 6.0 * u + 3.0, 3.0 * u * u];
+        let sum = |rows: &[i32], weights: [f64; 4]| -> f64 {
+            rows[cell as usize..].iter().zip(weights).map(|(row, weight)| f64::from(*row) * weight).sum()
+        };
+        let read = table.at(phase);
+        for (found, exact, floors) in [
+            (read.load, sum(&load, basis), budget::Q31_VALUE_UNITS),
+            (read.inertia, sum(&inertia, basis), budget::Q31_VALUE_UNITS),
+            (read.inertia_slope, sum(&inertia, slopes), budget::Q31_SLOPE_UNITS),
+        ] {
+            let error = f64::from(found.to_bits()) - exact;
+            prop_assert!((-floors..=budget::Q31_EXACT_UNITS).contains(&error), "{error} units");
+        }
     }
 
     /// No state inside the stated ones saturates, and none does on the way back.

@@ -6,7 +6,7 @@ use jred::table::{MIN_CELLS, control_points, curves};
 use jred::tabulate::{Request, Tabulated, measure, scratch_len, tabulate};
 use jred::{Domain, Phase, Q31, Reducible, Scalar, Scale, Table};
 use support::budget::Q31_UNIT;
-use support::machines::spec;
+use support::machines::{Wave, spec};
 use support::{assert_near, budget, largest, model, samples, words, zeros};
 
 const ALL: u8 = curves::ALL;
@@ -133,7 +133,7 @@ fn tabulate_finds_the_smallest_table_that_holds_everywhere() {
     for (k, spec) in samples(8, 0x0031, &spec()).iter().enumerate() {
         let machine = spec.machine();
         let scale = Scale::covering(&machine, 40.0, 600.0, 256).unwrap();
-        let torque_error = f64::from(scale.torque()) * [1e-2, 1e-3, 1e-4][k % 3];
+        let torque_error = f64::from(scale.torque()) * [0.2, 1e-2, 1e-3, 1e-4][k % 4];
         let request = Request {
             torque_error,
             omega: 40.0,
@@ -169,6 +169,15 @@ fn tabulate_finds_the_smallest_table_that_holds_everywhere() {
         }
         println!("{} cells, dense over stated {ratio:.3}", found.cells);
     }
+    // Four cells are tried, too.
+    let request = Request {
+        torque_error: 1.0,
+        omega: 10.0,
+        alpha: 10.0,
+        max_cells: 64,
+    };
+    let machine = Wave::bare(1.0, 0.001);
+    assert_eq!(table_of::<f64>(&machine, &request, &Scale::SI).0.cells, 4);
     assert!(
         worst[0] >= 1.0 - 1e-6 && worst[1] <= budget::DENSE_GRID,
         "{worst:?}"

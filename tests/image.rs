@@ -121,6 +121,11 @@ fn meaningless_header_words_are_refused() {
         |code, set, interpolant, domain| u32::from_le_bytes([code, set, interpolant, domain]);
     let [turn, stroke] = [small(), stroke()];
     assert_eq!(
+        with(&turn, 1, u32::from(VERSION) | 17 << 16),
+        ImageError::Header(1),
+        "another header length"
+    );
+    assert_eq!(
         with(&turn, 3, kind(1, 0, 2, 0)),
         ImageError::Header(3),
         "another interpolant"

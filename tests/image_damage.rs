@@ -18,7 +18,7 @@ fn every_flipped_bit_is_refused() {
             let error = refused(&damaged);
             let expected = match bit / 32 {
                 0 => matches!(error, ImageError::NotAnImage(_)),
-                1 => matches!(error, ImageError::Version { .. }),
+                1 if bit % 32 < 16 => matches!(error, ImageError::Version { .. }),
                 2 => matches!(error, ImageError::Length { .. }),
                 _ => matches!(error, ImageError::Crc { .. }),
             };

@@ -348,7 +348,7 @@ fn check_drive(
             &format!("{name}: {what}"),
             found,
             expected,
-            integral * motoring,
+            3.0 * integral * motoring,
         );
     };
     energy("regenerative energy [J]", regenerative);

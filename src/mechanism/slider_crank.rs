@@ -66,7 +66,8 @@ impl SliderCrank {
         let rod = positive("rod length", rod)?;
         let offset = finite("offset", offset)?;
         let shortest_rod = crank + math::abs(offset);
-        if rod <= shortest_rod {
+        // A hair of distance keeps cos ψ away from the roundings of 1 − sin²ψ, so that no angle fails later.
+        if rod <= shortest_rod * (1.0 + 1e-12) {
             // The distance |e − r·sin φ| to be spanned is largest at φ = 90° (e < 0) or 270°; the first φ > 0 at
             // which it exceeds the rod is where the turn ends.
             let phi = first_unreachable(crank, rod, offset);
@@ -98,18 +99,17 @@ impl SliderCrank {
 
 /// The smallest φ ≥ 0 (rad) at which |e − r·sin φ| reaches the rod's length.
 fn first_unreachable(crank: f64, rod: f64, offset: f64) -> f64 {
-    use core::f64::consts::{PI, TAU};
+    use core::f64::consts::PI;
     if math::abs(offset) >= rod {
         return 0.0;
     }
     let up = (offset + rod) / crank; // sin φ = (e + l)/r: the pin is too high
     let down = (offset - rod) / crank; // sin φ = (e − l)/r: the pin is too low
-    if up <= 1.0 {
-        math::asin(up)
-    } else if down >= -1.0 {
-        PI + math::asin(-down)
+    // One of them is reached where rod ≤ crank + |offset|; at equality a rounding may leave it just outside.
+    if up <= 1.0 || offset <= 0.0 {
+        math::asin(up.min(1.0))
     } else {
-        TAU
+        PI + math::asin((-down).min(1.0))
     }
 }
 

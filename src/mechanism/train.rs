@@ -49,8 +49,9 @@ impl Stage {
     pub fn belt(radius: [f64; 2], inertia: [f64; 2], mass: f64) -> Result<Self, Error> {
         let driver = positive("radius of the driver pulley", radius[0])?;
         let driven = positive("radius of the driven pulley", radius[1])?;
+        let pulley = not_negative("inertia of the driver", inertia[0])?;
         let belt = not_negative("mass of the belt", mass)? * driver * driver;
-        Self::new(driven / driver, [inertia[0] + belt, inertia[1]])
+        Self::new(driven / driver, [pulley + belt, inertia[1]])
     }
 
     /// A stage with the signed ratio i = ω_driver/ω_driven and the inertias on its two sides (kg·m²), lossless.

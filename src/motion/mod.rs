@@ -46,7 +46,10 @@ impl<R: Real> Move<R> {
             }
         }
         if duration <= zero {
-            return Err(Error::NotPositive("duration of the move", 0.0));
+            return Err(Error::NotPositive(
+                "duration of the move",
+                duration.to_f64(),
+            ));
         }
         law.check()?;
         Ok(Self {

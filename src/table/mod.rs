@@ -232,7 +232,12 @@ fn is_positive<S: Scalar>(points: [S; 4]) -> bool {
     let [c0, c1, c2, c3] = points.map(S::to_wide_f32);
     let ends = [c0 + 4.0 * c1 + c2, c1 + 4.0 * c2 + c3];
     let inner = [4.0 * c1 + 2.0 * c2, 2.0 * c1 + 4.0 * c2];
-    ends.iter().chain(&inner).all(|b| *b > 0.0)
+    // Above the roundings of these sums, so that no cell passes that dips below zero by a few units.
+    let rounding = 1e-6
+        * [c0, c1, c2, c3]
+            .iter()
+            .fold(0.0f32, |most, c| most.max(c.abs()));
+    ends.iter().chain(&inner).all(|b| *b > rounding)
 }
 
 /// One cell's rows and the place in it.

@@ -132,7 +132,7 @@ fn check_lengths(samples: usize, cells: usize, control: usize) -> Result<(), Err
         return Err(Error::OutOfRange {
             what: "number of samples",
             value: samples as f64,
-            min: MIN_CELLS as f64,
+            min: (MIN_CELLS + samples - cells) as f64,
             max: f64::INFINITY,
         });
     }

@@ -116,3 +116,6 @@ pub(crate) const LIMIT_ANGLE: f64 = 1e-6;
 
 /// A tick in Q31: five floors and the rounding of the state.
 pub(crate) const Q31_TICK_UNITS: f64 = 6.0;
+
+/// Rounding of the exact sum in f64, 2⁻⁵³ of terms of 2³³ units.
+pub(crate) const Q31_EXACT_UNITS: f64 = 1e-5;

@@ -22,8 +22,8 @@ pub(crate) const QUADRATURE: f64 = 2e-9;
 pub(crate) const DEFAULT_STEPS: f64 = 3e-6;
 
 /// Extremes at the default of 2000 steps are the largest sample: a peak of curvature T″ lies up to T″·h²/8 higher. The
-/// pressing force makes it 7e5 N·m/s² at steps of 0.25 ms [1.7e-4 low].
-pub(crate) const DEFAULT_PEAK: f64 = 3e-4;
+/// pressing force makes it 7e5 N·m/s² at steps of 0.25 ms [1e-4 low at the belt; 5e-4 at a motor with a large rotor].
+pub(crate) const DEFAULT_PEAK: f64 = 1e-3;
 
 /// Everything at 200 000 steps, against the same number of trapezoids [1e-12; 2e-10 for the energies].
 pub(crate) const FINE_STEPS: f64 = 1e-9;
@@ -35,22 +35,22 @@ pub(crate) const HOLDING_GRID: f64 = 1e-5;
 pub(crate) const ORDER: f64 = 0.1;
 
 /// Golden motion from rest over 0.5 s at a tolerance of 1e-12, relative to the column's largest: the integrator's error
-/// grows with the 30 rad turned [].
-pub(crate) const GOLDEN_MOTION: f64 = 1e-9;
+/// grows with the 30 rad turned [5e-12 for φ, 8e-11 for α].
+pub(crate) const GOLDEN_MOTION: f64 = 3e-10;
 
 /// Energy balance as a share of the energy turned over, at tolerances of 1e-10 and less.
 pub(crate) const BALANCE: f64 = 1e-8;
 
-/// Energies recomputed from an angle of some thousand degrees, which has lost four of its digits.
-pub(crate) const ANGLE_IN_DEGREES: f64 = 1e-11;
+/// Energies recomputed from an angle of some thousand degrees, which rounds to 1e-12 rad [1e-15].
+pub(crate) const ANGLE_IN_DEGREES: f64 = 1e-13;
 
-/// Work of the pressing force over several strokes, at a tolerance of 1e-10.
+/// Work of the pressing force over several strokes, at a tolerance of 1e-10 [1.7e-8].
 pub(crate) const PRESSING_WORK: f64 = 1e-7;
 
-/// Coasting down to standstill: the instant of rest is found by halving to 1e-12 s.
-pub(crate) const STANDSTILL: f64 = 1e-9;
+/// Coasting down to standstill: the instant of rest is found by halving to 1e-12 s [5e-15].
+pub(crate) const STANDSTILL: f64 = 1e-12;
 
-/// Motions with a closed form at a tolerance of 1e-10.
+/// Motions with a closed form at a tolerance of 1e-10 [1.7e-8].
 pub(crate) const CLOSED_MOTION: f64 = 1e-9;
 
 /// Three swings of a pendulum at a tolerance of 1e-12.
@@ -59,8 +59,28 @@ pub(crate) const SWING: f64 = 1e-9;
 /// A turning point read from samples 1 ms apart: α·dt²/8 with α up to 50 rad/s².
 pub(crate) const TURNING_SAMPLE_DEG: f64 = 1e-3;
 
-/// Where friction brought a pendulum to rest after several swings (deg).
-pub(crate) const REST_DEG: f64 = 1e-6;
+/// Where friction brought a pendulum to rest after several swings (deg) [2e-13].
+pub(crate) const REST_DEG: f64 = 1e-9;
 
 /// The press over 2 s at a tolerance of 1e-10 against 1e-13.
 pub(crate) const TOLERANCE_1E10: f64 = 1e-8;
+
+/// The same sums in another order of operations, relative to the largest term.
+pub(crate) const SAME_SUMS: f64 = 1e-11;
+
+/// Simpson's rule at 2000 steps over laws with bounded fourth derivatives, the ends of a stretch taken from 1e-9 inside.
+pub(crate) const SIMPSON: f64 = 1e-8;
+
+/// Order of the RMS of a recorded motion from three recording steps [4.02, 4.00].
+pub(crate) const PROFILE_ORDER: f64 = 0.1;
+
+/// RMS torque of a cycloidal move recorded at 26 times [2.8e-6].
+pub(crate) const PROFILE_RMS: f64 = 5e-6;
+
+/// Roundings of a tick in single precision or in Q31 from single-precision speeds: a few 2⁻²⁴ of the terms, which are a
+/// few times the torque.
+pub(crate) const TICK_ROUNDING: f64 = 2e-6;
+
+/// The stated error is the largest at eight places a cell; between them it may be larger by this share [2.3 % where the
+/// pressing force sets in].
+pub(crate) const BETWEEN_CHECKS: f64 = 0.05;

@@ -1,0 +1,328 @@
+//! The catalogue: what is built in, and what a user is told about a file of his own that cannot be used.
+
+mod support;
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use jred_sizing::catalogue::Catalogue;
+use support::{Folder, Run, jred, press_file};
+
+const RPM: f64 = std::f64::consts::PI / 30.0;
+
+fn built_in() -> Catalogue {
+    Catalogue::load(None, None).unwrap()
+}
+
+#[test]
+fn the_built_in_catalogue_is_plausible() {
+    let catalogue = built_in();
+    assert!(catalogue.motors.len() >= 15, "{}", catalogue.motors.len());
+    assert!(catalogue.gearboxes.len() >= 6);
+    let makers: BTreeSet<&str> = catalogue.motors.iter().map(|m| m.maker.as_str()).collect();
+    assert!(makers.len() >= 3, "{makers:?}");
+    let keys: BTreeSet<&str> = catalogue.motors.iter().map(|m| m.key.as_str()).collect();
+    assert_eq!(keys.len(), catalogue.motors.len());
+    for motor in &catalogue.motors {
+        let key = &motor.key;
+        assert!(motor.source.len() > 20, "{key}");
+        let power = motor.rated_torque * motor.rated_speed;
+        assert!((50.0..20e3).contains(&power), "{key}: {power} W");
+        let rpm = motor.rated_speed / RPM;
+        assert!((500.0..6001.0).contains(&rpm), "{key}: {rpm} rpm");
+        let overload = motor.peak_torque / motor.rated_torque;
+        assert!(
+            (1.5..10.0).contains(&overload),
+            "{key}: peak/rated {overload}"
+        );
+        if let Some(standstill) = motor.standstill_torque {
+            let share = standstill / motor.rated_torque;
+            assert!((1.0..2.0).contains(&share), "{key}: M0/Mn {share}");
+            assert!(standstill < motor.peak_torque, "{key}");
+        }
+        // Rotors grow with the torque to the power 5/3 (similar shape); makers differ by a factor of ten.
+        let slimness = motor.rotor_inertia / motor.peak_torque.powf(5.0 / 3.0);
+        assert!((5e-7..2e-5).contains(&slimness), "{key}: {slimness:e}");
+        // Time to accelerate the bare rotor to rated speed at peak torque.
+        let time = motor.rotor_inertia * motor.rated_speed / motor.peak_torque;
+        assert!((1e-3..0.2).contains(&time), "{key}: {time} s");
+        if let Some(mass) = motor.mass {
+            assert!((0.2..20.0).contains(&(motor.rated_torque / mass)), "{key}");
+        }
+    }
+    let keys: BTreeSet<&str> = catalogue.gearboxes.iter().map(|g| g.key.as_str()).collect();
+    assert_eq!(keys.len(), catalogue.gearboxes.len());
+    for gearbox in &catalogue.gearboxes {
+        let key = &gearbox.key;
+        assert!(gearbox.source.len() > 20, "{key}");
+        assert!((2.0..=200.0).contains(&gearbox.ratio), "{key}");
+        assert!((0.8..1.0).contains(&gearbox.efficiency), "{key}");
+        if let Some(rated) = gearbox.rated_torque {
+            let overload = gearbox.peak_torque / rated;
+            assert!((1.0..4.0).contains(&overload), "{key}: {overload}");
+        }
+        if let Some(speed) = gearbox.rated_speed {
+            assert!(speed < gearbox.max_speed, "{key}");
+        }
+        assert!((1e-6..1e-2).contains(&gearbox.inertia), "{key}");
+        // The ratio is part of the type designation.
+        assert!(
+            gearbox.model.contains(&format!("i={}", gearbox.ratio)),
+            "{key}: {}",
+            gearbox.model
+        );
+    }
+}
+
+const HEADER: &str = "key,maker,model,rated_torque [N m],rated_speed [rpm],peak_torque [N m],rotor_inertia [kg cm^2],source";
+const FIRST: &str = "m1,Maker,Model,8,2000,36,8.5,Sheet";
+const SECOND: &str = "m2,Maker,Model,9,2000,36,8.5,Sheet";
+
+fn size_with(motors: impl AsRef<[u8]>) -> Run {
+    let folder = Folder::new();
+    let file = folder.file("m.csv", motors);
+    // A short path: messages are broken into lines at a fixed width.
+    jred([
+        &"size",
+        &press_file(),
+        &"--motors",
+        &file,
+        &"--steps",
+        &"16",
+    ])
+}
+
+/// `place` is line and column as the message shows them.
+fn refuses(motors: &str, place: Option<(usize, usize)>, words: &[&str]) {
+    let run = size_with(motors).ends(2);
+    if std::env::var_os("SHOW_REPORTS").is_some() {
+        println!("{}", run.err);
+    }
+    assert!(run.out.is_empty());
+    run.says(words);
+    if let Some((line, column)) = place {
+        let place = format!("m.csv:{line}:{column}]");
+        assert!(run.err.contains(&place), "{place} is not in\n{}", run.err);
+    }
+}
+
+#[test]
+fn nothing_in_the_file() {
+    refuses("", None, &["is empty", "motors", "docs/catalogue.md"]);
+    refuses("\n\n", None, &["is empty", "motors"]);
+    refuses(HEADER, None, &["is empty", "motors", "at least one row"]);
+    refuses(&format!("{HEADER}\n# nothing yet\n"), None, &["is empty"]);
+}
+
+#[test]
+fn wrong_columns() {
+    let table = |header: &str| format!("{header}\n{FIRST}\n");
+    refuses(
+        "key,maker,model,rated_torque [N m],rated_speed [rpm],peak_torque [N m],source\nm,M,M,8,2000,36,S\n",
+        Some((1, 1)),
+        &["the column \"rotor_inertia\" is missing", "add the column"],
+    );
+    refuses(
+        &table(&HEADER.replace("rated_torque", "rated_torqe")),
+        Some((1, 17)),
+        &[
+            "unknown column \"rated_torqe\"",
+            "did you mean \"rated_torque\"?",
+        ],
+    );
+    refuses(
+        &table(&HEADER.replace("rotor_inertia", "rotor inertia")),
+        None,
+        &["did you mean \"rotor_inertia\"?"],
+    );
+    refuses(
+        &table(&HEADER.replace("rated_torque [N m]", "rated_torque [kg m^2]")),
+        Some((1, 17)),
+        &["has the unit [kg m^2]", "[N m]", "[mN m]"],
+    );
+    refuses(
+        &table(&HEADER.replace("rated_speed [rpm]", "rated_speed")),
+        Some((1, 36)),
+        &["rated_speed", "[rpm]", "[rad/s]"],
+    );
+    refuses(&HEADER.replace(',', ";"), None, &["unknown column"]);
+}
+
+/// Two columns of one name cannot both be right.
+#[test]
+fn a_column_given_twice() {
+    refuses(
+        &format!("{HEADER},rated_torque [mN m]\n{FIRST},8000\n"),
+        None,
+        &["rated_torque", "twice"],
+    );
+}
+
+#[test]
+fn wrong_cells() {
+    let with = |cell: &str| format!("{HEADER}\n{FIRST}\nm2,Maker,Model,{cell},2000,36,8.5,Sheet\n");
+    for cell in [
+        "abc", "-9", "NaN", "inf", "0", "9 Nm", "1e999", "-0.0", "9..1",
+    ] {
+        refuses(
+            &with(cell),
+            Some((3, 16)),
+            &[
+                &format!("rated_torque of \"m2\" is \"{cell}\""),
+                "not a number greater than zero",
+                "write a plain number",
+            ],
+        );
+    }
+    refuses(
+        &with("\"9,1\""),
+        None,
+        &["rated_torque of \"m2\" is \"9,1\"", "write a plain number"],
+    );
+    refuses(
+        &with(""),
+        None,
+        &["rated_torque of \"m2\" is empty", "fill in"],
+    );
+    refuses(
+        &with("40"),
+        Some((3, 24)),
+        &[
+            "peak_torque of \"m2\" is below its rated_torque",
+            "check peak_torque",
+        ],
+    );
+    refuses(
+        &format!("{HEADER}\n{FIRST}\n{}\n", SECOND.replace("m2", "m1")),
+        Some((3, 1)),
+        &["the key \"m1\" is there twice", "a key of its own"],
+    );
+    refuses(
+        &format!("{HEADER}\n{FIRST}\nm2,Maker,Model,9,2000\n"),
+        Some((3, 1)),
+        &["8", "5", "every row needs as many cells"],
+    );
+    refuses(
+        &format!("{HEADER}\n{FIRST}\n{SECOND},extra\n"),
+        None,
+        &["every row needs as many cells"],
+    );
+    refuses(
+        &format!("{HEADER}\n{FIRST}\nm2,,Model,9,2000,36,8.5,Sheet\n"),
+        None,
+        &["maker of \"m2\" is empty"],
+    );
+}
+
+/// The place shown is the cell's, not that of the same characters somewhere before it.
+#[test]
+fn the_place_is_the_cell() {
+    refuses(
+        &format!("{HEADER}\nm-9,Maker,Model,-9,2000,36,8.5,Sheet\n"),
+        Some((2, 17)),
+        &["rated_torque of \"m-9\" is \"-9\""],
+    );
+    refuses(
+        &format!("{HEADER}\n# not -9\nm2,Maker,Model,-9,2000,36,8.5,Sheet\n"),
+        Some((3, 16)),
+        &["rated_torque of \"m2\" is \"-9\""],
+    );
+}
+
+#[test]
+fn not_text() {
+    let run = size_with([0xffu8, 0xfe, 0x00, 0x41]).ends(2);
+    run.says(&["cannot read the catalogue", "--motors"]);
+    let run = jred([
+        &"size",
+        &press_file(),
+        &"--gearboxes",
+        &Path::new("/no/such.csv"),
+    ]);
+    run.ends(2)
+        .says(&["cannot read the catalogue", "--gearboxes"]);
+}
+
+/// What spreadsheets write: quotes, CRLF, a byte order mark, blanks.
+#[test]
+fn what_spreadsheets_write_is_read() {
+    let folder = Folder::new();
+    let load = |text: &str| {
+        let file = folder.file("m.csv", text);
+        Catalogue::load(Some(&file), None)
+            .map_err(|e| format!("{e}: {e:?}"))
+            .unwrap()
+    };
+    let quoted = format!(
+        "{HEADER}\nm1,\"Maker, Sons & Co\",\"The \"\"big\"\" one\",\"8\",2000,36,8.5,\"Sheet, page 3\"\n"
+    );
+    for text in [
+        quoted.clone(),
+        quoted.replace('\n', "\r\n"),
+        format!("\u{feff}{quoted}"),
+        quoted.trim_end().to_owned(),
+        quoted.replace(",2000,", " , 2000 ,\t"),
+        format!("# motors of 2026\n\n{quoted}\n\n"),
+    ] {
+        let motors = load(&text).motors;
+        assert_eq!(motors.len(), 1);
+        assert_eq!(motors[0].key, "m1");
+        assert_eq!(motors[0].maker, "Maker, Sons & Co");
+        assert_eq!(motors[0].model, "The \"big\" one");
+        assert_eq!(motors[0].rated_torque, 8.0);
+        assert_eq!(motors[0].source, "Sheet, page 3");
+    }
+}
+
+#[test]
+fn units_of_the_header_are_converted() {
+    let folder = Folder::new();
+    let motor = |header: &str, row: &str| {
+        let file = folder.file("m.csv", format!("{header}\n{row}\n"));
+        Catalogue::load(Some(&file), None).unwrap().motors[0].clone()
+    };
+    let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-15 * b, "{a} and {b}");
+    let plain = motor(HEADER, FIRST);
+    near(plain.rated_torque, 8.0);
+    near(
+        plain.rated_speed,
+        2000.0 * 2.0 * std::f64::consts::PI / 60.0,
+    );
+    near(plain.rotor_inertia, 8.5e-4);
+    let header = "source,rotor_inertia [g cm^2],peak_torque [mN m],max_speed [rad/s],rated_speed [rad/s],rated_torque [Nm],model,maker,key,mass [g]";
+    let other = motor(header, "Sheet,8500,36000,300,209.5,8,Model,Maker,m1,7500");
+    near(other.rotor_inertia, 8500.0 * 1e-3 * 1e-4);
+    near(other.peak_torque, 36.0);
+    near(other.max_speed.unwrap(), 300.0);
+    near(other.rated_speed, 209.5);
+    near(other.mass.unwrap(), 7.5);
+    let header = HEADER.replace("kg cm^2", "kg m^2");
+    near(motor(&header, FIRST).rotor_inertia, 8.5);
+    // Efficiency in per cent or as a share.
+    let gearbox = |header: &str, cell: &str| {
+        let text = format!(
+            "key,maker,model,ratio,peak_output_torque [N m],max_input_speed [rpm],input_inertia [kg cm^2],{header},source\n\
+             g,M,M,3,80,7000,1,{cell},S\n"
+        );
+        let file = folder.file("g.csv", text);
+        Catalogue::load(None, Some(&file))
+    };
+    near(
+        gearbox("efficiency [%]", "97").unwrap().gearboxes[0].efficiency,
+        0.97,
+    );
+    near(
+        gearbox("efficiency", "0.97").unwrap().gearboxes[0].efficiency,
+        0.97,
+    );
+    let error = gearbox("efficiency", "97").unwrap_err().to_string();
+    assert!(error.contains("efficiency of \"g\" is above 1"), "{error}");
+}
+
+/// A catalogue of the user's replaces the built-in one.
+#[test]
+fn own_catalogues_are_the_only_candidates() {
+    let run = size_with(format!("{HEADER}\n{FIRST}\n{SECOND}\n"));
+    let all = 2 * (built_in().gearboxes.len() + 1);
+    assert!(run.out.contains(&format!(" of {all} ")), "{}", run.out);
+}

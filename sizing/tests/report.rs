@@ -1,0 +1,284 @@
+//! Reports: one file that needs nothing else, with every plot and every reason in it.
+
+mod support;
+
+use std::path::PathBuf;
+
+use support::{Folder, edited_press, jred, press_file, press_text};
+
+/// The elements `<svg …>…</svg>`, parsed.
+fn plots(page: &str) -> Vec<&str> {
+    let mut plots = Vec::new();
+    let mut rest = page;
+    while let Some(start) = rest.find("<svg") {
+        let end = start + rest[start..].find("</svg>").expect("an open <svg>") + "</svg>".len();
+        plots.push(&rest[start..end]);
+        rest = &rest[end..];
+    }
+    plots
+}
+
+fn check_plots(page: &str, count: usize) {
+    let plots = plots(page);
+    assert_eq!(plots.len(), count);
+    assert_eq!(page.matches("<figure>").count(), count);
+    for plot in plots {
+        // Inline in HTML an SVG needs no namespace; the parser does where prefixes are used.
+        let document = roxmltree::Document::parse(plot).unwrap_or_else(|e| panic!("{e}: {plot}"));
+        let elements = document.descendants().filter(roxmltree::Node::is_element);
+        let mut drawn = 0;
+        for element in elements {
+            for attribute in element.attributes() {
+                let value = attribute.value();
+                assert!(!value.contains("NaN") && !value.contains("inf"), "{value}");
+            }
+            drawn += usize::from(
+                ["path", "polyline", "rect", "circle", "line"].contains(&element.tag_name().name()),
+            );
+        }
+        assert!(drawn > 10, "an empty plot: {plot}");
+        let texts: String = document.descendants().filter_map(|n| n.text()).collect();
+        assert!(texts.contains('['), "axes without units: {texts}");
+    }
+}
+
+/// Nothing is loaded from anywhere: neither by an element nor by the style.
+fn check_self_contained(page: &str) {
+    for word in [
+        "src=", "<link", "<script", "@import", "url(http", "<iframe", "<object", "srcset",
+    ] {
+        assert!(!page.contains(word), "{word}");
+    }
+    for part in page.split("href=").skip(1) {
+        assert!(
+            part.starts_with("\"#") || part.starts_with("'#"),
+            "{}",
+            &part[..60.min(part.len())]
+        );
+    }
+    for part in page.split("url(").skip(1) {
+        assert!(part.starts_with('#'), "{}", &part[..60.min(part.len())]);
+    }
+    assert!(page.starts_with("<!DOCTYPE html>") && page.trim_end().ends_with("</html>"));
+    assert!(page.contains("<meta charset=\"utf-8\">"));
+}
+
+/// Every element that is opened is closed, in order.
+fn check_nesting(page: &str) {
+    let mut open: Vec<String> = Vec::new();
+    let mut rest = page;
+    while let Some(start) = rest.find('<') {
+        let tag = &rest[start + 1..];
+        let end = tag.find('>').expect("an open tag");
+        let (tag, after) = (&tag[..end], &tag[end + 1..]);
+        rest = after;
+        if tag.starts_with('!') || tag.starts_with('?') || tag.ends_with('/') {
+            continue;
+        }
+        let name: String = tag
+            .trim_start_matches('/')
+            .chars()
+            .take_while(|c| c.is_ascii_alphanumeric())
+            .collect();
+        if tag.starts_with('/') {
+            assert_eq!(open.pop().as_deref(), Some(name.as_str()));
+        } else if !["meta", "br", "hr"].contains(&name.as_str()) {
+            open.push(name);
+        }
+    }
+    assert!(open.is_empty(), "{open:?}");
+}
+
+fn size(folder: &Folder, file: &PathBuf, code: i32) -> String {
+    let report = folder.path("report.html");
+    let run = jred([&"size", file, &"--report", &report]).ends(code);
+    assert!(run.out.contains("report written to"));
+    std::fs::read_to_string(report).unwrap()
+}
+
+/// HTML to plain text, so that what the page says can be looked up.
+fn plain(page: &str) -> String {
+    let mut text = String::new();
+    let mut inside = false;
+    for c in page.chars() {
+        match c {
+            '<' => inside = true,
+            '>' => inside = false,
+            _ if !inside => text.push(c),
+            _ => {}
+        }
+    }
+    for (code, c) in [
+        ("&lt;", "<"),
+        ("&gt;", ">"),
+        ("&quot;", "\""),
+        ("&#60;", "<"),
+        ("&#62;", ">"),
+        ("&#34;", "\""),
+        ("&#39;", "'"),
+        ("&amp;", "&"),
+        ("&#38;", "&"),
+    ] {
+        text = text.replace(code, c);
+    }
+    text
+}
+
+#[test]
+fn the_report_of_the_press() {
+    let folder = Folder::new();
+    let page = size(&folder, &press_file(), 0);
+    check_self_contained(&page);
+    check_nesting(&page);
+    // Operating points, torque, speed, inertia, reduced torque, terms, links.
+    check_plots(&page, 7);
+    let text = plain(&page);
+    let answer = jred([&"size", &press_file(), &"--format", &"json"]).json();
+    let best = &answer["fit"][0];
+    assert!(text.contains(best["motor"].as_str().unwrap()));
+    for word in [
+        "is the smallest drive of the catalogue that holds every rule",
+        "Source of",
+        "Assumed:",
+        "Servo press, 60 mm stroke, 10 kN",
+    ] {
+        assert!(text.contains(word), "{word}");
+    }
+    // Every refused drive, and every rule that it breaks.
+    let refused = answer["refused"].as_array().unwrap();
+    assert!(text.contains(&format!(
+        "{} drives, those that miss by least first",
+        refused.len()
+    )));
+    let rows: Vec<&str> = page.split("<tr>").collect();
+    for drive in refused {
+        let motor = drive["motor"].as_str().unwrap();
+        let name = match drive["gearbox"].as_str() {
+            Some(gearbox) => format!("<td>{motor} + {gearbox}</td>"),
+            None => format!("<td>{motor}, direct</td>"),
+        };
+        let row = rows
+            .iter()
+            .find(|row| row.starts_with(&name))
+            .unwrap_or_else(|| panic!("{name}"));
+        for check in drive["checks"].as_array().unwrap() {
+            if check["verdict"] == "fail" {
+                assert!(row.contains(check["rule"].as_str().unwrap()), "{row}");
+            }
+        }
+    }
+    // Every check of the best drive with its verdict.
+    for check in best["checks"].as_array().unwrap() {
+        let row = format!("<td>{}</td>", check["rule"].as_str().unwrap());
+        assert!(page.contains(&row), "{row}");
+    }
+    assert!(page.len() < 3_000_000, "{} bytes", page.len());
+}
+
+#[test]
+fn a_title_is_text_not_markup() {
+    let folder = Folder::new();
+    let title = r#"title = "<b>&\"Press\"</title><script>alert(1)</script> $x^2$ é""#;
+    let text = edited_press("title = \"Servo press, 60 mm stroke, 10 kN\"", title);
+    let file = folder.file("<machine> & co.toml", text);
+    let page = size(&folder, &file, 0);
+    let plot = folder.path("plot.html");
+    jred([&"simulate", &file, &"--plot", &plot]).ends(0);
+    for page in [page, std::fs::read_to_string(plot).unwrap()] {
+        assert!(
+            !page.contains("<script") && !page.contains("<b>&\""),
+            "markup got through"
+        );
+        check_self_contained(&page);
+        check_nesting(&page);
+        assert!(plain(&page).contains(r#"<b>&"Press"</title><script>alert(1)</script> $x^2$ é"#));
+    }
+}
+
+/// Names of a user's catalogue are text as well.
+#[test]
+fn names_of_the_catalogue_are_text_not_markup() {
+    let folder = Folder::new();
+    let motors = folder.file(
+        "m.csv",
+        "key,maker,model,rated_torque [N m],rated_speed [rpm],peak_torque [N m],rotor_inertia [kg cm^2],source\n\
+         <i>k</i>,A<b>&B,\"M\"\"<script>\",30,3000,90,80,<img>\n",
+    );
+    let report = folder.path("report.html");
+    jred([
+        &"size",
+        &press_file(),
+        &"--motors",
+        &motors,
+        &"--report",
+        &report,
+    ]);
+    let page = std::fs::read_to_string(report).unwrap();
+    for markup in ["<script", "<img", "<i>k", "A<b>"] {
+        assert!(!page.contains(markup), "{markup}");
+    }
+    check_nesting(&page);
+    assert!(plain(&page).contains("A<b>&B M\"<script>"));
+}
+
+#[test]
+fn a_report_where_no_drive_holds() {
+    let folder = Folder::new();
+    let file = folder.file("m.toml", edited_press("\"-10 kN\"", "\"-900 kN\""));
+    let page = size(&folder, &file, 1);
+    check_self_contained(&page);
+    check_nesting(&page);
+    check_plots(&page, 7);
+    let text = plain(&page);
+    for word in [
+        "No drive of the catalogue holds every rule.",
+        "misses by least: ",
+        "hold every rule (0 of ",
+    ] {
+        assert!(text.contains(word), "{word}");
+    }
+}
+
+#[test]
+fn the_page_of_a_simulation() {
+    let folder = Folder::new();
+    let plot = folder.path("plot.html");
+    let run = jred([&"simulate", &press_file(), &"--plot", &plot]).ends(0);
+    assert!(run.out.contains("Servo press"));
+    let page = std::fs::read_to_string(plot).unwrap();
+    check_self_contained(&page);
+    check_nesting(&page);
+    // Speed, angle, motor torque, energies, balance.
+    check_plots(&page, 5);
+}
+
+/// Machines without loads, without a train, at constant speed: plots of nothing are plots nevertheless.
+#[test]
+fn reports_of_plain_machines() {
+    let folder = Folder::new();
+    let plain_machine = r#"
+gravity = ["0 m/s^2", "0 m/s^2"]
+[mechanism]
+type = "belt"
+driver = { radius = "40 mm", inertia = "0.0006 kg m^2" }
+driven = { radius = "120 mm", inertia = "0.03 kg m^2" }
+[motion]
+type = "constant-speed"
+speed = "60 rpm"
+"#;
+    let file = folder.file("belt.toml", plain_machine);
+    let page = size(&folder, &file, 0);
+    check_self_contained(&page);
+    check_nesting(&page);
+    assert!(!plain(&page).contains("NaN"));
+    for plot in plots(&page) {
+        roxmltree::Document::parse(plot).unwrap();
+        assert!(!plot.contains("NaN") && !plot.contains("inf\""));
+    }
+    let no_load = press_text();
+    let (machine, rest) = no_load.split_once("# Pressing force").unwrap();
+    let (_, rest) = rest.split_once("# Toothed belt").unwrap();
+    let file = folder.file("no load.toml", format!("{machine}#{rest}"));
+    let page = size(&folder, &file, 0);
+    check_plots(&page, 7);
+}
