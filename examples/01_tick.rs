@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! cargo run -p jred --example 01_tick                                               on the host
-//! cargo run -p jred --example 01_tick --release --target thumbv7em-none-eabihf      on a Cortex-M4F in QEMU
+//! cargo run -p jred --example 01_tick --profile firmware --target thumbv7em-none-eabihf      on a Cortex-M4F in QEMU
 //! ```
 #![cfg_attr(target_os = "none", no_std, no_main)]
 

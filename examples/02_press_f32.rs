@@ -4,7 +4,7 @@
 //! this torque gives (forward dynamics), which must be the α it started from.
 //!
 //! ```text
-//! cargo run -p jred --example 02_press_f32 --release --target thumbv7m-none-eabi
+//! cargo run -p jred --example 02_press_f32 --profile firmware --target thumbv7m-none-eabi
 //! ```
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
@@ -57,10 +57,7 @@ fn run() -> Result<(), Failure> {
             );
         }
     }
-    println!(
-        "checksum of all {} ticks {:08x}, saturated {}",
-        TICKS, checksum, saturated
-    );
+    println!("checksum of all {TICKS} ticks {checksum:08x}, saturated {saturated}");
     println!(
         "largest round-trip difference {} urad/s2",
         milli(worst * 1000.0)

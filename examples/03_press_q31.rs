@@ -4,7 +4,7 @@
 //! limited and say so; nothing wraps.
 //!
 //! ```text
-//! cargo run -p jred --example 03_press_q31 --release --target thumbv6m-none-eabi
+//! cargo run -p jred --example 03_press_q31 --profile firmware --target thumbv6m-none-eabi
 //! ```
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
@@ -79,11 +79,8 @@ fn run() -> Result<(), Failure> {
             );
         }
     }
-    println!(
-        "checksum of all {} ticks {:08x}, saturated {}",
-        TICKS, checksum, saturated
-    );
-    println!("largest round-trip difference {} units of 2^-31", worst);
+    println!("checksum of all {TICKS} ticks {checksum:08x}, saturated {saturated}");
+    println!("largest round-trip difference {worst} units of 2^-31");
     println!(
         "largest torque difference from f32 {} uN m",
         milli(apart * 1000.0)

@@ -28,7 +28,7 @@ pub enum Command {
     Reduce(Reduce),
     /// Check every motor and gearbox of the catalogue against the motion, and rank what fits.
     Size(Size),
-    /// Integrate the free motion under the motor torque of [simulation].
+    /// Integrate the free motion under the motor torque of `[simulation]`.
     Simulate(Simulate),
     /// Write the smallest table for the firmware that meets a torque error.
     Export(Export),
@@ -56,7 +56,7 @@ pub struct Reduce {
 /// `jred size`
 #[derive(Debug, Args)]
 pub struct Size {
-    /// Machine file, with a [motion].
+    /// Machine file, with a `[motion]`.
     pub file: PathBuf,
     /// Motors from this CSV file instead of the built-in ones.
     #[arg(long, value_name = "CSV")]
@@ -84,7 +84,7 @@ pub struct Size {
 /// `jred simulate`
 #[derive(Debug, Args)]
 pub struct Simulate {
-    /// Machine file, with a [simulation].
+    /// Machine file, with a `[simulation]`.
     pub file: PathBuf,
     /// How to write the result.
     #[arg(long, value_enum, default_value_t)]

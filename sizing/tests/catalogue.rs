@@ -222,6 +222,10 @@ fn the_place_is_the_cell() {
         Some((2, 17)),
         &["rated_torque of \"m-9\" is \"-9\""],
     );
+}
+
+#[test]
+fn the_place_is_not_in_a_comment() {
     refuses(
         &format!("{HEADER}\n# not -9\nm2,Maker,Model,-9,2000,36,8.5,Sheet\n"),
         Some((3, 16)),

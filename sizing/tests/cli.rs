@@ -312,6 +312,27 @@ fn output_that_cannot_be_written() {
     }
 }
 
+/// A slip on the command line must not cost the user his machine.
+#[test]
+fn the_machine_file_is_never_overwritten() {
+    let folder = Folder::new();
+    let mut lost = Vec::new();
+    for options in [
+        &["size", "--report"] as &[&str],
+        &["simulate", "--plot"],
+        &["export", "--torque-error", "1 N m", "--out"],
+    ] {
+        let file = folder.file("machine.toml", press_text());
+        let mut arguments = options.to_vec();
+        arguments.extend([file.to_str().unwrap(), file.to_str().unwrap()]);
+        let done = run(&arguments);
+        if std::fs::read(&file).unwrap() != press_text().as_bytes() || done.code != 2 {
+            lost.push(options[0]);
+        }
+    }
+    assert!(lost.is_empty(), "overwritten by {lost:?}");
+}
+
 /// `jred … | head -1`: whoever reads stops reading, which is no error.
 #[test]
 fn a_closed_pipe_is_no_error() {

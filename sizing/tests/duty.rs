@@ -1,7 +1,10 @@
 //! Duty, drives, envelopes and ranking, at the level of the library.
+// Zeros and copied figures are exact.
+#![allow(clippy::float_cmp)]
 
 mod support;
 
+use std::fmt::Write as _;
 use std::path::Path;
 
 use jred::motion::Law;
@@ -402,6 +405,20 @@ fn ranking() {
     }
 }
 
+/// What a user reads about a refused drive.
+#[test]
+fn reasons_read_well() {
+    let catalogue = catalogue();
+    let file = read(&press_text());
+    let duty = duty_of(&file, 100);
+    for judged in &Selection::new(&catalogue, &duty, &file.rules).refused {
+        let reasons = judged.reasons();
+        for blemish in ["  ", " )", "inf", "NaN"] {
+            assert!(!reasons.contains(blemish), "{blemish:?} in: {reasons}");
+        }
+    }
+}
+
 /// A rotor in balance at constant speed needs nothing but what its friction takes.
 #[test]
 fn constant_speed_needs_only_friction() {
@@ -548,7 +565,7 @@ fn a_recorded_move_gives_the_torque_of_its_law() {
         for k in 0..=samples {
             let z = f64::from(k) / f64::from(samples);
             let phi = 360.0 * (z - (TAU * z).sin() / TAU);
-            csv += &format!("{:.12},{phi:.12}\n", duration * z);
+            let _ = writeln!(csv, "{:.12},{phi:.12}", duration * z);
         }
         folder.file("move.csv", csv);
         let text = format!(

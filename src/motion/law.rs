@@ -30,6 +30,7 @@ impl Law {
     ///
     /// # Errors
     /// A share outside (0, 1], or the two together above 1.
+    #[inline] // so that a law without shares brings no double precision into single-precision firmware
     pub fn check(self) -> Result<(), Error> {
         let Self::Trapezoid {
             accelerate,

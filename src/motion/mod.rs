@@ -34,6 +34,7 @@ impl<R: Real> Move<R> {
     ///
     /// # Errors
     /// A duration that is not positive, a value that is not finite, or a law that is not valid.
+    #[inline] // see `Law::check`
     pub fn new(law: Law, start: R, distance: R, duration: R) -> Result<Self, Error> {
         let zero = R::from_f64(0.0);
         for (what, value) in [

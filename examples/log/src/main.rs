@@ -1,7 +1,7 @@
 //! The press's ticks in the log: `jred` with its feature `defmt` implements `defmt::Format` on its public types.
 //!
 //! ```text
-//! cargo run -p jred-log-example --release --target thumbv7em-none-eabihf
+//! cargo run -p jred-log-example --profile firmware --target thumbv7em-none-eabihf
 //! ```
 //!
 //! The texts stay in the program file; only numbers travel, and `defmt-print` puts both together on the host. The level

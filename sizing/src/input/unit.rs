@@ -89,7 +89,7 @@ const FOREIGN: [(&[&str], &str); 18] = [
     (&["percent", "pct"], "per cent is \"%\""),
 ];
 
-/// Reads a unit such as "mm", "kg cm^2", "N m s/rad" or "N/(m s)"; the text must be [tidy](tidy).
+/// Reads a unit such as "mm", "kg cm^2", "N m s/rad" or "N/(m s)"; the text must be [`tidy`].
 pub(super) fn read(text: &str) -> Result<Unit, Fault> {
     let factors = factors(text)?;
     let mut canonical = String::from("1");

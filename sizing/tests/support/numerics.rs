@@ -8,11 +8,14 @@ pub(crate) fn derivative(f: impl Fn(f64) -> f64, x: f64, h: f64) -> f64 {
 
 /// The place between `a` and `b` where f changes its sign.
 pub(crate) fn bisect(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
-    let left = f(a).signum();
-    assert!(left * f(b) <= 0.0, "no change of sign between {a} and {b}");
+    let left = f(a) > 0.0;
+    assert!(
+        left != (f(b) > 0.0),
+        "no change of sign between {a} and {b}"
+    );
     for _ in 0..200 {
         let middle = 0.5 * (a + b);
-        if f(middle).signum() == left {
+        if (f(middle) > 0.0) == left {
             a = middle;
         } else {
             b = middle;
