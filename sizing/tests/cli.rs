@@ -1,4 +1,6 @@
 //! The command line: exit codes, forms of output, and what a user is told who made a mistake.
+// Copied figures, counts and zeros are exact.
+#![allow(clippy::float_cmp)]
 
 mod support;
 

@@ -17,9 +17,12 @@ pub(crate) const DERIVATION: f64 = 5e-11;
 pub(crate) const QUADRATURE: f64 = 2e-9;
 
 /// Integrals over the cycle at the default of 2000 steps: the ramps of the pressing force leave h⁴, the kinks where power
-/// changes its direction h² times a small step of the slope [5.5e-8; 1.2e-6 for the parts of the energy, whose integrand
-/// has a kink at every zero of the power].
+/// changes its direction h² times a small step of the slope [5.5e-8 for the RMS; 1e-6 for others].
 pub(crate) const DEFAULT_STEPS: f64 = 3e-6;
+
+/// What the motor puts in and what it takes back, in units of the other integrals' budget: their integrands have a kink at
+/// every zero of the power [3.3e-6 of the energy put in at the default steps].
+pub(crate) const ENERGY_PARTS: f64 = 3.0;
 
 /// Extremes at the default of 2000 steps are the largest sample: a peak of curvature T″ lies up to T″·h²/8 higher. The
 /// pressing force makes it 7e5 N·m/s² at steps of 0.25 ms [1e-4 low at the belt; 5e-4 at a motor with a large rotor].
