@@ -179,7 +179,7 @@ fn tabulate_finds_the_smallest_table_that_holds_everywhere() {
     let machine = Wave::bare(1.0, 0.001);
     assert_eq!(table_of::<f64>(&machine, &request, &Scale::SI).0.cells, 4);
     assert!(
-        worst[0] >= 1.0 - 1e-6 && worst[1] <= budget::DENSE_GRID,
+        worst[0] >= 1.0 / budget::DENSE_GRID && worst[1] <= budget::DENSE_GRID,
         "{worst:?}"
     );
 }

@@ -94,16 +94,30 @@ impl Check {
         }
     }
 
+    /// Four digits and the unit.
+    pub fn with_unit(&self, figure: f64) -> String {
+        format!("{} {}", short(figure), self.unit)
+            .trim_end()
+            .to_owned()
+    }
+
+    /// How much of the limit is used, in words.
+    pub fn used(&self) -> String {
+        match self.use_of_limit() * 100.0 {
+            _ if self.limit.is_none() => String::new(),
+            percent if percent < 1000.0 => format!("{percent:.0} %"),
+            _ => "> 1000 %".to_owned(),
+        }
+    }
+
     /// Figure, limit and what the limit is, as one sentence.
     pub fn sentence(&self) -> String {
+        let value = self.with_unit(self.value);
         match self.limit {
             Some(limit) => format!(
-                "{} {} {} against {} {} ({})",
+                "{} {value} against {} ({})",
                 self.rule,
-                short(self.value),
-                self.unit,
-                short(limit),
-                self.unit,
+                self.with_unit(limit),
                 self.note
             ),
             None => format!("{}: {}", self.rule, self.note),

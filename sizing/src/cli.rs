@@ -111,8 +111,9 @@ pub struct Export {
     /// Largest speed of the drive link, e.g. "90 rpm"; from the motion if not given.
     #[arg(long, value_parser = crate::input::speed_argument)]
     pub omega: Option<f64>,
-    /// Largest acceleration of the drive link in rad/s^2; from the motion if not given.
-    #[arg(long)]
+    /// Largest acceleration of the drive link in rad/s^2; if not given, that of the motion, or omega^2 where the
+    /// motion has none.
+    #[arg(long, value_parser = positive_number)]
     pub alpha: Option<f64>,
     /// Most cells to try.
     #[arg(long, default_value_t = 4096, value_parser = clap::value_parser!(u32).range(4..=65536))]
@@ -120,4 +121,11 @@ pub struct Export {
     /// File to write.
     #[arg(long, short)]
     pub out: PathBuf,
+}
+
+fn positive_number(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
+        _ => Err("it must be a number greater than zero".to_owned()),
+    }
 }

@@ -66,6 +66,7 @@ fn run_simulate(options: &cli::Simulate) -> Result<Done> {
         write(
             path,
             report::simulation_page(&file.title, &columns).as_bytes(),
+            &options.file,
         )?;
     }
     let title = format!(
@@ -113,7 +114,7 @@ fn run_export(options: &cli::Export) -> Result<Done> {
         }
         Err(error) => return Err(error).into_diagnostic(),
     };
-    write(&options.out, &export.write(options.format))?;
+    write(&options.out, &export.write(options.format), &options.file)?;
     print(&format!(
         "{}written to {}\n",
         export.summary(),
@@ -130,7 +131,7 @@ fn run_size(options: &cli::Size) -> Result<Done> {
     if let Some(path) = &options.report {
         let name = options.file.display().to_string();
         let page = report::page(&name, &file, &duty, &selection).into_diagnostic()?;
-        write(path, page.unwrap_or_default().as_bytes())?;
+        write(path, page.unwrap_or_default().as_bytes(), &options.file)?;
     }
     match options.format {
         Format::Table => {
@@ -176,7 +177,16 @@ fn print(text: &str) -> Result<Done> {
     }
 }
 
-fn write(path: &Path, bytes: &[u8]) -> Result<()> {
+/// Writes a file, but never over the machine file that it was made from.
+fn write(path: &Path, bytes: &[u8], machine: &Path) -> Result<()> {
+    let same = |a: &Path, b: &Path| Some(a.canonicalize().ok()? == b.canonicalize().ok()?);
+    if same(path, machine) == Some(true) {
+        return Err(miette!(
+            help = "name another file",
+            "{} is the machine file itself: it is not overwritten",
+            path.display()
+        ));
+    }
     std::fs::write(path, bytes)
         .into_diagnostic()
         .wrap_err_with(|| format!("cannot write {}", path.display()))

@@ -160,10 +160,11 @@ impl<'c> Judged<'c> {
         broken.map(Check::sentence).collect::<Vec<_>>().join("; ")
     }
 
-    /// The largest share of a limit that is used.
+    /// The largest share of a limit that is used. Where a limit is zero (no torque beyond the maximum speed) the
+    /// rule for the speed says by how much.
     pub fn worst_use(&self) -> f64 {
         let uses = self.checks.iter().map(Check::use_of_limit);
-        uses.fold(0.0, f64::max)
+        uses.filter(|u| u.is_finite()).fold(0.0, f64::max)
     }
 
     /// Installed power: rated torque times rated speed (W).

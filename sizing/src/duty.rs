@@ -67,6 +67,69 @@ impl Figures {
 /// Default number of time steps of a cycle.
 pub const STEPS: usize = 2000;
 
+/// Share of the largest input torque by which a peak between two instants may be missed.
+const PEAK_MISSED: f64 = 1e-5;
+
+/// Puts instants of no weight where the input torque bends sharply from index `first` on. Between instants at a distance h
+/// any peak stands out by at most T″·h²/8, whatever a motor's own inertia, which bends little, adds to it.
+fn refine_bends(
+    file: &MachineFile,
+    motion: &Motion,
+    first: usize,
+    instants: &mut Vec<Instant>,
+) -> Result<(), Error> {
+    const MOST_PARTS: f64 = 64.0;
+    let stretch = instants.get(first..).unwrap_or_default();
+    let torques = stretch.iter().map(|i| i.input_torque.abs());
+    let most = PEAK_MISSED * torques.fold(0.0, f64::max);
+    let mut fine = Vec::new();
+    for four in stretch.windows(4) {
+        let [a, b, c, d] = four else {
+            continue;
+        };
+        let bend = |x: &Instant, y: &Instant, z: &Instant| {
+            (x.input_torque - 2.0 * y.input_torque + z.input_torque).abs()
+        };
+        let missed = bend(a, b, c).max(bend(b, c, d)) / 8.0;
+        let parts = (missed / most).sqrt().ceil().min(MOST_PARTS) as u32;
+        for k in 1..parts {
+            let t = b.t + (c.t - b.t) * f64::from(k) / f64::from(parts);
+            fine.push(Instant::new(file, motion, t, 0.0)?);
+        }
+    }
+    instants.extend(fine);
+    if let Some(stretch) = instants.get_mut(first..) {
+        stretch.sort_by(|a, b| a.t.total_cmp(&b.t));
+    }
+    Ok(())
+}
+
+impl Instant {
+    /// The machine at time `t` of its motion.
+    fn new(file: &MachineFile, motion: &Motion, t: f64, weight: f64) -> Result<Self, Error> {
+        let train = &file.drive_train;
+        let ratio = train.ratio();
+        let state = motion.at(t);
+        let reduction = file.machine.reduction(state.phi)?;
+        let inertia = reduction.inertia[0];
+        let terms = reduction.torque(state.omega, state.alpha);
+        let input = train.input(terms.total(), inertia, state.omega, state.alpha);
+        Ok(Self {
+            t,
+            weight,
+            phi: state.phi,
+            omega: state.omega,
+            alpha: state.alpha,
+            inertia,
+            terms,
+            input_torque: input.torque,
+            input_speed: state.omega * ratio,
+            input_alpha: state.alpha * ratio,
+            input_inertia: inertia / (ratio * ratio) + train.inertia_at_input(),
+        })
+    }
+}
+
 impl Duty {
     /// Samples the machine's motion in about `steps` time steps. Each smooth stretch of the motion is cut into an
     /// even number of equal steps with Simpson's weights; the ends of a stretch are taken from inside, so that a
@@ -77,15 +140,13 @@ impl Duty {
     pub fn new(file: &MachineFile, motion: &Motion, steps: usize) -> Result<Self, Error> {
         const INSIDE: f64 = 1e-9;
         let duration = motion.duration();
-        let train = &file.drive_train;
-        let ratio = train.ratio();
-        let train_inertia = train.inertia_at_input();
-        let mut instants = Vec::with_capacity(steps + 64);
+        let mut instants = Vec::with_capacity(steps + 1024);
         for (from, to) in motion.stretches() {
             let span = to - from;
             let share = (steps as f64 * span / duration / 2.0).ceil().max(8.0);
             let n = 2 * share as usize;
             let step = span / n as f64;
+            let first = instants.len();
             for k in 0..=n {
                 let weight = match k {
                     _ if k == 0 || k == n => 1.0,
@@ -94,36 +155,15 @@ impl Duty {
                 } * step
                     / 3.0;
                 let place = (k as f64 / n as f64).clamp(INSIDE, 1.0 - INSIDE);
-                let t = from + place * span;
-                let state = motion.at(t);
-                let reduction = file.machine.reduction(state.phi)?;
-                let terms = reduction.torque(state.omega, state.alpha);
-                let input = train.input(
-                    terms.total(),
-                    reduction.inertia[0],
-                    state.omega,
-                    state.alpha,
-                );
-                instants.push(Instant {
-                    t,
-                    weight,
-                    phi: state.phi,
-                    omega: state.omega,
-                    alpha: state.alpha,
-                    inertia: reduction.inertia[0],
-                    terms,
-                    input_torque: input.torque,
-                    input_speed: state.omega * ratio,
-                    input_alpha: state.alpha * ratio,
-                    input_inertia: reduction.inertia[0] / (ratio * ratio) + train_inertia,
-                });
+                instants.push(Instant::new(file, motion, from + place * span, weight)?);
             }
+            refine_bends(file, motion, first, &mut instants)?;
         }
         let mut hold_torque = 0.0f64;
         for k in 0..720 {
             let phi = std::f64::consts::TAU * f64::from(k) / 720.0;
             let slope = file.machine.reduction(phi)?.potential_energy[1];
-            hold_torque = hold_torque.max((slope / ratio).abs());
+            hold_torque = hold_torque.max((slope / file.drive_train.ratio()).abs());
         }
         Ok(Self {
             instants,

@@ -41,7 +41,8 @@ impl Envelope {
             motor.corner_speed,
             motor.rated_speed.min(max_speed),
             "corner of the peak torque not stated: peak torque up to rated speed",
-        );
+        )
+        .min(max_speed);
         let torque_at_max_speed = if max_speed > corner_speed {
             known(
                 motor.torque_at_max_speed,

@@ -115,12 +115,13 @@ fn drive_text(judged: &Judged) -> String {
 fn rules_table(judged: &Judged) -> String {
     let mut table = text_table(&["rule", "figure", "limit", "used", "verdict", "limit is"]);
     for check in &judged.checks {
-        let with_unit = |x: f64| format!("{} {}", short(x), check.unit);
         table.add_row([
             check.rule.to_owned(),
-            with_unit(check.value),
-            check.limit.map_or(String::new(), with_unit),
-            used(check),
+            check.with_unit(check.value),
+            check
+                .limit
+                .map_or(String::new(), |limit| check.with_unit(limit)),
+            check.used(),
             check.verdict.word().to_owned(),
             check.note.clone(),
         ]);
@@ -129,15 +130,10 @@ fn rules_table(judged: &Judged) -> String {
     table.to_string() + &assumed.collect::<String>()
 }
 
-fn used(check: &Check) -> String {
-    let share = check.limit.map(|_| check.use_of_limit() * 100.0);
-    share.map_or(String::new(), |percent| format!("{percent:.0} %"))
-}
-
 fn rank_row(rank: usize, judged: &Judged) -> [String; 8] {
     let of = |rule: &str| {
         let check = judged.checks.iter().find(|c| c.rule == rule);
-        check.map_or(String::new(), used)
+        check.map_or(String::new(), Check::used)
     };
     let drive = &judged.drive;
     [

@@ -3,7 +3,7 @@
 use askama::Template;
 use jred::{Error, TorqueTerms};
 
-use crate::check::Verdict;
+use crate::check::{Check, Verdict};
 use crate::drive::{Judged, RPM};
 use crate::duty::{Duty, Figures};
 use crate::machine::MachineFile;
@@ -192,22 +192,19 @@ fn escape(text: &str) -> String {
         .replace('>', "&gt;")
 }
 
-fn check_row(check: &crate::check::Check) -> CheckRow {
+fn check_row(check: &Check) -> CheckRow {
     let class = match check.verdict {
         Verdict::Pass => "ok",
         Verdict::Warn | Verdict::NotChecked => "warn",
         Verdict::Fail => "bad",
     };
-    let unit = check.unit;
     CheckRow {
         rule: check.rule,
-        value: format!("{} {unit}", short(check.value)),
+        value: check.with_unit(check.value),
         limit: check
             .limit
-            .map_or("–".into(), |limit| format!("{} {unit}", short(limit))),
-        used: check
-            .limit
-            .map_or("–".into(), |_| percent(check.use_of_limit())),
+            .map_or("–".into(), |limit| check.with_unit(limit)),
+        used: check.used(),
         verdict: check.verdict.word(),
         class,
         note: check.note.clone(),
@@ -217,7 +214,7 @@ fn check_row(check: &crate::check::Check) -> CheckRow {
 fn fit_row(rank: usize, judged: &Judged) -> FitRow {
     let used = |rule: &str| {
         let check = judged.checks.iter().find(|c| c.rule == rule);
-        check.map_or("–".into(), |c| percent(c.use_of_limit()))
+        check.map_or(String::new(), Check::used)
     };
     let drive = &judged.drive;
     let remarks: Vec<String> = judged

@@ -7,7 +7,7 @@
 use std::cell::RefCell;
 
 use jred::{Error, Machine, Reducible};
-use ode_solvers::dop_shared::OutputType;
+use ode_solvers::dop_shared::{IntegrationError, OutputType};
 use ode_solvers::{Dop853, SVector, System};
 
 use crate::machine::{AnyMechanism, MachineFile, Shaft, Simulation};
@@ -275,9 +275,18 @@ fn integrate(plant: &Plant, t: f64, end: f64, y: &State) -> Result<State, Simula
     if let Some(error) = plant.fault.borrow_mut().take() {
         return Err(error.into());
     }
-    outcome.map_err(|error| SimulationError::Integrator {
-        t,
-        reason: error.to_string(),
+    outcome.map_err(|error| {
+        let (x, reason) = match error {
+            IntegrationError::MaxNumStepReached { x, n_step } => {
+                (x, format!("more than {n_step} steps would be needed"))
+            }
+            IntegrationError::StepSizeUnderflow { x } => (
+                x,
+                "the step has become too small for the numbers".to_owned(),
+            ),
+            IntegrationError::StiffnessDetected { x } => (x, "the problem is stiff".to_owned()),
+        };
+        SimulationError::Integrator { t: t + x, reason }
     })?;
     Ok(solver.y_out().last().copied().unwrap_or(*y))
 }

@@ -274,7 +274,7 @@ fn the_duty_at_the_input() {
 #[test]
 fn the_duty_at_the_input_with_fine_steps() {
     let answer = size("200000", Some(ONE_MOTOR), Some(ONE_GEARBOX));
-    check_duty(&answer, [budget::FINE_STEPS, budget::FINE_STEPS]);
+    check_duty(&answer, [budget::FINE_STEPS, budget::FINE_PEAK]);
 }
 
 /// Rows of the built-in catalogue, by key: name of the column without unit to text.
@@ -564,7 +564,7 @@ fn a_drive_with_fine_steps() {
             drive,
             &motor,
             gearbox,
-            [budget::FINE_STEPS, budget::FINE_STEPS],
+            [budget::FINE_STEPS, budget::FINE_PEAK],
         );
         assert_eq!(drive["assumptions"], Value::Array(vec![]));
     }

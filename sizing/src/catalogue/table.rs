@@ -90,7 +90,15 @@ impl Table {
                     ),
                 ));
             };
-            table.columns.insert(known, (index, *factor));
+            if table.columns.insert(known, (index, *factor)).is_some() {
+                return Err(table.wrong(
+                    0,
+                    title,
+                    format!("the column \"{name}\" is there twice"),
+                    "twice in this header",
+                    "keep one of the two".to_owned(),
+                ));
+            }
         }
         for record in reader.records() {
             let record = record.map_err(|error| table.csv_error(&error))?;
@@ -298,13 +306,35 @@ impl Row<'_> {
     }
 
     fn wrong(&self, column: &str, message: String, label: &str, help: String) -> CatalogueError {
-        let from = self.record.position().map_or(0, |p| p.byte() as usize);
-        let cell = self
-            .table
-            .columns
-            .get(column)
-            .map_or("", |c| self.record.get(c.0).unwrap_or(""));
-        let cell = if cell.is_empty() { self.name() } else { cell };
+        let index = self.table.columns.get(column).map_or(0, |c| c.0);
+        let row = self.record.position().map_or(0, |p| p.byte() as usize);
+        let from = cell_start(&self.table.text, row, index);
+        let cell = self.record.get(index).unwrap_or("");
         self.table.wrong(from, cell, message, label, help)
+    }
+}
+
+/// Where cell number `index` of the row begins that follows byte `from`: past comments and blank lines, and past as
+/// many commas outside quotes.
+fn cell_start(text: &str, from: usize, index: usize) -> usize {
+    let mut start = from.min(text.len());
+    for line in text.get(start..).unwrap_or("").split_inclusive('\n') {
+        if !(line.starts_with('#') || line.trim().is_empty()) {
+            break;
+        }
+        start += line.len();
+    }
+    let mut quoted = false;
+    let mut commas = text
+        .get(start..)
+        .unwrap_or("")
+        .char_indices()
+        .filter(|(_, c)| {
+            quoted ^= *c == '"';
+            *c == ',' && !quoted
+        });
+    match index.checked_sub(1).map(|n| commas.nth(n)) {
+        Some(Some((comma, _))) => start + comma + 1,
+        _ => start,
     }
 }
