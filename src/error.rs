@@ -143,7 +143,7 @@ impl fmt::Display for Error {
                 cells,
             } => write!(
                 f,
-                "no table meets a torque error of {asked:e} N m: {cells} cells reach {reached:e} N m; \
+                "no table meets a torque error of {asked:e} N m: {cells} cells reach {reached:.3e} N m; \
                  allow a larger error, or smooth the load (longer ramps)"
             ),
             Self::BufferTooShort { needed, given } => {
