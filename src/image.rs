@@ -125,7 +125,7 @@ pub struct Validity {
     pub omega: f32,
     /// Largest acceleration (rad/s², or m/s²).
     pub alpha: f32,
-    /// Largest error of the motor torque within these (N·m, or N).
+    /// Largest error of the drive torque within these (N·m, or N).
     pub torque_error: f32,
 }
 

@@ -1,12 +1,13 @@
 //! The tick: the equation of motion of the reduced machine, both ways.
 //!
 //! ```text
-//! inverse:  T_motor = J(φ)·α + ½·J′(φ)·ω² − load(φ) + b(φ)·ω + c(φ)·sgn ω
-//! forward:  α = (T_motor − ½·J′(φ)·ω² + load(φ) − b(φ)·ω − c(φ)·sgn ω)/J(φ)
+//! inverse:  T = J(φ)·α + ½·J′(φ)·ω² − load(φ) + b(φ)·ω + c(φ)·sgn ω
+//! forward:  α = (T − ½·J′(φ)·ω² + load(φ) − b(φ)·ω − c(φ)·sgn ω)/J(φ)
 //! ```
 //!
 //! (7.12) of Nazarenko, *Dynamics of mechanisms* (2002); for a sliding drive link (7.10), with m_red for J, F for T
-//! and v for ω. sgn 0 = 0: at standstill the model states no friction, because friction there is whatever holds the
+//! and v for ω. T acts on the drive link: a motor behind a gear ratio i gives T/i, and its rotor belongs into J as
+//! i²·J_M (`Machine::with_flywheel`). sgn 0 = 0: at standstill the model states no friction, because friction there is whatever holds the
 //! machine.
 
 use crate::scalar::{Outcome, Scalar};
@@ -54,7 +55,7 @@ impl<'a, S: Scalar, const CURVES: u8> Model<'a, S, CURVES> {
         &self.table
     }
 
-    /// Inverse dynamics: the motor torque that the motion needs.
+    /// Inverse dynamics: the torque on the drive link that the motion needs.
     #[inline]
     pub fn torque(&self, phase: Phase, omega: S, alpha: S) -> Outcome<S> {
         let Some(cell) = self.table.cell(phase) else {
@@ -65,7 +66,7 @@ impl<'a, S: Scalar, const CURVES: u8> Model<'a, S, CURVES> {
         S::narrow(own + self.resisting(&cell, inertia, omega))
     }
 
-    /// Forward dynamics: the acceleration that the motor torque gives.
+    /// Forward dynamics: the acceleration that a torque on the drive link gives.
     #[inline]
     pub fn acceleration(&self, phase: Phase, omega: S, torque: S) -> Outcome<S> {
         let Some(cell) = self.table.cell(phase) else {

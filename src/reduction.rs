@@ -4,7 +4,7 @@
 //! J_red(φ) = Σ m·(x_c′² + y_c′²) + J_c·ψ′²          (6.4)
 //! T_red(φ, ω) = Σ F·r′ + M·ψ′                        (6.2)
 //!             = −U′(φ) + process(φ) − b(φ)·ω − c(φ)·sgn ω
-//! J·α + ½·J′·ω² = T_motor + T_red(φ, ω)              (7.12)
+//! J·α + ½·J′·ω² = T + T_red(φ, ω)                    (7.12), T: the drive's torque on the drive link
 //! ```
 //!
 //! V. G. Nazarenko, *Dynamics of mechanisms*, Minsk 2002. For a sliding drive link read m_red for J, F for T (7.10).
@@ -90,7 +90,7 @@ fn sign(x: f64) -> f64 {
     }
 }
 
-/// The drive torque of a motion, term by term (N·m). Their sum is what the motor must give.
+/// The drive torque of a motion, term by term (N·m). Their sum is what the drive must give at the drive link.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TorqueTerms {

@@ -1,6 +1,6 @@
 //! From a machine to the smallest table that meets a torque error.
 //!
-//! The error of the motor torque that a table causes is bounded, at every position checked, by the sum of what its
+//! The error of the drive torque that a table causes is bounded, at every position checked, by the sum of what its
 //! curves contribute at the ends of the stated range:
 //!
 //! ```text
@@ -25,7 +25,7 @@ const COARSE_CHECKS: u32 = 8;
 /// What a table is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Request {
-    /// Largest error of the motor torque (N·m).
+    /// Largest error of the drive torque (N·m).
     pub torque_error: f64,
     /// Largest speed (rad/s).
     pub omega: f64,
@@ -41,7 +41,7 @@ pub struct Request {
 pub struct Tabulated {
     /// Number of cells.
     pub cells: u32,
-    /// Largest error of the motor torque (N·m) at the places checked.
+    /// Largest error of the drive torque (N·m) at the places checked.
     pub torque_error: f64,
     /// Where it is (rad).
     pub worst: f64,

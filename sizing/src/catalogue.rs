@@ -42,6 +42,8 @@ pub struct Motor {
     pub torque_at_max_speed: Option<f64>,
     /// Mass (kg).
     pub mass: Option<f64>,
+    /// Whether the figures were read in the maker's own document.
+    pub from_maker: bool,
     /// Where the figures are from.
     pub source: String,
 }
@@ -69,6 +71,8 @@ pub struct Gearbox {
     pub inertia: f64,
     /// Efficiency at full load, 0 to 1.
     pub efficiency: f64,
+    /// Whether the figures were read in the maker's own document.
+    pub from_maker: bool,
     /// Where the figures are from.
     pub source: String,
 }
@@ -166,6 +170,7 @@ fn motor(row: &mut Row) -> Result<Motor, CatalogueError> {
         corner_speed: row.optional("peak_corner_speed")?,
         torque_at_max_speed: row.optional("peak_torque_at_max_speed")?,
         mass: row.optional("mass")?,
+        from_maker: row.is_from_maker()?,
         source: row.text("source")?,
     };
     row.at_least(
@@ -192,6 +197,7 @@ fn gearbox(row: &mut Row) -> Result<Gearbox, CatalogueError> {
         max_speed: row.positive("max_input_speed")?,
         inertia: row.positive("input_inertia")?,
         efficiency: row.positive("efficiency")?,
+        from_maker: row.is_from_maker()?,
         source: row.text("source")?,
     };
     row.at_most("efficiency", gearbox.efficiency, 1.0)?;

@@ -105,27 +105,23 @@ pub struct Export {
     /// Number type of the table.
     #[arg(long = "type", value_enum, default_value_t)]
     pub number: Number,
-    /// Largest error of the motor torque at the drive link, e.g. "0.5 N m".
+    /// Largest error of the drive torque, which acts at the drive link, e.g. "0.5 N m".
     #[arg(long, value_parser = crate::input::torque_argument)]
     pub torque_error: f64,
     /// Largest speed of the drive link, e.g. "90 rpm"; from the motion if not given.
     #[arg(long, value_parser = crate::input::speed_argument)]
     pub omega: Option<f64>,
-    /// Largest acceleration of the drive link in rad/s^2; if not given, that of the motion, or omega^2 where the
-    /// motion has none.
-    #[arg(long, value_parser = positive_number)]
+    /// Largest acceleration of the drive link, e.g. "120 rad/s^2"; if not given, that of the motion, or omega^2 where
+    /// the motion has none.
+    #[arg(long, value_parser = crate::input::acceleration_argument)]
     pub alpha: Option<f64>,
+    /// Inertia of rotor and gearbox at the input of the drive train, e.g. "90 kg cm^2", to be moved as well.
+    #[arg(long, value_parser = crate::input::inertia_argument)]
+    pub rotor_inertia: Option<f64>,
     /// Most cells to try.
     #[arg(long, default_value_t = 4096, value_parser = clap::value_parser!(u32).range(4..=65536))]
     pub max_cells: u32,
     /// File to write.
     #[arg(long, short)]
     pub out: PathBuf,
-}
-
-fn positive_number(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
-        _ => Err("it must be a number greater than zero".to_owned()),
-    }
 }

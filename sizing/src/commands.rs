@@ -42,14 +42,17 @@ pub fn run(command: &cli::Command) -> Result<Done> {
 fn run_reduce(options: &cli::Reduce) -> Result<Done> {
     let file = input::read(&options.file)?;
     if options.over == Over::Time {
-        motion(&file)?;
+        motion(&file, &options.file)?;
     }
     let positions = options.positions as usize;
     let columns = reduce(&file, options.over, positions, options.links).into_diagnostic()?;
-    let title = format!(
+    let mut title = format!(
         "{}: reduced to the drive link, flywheel and drive train included",
         file.title
     );
+    if file.motion.is_some() && columns.has_empty_cells() {
+        title += "\nthe motion does not pass every angle exactly once: --over time shows its drive torque";
+    }
     print(&columns.write(options.format, &title))
 }
 
@@ -57,8 +60,9 @@ fn run_simulate(options: &cli::Simulate) -> Result<Done> {
     let file = input::read(&options.file)?;
     let simulation = file.simulation.as_ref().ok_or_else(|| {
         miette!(
-            help = "add a [simulation] with duration, output_step and torque; docs/machine-file.md shows how",
-            "the machine file has no [simulation]"
+            help = "add a [simulation] with start_angle, duration, output_step and torque; docs/machine-file.md shows how",
+            "{} has no [simulation]",
+            options.file.display()
         )
     })?;
     let columns = simulate::simulate(&file, simulation)?;
@@ -106,7 +110,8 @@ fn run_export(options: &cli::Export) -> Result<Done> {
         },
         ..request
     };
-    let export = match Export::new(&file, options.number, request) {
+    let rotor = options.rotor_inertia.unwrap_or(0.0);
+    let export = match Export::new(&file, options.number, request, rotor) {
         Ok(export) => export,
         Err(error @ jred::Error::TorqueErrorNotReached { .. }) => {
             eprintln!("{error}");
@@ -124,7 +129,7 @@ fn run_export(options: &cli::Export) -> Result<Done> {
 
 fn run_size(options: &cli::Size) -> Result<Done> {
     let file = input::read(&options.file)?;
-    let motion = motion(&file)?;
+    let motion = motion(&file, &options.file)?;
     let catalogue = Catalogue::load(options.motors.as_deref(), options.gearboxes.as_deref())?;
     let duty = Duty::new(&file, motion, options.steps as usize).into_diagnostic()?;
     let selection = Selection::new(&catalogue, &duty, &file.rules);
@@ -158,11 +163,12 @@ fn run_size(options: &cli::Size) -> Result<Done> {
     })
 }
 
-fn motion(file: &MachineFile) -> Result<&Motion> {
+fn motion<'f>(file: &'f MachineFile, path: &Path) -> Result<&'f Motion> {
     file.motion.as_ref().ok_or_else(|| {
         miette!(
             help = "add a [motion], for example type = \"constant-speed\", speed = \"60 rpm\"",
-            "the machine file has no [motion]"
+            "{} has no [motion]",
+            path.display()
         )
     })
 }

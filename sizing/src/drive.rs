@@ -64,7 +64,7 @@ pub struct Judged<'c> {
     pub duty: MotorDuty,
     /// Every rule.
     pub checks: Vec<Check>,
-    /// What was assumed about the motor.
+    /// What was assumed about motor and gearbox, and whose figures are second-hand.
     pub assumptions: Vec<&'static str>,
 }
 
@@ -139,7 +139,7 @@ impl<'c> Judged<'c> {
             drive,
             duty: motor_duty,
             checks,
-            assumptions: envelope.assumptions().to_vec(),
+            assumptions: assumptions(&drive, &envelope),
         }
     }
 
@@ -171,6 +171,22 @@ impl<'c> Judged<'c> {
     pub fn rated_power(&self) -> f64 {
         self.drive.motor.rated_torque * self.drive.motor.rated_speed
     }
+}
+
+/// What was assumed about motor and gearbox, and whose figures are not the maker's own.
+fn assumptions(drive: &Drive, envelope: &Envelope) -> Vec<&'static str> {
+    let mut assumptions = Vec::new();
+    if !drive.motor.from_maker {
+        assumptions.push(
+            "motor figures not read in the maker's own document: check them against the data sheet",
+        );
+    }
+    if drive.gearbox.is_some_and(|g| !g.from_maker) {
+        assumptions
+            .push("gearbox figures not read in the maker's own document: check them against the data sheet");
+    }
+    assumptions.extend(envelope.assumptions());
+    assumptions
 }
 
 fn motor_checks(

@@ -52,13 +52,22 @@ pub struct Export {
 type Whole = jred::Machine<AnyMechanism>;
 
 impl Export {
-    /// Finds the smallest table for a request.
+    /// Finds the smallest table for a request, with an inertia `rotor` (kg·m²) of motor and gearbox at the input of the
+    /// drive train.
     ///
     /// # Errors
     /// Those of the machine and of [`tabulate`].
-    pub fn new(file: &MachineFile, number: Number, request: Request) -> Result<Self, Error> {
+    pub fn new(
+        file: &MachineFile,
+        number: Number,
+        request: Request,
+        rotor: f64,
+    ) -> Result<Self, Error> {
         const PLACES: u32 = 1440;
-        let machine = file.with_drive_train()?;
+        let ratio = file.drive_train.ratio();
+        let machine = file
+            .with_drive_train()?
+            .with_flywheel(rotor * ratio * ratio)?;
         let set = tabulate::curves_in_use(&machine, PLACES)?;
         let scale = match number {
             Number::F32 => Scale::SI,
@@ -121,15 +130,26 @@ impl Export {
             Number::Q31 => "q31",
         };
         let mut names = vec!["J_red"];
-        for (curve, name) in [
-            (curves::LOAD, "load"),
-            (curves::VISCOUS, "viscous"),
-            (curves::COULOMB, "coulomb"),
+        let mut set = Vec::new();
+        for (curve, name, constant) in [
+            (curves::LOAD, "load", "LOAD"),
+            (curves::VISCOUS, "viscous", "VISCOUS"),
+            (curves::COULOMB, "coulomb", "COULOMB"),
         ] {
             if self.curves & curve != 0 {
                 names.push(name);
+                set.push(format!("curves::{constant}"));
             }
         }
+        let set = match (self.curves, set.join(" | ")) {
+            (curves::INERTIA, _) => "curves::INERTIA".to_owned(),
+            (curves::ALL, _) => "curves::ALL".to_owned(),
+            (_, set) => set,
+        };
+        let scalar = match self.number {
+            Number::F32 => "f32",
+            Number::Q31 => "Q31",
+        };
         let Tabulated {
             cells,
             torque_error,
@@ -144,6 +164,7 @@ impl Export {
             names.join(", "),
             self.words.len() * 4
         );
+        let _ = writeln!(text, "in Rust: image.model::<{scalar}, {{ {set} }}>()");
         let _ = writeln!(
             text,
             "torque error reached {} N m of {} N m allowed, at {} deg, for |omega| <= {} rad/s, |alpha| <= {} rad/s^2",

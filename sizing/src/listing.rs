@@ -126,7 +126,7 @@ fn rules_table(judged: &Judged) -> String {
             check.note.clone(),
         ]);
     }
-    let assumed = judged.assumptions.iter().map(|a| format!("\nassumed: {a}"));
+    let assumed = judged.assumptions.iter().map(|a| format!("\nmind: {a}"));
     table.to_string() + &assumed.collect::<String>()
 }
 

@@ -28,8 +28,14 @@ enum Kind {
     Profile {
         deviation: CubicSpline<Vec<f64>>,
         advance: f64,
+        /// Speeds (rad/s) below this are standstill.
+        standstill: f64,
     },
 }
+
+/// Share of a recorded motion's largest speed below which it stands still: the curve through the positions of a dwell
+/// swings around zero by a few roundings, and friction must not take that for motion.
+const STANDSTILL: f64 = 1e-6;
 
 /// One segment of a segmented motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,15 +111,19 @@ impl Motion {
         } else {
             jred::table::fit_bounded(phi, &mut control)?;
         }
-        let spline = CubicSpline::new(control)?;
+        let deviation = CubicSpline::new(control)?;
+        let duration = dt * cells as f64;
+        let speeds = (0..=cells).map(|k| (deviation.at(k as f64 / cells as f64)[1] + drift).abs());
+        let standstill = STANDSTILL * speeds.fold(0.0, f64::max) / duration;
         let kind = Kind::Profile {
-            deviation: spline,
+            deviation,
             advance: drift,
+            standstill,
         };
         Ok(Self {
             pieces: vec![Piece {
                 start: 0.0,
-                duration: dt * cells as f64,
+                duration,
                 kind,
             }],
             cyclic,
@@ -159,11 +169,20 @@ impl Motion {
                 alpha: 0.0,
             },
             Kind::Move(step) => step.at(t),
-            Kind::Profile { deviation, advance } => {
+            Kind::Profile {
+                deviation,
+                advance,
+                standstill,
+            } => {
                 let [value, d1, d2] = deviation.at(t / piece.duration);
+                let speed = (d1 + advance) / piece.duration;
                 State {
                     phi: value + advance * t / piece.duration,
-                    omega: (d1 + advance) / piece.duration,
+                    omega: if speed.abs() > *standstill {
+                        speed
+                    } else {
+                        0.0
+                    },
                     alpha: d2 / (piece.duration * piece.duration),
                 }
             }

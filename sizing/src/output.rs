@@ -45,6 +45,11 @@ impl Columns {
         &self.names
     }
 
+    /// Whether a value is missing anywhere.
+    pub fn has_empty_cells(&self) -> bool {
+        self.rows.iter().flatten().any(Option::is_none)
+    }
+
     /// The rows.
     pub fn rows(&self) -> &[Vec<Option<f64>>] {
         &self.rows
@@ -100,8 +105,9 @@ impl Columns {
         for row in &self.rows {
             for (k, value) in row.iter().enumerate() {
                 let comma = if k > 0 { "," } else { "" };
-                // `{}` writes the shortest digits that read back to the same number.
-                let cell = value.map_or(String::new(), |x| x.to_string());
+                // `{:?}` writes the shortest digits that read back to the same number, tiny ones with an exponent;
+                // adding zero makes 0 of −0.
+                let cell = value.map_or(String::new(), |x| format!("{:?}", x + 0.0));
                 let _ = write!(text, "{comma}{cell}");
             }
             text.push('\n');

@@ -56,7 +56,7 @@ pub fn reduce(
     if file.motion.is_some() {
         names.extend(["omega [rad/s]", "alpha [rad/s^2]"].map(String::from));
         names.extend(TorqueTerms::NAMES.map(|term| format!("T_drive {term} [N m]")));
-        names.extend(["T_drive [N m]", "T_motor_shaft [N m]"].map(String::from));
+        names.extend(["T_drive [N m]", "T_input [N m]"].map(String::from));
     }
     let mut columns = Columns::new(names);
     for k in 0..positions {
@@ -110,7 +110,7 @@ fn drive_values(
         return Ok(values);
     };
     let terms = point.torque(omega, alpha);
-    // At the motor shaft the drive train's inertia sits in its stages, between the losses.
+    // The drive train's inertia sits in its stages, between the losses.
     let bare = file.machine.reduction(phi)?.torque(omega, alpha).total();
     let motor = file.drive_train.input(bare, 0.0, omega, alpha).torque;
     let totals = [terms.total(), motor];

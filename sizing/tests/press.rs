@@ -162,7 +162,7 @@ fn the_torque_over_time() {
         budget::DERIVATION,
     );
     check(
-        "T_motor_shaft [N m]",
+        "T_input [N m]",
         &|t| press::input(t).torque,
         budget::DERIVATION,
     );

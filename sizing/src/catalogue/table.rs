@@ -12,6 +12,7 @@ const COLUMNS: &[(&str, &[(&str, f64)])] = &[
     ("maker", TEXT),
     ("model", TEXT),
     ("source", TEXT),
+    ("figures_from", TEXT),
     ("rated_torque", TORQUE),
     ("rated_speed", SPEED),
     ("standstill_torque", TORQUE),
@@ -194,6 +195,25 @@ impl Row<'_> {
         match self.cell(column)? {
             "" => Err(self.empty(column)),
             text => Ok(text.to_owned()),
+        }
+    }
+
+    /// Whether the figures were read in the maker's own document; so if there is no such column or the cell is empty.
+    pub(super) fn is_from_maker(&mut self) -> Result<bool, CatalogueError> {
+        const COLUMN: &str = "figures_from";
+        if !self.table.columns.contains_key(COLUMN) {
+            return Ok(true);
+        }
+        match self.cell(COLUMN)? {
+            "" | "maker" => Ok(true),
+            "other" => Ok(false),
+            word => Err(self.wrong(
+                COLUMN,
+                format!("{COLUMN} of \"{}\" is \"{word}\"", self.name()),
+                "not known",
+                "write \"maker\" for figures from the maker's own document, else \"other\""
+                    .to_owned(),
+            )),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Quantities on the command line, read as in machine files.
 
-use super::kind::{ANGULAR_SPEED, Kind, TORQUE};
+use super::kind::{ANGULAR_ACCELERATION, ANGULAR_SPEED, INERTIA, Kind, TORQUE};
 use super::quantity;
 
 /// A torque greater than zero, such as "0.5 N m" (N·m).
@@ -17,6 +17,22 @@ pub fn torque_argument(text: &str) -> Result<f64, String> {
 /// In words for the command line.
 pub fn speed_argument(text: &str) -> Result<f64, String> {
     positive(text, &ANGULAR_SPEED)
+}
+
+/// An angular acceleration greater than zero, such as "120 rad/s^2" (rad/s²).
+///
+/// # Errors
+/// In words for the command line.
+pub fn acceleration_argument(text: &str) -> Result<f64, String> {
+    positive(text, &ANGULAR_ACCELERATION)
+}
+
+/// An inertia greater than zero, such as "8.5 kg cm^2" (kg·m²).
+///
+/// # Errors
+/// In words for the command line.
+pub fn inertia_argument(text: &str) -> Result<f64, String> {
+    positive(text, &INERTIA)
 }
 
 fn positive(text: &str, kind: &'static Kind) -> Result<f64, String> {

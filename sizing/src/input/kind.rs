@@ -74,6 +74,16 @@ pub(super) const ANGULAR_SPEED: Kind = kind(
     [0, 0, -1, 1],
     [1e-6, 1e6],
 );
+pub(super) const ANGULAR_ACCELERATION: Kind = kind(
+    [
+        "an angular acceleration",
+        "120 rad/s^2",
+        "rad/s^2",
+        "rad/s^2, deg/s^2",
+    ],
+    [0, 0, -2, 1],
+    [1e-9, 1e9],
+);
 pub(super) const TIME: Kind = kind(
     ["a time", "0.25 s", "s", "s, ms"],
     [0, 0, 1, 0],
@@ -152,6 +162,7 @@ pub(super) fn describe(found: Dimension) -> String {
         &INERTIA,
         &ANGLE,
         &ANGULAR_SPEED,
+        &ANGULAR_ACCELERATION,
         &TIME,
         &FORCE,
         &TORQUE,

@@ -21,7 +21,7 @@ mod simulation;
 mod stage;
 mod unit;
 
-pub use argument::{speed_argument, torque_argument};
+pub use argument::{acceleration_argument, inertia_argument, speed_argument, torque_argument};
 
 use std::path::Path;
 

@@ -200,11 +200,12 @@ fn factor(token: &str) -> Result<(&str, i8), Fault> {
     if WORDS.iter().any(|(known, _)| *known == word) && (word != "%" || power == 1) {
         return Ok((word, power));
     }
-    Err(Fault::new(format!("has the unknown unit \"{word}\""), cure(word)).label("unknown unit"))
+    let cure = cure(word, token.get(word.len()..).unwrap_or_default());
+    Err(Fault::new(format!("has the unknown unit \"{word}\""), cure).label("unknown unit"))
 }
 
-/// What to write instead of an unknown unit.
-fn cure(word: &str) -> String {
+/// What to write instead of an unknown unit, which stands with this exponent ("^2" or nothing).
+fn cure(word: &str, exponent: &str) -> String {
     if let Some((_, cure)) = FOREIGN.iter().find(|(words, _)| words.contains(&word)) {
         return format!("this unit is not accepted here: {cure}");
     }
@@ -212,7 +213,7 @@ fn cure(word: &str) -> String {
     let power = word.get(letters.len()..).unwrap_or_default();
     if let Some(words) = split(letters, 4) {
         let power = if power.is_empty() {
-            String::new()
+            exponent.to_owned()
         } else {
             format!("^{power}")
         };

@@ -181,6 +181,7 @@ pub(super) fn motor() -> Motor {
         rotor_inertia: 8e-4,
         corner_speed: Some(2500.0 * RPM),
         torque_at_max_speed: Some(10.0),
+        from_maker: true,
         mass: None,
         source: "Sheet".into(),
     }
