@@ -44,10 +44,17 @@ pub struct Factor {
 }
 
 impl Factor {
-    /// From a positive single-precision number: its 24-bit significand is taken over exactly.
+    /// From a positive single-precision number: its 24-bit significand is taken over exactly. Below 2⁻³² no product with
+    /// a number in [−1, 1) reaches one unit: the factor is zero.
     fn from_f32(value: f32) -> Option<Self> {
         if !(value > 0.0 && value < 1.0e30) {
             return None;
+        }
+        if value < 1.0 / 4_294_967_296.0 {
+            return Some(Self {
+                mantissa: 0,
+                shift: 62,
+            });
         }
         let bits = value.to_bits();
         let exponent = (bits >> 23) as i32 - 127; // value = 1.xxx · 2^exponent, for normal numbers
@@ -153,7 +160,7 @@ impl Kernel for Q31 {
     fn factor_fits(slope: f32, factor: Factor) -> bool {
         let (high, low) = (factor.shift / 2, factor.shift - factor.shift / 2);
         let factor = factor.mantissa as f32 / (1u64 << high) as f32 / (1u64 << low) as f32;
-        (slope * factor).abs() < 0.999_999
+        (slope.abs() + SLOPE_ROUNDINGS) * factor < 0.999_999
     }
     fn to_wide_f32(self) -> f32 {
         self.0 as f32 * (1.0 / 2_147_483_648.0)
@@ -203,6 +210,9 @@ impl Kernel for Q31 {
         }
     }
 }
+
+/// The tick's own slope may differ from the exact one by a few units: its roundings.
+const SLOPE_ROUNDINGS: f32 = 8.0 / 2_147_483_648.0;
 
 /// x·u for u in [0, 1), rounded towards −∞.
 #[inline]

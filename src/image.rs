@@ -314,9 +314,7 @@ pub fn encode<'b, S: Scalar, const CURVES: u8>(
     let needed = image_words(table.cells(), CURVES);
     let given = buffer.len();
     let short = Error::BufferTooShort { needed, given };
-    let code = S::CODE.ok_or(Error::NotFinite(
-        "f64 tables have no image: the number type",
-    ))?;
+    let code = S::CODE.ok_or(Error::NoImage(S::NAME))?;
     let image = buffer.get_mut(..needed).ok_or(short)?;
     let (domain_code, from, to) = match domain.to_f32() {
         Domain::Turn => (TURN, 0.0, 0.0),

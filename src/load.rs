@@ -60,6 +60,13 @@ impl Window {
         Ok(Self { from, width, ramp })
     }
 
+    /// The angles (rad) at which the window opens, is open, begins to close, and is closed.
+    #[must_use]
+    pub fn edges(&self) -> [f64; 4] {
+        let to = self.from + self.width;
+        [self.from, self.from + self.ramp, to - self.ramp, to]
+    }
+
     /// How much of the load acts at `phi` (rad): 0 to 1.
     #[must_use]
     pub fn factor(&self, phi: f64) -> f64 {
@@ -129,6 +136,11 @@ impl Load {
     pub const fn within(mut self, window: Window) -> Self {
         self.window = Some(window);
         self
+    }
+
+    /// The part of the turn in which it acts, if not the whole.
+    pub const fn window(&self) -> Option<Window> {
+        self.window
     }
 
     /// Index of the link.

@@ -12,7 +12,7 @@
 
 use crate::scalar::{Outcome, Scalar};
 use crate::table::{Table, TableError, curves};
-use crate::{Phase, Scale};
+use crate::{Domain, Phase, Scale};
 
 /// A reduced machine ready for the tick, over a table in RAM or in flash.
 ///
@@ -48,6 +48,18 @@ impl<'a, S: Scalar, const CURVES: u8> Model<'a, S, CURVES> {
             table,
             velocity_factor: factor,
         })
+    }
+
+    /// As [`new`](Self::new), with the range of the machine that the table was made from.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn for_domain(
+        table: Table<'a, S, CURVES>,
+        domain: Domain,
+        scale: &Scale,
+    ) -> Result<Self, TableError> {
+        Self::new(table, S::span(domain), scale)
     }
 
     /// The table.

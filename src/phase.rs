@@ -31,6 +31,9 @@ impl Phase {
 
     /// From an encoder count with `per_turn` counts a turn (or a stroke). Any number of whole turns drops out
     /// exactly, and no error builds up: the result is floor(count·2³²/per_turn) modulo 2³².
+    ///
+    /// A counter that overflows keeps its angle only if 2³² is a multiple of `per_turn` (a power of two); let others
+    /// wrap at a whole number of turns.
     #[must_use]
     pub const fn from_counts(count: u32, per_turn: NonZeroU32) -> Self {
         let within = count % per_turn.get();

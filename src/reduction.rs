@@ -224,20 +224,12 @@ impl<M: Mechanism> Machine<M> {
         Ok(self.each_link(&frames).collect())
     }
 
-    fn each_link<'a>(&'a self, frames: &'a Frames) -> impl Iterator<Item = [f64; 3]> + 'a {
-        let links = self.mechanism.links().iter();
-        links
-            .zip(frames)
-            .map(|(link, frame)| link.reduced_inertia(frame))
-    }
-}
-
-impl<M: Mechanism> Reducible for Machine<M> {
-    fn domain(&self) -> Domain {
-        self.mechanism.domain()
-    }
-
-    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+    /// The reduced link at `phi` (rad), whatever its inertia: of a machine with a mass at the slider alone it is zero at
+    /// the dead centres.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed at `phi`.
+    pub fn bare_reduction(&self, phi: f64) -> Result<Reduction, Error> {
         let frames = self.mechanism.frames(phi)?;
         let mut reduction = Reduction {
             inertia: [self.flywheel, 0.0, 0.0],
@@ -261,6 +253,24 @@ impl<M: Mechanism> Reducible for Machine<M> {
                 reduction.coulomb += curves.coulomb;
             }
         }
+        Ok(reduction)
+    }
+
+    fn each_link<'a>(&'a self, frames: &'a Frames) -> impl Iterator<Item = [f64; 3]> + 'a {
+        let links = self.mechanism.links().iter();
+        links
+            .zip(frames)
+            .map(|(link, frame)| link.reduced_inertia(frame))
+    }
+}
+
+impl<M: Mechanism> Reducible for Machine<M> {
+    fn domain(&self) -> Domain {
+        self.mechanism.domain()
+    }
+
+    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+        let reduction = self.bare_reduction(phi)?;
         if reduction.inertia[0] > 0.0 {
             Ok(reduction)
         } else {

@@ -120,7 +120,7 @@ impl Check {
                 self.with_unit(limit),
                 self.note
             ),
-            None => format!("{}: {}", self.rule, self.note),
+            None => format!("{} {value}: {}", self.rule, self.note),
         }
     }
 }

@@ -108,19 +108,26 @@ impl Drive<'_> {
         (instant.input_inertia / (ratio * ratio) + gearbox) / self.motor.rotor_inertia
     }
 
+    /// What the motor does at every instant of the cycle.
+    fn motor_points(&self, duty: &Duty) -> Vec<MotorPoint> {
+        duty.instants.iter().map(|i| self.motor_point(i)).collect()
+    }
+
     /// The duty at the motor.
     pub fn duty(&self, duty: &Duty) -> MotorDuty {
-        let power = |i: &Instant| {
-            let point = self.motor_point(i);
-            point.torque * point.speed
-        };
+        self.duty_of(duty, &self.motor_points(duty))
+    }
+
+    fn duty_of(&self, duty: &Duty, points: &[MotorPoint]) -> MotorDuty {
+        let power = || points.iter().map(|p| p.torque * p.speed);
+        let speed = || points.iter().map(|p| p.speed);
         MotorDuty {
-            torque: duty.figures(|i| self.motor_point(i).torque),
-            speed: duty.figures(|i| self.motor_point(i).speed),
-            mean_speed: duty.integral(|i| self.motor_point(i).speed.abs()) / duty.duration,
-            power: duty.figures(power),
-            motoring_energy: duty.integral(|i| power(i).max(0.0)),
-            regenerative_energy: duty.integral(|i| (-power(i)).max(0.0)),
+            torque: duty.figures_of(points.iter().map(|p| p.torque)),
+            speed: duty.figures_of(speed()),
+            mean_speed: duty.integral_of(speed().map(f64::abs)) / duty.duration,
+            power: duty.figures_of(power()),
+            motoring_energy: duty.integral_of(power().map(|p| p.max(0.0))),
+            regenerative_energy: duty.integral_of(power().map(|p| (-p).max(0.0))),
             inertia_ratio: duty.figures(|i| self.inertia_ratio(i)),
         }
     }
@@ -130,8 +137,10 @@ impl<'c> Judged<'c> {
     /// Judges a drive by every rule.
     pub fn new(drive: Drive<'c>, duty: &Duty, rules: &Rules) -> Self {
         let envelope = Envelope::of(drive.motor);
-        let motor_duty = drive.duty(duty);
+        let points = drive.motor_points(duty);
+        let motor_duty = drive.duty_of(duty, &points);
         let mut checks = motor_checks(&drive, duty, &motor_duty, &envelope, rules);
+        checks.insert(1, peak_check(&points, &envelope, rules));
         if let Some(gearbox) = drive.gearbox {
             checks.extend(gearbox_checks(gearbox, duty, &motor_duty, rules));
         }
@@ -205,7 +214,6 @@ fn motor_checks(
         "N m",
         "S1 torque at mean speed",
     )];
-    checks.push(peak_check(drive, duty, envelope, rules));
     checks.push(Check::share(
         "speed",
         motor.speed.peak() / RPM,
@@ -243,9 +251,8 @@ fn motor_checks(
 }
 
 /// The instant that comes closest to the peak-torque envelope, or passes it furthest.
-fn peak_check(drive: &Drive, duty: &Duty, envelope: &Envelope, rules: &Rules) -> Check {
-    let use_at = |i: &Instant| {
-        let point = drive.motor_point(i);
+fn peak_check(points: &[MotorPoint], envelope: &Envelope, rules: &Rules) -> Check {
+    let use_at = |point: &MotorPoint| {
         let limit = envelope.peak_torque(point.speed);
         if limit > 0.0 {
             point.torque.abs() / limit
@@ -255,17 +262,11 @@ fn peak_check(drive: &Drive, duty: &Duty, envelope: &Envelope, rules: &Rules) ->
             f64::INFINITY
         }
     };
-    let worst = duty
-        .instants
-        .iter()
-        .max_by(|a, b| use_at(a).total_cmp(&use_at(b)));
-    let point = worst.map_or(
-        MotorPoint {
-            torque: 0.0,
-            speed: 0.0,
-        },
-        |i| drive.motor_point(i),
-    );
+    let worst = points.iter().max_by(|a, b| use_at(a).total_cmp(&use_at(b)));
+    let point = worst.copied().unwrap_or(MotorPoint {
+        torque: 0.0,
+        speed: 0.0,
+    });
     let mut check = Check::share(
         "peak torque",
         point.torque.abs(),
@@ -292,7 +293,7 @@ fn gearbox_checks(gearbox: &Gearbox, duty: &Duty, motor: &MotorDuty, rules: &Rul
     } else {
         0.0
     };
-    vec![
+    let mut checks = vec![
         Check::share(
             "gearbox peak torque",
             peak,
@@ -325,5 +326,23 @@ fn gearbox_checks(gearbox: &Gearbox, duty: &Duty, motor: &MotorDuty, rules: &Rul
             "rpm",
             "maximum input speed",
         ),
-    ]
+    ];
+    checks.extend(cycles_check(duty));
+    checks
+}
+
+/// Acceleration torques T2B hold for up to 1000 cycles per hour; above that makers ask for a shock factor of their own
+/// (WITTENSTEIN, engineering glossary), which the catalogue does not hold: a warning, not a verdict.
+fn cycles_check(duty: &Duty) -> Option<Check> {
+    const CYCLES: f64 = 1000.0;
+    let cycles = 3600.0 / duty.duration;
+    (duty.has_starts() && cycles > CYCLES).then(|| Check {
+        rule: "gearbox cycles",
+        value: cycles,
+        limit: None,
+        unit: "per hour",
+        verdict: Verdict::Warn,
+        note: "above 1000 cycles per hour T2B is to be reduced by the maker's shock factor"
+            .to_owned(),
+    })
 }

@@ -1,6 +1,6 @@
 //! The duty: what one cycle of the motion asks of the drive, independent of any motor.
 
-use jred::{Error, Reducible, TorqueTerms};
+use jred::{Error, TorqueTerms};
 
 use crate::machine::MachineFile;
 use crate::motion::Motion;
@@ -40,7 +40,8 @@ pub struct Duty {
     pub instants: Vec<Instant>,
     /// Length of the cycle (s).
     pub duration: f64,
-    /// Largest torque against gravity at the input over the whole turn (N·m), without losses.
+    /// Largest torque (N·m) that holds the machine at the input, without losses and without the help of friction: against
+    /// the weight anywhere in the turn, and against weight and process loads where the motion stands still.
     pub hold_torque: f64,
 }
 
@@ -66,6 +67,53 @@ impl Figures {
 
 /// Default number of time steps of a cycle.
 pub const STEPS: usize = 2000;
+
+/// The stretches of the motion, cut as well where the drive link passes an edge of a load's window: a load that acts for
+/// a moment only gets instants of its own.
+fn smooth_stretches(file: &MachineFile, motion: &Motion, steps: usize) -> Vec<(f64, f64)> {
+    use std::f64::consts::TAU;
+    let loads = file.machine.loads().iter();
+    let edges: Vec<f64> = loads
+        .filter_map(jred::Load::window)
+        .flat_map(|window| window.edges())
+        .collect();
+    let turns = |t: f64, edge: f64| ((motion.at(t).phi - edge) / TAU).floor() as i64;
+    let mut stretches = Vec::new();
+    for (from, to) in motion.stretches() {
+        let n = ((steps as f64 * (to - from) / motion.duration()).ceil() as usize).max(16);
+        let mut cuts = Vec::new();
+        for k in 0..n {
+            let time = |k: usize| from + (to - from) * k as f64 / n as f64;
+            for &edge in &edges {
+                let (mut before, mut after) = (time(k), time(k + 1));
+                let start = turns(before, edge);
+                if start == turns(after, edge) {
+                    continue;
+                }
+                while after - before > 1e-13 * motion.duration() {
+                    let middle = 0.5 * (before + after);
+                    if turns(middle, edge) == start {
+                        before = middle;
+                    } else {
+                        after = middle;
+                    }
+                }
+                cuts.push(after);
+            }
+        }
+        cuts.sort_by(f64::total_cmp);
+        let shortest = 1e-9 * motion.duration();
+        let mut start = from;
+        for cut in cuts {
+            if cut - start > shortest && to - cut > shortest {
+                stretches.push((start, cut));
+                start = cut;
+            }
+        }
+        stretches.push((start, to));
+    }
+    stretches
+}
 
 /// Share of the largest input torque by which a peak between two instants may be missed.
 const PEAK_MISSED: f64 = 1e-5;
@@ -110,7 +158,7 @@ impl Instant {
         let train = &file.drive_train;
         let ratio = train.ratio();
         let state = motion.at(t);
-        let reduction = file.machine.reduction(state.phi)?;
+        let reduction = file.machine.bare_reduction(state.phi)?;
         let inertia = reduction.inertia[0];
         let terms = reduction.torque(state.omega, state.alpha);
         let input = train.input(terms.total(), inertia, state.omega, state.alpha);
@@ -141,7 +189,7 @@ impl Duty {
         const INSIDE: f64 = 1e-9;
         let duration = motion.duration();
         let mut instants = Vec::with_capacity(steps + 1024);
-        for (from, to) in motion.stretches() {
+        for (from, to) in smooth_stretches(file, motion, steps) {
             let span = to - from;
             let share = (steps as f64 * span / duration / 2.0).ceil().max(8.0);
             let n = 2 * share as usize;
@@ -162,9 +210,13 @@ impl Duty {
         let mut hold_torque = 0.0f64;
         for k in 0..720 {
             let phi = std::f64::consts::TAU * f64::from(k) / 720.0;
-            let slope = file.machine.reduction(phi)?.potential_energy[1];
+            let slope = file.machine.bare_reduction(phi)?.potential_energy[1];
             hold_torque = hold_torque.max((slope / file.drive_train.ratio()).abs());
         }
+        let ratio = file.drive_train.ratio();
+        let at_rest = instants.iter().filter(|i| i.omega == 0.0);
+        let held = at_rest.map(|i| ((i.terms.potential + i.terms.process) / ratio).abs());
+        let hold_torque = held.fold(hold_torque, f64::max);
         Ok(Self {
             instants,
             duration,
@@ -172,17 +224,34 @@ impl Duty {
         })
     }
 
+    /// Whether the drive link ever accelerates: without, a cycle has no starts.
+    pub fn has_starts(&self) -> bool {
+        self.instants.iter().any(|i| i.alpha != 0.0)
+    }
+
     /// Integral of a quantity over the cycle.
     pub fn integral(&self, quantity: impl Fn(&Instant) -> f64) -> f64 {
-        self.instants.iter().map(|i| i.weight * quantity(i)).sum()
+        self.integral_of(self.instants.iter().map(quantity))
+    }
+
+    /// Integral of the values of a quantity, one for each instant.
+    pub fn integral_of(&self, values: impl Iterator<Item = f64>) -> f64 {
+        let weighted = self.instants.iter().zip(values);
+        weighted
+            .map(|(instant, value)| instant.weight * value)
+            .sum()
     }
 
     /// Extremes, mean and RMS of a quantity.
     pub fn figures(&self, quantity: impl Fn(&Instant) -> f64) -> Figures {
+        self.figures_of(self.instants.iter().map(quantity))
+    }
+
+    /// Extremes, mean and RMS of the values of a quantity, one for each instant.
+    pub fn figures_of(&self, values: impl Iterator<Item = f64>) -> Figures {
         let (mut min, mut max) = (f64::INFINITY, f64::NEG_INFINITY);
         let (mut sum, mut squares) = (0.0, 0.0);
-        for instant in &self.instants {
-            let value = quantity(instant);
+        for (instant, value) in self.instants.iter().zip(values) {
             min = min.min(value);
             max = max.max(value);
             sum += instant.weight * value;

@@ -1,6 +1,6 @@
 //! Torque-speed limits of a motor, from what its data sheet says.
 //!
-//! Where the sheet gives no figure, a stated, cautious assumption stands in ([`Envelope::assumptions`]):
+//! Where the sheet gives no figure, a stated assumption stands in ([`Envelope::assumptions`]):
 //! - no maximum speed: the rated speed;
 //! - no corner speed: the peak torque is available up to the rated speed;
 //! - no peak torque at maximum speed: it falls along a straight line to the rated torque there;

@@ -220,5 +220,7 @@ fn search<S: Scalar, const CURVES: u8>(
     let mut image = vec![0; jred::image_words(found.cells, CURVES)];
     let validity = found.validity(request);
     jred::encode(&table, machine.domain(), scale, validity, &mut image)?;
+    // What firmware will do with it: a scale that the table's slopes do not fit shows here, not there.
+    jred::Model::<S, CURVES>::for_domain(table, machine.domain(), scale).map_err(Error::Table)?;
     Ok((found, image))
 }

@@ -40,8 +40,12 @@ pub fn text(list: List, file: &MachineFile, duty: &Duty, selection: &Selection) 
             best.drive.name(),
             drive_text(best)
         ));
+        let open = match selection.partly_checked() {
+            0 => String::new(),
+            open => format!("; {open} of them have rules that the catalogue is too thin to check"),
+        };
         parts.push(format!(
-            "\n{} of {all} drives hold every rule",
+            "\n{} of {all} drives hold every rule{open}",
             selection.fit.len()
         ));
         let mut table = text_table(&[

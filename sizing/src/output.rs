@@ -73,7 +73,11 @@ impl Columns {
     pub fn json(&self) -> Map<String, Value> {
         let mut map = Map::new();
         map.insert("columns".into(), json!(self.names));
-        map.insert("rows".into(), json!(self.rows));
+        let tidy = |row: &Vec<Option<f64>>| -> Vec<Option<f64>> {
+            row.iter().map(|x| x.map(|x| x + 0.0)).collect() // no −0
+        };
+        let rows: Vec<_> = self.rows.iter().map(tidy).collect();
+        map.insert("rows".into(), json!(rows));
         map
     }
 

@@ -111,7 +111,11 @@ fn drive_values(
     };
     let terms = point.torque(omega, alpha);
     // The drive train's inertia sits in its stages, between the losses.
-    let bare = file.machine.reduction(phi)?.torque(omega, alpha).total();
+    let bare = file
+        .machine
+        .bare_reduction(phi)?
+        .torque(omega, alpha)
+        .total();
     let motor = file.drive_train.input(bare, 0.0, omega, alpha).torque;
     let totals = [terms.total(), motor];
     let all = [omega, alpha]

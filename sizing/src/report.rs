@@ -39,6 +39,7 @@ struct Page {
     energy: String,
     fit_count: usize,
     all_count: usize,
+    partly: usize,
     fit: Vec<FitRow>,
     fit_more: usize,
     ranking: &'static str,
@@ -130,6 +131,7 @@ pub fn page(
         ),
         fit_count: selection.fit.len(),
         all_count: selection.fit.len() + selection.refused.len(),
+        partly: selection.partly_checked(),
         fit: selection
             .fit
             .iter()

@@ -6,7 +6,7 @@
 
 use std::cell::RefCell;
 
-use jred::{Error, Machine, Reducible};
+use jred::{Error, Machine};
 use ode_solvers::dop_shared::{IntegrationError, OutputType};
 use ode_solvers::{Dop853, SVector, System};
 
@@ -68,7 +68,7 @@ impl Plant<'_> {
     /// The torque that the motor must give is piecewise linear and monotone in α (each stage's efficiency changes
     /// sides with its power), so Newton's method ends after a few steps.
     fn instant(&self, phi: f64, omega: f64) -> Result<Instant, Error> {
-        let point = self.machine.reduction(phi)?;
+        let point = self.machine.bare_reduction(phi)?;
         let load = point.load_torque() - point.viscous * omega - point.coulomb * self.direction;
         let resisting = 0.5 * point.inertia[1] * omega * omega - load;
         let torque = self.motor_torque(omega);
@@ -136,6 +136,11 @@ impl System<f64, State> for &Plant<'_> {
             }
         }
     }
+
+    /// Ends the integration with the step in which the machine turns round: friction must not go on with the old sign.
+    fn solout(&mut self, _t: f64, y: &State, _dy: &State) -> bool {
+        y[1] * self.direction < 0.0
+    }
 }
 
 /// Runs the simulation of the file: t, φ, ω, α, J, energies, and the balance
@@ -187,7 +192,7 @@ pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Columns, 
         let end = simulation.duration * k as f64 / steps as f64;
         y = advance(&mut plant, t, end, y)?;
         t = end;
-        let point = machine.reduction(y[0])?;
+        let point = machine.bare_reduction(y[0])?;
         let now = plant.instant(y[0], y[1])?;
         let alpha = if plant.direction == 0.0 {
             0.0
@@ -238,19 +243,24 @@ fn advance(
         if t >= end || plant.direction == 0.0 {
             return Ok(y);
         }
-        let next = integrate(plant, t, end, &y)?;
-        if next[1] * plant.direction >= 0.0 {
-            return Ok(next);
-        }
-        // ω changed its sign on the way: halve the interval down to the instant of rest.
-        let (mut before, mut after, mut at_rest) = (t, end, y);
+        let steps = integrate(plant, t, end, &y)?;
+        let turned = |state: &State| state[1] * plant.direction < 0.0;
+        let Some(k) = steps.iter().position(|(_, state)| turned(state)) else {
+            return Ok(steps.last().map_or(y, |last| last.1));
+        };
+        // ω changed its sign within a step: halve it down to the instant of rest.
+        let (start, state) = match k.checked_sub(1).and_then(|before| steps.get(before)) {
+            Some((x, state)) => (t + x, *state),
+            None => (t, y),
+        };
+        let (mut before, mut after, mut at_rest) =
+            (start, steps.get(k).map_or(end, |s| t + s.0), state);
         while after - before > 1e-12 * (1.0 + end.abs()) {
             let middle = 0.5 * (before + after);
-            let state = integrate(plant, t, middle, &y)?;
-            if state[1] * plant.direction >= 0.0 {
-                (before, at_rest) = (middle, state);
-            } else {
-                after = middle;
+            let steps = integrate(plant, start, middle, &state)?;
+            match steps.last() {
+                Some((_, last)) if !turned(last) => (before, at_rest) = (middle, *last),
+                _ => after = middle,
             }
         }
         y = at_rest;
@@ -261,9 +271,15 @@ fn advance(
     Ok(y)
 }
 
-fn integrate(plant: &Plant, t: f64, end: f64, y: &State) -> Result<State, SimulationError> {
+/// The integrator's steps from `t` to `end` as (time after `t`, state), up to the one in which ω turns round.
+fn integrate(
+    plant: &Plant,
+    t: f64,
+    end: f64,
+    y: &State,
+) -> Result<Vec<(f64, State)>, SimulationError> {
     if end <= t {
-        return Ok(*y);
+        return Ok(vec![(0.0, *y)]);
     }
     let tolerance = plant.simulation.tolerance;
     // The equations do not contain the time: counted from here, short intervals keep all their digits.
@@ -288,7 +304,8 @@ fn integrate(plant: &Plant, t: f64, end: f64, y: &State) -> Result<State, Simula
         };
         SimulationError::Integrator { t: t + x, reason }
     })?;
-    Ok(solver.y_out().last().copied().unwrap_or(*y))
+    let steps = solver.x_out().iter().zip(solver.y_out());
+    Ok(steps.map(|(x, state)| (*x, *state)).collect())
 }
 
 /// Straight lines between (x, y) points, the end values beyond the ends.

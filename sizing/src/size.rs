@@ -1,6 +1,7 @@
 //! Sizing: every motor with every gearbox of a catalogue, judged and ranked.
 
 use crate::catalogue::Catalogue;
+use crate::check::Verdict;
 use crate::drive::{Drive, Judged};
 use crate::duty::Duty;
 use crate::rules::Rules;
@@ -19,6 +20,12 @@ pub struct Selection<'c> {
 }
 
 impl<'c> Selection<'c> {
+    /// How many of the drives that fit have a rule that could not be checked.
+    pub fn partly_checked(&self) -> usize {
+        let open = |j: &&Judged| j.checks.iter().any(|c| c.verdict == Verdict::NotChecked);
+        self.fit.iter().filter(open).count()
+    }
+
     /// Judges every motor of the catalogue, directly coupled and with every gearbox.
     pub fn new(catalogue: &'c Catalogue, duty: &Duty, rules: &Rules) -> Self {
         let (mut fit, mut refused) = (Vec::new(), Vec::new());

@@ -141,7 +141,7 @@ fn the_report_of_the_press() {
     for word in [
         "is the smallest drive of the catalogue that holds every rule",
         "Source of",
-        "Assumed, because the data sheet",
+        "Mind: ",
         "Servo press, 60 mm stroke, 10 kN",
     ] {
         assert!(text.contains(word), "{word}");

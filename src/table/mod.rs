@@ -233,7 +233,7 @@ fn is_positive<S: Scalar>(points: [S; 4]) -> bool {
     let ends = [c0 + 4.0 * c1 + c2, c1 + 4.0 * c2 + c3];
     let inner = [4.0 * c1 + 2.0 * c2, 2.0 * c1 + 4.0 * c2];
     // Above the roundings of these sums, so that no cell passes that dips below zero by a few units.
-    let rounding = 1e-6
+    let rounding = 1e-5
         * [c0, c1, c2, c3]
             .iter()
             .fold(0.0f32, |most, c| most.max(c.abs()));

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use jred::mechanism::Stage;
 use jred::{Action, Load, MAX_LOADS, Window};
 
 use crate::machine::{AnyMechanism, NamedLoad};
@@ -71,6 +72,17 @@ fn load(section: &Section, mechanism: &AnyMechanism) -> Result<NamedLoad> {
             .problem("does nothing: the slider does not turn", "acts on the slider")
             .help("use force, opposing_force or viscous_force for the slider, or name another link in `on`"));
     }
+    if key == "force" && !closes_with_drive_link(mechanism, link) {
+        return Err(item
+            .problem(
+                &format!(
+                    "acts in a fixed direction on \"{link_name}\", which does not turn a whole number of times for each \
+                     turn of the drive link"
+                ),
+                "does not repeat with the drive link",
+            )
+            .help("a load must repeat with every turn of the drive link: use moment, or opposing_force"));
+    }
     if has_fixed_pivot && of_a_force && point == [0.0, 0.0] {
         return Err(item
             .problem(
@@ -90,6 +102,15 @@ fn load(section: &Section, mechanism: &AnyMechanism) -> Result<NamedLoad> {
         ToOwned::to_owned,
     );
     Ok(NamedLoad { name, load })
+}
+
+/// Whether the link is where it was after every turn of the drive link.
+fn closes_with_drive_link(mechanism: &AnyMechanism, link: usize) -> bool {
+    let AnyMechanism::Train(train) = mechanism else {
+        return true;
+    };
+    let ratio: f64 = train.stages().iter().take(link).map(Stage::ratio).product();
+    ((1.0 / ratio).round() * ratio - 1.0).abs() < 1e-12
 }
 
 /// The one key that says what the load does.

@@ -1,6 +1,6 @@
 //! The figures of the report.
 
-use jred::{Error, Reducible};
+use jred::Error;
 
 use super::term_names;
 use crate::drive::{Judged, RPM};
@@ -57,7 +57,7 @@ pub(super) fn reduced_torque(file: &MachineFile, duty: &Duty) -> Result<String, 
     let speed = duty.integral(|i| i.omega.abs()) / duty.duration;
     let mut parts = [const { Vec::new() }; 4];
     for k in 0..=POSITIONS {
-        let point = file.machine.reduction(f64::from(k).to_radians())?;
+        let point = file.machine.bare_reduction(f64::from(k).to_radians())?;
         let values = [
             -point.potential_energy[1],
             point.process,

@@ -44,17 +44,17 @@ fn what_a_command_needs_is_named() {
     let no_simulation = folder.file("b.toml", no_simulation);
     jred([&"size", &no_motion])
         .ends(2)
-        .says(&["the machine file has no [motion]", "add a [motion]"]);
+        .says(&["has no [motion]", "add a [motion]"]);
     jred([&"reduce", &no_motion, &"--over", &"time"])
         .ends(2)
-        .says(&["the machine file has no [motion]", "add a [motion]"]);
+        .says(&["has no [motion]", "add a [motion]"]);
     jred([&"simulate", &no_simulation])
         .ends(2)
-        .says(&["the machine file has no [simulation]", "add a [simulation]"]);
+        .says(&["has no [simulation]", "add a [simulation]"]);
     let out = folder.path("out");
     export(&no_motion, &["--torque-error", "1 N m"], &out)
         .ends(2)
-        .says(&["the machine file has no [motion]", "--omega and --alpha"]);
+        .says(&["has no [motion]", "--omega and --alpha"]);
     export(
         &no_motion,
         &[
@@ -63,7 +63,7 @@ fn what_a_command_needs_is_named() {
             "--omega",
             "90 rpm",
             "--alpha",
-            "50",
+            "50 rad/s^2",
         ],
         &out,
     )

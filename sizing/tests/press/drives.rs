@@ -150,7 +150,18 @@ fn check_drive(drive: &Value, motor: &Row, gearbox: Option<&Row>, tolerances: [f
         ]);
     }
     let checks = drive["checks"].as_array().unwrap();
-    assert_eq!(checks.len(), if gearbox.is_some() { 9 } else { 5 });
+    assert_eq!(checks.len(), if gearbox.is_some() { 10 } else { 5 });
+    if gearbox.is_some() {
+        // A cycle of half a second, where T2B is for up to 1000 an hour.
+        let cycles = checks
+            .iter()
+            .find(|c| c["rule"] == "gearbox cycles")
+            .unwrap();
+        assert_eq!(
+            (&cycles["value"], &cycles["verdict"]),
+            (&7200.0.into(), &"warn".into())
+        );
+    }
     for (rule, value, limit, share) in expected {
         let check = checks.iter().find(|c| c["rule"] == rule).unwrap();
         let what = format!("{name}: {rule}");

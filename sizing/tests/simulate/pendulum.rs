@@ -130,3 +130,20 @@ fn friction_brings_a_pendulum_to_rest() {
     );
     assert!(imbalance(&found) <= budget::BALANCE);
 }
+
+/// Friction turns with the motion wherever that is, not only at the output points.
+#[test]
+fn the_output_step_does_not_change_the_motion() {
+    let friction = "[[load]]\non = \"crank\"\nopposing_moment = \"0.05 N m\"";
+    let end = |step: &str| {
+        let run = format!("start_angle = \"30 deg\"\nduration = \"6 s\"\noutput_step = \"{step}\"");
+        let found = simulate(&pendulum(friction, &run));
+        ["phi [deg]", "losses [J]"].map(|column| *found.get(column).last().unwrap())
+    };
+    let [phi, losses] = end("10 ms");
+    for step in ["0.5 s", "1.5 s", "6 s"] {
+        let [other_phi, other_losses] = end(step);
+        within(step, other_phi, phi, budget::SWING * 120.0);
+        within(step, other_losses, losses, budget::SWING * losses);
+    }
+}

@@ -28,8 +28,9 @@ pub(crate) const ENERGY_PARTS: f64 = 6.0;
 /// the belt is missed; more of the smaller torque at a motor whose rotor takes part of the peak [1e-5].
 pub(crate) const DEFAULT_PEAK: f64 = 3e-5;
 
-/// Extremes at 200 000 steps, against the largest of the same number of samples, which lies up to T″·h²/8 lower [2.3e-8].
-pub(crate) const FINE_PEAK: f64 = 1e-7;
+/// Extremes at 200 000 steps, against the largest of the same number of samples, which lies up to T″·h²/8 lower [2.3e-8];
+/// the torque nearest to the envelope is not itself at an extreme: it moves by T′·h with the instant found [3.4e-7].
+pub(crate) const FINE_PEAK: f64 = 1e-6;
 
 /// Everything at 200 000 steps, against the same number of trapezoids [1e-12; 2e-10 for the energies].
 pub(crate) const FINE_STEPS: f64 = 1e-9;
@@ -90,3 +91,6 @@ pub(crate) const TICK_ROUNDING: f64 = 2e-6;
 /// The stated error is the largest at eight places a cell; between them it may be larger by this share [2.3 % where the
 /// pressing force sets in].
 pub(crate) const BETWEEN_CHECKS: f64 = 0.05;
+
+/// Work of a blow over 0.1° by its mean slope: (0.05°)² of the slope's curvature, and Simpson's rule on its ramps.
+pub(crate) const BLOW: f64 = 1e-5;
