@@ -54,7 +54,7 @@
 //!     let mechanism = SliderCrank::new(0.05, 0.2, 0.0, Branch::Right, [crank, rod, slider])?;
 //!     let machine = Machine::new(mechanism).with_gravity([0.0, -9.81])?;
 //!
-//!     // The smallest f32 table whose motor torque is right to 0.01 N·m up to 60 rad/s and 400 rad/s².
+//!     // The smallest f32 table whose drive torque is right to 0.01 N·m up to 60 rad/s and 400 rad/s².
 //!     const MOST: u32 = 128;
 //!     let request = Request { torque_error: 0.01, omega: 60.0, alpha: 400.0, max_cells: MOST };
 //!     let mut scratch = [0.0; scratch_len(MOST, curves::LOAD)];

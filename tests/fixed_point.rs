@@ -269,3 +269,37 @@ fn covering_scale_covers_forward_dynamics() {
         }
     }
 }
+
+/// A slope of −1002 units, which the tick may round to −1003, times 2³¹/1002.5 is −1 but for a hair: it must be refused,
+/// or the tick would wrap to +1.
+#[test]
+fn a_slope_whose_rounding_leaves_the_range_is_refused() {
+    let words = [0, -165, -332, -499, -666, -833, -1000].map(|step| (1 << 27) + step);
+    let table = Table::<Q31, { curves::INERTIA }>::new(&words, 4, false).unwrap();
+    // ½·4 cells/span 2 = 1, and J_b·ω_b²/T_b is the rest of the factor.
+    let build = |factor: f32| {
+        let scale = Scale::new(1.0, factor.sqrt(), 1.0).unwrap();
+        Model::new(table, 2.0, &scale)
+    };
+    let edge = 2_147_483_648.0 / 1002.5;
+    assert!(build(edge).is_err());
+    let model = build(0.9 * edge).unwrap();
+    for k in 0..4096 {
+        let phase = Phase::from_bits(k << 20);
+        let torque = model.torque(phase, Q31::MIN, Q31::from_bits(0));
+        assert!(torque.value.to_bits() < 0, "{k}: {torque:?}");
+    }
+}
+
+/// A machine so slow that J′ never counts: the velocity factor is below one unit, and the model is built all the same.
+#[test]
+fn a_very_slow_machine_has_a_model() {
+    let machine = Wave::bare(1.0, 0.25);
+    let scale = Scale::new(1e5, 1e-3, 1.5).unwrap();
+    let words = words::<Q31, { curves::INERTIA }>(&machine, 64, &scale).unwrap();
+    let table = Table::<Q31, { curves::INERTIA }>::new(&words, 64, true).unwrap();
+    let model = Model::new(table, core::f32::consts::TAU, &scale).unwrap();
+    // ½·J′·ω² is 1e-7 N·m of 1e5: less than one unit.
+    let torque = model.torque(Phase::from_radians(1.0), Q31::MAX, Q31::from_bits(0));
+    assert!(torque.value.to_bits().abs() <= 1, "{torque:?}");
+}

@@ -271,3 +271,13 @@ proptest! {
         same_bits::<Q31>(&spec, bits, omega, alpha);
     }
 }
+
+#[test]
+fn tables_of_f64_have_no_image() {
+    let words = [1.0f64 / 6.0; 7];
+    let table = Table::<f64, { curves::INERTIA }>::new(&words, 4, true).unwrap();
+    let mut buffer = [0; image_words(4, curves::INERTIA)];
+    let error = encode(&table, Domain::Turn, &Scale::SI, VALIDITY, &mut buffer).unwrap_err();
+    assert_eq!(error, Error::NoImage("f64"));
+    assert!(error.to_string().contains("use f32 or q31"), "{error}");
+}

@@ -289,6 +289,24 @@ fn inertia_just_below_zero_is_refused() {
     );
 }
 
+/// A dip below zero of a millionth of the control points, within the roundings of single precision.
+#[test]
+fn inertia_that_rounds_to_below_zero_is_refused() {
+    let words = [
+        -0.677_158_36f32,
+        0.940_116_35,
+        -0.470_057_85,
+        0.940_116_17,
+        0.3,
+        0.3,
+        0.3,
+    ];
+    assert!(matches!(
+        refused::<f32>(&words, 4, false),
+        TableError::NoInertia { .. }
+    ));
+}
+
 /// The torque ½·J′·ω_b² must fit the torque base of fixed point: refused just above, accepted just below.
 #[test]
 fn velocity_torque_outside_the_base_is_refused() {
