@@ -238,3 +238,29 @@ fn a_hanging_moment_is_held() {
                 law = \"cycloidal\"\n[[motion.segment]]\ndwell = \"20 s\"\n";
     within("held", duty_of(&read(text), 2000).hold_torque, 4.5, 1e-12);
 }
+
+/// A recorded dwell is a dwell: the roundings of the curve through its positions are no motion that friction resists.
+#[test]
+fn a_recorded_dwell_stands_still() {
+    let folder = Folder::new();
+    let mut csv = "t [s],phi [deg]\n".to_owned();
+    for k in 0..=400 {
+        let z = (f64::from(k) / 200.0).min(1.0); // a 3-4-5 polynomial in 1 s, then 1 s at rest
+        let phi = 360.0 * z * z * z * (10.0 - 15.0 * z + 6.0 * z * z);
+        let _ = writeln!(csv, "{:.4},{phi:.12}", f64::from(k) / 200.0);
+    }
+    folder.file("dwell.csv", csv);
+    let friction = "\n[[load]]\non = \"shaft-1\"\nopposing_moment = \"3 N m\"\n";
+    let text = format!("{TABLE}{friction}[motion]\ntype = \"profile\"\nfile = \"dwell.csv\"\n");
+    let duty = duty_of(
+        &input::parse("m.toml", &text, &folder.path("")).unwrap(),
+        2000,
+    );
+    // The curve swings on for some samples after the move: 10 of 5 ms, and as many before the next.
+    let dwell = duty.instants.iter().filter(|i| i.t > 1.05 && i.t < 1.95);
+    let (count, resisted) = dwell.fold((0, 0.0f64), |(count, most), i| {
+        (count + 1, most.max(i.terms.coulomb.abs()))
+    });
+    assert!(count > 500, "{count}");
+    assert_eq!(resisted, 0.0);
+}

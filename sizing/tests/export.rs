@@ -292,3 +292,19 @@ fn a_damaged_file_is_refused() {
         Err(ImageError::Curves(7))
     ));
 }
+
+/// Rotor and gearbox of 0.01 kg m² in front of a belt of ratio 3 add 0.09 kg m² at the crank.
+#[test]
+fn the_rotor_comes_into_the_table() {
+    let folder = Folder::new();
+    let torque = |more: [&str; 2]| {
+        let (run, path) = export(&folder, "f32", "image", "0.05 N m", more);
+        run.ends(0);
+        let words = words_of(&path);
+        let model = Image::new(&words).unwrap();
+        let model = model.model::<f32, { curves::ALL }>().unwrap();
+        f64::from(model.torque(Phase::from_radians(0.7), 0.0, 100.0).value)
+    };
+    let more = torque(["--rotor-inertia", "100 kg cm^2"]) - torque(NO_MORE);
+    assert!((more - 9.0).abs() <= 2.0 * 0.05, "{more}");
+}

@@ -349,3 +349,13 @@ fn motions_and_simulations_that_make_no_sense_are_refused() {
         refuses_edit(PRESS, from, to, words);
     }
 }
+
+#[test]
+fn a_force_that_does_not_repeat_with_the_drive_link_is_refused() {
+    refuses_edit(
+        GEARS,
+        "on = \"shaft-1\"\nat",
+        "on = \"shaft-3\"\nat",
+        &["`force`", "shaft-3", "whole number", "moment"],
+    );
+}
