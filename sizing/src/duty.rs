@@ -59,6 +59,11 @@ pub struct Figures {
 }
 
 impl Figures {
+    /// Smallest, mean, largest, RMS.
+    pub const fn values(&self) -> [f64; 4] {
+        [self.min, self.mean, self.max, self.rms]
+    }
+
     /// Largest magnitude.
     pub fn peak(&self) -> f64 {
         self.max.max(-self.min)

@@ -87,13 +87,7 @@ pub fn text(list: List, file: &MachineFile, duty: &Duty, selection: &Selection) 
 fn figures_table(rows: &[(&str, Figures, f64)]) -> String {
     let mut table = text_table(&["", "min", "mean", "max", "RMS"]);
     for (name, figures, unit) in rows {
-        let Figures {
-            min,
-            mean,
-            max,
-            rms,
-        } = figures;
-        let cells = [min, mean, max, rms].map(|x| rounded(x / unit));
+        let cells = figures.values().map(|x| rounded(x / unit));
         table.add_row(std::iter::once((*name).to_owned()).chain(cells));
     }
     table.to_string()

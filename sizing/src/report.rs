@@ -242,16 +242,8 @@ fn fit_row(rank: usize, judged: &Judged) -> FitRow {
 
 fn duty_rows(best: &Judged, duty: &Duty) -> Vec<(&'static str, Vec<String>)> {
     let row = |name, figures: Figures, unit: f64| {
-        let Figures {
-            min,
-            mean,
-            max,
-            rms,
-        } = figures;
-        (
-            name,
-            [min, mean, max, rms].map(|x| rounded(x / unit)).to_vec(),
-        )
+        let cells = figures.values().map(|x| rounded(x / unit));
+        (name, cells.to_vec())
     };
     vec![
         row(
