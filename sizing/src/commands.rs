@@ -8,7 +8,7 @@ use miette::{IntoDiagnostic as _, Result, WrapErr as _, miette};
 
 use crate::catalogue::Catalogue;
 use crate::cli;
-use crate::duty::{Duty, Figures};
+use crate::duty::Duty;
 use crate::export::Export;
 use crate::machine::MachineFile;
 use crate::motion::Motion;
@@ -82,33 +82,12 @@ fn run_simulate(options: &cli::Simulate) -> Result<Done> {
 
 fn run_export(options: &cli::Export) -> Result<Done> {
     let file = input::read(&options.file)?;
-    let largest = |given: Option<f64>, name: &str, of: fn(&Duty) -> Figures| -> Result<f64> {
-        match (given, &file.motion) {
-            (Some(given), _) => Ok(given),
-            (None, Some(motion)) => {
-                let duty = Duty::new(&file, motion, crate::duty::STEPS).into_diagnostic()?;
-                Ok(of(&duty).peak())
-            }
-            (None, None) => Err(miette!(
-                help = "give --omega and --alpha, or add a [motion] to the machine file",
-                "the largest {name} is not known: the machine file has no [motion]"
-            )),
-        }
-    };
+    let (omega, alpha) = range(options, &file)?;
     let request = Request {
         torque_error: options.torque_error,
-        omega: largest(options.omega, "speed", |d| d.figures(|i| i.omega))?,
-        // A motion at constant speed has no acceleration of its own: the speed reached within a turn stands in.
-        alpha: largest(options.alpha, "acceleration", |d| d.figures(|i| i.alpha))?,
+        omega,
+        alpha,
         max_cells: options.max_cells,
-    };
-    let request = Request {
-        alpha: if request.alpha > 0.0 {
-            request.alpha
-        } else {
-            request.omega * request.omega
-        },
-        ..request
     };
     let rotor = options.rotor_inertia.unwrap_or(0.0);
     let export = match Export::new(&file, options.number, request, rotor) {
@@ -125,6 +104,26 @@ fn run_export(options: &cli::Export) -> Result<Done> {
         export.summary(),
         options.out.display()
     ))
+}
+
+/// Largest speed and acceleration: as given, else those of the motion, which at constant speed has no acceleration of its
+/// own: the speed reached within a radian stands in.
+fn range(options: &cli::Export, file: &MachineFile) -> Result<(f64, f64)> {
+    if let (Some(omega), Some(alpha)) = (options.omega, options.alpha) {
+        return Ok((omega, alpha));
+    }
+    let motion = file.motion.as_ref().ok_or_else(|| {
+        miette!(
+            help = "give --omega and --alpha, or add a [motion] to the machine file",
+            "the largest speed and acceleration are not known: {} has no [motion]",
+            options.file.display()
+        )
+    })?;
+    let duty = Duty::new(file, motion, crate::duty::STEPS).into_diagnostic()?;
+    let omega = options.omega.unwrap_or(duty.figures(|i| i.omega).peak());
+    let moved = duty.figures(|i| i.alpha).peak();
+    let own = if moved > 0.0 { moved } else { omega * omega };
+    Ok((omega, options.alpha.unwrap_or(own)))
 }
 
 fn run_size(options: &cli::Size) -> Result<Done> {

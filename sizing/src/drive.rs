@@ -169,6 +169,12 @@ impl<'c> Judged<'c> {
         broken.map(Check::sentence).collect::<Vec<_>>().join("; ")
     }
 
+    /// How much of a rule's limit is used, in words; nothing if the rule was not applied.
+    pub fn used(&self, rule: &str) -> String {
+        let check = self.checks.iter().find(|c| c.rule == rule);
+        check.map_or(String::new(), Check::used)
+    }
+
     /// The largest share of a limit that is used. Where a limit is zero (no torque beyond the maximum speed) the
     /// rule for the speed says by how much.
     pub fn worst_use(&self) -> f64 {

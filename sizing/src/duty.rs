@@ -212,13 +212,13 @@ impl Duty {
             }
             refine_bends(file, motion, first, &mut instants)?;
         }
+        let ratio = file.drive_train.ratio();
         let mut hold_torque = 0.0f64;
         for k in 0..720 {
             let phi = std::f64::consts::TAU * f64::from(k) / 720.0;
             let slope = file.machine.bare_reduction(phi)?.potential_energy[1];
-            hold_torque = hold_torque.max((slope / file.drive_train.ratio()).abs());
+            hold_torque = hold_torque.max((slope / ratio).abs());
         }
-        let ratio = file.drive_train.ratio();
         let at_rest = instants.iter().filter(|i| i.omega == 0.0);
         let held = at_rest.map(|i| ((i.terms.potential + i.terms.process) / ratio).abs());
         let hold_torque = held.fold(hold_torque, f64::max);

@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use jred::table::{MAX_CELLS, curves};
+use jred::table::{MAX_CELLS, control_points, curves};
 use jred::tabulate::{self, Request, Tabulated};
-use jred::{Error, Q31, Reducible, Scalar, Scale};
+use jred::{Domain, Error, Q31, Reducible, Scalar, Scale, Table};
 
 use crate::machine::{AnyMechanism, MachineFile};
 use crate::output::rounded;
@@ -94,12 +94,10 @@ impl Export {
         match form {
             Form::Image => self.words.iter().flat_map(|w| w.to_le_bytes()).collect(),
             Form::Rust => self.source(
-                "//",
                 &format!("pub static TABLE: [u32; {}] = [\n", self.words.len()),
                 "];\n",
             ),
             Form::C => self.source(
-                "//",
                 &format!(
                     "#include <stdint.h>\n\nconst uint32_t jred_table[{}] = {{\n",
                     self.words.len()
@@ -109,10 +107,10 @@ impl Export {
         }
     }
 
-    fn source(&self, comment: &str, open: &str, close: &str) -> Vec<u8> {
+    fn source(&self, open: &str, close: &str) -> Vec<u8> {
         let mut text = String::new();
         for line in self.summary().lines() {
-            let _ = writeln!(text, "{comment} {line}");
+            let _ = writeln!(text, "// {line}");
         }
         text.push_str(open);
         for row in self.words.chunks(8) {
@@ -125,10 +123,6 @@ impl Export {
 
     /// What the table is and how exact it is, for the terminal and for source comments.
     pub fn summary(&self) -> String {
-        let number = match self.number {
-            Number::F32 => "f32",
-            Number::Q31 => "q31",
-        };
         let mut names = vec!["J_red"];
         let mut set = Vec::new();
         for (curve, name, constant) in [
@@ -146,16 +140,16 @@ impl Export {
             (curves::ALL, _) => "curves::ALL".to_owned(),
             (_, set) => set,
         };
-        let scalar = match self.number {
-            Number::F32 => "f32",
-            Number::Q31 => "Q31",
+        let (number, scalar) = match self.number {
+            Number::F32 => (f32::NAME, "f32"),
+            Number::Q31 => (Q31::NAME, "Q31"),
         };
         let Tabulated {
             cells,
             torque_error,
             worst,
         } = self.found;
-        let turns = jred::Domain::<f64>::Turn.span();
+        let turns = Domain::<f64>::Turn.span();
         let mut text = String::new();
         let _ = writeln!(text, "{}: reduced machine at the drive link", self.title);
         let _ = writeln!(
@@ -216,7 +210,9 @@ fn search<S: Scalar, const CURVES: u8>(
     let mut scratch = vec![0.0; tabulate::scratch_len(most, CURVES)];
     let mut words = vec![bytemuck::Zeroable::zeroed(); most as usize * 4 + 16];
     let found = tabulate::tabulate::<S, CURVES>(machine, request, scale, &mut scratch, &mut words)?;
-    let table = tabulate::fill::<S, CURVES>(machine, found.cells, scale, &mut scratch, &mut words)?;
+    words.truncate(control_points(found.cells as usize) * curves::width(CURVES));
+    let periodic = machine.domain() == Domain::Turn;
+    let table = Table::<S, CURVES>::new(&words, found.cells, periodic).map_err(Error::Table)?;
     let mut image = vec![0; jred::image_words(found.cells, CURVES)];
     let validity = found.validity(request);
     jred::encode(&table, machine.domain(), scale, validity, &mut image)?;

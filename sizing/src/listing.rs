@@ -3,7 +3,6 @@
 use miette::{IntoDiagnostic as _, Result, miette};
 use serde_json::{Value, json as object};
 
-use crate::check::Check;
 use crate::drive::{Judged, RPM};
 use crate::duty::{Duty, Figures, Instant};
 use crate::machine::MachineFile;
@@ -129,19 +128,15 @@ fn rules_table(judged: &Judged) -> String {
 }
 
 fn rank_row(rank: usize, judged: &Judged) -> [String; 8] {
-    let of = |rule: &str| {
-        let check = judged.checks.iter().find(|c| c.rule == rule);
-        check.map_or(String::new(), Check::used)
-    };
     let drive = &judged.drive;
     [
         rank.to_string(),
         drive.motor.key.clone(),
         drive.gearbox.map_or("direct".to_owned(), |g| g.key.clone()),
         format!("{:.2}", judged.rated_power() / 1000.0),
-        of("RMS torque"),
-        of("peak torque"),
-        of("speed"),
+        judged.used("RMS torque"),
+        judged.used("peak torque"),
+        judged.used("speed"),
         short(judged.duty.inertia_ratio.max),
     ]
 }

@@ -1,7 +1,7 @@
 //! A machine as the tool knows it: what a machine file describes, in SI units, checked.
 
 use jred::mechanism::{SliderCrank, Train};
-use jred::{Domain, Error, Frame, Link, Load, Machine, Mechanism, Reducible, Reduction};
+use jred::{Domain, Error, Frame, Link, Load, Machine, Mechanism};
 
 use crate::motion::Motion;
 use crate::rules::Rules;
@@ -117,13 +117,5 @@ impl MachineFile {
         let ratio = self.drive_train.ratio();
         let train = self.drive_train.inertia_at_input() * ratio * ratio;
         self.machine.clone().with_flywheel(train)
-    }
-
-    /// The reduced link at `phi` (rad), drive train included.
-    ///
-    /// # Errors
-    /// As [`Reducible::reduction`].
-    pub fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
-        self.with_drive_train()?.reduction(phi)
     }
 }

@@ -214,10 +214,6 @@ fn check_row(check: &Check) -> CheckRow {
 }
 
 fn fit_row(rank: usize, judged: &Judged) -> FitRow {
-    let used = |rule: &str| {
-        let check = judged.checks.iter().find(|c| c.rule == rule);
-        check.map_or(String::new(), Check::used)
-    };
     let drive = &judged.drive;
     let remarks: Vec<String> = judged
         .checks
@@ -233,8 +229,8 @@ fn fit_row(rank: usize, judged: &Judged) -> FitRow {
             .map_or("direct".into(), |g| format!("{} {}", g.maker, g.model)),
         ratio: rounded(drive.ratio()),
         power: format!("{:.2} kW", judged.rated_power() / 1000.0),
-        rms: used("RMS torque"),
-        peak: used("peak torque"),
+        rms: judged.used("RMS torque"),
+        peak: judged.used("peak torque"),
         lambda: short(judged.duty.inertia_ratio.max),
         remarks: remarks.join("; "),
     }

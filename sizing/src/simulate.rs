@@ -6,11 +6,11 @@
 
 use std::cell::RefCell;
 
-use jred::{Error, Machine};
+use jred::Error;
 use ode_solvers::dop_shared::{IntegrationError, OutputType};
 use ode_solvers::{Dop853, SVector, System};
 
-use crate::machine::{AnyMechanism, MachineFile, Shaft, Simulation};
+use crate::machine::{MachineFile, Shaft, Simulation};
 use crate::output::Columns;
 
 /// φ, ω, work of the motor, work of the process loads, losses.
@@ -38,7 +38,6 @@ pub enum SimulationError {
 /// The machine with its drive and motor torque, moving in one direction.
 struct Plant<'a> {
     file: &'a MachineFile,
-    machine: &'a Machine<AnyMechanism>,
     simulation: &'a Simulation,
     /// Direction that friction opposes: +1, −1, or 0 at rest.
     direction: f64,
@@ -68,7 +67,7 @@ impl Plant<'_> {
     /// The torque that the motor must give is piecewise linear and monotone in α (each stage's efficiency changes
     /// sides with its power), so Newton's method ends after a few steps.
     fn instant(&self, phi: f64, omega: f64) -> Result<Instant, Error> {
-        let point = self.machine.bare_reduction(phi)?;
+        let point = self.file.machine.bare_reduction(phi)?;
         let load = point.load_torque() - point.viscous * omega - point.coulomb * self.direction;
         let resisting = 0.5 * point.inertia[1] * omega * omega - load;
         let torque = self.motor_torque(omega);
@@ -150,10 +149,8 @@ impl System<f64, State> for &Plant<'_> {
 /// Those of the machine and the integrator.
 pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Columns, SimulationError> {
     let fault = RefCell::new(None);
-    let machine = &file.machine;
     let mut plant = Plant {
         file,
-        machine,
         simulation,
         direction: 0.0,
         fault: &fault,
@@ -192,7 +189,7 @@ pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Columns, 
         let end = simulation.duration * k as f64 / steps as f64;
         y = advance(&mut plant, t, end, y)?;
         t = end;
-        let point = machine.bare_reduction(y[0])?;
+        let point = file.machine.bare_reduction(y[0])?;
         let now = plant.instant(y[0], y[1])?;
         let alpha = if plant.direction == 0.0 {
             0.0

@@ -1,6 +1,6 @@
 //! The figures of the report.
 
-use jred::Error;
+use jred::{Error, Reducible as _};
 
 use super::term_names;
 use crate::drive::{Judged, RPM};
@@ -32,10 +32,11 @@ fn dashed(name: &str, points: Vec<(f64, f64)>) -> Series<'_> {
 
 /// J_red and J_red′ over the turn.
 pub(super) fn reduced_inertia(file: &MachineFile) -> Result<String, Error> {
+    let machine = file.with_drive_train()?;
     let (mut inertia, mut slope) = (Vec::new(), Vec::new());
     for k in 0..=POSITIONS {
         let phi = f64::from(k).to_radians();
-        let point = file.reduction(phi)?;
+        let point = machine.reduction(phi)?;
         inertia.push((f64::from(k), point.inertia[0]));
         slope.push((f64::from(k), point.inertia[1]));
     }
