@@ -35,8 +35,54 @@ pub enum Error {
     },
     /// The drive link cannot move the mechanism here: a transfer function is infinite.
     DeadPoint {
-        /// Angle of the drive link (rad).
+        /// Position of the drive link (rad, or m for a sliding link).
         phi: f64,
+        /// Index of the joint that locks.
+        joint: usize,
+    },
+    /// No position of the links satisfies all joints.
+    CannotAssemble {
+        /// Position of the drive link (rad, or m for a sliding link).
+        phi: f64,
+        /// Index of the joint that stays open widest.
+        joint: usize,
+        /// How far it stays open (m, or rad).
+        gap: f64,
+    },
+    /// The mechanism jumped to another branch between two positions.
+    BranchChange {
+        /// Position of the drive link (rad, or m for a sliding link).
+        phi: f64,
+        /// Index of the joint at which the branches meet.
+        joint: usize,
+    },
+    /// After a full turn of the drive link, a link is not where it was.
+    NotClosed {
+        /// Index of the link.
+        link: usize,
+        /// How far off it is (m, or rad).
+        gap: f64,
+    },
+    /// The joints do not leave the links exactly one freedom.
+    Mobility {
+        /// Number of moving links.
+        links: usize,
+        /// Number of freedoms that the joints take.
+        constraints: usize,
+    },
+    /// The joint holds links that other joints hold already, while other links are free.
+    OverConstrained {
+        /// Index of the joint.
+        joint: usize,
+        /// Index of a link that is free.
+        free: usize,
+    },
+    /// The mechanism has no joint of this number, or one of a kind that does not fit.
+    NoSuchJoint {
+        /// The index asked for, from 0.
+        joint: usize,
+        /// How many joints there are.
+        joints: usize,
     },
     /// The load acts on a link that the mechanism does not have.
     NoSuchLink {
@@ -108,11 +154,42 @@ impl fmt::Display for Error {
                  make the rod longer than crank + |offset| = {shortest_rod} m, or shorten the crank or the offset",
                 phi.to_degrees()
             ),
-            Self::DeadPoint { phi } => write!(
+            Self::DeadPoint { phi, joint } => write!(
                 f,
-                "dead point: the drive link cannot move the mechanism at φ = {:.2}°",
-                phi.to_degrees()
+                "dead point: the drive cannot move the mechanism at {}; joint {joint} locks",
+                Place(phi)
             ),
+            Self::CannotAssemble { phi, joint, gap } => write!(
+                f,
+                "the mechanism cannot be assembled at {}: joint {joint} stays open by {gap:.3e}",
+                Place(phi)
+            ),
+            Self::BranchChange { phi, joint } => write!(
+                f,
+                "the mechanism changes to another branch at {}, where joint {joint} is stretched or folded",
+                Place(phi)
+            ),
+            Self::NotClosed { link, gap } => write!(
+                f,
+                "after a turn of the drive link, link {link} is {gap:.3e} off its first position: the mechanism does not close"
+            ),
+            Self::Mobility { links, constraints } => {
+                let freedoms = 3 * links as i64 - constraints as i64;
+                write!(
+                    f,
+                    "the mechanism has {freedoms} degrees of freedom, not one: 3·{links} links − {constraints} constraints"
+                )
+            }
+            Self::OverConstrained { joint, free } => write!(
+                f,
+                "joint {joint} holds links that other joints hold already, while link {free} is free"
+            ),
+            Self::NoSuchJoint { joint, joints } => {
+                write!(
+                    f,
+                    "joint {joint} cannot be used: the mechanism has {joints} joints, counted from 0"
+                )
+            }
             Self::NoSuchLink { link, links } => {
                 write!(
                     f,
@@ -153,6 +230,20 @@ impl fmt::Display for Error {
                 )
             }
         }
+    }
+}
+
+/// A position of the drive link, which turns or slides.
+struct Place(f64);
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "φ = {:.2}° ({:.6} rad, or m of a stroke)",
+            self.0.to_degrees(),
+            self.0
+        )
     }
 }
 

@@ -94,9 +94,13 @@
 //!
 //! Neither is on by default.
 
+mod element;
 mod error;
 mod fixed;
 mod image;
+pub mod joint;
+mod kinetostatics;
+mod linear;
 mod link;
 mod load;
 mod math;
@@ -111,12 +115,15 @@ pub mod table;
 pub mod tabulate;
 mod transfer;
 
+pub use element::{Element, MAX_ELEMENTS};
 pub use error::Error;
 pub use image::{Aligned, HEADER_WORDS, Image, ImageError, VERSION, Validity, encode, image_words};
+pub use joint::{Body, Joint, Marker, Wrench};
+pub use kinetostatics::{Forces, Reaction};
 pub use link::{Frame, Link};
 pub use load::{Action, Load, LoadCurves, Window};
 pub use math::Real;
-pub use mechanism::Mechanism;
+pub use mechanism::{Jointed, Mechanism};
 pub use model::Model;
 pub use phase::{Domain, Phase};
 pub use reduction::{MAX_LOADS, Machine, Reducible, Reduction, TorqueTerms};

@@ -91,17 +91,13 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// The fixed frame: origin at [0, 0], axes along x and y.
+    pub const GROUND: Self = Self::translating([Transfer::constant(0.0); 2]);
+
     /// A link that turns about the fixed point `pivot` by the angle `psi`.
     #[must_use]
     pub fn turning(pivot: [f64; 2], psi: Transfer) -> Self {
-        let (sin, cos) = psi.sin_cos();
-        Self {
-            x: Transfer::constant(pivot[0]),
-            y: Transfer::constant(pivot[1]),
-            psi,
-            sin,
-            cos,
-        }
+        Self::turned(pivot.map(Transfer::constant), psi)
     }
 
     /// A link that translates without turning.
@@ -113,6 +109,19 @@ impl Frame {
             psi: Transfer::constant(0.0),
             sin: Transfer::constant(0.0),
             cos: Transfer::constant(1.0),
+        }
+    }
+
+    /// A link in general plane motion, its angle given in radians.
+    #[must_use]
+    pub fn turned(origin: [Transfer; 2], psi: Transfer) -> Self {
+        let (sin, cos) = psi.sin_cos();
+        Self {
+            x: origin[0],
+            y: origin[1],
+            psi,
+            sin,
+            cos,
         }
     }
 
@@ -130,10 +139,14 @@ impl Frame {
 
     /// A point of the link, given in its frame as `[u, v]` (m), in global coordinates.
     #[must_use]
-    pub fn point(&self, [u, v]: [f64; 2]) -> [Transfer; 2] {
-        [
-            self.x + self.cos * u - self.sin * v,
-            self.y + self.sin * u + self.cos * v,
-        ]
+    pub fn point(&self, at: [f64; 2]) -> [Transfer; 2] {
+        let [x, y] = self.vector(at);
+        [self.x + x, self.y + y]
+    }
+
+    /// A vector that turns with the link, given in its frame as `[u, v]`, in global components.
+    #[must_use]
+    pub fn vector(&self, [u, v]: [f64; 2]) -> [Transfer; 2] {
+        [self.cos * u - self.sin * v, self.sin * u + self.cos * v]
     }
 }

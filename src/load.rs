@@ -1,6 +1,7 @@
 //! Forces and moments that act on the links, other than gravity.
 
 use crate::error::{finite, not_negative, positive};
+use crate::joint::{Body, Wrench};
 use crate::link::Frame;
 use crate::motion::Law;
 use crate::{Error, math};
@@ -146,6 +147,32 @@ impl Load {
     /// Index of the link.
     pub const fn link(&self) -> usize {
         self.link
+    }
+
+    /// What the load does to its link at `phi` (rad) and speed `omega` (rad/s), for its link's `frame`. A load that
+    /// opposes the motion does nothing where its point or its link stands still.
+    #[must_use]
+    pub fn wrench(&self, frame: &Frame, phi: f64, omega: f64) -> Wrench {
+        let part = self.window.map_or(1.0, |w| w.factor(phi));
+        let body = Body::Link(self.link);
+        let point = frame.point(self.at);
+        let [v_x, v_y] = point.map(|c| c.velocity(omega));
+        let turn = frame.psi.velocity(omega);
+        let force =
+            |force: [f64; 2]| Wrench::force(body, point.map(|c| c.value), force.map(|f| part * f));
+        let moment = |moment: f64| Wrench::moment(body, part * moment);
+        match self.action {
+            Action::Force(given) => force(given),
+            Action::Moment(given) => moment(given),
+            Action::OpposingForce(size) => {
+                let speed = math::sqrt(v_x * v_x + v_y * v_y);
+                let direction = if speed > 0.0 { size / speed } else { 0.0 };
+                force([-direction * v_x, -direction * v_y])
+            }
+            Action::OpposingMoment(size) => moment(-size * math::sign(turn)),
+            Action::ViscousForce(c) => force([-c * v_x, -c * v_y]),
+            Action::ViscousMoment(c) => moment(-c * turn),
+        }
     }
 
     /// The load's share of the reduced torque at `phi` (rad), (6.2), for its link's `frame`.

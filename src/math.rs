@@ -77,3 +77,14 @@ pub(crate) fn floor(x: f64) -> f64 {
 pub(crate) fn abs(x: f64) -> f64 {
     libm::fabs(x)
 }
+
+/// sgn x, with sgn 0 = 0.
+pub(crate) fn sign(x: f64) -> f64 {
+    if x > 0.0 {
+        1.0
+    } else if x < 0.0 {
+        -1.0
+    } else {
+        0.0
+    }
+}

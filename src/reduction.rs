@@ -9,10 +9,11 @@
 //!
 //! V. G. Nazarenko, *Dynamics of mechanisms*, Minsk 2002. For a sliding drive link read m_red for J, F for T (7.10).
 
+use crate::element::{Element, MAX_ELEMENTS};
 use crate::error::{finite, not_negative};
 use crate::load::Load;
 use crate::mechanism::{Frames, MAX_LINKS, Mechanism};
-use crate::{Domain, Error};
+use crate::{Domain, Error, math};
 
 /// The most loads of a machine.
 pub const MAX_LOADS: usize = 16;
@@ -35,7 +36,7 @@ pub trait Reducible {
 pub struct Reduction {
     /// J_red (kg·m²), dJ/dφ, d²J/dφ².
     pub inertia: [f64; 3],
-    /// Potential energy U of gravity (J) and U′ (N·m).
+    /// Potential energy U of gravity and springs (J) and U′ (N·m).
     pub potential_energy: [f64; 2],
     /// Signed process torque (N·m), in +φ direction.
     pub process: f64,
@@ -55,7 +56,7 @@ impl Reduction {
     /// Reduced torque T_red(φ, ω) (N·m); sgn 0 = 0.
     #[must_use]
     pub fn reduced_torque(&self, omega: f64) -> f64 {
-        self.load_torque() - self.viscous * omega - self.coulomb * sign(omega)
+        self.load_torque() - self.viscous * omega - self.coulomb * math::sign(omega)
     }
 
     /// Drive torque that the motion (ω, α) needs, term by term.
@@ -67,7 +68,7 @@ impl Reduction {
             potential: self.potential_energy[1],
             process: -self.process,
             viscous: self.viscous * omega,
-            coulomb: self.coulomb * sign(omega),
+            coulomb: self.coulomb * math::sign(omega),
         }
     }
 
@@ -76,17 +77,6 @@ impl Reduction {
     pub fn acceleration(&self, omega: f64, torque: f64) -> f64 {
         (torque + self.reduced_torque(omega) - 0.5 * self.inertia[1] * omega * omega)
             / self.inertia[0]
-    }
-}
-
-/// sgn x, with sgn 0 = 0.
-fn sign(x: f64) -> f64 {
-    if x > 0.0 {
-        1.0
-    } else if x < 0.0 {
-        -1.0
-    } else {
-        0.0
     }
 }
 
@@ -145,6 +135,7 @@ pub struct Machine<M> {
     mechanism: M,
     gravity: [f64; 2],
     loads: heapless::Vec<Load, MAX_LOADS>,
+    elements: heapless::Vec<Element, MAX_ELEMENTS>,
     flywheel: f64,
 }
 
@@ -155,6 +146,7 @@ impl<M: Mechanism> Machine<M> {
             mechanism,
             gravity: [0.0, 0.0],
             loads: heapless::Vec::new(),
+            elements: heapless::Vec::new(),
             flywheel: 0.0,
         }
     }
@@ -186,18 +178,35 @@ impl<M: Mechanism> Machine<M> {
     /// # Errors
     /// A link that does not exist, or more than [`MAX_LOADS`] loads.
     pub fn with_load(mut self, load: Load) -> Result<Self, Error> {
-        let links = self.mechanism.links().len();
-        if load.link() >= links {
-            return Err(Error::NoSuchLink {
-                link: load.link(),
-                links,
-            });
-        }
+        self.check_link(Some(load.link()))?;
         self.loads.push(load).map_err(|_| Error::TooMany {
             what: "loads",
             capacity: MAX_LOADS,
         })?;
         Ok(self)
+    }
+
+    /// With one more spring or damper.
+    ///
+    /// # Errors
+    /// A link that does not exist, or more than [`MAX_ELEMENTS`] elements.
+    pub fn with_element(mut self, element: Element) -> Result<Self, Error> {
+        for marker in element.between() {
+            self.check_link(marker.body.link())?;
+        }
+        self.elements.push(element).map_err(|_| Error::TooMany {
+            what: "springs and dampers",
+            capacity: MAX_ELEMENTS,
+        })?;
+        Ok(self)
+    }
+
+    fn check_link(&self, link: Option<usize>) -> Result<(), Error> {
+        let links = self.mechanism.links().len();
+        match link {
+            Some(link) if link >= links => Err(Error::NoSuchLink { link, links }),
+            _ => Ok(()),
+        }
     }
 
     /// The mechanism.
@@ -208,6 +217,16 @@ impl<M: Mechanism> Machine<M> {
     /// The loads.
     pub fn loads(&self) -> &[Load] {
         &self.loads
+    }
+
+    /// The springs and dampers.
+    pub fn elements(&self) -> &[Element] {
+        &self.elements
+    }
+
+    /// Gravity (m/s²).
+    pub const fn gravity(&self) -> [f64; 2] {
+        self.gravity
     }
 
     /// Inertia that turns with the drive link beside the mechanism's own (kg·m²).
@@ -252,6 +271,12 @@ impl<M: Mechanism> Machine<M> {
                 reduction.viscous += curves.viscous;
                 reduction.coulomb += curves.coulomb;
             }
+        }
+        for element in &self.elements {
+            let share = element.reduce(&frames);
+            reduction.potential_energy[0] += share.potential_energy[0];
+            reduction.potential_energy[1] += share.potential_energy[1];
+            reduction.viscous += share.viscous;
         }
         Ok(reduction)
     }

@@ -1,49 +1,106 @@
 //! A machine as the tool knows it: what a machine file describes, in SI units, checked.
 
-use jred::mechanism::{SliderCrank, Train};
-use jred::{Domain, Error, Frame, Link, Load, Machine, Mechanism};
+use std::fmt;
+use std::sync::Arc;
+
+use jred::joint::Joints;
+use jred::mechanism::{Frames, Train};
+use jred::{Domain, Error, Jointed, Link, Load, Machine, Mechanism};
 
 use crate::motion::Motion;
 use crate::rules::Rules;
 
-/// A mechanism that a machine file can name.
-#[expect(clippy::large_enum_variant, reason = "a run has one machine")]
+/// A mechanism that knows its joints and can be kept in a machine.
+pub trait Inner: Jointed + fmt::Debug + Send + Sync {}
+
+impl<M: Jointed + fmt::Debug + Send + Sync> Inner for M {}
+
+/// A point of a link, with the name that tables and drawings use.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedPoint {
+    /// Such as `B`.
+    pub name: String,
+    /// Index of the link.
+    pub link: usize,
+    /// Where it is in the link's frame (m).
+    pub at: [f64; 2],
+}
+
+/// Any mechanism that a machine file can name, with the names of its parts.
 #[derive(Clone, Debug)]
-pub enum AnyMechanism {
-    /// `type = "slider-crank"`
-    SliderCrank(SliderCrank),
-    /// `type = "gear-train"` or `"belt"`
-    Train(Train),
+pub struct AnyMechanism {
+    kind: &'static str,
+    inner: Arc<dyn Inner>,
+    links: Vec<String>,
+    joints: Vec<String>,
+    points: Vec<NamedPoint>,
 }
 
 impl AnyMechanism {
-    fn inner(&self) -> &dyn Mechanism {
-        match self {
-            Self::SliderCrank(m) => m,
-            Self::Train(m) => m,
+    /// A mechanism of the `kind` that machine files write as `type`, with a name for each link and each joint, in the order
+    /// of the mechanism's own lists.
+    pub fn new<S: Into<String>, J: Into<String>>(
+        kind: &'static str,
+        mechanism: impl Inner + 'static,
+        links: impl IntoIterator<Item = S>,
+        joints: impl IntoIterator<Item = J>,
+    ) -> Self {
+        Self {
+            kind,
+            inner: Arc::new(mechanism),
+            links: links.into_iter().map(Into::into).collect(),
+            joints: joints.into_iter().map(Into::into).collect(),
+            points: Vec::new(),
         }
     }
 
+    /// With one more named point, `at` [u, v] (m) of link number `link`.
+    #[must_use]
+    pub fn with_point(mut self, name: impl Into<String>, link: usize, at: [f64; 2]) -> Self {
+        let name = name.into();
+        self.points.push(NamedPoint { name, link, at });
+        self
+    }
+
+    /// The `type` of the machine file.
+    pub const fn kind(&self) -> &'static str {
+        self.kind
+    }
+
     /// The names of the links, as loads and reports use them.
-    pub fn link_names(&self) -> Vec<String> {
-        match self {
-            Self::SliderCrank(_) => ["crank", "rod", "slider"].map(String::from).into(),
-            Self::Train(t) => (1..=t.links().len())
-                .map(|k| format!("shaft-{k}"))
-                .collect(),
-        }
+    pub fn link_names(&self) -> &[String] {
+        &self.links
+    }
+
+    /// The names of the joints.
+    pub fn joint_names(&self) -> &[String] {
+        &self.joints
+    }
+
+    /// The points that have a name.
+    pub fn points(&self) -> &[NamedPoint] {
+        &self.points
     }
 }
 
 impl Mechanism for AnyMechanism {
     fn links(&self) -> &[Link] {
-        self.inner().links()
+        self.inner.links()
     }
     fn domain(&self) -> Domain {
-        self.inner().domain()
+        self.inner.domain()
     }
-    fn frames(&self, phi: f64) -> Result<heapless::Vec<Frame, 16>, Error> {
-        self.inner().frames(phi)
+    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+        self.inner.frames(phi)
+    }
+}
+
+impl Jointed for AnyMechanism {
+    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, Error> {
+        self.inner.joints(phi, frames)
+    }
+    fn drive(&self) -> usize {
+        self.inner.drive()
     }
 }
 

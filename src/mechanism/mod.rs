@@ -6,6 +6,7 @@ mod train;
 pub use slider_crank::{Branch, SliderCrank};
 pub use train::{Mesh, Stage, Train, TrainInput};
 
+use crate::joint::Joints;
 use crate::link::{Frame, Link};
 use crate::{Domain, Error};
 
@@ -30,6 +31,31 @@ pub trait Mechanism {
     /// # Errors
     /// A dead point or a position that cannot be assembled; a mechanism checked when built returns none within its domain.
     fn frames(&self, phi: f64) -> Result<Frames, Error>;
+}
+
+/// A mechanism that knows what holds its links together, and so the forces in every joint
+/// ([`Machine::forces`](crate::Machine::forces)).
+pub trait Jointed: Mechanism {
+    /// The joints at the drive link's angle `phi` (rad), where the links are at `frames`. Their number and order do not
+    /// depend on `phi`. Together they leave the links one freedom.
+    ///
+    /// # Errors
+    /// Those of [`frames`](Mechanism::frames).
+    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, Error>;
+
+    /// Index of the joint that the drive moves: its coordinate is φ up to a constant.
+    fn drive(&self) -> usize {
+        0
+    }
+}
+
+impl<M: Jointed + ?Sized> Jointed for &M {
+    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, Error> {
+        (**self).joints(phi, frames)
+    }
+    fn drive(&self) -> usize {
+        (**self).drive()
+    }
 }
 
 impl<M: Mechanism + ?Sized> Mechanism for &M {

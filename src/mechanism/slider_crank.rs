@@ -10,8 +10,9 @@
 //! from A to B. The machine's real orientation is given by the direction of gravity: for a press whose ram
 //! moves down as x_B grows, gravity points along +x.
 
-use super::{Frames, Mechanism};
+use super::{Frames, Jointed, Mechanism};
 use crate::error::{finite, positive};
+use crate::joint::{Joint, Joints, Marker};
 use crate::link::{Frame, Link};
 use crate::transfer::Transfer;
 use crate::{Domain, Error, math};
@@ -113,6 +114,28 @@ fn first_unreachable(crank: f64, rod: f64, offset: f64) -> f64 {
     }
 }
 
+impl Jointed for SliderCrank {
+    /// O: ground and crank; A: crank and rod; B: rod and slider; guide: ground and slider.
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+        let origin = [0.0, 0.0];
+        Ok(Joints::from_iter([
+            Joint::Revolute([Marker::ground(origin), Marker::on(Self::CRANK, origin)]),
+            Joint::Revolute([
+                Marker::on(Self::CRANK, [self.crank, 0.0]),
+                Marker::on(Self::ROD, origin),
+            ]),
+            Joint::Revolute([
+                Marker::on(Self::ROD, [self.rod, 0.0]),
+                Marker::on(Self::SLIDER, origin),
+            ]),
+            Joint::Prismatic([
+                Marker::ground([0.0, self.offset]),
+                Marker::on(Self::SLIDER, origin),
+            ]),
+        ]))
+    }
+}
+
 impl Mechanism for SliderCrank {
     fn links(&self) -> &[Link] {
         &self.links
@@ -129,7 +152,7 @@ impl Mechanism for SliderCrank {
         let sin = (Transfer::constant(self.offset) - y_a) * (1.0 / self.rod);
         let under_root = Transfer::constant(1.0) - sin * sin;
         if under_root.value <= 0.0 {
-            return Err(Error::DeadPoint { phi });
+            return Err(Error::DeadPoint { phi, joint: 3 });
         }
         let cos = under_root.sqrt() * self.sign;
         let rod = Frame::moving([x_a, y_a], sin, cos);

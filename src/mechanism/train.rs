@@ -1,7 +1,8 @@
 //! Gear trains and belt drives: shafts coupled by constant ratios.
 
-use super::{Frames, Mechanism};
+use super::{Frames, Jointed, Mechanism};
 use crate::error::{not_negative, positive};
+use crate::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::link::{Frame, Link};
 use crate::transfer::Transfer;
 use crate::{Domain, Error};
@@ -203,6 +204,24 @@ pub struct TrainInput {
     pub torque_per_alpha: f64,
     /// Power lost in the stages (W).
     pub loss: f64,
+}
+
+impl Jointed for Train {
+    /// The bearing of every shaft, then the mesh or belt of every stage. A train has ratios and no geometry: what a mesh
+    /// transmits is a moment on either shaft, and the ground takes the difference.
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+        let bearing =
+            |shaft| Joint::Revolute([Marker::ground([0.0, 0.0]), Marker::on(shaft, [0.0, 0.0])]);
+        let mesh = |(k, stage): (usize, &Stage)| {
+            let driven = Wrench::moment(Body::Link(k + 1), 1.0);
+            let driver = Wrench::moment(Body::Link(k), -1.0 / stage.ratio);
+            Joint::Transmission([driver, driven])
+        };
+        let bearings = (0..self.shafts.len()).map(bearing);
+        Ok(bearings
+            .chain(self.stages.iter().enumerate().map(mesh))
+            .collect())
+    }
 }
 
 impl Mechanism for Train {

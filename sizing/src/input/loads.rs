@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use jred::mechanism::Stage;
-use jred::{Action, Load, MAX_LOADS, Window};
+use jred::{Action, Domain, Load, MAX_LOADS, Mechanism as _, Window};
 
 use crate::machine::{AnyMechanism, NamedLoad};
 
@@ -47,7 +46,7 @@ fn load(section: &Section, mechanism: &AnyMechanism) -> Result<NamedLoad> {
         .transpose()?;
     let example = format!("on = \"{}\"", links.last().map_or("slider", String::as_str));
     let on = section.require("on", &example)?;
-    let link = on.choice(&links)?;
+    let link = on.choice(links)?;
     let (key, item) = action_key(section)?;
     let action = action(key, &item)?;
     let at = section.get("at");
@@ -65,14 +64,18 @@ fn load(section: &Section, mechanism: &AnyMechanism) -> Result<NamedLoad> {
         .at(at.key_span(), "remove this")
         .help("a moment acts on the link as a whole; only forces have a point of application"));
     }
-    let slides = matches!(mechanism, AnyMechanism::SliderCrank(_)) && link_name == "slider";
-    let has_fixed_pivot = !slides && link_name != "rod";
-    if slides && !of_a_force {
+    let movement = Movement::of(mechanism, link);
+    if movement.slides && !of_a_force {
         return Err(item
-            .problem("does nothing: the slider does not turn", "acts on the slider")
-            .help("use force, opposing_force or viscous_force for the slider, or name another link in `on`"));
+            .problem(
+                &format!("does nothing: \"{link_name}\" does not turn"),
+                "acts on a link that only slides",
+            )
+            .help(format!(
+                "use force, opposing_force or viscous_force for \"{link_name}\", or name another link in `on`"
+            )));
     }
-    if key == "force" && !closes_with_drive_link(mechanism, link) {
+    if key == "force" && !movement.closes {
         return Err(item
             .problem(
                 &format!(
@@ -83,7 +86,7 @@ fn load(section: &Section, mechanism: &AnyMechanism) -> Result<NamedLoad> {
             )
             .help("a load must repeat with every turn of the drive link: use moment, or opposing_force"));
     }
-    if has_fixed_pivot && of_a_force && point == [0.0, 0.0] {
+    if movement.pivots && of_a_force && point == [0.0, 0.0] {
         return Err(item
             .problem(
                 &format!("does nothing: it acts on the fixed pivot of \"{link_name}\""),
@@ -104,13 +107,38 @@ fn load(section: &Section, mechanism: &AnyMechanism) -> Result<NamedLoad> {
     Ok(NamedLoad { name, load })
 }
 
-/// Whether the link is where it was after every turn of the drive link.
-fn closes_with_drive_link(mechanism: &AnyMechanism, link: usize) -> bool {
-    let AnyMechanism::Train(train) = mechanism else {
-        return true;
-    };
-    let ratio: f64 = train.stages().iter().take(link).map(Stage::ratio).product();
-    ((1.0 / ratio).round() * ratio - 1.0).abs() < 1e-12
+/// How a link moves, as far as loads care.
+struct Movement {
+    /// It never turns.
+    slides: bool,
+    /// The origin of its frame never moves.
+    pivots: bool,
+    /// It is where it was after every turn of the drive link.
+    closes: bool,
+}
+
+impl Movement {
+    /// Looked up at places spread over the drive link's range by the golden ratio, none of them special.
+    fn of(mechanism: &AnyMechanism, link: usize) -> Self {
+        let domain = mechanism.domain();
+        let mut movement = Self {
+            slides: true,
+            pivots: true,
+            closes: true,
+        };
+        for k in 1..=16 {
+            let phi = domain.position((f64::from(k) * 0.618_033_988_749_895).fract());
+            let frame = |phi| Some(*mechanism.frames(phi).ok()?.get(link)?);
+            let Some(now) = frame(phi) else { continue };
+            movement.slides &= now.psi.d1 == 0.0;
+            movement.pivots &= now.x.d1 == 0.0 && now.y.d1 == 0.0;
+            if let (Domain::Turn, Some(later)) = (domain, frame(phi + TAU)) {
+                let turns = (later.psi.value - now.psi.value) / TAU;
+                movement.closes &= (turns - turns.round()).abs() < 1e-9;
+            }
+        }
+        movement
+    }
 }
 
 /// The one key that says what the load does.

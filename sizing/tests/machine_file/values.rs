@@ -6,7 +6,7 @@ use std::path::Path;
 use jred::mechanism::Train;
 use jred::{Action, Load, Mechanism, Window};
 use jred_sizing::input;
-use jred_sizing::machine::{AnyMechanism, Shaft};
+use jred_sizing::machine::Shaft;
 
 use crate::{GEARS, PRESS, close, data, parse, rendered};
 
@@ -14,11 +14,10 @@ use crate::{GEARS, PRESS, close, data, parse, rendered};
 fn the_press_is_read_in_si_units() {
     let press = input::read(&data().join("press.toml")).unwrap();
     assert_eq!(press.title, "Servo press, 60 mm stroke, 20 kN");
-    let AnyMechanism::SliderCrank(mechanism) = press.machine.mechanism() else {
-        panic!("not a slider-crank");
-    };
-    close(mechanism.crank(), 0.03);
-    close(mechanism.rod(), 0.18);
+    let mechanism = press.machine.mechanism();
+    assert_eq!(mechanism.kind(), "slider-crank");
+    close(mechanism.points()[0].at[0], 0.03);
+    close(mechanism.frames(0.0).unwrap()[2].x.value, 0.03 + 0.18);
     let [crank, rod, slider] = mechanism.links() else {
         panic!("three links")
     };
@@ -90,10 +89,10 @@ fn the_press_is_read_in_si_units() {
 #[test]
 fn a_gear_train_with_every_optional_key_is_read() {
     let file = parse(GEARS).unwrap();
-    let AnyMechanism::Train(train) = file.machine.mechanism() else {
-        panic!("not a train")
-    };
-    close(train.ratio(), -3.0 * 4.0);
+    let train = file.machine.mechanism();
+    assert_eq!(train.kind(), "gear-train");
+    let output = train.frames(0.0).unwrap().last().unwrap().psi.d1;
+    close(1.0 / output, -3.0 * 4.0);
     close(file.drive_train.ratio(), -2.0);
     close(file.drive_train.efficiency(), 0.98);
     assert_eq!(file.loads[0].name, "opposing moment on shaft-3");

@@ -1,0 +1,197 @@
+//! Force elements: springs and dampers between two markers.
+//!
+//! ```text
+//! spring          U = ½·k·(l − l₀)²        U′ = k·(l − l₀)·l′         l: distance of the two points
+//! torsion spring  U = ½·c·(θ − θ₀)²        U′ = c·(θ − θ₀)·θ′         θ: angle of the second marker against the first
+//! damper          b = d·l′²                torsion damper  b = d·θ′²
+//! ```
+
+use crate::error::{finite, not_negative, positive};
+use crate::joint::{Marker, Wrench};
+use crate::link::Frame;
+use crate::transfer::Transfer;
+use crate::{Error, math};
+
+/// The most force elements of a machine.
+pub const MAX_ELEMENTS: usize = 8;
+
+/// What an element does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+enum Law {
+    Spring { stiffness: f64, free_length: f64 },
+    TorsionSpring { stiffness: f64, free_angle: f64 },
+    Damper { coefficient: f64 },
+    TorsionDamper { coefficient: f64 },
+}
+
+/// A spring or a damper between two markers, each on a link or on the ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Element {
+    between: [Marker; 2],
+    law: Law,
+}
+
+/// An element's share of the reduction.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Share {
+    /// U (J), U′ (N·m).
+    pub(crate) potential_energy: [f64; 2],
+    /// b (N·m·s/rad).
+    pub(crate) viscous: f64,
+}
+
+impl Element {
+    /// A spring of `stiffness` k (N/m) whose `free_length` l₀ (m) is that without force; it pulls when longer and pushes
+    /// when shorter.
+    ///
+    /// # Errors
+    /// A stiffness that is not positive, a free length that is negative, or a marker that is not finite.
+    pub fn spring(between: [Marker; 2], stiffness: f64, free_length: f64) -> Result<Self, Error> {
+        let law = Law::Spring {
+            stiffness: positive("spring stiffness", stiffness)?,
+            free_length: not_negative("free length of the spring", free_length)?,
+        };
+        Self::new(between, law)
+    }
+
+    /// A torsion spring of `stiffness` c (N·m/rad), without moment where the second marker's direction has turned
+    /// `free_angle` θ₀ (rad) against the first's.
+    ///
+    /// # Errors
+    /// A stiffness that is not positive, or anything not finite.
+    pub fn torsion_spring(
+        between: [Marker; 2],
+        stiffness: f64,
+        free_angle: f64,
+    ) -> Result<Self, Error> {
+        let law = Law::TorsionSpring {
+            stiffness: positive("torsion spring stiffness", stiffness)?,
+            free_angle: finite("free angle of the torsion spring", free_angle)?,
+        };
+        Self::new(between, law)
+    }
+
+    /// A damper with the `coefficient` d (N·s/m) along the line between its points.
+    ///
+    /// # Errors
+    /// A coefficient that is negative, or anything not finite.
+    pub fn damper(between: [Marker; 2], coefficient: f64) -> Result<Self, Error> {
+        let coefficient = not_negative("damper coefficient", coefficient)?;
+        Self::new(between, Law::Damper { coefficient })
+    }
+
+    /// A torsion damper with the `coefficient` d (N·m·s/rad).
+    ///
+    /// # Errors
+    /// A coefficient that is negative, or anything not finite.
+    pub fn torsion_damper(between: [Marker; 2], coefficient: f64) -> Result<Self, Error> {
+        let coefficient = not_negative("torsion damper coefficient", coefficient)?;
+        Self::new(between, Law::TorsionDamper { coefficient })
+    }
+
+    fn new(between: [Marker; 2], law: Law) -> Result<Self, Error> {
+        between[0].check()?;
+        between[1].check()?;
+        Ok(Self { between, law })
+    }
+
+    /// The two markers.
+    pub const fn between(&self) -> [Marker; 2] {
+        self.between
+    }
+
+    /// Length l (m) of a spring or damper, angle θ (rad) of one in torsion.
+    #[must_use]
+    pub fn length(&self, frames: &[Frame]) -> Transfer {
+        let [a, b] = &self.between;
+        match self.law {
+            Law::Spring { .. } | Law::Damper { .. } => {
+                let [x, y] = self.line(frames);
+                (x * x + y * y).sqrt()
+            }
+            Law::TorsionSpring { .. } | Law::TorsionDamper { .. } => {
+                b.direction(frames) - a.direction(frames)
+            }
+        }
+    }
+
+    /// From the first point to the second.
+    fn line(&self, frames: &[Frame]) -> [Transfer; 2] {
+        let ([x_a, y_a], [x_b, y_b]) = (
+            self.between[0].position(frames),
+            self.between[1].position(frames),
+        );
+        [x_b - x_a, y_b - y_a]
+    }
+
+    /// The element's force (N) or moment (N·m) on its second marker in the direction of growing length, at speed ω.
+    #[must_use]
+    pub fn effort(&self, frames: &[Frame], omega: f64) -> f64 {
+        let length = self.length(frames);
+        match self.law {
+            Law::Spring {
+                stiffness,
+                free_length: free,
+            }
+            | Law::TorsionSpring {
+                stiffness,
+                free_angle: free,
+            } => -stiffness * (length.value - free),
+            Law::Damper { coefficient } | Law::TorsionDamper { coefficient } => {
+                -coefficient * length.velocity(omega)
+            }
+        }
+    }
+
+    pub(crate) fn reduce(&self, frames: &[Frame]) -> Share {
+        let length = self.length(frames);
+        match self.law {
+            Law::Spring {
+                stiffness,
+                free_length: free,
+            }
+            | Law::TorsionSpring {
+                stiffness,
+                free_angle: free,
+            } => {
+                let stretch = length.value - free;
+                Share {
+                    potential_energy: [
+                        0.5 * stiffness * stretch * stretch,
+                        stiffness * stretch * length.d1,
+                    ],
+                    viscous: 0.0,
+                }
+            }
+            Law::Damper { coefficient } | Law::TorsionDamper { coefficient } => Share {
+                potential_energy: [0.0; 2],
+                viscous: coefficient * length.d1 * length.d1,
+            },
+        }
+    }
+
+    /// What the element does to its two bodies at speed ω (rad/s).
+    #[must_use]
+    pub fn wrenches(&self, frames: &[Frame], omega: f64) -> [Wrench; 2] {
+        let [a, b] = &self.between;
+        let effort = self.effort(frames, omega);
+        match self.law {
+            Law::Spring { .. } | Law::Damper { .. } => {
+                let line = self.line(frames).map(|c| c.value);
+                let length = math::sqrt(line[0] * line[0] + line[1] * line[1]);
+                let force = line.map(|c| effort * c / length);
+                let at = |marker: &Marker| marker.position(frames).map(|c| c.value);
+                [
+                    Wrench::force(a.body, at(a), force).times(-1.0),
+                    Wrench::force(b.body, at(b), force),
+                ]
+            }
+            Law::TorsionSpring { .. } | Law::TorsionDamper { .. } => [
+                Wrench::moment(a.body, -effort),
+                Wrench::moment(b.body, effort),
+            ],
+        }
+    }
+}

@@ -1,0 +1,214 @@
+//! Kinetostatics: the force in every joint, and the drive torque, by d'Alembert's principle.
+//!
+//! Every link is cut free. Its active forces, the reactions of its joints and its inertia force F = −m·a_c with the
+//! moment M = −J_c·ψ̈ (1.1)-(1.8) are in equilibrium (2.2)-(2.5):
+//!
+//! ```text
+//! Σ F + Σ R − m·a_c = 0        Σ M_c − J_c·ψ̈ = 0        three equations a link
+//! ```
+//!
+//! With as many unknowns, the reactions and the drive's effort, this is one linear system. It uses neither J_red nor
+//! J_red′: that its drive torque equals that of the reduced equation (7.12) is a check on both.
+//!
+//! V. G. Nazarenko, *Dynamics of mechanisms*, Minsk 2002, chapters 1 and 2.
+
+use crate::error::finite;
+use crate::joint::{Body, Joint, MAX_JOINTS, Wrench};
+use crate::link::{Frame, Link};
+use crate::mechanism::{Frames, Jointed, MAX_LINKS};
+use crate::{Error, Machine, linear};
+
+/// Most unknowns: three equations a link.
+const MOST: usize = 3 * MAX_LINKS;
+
+/// The force in one joint: what its first body does to its second.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Reaction {
+    /// Where it acts, global (m).
+    pub point: [f64; 2],
+    /// Force, global components (N).
+    pub force: [f64; 2],
+    /// Moment (N·m), counter-clockwise positive.
+    pub moment: f64,
+}
+
+/// All forces of one instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Forces {
+    /// The drive's torque on the drive link (N·m), or its force on a sliding drive link (N).
+    pub drive: f64,
+    /// The reaction in every joint, in the order of [`Jointed::joints`].
+    pub reactions: heapless::Vec<Reaction, MAX_JOINTS>,
+    /// Shaking force: the resultant −Σ m·a_c of the links' inertia forces (N).
+    pub shaking_force: [f64; 2],
+    /// Shaking moment of the links' inertia forces about the global origin (N·m).
+    pub shaking_moment: f64,
+}
+
+impl<M: Jointed> Machine<M> {
+    /// The forces at `phi` (rad) for the motion ω = `omega` (rad/s), α = `alpha` (rad/s²).
+    ///
+    /// Loads that oppose the motion have the sign of ω, and none at rest. Needs about 20 kB of stack. Accuracy: 1e-10 of
+    /// a column's largest value against 50-digit golden data (tests `slider_crank_reactions_golden`,
+    /// `four_bar_reactions_golden`), and so its drive torque against the reduced equation (test
+    /// `dalembert_is_the_reduced_equation`).
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed at `phi`; ω or α not finite; joints that leave not exactly one freedom, or are at a
+    /// dead point.
+    pub fn forces(&self, phi: f64, omega: f64, alpha: f64) -> Result<Forces, Error> {
+        let (omega, alpha) = (finite("speed", omega)?, finite("acceleration", alpha)?);
+        let mechanism = self.mechanism();
+        let frames = mechanism.frames(phi)?;
+        let joints = mechanism.joints(phi, &frames)?;
+        let links = mechanism.links();
+        let equations = 3 * links.len();
+        let unknowns = 1 + joints.iter().map(Joint::constraints).sum::<usize>();
+        if unknowns != equations {
+            return Err(Error::Mobility {
+                links: links.len(),
+                constraints: unknowns - 1,
+            });
+        }
+        let Some(driven) = joints.get(mechanism.drive()) else {
+            return Err(Error::NoSuchJoint {
+                joint: mechanism.drive(),
+                joints: joints.len(),
+            });
+        };
+
+        let mut balance = Balance {
+            links,
+            frames: &frames,
+            column: [0.0; MOST],
+        };
+        // The flywheel turns with the drive link.
+        let inertia = -self.flywheel() * driven.coordinate(&frames).acceleration(omega, alpha);
+        let unit_drive = driven.unit_drive(&frames);
+        balance.add(&unit_drive[1].times(inertia));
+        self.add_active_forces(&mut balance, phi, omega);
+        let (shaking_force, shaking_moment) = balance.add_inertia_forces(omega, alpha);
+        // Σ unknown reactions = −(active forces + inertia forces)
+        let mut solution = balance.column.map(|f| -f);
+
+        #[expect(clippy::large_stack_arrays, reason = "said in the documentation")]
+        let mut matrix = [0.0; MOST * MOST];
+        let mut columns = matrix.chunks_exact_mut(equations);
+        let mut fill = |pair: &[Wrench; 2]| {
+            balance.column = [0.0; MOST];
+            balance.add(&pair[0]);
+            balance.add(&pair[1]);
+            if let Some(column) = columns.next() {
+                column.copy_from_slice(&balance.column[..equations]);
+            }
+        };
+        for joint in &joints {
+            joint.unit_reactions(&frames).iter().for_each(&mut fill);
+        }
+        fill(&unit_drive);
+
+        let mut pivots = [0; MOST];
+        let (matrix, pivots) = (
+            &mut matrix[..equations * equations],
+            &mut pivots[..equations],
+        );
+        if linear::factor(matrix, pivots) == 0.0 {
+            return Err(Error::DeadPoint {
+                phi,
+                joint: mechanism.drive(),
+            });
+        }
+        linear::solve(matrix, pivots, &mut solution[..equations]);
+
+        let mut values = solution.iter().copied();
+        let mut reactions = heapless::Vec::new();
+        for joint in &joints {
+            let mut sum = Reaction::default();
+            for [_, on_second] in &joint.unit_reactions(&frames) {
+                let part = on_second.times(values.next().unwrap_or_default());
+                sum.point = part.point;
+                sum.force[0] += part.force[0];
+                sum.force[1] += part.force[1];
+                sum.moment += part.moment;
+            }
+            // Cannot fail: both hold MAX_JOINTS.
+            let _ = reactions.push(sum);
+        }
+        Ok(Forces {
+            drive: values.next().unwrap_or_default(),
+            reactions,
+            shaking_force,
+            shaking_moment,
+        })
+    }
+
+    /// Gravity, loads and force elements.
+    fn add_active_forces(&self, balance: &mut Balance, phi: f64, omega: f64) {
+        for (k, (link, frame)) in balance.links.iter().zip(balance.frames).enumerate() {
+            let point = frame.point(link.com()).map(|c| c.value);
+            let weight = self.gravity().map(|g| link.mass() * g);
+            balance.add(&Wrench::force(Body::Link(k), point, weight));
+        }
+        for load in self.loads() {
+            if let Some(frame) = balance.frames.get(load.link()) {
+                balance.add(&load.wrench(frame, phi, omega));
+            }
+        }
+        for element in self.elements() {
+            for wrench in element.wrenches(balance.frames, omega) {
+                balance.add(&wrench);
+            }
+        }
+    }
+}
+
+/// Forces summed link by link: x, y, and the moment about the centre of mass.
+struct Balance<'a> {
+    links: &'a [Link],
+    frames: &'a Frames,
+    column: [f64; MOST],
+}
+
+impl Balance<'_> {
+    /// Adds a wrench to its link; on the ground it does nothing.
+    fn add(&mut self, wrench: &Wrench) {
+        let Some(link) = wrench.body.link() else {
+            return;
+        };
+        if let (Some(properties), Some(frame), Some([x, y, moment])) = (
+            self.links.get(link),
+            self.frames.get(link),
+            self.column.get_mut(3 * link..3 * link + 3),
+        ) {
+            *x += wrench.force[0];
+            *y += wrench.force[1];
+            *moment += wrench.moment_about(frame.point(properties.com()).map(|c| c.value));
+        }
+    }
+
+    /// Adds every link's inertia force and moment, (1.1)-(1.8), and returns their resultant: force, and moment about the
+    /// global origin.
+    fn add_inertia_forces(&mut self, omega: f64, alpha: f64) -> ([f64; 2], f64) {
+        let (mut force, mut moment) = ([0.0; 2], 0.0);
+        for (k, (link, frame)) in self.links.iter().zip(self.frames).enumerate() {
+            let wrench = inertia_force(k, link, frame, omega, alpha);
+            self.add(&wrench);
+            force[0] += wrench.force[0];
+            force[1] += wrench.force[1];
+            moment += wrench.moment_about([0.0, 0.0]);
+        }
+        (force, moment)
+    }
+}
+
+/// A link's inertia force F = −m·a_c at its centre of mass with the moment M = −J_c·ψ̈, (1.1), (1.2).
+fn inertia_force(index: usize, link: &Link, frame: &Frame, omega: f64, alpha: f64) -> Wrench {
+    let centre = frame.point(link.com());
+    Wrench {
+        body: Body::Link(index),
+        point: centre.map(|c| c.value),
+        force: centre.map(|c| -link.mass() * c.acceleration(omega, alpha)),
+        moment: -link.inertia() * frame.psi.acceleration(omega, alpha),
+    }
+}
