@@ -1,8 +1,8 @@
 //! One rigid link: its mass, and how it moves.
 
-use crate::Error;
 use crate::error::{finite, not_negative};
 use crate::transfer::Transfer;
+use crate::{Error, math};
 
 /// Mass properties of a rigid link.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -135,6 +135,15 @@ impl Frame {
             sin,
             cos,
         }
+    }
+
+    /// The same place with whole turns added to ψ, so that it lies within half a turn of `near` (rad): sine and cosine
+    /// alone leave the turns open, and ψ must not jump while the link moves.
+    #[must_use]
+    pub fn unwrapped(mut self, near: f64) -> Self {
+        use core::f64::consts::TAU;
+        self.psi.value += math::floor((near - self.psi.value) / TAU + 0.5) * TAU;
+        self
     }
 
     /// A point of the link, given in its frame as `[u, v]` (m), in global coordinates.

@@ -2,52 +2,16 @@
 
 mod support;
 
-use jred::mechanism::{Branch, Mesh, SliderCrank, Stage, Train};
-use jred::{Action, Link, Load, Machine, Mechanism, Reducible};
+use jred::mechanism::{Mesh, SliderCrank, Stage, Train};
+use jred::{Action, Load, Machine, Mechanism, Reducible};
 use support::golden::Case;
+use support::machines::golden_slider_crank;
 use support::{assert_near, budget};
-
-fn slider_crank(case: &Case) -> Machine<SliderCrank> {
-    let input = |path| case.input(path);
-    let links = [
-        Link::new(
-            input("/m1"),
-            input("/I1"),
-            [input("/crank_com/0"), input("/crank_com/1")],
-        ),
-        Link::new(
-            input("/m2"),
-            input("/I2"),
-            [input("/coupler_com/0"), input("/coupler_com/1")],
-        ),
-        Link::new(
-            input("/m3"),
-            0.0,
-            [input("/slider_com/0"), input("/slider_com/1")],
-        ),
-    ]
-    .map(Result::unwrap);
-    let branch = if input("/branch") > 0.0 {
-        Branch::Right
-    } else {
-        Branch::Left
-    };
-    let mechanism = SliderCrank::new(input("/r"), input("/l"), input("/e"), branch, links).unwrap();
-    let force = Action::Force([input("/F_slider/F/0"), input("/F_slider/F/1")]);
-    let at = [input("/F_slider/at/0"), input("/F_slider/at/1")];
-    let force = Load::new(SliderCrank::SLIDER, force).and_then(|f| f.at(at));
-    let moment = Load::new(SliderCrank::CRANK, Action::Moment(input("/M_crank")));
-    Machine::new(mechanism)
-        .with_gravity([input("/gravity/0"), input("/gravity/1")])
-        .and_then(|m| m.with_load(force?))
-        .and_then(|m| m.with_load(moment?))
-        .unwrap()
-}
 
 #[test]
 fn slider_crank_golden() {
     let case = Case::new(include_str!("data/01_slider_crank_A.json"));
-    let machine = slider_crank(&case);
+    let machine = golden_slider_crank(&case);
     let table = case.table("position");
     let at = |f: &dyn Fn(f64) -> f64| table.column("phi").into_iter().map(f).collect::<Vec<_>>();
     let slider = |phi| machine.mechanism().frames(phi).unwrap()[SliderCrank::SLIDER].x;
@@ -68,7 +32,7 @@ fn slider_crank_golden() {
 #[test]
 fn slider_crank_golden_motion() {
     let case = Case::new(include_str!("data/01_slider_crank_A.json"));
-    let machine = slider_crank(&case);
+    let machine = golden_slider_crank(&case);
     let table = case.table("motion");
     let [phi0, w, a, nu] = ["phi0", "w", "A", "nu"].map(|name| case.motion(name));
     // The law itself, so that the columns are known to be what they are called.
@@ -128,7 +92,7 @@ fn slider_crank_golden_motion() {
 #[test]
 fn start_from_rest_golden_states() {
     let case = Case::new(include_str!("data/07_slider_crank_start_A.json"));
-    let machine = slider_crank(&case)
+    let machine = golden_slider_crank(&case)
         .with_flywheel(case.input("/flywheel_I"))
         .unwrap();
     let drive = case.input("/T_drive");

@@ -155,7 +155,12 @@ impl Mechanism for SliderCrank {
             return Err(Error::DeadPoint { phi, joint: 3 });
         }
         let cos = under_root.sqrt() * self.sign;
-        let rod = Frame::moving([x_a, y_a], sin, cos);
+        // On the left branch the rod points to the left: ψ stays within a quarter turn of π.
+        let rod = Frame::moving([x_a, y_a], sin, cos).unwrapped(if self.sign > 0.0 {
+            0.0
+        } else {
+            core::f64::consts::PI
+        });
         let [x_b, _] = rod.point([self.rod, 0.0]);
         let slider = Frame::translating([x_b, Transfer::constant(self.offset)]);
         Ok(Frames::from_iter([crank, rod, slider]))

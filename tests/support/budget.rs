@@ -120,3 +120,15 @@ pub(crate) const Q31_TICK_UNITS: f64 = 6.0;
 
 /// Rounding of the exact sum in f64, 2⁻⁵³ of terms of 2³³ units.
 pub(crate) const Q31_EXACT_UNITS: f64 = 1e-5;
+
+/// Both markers of a joint, with their derivatives, against each other: of the size of the largest term.
+pub(crate) const JOINT_CLOSURE: f64 = 1e-12;
+
+/// Drive torque by d'Alembert against the reduced equation, of the largest torque in the machine.
+pub(crate) const DALEMBERT: f64 = 1e-10;
+
+/// Joint reactions against 50-digit golden data, of the column's largest value.
+pub(crate) const REACTIONS: f64 = 1e-10;
+
+/// A derivative by extrapolated differences of order 6 at a step of 1e-2, of the curve's size.
+pub(crate) const ENERGY_SLOPE: f64 = 1e-8;

@@ -4,6 +4,8 @@ use jred::mechanism::{Branch, SliderCrank};
 use jred::{Action, Domain, Error, Link, Load, Machine, Reducible, Reduction};
 use proptest::prelude::*;
 
+use super::golden::Case;
+
 /// A random slider-crank with every kind of load.
 #[derive(Clone, Debug)]
 pub(crate) struct Spec {
@@ -157,4 +159,42 @@ impl Reducible for Wave {
             coulomb: self.coulomb,
         })
     }
+}
+
+/// The slider-crank of the golden data, with its loads.
+pub(crate) fn golden_slider_crank(case: &Case) -> Machine<SliderCrank> {
+    let input = |path| case.input(path);
+    let links = [
+        Link::new(
+            input("/m1"),
+            input("/I1"),
+            [input("/crank_com/0"), input("/crank_com/1")],
+        ),
+        Link::new(
+            input("/m2"),
+            input("/I2"),
+            [input("/coupler_com/0"), input("/coupler_com/1")],
+        ),
+        Link::new(
+            input("/m3"),
+            0.0,
+            [input("/slider_com/0"), input("/slider_com/1")],
+        ),
+    ]
+    .map(Result::unwrap);
+    let branch = if input("/branch") > 0.0 {
+        Branch::Right
+    } else {
+        Branch::Left
+    };
+    let mechanism = SliderCrank::new(input("/r"), input("/l"), input("/e"), branch, links).unwrap();
+    let force = Action::Force([input("/F_slider/F/0"), input("/F_slider/F/1")]);
+    let at = [input("/F_slider/at/0"), input("/F_slider/at/1")];
+    let force = Load::new(SliderCrank::SLIDER, force).and_then(|f| f.at(at));
+    let moment = Load::new(SliderCrank::CRANK, Action::Moment(input("/M_crank")));
+    Machine::new(mechanism)
+        .with_gravity([input("/gravity/0"), input("/gravity/1")])
+        .and_then(|m| m.with_load(force?))
+        .and_then(|m| m.with_load(moment?))
+        .unwrap()
 }

@@ -4,6 +4,7 @@
 pub(crate) mod budget;
 pub(crate) mod golden;
 pub(crate) mod images;
+pub(crate) mod jointed;
 pub(crate) mod machines;
 
 use jred::table::{control_points, curves};
