@@ -77,6 +77,13 @@ pub enum Error {
         /// Index of a link that is free.
         free: usize,
     },
+    /// A transmission was given as a pair of a linkage.
+    NotAPair,
+    /// The drive of a linkage must be a pin or a guide.
+    NotADrive {
+        /// Index of the joint.
+        joint: usize,
+    },
     /// The mechanism has no joint of this number, or one of a kind that does not fit.
     NoSuchJoint {
         /// The index asked for, from 0.
@@ -98,11 +105,27 @@ pub enum Error {
         /// How many fit.
         capacity: usize,
     },
+    /// A friction stage whose ratio or slip is not a number, where only numbers make sense.
+    VaryingRatio {
+        /// Index of the stage.
+        stage: usize,
+    },
+    /// Quantities that depend on each other did not come to rest.
+    NotSettled {
+        /// Which.
+        what: &'static str,
+    },
     /// The reduced inertia is not positive at this angle: nothing with mass moves there.
     NoInertia {
         /// Angle of the drive link (rad).
         phi: f64,
     },
+    /// Dimensions of a library mechanism that do not fit together.
+    Misfit(crate::mechanism::Misfit),
+    /// A cam program or a cam that is not possible.
+    Cam(crate::cam::CamError),
+    /// The drive link of a library mechanism cannot turn fully.
+    Blocked(crate::mechanism::Blocked),
     /// A curve does not fit the fixed-point range: choose a larger base for the named quantity.
     Overflow {
         /// Which base of the [`Scale`](crate::Scale) is too small.
@@ -184,6 +207,13 @@ impl fmt::Display for Error {
                 f,
                 "joint {joint} holds links that other joints hold already, while link {free} is free"
             ),
+            Self::NotAPair => f.write_str(
+                "a transmission is not a pair of a linkage: its geometry is not known; use gears, a rack or a belt",
+            ),
+            Self::NotADrive { joint } => write!(
+                f,
+                "joint {joint} cannot be driven: the drive of a linkage must be a pin or a guide"
+            ),
             Self::NoSuchJoint { joint, joints } => {
                 write!(
                     f,
@@ -200,11 +230,23 @@ impl fmt::Display for Error {
             Self::TooMany { what, capacity } => {
                 write!(f, "too many {what}: at most {capacity} fit")
             }
+            Self::VaryingRatio { stage } => write!(
+                f,
+                "the ratio or slip of friction stage {stage} varies: the angle of its second shaft need not be a function \
+                 of the drive angle; give numbers, or use the friction drive's own equation of motion"
+            ),
+            Self::NotSettled { what } => write!(
+                f,
+                "{what} do not settle: let the one depend less on the other"
+            ),
             Self::NoInertia { phi } => write!(
                 f,
                 "the reduced inertia is not positive at φ = {:.2}°: give the drive link or its flywheel an inertia",
                 phi.to_degrees()
             ),
+            Self::Misfit(misfit) => misfit.fmt(f),
+            Self::Cam(error) => error.fmt(f),
+            Self::Blocked(blocked) => blocked.fmt(f),
             Self::Overflow { base, cell } => write!(
                 f,
                 "a curve leaves the fixed-point range in table cell {cell}: choose a larger {base} base"

@@ -36,6 +36,7 @@ impl Body {
     }
 
     /// Where the body is. A link without a frame counts as ground; mechanisms check their joints when built.
+    #[inline]
     #[must_use]
     pub fn frame(self, frames: &[Frame]) -> &Frame {
         self.link()
@@ -52,8 +53,9 @@ pub struct Marker {
     pub body: Body,
     /// The point [u, v] in the body's frame (m).
     pub at: [f64; 2],
-    /// The direction, from the body's u axis (rad): the axis of a guide or a slot, the zero of an angle.
-    pub angle: f64,
+    angle: f64,
+    /// Cosine and sine of `angle`.
+    axis: [f64; 2],
 }
 
 impl Marker {
@@ -64,6 +66,7 @@ impl Marker {
             body: Body::Ground,
             at,
             angle: 0.0,
+            axis: [1.0, 0.0],
         }
     }
 
@@ -74,13 +77,25 @@ impl Marker {
             body: Body::Link(link),
             at,
             angle: 0.0,
+            axis: [1.0, 0.0],
         }
     }
 
     /// The same point with a direction (rad, from the body's u axis).
     #[must_use]
-    pub const fn with_angle(self, angle: f64) -> Self {
-        Self { angle, ..self }
+    pub fn with_angle(self, angle: f64) -> Self {
+        let (sin, cos) = math::sin_cos(angle);
+        Self {
+            angle,
+            axis: [cos, sin],
+            ..self
+        }
+    }
+
+    /// The direction, from the body's u axis (rad): the axis of a guide or a slot, the zero of an angle.
+    #[must_use]
+    pub const fn angle(&self) -> f64 {
+        self.angle
     }
 
     /// Checks that every number is finite.
@@ -95,22 +110,24 @@ impl Marker {
     }
 
     /// The point in global coordinates.
+    #[inline]
     #[must_use]
     pub fn position(&self, frames: &[Frame]) -> [Transfer; 2] {
         self.body.frame(frames).point(self.at)
     }
 
     /// The direction's angle from +x.
+    #[inline]
     #[must_use]
     pub fn direction(&self, frames: &[Frame]) -> Transfer {
         self.body.frame(frames).psi + Transfer::constant(self.angle)
     }
 
     /// The direction as a unit vector.
+    #[inline]
     #[must_use]
     pub fn axis(&self, frames: &[Frame]) -> [Transfer; 2] {
-        let (sin, cos) = math::sin_cos(self.angle);
-        self.body.frame(frames).vector([cos, sin])
+        self.body.frame(frames).vector(self.axis)
     }
 }
 
@@ -230,6 +247,7 @@ impl Joint {
 
     /// The joint's free coordinate: the angle (rad) or displacement (m) of the second marker against the first; for the
     /// other kinds zero.
+    #[inline]
     #[must_use]
     pub fn coordinate(&self, frames: &[Frame]) -> Transfer {
         match self {

@@ -94,9 +94,11 @@
 //!
 //! Neither is on by default.
 
+pub mod cam;
 mod element;
 mod error;
 mod fixed;
+pub mod friction;
 mod image;
 pub mod joint;
 mod kinetostatics;

@@ -6,6 +6,11 @@ use nalgebra::{DMatrixView, DMatrixViewMut, DVectorViewMut};
 /// Factors the n × n matrix `a` (column-major) in place; n is the length of `pivots`. Returns its determinant: zero where
 /// a pivot vanishes, and then the factors are of no use.
 pub(crate) fn factor(a: &mut [f64], pivots: &mut [usize]) -> f64 {
+    // Most groups of a linkage are a single equation.
+    if let ([a], [pivot]) = (&*a, &mut *pivots) {
+        *pivot = 0;
+        return *a;
+    }
     let n = pivots.len();
     let mut a = DMatrixViewMut::from_slice(a, n, n);
     let mut determinant = 1.0;
@@ -29,6 +34,10 @@ pub(crate) fn factor(a: &mut [f64], pivots: &mut [usize]) -> f64 {
 
 /// Solves for the right-hand side `b`, in place, with the factors that [`factor`] left.
 pub(crate) fn solve(factors: &[f64], pivots: &[usize], b: &mut [f64]) {
+    if let ([a], [b]) = (factors, &mut *b) {
+        *b /= a;
+        return;
+    }
     let n = pivots.len();
     let factors = DMatrixView::from_slice(factors, n, n);
     let mut b = DVectorViewMut::from_slice(b, n);

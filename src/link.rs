@@ -146,7 +146,15 @@ impl Frame {
         self
     }
 
+    /// The same place with ψ advanced by `turns` (rad), for a link that repeats its motion.
+    #[must_use]
+    pub(crate) fn advanced(mut self, turns: f64) -> Self {
+        self.psi.value += turns;
+        self
+    }
+
     /// A point of the link, given in its frame as `[u, v]` (m), in global coordinates.
+    #[inline]
     #[must_use]
     pub fn point(&self, at: [f64; 2]) -> [Transfer; 2] {
         let [x, y] = self.vector(at);
@@ -154,8 +162,79 @@ impl Frame {
     }
 
     /// A vector that turns with the link, given in its frame as `[u, v]`, in global components.
+    #[inline]
     #[must_use]
     pub fn vector(&self, [u, v]: [f64; 2]) -> [Transfer; 2] {
         [self.cos * u - self.sin * v, self.sin * u + self.cos * v]
+    }
+}
+
+/// Steps of the solver of a linkage, which finds a link's coordinates order by order.
+impl Frame {
+    /// Sets the first derivative of coordinate 0 = x, 1 = y, 2 = ψ, all else being constant.
+    pub(crate) fn seed(&mut self, axis: u8, d1: f64) {
+        match axis {
+            0 => self.x.d1 = d1,
+            1 => self.y.d1 = d1,
+            _ => {
+                self.psi.d1 = d1;
+                self.sin.d1 = self.cos.value * d1;
+                self.cos.d1 = -self.sin.value * d1;
+            }
+        }
+    }
+
+    /// Sine and cosine of ψ.
+    #[inline]
+    pub(crate) const fn direction(&self) -> (Transfer, Transfer) {
+        (self.sin, self.cos)
+    }
+
+    /// Moves a coordinate by `step`.
+    pub(crate) fn shift(&mut self, axis: u8, step: f64) {
+        match axis {
+            0 => self.x.value += step,
+            1 => self.y.value += step,
+            _ => {
+                self.psi.value += step;
+                let (sin, cos) = math::sin_cos(self.psi.value);
+                self.sin.value = sin;
+                self.cos.value = cos;
+            }
+        }
+    }
+
+    /// Prepares for derivatives of this `order` (1 to 3): of sine and cosine, the part that lower orders of ψ make.
+    #[inline]
+    pub(crate) fn raise(&mut self, order: usize) {
+        let (s, c) = (self.sin.value, self.cos.value);
+        let Transfer { d1, d2, .. } = self.psi;
+        match order {
+            1 => (self.sin.d1, self.cos.d1) = (0.0, 0.0),
+            2 => (self.sin.d2, self.cos.d2) = (-s * d1 * d1, -c * d1 * d1),
+            _ => {
+                self.sin.d3 = -c * d1 * d1 * d1 - 3.0 * s * d1 * d2;
+                self.cos.d3 = s * d1 * d1 * d1 - 3.0 * c * d1 * d2;
+            }
+        }
+    }
+
+    /// Sets the derivative of this `order` (1 to 3) of a coordinate, after [`raise`](Self::raise) to it.
+    #[inline]
+    pub(crate) fn set(&mut self, axis: u8, order: usize, derivative: f64) {
+        let of = |t: &mut Transfer, d: f64| match order {
+            1 => t.d1 += d,
+            2 => t.d2 += d,
+            _ => t.d3 += d,
+        };
+        match axis {
+            0 => of(&mut self.x, derivative),
+            1 => of(&mut self.y, derivative),
+            _ => {
+                of(&mut self.psi, derivative);
+                of(&mut self.sin, self.cos.value * derivative);
+                of(&mut self.cos, -self.sin.value * derivative);
+            }
+        }
     }
 }

@@ -70,6 +70,10 @@ pub(crate) fn asin(x: f64) -> f64 {
     libm::asin(x)
 }
 
+pub(crate) fn acos(x: f64) -> f64 {
+    libm::acos(x)
+}
+
 pub(crate) fn floor(x: f64) -> f64 {
     libm::floor(x)
 }

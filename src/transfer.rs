@@ -48,6 +48,11 @@ impl Transfer {
     #[must_use]
     pub fn sin_cos(self) -> (Self, Self) {
         let (s, c) = math::sin_cos(self.value);
+        self.with_sin_cos(s, c)
+    }
+
+    /// Sine and cosine of an angle whose values `s` and `c` are known.
+    pub(crate) fn with_sin_cos(self, s: f64, c: f64) -> (Self, Self) {
         let Self { d1, d2, d3, .. } = self;
         let sin = Self {
             value: s,
@@ -102,7 +107,7 @@ impl Transfer {
     }
 
     /// f′ with its transfer functions; its third order is unknown and left zero.
-    const fn derivative(self) -> Self {
+    pub(crate) const fn derivative(self) -> Self {
         Self {
             value: self.d1,
             d1: self.d2,
@@ -126,6 +131,7 @@ impl Transfer {
 
 impl Add for Transfer {
     type Output = Self;
+    #[inline]
     fn add(self, g: Self) -> Self {
         Self {
             value: self.value + g.value,
@@ -138,6 +144,7 @@ impl Add for Transfer {
 
 impl Sub for Transfer {
     type Output = Self;
+    #[inline]
     fn sub(self, g: Self) -> Self {
         self + -g
     }
@@ -145,6 +152,7 @@ impl Sub for Transfer {
 
 impl Neg for Transfer {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         self * -1.0
     }
@@ -152,6 +160,7 @@ impl Neg for Transfer {
 
 impl Mul<f64> for Transfer {
     type Output = Self;
+    #[inline]
     fn mul(self, k: f64) -> Self {
         Self {
             value: self.value * k,
@@ -164,6 +173,7 @@ impl Mul<f64> for Transfer {
 
 impl Mul for Transfer {
     type Output = Self;
+    #[inline]
     fn mul(self, g: Self) -> Self {
         let f = self;
         Self {

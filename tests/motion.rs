@@ -2,8 +2,6 @@
 
 mod support;
 
-use std::f64::consts::{PI, TAU};
-
 use jred::motion::{Law, Move};
 use proptest::prelude::*;
 use support::{assert_near, budget, config, derivative, largest};
@@ -12,11 +10,19 @@ const TRAPEZOID: Law = Law::Trapezoid {
     accelerate: 0.25,
     decelerate: 0.5,
 };
-const LAWS: [Law; 4] = [
+/// Quadratic parabola.
+const QUADRATIC: Law = Law::Trapezoid {
+    accelerate: 0.5,
+    decelerate: 0.5,
+};
+const LAWS: [Law; 7] = [
     TRAPEZOID,
     Law::Polynomial345,
     Law::Cycloidal,
     Law::ModifiedSine,
+    Law::SimpleSine,
+    Law::Polynomial4567,
+    Law::ModifiedTrapezoid,
 ];
 
 fn places(count: u32) -> impl Iterator<Item = f64> {
@@ -52,7 +58,10 @@ fn laws_rise_from_rest_to_rest() {
         }
     }
     // The laws without a jerk jump start with zero acceleration as well.
-    for law in [Law::Polynomial345, Law::Cycloidal, Law::ModifiedSine] {
+    for law in LAWS {
+        if law.characteristic().jerk.is_none() {
+            continue;
+        }
         for z in [0.0, 1.0] {
             assert_near("S''", law.at(z)[2], 0.0, 40.0 * budget::LAW_END);
         }
@@ -106,6 +115,12 @@ fn speed_and_acceleration_are_derivatives() {
                 derivative(|z| law.at(z)[1], z, step),
                 budget::LAW_DIFFERENCES,
             );
+            assert_near(
+                "S'''",
+                law.jerk(z),
+                derivative(|z| law.at(z)[2], z, step),
+                10.0 * budget::LAW_DIFFERENCES,
+            );
         }
         // Across a break position and speed go on; the trapezoid's acceleration may jump there, no other's.
         for at in law.breaks().into_iter().flatten() {
@@ -121,29 +136,44 @@ fn speed_and_acceleration_are_derivatives() {
     }
 }
 
-/// Largest S′ and |S″| of VDI 2143 Blatt 1, as closed forms.
+/// Largest S′, |S″| and |S‴|: the law's own extremes, its closed form, and the figures printed in the tables of
+/// VDI 2143 Blatt 1 and Norton, *Cam Design and Manufacturing Handbook* (rounded there to the digits given here).
 #[test]
 fn coefficients_of_vdi_2143() {
-    let trapezoid = 1.0 / (1.0 - 0.75 / 2.0);
-    for (law, speed, acceleration) in [
-        (Law::Polynomial345, 1.875, 10.0 / 3f64.sqrt()),
-        (Law::Cycloidal, 2.0, TAU),
-        (
-            Law::ModifiedSine,
-            4.0 * PI / (4.0 + PI),
-            4.0 * PI * PI / (4.0 + PI),
-        ),
-        (TRAPEZOID, trapezoid, trapezoid / 0.25),
+    let none = f64::NAN;
+    for (law, printed) in [
+        (Law::Polynomial345, [1.875, 5.77, 60.0]),
+        (Law::Cycloidal, [2.0, 6.28, 39.48]),
+        (Law::ModifiedSine, [1.76, 5.53, 69.47]),
+        (Law::SimpleSine, [1.57, 4.93, none]),
+        (Law::Polynomial4567, [2.19, 7.51, 52.5]),
+        (Law::ModifiedTrapezoid, [2.0, 4.89, 61.43]),
+        (QUADRATIC, [2.0, 4.0, none]),
+        (TRAPEZOID, [1.6, 6.4, none]),
     ] {
         // The grid misses a maximum by at most half a step: S‴·(step/2)²/2 of it.
-        let most = |order: usize| largest(places(100_000).map(|z| law.at(z)[order]));
-        assert_near("largest S'", most(1), speed, budget::LAW_MAXIMUM * speed);
-        assert_near(
-            "largest S''",
-            most(2),
-            acceleration,
-            budget::LAW_MAXIMUM * acceleration,
-        );
+        let most = |f: &dyn Fn(f64) -> f64| largest(places(100_000).map(f));
+        let found = law.characteristic();
+        for (what, closed, extreme, printed) in [
+            ("C_v", found.velocity, most(&|z| law.at(z)[1]), printed[0]),
+            (
+                "C_a",
+                found.acceleration,
+                most(&|z| law.at(z)[2]),
+                printed[1],
+            ),
+        ] {
+            assert_near(what, extreme, closed, budget::LAW_MAXIMUM * closed);
+            assert_near(what, closed, printed, budget::PRINTED);
+        }
+        let jumps = law.at(0.0)[2] != 0.0;
+        assert_eq!(found.jerk.is_none(), jumps, "{law:?}");
+        if let Some(jerk) = found.jerk {
+            // The largest jerk may lie at a corner of S‴, of which a step's share is lost.
+            let extreme = most(&|z| law.jerk(z));
+            assert_near("C_j", extreme, jerk, budget::LAW_MAXIMUM * jerk);
+            assert_near("C_j", jerk, printed[2], budget::PRINTED);
+        }
     }
 }
 
@@ -151,7 +181,7 @@ proptest! {
     #![proptest_config(config(256, 0x0006))]
 
     #[test]
-    fn single_precision_follows_double(z in 0f32..=1.0, which in 0usize..4) {
+    fn single_precision_follows_double(z in 0f32..=1.0, which in 0usize..7) {
         let law = LAWS[which];
         let [single, double] = [law.at(z).map(f64::from), law.at(f64::from(z))];
         for (s, d) in single.iter().zip(double) {
@@ -176,7 +206,7 @@ proptest! {
 
     #[test]
     fn moves_scale_their_law(
-        which in 0usize..4, start in -9.0..9.0, distance in -9.0..9.0, duration in 0.1f64..9.0, z in 0f64..1.0,
+        which in 0usize..7, start in -9.0..9.0, distance in -9.0..9.0, duration in 0.1f64..9.0, z in 0f64..1.0,
     ) {
         let law = LAWS[which];
         let travel = Move::<f64>::new(law, start, distance, duration).unwrap();

@@ -1,8 +1,42 @@
 //! Mechanisms: from the angle of the drive link to the position of every link.
 
+mod ball_screw;
+mod blocked;
+mod dyad;
+mod four_bar;
+mod disc_cam;
+mod friction_drive;
+mod geneva;
+mod grashof;
+mod hoist;
+mod inverted_slider_crank;
+mod misfit;
+mod parallel_shafts;
+mod planetary;
+mod rack;
+mod scotch_yoke;
+pub mod linkage;
+mod six_link;
 mod slider_crank;
 mod train;
 
+pub use ball_screw::BallScrew;
+pub use blocked::Blocked;
+pub use dyad::Side;
+pub use four_bar::FourBar;
+pub use disc_cam::{CamContact, DiscCam, Follower, Roller, Swing};
+pub use friction_drive::FrictionDrive;
+pub use geneva::Geneva;
+pub use grashof::Grashof;
+pub use hoist::{Hoist, Rope};
+pub use inverted_slider_crank::{InvertedSliderCrank, LeverMotion};
+pub use misfit::Misfit;
+pub use scotch_yoke::ScotchYoke;
+pub use linkage::{Assembly, Linkage, Pair, Pose};
+pub use parallel_shafts::ParallelShafts;
+pub use planetary::{Member, Planetary, PlanetaryGears};
+pub use rack::RackAndPinion;
+pub use six_link::SixLink;
 pub use slider_crank::{Branch, SliderCrank};
 pub use train::{Mesh, Stage, Train, TrainInput};
 

@@ -1,4 +1,5 @@
-//! Normalised motion laws for a rise from 0 to 1 in the time 0 to 1 (VDI 2143 Blatt 1).
+//! Normalised motion laws for a rise from 0 to 1 in the time 0 to 1 (VDI 2143 Blatt 1, *Bewegungsgesetze für
+//! Kurvengetriebe*, 1980; R. L. Norton, *Cam Design and Manufacturing Handbook*, chapter 3).
 
 use crate::Error;
 use crate::math::Real;
@@ -23,6 +24,27 @@ pub enum Law {
     Cycloidal,
     /// Modified sine: largest speed 4π/(4 + π) = 1.760, largest acceleration 4π²/(4 + π) = 5.528.
     ModifiedSine,
+    /// ½·(1 − cos πz) (simple sine, simple harmonic motion): largest speed π/2, largest acceleration π²/2. The acceleration
+    /// jumps at both ends, so it belongs between reversals, not between dwells.
+    SimpleSine,
+    /// 35z⁴ − 84z⁵ + 70z⁶ − 20z⁷: largest speed 2.1875, largest acceleration 84/(5·√5) = 7.513; the jerk is continuous.
+    Polynomial4567,
+    /// Modified trapezoid of the acceleration: largest speed 2, largest acceleration 8π/(2 + π) = 4.888, the smallest of
+    /// the laws without a jump of it.
+    ModifiedTrapezoid,
+}
+
+/// The characteristic values of a motion law: a rise h in the time T has at most the speed C_v·h/T, the acceleration
+/// C_a·h/T² and the jerk C_j·h/T³.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Characteristic {
+    /// C_v
+    pub velocity: f64,
+    /// C_a
+    pub acceleration: f64,
+    /// C_j; `None` where the acceleration jumps.
+    pub jerk: Option<f64>,
 }
 
 impl Law {
@@ -56,7 +78,7 @@ impl Law {
 
     /// The places in (0, 1) where a derivative of the law jumps.
     #[must_use]
-    pub fn breaks(self) -> [Option<f64>; 2] {
+    pub fn breaks(self) -> [Option<f64>; 4] {
         match self {
             Self::Trapezoid {
                 accelerate,
@@ -64,9 +86,47 @@ impl Law {
             } => [
                 Some(f64::from(accelerate)),
                 Some(1.0 - f64::from(decelerate)),
+                None,
+                None,
             ],
-            Self::ModifiedSine => [Some(0.125), Some(0.875)],
-            Self::Polynomial345 | Self::Cycloidal => [None, None],
+            Self::ModifiedSine => [Some(0.125), Some(0.875), None, None],
+            Self::ModifiedTrapezoid => [Some(0.125), Some(0.375), Some(0.625), Some(0.875)],
+            Self::Polynomial345 | Self::Polynomial4567 | Self::Cycloidal | Self::SimpleSine => {
+                [None; 4]
+            }
+        }
+    }
+
+    /// C_v, C_a, C_j in closed form. The test `coefficients_of_vdi_2143` holds them against the law's own extremes.
+    #[must_use]
+    pub fn characteristic(self) -> Characteristic {
+        use core::f64::consts::PI;
+        let (velocity, acceleration, jerk) = match self {
+            Self::Trapezoid {
+                accelerate,
+                decelerate,
+            } => {
+                let (a, d) = (f64::from(accelerate), f64::from(decelerate));
+                let speed = 1.0 / (1.0 - (a + d) / 2.0);
+                (speed, speed / a.min(d), None)
+            }
+            Self::Polynomial345 => (1.875, 5.773_502_691_896_258, Some(60.0)), // 10/√3
+            Self::Cycloidal => (2.0, 2.0 * PI, Some(4.0 * PI * PI)),
+            Self::ModifiedSine => {
+                let share = 4.0 * PI / (4.0 + PI);
+                (share, PI * share, Some(4.0 * PI * PI * share))
+            }
+            Self::SimpleSine => (PI / 2.0, PI * PI / 2.0, None),
+            Self::Polynomial4567 => (2.1875, 7.513_188_404_399_293, Some(52.5)), // 84/(5·√5)
+            Self::ModifiedTrapezoid => {
+                let share = 8.0 * PI / (2.0 + PI);
+                (2.0, share, Some(4.0 * PI * share))
+            }
+        };
+        Characteristic {
+            velocity,
+            acceleration,
+            jerk,
         }
     }
 
@@ -96,7 +156,116 @@ impl Law {
                 [z - sin / c(TAU), c(1.0) - cos, c(TAU) * sin]
             }
             Self::ModifiedSine => modified_sine(z),
+            Self::SimpleSine => {
+                use core::f64::consts::PI;
+                let (sin, cos) = (c(PI) * z).sin_cos();
+                [
+                    c(0.5) * (c(1.0) - cos),
+                    c(PI / 2.0) * sin,
+                    c(PI * PI / 2.0) * cos,
+                ]
+            }
+            Self::Polynomial4567 => mirrored(z, polynomial_4567),
+            Self::ModifiedTrapezoid => mirrored(z, modified_trapezoid),
         }
+    }
+
+    /// S‴ at the time `z`, without the pulses of a jumping acceleration; before 0 and after 1 zero, at a break the value
+    /// after it.
+    #[must_use]
+    pub fn jerk<R: Real>(self, z: R) -> R {
+        use core::f64::consts::PI;
+        let c = R::from_f64;
+        if z < c(0.0) || z > c(1.0) {
+            return c(0.0);
+        }
+        let left = c(1.0) - z;
+        match self {
+            Self::Trapezoid { .. } => c(0.0),
+            Self::Polynomial345 => c(60.0) - c(360.0) * z * left,
+            Self::Cycloidal => c(4.0 * PI * PI) * (c(2.0 * PI) * z).sin_cos().1,
+            Self::ModifiedSine => {
+                let share = 16.0 * PI * PI * PI / (4.0 + PI);
+                if z >= c(0.125) && z < c(0.875) {
+                    c(share / 3.0) * (c(PI / 3.0) * (c(4.0) * z + c(1.0))).sin_cos().1
+                } else {
+                    c(share) * (c(4.0 * PI) * z).sin_cos().1
+                }
+            }
+            Self::SimpleSine => c(-PI * PI * PI / 2.0) * (c(PI) * z).sin_cos().0,
+            Self::Polynomial4567 => {
+                let u = z * left;
+                c(840.0) * u * (c(1.0) - c(5.0) * u)
+            }
+            Self::ModifiedTrapezoid => {
+                let share = 32.0 * PI * PI / (2.0 + PI);
+                if z < c(0.125) || z >= c(0.875) {
+                    c(share) * (c(4.0 * PI) * z).sin_cos().1
+                } else if z >= c(0.375) && z < c(0.625) {
+                    c(-share) * (c(4.0 * PI) * (z - c(0.375))).sin_cos().0
+                } else {
+                    c(0.0)
+                }
+            }
+        }
+    }
+}
+
+/// The law of the first half for both: S(1 − z) = 1 − S(z).
+fn mirrored<R: Real>(z: R, half: impl Fn(R) -> [R; 3]) -> [R; 3] {
+    let c = R::from_f64;
+    if z > c(0.5) {
+        let [s, v, a] = half(c(1.0) - z);
+        [c(1.0) - s, v, -a]
+    } else {
+        half(z)
+    }
+}
+
+fn polynomial_4567<R: Real>(z: R) -> [R; 3] {
+    let c = R::from_f64;
+    let u = z * (c(1.0) - z);
+    [
+        z * z * z * z * (c(35.0) + z * (c(-84.0) + z * (c(70.0) - c(20.0) * z))),
+        c(140.0) * u * u * u,
+        c(420.0) * u * u * (c(1.0) - c(2.0) * z),
+    ]
+}
+
+/// Quarter of a sine up to z = 1/8, constant to 3/8, quarter of a cosine to 1/2; in units of the largest acceleration,
+/// which makes S(1/2) = 1/2.
+fn modified_trapezoid<R: Real>(z: R) -> [R; 3] {
+    use core::f64::consts::PI;
+    const MOST: f64 = 8.0 * PI / (2.0 + PI);
+    const ARC: f64 = 1.0 / (4.0 * PI);
+    // Speed and way at z = 1/8 and 3/8.
+    const V_1: f64 = MOST * ARC;
+    const S_1: f64 = V_1 * (0.125 - ARC);
+    const V_2: f64 = V_1 + MOST / 4.0;
+    const S_2: f64 = S_1 + V_1 / 4.0 + MOST / 32.0;
+    let c = R::from_f64;
+    if z < c(0.125) {
+        let (sin, cos) = (c(4.0 * PI) * z).sin_cos();
+        [
+            c(V_1) * (z - c(ARC) * sin),
+            c(V_1) * (c(1.0) - cos),
+            c(MOST) * sin,
+        ]
+    } else if z < c(0.375) {
+        let w = z - c(0.125);
+        [
+            c(S_1) + w * (c(V_1) + c(MOST / 2.0) * w),
+            c(V_1) + c(MOST) * w,
+            c(MOST),
+        ]
+    } else {
+        let w = z - c(0.375);
+        let (sin, cos) = (c(4.0 * PI) * w).sin_cos();
+        [
+            c(S_2) + c(V_2) * w + c(V_1 * ARC) * (c(1.0) - cos),
+            c(V_2) + c(V_1) * sin,
+            c(MOST) * cos,
+        ]
     }
 }
 

@@ -2,7 +2,7 @@
 
 mod law;
 
-pub use law::Law;
+pub use law::{Characteristic, Law};
 
 use crate::Error;
 use crate::math::Real;

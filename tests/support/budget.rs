@@ -132,3 +132,47 @@ pub(crate) const REACTIONS: f64 = 1e-10;
 
 /// A derivative by extrapolated differences of order 6 at a step of 1e-2, of the curve's size.
 pub(crate) const ENERGY_SLOPE: f64 = 1e-8;
+
+/// A library mechanism against its joints solved as a linkage, of the size of the derivative.
+pub(crate) const LINKAGE: f64 = 1e-11;
+
+/// Figures that handbooks give to three digits.
+pub(crate) const HANDBOOK: f64 = 5e-3;
+
+/// Peaks of ψ′ and ψ″ of a Geneva wheel on a grid of 10,000 steps a half engagement: half a step of 5e-5 rad squared, times
+/// the relative curvature, up to 1000 with three slots.
+pub(crate) const GENEVA_PEAK: f64 = 1e-6;
+
+/// Reduced curves of a linkage against 50-digit golden data: squares of transfer functions that are good to 1e-12, relative
+/// to the column's largest magnitude.
+pub(crate) const GOLDEN_REDUCTION: f64 = 1e-11;
+
+/// Figures printed with two decimals.
+pub(crate) const PRINTED: f64 = 0.005 + 1e-12;
+
+/// The displacement of a cam program against another form of the same polynomial or sine, of the rise over the power of
+/// the segment's angle; twenty operations.
+pub(crate) const CAM_PROGRAM: f64 = 1e-13;
+
+/// A point of the cam's profile against a circle or an equidistant curve in closed form, of the cam's radius.
+pub(crate) const CAM_PROFILE: f64 = 1e-12;
+
+/// Curvature of the profile, from second transfer functions, of the base circle's.
+pub(crate) const CAM_CURVATURE: f64 = 1e-11;
+
+/// An extreme that is found by the golden section: its place to the root of the roundings, 1e-8 of a piece, with a
+/// reserve for curves as flat as a dwell's edge.
+pub(crate) const EXTREME_PLACE: f64 = 1e-6;
+
+/// Its value, of its size.
+pub(crate) const EXTREME_VALUE: f64 = 1e-11;
+
+/// Distance of a smooth closed curve's points from a fixed point, by differences of order 6 at a step of 1e-3, of the
+/// curve's size.
+pub(crate) const CAM_TANGENT: f64 = 1e-9;
+
+/// Contact force at the limit speed, of the force of the spring.
+pub(crate) const LIFT_OFF: f64 = 1e-9;
+
+/// Length of the pitch curve by Gauss's formula against a rule of 20,000 steps.
+pub(crate) const PITCH_LENGTH: f64 = 1e-9;

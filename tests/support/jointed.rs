@@ -1,7 +1,7 @@
 //! What must hold for every mechanism that knows its joints.
 
-use jred::mechanism::Frames;
-use jred::{Domain, Joint, Jointed, Machine, Mechanism, Reducible, Transfer, Wrench};
+use jred::mechanism::{Assembly, Frames, Linkage, Pair, Pose};
+use jred::{Domain, Error, Joint, Jointed, Machine, Mechanism, Reducible, Transfer, Wrench};
 
 use super::{assert_near, budget, largest};
 
@@ -229,4 +229,61 @@ pub(crate) fn energy<M: Jointed>(machine: &Machine<M>, phi: f64, omega: f64) {
         budget::DALEMBERT * total.abs(),
     );
     let _ = machine.domain();
+}
+
+/// The mechanism's joints, assembled by the general solver from its own drawing at `phi`, a little off.
+pub(crate) fn as_linkage(
+    mechanism: &impl Jointed,
+    phi: f64,
+) -> Result<Assembly<16, 32, 256>, Error> {
+    let frames = mechanism.frames(phi)?;
+    let joints = mechanism.joints(phi, &frames)?;
+    let pairs: Vec<Pair> = joints.iter().copied().map(Pair::Joint).collect();
+    let drawing: Vec<Pose> = frames
+        .iter()
+        .enumerate()
+        .map(|(k, frame)| {
+            let off = 1e-3 * if k % 2 == 0 { 1.0 } else { -1.0 };
+            Pose {
+                x: frame.x.value * (1.0 + off),
+                y: frame.y.value * (1.0 - off),
+                psi: frame.psi.value + 10.0 * off,
+            }
+        })
+        .collect();
+    let drive = joints[mechanism.drive()].coordinate(&frames).value;
+    assert_near("drive coordinate", drive, phi, 1e-12 * (1.0 + phi.abs()));
+    Linkage::new(mechanism.links(), &pairs, mechanism.drive())?.assemble(
+        mechanism.domain(),
+        phi,
+        &drawing,
+    )
+}
+
+/// Every frame of two mechanisms with the same links, with all transfer functions.
+#[track_caller]
+pub(crate) fn same_frames(one: &impl Mechanism, other: &impl Mechanism, phi: f64, budget: f64) {
+    let [a, b] = [one.frames(phi).unwrap(), other.frames(phi).unwrap()];
+    assert_eq!(a.len(), b.len());
+    let length = largest(a.iter().flat_map(|f| [f.x.value, f.y.value])).max(1e-3);
+    for (link, (a, b)) in a.iter().zip(&b).enumerate() {
+        for (what, x, y, scale) in [
+            ("x", a.x, b.x, length),
+            ("y", a.y, b.y, length),
+            ("psi", a.psi, b.psi, 1.0),
+        ] {
+            let sizes = order_sizes(&one.frames(phi).unwrap(), scale);
+            let pairs = [(x.value, y.value), (x.d1, y.d1), (x.d2, y.d2), (x.d3, y.d3)];
+            for (order, ((x, y), size)) in pairs.iter().zip(sizes).enumerate() {
+                let name = format!("φ = {phi}: {what} of link {link}, derivative {order}");
+                // Whole turns are a matter of where the drawing began.
+                let whole = if what == "psi" && order == 0 {
+                    ((x - y) / std::f64::consts::TAU).round() * std::f64::consts::TAU
+                } else {
+                    0.0
+                };
+                assert_near(&name, *y + whole, *x, budget * size);
+            }
+        }
+    }
 }

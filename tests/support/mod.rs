@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "every test file uses its own part")]
 
 pub(crate) mod budget;
+pub(crate) mod cams;
 pub(crate) mod golden;
 pub(crate) mod images;
 pub(crate) mod jointed;

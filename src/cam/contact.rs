@@ -1,0 +1,189 @@
+//! The force between cam and follower, and the speed at which it vanishes.
+//!
+//! At constant speed the contact force is a polynomial in ω, whose terms d'Alembert's principle gives at every φ:
+//!
+//! ```text
+//! N(φ, ω) = a(φ) + c(φ)·ω + b(φ)·ω²        a: springs, weight, loads    c: dampers    b: inertia
+//! ```
+//!
+//! so the speed at which the follower lifts off at φ is its smallest positive root, and the machine's limit is the
+//! smallest of those over the turn.
+
+use core::f64::consts::TAU;
+use core::fmt;
+
+use super::extreme::smallest;
+use super::program::{Piece, within_turn};
+use crate::mechanism::Jointed;
+use crate::reduction::MAX_LOADS;
+use crate::{Error, Joint, Machine, math};
+
+/// Speeds above this (rad/s) are no machine's; where roundings alone would end the contact there, it does not end.
+const FASTEST: f64 = 1e6;
+
+/// The slowest constant speed at which the follower leaves the cam.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LiftOff {
+    /// Where the contact force vanishes first (rad).
+    pub phi: f64,
+    /// The speed (rad/s), not negative; zero if nothing presses the follower on the cam there even at rest.
+    pub omega: f64,
+}
+
+impl fmt::Display for LiftOff {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let phi = self.phi.to_degrees();
+        if self.omega > 0.0 {
+            write!(
+                f,
+                "the follower lifts off at φ = {phi:.2}° above {:.1} rpm: stiffer spring, more preload, or a slower machine",
+                self.omega * 60.0 / TAU
+            )
+        } else {
+            write!(
+                f,
+                "nothing presses the follower on the cam at φ = {phi:.2}°: add a spring, or more preload"
+            )
+        }
+    }
+}
+
+/// The force (N) with which the two bodies of joint number `contact` press on each other, positive when they press, at
+/// `phi` (rad) for the motion ω = `omega` (rad/s), α = `alpha` (rad/s²).
+///
+/// # Errors
+/// A joint that does not exist or is no contact, and those of [`Machine::forces`].
+pub fn contact_force<M: Jointed>(
+    machine: &Machine<M>,
+    contact: usize,
+    phi: f64,
+    omega: f64,
+    alpha: f64,
+) -> Result<f64, Error> {
+    let mechanism = machine.mechanism();
+    let frames = mechanism.frames(phi)?;
+    let joints = mechanism.joints(phi, &frames)?;
+    let Some(Joint::Transmission([_, unit])) = joints.get(contact) else {
+        return Err(Error::NoSuchJoint {
+            joint: contact,
+            joints: joints.len(),
+        });
+    };
+    let forces = machine.forces(phi, omega, alpha)?;
+    let reaction = forces.reactions.get(contact).map_or([0.0; 2], |r| r.force);
+    Ok(reaction[0] * unit.force[0] + reaction[1] * unit.force[1])
+}
+
+/// The slowest constant speed, and where, at which joint number `contact` lets go; `None` if it holds at any speed up to
+/// 1e6 rad/s. `pieces` are the smooth pieces of the turn, [`Program::pieces`](super::Program::pieces); the edges of loads
+/// that act over a part of the turn are added here. `direction` is that of the cam, +1 counter-clockwise.
+///
+/// Accuracy: the root at every φ is exact to rounding, φ is found to 1e-8 (tests `lift_off_of_a_circular_cam`,
+/// `contact_vanishes_at_lift_off`).
+///
+/// # Errors
+/// Those of [`contact_force`].
+pub fn lift_off<M: Jointed>(
+    machine: &Machine<M>,
+    contact: usize,
+    pieces: impl Iterator<Item = Piece> + Clone,
+    direction: f64,
+) -> Result<Option<LiftOff>, Error> {
+    let edges = load_edges(machine);
+    let direction = if direction < 0.0 { -1.0 } else { 1.0 };
+    // The three speeds that the polynomial is laid through should be near to the limit: where every term counts.
+    let mut scale = 100.0;
+    let mut found = None;
+    for _ in 0..2 {
+        let slowness = |phi: f64| {
+            let at = |speed: f64| contact_force(machine, contact, phi, direction * speed, 0.0);
+            let forces = [at(scale / 2.0)?, at(scale)?, at(2.0 * scale)?];
+            // Largest where the limit is lowest: smooth, and zero where there is none.
+            let limit = scale * vanishing(forces);
+            Ok::<_, Error>(if limit < FASTEST { -1.0 / limit } else { 0.0 })
+        };
+        let cut = pieces.clone().flat_map(|piece| Cut::new(piece, &edges));
+        let extreme = smallest(cut, slowness)?;
+        if extreme.value >= 0.0 {
+            return Ok(None);
+        }
+        let omega = -1.0 / extreme.value;
+        found = Some(LiftOff {
+            phi: extreme.phi,
+            omega,
+        });
+        if omega <= 0.0 {
+            break;
+        }
+        scale = omega;
+    }
+    Ok(found)
+}
+
+/// The speed, in units of that of the second force, at which the polynomial through the forces at ½, 1 and 2 vanishes;
+/// zero if it is not positive at rest, infinite if it never vanishes.
+fn vanishing([half, one, two]: [f64; 3]) -> f64 {
+    let b = ((two - one) - 2.0 * (one - half)) / 1.5;
+    let c = (two - one) - 3.0 * b;
+    let a = one - c - b;
+    if a <= 0.0 {
+        return 0.0;
+    }
+    let under_root = c * c - 4.0 * a * b;
+    if under_root < 0.0 {
+        return f64::INFINITY;
+    }
+    let below = math::sqrt(under_root) - c;
+    if below > 0.0 {
+        2.0 * a / below
+    } else {
+        f64::INFINITY
+    }
+}
+
+type Edges = heapless::Vec<f64, { 4 * MAX_LOADS }>;
+
+/// The angles at which a load begins or ends to grow, within the turn, in order.
+fn load_edges<M: Jointed>(machine: &Machine<M>) -> Edges {
+    let windows = machine.loads().iter().filter_map(crate::Load::window);
+    let mut edges: Edges = windows
+        .flat_map(|window| window.edges())
+        .map(within_turn)
+        .collect();
+    edges.sort_unstable_by(f64::total_cmp);
+    edges
+}
+
+/// A piece cut at edges.
+struct Cut<'a> {
+    from: f64,
+    to: f64,
+    edges: core::slice::Iter<'a, f64>,
+}
+
+impl<'a> Cut<'a> {
+    fn new(piece: Piece, edges: &'a [f64]) -> Self {
+        Self {
+            from: piece.from,
+            to: piece.to,
+            edges: edges.iter(),
+        }
+    }
+}
+
+impl Iterator for Cut<'_> {
+    type Item = Piece;
+
+    fn next(&mut self) -> Option<Piece> {
+        const HAIR: f64 = 1e-9;
+        let from = self.from;
+        if self.to - from <= HAIR {
+            return None;
+        }
+        let inside = |edge: &&f64| **edge > from + HAIR && **edge < self.to - HAIR;
+        let to = self.edges.find(inside).copied().unwrap_or(self.to);
+        self.from = to;
+        Some(Piece { from, to })
+    }
+}

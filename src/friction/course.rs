@@ -1,0 +1,317 @@
+//! Quantities that vary: a ratio that is shifted in time, a slip that grows with the load.
+
+use core::f64::consts::TAU;
+use core::fmt;
+
+use super::Dual;
+use crate::error::{finite, positive};
+use crate::motion::Law;
+use crate::table::CubicSpline;
+use crate::{Error, math};
+
+/// What a course may depend on: time, angle and load of one friction stage, with derivatives by these three.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Time t (s).
+    pub t: Dual<3>,
+    /// Angle of the stage's first shaft (rad).
+    pub phi: Dual<3>,
+    /// Load: contact torque on the stage's second shaft (N·m), positive where power flows the way that the stage's
+    /// [`Flow`](super::Flow) says, negative where it flows back.
+    pub load: Dual<3>,
+}
+
+impl Place {
+    /// The place at a time (s), an angle (rad) and a load (N·m).
+    #[must_use]
+    pub fn new(t: f64, phi: f64, load: f64) -> Self {
+        Self {
+            t: Dual::variable(t, 0),
+            phi: Dual::variable(phi, 1),
+            load: Dual::variable(load, 2),
+        }
+    }
+
+    /// One of the three.
+    #[must_use]
+    pub const fn of(&self, variable: Variable) -> Dual<3> {
+        match variable {
+            Variable::Time => self.t,
+            Variable::Angle => self.phi,
+            Variable::Load => self.load,
+        }
+    }
+}
+
+/// The variable that a ready-made course runs over.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Variable {
+    /// Time (s).
+    #[default]
+    Time,
+    /// Angle of the stage's first shaft (rad).
+    Angle,
+    /// Load of the stage (N·m).
+    Load,
+}
+
+/// How a ratio or a slip varies. Closures on [`Place`] are courses as well:
+///
+/// ```
+/// use jred::friction::{Course, Dual, Place};
+///
+/// let ratio = |at: Place| (at.t * 3.0).sin_cos().0 * 0.2 + 1.0;
+/// let found = ratio.at(Place::new(0.5, 0.0, 0.0));
+/// assert!((found.slope[0] - 0.6 * 1.5f64.cos()).abs() < 1e-15);
+/// # let _: Dual<3> = found;
+/// ```
+pub trait Course {
+    /// Value with its derivatives by time, angle and load.
+    fn at(&self, at: Place) -> Dual<3>;
+}
+
+impl<F: Fn(Place) -> Dual<3>> Course for F {
+    fn at(&self, at: Place) -> Dual<3> {
+        self(at)
+    }
+}
+
+/// A ratio or a slip: a number, or a course.
+#[derive(Clone, Copy)]
+pub enum Coefficient<'a> {
+    /// Always the same.
+    Constant(f64),
+    /// Varying.
+    Course(&'a dyn Course),
+}
+
+impl Coefficient<'_> {
+    /// Value with its derivatives.
+    #[must_use]
+    pub fn at(&self, at: Place) -> Dual<3> {
+        match self {
+            Self::Constant(value) => Dual::constant(*value),
+            Self::Course(course) => course.at(at),
+        }
+    }
+}
+
+impl fmt::Debug for Coefficient<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Constant(value) => f.debug_tuple("Constant").field(value).finish(),
+            Self::Course(_) => f.write_str("Course(..)"),
+        }
+    }
+}
+
+impl From<f64> for Coefficient<'_> {
+    fn from(value: f64) -> Self {
+        Self::Constant(value)
+    }
+}
+
+impl<'a, C: Course> From<&'a C> for Coefficient<'a> {
+    fn from(course: &'a C) -> Self {
+        Self::Course(course)
+    }
+}
+
+/// A passage from one value to another by a motion law; before and after it the end values.
+///
+/// [`Law::Polynomial345`] shifts without a jump of acceleration. [`Ramp::linear`] is the straight line with limits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ramp {
+    over: Variable,
+    start: f64,
+    length: f64,
+    values: [f64; 2],
+    law: Option<Law>,
+}
+
+impl Ramp {
+    /// From the first of `values` to the second while the variable goes from `start` over `length` > 0.
+    ///
+    /// # Errors
+    /// A length that is not positive, a value that is not finite, or a law that is not valid.
+    pub fn new(
+        over: Variable,
+        start: f64,
+        length: f64,
+        values: [f64; 2],
+        law: Law,
+    ) -> Result<Self, Error> {
+        law.check()?;
+        Ok(Self {
+            law: Some(law),
+            ..Self::linear(over, start, length, values)?
+        })
+    }
+
+    /// The same as a straight line. Its slope jumps at both ends, where the equation of motion asks for a jump of torque;
+    /// there the slope is that of the line.
+    ///
+    /// # Errors
+    /// A length that is not positive, or a value that is not finite.
+    pub fn linear(
+        over: Variable,
+        start: f64,
+        length: f64,
+        values: [f64; 2],
+    ) -> Result<Self, Error> {
+        Ok(Self {
+            over,
+            start: finite("start of the ramp", start)?,
+            length: positive("length of the ramp", length)?,
+            values: [
+                finite("first value of the ramp", values[0])?,
+                finite("last value of the ramp", values[1])?,
+            ],
+            law: None,
+        })
+    }
+}
+
+impl Course for Ramp {
+    fn at(&self, at: Place) -> Dual<3> {
+        let z = (at.of(self.over) - self.start) / self.length;
+        let [s, slope] = match self.law {
+            Some(law) => {
+                let [s, slope, _] = law.at(z.value);
+                [s, slope]
+            }
+            None if z.value < 0.0 => [0.0, 0.0],
+            None if z.value > 1.0 => [1.0, 0.0],
+            None => [z.value, 1.0],
+        };
+        let [from, to] = self.values;
+        z.through(s, slope) * (to - from) + from
+    }
+}
+
+/// mean + amplitude·sin(frequency·x + phase).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sine {
+    over: Variable,
+    mean: f64,
+    amplitude: f64,
+    frequency: f64,
+    phase: f64,
+}
+
+impl Sine {
+    /// A sine over the variable x; `frequency` in rad per unit of x (rad/s over time), `phase` in rad.
+    ///
+    /// # Errors
+    /// A value that is not finite.
+    pub fn new(
+        over: Variable,
+        mean: f64,
+        amplitude: f64,
+        frequency: f64,
+        phase: f64,
+    ) -> Result<Self, Error> {
+        Ok(Self {
+            over,
+            mean: finite("mean of the sine", mean)?,
+            amplitude: finite("amplitude of the sine", amplitude)?,
+            frequency: finite("frequency of the sine", frequency)?,
+            phase: finite("phase of the sine", phase)?,
+        })
+    }
+}
+
+impl Course for Sine {
+    fn at(&self, at: Place) -> Dual<3> {
+        let (sin, _) = (at.of(self.over) * self.frequency + self.phase).sin_cos();
+        sin * self.amplitude + self.mean
+    }
+}
+
+/// A measured curve: the spline through samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve<C> {
+    over: Variable,
+    start: f64,
+    length: f64,
+    periodic: bool,
+    spline: CubicSpline<C>,
+}
+
+impl<C: AsRef<[f64]>> Curve<C> {
+    /// A curve over x from `start` to `start + length`, with the end values outside. The control points are made by
+    /// [`fit_bounded`](crate::table::fit_bounded).
+    ///
+    /// # Errors
+    /// A start that is not finite, or a length that is not positive.
+    pub fn bounded(
+        over: Variable,
+        start: f64,
+        length: f64,
+        spline: CubicSpline<C>,
+    ) -> Result<Self, Error> {
+        Ok(Self {
+            over,
+            start: finite("start of the curve", start)?,
+            length: positive("length of the curve", length)?,
+            periodic: false,
+            spline,
+        })
+    }
+
+    /// A curve over one turn of the stage's first shaft, repeated. The control points are made by
+    /// [`fit_periodic`](crate::table::fit_periodic).
+    #[must_use]
+    pub const fn turn(spline: CubicSpline<C>) -> Self {
+        Self {
+            over: Variable::Angle,
+            start: 0.0,
+            length: TAU,
+            periodic: true,
+            spline,
+        }
+    }
+}
+
+impl<C: AsRef<[f64]>> Course for Curve<C> {
+    fn at(&self, at: Place) -> Dual<3> {
+        let place = (at.of(self.over) - self.start) / self.length;
+        let x = place.value;
+        let inside = if self.periodic { x - math::floor(x) } else { x };
+        let [value, slope, _] = self.spline.at(inside);
+        let beyond = !(0.0..=1.0).contains(&inside);
+        place.through(value, if beyond { 0.0 } else { slope })
+    }
+}
+
+/// Creep: slip in proportion to the load, ε = s·load/limit. Where power flows back the slip is negative, so the contact
+/// never gives power.
+///
+/// Valid for |load| ≤ limit, the torque that the contact can carry; beyond it slides, and
+/// [`Drive`](super::Drive) refuses slips above one. [`CreepContact`](super::CreepContact) goes on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Creep {
+    slip: f64,
+    limit: f64,
+}
+
+impl Creep {
+    /// The `slip` s at the torque `limit` (N·m) on the second shaft.
+    ///
+    /// # Errors
+    /// A slip outside [0, 1), or a limit that is not positive.
+    pub fn new(slip: f64, limit: f64) -> Result<Self, Error> {
+        super::stage::slip_share(slip)?;
+        Ok(Self {
+            slip,
+            limit: positive("torque limit of the contact", limit)?,
+        })
+    }
+}
+
+impl Course for Creep {
+    fn at(&self, at: Place) -> Dual<3> {
+        at.load * (self.slip / self.limit)
+    }
+}

@@ -1,0 +1,67 @@
+//! The creeping contact: two shafts that are coupled by nothing but the force that slip makes.
+
+use super::stage::slip_share;
+use crate::error::positive;
+use crate::{Error, math};
+
+/// A friction contact whose torque grows with its slip up to the limit of friction:
+///
+/// ```text
+/// s = (i·ω₁ − ω₂)/max(|i·ω₁|, |ω₂|)          L = limit·clamp(s/s₁, −1, 1)
+/// J₂·ω̇₂ = L + M₂          J₁·ω̇₁ = M₁ − i·L          loss = L·(i·ω₁ − ω₂) ≥ 0
+/// ```
+///
+/// Both speeds are states: the machine has one freedom more, and nothing is constrained. Where shaft 1 drives, s is the ε
+/// of [`Flow::FirstDrives`](super::Flow::FirstDrives); where shaft 2 drives, −s is that of (III.12) as printed. So the
+/// contact changes from one to the other by itself when power turns round, and it never gives power. Beyond the limit it
+/// slides with constant torque.
+///
+/// At standstill s is not defined: below [`SLOW`](Self::SLOW) the speed difference itself is taken, which is a viscous
+/// contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CreepContact {
+    slip: f64,
+    limit: f64,
+}
+
+/// What a contact does at one instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Traction {
+    /// Torque L on the second shaft (N·m).
+    pub torque: f64,
+    /// Slip s.
+    pub slip: f64,
+    /// Power lost (W).
+    pub loss: f64,
+}
+
+impl CreepContact {
+    /// The circumferential speed, as an angular speed of the second shaft (rad/s), below which the contact is viscous.
+    pub const SLOW: f64 = 0.1;
+
+    /// The `slip` s₁ in (0, 1) at the torque `limit` (N·m) on the second shaft, where the contact begins to slide.
+    ///
+    /// # Errors
+    /// A slip outside (0, 1), or a limit that is not positive.
+    pub fn new(slip: f64, limit: f64) -> Result<Self, Error> {
+        Ok(Self {
+            slip: positive("slip", slip_share(slip)?)?,
+            limit: positive("torque limit of the contact", limit)?,
+        })
+    }
+
+    /// The torque at the speed i·ω₁ of the first surface and ω₂ of the second, both as angular speeds of the second shaft
+    /// (rad/s).
+    #[must_use]
+    pub fn traction(&self, first: f64, second: f64) -> Traction {
+        let fastest = math::abs(first).max(math::abs(second)).max(Self::SLOW);
+        let slip = (first - second) / fastest;
+        let torque = self.limit * (slip / self.slip).clamp(-1.0, 1.0);
+        Traction {
+            torque,
+            slip,
+            loss: torque * (first - second),
+        }
+    }
+}

@@ -1,0 +1,453 @@
+//! A friction drive: stages in a chain or in a fan, and its equation of motion.
+//!
+//! Shaft 1 drives; every shaft k has the speed ω_k = j_k·ω (III.12), (III.19). Newton for each shaft, with L the torque of
+//! the contact on its second shaft and f·L that on its first, gives without the contact torques
+//!
+//! ```text
+//! Σ h_k·J_k·(j_k·ω̇ + j̇_k·ω) = Σ h_k·M_k          h_k: product of the f from shaft 1 to shaft k
+//! ideal contact, f = j:   J·ω̇ + ½·(dJ/dt)·ω = T,   J = Σ J_k·j_k²,   T = Σ j_k·M_k        (A)
+//! real slip,     f = i:   (J₁ + i·j·J₂)·ω̇ + i·j̇·J₂·ω = T₁ − i·T₂,   loss = L·(i − j)·ω    for two shafts
+//! ```
+//!
+//! The factor ½ is that of the power balance d(½Jω²)/dt = T·ω. With a ratio that is shifted in time the constraint cannot
+//! be integrated ([`integrability`](super::integrability)), and Lagrange's equation for the reduced kinetic energy would
+//! give a factor 1 and a free run with ω·J constant; the machine keeps ω·√J. The literature treats the shifted variator
+//! as non-holonomic, too: M. Čavić, M. Penčić, M. Zlokolica, *Thermal Science* 20 (2016) S525-S536.
+
+use super::course::Place;
+use super::stage::{Flow, Ratios, Stage};
+use crate::error::finite;
+use crate::reduction::Reduction;
+use crate::{Error, math};
+
+/// The most stages of a friction drive.
+pub const MAX_STAGES: usize = 8;
+
+/// The most shafts.
+pub const MAX_SHAFTS: usize = MAX_STAGES + 1;
+
+/// How often load and slip are adjusted to each other at most.
+const ROUNDS: usize = 100;
+
+/// How the stages are arranged.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Arrangement {
+    /// In series (III.12): stage k couples shaft k to shaft k + 1.
+    #[default]
+    Chain,
+    /// In parallel (III.19): stage k couples shaft 1 to shaft k + 1.
+    Fan,
+}
+
+/// What slip does to the torque.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Contact {
+    /// Nothing is lost: torques are in the ratio j of the speeds.
+    #[default]
+    Ideal,
+    /// Torques are in the ratio i of the radii while speeds are in the ratio j: the power F·v_slip is lost.
+    Slipping,
+}
+
+/// What turns with a shaft, and what acts on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Shaft {
+    /// Inertia J (kg·m²) and its derivative by the shaft's angle (kg·m²/rad).
+    pub inertia: [f64; 2],
+    /// Torque in the positive direction (N·m): a motor's is positive, a brake's negative.
+    pub torque: f64,
+    /// b in −b·ω_k (N·m·s/rad).
+    pub viscous: f64,
+    /// c in −c·sgn ω_k (N·m).
+    pub coulomb: f64,
+}
+
+impl Shaft {
+    /// A plain rotor with a torque on it.
+    #[must_use]
+    pub const fn new(inertia: f64, torque: f64) -> Self {
+        Self {
+            inertia: [inertia, 0.0],
+            torque,
+            viscous: 0.0,
+            coulomb: 0.0,
+        }
+    }
+
+    /// The same with an inertia (kg·m²) more.
+    #[must_use]
+    pub fn with_inertia(mut self, more: f64) -> Self {
+        self.inertia[0] += more;
+        self
+    }
+
+    /// Torque at the shaft's speed, without what its inertia asks for.
+    fn external(&self, omega: f64) -> f64 {
+        self.torque - self.viscous * omega - self.coulomb * math::sign(omega)
+    }
+}
+
+/// The drive link of a machine, at the position where it was reduced: any mechanism behind a friction drive.
+impl From<Reduction> for Shaft {
+    fn from(reduction: Reduction) -> Self {
+        Self {
+            inertia: [reduction.inertia[0], reduction.inertia[1]],
+            torque: reduction.load_torque(),
+            viscous: reduction.viscous,
+            coulomb: reduction.coulomb,
+        }
+    }
+}
+
+/// When and where the drive is: time (s), angle of every shaft (rad), and speed ω of shaft 1 (rad/s).
+///
+/// Angles are states of their own: with a ratio that varies in time there is no function α_k(α₁). Their rates are the
+/// shafts' speeds in [`Motion`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State<'a> {
+    /// t (s)
+    pub t: f64,
+    /// α₁, α₂, … (rad)
+    pub angles: &'a [f64],
+    /// ω of shaft 1 (rad/s)
+    pub omega: f64,
+}
+
+/// A friction drive.
+#[derive(Clone, Debug)]
+pub struct Drive<'a> {
+    arrangement: Arrangement,
+    contact: Contact,
+    stages: heapless::Vec<Stage<'a>, MAX_STAGES>,
+}
+
+/// One shaft in motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ShaftMotion {
+    /// Velocity coefficient j_k = ω_k/ω and its rate dj_k/dt (1/s).
+    pub coefficient: [f64; 2],
+    /// Speed ω_k (rad/s): the rate of the shaft's angle.
+    pub omega: f64,
+    /// Acceleration j_k·ω̇ + j̇_k·ω (rad/s²).
+    pub alpha: f64,
+    /// External torque (N·m), on shaft 1 the drive's included.
+    pub torque: f64,
+}
+
+/// One contact in motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ContactMotion {
+    /// Torque L on the second shaft (N·m).
+    pub torque: f64,
+    /// Slip ε.
+    pub slip: f64,
+    /// Power lost (W), L·(f − j)·ω of the first shaft. Negative where power flows against the stage's
+    /// [`Flow`]: then a slip that does not turn with the load gives power, which no contact does.
+    pub loss: f64,
+}
+
+/// The drive in motion.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// Acceleration of shaft 1 (rad/s²).
+    pub alpha: f64,
+    /// Torque of the drive on shaft 1, beside the one in its [`Shaft`] (N·m).
+    pub drive: f64,
+    /// J = Σ J_k·j_k² (kg·m²) and dJ/dt (kg·m²/s).
+    pub inertia: [f64; 2],
+    /// Power lost in all contacts (W).
+    pub loss: f64,
+    /// The shafts.
+    pub shafts: heapless::Vec<ShaftMotion, MAX_SHAFTS>,
+    /// The contacts, one a stage.
+    pub contacts: heapless::Vec<ContactMotion, MAX_STAGES>,
+}
+
+impl Motion {
+    /// Power of all external torques, the drive's included (W): d(½Jω²)/dt = power − loss.
+    #[must_use]
+    pub fn power(&self) -> f64 {
+        self.shafts.iter().map(|s| s.torque * s.omega).sum()
+    }
+
+    /// ½·J·ω² (J).
+    #[must_use]
+    pub fn kinetic_energy(&self) -> f64 {
+        let omega = self.shafts.first().map_or(0.0, |s| s.omega);
+        0.5 * self.inertia[0] * omega * omega
+    }
+}
+
+/// What is sought.
+#[derive(Clone, Copy)]
+enum Given {
+    /// The acceleration is known, the drive's torque is not.
+    Alpha(f64),
+    /// All torques are known.
+    Torques,
+}
+
+/// Coefficients of a shaft.
+#[derive(Clone, Copy)]
+struct Coupled {
+    /// j
+    speed: f64,
+    /// dj/dt
+    rate: f64,
+    /// h
+    force: f64,
+}
+
+/// The coefficients at one state.
+struct Kinematics {
+    shafts: heapless::Vec<Coupled, MAX_SHAFTS>,
+    stages: heapless::Vec<(Ratios, f64), MAX_STAGES>,
+}
+
+impl<'a> Drive<'a> {
+    /// Stages in order from shaft 1.
+    ///
+    /// # Errors
+    /// No stage, or more than [`MAX_STAGES`].
+    pub fn new(
+        arrangement: Arrangement,
+        contact: Contact,
+        stages: &[Stage<'a>],
+    ) -> Result<Self, Error> {
+        if stages.is_empty() {
+            return Err(Error::NotPositive("number of friction stages", 0.0));
+        }
+        let stages = heapless::Vec::from_slice(stages).map_err(|_| Error::TooMany {
+            what: "friction stages",
+            capacity: MAX_STAGES,
+        })?;
+        Ok(Self {
+            arrangement,
+            contact,
+            stages,
+        })
+    }
+
+    /// How the stages are arranged.
+    pub const fn arrangement(&self) -> Arrangement {
+        self.arrangement
+    }
+
+    /// The stages.
+    pub fn stages(&self) -> &[Stage<'a>] {
+        &self.stages
+    }
+
+    /// Index of the first shaft of stage `stage`; its second shaft is `stage + 1`.
+    #[must_use]
+    pub const fn first_shaft(&self, stage: usize) -> usize {
+        match self.arrangement {
+            Arrangement::Chain => stage,
+            Arrangement::Fan => 0,
+        }
+    }
+
+    /// The acceleration under given torques.
+    ///
+    /// Where a ratio or slip depends on the load, load and slip are solved together, to rounding. The rate at which the
+    /// load changes is left out of dj/dt: this is the quasi-static form, good while the load changes slowly against
+    /// J·s·ω/limit (s: slip at the limit). [`CreepContact`](super::CreepContact) makes no such assumption.
+    ///
+    /// Accuracy: energy of a free run with a shifted ratio 1e-10 (test `free_run_keeps_the_energy`); against two shafts
+    /// with an explicit contact force 1e-9 (test `two_discs_with_a_contact_force`).
+    ///
+    /// # Errors
+    /// Numbers of angles or shafts that do not fit; a course that leaves its range; no inertia; load and slip that do not
+    /// settle, because the slip grows too fast with the load.
+    pub fn forward(&self, state: State, shafts: &[Shaft]) -> Result<Motion, Error> {
+        self.solve(state, shafts, Given::Torques)
+    }
+
+    /// The drive's torque on shaft 1, [`Motion::drive`], that the acceleration `alpha` of shaft 1 (rad/s²) needs. Load and
+    /// slip as in [`forward`](Self::forward).
+    ///
+    /// # Errors
+    /// Those of [`forward`](Self::forward), or an acceleration that is not finite.
+    pub fn inverse(&self, state: State, alpha: f64, shafts: &[Shaft]) -> Result<Motion, Error> {
+        let alpha = finite("acceleration", alpha)?;
+        self.solve(state, shafts, Given::Alpha(alpha))
+    }
+
+    fn solve(&self, state: State, shafts: &[Shaft], given: Given) -> Result<Motion, Error> {
+        let expected = self.stages.len() + 1;
+        for (what, count) in [
+            ("number of angles", state.angles.len()),
+            ("number of shafts", shafts.len()),
+        ] {
+            if count != expected {
+                return Err(Error::OutOfRange {
+                    what,
+                    value: count as f64,
+                    min: expected as f64,
+                    max: expected as f64,
+                });
+            }
+        }
+        finite("time", state.t)?;
+        finite("speed", state.omega)?;
+        for angle in state.angles {
+            finite("angle of a shaft", *angle)?;
+        }
+        let mut loads = [0.0; MAX_STAGES];
+        for _ in 0..ROUNDS {
+            let kinematics = self.kinematics(&state, &loads)?;
+            let motion = self.balance(&state, shafts, given, &kinematics)?;
+            if self.settled(&kinematics, &motion, &mut loads) {
+                return Ok(motion);
+            }
+        }
+        Err(Error::NotSettled {
+            what: "load and slip of the friction drive",
+        })
+    }
+
+    /// Puts the loads found into `loads`; whether they are those that the coefficients were made with.
+    fn settled(
+        &self,
+        kinematics: &Kinematics,
+        motion: &Motion,
+        loads: &mut [f64; MAX_STAGES],
+    ) -> bool {
+        let mut settled = true;
+        for (k, (stage, (ratios, _))) in self.stages.iter().zip(&kinematics.stages).enumerate() {
+            let (Some(contact), Some(load)) = (motion.contacts.get(k), loads.get_mut(k)) else {
+                continue;
+            };
+            let first = motion.shafts.get(self.first_shaft(k));
+            // From rest, the flow is that of the motion to come.
+            let turning = first.map_or(0.0, |s| if s.omega == 0.0 { s.alpha } else { s.omega });
+            let along = match stage.flow() {
+                Flow::FirstDrives => 1.0,
+                Flow::SecondDrives => -1.0,
+            };
+            let found =
+                along * contact.torque * math::sign(ratios.geometric.value) * math::sign(turning);
+            let depends = ratios.geometric.slope[2] != 0.0 || ratios.slip.slope[2] != 0.0;
+            if depends {
+                let change = math::abs(found - *load);
+                settled &= change <= 8.0 * f64::EPSILON * math::abs(found);
+            }
+            *load = found;
+        }
+        settled
+    }
+
+    fn kinematics(&self, state: &State, loads: &[f64; MAX_STAGES]) -> Result<Kinematics, Error> {
+        let mut shafts = heapless::Vec::new();
+        let mut stages = heapless::Vec::new();
+        // Pushes cannot fail: the capacities are those of the stages, and one more.
+        let input = Coupled {
+            speed: 1.0,
+            rate: 0.0,
+            force: 1.0,
+        };
+        let _ = shafts.push(input);
+        for (k, (stage, load)) in self.stages.iter().zip(loads).enumerate() {
+            let first = self.first_shaft(k);
+            let a = shafts.get(first).copied().unwrap_or(input);
+            let phi = state.angles.get(first).copied().unwrap_or(0.0);
+            let ratios = stage.at(Place::new(state.t, phi, *load))?;
+            let j = ratios.speed.value;
+            let [by_t, by_phi, _] = ratios.speed.slope;
+            let rate = by_t + by_phi * a.speed * state.omega;
+            let force = match self.contact {
+                Contact::Ideal => j,
+                Contact::Slipping => ratios.geometric.value,
+            };
+            let _ = shafts.push(Coupled {
+                speed: a.speed * j,
+                rate: a.rate * j + a.speed * rate,
+                force: a.force * force,
+            });
+            let _ = stages.push((ratios, force));
+        }
+        Ok(Kinematics { shafts, stages })
+    }
+
+    fn balance(
+        &self,
+        state: &State,
+        shafts: &[Shaft],
+        given: Given,
+        kinematics: &Kinematics,
+    ) -> Result<Motion, Error> {
+        let omega = state.omega;
+        // Σ h·J·j, Σ h·J·j̇·ω, Σ h·(M − ½·J′·ω_k²)
+        let (mut mass, mut drag, mut torque) = (0.0, 0.0, 0.0);
+        let mut motion = Motion::default();
+        for (shaft, c) in shafts.iter().zip(&kinematics.shafts) {
+            let own = c.speed * omega;
+            let [inertia, slope] = shaft.inertia;
+            mass += c.force * inertia * c.speed;
+            drag += c.force * inertia * c.rate * omega;
+            torque += c.force * (shaft.external(own) - 0.5 * slope * own * own);
+            motion.inertia[0] += inertia * c.speed * c.speed;
+            motion.inertia[1] += (2.0 * inertia * c.rate + slope * own * c.speed) * c.speed;
+        }
+        if finite("inertia of the friction drive", mass)? <= 0.0 {
+            return Err(Error::NotPositive("inertia of the friction drive", mass));
+        }
+        finite("torques of the friction drive", torque)?;
+        (motion.alpha, motion.drive) = match given {
+            Given::Alpha(alpha) => (alpha, mass * alpha + drag - torque),
+            Given::Torques => ((torque - drag) / mass, 0.0),
+        };
+        for (k, (shaft, c)) in shafts.iter().zip(&kinematics.shafts).enumerate() {
+            let own = c.speed * omega;
+            let drive = if k == 0 { motion.drive } else { 0.0 };
+            let _ = motion.shafts.push(ShaftMotion {
+                coefficient: [c.speed, c.rate],
+                omega: own,
+                alpha: c.speed * motion.alpha + c.rate * omega,
+                torque: shaft.external(own) + drive,
+            });
+        }
+        self.add_contacts(shafts, kinematics, &mut motion);
+        Ok(motion)
+    }
+
+    /// Contact torques from the last stage to the first: L = J·ω̇_k + ½·J′·ω_k² − M + what the shaft passes on.
+    fn add_contacts(&self, shafts: &[Shaft], kinematics: &Kinematics, motion: &mut Motion) {
+        let mut passed_on = 0.0;
+        let mut torques = [0.0; MAX_STAGES];
+        for k in (0..self.stages.len()).rev() {
+            let (Some(shaft), Some(moving), Some((_, force))) = (
+                shafts.get(k + 1),
+                motion.shafts.get(k + 1),
+                kinematics.stages.get(k),
+            ) else {
+                continue;
+            };
+            let [inertia, slope] = shaft.inertia;
+            let own =
+                inertia * moving.alpha + 0.5 * slope * moving.omega * moving.omega - moving.torque;
+            let torque = own + passed_on;
+            if self.arrangement == Arrangement::Chain {
+                passed_on = force * torque;
+            }
+            if let Some(slot) = torques.get_mut(k) {
+                *slot = torque;
+            }
+        }
+        for (k, ((ratios, force), torque)) in kinematics.stages.iter().zip(torques).enumerate() {
+            let first = motion.shafts.get(self.first_shaft(k));
+            let omega = first.map_or(0.0, |s| s.omega);
+            let loss = torque * (force - ratios.speed.value) * omega;
+            motion.loss += loss;
+            let _ = motion.contacts.push(ContactMotion {
+                torque,
+                slip: ratios.slip.value,
+                loss,
+            });
+        }
+    }
+}

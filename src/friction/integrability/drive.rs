@@ -1,0 +1,148 @@
+//! The constraints of a friction drive: θ = dα_b − j(t, α_a)·dα_a, one a stage.
+//!
+//! θ ∧ dθ = −(∂j/∂t)·dα_b ∧ dt ∧ dα_a: the stage is holonomic exactly where j does not depend on time.
+
+use core::fmt;
+
+use crate::error::finite;
+use crate::friction::drive::MAX_STAGES;
+use crate::friction::{Drive, Place, Stage};
+use crate::{Error, math};
+
+/// What one stage is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum StageConstraint {
+    /// Holonomic (III.18): α_b − j·α_a = const.
+    Proportional {
+        /// j
+        speed: f64,
+    },
+    /// Holonomic: α_b − ∫ j(α_a) dα_a = const, by [`Stage::angle`].
+    Integral,
+    /// Non-holonomic: j changes in time. θ ∧ dθ = −rate·dα_b ∧ dt ∧ dα_a, where it is largest.
+    NonHolonomic {
+        /// ∂j/∂t (1/s).
+        rate: f64,
+        /// When (s).
+        t: f64,
+        /// Angle α_a (rad).
+        phi: f64,
+    },
+    /// No constraint at all: j depends on the load, so angles and speeds alone do not tell ω_b.
+    Constitutive,
+}
+
+impl StageConstraint {
+    /// Whether the stage is a relation between angles.
+    #[must_use]
+    pub const fn is_holonomic(&self) -> bool {
+        matches!(self, Self::Proportional { .. } | Self::Integral)
+    }
+}
+
+impl fmt::Display for StageConstraint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Proportional { speed } => write!(
+                f,
+                "holonomic, (III.18): α_b - j α_a = const with j = {speed}"
+            ),
+            Self::Integral => write!(
+                f,
+                "holonomic: α_b - ∫ j(α_a) dα_a = const; j depends on the angle alone"
+            ),
+            Self::NonHolonomic { rate, t, .. } => write!(
+                f,
+                "non-holonomic: θ∧dθ = -(∂j/∂t) dα_b∧dt∧dα_a is not zero, ∂j/∂t = {rate:.3e} 1/s at t = {t:.6} s; \
+                 no integrating factor exists, and α_b is a state of its own"
+            ),
+            Self::Constitutive => write!(
+                f,
+                "not a constraint: j depends on the load, so speeds are coupled by forces"
+            ),
+        }
+    }
+}
+
+/// Places a variable is tested at.
+const SAMPLES: u32 = 129;
+
+/// A change below this share of j is rounding.
+const ROUNDING: f64 = 1e-13;
+
+impl Drive<'_> {
+    /// What the constraint of every stage is, for times in `t` = [from, to] (s) and angles of its first shaft in
+    /// `phi` = [from, to] (rad).
+    ///
+    /// Tested on a grid of 129 × 129 places, both by the derivatives of j there and by its changes between them, so that
+    /// a short shift is not missed.
+    ///
+    /// # Errors
+    /// Those of [`Stage::at`], or a range that is not finite.
+    pub fn integrability(
+        &self,
+        t: [f64; 2],
+        phi: [f64; 2],
+    ) -> Result<heapless::Vec<StageConstraint, MAX_STAGES>, Error> {
+        for (what, value) in [
+            ("start time", t[0]),
+            ("end time", t[1]),
+            ("first angle", phi[0]),
+            ("last angle", phi[1]),
+        ] {
+            finite(what, value)?;
+        }
+        self.stages()
+            .iter()
+            .map(|stage| constraint(stage, t, phi))
+            .collect()
+    }
+}
+
+fn constraint(stage: &Stage, times: [f64; 2], angles: [f64; 2]) -> Result<StageConstraint, Error> {
+    let grid =
+        |[from, to]: [f64; 2], k: u32| from + (to - from) * f64::from(k) / f64::from(SAMPLES - 1);
+    let span = times[1] - times[0];
+    let mut fastest: Option<(f64, f64, f64)> = None;
+    let mut turns = false;
+    let first = stage.at(Place::new(times[0], angles[0], 0.0))?.speed.value;
+    for l in 0..SAMPLES {
+        let phi = grid(angles, l);
+        let mut before: Option<(f64, f64)> = None;
+        for k in 0..SAMPLES {
+            let t = grid(times, k);
+            let speed = stage.at(Place::new(t, phi, 0.0))?.speed;
+            let loaded = stage.at(Place::new(t, phi, LOAD))?.speed;
+            if speed.slope[2] != 0.0 || loaded.slope[2] != 0.0 {
+                return Ok(StageConstraint::Constitutive);
+            }
+            let size = math::abs(speed.value);
+            // By the mean value theorem a change is a rate somewhere on the way.
+            let mean = before.map_or(0.0, |(at, was)| {
+                let changed = math::abs(speed.value - was) > ROUNDING * size && t - at > 0.0;
+                if changed {
+                    (speed.value - was) / (t - at)
+                } else {
+                    0.0
+                }
+            });
+            for rate in [speed.slope[0], mean] {
+                let counts = math::abs(rate) * math::abs(span) > ROUNDING * size;
+                if counts && fastest.is_none_or(|(most, ..)| math::abs(rate) > math::abs(most)) {
+                    fastest = Some((rate, t, phi));
+                }
+            }
+            turns |= math::abs(speed.value - first) > ROUNDING * size || speed.slope[1] != 0.0;
+            before = Some((t, speed.value));
+        }
+    }
+    Ok(match fastest {
+        Some((rate, t, phi)) => StageConstraint::NonHolonomic { rate, t, phi },
+        None if turns => StageConstraint::Integral,
+        None => StageConstraint::Proportional { speed: first },
+    })
+}
+
+/// A load at which a slip that depends on it shows that it does, beside none (N·m).
+const LOAD: f64 = 1e-3;

@@ -1,0 +1,34 @@
+//! Friction drives and variators: ratios and slips that may vary, and what the constraint then is.
+//!
+//! A stage couples two shafts by a geometric ratio i and a slip ε, each a number or a [`Course`] over time, angle or load.
+//! Its velocity coefficient is j = i/(1 − ε) as (III.12), (III.19) are printed, or i·(1 − ε) where the first shaft drives
+//! ([`Flow`]). Stages form a [`Drive`], a chain or a fan.
+//!
+//! | question | answer |
+//! |---|---|
+//! | how does it move? | [`Drive::forward`], [`Drive::inverse`]: factor ½ on dJ/dt·ω |
+//! | slip that grows with the load, as a freedom of its own | [`CreepContact`] |
+//! | a *position*, not a ratio, prescribed in time | [`Rheonomic`]: factor 1, and the actuator's power |
+//! | can the constraint be written between angles? | [`Drive::integrability`], and [`integrability`] for any constraint |
+//!
+//! Equations (III.1)-(III.19): the chapter on holonomic and non-holonomic constraints of friction drives. In the sense of
+//! its figure, shaft 1 is the drive shaft.
+
+mod course;
+mod creep;
+mod drive;
+mod dual;
+pub mod integrability;
+mod quadrature;
+mod rheonomic;
+mod stage;
+
+pub use course::{Coefficient, Course, Creep, Curve, Place, Ramp, Sine, Variable};
+pub use creep::{CreepContact, Traction};
+pub use drive::{
+    Arrangement, Contact, ContactMotion, Drive, MAX_SHAFTS, MAX_STAGES, Motion, Shaft, ShaftMotion,
+    State,
+};
+pub use dual::Dual;
+pub use rheonomic::{Coordinate, Rheonomic};
+pub use stage::{Flow, Ratios, Stage};

@@ -1,0 +1,70 @@
+//! Why a drive link cannot turn fully.
+
+use core::fmt;
+
+use super::grashof::Reason;
+use crate::Error;
+
+/// Why the drive link of a library mechanism cannot turn fully, with the angle where it stops.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum Blocked {
+    /// A four-bar whose crank is not free to turn.
+    FourBar {
+        /// Lengths of crank, coupler, rocker and ground (m).
+        lengths: [f64; 4],
+        /// Crank angles (rad) between which it moves. Where there are two such ranges, mirror images at the line of the
+        /// pivots, the one to the left of it.
+        reach: [f64; 2],
+    },
+    /// The crank pin passes through the pivot of the slotted rocker.
+    PinMeetsPivot {
+        /// Crank length, equal to the distance of the pivots (m).
+        length: f64,
+    },
+    /// The link to a slider no longer reaches the guide.
+    TooShort {
+        /// Which link.
+        link: &'static str,
+        /// The first crank angle (rad, from 0) at which it fails.
+        phi: f64,
+        /// It must be longer than this (m).
+        shortest: f64,
+    },
+}
+
+impl fmt::Display for Blocked {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the crank cannot turn fully: ")?;
+        match *self {
+            Self::FourBar { lengths, reach } => write!(
+                f,
+                "{}, or drive it over a stroke within its range, φ = {:.2}° to {:.2}°",
+                Reason(lengths),
+                reach[0].to_degrees(),
+                reach[1].to_degrees()
+            ),
+            Self::PinMeetsPivot { length } => write!(
+                f,
+                "it is as long as the distance of the pivots, {length} m, so its pin passes through the rocker's pivot at φ = \
+                 180°; make it shorter for a rocker that swings, or longer for one that turns"
+            ),
+            Self::TooShort {
+                link,
+                phi,
+                shortest,
+            } => write!(
+                f,
+                "the {link} no longer reaches the guide at φ = {:.2}°; make it longer than {shortest:.6} m",
+                phi.to_degrees()
+            ),
+        }
+    }
+}
+
+impl From<Blocked> for Error {
+    fn from(blocked: Blocked) -> Self {
+        Self::Blocked(blocked)
+    }
+}

@@ -1,0 +1,273 @@
+//! The disc cam with a translating or oscillating follower, whose motion s(φ) is given.
+//!
+//! The cam turns about O = (0, 0); in the follower's lowest position, s = 0, roller or face touch the base circle r_b.
+//!
+//! ```text
+//! translating, roller    B = (e, √((r_b + r_r)² − e²) + s)                     e: offset of the guide
+//! translating, face      y = r_b + s                                           touches at x = s′
+//! oscillating, roller    B = A + l·(cos ψ, sin ψ)    ψ = δ ± (γ₀ + s)          cos γ₀ = (d² + l² − (r_b + r_r)²)/(2·d·l)
+//! oscillating, face      line through A, h nearer    ψ = δ ± (γ₀ + s)          sin γ₀ = (r_b + h)/d
+//! ```
+//!
+//! d and δ are length and direction of the line from the follower's pivot A to O; the sign is that of the swing.
+
+mod check;
+mod follower;
+mod geometry;
+mod spin;
+
+pub use follower::{Follower, Roller, Swing};
+
+use core::f64::consts::FRAC_PI_2;
+
+use super::{Frames, Jointed, Mechanism};
+use crate::cam::{Extreme, Program};
+use crate::element::Element;
+use crate::error::{finite, not_negative, positive};
+use crate::joint::{Body, Joint, Joints, Marker};
+use crate::link::{Frame, Link};
+use crate::transfer::Transfer;
+use crate::{Domain, Error, math};
+use geometry::{Geometry, Touch};
+use spin::Spin;
+
+/// A disc cam, driven at the cam, with its follower.
+///
+/// Links: [`CAM`](Self::CAM) (frame at O, turned by φ), [`FOLLOWER`](Self::FOLLOWER) (translating: frame at the roller's
+/// centre, or where the guide's axis meets the face, parallel to the global axes; oscillating: at the pivot A, u along the
+/// arm to the roller's centre, or along the face), and with a roller [`ROLLER`](Self::ROLLER) (frame at its centre; it
+/// rolls on the cam without slip).
+///
+/// Accuracy: the drive torque that follows from the point and the normal of contact is that of the reduced equation to
+/// 1e-10 (test `dalembert_proves_the_normal`); the roller touches the profile to 1e-12 of its radius (test
+/// `roller_touches_the_profile_all_round`).
+#[derive(Clone, Debug, PartialEq)]
+pub struct DiscCam {
+    program: Program,
+    geometry: Geometry,
+    base_radius: f64,
+    spin: Option<Spin>,
+    links: heapless::Vec<Link, 3>,
+}
+
+/// Where and how cam and follower touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CamContact {
+    /// Point of contact, global (m).
+    pub point: [f64; 2],
+    /// Unit normal from the cam to the follower, global.
+    pub normal: [f64; 2],
+    /// Pressure angle (rad): from the direction in which the follower rises to the normal, counter-clockwise positive.
+    pub pressure_angle: f64,
+    /// Curvature of the profile (1/m): positive where it is convex, the reciprocal of its radius.
+    pub curvature: f64,
+}
+
+impl DiscCam {
+    /// Index of the cam.
+    pub const CAM: usize = 0;
+    /// Index of the follower.
+    pub const FOLLOWER: usize = 1;
+    /// Index of the roller, if the follower has one.
+    pub const ROLLER: usize = 2;
+    /// Index of the joint in which cam and follower press on each other, for
+    /// [`contact_force`](crate::cam::contact_force) and [`lift_off`](crate::cam::lift_off).
+    pub const CONTACT: usize = 2;
+
+    /// A cam with the base radius r_b (m) that moves the follower by the program; `links` are cam and follower, without
+    /// its roller.
+    ///
+    /// # Errors
+    /// Dimensions that are not finite or not positive; a follower that cannot be placed on the base circle, or goes out of
+    /// its range; undercut, with the smallest base radius that cures it. A steep pressure angle is no error:
+    /// [`pressure_angles`](Self::pressure_angles). That distant parts of a profile cut each other is not looked for; with a
+    /// curvature that fits everywhere it takes a deep hollow and a large roller.
+    pub fn new(
+        program: Program,
+        base_radius: f64,
+        follower: Follower,
+        links: [Link; 2],
+    ) -> Result<Self, Error> {
+        let base_radius = positive("base radius", base_radius)?;
+        follower.check()?;
+        let geometry = check::checked(&program, follower, base_radius)?;
+        let roller = follower.roller();
+        Ok(Self {
+            spin: roller.map(|_| Spin::new(&program, &geometry)),
+            links: links.into_iter().chain(roller.map(Roller::link)).collect(),
+            program,
+            geometry,
+            base_radius,
+        })
+    }
+
+    /// The cam program.
+    pub const fn program(&self) -> &Program {
+        &self.program
+    }
+
+    /// The follower.
+    pub const fn follower(&self) -> &Follower {
+        &self.geometry.follower
+    }
+
+    /// Base radius (m).
+    pub const fn base_radius(&self) -> f64 {
+        self.base_radius
+    }
+
+    /// Where and how cam and follower touch at `phi` (rad).
+    #[must_use]
+    pub fn contact(&self, phi: f64) -> CamContact {
+        let touch = self.touch(phi);
+        CamContact {
+            point: touch.point,
+            normal: touch.normal,
+            pressure_angle: touch.pressure_angle,
+            curvature: touch.curvature,
+        }
+    }
+
+    /// The point [u, v] (m) of the profile, in the cam's frame, that touches the follower at `phi`. Over a turn they run
+    /// round the cam clockwise; the distances between points of equal steps of φ vary.
+    #[must_use]
+    pub fn profile(&self, phi: f64) -> [f64; 2] {
+        self.equidistant(phi, 0.0)
+    }
+
+    /// The point of the pitch curve, in the cam's frame: where the roller's centre is at `phi`. For a face the profile.
+    #[must_use]
+    pub fn pitch_curve(&self, phi: f64) -> [f64; 2] {
+        self.equidistant(phi, self.geometry.follower.roller_radius())
+    }
+
+    /// The point at `distance` (m) outside the profile, along its normal, in the cam's frame: the path of the centre of a
+    /// milling cutter or grinding wheel of this radius.
+    #[must_use]
+    pub fn equidistant(&self, phi: f64, distance: f64) -> [f64; 2] {
+        let Touch { point, normal, .. } = self.touch(phi);
+        let (sin, cos) = math::sin_cos(phi);
+        let [x, y] = [
+            point[0] + distance * normal[0],
+            point[1] + distance * normal[1],
+        ];
+        [cos * x + sin * y, cos * y - sin * x]
+    }
+
+    /// The smallest and the largest pressure angle (rad), with sign, and where they occur. Customary limits of the size
+    /// are 30° for translating and 45° for oscillating followers.
+    #[must_use]
+    pub fn pressure_angles(&self) -> [Extreme; 2] {
+        check::pressure_angles(&self.program, &self.geometry)
+    }
+
+    /// The smallest and the largest curvature of the profile (1/m). The reciprocal of the largest is the smallest radius
+    /// of a convex part; if the smallest is negative, its reciprocal is the radius of the sharpest hollow, which a grinding
+    /// wheel must be smaller than.
+    #[must_use]
+    pub fn curvatures(&self) -> [Extreme; 2] {
+        check::curvatures(&self.program, &self.geometry)
+    }
+
+    /// A spring that presses the follower on the cam with `preload` in its lowest position, s = 0, and `stiffness`·s more
+    /// above it. Translating: a compression spring on the guide's axis (N, N/m). Oscillating: a torsion spring about the
+    /// pivot (N·m, N·m/rad).
+    ///
+    /// # Errors
+    /// A stiffness that is not positive, a preload that is negative.
+    pub fn closing_spring(&self, stiffness: f64, preload: f64) -> Result<Element, Error> {
+        let stiffness = positive("spring stiffness", stiffness)?;
+        let squeeze = not_negative("preload of the spring", preload)? / stiffness;
+        let rest = self.geometry.frame(Transfer::constant(0.0));
+        let on_follower = Marker::on(Self::FOLLOWER, [0.0, 0.0]);
+        match self.geometry.follower.pivot() {
+            None => {
+                // Any seat beyond the highest position does: only the change of length counts.
+                let length = 2.0 * self.program.range()[1].value + self.base_radius;
+                let seat = [rest.x.value, rest.y.value + length];
+                Element::spring(
+                    [Marker::ground(seat), on_follower],
+                    stiffness,
+                    length + squeeze,
+                )
+            }
+            Some((pivot, swing)) => Element::torsion_spring(
+                [Marker::ground(pivot), on_follower],
+                stiffness,
+                rest.psi.value - swing.sign() * squeeze,
+            ),
+        }
+    }
+
+    fn touch(&self, phi: f64) -> Touch {
+        self.geometry.touch(self.program.displacement(phi))
+    }
+}
+
+impl Jointed for DiscCam {
+    /// Cam pivot: ground and cam; guide or pivot: ground and follower; contact: cam and roller, or follower; with a
+    /// roller its pin: follower and roller; and rolling: cam and roller, the friction along the profile that turns the
+    /// roller.
+    fn joints(&self, phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+        let touch = self.touch(phi);
+        let origin = [0.0, 0.0];
+        let on_follower = Marker::on(Self::FOLLOWER, origin);
+        let guide = match self.geometry.follower {
+            Follower::TranslatingRoller { offset, .. } | Follower::TranslatingFace { offset } => {
+                Joint::Prismatic([
+                    Marker::ground([offset, 0.0]).with_angle(FRAC_PI_2),
+                    on_follower.with_angle(FRAC_PI_2),
+                ])
+            }
+            Follower::OscillatingRoller { pivot, .. } | Follower::OscillatingFace { pivot, .. } => {
+                Joint::Revolute([Marker::ground(pivot), on_follower])
+            }
+        };
+        let touching = if self.spin.is_some() {
+            Self::ROLLER
+        } else {
+            Self::FOLLOWER
+        };
+        let bodies = [Body::Link(Self::CAM), Body::Link(touching)];
+        let mut joints = Joints::from_iter([
+            Joint::Revolute([Marker::ground(origin), Marker::on(Self::CAM, origin)]),
+            guide,
+            Joint::contact(bodies, touch.point, touch.normal),
+        ]);
+        if self.spin.is_some() {
+            let along = [touch.normal[1], -touch.normal[0]];
+            joints.extend([
+                Joint::Revolute([
+                    Marker::on(Self::FOLLOWER, self.geometry.roller_at()),
+                    Marker::on(Self::ROLLER, origin),
+                ]),
+                Joint::contact(bodies, touch.point, along),
+            ]);
+        }
+        Ok(joints)
+    }
+}
+
+impl Mechanism for DiscCam {
+    fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    fn domain(&self) -> Domain {
+        Domain::Turn
+    }
+
+    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+        let angle = Transfer::variable(finite("cam angle", phi)?);
+        let s = self.program.displacement(phi);
+        let cam = Frame::turning([0.0, 0.0], angle);
+        let follower = self.geometry.frame(s);
+        let roller = self.spin.as_ref().map(|spin| {
+            let pitch_speed = self.geometry.touch(s).pitch_speed;
+            let angle = spin.angle(&self.program, &self.geometry, phi, pitch_speed);
+            Frame::turned(follower.point(self.geometry.roller_at()), angle)
+        });
+        Ok([cam, follower].into_iter().chain(roller).collect())
+    }
+}

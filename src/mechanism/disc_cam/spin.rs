@@ -1,0 +1,91 @@
+//! The turning of a roller that rolls on the cam.
+//!
+//! Without slip the roller's rim has at the point of contact the velocity of the cam. Against the cam its centre goes
+//! along the pitch curve with |w| (see the geometry), so that
+//!
+//! ```text
+//! ψ_r = φ − L(φ)/r_r        ψ_r′ = 1 − |w|/r_r        L: length of the pitch curve from φ = 0
+//! ```
+//!
+//! The transfer functions are exact. The angle itself, which nothing depends on as the roller is round and balanced, is
+//! integrated by Gauss's formula piece by piece.
+
+use core::f64::consts::TAU;
+
+use super::geometry::Geometry;
+use crate::cam::{MAX_SEGMENTS, Program};
+use crate::math;
+use crate::transfer::Transfer;
+
+/// A segment has at most five pieces.
+const MAX_PIECES: usize = 5 * MAX_SEGMENTS;
+
+/// Panels of a piece, each with five nodes.
+const PANELS: u32 = 8;
+
+/// Nodes and weights of Gauss's formula of order 10 on [−1, 1].
+const NODES: [[f64; 2]; 5] = [
+    [-0.906_179_845_938_664, 0.236_926_885_056_189_1],
+    [-0.538_469_310_105_683_1, 0.478_628_670_499_366_5],
+    [0.0, 0.568_888_888_888_888_9],
+    [0.538_469_310_105_683_1, 0.478_628_670_499_366_5],
+    [0.906_179_845_938_664, 0.236_926_885_056_189_1],
+];
+
+/// The length of the pitch curve up to each piece.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Spin {
+    /// φ and L at the start of each piece.
+    starts: heapless::Vec<[f64; 2], MAX_PIECES>,
+    /// Length of the whole curve (m).
+    turn: f64,
+}
+
+impl Spin {
+    pub(super) fn new(program: &Program, geometry: &Geometry) -> Self {
+        let mut starts = heapless::Vec::new();
+        let mut turn = 0.0;
+        for piece in program.pieces() {
+            // Cannot fail: a segment has at most five pieces.
+            let _ = starts.push([piece.from, turn]);
+            turn += length(program, geometry, piece.from, piece.to);
+        }
+        Self { starts, turn }
+    }
+
+    /// ψ_r at `phi`, where the pitch curve is run along with `pitch_speed`.
+    pub(super) fn angle(
+        &self,
+        program: &Program,
+        geometry: &Geometry,
+        phi: f64,
+        pitch_speed: Transfer,
+    ) -> Transfer {
+        let radius = geometry.follower.roller_radius();
+        let turns = math::floor(phi / TAU);
+        let into = phi - TAU * turns;
+        let at = self.starts.partition_point(|[from, _]| *from <= into);
+        let [from, before] = self.starts.get(at.max(1) - 1).copied().unwrap_or_default();
+        let along = turns * self.turn + before + length(program, geometry, from, into);
+        Transfer {
+            value: phi - along / radius,
+            d1: 1.0 - pitch_speed.value / radius,
+            d2: -pitch_speed.d1 / radius,
+            d3: -pitch_speed.d2 / radius,
+        }
+    }
+}
+
+/// Length of the pitch curve from `from` to `to`, within one piece.
+fn length(program: &Program, geometry: &Geometry, from: f64, to: f64) -> f64 {
+    let half = 0.5 * (to - from) / f64::from(PANELS);
+    let mut sum = 0.0;
+    for panel in 0..PANELS {
+        let middle = from + half * f64::from(2 * panel + 1);
+        for [node, weight] in NODES {
+            let s = program.displacement(middle + half * node);
+            sum += weight * geometry.touch(s).pitch_speed.value;
+        }
+    }
+    sum * half
+}

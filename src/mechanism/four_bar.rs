@@ -1,0 +1,401 @@
+//! The four-bar linkage in closed form.
+//!
+//! Crank pivot O = (0, 0), crank pin A = a·(cos φ, sin φ), rocker pivot C anywhere, coupler AB = b, rocker CB = c, ground
+//! d = |OC|. With f = |AC| the pin B is where the circles about A and C meet:
+//!
+//! ```text
+//! f² = a² + d² − 2·a·d·cos(φ − γ)       γ: direction of OC
+//! AB = (p·AC ± q·AC⊥)/f²       p = (f² + b² − c²)/2       4·q² = ((b + c)² − f²)·(f² − (b − c)²)
+//! ```
+//!
+//! The upper sign is [`Side::Left`]: B to the left of the directed line from A to C.
+//!
+//! The crank turns fully if a + d < b + c and |a − d| > |b − c| (see [`Grashof`]). Over a part of the turn it may be driven
+//! as long as it meets no dead point, f = b + c or f = |b − c|, where coupler and rocker are stretched or folded.
+
+use core::f64::consts::{PI, TAU};
+
+use super::dyad;
+use super::{Blocked, Frames, Grashof, Jointed, Mechanism, Side};
+use crate::error::{finite, positive};
+use crate::joint::{Joint, Joints, Marker};
+use crate::link::{Frame, Link};
+use crate::transfer::Transfer;
+use crate::{Domain, Error, math};
+
+/// Distance kept from a dead point, as a share of b + c, so that no position within the range fails by a rounding.
+const HAIR: f64 = 1e-12;
+
+/// A four-bar linkage driven at the crank.
+///
+/// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`COUPLER`](Self::COUPLER) (frame at A along AB),
+/// [`ROCKER`](Self::ROCKER) (frame at C along CB). Angles are continuous in φ over any number of turns; at φ = 0 (at the
+/// start of a stroke) those of coupler and rocker lie in (−π, π].
+///
+/// Accuracy: positions and transfer functions agree with 50-digit golden data to 1e-12, the reduction to 1e-11 of the
+/// column's largest value (test `four_bar_golden`); joint reactions to 1e-10 (test `four_bar_reactions_golden`).
+#[derive(Clone, Debug, PartialEq)]
+pub struct FourBar {
+    crank: f64,
+    coupler: f64,
+    rocker: f64,
+    pivot: [f64; 2],
+    ground: f64,
+    side: Side,
+    domain: Domain,
+    /// Added to the angles of coupler and rocker.
+    turns: [f64; 2],
+    links: [Link; 3],
+}
+
+impl FourBar {
+    /// Index of the crank.
+    pub const CRANK: usize = 0;
+    /// Index of the coupler.
+    pub const COUPLER: usize = 1;
+    /// Index of the rocker.
+    pub const ROCKER: usize = 2;
+
+    /// A four-bar whose crank turns fully: crank-rocker or double-crank (drag link). `lengths` of crank a, coupler b and
+    /// rocker c (m), `pivot` C of the rocker (m), the `side` of AC on which B lies, and the links crank, coupler, rocker.
+    ///
+    /// # Errors
+    /// A length that is not positive; C at O; a link longer than the other three together; a crank that cannot turn
+    /// fully, with the reason and the angles that it reaches.
+    pub fn new(
+        lengths: [f64; 3],
+        pivot: [f64; 2],
+        side: Side,
+        links: [Link; 3],
+    ) -> Result<Self, Error> {
+        let bare = Self::bare(lengths, pivot, side, links)?;
+        let [folded, stretched] = bare.reach();
+        let (a, d) = (bare.crank, bare.ground);
+        if a + d >= stretched || math::abs(a - d) <= folded {
+            return Err(Blocked::FourBar {
+                lengths: bare.lengths(),
+                reach: bare.crank_range(),
+            }
+            .into());
+        }
+        bare.with_angles_from(0.0)
+    }
+
+    /// A four-bar whose crank swings over a `stroke` `[from, to]` (rad) only: any lengths that can be assembled, as long as
+    /// no dead point lies in the stroke. The rest as for [`new`](Self::new).
+    ///
+    /// # Errors
+    /// A length that is not positive; C at O; a link longer than the other three together; a stroke that is empty; a
+    /// start where coupler and rocker do not meet; a dead point in the stroke, with its angle.
+    pub fn over_stroke(
+        lengths: [f64; 3],
+        pivot: [f64; 2],
+        side: Side,
+        stroke: [f64; 2],
+        links: [Link; 3],
+    ) -> Result<Self, Error> {
+        let [from, to] = stroke;
+        let mut four_bar = Self::bare(lengths, pivot, side, links)?;
+        four_bar.domain = Domain::stroke(from, to)?;
+        let [folded, stretched] = four_bar.reach();
+        let (phi, joint, span) = (from, 2, four_bar.span(from));
+        let gap = (span - stretched).max(folded - span);
+        if gap > 2.0 * HAIR * stretched {
+            return Err(Error::CannotAssemble { phi, joint, gap });
+        }
+        if gap >= 0.0 {
+            return Err(Error::DeadPoint { phi, joint });
+        }
+        // The first place from the start on with |AC| equal to one of two lengths.
+        let first = |spans: [f64; 2]| {
+            let places = spans.into_iter().filter_map(|span| four_bar.crank_angle_of(span));
+            places
+                .flatten()
+                .map(|phi| from + beyond(phi - from))
+                .fold(f64::INFINITY, f64::min)
+        };
+        if first([folded, stretched]) <= to {
+            let phi = first(four_bar.limits());
+            return Err(Error::DeadPoint { phi, joint });
+        }
+        four_bar.with_angles_from(from)
+    }
+
+    fn bare(
+        lengths: [f64; 3],
+        pivot: [f64; 2],
+        side: Side,
+        links: [Link; 3],
+    ) -> Result<Self, Error> {
+        let [x, y] = [finite("rocker pivot x", pivot[0])?, finite("rocker pivot y", pivot[1])?];
+        let bare = Self {
+            crank: positive("crank length", lengths[0])?,
+            coupler: positive("coupler length", lengths[1])?,
+            rocker: positive("rocker length", lengths[2])?,
+            pivot,
+            ground: positive("distance of the pivots", math::sqrt(x * x + y * y))?,
+            side,
+            domain: Domain::Turn,
+            turns: [0.0; 2],
+            links,
+        };
+        let names = [
+            "crank length (the sum of the other three)",
+            "coupler length (the sum of the other three)",
+            "rocker length (the sum of the other three)",
+            "distance of the pivots (the sum of the other three)",
+        ];
+        let all = bare.lengths();
+        let sum: f64 = all.iter().sum();
+        for (what, value) in names.into_iter().zip(all) {
+            if value >= sum - value {
+                let max = sum - value;
+                let min = 0.0;
+                return Err(Error::OutOfRange { what, value, min, max });
+            }
+        }
+        Ok(bare)
+    }
+
+    /// Fixes the whole turns of the angles: within (−π, π] at `phi`.
+    fn with_angles_from(mut self, phi: f64) -> Result<Self, Error> {
+        let [_, coupler, rocker] = self.place(phi)?;
+        self.turns = [coupler, rocker]
+            .map(|frame| math::floor(0.5 - frame.psi.value / TAU) * TAU);
+        Ok(self)
+    }
+
+    /// Lengths of crank, coupler, rocker and ground (m).
+    pub const fn lengths(&self) -> [f64; 4] {
+        [self.crank, self.coupler, self.rocker, self.ground]
+    }
+
+    /// The rocker's pivot C (m).
+    pub const fn pivot(&self) -> [f64; 2] {
+        self.pivot
+    }
+
+    /// On which side of AC the pin B lies.
+    pub const fn side(&self) -> Side {
+        self.side
+    }
+
+    /// Which links turn fully.
+    #[must_use]
+    pub fn grashof(&self) -> Grashof {
+        Grashof::of(self.lengths())
+    }
+
+    /// Transmission angle μ (rad) between coupler and rocker at B, 0 to π, with its derivatives by φ:
+    ///
+    /// ```text
+    /// cos μ = (b² + c² − f²)/(2·b·c)
+    /// ```
+    ///
+    /// The rocker is pushed best at 90° and not at all at 0° and 180°. Rule of thumb (H. Alt, 1932): not below 40° and not
+    /// above 140°.
+    ///
+    /// # Errors
+    /// No position at `phi`.
+    pub fn transmission_angle(&self, phi: f64) -> Result<Transfer, Error> {
+        let [_, coupler, rocker] = self.place(phi)?;
+        let turned = rocker.psi - coupler.psi;
+        // From BA to BC as from AB to CB; which way round depends on the side.
+        let angle = turned * self.side.sign();
+        let whole = math::floor(angle.value / TAU) * TAU;
+        Ok(angle - Transfer::constant(whole))
+    }
+
+    /// Smallest and largest transmission angle (rad) over the crank's range.
+    #[must_use]
+    pub fn transmission_angle_range(&self) -> [f64; 2] {
+        let (b, c) = (self.coupler, self.rocker);
+        let angle = |span: f64| math::acos((b * b + c * c - span * span) / (2.0 * b * c));
+        self.span_range().map(angle)
+    }
+
+    /// Smallest and largest f = |AC| (m) over the crank's range: at its ends, and where O, A and C are in line.
+    fn span_range(&self) -> [f64; 2] {
+        let (near, far) = (math::abs(self.ground - self.crank), self.ground + self.crank);
+        let Domain::Stroke { from, to } = self.domain else {
+            return [near, far];
+        };
+        let ends = [self.span(from), self.span(to)];
+        let inside = |phi: f64| from + beyond(phi - from) <= to;
+        let gamma = self.ground_angle();
+        [
+            if inside(gamma) { near } else { ends[0].min(ends[1]) },
+            if inside(gamma + PI) { far } else { ends[0].max(ends[1]) },
+        ]
+    }
+
+    /// The crank angles (rad, 0 to 2π) at which the rocker reverses: crank and coupler stretched, and folded. None if the
+    /// rocker turns fully, or over a stroke.
+    #[must_use]
+    pub fn rocker_dead_centres(&self) -> Option<[f64; 2]> {
+        if self.domain != Domain::Turn || self.grashof() != Grashof::CrankRocker {
+            return None;
+        }
+        let [x, y] = self.pivot;
+        let towards = |span: f64| {
+            // Triangle O, C, B with OB = span, B on its side of OC.
+            let d = self.ground * self.ground;
+            let p = 0.5 * (d + span * span - self.rocker * self.rocker);
+            let q = math::sqrt((d * span * span - p * p).max(0.0)) * self.side.sign();
+            math::atan2(p * y + q * x, p * x - q * y)
+        };
+        let stretched = towards(self.coupler + self.crank);
+        let folded = towards(self.coupler - self.crank) + PI;
+        Some([beyond(stretched), beyond(folded)])
+    }
+
+    /// The crank angles (rad, 0 to 2π) at which the rocker stands at the angle `psi` (rad): none, one or two.
+    #[must_use]
+    pub fn crank_angles(&self, psi: f64) -> heapless::Vec<f64, 2> {
+        let (sin, cos) = math::sin_cos(psi);
+        let b = [
+            self.pivot[0] + self.rocker * cos,
+            self.pivot[1] + self.rocker * sin,
+        ];
+        let square = b[0] * b[0] + b[1] * b[1];
+        let p = 0.5 * (square + self.crank * self.crank - self.coupler * self.coupler);
+        let under_root = square * self.crank * self.crank - p * p;
+        let mut found = heapless::Vec::new();
+        if square <= 0.0 || under_root < 0.0 {
+            return found;
+        }
+        let root = math::sqrt(under_root);
+        for q in [root, -root] {
+            let a = [(p * b[0] - q * b[1]) / square, (p * b[1] + q * b[0]) / square];
+            let (to_c, to_b) = (
+                [self.pivot[0] - a[0], self.pivot[1] - a[1]],
+                [b[0] - a[0], b[1] - a[1]],
+            );
+            let left = to_c[0] * to_b[1] - to_c[1] * to_b[0];
+            if left * self.side.sign() > 0.0 {
+                // Cannot fail: at most two.
+                let _ = found.push(beyond(math::atan2(a[1], a[0])));
+            }
+        }
+        found
+    }
+
+    /// f at the dead points: coupler and rocker folded, and stretched.
+    fn limits(&self) -> [f64; 2] {
+        let (b, c) = (self.coupler, self.rocker);
+        [math::abs(b - c), b + c]
+    }
+
+    /// f between which coupler and rocker can move, kept off the dead points by a hair.
+    fn reach(&self) -> [f64; 2] {
+        let [folded, stretched] = self.limits();
+        let hair = HAIR * stretched;
+        [folded + hair, stretched - hair]
+    }
+
+    /// f = |AC| at a crank angle.
+    fn span(&self, phi: f64) -> f64 {
+        let (sin, cos) = math::sin_cos(phi);
+        let (x, y) = (
+            self.pivot[0] - self.crank * cos,
+            self.pivot[1] - self.crank * sin,
+        );
+        math::sqrt(x * x + y * y)
+    }
+
+    /// Direction γ of OC.
+    fn ground_angle(&self) -> f64 {
+        math::atan2(self.pivot[1], self.pivot[0])
+    }
+
+    /// The crank angles γ ∓ θ at which |AC| is `span`, if there are any.
+    fn crank_angle_of(&self, span: f64) -> Option<[f64; 2]> {
+        let (a, d) = (self.crank, self.ground);
+        let cos = (a * a + d * d - span * span) / (2.0 * a * d);
+        // A linkage that flattens is there at cos = ±1, give or take a rounding.
+        (math::abs(cos) <= 1.0 + HAIR).then(|| {
+            let (gamma, theta) = (self.ground_angle(), math::acos(cos.clamp(-1.0, 1.0)));
+            [gamma - theta, gamma + theta]
+        })
+    }
+
+    /// The crank angles [from, to] between which a linkage that cannot turn moves; where it has two such ranges, mirror
+    /// images at the ground line, the one to the left of OC.
+    fn crank_range(&self) -> [f64; 2] {
+        let [folded, stretched] = self.limits().map(|span| self.crank_angle_of(span));
+        let gamma = self.ground_angle();
+        match (folded, stretched) {
+            (None, None) => [gamma, gamma + TAU],
+            (None, Some(stretched)) => stretched,
+            (Some([below, above]), None) => [above, below + TAU],
+            (Some([_, folded]), Some([_, stretched])) => [folded, stretched],
+        }
+    }
+
+    /// Crank, coupler and rocker, the angles continuous in φ.
+    fn place(&self, phi: f64) -> Result<[Frame; 3], Error> {
+        let angle = Transfer::variable(finite("crank angle", phi)?);
+        let crank = Frame::turning([0.0, 0.0], angle);
+        let a = crank.point([self.crank, 0.0]);
+        let c = self.pivot.map(Transfer::constant);
+        let lengths = [self.coupler, self.rocker];
+        let [coupler, rocker] =
+            dyad::pinned(a, c, lengths, self.side).ok_or(Error::DeadPoint { phi, joint: 2 })?;
+        // The direction of AC stays within a quarter turn of OC's (a ≤ d) or of AO's (a > d); coupler and rocker stay on
+        // one side of AC. So their angles follow without a jump.
+        let base = if self.crank > self.ground {
+            phi + PI
+        } else {
+            self.ground_angle()
+        };
+        let (sin, cos) = math::sin_cos(base);
+        let (x, y) = (c[0].value - a[0].value, c[1].value - a[1].value);
+        let line = base + math::atan2(cos * y - sin * x, cos * x + sin * y);
+        let quarter = 0.5 * PI * self.side.sign();
+        Ok([
+            crank,
+            coupler.unwrapped(line + quarter + self.turns[0]),
+            rocker.unwrapped(line + PI - quarter + self.turns[1]),
+        ])
+    }
+}
+
+/// The angle that is equal to `angle` but for whole turns and lies in [0, 2π).
+pub(super) fn beyond(angle: f64) -> f64 {
+    let rest = angle - math::floor(angle / TAU) * TAU;
+    if rest < TAU { rest } else { 0.0 }
+}
+
+impl Jointed for FourBar {
+    /// O: ground and crank; A: crank and coupler; B: coupler and rocker; C: ground and rocker.
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+        let origin = [0.0, 0.0];
+        let pin = |first, second| Joint::Revolute([first, second]);
+        Ok(Joints::from_iter([
+            pin(Marker::ground(origin), Marker::on(Self::CRANK, origin)),
+            pin(
+                Marker::on(Self::CRANK, [self.crank, 0.0]),
+                Marker::on(Self::COUPLER, origin),
+            ),
+            pin(
+                Marker::on(Self::COUPLER, [self.coupler, 0.0]),
+                Marker::on(Self::ROCKER, [self.rocker, 0.0]),
+            ),
+            pin(Marker::ground(self.pivot), Marker::on(Self::ROCKER, origin)),
+        ]))
+    }
+}
+
+impl Mechanism for FourBar {
+    fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    fn domain(&self) -> Domain {
+        self.domain
+    }
+
+    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+        Ok(Frames::from_iter(self.place(phi)?))
+    }
+}

@@ -1,0 +1,178 @@
+//! The hoist in closed form: a drum (or traction sheave) with a load and, if wanted, a counterweight on ropes.
+//!
+//! Drum axis O = (0, 0). The load's rope leaves the drum at (R₁, 0), the counterweight's at (−R₂, 0), and both are vertical, along
+//! y. A load that hangs from n falls of a rope (a tackle) rises by R·φ/n:
+//!
+//! ```text
+//! y₁ = R₁·φ/n₁        y₂ = −R₂·φ/n₂
+//! J_red = J₀ + m₁·(R₁/n₁)² + m₂·(R₂/n₂)²        U′ = g·(m₁·R₁/n₁ − m₂·R₂/n₂), the drum balanced, gravity along −y
+//! ```
+//!
+//! The load does not come back after a turn, but J, U′ and every force repeat, so the drive link's range is a turn; U itself
+//! grows with every turn. The ropes are taken as light, inextensible and taut, always on the same radius: the weight of
+//! long ropes, and the layers of a drum that winds in a spiral, change with the height and are not in this mechanism.
+//!
+//! Lifting drums with and without a counterweight are worked examples of reduction in any course of machine dynamics,
+//! the belt over pulleys of Nazarenko, *Dynamics of mechanisms* (2002), (5.9)-(5.16) among them.
+
+use super::{Frames, Jointed, Mechanism};
+use crate::error::{finite, positive};
+use crate::joint::{Body, Joint, Joints, Marker, Wrench};
+use crate::link::{Frame, Link};
+use crate::transfer::Transfer;
+use crate::{Domain, Error};
+
+/// One rope of a hoist: where it runs on the drum, and by how many falls it carries its load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Rope {
+    radius: f64,
+    falls: u32,
+}
+
+impl Rope {
+    /// Most falls of a tackle.
+    pub const MAX_FALLS: u32 = 24;
+
+    /// A rope at the `radius` R of the drum (m, to the rope's centre line) whose load hangs from `falls` n.
+    ///
+    /// # Errors
+    /// A radius that is not positive; falls outside 1 to [`MAX_FALLS`](Self::MAX_FALLS).
+    pub fn new(radius: f64, falls: u32) -> Result<Self, Error> {
+        let radius = positive("drum radius", radius)?;
+        if !(1..=Self::MAX_FALLS).contains(&falls) {
+            return Err(Error::OutOfRange {
+                what: "number of falls",
+                value: f64::from(falls),
+                min: 1.0,
+                max: f64::from(Self::MAX_FALLS),
+            });
+        }
+        Ok(Self { radius, falls })
+    }
+
+    /// Radius R (m).
+    pub const fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Number of falls n.
+    pub const fn falls(&self) -> u32 {
+        self.falls
+    }
+
+    /// R/n: travel of the load over angle of the drum (m/rad).
+    #[must_use]
+    pub fn transmission(&self) -> f64 {
+        self.radius / f64::from(self.falls)
+    }
+}
+
+/// A hoist, driven at the drum. φ > 0 lifts the load.
+///
+/// Links: [`DRUM`](Self::DRUM) (frame at O, u along +x at φ = 0), [`LOAD`](Self::LOAD) (with hook and lower block, frame on
+/// its rope, parallel to the global axes, at y = 0 for φ = 0) and, if there is one, [`COUNTERWEIGHT`](Self::COUNTERWEIGHT)
+/// (likewise).
+///
+/// The inertia of a tackle's sheaves is not in the links: sheave number k from the rope's fixed end, of n − 1, turns by
+/// k·R/(n·r) for each radian of the drum, r its radius; J·(k·R/(n·r))² belongs to the flywheel.
+///
+/// Accuracy: 1e-13 (test `hoist_textbook`).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hoist {
+    ropes: heapless::Vec<Rope, 2>,
+    links: heapless::Vec<Link, 3>,
+}
+
+impl Hoist {
+    /// Index of the drum.
+    pub const DRUM: usize = 0;
+    /// Index of the load.
+    pub const LOAD: usize = 1;
+    /// Index of the counterweight, if there is one.
+    pub const COUNTERWEIGHT: usize = 2;
+
+    /// A hoist of a `drum` with a load on its rope and no counterweight.
+    #[must_use]
+    pub fn new(drum: Link, load: (Rope, Link)) -> Self {
+        Self {
+            ropes: heapless::Vec::from_iter([load.0]),
+            links: heapless::Vec::from_iter([drum, load.1]),
+        }
+    }
+
+    /// A hoist of a `drum` with a load and a counterweight, each on its rope: an elevator, a differential drum.
+    #[must_use]
+    pub fn with_counterweight(drum: Link, load: (Rope, Link), counterweight: (Rope, Link)) -> Self {
+        Self {
+            ropes: heapless::Vec::from_iter([load.0, counterweight.0]),
+            links: heapless::Vec::from_iter([drum, load.1, counterweight.1]),
+        }
+    }
+
+    /// The ropes of the load and the counterweight.
+    pub fn ropes(&self) -> &[Rope] {
+        &self.ropes
+    }
+
+    /// Which side of the drum the rope number `index` runs on: +1 for the load, which φ > 0 lifts, −1 for the
+    /// counterweight.
+    const fn side(index: usize) -> f64 {
+        if index == 0 { 1.0 } else { -1.0 }
+    }
+}
+
+impl Jointed for Hoist {
+    /// O: ground and drum; the guide of the load and that of the counterweight; the rope of the load and that of the
+    /// counterweight. A rope's force is that with which it pulls the drum down where it leaves it, so a negative y component
+    /// is a taut rope; its load hangs from n times as much.
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+        let bearing = Joint::Revolute([
+            Marker::ground([0.0, 0.0]),
+            Marker::on(Self::DRUM, [0.0, 0.0]),
+        ]);
+        let along_y = core::f64::consts::FRAC_PI_2;
+        let guide = |(k, rope): (usize, &Rope)| {
+            Joint::Prismatic([
+                Marker::ground([Self::side(k) * rope.radius, 0.0]).with_angle(along_y),
+                Marker::on(k + 1, [0.0, 0.0]).with_angle(along_y),
+            ])
+        };
+        let tension = |(k, rope): (usize, &Rope)| {
+            let at = [Self::side(k) * rope.radius, 0.0];
+            Joint::Transmission([
+                Wrench::force(Body::Link(k + 1), at, [0.0, f64::from(rope.falls)]),
+                Wrench::force(Body::Link(Self::DRUM), at, [0.0, -1.0]),
+            ])
+        };
+        let ropes = || self.ropes.iter().enumerate();
+        let guides = ropes().map(guide);
+        Ok(core::iter::once(bearing)
+            .chain(guides)
+            .chain(ropes().map(tension))
+            .collect())
+    }
+}
+
+impl Mechanism for Hoist {
+    fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    fn domain(&self) -> Domain {
+        Domain::Turn
+    }
+
+    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+        let angle = Transfer::variable(finite("drum angle", phi)?);
+        let drum = Frame::turning([0.0, 0.0], angle);
+        let hanging = self.ropes.iter().enumerate().map(|(k, rope)| {
+            let side = Self::side(k);
+            Frame::translating([
+                Transfer::constant(side * rope.radius),
+                angle * (side * rope.transmission()),
+            ])
+        });
+        Ok(core::iter::once(drum).chain(hanging).collect())
+    }
+}

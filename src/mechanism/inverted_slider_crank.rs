@@ -1,0 +1,217 @@
+//! The inverted slider-crank in closed form: crank, block, slotted lever.
+//!
+//! Crank pivot O = (0, 0), crank pin A = r·(cos φ, sin φ) with a block that slides in the slot of a lever; the lever turns
+//! about the fixed point C, which the slot's centre line passes at the distance e. In the lever's frame at C, u along
+//! the slot, A = (s, e):
+//!
+//! ```text
+//! d = A − C        s = √(|d|² − e²)        cos ψ = (s·d_x + e·d_y)/|d|²        sin ψ = (s·d_y − e·d_x)/|d|²
+//! ```
+//!
+//! The lever rocks for |OC| > r + |e| (crank and slotted lever, the quick-return motion of a shaper) and turns fully
+//! for |OC| < r − |e| (Whitworth's motion). Between the two the slot cannot follow the pin through the whole turn: |d|
+//! falls to |e|, a change point.
+//!
+//! The inversion of the slider-crank and its time ratio for e = 0 are in any textbook of mechanisms, such as Norton,
+//! *Design of machinery*, chapter 3; the formulas with e are derived at [`InvertedSliderCrank::swing`].
+
+use core::f64::consts::PI;
+
+use super::{Frames, Jointed, Mechanism, Misfit};
+use crate::error::{finite, positive};
+use crate::joint::{Joint, Joints, Marker};
+use crate::link::{Frame, Link};
+use crate::transfer::Transfer;
+use crate::{Domain, Error, math};
+
+/// How the slotted lever moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum LeverMotion {
+    /// It rocks: |OC| > r + |e|.
+    Rocking,
+    /// It turns fully, once with every turn of the crank: |OC| < r − |e|.
+    Turning,
+}
+
+/// An inverted slider-crank, driven at the crank, which turns fully.
+///
+/// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`BLOCK`](Self::BLOCK) (frame at A, u along the slot),
+/// [`LEVER`](Self::LEVER) (frame at C, u along the slot, from C towards the block; the slot lies at v = e). The other
+/// side of the slot's centre line is the same machine with −e.
+///
+/// ψ of a rocking lever stays within 180° of the direction from C to O, that of a turning lever within 180° of φ.
+///
+/// Accuracy: 1e-12 against the half-angle and inverse forms (tests `rocking_lever_textbook`, `turning_lever_textbook`).
+#[derive(Clone, Debug, PartialEq)]
+pub struct InvertedSliderCrank {
+    crank: f64,
+    pivot: [f64; 2],
+    offset: f64,
+    centres: f64,
+    /// Direction from C to O (rad).
+    towards_crank: f64,
+    motion: LeverMotion,
+    links: [Link; 3],
+}
+
+impl InvertedSliderCrank {
+    /// Index of the crank.
+    pub const CRANK: usize = 0;
+    /// Index of the sliding block.
+    pub const BLOCK: usize = 1;
+    /// Index of the slotted lever.
+    pub const LEVER: usize = 2;
+
+    /// An inverted slider-crank with a `crank` of length r (m), a lever that turns about `pivot` C (m), the slot's
+    /// `offset` e from C (m, towards the lever's +v) and the links crank, block, lever.
+    ///
+    /// # Errors
+    /// A crank that is not positive; a length not finite; a pivot between the two ranges of distance, where the slot
+    /// cannot follow the pin through the whole turn.
+    pub fn new(crank: f64, pivot: [f64; 2], offset: f64, links: [Link; 3]) -> Result<Self, Error> {
+        let crank = positive("crank length", crank)?;
+        let pivot = [
+            finite("lever pivot x", pivot[0])?,
+            finite("lever pivot y", pivot[1])?,
+        ];
+        let offset = finite("slot offset", offset)?;
+        let centres = math::sqrt(pivot[0] * pivot[0] + pivot[1] * pivot[1]);
+        let width = math::abs(offset);
+        // A hair of distance, so that rounding of |d|² − e² makes no angle fail later.
+        let hair = 1e-12 * (crank + width);
+        let (rocking, turning) = (crank + width, crank - width);
+        let motion = if centres > rocking + hair {
+            LeverMotion::Rocking
+        } else if centres < turning - hair {
+            LeverMotion::Turning
+        } else {
+            return Err(Misfit::ChangePoint {
+                centres,
+                rocking,
+                turning,
+            }
+            .into());
+        };
+        Ok(Self {
+            crank,
+            pivot,
+            offset,
+            centres,
+            towards_crank: math::atan2(-pivot[1], -pivot[0]),
+            motion,
+            links,
+        })
+    }
+
+    /// Crank length r (m).
+    pub const fn crank(&self) -> f64 {
+        self.crank
+    }
+
+    /// Pivot C of the lever (m).
+    pub const fn pivot(&self) -> [f64; 2] {
+        self.pivot
+    }
+
+    /// Offset e of the slot from the lever's pivot (m).
+    pub const fn offset(&self) -> f64 {
+        self.offset
+    }
+
+    /// Whether the lever rocks or turns.
+    pub const fn motion(&self) -> LeverMotion {
+        self.motion
+    }
+
+    /// The angle S (rad) that makes the time ratio:
+    ///
+    /// ```text
+    /// rocking: S = asin((r + e)/c) + asin((r − e)/c)        turning: S = asin((c + e)/r) + asin((c − e)/r)        c = |OC|
+    /// ```
+    ///
+    /// A rocking lever swings through S: it stands still where the slot's line touches the crank's circle, that is where O
+    /// lies at v = e ± r of the lever. There the crank is square to the slot, so that it turns by π + S on the way
+    /// through the pin's farthest point, and by π − S on the way back. A turning lever's crank turns by as much
+    /// more or less than π while the lever makes the half turn between its two positions square to OC, by
+    /// φ = ψ + asin((e − c·sin(γ − ψ))/r) with γ the direction from C to O.
+    #[must_use]
+    pub fn swing(&self) -> f64 {
+        let (short, long) = match self.motion {
+            LeverMotion::Rocking => (self.crank, self.centres),
+            LeverMotion::Turning => (self.centres, self.crank),
+        };
+        math::asin((short + self.offset) / long) + math::asin((short - self.offset) / long)
+    }
+
+    /// Quick-return ratio (π + S)/(π − S) at constant crank speed, time of the slow stroke over time of the quick one,
+    /// with S of [`swing`](Self::swing).
+    ///
+    /// Of a rocking lever these are its two swings. Of a turning lever they are the strokes of a ram that is driven by
+    /// a long rod from the lever, in line with its slot, along a line through C square to OC.
+    #[must_use]
+    pub fn time_ratio(&self) -> f64 {
+        let swing = self.swing();
+        (PI + swing) / (PI - swing)
+    }
+}
+
+impl Jointed for InvertedSliderCrank {
+    /// O: ground and crank; A: crank and block; slot: lever and block; C: ground and lever.
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+        let origin = [0.0, 0.0];
+        Ok(Joints::from_iter([
+            Joint::Revolute([Marker::ground(origin), Marker::on(Self::CRANK, origin)]),
+            Joint::Revolute([
+                Marker::on(Self::CRANK, [self.crank, 0.0]),
+                Marker::on(Self::BLOCK, origin),
+            ]),
+            Joint::Prismatic([
+                Marker::on(Self::LEVER, [0.0, self.offset]),
+                Marker::on(Self::BLOCK, origin),
+            ]),
+            Joint::Revolute([Marker::ground(self.pivot), Marker::on(Self::LEVER, origin)]),
+        ]))
+    }
+}
+
+impl Mechanism for InvertedSliderCrank {
+    fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    fn domain(&self) -> Domain {
+        Domain::Turn
+    }
+
+    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+        let angle = Transfer::variable(finite("crank angle", phi)?);
+        let crank = Frame::turning([0.0, 0.0], angle);
+        let pin = crank.point([self.crank, 0.0]);
+        // ψ is counted from a direction that it never leaves by 180°, so that no arctangent jumps.
+        let reference = match self.motion {
+            LeverMotion::Rocking => Transfer::constant(self.towards_crank),
+            LeverMotion::Turning => angle,
+        };
+        let (sin, cos) = reference.sin_cos();
+        let [x, y] = [
+            pin[0] - Transfer::constant(self.pivot[0]),
+            pin[1] - Transfer::constant(self.pivot[1]),
+        ];
+        let [along, across] = [cos * x + sin * y, cos * y - sin * x];
+        let distance_squared = x * x + y * y;
+        let under_root = distance_squared - Transfer::constant(self.offset * self.offset);
+        if under_root.value <= 0.0 {
+            return Err(Error::DeadPoint { phi, joint: 2 });
+        }
+        let s = under_root.sqrt();
+        let turned = Transfer::angle(
+            (s * across - along * self.offset).over(distance_squared),
+            (s * along + across * self.offset).over(distance_squared),
+        );
+        let psi = reference + turned;
+        let block = Frame::turned(pin, psi);
+        let lever = Frame::turning(self.pivot, psi);
+        Ok(Frames::from_iter([crank, block, lever]))
+    }
+}

@@ -1,0 +1,285 @@
+//! Kinematic pairs: the constraint equations f(q, φ) = 0 of a linkage, (76).
+//!
+//! Each equation is written once, with [`Transfer`] arithmetic. Its value is the residual of (76); with the derivatives of
+//! the links' coordinates put in, its derivatives are those of (77), (78) and one order more; with a single derivative
+//! seeded it gives a column of the Jacobian.
+
+use crate::error::{finite, positive};
+use crate::joint::{Body, Joint, Marker, Wrench};
+use crate::link::Frame;
+use crate::transfer::Transfer;
+use crate::{Error, math};
+
+/// What holds two links of a linkage together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Pair {
+    /// A pin, a guide, a rigid connection or a pin in a slot. A [`Joint::Transmission`] is not a pair: its geometry is not
+    /// known.
+    Joint(Joint),
+    /// Two gears that roll on each other.
+    Gears {
+        /// The gears' centres, each a marker on its gear.
+        centres: [Marker; 2],
+        /// The body in which both gears turn: the ground, or the carrier of a planetary gear.
+        carrier: Body,
+        /// Pitch radii (m); the radius of a ring gear is negative. Their sum is the distance of the centres.
+        radii: [f64; 2],
+        /// r₁·(ψ₁ − ψ_c) + r₂·(ψ₂ − ψ_c) (m): which teeth mesh.
+        phase: f64,
+    },
+    /// A pinion that rolls on a rack.
+    Rack {
+        /// Centre of the pinion.
+        pinion: Marker,
+        /// A point of the rack with the direction of its pitch line.
+        rack: Marker,
+        /// Pitch radius (m); positive when the pinion lies to the left of the direction.
+        radius: f64,
+        /// a·(C − R) + r·(ψ_pinion − ψ_rack) (m): which teeth mesh.
+        phase: f64,
+    },
+    /// An open belt (or a chain) between two pulleys that turn in the ground.
+    Belt {
+        /// The pulleys' centres, each a marker on its pulley.
+        centres: [Marker; 2],
+        /// Radii (m); a negative one for a crossed belt.
+        radii: [f64; 2],
+        /// r₁·ψ₁ − r₂·ψ₂ (m).
+        phase: f64,
+    },
+}
+
+/// From the first marker's point to the second's.
+#[inline]
+fn apart(a: &Marker, b: &Marker, frames: &[Frame]) -> [Transfer; 2] {
+    let ([x_a, y_a], [x_b, y_b]) = (a.position(frames), b.position(frames));
+    [x_b - x_a, y_b - y_a]
+}
+
+impl Pair {
+    /// Gears with the teeth in mesh as they are at `frames`.
+    #[must_use]
+    pub fn gears(centres: [Marker; 2], carrier: Body, radii: [f64; 2], frames: &[Frame]) -> Self {
+        let open = Self::Gears {
+            centres,
+            carrier,
+            radii,
+            phase: 0.0,
+        };
+        open.meshing_at(frames)
+    }
+
+    /// The same pair, meshing as its links are at `frames`.
+    #[must_use]
+    pub fn meshing_at(mut self, frames: &[Frame]) -> Self {
+        let now = self.equation::<0>(0, frames);
+        match &mut self {
+            Self::Joint(_) => {}
+            Self::Gears { phase, .. } | Self::Rack { phase, .. } | Self::Belt { phase, .. } => {
+                *phase += now;
+            }
+        }
+        self
+    }
+
+    /// The two markers; a transmission, which is not a pair, counts as two points of the ground.
+    #[must_use]
+    pub const fn markers(&self) -> [Marker; 2] {
+        match self {
+            Self::Joint(
+                Joint::Revolute(m) | Joint::Prismatic(m) | Joint::Fixed(m) | Joint::PinInSlot(m),
+            ) => *m,
+            Self::Joint(Joint::Transmission(_)) => [Marker::ground([0.0, 0.0]); 2],
+            Self::Gears { centres, .. } | Self::Belt { centres, .. } => *centres,
+            Self::Rack { pinion, rack, .. } => [*pinion, *rack],
+        }
+    }
+
+    /// The two bodies.
+    #[must_use]
+    pub const fn bodies(&self) -> [Body; 2] {
+        let [a, b] = self.markers();
+        [a.body, b.body]
+    }
+
+    /// How many freedoms the pair takes: the number of its equations.
+    #[must_use]
+    pub const fn constraints(&self) -> usize {
+        match self {
+            Self::Joint(joint) => joint.constraints(),
+            Self::Gears { .. } | Self::Rack { .. } | Self::Belt { .. } => 1,
+        }
+    }
+
+    /// Checks every number of the pair.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        let wheel = |radius: f64| {
+            let radius = finite("radius of a wheel", radius)?;
+            positive("radius of a wheel", math::abs(radius)).map(drop)
+        };
+        match self {
+            Self::Joint(Joint::Transmission(_)) => return Err(Error::NotAPair),
+            Self::Joint(_) => {}
+            Self::Gears { radii, phase, .. } | Self::Belt { radii, phase, .. } => {
+                finite("phase of the mesh", *phase)?;
+                wheel(radii[0])?;
+                wheel(radii[1])?;
+            }
+            Self::Rack { radius, phase, .. } => {
+                finite("phase of the mesh", *phase)?;
+                wheel(*radius)?;
+            }
+        }
+        self.markers().iter().try_for_each(Marker::check)
+    }
+
+    /// The derivative of this `ORDER` of the left-hand side of equation number `component`, which is zero where the pair is
+    /// closed (m, or rad).
+    #[inline]
+    pub(super) fn equation<const ORDER: usize>(&self, component: usize, frames: &[Frame]) -> f64 {
+        match self {
+            Self::Joint(joint) => joint_equation::<ORDER>(joint, component, frames),
+            Self::Gears {
+                centres: [a, b],
+                carrier,
+                radii: [r_a, r_b],
+                phase,
+            } => {
+                let psi = angle::<ORDER>(*carrier, frames);
+                r_a * (angle::<ORDER>(a.body, frames) - psi)
+                    + r_b * (angle::<ORDER>(b.body, frames) - psi)
+                    - constant::<ORDER>(*phase)
+            }
+            Self::Belt {
+                centres: [a, b],
+                radii: [r_a, r_b],
+                phase,
+            } => {
+                r_a * angle::<ORDER>(a.body, frames)
+                    - r_b * angle::<ORDER>(b.body, frames)
+                    - constant::<ORDER>(*phase)
+            }
+            Self::Rack {
+                pinion,
+                rack,
+                radius,
+                phase,
+            } => {
+                let [cos, sin] = rack.axis(frames);
+                let [x, y] = apart(rack, pinion, frames);
+                product::<ORDER>(cos, x)
+                    + product::<ORDER>(sin, y)
+                    + radius
+                        * (angle::<ORDER>(pinion.body, frames) - angle::<ORDER>(rack.body, frames))
+                    - constant::<ORDER>(*phase)
+            }
+        }
+    }
+
+    /// The pair as a joint that carries forces, where the links are at `frames`.
+    pub(super) fn joint(&self, frames: &[Frame]) -> Joint {
+        let values = |v: [Transfer; 2]| v.map(|c| c.value);
+        match self {
+            Self::Joint(joint) => *joint,
+            Self::Gears {
+                centres: [a, b],
+                radii: [r_a, r_b],
+                ..
+            } => {
+                let [x, y] = values(a.position(frames));
+                let [to_x, to_y] = values(apart(a, b, frames));
+                let share = r_a / (r_a + r_b);
+                let pitch_point = [x + share * to_x, y + share * to_y];
+                let distance = math::sqrt(to_x * to_x + to_y * to_y);
+                let tangent = [-to_y / distance, to_x / distance];
+                Joint::contact([a.body, b.body], pitch_point, tangent)
+            }
+            Self::Rack {
+                pinion,
+                rack,
+                radius,
+                ..
+            } => {
+                let [x, y] = values(pinion.position(frames));
+                let axis = values(rack.axis(frames));
+                let point = [x + radius * axis[1], y - radius * axis[0]];
+                Joint::contact([pinion.body, rack.body], point, axis)
+            }
+            Self::Belt {
+                centres: [a, b],
+                radii: [r_a, r_b],
+                ..
+            } => Joint::Transmission([
+                Wrench::moment(a.body, -r_a / r_b),
+                Wrench::moment(b.body, 1.0),
+            ]),
+        }
+    }
+}
+
+/// The derivative of this `ORDER` of a joint's equation number `component`.
+#[inline]
+fn joint_equation<const ORDER: usize>(joint: &Joint, component: usize, frames: &[Frame]) -> f64 {
+    match (joint, component) {
+        (Joint::Revolute([a, b]), _) | (Joint::Fixed([a, b]), 0 | 1) => {
+            position::<ORDER>(b, component, frames) - position::<ORDER>(a, component, frames)
+        }
+        (Joint::Prismatic([a, b]), 0) => off_line::<ORDER>(a, b, frames),
+        (Joint::Prismatic([a, b]) | Joint::Fixed([a, b]), _) => {
+            angle::<ORDER>(b.body, frames) - angle::<ORDER>(a.body, frames)
+                + constant::<ORDER>(b.angle() - a.angle())
+        }
+        (Joint::PinInSlot([pin, slot]), _) => off_line::<ORDER>(slot, pin, frames),
+        // Refused by `check`.
+        (Joint::Transmission(_), _) => f64::NAN,
+    }
+}
+
+/// How far the point of `point` is to the left of the line through `line` along its direction.
+#[inline]
+fn off_line<const ORDER: usize>(line: &Marker, point: &Marker, frames: &[Frame]) -> f64 {
+    let [cos, sin] = line.axis(frames);
+    let [x, y] = apart(line, point, frames);
+    product::<ORDER>(cos, y) - product::<ORDER>(sin, x)
+}
+
+/// x (axis 0) or y of a marker's point.
+#[inline]
+fn position<const ORDER: usize>(marker: &Marker, axis: usize, frames: &[Frame]) -> f64 {
+    let frame = marker.body.frame(frames);
+    let [u, v] = marker.at;
+    let (sin, cos) = frame.direction();
+    let [sin, cos] = [order::<ORDER>(sin), order::<ORDER>(cos)];
+    if axis == 0 {
+        order::<ORDER>(frame.x) + cos * u - sin * v
+    } else {
+        order::<ORDER>(frame.y) + sin * u + cos * v
+    }
+}
+
+#[inline]
+fn angle<const ORDER: usize>(body: Body, frames: &[Frame]) -> f64 {
+    order::<ORDER>(body.frame(frames).psi)
+}
+
+const fn constant<const ORDER: usize>(value: f64) -> f64 {
+    if ORDER == 0 { value } else { 0.0 }
+}
+
+/// The derivative of this `ORDER`, 0 to 3.
+#[inline]
+pub(super) const fn order<const ORDER: usize>(f: Transfer) -> f64 {
+    match ORDER {
+        0 => f.value,
+        1 => f.d1,
+        2 => f.d2,
+        _ => f.d3,
+    }
+}
+
+/// The derivative of this `ORDER` of a product, by Leibniz.
+#[inline]
+fn product<const ORDER: usize>(f: Transfer, g: Transfer) -> f64 {
+    order::<ORDER>(f * g)
+}

@@ -1,0 +1,259 @@
+//! Positions and transfer functions of a linkage at one φ: Newton's method for (76), then the linear systems (77), (78).
+
+use crate::linear;
+use crate::link::Frame;
+use crate::transfer::Transfer;
+
+use super::pair::order;
+use super::structure::{Equation, Group, PSI};
+use super::{Linkage, Pair};
+
+/// Newton's method: at most so many steps.
+const MOST_STEPS: usize = 30;
+/// A step smaller than this (rad, or of the linkage's size) is the last: the error after it is its square, below rounding.
+const LAST_STEP: f64 = 1e-9;
+/// A step smaller than this leaves even the Jacobian as it was, to rounding.
+const NO_STEP: f64 = 1e-15;
+/// No step turns a link further (rad): Newton's method from a rough drawing.
+const LONGEST_TURN: f64 = 0.5;
+/// A group whose columns span less than this is at a dead point.
+pub(super) const DEAD: f64 = 1e-9;
+
+/// Where all links are, and how well the drive moves them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Solved<const LINKS: usize> {
+    pub(super) frames: [Frame; LINKS],
+    /// The smallest |det A|/Π‖column‖ of a group's Jacobian A: 0 at a dead point, at most 1.
+    pub(super) quality: f64,
+    /// The pair where it is smallest.
+    pub(super) weakest: usize,
+    /// Bit k: the determinant of group k is negative. It changes only through a dead point.
+    pub(super) signs: u64,
+    /// How far Newton's method moved a coordinate in all (rad, or of the linkage's size).
+    pub(super) correction: f64,
+}
+
+/// Why there is no solution near the start.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Unsolved {
+    /// The pair that stays open widest, or locks.
+    pub(super) pair: usize,
+    /// How far it stays open (m, or rad); zero where it locks.
+    pub(super) gap: f64,
+}
+
+/// The derivative of this `ORDER` of an equation's left-hand side, with the drive at `phi`.
+#[inline]
+pub(super) fn evaluate<const ORDER: usize>(
+    pairs: &[Pair],
+    equation: Equation,
+    frames: &[Frame],
+    phi: Transfer,
+) -> f64 {
+    match pairs.get(usize::from(equation.pair)) {
+        Some(Pair::Joint(joint)) if equation.component == Equation::DRIVE => {
+            order::<ORDER>(joint.coordinate(frames) - phi)
+        }
+        Some(pair) => pair.equation::<ORDER>(equation.component.into(), frames),
+        None => f64::NAN, // cannot be: the structure was made from these pairs
+    }
+}
+
+/// Memory for the factors of all groups, one after the other.
+struct Factors<const LINKS: usize> {
+    matrix: [[[[f64; 3]; 3]; LINKS]; LINKS],
+    pivots: [[usize; 3]; LINKS],
+}
+
+impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
+    /// The derivative of this `ORDER` of an equation's left-hand side, with the drive at `phi`.
+    #[inline]
+    fn order<const ORDER: usize>(
+        &self,
+        equation: Equation,
+        frames: &[Frame],
+        phi: Transfer,
+    ) -> f64 {
+        evaluate::<ORDER>(&self.pairs, equation, frames, phi)
+    }
+
+    /// Positions and transfer functions at `phi`, from links that are nearly there.
+    pub(super) fn solve(
+        &self,
+        phi: f64,
+        mut frames: [Frame; LINKS],
+    ) -> Result<Solved<LINKS>, Unsolved> {
+        let mut factors = Factors {
+            matrix: [[[[0.0; 3]; 3]; LINKS]; LINKS],
+            pivots: [[0; 3]; LINKS],
+        };
+        let mut matrices = factors
+            .matrix
+            .as_flattened_mut()
+            .as_flattened_mut()
+            .as_flattened_mut();
+        let mut pivots = factors.pivots.as_flattened_mut();
+        let mut solved = Solved {
+            frames,
+            quality: 1.0,
+            weakest: self.drive,
+            signs: 0,
+            correction: 0.0,
+        };
+        let mut step = [[0.0; 3]; LINKS];
+        for (k, group) in self.structure.groups().enumerate() {
+            let size = usize::from(group.size);
+            let step = &mut step.as_flattened_mut()[..size];
+            let (matrix, rest) = matrices.split_at_mut(size * size);
+            matrices = rest;
+            let (pivot, rest) = pivots.split_at_mut(size);
+            pivots = rest;
+            let place = self.place(group, phi, &mut frames, matrix, pivot, step)?;
+            solved.correction = solved.correction.max(place.correction);
+            if place.negative {
+                solved.signs |= 1 << k;
+            }
+            if place.quality < solved.quality {
+                solved.quality = place.quality;
+                solved.weakest = self.pair_of(group);
+            }
+        }
+        self.differentiate(phi, &mut frames, &factors);
+        solved.frames = frames;
+        Ok(solved)
+    }
+
+    /// A group's positions; leaves the factors of its Jacobian.
+    #[inline]
+    fn place(
+        &self,
+        group: Group,
+        phi: f64,
+        frames: &mut [Frame; LINKS],
+        matrix: &mut [f64],
+        pivots: &mut [usize],
+        step: &mut [f64],
+    ) -> Result<Placed, Unsolved> {
+        let equations = self.structure.equations(group);
+        let coordinates = self.structure.coordinates(group);
+        let size = equations.len();
+        let phi = Transfer::constant(phi);
+        let mut placed = Placed::default();
+        let mut last = false;
+        let mut widest = Unsolved {
+            pair: self.pair_of(group),
+            gap: 0.0,
+        };
+        for _ in 0..MOST_STEPS {
+            // Columns of the Jacobian, by forward differentiation of the equations themselves.
+            let mut lengths = 1.0;
+            for (column, c) in matrix.chunks_exact_mut(size).zip(coordinates) {
+                let link = usize::from(c.link);
+                frames[link].seed(c.axis, 1.0);
+                let mut length = 0.0;
+                for (entry, equation) in column.iter_mut().zip(equations) {
+                    *entry = self.order::<1>(*equation, frames, phi);
+                    length += *entry * *entry;
+                }
+                frames[link].seed(c.axis, 0.0);
+                lengths *= length;
+            }
+            let determinant = linear::factor(matrix, pivots);
+            placed.quality = crate::math::abs(determinant) / crate::math::sqrt(lengths);
+            placed.negative = determinant < 0.0;
+            if placed.quality.is_nan() || placed.quality < DEAD {
+                return Err(Unsolved { gap: 0.0, ..widest });
+            }
+            if last {
+                return Ok(placed);
+            }
+            widest.gap = 0.0;
+            for (value, equation) in step.iter_mut().zip(equations) {
+                *value = -self.order::<0>(*equation, frames, phi);
+                if crate::math::abs(*value) > widest.gap {
+                    widest = Unsolved {
+                        pair: equation.pair.into(),
+                        gap: crate::math::abs(*value),
+                    };
+                }
+            }
+            linear::solve(matrix, pivots, step);
+            let mut largest = 0.0_f64;
+            let mut turn = 0.0_f64;
+            for (value, c) in step.iter().zip(coordinates) {
+                let unit = if c.axis == PSI { 1.0 } else { self.size };
+                largest = largest.max(crate::math::abs(*value) / unit);
+                if c.axis == PSI {
+                    turn = turn.max(crate::math::abs(*value));
+                }
+            }
+            let damping = if group.linear {
+                1.0
+            } else {
+                (LONGEST_TURN / turn).min(1.0)
+            };
+            for (value, c) in step.iter().zip(coordinates) {
+                frames[usize::from(c.link)].shift(c.axis, damping * value);
+            }
+            placed.correction += damping * largest;
+            // The Jacobian of a linear group does not depend on where its links are.
+            if group.linear || largest < NO_STEP {
+                return Ok(placed);
+            }
+            last = largest < LAST_STEP;
+        }
+        Err(widest)
+    }
+
+    /// Transfer functions of first, second and third order: (77), (78) and one order more, group by group. With the
+    /// order sought still zero, an equation's derivative of that order is the right-hand side, with the opposite sign.
+    fn differentiate(&self, phi: f64, frames: &mut [Frame; LINKS], factors: &Factors<LINKS>) {
+        self.differentiate_once::<1>(phi, frames, factors);
+        self.differentiate_once::<2>(phi, frames, factors);
+        self.differentiate_once::<3>(phi, frames, factors);
+    }
+
+    fn differentiate_once<const ORDER: usize>(
+        &self,
+        phi: f64,
+        frames: &mut [Frame; LINKS],
+        factors: &Factors<LINKS>,
+    ) {
+        let phi = Transfer::variable(phi);
+        let mut right = [[0.0; 3]; LINKS];
+        let mut matrices = factors.matrix.as_flattened().as_flattened().as_flattened();
+        let mut pivots = factors.pivots.as_flattened();
+        for frame in frames.iter_mut() {
+            frame.raise(ORDER);
+        }
+        for group in self.structure.groups() {
+            let size = usize::from(group.size);
+            let (matrix, rest) = matrices.split_at(size * size);
+            matrices = rest;
+            let (pivot, rest) = pivots.split_at(size);
+            pivots = rest;
+            let right = &mut right.as_flattened_mut()[..size];
+            for (value, equation) in right.iter_mut().zip(self.structure.equations(group)) {
+                *value = -self.order::<ORDER>(*equation, frames, phi);
+            }
+            linear::solve(matrix, pivot, right);
+            for (value, c) in right.iter().zip(self.structure.coordinates(group)) {
+                frames[usize::from(c.link)].set(c.axis, ORDER, *value);
+            }
+        }
+    }
+
+    /// The pair to name when something is wrong with a group.
+    fn pair_of(&self, group: Group) -> usize {
+        let first = self.structure.equations(group).first();
+        first.map_or(self.drive, |e| e.pair.into())
+    }
+}
+
+/// How a group was placed.
+#[derive(Clone, Copy, Debug, Default)]
+struct Placed {
+    quality: f64,
+    negative: bool,
+    correction: f64,
+}

@@ -1,0 +1,238 @@
+//! Structure of a linkage: which equations determine which coordinates, and in what order.
+//!
+//! The links' coordinates x, y, ψ and as many equations, the drive's among them, fall apart into groups that can be solved
+//! one after the other: the Assur groups of the theory of mechanisms, and smaller ones where a coordinate stands alone. A
+//! group of k coordinates costs about k³ operations, a chain of groups no more than their sum.
+
+use crate::Error;
+use crate::link::Frame;
+use crate::transfer::Transfer;
+
+use super::pair::Pair;
+
+/// One equation: a component of a pair, or that of the drive.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Equation {
+    /// Index of the pair.
+    pub(super) pair: u8,
+    /// Number of the pair's equation; `DRIVE` for the drive's.
+    pub(super) component: u8,
+}
+
+impl Equation {
+    /// The component that stands for the drive's equation.
+    pub(super) const DRIVE: u8 = u8::MAX;
+}
+
+/// A coordinate of a link: 0 = x, 1 = y, 2 = ψ.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Coordinate {
+    pub(super) link: u8,
+    pub(super) axis: u8,
+}
+
+/// The angle among the coordinates.
+pub(super) const PSI: u8 = 2;
+
+/// Equations and coordinates in the order of solving, cut into groups.
+#[derive(Clone, Debug)]
+pub(super) struct Structure<const LINKS: usize> {
+    equations: [[Equation; 3]; LINKS],
+    coordinates: [[Coordinate; 3]; LINKS],
+    groups: heapless::Vec<Group, MOST>,
+}
+
+/// The most coordinates: dependencies are kept as bits of a word.
+const MOST: usize = 64;
+
+/// A run of equations that determine as many coordinates together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Group {
+    /// First place in the order.
+    pub(super) start: u8,
+    /// Number of equations.
+    pub(super) size: u8,
+    /// Newton's first step is exact.
+    pub(super) linear: bool,
+}
+
+impl<const LINKS: usize> Structure<LINKS> {
+    /// The structure of `links` links held by `pairs`, with the drive in pair number `drive`.
+    ///
+    /// # Errors
+    /// Not exactly one freedom; a link left free while others are held twice.
+    pub(super) fn new(
+        links: usize,
+        pairs: &[Pair],
+        evaluate: impl Fn(Equation, &[Frame]) -> f64,
+        drive: usize,
+    ) -> Result<Self, Error> {
+        const { assert!(3 * LINKS <= MOST, "at most 21 links") }
+        let constraints: usize = pairs.iter().map(Pair::constraints).sum();
+        let count = 3 * links;
+        if constraints + 1 != count {
+            return Err(Error::Mobility { links, constraints });
+        }
+        let mut equations = heapless::Vec::<Equation, MOST>::new();
+        for (pair, taken) in pairs.iter().map(Pair::constraints).enumerate() {
+            for component in 0..taken {
+                let equation = Equation {
+                    pair: pair as u8,
+                    component: component as u8,
+                };
+                // Cannot fail: counted above.
+                let _ = equations.push(equation);
+            }
+        }
+        let _ = equations.push(Equation {
+            pair: drive as u8,
+            component: Equation::DRIVE,
+        });
+
+        let depends = dependencies::<LINKS>(links, &equations, evaluate);
+        let matched = matching(&depends, count).map_err(|(equation, coordinate)| {
+            let joint = equations.get(equation).map_or(0, |e| e.pair.into());
+            Error::OverConstrained {
+                joint,
+                free: coordinate / 3,
+            }
+        })?;
+        let reach = reachable(&depends, &matched, count);
+
+        let mut order: heapless::Vec<usize, MOST> = (0..count).collect();
+        order.sort_unstable_by_key(|&c| (reach[c].count_ones(), reach[c], c));
+        let mut structure = Self {
+            equations: [[Equation::default(); 3]; LINKS],
+            coordinates: [[Coordinate::default(); 3]; LINKS],
+            groups: heapless::Vec::new(),
+        };
+        let mut before = None;
+        for (place, &c) in order.iter().enumerate() {
+            let coordinate = Coordinate {
+                link: (c / 3) as u8,
+                axis: (c % 3) as u8,
+            };
+            let e = matched[c];
+            if let (Some(slot), Some(equation)) = (
+                structure.coordinates.as_flattened_mut().get_mut(place),
+                equations.get(e),
+            ) {
+                *slot = coordinate;
+                structure.equations.as_flattened_mut()[place] = *equation;
+            }
+            if before != Some(reach[c]) {
+                let _ = structure.groups.push(Group {
+                    start: place as u8,
+                    size: 0,
+                    linear: true,
+                });
+            }
+            before = Some(reach[c]);
+            if let Some(group) = structure.groups.last_mut() {
+                group.size += 1;
+                // Every equation is linear in x and y, and those between angles alone are linear in ψ.
+                group.linear &= coordinate.axis != PSI || depends[e] & !ANGLES == 0;
+            }
+        }
+        Ok(structure)
+    }
+
+    /// The groups, in the order of solving.
+    pub(super) fn groups(&self) -> impl Iterator<Item = Group> + '_ {
+        self.groups.iter().copied()
+    }
+
+    /// The equations of a group.
+    pub(super) fn equations(&self, group: Group) -> &[Equation] {
+        let start = usize::from(group.start);
+        &self.equations.as_flattened()[start..start + usize::from(group.size)]
+    }
+
+    /// The coordinates of a group.
+    pub(super) fn coordinates(&self, group: Group) -> &[Coordinate] {
+        let start = usize::from(group.start);
+        &self.coordinates.as_flattened()[start..start + usize::from(group.size)]
+    }
+}
+
+/// The bits of all angles.
+const ANGLES: u64 = 0x4924_9249_2492_4924;
+
+/// For each equation, the coordinates that it contains, as bits 3·link + axis. Seen at poses that have nothing special.
+fn dependencies<const LINKS: usize>(
+    links: usize,
+    equations: &[Equation],
+    evaluate: impl Fn(Equation, &[Frame]) -> f64,
+) -> [u64; MOST] {
+    let mut depends = [0; MOST];
+    let mut frames = [Frame::GROUND; LINKS];
+    for sample in 0..2 {
+        for (k, frame) in frames.iter_mut().enumerate() {
+            // The golden ratio spreads them.
+            let spread = (k + 1 + 7 * sample) as f64 * 0.618_033_988_749_895;
+            let at = [0.3 + 0.17 * spread, 0.1 - 0.29 * spread].map(Transfer::constant);
+            *frame = Frame::turned(at, Transfer::constant(spread));
+        }
+        for c in 0..3 * links {
+            let (link, axis) = (c / 3, (c % 3) as u8);
+            frames[link].seed(axis, 1.0);
+            for (e, equation) in equations.iter().enumerate() {
+                if evaluate(*equation, &frames) != 0.0 {
+                    depends[e] |= 1 << c;
+                }
+            }
+            frames[link].seed(axis, 0.0);
+        }
+    }
+    depends
+}
+
+/// For each coordinate, the equation that determines it: a perfect matching by augmenting paths. Otherwise an equation
+/// and a coordinate that are left over.
+fn matching(depends: &[u64; MOST], count: usize) -> Result<[usize; MOST], (usize, usize)> {
+    let mut matched = [usize::MAX; MOST];
+    for equation in 0..count {
+        let mut seen = 0;
+        if !augment(equation, depends, &mut matched, &mut seen) {
+            let free = matched.iter().take(count).position(|&e| e == usize::MAX);
+            return Err((equation, free.unwrap_or(0)));
+        }
+    }
+    Ok(matched)
+}
+
+/// Finds a coordinate for `equation`, moving other equations on if need be. Goes at most `count` levels deep.
+fn augment(
+    equation: usize,
+    depends: &[u64; MOST],
+    matched: &mut [usize; MOST],
+    seen: &mut u64,
+) -> bool {
+    let mut open = depends[equation];
+    while open & !*seen != 0 {
+        open &= !*seen;
+        let c = open.trailing_zeros() as usize;
+        *seen |= 1 << c;
+        if matched[c] == usize::MAX || augment(matched[c], depends, matched, seen) {
+            matched[c] = equation;
+            return true;
+        }
+    }
+    false
+}
+
+/// For each coordinate, all coordinates on which it depends, directly or not, itself included.
+fn reachable(depends: &[u64; MOST], matched: &[usize; MOST], count: usize) -> [u64; MOST] {
+    let mut reach = [0; MOST];
+    for c in 0..count {
+        reach[c] = depends[matched[c]] | 1 << c;
+    }
+    for through in 0..count {
+        for c in 0..count {
+            if reach[c] & 1 << through != 0 {
+                reach[c] |= reach[through];
+            }
+        }
+    }
+    reach
+}

@@ -1,0 +1,119 @@
+//! Dimensions that do not fit together.
+
+use core::fmt;
+
+use crate::{Error, Link, math};
+
+/// Why dimensions that are possible one by one do not make a mechanism of the library.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum Misfit {
+    /// The pivot of a slotted lever lies where the slot cannot follow the crank pin through a whole turn.
+    ChangePoint {
+        /// Distance of the pivots (m).
+        centres: f64,
+        /// The lever rocks if the distance is larger than this (m).
+        rocking: f64,
+        /// The lever turns if the distance is smaller than this (m); never if it is not positive.
+        turning: f64,
+    },
+    /// The centre of mass of the named link is off its axis, and the link does not turn once with the drive link.
+    OffAxis {
+        /// Which link.
+        link: &'static str,
+        /// Distance of the centre of mass from the axis (m).
+        distance: f64,
+    },
+    /// The planets' teeth do not fill the gap between sun and ring.
+    PlanetTeeth {
+        /// Teeth of a planet.
+        planet: u32,
+        /// Teeth of the ring less those of the sun.
+        gap: u32,
+    },
+    /// Equally spaced planets do not mesh with sun and ring.
+    PlanetSpacing {
+        /// Teeth of the sun and the ring together.
+        teeth: u32,
+        /// Number of planets.
+        planets: u32,
+    },
+    /// Planets as large as these would overlap.
+    PlanetsOverlap {
+        /// Number of planets.
+        planets: u32,
+        /// Most planets of this size.
+        most: u32,
+    },
+    /// The named member of a planetary gear is fixed and the input as well.
+    FixedInput(&'static str),
+}
+
+impl fmt::Display for Misfit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::ChangePoint {
+                centres,
+                rocking,
+                turning,
+            } => {
+                write!(
+                    f,
+                    "the slot cannot follow the crank pin through a whole turn: the pivots are {centres} m apart; \
+                     make it more than crank + |offset| = {rocking} m for a lever that rocks"
+                )?;
+                if turning > 0.0 {
+                    write!(
+                        f,
+                        ", or less than crank − |offset| = {turning} m for one that turns"
+                    )?;
+                }
+                Ok(())
+            }
+            Self::OffAxis { link, distance } => write!(
+                f,
+                "the centre of mass of the {link} is {distance} m off its axis, so its weight does not repeat with every \
+                 turn of the drive link; balance it: centre of mass [0, 0]"
+            ),
+            Self::PlanetTeeth { planet, gap } => write!(
+                f,
+                "planets with {planet} teeth do not fill the gap between sun and ring: ring less sun, {gap}, must be \
+                 twice the planet's teeth, give or take 2 with profile shift"
+            ),
+            Self::PlanetSpacing { teeth, planets } => write!(
+                f,
+                "{planets} equally spaced planets do not mesh: the teeth of sun and ring together, {teeth}, must be \
+                 divisible by the number of planets"
+            ),
+            Self::PlanetsOverlap { planets, most } => write!(
+                f,
+                "{planets} planets of this size overlap: at most {most} fit round the sun"
+            ),
+            Self::FixedInput(member) => write!(
+                f,
+                "the {member} is fixed and cannot be the input as well: choose another member for one of the two"
+            ),
+        }
+    }
+}
+
+impl From<Misfit> for Error {
+    fn from(misfit: Misfit) -> Self {
+        Self::Misfit(misfit)
+    }
+}
+
+/// Checks that a link's centre of mass lies on its axis, the origin of its frame.
+pub(super) fn centred(name: &'static str, link: &Link) -> Result<(), Error> {
+    let [u, v] = link.com();
+    if u == 0.0 && v == 0.0 {
+        return Ok(());
+    }
+    let distance = math::sqrt(u * u + v * v);
+    Err(Misfit::OffAxis {
+        link: name,
+        distance,
+    }
+    .into())
+}

@@ -1,0 +1,122 @@
+//! The Scotch yoke in closed form.
+//!
+//! Crank pivot O = (0, 0), crank pin A = r·(cos φ, sin φ), which moves in a slot of the yoke; the yoke slides along x.
+//! The slot is inclined by β to the direction of motion:
+//!
+//! ```text
+//! x = r·cos φ − r·sin φ·cot β = r·sin(β − φ)/sin β         β = 90°: x = r·cos φ
+//! ```
+//!
+//! which is a harmonic motion of amplitude r/sin β in any case. For β = 90° it is the limit of the slider-crank (4.1) of
+//! Nazarenko, *Dynamics of mechanisms* (2002), for an infinitely long rod.
+
+use super::{Frames, Jointed, Mechanism};
+use crate::error::{finite, positive};
+use crate::joint::{Joint, Joints, Marker};
+use crate::link::{Frame, Link};
+use crate::transfer::Transfer;
+use crate::{Domain, Error, math};
+
+/// A Scotch yoke, driven at the crank, which turns fully.
+///
+/// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`YOKE`](Self::YOKE) (frame where the slot's centre line crosses
+/// the line y = 0 through O, parallel to the global axes). A sliding block in the slot counts as part of the crank pin,
+/// with its mass at A: it turns with the yoke, so its own inertia does nothing.
+///
+/// Accuracy: 1e-13 of the crank's length against the formula above with its derivatives written out (test
+/// `yoke_is_a_harmonic_motion`).
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScotchYoke {
+    crank: f64,
+    slot_angle: f64,
+    /// cot β.
+    cotangent: f64,
+    links: [Link; 2],
+}
+
+impl ScotchYoke {
+    /// Index of the crank.
+    pub const CRANK: usize = 0;
+    /// Index of the yoke.
+    pub const YOKE: usize = 1;
+    /// Flattest slot (rad): the yoke's stroke is then 115 times the crank's length.
+    pub const FLATTEST: f64 = core::f64::consts::PI / 180.0;
+
+    /// A Scotch yoke with a `crank` of length r (m), whose slot makes the angle `slot_angle` β (rad) with the direction
+    /// of motion, and the links crank, yoke.
+    ///
+    /// # Errors
+    /// A crank that is not positive; a slot angle outside [`FLATTEST`](Self::FLATTEST) to π − `FLATTEST`: along the
+    /// direction of motion the slot would lock the crank.
+    pub fn new(crank: f64, slot_angle: f64, links: [Link; 2]) -> Result<Self, Error> {
+        let crank = positive("crank length", crank)?;
+        let slot_angle = finite("slot angle", slot_angle)?;
+        let (min, max) = (Self::FLATTEST, core::f64::consts::PI - Self::FLATTEST);
+        if !(min..=max).contains(&slot_angle) {
+            return Err(Error::OutOfRange {
+                what: "slot angle (rad, from the direction of motion)",
+                value: slot_angle,
+                min,
+                max,
+            });
+        }
+        let (sin, cos) = math::sin_cos(slot_angle);
+        Ok(Self {
+            crank,
+            slot_angle,
+            cotangent: cos / sin,
+            links,
+        })
+    }
+
+    /// Crank length r (m).
+    pub const fn crank(&self) -> f64 {
+        self.crank
+    }
+
+    /// Angle β of the slot from the direction of motion (rad).
+    pub const fn slot_angle(&self) -> f64 {
+        self.slot_angle
+    }
+
+    /// Stroke of the yoke 2r/sin β (m).
+    #[must_use]
+    pub fn stroke(&self) -> f64 {
+        2.0 * self.crank / math::sin_cos(self.slot_angle).0
+    }
+}
+
+impl Jointed for ScotchYoke {
+    /// O: ground and crank; A: the crank's pin in the yoke's slot; guide: ground and yoke, its moment about the origin of
+    /// the yoke's frame.
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+        let origin = [0.0, 0.0];
+        Ok(Joints::from_iter([
+            Joint::Revolute([Marker::ground(origin), Marker::on(Self::CRANK, origin)]),
+            Joint::PinInSlot([
+                Marker::on(Self::CRANK, [self.crank, 0.0]),
+                Marker::on(Self::YOKE, origin).with_angle(self.slot_angle),
+            ]),
+            Joint::Prismatic([Marker::ground(origin), Marker::on(Self::YOKE, origin)]),
+        ]))
+    }
+}
+
+impl Mechanism for ScotchYoke {
+    fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    fn domain(&self) -> Domain {
+        Domain::Turn
+    }
+
+    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+        let angle = Transfer::variable(finite("crank angle", phi)?);
+        let crank = Frame::turning([0.0, 0.0], angle);
+        let [x_a, y_a] = crank.point([self.crank, 0.0]);
+        let x = x_a - y_a * self.cotangent;
+        let yoke = Frame::translating([x, Transfer::constant(0.0)]);
+        Ok(Frames::from_iter([crank, yoke]))
+    }
+}

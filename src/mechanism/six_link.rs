@@ -1,0 +1,221 @@
+//! A crank drives a slotted rocker through a block, and the rocker drives a slider: the six-link quick-return mechanism.
+//!
+//! Crank pivot O₁ = (0, 0), crank pin A = l₁·(cos φ, sin φ) on a block that slides along the rocker O₂B, rocker pivot
+//! O₂ = (−b, 0), rocker length l₂, connecting link BC of length l₃, slider C on the guide y = −a:
+//!
+//! ```text
+//! l₁·cos φ − s·cos φ₂ + b = 0        s = |O₂A|                                            (81)
+//! l₁·sin φ − s·sin φ₂ = 0
+//! l₂·sin φ₂ − l₃·sin φ₃ + a = 0      φ₃: direction from C to B
+//! ```
+//!
+//! so that s² = l₁² + b² + 2·l₁·b·cos φ, and the slider is at x_C = −b + l₂·cos φ₂ − l₃·cos φ₃. The first two decide
+//! φ₂ and s > 0; the third leaves the sign of cos φ₃, which is the [`Branch`]: with [`Branch::Right`] the slider is on the
+//! right of B (cos φ₃ < 0), with [`Branch::Left`] on its left.
+//!
+//! With b > l₁ the rocker swings between ±asin(l₁/b), and returns faster than it goes (shaper). With b < l₁ it turns fully
+//! (Whitworth's quick return). b = l₁ is refused: the pin passes through O₂.
+//!
+//! Equations (80)-(84) of the kinematics of plane mechanisms, Example 32; the signs of (81) are lost in the print.
+
+use core::f64::consts::PI;
+
+use super::four_bar::beyond;
+use super::{Blocked, Branch, Frames, Jointed, Mechanism, dyad};
+use crate::error::{finite, positive};
+use crate::joint::{Joint, Joints, Marker};
+use crate::link::{Frame, Link};
+use crate::transfer::Transfer;
+use crate::{Domain, Error, math};
+
+/// The six-link mechanism, driven at the crank, which turns fully.
+///
+/// Links: [`CRANK`](Self::CRANK) (frame at O₁ along O₁A), [`BLOCK`](Self::BLOCK) (frame at A, parallel to the rocker),
+/// [`ROCKER`](Self::ROCKER) (frame at O₂ along O₂B, its angle is φ₂), [`ROD`](Self::ROD) (frame at B along BC, its angle is
+/// φ₃ turned by half a turn), [`SLIDER`](Self::SLIDER) (frame at C, parallel to the global axes).
+///
+/// Accuracy: (81) and its derivatives (82), (84) hold to 1e-12 of their largest term (test `printed_equations_hold`).
+#[derive(Clone, Debug, PartialEq)]
+pub struct SixLink {
+    crank: f64,
+    rocker: f64,
+    rod: f64,
+    centres: f64,
+    guide: f64,
+    sign: f64,
+    links: [Link; 5],
+}
+
+impl SixLink {
+    /// Index of the crank.
+    pub const CRANK: usize = 0;
+    /// Index of the block on the crank pin.
+    pub const BLOCK: usize = 1;
+    /// Index of the slotted rocker.
+    pub const ROCKER: usize = 2;
+    /// Index of the link from rocker to slider.
+    pub const ROD: usize = 3;
+    /// Index of the slider.
+    pub const SLIDER: usize = 4;
+
+    /// A six-link mechanism with `lengths` l₁ of crank, l₂ of rocker and l₃ of rod (m), distance of the pivots
+    /// `centres` b (m), the guide `below` the crank pivot by a (m, either sign), and the links crank, block, rocker, rod,
+    /// slider.
+    ///
+    /// # Errors
+    /// A length or b not positive; b = l₁; a rod too short for a full turn, with the angle where it fails.
+    pub fn new(
+        lengths: [f64; 3],
+        centres: f64,
+        below: f64,
+        branch: Branch,
+        links: [Link; 5],
+    ) -> Result<Self, Error> {
+        let six_link = Self {
+            crank: positive("crank length", lengths[0])?,
+            rocker: positive("rocker length", lengths[1])?,
+            rod: positive("rod length", lengths[2])?,
+            centres: positive("distance of the pivots", centres)?,
+            guide: -finite("distance of the guide", below)?,
+            sign: match branch {
+                Branch::Right => 1.0,
+                Branch::Left => -1.0,
+            },
+            links,
+        };
+        let (l1, b) = (six_link.crank, six_link.centres);
+        // Nearer than this, s comes within roundings of zero at φ = 180°.
+        if math::abs(l1 - b) <= 1e-9 * b {
+            return Err(Blocked::PinMeetsPivot { length: l1 }.into());
+        }
+        let shortest = six_link.rocker * six_link.largest_sine() + math::abs(six_link.guide);
+        if six_link.rod <= shortest * (1.0 + 1e-12) {
+            let phi = six_link.first_unreachable();
+            return Err(Blocked::TooShort {
+                link: "rod",
+                phi,
+                shortest,
+            }
+            .into());
+        }
+        Ok(six_link)
+    }
+
+    /// Whether the rocker turns fully (b < l₁, Whitworth) or swings.
+    #[must_use]
+    pub fn rocker_turns(&self) -> bool {
+        self.centres < self.crank
+    }
+
+    /// Lengths of crank, rocker and rod (m).
+    pub const fn lengths(&self) -> [f64; 3] {
+        [self.crank, self.rocker, self.rod]
+    }
+
+    /// Pivot O₂ of the rocker (m).
+    pub const fn pivot(&self) -> [f64; 2] {
+        [-self.centres, 0.0]
+    }
+
+    /// Largest sin φ₂ of a turn.
+    fn largest_sine(&self) -> f64 {
+        if self.rocker_turns() {
+            1.0
+        } else {
+            self.crank / self.centres
+        }
+    }
+
+    /// The smallest φ ≥ 0 (rad) at which the rod stands across the guide: |l₂·sin φ₂ + a| = l₃.
+    fn first_unreachable(&self) -> f64 {
+        let (l1, b) = (self.crank, self.centres);
+        // At φ = 0 the rocker lies along x.
+        if math::abs(self.guide) >= self.rod {
+            return 0.0;
+        }
+        let largest = self.largest_sine();
+        let mut first = f64::INFINITY;
+        for end in [self.rod, -self.rod] {
+            let sin = (self.guide + end) / self.rocker;
+            // At equality a rounding may leave it just outside.
+            if math::abs(sin) > largest * (1.0 + 1e-9) {
+                continue;
+            }
+            let sin = sin.clamp(-largest, largest);
+            // l₁·sin(φ − φ₂) = b·sin φ₂ (law of sines), and s = l₁·cos(φ − φ₂) + b·cos φ₂ > 0.
+            let rocker = math::asin(sin);
+            let turned = math::asin((b * sin / l1).clamp(-1.0, 1.0));
+            let positions = if self.rocker_turns() {
+                [rocker + turned, PI - rocker + turned]
+            } else {
+                [rocker + turned, rocker + PI - turned]
+            };
+            first = positions.into_iter().map(beyond).fold(first, f64::min);
+        }
+        first
+    }
+}
+
+impl Jointed for SixLink {
+    /// O₁: ground and crank; A: crank and block; slot: rocker and block; O₂: ground and rocker; B: rocker and rod; C: rod
+    /// and slider; guide: ground and slider. The slot's coordinate is s.
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+        let origin = [0.0, 0.0];
+        let pin = |first, second| Joint::Revolute([first, second]);
+        Ok(Joints::from_iter([
+            pin(Marker::ground(origin), Marker::on(Self::CRANK, origin)),
+            pin(
+                Marker::on(Self::CRANK, [self.crank, 0.0]),
+                Marker::on(Self::BLOCK, origin),
+            ),
+            Joint::Prismatic([
+                Marker::on(Self::ROCKER, origin),
+                Marker::on(Self::BLOCK, origin),
+            ]),
+            pin(
+                Marker::ground(self.pivot()),
+                Marker::on(Self::ROCKER, origin),
+            ),
+            pin(
+                Marker::on(Self::ROCKER, [self.rocker, 0.0]),
+                Marker::on(Self::ROD, origin),
+            ),
+            pin(
+                Marker::on(Self::ROD, [self.rod, 0.0]),
+                Marker::on(Self::SLIDER, origin),
+            ),
+            Joint::Prismatic([
+                Marker::ground([0.0, self.guide]),
+                Marker::on(Self::SLIDER, origin),
+            ]),
+        ]))
+    }
+}
+
+impl Mechanism for SixLink {
+    fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    fn domain(&self) -> Domain {
+        Domain::Turn
+    }
+
+    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+        let angle = Transfer::variable(finite("crank angle", phi)?);
+        let crank = Frame::turning([0.0, 0.0], angle);
+        let a = crank.point([self.crank, 0.0]);
+        let pivot = self.pivot().map(Transfer::constant);
+        let (x, y) = (a[0] - pivot[0], a[1] - pivot[1]);
+        let s = (x * x + y * y).sqrt();
+        // A swinging rocker stays within a quarter turn of +x, a turning one within a quarter turn of the crank.
+        let near = if self.rocker_turns() { phi } else { 0.0 };
+        let (sin, cos) = (y.over(s), x.over(s));
+        let rocker = Frame::moving(pivot, sin, cos).unwrapped(near);
+        let block = Frame::moving(a, sin, cos).unwrapped(near);
+        let b = rocker.point([self.rocker, 0.0]);
+        let [rod, slider] = dyad::sliding(b, self.rod, self.guide, self.sign)
+            .ok_or(Error::DeadPoint { phi, joint: 6 })?;
+        Ok(Frames::from_iter([crank, block, rocker, rod, slider]))
+    }
+}

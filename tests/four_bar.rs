@@ -1,0 +1,445 @@
+//! The four-bar linkage: golden data, geometry, forces, and what it refuses.
+
+mod support;
+
+use std::f64::consts::{PI, TAU};
+
+use jred::mechanism::{FourBar, Grashof, Side};
+use jred::{Action, Domain, Error, Jointed, Link, Load, Machine, Mechanism, Reducible};
+use proptest::prelude::*;
+use support::golden::Case;
+use support::{assert_near, budget, config, derivative, jointed, largest};
+
+fn golden() -> (Case, Machine<FourBar>) {
+    let case = Case::new(include_str!("data/02_four_bar_A.json"));
+    let input = |path: &str| case.input(path);
+    let link = |k: usize, name: &str| {
+        let com = [input(&format!("/{name}_com/0")), input(&format!("/{name}_com/1"))];
+        Link::new(input(&format!("/m{k}")), input(&format!("/I{k}")), com).unwrap()
+    };
+    let links = [link(1, "crank"), link(2, "coupler"), link(3, "rocker")];
+    let side = if input("/mode") > 0.0 { Side::Left } else { Side::Right };
+    let lengths = [input("/a"), input("/b"), input("/c")];
+    let mechanism =
+        FourBar::new(lengths, [input("/C/0"), input("/C/1")], side, links).unwrap();
+    let moment = |link, path| Load::new(link, Action::Moment(input(path))).unwrap();
+    let machine = Machine::new(mechanism)
+        .with_gravity([input("/gravity/0"), input("/gravity/1")])
+        .and_then(|m| m.with_load(moment(FourBar::CRANK, "/M_crank")))
+        .and_then(|m| m.with_load(moment(FourBar::ROCKER, "/M_rocker")))
+        .unwrap();
+    (case, machine)
+}
+
+#[test]
+fn four_bar_golden() {
+    let (case, machine) = golden();
+    let table = case.table("position");
+    let at = |f: &dyn Fn(f64) -> f64| table.column("phi").into_iter().map(f).collect::<Vec<_>>();
+    let psi = |link: usize| {
+        let machine = &machine;
+        move |phi| machine.mechanism().frames(phi).unwrap()[link].psi
+    };
+    for (name, link) in [("t2", FourBar::COUPLER), ("t3", FourBar::ROCKER)] {
+        let psi = psi(link);
+        table.compare(name, &at(&|phi| psi(phi).value), budget::GOLDEN);
+        table.compare(&format!("d{name}"), &at(&|phi| psi(phi).d1), budget::GOLDEN);
+        table.compare(&format!("d2{name}"), &at(&|phi| psi(phi).d2), budget::GOLDEN);
+    }
+    let reduced = |phi| machine.reduction(phi).unwrap();
+    table.compare("J", &at(&|phi| reduced(phi).inertia[0]), budget::GOLDEN_REDUCTION);
+    table.compare("dJ", &at(&|phi| reduced(phi).inertia[1]), budget::GOLDEN_REDUCTION);
+    table.compare("d2J", &at(&|phi| reduced(phi).inertia[2]), budget::GOLDEN_REDUCTION);
+    table.compare("Q", &at(&|phi| reduced(phi).load_torque()), budget::GOLDEN_REDUCTION);
+}
+
+#[test]
+fn four_bar_golden_motion() {
+    let (case, machine) = golden();
+    let table = case.table("motion");
+    let [phi0, w, a, nu] = ["phi0", "w", "A", "nu"].map(|name| case.motion(name));
+    let states: Vec<[f64; 3]> = table
+        .column("t")
+        .into_iter()
+        .map(|t| {
+            let (sin, cos) = (nu * t).sin_cos();
+            [phi0 + w * t + a * sin, w + a * nu * cos, -a * nu * nu * sin]
+        })
+        .collect();
+    let at = |f: &dyn Fn([f64; 3]) -> f64| states.iter().copied().map(f).collect::<Vec<_>>();
+    for (k, name) in ["phi", "omega", "alpha"].iter().enumerate() {
+        table.compare(name, &at(&|state| state[k]), budget::GOLDEN);
+    }
+    for (name, link) in [("t2", FourBar::COUPLER), ("t3", FourBar::ROCKER)] {
+        let psi = |phi| machine.mechanism().frames(phi).unwrap()[link].psi;
+        table.compare(name, &at(&|[phi, ..]| psi(phi).value), budget::GOLDEN);
+        let speed = |[phi, w, _]: [f64; 3]| psi(phi).velocity(w);
+        table.compare(&format!("{name}_t"), &at(&speed), budget::GOLDEN);
+        let acceleration = |[phi, w, a]: [f64; 3]| psi(phi).acceleration(w, a);
+        table.compare(&format!("{name}_tt"), &at(&acceleration), budget::GOLDEN);
+    }
+    let torque = |[phi, w, a]: [f64; 3]| machine.reduction(phi).unwrap().torque(w, a).total();
+    table.compare("T_drive", &at(&torque), budget::GOLDEN_REDUCTION);
+}
+
+#[test]
+fn four_bar_reactions_golden() {
+    let (case, machine) = golden();
+    let table = case.table("motion");
+    let [phi, omega, alpha] = ["phi", "omega", "alpha"].map(|name| table.column(name));
+    let forces: Vec<_> = (0..phi.len())
+        .map(|k| machine.forces(phi[k], omega[k], alpha[k]).unwrap())
+        .collect();
+    let compare = |column: &str, f: &dyn Fn(&jred::Forces) -> f64| {
+        let found: Vec<f64> = forces.iter().map(f).collect();
+        table.compare(column, &found, budget::REACTIONS);
+    };
+    compare("T_drive", &|f| f.drive);
+    for (joint, name) in ["F_0_1", "F_1_2", "F_2_3", "F_0_3"].iter().enumerate() {
+        compare(&format!("{name}x"), &|f| f.reactions[joint].force[0]);
+        compare(&format!("{name}y"), &|f| f.reactions[joint].force[1]);
+    }
+}
+
+/// A random four-bar with a crank that turns.
+#[derive(Clone, Debug)]
+struct Spec {
+    lengths: [f64; 3],
+    ground: f64,
+    gamma: f64,
+    side: Side,
+    mass: [f64; 3],
+    com: [[f64; 2]; 3],
+}
+
+prop_compose! {
+    fn spec()(
+        shortest in 0.02..0.2_f64,
+        middle in [1.15..4.0, 1.15..4.0],
+        stretch in 0.05..0.9,
+        double_crank in any::<bool>(),
+        order in 0usize..3,
+        gamma in -3.2..3.2,
+        left in any::<bool>(),
+        mass in [0.1..3.0, 0.1..3.0, 0.1..3.0],
+        u in [-0.5..1.0, -0.5..1.5, -0.5..1.5],
+        v in [-0.3..0.3, -0.3..0.3, -0.3..0.3],
+    ) -> Spec {
+        // Grashof: the longest is longer than the middle ones, but shortest + longest less than they together.
+        let [p, q] = middle.map(|ratio: f64| ratio * shortest);
+        let longest = p.max(q) + stretch * (p + q - shortest - p.max(q));
+        let mut rest = [p, q, longest];
+        rest.rotate_left(order);
+        let [first, second, third] = rest;
+        let (lengths, ground) = if double_crank {
+            ([first, second, third], shortest)
+        } else {
+            ([shortest, first, second], third)
+        };
+        let com = [0, 1, 2].map(|k| [u[k] * lengths[k], v[k] * lengths[k]]);
+        let side = if left { Side::Left } else { Side::Right };
+        Spec { lengths, ground, gamma, side, mass, com }
+    }
+}
+
+impl Spec {
+    fn pivot(&self) -> [f64; 2] {
+        [self.ground * self.gamma.cos(), self.ground * self.gamma.sin()]
+    }
+
+    fn links(&self) -> [Link; 3] {
+        [0, 1, 2].map(|k| {
+            let (m, l) = (self.mass[k], self.lengths[k]);
+            Link::new(m, 0.1 * m * l * l, self.com[k]).unwrap()
+        })
+    }
+
+    fn mechanism(&self) -> FourBar {
+        FourBar::new(self.lengths, self.pivot(), self.side, self.links()).unwrap()
+    }
+
+    fn machine(&self) -> Machine<FourBar> {
+        let load = |link, action| Load::new(link, action).unwrap();
+        Machine::new(self.mechanism())
+            .with_gravity([2.0, -9.6])
+            .and_then(|m| m.with_load(load(FourBar::COUPLER, Action::Force([20.0, -7.0])).at([0.03, 0.01])?))
+            .and_then(|m| m.with_load(load(FourBar::ROCKER, Action::Moment(-3.0))))
+            .and_then(|m| m.with_load(load(FourBar::ROCKER, Action::ViscousMoment(0.02))))
+            .and_then(|m| m.with_load(load(FourBar::COUPLER, Action::OpposingMoment(0.3))))
+            .unwrap()
+    }
+}
+
+/// Freudenstein's equation with its derivatives: a relation of φ and the rocker's angle alone, found by another route
+/// (the square of AB), so a check on every transfer function.
+fn freudenstein(spec: &Spec, mechanism: &FourBar, phi: f64) -> [f64; 4] {
+    let [a, b, c] = spec.lengths;
+    let d = spec.ground;
+    let psi = mechanism.frames(phi).unwrap()[FourBar::ROCKER].psi;
+    let constant = jred::Transfer::constant;
+    let angle = jred::Transfer::variable(phi) - constant(spec.gamma);
+    let rocker = psi - constant(spec.gamma);
+    let (_, cos_1) = angle.sin_cos();
+    let (_, cos_3) = rocker.sin_cos();
+    let (_, cos_13) = (angle - rocker).sin_cos();
+    // (d + c·cos ψ − a·cos φ)² + (c·sin ψ − a·sin φ)² = b²
+    let sum = constant(a * a + c * c + d * d - b * b) + cos_3 * (2.0 * d * c)
+        - cos_1 * (2.0 * a * d)
+        - cos_13 * (2.0 * a * c);
+    let size = (a + c + d) * (a + c + d);
+    [sum.value, sum.d1, sum.d2, sum.d3].map(|x| x / size)
+}
+
+proptest! {
+    #![proptest_config(config(200, 0x4b_1))]
+
+    #[test]
+    fn joints_close_and_forces_balance(
+        spec in spec(), phi in -7.0..7.0, omega in -40.0..40.0, alpha in -500.0..500.0,
+    ) {
+        let machine = spec.machine();
+        jointed::joints_close(machine.mechanism(), phi);
+        jointed::dalembert(&machine, phi, omega, alpha);
+        jointed::energy(&machine, phi, omega);
+    }
+
+    #[test]
+    fn the_rocker_follows_freudenstein(spec in spec(), phi in -7.0..7.0) {
+        let mechanism = spec.mechanism();
+        let psi = mechanism.frames(phi).unwrap()[FourBar::ROCKER].psi;
+        let speed = 1.0 + psi.d1.abs();
+        let second = speed * speed + psi.d2.abs();
+        let sizes = [1.0, speed, second, second * speed + psi.d3.abs()];
+        for (found, size) in freudenstein(&spec, &mechanism, phi).into_iter().zip(sizes) {
+            assert_near("Freudenstein", found, 0.0, budget::JOINT_CLOSURE * size);
+        }
+    }
+
+    /// Angles go on without a jump, and after a turn every link is where it was: a drag link's have turned once.
+    #[test]
+    fn angles_are_continuous(spec in spec(), phi in -20.0..20.0) {
+        let mechanism = spec.mechanism();
+        let psi = |phi: f64, link: usize| mechanism.frames(phi).unwrap()[link].psi.value;
+        let whole = if spec.ground < spec.lengths[0] { TAU } else { 0.0 };
+        for link in [FourBar::COUPLER, FourBar::ROCKER] {
+            assert_near("a turn on", psi(phi + TAU, link) - psi(phi, link), whole, budget::MIRROR);
+            let start = psi(0.0, link);
+            prop_assert!(start > -PI && start <= PI, "{start}");
+            let mut last = start;
+            for k in 1..=2000 {
+                let now = psi(TAU * f64::from(k) / 2000.0, link);
+                prop_assert!((now - last).abs() < 0.7, "jumps from {last} to {now}");
+                last = now;
+            }
+        }
+    }
+
+    /// The law of cosines at B, and the extremes at the ends of the swing of f.
+    #[test]
+    fn transmission_angle_is_that_of_the_triangle(spec in spec(), phi in -7.0..7.0) {
+        let mechanism = spec.mechanism();
+        let [a, b, c] = spec.lengths;
+        let angle = mechanism.transmission_angle(phi).unwrap();
+        let f2 = a * a + spec.ground * spec.ground - 2.0 * a * spec.ground * (phi - spec.gamma).cos();
+        let cos = (b * b + c * c - f2) / (2.0 * b * c);
+        assert_near("cos μ", angle.value.cos(), cos, budget::MIRROR);
+        let slope = derivative(|phi| mechanism.transmission_angle(phi).unwrap().value, phi, 1.0 / 256.0);
+        assert_near("μ′", angle.d1, slope, 1e-5 * (1.0 + angle.d2.abs() + angle.d3.abs()));
+        let [least, most] = mechanism.transmission_angle_range();
+        let seen = |phi: f64| mechanism.transmission_angle(phi).unwrap().value;
+        prop_assert!((least - 1e-9..=most + 1e-9).contains(&seen(phi)));
+        assert_near("least", seen(spec.gamma), least, 1e-7);
+        assert_near("most", seen(spec.gamma + PI), most, 1e-7);
+    }
+
+    /// The rocker stands still at its dead centres and nowhere else; crank angles are found again from its angle.
+    #[test]
+    fn rocker_and_crank_find_each_other(spec in spec(), phi in 0.0..TAU) {
+        let mechanism = spec.mechanism();
+        let psi = |phi: f64| mechanism.frames(phi).unwrap()[FourBar::ROCKER].psi;
+        match mechanism.rocker_dead_centres() {
+            Some(dead) => {
+                for phi in dead {
+                    let at = psi(phi);
+                    assert_near("ψ′", at.d1, 0.0, 1e-9 * (1.0 + at.d2.abs()));
+                    prop_assert!((0.0..TAU).contains(&phi));
+                    // In line: O, A, B.
+                    let frames = mechanism.frames(phi).unwrap();
+                    let [x, y] = frames[FourBar::ROCKER].point([spec.lengths[2], 0.0]).map(|t| t.value);
+                    let across = x * phi.sin() - y * phi.cos();
+                    assert_near("in line", across, 0.0, 1e-9 * spec.lengths[1]);
+                }
+                let ends = dead.map(|phi| psi(phi).value);
+                let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+                prop_assert!((low - 1e-9..=high + 1e-9).contains(&psi(phi).value));
+            }
+            None => prop_assert!(mechanism.grashof() == Grashof::DoubleCrank),
+        }
+        // Near a dead centre two crank angles meet, and each is known to the root of a rounding only.
+        if psi(phi).d1.abs() > 1e-3 {
+            let found = mechanism.crank_angles(psi(phi).value);
+            let nearest = found.iter().map(|f| (f - phi).abs()).fold(f64::INFINITY, f64::min);
+            prop_assert!(nearest < 1e-7, "{found:?}, not {phi}");
+        }
+    }
+
+    /// Mirrored at the x axis the crank goes from φ to −φ and B changes its side.
+    #[test]
+    fn sides_mirror_each_other(spec in spec(), phi in -7.0..7.0_f64) {
+        let mirrored = Spec {
+            gamma: -spec.gamma,
+            side: if spec.side == Side::Left { Side::Right } else { Side::Left },
+            com: spec.com.map(|[u, v]| [u, -v]),
+            ..spec.clone()
+        };
+        let [here, there] = [(&spec, phi), (&mirrored, -phi)].map(|(spec, phi): (&Spec, f64)| {
+            Machine::new(spec.mechanism()).reduction(phi).unwrap().inertia
+        });
+        let size = largest(here);
+        assert_near("J", there[0], here[0], budget::MIRROR * size);
+        assert_near("J′", there[1], -here[1], budget::MIRROR * size);
+        assert_near("J″", there[2], here[2], budget::MIRROR * size);
+    }
+
+    /// What cannot turn moves over the range that the error names, and not beyond.
+    #[test]
+    fn a_blocked_crank_moves_within_its_range(
+        lengths in [0.1..1.0, 0.1..1.0, 0.1..1.0],
+        ground in 0.1..1.0,
+        gamma in -3.2..3.2,
+        left in any::<bool>(),
+    ) {
+        let all = [lengths[0], lengths[1], lengths[2], ground];
+        let sum: f64 = all.iter().sum();
+        prop_assume!(all.iter().all(|l| *l < 0.49 * sum));
+        prop_assume!(!Grashof::of(all).crank_turns());
+        let pivot = [ground * f64::cos(gamma), ground * f64::sin(gamma)];
+        let side = if left { Side::Left } else { Side::Right };
+        let refused = FourBar::new(lengths, pivot, side, links()).unwrap_err();
+        let Error::Blocked(jred::mechanism::Blocked::FourBar { reach: [from, to], .. }) = refused else {
+            panic!("{refused:?}");
+        };
+        let inset = 1e-3 * (to - from);
+        let stroke = [from + inset, to - inset];
+        let swinging = FourBar::over_stroke(lengths, pivot, side, stroke, links()).unwrap();
+        jointed::turns(&swinging, 4000);
+        for k in 0..=40 {
+            let phi = swinging.domain().position(f64::from(k) / 40.0);
+            jointed::joints_close(&swinging, phi);
+            let [least, most] = swinging.transmission_angle_range();
+            let angle = swinging.transmission_angle(phi).unwrap().value;
+            prop_assert!((least - 1e-7..=most + 1e-7).contains(&angle));
+        }
+        for (stroke, phi) in [([from + inset, to + inset], to), ([from - inset, to - inset], from)] {
+            let refused = FourBar::over_stroke(lengths, pivot, side, stroke, links()).unwrap_err();
+            match refused {
+                Error::DeadPoint { phi: found, joint: 2 } => assert_near("dead point", found, phi, budget::LIMIT_ANGLE),
+                Error::CannotAssemble { phi: found, joint: 2, gap } => {
+                    assert_near("start", found, stroke[0], 0.0);
+                    prop_assert!(phi == from && gap > 0.0);
+                }
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+}
+
+fn links() -> [Link; 3] {
+    [Link::rotor(1e-3).unwrap(); 3]
+}
+
+fn refused(lengths: [f64; 3], pivot: [f64; 2]) -> String {
+    let error = FourBar::new(lengths, pivot, Side::Left, links()).unwrap_err();
+    error.to_string()
+}
+
+#[test]
+fn what_cannot_turn_is_refused_with_its_reason() {
+    assert_eq!(
+        refused([0.3, 0.25, 0.18], [0.4, 0.0]),
+        "the crank cannot turn fully: by Grashof's condition no link can: rocker + ground (shortest and longest) = 0.580000 \
+         m, but must be less than coupler + crank = 0.550000 m; shorten the rocker or the ground, or drive it over a \
+         stroke within its range, φ = -74.26° to 74.26°"
+    );
+    assert_eq!(
+        refused([0.18, 0.25, 0.08], [0.3, 0.0]),
+        "the crank cannot turn fully: by Grashof's condition only the shortest link can, the rocker of 0.080000 m; make the \
+         crank or the ground the shortest link, or drive it over a stroke within its range, φ = 30.03° to 82.82°"
+    );
+    // Parallelogram: a = c, b = d.
+    assert_eq!(
+        refused([0.1, 0.3, 0.1], [0.3, 0.0]),
+        "the crank cannot turn fully: crank + ground = rocker + coupler = 0.400000 m, so the linkage flattens into one line, \
+         a dead point where its motion is not determined (parallelogram, kite); shorten the crank or the ground, or drive \
+         it over a stroke within its range, φ = 0.00° to 180.00°"
+    );
+    assert_eq!(
+        refused([0.1, 0.2, 0.1], [0.5, 0.0]),
+        "distance of the pivots (the sum of the other three) is 0.5, outside 0 to 0.4"
+    );
+    assert_eq!(
+        refused([0.0, 0.2, 0.1], [0.5, 0.0]),
+        "crank length is 0, but must be greater than zero"
+    );
+    assert_eq!(
+        refused([0.1, f64::NAN, 0.1], [0.5, 0.0]),
+        "coupler length is not a finite number"
+    );
+    assert_eq!(
+        refused([0.1, 0.2, 0.1], [0.0, 0.0]),
+        "distance of the pivots is 0, but must be greater than zero"
+    );
+    assert_eq!(
+        refused([0.1, 0.2, 0.1], [0.0, f64::INFINITY]),
+        "rocker pivot y is not a finite number"
+    );
+    let (_, machine) = golden();
+    assert_eq!(
+        machine.mechanism().frames(f64::NAN).unwrap_err(),
+        Error::NotFinite("crank angle")
+    );
+}
+
+/// A parallelogram moves as one as long as it keeps clear of the flat positions.
+#[test]
+fn a_parallelogram_swings_in_parallel() {
+    let lengths = [0.1, 0.3, 0.1];
+    let swing = |stroke| FourBar::over_stroke(lengths, [0.3, 0.0], Side::Left, stroke, links());
+    let parallel = swing([0.2, 3.0]).unwrap();
+    assert_eq!(parallel.domain(), Domain::Stroke { from: 0.2, to: 3.0 });
+    assert_eq!(parallel.joints(0.2, &parallel.frames(0.2).unwrap()).unwrap().len(), 4);
+    for phi in [0.2, 1.0, 2.2, 3.0] {
+        let frames = parallel.frames(phi).unwrap();
+        let [coupler, rocker] = [frames[1].psi, frames[2].psi];
+        assert_near("ψ2", coupler.value, 0.0, 1e-13);
+        assert_near("ψ2′", coupler.d1, 0.0, 1e-12);
+        assert_near("ψ3", rocker.value, phi, 1e-13);
+        assert_near("ψ3′", rocker.d1, 1.0, 1e-12);
+        assert_near("ψ3″", rocker.d2, 0.0, 1e-11);
+    }
+    assert_eq!(
+        swing([0.2, 3.2]).unwrap_err().to_string(),
+        "dead point: the drive cannot move the mechanism at φ = 180.00° (3.141593 rad, or m of a stroke); joint 2 locks"
+    );
+    assert!(matches!(swing([0.0, 1.0]).unwrap_err(), Error::DeadPoint { joint: 2, .. }));
+    assert_eq!(
+        swing([1.0, 1.0]).unwrap_err(),
+        Error::NotPositive("length of the stroke", 0.0)
+    );
+}
+
+#[test]
+fn grashof_knows_the_textbook_linkages() {
+    for (lengths, kind) in [
+        ([1.0, 3.0, 2.5, 3.2], Grashof::CrankRocker),
+        ([2.5, 3.0, 3.2, 1.0], Grashof::DoubleCrank),
+        ([3.0, 1.0, 2.5, 3.2], Grashof::DoubleRocker),
+        ([3.0, 2.5, 1.0, 3.2], Grashof::RockerCrank),
+        ([2.0, 2.0, 2.0, 3.0], Grashof::TripleRocker),
+        ([1.0, 3.0, 1.0, 3.0], Grashof::ChangePoint),
+        ([1.0, 1.0, 3.0, 3.0], Grashof::ChangePoint),
+        ([0.1, 0.2, 0.3, 0.4], Grashof::ChangePoint),
+    ] {
+        assert_eq!(Grashof::of(lengths), kind, "{lengths:?}");
+    }
+}
