@@ -14,14 +14,20 @@ fn golden() -> (Case, Machine<FourBar>) {
     let case = Case::new(include_str!("data/02_four_bar_A.json"));
     let input = |path: &str| case.input(path);
     let link = |k: usize, name: &str| {
-        let com = [input(&format!("/{name}_com/0")), input(&format!("/{name}_com/1"))];
+        let com = [
+            input(&format!("/{name}_com/0")),
+            input(&format!("/{name}_com/1")),
+        ];
         Link::new(input(&format!("/m{k}")), input(&format!("/I{k}")), com).unwrap()
     };
     let links = [link(1, "crank"), link(2, "coupler"), link(3, "rocker")];
-    let side = if input("/mode") > 0.0 { Side::Left } else { Side::Right };
+    let side = if input("/mode") > 0.0 {
+        Side::Left
+    } else {
+        Side::Right
+    };
     let lengths = [input("/a"), input("/b"), input("/c")];
-    let mechanism =
-        FourBar::new(lengths, [input("/C/0"), input("/C/1")], side, links).unwrap();
+    let mechanism = FourBar::new(lengths, [input("/C/0"), input("/C/1")], side, links).unwrap();
     let moment = |link, path| Load::new(link, Action::Moment(input(path))).unwrap();
     let machine = Machine::new(mechanism)
         .with_gravity([input("/gravity/0"), input("/gravity/1")])
@@ -44,13 +50,33 @@ fn four_bar_golden() {
         let psi = psi(link);
         table.compare(name, &at(&|phi| psi(phi).value), budget::GOLDEN);
         table.compare(&format!("d{name}"), &at(&|phi| psi(phi).d1), budget::GOLDEN);
-        table.compare(&format!("d2{name}"), &at(&|phi| psi(phi).d2), budget::GOLDEN);
+        table.compare(
+            &format!("d2{name}"),
+            &at(&|phi| psi(phi).d2),
+            budget::GOLDEN,
+        );
     }
     let reduced = |phi| machine.reduction(phi).unwrap();
-    table.compare("J", &at(&|phi| reduced(phi).inertia[0]), budget::GOLDEN_REDUCTION);
-    table.compare("dJ", &at(&|phi| reduced(phi).inertia[1]), budget::GOLDEN_REDUCTION);
-    table.compare("d2J", &at(&|phi| reduced(phi).inertia[2]), budget::GOLDEN_REDUCTION);
-    table.compare("Q", &at(&|phi| reduced(phi).load_torque()), budget::GOLDEN_REDUCTION);
+    table.compare(
+        "J",
+        &at(&|phi| reduced(phi).inertia[0]),
+        budget::GOLDEN_REDUCTION,
+    );
+    table.compare(
+        "dJ",
+        &at(&|phi| reduced(phi).inertia[1]),
+        budget::GOLDEN_REDUCTION,
+    );
+    table.compare(
+        "d2J",
+        &at(&|phi| reduced(phi).inertia[2]),
+        budget::GOLDEN_REDUCTION,
+    );
+    table.compare(
+        "Q",
+        &at(&|phi| reduced(phi).load_torque()),
+        budget::GOLDEN_REDUCTION,
+    );
 }
 
 #[test]
@@ -144,7 +170,10 @@ prop_compose! {
 
 impl Spec {
     fn pivot(&self) -> [f64; 2] {
-        [self.ground * self.gamma.cos(), self.ground * self.gamma.sin()]
+        [
+            self.ground * self.gamma.cos(),
+            self.ground * self.gamma.sin(),
+        ]
     }
 
     fn links(&self) -> [Link; 3] {
@@ -162,7 +191,9 @@ impl Spec {
         let load = |link, action| Load::new(link, action).unwrap();
         Machine::new(self.mechanism())
             .with_gravity([2.0, -9.6])
-            .and_then(|m| m.with_load(load(FourBar::COUPLER, Action::Force([20.0, -7.0])).at([0.03, 0.01])?))
+            .and_then(|m| {
+                m.with_load(load(FourBar::COUPLER, Action::Force([20.0, -7.0])).at([0.03, 0.01])?)
+            })
             .and_then(|m| m.with_load(load(FourBar::ROCKER, Action::Moment(-3.0))))
             .and_then(|m| m.with_load(load(FourBar::ROCKER, Action::ViscousMoment(0.02))))
             .and_then(|m| m.with_load(load(FourBar::COUPLER, Action::OpposingMoment(0.3))))
@@ -407,7 +438,13 @@ fn a_parallelogram_swings_in_parallel() {
     let swing = |stroke| FourBar::over_stroke(lengths, [0.3, 0.0], Side::Left, stroke, links());
     let parallel = swing([0.2, 3.0]).unwrap();
     assert_eq!(parallel.domain(), Domain::Stroke { from: 0.2, to: 3.0 });
-    assert_eq!(parallel.joints(0.2, &parallel.frames(0.2).unwrap()).unwrap().len(), 4);
+    assert_eq!(
+        parallel
+            .joints(0.2, &parallel.frames(0.2).unwrap())
+            .unwrap()
+            .len(),
+        4
+    );
     for phi in [0.2, 1.0, 2.2, 3.0] {
         let frames = parallel.frames(phi).unwrap();
         let [coupler, rocker] = [frames[1].psi, frames[2].psi];
@@ -421,7 +458,10 @@ fn a_parallelogram_swings_in_parallel() {
         swing([0.2, 3.2]).unwrap_err().to_string(),
         "dead point: the drive cannot move the mechanism at φ = 180.00° (3.141593 rad, or m of a stroke); joint 2 locks"
     );
-    assert!(matches!(swing([0.0, 1.0]).unwrap_err(), Error::DeadPoint { joint: 2, .. }));
+    assert!(matches!(
+        swing([0.0, 1.0]).unwrap_err(),
+        Error::DeadPoint { joint: 2, .. }
+    ));
     assert_eq!(
         swing([1.0, 1.0]).unwrap_err(),
         Error::NotPositive("length of the stroke", 0.0)

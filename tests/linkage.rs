@@ -3,7 +3,7 @@
 mod support;
 
 use jred::mechanism::{Assembly, Linkage, Pair, Pose};
-use jred::{Action, Domain, Joint, Link, Load, Machine, Marker, Mechanism, Reducible};
+use jred::{Action, Body, Domain, Error, Joint, Link, Load, Machine, Marker, Mechanism, Reducible};
 use proptest::prelude::*;
 use support::golden::Case;
 use support::machines::spec;
@@ -136,4 +136,297 @@ fn few_stations_do_for_every_position() {
     let sizes: Vec<usize> = coarse.linkage().group_sizes().collect();
     assert_eq!(sizes.iter().sum::<usize>(), 9);
     assert_eq!(sizes.iter().max(), Some(&2), "the two-link group of Assur");
+}
+
+/// A gear train, a rack and a belt in one linkage: pinion 0 drives gear 1; gear 1 rolls on rack 2; a belt from gear 1 turns
+/// pulley 3.
+#[test]
+fn gears_a_rack_and_a_belt_roll_without_slip() {
+    let wheel = Link::new(1.0, 0.01, O).unwrap();
+    let (r0, r1, r3) = (0.03, 0.09, 0.06);
+    let centre = [0.12 * 0.6, 0.12 * 0.8];
+    let rack_line = [0.3, centre[1] - r1];
+    let pairs = [
+        pin(Marker::ground(O), Marker::on(0, O)),
+        pin(Marker::ground(centre), Marker::on(1, O)),
+        Pair::Joint(Joint::Prismatic([
+            Marker::ground(rack_line),
+            Marker::on(2, O),
+        ])),
+        pin(Marker::ground([0.5, 0.5]), Marker::on(3, O)),
+        Pair::Gears {
+            centres: [Marker::on(0, O), Marker::on(1, O)],
+            carrier: Body::Ground,
+            radii: [r0, r1],
+            phase: 0.0,
+        },
+        Pair::Rack {
+            pinion: Marker::on(1, O),
+            rack: Marker::on(2, O),
+            radius: r1,
+            phase: centre[0] - rack_line[0],
+        },
+        Pair::Belt {
+            centres: [Marker::on(1, O), Marker::on(3, O)],
+            radii: [r1, r3],
+            phase: 0.0,
+        },
+    ];
+    let drawing = [[0.0, 0.0], centre, rack_line, [0.5, 0.5]].map(|[x, y]| Pose { x, y, psi: 0.0 });
+    let links = [wheel, wheel, Link::new(2.0, 0.0, O).unwrap(), wheel];
+    let linkage = Linkage::<4, 7>::new(&links, &pairs, 0).unwrap();
+    let stroke = Domain::stroke(-1.0, 2.0).unwrap();
+    let assembly: Assembly<4, 7, 9> = linkage.clone().assemble(stroke, 0.0, &drawing).unwrap();
+    let i = -r0 / r1;
+    for phi in [-1.0, 0.4, 2.0] {
+        let frames = assembly.frames(phi).unwrap();
+        let close = |what: &str, found: f64, expected: f64| {
+            support::assert_near(what, found, expected, budget::JOINT_CLOSURE);
+        };
+        close("gear", frames[1].psi.value, i * phi);
+        // The pinion turns clockwise, its lowest point moves to the left: the rack goes along.
+        close("rack", frames[2].x.value - rack_line[0], r1 * i * phi);
+        close("pulley", frames[3].psi.value, i * phi * r1 / r3);
+        close("second transfer function", frames[2].x.d2, 0.0);
+        jointed::joints_close(&assembly, phi);
+        let machine = Machine::new(assembly.clone())
+            .with_gravity([0.0, -9.81])
+            .unwrap();
+        jointed::dalembert(&machine, phi, 3.0, -20.0);
+        let expected = 0.01 + (0.01 + 2.0 * r1 * r1 + 0.01 * (r1 / r3).powi(2)) * i * i;
+        close("J", machine.reduction(phi).unwrap().inertia[0], expected);
+        // The teeth push gear 1 with what its rack, its pulley and itself need.
+        let forces = machine.forces(phi, 0.0, 100.0).unwrap();
+        let tooth = forces.reactions[4].force;
+        let size = (tooth[0].powi(2) + tooth[1].powi(2)).sqrt();
+        support::assert_near("tooth force", size, (expected - 0.01) * 100.0 / r0, 1e-9);
+        close(
+            "along the tangent",
+            tooth[0] * centre[0] + tooth[1] * centre[1],
+            0.0,
+        );
+    }
+    // A rack does not come back.
+    let refused = linkage
+        .assemble::<9>(Domain::Turn, 0.0, &drawing)
+        .unwrap_err();
+    let travel = std::f64::consts::TAU * r0;
+    let Error::NotClosed { link: 2, gap } = refused else {
+        panic!("{refused}")
+    };
+    support::assert_near("travel", gap, travel, 1e-12);
+}
+
+/// A planetary gear with one planet, ring fixed: Willis.
+#[test]
+fn a_planetary_gear_obeys_willis() {
+    let (sun, planet) = (0.03, 0.02);
+    let ring = sun + 2.0 * planet;
+    let carrier = sun + planet;
+    let link = |m| Link::new(m, 0.001, O).unwrap();
+    let pairs = [
+        pin(Marker::ground(O), Marker::on(0, O)),
+        pin(Marker::ground(O), Marker::on(1, O)),
+        pin(Marker::on(1, [carrier, 0.0]), Marker::on(2, O)),
+        Pair::Gears {
+            centres: [Marker::on(0, O), Marker::on(2, O)],
+            carrier: Body::Link(1),
+            radii: [sun, planet],
+            phase: 0.0,
+        },
+        Pair::Gears {
+            centres: [Marker::ground(O), Marker::on(2, O)],
+            carrier: Body::Link(1),
+            radii: [-ring, planet],
+            phase: 0.0,
+        },
+    ];
+    let drawing = [[0.0, 0.0], [0.0, 0.0], [carrier, 0.0]].map(|[x, y]| Pose { x, y, psi: 0.0 });
+    let stroke = Domain::stroke(0.0, 3.0).unwrap();
+    let assembly: Assembly<3, 5, 9> = Linkage::new(&[link(0.1), link(0.2), link(0.3)], &pairs, 0)
+        .unwrap()
+        .assemble(stroke, 0.0, &drawing)
+        .unwrap();
+    let speed = sun / (sun + ring);
+    let spin = -speed * (ring - planet) / planet;
+    for phi in [0.0, 1.3, 3.0] {
+        let frames = assembly.frames(phi).unwrap();
+        support::assert_near(
+            "carrier",
+            frames[1].psi.value,
+            speed * phi,
+            budget::JOINT_CLOSURE,
+        );
+        support::assert_near(
+            "planet",
+            frames[2].psi.value,
+            spin * phi,
+            budget::JOINT_CLOSURE,
+        );
+        jointed::joints_close(&assembly, phi);
+        jointed::dalembert(&Machine::new(assembly.clone()), phi, 3.0, 50.0);
+    }
+}
+
+/// A linkage driven at its guide: a slider-crank pushed at the slider, away from its dead centres.
+#[test]
+fn a_guide_can_be_driven() {
+    let spec = support::samples(1, 5, &spec()).remove(0);
+    let machine = spec.machine();
+    let crank_driven = machine.mechanism();
+    let frames = crank_driven.frames(1.0).unwrap();
+    let joints = jred::Jointed::joints(crank_driven, 1.0, &frames).unwrap();
+    let pairs: Vec<Pair> = joints.iter().copied().map(Pair::Joint).collect();
+    let at = |phi: f64| crank_driven.frames(phi).unwrap()[2].x.value;
+    let (from, to) = (at(2.2).min(at(0.9)), at(2.2).max(at(0.9)));
+    let drawing: Vec<Pose> = frames
+        .iter()
+        .map(|f| Pose {
+            x: f.x.value,
+            y: f.y.value,
+            psi: f.psi.value,
+        })
+        .collect();
+    let linkage = Linkage::<3, 4>::new(crank_driven.links(), &pairs, 3).unwrap();
+    let domain = Domain::stroke(from, to).unwrap();
+    let pushed: Assembly<3, 4, 64> = linkage.clone().assemble(domain, at(1.0), &drawing).unwrap();
+    for phi in [0.95, 1.4, 2.1] {
+        let forward = crank_driven.frames(phi).unwrap();
+        let back = pushed.frames(at(phi)).unwrap();
+        support::assert_near("crank angle", back[0].psi.value, phi, budget::LINKAGE);
+        // dφ/dx = 1/x′, d²φ/dx² = −x″/x′³.
+        let x = forward[2].x;
+        support::assert_near("dφ/dx", back[0].psi.d1 * x.d1, 1.0, budget::LINKAGE);
+        let second = -x.d2 / x.d1.powi(3);
+        support::assert_near(
+            "d²φ/dx²",
+            back[0].psi.d2,
+            second,
+            budget::LINKAGE * (1.0 + second.abs()),
+        );
+        let reduced = Machine::new(pushed.clone())
+            .reduction(at(phi))
+            .unwrap()
+            .inertia[0];
+        let heavy = Machine::new(crank_driven.clone())
+            .reduction(phi)
+            .unwrap()
+            .inertia[0];
+        support::assert_near(
+            "m_red = J/x′²",
+            reduced * x.d1 * x.d1,
+            heavy,
+            budget::LINKAGE * heavy,
+        );
+        jointed::dalembert(&Machine::new(pushed.clone()), at(phi), 0.7, -3.0);
+    }
+    // Beyond the crank's dead centre there is nothing to push.
+    let too_far = Domain::stroke(from, at(0.0) + 0.5).unwrap();
+    let refused = linkage
+        .assemble::<64>(too_far, at(1.0), &drawing)
+        .unwrap_err();
+    let (Error::DeadPoint { phi, .. } | Error::BranchChange { phi, .. }) = refused else {
+        panic!("{refused}")
+    };
+    let end = support::largest((0..2000).map(|k| at(f64::from(k) * 1e-3 - 1.0)));
+    support::assert_near("dead centre", phi, end, 1e-6);
+}
+
+fn four_bar(lengths: [f64; 4], domain: Domain) -> Result<Assembly<3, 4, 64>, Error> {
+    let [a, b, c, d] = lengths;
+    let link = Link::new(1.0, 0.01, O).unwrap();
+    let pairs = [
+        pin(Marker::ground(O), Marker::on(0, O)),
+        pin(Marker::on(0, [a, 0.0]), Marker::on(1, O)),
+        pin(Marker::on(1, [b, 0.0]), Marker::on(2, [c, 0.0])),
+        pin(Marker::ground([d, 0.0]), Marker::on(2, O)),
+    ];
+    let drawing =
+        [[0.0, 0.0, 1.5], [0.0, a, 0.5], [d, 0.0, 1.5]].map(|[x, y, psi]| Pose { x, y, psi });
+    Linkage::new(&[link; 3], &pairs, 0)?.assemble(domain, 1.5, &drawing)
+}
+
+#[test]
+fn what_cannot_be_a_mechanism_is_refused_with_its_place() {
+    // Not Grashof: the crank stops where coupler and rocker are stretched, |AC| = b + c.
+    let [a, b, c, d] = [0.25, 0.2, 0.18, 0.3_f64];
+    let refused = four_bar([a, b, c, d], Domain::Turn).unwrap_err();
+    let (Error::DeadPoint { phi, joint } | Error::BranchChange { phi, joint }) = refused else {
+        panic!("{refused}")
+    };
+    let limit = ((a * a + d * d - (b + c) * (b + c)) / (2.0 * a * d)).acos();
+    let off = (phi.cos() - limit.cos()).abs();
+    assert!(off < 1e-6, "stops at {phi}, stretched at {limit}");
+    assert!((1..=3).contains(&joint), "joint {joint}");
+    assert!(four_bar([a, b, c, d], Domain::stroke(0.6, limit - 1e-3).unwrap()).is_ok());
+
+    // Too short to meet at all.
+    let refused = four_bar([0.05, 0.05, 0.05, 0.3], Domain::Turn).unwrap_err();
+    let Error::CannotAssemble { phi, gap, .. } = refused else {
+        panic!("{refused}")
+    };
+    support::assert_near("φ", phi, 1.5, 0.0);
+    assert!(gap > 0.1 && gap < 0.3, "{gap}");
+    let text = refused.to_string();
+    assert!(text.contains("cannot be assembled at φ = 85.94°"), "{text}");
+
+    // Degrees of freedom.
+    let link = Link::new(1.0, 0.01, O).unwrap();
+    let ground = |x| Marker::ground([x, 0.0]);
+    let free = [
+        pin(ground(0.0), Marker::on(0, O)),
+        pin(Marker::on(0, [0.1, 0.0]), Marker::on(1, O)),
+    ];
+    let refused = Linkage::<2, 4>::new(&[link; 2], &free, 0).unwrap_err();
+    assert_eq!(
+        refused.to_string(),
+        "the mechanism has 2 degrees of freedom, not one: 3·2 links − 4 constraints"
+    );
+    // Link 0 is held rigidly, by its pin and its slot, while link 1 is free in two ways.
+    let held = [
+        pin(ground(0.0), Marker::on(0, O)),
+        Pair::Joint(Joint::PinInSlot([Marker::on(0, [0.1, 0.0]), ground(0.3)])),
+        pin(Marker::on(0, [0.05, 0.0]), Marker::on(1, O)),
+    ];
+    let refused = Linkage::<2, 4>::new(&[link; 2], &held, 0).unwrap_err();
+    let Error::OverConstrained { free: 1, .. } = refused else {
+        panic!("{refused}")
+    };
+    let refuse = |pairs: &[Pair], drive, words: &str| {
+        let refused = Linkage::<2, 4>::new(&[link; 2], pairs, drive).unwrap_err();
+        assert!(refused.to_string().contains(words), "{refused}");
+    };
+    refuse(
+        &[pin(ground(0.0), Marker::on(2, O))],
+        0,
+        "there is no link 2",
+    );
+    refuse(
+        &free,
+        7,
+        "joint 7 cannot be used: the mechanism has 2 joints",
+    );
+    refuse(&held, 1, "joint 1 cannot be driven");
+    refuse(&[free[0]; 5], 0, "too many joints: at most 4 fit");
+    refuse(
+        &[pin(ground(f64::NAN), Marker::on(0, O))],
+        0,
+        "marker u is not a finite number",
+    );
+    let transmission = Joint::contact([Body::Ground, Body::Link(0)], O, [1.0, 0.0]);
+    refuse(
+        &[Pair::Joint(transmission)],
+        0,
+        "a transmission is not a pair",
+    );
+    let flat = Pair::Belt {
+        centres: [Marker::on(0, O); 2],
+        radii: [0.0, 1.0],
+        phase: 0.0,
+    };
+    refuse(
+        &[flat],
+        0,
+        "radius of a wheel is 0, but must be greater than zero",
+    );
 }

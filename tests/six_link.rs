@@ -171,7 +171,8 @@ fn shaper_returns_quickly() {
     jointed::turns(&mechanism, 720);
     let speed = |phi: f64| mechanism.frames(phi).unwrap()[SixLink::ROCKER].psi.d1;
     let count = 36_000;
-    let forward = (0..count).filter(|k| speed(TAU * (f64::from(*k) + 0.5) / f64::from(count)) > 0.0);
+    let forward =
+        (0..count).filter(|k| speed(TAU * (f64::from(*k) + 0.5) / f64::from(count)) > 0.0);
     let share = forward.count() as f64 / f64::from(count);
     assert_near("share of the forward stroke", share, 240.0 / 360.0, 1e-4);
     let whitworth = SixLink::new([0.2, 0.3, 0.9], 0.1, 0.2, Branch::Left, rotors()).unwrap();
@@ -198,9 +199,23 @@ fn reduction_of_the_rocker_alone() {
         let slope = 0.1 * (0.1 + 0.25 * phi.cos()) / s2;
         let reduced = machine.reduction(phi).unwrap();
         let expected = 1e-3 + 0.01 * slope * slope;
-        assert_near("J", reduced.inertia[0], expected, budget::CLOSED_FORM * expected * 10.0);
-        let by_differences = derivative(|phi| machine.reduction(phi).unwrap().inertia[0], phi, 1.0 / 64.0);
-        assert_near("J′", reduced.inertia[1], by_differences, budget::RICHARDSON * 10.0);
+        assert_near(
+            "J",
+            reduced.inertia[0],
+            expected,
+            budget::CLOSED_FORM * expected * 10.0,
+        );
+        let by_differences = derivative(
+            |phi| machine.reduction(phi).unwrap().inertia[0],
+            phi,
+            1.0 / 64.0,
+        );
+        assert_near(
+            "J′",
+            reduced.inertia[1],
+            by_differences,
+            budget::RICHARDSON * 10.0,
+        );
     }
 }
 

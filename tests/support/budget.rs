@@ -176,3 +176,18 @@ pub(crate) const LIFT_OFF: f64 = 1e-9;
 
 /// Length of the pitch curve by Gauss's formula against a rule of 20,000 steps.
 pub(crate) const PITCH_LENGTH: f64 = 1e-9;
+
+/// Energy (or momentum) of a free run with a shifted ratio, by RK4 with thousands of steps: its own error is h⁴.
+pub(crate) const FREE_RUN: f64 = 1e-10;
+
+/// Power of a friction drive in motion: some fifty operations, of the sum of the terms' sizes.
+pub(crate) const POWER_BALANCE: f64 = 1e-12;
+
+/// One speed against two discs with a contact force, RK4 on both sides with 10,000 steps; relative.
+pub(crate) const NEWTON: f64 = 1e-9;
+
+/// Load and slip solved together, both of size one or less; the settled load is good to 8 roundings.
+pub(crate) const SETTLED: f64 = 1e-14;
+
+/// Finite relation of a holonomic constraint: RK4 with 100 to 400 steps, or a Gauss rule of order 10.
+pub(crate) const RELATION: f64 = 1e-9;

@@ -1,0 +1,160 @@
+//! What cannot be is refused, with the quantity, its value and its limit.
+
+use jred::Error;
+use jred::friction::{
+    Arrangement, Contact, Creep, CreepContact, Drive, Flow, Place, Ramp, Shaft, Sine, Stage, State,
+    Variable,
+};
+use jred::mechanism::FrictionDrive;
+use jred::motion::Law;
+
+fn text<T: std::fmt::Debug>(result: Result<T, Error>) -> String {
+    result.unwrap_err().to_string()
+}
+
+#[test]
+fn stages_and_courses() {
+    let zero = "size of the friction stage's ratio is 0, but must be greater than zero";
+    assert_eq!(text(Stage::new(0.0)), zero);
+    assert_eq!(
+        text(Stage::new(f64::NAN)),
+        "size of the friction stage's ratio is not a finite number"
+    );
+    let stage = Stage::new(2.0).unwrap();
+    for slip in [1.0, -0.1, 3.0] {
+        let expected = format!("slip is {slip}, outside 0 to 1");
+        assert_eq!(text(stage.with_slip(slip, Flow::default())), expected);
+        assert_eq!(text(Creep::new(slip, 5.0)), expected);
+    }
+    assert!(CreepContact::new(0.0, 5.0).is_err() && CreepContact::new(0.1, 0.0).is_err());
+    assert!(Creep::new(0.1, -1.0).is_err());
+    assert!(Ramp::linear(Variable::Time, 0.0, 0.0, [1.0, 2.0]).is_err());
+    assert!(Ramp::new(Variable::Time, 0.0, 1.0, [1.0, f64::NAN], Law::default()).is_err());
+    assert!(Sine::new(Variable::Time, 1.0, 1.0, f64::INFINITY, 0.0).is_err());
+    // A ratio that passes through zero is refused where it does, not before.
+    let through = Ramp::linear(Variable::Time, 0.0, 1.0, [1.0, -1.0]).unwrap();
+    let stage = Stage::new(&through).unwrap();
+    assert!(stage.at(Place::new(0.4, 0.0, 0.0)).is_ok());
+    assert_eq!(text(stage.at(Place::new(0.5, 0.0, 0.0))), zero);
+    let much = Ramp::linear(Variable::Load, 0.0, 10.0, [0.0, 2.0]).unwrap();
+    let stage = Stage::new(1.0)
+        .unwrap()
+        .with_slip(&much, Flow::FirstDrives)
+        .unwrap();
+    assert_eq!(
+        text(stage.at(Place::new(0.0, 0.0, 7.0))),
+        "slip of the friction stage is 1.4, outside -1 to 1"
+    );
+    let broken = |p: Place| p.t / 0.0;
+    assert!(
+        Stage::new(&broken)
+            .unwrap()
+            .at(Place::new(1.0, 0.0, 0.0))
+            .is_err()
+    );
+}
+
+#[test]
+fn drives() {
+    let stage = Stage::new(2.0).unwrap();
+    let new = |count: usize| Drive::new(Arrangement::Chain, Contact::Ideal, &vec![stage; count]);
+    assert_eq!(
+        text(new(0)),
+        "number of friction stages is 0, but must be greater than zero"
+    );
+    assert_eq!(text(new(9)), "too many friction stages: at most 8 fit");
+    assert!(new(8).is_ok());
+    let drive = new(1).unwrap();
+    let shafts = [Shaft::new(0.1, 0.0), Shaft::new(0.0, 0.0)];
+    let at = |omega: f64, angles: &[f64]| {
+        drive.forward(
+            State {
+                t: 0.0,
+                angles,
+                omega,
+            },
+            &shafts,
+        )
+    };
+    assert!(at(1.0, &[0.0, 0.0]).is_ok());
+    assert_eq!(
+        text(at(1.0, &[0.0])),
+        "number of angles is 1, outside 2 to 2"
+    );
+    assert_eq!(
+        text(at(f64::NAN, &[0.0, 0.0])),
+        "speed is not a finite number"
+    );
+    assert_eq!(
+        text(at(1.0, &[0.0, f64::NAN])),
+        "angle of a shaft is not a finite number"
+    );
+    let state = State {
+        t: 0.0,
+        angles: &[0.0, 0.0],
+        omega: 1.0,
+    };
+    assert_eq!(
+        text(drive.forward(state, &shafts[..1])),
+        "number of shafts is 1, outside 2 to 2"
+    );
+    assert_eq!(
+        text(drive.forward(state, &[Shaft::default(); 2])),
+        "inertia of the friction drive is 0, but must be greater than zero"
+    );
+    assert_eq!(
+        text(drive.inverse(state, f64::INFINITY, &shafts)),
+        "acceleration is not a finite number"
+    );
+}
+
+/// Slip that grows so fast with the load that load and slip chase each other.
+#[test]
+fn load_and_slip_that_do_not_settle() {
+    let steep = |p: Place| (p.load * 40.0).sin_cos().0 * 0.9;
+    let stage = Stage::new(1.0)
+        .unwrap()
+        .with_slip(&steep, Flow::FirstDrives)
+        .unwrap();
+    let drive = Drive::new(Arrangement::Chain, Contact::Slipping, &[stage]).unwrap();
+    let shafts = [Shaft::new(0.1, 50.0), Shaft::new(0.4, -3.0)];
+    let state = State {
+        t: 0.0,
+        angles: &[0.0, 0.0],
+        omega: 5.0,
+    };
+    assert_eq!(
+        text(drive.forward(state, &shafts)),
+        "load and slip of the friction drive do not settle: let the one depend less on the other"
+    );
+}
+
+#[test]
+fn mechanisms() {
+    let constant = Stage::new(2.0).unwrap();
+    let course = Sine::new(Variable::Time, 1.0, 0.1, 1.0, 0.0).unwrap();
+    let varying = Stage::new(&course).unwrap();
+    let new =
+        |stages: &[Stage], inertias: &[f64]| FrictionDrive::new(Arrangement::Fan, stages, inertias);
+    assert_eq!(
+        text(new(&[constant, varying], &[1.0, 1.0, 1.0])),
+        "the ratio or slip of friction stage 1 varies: the angle of its second shaft need not be a function of the \
+         drive angle; give numbers, or use the friction drive's own equation of motion"
+    );
+    assert_eq!(
+        text(new(&[constant], &[1.0])),
+        "number of inertias is 1, outside 2 to 2"
+    );
+    assert_eq!(
+        text(new(&[constant], &[1.0, -1.0])),
+        "inertia is -1, but must not be negative"
+    );
+    assert_eq!(
+        text(new(&[], &[1.0])),
+        "number of friction stages is 0, but must be greater than zero"
+    );
+    assert_eq!(
+        text(new(&[constant; 9], &[1.0; 10])),
+        "too many friction stages: at most 8 fit"
+    );
+}
