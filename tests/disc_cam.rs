@@ -379,7 +379,7 @@ fn undercut_is_cured_by_the_radius_told() {
     assert_near("radius", radius, 0.01 + least, 1e-9);
     let s = program.displacement(phi);
     assert_near("radius", radius, 0.01 + s.value + s.d2, 1e-15);
-    assert_eq!(limit, 0.0);
+    assert_near("limit", limit, 0.0, 0.0);
     assert!(DiscCam::new(program.clone(), cure * 1.000_001, face, links()).is_ok());
     assert!(DiscCam::new(program.clone(), cure * 0.999_999, face, links()).is_err());
 
@@ -579,7 +579,8 @@ fn cutter_paths() {
             budget::CAM_PROFILE,
         );
         let (pitch, same) = (mechanism.pitch_curve(phi), mechanism.equidistant(phi, 0.01));
-        assert_eq!(pitch, same);
+        assert_near("u", pitch[0], same[0], 0.0);
+        assert_near("v", pitch[1], same[1], 0.0);
         // The roller's centre, seen from the cam.
         let frames = mechanism.frames(phi).unwrap();
         let [x, y] = frames[DiscCam::CAM].point(pitch).map(|c| c.value);

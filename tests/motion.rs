@@ -139,6 +139,7 @@ fn speed_and_acceleration_are_derivatives() {
 /// Largest S′, |S″| and |S‴|: the law's own extremes, its closed form, and the figures printed in the tables of
 /// VDI 2143 Blatt 1 and Norton, *Cam Design and Manufacturing Handbook* (rounded there to the digits given here).
 #[test]
+#[expect(clippy::approx_constant, reason = "2π as it is printed")]
 fn coefficients_of_vdi_2143() {
     let none = f64::NAN;
     for (law, printed) in [

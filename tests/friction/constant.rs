@@ -8,120 +8,132 @@ use proptest::prelude::*;
 use crate::support::jointed::{dalembert, joints_close, turns};
 use crate::support::{assert_near, budget, config};
 
-#[test]
-fn constant_ratios_are_a_train() {
-    let ratio = || prop_oneof![0.2f64..5.0, -5.0f64..-0.2];
+/// Three stages, four shafts.
+#[derive(Clone, Debug)]
+struct Case {
+    ratios: [f64; 3],
+    slips: [f64; 3],
+    inertias: [f64; 4],
+    fan: bool,
+    phi: f64,
+    omega: f64,
+}
+
+fn cases() -> impl Strategy<Value = Case> {
+    let ratio = prop_oneof![0.2f64..5.0, -5.0f64..-0.2];
     let strategy = (
-        prop::array::uniform3(ratio()),
+        prop::array::uniform3(ratio),
         prop::array::uniform3(0.0f64..0.2),
         prop::array::uniform4(0.001f64..2.0),
         any::<bool>(),
         -10.0f64..10.0,
         -40.0f64..40.0,
     );
+    strategy.prop_map(|(ratios, slips, inertias, fan, phi, omega)| Case {
+        ratios,
+        slips,
+        inertias,
+        fan,
+        phi,
+        omega,
+    })
+}
+
+#[test]
+fn constant_ratios_are_a_train() {
     let mut runner = proptest::test_runner::TestRunner::new(config(200, 72));
-    let test =
-        |(i, slips, inertias, fan, phi, omega): ([f64; 3], [f64; 3], [f64; 4], bool, f64, f64)| {
-            let arrangement = if fan {
-                Arrangement::Fan
-            } else {
-                Arrangement::Chain
-            };
-            let stages: Vec<Stage> = (0..3)
-                .map(|k| {
-                    Stage::new(i[k])
-                        .unwrap()
-                        .with_slip(slips[k], Flow::SecondDrives)
-                        .unwrap()
-                })
-                .collect();
-            let mechanism = FrictionDrive::new(arrangement, &stages, &inertias).unwrap();
-            assert_eq!(mechanism.arrangement(), arrangement);
-            // j = i/(1 − ε), (III.12), (III.19)
-            let j: Vec<f64> = (0..3).map(|k| i[k] / (1.0 - slips[k])).collect();
-            let all = match arrangement {
-                Arrangement::Chain => [1.0, j[0], j[0] * j[1], j[0] * j[1] * j[2]],
-                Arrangement::Fan => [1.0, j[0], j[1], j[2]],
-            };
-            for (found, expected) in mechanism.coefficients().iter().zip(all) {
-                assert_near("j", *found, expected, budget::CLOSED_FORM * expected.abs());
-            }
-            joints_close(&mechanism, phi);
-            turns(&mechanism, 24);
-            let load = Load::new(2, jred::Action::Moment(3.0)).unwrap();
-            let machine = Machine::new(&mechanism).with_load(load).unwrap();
-            dalembert(&machine, phi, omega, 7.0);
-            let inertia: f64 = all.iter().zip(inertias).map(|(j, own)| own * j * j).sum();
-            let reduction = machine.reduction(phi).unwrap();
-            assert_near(
-                "J",
-                reduction.inertia[0],
-                inertia,
-                budget::CLOSED_FORM * inertia,
-            );
-            // The equation of motion of the drive is that of the mechanism.
-            let drive = Drive::new(arrangement, Contact::Ideal, &stages).unwrap();
-            let mut shafts: Vec<Shaft> = inertias.iter().map(|j| Shaft::new(*j, 0.0)).collect();
-            shafts[2].torque = 3.0;
-            let angles: Vec<f64> = all.iter().map(|j| j * phi).collect();
-            let motion = drive
-                .inverse(
-                    State {
-                        t: 1.0,
-                        angles: &angles,
-                        omega,
-                    },
-                    7.0,
-                    &shafts,
-                )
-                .unwrap();
-            let torque = reduction.torque(omega, 7.0).total();
-            assert_near(
-                "torque",
-                motion.drive,
-                torque,
-                budget::CLOSED_FORM * 10.0 * (inertia * 7.0 + 3.0 * all[2].abs()),
-            );
-            if arrangement == Arrangement::Chain {
-                // A train counts its ratios the other way round; an inertia lies on either side of a stage.
-                let gears: Vec<Gear> = (0..3)
-                    .map(|k| {
-                        Gear::new(
-                            1.0 / j[k],
-                            [if k == 0 { inertias[0] } else { 0.0 }, inertias[k + 1]],
-                        )
-                        .unwrap()
-                    })
-                    .collect();
-                let train = Train::new(&gears).unwrap();
-                assert_near(
-                    "(6.9)",
-                    train.inertia_at_input(),
-                    inertia,
-                    budget::CLOSED_FORM * inertia,
-                );
-                let (a, b) = (mechanism.frames(phi).unwrap(), train.frames(phi).unwrap());
-                for (a, b) in a.iter().zip(&b) {
-                    assert_near(
-                        "ψ",
-                        a.psi.value,
-                        b.psi.value,
-                        budget::CLOSED_FORM * (1.0 + b.psi.value.abs()),
-                    );
-                    assert_near(
-                        "ψ′",
-                        a.psi.d1,
-                        b.psi.d1,
-                        budget::CLOSED_FORM * b.psi.d1.abs(),
-                    );
-                }
-                let frames = mechanism.frames(phi).unwrap();
-                assert_eq!(
-                    mechanism.joints(phi, &frames).unwrap().len(),
-                    train.joints(phi, &frames).unwrap().len()
-                );
-            }
+    runner
+        .run(&cases(), |case| {
+            case.check();
             Ok(())
+        })
+        .unwrap();
+}
+
+const ALPHA: f64 = 7.0;
+const MOMENT: f64 = 3.0;
+
+impl Case {
+    /// j = i/(1 − ε), (III.12), (III.19)
+    fn speeds(&self) -> [f64; 3] {
+        std::array::from_fn(|k| self.ratios[k] / (1.0 - self.slips[k]))
+    }
+
+    fn stages(&self) -> [Stage<'static>; 3] {
+        std::array::from_fn(|k| {
+            let stage = Stage::new(self.ratios[k]).unwrap();
+            stage.with_slip(self.slips[k], Flow::SecondDrives).unwrap()
+        })
+    }
+
+    fn check(&self) {
+        let (phi, j) = (self.phi, self.speeds());
+        let (arrangement, all) = if self.fan {
+            (Arrangement::Fan, [1.0, j[0], j[1], j[2]])
+        } else {
+            (
+                Arrangement::Chain,
+                [1.0, j[0], j[0] * j[1], j[0] * j[1] * j[2]],
+            )
         };
-    runner.run(&strategy, test).unwrap();
+        let stages = self.stages();
+        let mechanism = FrictionDrive::new(arrangement, &stages, &self.inertias).unwrap();
+        assert_eq!(mechanism.arrangement(), arrangement);
+        for (found, expected) in mechanism.coefficients().iter().zip(all) {
+            assert_near("j", *found, expected, budget::CLOSED_FORM * expected.abs());
+        }
+        joints_close(&mechanism, phi);
+        turns(&mechanism, 24);
+        let load = Load::new(2, jred::Action::Moment(MOMENT)).unwrap();
+        let machine = Machine::new(&mechanism).with_load(load).unwrap();
+        dalembert(&machine, phi, self.omega, ALPHA);
+        let own = all.iter().zip(self.inertias);
+        let inertia: f64 = own.map(|(j, own)| own * j * j).sum();
+        let found = machine.reduction(phi).unwrap().inertia[0];
+        assert_near("J", found, inertia, budget::CLOSED_FORM * inertia);
+
+        // The equation of motion of the drive is that of the mechanism.
+        let drive = Drive::new(arrangement, Contact::Ideal, &stages).unwrap();
+        let mut shafts = self.inertias.map(|inertia| Shaft::new(inertia, 0.0));
+        shafts[2].torque = MOMENT;
+        let state = State {
+            t: 1.0,
+            angles: &all.map(|j| j * phi),
+            omega: self.omega,
+        };
+        let found = drive.inverse(state, ALPHA, &shafts).unwrap().drive;
+        let torque = machine
+            .reduction(phi)
+            .unwrap()
+            .torque(self.omega, ALPHA)
+            .total();
+        let size = inertia * ALPHA + MOMENT * all[2].abs();
+        assert_near("torque", found, torque, budget::CLOSED_FORM * 10.0 * size);
+        if !self.fan {
+            self.against_train(&mechanism, inertia);
+        }
+    }
+
+    /// A train counts its ratios the other way round; an inertia lies on either side of a stage.
+    fn against_train(&self, mechanism: &FrictionDrive, inertia: f64) {
+        let j = self.speeds();
+        let first = |k: usize| if k == 0 { self.inertias[0] } else { 0.0 };
+        let gear = |k: usize| Gear::new(1.0 / j[k], [first(k), self.inertias[k + 1]]).unwrap();
+        let train = Train::new(&[0, 1, 2].map(gear)).unwrap();
+        let found = train.inertia_at_input();
+        assert_near("(6.9)", found, inertia, budget::CLOSED_FORM * inertia);
+        let frames = mechanism.frames(self.phi).unwrap();
+        for (a, b) in frames.iter().zip(&train.frames(self.phi).unwrap()) {
+            let size = 1.0 + b.psi.value.abs();
+            assert_near("ψ", a.psi.value, b.psi.value, budget::CLOSED_FORM * size);
+            assert_near(
+                "ψ′",
+                a.psi.d1,
+                b.psi.d1,
+                budget::CLOSED_FORM * b.psi.d1.abs(),
+            );
+        }
+        let joints = mechanism.joints(self.phi, &frames).unwrap();
+        assert_eq!(joints.len(), train.joints(self.phi, &frames).unwrap().len());
+    }
 }

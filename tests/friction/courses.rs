@@ -75,8 +75,13 @@ fn curves_pass_through_their_samples() {
     let turn = Curve::turn(CubicSpline::new(control).unwrap());
     for phi in [0.0, 1.3, -2.0, 9.0, 40.0] {
         let found = turn.at(Place::new(0.0, phi, 0.0));
-        assert_near("value", found.value, f(phi), 1e-4);
-        assert_near("slope", found.slope[1], 0.6 * (2.0 * phi).cos(), 1e-3);
+        assert_near("value", found.value, f(phi), budget::CURVE[0]);
+        assert_near(
+            "slope",
+            found.slope[1],
+            0.6 * (2.0 * phi).cos(),
+            budget::CURVE[1],
+        );
         check(&turn, [0.0, phi + 0.013, 0.0]);
     }
     let samples: Vec<f64> = (0..=20).map(|k| f(f64::from(k) / 10.0)).collect();
@@ -86,11 +91,16 @@ fn curves_pass_through_their_samples() {
         Curve::bounded(Variable::Load, 3.0, 2.0, CubicSpline::new(control).unwrap()).unwrap();
     for (load, x) in [(3.0, 0.0), (3.7, 0.7), (5.0, 2.0)] {
         let found = part.at(Place::new(0.0, 0.0, load));
-        assert_near("value", found.value, f(x), 1e-4);
-        assert_near("slope", found.slope[2], 0.6 * (2.0 * x).cos(), 5e-3);
+        assert_near("value", found.value, f(x), budget::CURVE[0]);
+        assert_near(
+            "slope",
+            found.slope[2],
+            0.6 * (2.0 * x).cos(),
+            budget::CURVE[1],
+        );
     }
     let outside = part.at(Place::new(0.0, 0.0, 7.0));
-    assert_near("end value", outside.value, f(2.0), 1e-12);
+    assert_near("end value", outside.value, f(2.0), budget::CLOSED_FORM);
     assert_near("end slope", outside.slope[2], 0.0, 0.0);
 }
 

@@ -62,7 +62,7 @@ fn steady_load_is_the_creeping_contact() {
         omega: 80.0,
     };
     let motion = drive.forward(state, &shafts).unwrap();
-    assert_near("α", motion.alpha, 0.0, 1e-12);
+    assert_near("α", motion.alpha, 0.0, budget::IDENTITY);
     let contact = CreepContact::new(0.05, LIMIT).unwrap();
     let found = contact.traction(1.5 * 80.0, motion.shafts[1].omega);
     assert_near("L", found.torque, 30.0, budget::SETTLED * 1e4);

@@ -263,7 +263,7 @@ fn stages_say_what_they_are() {
     let StageConstraint::NonHolonomic { rate, .. } = found[6] else {
         panic!("{:?}", found[6]);
     };
-    assert_near("∂j/∂t", rate.abs(), 0.2 * 0.7, 1e-6);
+    assert_near("∂j/∂t", rate.abs(), 0.2 * 0.7, budget::GRID_MAXIMUM);
     let holonomic: Vec<bool> = found.iter().map(StageConstraint::is_holonomic).collect();
     assert_eq!(holonomic, [true, false, false, true, false, false, false]);
     assert!(

@@ -191,3 +191,9 @@ pub(crate) const SETTLED: f64 = 1e-14;
 
 /// Finite relation of a holonomic constraint: RK4 with 100 to 400 steps, or a Gauss rule of order 10.
 pub(crate) const RELATION: f64 = 1e-9;
+
+/// A spline through 20 to 48 samples of a sine, value and slope: h⁴/384 and h³/24 of its derivatives, more at free ends.
+pub(crate) const CURVE: [f64; 2] = [1e-4, 5e-3];
+
+/// The largest rate of a sine on a grid of 129 places over a whole period, one of which is its steepest.
+pub(crate) const GRID_MAXIMUM: f64 = 1e-6;

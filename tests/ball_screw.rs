@@ -1,0 +1,141 @@
+//! The screw drive: formula, joints, thrust.
+
+mod support;
+
+use std::f64::consts::TAU;
+
+use jred::mechanism::{BallScrew, Misfit};
+use jred::{Action, Error, Link, Load, Machine, Mechanism, Reducible};
+use proptest::prelude::*;
+use support::{assert_near, budget, config, jointed};
+
+const NUT: usize = BallScrew::NUT;
+
+fn links(inertia: f64, mass: f64) -> [Link; 2] {
+    [
+        Link::new(3.0, inertia, [0.0, 0.0]).unwrap(),
+        Link::new(mass, 0.0, [0.0, 0.0]).unwrap(),
+    ]
+}
+
+#[test]
+fn ball_screw_textbook() {
+    let (inertia, mass, force) = (0.0008, 120.0, -900.0);
+    for lead in [0.01, -0.02] {
+        let screw = BallScrew::new(lead, links(inertia, mass)).unwrap();
+        let load = Load::new(NUT, Action::Force([force, 0.0])).unwrap();
+        let machine = Machine::new(screw)
+            .with_gravity([0.0, -9.81])
+            .and_then(|m| m.with_load(load))
+            .unwrap();
+        let expected = inertia + mass * (lead / TAU).powi(2);
+        for phi in [-100.0_f64, 0.0, 2.0, 700.0] {
+            let x = machine.mechanism().frames(phi).unwrap()[NUT].x;
+            assert_near(
+                "x",
+                x.value,
+                lead * phi / TAU,
+                budget::CLOSED_FORM * (1.0 + phi.abs()),
+            );
+            let reduced = machine.reduction(phi).unwrap();
+            assert_near(
+                "J",
+                reduced.inertia[0],
+                expected,
+                budget::CLOSED_FORM * expected,
+            );
+            assert_eq!(reduced.inertia[1..], [0.0, 0.0]);
+            assert_eq!(reduced.potential_energy[1], 0.0);
+
+            // Thrust = m·ẍ − F, on the nut by the thread and on the screw by the bearings; the weights are carried apart.
+            let alpha = 500.0;
+            let forces = machine.forces(phi, 50.0, alpha).unwrap();
+            let thrust = mass * alpha * lead / TAU - force;
+            let size = budget::REACTIONS * 1300.0;
+            assert_near("thread", forces.reactions[2].force[0], thrust, size);
+            assert_near("thrust bearing", forces.reactions[0].force[0], thrust, size);
+            assert_near(
+                "screw's weight",
+                forces.reactions[0].force[1],
+                3.0 * 9.81,
+                size,
+            );
+            assert_near(
+                "nut's weight",
+                forces.reactions[1].force[1],
+                mass * 9.81,
+                size,
+            );
+            let drive = inertia * alpha + thrust * lead / TAU;
+            assert_near("drive", forces.drive, drive, budget::REACTIONS * 4.0);
+        }
+    }
+}
+
+prop_compose! {
+    fn machines()(
+        lead in 0.001..0.06_f64,
+        left in any::<bool>(),
+        inertia in 1e-5..1e-2_f64,
+        mass in 0.1..500.0_f64,
+        com in [-1.0..1.0, -1.0..1.0],
+        down in 0.0..6.2_f64,
+        load in [-300.0..300.0, 0.0..100.0, 0.0..20.0],
+    ) -> Machine<BallScrew> {
+        let links = [
+            Link::new(2.0, inertia, [0.0, 0.0]).unwrap(),
+            Link::new(mass, 0.0, com).unwrap(),
+        ];
+        let on = |action| Load::new(NUT, action).unwrap();
+        let lead = if left { -lead } else { lead };
+        Machine::new(BallScrew::new(lead, links).unwrap())
+            .with_gravity([9.81 * down.cos(), 9.81 * down.sin()])
+            .and_then(|m| m.with_load(on(Action::Force([load[0], 0.3 * load[0]]))))
+            .and_then(|m| m.with_load(on(Action::OpposingForce(load[1]))))
+            .and_then(|m| m.with_load(on(Action::ViscousForce(load[2]))))
+            .unwrap()
+    }
+}
+
+proptest! {
+    #![proptest_config(config(150, 45))]
+
+    #[test]
+    fn joints_close_and_forces_balance(
+        machine in machines(),
+        phi in -200.0..200.0_f64,
+        omega in -300.0..300.0_f64,
+        alpha in -1000.0..1000.0_f64,
+    ) {
+        jointed::joints_close(machine.mechanism(), phi);
+        jointed::dalembert(&machine, phi, omega, alpha);
+        jointed::energy(&machine, phi, omega);
+        jointed::turns(machine.mechanism(), 100);
+        let (now, later) = (machine.reduction(phi).unwrap(), machine.reduction(phi + TAU).unwrap());
+        prop_assert_eq!(now.inertia, later.inertia);
+        prop_assert_eq!(now.load_torque(), later.load_torque());
+    }
+}
+
+#[test]
+fn wrong_dimensions_are_refused() {
+    let new = |lead| BallScrew::new(lead, links(1.0, 1.0)).unwrap_err();
+    assert_eq!(
+        new(0.0).to_string(),
+        "size of the lead is 0, but must be greater than zero"
+    );
+    assert_eq!(new(f64::INFINITY), Error::NotFinite("size of the lead"));
+    let off = Link::new(1.0, 1.0, [0.0, -0.25]).unwrap();
+    assert_eq!(
+        BallScrew::new(0.01, [off, off]).unwrap_err(),
+        Error::Misfit(Misfit::OffAxis {
+            link: "screw",
+            distance: 0.25
+        })
+    );
+    let screw = BallScrew::new(0.1, links(1.0, 1.0)).unwrap();
+    assert_eq!(
+        screw.frames(f64::NAN).unwrap_err(),
+        Error::NotFinite("screw angle")
+    );
+}

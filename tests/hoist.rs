@@ -1,0 +1,188 @@
+//! The hoist: drum, load on falls, counterweight.
+
+mod support;
+
+use std::f64::consts::TAU;
+
+use jred::mechanism::{Hoist, Rope};
+use jred::{Action, Error, Link, Load, Machine, Mechanism, Reducible};
+use proptest::prelude::*;
+use support::{assert_near, budget, config, jointed};
+
+const G: f64 = 9.81;
+
+fn mass(mass: f64) -> Link {
+    Link::new(mass, 0.0, [0.0, 0.0]).unwrap()
+}
+
+fn upright(hoist: Hoist) -> Machine<Hoist> {
+    Machine::new(hoist).with_gravity([0.0, -G]).unwrap()
+}
+
+#[test]
+fn hoist_textbook() {
+    let drum = Link::new(80.0, 1.5, [0.0, 0.0]).unwrap();
+    let (load, counter) = (600.0, 250.0);
+    let (rope, other) = (Rope::new(0.2, 2).unwrap(), Rope::new(0.3, 1).unwrap());
+    let plain = upright(Hoist::new(drum, (rope, mass(load))));
+    let balanced = upright(Hoist::with_counterweight(
+        drum,
+        (rope, mass(load)),
+        (other, mass(counter)),
+    ));
+    for phi in [-10.0_f64, 0.0, 1.0, 60.0] {
+        let size = budget::CLOSED_FORM * 1e3 * (1.0 + phi.abs());
+        let frames = balanced.mechanism().frames(phi).unwrap();
+        assert_near("load", frames[Hoist::LOAD].y.value, 0.1 * phi, size);
+        assert_near(
+            "counterweight",
+            frames[Hoist::COUNTERWEIGHT].y.value,
+            -0.3 * phi,
+            size,
+        );
+        let one = plain.reduction(phi).unwrap();
+        assert_near("J", one.inertia[0], 1.5 + load * 0.01, size);
+        assert_near("U", one.potential_energy[0], load * G * 0.1 * phi, size);
+        assert_near("U'", one.potential_energy[1], load * G * 0.1, size);
+        let two = balanced.reduction(phi).unwrap();
+        assert_near(
+            "J",
+            two.inertia[0],
+            1.5 + load * 0.01 + counter * 0.09,
+            size,
+        );
+        assert_near(
+            "U'",
+            two.potential_energy[1],
+            G * (load * 0.1 - counter * 0.3),
+            size,
+        );
+
+        // Ropes: each fall of the load carries half of m·(g + a); the counterweight hangs in m·(g − a).
+        let (omega, alpha) = (2.0, 5.0);
+        let forces = balanced.forces(phi, omega, alpha).unwrap();
+        let (s1, s2) = (load * (G + 0.1 * alpha) / 2.0, counter * (G - 0.3 * alpha));
+        let near = |what: &str, found: f64, expected: f64| {
+            assert_near(what, found, expected, budget::REACTIONS * 6e3);
+        };
+        near("rope of the load", forces.reactions[3].force[1], -s1);
+        near("its place", forces.reactions[3].point[0], 0.2);
+        near(
+            "rope of the counterweight",
+            forces.reactions[4].force[1],
+            -s2,
+        );
+        near("its place", forces.reactions[4].point[0], -0.3);
+        near("bearing", forces.reactions[0].force[1], s1 + s2 + 80.0 * G);
+        near("guides", forces.reactions[1].force[0], 0.0);
+        near("drive", forces.drive, 1.5 * alpha + s1 * 0.2 - s2 * 0.3);
+    }
+}
+
+/// A machine with both loads equal on one sheave is Atwood's: a = T/(R·(m1 + m2) + J/R).
+#[test]
+fn equal_loads_need_no_holding_torque() {
+    let rope = Rope::new(0.25, 1).unwrap();
+    let elevator = upright(Hoist::with_counterweight(
+        Link::rotor(0.8).unwrap(),
+        (rope, mass(400.0)),
+        (rope, mass(400.0)),
+    ));
+    let reduced = elevator.reduction(3.0).unwrap();
+    assert_near(
+        "U'",
+        reduced.potential_energy[1],
+        0.0,
+        budget::CLOSED_FORM * 1e3,
+    );
+    let alpha = reduced.acceleration(0.0, 40.0);
+    let expected = 40.0 / (0.25 * 800.0 + 0.8 / 0.25) / 0.25;
+    assert_near("Atwood", alpha, expected, budget::CLOSED_FORM * expected);
+}
+
+prop_compose! {
+    fn machines()(
+        radius in [0.05..0.5_f64, 0.05..0.5_f64],
+        falls in [1..=8_u32, 1..=4_u32],
+        counterweight in any::<bool>(),
+        inertia in 0.01..5.0_f64,
+        masses in [0.1..50.0, 1.0..900.0, 1.0..900.0],
+        com in [-0.1..0.1, -0.1..0.1, -1.0..1.0, -1.0..1.0],
+        down in 0.0..6.2_f64,
+        load in [-300.0..300.0, 0.0..100.0, 0.0..20.0],
+    ) -> Machine<Hoist> {
+        let [u0, v0, u1, v1] = com;
+        let drum = Link::new(masses[0], inertia, [u0, v0]).unwrap();
+        let hook = (
+            Rope::new(radius[0], falls[0]).unwrap(),
+            Link::new(masses[1], 0.0, [u1, v1]).unwrap(),
+        );
+        let hoist = if counterweight {
+            let rope = Rope::new(radius[1], falls[1]).unwrap();
+            Hoist::with_counterweight(drum, hook, (rope, mass(masses[2])))
+        } else {
+            Hoist::new(drum, hook)
+        };
+        let on = |action| Load::new(Hoist::LOAD, action).unwrap();
+        Machine::new(hoist)
+            .with_gravity([9.81 * down.cos(), 9.81 * down.sin()])
+            .and_then(|m| m.with_load(on(Action::Force([0.2 * load[0], load[0]]))))
+            .and_then(|m| m.with_load(on(Action::OpposingForce(load[1]))))
+            .and_then(|m| m.with_load(on(Action::ViscousForce(load[2]))))
+            .unwrap()
+    }
+}
+
+proptest! {
+    #![proptest_config(config(150, 46))]
+
+    #[test]
+    fn joints_close_and_forces_balance(
+        machine in machines(),
+        phi in -60.0..60.0_f64,
+        omega in -15.0..15.0_f64,
+        alpha in -100.0..100.0_f64,
+    ) {
+        jointed::joints_close(machine.mechanism(), phi);
+        jointed::dalembert(&machine, phi, omega, alpha);
+        jointed::energy(&machine, phi, omega);
+        jointed::turns(machine.mechanism(), 100);
+        // All that the reduced equation needs repeats, though the load does not come back.
+        let (now, later) = (machine.reduction(phi).unwrap(), machine.reduction(phi + TAU).unwrap());
+        prop_assert!((now.inertia[0] - later.inertia[0]).abs() <= 1e-12 * now.inertia[0]);
+        prop_assert!((now.load_torque() - later.load_torque()).abs() <= 1e-9);
+        // U is U′ integrated, over any number of turns.
+        let drum = machine.mechanism().links()[0];
+        let far = machine.reduction(phi + 40.0 * TAU).unwrap().potential_energy[0];
+        let mean: f64 = machine.mechanism().links()[1..]
+            .iter()
+            .zip(machine.mechanism().frames(phi).unwrap().iter().skip(1))
+            .map(|(link, frame)| link.potential_energy(frame, machine.gravity())[1])
+            .sum();
+        let expected = now.potential_energy[0] + 40.0 * TAU * mean;
+        prop_assert!((far - expected).abs() <= 1e-9 * (1e3 + expected.abs() + drum.mass()));
+    }
+}
+
+#[test]
+fn wrong_dimensions_are_refused() {
+    let new = |radius, falls| Rope::new(radius, falls).unwrap_err();
+    assert_eq!(
+        new(-0.1, 1).to_string(),
+        "drum radius is -0.1, but must be greater than zero"
+    );
+    assert_eq!(new(f64::NAN, 1), Error::NotFinite("drum radius"));
+    assert_eq!(
+        new(0.1, 0).to_string(),
+        "number of falls is 0, outside 1 to 24"
+    );
+    assert_eq!(
+        new(0.1, 25).to_string(),
+        "number of falls is 25, outside 1 to 24"
+    );
+    let hoist = Hoist::new(mass(1.0), (Rope::new(0.1, 1).unwrap(), mass(1.0)));
+    assert_eq!(
+        hoist.frames(f64::NAN).unwrap_err(),
+        Error::NotFinite("drum angle")
+    );
+}

@@ -1,0 +1,233 @@
+//! Library mechanisms against the general linkage: the closed form, and the joints alone solved by continuation, are the
+//! same motion.
+
+mod support;
+
+use jred::mechanism::{
+    Assembly, Branch, FourBar, Geneva, InvertedSliderCrank, Linkage, Member, Pair, Planetary,
+    PlanetaryGears, Pose, RackAndPinion, ScotchYoke, Side, SixLink,
+};
+use jred::{Body, Domain, Joint, Jointed, Link, Machine, Marker, Mechanism, Reducible};
+use proptest::prelude::*;
+use support::{assert_near, budget, config, jointed};
+
+const O: [f64; 2] = [0.0, 0.0];
+
+fn links<const N: usize>() -> [Link; N] {
+    std::array::from_fn(|k| {
+        let k = k as f64;
+        Link::new(1.0 + k, 0.01 * (1.0 + k), [0.02 * k, 0.01]).unwrap()
+    })
+}
+
+/// Positions, transfer functions, J, J′ and J″ over a turn and beyond.
+fn same_motion(mechanism: &(impl Jointed + Clone), phi: f64) {
+    let linkage = jointed::as_linkage(mechanism, 0.37).unwrap();
+    let closed = Machine::new(mechanism.clone());
+    let solved = Machine::new(&linkage);
+    for phi in [phi, -phi, 3.0 * phi] {
+        jointed::same_frames(mechanism, &linkage, phi, budget::LINKAGE);
+        let [a, b] = [
+            closed.reduction(phi).unwrap(),
+            solved.reduction(phi).unwrap(),
+        ];
+        // J′ and J″ are sums whose terms may cancel: their size is that of J and of one another.
+        let mut size = 0.0_f64;
+        for (order, (a, b)) in a.inertia.iter().zip(b.inertia).enumerate() {
+            size = size.max(a.abs());
+            assert_near(
+                &format!("J derivative {order} at φ = {phi}"),
+                b,
+                *a,
+                budget::LINKAGE * size,
+            );
+        }
+        jointed::dalembert(&solved, phi, 12.0, -70.0);
+    }
+}
+
+proptest! {
+    #![proptest_config(config(60, 0x11_b0))]
+
+    #[test]
+    fn four_bars(
+        lengths in [0.04..0.3, 0.04..0.3, 0.04..0.3],
+        pivot in [-0.3..0.3, -0.3..0.3],
+        left in any::<bool>(),
+        phi in 0.0..6.3,
+    ) {
+        let side = if left { Side::Left } else { Side::Right };
+        let four_bar = FourBar::new(lengths, pivot, side, links());
+        prop_assume!(four_bar.is_ok());
+        let four_bar = four_bar.unwrap();
+        // Near a dead point every rounding grows.
+        let least = (0..360).map(|k| {
+            let mu = four_bar.transmission_angle(f64::from(k).to_radians()).unwrap();
+            mu.value.sin().abs()
+        });
+        prop_assume!(least.fold(1.0, f64::min) > 0.2);
+        same_motion(&four_bar, phi);
+    }
+
+    #[test]
+    fn six_links(
+        crank in 0.05..0.2,
+        centres in 0.02..0.5,
+        rocker in 0.1..0.6,
+        below in -0.3..0.3,
+        slack in 0.2..1.0,
+        left in any::<bool>(),
+        phi in 0.0..6.3,
+    ) {
+        prop_assume!(f64::abs(centres / crank - 1.0) > 0.2);
+        let rod = (rocker + f64::abs(below)) * (1.0 + slack);
+        let branch = if left { Branch::Left } else { Branch::Right };
+        let six_link = SixLink::new([crank, rocker, rod], centres, below, branch, links()).unwrap();
+        same_motion(&six_link, phi);
+    }
+
+    #[test]
+    fn inverted_slider_cranks(
+        crank in 0.05..0.2,
+        pivot in [-0.5..0.5, -0.5..0.5],
+        offset in -0.05..0.05,
+        phi in 0.0..6.3,
+    ) {
+        let centres = f64::hypot(pivot[0], pivot[1]);
+        prop_assume!(f64::abs(centres / crank - 1.0) > 0.2 + f64::abs(offset) / crank);
+        let mechanism = InvertedSliderCrank::new(crank, pivot, offset, links());
+        prop_assume!(mechanism.is_ok());
+        same_motion(&mechanism.unwrap(), phi);
+    }
+
+    #[test]
+    fn scotch_yokes(crank in 0.02..0.2, slot in 0.5..2.6, phi in 0.0..6.3) {
+        same_motion(&ScotchYoke::new(crank, slot, links()).unwrap(), phi);
+    }
+}
+
+/// While the pin is in the slot.
+#[test]
+fn a_geneva_drive_while_engaged() {
+    let wheel = Link::rotor(0.02).unwrap();
+    for slots in [3, 4, 6, 12] {
+        let geneva = Geneva::new(slots, 0.1, [links::<2>()[1], wheel]).unwrap();
+        let engaged =
+            0.98 * (std::f64::consts::FRAC_PI_2 - std::f64::consts::PI / f64::from(slots));
+        let frames = geneva.frames(0.0).unwrap();
+        let joints = geneva.joints(0.0, &frames).unwrap();
+        let pairs: Vec<Pair> = joints.iter().copied().map(Pair::Joint).collect();
+        let drawing: Vec<Pose> = frames
+            .iter()
+            .map(|f| Pose {
+                x: f.x.value,
+                y: f.y.value,
+                psi: f.psi.value,
+            })
+            .collect();
+        let domain = Domain::stroke(-engaged, engaged).unwrap();
+        let linkage: Assembly<2, 3, 64> = Linkage::new(geneva.links(), &pairs, 0)
+            .unwrap()
+            .assemble(domain, 0.0, &drawing)
+            .unwrap();
+        for k in -10..=10 {
+            jointed::same_frames(
+                &geneva,
+                &linkage,
+                engaged * f64::from(k) / 10.0,
+                budget::LINKAGE,
+            );
+        }
+    }
+}
+
+/// Rolling pairs: a rack, and a planetary gear with its ring held, as links and teeth.
+#[test]
+fn a_rack_and_a_planetary_gear() {
+    let [pinion, rack] = [Link::rotor(0.01).unwrap(), Link::new(3.0, 0.0, O).unwrap()];
+    let radius = 0.04;
+    let closed = RackAndPinion::new(radius, [pinion, rack]).unwrap();
+    let start = closed.frames(0.0).unwrap();
+    let drawing: Vec<Pose> = start
+        .iter()
+        .map(|f| Pose {
+            x: f.x.value,
+            y: f.y.value,
+            psi: f.psi.value,
+        })
+        .collect();
+    let along = Pair::Rack {
+        pinion: Marker::on(0, O),
+        rack: Marker::on(1, O),
+        radius,
+        phase: 0.0,
+    };
+    let pairs = [
+        Pair::Joint(Joint::Revolute([Marker::ground(O), Marker::on(0, O)])),
+        Pair::Joint(Joint::Prismatic([
+            Marker::ground([0.0, -radius]),
+            Marker::on(1, O),
+        ])),
+        along.meshing_at(&start),
+    ];
+    let domain = Domain::stroke(-2.0, 3.0).unwrap();
+    let linkage: Assembly<2, 3, 8> = Linkage::new(closed.links(), &pairs, 0)
+        .unwrap()
+        .assemble(domain, 0.0, &drawing)
+        .unwrap();
+    for phi in [-1.9, 0.0, 0.5, 2.9] {
+        jointed::same_frames(&closed, &linkage, phi, budget::LINKAGE);
+        jointed::dalembert(&Machine::new(&linkage), phi, 2.0, 5.0);
+    }
+
+    let teeth = [24, 18, 60];
+    let centres = 0.042;
+    let module = 2.0 * centres / f64::from(teeth[0] + teeth[1]);
+    let [sun, planet, ring] = teeth.map(|z| 0.5 * module * f64::from(z));
+    let member = Link::rotor(0.002).unwrap();
+    let one_planet = Link::new(0.1, 0.00002, O).unwrap();
+    let gears = PlanetaryGears::new(teeth, 3, centres).unwrap();
+    let closed = Planetary::new(
+        gears,
+        Member::Sun,
+        Member::Ring,
+        [member, member, member, one_planet],
+    )
+    .unwrap();
+    let pin = |a, b| Pair::Joint(Joint::Revolute([a, b]));
+    let pairs = [
+        pin(Marker::ground(O), Marker::on(0, O)),
+        pin(Marker::ground(O), Marker::on(1, O)),
+        pin(Marker::on(1, [centres, 0.0]), Marker::on(2, O)),
+        Pair::Gears {
+            centres: [Marker::on(0, O), Marker::on(2, O)],
+            carrier: Body::Link(1),
+            radii: [sun, planet],
+            phase: 0.0,
+        },
+        Pair::Gears {
+            centres: [Marker::ground(O), Marker::on(2, O)],
+            carrier: Body::Link(1),
+            radii: [-ring, planet],
+            phase: 0.0,
+        },
+    ];
+    let drawing = [O, O, [centres, 0.0]].map(|[x, y]| Pose { x, y, psi: 0.0 });
+    let linkage: Assembly<3, 5, 8> = Linkage::new(&[member, member, one_planet], &pairs, 0)
+        .unwrap()
+        .assemble(Domain::stroke(0.0, 3.0).unwrap(), 0.0, &drawing)
+        .unwrap();
+    for phi in [0.0, 1.0, 3.0] {
+        let [a, b] = [closed.frames(phi).unwrap(), linkage.frames(phi).unwrap()];
+        for (closed, solved) in [(0, 0), (1, 1), (3, 2)] {
+            let [a, b] = [a[closed].psi, b[solved].psi];
+            assert_near("speed", b.d1, a.d1, budget::LINKAGE);
+        }
+        // One planet's link of the three.
+        let one = Machine::new(&linkage).link_inertias(phi).unwrap()[2][0];
+        let carrier = Machine::new(&closed).link_inertias(phi).unwrap()[1][0];
+        let spin = Machine::new(&closed).link_inertias(phi).unwrap()[3][0];
+        let bare = 0.002 * a[1].psi.d1.powi(2);
+        assert_near("planets", 3.0 * one, carrier - bare + spin, budget::LINKAGE);
+    }
+}
