@@ -113,6 +113,7 @@ mod phase;
 mod reduction;
 mod scalar;
 mod scale;
+pub mod synthesis;
 pub mod table;
 pub mod tabulate;
 mod transfer;

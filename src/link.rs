@@ -184,6 +184,20 @@ impl Frame {
         }
     }
 
+    /// Sets the three derivatives of a coordinate.
+    #[inline]
+    pub(crate) fn differ(&mut self, axis: u8, [d1, d2, d3]: [f64; 3]) {
+        let of = |value| Transfer { value, d1, d2, d3 };
+        match axis {
+            0 => self.x = of(self.x.value),
+            1 => self.y = of(self.y.value),
+            _ => {
+                self.psi = of(self.psi.value);
+                (self.sin, self.cos) = self.psi.with_sin_cos(self.sin.value, self.cos.value);
+            }
+        }
+    }
+
     /// Sine and cosine of ψ.
     #[inline]
     pub(crate) const fn direction(&self) -> (Transfer, Transfer) {
@@ -204,9 +218,13 @@ impl Frame {
         }
     }
 
-    /// Prepares for derivatives of this `order` (1 to 3): of sine and cosine, the part that lower orders of ψ make.
+    /// Prepares for derivatives of this `order` (1 to 3) of a coordinate: of sine and cosine, the part that lower orders
+    /// of ψ make.
     #[inline]
-    pub(crate) fn raise(&mut self, order: usize) {
+    pub(crate) fn raise(&mut self, axis: u8, order: usize) {
+        if axis != 2 {
+            return;
+        }
         let (s, c) = (self.sin.value, self.cos.value);
         let Transfer { d1, d2, .. } = self.psi;
         match order {

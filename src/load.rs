@@ -24,7 +24,7 @@ pub enum Action {
     ViscousMoment(f64),
 }
 
-/// The part of the turn in which a load acts.
+/// The part of the turn, or of the stroke, in which a load acts.
 ///
 /// It rises from nothing at `from` to its full size over `ramp`, and falls to nothing over `ramp` before `to`, each
 /// by the 3-4-5 polynomial, so that the reduced torque keeps two continuous derivatives.
@@ -34,6 +34,8 @@ pub struct Window {
     from: f64,
     width: f64,
     ramp: f64,
+    /// It comes again with every turn.
+    repeats: bool,
 }
 
 impl Window {
@@ -58,22 +60,64 @@ impl Window {
                 max: TAU,
             });
         }
-        Ok(Self { from, width, ramp })
+        Ok(Self {
+            from,
+            width,
+            ramp,
+            repeats: true,
+        })
     }
 
-    /// The angles (rad) at which the window opens, is open, begins to close, and is closed.
+    /// A window of a drive link with a stroke, `from` … `to` with edges of width `ramp` (m, or rad of one that swings). It
+    /// does not come again after a turn, and an end of it may lie beyond the stroke.
+    ///
+    /// # Errors
+    /// A window narrower than its two ramps; a ramp that is not positive.
+    pub fn on_stroke(from: f64, to: f64, ramp: f64) -> Result<Self, Error> {
+        let from = finite("start of the load's window", from)?;
+        let ramp = positive("ramp of the load's window", ramp)?;
+        let width = positive(
+            "width of the load's window",
+            finite("end of the load's window", to)? - from,
+        )?;
+        if width < 2.0 * ramp {
+            return Err(Error::OutOfRange {
+                what: "width of the load's window (m or rad)",
+                value: width,
+                min: 2.0 * ramp,
+                max: f64::INFINITY,
+            });
+        }
+        Ok(Self {
+            from,
+            width,
+            ramp,
+            repeats: false,
+        })
+    }
+
+    /// The positions (rad, or m) at which the window opens, is open, begins to close, and is closed.
     #[must_use]
     pub fn edges(&self) -> [f64; 4] {
         let to = self.from + self.width;
         [self.from, self.from + self.ramp, to - self.ramp, to]
     }
 
-    /// How much of the load acts at `phi` (rad): 0 to 1.
+    /// Whether it comes again with every turn.
+    pub const fn repeats(&self) -> bool {
+        self.repeats
+    }
+
+    /// How much of the load acts at `phi` (rad, or m of a stroke): 0 to 1.
     #[must_use]
     pub fn factor(&self, phi: f64) -> f64 {
         use core::f64::consts::TAU;
-        let turns = (phi - self.from) / TAU;
-        let into = (turns - math::floor(turns)) * TAU;
+        let into = if self.repeats {
+            let turns = (phi - self.from) / TAU;
+            (turns - math::floor(turns)) * TAU
+        } else {
+            phi - self.from
+        };
         let edge = into.min(self.width - into).max(0.0);
         Law::Polynomial345.at((edge / self.ramp).min(1.0))[0]
     }

@@ -74,6 +74,14 @@ pub(crate) fn acos(x: f64) -> f64 {
     libm::acos(x)
 }
 
+pub(crate) fn exp(x: f64) -> f64 {
+    libm::exp(x)
+}
+
+pub(crate) fn ln(x: f64) -> f64 {
+    libm::log(x)
+}
+
 pub(crate) fn floor(x: f64) -> f64 {
     libm::floor(x)
 }

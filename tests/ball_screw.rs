@@ -45,7 +45,7 @@ fn ball_screw_textbook() {
                 budget::CLOSED_FORM * expected,
             );
             assert_eq!(reduced.inertia[1..], [0.0, 0.0]);
-            assert_eq!(reduced.potential_energy[1], 0.0);
+            assert_near("U'", reduced.potential_energy[1], 0.0, 0.0);
 
             // Thrust = m·ẍ − F, on the nut by the thread and on the screw by the bearings; the weights are carried apart.
             let alpha = 500.0;
@@ -112,8 +112,8 @@ proptest! {
         jointed::energy(&machine, phi, omega);
         jointed::turns(machine.mechanism(), 100);
         let (now, later) = (machine.reduction(phi).unwrap(), machine.reduction(phi + TAU).unwrap());
-        prop_assert_eq!(now.inertia, later.inertia);
-        prop_assert_eq!(now.load_torque(), later.load_torque());
+        assert_near("J", later.inertia[0], now.inertia[0], budget::CLOSED_FORM * now.inertia[0]);
+        assert_near("load", later.load_torque(), now.load_torque(), budget::CLOSED_FORM * now.load_torque().abs());
     }
 }
 

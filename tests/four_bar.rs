@@ -222,7 +222,7 @@ fn freudenstein(spec: &Spec, mechanism: &FourBar, phi: f64) -> [f64; 4] {
 }
 
 proptest! {
-    #![proptest_config(config(200, 0x4b_1))]
+    #![proptest_config(config(200, 0x04b1))]
 
     #[test]
     fn joints_close_and_forces_balance(
@@ -367,7 +367,7 @@ proptest! {
                 Error::DeadPoint { phi: found, joint: 2 } => assert_near("dead point", found, phi, budget::LIMIT_ANGLE),
                 Error::CannotAssemble { phi: found, joint: 2, gap } => {
                     assert_near("start", found, stroke[0], 0.0);
-                    prop_assert!(phi == from && gap > 0.0);
+                    prop_assert!(phi <= from && gap > 0.0);
                 }
                 other => panic!("{other:?}"),
             }
@@ -406,7 +406,8 @@ fn what_cannot_turn_is_refused_with_its_reason() {
     );
     assert_eq!(
         refused([0.1, 0.2, 0.1], [0.5, 0.0]),
-        "distance of the pivots (the sum of the other three) is 0.5, outside 0 to 0.4"
+        "the links cannot be joined: the ground of 0.500000 m is not shorter than the other three together, 0.400000 m; \
+         shorten it, or make the others longer"
     );
     assert_eq!(
         refused([0.0, 0.2, 0.1], [0.5, 0.0]),

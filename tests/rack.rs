@@ -36,7 +36,8 @@ fn rack_textbook() {
             r * phi,
             budget::CLOSED_FORM * (1.0 + phi.abs()),
         );
-        assert_eq!([x.d1, x.d2, x.d3], [r, 0.0, 0.0]);
+        assert_near("x'", x.d1, r, budget::CLOSED_FORM * r);
+        assert_eq!([x.d2, x.d3][..], [0.0, 0.0]);
         let reduced = machine.reduction(phi).unwrap();
         // J1 + m·r²
         assert_near("J", reduced.inertia[0], 0.042, budget::CLOSED_FORM);

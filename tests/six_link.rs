@@ -72,7 +72,7 @@ impl Spec {
 }
 
 proptest! {
-    #![proptest_config(config(300, 0x51_1))]
+    #![proptest_config(config(300, 0x0511))]
 
     /// (81), its first derivative (82) and its second (84) in time, each written out as in the text.
     #[test]
@@ -265,7 +265,7 @@ fn what_cannot_turn_is_refused_with_its_reason() {
 }
 
 proptest! {
-    #![proptest_config(config(300, 0x51_2))]
+    #![proptest_config(config(300, 0x0512))]
 
     /// Up to the angle that the error names, the rod reaches the guide: the same mechanism with the printed equation.
     #[test]

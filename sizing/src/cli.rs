@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use crate::export::{Form, Number};
+use crate::inspect::Format as CheckFormat;
 use crate::output::Format;
 use crate::reduce::Over;
 
@@ -24,14 +25,18 @@ const EXIT_CODES: &str = "Exit codes: 0 done, every rule holds; 1 a sizing rule 
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Reduced inertia J(φ), J′, J″, reduced torque and the motion's drive torque.
+    /// Reduced inertia J(φ), J′, J″, reduced torque and the motion's drive torque; points, forces and energies.
     Reduce(Reduce),
+    /// Check the mechanism itself: freedoms, closure, dead centres, transmission angle, agreement of the methods.
+    Check(Check),
     /// Check every motor and gearbox of the catalogue against the motion, and rank what fits.
     Size(Size),
     /// Integrate the free motion under the motor torque of `[simulation]`.
     Simulate(Simulate),
     /// Write the smallest table for the firmware that meets a torque error.
     Export(Export),
+    /// Divide a total gear ratio over stages so that the reduced inertia is smallest.
+    Split(Split),
 }
 
 /// `jred reduce`
@@ -46,11 +51,40 @@ pub struct Reduce {
     #[arg(long, value_enum, default_value_t)]
     pub over: Over,
     /// Each link's share of the reduced inertia as well.
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["points", "reactions", "energy"])]
     pub links: bool,
+    /// Instead of the curves: every named point, centre of mass and link, with transfer functions, velocities and
+    /// accelerations.
+    #[arg(long)]
+    pub points: bool,
+    /// Instead of the curves: drive, joint forces, shaking force and moment by d'Alembert's principle.
+    #[arg(long)]
+    pub reactions: bool,
+    /// Instead of the curves: kinetic and potential energy, and the generalised force of every load.
+    #[arg(long)]
+    pub energy: bool,
+    /// Speed of the drive link at every position instead of the motion's, e.g. "60 rpm" ("0.2 m/s" of a sliding link).
+    #[arg(long, allow_hyphen_values = true)]
+    pub speed: Option<String>,
+    /// Its acceleration, e.g. "120 rad/s^2" ("3 m/s^2"); zero if not given.
+    #[arg(long, allow_hyphen_values = true, requires = "speed")]
+    pub accel: Option<String>,
+    /// Write a report about the mechanism: drawing, animation, curves; one self-contained HTML page.
+    #[arg(long, value_name = "HTML")]
+    pub report: Option<PathBuf>,
     /// How to write the result.
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
+}
+
+/// `jred check`
+#[derive(Debug, Args)]
+pub struct Check {
+    /// Machine file.
+    pub file: PathBuf,
+    /// How to write the result.
+    #[arg(long, value_enum, default_value_t)]
+    pub format: CheckFormat,
 }
 
 /// `jred size`
@@ -124,4 +158,37 @@ pub struct Export {
     /// File to write.
     #[arg(long, short)]
     pub out: PathBuf,
+}
+
+/// `jred split`
+#[derive(Debug, Args)]
+pub struct Split {
+    /// Total ratio, input speed over output speed.
+    #[arg(long)]
+    pub ratio: f64,
+    /// Number of stages.
+    #[arg(long, value_parser = clap::value_parser!(u8).range(2..=i64::from(crate::split::MAX_STAGES)))]
+    pub stages: u8,
+    /// Inertia of a stage's driver, e.g. "0.2 kg cm^2": once for all stages, or once for each.
+    #[arg(long, required = true, value_parser = crate::input::inertia_argument)]
+    pub pinion: Vec<f64>,
+    /// Inertia of a stage's driven wheel, once for all stages or once for each; if not given, it grows with the ratio as that
+    /// of a wheel with the pinion's module and width.
+    #[arg(long, value_parser = crate::input::inertia_argument)]
+    pub driven: Vec<f64>,
+    /// Inertia of the load at the output, e.g. "0.5 kg m^2".
+    #[arg(long, value_parser = crate::input::inertia_argument)]
+    pub load: Option<f64>,
+    /// Smallest ratio of a stage.
+    #[arg(long, default_value_t = 1.0)]
+    pub min_ratio: f64,
+    /// Largest ratio of a stage.
+    #[arg(long, default_value_t = 10.0)]
+    pub max_ratio: f64,
+    /// Points of the curve over the split.
+    #[arg(long, default_value_t = 25, value_parser = clap::value_parser!(u32).range(2..=10_000))]
+    pub points: u32,
+    /// How to write the result.
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
 }

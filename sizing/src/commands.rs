@@ -12,10 +12,12 @@ use crate::duty::Duty;
 use crate::export::Export;
 use crate::machine::MachineFile;
 use crate::motion::Motion;
+use crate::coordinate::Coordinate;
+use crate::inspect::{self, Findings};
 use crate::output::Format;
-use crate::reduce::{Over, reduce};
+use crate::reduce::{self, Over, Sets, reduce};
 use crate::size::Selection;
-use crate::{input, listing, report, simulate};
+use crate::{input, listing, report, simulate, variator};
 
 /// How a command ended, short of an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,27 +35,125 @@ pub enum Done {
 pub fn run(command: &cli::Command) -> Result<Done> {
     match command {
         cli::Command::Reduce(options) => run_reduce(options),
+        cli::Command::Check(options) => run_check(options),
         cli::Command::Size(options) => run_size(options),
         cli::Command::Simulate(options) => run_simulate(options),
         cli::Command::Export(options) => run_export(options),
+        cli::Command::Split(options) => print(&crate::split::run(options)?),
     }
 }
 
 fn run_reduce(options: &cli::Reduce) -> Result<Done> {
     let file = input::read(&options.file)?;
+    variator::refuse(&file, "reduce")?;
     if options.over == Over::Time {
+        if options.speed.is_some() {
+            return Err(miette!(
+                help = "leave out --over time, or leave out --speed",
+                "over time the motion of the machine file gives the speed"
+            ));
+        }
         motion(&file, &options.file)?;
     }
-    let positions = options.positions as usize;
-    let columns = reduce(&file, options.over, positions, options.links).into_diagnostic()?;
-    let mut title = format!(
-        "{}: reduced to the drive link, flywheel and drive train included",
-        file.title
-    );
-    if file.motion.is_some() && columns.has_empty_cells() {
-        title += "\nthe motion does not pass every angle exactly once: --over time shows its drive torque";
+    let state = state(options, &file)?;
+    let moves = file.motion.is_some() || state.is_some();
+    if (options.reactions || options.energy) && !moves {
+        return Err(miette!(
+            help = "give --speed, for example --speed \"60 rpm\" (\"0 rpm\" for a machine at rest), or add a [motion]",
+            "forces and energies need a speed: {} has no [motion]",
+            options.file.display()
+        ));
     }
-    print(&columns.write(options.format, &title))
+    let sets = Sets {
+        curves: !(options.points || options.reactions || options.energy),
+        links: options.links,
+        points: options.points,
+        reactions: options.reactions,
+        energy: options.energy,
+    };
+    let request = reduce::Request {
+        over: options.over,
+        positions: options.positions as usize,
+        sets,
+        state,
+    };
+    let columns = reduce(&file, &request).into_diagnostic()?;
+    if let Some(path) = &options.report {
+        let name = options.file.display().to_string();
+        let page = report::mechanism_page(&name, &file, state).into_diagnostic()?;
+        write(path, page.as_bytes(), &options.file)?;
+    }
+    let mut title = if sets.curves {
+        format!(
+            "{}: reduced to the drive link, flywheel and drive train included",
+            file.title
+        )
+    } else {
+        file.title.clone()
+    };
+    if sets.reactions {
+        title += "\nforce of a joint: what the body named first in `jred check` does to the second; \
+                  flywheel and drive train turn with the drive link";
+    }
+    if moves && columns.has_empty_cells() {
+        title += "\nthe motion does not pass every position exactly once: --over time shows what it does there";
+    }
+    let largest = if sets.reactions {
+        reduce::largest(&file, &request).into_diagnostic()?
+    } else {
+        Vec::new()
+    };
+    match options.format {
+        Format::Table => {
+            let mut text = columns.write(Format::Table, &title);
+            if !largest.is_empty() {
+                let sentences: Vec<String> = largest.iter().map(reduce::Largest::sentence).collect();
+                text += &format!("largest: {}\n", sentences.join("; "));
+            }
+            if let Some(path) = &options.report {
+                text += &format!("report written to {}\n", path.display());
+            }
+            print(&text)
+        }
+        Format::Json if sets.reactions => {
+            let mut map = columns.json();
+            map.insert("title".into(), title.into());
+            map.insert("largest".into(), serde_json::json!(largest));
+            print(&format!("{:#}\n", serde_json::Value::Object(map)))
+        }
+        Format::Csv | Format::Json => print(&columns.write(options.format, &title)),
+    }
+}
+
+/// Speed and acceleration of the command line.
+fn state(options: &cli::Reduce, file: &MachineFile) -> Result<Option<[f64; 2]>> {
+    let Some(speed) = &options.speed else {
+        return Ok(None);
+    };
+    let coordinate = Coordinate::of(file.machine.mechanism()).into_diagnostic()?;
+    let refused = |name: &str, text: &str, why: &str| miette!("--{name} {text:?} cannot be used: {why}");
+    let omega =
+        input::drive_speed(speed, coordinate).map_err(|why| refused("speed", speed, &why))?;
+    let alpha = match &options.accel {
+        Some(accel) => input::drive_acceleration(accel, coordinate)
+            .map_err(|why| refused("accel", accel, &why))?,
+        None => 0.0,
+    };
+    Ok(Some([omega, alpha]))
+}
+
+fn run_check(options: &cli::Check) -> Result<Done> {
+    let file = input::read(&options.file)?;
+    let findings = Findings::of(&file).into_diagnostic()?;
+    match options.format {
+        inspect::Format::Table => print(&findings.text())?,
+        inspect::Format::Json => print(&format!("{:#}\n", findings.json()))?,
+    };
+    Ok(if findings.holds() {
+        Done::Holds
+    } else {
+        Done::Violated
+    })
 }
 
 fn run_simulate(options: &cli::Simulate) -> Result<Done> {
@@ -82,6 +182,7 @@ fn run_simulate(options: &cli::Simulate) -> Result<Done> {
 
 fn run_export(options: &cli::Export) -> Result<Done> {
     let file = input::read(&options.file)?;
+    variator::refuse(&file, "export")?;
     let (omega, alpha) = range(options, &file)?;
     let request = Request {
         torque_error: options.torque_error,
@@ -126,8 +227,23 @@ fn range(options: &cli::Export, file: &MachineFile) -> Result<(f64, f64)> {
     Ok((omega, options.alpha.unwrap_or(own)))
 }
 
+/// Motors of the catalogue turn: a drive link that slides needs a stage between.
+fn rotary_input(file: &MachineFile) -> Result<()> {
+    let coordinate = Coordinate::of(file.machine.mechanism()).into_diagnostic()?;
+    if coordinate == Coordinate::Angle || !file.drive_train.stages().is_empty() {
+        return Ok(());
+    }
+    Err(miette!(
+        help = "add what turns the rotation into a displacement: [[drive_train]] with type = \"ball-screw\" and lead = \
+                \"10 mm\", or type = \"rack\" and the radius of its pinion; `jred reduce --over time` gives the force itself",
+        "the drive link slides, and the motors of the catalogue turn"
+    ))
+}
+
 fn run_size(options: &cli::Size) -> Result<Done> {
     let file = input::read(&options.file)?;
+    variator::refuse(&file, "size")?;
+    rotary_input(&file)?;
     let motion = motion(&file, &options.file)?;
     let catalogue = Catalogue::load(options.motors.as_deref(), options.gearboxes.as_deref())?;
     let duty = Duty::new(&file, motion, options.steps as usize).into_diagnostic()?;

@@ -1,7 +1,8 @@
 //! The duty: what one cycle of the motion asks of the drive, independent of any motor.
 
-use jred::{Error, TorqueTerms};
+use jred::{Domain, Error, Reducible as _, TorqueTerms};
 
+use crate::coordinate;
 use crate::machine::MachineFile;
 use crate::motion::Motion;
 
@@ -82,7 +83,16 @@ fn smooth_stretches(file: &MachineFile, motion: &Motion, steps: usize) -> Vec<(f
         .filter_map(jred::Load::window)
         .flat_map(|window| window.edges())
         .collect();
-    let turns = |t: f64, edge: f64| ((motion.at(t).phi - edge) / TAU).floor() as i64;
+    // Which side of the edge the drive link is on; on a turn, after how many of its passages.
+    let turn = file.machine.domain() == Domain::Turn;
+    let turns = |t: f64, edge: f64| {
+        let beyond = motion.at(t).phi - edge;
+        if turn {
+            (beyond / TAU).floor() as i64
+        } else {
+            i64::from(beyond >= 0.0)
+        }
+    };
     let mut stretches = Vec::new();
     for (from, to) in motion.stretches() {
         let n = ((steps as f64 * (to - from) / motion.duration()).ceil() as usize).max(16);
@@ -214,8 +224,7 @@ impl Duty {
         }
         let ratio = file.drive_train.ratio();
         let mut hold_torque = 0.0f64;
-        for k in 0..720 {
-            let phi = std::f64::consts::TAU * f64::from(k) / 720.0;
+        for phi in coordinate::positions(file.machine.domain(), 720) {
             let slope = file.machine.bare_reduction(phi)?.potential_energy[1];
             hold_torque = hold_torque.max((slope / ratio).abs());
         }

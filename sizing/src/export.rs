@@ -6,6 +6,7 @@ use jred::table::{MAX_CELLS, control_points, curves};
 use jred::tabulate::{self, Request, Tabulated};
 use jred::{Domain, Error, Q31, Reducible, Scalar, Scale, Table};
 
+use crate::coordinate::Coordinate;
 use crate::machine::{AnyMechanism, MachineFile};
 use crate::output::rounded;
 
@@ -47,6 +48,7 @@ pub struct Export {
     /// Its number type.
     pub number: Number,
     title: String,
+    coordinate: Coordinate,
 }
 
 type Whole = jred::Machine<AnyMechanism>;
@@ -86,6 +88,7 @@ impl Export {
             curves: set,
             number,
             title: file.title.clone(),
+            coordinate: Coordinate::of(file.machine.mechanism())?,
         })
     }
 
@@ -123,7 +126,17 @@ impl Export {
 
     /// What the table is and how exact it is, for the terminal and for source comments.
     pub fn summary(&self) -> String {
-        let mut names = vec!["J_red"];
+        let coordinate = self.coordinate;
+        let (effort, inertia) = (coordinate.effort_unit(), coordinate.inertia_unit());
+        let ([speed, acceleration], [v, a]) = match coordinate {
+            Coordinate::Angle => (["rad/s", "rad/s^2"], ["omega", "alpha"]),
+            Coordinate::Length => (["m/s", "m/s^2"], ["v", "a"]),
+        };
+        let word = match coordinate {
+            Coordinate::Angle => "torque",
+            Coordinate::Length => "force",
+        };
+        let mut names = vec![coordinate.inertia()];
         let mut set = Vec::new();
         for (curve, name, constant) in [
             (curves::LOAD, "load", "LOAD"),
@@ -149,7 +162,6 @@ impl Export {
             torque_error,
             worst,
         } = self.found;
-        let turns = Domain::<f64>::Turn.span();
         let mut text = String::new();
         let _ = writeln!(text, "{}: reduced machine at the drive link", self.title);
         let _ = writeln!(
@@ -161,17 +173,19 @@ impl Export {
         let _ = writeln!(text, "in Rust: image.model::<{scalar}, {{ {set} }}>()");
         let _ = writeln!(
             text,
-            "torque error reached {} N m of {} N m allowed, at {} deg, for |omega| <= {} rad/s, |alpha| <= {} rad/s^2",
+            "{word} error reached {} {effort} of {} {effort} allowed, at {} {}, for |{v}| <= {} {speed}, |{a}| <= {} \
+             {acceleration}",
             rounded(torque_error),
             rounded(self.request.torque_error),
-            rounded(worst / turns * 360.0),
+            rounded(coordinate.shown(worst)),
+            coordinate.unit(),
             rounded(self.request.omega),
             rounded(self.request.alpha),
         );
         if self.number == Number::Q31 {
             let _ = writeln!(
                 text,
-                "1.0 stands for: torque {} N m, speed {} rad/s, inertia {} kg m^2, acceleration {} rad/s^2",
+                "1.0 stands for: {word} {} {effort}, speed {} {speed}, inertia {} {inertia}, acceleration {} {acceleration}",
                 rounded(self.scale.torque().into()),
                 rounded(self.scale.speed().into()),
                 rounded(self.scale.inertia().into()),

@@ -5,10 +5,12 @@ use std::sync::Arc;
 
 use jred::joint::Joints;
 use jred::mechanism::{Frames, Train};
-use jred::{Domain, Error, Jointed, Link, Load, Machine, Mechanism};
+use jred::{Domain, Element, Error, Jointed, Link, Load, Machine, Mechanism};
 
+use crate::coordinate::Coordinate;
 use crate::motion::Motion;
 use crate::rules::Rules;
+use crate::variator::Variator;
 
 /// A mechanism that knows its joints and can be kept in a machine.
 pub trait Inner: Jointed + fmt::Debug + Send + Sync {}
@@ -26,6 +28,15 @@ pub struct NamedPoint {
     pub at: [f64; 2],
 }
 
+/// A joint in which two surfaces only press on each other, as a follower on its cam.
+#[derive(Clone, Debug)]
+pub struct Contact {
+    /// Index of the joint.
+    pub joint: usize,
+    /// The smooth pieces of the turn.
+    pub pieces: Vec<jred::cam::Piece>,
+}
+
 /// Any mechanism that a machine file can name, with the names of its parts.
 #[derive(Clone, Debug)]
 pub struct AnyMechanism {
@@ -34,6 +45,10 @@ pub struct AnyMechanism {
     links: Vec<String>,
     joints: Vec<String>,
     points: Vec<NamedPoint>,
+    outlines: Vec<(usize, Vec<[f64; 2]>)>,
+    ground_points: Vec<(String, [f64; 2])>,
+    elements: Vec<NamedElement>,
+    contact: Option<Contact>,
 }
 
 impl AnyMechanism {
@@ -51,6 +66,10 @@ impl AnyMechanism {
             links: links.into_iter().map(Into::into).collect(),
             joints: joints.into_iter().map(Into::into).collect(),
             points: Vec::new(),
+            outlines: Vec::new(),
+            ground_points: Vec::new(),
+            elements: Vec::new(),
+            contact: None,
         }
     }
 
@@ -60,6 +79,45 @@ impl AnyMechanism {
         let name = name.into();
         self.points.push(NamedPoint { name, link, at });
         self
+    }
+
+    /// With one more closed outline, points [u, v] (m) of link number `link`: a cam's profile, a wheel's pitch circle. A link
+    /// that has outlines is drawn by them.
+    #[must_use]
+    pub fn with_outline(mut self, link: usize, outline: Vec<[f64; 2]>) -> Self {
+        self.outlines.push((link, outline));
+        self
+    }
+
+    /// With one more named point of the ground, in global coordinates (m).
+    #[must_use]
+    pub fn with_ground_point(mut self, name: impl Into<String>, at: [f64; 2]) -> Self {
+        self.ground_points.push((name.into(), at));
+        self
+    }
+
+    /// With springs of its own, such as that which closes a cam.
+    #[must_use]
+    pub fn with_elements(mut self, elements: impl IntoIterator<Item = NamedElement>) -> Self {
+        self.elements.extend(elements);
+        self
+    }
+
+    /// With a contact that must not open.
+    #[must_use]
+    pub fn with_contact(mut self, contact: Option<Contact>) -> Self {
+        self.contact = contact;
+        self
+    }
+
+    /// The mechanism's own springs.
+    pub fn own_elements(&self) -> &[NamedElement] {
+        &self.elements
+    }
+
+    /// The contact that must not open, if there is one.
+    pub const fn contact(&self) -> Option<&Contact> {
+        self.contact.as_ref()
     }
 
     /// The `type` of the machine file.
@@ -80,6 +138,17 @@ impl AnyMechanism {
     /// The points that have a name.
     pub fn points(&self) -> &[NamedPoint] {
         &self.points
+    }
+
+    /// The points of the ground that have a name, in global coordinates (m).
+    pub fn ground_points(&self) -> &[(String, [f64; 2])] {
+        &self.ground_points
+    }
+
+    /// The outlines of link number `link`.
+    pub fn outlines(&self, link: usize) -> impl Iterator<Item = &[[f64; 2]]> {
+        let own = self.outlines.iter().filter(move |(k, _)| *k == link);
+        own.map(|(_, outline)| outline.as_slice())
     }
 }
 
@@ -113,6 +182,15 @@ pub struct NamedLoad {
     pub load: Load,
 }
 
+/// A spring or a damper with the name that reports use.
+#[derive(Clone, Debug)]
+pub struct NamedElement {
+    /// Name from the file, or made from its ends.
+    pub name: String,
+    /// The spring or damper.
+    pub element: Element,
+}
+
 /// Everything that a machine file says.
 #[derive(Clone, Debug)]
 pub struct MachineFile {
@@ -124,8 +202,12 @@ pub struct MachineFile {
     pub flywheel: f64,
     /// The loads, in the order of the machine's.
     pub loads: Vec<NamedLoad>,
+    /// The springs and dampers, in the order of the machine's.
+    pub elements: Vec<NamedElement>,
     /// Fixed drive train between the motor's gearbox (or the motor) and the drive link; empty if there is none.
     pub drive_train: Train,
+    /// Friction variator between the motor and the drive train, if there is one.
+    pub variator: Option<Variator>,
     /// The prescribed motion, if the file has one.
     pub motion: Option<Motion>,
     /// What `jred simulate` runs, if the file says.
@@ -146,7 +228,7 @@ pub enum Shaft {
 /// A free motion under a motor torque.
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    /// φ at the start (rad).
+    /// φ at the start (rad, or m of a link that slides).
     pub start_angle: f64,
     /// ω of the drive link at the start (rad/s).
     pub start_speed: f64,
@@ -163,6 +245,14 @@ pub struct Simulation {
     pub rotor_inertia: f64,
     /// Relative tolerance of the integrator.
     pub tolerance: f64,
+}
+
+impl Simulation {
+    /// Whether the motor drives a link that slides, without a stage that turns: its torque is then a force.
+    pub fn drives_a_slide(&self, file: &MachineFile, coordinate: Coordinate) -> bool {
+        let direct = self.at == Shaft::DriveLink || file.drive_train.stages().is_empty();
+        coordinate == Coordinate::Length && direct
+    }
 }
 
 impl MachineFile {

@@ -105,7 +105,8 @@ impl Columns {
     }
 
     fn csv(&self) -> String {
-        let mut text = self.names.join(",") + "\n";
+        let names: Vec<String> = self.names.iter().map(|name| quoted(name)).collect();
+        let mut text = names.join(",") + "\n";
         for row in &self.rows {
             for (k, value) in row.iter().enumerate() {
                 let comma = if k > 0 { "," } else { "" };
@@ -117,6 +118,15 @@ impl Columns {
             text.push('\n');
         }
         text
+    }
+}
+
+/// A name for CSV: in quotes where it holds a comma, a quote or a line break.
+fn quoted(name: &str) -> String {
+    if name.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", name.replace('"', "\"\""))
+    } else {
+        name.to_owned()
     }
 }
 

@@ -1,156 +1,224 @@
-//! `jred reduce`: the reduced link over a turn, and what the file's motion asks of the drive.
+//! `jred reduce`: the reduced link over a turn or a stroke, the motion of every point and link, the force in every joint,
+//! and what the file's motion asks of the drive.
 
-use std::f64::consts::TAU;
-
+use jred::mechanism::Frames;
 use jred::motion::State;
-use jred::{Error, Reducible, Reduction, TorqueTerms};
+use jred::{Domain, Error, Machine, Mechanism as _, Reducible as _};
 
-use crate::machine::MachineFile;
+use crate::coordinate::{Coordinate, positions};
+use crate::machine::{AnyMechanism, MachineFile};
 use crate::motion::Motion;
 use crate::output::Columns;
+
+mod curves;
+mod energy;
+mod largest;
+mod points;
+mod reactions;
+
+pub use largest::{Largest, largest};
 
 /// What the rows run over.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Over {
-    /// Equal steps of the drive link's angle over one turn.
+    /// Equal steps of the drive link's angle over one turn, or of its position over its stroke.
     #[default]
     Angle,
     /// Equal steps of time over the motion.
     Time,
 }
 
-/// The columns of the reduced link, drive train and flywheel included.
-const CURVES: [&str; 8] = [
-    "J_red [kg m^2]",
-    "J_red' [kg m^2/rad]",
-    "J_red'' [kg m^2/rad^2]",
-    "U [J]",
-    "T_potential [N m]",
-    "T_process [N m]",
-    "b_viscous [N m s/rad]",
-    "c_coulomb [N m]",
-];
+/// Which columns there are beside the position.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sets {
+    /// The reduced link and the motion's drive torque.
+    pub curves: bool,
+    /// Each link's share of J_red, with the curves.
+    pub links: bool,
+    /// Points and links: positions, transfer functions, velocities and accelerations.
+    pub points: bool,
+    /// Forces by d'Alembert's principle.
+    pub reactions: bool,
+    /// Energies and generalised forces.
+    pub energy: bool,
+}
 
-/// The reduced curves at `positions` places, with each link's share of J_red if `links`, and the motion's drive
-/// torque.
+/// What to compute.
+#[derive(Clone, Copy, Debug)]
+pub struct Request {
+    /// What the rows run over.
+    pub over: Over,
+    /// Number of rows.
+    pub positions: usize,
+    /// Which columns.
+    pub sets: Sets,
+    /// Speed and acceleration of the drive link at every position instead of those of the motion (rad/s, rad/s², or m/s,
+    /// m/s²).
+    pub state: Option<[f64; 2]>,
+}
+
+/// One row: where the machine is, and how it moves there, if that is known.
+struct Place {
+    phi: f64,
+    frames: Frames,
+    state: Option<State<f64>>,
+}
+
+/// What the columns are made from.
+struct Source<'f> {
+    file: &'f MachineFile,
+    /// The machine with its drive train.
+    machine: Machine<AnyMechanism>,
+    coordinate: Coordinate,
+}
+
+/// Columns that belong together.
+trait Set {
+    /// Their names.
+    fn names(&self, source: &Source) -> Vec<String>;
+
+    /// Their values, as many as names.
+    fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error>;
+}
+
+/// The columns asked for, at every position.
 ///
 /// # Errors
 /// Those of the machine.
-pub fn reduce(
-    file: &MachineFile,
-    over: Over,
-    positions: usize,
-    links: bool,
-) -> Result<Columns, Error> {
-    let machine = file.with_drive_train()?;
-    let mut names: Vec<String> = match over {
-        Over::Angle => vec!["phi [deg]".into()],
-        Over::Time => vec!["t [s]".into(), "phi [deg]".into()],
+pub fn reduce(file: &MachineFile, request: &Request) -> Result<Columns, Error> {
+    let source = Source {
+        file,
+        machine: file.with_drive_train()?,
+        coordinate: Coordinate::of(file.machine.mechanism())?,
     };
-    names.extend(CURVES.map(String::from));
-    if links {
-        let each = machine.mechanism().link_names();
-        names.extend(each.iter().map(|link| format!("J_red {link} [kg m^2]")));
-        names.push("J_red flywheel and drive train [kg m^2]".into());
+    let moves = file.motion.is_some() || request.state.is_some();
+    let in_time = request.over == Over::Time || request.state.is_some();
+    let Sets {
+        curves,
+        links,
+        points,
+        reactions,
+        energy,
+    } = request.sets;
+    let mut sets: Vec<Box<dyn Set>> = Vec::new();
+    if curves {
+        sets.push(Box::new(curves::Curves { links, moves }));
+    } else if moves {
+        sets.push(Box::new(curves::Motion));
     }
-    if file.motion.is_some() {
-        names.extend(["omega [rad/s]", "alpha [rad/s^2]"].map(String::from));
-        names.extend(TorqueTerms::NAMES.map(|term| format!("T_drive {term} [N m]")));
-        names.extend(["T_drive [N m]", "T_input [N m]"].map(String::from));
+    if points {
+        sets.push(Box::new(points::Points { in_time }));
     }
+    if reactions {
+        sets.push(Box::new(reactions::Reactions::new(&source)?));
+    }
+    if energy {
+        sets.push(Box::new(energy::Energy));
+    }
+    let mut names = match request.over {
+        Over::Angle => vec![],
+        Over::Time => vec!["t [s]".to_owned()],
+    };
+    names.push(source.coordinate.column().to_owned());
+    names.extend(sets.iter().flat_map(|set| set.names(&source)));
     let mut columns = Columns::new(names);
-    for k in 0..positions {
-        let (mut row, phi, state) = if let (Over::Time, Some(motion)) = (over, &file.motion) {
-            let last = (positions - 1).max(1) as f64;
-            let t = motion.duration() * k as f64 / last;
-            let state = motion.at(t);
-            let row = vec![Some(t), Some(state.phi.to_degrees())];
-            (row, state.phi, Some(state))
-        } else {
-            let phi = TAU * k as f64 / positions as f64;
-            let state = file.motion.as_ref().and_then(|m| at_angle(m, phi));
-            (vec![Some(phi.to_degrees())], phi, state)
+    for (time, phi, state) in rows(file, request) {
+        let place = Place {
+            phi,
+            frames: source.machine.mechanism().frames(phi)?,
+            state,
         };
-        let point = machine.reduction(phi)?;
-        row.extend(curve_values(&point).map(Some));
-        if links {
-            row.extend(machine.link_inertias(phi)?.iter().map(|j| Some(j[0])));
-            row.push(Some(machine.flywheel()));
-        }
-        if file.motion.is_some() {
-            row.extend(drive_values(file, &point, phi, state)?);
+        let mut row: Vec<Option<f64>> = time.into_iter().map(Some).collect();
+        row.push(Some(source.coordinate.shown(phi)));
+        for set in &sets {
+            row.extend(set.values(&source, &place)?);
         }
         columns.push(row);
     }
     Ok(columns)
 }
 
-fn curve_values(point: &Reduction) -> [f64; 8] {
-    [
-        point.inertia[0],
-        point.inertia[1],
-        point.inertia[2],
-        point.potential_energy[0],
-        -point.potential_energy[1],
-        point.process,
-        point.viscous,
-        point.coulomb,
-    ]
-}
-
-/// Speed, acceleration, terms and totals of the drive torque; empty where the motion does not pass.
-fn drive_values(
-    file: &MachineFile,
-    point: &Reduction,
-    phi: f64,
-    state: Option<State<f64>>,
-) -> Result<[Option<f64>; 10], Error> {
-    let mut values = [None; 10];
-    let Some(State { omega, alpha, .. }) = state else {
-        return Ok(values);
+/// Time (over time only), position and state of every row.
+fn rows(file: &MachineFile, request: &Request) -> Vec<(Option<f64>, f64, Option<State<f64>>)> {
+    if let (Over::Time, Some(motion)) = (request.over, &file.motion) {
+        let last = (request.positions - 1).max(1) as f64;
+        let row = |k: usize| {
+            let t = motion.duration() * k as f64 / last;
+            let state = motion.at(t);
+            (Some(t), state.phi, Some(state))
+        };
+        return (0..request.positions).map(row).collect();
+    }
+    let domain = file.machine.domain();
+    let pass = match &file.motion {
+        Some(motion) if request.state.is_none() => Pass::of(motion, domain),
+        _ => None,
     };
-    let terms = point.torque(omega, alpha);
-    // The drive train's inertia sits in its stages, between the losses.
-    let bare = file
-        .machine
-        .bare_reduction(phi)?
-        .torque(omega, alpha)
-        .total();
-    let motor = file.drive_train.input(bare, 0.0, omega, alpha).torque;
-    let totals = [terms.total(), motor];
-    let all = [omega, alpha]
-        .into_iter()
-        .chain(terms.values())
-        .chain(totals);
-    for (slot, value) in values.iter_mut().zip(all) {
-        *slot = Some(value);
-    }
-    Ok(values)
+    let state = |phi| match request.state {
+        Some([omega, alpha]) => Some(State { phi, omega, alpha }),
+        None => pass.as_ref()?.at(phi),
+    };
+    positions(domain, request.positions)
+        .map(|phi| (None, phi, state(phi)))
+        .collect()
 }
 
-/// The motion's state where it passes the angle `phi` (modulo a turn), for a motion that passes every angle once:
-/// it turns one way, through exactly one turn. Dwells count once, at rest.
-fn at_angle(motion: &Motion, phi: f64) -> Option<State<f64>> {
-    let (start, end) = (motion.at(0.0).phi, motion.at(motion.duration()).phi);
-    let way = (end - start).signum();
-    let one_turn = ((end - start).abs() - TAU).abs() < 1e-9;
-    let one_way = (0..=1000).all(|k| {
-        let t = motion.duration() * f64::from(k) / 1000.0;
-        motion.at(t).omega * way >= -1e-12
-    });
-    if !(one_turn && one_way) {
-        return None;
+/// A motion that passes every position at most once: it goes one way, through exactly one turn or within the stroke.
+/// Dwells count once, at rest.
+struct Pass<'m> {
+    motion: &'m Motion,
+    start: f64,
+    way: f64,
+    length: f64,
+    turn: bool,
+}
+
+impl<'m> Pass<'m> {
+    fn of(motion: &'m Motion, domain: Domain) -> Option<Self> {
+        let (start, end) = (motion.at(0.0).phi, motion.at(motion.duration()).phi);
+        let way = (end - start).signum();
+        let length = (end - start).abs();
+        let turn = domain == Domain::Turn;
+        let one_turn = !turn || (length - domain.span()).abs() < 1e-9;
+        let one_way = (0..=1000).all(|k| {
+            let t = motion.duration() * f64::from(k) / 1000.0;
+            motion.at(t).omega * way >= -1e-12
+        });
+        (one_turn && one_way).then_some(Self {
+            motion,
+            start,
+            way,
+            length,
+            turn,
+        })
     }
-    let distance = ((phi - start) * way).rem_euclid(TAU);
-    let (mut early, mut late) = (0.0, motion.duration());
-    for _ in 0..60 {
-        let middle = 0.5 * (early + late);
-        if (motion.at(middle).phi - start) * way < distance {
-            early = middle;
+
+    /// The motion's state where it passes the position `phi`, for a turn modulo 2π.
+    fn at(&self, phi: f64) -> Option<State<f64>> {
+        let motion = self.motion;
+        let ahead = (phi - self.start) * self.way;
+        let distance = if self.turn {
+            ahead.rem_euclid(std::f64::consts::TAU)
         } else {
-            late = middle;
+            ahead
+        };
+        // The ends of a stroke are positions as well; a rounding must not cost them.
+        let slack = 1e-12 * self.length;
+        if !self.turn && !(-slack..=self.length + slack).contains(&distance) {
+            return None;
         }
+        let (mut early, mut late) = (0.0, motion.duration());
+        for _ in 0..60 {
+            let middle = 0.5 * (early + late);
+            if (motion.at(middle).phi - self.start) * self.way < distance {
+                early = middle;
+            } else {
+                late = middle;
+            }
+        }
+        Some(State {
+            phi,
+            ..motion.at(late)
+        })
     }
-    let state = motion.at(late);
-    Some(State { phi, ..state })
 }

@@ -12,6 +12,9 @@ use crate::rules::Rules;
 use crate::size::{RANKING, Selection};
 
 mod figures;
+mod mechanism;
+
+pub use mechanism::mechanism_page;
 
 /// Most ranked drives that the page lists.
 const LISTED: usize = 25;
@@ -31,6 +34,7 @@ struct Page {
     plane: String,
     torque_time: String,
     speed_time: String,
+    drawing: String,
     inertia: String,
     reduced: String,
     terms: String,
@@ -118,8 +122,12 @@ pub fn page(
         plane: figures::torque_speed_plane(best, duty, rules),
         torque_time: figures::torque_over_time(best, duty),
         speed_time: figures::speed_over_time(best, duty),
+        drawing: crate::drawing::still(file.machine.mechanism())?,
         inertia: figures::reduced_inertia(file)?,
-        reduced: figures::reduced_torque(file, duty)?,
+        reduced: figures::reduced_torque(
+            file,
+            duty.integral(|i| i.omega.abs()) / duty.duration,
+        )?,
         terms: figures::terms(duty),
         links: figures::links(file)?,
         duty: duty_rows(best, duty),

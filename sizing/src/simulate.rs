@@ -6,12 +6,14 @@
 
 use std::cell::RefCell;
 
-use jred::Error;
+use jred::{Domain, Error, Reducible as _};
 use ode_solvers::dop_shared::{IntegrationError, OutputType};
 use ode_solvers::{Dop853, SVector, System};
 
+use crate::coordinate::Coordinate;
 use crate::machine::{MachineFile, Shaft, Simulation};
 use crate::output::Columns;
+use crate::variator;
 
 /// φ, ω, work of the motor, work of the process loads, losses.
 type State = SVector<f64, 5>;
@@ -22,6 +24,20 @@ pub enum SimulationError {
     /// The machine cannot be placed.
     #[error(transparent)]
     Machine(#[from] Error),
+    /// The drive link has passed the end of its stroke.
+    #[error("the drive link runs against the end of its stroke, {end}, before t = {t:.6} s, at {speed}")]
+    #[diagnostic(help(
+        "what stops it there is not in the machine file: shorten `duration` in [simulation], start elsewhere, or give a \
+         spring or a damper as a buffer and a longer stroke"
+    ))]
+    EndOfStroke {
+        /// Time reached (s).
+        t: f64,
+        /// The end that was passed.
+        end: String,
+        /// Speed there.
+        speed: String,
+    },
     /// The integrator gave up.
     #[error("the integrator stopped at t = {t} s: {reason}")]
     #[diagnostic(help(
@@ -33,6 +49,36 @@ pub enum SimulationError {
         /// What the integrator says.
         reason: String,
     },
+    /// A constant slip in a contact whose power has turned round.
+    #[error(
+        "at t = {t:.6} s power flows through the variator against its `power_flow`: a constant slip would give {power:.3e} W \
+         there, which no contact does"
+    )]
+    #[diagnostic(help(
+        "let the slip turn round with the load: creep = {{ slip = \"2 %\", torque = \"80 N m\" }} instead of `slip`; or turn \
+         `power_flow` round"
+    ))]
+    PowerFlowsBack {
+        /// When (s).
+        t: f64,
+        /// Power that the contact would give (W).
+        power: f64,
+    },
+}
+
+/// Why the integrator stopped, for times counted from `t`.
+pub(crate) fn stopped(t: f64, error: &IntegrationError) -> SimulationError {
+    let (x, reason) = match error {
+        IntegrationError::MaxNumStepReached { x, n_step } => {
+            (x, format!("more than {n_step} steps would be needed"))
+        }
+        IntegrationError::StepSizeUnderflow { x } => (
+            x,
+            "the step has become too small for the numbers".to_owned(),
+        ),
+        IntegrationError::StiffnessDetected { x } => (x, "the problem is stiff".to_owned()),
+    };
+    SimulationError::Integrator { t: t + x, reason }
 }
 
 /// The machine with its drive and motor torque, moving in one direction.
@@ -148,6 +194,9 @@ impl System<f64, State> for &Plant<'_> {
 /// # Errors
 /// Those of the machine and the integrator.
 pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Columns, SimulationError> {
+    if let Some(variator) = &file.variator {
+        return variator::simulate(file, variator, simulation);
+    }
     let fault = RefCell::new(None);
     let mut plant = Plant {
         file,
@@ -163,13 +212,21 @@ pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Columns, 
         0.0,
     ]);
     plant.direction = heading(&plant, &y)?;
+    let coordinate = Coordinate::of(file.machine.mechanism())?;
+    let [speed, acceleration] = coordinate.rates();
+    let inertia = format!("{} [{}]", coordinate.inertia(), coordinate.inertia_unit());
+    let motor = if simulation.drives_a_slide(file, coordinate) {
+        "motor force [N]"
+    } else {
+        "motor torque [N m]"
+    };
     let mut columns = Columns::new([
         "t [s]",
-        "phi [deg]",
-        "omega [rad/s]",
-        "alpha [rad/s^2]",
-        "motor torque [N m]",
-        "J_red [kg m^2]",
+        coordinate.column(),
+        speed,
+        acceleration,
+        motor,
+        &inertia,
         "kinetic energy [J]",
         "potential energy [J]",
         "motor work [J]",
@@ -203,7 +260,7 @@ pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Columns, 
         let balance = energy - start - y[2] - y[3] + y[4];
         columns.push([
             t,
-            y[0].to_degrees(),
+            coordinate.shown(y[0]),
             y[1],
             alpha,
             plant.motor_torque(y[1]),
@@ -288,25 +345,33 @@ fn integrate(
     if let Some(error) = plant.fault.borrow_mut().take() {
         return Err(error.into());
     }
-    outcome.map_err(|error| {
-        let (x, reason) = match error {
-            IntegrationError::MaxNumStepReached { x, n_step } => {
-                (x, format!("more than {n_step} steps would be needed"))
-            }
-            IntegrationError::StepSizeUnderflow { x } => (
-                x,
-                "the step has become too small for the numbers".to_owned(),
-            ),
-            IntegrationError::StiffnessDetected { x } => (x, "the problem is stiff".to_owned()),
-        };
-        SimulationError::Integrator { t: t + x, reason }
-    })?;
+    outcome.map_err(|error| stopped(t, &error))?;
     let steps = solver.x_out().iter().zip(solver.y_out());
-    Ok(steps.map(|(x, state)| (*x, *state)).collect())
+    let steps: Vec<(f64, State)> = steps.map(|(x, state)| (*x, *state)).collect();
+    within_stroke(plant, t, &steps)?;
+    Ok(steps)
+}
+
+/// Refuses to go on where the drive link has passed the end of its stroke: what stops it there is not in the file.
+fn within_stroke(plant: &Plant, t: f64, steps: &[(f64, State)]) -> Result<(), SimulationError> {
+    let Domain::Stroke { from, to } = plant.file.machine.domain() else {
+        return Ok(());
+    };
+    let slack = 1e-9 * (to - from);
+    let outside = |(_, y): &&(f64, State)| !(from - slack..=to + slack).contains(&y[0]);
+    let Some((x, y)) = steps.iter().find(outside) else {
+        return Ok(());
+    };
+    let coordinate = Coordinate::of(plant.file.machine.mechanism())?;
+    Err(SimulationError::EndOfStroke {
+        t: t + x,
+        end: coordinate.place(if y[0] < from { from } else { to }),
+        speed: format!("{} {}", (y[1] * 1e6).round() / 1e6, coordinate.rates()[0]),
+    })
 }
 
 /// Straight lines between (x, y) points, the end values beyond the ends.
-fn interpolate(points: &[(f64, f64)], x: f64) -> f64 {
+pub(crate) fn interpolate(points: &[(f64, f64)], x: f64) -> f64 {
     let right = points.partition_point(|p| p.0 < x);
     match (
         right.checked_sub(1).and_then(|k| points.get(k)),

@@ -90,35 +90,37 @@ pub fn lift_off<M: Jointed>(
     pieces: impl Iterator<Item = Piece> + Clone,
     direction: f64,
 ) -> Result<Option<LiftOff>, Error> {
-    let edges = load_edges(machine);
     let direction = if direction < 0.0 { -1.0 } else { 1.0 };
-    // The three speeds that the polynomial is laid through should be near to the limit: where every term counts.
-    let mut scale = 100.0;
-    let mut found = None;
-    for _ in 0..2 {
-        let slowness = |phi: f64| {
-            let at = |speed: f64| contact_force(machine, contact, phi, direction * speed, 0.0);
-            let forces = [at(scale / 2.0)?, at(scale)?, at(2.0 * scale)?];
-            // Largest where the limit is lowest: smooth, and zero where there is none.
-            let limit = scale * vanishing(forces);
-            Ok::<_, Error>(if limit < FASTEST { -1.0 / limit } else { 0.0 })
-        };
-        let cut = pieces.clone().flat_map(|piece| Cut::new(piece, &edges));
-        let extreme = smallest(cut, slowness)?;
-        if extreme.value >= 0.0 {
-            return Ok(None);
+    // The three speeds that the polynomial is laid through should be near to the limit, where every term counts.
+    let rough = first(machine, contact, pieces.clone(), 100.0 * direction)?;
+    match rough {
+        Some(LiftOff { omega, .. }) if omega > 0.0 => {
+            first(machine, contact, pieces, omega * direction)
         }
-        let omega = -1.0 / extreme.value;
-        found = Some(LiftOff {
-            phi: extreme.phi,
-            omega,
-        });
-        if omega <= 0.0 {
-            break;
-        }
-        scale = omega;
+        other => Ok(other),
     }
-    Ok(found)
+}
+
+/// The limit from the forces at half of, at and at twice the speed `scale`.
+fn first<M: Jointed>(
+    machine: &Machine<M>,
+    contact: usize,
+    pieces: impl Iterator<Item = Piece>,
+    scale: f64,
+) -> Result<Option<LiftOff>, Error> {
+    let edges = load_edges(machine);
+    let slowness = |phi: f64| {
+        let at = |speed: f64| contact_force(machine, contact, phi, speed, 0.0);
+        let forces = [at(scale / 2.0)?, at(scale)?, at(2.0 * scale)?];
+        // Largest where the limit is lowest: smooth, and zero where there is none.
+        let limit = math::abs(scale) * vanishing(forces);
+        Ok::<_, Error>(if limit < FASTEST { -1.0 / limit } else { 0.0 })
+    };
+    let found = smallest(pieces.flat_map(|piece| Cut::new(piece, &edges)), slowness)?;
+    Ok((found.value < 0.0).then_some(LiftOff {
+        phi: found.phi,
+        omega: -1.0 / found.value,
+    }))
 }
 
 /// The speed, in units of that of the second force, at which the polynomial through the forces at ½, 1 and 2 vanishes;

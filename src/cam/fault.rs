@@ -112,6 +112,7 @@ pub enum CamError {
 }
 
 impl fmt::Display for CamError {
+    #[expect(clippy::too_many_lines, reason = "one message for each mistake")]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let deg = |phi: f64| phi.to_degrees();
         match *self {

@@ -16,8 +16,8 @@
 
 use super::course::Place;
 use super::stage::{Flow, Ratios, Stage};
+use super::state::{ContactMotion, Motion, Shaft, ShaftMotion, State};
 use crate::error::finite;
-use crate::reduction::Reduction;
 use crate::{Error, math};
 
 /// The most stages of a friction drive.
@@ -51,135 +51,12 @@ pub enum Contact {
     Slipping,
 }
 
-/// What turns with a shaft, and what acts on it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Shaft {
-    /// Inertia J (kg·m²) and its derivative by the shaft's angle (kg·m²/rad).
-    pub inertia: [f64; 2],
-    /// Torque in the positive direction (N·m): a motor's is positive, a brake's negative.
-    pub torque: f64,
-    /// b in −b·ω_k (N·m·s/rad).
-    pub viscous: f64,
-    /// c in −c·sgn ω_k (N·m).
-    pub coulomb: f64,
-}
-
-impl Shaft {
-    /// A plain rotor with a torque on it.
-    #[must_use]
-    pub const fn new(inertia: f64, torque: f64) -> Self {
-        Self {
-            inertia: [inertia, 0.0],
-            torque,
-            viscous: 0.0,
-            coulomb: 0.0,
-        }
-    }
-
-    /// The same with an inertia (kg·m²) more.
-    #[must_use]
-    pub fn with_inertia(mut self, more: f64) -> Self {
-        self.inertia[0] += more;
-        self
-    }
-
-    /// Torque at the shaft's speed, without what its inertia asks for.
-    fn external(&self, omega: f64) -> f64 {
-        self.torque - self.viscous * omega - self.coulomb * math::sign(omega)
-    }
-}
-
-/// The drive link of a machine, at the position where it was reduced: any mechanism behind a friction drive.
-impl From<Reduction> for Shaft {
-    fn from(reduction: Reduction) -> Self {
-        Self {
-            inertia: [reduction.inertia[0], reduction.inertia[1]],
-            torque: reduction.load_torque(),
-            viscous: reduction.viscous,
-            coulomb: reduction.coulomb,
-        }
-    }
-}
-
-/// When and where the drive is: time (s), angle of every shaft (rad), and speed ω of shaft 1 (rad/s).
-///
-/// Angles are states of their own: with a ratio that varies in time there is no function α_k(α₁). Their rates are the
-/// shafts' speeds in [`Motion`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State<'a> {
-    /// t (s)
-    pub t: f64,
-    /// α₁, α₂, … (rad)
-    pub angles: &'a [f64],
-    /// ω of shaft 1 (rad/s)
-    pub omega: f64,
-}
-
 /// A friction drive.
 #[derive(Clone, Debug)]
 pub struct Drive<'a> {
     arrangement: Arrangement,
     contact: Contact,
     stages: heapless::Vec<Stage<'a>, MAX_STAGES>,
-}
-
-/// One shaft in motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct ShaftMotion {
-    /// Velocity coefficient j_k = ω_k/ω and its rate dj_k/dt (1/s).
-    pub coefficient: [f64; 2],
-    /// Speed ω_k (rad/s): the rate of the shaft's angle.
-    pub omega: f64,
-    /// Acceleration j_k·ω̇ + j̇_k·ω (rad/s²).
-    pub alpha: f64,
-    /// External torque (N·m), on shaft 1 the drive's included.
-    pub torque: f64,
-}
-
-/// One contact in motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct ContactMotion {
-    /// Torque L on the second shaft (N·m).
-    pub torque: f64,
-    /// Slip ε.
-    pub slip: f64,
-    /// Power lost (W), L·(f − j)·ω of the first shaft. Negative where power flows against the stage's
-    /// [`Flow`]: then a slip that does not turn with the load gives power, which no contact does.
-    pub loss: f64,
-}
-
-/// The drive in motion.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Motion {
-    /// Acceleration of shaft 1 (rad/s²).
-    pub alpha: f64,
-    /// Torque of the drive on shaft 1, beside the one in its [`Shaft`] (N·m).
-    pub drive: f64,
-    /// J = Σ J_k·j_k² (kg·m²) and dJ/dt (kg·m²/s).
-    pub inertia: [f64; 2],
-    /// Power lost in all contacts (W).
-    pub loss: f64,
-    /// The shafts.
-    pub shafts: heapless::Vec<ShaftMotion, MAX_SHAFTS>,
-    /// The contacts, one a stage.
-    pub contacts: heapless::Vec<ContactMotion, MAX_STAGES>,
-}
-
-impl Motion {
-    /// Power of all external torques, the drive's included (W): d(½Jω²)/dt = power − loss.
-    #[must_use]
-    pub fn power(&self) -> f64 {
-        self.shafts.iter().map(|s| s.torque * s.omega).sum()
-    }
-
-    /// ½·J·ω² (J).
-    #[must_use]
-    pub fn kinetic_energy(&self) -> f64 {
-        let omega = self.shafts.first().map_or(0.0, |s| s.omega);
-        0.5 * self.inertia[0] * omega * omega
-    }
 }
 
 /// What is sought.

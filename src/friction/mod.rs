@@ -22,13 +22,12 @@ pub mod integrability;
 mod quadrature;
 mod rheonomic;
 mod stage;
+mod state;
 
 pub use course::{Coefficient, Course, Creep, Curve, Place, Ramp, Sine, Variable};
 pub use creep::{CreepContact, Traction};
-pub use drive::{
-    Arrangement, Contact, ContactMotion, Drive, MAX_SHAFTS, MAX_STAGES, Motion, Shaft, ShaftMotion,
-    State,
-};
+pub use drive::{Arrangement, Contact, Drive, MAX_SHAFTS, MAX_STAGES};
 pub use dual::Dual;
 pub use rheonomic::{Coordinate, Rheonomic};
 pub use stage::{Flow, Ratios, Stage};
+pub use state::{ContactMotion, Motion, Shaft, ShaftMotion, State};

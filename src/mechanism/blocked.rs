@@ -18,6 +18,15 @@ pub enum Blocked {
         /// pivots, the one to the left of it.
         reach: [f64; 2],
     },
+    /// A four-bar with a link as long as the others together.
+    Apart {
+        /// Which link.
+        link: &'static str,
+        /// Its length (m).
+        length: f64,
+        /// Sum of the other three (m).
+        others: f64,
+    },
     /// The crank pin passes through the pivot of the slotted rocker.
     PinMeetsPivot {
         /// Crank length, equal to the distance of the pivots (m).
@@ -36,8 +45,21 @@ pub enum Blocked {
 
 impl fmt::Display for Blocked {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the crank cannot turn fully: ")?;
+        let cause = match self {
+            Self::Apart { .. } => "the links cannot be joined: ",
+            _ => "the crank cannot turn fully: ",
+        };
+        f.write_str(cause)?;
         match *self {
+            Self::Apart {
+                link,
+                length,
+                others,
+            } => write!(
+                f,
+                "the {link} of {length:.6} m is not shorter than the other three together, {others:.6} m; shorten it, or make \
+                 the others longer"
+            ),
             Self::FourBar { lengths, reach } => write!(
                 f,
                 "{}, or drive it over a stroke within its range, φ = {:.2}° to {:.2}°",

@@ -68,12 +68,7 @@ pub(super) fn pinned(
 /// angle stays within a quarter turn of 0 or π.
 ///
 /// `None` where the link stands across the guide, or does not reach it.
-pub(super) fn sliding(
-    b: [Transfer; 2],
-    length: f64,
-    guide: f64,
-    sign: f64,
-) -> Option<[Frame; 2]> {
+pub(super) fn sliding(b: [Transfer; 2], length: f64, guide: f64, sign: f64) -> Option<[Frame; 2]> {
     let guide = Transfer::constant(guide);
     let one = Transfer::constant(1.0);
     let sin = (guide - b[1]) * (1.0 / length);
@@ -81,7 +76,11 @@ pub(super) fn sliding(
     if under_root.value <= 0.0 {
         return None;
     }
-    let near = if sign > 0.0 { 0.0 } else { core::f64::consts::PI };
+    let near = if sign > 0.0 {
+        0.0
+    } else {
+        core::f64::consts::PI
+    };
     let link = Frame::moving(b, sin, under_root.sqrt() * sign).unwrapped(near);
     let [x, _] = link.point([length, 0.0]);
     Some([link, Frame::translating([x, guide])])

@@ -16,6 +16,7 @@
 use core::f64::consts::{PI, TAU};
 
 use super::dyad;
+use super::grashof::NAMES;
 use super::{Blocked, Frames, Grashof, Jointed, Mechanism, Side};
 use crate::error::{finite, positive};
 use crate::joint::{Joint, Joints, Marker};
@@ -108,7 +109,9 @@ impl FourBar {
         }
         // The first place from the start on with |AC| equal to one of two lengths.
         let first = |spans: [f64; 2]| {
-            let places = spans.into_iter().filter_map(|span| four_bar.crank_angle_of(span));
+            let places = spans
+                .into_iter()
+                .filter_map(|span| four_bar.crank_angle_of(span));
             places
                 .flatten()
                 .map(|phi| from + beyond(phi - from))
@@ -127,7 +130,10 @@ impl FourBar {
         side: Side,
         links: [Link; 3],
     ) -> Result<Self, Error> {
-        let [x, y] = [finite("rocker pivot x", pivot[0])?, finite("rocker pivot y", pivot[1])?];
+        let [x, y] = [
+            finite("rocker pivot x", pivot[0])?,
+            finite("rocker pivot y", pivot[1])?,
+        ];
         let bare = Self {
             crank: positive("crank length", lengths[0])?,
             coupler: positive("coupler length", lengths[1])?,
@@ -139,19 +145,17 @@ impl FourBar {
             turns: [0.0; 2],
             links,
         };
-        let names = [
-            "crank length (the sum of the other three)",
-            "coupler length (the sum of the other three)",
-            "rocker length (the sum of the other three)",
-            "distance of the pivots (the sum of the other three)",
-        ];
-        let all = bare.lengths();
-        let sum: f64 = all.iter().sum();
-        for (what, value) in names.into_iter().zip(all) {
-            if value >= sum - value {
-                let max = sum - value;
-                let min = 0.0;
-                return Err(Error::OutOfRange { what, value, min, max });
+        let lengths = bare.lengths();
+        let sum: f64 = lengths.iter().sum();
+        for (link, length) in NAMES.into_iter().zip(lengths) {
+            let others = sum - length;
+            if length >= others {
+                return Err(Blocked::Apart {
+                    link,
+                    length,
+                    others,
+                }
+                .into());
             }
         }
         Ok(bare)
@@ -160,8 +164,7 @@ impl FourBar {
     /// Fixes the whole turns of the angles: within (−π, π] at `phi`.
     fn with_angles_from(mut self, phi: f64) -> Result<Self, Error> {
         let [_, coupler, rocker] = self.place(phi)?;
-        self.turns = [coupler, rocker]
-            .map(|frame| math::floor(0.5 - frame.psi.value / TAU) * TAU);
+        self.turns = [coupler, rocker].map(|frame| math::floor(0.5 - frame.psi.value / TAU) * TAU);
         Ok(self)
     }
 
@@ -216,7 +219,10 @@ impl FourBar {
 
     /// Smallest and largest f = |AC| (m) over the crank's range: at its ends, and where O, A and C are in line.
     fn span_range(&self) -> [f64; 2] {
-        let (near, far) = (math::abs(self.ground - self.crank), self.ground + self.crank);
+        let (near, far) = (
+            math::abs(self.ground - self.crank),
+            self.ground + self.crank,
+        );
         let Domain::Stroke { from, to } = self.domain else {
             return [near, far];
         };
@@ -224,8 +230,16 @@ impl FourBar {
         let inside = |phi: f64| from + beyond(phi - from) <= to;
         let gamma = self.ground_angle();
         [
-            if inside(gamma) { near } else { ends[0].min(ends[1]) },
-            if inside(gamma + PI) { far } else { ends[0].max(ends[1]) },
+            if inside(gamma) {
+                near
+            } else {
+                ends[0].min(ends[1])
+            },
+            if inside(gamma + PI) {
+                far
+            } else {
+                ends[0].max(ends[1])
+            },
         ]
     }
 
@@ -266,7 +280,10 @@ impl FourBar {
         }
         let root = math::sqrt(under_root);
         for q in [root, -root] {
-            let a = [(p * b[0] - q * b[1]) / square, (p * b[1] + q * b[0]) / square];
+            let a = [
+                (p * b[0] - q * b[1]) / square,
+                (p * b[1] + q * b[0]) / square,
+            ];
             let (to_c, to_b) = (
                 [self.pivot[0] - a[0], self.pivot[1] - a[1]],
                 [b[0] - a[0], b[1] - a[1]],

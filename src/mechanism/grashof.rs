@@ -28,7 +28,7 @@ pub enum Grashof {
 }
 
 /// The links of [`Grashof::of`], in its order.
-const NAMES: [&str; 4] = ["crank", "coupler", "rocker", "ground"];
+pub(super) const NAMES: [&str; 4] = ["crank", "coupler", "rocker", "ground"];
 
 impl Grashof {
     /// The kind of the four-bar with these `lengths` of crank, coupler, rocker and ground (m). Sums that differ by less

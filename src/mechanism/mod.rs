@@ -18,6 +18,7 @@ mod scotch_yoke;
 pub mod linkage;
 mod six_link;
 mod slider_crank;
+mod toggle_press;
 mod train;
 
 pub use ball_screw::BallScrew;
@@ -38,6 +39,7 @@ pub use planetary::{Member, Planetary, PlanetaryGears};
 pub use rack::RackAndPinion;
 pub use six_link::SixLink;
 pub use slider_crank::{Branch, SliderCrank};
+pub use toggle_press::{DeadCentre, DeadCentres, Standstill, TogglePress};
 pub use train::{Mesh, Stage, Train, TrainInput};
 
 use crate::joint::Joints;

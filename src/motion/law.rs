@@ -107,7 +107,7 @@ impl Law {
                 decelerate,
             } => {
                 let (a, d) = (f64::from(accelerate), f64::from(decelerate));
-                let speed = 1.0 / (1.0 - (a + d) / 2.0);
+                let speed = 1.0 / (1.0 - f64::midpoint(a, d));
                 (speed, speed / a.min(d), None)
             }
             Self::Polynomial345 => (1.875, 5.773_502_691_896_258, Some(60.0)), // 10/√3

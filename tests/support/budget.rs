@@ -197,3 +197,10 @@ pub(crate) const CURVE: [f64; 2] = [1e-4, 5e-3];
 
 /// The largest rate of a sine on a grid of 129 places over a whole period, one of which is its steepest.
 pub(crate) const GRID_MAXIMUM: f64 = 1e-6;
+
+/// Products, quotients and exponentials of up to four stage ratios, relative.
+pub(crate) const SPLIT: f64 = 1e-13;
+
+/// Slopes of J by the logarithm of a stage's ratio at the optimum, of J: the ratio is known to 2⁻⁵⁶ of its range, the slope
+/// changes by up to 16·J with it, and the inner stages' roundings add up.
+pub(crate) const SPLIT_SLOPE: f64 = 1e-12;

@@ -2,14 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use jred::{Error, Reducible};
+use jred::{Domain, Error, Reducible};
 
 use crate::machine::MachineFile;
 
 use super::problem::{Problem, Result};
 use super::section::Section;
 
-/// Samples of a turn.
+/// Samples of a turn or a stroke.
 const SAMPLES: u32 = 720;
 
 /// An inertia that falls below this share of its largest value is zero.
@@ -25,10 +25,12 @@ pub(super) fn inertia(file: &MachineFile, mechanism: &Section) -> Result<()> {
             .map_err(|error| report(&error))?
             .inertia[0])
     };
-    let step = TAU / f64::from(SAMPLES);
-    let (mut largest, mut smallest, mut place) = (0.0_f64, f64::INFINITY, 0.0);
-    for k in 0..SAMPLES {
-        let phi = step * f64::from(k);
+    let domain = machine.domain();
+    let (from, to) = (domain.position(0.0), domain.position(1.0));
+    let step = domain.span() / f64::from(SAMPLES);
+    let (mut largest, mut smallest, mut place) = (0.0_f64, f64::INFINITY, from);
+    for k in 0..=SAMPLES {
+        let phi = domain.position(f64::from(k) / f64::from(SAMPLES));
         let value = inertia(phi)?;
         largest = largest.max(value);
         if value < smallest {
@@ -36,7 +38,10 @@ pub(super) fn inertia(file: &MachineFile, mechanism: &Section) -> Result<()> {
         }
     }
     // Between the samples the smallest value is found by thirds.
-    let (mut low, mut high) = (place - step, place + step);
+    let (mut low, mut high) = match domain {
+        Domain::Turn => (place - step, place + step),
+        Domain::Stroke { .. } => ((place - step).max(from), (place + step).min(to)),
+    };
     for _ in 0..80 {
         let third = (high - low) / 3.0;
         if inertia(low + third)? < inertia(high - third)? {
@@ -47,9 +52,11 @@ pub(super) fn inertia(file: &MachineFile, mechanism: &Section) -> Result<()> {
     }
     let phi = low.midpoint(high);
     if inertia(phi)? <= ZERO * largest {
-        return Err(report(&Error::NoInertia {
-            phi: phi.rem_euclid(TAU),
-        }));
+        let phi = match domain {
+            Domain::Turn => phi.rem_euclid(TAU),
+            Domain::Stroke { .. } => phi,
+        };
+        return Err(report(&Error::NoInertia { phi }));
     }
     Ok(())
 }

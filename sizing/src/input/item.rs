@@ -203,6 +203,16 @@ impl<'a> Item<'a> {
             .help(format!("{near}possible: {}", quoted(words))))
     }
 
+    /// Whether the value is a list.
+    pub(super) fn is_list(&self) -> bool {
+        matches!(self.value.get_ref(), DeValue::Array(_))
+    }
+
+    /// Whether the value is a table.
+    pub(super) fn is_table(&self) -> bool {
+        matches!(self.value.get_ref(), DeValue::Table(_))
+    }
+
     /// The elements of a list, each called `word` and its number in messages.
     pub(super) fn list(&self, word: &str, example: &str) -> Result<Vec<Self>> {
         let DeValue::Array(array) = self.value.get_ref() else {

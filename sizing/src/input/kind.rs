@@ -84,6 +84,11 @@ pub(super) const ANGULAR_ACCELERATION: Kind = kind(
     [0, 0, -2, 1],
     [1e-9, 1e9],
 );
+pub(super) const VELOCITY: Kind = kind(
+    ["a speed", "0.2 m/s", "m/s", "m/s, mm/s"],
+    [1, 0, -1, 0],
+    [1e-9, 1e6],
+);
 pub(super) const TIME: Kind = kind(
     ["a time", "0.25 s", "s", "s, ms"],
     [0, 0, 1, 0],
@@ -124,19 +129,71 @@ pub(super) const VISCOUS_MOMENT: Kind = kind(
     [2, 1, -1, -1],
     [1e-9, 1e10],
 );
+pub(super) const STIFFNESS: Kind = kind(
+    [
+        "a stiffness (force per length)",
+        "12 N/mm",
+        "N/mm",
+        "N/m, N/mm, kN/m",
+    ],
+    [0, 1, -2, 0],
+    [1e-9, 1e12],
+);
+pub(super) const TORSION_STIFFNESS: Kind = kind(
+    [
+        "a torsional stiffness (moment per angle)",
+        "15 N m/rad",
+        "N m/rad",
+        "N m/rad, N m/deg",
+    ],
+    [2, 1, -2, -1],
+    [1e-9, 1e12],
+);
 pub(super) const SHARE: Kind = kind(
     ["a share", "97 %", "%", "%, or a plain number such as 0.97"],
     [0, 0, 0, 0],
     [1e-6, 1e3],
 );
 
+/// s′ of a follower that slides.
+pub(super) const CAM_VELOCITY: Kind = kind(
+    [
+        "a velocity per angular speed of the cam",
+        "12 mm/rad",
+        "mm/rad",
+        "mm/rad, mm/deg",
+    ],
+    [1, 0, 0, -1],
+    [1e-9, 1e3],
+);
+/// s″ of a follower that slides.
+pub(super) const CAM_ACCELERATION: Kind = kind(
+    [
+        "an acceleration per squared angular speed of the cam",
+        "-30 mm/rad^2",
+        "mm/rad^2",
+        "mm/rad^2, mm/deg^2",
+    ],
+    [1, 0, 0, -2],
+    [1e-9, 1e6],
+);
+/// s″ of a follower that swings.
+pub(super) const CAM_TURNING: Kind = kind(
+    [
+        "an angular acceleration per squared angular speed of the cam",
+        "-0.5 1/rad",
+        "1/rad",
+        "1/rad, 1/deg",
+    ],
+    [0, 0, 0, -1],
+    [1e-9, 1e6],
+);
+
 /// Kinds that no key asks for but that people write.
-const OTHERS: [(&str, [i8; 4]); 8] = [
+const OTHERS: [(&str, [i8; 4]); 6] = [
     ("a frequency", [0, 0, -1, 0]),
     ("a speed", [1, 0, -1, 0]),
     ("an angular acceleration", [0, 0, -2, 1]),
-    ("a torsional stiffness", [2, 1, -2, -1]),
-    ("a stiffness (force per length)", [0, 1, -2, 0]),
     ("a power", [2, 1, -3, 0]),
     ("an area", [2, 0, 0, 0]),
     ("a mass times length", [1, 1, 0, 0]),
@@ -169,6 +226,8 @@ pub(super) fn describe(found: Dimension) -> String {
         &ACCELERATION,
         &VISCOUS_FORCE,
         &VISCOUS_MOMENT,
+        &STIFFNESS,
+        &TORSION_STIFFNESS,
     ];
     if found == SHARE.dimension {
         return "a plain number".to_owned();

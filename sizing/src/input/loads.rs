@@ -6,6 +6,7 @@ use jred::{Action, Domain, Load, MAX_LOADS, Mechanism as _, Window};
 
 use crate::machine::{AnyMechanism, NamedLoad};
 
+use super::drive_link::DriveLink;
 use super::item::Item;
 use super::kind::{ANGLE, FORCE, Kind, LENGTH, TORQUE, VISCOUS_FORCE, VISCOUS_MOMENT};
 use super::problem::{Problem, Result};
@@ -22,7 +23,11 @@ const ACTIONS: [&str; 6] = [
 ];
 
 /// All loads of the file.
-pub(super) fn read(root: &Section, mechanism: &AnyMechanism) -> Result<Vec<NamedLoad>> {
+pub(super) fn read(
+    root: &Section,
+    mechanism: &AnyMechanism,
+    drive: DriveLink,
+) -> Result<Vec<NamedLoad>> {
     let Some(item) = root.get("load") else {
         return Ok(Vec::new());
     };
@@ -34,11 +39,11 @@ pub(super) fn read(root: &Section, mechanism: &AnyMechanism) -> Result<Vec<Named
     }
     sections
         .iter()
-        .map(|section| load(section, mechanism))
+        .map(|section| load(section, mechanism, drive))
         .collect()
 }
 
-fn load(section: &Section, mechanism: &AnyMechanism) -> Result<NamedLoad> {
+fn load(section: &Section, mechanism: &AnyMechanism, drive: DriveLink) -> Result<NamedLoad> {
     let links = mechanism.link_names();
     let name = section
         .get("name")
@@ -51,7 +56,10 @@ fn load(section: &Section, mechanism: &AnyMechanism) -> Result<NamedLoad> {
     let action = action(key, &item)?;
     let at = section.get("at");
     let point = section.point("at", &LENGTH)?;
-    let window = window(section)?;
+    let window = match drive.domain {
+        Domain::Turn => window(section)?,
+        Domain::Stroke { .. } => stretch(section, drive)?,
+    };
     section.finish()?;
 
     let link_name = links.get(link).map_or("", String::as_str);
@@ -251,4 +259,76 @@ fn window(section: &Section) -> Result<Option<Window>> {
     Window::new(start, end, ramp).map(Some).map_err(|error| {
         between.problem(&format!("is not possible: {error}"), "check these angles")
     })
+}
+
+/// The part of the stroke in which the load acts.
+fn stretch(section: &Section, drive: DriveLink) -> Result<Option<Window>> {
+    let kind = drive.position();
+    let (between, ramp) = (section.get("between"), section.optional("ramp", kind)?);
+    let (between, ramp) = match (between, ramp) {
+        (None, None) => return Ok(None),
+        (Some(between), Some(ramp)) => (between, ramp),
+        (Some(_), None) => {
+            let example = format!(
+                "ramp = \"{}\": the way over which the load rises and falls",
+                kind.example
+            );
+            return Err(section.missing("ramp", &example));
+        }
+        (None, Some(_)) => {
+            let example = format!(
+                "between = [\"{}\", …]: where the load acts, within the stroke {}",
+                kind.example,
+                drive.range()
+            );
+            return Err(section.missing("between", &example));
+        }
+    };
+    ramp.check_positive()?;
+    let [from, to] = between.pair([kind, kind])?;
+    let width = to.si - from.si;
+    if width <= 0.0 {
+        return Err(between
+            .problem(
+                &format!("runs from {} to {}", from.shown(), to.shown()),
+                "check these ends",
+            )
+            .help("on a stroke the second position is the larger one"));
+    }
+    let Domain::Stroke {
+        from: start,
+        to: end,
+    } = drive.domain
+    else {
+        return Ok(None);
+    };
+    if to.si <= start || from.si >= end {
+        return Err(between
+            .problem(
+                &format!("lies outside the stroke, {}", drive.range()),
+                "never reached",
+            )
+            .help("give positions within the stroke; those beyond its ends do no harm"));
+    }
+    if width < 2.0 * ramp.si * (1.0 - 1e-12) {
+        return Err(ramp
+            .problem(
+                &format!(
+                    "is {}, too long for the range of {}",
+                    ramp.shown(),
+                    from.show(width)
+                ),
+                "too long",
+            )
+            .at(between.span(), "range")
+            .help(format!(
+                "the load rises over one ramp and falls over another: at most {}",
+                ramp.show(width / 2.0)
+            )));
+    }
+    Window::on_stroke(from.si, to.si, ramp.si.min(width / 2.0))
+        .map(Some)
+        .map_err(|error| {
+            between.problem(&format!("is not possible: {error}"), "check these positions")
+        })
 }

@@ -5,7 +5,10 @@
 
 mod argument;
 mod check;
+mod contact;
+mod drive_link;
 mod drive_train;
+mod elements;
 mod file;
 mod item;
 mod kind;
@@ -20,8 +23,13 @@ mod section;
 mod simulation;
 mod stage;
 mod unit;
+mod variator;
 
-pub use argument::{acceleration_argument, inertia_argument, speed_argument, torque_argument};
+pub use argument::{
+    acceleration_argument, drive_acceleration, drive_speed, inertia_argument, speed_argument,
+    torque_argument,
+};
+pub use mechanism::mechanism_types;
 
 use std::path::Path;
 
@@ -31,6 +39,7 @@ use toml::de::DeTable;
 
 use crate::machine::MachineFile;
 
+use drive_link::DriveLink;
 use kind::ACCELERATION;
 use problem::{Problem, Result};
 use section::Section;
@@ -96,10 +105,14 @@ fn machine(name: &str, text: &str, folder: &Path) -> Result<MachineFile> {
         .map(|value| value.si);
     let section = root.section("mechanism")?;
     let (mechanism, flywheel) = mechanism::read(&section)?;
-    let loads = loads::read(&root, &mechanism)?;
-    let drive_train = drive_train::read(&root)?;
-    let motion = motion::read(&root, folder)?;
-    let simulation = simulation::read(&root)?;
+    let drive_link = DriveLink::of(&mechanism)
+        .map_err(|error| section.problem(error.to_string(), "in this mechanism"))?;
+    let loads = loads::read(&root, &mechanism, drive_link)?;
+    let elements = elements::read(&root, &mechanism, drive_link.coordinate)?;
+    let drive_train = drive_train::read(&root, drive_link)?;
+    let variator = variator::read(&root, drive_link)?;
+    let motion = motion::read(&root, folder, drive_link)?;
+    let simulation = simulation::read(&root, drive_link, &drive_train)?;
     let rules = rules::read(&root)?;
     root.finish()?;
 
@@ -111,18 +124,26 @@ fn machine(name: &str, text: &str, folder: &Path) -> Result<MachineFile> {
                 .iter()
                 .try_fold(machine, |m, named| m.with_load(named.load))
         })
+        .and_then(|machine| {
+            elements
+                .iter()
+                .try_fold(machine, |m, named| m.with_element(named.element))
+        })
         .map_err(|error| section.problem(error.to_string(), "in this machine"))?;
     let file = MachineFile {
         title,
         machine,
         flywheel,
         loads,
+        elements,
         drive_train,
+        variator,
         motion,
         simulation,
         rules,
     };
     check::inertia(&file, &section)?;
+    contact::check(&file, &section)?;
     Ok(file)
 }
 

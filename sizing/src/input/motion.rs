@@ -3,11 +3,13 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
+use jred::Domain;
 use jred::motion::Law;
 
 use crate::motion::{Motion, Segment};
 
-use super::kind::{ANGLE, ANGULAR_SPEED, SHARE, TIME};
+use super::drive_link::DriveLink;
+use super::kind::{SHARE, TIME};
 use super::problem::{Problem, Result, figure};
 use super::profile;
 use super::section::Section;
@@ -18,10 +20,19 @@ const MAX_SEGMENTS: usize = 1000;
 /// A cycle closes if its moves miss a whole number of turns by less than this (turns).
 const CLOSED: f64 = 1e-9;
 
-const LAWS: [&str; 4] = ["trapezoid", "polynomial-345", "cycloidal", "modified-sine"];
+/// The motion laws, as machine files write them.
+pub(super) const LAWS: [&str; 7] = [
+    "trapezoid",
+    "polynomial-345",
+    "cycloidal",
+    "modified-sine",
+    "modified-trapezoid",
+    "polynomial-4567",
+    "simple-sine",
+];
 
 /// The prescribed motion, if the file has one. A profile's file is looked for in `folder`.
-pub(super) fn read(root: &Section, folder: &Path) -> Result<Option<Motion>> {
+pub(super) fn read(root: &Section, folder: &Path, drive: DriveLink) -> Result<Option<Motion>> {
     let Some(item) = root.get("motion") else {
         return Ok(None);
     };
@@ -31,10 +42,10 @@ pub(super) fn read(root: &Section, folder: &Path) -> Result<Option<Motion>> {
         .require("type", "type = \"cycle\"")?
         .choice(&types)?
     {
-        0 => constant_speed(&section)?,
-        1 => segments(&section, true)?,
-        2 => segments(&section, false)?,
-        _ => profile::read(&section, folder)?,
+        0 => constant_speed(&section, drive)?,
+        1 => segments(&section, true, drive)?,
+        2 => segments(&section, false, drive)?,
+        _ => profile::read(&section, folder, drive)?,
     };
     Ok(Some(motion))
 }
@@ -50,17 +61,44 @@ pub(super) fn finish(section: &Section) -> Result<()> {
     })
 }
 
-fn start(section: &Section) -> Result<f64> {
-    Ok(section
-        .optional("start", &ANGLE)?
-        .map_or(0.0, |value| value.si))
+/// Where the motion starts: at zero, or at the beginning of the stroke.
+fn start(section: &Section, drive: DriveLink) -> Result<f64> {
+    let Some(start) = section.optional("start", drive.position())? else {
+        return Ok(match drive.domain {
+            Domain::Turn => 0.0,
+            Domain::Stroke { from, .. } => from,
+        });
+    };
+    if drive.reaches(start.si) {
+        return Ok(start.si);
+    }
+    let what = format!(
+        "is {}, outside the stroke, {}",
+        start.shown(),
+        drive.range()
+    );
+    Err(start
+        .problem(&what, "out of reach")
+        .help("start at a position within the stroke"))
 }
 
-fn constant_speed(section: &Section) -> Result<Motion> {
-    let start = start(section)?;
-    let speed = section.quantity("speed", &ANGULAR_SPEED)?;
+fn constant_speed(section: &Section, drive: DriveLink) -> Result<Motion> {
+    if drive.domain != Domain::Turn {
+        let kind = section.require("type", "type = \"cycle\"")?;
+        return Err(kind
+            .problem(
+                &format!(
+                    "is \"constant-speed\", but the drive link has a stroke, {}: it cannot go on for ever",
+                    drive.range()
+                ),
+                "not on a stroke",
+            )
+            .help("use type = \"cycle\" with moves there and back, or \"point-to-point\""));
+    }
+    let start = start(section, drive)?;
+    let speed = section.quantity("speed", drive.speed())?;
     finish(section)?;
-    if speed.si.abs() < ANGULAR_SPEED.smallest {
+    if speed.si.abs() < drive.speed().smallest {
         return Err(speed
             .problem(
                 &format!("is {}, but must not be zero", speed.shown()),
@@ -71,8 +109,8 @@ fn constant_speed(section: &Section) -> Result<Motion> {
     Ok(Motion::constant_speed(start, speed.si))
 }
 
-fn segments(section: &Section, cyclic: bool) -> Result<Motion> {
-    let start = start(section)?;
+fn segments(section: &Section, cyclic: bool, drive: DriveLink) -> Result<Motion> {
+    let start = start(section, drive)?;
     let item = section.require(
         "segment",
         "[[motion.segment]] once for each move = \"…\" and each dwell = \"…\"",
@@ -90,9 +128,13 @@ fn segments(section: &Section, cyclic: bool) -> Result<Motion> {
             )
             .help("give a long motion as recorded positions: type = \"profile\" with a CSV file"));
     }
-    let segments = parts.iter().map(segment).collect::<Result<Vec<_>>>()?;
+    let segments = parts
+        .iter()
+        .map(|part| segment(part, drive))
+        .collect::<Result<Vec<_>>>()?;
+    check_stroke(start, &parts, &segments, drive)?;
     if cyclic {
-        check_closed(section, &parts, &segments)?;
+        check_closed(section, &parts, &segments, drive)?;
     }
     Motion::segments(start, &segments, cyclic).map_err(|(index, error)| {
         let part = parts.get(index).unwrap_or(section);
@@ -101,7 +143,7 @@ fn segments(section: &Section, cyclic: bool) -> Result<Motion> {
 }
 
 /// One move or one dwell.
-fn segment(section: &Section) -> Result<Segment> {
+fn segment(section: &Section, drive: DriveLink) -> Result<Segment> {
     let law_key = section.get("law");
     let (way, dwell) = (section.get("move"), section.get("dwell"));
     if let (Some(way), Some(dwell)) = (&way, &dwell) {
@@ -134,13 +176,14 @@ fn segment(section: &Section) -> Result<Segment> {
         });
     }
     let Some(way) = way else {
+        let example = if drive.slides() { "150 mm" } else { "360 deg" };
         return Err(section.missing(
             "move",
-            "move = \"360 deg\" with law and duration, or dwell = \"0.25 s\"",
+            &format!("move = \"{example}\" with law and duration, or dwell = \"0.25 s\""),
         ));
     };
-    let distance = way.quantity(&ANGLE)?;
-    if distance.si.abs() < ANGLE.smallest {
+    let distance = way.quantity(drive.position())?;
+    if distance.si.abs() < drive.position().smallest {
         return Err(distance
             .problem("is zero, so nothing moves", "zero")
             .help("write a pause as dwell = \"0.25 s\", without law and duration"));
@@ -158,7 +201,8 @@ fn segment(section: &Section) -> Result<Segment> {
     })
 }
 
-fn law(section: &Section) -> Result<Law> {
+/// The law of a segment, with the shares of a trapezoid.
+pub(super) fn law(section: &Section) -> Result<Law> {
     let law = section.require("law", "law = \"polynomial-345\"")?;
     Ok(match law.choice(&LAWS)? {
         0 => {
@@ -193,12 +237,84 @@ fn law(section: &Section) -> Result<Law> {
         }
         1 => Law::Polynomial345,
         2 => Law::Cycloidal,
-        _ => Law::ModifiedSine,
+        3 => Law::ModifiedSine,
+        4 => Law::ModifiedTrapezoid,
+        5 => Law::Polynomial4567,
+        _ => Law::SimpleSine,
     })
 }
 
+/// No move goes beyond the stroke. Every motion law goes from one end of its move to the other without turning back, so
+/// the ends decide.
+fn check_stroke(
+    start: f64,
+    parts: &[Section],
+    segments: &[Segment],
+    drive: DriveLink,
+) -> Result<()> {
+    let mut position = start;
+    for (part, segment) in parts.iter().zip(segments) {
+        position += segment.distance;
+        if !drive.reaches(position) {
+            return Err(part
+                .problem(
+                    format!(
+                        "{} ends at {}, outside the stroke, {}",
+                        part.title(),
+                        drive.coordinate.place(position),
+                        drive.range()
+                    ),
+                    "leaves the stroke",
+                )
+                .help("shorten this move, start elsewhere, or lengthen the stroke of the mechanism"));
+        }
+    }
+    Ok(())
+}
+
+/// A cycle on a stroke ends where it began.
+fn check_returns(
+    section: &Section,
+    parts: &[Section],
+    segments: &[Segment],
+    drive: DriveLink,
+) -> Result<()> {
+    let sum: f64 = segments.iter().map(|s| s.distance).sum();
+    let ways: f64 = segments.iter().map(|s| s.distance.abs()).sum();
+    if sum.abs() <= CLOSED * ways {
+        return Ok(());
+    }
+    let shown = |way: f64| {
+        format!("{} {}", figure(drive.coordinate.shown(way)), drive.coordinate.unit())
+    };
+    let mut problem = section.problem(
+        format!(
+            "the moves of this cycle add up to {}, so it does not end where it began",
+            shown(sum)
+        ),
+        "a cycle must close",
+    );
+    for (part, segment) in parts.iter().zip(segments).take(20) {
+        if segment.distance != 0.0 {
+            problem = problem.at(part.header(), shown(segment.distance));
+        }
+    }
+    Err(problem.help(format!(
+        "add a move of {}, or use type = \"point-to-point\" for a motion that does not repeat",
+        shown(-sum)
+    )))
+}
+
 /// A cycle ends where it began, or whole turns further on.
-fn check_closed(section: &Section, parts: &[Section], segments: &[Segment]) -> Result<()> {
+fn check_closed(
+    section: &Section,
+    parts: &[Section],
+    segments: &[Segment],
+    drive: DriveLink,
+) -> Result<()> {
+    if drive.domain != Domain::Turn {
+        return check_returns(section, parts, segments, drive);
+    }
     let turns = segments.iter().map(|s| s.distance).sum::<f64>() / TAU;
     let missing = turns.round() - turns;
     if missing.abs() <= CLOSED * segments.len() as f64 {

@@ -4,8 +4,12 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 use std::path::Path;
 
+use jred::Domain;
+
+use crate::coordinate::Coordinate;
 use crate::motion::Motion;
 
+use super::drive_link::DriveLink;
 use super::file;
 use super::motion;
 use super::problem::{Problem, Result, closest, figure};
@@ -23,13 +27,32 @@ const STEP_TOLERANCE: f64 = 1e-6;
 /// A cyclic profile closes if it misses a whole number of turns by less than this (turns).
 const CLOSED: f64 = 1e-5;
 
-/// The columns, with the factor to SI and whether it is the time.
-const COLUMNS: [(&str, f64, bool); 4] = [
+/// A column: its name, the factor to SI and whether it is the time.
+type Column = (&'static str, f64, bool);
+
+/// The columns of a drive link that turns or swings.
+const ANGLES: [Column; 4] = [
     ("t [s]", 1.0, true),
     ("t [ms]", 1e-3, true),
     ("phi [deg]", std::f64::consts::PI / 180.0, false),
     ("phi [rad]", 1.0, false),
 ];
+
+/// The columns of one that slides.
+const LENGTHS: [Column; 4] = [
+    ("t [s]", 1.0, true),
+    ("t [ms]", 1e-3, true),
+    ("s [mm]", 1e-3, false),
+    ("s [m]", 1.0, false),
+];
+
+/// The columns that a profile of this drive link may have, and the header to suggest.
+const fn columns_of(drive: DriveLink) -> ([Column; 4], &'static str) {
+    match drive.coordinate {
+        Coordinate::Angle => (ANGLES, "\"t [s],phi [deg]\" (or t [ms], phi [rad])"),
+        Coordinate::Length => (LENGTHS, "\"t [s],s [mm]\" (or t [ms], s [m])"),
+    }
+}
 
 /// The cure of most things that are wrong with the time column.
 const RESAMPLE: &str =
@@ -43,7 +66,7 @@ struct Row {
 }
 
 /// The motion of the file named in `section`.
-pub(super) fn read(section: &Section, folder: &Path) -> Result<Motion> {
+pub(super) fn read(section: &Section, folder: &Path, drive: DriveLink) -> Result<Motion> {
     let item = section.require("file", "file = \"profile.csv\"")?;
     let name = item.text("profile.csv")?;
     let cyclic = section.get("cyclic").map_or(Ok(true), |item| item.flag())?;
@@ -53,13 +76,41 @@ pub(super) fn read(section: &Section, folder: &Path) -> Result<Motion> {
         item.problem(&format!("cannot be read: {}", fault.message), "this file")
             .help(fault.help)
     })?;
-    curve(&text, cyclic).map_err(|problem| problem.in_file(&path.display().to_string(), &text))
+    curve(&text, cyclic, drive).map_err(|problem| problem.in_file(&path.display().to_string(), &text))
 }
 
-fn curve(text: &str, cyclic: bool) -> Result<Motion> {
-    let mut rows = rows(text)?;
-    let step = check_times(&rows, text)?;
-    if let (true, [first, .., last]) = (cyclic, rows.as_mut_slice()) {
+fn curve(text: &str, cyclic: bool, drive: DriveLink) -> Result<Motion> {
+    let mut rows = rows(text, drive)?;
+    let step = check_times(&rows, text, drive)?;
+    let outside = |row: &&Row| !drive.reaches(row.phi);
+    if let Some(row) = rows.iter().find(outside) {
+        return Err(Problem::new(format!(
+            "the position {} lies outside the stroke, {}",
+            drive.coordinate.place(row.phi),
+            drive.range()
+        ))
+        .at(row.place.clone(), "leaves the stroke")
+        .help("record a motion that stays within the stroke of the mechanism"));
+    }
+    if let (true, [first, .., last], Domain::Stroke { .. }) =
+        (cyclic, rows.as_mut_slice(), drive.domain)
+    {
+        let gap = last.phi - first.phi;
+        if gap.abs() > CLOSED * drive.domain.span() {
+            return Err(Problem::new(format!(
+                "the last position lies {} {} from the first one",
+                figure(drive.coordinate.shown(gap)),
+                drive.coordinate.unit()
+            ))
+            .at(first.place.clone(), "first position")
+            .at(last.place.clone(), "last position")
+            .help(
+                "a cyclic motion ends where it began; for a motion that does not repeat write cyclic = false in \
+                 [motion]",
+            ));
+        }
+        last.phi = first.phi;
+    } else if let (true, [first, .., last]) = (cyclic, rows.as_mut_slice()) {
         let turns = (last.phi - first.phi) / TAU;
         let gap = turns - turns.round();
         if gap.abs() > CLOSED {
@@ -83,12 +134,12 @@ fn curve(text: &str, cyclic: bool) -> Result<Motion> {
 }
 
 /// Checks that the times rise in equal steps, and returns the step (s).
-fn check_times(rows: &[Row], text: &str) -> Result<f64> {
+fn check_times(rows: &[Row], text: &str, drive: DriveLink) -> Result<f64> {
     let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
-        return Err(too_short(0, text));
+        return Err(too_short(0, text, drive));
     };
     if rows.len() < MIN_ROWS {
-        return Err(too_short(rows.len(), text));
+        return Err(too_short(rows.len(), text, drive));
     }
     let mut steps: Vec<f64> = Vec::with_capacity(rows.len());
     for (number, (row, next)) in rows.iter().zip(rows.iter().skip(1)).enumerate() {
@@ -122,17 +173,20 @@ fn check_times(rows: &[Row], text: &str) -> Result<f64> {
     Ok((last.t - first.t) / steps.len() as f64)
 }
 
-fn too_short(rows: usize, text: &str) -> Problem {
+fn too_short(rows: usize, text: &str, drive: DriveLink) -> Problem {
     let end = text.trim_end().len();
     Problem::new(format!(
         "the profile has {rows} rows, but needs at least {MIN_ROWS}"
     ))
     .at(end..end, "ends here")
-    .help("give the columns \"t [s],phi [deg]\" and one row for each time step")
+    .help(format!(
+        "give the columns {} and one row for each time step",
+        columns_of(drive).1
+    ))
 }
 
 /// Reads header and rows.
-fn rows(text: &str) -> Result<Vec<Row>> {
+fn rows(text: &str, drive: DriveLink) -> Result<Vec<Row>> {
     let mut reader = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
         .has_headers(true)
@@ -140,12 +194,12 @@ fn rows(text: &str) -> Result<Vec<Row>> {
         .from_reader(text.as_bytes());
     let header = reader
         .headers()
-        .map_err(|error| broken(&error, text))?
+        .map_err(|error| broken(&error, text, drive))?
         .clone();
-    let columns = columns(&header, text)?;
+    let columns = columns(&header, text, drive)?;
     let mut rows = Vec::new();
     for (index, record) in reader.records().enumerate() {
-        let record = record.map_err(|error| broken(&error, text))?;
+        let record = record.map_err(|error| broken(&error, text, drive))?;
         let start = record.position().map_or(0, |p| p.byte() as usize);
         let place = line_at(text, start);
         if record.len() != columns.len() {
@@ -182,22 +236,22 @@ fn rows(text: &str) -> Result<Vec<Row>> {
 }
 
 /// What the header's columns are.
-fn columns(header: &csv::StringRecord, text: &str) -> Result<Vec<(&'static str, f64, bool)>> {
-    const HELP: &str =
-        "the first line must be \"t [s],phi [deg]\" (or t [ms], phi [rad]), separated by a comma";
+fn columns(header: &csv::StringRecord, text: &str, drive: DriveLink) -> Result<Vec<Column>> {
+    let (known, shape) = columns_of(drive);
+    let help = format!("the first line must be {shape}, separated by a comma");
     let place = line_at(text, 0);
-    let names = COLUMNS.map(|(name, ..)| name);
-    let mut columns: Vec<(&'static str, f64, bool)> = Vec::new();
+    let names = known.map(|(name, ..)| name);
+    let mut columns: Vec<Column> = Vec::new();
     for name in header
         .iter()
         .map(|name| name.trim_start_matches('\u{feff}'))
     {
-        let Some(column) = COLUMNS.into_iter().find(|(known, ..)| *known == name) else {
+        let Some(column) = known.into_iter().find(|(known, ..)| *known == name) else {
             let near = closest(name, &names)
                 .map_or_else(String::new, |near| format!("did you mean \"{near}\"? "));
             return Err(Problem::new(format!("the column \"{name}\" is not known"))
                 .at(place, "header")
-                .help(format!("{near}{HELP}")));
+                .help(format!("{near}{help}")));
         };
         columns.push(column);
     }
@@ -208,7 +262,7 @@ fn columns(header: &csv::StringRecord, text: &str) -> Result<Vec<(&'static str, 
     Err(
         Problem::new("the header must have one column for the time and one for the position")
             .at(place, "header")
-            .help(HELP),
+            .help(help),
     )
 }
 
@@ -221,9 +275,9 @@ fn line_at(text: &str, start: usize) -> Range<usize> {
     start..start + length
 }
 
-fn broken(error: &csv::Error, text: &str) -> Problem {
+fn broken(error: &csv::Error, text: &str, drive: DriveLink) -> Problem {
     let start = error.position().map_or(0, |p| p.byte() as usize);
     Problem::new(format!("not a readable CSV file: {error}"))
         .at(line_at(text, start), "here")
-        .help("give two columns of numbers under the header \"t [s],phi [deg]\"")
+        .help(format!("give two columns of numbers under the header {}", columns_of(drive).1))
 }

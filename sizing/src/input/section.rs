@@ -121,6 +121,17 @@ impl<'a> Section<'a> {
         Ok(item.pair([kind, kind])?.map(|value| value.si))
     }
 
+    /// All entries in the order of the text, for a table whose keys are names that the user chooses.
+    pub(super) fn entries(&self) -> Vec<(&'a str, Item<'a>)> {
+        let mut entries: Vec<_> = self.table.iter().collect();
+        entries.sort_by_key(|(key, _)| key.span().start);
+        let entry = |(key, value): (&'a toml::Spanned<_>, _)| {
+            let name: &'a str = std::borrow::Cow::as_ref(key.get_ref());
+            (name, Item::new(self.name(name), "point", key.span(), value))
+        };
+        entries.into_iter().map(entry).collect()
+    }
+
     /// A table that must be there.
     pub(super) fn section(&self, key: &'static str) -> Result<Self> {
         let title = self.child(key);

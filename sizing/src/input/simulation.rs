@@ -1,9 +1,13 @@
 //! `[simulation]`: a free motion under a motor torque.
 
+use jred::mechanism::Train;
+
+use crate::coordinate::Coordinate;
 use crate::machine::{Shaft, Simulation};
 
+use super::drive_link::DriveLink;
 use super::item::Item;
-use super::kind::{ANGLE, ANGULAR_SPEED, INERTIA, TIME, TORQUE};
+use super::kind::{INERTIA, MASS, TIME};
 use super::problem::{Problem, Result, figure};
 use super::section::Section;
 
@@ -14,14 +18,30 @@ const MAX_STEPS: f64 = 100_000.0;
 const MAX_POINTS: usize = 1000;
 
 /// What `jred simulate` is to run, if the file says.
-pub(super) fn read(root: &Section) -> Result<Option<Simulation>> {
+pub(super) fn read(
+    root: &Section,
+    drive: DriveLink,
+    drive_train: &Train,
+) -> Result<Option<Simulation>> {
     let Some(item) = root.get("simulation") else {
         return Ok(None);
     };
     let section = item.section("[simulation]".into())?;
-    let start_angle = section.quantity("start_angle", &ANGLE)?.si;
+    let key = if drive.slides() {
+        "start_position"
+    } else {
+        "start_angle"
+    };
+    let start = section.quantity(key, drive.position())?;
+    if !drive.reaches(start.si) {
+        let what = format!("is {}, outside the stroke, {}", start.shown(), drive.range());
+        return Err(start
+            .problem(&what, "out of reach")
+            .help("start at a position within the stroke"));
+    }
+    let start_angle = start.si;
     let start_speed = section
-        .optional("start_speed", &ANGULAR_SPEED)?
+        .optional("start_speed", drive.speed())?
         .map_or(0.0, |value| value.si);
     let duration = section.quantity("duration", &TIME)?;
     let output_step = section.quantity("output_step", &TIME)?;
@@ -43,12 +63,27 @@ pub(super) fn read(root: &Section) -> Result<Option<Simulation>> {
                 output_step.show(duration.si)
             )));
     }
-    let torque = torque(&section)?;
+    let words = ["motor", if drive.slides() { "drive-link" } else { "crank" }];
     let at = match section.get("at") {
-        Some(item) if item.choice(&["motor", "crank"])? == 1 => Shaft::DriveLink,
+        Some(item) if item.choice(&words)? == 1 => Shaft::DriveLink,
         _ => Shaft::Motor,
     };
-    let rotor_inertia = match section.optional("rotor_inertia", &INERTIA)? {
+    // What drives directly a link that slides is a linear motor or a cylinder.
+    let linear = drive.slides() && (at == Shaft::DriveLink || drive_train.stages().is_empty());
+    let torque = if linear {
+        effort(&section, ["force", "force_speed"], drive, ["0.2 m/s", "400 N"])?
+    } else {
+        let rotary = DriveLink { coordinate: Coordinate::Angle, ..drive };
+        effort(&section, ["torque", "torque_speed"], rotary, ["3000 rpm", "14 N m"])?
+    };
+    // A linear motor has a mass where a rotary one has an inertia.
+    let direct = drive.slides() && drive_train.stages().is_empty();
+    let (rotor, kind) = if direct {
+        ("motor_mass", &MASS)
+    } else {
+        ("rotor_inertia", &INERTIA)
+    };
+    let rotor_inertia = match section.optional(rotor, kind)? {
         Some(value) => value.not_negative()?,
         None => 0.0,
     };
@@ -69,38 +104,43 @@ pub(super) fn read(root: &Section) -> Result<Option<Simulation>> {
     }))
 }
 
-/// The torque as points over speed.
-fn torque(section: &Section) -> Result<Vec<(f64, f64)>> {
-    match (section.get("torque"), section.get("torque_speed")) {
-        (Some(constant), None) => Ok(vec![(0.0, constant.quantity(&TORQUE)?.si)]),
-        (None, Some(curve)) => points(&curve),
+/// The torque or force as points over speed.
+fn effort(
+    section: &Section,
+    [key, curve_key]: [&'static str; 2],
+    drive: DriveLink,
+    [speed, most]: [&str; 2],
+) -> Result<Vec<(f64, f64)>> {
+    let no_speed = format!("0 {}", drive.speed().unit);
+    let no_effort = format!("0 {}", drive.effort().unit);
+    let example = format!("[[\"{no_speed}\", \"{most}\"], [\"{speed}\", \"{no_effort}\"]]");
+    match (section.get(key), section.get(curve_key)) {
+        (Some(constant), None) => Ok(vec![(0.0, constant.quantity(drive.effort())?.si)]),
+        (None, Some(curve)) => points(&curve, drive, &example),
         (Some(constant), Some(curve)) => {
-            Err(Problem::new("[simulation] has both `torque` and `torque_speed`")
-                .at(constant.key_span(), "a constant torque")
-                .at(curve.key_span(), "a torque that depends on the speed")
+            Err(Problem::new(format!("[simulation] has both `{key}` and `{curve_key}`"))
+                .at(constant.key_span(), format!("a constant {key}"))
+                .at(curve.key_span(), format!("a {key} that depends on the speed"))
                 .help("keep one of them"))
         }
         (None, None) => Err(section.missing(
-            "torque",
-            "torque = \"12 N m\", or torque_speed = [[\"0 rpm\", \"14 N m\"], [\"3000 rpm\", \"0 N m\"]]",
+            key,
+            &format!("{key} = \"{}\", or {curve_key} = {example}", drive.effort().example),
         )),
     }
 }
 
-fn points(curve: &Item) -> Result<Vec<(f64, f64)>> {
-    let list = curve.list(
-        "point",
-        "[[\"0 rpm\", \"14 N m\"], [\"3000 rpm\", \"0 N m\"]]",
-    )?;
+fn points(curve: &Item, drive: DriveLink, example: &str) -> Result<Vec<(f64, f64)>> {
+    let list = curve.list("point", example)?;
     if list.is_empty() || list.len() > MAX_POINTS {
         let what = format!("has {} points, but must have 1 to {MAX_POINTS}", list.len());
         return Err(curve
             .problem(&what, "here")
-            .help("a point is [speed, torque]: [\"1500 rpm\", \"10 N m\"]"));
+            .help(format!("a point is [speed, effort], as in {example}")));
     }
     let mut points: Vec<(f64, f64)> = Vec::with_capacity(list.len());
     for item in list {
-        let [speed, torque] = item.pair([&ANGULAR_SPEED, &TORQUE])?;
+        let [speed, effort] = item.pair([drive.speed(), drive.effort()])?;
         if let Some((before, _)) = points.last().filter(|(before, _)| speed.si <= *before) {
             let what = format!(
                 "is {}, but must be larger than the speed of the point before, {}",
@@ -111,7 +151,7 @@ fn points(curve: &Item) -> Result<Vec<(f64, f64)>> {
                 .problem(&what, "not rising")
                 .help("sort the points by rising speed"));
         }
-        points.push((speed.si, torque.si));
+        points.push((speed.si, effort.si));
     }
     Ok(points)
 }

@@ -100,6 +100,41 @@ pub(super) fn belt(section: &Section, losses: Losses) -> Result<Placed> {
         .map_err(|error| core(section, &error))
 }
 
+/// The stage of a table with `type = "ball-screw"`: 2π/lead radians of the screw for each metre of the nut.
+pub(super) fn screw(section: &Section) -> Result<Placed> {
+    let lead = section.quantity("lead", &LENGTH)?.positive()?;
+    let left = match section.get("hand") {
+        Some(item) => item.choice(&["right", "left"])? == 1,
+        None => false,
+    };
+    let ratio = std::f64::consts::TAU / lead;
+    linear(section, if left { -ratio } else { ratio })
+}
+
+/// The stage of a table with `type = "rack"`: 1/radius radians of the pinion for each metre of the rack.
+pub(super) fn rack(section: &Section) -> Result<Placed> {
+    let radius = section.quantity("radius", &LENGTH)?.positive()?;
+    linear(section, 1.0 / radius)
+}
+
+/// A stage with the `ratio` (rad/m) from a part that turns to a part that slides.
+fn linear(section: &Section, ratio: f64) -> Result<Placed> {
+    let inertia = section.quantity("inertia", &INERTIA)?.not_negative()?;
+    let mass = match section.optional("mass", &MASS)? {
+        Some(value) => value.not_negative()?,
+        None => 0.0,
+    };
+    let efficiency = efficiency(section, Losses::Allowed)?;
+    section.finish()?;
+    Stage::new(ratio, [inertia, mass])
+        .and_then(|stage| stage.with_efficiency(efficiency))
+        .map(|stage| Placed {
+            stage,
+            place: section.header(),
+        })
+        .map_err(|error| core(section, &error))
+}
+
 fn pulley(section: &Section, key: &'static str) -> Result<(f64, f64)> {
     let example = format!("{key} = {{ radius = \"40 mm\", inertia = \"6 kg cm^2\" }}");
     let pulley = section

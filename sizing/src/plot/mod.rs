@@ -6,17 +6,18 @@ use scale::{Span, nice_step, number, range, to_f64, usable};
 use std::sync::Arc;
 use svg::finish;
 
+pub(crate) mod canvas;
 mod scale;
 mod svg;
 #[cfg(test)]
 mod tests;
 
-const WIDTH: f64 = 760.0;
+pub(crate) const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 340.0;
 /// Blank band the library leaves under a legend; it is drawn and then cropped away.
 const LEGEND_SLACK: f64 = 22.0;
 /// Okabe-Ito without its yellow, which is too faint on white paper.
-const PALETTE: [&str; 7] = [
+pub(crate) const PALETTE: [&str; 7] = [
     "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#444444",
 ];
 /// With more bars than this, the numbers at the bars would run into each other.

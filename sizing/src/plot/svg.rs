@@ -8,13 +8,22 @@ use kuva::render::render::{PathData, Primitive, Scene};
 pub(super) fn finish(mut scene: Scene) -> String {
     scene.height = HEIGHT;
     scene.elements.iter_mut().for_each(compact);
-    responsive(&SvgBackend::new().render_scene(&scene))
+    responsive(&SvgBackend::new().render_scene(&scene), WIDTH, HEIGHT)
+}
+
+/// Writes a drawing in its own size.
+pub(super) fn finish_drawing(scene: Scene) -> String {
+    responsive(
+        &SvgBackend::new().render_scene(&scene),
+        scene.width,
+        scene.height,
+    )
 }
 
 /// Lets the page decide the size, which the library can only fix; rounds the corners of lines.
-fn responsive(svg: &str) -> String {
-    let fixed = format!("width=\"{WIDTH}\" height=\"{HEIGHT}\"");
-    let free = format!("viewBox=\"0 0 {WIDTH} {HEIGHT}\" preserveAspectRatio=\"xMidYMid meet\"");
+fn responsive(svg: &str, width: f64, height: f64) -> String {
+    let fixed = format!("width=\"{width}\" height=\"{height}\"");
+    let free = format!("viewBox=\"0 0 {width} {height}\" preserveAspectRatio=\"xMidYMid meet\"");
     let round = "stroke-linejoin=\"round\" stroke-linecap=\"round\"";
     svg.replacen(&fixed, &format!("{free} {round}"), 1)
 }

@@ -3,6 +3,7 @@
 use jred::{Error, Reducible as _};
 
 use super::term_names;
+use crate::coordinate::{Coordinate, positions, whole_range};
 use crate::drive::{Judged, RPM};
 use crate::duty::Duty;
 use crate::envelope::Envelope;
@@ -11,10 +12,10 @@ use crate::output::Columns;
 use crate::plot::{Axes, Series, Style, bars, lines, lines_two_axes};
 use crate::rules::Rules;
 
-/// Positions of the figures over the turn.
-const POSITIONS: u32 = 360;
+/// Intervals of the figures over the range.
+const POSITIONS: usize = 360;
 
-fn line(name: &str, points: Vec<(f64, f64)>) -> Series<'_> {
+pub(super) fn line(name: &str, points: Vec<(f64, f64)>) -> Series<'_> {
     Series {
         name,
         points,
@@ -30,35 +31,39 @@ fn dashed(name: &str, points: Vec<(f64, f64)>) -> Series<'_> {
     }
 }
 
-/// J_red and J_red′ over the turn.
+/// J_red and J_red′ over the range.
 pub(super) fn reduced_inertia(file: &MachineFile) -> Result<String, Error> {
     let machine = file.with_drive_train()?;
+    let coordinate = Coordinate::of(machine.mechanism())?;
     let (mut inertia, mut slope) = (Vec::new(), Vec::new());
-    for k in 0..=POSITIONS {
-        let phi = f64::from(k).to_radians();
+    for phi in whole_range(machine.domain(), POSITIONS) {
         let point = machine.reduction(phi)?;
-        inertia.push((f64::from(k), point.inertia[0]));
-        slope.push((f64::from(k), point.inertia[1]));
+        inertia.push((coordinate.shown(phi), point.inertia[0]));
+        slope.push((coordinate.shown(phi), point.inertia[1]));
     }
+    let (y, slope_y, names) = match coordinate {
+        Coordinate::Angle => ("J_red [kg·m²]", "J_red′ [kg·m²/rad]", ["J_red", "J_red′"]),
+        Coordinate::Length => ("m_red [kg]", "m_red′ [kg/m]", ["m_red", "m_red′"]),
+    };
     let axes = Axes {
         title: "",
-        x: "angle of the drive link φ [deg]",
-        y: "J_red [kg·m²]",
+        x: coordinate.axis(),
+        y,
     };
     Ok(lines_two_axes(
         &axes,
-        &[line("J_red", inertia)],
-        "J_red′ [kg·m²/rad]",
-        &[dashed("J_red′", slope)],
+        &[line(names[0], inertia)],
+        slope_y,
+        &[dashed(names[1], slope)],
     ))
 }
 
-/// The parts of the reduced torque over the turn.
-pub(super) fn reduced_torque(file: &MachineFile, duty: &Duty) -> Result<String, Error> {
-    let speed = duty.integral(|i| i.omega.abs()) / duty.duration;
+/// The parts of the reduced torque over the range; the viscous one at the size of the speed `speed`.
+pub(super) fn reduced_torque(file: &MachineFile, speed: f64) -> Result<String, Error> {
+    let coordinate = Coordinate::of(file.machine.mechanism())?;
     let mut parts = [const { Vec::new() }; 4];
-    for k in 0..=POSITIONS {
-        let point = file.machine.bare_reduction(f64::from(k).to_radians())?;
+    for phi in whole_range(file.machine.domain(), POSITIONS) {
+        let point = file.machine.bare_reduction(phi)?;
         let values = [
             -point.potential_energy[1],
             point.process,
@@ -66,7 +71,7 @@ pub(super) fn reduced_torque(file: &MachineFile, duty: &Duty) -> Result<String, 
             -point.coulomb,
         ];
         for (part, value) in parts.iter_mut().zip(values) {
-            part.push((f64::from(k), value));
+            part.push((coordinate.shown(phi), value));
         }
     }
     let names = [
@@ -83,8 +88,11 @@ pub(super) fn reduced_torque(file: &MachineFile, duty: &Duty) -> Result<String, 
         .collect();
     let axes = Axes {
         title: "",
-        x: "angle of the drive link φ [deg]",
-        y: "reduced torque [N·m]",
+        x: coordinate.axis(),
+        y: match coordinate {
+            Coordinate::Angle => "reduced torque [N·m]",
+            Coordinate::Length => "reduced force [N]",
+        },
     };
     Ok(lines(&axes, &series))
 }
@@ -205,10 +213,10 @@ pub(super) fn links(file: &MachineFile) -> Result<String, Error> {
     let machine = file.with_drive_train()?;
     let names = machine.mechanism().link_names();
     let mut shares = vec![(0.0f64, 0.0f64); names.len()];
-    for k in 0..POSITIONS {
-        let inertias = machine.link_inertias(f64::from(k).to_radians())?;
+    for phi in positions(machine.domain(), POSITIONS) {
+        let inertias = machine.link_inertias(phi)?;
         for (share, inertia) in shares.iter_mut().zip(inertias) {
-            share.0 += inertia[0] / f64::from(POSITIONS);
+            share.0 += inertia[0] / POSITIONS as f64;
             share.1 = share.1.max(inertia[0]);
         }
     }
@@ -225,7 +233,10 @@ pub(super) fn links(file: &MachineFile) -> Result<String, Error> {
     let axes = Axes {
         title: "",
         x: "",
-        y: "share of J_red [kg·m²]",
+        y: match Coordinate::of(machine.mechanism())? {
+            Coordinate::Angle => "share of J_red [kg·m²]",
+            Coordinate::Length => "share of m_red [kg]",
+        },
     };
     Ok(bars(&axes, &groups))
 }

@@ -94,3 +94,9 @@ pub(crate) const BETWEEN_CHECKS: f64 = 0.05;
 
 /// Work of a blow over 0.1° by its mean slope: (0.05°)² of the slope's curvature, and Simpson's rule on its ramps.
 pub(crate) const BLOW: f64 = 1e-5;
+
+/// A linkage solved from its joints against golden data and closed forms, of the size of the largest value [3e-13].
+pub(crate) const LINKAGE: f64 = 1e-11;
+
+/// ½·J·ω² + U of a free motion at a tolerance of 1e-12, as a share of the energy turned over.
+pub(crate) const CONSERVED: f64 = 1e-9;

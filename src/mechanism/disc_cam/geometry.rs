@@ -135,7 +135,8 @@ impl Geometry {
             return Transfer::constant(0.0);
         };
         // From the follower's pivot towards the cam's.
-        let towards_cam = math::atan2(-y, -x);
+        // 0 − y, as −y of a zero is a negative zero, whose angle is −π.
+        let towards_cam = math::atan2(0.0 - y, 0.0 - x);
         Transfer::constant(towards_cam) + (s + Transfer::constant(self.zero)) * swing.sign()
     }
 

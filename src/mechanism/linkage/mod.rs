@@ -107,7 +107,7 @@ impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
         }
         let phi = Transfer::constant(0.4);
         let evaluate =
-            |equation, frames: &[Frame]| solver::evaluate::<1>(&pairs, equation, frames, phi);
+            |equation, frames: &[Frame]| solver::evaluate(&pairs, equation, frames, phi).d1;
         let structure = Structure::new(links.len(), &pairs, evaluate, drive)?;
         Ok(Self {
             links,

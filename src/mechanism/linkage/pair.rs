@@ -4,6 +4,11 @@
 //! the links' coordinates put in, its derivatives are those of (77), (78) and one order more; with a single derivative
 //! seeded it gives a column of the Jacobian.
 
+#![expect(
+    clippy::inline_always,
+    reason = "only then is nothing computed but the order that the solver asks for"
+)]
+
 use crate::error::{finite, positive};
 use crate::joint::{Body, Joint, Marker, Wrench};
 use crate::link::Frame;
@@ -51,7 +56,7 @@ pub enum Pair {
 }
 
 /// From the first marker's point to the second's.
-#[inline]
+#[inline(always)]
 fn apart(a: &Marker, b: &Marker, frames: &[Frame]) -> [Transfer; 2] {
     let ([x_a, y_a], [x_b, y_b]) = (a.position(frames), b.position(frames));
     [x_b - x_a, y_b - y_a]
@@ -73,7 +78,7 @@ impl Pair {
     /// The same pair, meshing as its links are at `frames`.
     #[must_use]
     pub fn meshing_at(mut self, frames: &[Frame]) -> Self {
-        let now = self.equation::<0>(0, frames);
+        let now = self.equation(0, frames).value;
         match &mut self {
             Self::Joint(_) => {}
             Self::Gears { phase, .. } | Self::Rack { phase, .. } | Self::Belt { phase, .. } => {
@@ -134,31 +139,29 @@ impl Pair {
         self.markers().iter().try_for_each(Marker::check)
     }
 
-    /// The derivative of this `ORDER` of the left-hand side of equation number `component`, which is zero where the pair is
-    /// closed (m, or rad).
-    #[inline]
-    pub(super) fn equation<const ORDER: usize>(&self, component: usize, frames: &[Frame]) -> f64 {
+    /// The left-hand side of equation number `component`, which is zero where the pair is closed (m, or rad).
+    #[inline(always)]
+    pub(super) fn equation(&self, component: usize, frames: &[Frame]) -> Transfer {
         match self {
-            Self::Joint(joint) => joint_equation::<ORDER>(joint, component, frames),
+            Self::Joint(joint) => joint_equation(joint, component, frames),
             Self::Gears {
                 centres: [a, b],
                 carrier,
                 radii: [r_a, r_b],
                 phase,
             } => {
-                let psi = angle::<ORDER>(*carrier, frames);
-                r_a * (angle::<ORDER>(a.body, frames) - psi)
-                    + r_b * (angle::<ORDER>(b.body, frames) - psi)
-                    - constant::<ORDER>(*phase)
+                let psi = angle(*carrier, frames);
+                (angle(a.body, frames) - psi) * *r_a + (angle(b.body, frames) - psi) * *r_b
+                    - Transfer::constant(*phase)
             }
             Self::Belt {
                 centres: [a, b],
                 radii: [r_a, r_b],
                 phase,
             } => {
-                r_a * angle::<ORDER>(a.body, frames)
-                    - r_b * angle::<ORDER>(b.body, frames)
-                    - constant::<ORDER>(*phase)
+                angle(a.body, frames) * *r_a
+                    - angle(b.body, frames) * *r_b
+                    - Transfer::constant(*phase)
             }
             Self::Rack {
                 pinion,
@@ -168,11 +171,10 @@ impl Pair {
             } => {
                 let [cos, sin] = rack.axis(frames);
                 let [x, y] = apart(rack, pinion, frames);
-                product::<ORDER>(cos, x)
-                    + product::<ORDER>(sin, y)
-                    + radius
-                        * (angle::<ORDER>(pinion.body, frames) - angle::<ORDER>(rack.body, frames))
-                    - constant::<ORDER>(*phase)
+                cos * x
+                    + sin * y
+                    + (angle(pinion.body, frames) - angle(rack.body, frames)) * *radius
+                    - Transfer::constant(*phase)
             }
         }
     }
@@ -218,68 +220,46 @@ impl Pair {
     }
 }
 
-/// The derivative of this `ORDER` of a joint's equation number `component`.
-#[inline]
-fn joint_equation<const ORDER: usize>(joint: &Joint, component: usize, frames: &[Frame]) -> f64 {
+/// The left-hand side of a joint's equation number `component`.
+#[inline(always)]
+fn joint_equation(joint: &Joint, component: usize, frames: &[Frame]) -> Transfer {
     match (joint, component) {
         (Joint::Revolute([a, b]), _) | (Joint::Fixed([a, b]), 0 | 1) => {
-            position::<ORDER>(b, component, frames) - position::<ORDER>(a, component, frames)
+            position(b, component, frames) - position(a, component, frames)
         }
-        (Joint::Prismatic([a, b]), 0) => off_line::<ORDER>(a, b, frames),
+        (Joint::Prismatic([a, b]), 0) => off_line(a, b, frames),
         (Joint::Prismatic([a, b]) | Joint::Fixed([a, b]), _) => {
-            angle::<ORDER>(b.body, frames) - angle::<ORDER>(a.body, frames)
-                + constant::<ORDER>(b.angle() - a.angle())
+            angle(b.body, frames) - angle(a.body, frames)
+                + Transfer::constant(b.angle() - a.angle())
         }
-        (Joint::PinInSlot([pin, slot]), _) => off_line::<ORDER>(slot, pin, frames),
+        (Joint::PinInSlot([pin, slot]), _) => off_line(slot, pin, frames),
         // Refused by `check`.
-        (Joint::Transmission(_), _) => f64::NAN,
+        (Joint::Transmission(_), _) => Transfer::constant(f64::NAN),
     }
 }
 
 /// How far the point of `point` is to the left of the line through `line` along its direction.
-#[inline]
-fn off_line<const ORDER: usize>(line: &Marker, point: &Marker, frames: &[Frame]) -> f64 {
+#[inline(always)]
+fn off_line(line: &Marker, point: &Marker, frames: &[Frame]) -> Transfer {
     let [cos, sin] = line.axis(frames);
     let [x, y] = apart(line, point, frames);
-    product::<ORDER>(cos, y) - product::<ORDER>(sin, x)
+    cos * y - sin * x
 }
 
 /// x (axis 0) or y of a marker's point.
-#[inline]
-fn position<const ORDER: usize>(marker: &Marker, axis: usize, frames: &[Frame]) -> f64 {
+#[inline(always)]
+fn position(marker: &Marker, axis: usize, frames: &[Frame]) -> Transfer {
     let frame = marker.body.frame(frames);
     let [u, v] = marker.at;
     let (sin, cos) = frame.direction();
-    let [sin, cos] = [order::<ORDER>(sin), order::<ORDER>(cos)];
     if axis == 0 {
-        order::<ORDER>(frame.x) + cos * u - sin * v
+        frame.x + cos * u - sin * v
     } else {
-        order::<ORDER>(frame.y) + sin * u + cos * v
+        frame.y + sin * u + cos * v
     }
 }
 
-#[inline]
-fn angle<const ORDER: usize>(body: Body, frames: &[Frame]) -> f64 {
-    order::<ORDER>(body.frame(frames).psi)
-}
-
-const fn constant<const ORDER: usize>(value: f64) -> f64 {
-    if ORDER == 0 { value } else { 0.0 }
-}
-
-/// The derivative of this `ORDER`, 0 to 3.
-#[inline]
-pub(super) const fn order<const ORDER: usize>(f: Transfer) -> f64 {
-    match ORDER {
-        0 => f.value,
-        1 => f.d1,
-        2 => f.d2,
-        _ => f.d3,
-    }
-}
-
-/// The derivative of this `ORDER` of a product, by Leibniz.
-#[inline]
-fn product<const ORDER: usize>(f: Transfer, g: Transfer) -> f64 {
-    order::<ORDER>(f * g)
+#[inline(always)]
+fn angle(body: Body, frames: &[Frame]) -> Transfer {
+    body.frame(frames).psi
 }

@@ -4,8 +4,7 @@ use crate::linear;
 use crate::link::Frame;
 use crate::transfer::Transfer;
 
-use super::pair::order;
-use super::structure::{Equation, Group, PSI};
+use super::structure::{Coordinate, Equation, Group, Method, PSI};
 use super::{Linkage, Pair};
 
 /// Newton's method: at most so many steps.
@@ -42,20 +41,21 @@ pub(super) struct Unsolved {
     pub(super) gap: f64,
 }
 
-/// The derivative of this `ORDER` of an equation's left-hand side, with the drive at `phi`.
-#[inline]
-pub(super) fn evaluate<const ORDER: usize>(
+/// An equation's left-hand side, with the drive at `phi`.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "as in `pair`")]
+pub(super) fn evaluate(
     pairs: &[Pair],
     equation: Equation,
     frames: &[Frame],
     phi: Transfer,
-) -> f64 {
+) -> Transfer {
     match pairs.get(usize::from(equation.pair)) {
         Some(Pair::Joint(joint)) if equation.component == Equation::DRIVE => {
-            order::<ORDER>(joint.coordinate(frames) - phi)
+            joint.coordinate(frames) - phi
         }
-        Some(pair) => pair.equation::<ORDER>(equation.component.into(), frames),
-        None => f64::NAN, // cannot be: the structure was made from these pairs
+        Some(pair) => pair.equation(equation.component.into(), frames),
+        None => Transfer::constant(f64::NAN), // cannot be: the structure was made from these pairs
     }
 }
 
@@ -66,22 +66,27 @@ struct Factors<const LINKS: usize> {
 }
 
 impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
-    /// The derivative of this `ORDER` of an equation's left-hand side, with the drive at `phi`.
-    #[inline]
+    /// The derivative of this `ORDER`, 0 to 3, of an equation's left-hand side, with the drive at `phi`.
     fn order<const ORDER: usize>(
         &self,
         equation: Equation,
         frames: &[Frame],
         phi: Transfer,
     ) -> f64 {
-        evaluate::<ORDER>(&self.pairs, equation, frames, phi)
+        let f = evaluate(&self.pairs, equation, frames, phi);
+        match ORDER {
+            0 => f.value,
+            1 => f.d1,
+            2 => f.d2,
+            _ => f.d3,
+        }
     }
 
     /// Positions and transfer functions at `phi`, from links that are nearly there.
     pub(super) fn solve(
         &self,
         phi: f64,
-        mut frames: [Frame; LINKS],
+        frames: [Frame; LINKS],
     ) -> Result<Solved<LINKS>, Unsolved> {
         let mut factors = Factors {
             matrix: [[[[0.0; 3]; 3]; LINKS]; LINKS],
@@ -102,13 +107,20 @@ impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
         };
         let mut step = [[0.0; 3]; LINKS];
         for (k, group) in self.structure.groups().enumerate() {
+            let frames = &mut solved.frames;
+            if let Some((equation, c, sign)) = self.explicit(group) {
+                let step = sign * self.order::<0>(equation, frames, Transfer::constant(phi));
+                frames[usize::from(c.link)].shift(c.axis, step);
+                solved.correction = solved.correction.max(self.moved(c, step));
+                continue;
+            }
             let size = usize::from(group.size);
             let step = &mut step.as_flattened_mut()[..size];
             let (matrix, rest) = matrices.split_at_mut(size * size);
             matrices = rest;
             let (pivot, rest) = pivots.split_at_mut(size);
             pivots = rest;
-            let place = self.place(group, phi, &mut frames, matrix, pivot, step)?;
+            let place = self.place(group, phi, frames, matrix, pivot, step)?;
             solved.correction = solved.correction.max(place.correction);
             if place.negative {
                 solved.signs |= 1 << k;
@@ -118,8 +130,7 @@ impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
                 solved.weakest = self.pair_of(group);
             }
         }
-        self.differentiate(phi, &mut frames, &factors);
-        solved.frames = frames;
+        self.differentiate(phi, &mut solved.frames, &factors);
         Ok(solved)
     }
 
@@ -181,13 +192,13 @@ impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
             let mut largest = 0.0_f64;
             let mut turn = 0.0_f64;
             for (value, c) in step.iter().zip(coordinates) {
-                let unit = if c.axis == PSI { 1.0 } else { self.size };
-                largest = largest.max(crate::math::abs(*value) / unit);
+                largest = largest.max(self.moved(*c, *value));
                 if c.axis == PSI {
                     turn = turn.max(crate::math::abs(*value));
                 }
             }
-            let damping = if group.linear {
+            let linear = group.method == Method::Linear;
+            let damping = if linear {
                 1.0
             } else {
                 (LONGEST_TURN / turn).min(1.0)
@@ -197,7 +208,7 @@ impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
             }
             placed.correction += damping * largest;
             // The Jacobian of a linear group does not depend on where its links are.
-            if group.linear || largest < NO_STEP {
+            if linear || largest < NO_STEP {
                 return Ok(placed);
             }
             last = largest < LAST_STEP;
@@ -208,39 +219,67 @@ impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
     /// Transfer functions of first, second and third order: (77), (78) and one order more, group by group. With the
     /// order sought still zero, an equation's derivative of that order is the right-hand side, with the opposite sign.
     fn differentiate(&self, phi: f64, frames: &mut [Frame; LINKS], factors: &Factors<LINKS>) {
-        self.differentiate_once::<1>(phi, frames, factors);
-        self.differentiate_once::<2>(phi, frames, factors);
-        self.differentiate_once::<3>(phi, frames, factors);
-    }
-
-    fn differentiate_once<const ORDER: usize>(
-        &self,
-        phi: f64,
-        frames: &mut [Frame; LINKS],
-        factors: &Factors<LINKS>,
-    ) {
         let phi = Transfer::variable(phi);
-        let mut right = [[0.0; 3]; LINKS];
         let mut matrices = factors.matrix.as_flattened().as_flattened().as_flattened();
         let mut pivots = factors.pivots.as_flattened();
-        for frame in frames.iter_mut() {
-            frame.raise(ORDER);
-        }
         for group in self.structure.groups() {
+            if let Some((equation, c, sign)) = self.explicit(group) {
+                let frame = usize::from(c.link);
+                // Nothing else in the equation is unknown.
+                let f = evaluate(&self.pairs, equation, frames, phi);
+                frames[frame].differ(c.axis, [f.d1, f.d2, f.d3].map(|d| sign * d));
+                continue;
+            }
             let size = usize::from(group.size);
             let (matrix, rest) = matrices.split_at(size * size);
             matrices = rest;
             let (pivot, rest) = pivots.split_at(size);
             pivots = rest;
-            let right = &mut right.as_flattened_mut()[..size];
-            for (value, equation) in right.iter_mut().zip(self.structure.equations(group)) {
-                *value = -self.order::<ORDER>(*equation, frames, phi);
-            }
-            linear::solve(matrix, pivot, right);
-            for (value, c) in right.iter().zip(self.structure.coordinates(group)) {
-                frames[usize::from(c.link)].set(c.axis, ORDER, *value);
-            }
+            let factors = (matrix, pivot);
+            self.differentiate_once::<1>(group, phi, frames, factors);
+            self.differentiate_once::<2>(group, phi, frames, factors);
+            self.differentiate_once::<3>(group, phi, frames, factors);
         }
+    }
+
+    fn differentiate_once<const ORDER: usize>(
+        &self,
+        group: Group,
+        phi: Transfer,
+        frames: &mut [Frame; LINKS],
+        (matrix, pivots): (&[f64], &[usize]),
+    ) {
+        let coordinates = self.structure.coordinates(group);
+        for c in coordinates {
+            frames[usize::from(c.link)].raise(c.axis, ORDER);
+        }
+        let mut right = [[0.0; 3]; LINKS];
+        let right = &mut right.as_flattened_mut()[..coordinates.len()];
+        for (value, equation) in right.iter_mut().zip(self.structure.equations(group)) {
+            *value = -self.order::<ORDER>(*equation, frames, phi);
+        }
+        linear::solve(matrix, pivots, right);
+        for (value, c) in right.iter().zip(coordinates) {
+            frames[usize::from(c.link)].set(c.axis, ORDER, *value);
+        }
+    }
+
+    /// The equation and the coordinate of an explicit group, and the sign with which the one's value moves the other.
+    #[inline]
+    fn explicit(&self, group: Group) -> Option<(Equation, Coordinate, f64)> {
+        let Method::Explicit { negative } = group.method else {
+            return None;
+        };
+        let equation = self.structure.equations(group).first()?;
+        let coordinate = self.structure.coordinates(group).first()?;
+        Some((*equation, *coordinate, if negative { 1.0 } else { -1.0 }))
+    }
+
+    /// How far a step moves a coordinate (rad, or of the linkage's size).
+    #[inline]
+    fn moved(&self, c: Coordinate, step: f64) -> f64 {
+        let unit = if c.axis == PSI { 1.0 } else { self.size };
+        crate::math::abs(step) / unit
     }
 
     /// The pair to name when something is wrong with a group.

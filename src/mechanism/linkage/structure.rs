@@ -52,8 +52,18 @@ pub(super) struct Group {
     pub(super) start: u8,
     /// Number of equations.
     pub(super) size: u8,
+    pub(super) method: Method,
+}
+
+/// How a group is solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Method {
+    /// The one equation is q + … = 0, or −q + … = 0 if `negative`: most coordinates of usual linkages.
+    Explicit { negative: bool },
     /// Newton's first step is exact.
-    pub(super) linear: bool,
+    Linear,
+    /// Newton's method.
+    Newton,
 }
 
 impl<const LINKS: usize> Structure<LINKS> {
@@ -89,7 +99,7 @@ impl<const LINKS: usize> Structure<LINKS> {
             component: Equation::DRIVE,
         });
 
-        let depends = dependencies::<LINKS>(links, &equations, evaluate);
+        let depends = dependencies::<LINKS>(links, &equations, &evaluate);
         let matched = matching(&depends, count).map_err(|(equation, coordinate)| {
             let joint = equations.get(equation).map_or(0, |e| e.pair.into());
             Error::OverConstrained {
@@ -124,17 +134,46 @@ impl<const LINKS: usize> Structure<LINKS> {
                 let _ = structure.groups.push(Group {
                     start: place as u8,
                     size: 0,
-                    linear: true,
+                    method: Method::Linear,
                 });
             }
             before = Some(reach[c]);
             if let Some(group) = structure.groups.last_mut() {
                 group.size += 1;
                 // Every equation is linear in x and y, and those between angles alone are linear in ψ.
-                group.linear &= coordinate.axis != PSI || depends[e] & !ANGLES == 0;
+                if coordinate.axis == PSI && depends[e] & !ANGLES != 0 {
+                    group.method = Method::Newton;
+                }
             }
         }
-        Ok(structure)
+        let mut groups = structure.groups.clone();
+        for group in &mut groups {
+            if let Some(negative) = structure.explicit(*group, &evaluate) {
+                group.method = Method::Explicit { negative };
+            }
+        }
+        Ok(Self {
+            groups,
+            ..structure
+        })
+    }
+
+    /// Whether a group is an equation in which its only coordinate has the factor 1 or, `Some(true)`, −1.
+    fn explicit(&self, group: Group, evaluate: impl Fn(Equation, &[Frame]) -> f64) -> Option<bool> {
+        let ([equation], [c]) = (self.equations(group), self.coordinates(group)) else {
+            return None;
+        };
+        let factor = |sample| {
+            let mut frames = sample_frames::<LINKS>(sample);
+            frames[usize::from(c.link)].seed(c.axis, 1.0);
+            evaluate(*equation, &frames)
+        };
+        let unit = |one: f64| (0..SAMPLES).all(|sample| factor(sample).to_bits() == one.to_bits());
+        match (unit(1.0), unit(-1.0)) {
+            (true, _) => Some(false),
+            (_, true) => Some(true),
+            _ => None,
+        }
     }
 
     /// The groups, in the order of solving.
@@ -158,21 +197,28 @@ impl<const LINKS: usize> Structure<LINKS> {
 /// The bits of all angles.
 const ANGLES: u64 = 0x4924_9249_2492_4924;
 
-/// For each equation, the coordinates that it contains, as bits 3·link + axis. Seen at poses that have nothing special.
+/// Number of samples at which the structure is seen.
+const SAMPLES: usize = 2;
+
+/// Links at poses that have nothing special.
+fn sample_frames<const LINKS: usize>(sample: usize) -> [Frame; LINKS] {
+    core::array::from_fn(|k| {
+        // The golden ratio spreads them.
+        let spread = (k + 1 + 7 * sample) as f64 * 0.618_033_988_749_895;
+        let at = [0.3 + 0.17 * spread, 0.1 - 0.29 * spread].map(Transfer::constant);
+        Frame::turned(at, Transfer::constant(spread))
+    })
+}
+
+/// For each equation, the coordinates that it contains, as bits 3·link + axis.
 fn dependencies<const LINKS: usize>(
     links: usize,
     equations: &[Equation],
     evaluate: impl Fn(Equation, &[Frame]) -> f64,
 ) -> [u64; MOST] {
     let mut depends = [0; MOST];
-    let mut frames = [Frame::GROUND; LINKS];
-    for sample in 0..2 {
-        for (k, frame) in frames.iter_mut().enumerate() {
-            // The golden ratio spreads them.
-            let spread = (k + 1 + 7 * sample) as f64 * 0.618_033_988_749_895;
-            let at = [0.3 + 0.17 * spread, 0.1 - 0.29 * spread].map(Transfer::constant);
-            *frame = Frame::turned(at, Transfer::constant(spread));
-        }
+    for sample in 0..SAMPLES {
+        let mut frames = sample_frames::<LINKS>(sample);
         for c in 0..3 * links {
             let (link, axis) = (c / 3, (c % 3) as u8);
             frames[link].seed(axis, 1.0);

@@ -1,6 +1,21 @@
 //! `[mechanism]`: what moves.
 
+mod ball_screw;
+mod disc_cam;
+mod four_bar;
+mod friction_drive;
+mod geneva;
+mod hoist;
+mod inverted_slider_crank;
+mod linkage;
+mod parallel_shafts;
+mod parts;
+mod planetary;
+mod rack;
+mod scotch_yoke;
+mod six_link;
 mod slider_crank;
+mod toggle_press;
 mod train;
 
 use jred::{Error, Link};
@@ -15,16 +30,49 @@ use super::section::Section;
 const SLIDER_CRANK: &str = "slider-crank";
 const GEAR_TRAIN: &str = "gear-train";
 const BELT: &str = "belt";
+const LINKAGE: &str = "linkage";
+const SCOTCH_YOKE: &str = "scotch-yoke";
+const INVERTED_SLIDER_CRANK: &str = "inverted-slider-crank";
+const FRICTION_DRIVE: &str = "friction-drive";
+const GENEVA: &str = "geneva";
+const DISC_CAM: &str = "disc-cam";
+const FOUR_BAR: &str = "four-bar";
+const SIX_LINK: &str = "six-link";
+const TOGGLE_PRESS: &str = "toggle-press";
+const RACK: &str = "rack-and-pinion";
+const BALL_SCREW: &str = "ball-screw";
+const HOIST: &str = "hoist";
+const PLANETARY: &str = "planetary";
+const PARALLEL_SHAFTS: &str = "parallel-shafts";
 
 /// A reader of one type of mechanism: it takes every key that it knows and leaves the rest to be refused.
 type Reader = fn(&Section) -> Result<AnyMechanism>;
 
 /// Every type with its reader.
-const TYPES: [(&str, Reader); 3] = [
+const TYPES: [(&str, Reader); 17] = [
     (SLIDER_CRANK, slider_crank::read),
     (GEAR_TRAIN, train::read_gears),
     (BELT, train::read_belt),
+    (LINKAGE, linkage::read),
+    (SCOTCH_YOKE, scotch_yoke::read),
+    (INVERTED_SLIDER_CRANK, inverted_slider_crank::read),
+    (GENEVA, geneva::read),
+    (FOUR_BAR, four_bar::read),
+    (SIX_LINK, six_link::read),
+    (TOGGLE_PRESS, toggle_press::read),
+    (DISC_CAM, disc_cam::read),
+    (RACK, rack::read),
+    (BALL_SCREW, ball_screw::read),
+    (HOIST, hoist::read),
+    (PLANETARY, planetary::read),
+    (PARALLEL_SHAFTS, parallel_shafts::read),
+    (FRICTION_DRIVE, friction_drive::read),
 ];
+
+/// The types of mechanism that machine files can name.
+pub fn mechanism_types() -> impl Iterator<Item = &'static str> {
+    TYPES.iter().map(|(name, _)| *name)
+}
 
 /// The mechanism and the inertia of its flywheel (kg·m²).
 pub(super) fn read(section: &Section) -> Result<(AnyMechanism, f64)> {

@@ -1,0 +1,174 @@
+//! Instructions that mechanisms cost on a Cortex-M4F and a Cortex-M7, counted in QEMU: so many a position, on average over
+//! a turn.
+//!
+//! ```text
+//! scripts/test counts
+//! ```
+//!
+//! does it for both cores. With `-icount shift=0` QEMU lets one instruction take 1 ns, so that SysTick, at 25 MHz, counts
+//! 40 of them. The counts are the same on every run; they are not cycles. `ceilings.txt` bounds them from above and, by
+//! half of that, from below. docs/performance.md has the results.
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+#[cfg(target_os = "none")]
+mod support;
+
+#[cfg(not(target_os = "none"))]
+fn main() {
+    println!("on_target counts instructions on a Cortex-M in QEMU: scripts/test counts");
+}
+
+#[cfg(target_os = "none")]
+mod target {
+    use core::hint::black_box;
+
+    use cortex_m::peripheral::syst::SystClkSource;
+    use cortex_m::peripheral::{CPUID, SYST};
+    use cortex_m_rt::entry;
+    use cortex_m_semihosting::{debug, hprintln};
+    use jred::table::curves;
+    use jred::tabulate::{fill, scratch_len};
+    use jred::{Error, Machine, Mechanism, Reducible, Scale};
+    use panic_semihosting as _;
+
+    use crate::support::{self, Verdict};
+
+    /// Instructions in a tick of SysTick: 1 ns each, at 25 MHz.
+    const PER_TICK: u32 = 40;
+    const RELOAD: u32 = 0x00ff_ffff;
+    /// Positions in a turn.
+    const POSITIONS: u32 = 64;
+    /// Cells of the table.
+    const CELLS: u32 = 64;
+
+    struct Counter(SYST);
+
+    impl Counter {
+        fn new(mut syst: SYST) -> Self {
+            syst.set_clock_source(SystClkSource::Core);
+            syst.set_reload(RELOAD);
+            syst.clear_current();
+            syst.enable_counter();
+            Self(syst)
+        }
+
+        /// Instructions of `run`, to 40.
+        fn count(&mut self, run: impl FnOnce()) -> u32 {
+            self.0.clear_current();
+            self.0.has_wrapped();
+            let start = SYST::get_current();
+            run();
+            let ticks = start.wrapping_sub(SYST::get_current()) & RELOAD;
+            assert!(!self.0.has_wrapped() || start == 0, "counted too far");
+            ticks * PER_TICK
+        }
+    }
+
+    /// The core, as `ceilings.txt` names it: with double precision in hardware it is another one.
+    fn core() -> &'static str {
+        // SAFETY: reads a register that identifies the core.
+        let part = unsafe { (*CPUID::PTR).base.read() } >> 4 & 0xfff;
+        match (part, support::HARDWARE_DOUBLES) {
+            (0xc24, false) => "cortex-m4",
+            (0xc27, false) => "cortex-m7",
+            (0xc27, true) => "cortex-m7+dp",
+            _ => "unknown",
+        }
+    }
+
+    fn run(counter: &mut Counter) -> Result<u32, Error> {
+        // A known loop shows whether instructions are counted at all.
+        let known = 100_000;
+        let counted = counter.count(|| {
+            // SAFETY: counts a register down and touches nothing else.
+            unsafe {
+                core::arch::asm!("2: subs {0}, {0}, #1", "bne 2b", inout(reg) known / 2 => _);
+            }
+        });
+        if counted.abs_diff(known) > 4 * PER_TICK {
+            hprintln!(
+                "{} instructions counted as {}: QEMU_ICOUNT=0 is missing",
+                known,
+                counted
+            );
+            return Ok(1);
+        }
+        let gravity = [0.0, -9.81];
+        let four_bar = Machine::new(support::four_bar()?).with_gravity(gravity)?;
+        let linkage = Machine::new(support::four_bar_linkage::<32>()?).with_gravity(gravity)?;
+        let mut scratch = [0.0; scratch_len(CELLS, curves::LOAD)];
+        let mut words = [0.0_f32; 2 * (CELLS as usize + 3)];
+
+        let mut failures = 0;
+        let mut report = |name: &str, count: u32| {
+            let verdict = support::judge(core(), name, f64::from(count));
+            let (word, ceiling) = match verdict {
+                Verdict::Within(ceiling) => ("", ceiling),
+                Verdict::Above(ceiling) => ("above the ceiling", ceiling),
+                Verdict::Slack(ceiling) => ("less than half: lower the ceiling", ceiling),
+                Verdict::Missing => ("no ceiling", 0.0),
+            };
+            failures += u32::from(!matches!(verdict, Verdict::Within(_)));
+            hprintln!(
+                "{:12} {:20} {:8} {:8} {}",
+                core(),
+                name,
+                count,
+                ceiling as u32,
+                word
+            );
+        };
+        let mut each = |run: &mut dyn FnMut(f64) -> bool| {
+            let count = counter.count(|| {
+                for k in 0..POSITIONS {
+                    let phi = f64::from(k) * (core::f64::consts::TAU / f64::from(POSITIONS));
+                    assert!(run(black_box(phi)), "a position failed");
+                }
+            });
+            count / POSITIONS
+        };
+        let frames = each(&mut |phi| black_box(four_bar.mechanism().frames(phi)).is_ok());
+        report("four-bar-frames", frames);
+        let reduction = each(&mut |phi| black_box(four_bar.reduction(phi)).is_ok());
+        report("four-bar-reduction", reduction);
+        let forces = each(&mut |phi| black_box(four_bar.forces(phi, 10.0, 5.0)).is_ok());
+        report("four-bar-forces", forces);
+        let frames = each(&mut |phi| black_box(linkage.mechanism().frames(phi)).is_ok());
+        report("linkage-frames", frames);
+        let reduction = each(&mut |phi| black_box(linkage.reduction(phi)).is_ok());
+        report("linkage-reduction", reduction);
+
+        let mut filled = |machine: &dyn Fn(&mut [f64], &mut [f32]) -> bool| {
+            let count = counter.count(|| assert!(machine(&mut scratch, &mut words), "no table"));
+            count / CELLS
+        };
+        let cell = filled(&|scratch, words| {
+            fill::<f32, { curves::LOAD }>(&four_bar, CELLS, &Scale::SI, scratch, words).is_ok()
+        });
+        report("four-bar-fill-cell", cell);
+        let cell = filled(&|scratch, words| {
+            fill::<f32, { curves::LOAD }>(&linkage, CELLS, &Scale::SI, scratch, words).is_ok()
+        });
+        report("linkage-fill-cell", cell);
+        Ok(failures)
+    }
+
+    #[entry]
+    fn main() -> ! {
+        let peripherals = cortex_m::Peripherals::take().expect("taken once");
+        let status = match run(&mut Counter::new(peripherals.SYST)) {
+            Ok(0) => debug::EXIT_SUCCESS,
+            Ok(failures) => {
+                hprintln!("{} counts out of bounds", failures);
+                debug::EXIT_FAILURE
+            }
+            Err(error) => {
+                hprintln!("FAILED: {}", error);
+                debug::EXIT_FAILURE
+            }
+        };
+        loop {
+            debug::exit(status);
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! What both benchmarks use: the four-bar linkage in two descriptions, and the file of ceilings.
+
+use jred::mechanism::{Assembly, FourBar, Linkage, Pair, Pose, Side};
+use jred::{Domain, Error, Joint, Link, Marker};
+
+/// Whether the program is compiled for double precision in hardware.
+#[cfg(target_os = "none")]
+pub(crate) const HARDWARE_DOUBLES: bool = cfg!(target_feature = "fp64");
+
+pub(crate) const O: [f64; 2] = [0.0, 0.0];
+
+pub(crate) const fn pin(a: Marker, b: Marker) -> Pair {
+    Pair::Joint(Joint::Revolute([a, b]))
+}
+
+/// Crank, coupler, rocker (m).
+const LENGTHS: [f64; 3] = [0.08, 0.32, 0.24];
+/// The rocker's pivot (m).
+const PIVOT: [f64; 2] = [0.3, 0.05];
+
+fn links() -> Result<[Link; 3], Error> {
+    Ok([
+        Link::new(0.9, 0.002, [0.03, 0.0])?,
+        Link::new(0.6, 0.006, [0.16, 0.01])?,
+        Link::new(1.4, 0.011, [0.12, 0.0])?,
+    ])
+}
+
+/// The four-bar in closed form.
+pub(crate) fn four_bar() -> Result<FourBar, Error> {
+    FourBar::new(LENGTHS, PIVOT, Side::Left, links()?)
+}
+
+/// The same, known by its links and pins alone.
+pub(crate) fn four_bar_linkage<const STATIONS: usize>() -> Result<Assembly<3, 4, STATIONS>, Error> {
+    let [crank, coupler, rocker] = LENGTHS;
+    let pairs = [
+        pin(Marker::ground(O), Marker::on(0, O)),
+        pin(Marker::on(0, [crank, 0.0]), Marker::on(1, O)),
+        pin(Marker::on(1, [coupler, 0.0]), Marker::on(2, [rocker, 0.0])),
+        pin(Marker::ground(PIVOT), Marker::on(2, O)),
+    ];
+    let drawing = [[0.0, 0.0, 0.0], [0.08, 0.0, 0.8], [0.3, 0.05, 1.7]];
+    let drawing = drawing.map(|[x, y, psi]| Pose { x, y, psi });
+    Linkage::new(&links()?, &pairs, 0)?.assemble(Domain::Turn, 0.0, &drawing)
+}
+
+/// What `ceilings.txt` says about a figure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Verdict {
+    /// Not above the ceiling, and not far below.
+    Within(f64),
+    /// Above the ceiling.
+    Above(f64),
+    /// Below half of the ceiling, which is of no use any more.
+    Slack(f64),
+    /// There is no ceiling for it.
+    Missing,
+}
+
+/// Judges a figure by the ceiling that the file gives for this `core` and `name`.
+pub(crate) fn judge(core: &str, name: &str, found: f64) -> Verdict {
+    let lines = include_str!("../ceilings.txt").lines();
+    let ceiling = lines
+        .filter(|line| !line.starts_with('#'))
+        .find_map(|line| {
+            let mut words = line.split_whitespace();
+            let matches = words.next() == Some(core) && words.next() == Some(name);
+            matches.then(|| words.next()?.parse::<u32>().ok())?
+        });
+    match ceiling.map(f64::from) {
+        None => Verdict::Missing,
+        Some(ceiling) if found > ceiling => Verdict::Above(ceiling),
+        Some(ceiling) if found < 0.5 * ceiling => Verdict::Slack(ceiling),
+        Some(ceiling) => Verdict::Within(ceiling),
+    }
+}

@@ -1,0 +1,156 @@
+//! A new payload: firmware makes its table anew, from the mechanism itself.
+//!
+//! A crank swings an arm through a four-bar linkage. The arm takes up 2.5 kg, so masses change and the table with them. The
+//! linkage is described twice: by its links and pins alone, from which the new table is filled, and in closed form, against
+//! which that table is checked. All of it runs in double precision, in memory of fixed size: two tables, one in use while
+//! the other is filled.
+//!
+//! ```text
+//! cargo run -p jred --example 04_payload --profile firmware --target thumbv7em-none-eabihf
+//! ```
+//!
+//! A general linkage, its stations and a machine on it need some 30 KiB of stack; the Cortex-M0 of the examples has 16.
+//!
+//! runs on: cortex-m3 cortex-m4 cortex-m7 cortex-m33
+//! computes in: double precision
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+mod support;
+
+use jred::mechanism::{Assembly, FourBar, Linkage, Pair, Pose, Side};
+use jred::table::curves;
+use jred::tabulate::{Request, fill, measure, scratch_len};
+use jred::{Domain, Error, Joint, Link, Machine, Marker, Mechanism, Model, Phase, Scale, Table};
+use support::{Failure, milli, println, program};
+
+/// Crank, coupler and arm from pin to pin (m).
+const LENGTHS: [f64; 3] = [0.08, 0.32, 0.24];
+/// The arm's bearing (m).
+const PIVOT: [f64; 2] = [0.3, 0.05];
+/// The gripper's distance from that bearing (m).
+const REACH: f64 = 0.4;
+/// What it takes up (kg), and that mass' own inertia (kg·m²).
+const PAYLOAD: [f64; 2] = [2.5, 0.004];
+/// Standard gravity (m/s²).
+const GRAVITY: [f64; 2] = [0.0, -9.806_65];
+
+/// Cells of the table: enough for the design below, with the payload; `check` shows it.
+const CELLS: u32 = 40;
+/// Words of such a table of inertia and load.
+const WORDS: usize = 2 * (CELLS as usize + 3);
+/// What it was designed for.
+const DESIGN: Request = Request {
+    torque_error: 0.02,
+    omega: 12.0,
+    alpha: 60.0,
+    max_cells: CELLS,
+};
+
+type Words = [f32; WORDS];
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        println!("{}", error);
+        Self::Claim("the machine was refused")
+    }
+}
+
+/// Crank, coupler and empty arm.
+fn links() -> Result<[Link; 3], Error> {
+    Ok([
+        Link::new(0.9, 0.002, [0.03, 0.0])?,
+        Link::new(0.6, 0.006, [0.16, 0.01])?,
+        Link::new(1.4, 0.011, [0.12, 0.0])?,
+    ])
+}
+
+/// The arm with the payload in its gripper: one body, by Steiner's theorem.
+fn loaded(arm: &Link) -> Result<Link, Error> {
+    let [mass, inertia] = PAYLOAD;
+    let sum = arm.mass() + mass;
+    let [u, v] = arm.com();
+    let com = [(arm.mass() * u + mass * REACH) / sum, arm.mass() * v / sum];
+    let apart = (REACH - u) * (REACH - u) + v * v;
+    let reduced_mass = arm.mass() * mass / sum;
+    Link::new(sum, arm.inertia() + inertia + reduced_mass * apart, com)
+}
+
+/// The linkage by its pins alone, assembled from a rough drawing and followed round a turn.
+fn assemble(links: &[Link; 3]) -> Result<Assembly<3, 4, 32>, Error> {
+    let [crank, coupler, arm] = LENGTHS;
+    let origin = [0.0, 0.0];
+    let pin = |a, b| Pair::Joint(Joint::Revolute([a, b]));
+    let pins = [
+        pin(Marker::ground(origin), Marker::on(0, origin)),
+        pin(Marker::on(0, [crank, 0.0]), Marker::on(1, origin)),
+        pin(Marker::on(1, [coupler, 0.0]), Marker::on(2, [arm, 0.0])),
+        pin(Marker::ground(PIVOT), Marker::on(2, origin)),
+    ];
+    let drawing = [[0.0, 0.0, 0.0], [0.1, 0.0, 0.8], [0.3, 0.05, 1.7]];
+    let drawing = drawing.map(|[x, y, psi]| Pose { x, y, psi });
+    Linkage::new(links, &pins, 0)?.assemble(Domain::Turn, 0.0, &drawing)
+}
+
+/// Fills a table from a mechanism.
+fn tabulate(mechanism: &impl Mechanism, words: &mut Words) -> Result<(), Error> {
+    let machine = Machine::new(mechanism).with_gravity(GRAVITY)?;
+    let mut scratch = [0.0; scratch_len(CELLS, curves::LOAD)];
+    fill::<f32, { curves::LOAD }>(&machine, CELLS, &Scale::SI, &mut scratch, words)?;
+    Ok(())
+}
+
+fn table(words: &Words) -> Result<Table<'_, f32, { curves::LOAD }>, Error> {
+    Table::new(words, CELLS, true).map_err(Error::Table)
+}
+
+/// Checks a table against the closed form, and prints how exact it is.
+fn check(words: &Words, links: [Link; 3]) -> Result<(), Failure> {
+    let four_bar = FourBar::new(LENGTHS, PIVOT, Side::Left, links)?;
+    let machine = Machine::new(&four_bar).with_gravity(GRAVITY)?;
+    let found = measure(&machine, &table(words)?, &DESIGN, &Scale::SI)?;
+    let sum = words.iter().fold(0u32, |sum, word| {
+        (sum ^ word.to_bits()).wrapping_mul(16_777_619)
+    });
+    let error = milli(found.torque_error as f32 * 1000.0);
+    println!("table {:08x}, torque exact to {} uN m", sum, error);
+    if found.torque_error > DESIGN.torque_error {
+        return Err("the table is not as exact as it was designed for".into());
+    }
+    Ok(())
+}
+
+fn run() -> Result<(), Failure> {
+    let [crank, coupler, arm] = links()?;
+    let mut linkage = assemble(&[crank, coupler, arm])?;
+    let (mut in_use, mut spare): (Words, Words) = ([0.0; WORDS], [0.0; WORDS]);
+    tabulate(&linkage, &mut in_use)?;
+    println!("empty gripper");
+    check(&in_use, [crank, coupler, arm])?;
+
+    // The gripper closes. The linkage's positions stay; only a mass is another.
+    let arm = loaded(&arm)?;
+    linkage.set_link(2, arm)?;
+    tabulate(&linkage, &mut spare)?;
+    println!("with {} g", milli(PAYLOAD[0] as f32));
+    check(&spare, [crank, coupler, arm])?;
+
+    let model = |words| -> Result<_, Error> {
+        Model::for_domain(table(words)?, Domain::Turn, &Scale::SI).map_err(Error::Table)
+    };
+    let (before, after) = (model(&in_use)?, model(&spare)?);
+    println!("   phase   drive torque for 10 rad/s, 50 rad/s2: empty, loaded");
+    for eighth in 0..8u32 {
+        let phase = Phase::from_bits(eighth << 29);
+        let torque =
+            |model: &Model<'_, f32, { curves::LOAD }>| milli(model.torque(phase, 10.0, 50.0).value);
+        println!(
+            "{:08x} {:12} {:12} mN m",
+            phase.to_bits(),
+            torque(&before),
+            torque(&after)
+        );
+    }
+    Ok(())
+}
+
+program!(run);

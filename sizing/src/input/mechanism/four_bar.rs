@@ -1,0 +1,106 @@
+//! `type = "four-bar"`.
+
+use jred::Error;
+use jred::mechanism::{FourBar, Side};
+
+use super::{core, link};
+use crate::input::item::{Item, Value};
+use crate::input::kind::{ANGLE, LENGTH};
+use crate::input::problem::{Problem, Result};
+use crate::input::section::Section;
+use crate::machine::AnyMechanism;
+
+pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
+    let item = section.require("pivot", "pivot = [\"300 mm\", \"0 mm\"]")?;
+    let pivot = item.pair([&LENGTH, &LENGTH])?.map(|value| value.si);
+    let side = side(section.get("side"))?;
+    let stroke = section.get("stroke");
+    let parts = ["crank", "coupler", "rocker"];
+    let [crank, coupler, rocker] = [
+        section.section(parts[0])?,
+        section.section(parts[1])?,
+        section.section(parts[2])?,
+    ];
+    let length = length(&crank)?;
+    let lengths = [
+        length.si,
+        self::length(&coupler)?.si,
+        self::length(&rocker)?.si,
+    ];
+    let links = [link(&crank)?, link(&coupler)?, link(&rocker)?];
+    let mechanism = match &stroke {
+        None => FourBar::new(lengths, pivot, side, links)
+            .map_err(|error| blocked(section, &length, &error))?,
+        Some(item) => {
+            let [from, to] = item.pair([&ANGLE, &ANGLE])?.map(|value| value.si);
+            FourBar::over_stroke(lengths, pivot, side, [from, to], links)
+                .map_err(|error| stopped(section, item, &error))?
+        }
+    };
+    let joints = ["crank pivot", "crank pin", "rocker pin", "rocker pivot"];
+    Ok(AnyMechanism::new(super::FOUR_BAR, mechanism, parts, joints)
+        .with_point("A", FourBar::CRANK, [lengths[0], 0.0])
+        .with_point("B", FourBar::ROCKER, [lengths[2], 0.0])
+        .with_point("C", FourBar::ROCKER, [0.0, 0.0]))
+}
+
+/// The length of a link, greater than zero.
+pub(super) fn length(link: &Section) -> Result<Value> {
+    let length = link.quantity("length", &LENGTH)?;
+    length.check_positive()?;
+    Ok(length)
+}
+
+/// `side = "left"` or `"right"`; left if not given.
+pub(super) fn side(item: Option<Item>) -> Result<Side> {
+    Ok(match item {
+        Some(item) if item.choice(&["left", "right"])? == 1 => Side::Right,
+        _ => Side::Left,
+    })
+}
+
+/// A crank that cannot turn fully: shown at its `length`, the cure as help.
+pub(super) fn blocked(section: &Section, length: &Value, error: &Error) -> Problem {
+    let text = error.to_string();
+    match (error, text.split_once("; ")) {
+        (Error::Blocked(_), Some((what, cure))) => {
+            Problem::new(format!("{}: {what}", section.title()))
+                .at(length.span(), "this crank")
+                .help(cure)
+        }
+        _ => core(section, error),
+    }
+}
+
+/// A stroke that the linkage cannot follow.
+fn stopped(section: &Section, stroke: &Item, error: &Error) -> Problem {
+    let degrees = |phi: f64| format!("φ = {:.2}°", phi.to_degrees());
+    match error {
+        Error::DeadPoint { phi, .. } => stroke
+            .problem(
+                &format!(
+                    "reaches a dead point at {}: coupler and rocker are in line there",
+                    degrees(*phi)
+                ),
+                "goes too far",
+            )
+            .help("end the stroke some degrees before it, or change the lengths"),
+        Error::CannotAssemble { phi, gap, .. } => stroke
+            .problem(
+                &format!(
+                    "starts at {}, where coupler and rocker do not meet: they are {:.6} m apart",
+                    degrees(*phi),
+                    gap
+                ),
+                "cannot be assembled here",
+            )
+            .help("start the stroke where the linkage can be assembled, or change the lengths"),
+        Error::NotPositive(..) => stroke
+            .problem(
+                "is empty: its end must be larger than its start",
+                "check these angles",
+            )
+            .help("write the smaller angle first: stroke = [\"-30 deg\", \"60 deg\"]"),
+        _ => core(section, error),
+    }
+}

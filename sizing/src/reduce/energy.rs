@@ -1,0 +1,70 @@
+//! Energies and generalised forces as columns.
+//!
+//! The generalised force of a load is its power by the speed of the drive link, Q = F·r′ + M·ψ′ (4.1)-(4.7). It is computed
+//! from the force itself and the transfer functions of its point, not from the reduced curves: their sum is the reduced
+//! torque T_red.
+
+use jred::mechanism::Frames;
+use jred::{Body, Error, Mechanism as _, Wrench};
+
+use super::{Place, Set, Source};
+
+/// Kinetic and potential energy, and the generalised force of weight, loads, springs and dampers.
+pub(super) struct Energy;
+
+impl Set for Energy {
+    fn names(&self, source: &Source) -> Vec<String> {
+        let unit = source.coordinate.effort_unit();
+        let mut names = vec!["E_kinetic [J]".to_owned(), "E_potential [J]".to_owned()];
+        let mut force = |name: &str| names.push(format!("Q {name} [{unit}]"));
+        force("weight");
+        source.file.loads.iter().for_each(|load| force(&load.name));
+        for k in 1..=source.machine.elements().len() {
+            force(&format!("spring or damper {k}"));
+        }
+        force("total");
+        names
+    }
+
+    fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
+        let machine = &source.machine;
+        let point = machine.bare_reduction(place.phi)?;
+        let Some(state) = place.state else {
+            let mut values = vec![None; self.names(source).len()];
+            values[1] = Some(point.potential_energy[0]);
+            return Ok(values);
+        };
+        let omega = state.omega;
+        let kinetic = 0.5 * point.inertia[0] * omega * omega;
+        let mut values = vec![kinetic, point.potential_energy[0]];
+        let frames = &place.frames;
+        let links = machine.mechanism().links().iter().zip(frames);
+        let [g_x, g_y] = machine.gravity();
+        let weight = links.map(|(link, frame)| {
+            let [x, y] = frame.point(link.com());
+            link.mass() * (g_x * x.d1 + g_y * y.d1)
+        });
+        let mut forces = vec![weight.sum::<f64>()];
+        for load in machine.loads() {
+            let frame = Body::Link(load.link()).frame(frames);
+            forces.push(generalised(&load.wrench(frame, place.phi, omega), frames));
+        }
+        for element in machine.elements() {
+            let wrenches = element.wrenches(frames, omega);
+            forces.push(wrenches.iter().map(|w| generalised(w, frames)).sum());
+        }
+        let total = forces.iter().sum::<f64>();
+        values.extend(forces);
+        values.push(total);
+        Ok(values.into_iter().map(Some).collect())
+    }
+}
+
+/// F·r′ + M·ψ′ of a force at a point of its body.
+fn generalised(wrench: &Wrench, frames: &Frames) -> f64 {
+    let frame = wrench.body.frame(frames);
+    let turn = frame.psi.d1;
+    // The moment about the frame's origin, and the origin's own way.
+    let origin = [frame.x.value, frame.y.value];
+    wrench.force[0] * frame.x.d1 + wrench.force[1] * frame.y.d1 + wrench.moment_about(origin) * turn
+}

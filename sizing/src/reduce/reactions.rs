@@ -1,0 +1,83 @@
+//! The forces of d'Alembert's principle as columns: drive, joints, shaking force and moment.
+//!
+//! They are those of the machine without the inner forces of its drive train. The train's inertia, reduced to the drive link,
+//! turns with it as a flywheel does: it changes the drive torque and no joint. What a belt or a pinion pulls at the drive
+//! link's bearing is not in the machine file, and so not in the bearing's force.
+
+use jred::{Error, Joint, Jointed as _, Mechanism as _};
+
+use super::{Place, Set, Source};
+
+/// What the joints carry.
+pub(super) struct Reactions {
+    /// For each joint: whether it carries a force, and whether a moment.
+    carries: Vec<[bool; 2]>,
+}
+
+/// Whether a joint carries a force, and whether a moment.
+fn carries(joint: &Joint) -> [bool; 2] {
+    match joint {
+        Joint::Revolute(_) | Joint::PinInSlot(_) => [true, false],
+        Joint::Prismatic(_) | Joint::Fixed(_) => [true, true],
+        Joint::Transmission(wrenches) => {
+            let force = wrenches.iter().any(|w| w.force != [0.0; 2]);
+            [force, !force || wrenches.iter().any(|w| w.moment != 0.0)]
+        }
+    }
+}
+
+impl Reactions {
+    pub(super) fn new(source: &Source) -> Result<Self, Error> {
+        let mechanism = source.machine.mechanism();
+        let phi = mechanism.domain().position(0.0);
+        let joints = mechanism.joints(phi, &mechanism.frames(phi)?)?;
+        Ok(Self {
+            carries: joints.iter().map(carries).collect(),
+        })
+    }
+
+    /// Names of the columns after the drive's, without moments where there are none.
+    fn pick<T: Clone>(&self, joint: usize, [x, y, size, moment]: [T; 4]) -> Vec<T> {
+        let [force, turns] = self.carries.get(joint).copied().unwrap_or([true, true]);
+        let mut picked = Vec::with_capacity(4);
+        if force {
+            picked.extend([x, y, size]);
+        }
+        if turns {
+            picked.push(moment);
+        }
+        picked
+    }
+}
+
+impl Set for Reactions {
+    fn names(&self, source: &Source) -> Vec<String> {
+        let coordinate = source.coordinate;
+        let drive = format!("{}_drive [{}]", coordinate.effort(), coordinate.effort_unit());
+        let mut names = vec![drive];
+        let joints = source.machine.mechanism().joint_names();
+        for (k, joint) in joints.iter().enumerate().take(self.carries.len()) {
+            let columns = ["F_x [N]", "F_y [N]", "F [N]", "M [N m]"];
+            names.extend(self.pick(k, columns.map(|column| format!("{joint} {column}"))));
+        }
+        let shaking = ["F_x [N]", "F_y [N]", "F [N]", "M [N m]"];
+        names.extend(shaking.map(|column| format!("shaking {column}")));
+        names
+    }
+
+    fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
+        let Some(state) = place.state else {
+            return Ok(vec![None; self.names(source).len()]);
+        };
+        let machine = &source.machine;
+        let forces = machine.forces(place.phi, state.omega, state.alpha)?;
+        let mut values = vec![forces.drive];
+        for (k, reaction) in forces.reactions.iter().enumerate() {
+            let [x, y] = reaction.force;
+            values.extend(self.pick(k, [x, y, x.hypot(y), reaction.moment]));
+        }
+        let [x, y] = forces.shaking_force;
+        values.extend([x, y, x.hypot(y), forces.shaking_moment]);
+        Ok(values.into_iter().map(Some).collect())
+    }
+}

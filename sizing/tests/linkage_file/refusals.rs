@@ -1,0 +1,250 @@
+//! Linkages that cannot work, and the words that tell the user which part and what to do.
+
+use crate::{FOUR_BAR, refuses, refuses_edit};
+
+/// Edits of the four-bar: text, its replacement, and what the report must say.
+type Edits<'a> = &'a [(&'a str, &'a str, &'a [&'a str])];
+
+fn refused(edits: Edits) {
+    for (from, to, words) in edits {
+        refuses_edit(FOUR_BAR, from, to, words);
+    }
+}
+
+#[test]
+fn bodies_and_points() {
+    refused(&[
+        ("[\"crank.A\"", "[\"krank.A\"", &["there is no such body", "did you mean \"crank\"?", "\"ground\", \"crank\", \"coupler\""]),
+        ("[\"crank.A\"", "[\"crank.X\"", &["names the point \"X\", which \"crank\" does not have", "points of \"crank\": A", "\"crank\" alone is the origin"]),
+        ("\"ground.C\"", "\"ground.D\"", &["which \"ground\" does not have", "points of \"ground\": O, C"]),
+        ("[\"ground.C\", \"rocker\"]", "[\"rocker.B\", \"rocker\"]", &["joins \"rocker\" to itself", "two different bodies"]),
+        ("[\"ground.C\", \"rocker\"]", "[\"rocker\"]", &["has 1 ends, but a joint connects two", "two joints"]),
+        ("name = \"coupler\"", "name = \"crank\"", &["two bodies have the name \"crank\"", "the first", "the second"]),
+        ("name = \"coupler\"", "name = \"ground\"", &["is \"ground\", the name of the fixed frame"]),
+        ("name = \"coupler\"", "name = \"coup.ler\"", &["contains a point"]),
+        ("name = \"coupler pin\"", "name = \"crank pin\"", &["two joints have the name \"crank pin\""]),
+        ("{ O = [\"0 mm\", \"0 mm\"], C", "{ O = [\"0 mm\", \"0 mm\"], O", &["duplicate", "remove or rename"]),
+        ("points = { A = [\"80 mm\", \"0 mm\"] }", "length = \"80 mm\"", &["`length` in [[mechanism.body]] number 1 is not known", "give its points"]),
+        ("angle = \"50 deg\"\n", "", &["`angle` of body \"coupler\" is missing", "angle = \"30 deg\""]),
+        ("inertia = \"0.006 kg m^2\"\n", "", &["`inertia` of body \"coupler\" is missing, and the body turns"]),
+        ("mass = \"0.9 kg\"\n", "", &["`mass` in [[mechanism.body]] number 2 is missing"]),
+        ("between = [\"crank.A\", \"coupler\"]", "type = \"revolut\"\nbetween = [\"crank.A\", \"coupler\"]", &["did you mean \"revolute\"?", "\"pin-in-slot\""]),
+        ("between = [\"crank.A\", \"coupler\"]", "between = [\"crank.A\", \"coupler\"]\nradius = \"1 mm\"", &["`radius` in [[mechanism.joint]] number 2 is not known", "a rack has the radius"]),
+    ]);
+    let body = "[[mechanism.body]]\nname = \"strut\"\nmass = \"1 kg\"\nangle = \"0 deg\"\n\n[[mechanism.joint]]";
+    refuses_edit(
+        FOUR_BAR,
+        "[[mechanism.joint]]",
+        body,
+        &["body \"strut\" is in no joint", "never used"],
+    );
+    let two = "[[mechanism.body]]\nname = \"a\"\nmass = \"1 kg\"\nangle = \"0 deg\"\n\n[[mechanism.body]]\nname = \"b\"\nmass = \"1 kg\"\n\
+               angle = \"0 deg\"\n\n[[mechanism.joint]]\nbetween = [\"a\", \"b\"]\n\n[[mechanism.joint]]";
+    refuses_edit(
+        FOUR_BAR,
+        "[[mechanism.joint]]",
+        two,
+        &["nothing connects body \"a\" with the ground", "floats freely"],
+    );
+}
+
+#[test]
+fn drives() {
+    refused(&[
+        ("drive = \"crank bearing\"", "drive = [\"crank bearing\", \"rocker bearing\"]", &["is a list, but a linkage has one drive"]),
+        ("drive = \"crank bearing\"", "drive = \"crank bearing\"\ndrive = \"rocker bearing\"", &["duplicate key"]),
+        ("drive = \"crank bearing\"", "drive = \"crank\"", &["\"crank\", which does not exist here", "\"crank bearing\", \"crank pin\""]),
+        ("drive = \"crank bearing\"", "", &["`drive` in [mechanism] is missing", "drive = \"crank bearing\""]),
+        ("between = [\"ground.O\", \"crank\"]", "between = [\"ground.O\", \"crank\"]\ntype = \"fixed\"", &["is \"crank bearing\", of type \"fixed\"", "cannot be driven"]),
+        ("drive = \"crank bearing\"", "drive = \"crank bearing\"\nstroke = [\"60 deg\", \"-30 deg\"]", &["runs from 60 deg to -30 deg", "the second end is the larger one"]),
+        ("drive = \"crank bearing\"", "drive = \"crank bearing\"\nstroke = [\"10 mm\", \"30 mm\"]", &["must be an angle, but \"10 mm\" is a length"]),
+    ]);
+}
+
+#[test]
+fn freedoms_are_counted_joint_by_joint() {
+    let last = "[[mechanism.joint]]\nname = \"rocker bearing\"\nbetween = [\"ground.C\", \"rocker\"]\n";
+    refuses_edit(
+        FOUR_BAR,
+        last,
+        "",
+        &[
+            "3 degrees of freedom, not one: 3·3 − 6 = 3",
+            "\"crank bearing\" 2, \"crank pin\" 2, \"coupler pin\" 2",
+            "can still move by itself",
+        ],
+    );
+    let twice = format!("{last}\n[[mechanism.joint]]\nname = \"stay\"\nbetween = [\"ground.O\", \"rocker.B\"]\n");
+    refuses_edit(
+        FOUR_BAR,
+        last,
+        &twice,
+        &[
+            "-1 degrees of freedom, not one: 3·3 − 10 = -1",
+            "\"stay\" 2",
+            "leave one out",
+        ],
+    );
+    // As many equations as coordinates, but badly shared out.
+    let strut = FOUR_BAR.replace(
+        last,
+        &format!(
+            "{last}\n[[mechanism.joint]]\nname = \"strut pin\"\nbetween = [\"ground.O\", \"strut\"]\n\n[[mechanism.joint]]\n\
+             name = \"peg\"\ntype = \"pin-in-slot\"\nbetween = [\"crank.A\", \"rocker\"]\ndirection = \"0 deg\"\n"
+        ),
+    );
+    let strut = strut.replacen(
+        "[[mechanism.joint]]",
+        "[[mechanism.body]]\nname = \"strut\"\nmass = \"1 kg\"\ninertia = \"1 kg m^2\"\nangle = \"0 deg\"\n\n[[mechanism.joint]]",
+        1,
+    );
+    refuses(
+        &strut,
+        &["that other joints hold already, while \"strut\" can still move", "one too many"],
+    );
+}
+
+#[test]
+fn what_cannot_be_assembled_or_driven_round() {
+    // The rocker is too short to reach the coupler.
+    refuses_edit(
+        FOUR_BAR,
+        "points = { B = [\"180 mm\", \"0 mm\"] }",
+        "points = { B = [\"18 mm\", \"0 mm\"] }",
+        &[
+            "cannot be assembled at φ = 0 deg",
+            "stays open by",
+            " mm",
+            "check the angles of \"coupler\" and \"rocker\" in the drawing",
+            "(it is open by",
+        ],
+    );
+    // A crank of 200 mm: |OC|² + a² − 2·a·|OC|·cos φ = (b + c)² at φ = acos(−0.4575).
+    refuses_edit(
+        FOUR_BAR,
+        "points = { A = [\"80 mm\", \"0 mm\"] }",
+        "points = { A = [\"200 mm\", \"0 mm\"] }",
+        &[
+            "the drive \"crank bearing\" reaches a dead point at φ = 117.22",
+            "can move from -117.23 deg to 117.23 deg",
+            "stroke = [\"-94 deg\", \"94 deg\"]",
+        ],
+    );
+    // With the stroke that the message proposes it works.
+    let driven = FOUR_BAR
+        .replace("{ A = [\"80 mm\", \"0 mm\"] }", "{ A = [\"200 mm\", \"0 mm\"] }")
+        .replace("drive = \"crank bearing\"", "drive = \"crank bearing\"\nstroke = [\"-94 deg\", \"94 deg\"]");
+    assert!(crate::parse(&driven).is_ok());
+}
+
+#[test]
+fn a_parallelogram_changes_its_branch() {
+    let text = FOUR_BAR
+        .replace("B = [\"250 mm\", \"0 mm\"]", "B = [\"300 mm\", \"0 mm\"]")
+        .replace("B = [\"180 mm\", \"0 mm\"]", "B = [\"80 mm\", \"0 mm\"]")
+        .replace("angle = \"50 deg\"", "angle = \"2 deg\"")
+        .replace("angle = \"0 deg\"", "angle = \"90 deg\"")
+        .replace("angle = \"100 deg\"", "angle = \"88 deg\"");
+    let report = match crate::parse(&text) {
+        Err(report) => crate::rendered(&report),
+        Ok(_) => panic!("accepted"),
+    };
+    let named = report.contains("another branch") || report.contains("dead point");
+    assert!(named && report.contains("φ = "), "{report}");
+}
+
+#[test]
+fn wheels_that_do_not_fit() {
+    let gears = r#"gravity = ["0 m/s^2", "0 m/s^2"]
+[mechanism]
+type = "linkage"
+drive = "first"
+ground = { P = ["120 mm", "0 mm"] }
+body = [
+  { name = "small", mass = "1 kg", inertia = "3 kg cm^2", angle = "0 deg" },
+  { name = "large", mass = "2 kg", inertia = "40 kg cm^2", angle = "0 deg", com = ["5 mm", "0 mm"] },
+]
+joint = [
+  { name = "first", between = ["ground", "small"] },
+  { name = "second", between = ["ground.P", "large"] },
+  { name = "teeth", type = "gears", between = ["small", "large"], radii = ["30 mm", "80 mm"] },
+]
+"#;
+    refuses_edit(
+        gears,
+        "com = [\"5 mm\", \"0 mm\"]",
+        "com = [\"0 mm\", \"0 mm\"]",
+        &[
+            "joint \"teeth\": the gears' radii 30 mm and 80 mm ask for centres 110 mm apart, but these are 120 mm apart",
+            "32.7273 mm and 87.2727 mm",
+        ],
+    );
+    let fitting = gears.replace("\"80 mm\"", "\"90 mm\"");
+    refuses(
+        &fitting,
+        &["the linkage does not repeat", "body \"large\" is", "stroke = ["],
+    );
+    refuses_edit(
+        &fitting,
+        "radii = [\"30 mm\", \"90 mm\"]",
+        "radii = [\"30 mm\", \"30 mm\"], mesh = \"internal\"",
+        &["are equal", "larger pitch radius"],
+    );
+    refuses_edit(
+        &fitting,
+        "radii = [\"30 mm\", \"90 mm\"]",
+        "radii = [\"30 mm\", \"90 mm\"], carrier = \"small\"",
+        &["\"small\", which is one of the gears"],
+    );
+    refuses_edit(
+        &fitting,
+        "between = [\"small\", \"large\"]",
+        "between = [\"small\", \"ground.P\"]",
+        &["`carrier`", "the ground is one of these gears"],
+    );
+    // Three bodies: the belt's second pulley rides on the first.
+    let riding = fitting
+        .replace("[\"ground.P\", \"large\"]", "[\"small.P\", \"large\"]")
+        .replace("inertia = \"3 kg cm^2\", angle = \"0 deg\"", "inertia = \"3 kg cm^2\", angle = \"0 deg\", points = { P = [\"120 mm\", \"0 mm\"] }")
+        .replace("type = \"gears\"", "type = \"belt\"")
+        .replace(", com = [\"5 mm\", \"0 mm\"]", "");
+    refuses(&riding, &["the centre of the pulley \"large\" moves"]);
+}
+
+#[test]
+fn places_that_do_not_follow() {
+    let rack = r#"gravity = ["0 m/s^2", "0 m/s^2"]
+[mechanism]
+type = "linkage"
+drive = "bearing"
+stroke = ["0 deg", "90 deg"]
+body = [
+  { name = "pinion", mass = "2 kg", inertia = "40 kg cm^2", angle = "0 deg" },
+  { name = "rack", mass = "5 kg" },
+]
+joint = [
+  { name = "bearing", between = ["ground", "pinion"] },
+  { name = "guide", type = "prismatic", between = ["ground", "rack"], direction = "0 deg" },
+  { name = "teeth", type = "rack", between = ["pinion", "rack"], radius = "30 mm", direction = "0 deg" },
+]
+"#;
+    refuses(
+        rack,
+        &["joint \"teeth\": the pinion has a radius of 30 mm, but its centre lies 0 mm from the rack's pitch line"],
+    );
+    refuses_edit(rack, ", direction = \"0 deg\" },\n  { name = \"teeth\"", " },\n  { name = \"teeth\"", &["`direction`", "the guide's direction on the first body"]);
+    let slides = rack
+        .replace("drive = \"bearing\"\nstroke = [\"0 deg\", \"90 deg\"]", "drive = \"guide\"")
+        .replace("between = [\"ground\", \"rack\"]", "between = [\"ground.G\", \"rack\"]")
+        .replace("body = [", "ground = { G = [\"0 mm\", \"-30 mm\"] }\nbody = [");
+    refuses(&slides, &["`stroke` in [mechanism] is missing", "between two ends"]);
+}
+
+#[test]
+fn nothing_has_a_mass() {
+    let mut text = FOUR_BAR.to_owned();
+    for weight in ["0.5 kg", "4 kg", "0.9 kg", "0.006 kg", "0.7 kg", "0.0025 kg"] {
+        text = text.replacen(&format!("\"{weight}"), "\"0 kg", 1);
+    }
+    refuses(&text, &["reduced inertia is not positive", "flywheel"]);
+}

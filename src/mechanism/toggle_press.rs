@@ -1,0 +1,315 @@
+//! The toggle press (knuckle-joint press): a crank stretches two links that push the ram.
+//!
+//! Crank pivot O = (0, 0), crank OA = r, rod AK = l to the knuckle K, upper link PK = p from the fixed pivot P, lower link
+//! KR = q, ram R on the guide y = e. O-A-K-P is a [`FourBar`] with the upper link as its rocker; ψ is the angle of the upper
+//! link. Then
+//!
+//! ```text
+//! K = P + p·(cos ψ, sin ψ)        sin χ = (e − y_K)/q        x_R = x_K ± q·√(1 − sin²χ)
+//! x_R′ = p·ψ′·sin(χ − ψ)/cos χ
+//! ```
+//!
+//! The upper sign is [`Branch::Right`]: the ram on the right of the knuckle. The knuckle lies on the `knee` side of the
+//! directed line from A to P.
+//!
+//! The ram stands still where the upper link reverses, ψ′ = 0, and where both links are in line, χ = ψ: stretched at the
+//! bottom. Near there a small torque holds a large force. This is no dead point of the drive: the crank moves the links
+//! through it, and every transfer function stays finite.
+//!
+//! K. Luck, K.-H. Modler, *Getriebetechnik*; the closed forms are those of the four-bar and of the slider-crank in series.
+
+use core::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use super::four_bar::beyond;
+use super::{Blocked, Branch, FourBar, Frames, Jointed, Mechanism, Side, dyad};
+use crate::error::{finite, positive};
+use crate::joint::{Joint, Joints, Marker};
+use crate::link::Link;
+use crate::{Domain, Error, math};
+
+/// Why the ram stands still at a dead centre.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Standstill {
+    /// The upper link reverses: crank and rod are in line.
+    Reversal,
+    /// Upper and lower link are in line.
+    Toggle,
+}
+
+/// A crank angle at which the ram stands still.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct DeadCentre {
+    /// Crank angle (rad, 0 to 2π).
+    pub phi: f64,
+    /// Position x of the ram (m).
+    pub ram: f64,
+    /// Why it stands still.
+    pub cause: Standstill,
+}
+
+/// The dead centres of one turn, by rising angle.
+pub type DeadCentres = heapless::Vec<DeadCentre, 8>;
+
+/// Dead centres nearer than this (rad) are one: where the links are in line just as the upper link reverses.
+const SAME: f64 = 1e-6;
+
+/// A toggle press, driven at the crank, which turns fully.
+///
+/// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`ROD`](Self::ROD) (frame at A along AK), [`UPPER`](Self::UPPER)
+/// (frame at P along PK), [`LOWER`](Self::LOWER) (frame at K along KR), [`RAM`](Self::RAM) (frame at R, parallel to the
+/// global axes). The pin of the knuckle belongs to the upper link: rod and lower link turn on it.
+///
+/// Accuracy: positions and transfer functions to 1e-12 against four-bar and slider-crank one after the other (test
+/// `ram_follows_the_slider_crank_of_the_upper_link`).
+#[derive(Clone, Debug, PartialEq)]
+pub struct TogglePress {
+    four_bar: FourBar,
+    lower: f64,
+    guide: f64,
+    sign: f64,
+    links: [Link; 5],
+}
+
+impl TogglePress {
+    /// Index of the crank.
+    pub const CRANK: usize = 0;
+    /// Index of the rod from the crank to the knuckle.
+    pub const ROD: usize = 1;
+    /// Index of the upper link, from the fixed pivot to the knuckle.
+    pub const UPPER: usize = 2;
+    /// Index of the lower link, from the knuckle to the ram.
+    pub const LOWER: usize = 3;
+    /// Index of the ram.
+    pub const RAM: usize = 4;
+
+    /// A toggle press with `lengths` of crank r, rod l, upper link p and lower link q (m), `pivot` P of the upper link (m),
+    /// the ram's `guide` e (m), on which sides knuckle and ram lie, and the links crank, rod, upper, lower, ram.
+    ///
+    /// # Errors
+    /// Those of [`FourBar::new`] for crank, coupler (here the rod), rocker (the upper link) and P; a lower link or guide
+    /// that is not possible; a lower link too short for a full turn, with the angle where it fails.
+    pub fn new(
+        lengths: [f64; 4],
+        pivot: [f64; 2],
+        guide: f64,
+        (knee, branch): (Side, Branch),
+        links: [Link; 5],
+    ) -> Result<Self, Error> {
+        let [crank, rod, upper, lower] = lengths;
+        let lower = positive("lower link length", lower)?;
+        let guide = finite("guide", guide)?;
+        let four_bar = FourBar::new(
+            [crank, rod, upper],
+            pivot,
+            knee,
+            [links[0], links[1], links[2]],
+        )?;
+        let sign = match branch {
+            Branch::Right => 1.0,
+            Branch::Left => -1.0,
+        };
+        let press = Self {
+            four_bar,
+            lower,
+            guide,
+            sign,
+            links,
+        };
+        let shortest = press.farthest_knuckle()?;
+        if lower <= shortest * (1.0 + 1e-12) {
+            let phi = press.first_unreachable()?;
+            return Err(Blocked::TooShort {
+                link: "lower link",
+                phi,
+                shortest,
+            }
+            .into());
+        }
+        Ok(press)
+    }
+
+    /// The linkage O-A-K-P that moves the upper link.
+    pub const fn four_bar(&self) -> &FourBar {
+        &self.four_bar
+    }
+
+    /// Lengths of crank, rod, upper and lower link (m).
+    pub const fn lengths(&self) -> [f64; 4] {
+        let [crank, rod, upper, _] = self.four_bar.lengths();
+        [crank, rod, upper, self.lower]
+    }
+
+    /// Largest distance of the knuckle from the guide's line (m) over a turn.
+    fn farthest_knuckle(&self) -> Result<f64, Error> {
+        let height = |sin: f64| math::abs(self.knuckle_off_guide(sin));
+        let Some(dead) = self.four_bar.rocker_dead_centres() else {
+            return Ok(height(1.0).max(height(-1.0)));
+        };
+        let [a, b] = [self.upper_angle(dead[0])?, self.upper_angle(dead[1])?];
+        let (least, most) = (a.min(b), a.max(b));
+        let ends = height(math::sin_cos(a).0).max(height(math::sin_cos(b).0));
+        // The upper link stands across the guide within its swing.
+        let across = [FRAC_PI_2, -FRAC_PI_2]
+            .into_iter()
+            .filter(|angle| least + beyond(angle - least) <= most);
+        Ok(across
+            .map(|angle| height(math::sin_cos(angle).0))
+            .fold(ends, f64::max))
+    }
+
+    /// e − y_K (m) for an upper link of this sine.
+    fn knuckle_off_guide(&self, sin: f64) -> f64 {
+        let [_, _, upper, _] = self.lengths();
+        self.guide - self.four_bar.pivot()[1] - upper * sin
+    }
+
+    fn upper_angle(&self, phi: f64) -> Result<f64, Error> {
+        let frames = self.four_bar.frames(phi)?;
+        Ok(frames
+            .get(FourBar::ROCKER)
+            .map_or(0.0, |frame| frame.psi.value))
+    }
+
+    /// The smallest φ ≥ 0 (rad) at which the lower link stands across the guide.
+    fn first_unreachable(&self) -> Result<f64, Error> {
+        let [_, _, upper, lower] = self.lengths();
+        let off = |phi: f64| -> Result<f64, Error> {
+            let sin = math::sin_cos(self.upper_angle(phi)?).0;
+            Ok(math::abs(self.knuckle_off_guide(sin)))
+        };
+        if off(0.0)? >= lower {
+            return Ok(0.0);
+        }
+        let mut first = f64::INFINITY;
+        for distance in [lower, -lower] {
+            let sin = self.knuckle_off_guide(0.0) - distance;
+            let sin = sin / upper;
+            if math::abs(sin) <= 1.0 {
+                let angle = math::asin(sin);
+                for psi in [angle, PI - angle] {
+                    first = self
+                        .four_bar
+                        .crank_angles(psi)
+                        .into_iter()
+                        .fold(first, f64::min);
+                }
+            }
+        }
+        // Where it only just fails, at the end of the swing, no angle was found before it.
+        for phi in self.four_bar.rocker_dead_centres().into_iter().flatten() {
+            if off(phi)? >= lower * (1.0 - 1e-12) {
+                first = first.min(phi);
+            }
+        }
+        Ok(first)
+    }
+
+    /// The crank angles at which the ram stands still.
+    ///
+    /// # Errors
+    /// None for a press that was built.
+    pub fn dead_centres(&self) -> Result<DeadCentres, Error> {
+        let mut found = DeadCentres::new();
+        let mut add = |phi: f64, cause| -> Result<(), Error> {
+            let frames = self.frames(phi)?;
+            let ram = frames.get(Self::RAM).map_or(0.0, |frame| frame.x.value);
+            let near = |other: &DeadCentre| {
+                let apart = beyond(other.phi - phi);
+                apart.min(TAU - apart) < SAME
+            };
+            if !found.iter().any(near) {
+                // Cannot fail: at most two reversals and two angles for each of two toggle positions.
+                let _ = found.push(DeadCentre { phi, ram, cause });
+            }
+            Ok(())
+        };
+        for phi in self.four_bar.rocker_dead_centres().into_iter().flatten() {
+            add(phi, Standstill::Reversal)?;
+        }
+        let [_, _, upper, lower] = self.lengths();
+        let height = self.knuckle_off_guide(0.0);
+        // Stretched R = P + (p + q)·u and folded R = P + (p − q)·u, u along the upper link; the lower link points to the
+        // ram's side.
+        for (length, sign) in [(upper + lower, self.sign), (upper - lower, -self.sign)] {
+            let sin = height / length;
+            if math::abs(sin) < 1.0 {
+                let psi = math::atan2(sin, sign * math::sqrt(1.0 - sin * sin));
+                for phi in self.four_bar.crank_angles(psi) {
+                    add(phi, Standstill::Toggle)?;
+                }
+            }
+        }
+        found.sort_unstable_by(|a, b| a.phi.total_cmp(&b.phi));
+        Ok(found)
+    }
+
+    /// Top and bottom of the ram's stroke, the bottom farthest from the knuckle's side. A press whose links pass the
+    /// stretched position reaches its bottom twice a turn; this is the first.
+    ///
+    /// # Errors
+    /// None for a press that was built.
+    pub fn stroke(&self) -> Result<[DeadCentre; 2], Error> {
+        let centres = self.dead_centres()?;
+        let down = |centre: &&DeadCentre| self.sign * centre.ram;
+        let order = |a: &&DeadCentre, b: &&DeadCentre| down(a).total_cmp(&down(b));
+        let top = centres.iter().min_by(order);
+        // Of equals the first.
+        let bottom = centres.iter().rev().max_by(order);
+        let none = DeadCentre {
+            phi: 0.0,
+            ram: 0.0,
+            cause: Standstill::Reversal,
+        };
+        Ok([*top.unwrap_or(&none), *bottom.unwrap_or(&none)])
+    }
+}
+
+impl Jointed for TogglePress {
+    /// O: ground and crank; A: crank and rod; K: rod and upper link; P: ground and upper link; K: upper and lower link; R:
+    /// lower link and ram; guide: ground and ram.
+    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, Error> {
+        let [_, _, upper, lower] = self.lengths();
+        let origin = [0.0, 0.0];
+        let mut joints = self.four_bar.joints(phi, frames)?;
+        let rest = [
+            Joint::Revolute([
+                Marker::on(Self::UPPER, [upper, 0.0]),
+                Marker::on(Self::LOWER, origin),
+            ]),
+            Joint::Revolute([
+                Marker::on(Self::LOWER, [lower, 0.0]),
+                Marker::on(Self::RAM, origin),
+            ]),
+            Joint::Prismatic([
+                Marker::ground([0.0, self.guide]),
+                Marker::on(Self::RAM, origin),
+            ]),
+        ];
+        joints.extend(rest);
+        Ok(joints)
+    }
+}
+
+impl Mechanism for TogglePress {
+    fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    fn domain(&self) -> Domain {
+        Domain::Turn
+    }
+
+    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+        let mut frames = self.four_bar.frames(phi)?;
+        let [_, _, upper, lower] = self.lengths();
+        let knuckle = frames
+            .get(Self::UPPER)
+            .map(|frame| frame.point([upper, 0.0]))
+            .and_then(|knuckle| dyad::sliding(knuckle, lower, self.guide, self.sign));
+        let rest = knuckle.ok_or(Error::DeadPoint { phi, joint: 6 })?;
+        frames.extend(rest);
+        Ok(frames)
+    }
+}

@@ -1,0 +1,344 @@
+//! Gear ratio synthesis: the split of a total ratio over the stages of a train for the smallest reduced inertia.
+//!
+//! Last part of section 6.3 of V. G. Nazarenko, *Dynamics of mechanisms*, Minsk 2002: with the total ratio given, J_red of
+//! (6.9) depends on how it is divided. With stage ratios i_k = ω_driver/ω_driven > 0, inertias D_k of the drivers and C_k
+//! of the driven wheels, and J_L at the output,
+//!
+//! ```text
+//! J_red = Σ_k (D_k + C_k(i_k)/i_k²)/(i_1·…·i_(k−1))² + J_L/i²          i = i_1·…·i_n
+//! ```
+//!
+//! C_k is either given, or grows with the ratio: a wheel of the pinion's module and width has J ∝ r⁴, so C_k = P_k·i_k⁴,
+//! where P_k is the inertia of the pinion that it meshes with.
+//!
+//! In y_k = ln i_k every term is an exponential of a linear function, so J_red is convex, and over Σ y_k = ln i it has one
+//! minimum. There ∂J/∂y_k is the same for every stage whose ratio is not at a bound. Behind the first stage the train is of
+//! the same kind, so with R(L) the smallest inertia of the rest for the rest L = ln i − y_1 of the ratio,
+//!
+//! ```text
+//! J(y_1) = D_1 + C_1/i_1² + R(L)/i_1²        J′ = (C_1/i_1²)′ − (2·R + R′)/i_1² = 0
+//! ```
+//!
+//! J′ rises with y_1, and its zero is found by bisection, stage by stage. R′ is known without differences: at the minimum
+//! it is the slope of the train's own first stage (envelope theorem).
+//!
+//! Equal pinions and no load give, for two stages, J/P = 1 + i_1² + 1/i_1² + i²/i_1⁴ and the condition
+//! i_2² = (i_1⁴ − 1)/2; for large ratios and n stages i_k = √2·(i/2^(n/2))^(2^(k−1)/(2ⁿ − 1)). See *Minimization of
+//! Gear-Train Inertia*, Transactions of the ASME 76 (1954), p. 493.
+
+use crate::error::{finite, not_negative, positive};
+use crate::{Error, math};
+
+/// The most stages that a ratio is split over.
+pub const MAX_STAGES: usize = 4;
+
+/// One number for each stage.
+pub type PerStage = heapless::Vec<f64, MAX_STAGES>;
+
+/// Bisections: 2⁻⁵⁶ of the range of ln i, below its rounding.
+const HALVINGS: usize = 56;
+
+/// The inertia of a driven wheel (kg·m²).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Driven {
+    /// Whatever the ratio.
+    Constant(f64),
+    /// P·i⁴, module and width those of a pinion with the inertia P.
+    LikePinion(f64),
+}
+
+/// One stage, its ratio still open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct OpenStage {
+    /// Inertia of the driver (kg·m²).
+    pub driver: f64,
+    /// Inertia of the driven wheel (kg·m²).
+    pub driven: Driven,
+}
+
+impl OpenStage {
+    /// A stage whose driven wheel has the module and the width of its pinion, of inertia `pinion` (kg·m²).
+    #[must_use]
+    pub const fn geared(pinion: f64) -> Self {
+        Self {
+            driver: pinion,
+            driven: Driven::LikePinion(pinion),
+        }
+    }
+
+    /// C/i² = `size`·i^`power` (kg·m²).
+    const fn driven_at_driver(&self) -> (f64, f64) {
+        match self.driven {
+            Driven::Constant(inertia) => (inertia, -2.0),
+            Driven::LikePinion(inertia) => (inertia, 2.0),
+        }
+    }
+}
+
+/// A division of the ratio.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Split {
+    /// The stages' ratios, from the input.
+    pub ratios: PerStage,
+    /// J_red at the input (kg·m²).
+    pub inertia: f64,
+}
+
+/// A train whose total ratio is to be divided.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RatioSplit {
+    stages: heapless::Vec<OpenStage, MAX_STAGES>,
+    output: f64,
+    ratio: f64,
+    bounds: [f64; 2],
+}
+
+impl RatioSplit {
+    /// The total `ratio` i > 0 over 2 to 4 `stages`, in order from the input, with the inertia `output` J_L (kg·m²) on the
+    /// last shaft; every stage's ratio within `bounds`.
+    ///
+    /// # Errors
+    /// Fewer than 2 or more than 4 stages; an inertia negative; no inertia that depends on the split; bounds that are not
+    /// positive and rising, or within which the stages cannot give the ratio.
+    pub fn new(
+        ratio: f64,
+        stages: &[OpenStage],
+        output: f64,
+        bounds: [f64; 2],
+    ) -> Result<Self, Error> {
+        let count = stages.len();
+        let what = "number of stages";
+        if !(2..=MAX_STAGES).contains(&count) {
+            let (value, min, max) = (count as f64, 2.0, MAX_STAGES as f64);
+            return Err(Error::OutOfRange {
+                what,
+                value,
+                min,
+                max,
+            });
+        }
+        for stage in stages {
+            not_negative("inertia of the driver", stage.driver)?;
+            not_negative("inertia of the driven wheel", stage.driven_at_driver().0)?;
+        }
+        let split = Self {
+            // Cannot fail: counted above.
+            stages: stages.iter().copied().collect(),
+            output: not_negative("inertia at the output", output)?,
+            ratio: positive("total ratio", ratio)?,
+            bounds,
+        };
+        let [low, high] = bounds;
+        positive("smallest stage ratio", low)?;
+        if finite("largest stage ratio", high)? < low {
+            let (what, value, min, max) = ("largest stage ratio", high, low, f64::INFINITY);
+            return Err(Error::OutOfRange {
+                what,
+                value,
+                min,
+                max,
+            });
+        }
+        let power = |bound: f64| stages.iter().map(|_| bound).product::<f64>();
+        // A rounding may leave a ratio that needs every stage at its bound just outside.
+        let (min, max) = (power(low), power(high));
+        if ratio < min * (1.0 - 1e-12) || ratio > max * (1.0 + 1e-12) {
+            let (what, value) = ("total ratio", ratio);
+            return Err(Error::OutOfRange {
+                what,
+                value,
+                min,
+                max,
+            });
+        }
+        let shafts = stages.windows(2).map(|pair| match pair {
+            [one, next] => one.driven_at_driver().0 + next.driver,
+            _ => 0.0,
+        });
+        positive("inertia between input and output", shafts.sum())?;
+        Ok(split)
+    }
+
+    /// Total ratio.
+    pub const fn ratio(&self) -> f64 {
+        self.ratio
+    }
+
+    /// Number of stages.
+    pub fn stages(&self) -> usize {
+        self.stages.len()
+    }
+
+    /// J_red at the input (kg·m²) with these stage ratios, whose product is the total ratio.
+    #[must_use]
+    pub fn inertia(&self, ratios: &[f64]) -> f64 {
+        let (mut sum, mut before) = (0.0, 1.0);
+        for (stage, ratio) in self.stages.iter().zip(ratios) {
+            let (size, power) = stage.driven_at_driver();
+            let driven = if power > 0.0 {
+                ratio * ratio
+            } else {
+                1.0 / (ratio * ratio)
+            };
+            sum += (stage.driver + size * driven) / (before * before);
+            before *= ratio;
+        }
+        sum + self.output / (before * before)
+    }
+
+    /// ∂J/∂(ln i_k) of every stage (kg·m²): equal for all stages that no bound holds, where J is smallest.
+    #[must_use]
+    pub fn slopes(&self, ratios: &[f64]) -> PerStage {
+        // From the output back: the inertia at each driver, and what of it lies behind the stage.
+        let mut slopes = PerStage::new();
+        let mut behind = self.output;
+        for (stage, ratio) in self.stages.iter().zip(ratios).rev() {
+            let (size, power) = stage.driven_at_driver();
+            let square = ratio * ratio;
+            let driven = size * if power > 0.0 { square } else { 1.0 / square };
+            // Cannot fail: one slope a stage.
+            let _ = slopes.push(power * driven - 2.0 * behind / square);
+            behind = stage.driver + driven + behind / square;
+        }
+        slopes.reverse();
+        let mut before = 1.0;
+        for (slope, ratio) in slopes.iter_mut().zip(ratios) {
+            *slope /= before * before;
+            before *= ratio;
+        }
+        slopes
+    }
+
+    /// The same ratio in every stage.
+    #[must_use]
+    pub fn equal(&self) -> Split {
+        let each = math::exp(math::ln(self.ratio) / self.stages() as f64);
+        self.split(self.stages.iter().map(|_| each).collect())
+    }
+
+    /// The split with the smallest J_red.
+    #[must_use]
+    pub fn optimum(&self) -> Split {
+        self.minimum([self.bounds.map(math::ln); MAX_STAGES])
+    }
+
+    /// Smallest and largest ratio that the first stage can have: the range of the curve over the split.
+    #[must_use]
+    pub fn first_range(&self) -> [f64; 2] {
+        let [low, high] = self.bounds;
+        let rest = |bound: f64| self.stages.iter().skip(1).map(|_| bound).product::<f64>();
+        let least = (self.ratio / rest(high)).max(low);
+        let most = (self.ratio / rest(low)).min(high);
+        [least, most.max(least)]
+    }
+
+    /// The best split whose first stage has the ratio `first`: a point of the curve over the split.
+    ///
+    /// # Errors
+    /// A ratio outside [`first_range`](Self::first_range).
+    pub fn with_first(&self, first: f64) -> Result<Split, Error> {
+        let [min, max] = self.first_range();
+        let (what, value) = (
+            "ratio of the first stage",
+            finite("ratio of the first stage", first)?,
+        );
+        if value < min * (1.0 - 1e-12) || value > max * (1.0 + 1e-12) {
+            return Err(Error::OutOfRange {
+                what,
+                value,
+                min,
+                max,
+            });
+        }
+        let mut bounds = [self.bounds.map(math::ln); MAX_STAGES];
+        bounds[0] = [math::ln(value); 2];
+        Ok(self.minimum(bounds))
+    }
+
+    fn minimum(&self, bounds: [[f64; 2]; MAX_STAGES]) -> Split {
+        let bounds = bounds.get(..self.stages()).unwrap_or_default();
+        self.split(self.rest(0, math::ln(self.ratio), bounds).ratios)
+    }
+
+    fn split(&self, ratios: PerStage) -> Split {
+        let inertia = self.inertia(&ratios);
+        Split { ratios, inertia }
+    }
+
+    /// The smallest inertia of the stages from number `from` on for the ratio e^`total`.
+    fn rest(&self, from: usize, total: f64, bounds: &[[f64; 2]]) -> Rest {
+        let (Some(stage), Some([low, high])) = (self.stages.get(from), bounds.get(from)) else {
+            return Rest::default();
+        };
+        let (size, power) = stage.driven_at_driver();
+        let behind = bounds.get(from + 1..).unwrap_or_default();
+        // The inertia at this stage's driver and its slopes by y: all else held, and with the total held.
+        let with = |y: f64| {
+            let rest = self.rest(from + 1, total - y, bounds);
+            let factor = math::exp(-2.0 * y);
+            let driven = size * math::exp(power * y);
+            let behind = if behind.is_empty() {
+                self.output
+            } else {
+                rest.inertia
+            };
+            let own = power * driven - 2.0 * factor * behind;
+            let mut ratios = PerStage::new();
+            // Cannot fail: one ratio a stage.
+            let _ = ratios.push(math::exp(y));
+            ratios.extend(rest.ratios);
+            Rest {
+                inertia: stage.driver + driven + factor * behind,
+                slope: factor * rest.slope,
+                own,
+                ratios,
+            }
+        };
+        if behind.is_empty() {
+            let only = with(total);
+            return Rest {
+                slope: only.own,
+                ..only
+            };
+        }
+        // What the stages behind can take bounds this one as well.
+        let sum = |end: usize| behind.iter().filter_map(|ends| ends.get(end)).sum::<f64>();
+        let least = (total - sum(1)).max(*low);
+        let most = (total - sum(0)).min(*high).max(least);
+        let (mut below, mut above) = (least, most);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (below + above);
+            let here = with(middle);
+            if here.own < here.slope {
+                below = middle;
+            } else {
+                above = middle;
+            }
+        }
+        // A minimum at an end of the range is exactly there.
+        let y = match (below > least, above < most) {
+            (false, true) => least,
+            (true, false) => most,
+            _ => 0.5 * (below + above),
+        };
+        let best = with(y);
+        // Held by a bound of its own, this stage leaves more ratio to those behind; held by theirs, it takes it itself.
+        let own_bound = y <= *low || y >= *high;
+        let slope = if own_bound { best.slope } else { best.own };
+        Rest { slope, ..best }
+    }
+}
+
+/// The best split of the stages behind some shaft.
+#[derive(Clone, Debug, Default)]
+struct Rest {
+    /// Inertia at that shaft.
+    inertia: f64,
+    /// By the logarithm of their ratio.
+    slope: f64,
+    /// By y of their first stage alone.
+    own: f64,
+    ratios: PerStage,
+}
