@@ -50,7 +50,7 @@ type Words = [f32; WORDS];
 
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
-        println!("{}", error);
+        println!("{error}");
         Self::Claim("the machine was refused")
     }
 }
@@ -112,7 +112,7 @@ fn check(words: &Words, links: [Link; 3]) -> Result<(), Failure> {
         (sum ^ word.to_bits()).wrapping_mul(16_777_619)
     });
     let error = milli(found.torque_error as f32 * 1000.0);
-    println!("table {:08x}, torque exact to {} uN m", sum, error);
+    println!("table {sum:08x}, torque exact to {error} uN m");
     if found.torque_error > DESIGN.torque_error {
         return Err("the table is not as exact as it was designed for".into());
     }

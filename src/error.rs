@@ -63,6 +63,11 @@ pub enum Error {
         /// How far off it is (m, or rad).
         gap: f64,
     },
+    /// Inertia or load are not the same one turn of the drive link later.
+    NotPeriodic {
+        /// Angle of the drive link (rad).
+        phi: f64,
+    },
     /// The joints do not leave the links exactly one freedom.
     Mobility {
         /// Number of moving links.
@@ -177,49 +182,6 @@ impl fmt::Display for Error {
                  make the rod longer than crank + |offset| = {shortest_rod} m, or shorten the crank or the offset",
                 phi.to_degrees()
             ),
-            Self::DeadPoint { phi, joint } => write!(
-                f,
-                "dead point: the drive cannot move the mechanism at {}; joint {joint} locks",
-                Place(phi)
-            ),
-            Self::CannotAssemble { phi, joint, gap } => write!(
-                f,
-                "the mechanism cannot be assembled at {}: joint {joint} stays open by {gap:.3e}",
-                Place(phi)
-            ),
-            Self::BranchChange { phi, joint } => write!(
-                f,
-                "the mechanism changes to another branch at {}, where joint {joint} is stretched or folded",
-                Place(phi)
-            ),
-            Self::NotClosed { link, gap } => write!(
-                f,
-                "after a turn of the drive link, link {link} is {gap:.3e} off its first position: the mechanism does not close"
-            ),
-            Self::Mobility { links, constraints } => {
-                let freedoms = 3 * links as i64 - constraints as i64;
-                write!(
-                    f,
-                    "the mechanism has {freedoms} degrees of freedom, not one: 3·{links} links − {constraints} constraints"
-                )
-            }
-            Self::OverConstrained { joint, free } => write!(
-                f,
-                "joint {joint} holds links that other joints hold already, while link {free} is free"
-            ),
-            Self::NotAPair => f.write_str(
-                "a transmission is not a pair of a linkage: its geometry is not known; use gears, a rack or a belt",
-            ),
-            Self::NotADrive { joint } => write!(
-                f,
-                "joint {joint} cannot be driven: the drive of a linkage must be a pin or a guide"
-            ),
-            Self::NoSuchJoint { joint, joints } => {
-                write!(
-                    f,
-                    "joint {joint} cannot be used: the mechanism has {joints} joints, counted from 0"
-                )
-            }
             Self::NoSuchLink { link, links } => {
                 write!(
                     f,
@@ -271,6 +233,66 @@ impl fmt::Display for Error {
                     "the buffer holds {given} elements, but {needed} are needed"
                 )
             }
+            ref of_joints => of_joints.fmt_joints(f),
+        }
+    }
+}
+
+impl Error {
+    /// What can be wrong with links and joints.
+    fn fmt_joints(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::DeadPoint { phi, joint } => write!(
+                f,
+                "dead point: the drive cannot move the mechanism at {}; joint {joint} locks",
+                Place(phi)
+            ),
+            Self::CannotAssemble { phi, joint, gap } => write!(
+                f,
+                "the mechanism cannot be assembled at {}: joint {joint} stays open by {gap:.3e}",
+                Place(phi)
+            ),
+            Self::BranchChange { phi, joint } => write!(
+                f,
+                "the mechanism changes to another branch at {}, where joint {joint} is stretched or folded",
+                Place(phi)
+            ),
+            Self::NotClosed { link, gap } => write!(
+                f,
+                "after a turn of the drive link, link {link} is {gap:.3e} off its first position: the mechanism does not close"
+            ),
+            Self::NotPeriodic { phi } => write!(
+                f,
+                "inertia or load at {} are not the same a turn of the drive link later: a spring, or a force of fixed \
+                 direction, acts on a link that does not come back; attach it elsewhere, or limit the drive by a stroke",
+                Place(phi)
+            ),
+            Self::Mobility { links, constraints } => {
+                let freedoms = 3 * links as i64 - constraints as i64;
+                write!(
+                    f,
+                    "the mechanism has {freedoms} degrees of freedom, not one: 3·{links} links − {constraints} constraints"
+                )
+            }
+            Self::OverConstrained { joint, free } => write!(
+                f,
+                "joint {joint} holds links that other joints hold already, while link {free} is free"
+            ),
+            Self::NotAPair => f.write_str(
+                "a transmission is not a pair of a linkage: its geometry is not known; use gears, a rack or a belt",
+            ),
+            Self::NotADrive { joint } => write!(
+                f,
+                "joint {joint} cannot be driven: the drive of a linkage must be a pin or a guide"
+            ),
+            Self::NoSuchJoint { joint, joints } => {
+                write!(
+                    f,
+                    "joint {joint} cannot be used: the mechanism has {joints} joints, counted from 0"
+                )
+            }
+            // Written by `fmt`; never nothing.
+            ref other => write!(f, "{other:?}"),
         }
     }
 }

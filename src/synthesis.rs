@@ -259,7 +259,12 @@ impl RatioSplit {
 
     fn minimum(&self, bounds: [[f64; 2]; MAX_STAGES]) -> Split {
         let bounds = bounds.get(..self.stages()).unwrap_or_default();
-        self.split(self.rest(0, math::ln(self.ratio), bounds).ratios)
+        let mut ratios = self.rest(0, math::ln(self.ratio), bounds).ratios;
+        // ln and exp leave a rounding beyond a bound.
+        for ratio in &mut ratios {
+            *ratio = ratio.clamp(self.bounds[0], self.bounds[1]);
+        }
+        self.split(ratios)
     }
 
     fn split(&self, ratios: PerStage) -> Split {

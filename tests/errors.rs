@@ -4,11 +4,14 @@ mod support;
 
 use std::f64::consts::PI;
 
-use jred::mechanism::{Branch, Mesh, SliderCrank, Stage, Train};
+use jred::mechanism::{Branch, Mesh, RackAndPinion, SliderCrank, Stage, Train};
 use jred::motion::{Law, Move};
-use jred::table::{CubicSpline, MAX_CELLS, fit_bounded, fit_periodic};
+use jred::table::{CubicSpline, MAX_CELLS, curves, fit_bounded, fit_periodic};
 use jred::tabulate::{Request, fill, tabulate};
-use jred::{Action, Domain, Error, Link, Load, Machine, Mechanism, Q31, Reducible, Scale, Window};
+use jred::{
+    Action, Domain, Element, Error, Link, Load, Machine, Marker, Mechanism, Q31, Reducible, Scale,
+    Window,
+};
 use support::machines::Wave;
 use support::{assert_near, budget, words};
 
@@ -350,4 +353,26 @@ fn tables_that_cannot_be_made_say_why() {
         says(refused, &["greater than zero"]);
     }
     says(CubicSpline::new([0.0; 6]), &["holds 6", "7"]);
+}
+
+/// One turn's table of a rack that pulls a spring would be wrong from the second turn on.
+#[test]
+fn a_load_that_does_not_repeat_is_not_tabulated() {
+    let rack = Link::new(2.0, 0.0, [0.0, 0.0]).unwrap();
+    let rack = RackAndPinion::new(0.03, [Link::rotor(0.01).unwrap(), rack]).unwrap();
+    let machine = Machine::new(rack);
+    assert!(words::<f64, { curves::LOAD }>(&machine, 16, &Scale::SI).is_ok());
+    let between = [Marker::ground([-1.0, -0.03]), Marker::on(1, [0.0, 0.0])];
+    let spring = Element::spring(between, 500.0, 0.4).unwrap();
+    let sprung = machine.with_element(spring).unwrap();
+    let refused = words::<f64, { curves::LOAD }>(&sprung, 16, &Scale::SI).unwrap_err();
+    assert_eq!(refused, Error::NotPeriodic { phi: 0.4 });
+    says::<()>(
+        Err(refused),
+        &[
+            "inertia or load at φ = 22.92°",
+            "a spring",
+            "limit the drive by a stroke",
+        ],
+    );
 }

@@ -193,7 +193,7 @@ proptest! {
             prop_assert!((frame.psi.value - speed * phi).abs() <= budget::POSITION * (1.0 + (speed * phi).abs()));
         }
         let (now, later) = (machine.reduction(phi).unwrap(), machine.reduction(phi + TAU).unwrap());
-        prop_assert!((now.inertia[0] - later.inertia[0]).abs() <= 1e-12 * now.inertia[0]);
+        prop_assert!((now.inertia[0] - later.inertia[0]).abs() <= budget::A_TURN_LATER * now.inertia[0]);
         assert_near("load", later.load_torque(), now.load_torque(), budget::CLOSED_FORM * now.load_torque().abs());
         // The whole is in equilibrium: moments of the ground, the drive and the load, and inertia.
         let forces = machine.forces(phi, 0.0, 0.0).unwrap();
@@ -202,7 +202,7 @@ proptest! {
         let moment = load.wrench(&frames[load.link()], phi, 0.0).moment;
         let held = forces.reactions[index(machine.mechanism().fixed())].moment;
         let sum = forces.drive + moment + held;
-        prop_assert!(sum.abs() <= 1e-9 * (forces.drive.abs() + moment.abs() + held.abs()), "{sum}");
+        prop_assert!(sum.abs() <= budget::DALEMBERT * (forces.drive.abs() + moment.abs() + held.abs()), "{sum}");
     }
 }
 

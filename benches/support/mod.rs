@@ -3,10 +3,6 @@
 use jred::mechanism::{Assembly, FourBar, Linkage, Pair, Pose, Side};
 use jred::{Domain, Error, Joint, Link, Marker};
 
-/// Whether the program is compiled for double precision in hardware.
-#[cfg(target_os = "none")]
-pub(crate) const HARDWARE_DOUBLES: bool = cfg!(target_feature = "fp64");
-
 pub(crate) const O: [f64; 2] = [0.0, 0.0];
 
 pub(crate) const fn pin(a: Marker, b: Marker) -> Pair {

@@ -41,6 +41,7 @@ pub enum Command {
 
 /// `jred reduce`
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own")]
 pub struct Reduce {
     /// Machine file.
     pub file: PathBuf,

@@ -8,12 +8,12 @@ use miette::{IntoDiagnostic as _, Result, WrapErr as _, miette};
 
 use crate::catalogue::Catalogue;
 use crate::cli;
+use crate::coordinate::Coordinate;
 use crate::duty::Duty;
 use crate::export::Export;
+use crate::inspect::{self, Findings};
 use crate::machine::MachineFile;
 use crate::motion::Motion;
-use crate::coordinate::Coordinate;
-use crate::inspect::{self, Findings};
 use crate::output::Format;
 use crate::reduce::{self, Over, Sets, reduce};
 use crate::size::Selection;
@@ -107,11 +107,16 @@ fn run_reduce(options: &cli::Reduce) -> Result<Done> {
         Format::Table => {
             let mut text = columns.write(Format::Table, &title);
             if !largest.is_empty() {
-                let sentences: Vec<String> = largest.iter().map(reduce::Largest::sentence).collect();
-                text += &format!("largest: {}\n", sentences.join("; "));
+                let sentences: Vec<String> =
+                    largest.iter().map(reduce::Largest::sentence).collect();
+                text += "largest: ";
+                text += &sentences.join("; ");
+                text += "\n";
             }
             if let Some(path) = &options.report {
-                text += &format!("report written to {}\n", path.display());
+                text += "report written to ";
+                text += &path.display().to_string();
+                text += "\n";
             }
             print(&text)
         }
@@ -131,7 +136,8 @@ fn state(options: &cli::Reduce, file: &MachineFile) -> Result<Option<[f64; 2]>> 
         return Ok(None);
     };
     let coordinate = Coordinate::of(file.machine.mechanism()).into_diagnostic()?;
-    let refused = |name: &str, text: &str, why: &str| miette!("--{name} {text:?} cannot be used: {why}");
+    let refused =
+        |name: &str, text: &str, why: &str| miette!("--{name} {text:?} cannot be used: {why}");
     let omega =
         input::drive_speed(speed, coordinate).map_err(|why| refused("speed", speed, &why))?;
     let alpha = match &options.accel {

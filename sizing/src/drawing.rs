@@ -108,7 +108,8 @@ fn draw(mechanism: &AnyMechanism, sketch: &Sketch, pose: &Pose, place: &str) -> 
         canvas: &mut canvas,
         scale: view.scale,
     };
-    pen.canvas.open("translate(0 0)", "class=\"ground\"".to_owned(), "");
+    pen.canvas
+        .open("translate(0 0)", "class=\"ground\"".to_owned(), "");
     for part in &sketch.ground {
         pen.ground(part, &|at| view.page(at));
     }
@@ -123,8 +124,11 @@ fn draw(mechanism: &AnyMechanism, sketch: &Sketch, pose: &Pose, place: &str) -> 
             let [x, y] = view.page([x, y]);
             let transform = format!("translate({x:.2} {y:.2}) rotate({:.3})", -psi.to_degrees());
             if parts.iter().any(sketch::Part::leaves_ghosts) {
-                pen.canvas.open(&transform, "class=\"ghost\"".to_owned(), "");
-                parts.iter().for_each(|part| pen.ghost(part));
+                pen.canvas
+                    .open(&transform, "class=\"ghost\"".to_owned(), "");
+                for part in parts {
+                    pen.ghost(part);
+                }
                 pen.canvas.close();
             }
         }
@@ -158,8 +162,11 @@ fn draw(mechanism: &AnyMechanism, sketch: &Sketch, pose: &Pose, place: &str) -> 
         let transform = format!("translate({x:.2} {y:.2})");
         pen.canvas
             .open(&transform, format!("data-point=\"{k}\""), "");
-        pen.canvas
-            .circle([0.0, 0.0], 2.2, &Ink::line("#1d2733", 0.0).filled("#1d2733"));
+        pen.canvas.circle(
+            [0.0, 0.0],
+            2.2,
+            &Ink::line("#1d2733", 0.0).filled("#1d2733"),
+        );
         pen.canvas
             .text([9.0, -9.0], Anchor::Start, &point.name, "#1d2733");
         pen.canvas.close();

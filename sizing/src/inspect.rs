@@ -6,20 +6,18 @@
 //! an index of 0.643. Below 0.3, an angle of 17.5°, forces and play are more than three times those at 90°: the mechanism is
 //! near a dead point, and the check fails.
 
-use std::fmt::Write as _;
-
 use jred::joint::Joints;
 use jred::mechanism::Frames;
 use jred::{Body, Domain, Error, Frame, Joint, Jointed as _, Mechanism as _};
 use serde::Serialize;
-use serde_json::{Value, json};
 
 use crate::coordinate::{Coordinate, whole_range};
 use crate::machine::{AnyMechanism, MachineFile};
-use crate::output::{short, text_table};
+use crate::output::short;
 
 mod agreement;
 mod centres;
+mod text;
 mod transmission;
 
 pub use agreement::{Agreement, Inertia};
@@ -119,7 +117,9 @@ impl Findings {
             transmission: transmission(file)?,
             inertia: agreement::inertia(file)?,
             agreement: agreement::agreement(file)?,
-            notes: Vec::new(),
+            notes: crate::variator::integrability_text(file)
+                .into_iter()
+                .collect(),
         })
     }
 
@@ -136,7 +136,10 @@ impl Findings {
     pub fn violations(&self) -> Vec<String> {
         let mut violations = Vec::new();
         if self.freedoms() != 1 {
-            violations.push(format!("{} degrees of freedom instead of one", self.freedoms()));
+            violations.push(format!(
+                "{} degrees of freedom instead of one",
+                self.freedoms()
+            ));
         }
         if let Some(gap) = self.closure.filter(|gap| *gap > CLOSED) {
             violations.push(format!("the mechanism does not close: after a turn the speeds of its links are {gap:.1e} off"));
@@ -150,7 +153,8 @@ impl Findings {
                 ));
             }
             if !transmission.branch_kept {
-                violations.push("the mechanism changes its branch: it passes a dead point".to_owned());
+                violations
+                    .push("the mechanism changes its branch: it passes a dead point".to_owned());
             }
         }
         if self.agreement.dalembert > AGREED {
@@ -166,141 +170,6 @@ impl Findings {
     pub fn holds(&self) -> bool {
         self.violations().is_empty()
     }
-
-    /// For reading.
-    pub fn text(&self) -> String {
-        let c = self.coordinate;
-        let mut text = format!("{}: {}\n\n", self.title, self.kind);
-        let _ = writeln!(
-            text,
-            "degrees of freedom: 3·{} links − {} constraints = {}",
-            self.links,
-            self.constraints(),
-            self.freedoms()
-        );
-        let mut table = text_table(&["joint", "kind", "first body", "second body", "constraints", ""]);
-        for joint in &self.joints {
-            let [first, second] = joint.bodies.clone();
-            table.add_row([
-                joint.name.clone(),
-                joint.kind.to_owned(),
-                first,
-                second,
-                joint.constraints.to_string(),
-                if joint.driven { "drive" } else { "" }.to_owned(),
-            ]);
-        }
-        let _ = writeln!(text, "{table}\n");
-        let range = match self.domain {
-            Domain::Turn => "a full turn".to_owned(),
-            Domain::Stroke { from, to } => format!(
-                "{} = {} to {} {}",
-                c.symbol(),
-                short(c.shown(from)),
-                short(c.shown(to)),
-                c.unit()
-            ),
-        };
-        let _ = writeln!(text, "range of the drive link: {range}");
-        if let Some(gap) = self.closure {
-            let gap = exponent(gap);
-            let _ = writeln!(text, "closure: the speeds of all links repeat after a turn to {gap}");
-        }
-        for travel in &self.travels {
-            let _ = writeln!(text, "{}", travel.sentence(c));
-        }
-        if let Some(transmission) = &self.transmission {
-            let verdict = if transmission.index < NEAR_DEAD_POINT {
-                "NEAR A DEAD POINT"
-            } else if transmission.index < RECOMMENDED {
-                "poorer than the recommended 40 deg"
-            } else {
-                "ok"
-            };
-            let _ = writeln!(
-                text,
-                "smallest transmission index: {} at {} (a transmission angle of {} deg; {}): {verdict}",
-                short(transmission.index),
-                c.place(transmission.at),
-                short(transmission.angle),
-                transmission.links.join(", ")
-            );
-            let branch = if transmission.branch_kept { "kept over the whole range" } else { "CHANGES" };
-            let _ = writeln!(text, "branch: {branch}");
-        }
-        let [min, mean, max] = self.inertia.reduced;
-        let _ = writeln!(
-            text,
-            "{}: {} to {} {}, mean {}; flywheel and drive train {} of it",
-            c.inertia(),
-            short(min),
-            short(max),
-            c.inertia_unit(),
-            short(mean),
-            short(self.inertia.flywheel)
-        );
-        let _ = writeln!(text, "mass of the links: {} kg", short(self.inertia.mass));
-        let _ = writeln!(
-            text,
-            "drive {} by d'Alembert against the reduced equation: {} of its largest term{}",
-            if c == Coordinate::Angle { "torque" } else { "force" },
-            exponent(self.agreement.dalembert),
-            if self.agreement.of_motion { "" } else { ", at unit speed" }
-        );
-        if let Some(balance) = self.agreement.energy {
-            let _ = writeln!(
-                text,
-                "energy balance over the motion: {} of the energy that the drive moves",
-                exponent(balance)
-            );
-        }
-        for note in &self.notes {
-            let _ = writeln!(text, "{note}");
-        }
-        let violations = self.violations();
-        if violations.is_empty() {
-            text += "\nevery rule holds\n";
-        }
-        for violation in violations {
-            let _ = writeln!(text, "\nviolated: {violation}");
-        }
-        text
-    }
-
-    /// Everything, with every digit.
-    pub fn json(&self) -> Value {
-        let range = match self.domain {
-            Domain::Turn => json!("turn"),
-            Domain::Stroke { from, to } => json!([from, to]),
-        };
-        json!({
-            "schema": "jred-check/1",
-            "title": self.title,
-            "mechanism": self.kind,
-            "drive coordinate": match self.coordinate { Coordinate::Angle => "angle [rad]", Coordinate::Length => "displacement [m]" },
-            "degrees of freedom": self.freedoms(),
-            "links": self.links,
-            "constraints": self.constraints(),
-            "joints": self.joints,
-            "range": range,
-            "closure": self.closure,
-            "travels": self.travels,
-            "transmission": self.transmission,
-            "inertia": self.inertia,
-            "agreement": self.agreement,
-            "notes": self.notes,
-            "violations": self.violations(),
-        })
-    }
-}
-
-/// A small share, such as `1.6e-16`.
-fn exponent(x: f64) -> String {
-    if x == 0.0 {
-        "0".to_owned()
-    } else {
-        format!("{x:.1e}")
-    }
 }
 
 fn body_name(mechanism: &AnyMechanism, body: Body) -> String {
@@ -313,7 +182,10 @@ fn body_name(mechanism: &AnyMechanism, body: Body) -> String {
 fn joint_findings(mechanism: &AnyMechanism, joints: &[Joint]) -> Vec<JointFinding> {
     let names = mechanism.joint_names();
     let finding = |(k, joint): (usize, &Joint)| JointFinding {
-        name: names.get(k).cloned().unwrap_or_else(|| format!("joint {k}")),
+        name: names
+            .get(k)
+            .cloned()
+            .unwrap_or_else(|| format!("joint {k}")),
         kind: match joint {
             Joint::Revolute(_) => "pin",
             Joint::Prismatic(_) => "guide",
@@ -330,7 +202,10 @@ fn joint_findings(mechanism: &AnyMechanism, joints: &[Joint]) -> Vec<JointFindin
 
 /// The size of a mechanism: the largest distance between two of its joints (m).
 fn size(joints: &[Joint], frames: &Frames) -> f64 {
-    let points: Vec<[f64; 2]> = joints.iter().flat_map(|joint| points(joint, frames)).collect();
+    let points: Vec<[f64; 2]> = joints
+        .iter()
+        .flat_map(|joint| points(joint, frames))
+        .collect();
     let mut most = 0.0f64;
     for a in &points {
         for b in &points {
@@ -447,8 +322,15 @@ fn transmission(file: &MachineFile) -> Result<Option<Transmission>, Error> {
     Ok(Some(Transmission {
         index: least,
         angle: least.min(1.0).asin().to_degrees(),
-        at: if mechanism.domain() == Domain::Turn { phi.rem_euclid(std::f64::consts::TAU) } else { phi },
-        links: links.iter().filter_map(|&k| names.get(k).cloned()).collect(),
+        at: if mechanism.domain() == Domain::Turn {
+            phi.rem_euclid(std::f64::consts::TAU)
+        } else {
+            phi
+        },
+        links: links
+            .iter()
+            .filter_map(|&k| names.get(k).cloned())
+            .collect(),
         branch_kept,
     }))
 }

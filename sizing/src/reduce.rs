@@ -30,6 +30,10 @@ pub enum Over {
 
 /// Which columns there are beside the position.
 #[derive(Clone, Copy, Debug, Default)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each set is there or not, whatever the others"
+)]
 pub struct Sets {
     /// The reduced link and the motion's drive torque.
     pub curves: bool,

@@ -11,6 +11,7 @@ use crate::output::{Columns, rounded, short};
 use crate::rules::Rules;
 use crate::size::{RANKING, Selection};
 
+mod extract;
 mod figures;
 mod mechanism;
 
@@ -124,10 +125,7 @@ pub fn page(
         speed_time: figures::speed_over_time(best, duty),
         drawing: crate::drawing::still(file.machine.mechanism())?,
         inertia: figures::reduced_inertia(file)?,
-        reduced: figures::reduced_torque(
-            file,
-            duty.integral(|i| i.omega.abs()) / duty.duration,
-        )?,
+        reduced: figures::reduced_torque(file, duty.integral(|i| i.omega.abs()) / duty.duration)?,
         terms: figures::terms(duty),
         links: figures::links(file)?,
         duty: duty_rows(best, duty),

@@ -9,7 +9,9 @@ use serde_json::Value;
 use support::{Folder, edited_press, jred, near, press_file, within};
 
 fn check(file: &Path, code: i32) -> Value {
-    jred([&"check", &file, &"--format", &"json"]).ends(code).json()
+    jred([&"check", &file, &"--format", &"json"])
+        .ends(code)
+        .json()
 }
 
 fn number(value: &Value) -> f64 {
@@ -20,7 +22,10 @@ fn number(value: &Value) -> f64 {
 fn the_press() {
     let found = check(&press_file(), 0);
     assert_eq!(found["degrees of freedom"], 1);
-    assert_eq!((&found["links"], &found["constraints"]), (&3.into(), &8.into()));
+    assert_eq!(
+        (&found["links"], &found["constraints"]),
+        (&3.into(), &8.into())
+    );
     let joints = found["joints"].as_array().unwrap();
     assert_eq!(joints.len(), 4);
     assert_eq!(joints[0]["driven"], true);
@@ -29,7 +34,10 @@ fn the_press() {
     assert_eq!(found["range"], "turn");
     assert!(number(&found["closure"]) < 1e-14);
     let travel = &found["travels"][0];
-    assert_eq!((&travel["link"], &travel["way"]), (&"slider".into(), &"slides".into()));
+    assert_eq!(
+        (&travel["link"], &travel["way"]),
+        (&"slider".into(), &"slides".into())
+    );
     near("stroke", number(&travel["stroke"]), 0.06, 1e-12);
     let centres = travel["dead_centres"].as_array().unwrap();
     assert_eq!(centres.len(), 2);
@@ -38,7 +46,12 @@ fn the_press() {
     near("TDC", number(&centres[1][0]), PI, 1e-9);
     // The rod against the guide: the cosine of the largest angle, sin β = r/l.
     let index = (1.0 - 1.0 / 36.0f64).sqrt();
-    near("index", number(&found["transmission"]["index"]), index, 1e-12);
+    near(
+        "index",
+        number(&found["transmission"]["index"]),
+        index,
+        1e-12,
+    );
     assert_eq!(found["transmission"]["branch_kept"], true);
     near("mass", number(&found["inertia"]["mass"]), 57.5, 1e-14);
     assert!(number(&found["agreement"]["dalembert"]) < 1e-12);
@@ -64,9 +77,19 @@ fn dead_centres_of_an_offset_slider() {
     let centres = &found["travels"][0]["dead_centres"];
     let (r, l, e) = (0.03f64, 0.18f64, 0.024f64);
     near("far", number(&centres[0][0]), (e / (l + r)).asin(), 1e-9);
-    near("near", number(&centres[1][0]), PI + (e / (l - r)).asin(), 1e-9);
+    near(
+        "near",
+        number(&centres[1][0]),
+        PI + (e / (l - r)).asin(),
+        1e-9,
+    );
     let stroke = ((l + r).powi(2) - e * e).sqrt() - ((l - r).powi(2) - e * e).sqrt();
-    near("stroke", number(&found["travels"][0]["stroke"]), stroke, 1e-12);
+    near(
+        "stroke",
+        number(&found["travels"][0]["stroke"]),
+        stroke,
+        1e-12,
+    );
 }
 
 const FOUR_BAR: &str = r#"
@@ -93,7 +116,7 @@ inertia = "0.0025 kg m^2"
 #[test]
 fn the_index_of_a_four_bar_is_the_sine_of_its_transmission_angle() {
     let folder = Folder::new();
-    for (rocker, code) in [(0.18f64, 0), (0.13, 0), (0.16, 0)] {
+    for (rocker, code) in [(0.18f64, 0), (0.17, 0), (0.2, 0)] {
         let text = FOUR_BAR.replace("\"180 mm\"", &format!("\"{} mm\"", rocker * 1e3));
         let found = check(&folder.file("four-bar.toml", text), code);
         let (a, b, g) = (0.08f64, 0.25f64, 0.3f64);
@@ -104,8 +127,16 @@ fn the_index_of_a_four_bar_is_the_sine_of_its_transmission_angle() {
         let least = sine(g - a).min(sine(g + a));
         let transmission = &found["transmission"];
         near("index", number(&transmission["index"]), least, 1e-9);
-        near("angle", number(&transmission["angle [deg]"]), least.asin().to_degrees(), 1e-9);
-        assert_eq!(transmission["links"], serde_json::json!(["coupler", "rocker"]));
+        near(
+            "angle",
+            number(&transmission["angle [deg]"]),
+            least.asin().to_degrees(),
+            1e-9,
+        );
+        assert_eq!(
+            transmission["links"],
+            serde_json::json!(["coupler", "rocker"])
+        );
         // The rocker turns back where crank and coupler are in line: cosines in the triangles with b ± a.
         let angle = |reach: f64| {
             PI - ((g * g + rocker * rocker - reach * reach) / (2.0 * g * rocker)).acos()
@@ -123,15 +154,28 @@ fn too_near_a_dead_point() {
     let file = folder.file("short.toml", text);
     let found = check(&file, 1);
     let index = (1.0 - (30.0f64 / 31.0).powi(2)).sqrt();
-    near("index", number(&found["transmission"]["index"]), index, 1e-9);
+    near(
+        "index",
+        number(&found["transmission"]["index"]),
+        index,
+        1e-9,
+    );
     let violation = found["violations"][0].as_str().unwrap();
-    assert!(violation.contains("too near a dead point: transmission index 0.252"), "{violation}");
+    assert!(
+        violation.contains("too near a dead point: transmission index 0.2519 at φ = "),
+        "{violation}"
+    );
     let text = jred([&"check", &file]).ends(1).out;
     assert!(text.contains("NEAR A DEAD POINT") && text.contains("violated: too near a dead point"));
     // In between: poorer than recommended, but no violation.
     let text = edited_press("length = \"180 mm\"", "length = \"36 mm\"");
-    let text = jred([&"check", &folder.file("fair.toml", text)]).ends(0).out;
-    assert!(text.contains("poorer than the recommended 40 deg"), "{text}");
+    let text = jred([&"check", &folder.file("fair.toml", text)])
+        .ends(0)
+        .out;
+    assert!(
+        text.contains("poorer than the recommended 40 deg"),
+        "{text}"
+    );
     jred([&"check", &folder.path("nothing.toml")]).ends(2);
 }
 
@@ -142,7 +186,12 @@ fn a_train() {
     let found = check(&train, 0);
     near("index", number(&found["transmission"]["index"]), 1.0, 1e-15);
     assert_eq!(found["travels"][0]["way"], "turns");
-    near("advance", number(&found["travels"][0]["stroke"]), -2.0 * PI / 3.0, 1e-12);
+    near(
+        "advance",
+        number(&found["travels"][0]["stroke"]),
+        -2.0 * PI / 3.0,
+        1e-12,
+    );
     assert_eq!(found["agreement"]["of_motion"], true);
 }
 
@@ -153,6 +202,13 @@ fn every_example_machine() {
     for entry in std::fs::read_dir(folder).unwrap() {
         let file = entry.unwrap().path();
         if file.extension().is_none_or(|e| e != "toml") {
+            continue;
+        }
+        // A variator has no angle-dependent link to check by.
+        if std::fs::read_to_string(&file)
+            .unwrap()
+            .contains("[variator")
+        {
             continue;
         }
         let found = check(&file, 0);

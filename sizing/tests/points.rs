@@ -74,10 +74,20 @@ fn transfer_functions_are_the_golden_ones() {
         ("rod psi' [rad/rad]", "dth"),
         ("rod psi'' [rad/rad^2]", "d2th"),
     ] {
-        near_column(column, &found.get(column), &golden(name), budget::CLOSED_FORM);
+        near_column(
+            column,
+            &found.get(column),
+            &golden(name),
+            budget::CLOSED_FORM,
+        );
     }
     let psi: Vec<f64> = golden("th").iter().map(|x| x.to_degrees()).collect();
-    near_column("rod psi", &found.get("rod psi [deg]"), &psi, budget::CLOSED_FORM);
+    near_column(
+        "rod psi",
+        &found.get("rod psi [deg]"),
+        &psi,
+        budget::CLOSED_FORM,
+    );
     assert!(
         !found.names.iter().any(|name| name.contains("/s")),
         "velocities without a motion: {:?}",
@@ -89,7 +99,12 @@ fn transfer_functions_are_the_golden_ones() {
     assert_eq!(again.names, found.names);
     for name in &found.names {
         // The JSON reader of the test rounds the last digit.
-        near_column(name, &again.get(name), &found.get(name), budget::CLOSED_FORM);
+        near_column(
+            name,
+            &again.get(name),
+            &found.get(name),
+            budget::CLOSED_FORM,
+        );
     }
 }
 
@@ -111,19 +126,37 @@ fn velocities_and_accelerations_in_time() {
     .columns();
     let (r, l) = (0.03f64, 0.18f64);
     let (omega, alpha) = (-90.0 * std::f64::consts::PI / 30.0, 35.0);
-    let phi: Vec<f64> = found.get("phi [deg]").iter().map(|x| x.to_radians()).collect();
+    let phi: Vec<f64> = found
+        .get("phi [deg]")
+        .iter()
+        .map(|x| x.to_radians())
+        .collect();
     let of = |f: &dyn Fn(f64) -> f64| phi.iter().map(|&phi| f(phi)).collect::<Vec<f64>>();
     // x = r·cos φ + w, w² = l² − r²·sin²φ: w·w′ = −r²·sin φ·cos φ, w·w″ = −w′² − r²·cos 2φ.
     let w = |phi: f64| (l * l - (r * phi.sin()).powi(2)).sqrt();
     let d1 = |phi: f64| -r * r * phi.sin() * phi.cos() / w(phi);
     let d2 = |phi: f64| -(d1(phi).powi(2) + r * r * (2.0 * phi).cos()) / w(phi);
     let v = |phi: f64| (-r * phi.sin() + d1(phi)) * omega;
-    let a = |phi: f64| {
-        (-r * phi.sin() + d1(phi)) * alpha + (-r * phi.cos() + d2(phi)) * omega * omega
-    };
-    near_column("v_x", &found.get("B v_x [m/s]"), &of(&v), budget::CLOSED_FORM);
-    near_column("v", &found.get("B v [m/s]"), &of(&|p| v(p).abs()), budget::CLOSED_FORM);
-    near_column("a_x", &found.get("B a_x [m/s^2]"), &of(&a), budget::CLOSED_FORM);
+    let a =
+        |phi: f64| (-r * phi.sin() + d1(phi)) * alpha + (-r * phi.cos() + d2(phi)) * omega * omega;
+    near_column(
+        "v_x",
+        &found.get("B v_x [m/s]"),
+        &of(&v),
+        budget::CLOSED_FORM,
+    );
+    near_column(
+        "v",
+        &found.get("B v [m/s]"),
+        &of(&|p| v(p).abs()),
+        budget::CLOSED_FORM,
+    );
+    near_column(
+        "a_x",
+        &found.get("B a_x [m/s^2]"),
+        &of(&a),
+        budget::CLOSED_FORM,
+    );
     // The crank pin goes round a circle.
     let speed = of(&|_| r * omega.abs());
     near_column("A v", &found.get("A v [m/s]"), &speed, budget::CLOSED_FORM);
@@ -131,7 +164,12 @@ fn velocities_and_accelerations_in_time() {
     near_column("A a", &found.get("A a [m/s^2]"), &size, budget::CLOSED_FORM);
     // sin β = −(r/l)·sin φ.
     let turn = of(&|p| -r * p.cos() * omega / w(p));
-    near_column("rod", &found.get("rod omega [rad/s]"), &turn, budget::CLOSED_FORM);
+    near_column(
+        "rod",
+        &found.get("rod omega [rad/s]"),
+        &turn,
+        budget::CLOSED_FORM,
+    );
     let slider = found.get("slider alpha [rad/s^2]");
     assert!(slider.iter().all(|x| x.abs() <= 0.0), "{slider:?}");
 }
@@ -153,7 +191,10 @@ fn over_time_velocities_are_those_of_the_motion() {
     .ends(0)
     .columns();
     let (t, x) = (found.get("t [s]"), found.get("rod com x [m]"));
-    let (v, a) = (found.get("rod com v_x [m/s]"), found.get("rod com a_x [m/s^2]"));
+    let (v, a) = (
+        found.get("rod com v_x [m/s]"),
+        found.get("rod com a_x [m/s^2]"),
+    );
     let step = t[1] - t[0];
     let largest = support::largest(&v);
     for k in (4..1990).step_by(97) {
@@ -284,7 +325,12 @@ fn a_sliding_drive_link() {
         let s = FROM + (TO - FROM) * k as f64 / 5.0;
         near("s", row[0].unwrap(), s * 1e3, 1e-12);
         let psi = -HEIGHT / (s * s + HEIGHT * HEIGHT);
-        near("m_red", row[1].unwrap(), 3.0 + 0.04 * psi * psi, budget::CLOSED_FORM);
+        near(
+            "m_red",
+            row[1].unwrap(),
+            3.0 + 0.04 * psi * psi,
+            budget::CLOSED_FORM,
+        );
     }
     let points = Sets {
         points: true,
@@ -302,7 +348,12 @@ fn a_sliding_drive_link() {
         let s = row[0].unwrap() * 1e-3;
         let d = s * s + HEIGHT * HEIGHT;
         let turn = -HEIGHT / d * 0.4;
-        near("lever", row[at("lever omega [rad/s]")].unwrap(), turn, budget::CLOSED_FORM);
+        near(
+            "lever",
+            row[at("lever omega [rad/s]")].unwrap(),
+            turn,
+            budget::CLOSED_FORM,
+        );
         // J·ψ̈ is the pin's moment about the pivot.
         let bend = 2.0 * s * HEIGHT / (d * d) * 0.16 + HEIGHT / d * 2.0;
         let force = row[at("pin, in the slot F [N]")].unwrap();
@@ -323,9 +374,19 @@ fn the_check_of_a_stroke() {
     assert_eq!(travel["way"], "swings");
     let swing = HEIGHT.atan2(FROM) - HEIGHT.atan2(TO);
     near("swing", travel["stroke"].as_f64().unwrap(), swing, 1e-12);
-    near("index", json["transmission"]["index"].as_f64().unwrap(), 1.0, 1e-12);
+    near(
+        "index",
+        json["transmission"]["index"].as_f64().unwrap(),
+        1.0,
+        1e-12,
+    );
     let text = findings.text();
-    for words in ["s = -100 to 150 mm", "no dead centre", "m_red: ", "drive force"] {
+    for words in [
+        "s = -100 to 150 mm",
+        "no dead centre",
+        "m_red: ",
+        "drive force",
+    ] {
         assert!(text.contains(words), "{words} is not in\n{text}");
     }
     let page = jred_sizing::report::mechanism_page("lever.toml", &lever(), Some([0.4, 0.0]));

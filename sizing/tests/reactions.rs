@@ -31,7 +31,10 @@ fn by_hand(phi: f64, omega: f64, alpha: f64, friction: f64, bearing: f64, train:
     // ψ̇ and ψ̈ from L·cos ψ·ψ̇ = −R·cos φ·ω and its derivative.
     let psi1 = -R * c * omega / (L * cos);
     let psi2 = (-R * (c * alpha - s * omega * omega) + L * sin * psi1 * psi1) / (L * cos);
-    let pin = [-R * (s * alpha + c * omega * omega), R * (c * alpha - s * omega * omega)];
+    let pin = [
+        -R * (s * alpha + c * omega * omega),
+        R * (c * alpha - s * omega * omega),
+    ];
     let slider_speed = -R * s * omega - L * sin * psi1;
     let slider = pin[0] - L * (sin * psi2 + cos * psi1 * psi1);
     let rod = [
@@ -40,13 +43,20 @@ fn by_hand(phi: f64, omega: f64, alpha: f64, friction: f64, bearing: f64, train:
     ];
     let crank = pin.map(|a| a * CRANK[2] / R);
     // Friction against the slider's motion; the pressing force is outside its window at the angles of the test.
-    let load = if slider_speed == 0.0 { 0.0 } else { -friction * slider_speed.signum() };
+    let load = if slider_speed == 0.0 {
+        0.0
+    } else {
+        -friction * slider_speed.signum()
+    };
     let s_x = SLIDER * (slider - G) - load;
     // About A: J·ψ̈ + r_c × m·(a − g) = −AB × S.
     let moment = ROD[1] * psi2 + ROD[2] * ROD[0] * (cos * rod[1] - sin * (rod[0] - G));
     let s_y = (L * sin * s_x - moment) / (L * cos);
     let crank_pin = [ROD[0] * (rod[0] - G) + s_x, ROD[0] * rod[1] + s_y];
-    let pivot = [CRANK[0] * (crank[0] - G) + crank_pin[0], CRANK[0] * crank[1] + crank_pin[1]];
+    let pivot = [
+        CRANK[0] * (crank[0] - G) + crank_pin[0],
+        CRANK[0] * crank[1] + crank_pin[1],
+    ];
     let drive = (CRANK[1] + 0.05 + train) * alpha
         + bearing * omega
         + CRANK[2] * CRANK[0] * (c * crank[1] - s * (crank[0] - G))
@@ -85,7 +95,16 @@ fn every_force_of_the_press_by_hand() {
     let rows: Vec<usize> = (0..31).collect(); // up to 300°, before the pressing force
     let hand: Vec<Hand> = rows
         .iter()
-        .map(|&k| by_hand((10.0 * k as f64).to_radians(), omega, alpha, 150.0, 0.4, train))
+        .map(|&k| {
+            by_hand(
+                (10.0 * k as f64).to_radians(),
+                omega,
+                alpha,
+                150.0,
+                0.4,
+                train,
+            )
+        })
         .collect();
     let compare = |column: &str, f: &dyn Fn(&Hand) -> f64| {
         let found: Vec<f64> = rows.iter().map(|&k| found.get(column)[k]).collect();
@@ -93,9 +112,17 @@ fn every_force_of_the_press_by_hand() {
         // At a dead centre sin φ is a rounding, and with it the way that friction acts.
         let ends = |k: &usize| k % 18 != 0;
         let keep = |values: &[f64]| -> Vec<f64> {
-            rows.iter().filter(|k| ends(k)).map(|&k| values[k]).collect()
+            rows.iter()
+                .filter(|k| ends(k))
+                .map(|&k| values[k])
+                .collect()
         };
-        near_column(column, &keep(&found), &keep(&expected), 10.0 * budget::CLOSED_FORM);
+        near_column(
+            column,
+            &keep(&found),
+            &keep(&expected),
+            10.0 * budget::CLOSED_FORM,
+        );
     };
     compare("T_drive [N m]", &|h| h.drive);
     compare("crank pivot F_x [N]", &|h| h.pivot[0]);
@@ -113,7 +140,10 @@ fn every_force_of_the_press_by_hand() {
         within("guide M", found.get("guide M [N m]")[*k], 0.0, 1e-9);
     }
     for name in ["crank pivot M [N m]", "slider pin M [N m]"] {
-        assert!(!found.names.contains(&name.to_owned()), "a pin carries no moment");
+        assert!(
+            !found.names.contains(&name.to_owned()),
+            "a pin carries no moment"
+        );
     }
 }
 
@@ -154,7 +184,12 @@ fn the_drive_torque_is_that_of_the_reduced_equation() {
     let forces = press("--reactions", "time", "csv").columns();
     let curves = curves();
     let torque = "T_drive [N m]";
-    near_column(torque, &forces.get(torque), &curves.get(torque), budget::CLOSED_FORM);
+    near_column(
+        torque,
+        &forces.get(torque),
+        &curves.get(torque),
+        budget::CLOSED_FORM,
+    );
 }
 
 #[test]
@@ -172,12 +207,20 @@ fn the_largest_values_are_found_between_the_rows() {
     .json();
     let all = press("--reactions", "angle", "json").json();
     let rows = Columns::of_json(&all);
-    for (found, again) in few["largest"].as_array().unwrap().iter().zip(all["largest"].as_array().unwrap()) {
+    for (found, again) in few["largest"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .zip(all["largest"].as_array().unwrap())
+    {
         assert_eq!(found, again);
         let name = found["quantity"].as_str().unwrap();
         let most = support::largest(&rows.get(name));
         let value = found["value"].as_f64().unwrap().abs();
-        assert!(value >= most && value < 1.05 * most, "{name}: {value} and {most}");
+        assert!(
+            value >= most && value < 1.05 * most,
+            "{name}: {value} and {most}"
+        );
     }
     let text = press("--reactions", "angle", "table").out;
     let line = text.lines().find(|l| l.starts_with("largest: ")).unwrap();
@@ -192,16 +235,36 @@ fn energies_and_generalised_forces() {
     let curves = curves();
     let [j, u, omega] = ["J_red [kg m^2]", "U [J]", "omega [rad/s]"].map(|name| curves.get(name));
     let kinetic: Vec<f64> = j.iter().zip(&omega).map(|(j, w)| 0.5 * j * w * w).collect();
-    near_column("E", &energy.get("E_kinetic [J]"), &kinetic, budget::CLOSED_FORM);
+    near_column(
+        "E",
+        &energy.get("E_kinetic [J]"),
+        &kinetic,
+        budget::CLOSED_FORM,
+    );
     near_column("U", &energy.get("E_potential [J]"), &u, budget::CLOSED_FORM);
     let parts = ["potential", "process", "viscous", "coulomb"];
     let columns = parts.map(|part| curves.get(&format!("T_drive {part} [N m]")));
     let total: Vec<f64> = (0..180)
         .map(|k| -columns.iter().map(|c| c[k]).sum::<f64>())
         .collect();
-    near_column("Q", &energy.get("Q total [N m]"), &total, budget::CLOSED_FORM);
+    near_column(
+        "Q",
+        &energy.get("Q total [N m]"),
+        &total,
+        budget::CLOSED_FORM,
+    );
     let weight: Vec<f64> = columns[0].iter().map(|x| -x).collect();
-    near_column("weight", &energy.get("Q weight [N m]"), &weight, budget::CLOSED_FORM);
+    near_column(
+        "weight",
+        &energy.get("Q weight [N m]"),
+        &weight,
+        budget::CLOSED_FORM,
+    );
     let friction: Vec<f64> = columns[3].iter().map(|x| -x).collect();
-    near_column("friction", &energy.get("Q guide friction [N m]"), &friction, budget::CLOSED_FORM);
+    near_column(
+        "friction",
+        &energy.get("Q guide friction [N m]"),
+        &friction,
+        budget::CLOSED_FORM,
+    );
 }

@@ -7,7 +7,8 @@
 //! ```
 //!
 //! The rack does not come back after a turn, but J, J′ and every force of a constant or position-free load repeat, so the
-//! drive link's range is a turn. U grows with every turn when gravity has a component along the rack.
+//! drive link's range is a turn. U grows with every turn when gravity has a component along the rack. A spring on the rack does
+//! not repeat: with one, the reduction holds at every φ, but must not be tabulated over a turn.
 
 use core::f64::consts::TAU;
 

@@ -204,3 +204,14 @@ pub(crate) const SPLIT: f64 = 1e-13;
 /// Slopes of J by the logarithm of a stage's ratio at the optimum, of J: the ratio is known to 2⁻⁵⁶ of its range, the slope
 /// changes by up to 16·J with it, and the inner stages' roundings add up.
 pub(crate) const SPLIT_SLOPE: f64 = 1e-12;
+
+/// The same curve some turns later: φ up to 300 rad is known to 2⁻⁵³ of itself, and a Geneva wheel's J″ changes by up to
+/// 10⁴ of its size a radian. Relative to the largest value.
+pub(crate) const A_TURN_LATER: f64 = 1e-9;
+
+/// J and J′ of a Geneva drive 1e-9 rad before and after an edge of the engagement, of the wheel's inertia: J′ changes by
+/// J″ ≤ 1 times the distance.
+pub(crate) const GENEVA_EDGE: f64 = 4e-9;
+
+/// The step of J″ there, whose neighbours are as far away: ten times that a radian.
+pub(crate) const GENEVA_STEP: f64 = 1e-7;

@@ -32,8 +32,7 @@ impl Pen<'_> {
         match part {
             Part::Bar(ends) => {
                 let ends = ends.map(|at| self.local(at));
-                self.canvas
-                    .path(&ends, false, &Ink::line(colour, BAR));
+                self.canvas.path(&ends, false, &Ink::line(colour, BAR));
             }
             Part::Plate(points) | Part::Outline(points) => {
                 let points: Vec<[f64; 2]> = points.iter().map(|&at| self.local(at)).collect();
@@ -110,7 +109,8 @@ impl Pen<'_> {
                 if length > 0.0 {
                     let (from, to) = if down > 0.0 { (a, b) } else { (b, a) };
                     self.hatch(shift(from, 1.0), shift(to, 1.0));
-                    self.canvas.path(&[shift(a, -1.0), shift(b, -1.0)], false, &ink);
+                    self.canvas
+                        .path(&[shift(a, -1.0), shift(b, -1.0)], false, &ink);
                 }
             }
             Part::Block(at, angle) => {
@@ -139,7 +139,8 @@ impl Pen<'_> {
 fn block([x, y]: [f64; 2], angle: f64) -> [[f64; 2]; 4] {
     let (sin, cos) = angle.sin_cos();
     let [l, w] = BLOCK;
-    [[l, w], [-l, w], [-l, -w], [l, -w]].map(|[u, v]| [x + u * cos - v * sin, y - u * sin - v * cos])
+    [[l, w], [-l, w], [-l, -w], [l, -w]]
+        .map(|[u, v]| [x + u * cos - v * sin, y - u * sin - v * cos])
 }
 
 /// The unit vector from `a` to `b`, and their distance.

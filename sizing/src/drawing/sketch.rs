@@ -1,5 +1,6 @@
 //! What is drawn, in metres: parts of links in their own frames, parts of the ground, paths, poses.
 
+use jred::joint::Joints;
 use jred::mechanism::Frames;
 use jred::{Body, Error, Joint, Jointed as _, Marker, Mechanism as _};
 
@@ -100,7 +101,7 @@ impl Sketch {
                     joints.iter().map(|j| &j[k]).zip(&frames).collect();
                 sketch.joint(&first[k], &over_range);
             }
-            let size = extent(&joints, &frames);
+            let size = extent(&joints, &frames, &sketch.points);
             sketch.bodies(mechanism, size);
         }
         sketch.poses = frames.iter().map(|frames| sketch.placed(frames)).collect();
@@ -141,7 +142,11 @@ impl Sketch {
             Joint::Revolute([a, b]) => {
                 // One circle is enough: the fixed one, which stands on its bearing, and else that of the later link.
                 if a.body == Body::Ground || b.body == Body::Ground {
-                    let (fixed, moving) = if a.body == Body::Ground { (a, b) } else { (b, a) };
+                    let (fixed, moving) = if a.body == Body::Ground {
+                        (a, b)
+                    } else {
+                        (b, a)
+                    };
                     self.add(Body::Ground, Part::Pin(fixed.at));
                     self.add(moving.body, Part::Pin(moving.at));
                 } else {
@@ -241,7 +246,10 @@ impl Sketch {
         }
         for (k, radii) in radii.into_iter().enumerate() {
             let radii = if radii.is_empty() { vec![0.5] } else { radii };
-            self.links[k] = radii.into_iter().map(|r| Part::Wheel([0.0; 2], r)).collect();
+            self.links[k] = radii
+                .into_iter()
+                .map(|r| Part::Wheel([0.0; 2], r))
+                .collect();
             self.links[k].push(Part::Pin([0.0; 2]));
             self.ground.push(Part::Pin(self.apart[k]));
         }
@@ -254,7 +262,9 @@ fn is_at_one_point(joints: &[Joint], frames: &Frames, mechanism: &AnyMechanism) 
     let markers = joints.iter().flat_map(markers);
     let mut places = markers.map(|m| m.position(frames).map(|c| c.value));
     let first = places.next().unwrap_or_default();
-    !outlined && mechanism.points().is_empty() && places.all(|place| place == first)
+    !outlined
+        && mechanism.points().is_empty()
+        && places.all(|[x, y]| (x - first[0]).hypot(y - first[1]) <= 0.0)
 }
 
 fn markers(joint: &Joint) -> Vec<Marker> {
@@ -279,11 +289,12 @@ fn along(joint: &Joint, frames: &Frames) -> f64 {
     cos * (at[0] - from[0]) + sin * (at[1] - from[1])
 }
 
-/// Length of the diagonal of all joints over the range (m).
-fn extent(joints: &[jred::joint::Joints], frames: &[Frames]) -> f64 {
+/// Length of the diagonal of all joints and named points over the range (m).
+fn extent(joints: &[Joints], frames: &[Frames], points: &[NamedPoint]) -> f64 {
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for (joints, frames) in joints.iter().zip(frames) {
-        for marker in joints.iter().flat_map(markers) {
+        let named = points.iter().map(|point| Marker::on(point.link, point.at));
+        for marker in joints.iter().flat_map(markers).chain(named) {
             let at = marker.position(frames).map(|c| c.value);
             for k in 0..2 {
                 low[k] = low[k].min(at[k]);

@@ -48,10 +48,22 @@ impl View {
             let span = high[k] - low[k];
             if span.is_finite() { span } else { 0.0 }
         });
-        let middle = [0, 1].map(|k| if span[k] > 0.0 { low[k].midpoint(high[k]) } else { low[k] });
+        let middle = [0, 1].map(|k| {
+            if span[k] > 0.0 {
+                low[k].midpoint(high[k])
+            } else {
+                low[k]
+            }
+        });
         let middle = middle.map(|m| if m.is_finite() { m } else { 0.0 });
         let room = [WIDTH - 2.0 * MARGIN, HEIGHT[1] - 2.0 * MARGIN];
-        let scales = [0, 1].map(|k| if span[k] > 0.0 { room[k] / span[k] } else { f64::INFINITY });
+        let scales = [0, 1].map(|k| {
+            if span[k] > 0.0 {
+                room[k] / span[k]
+            } else {
+                f64::INFINITY
+            }
+        });
         let scale = scales[0].min(scales[1]);
         let scale = if scale.is_finite() { scale } else { 1.0 };
         let height = (span[1] * scale + 2.0 * MARGIN).clamp(HEIGHT[0], HEIGHT[1]);

@@ -49,12 +49,7 @@ pub(super) fn read(root: &Section, drive: DriveLink) -> Result<Train> {
 }
 
 /// The last stage moves as the drive link does.
-fn fits(
-    item: &Item,
-    linear: Option<&(Item, &str)>,
-    drive: DriveLink,
-    empty: bool,
-) -> Result<()> {
+fn fits(item: &Item, linear: Option<&(Item, &str)>, drive: DriveLink, empty: bool) -> Result<()> {
     match (linear, drive.slides()) {
         (Some((word, _)), false) => Err(word
             .problem(

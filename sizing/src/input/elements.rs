@@ -8,9 +8,7 @@ use crate::coordinate::Coordinate;
 use crate::machine::{AnyMechanism, NamedElement};
 
 use super::item::Item;
-use super::kind::{
-    ANGLE, LENGTH, STIFFNESS, TORSION_STIFFNESS, VISCOUS_FORCE, VISCOUS_MOMENT,
-};
+use super::kind::{ANGLE, LENGTH, STIFFNESS, TORSION_STIFFNESS, VISCOUS_FORCE, VISCOUS_MOMENT};
 use super::problem::{Problem, Result, closest, quoted};
 use super::section::Section;
 
@@ -78,8 +76,13 @@ fn element(
     let ends = [end(first, mechanism)?, end(second, mechanism)?];
     if ends[0].marker.body == ends[1].marker.body {
         return Err(between
-            .problem(&format!("names one body twice: the {key} does nothing"), "the same body")
-            .help(format!("a {key} acts between two different bodies, or a body and the ground")));
+            .problem(
+                &format!("names one body twice: the {key} does nothing"),
+                "the same body",
+            )
+            .help(format!(
+                "a {key} acts between two different bodies, or a body and the ground"
+            )));
     }
     let (law, torsion) = if key == "spring" {
         spring(section)?
@@ -90,7 +93,10 @@ fn element(
     if torsion && let Some((end, item)) = ends.iter().zip(&list).find(|(end, _)| end.point) {
         return Err(item
             .problem(
-                &format!("is the point {}, but a {key} in torsion acts between bodies", end.text),
+                &format!(
+                    "is the point {}, but a {key} in torsion acts between bodies",
+                    end.text
+                ),
                 "a point",
             )
             .help("name the two bodies alone, such as between = [\"ground\", \"rocker\"]"));
@@ -126,7 +132,9 @@ impl Law {
     fn element(&self, between: [Marker; 2]) -> std::result::Result<Element, jred::Error> {
         match *self {
             Self::Spring(stiffness, free) => Element::spring(between, stiffness, free),
-            Self::TorsionSpring(stiffness, free) => Element::torsion_spring(between, stiffness, free),
+            Self::TorsionSpring(stiffness, free) => {
+                Element::torsion_spring(between, stiffness, free)
+            }
             Self::Damper(coefficient) => Element::damper(between, coefficient),
             Self::TorsionDamper(coefficient) => Element::torsion_damper(between, coefficient),
         }
@@ -218,7 +226,10 @@ fn body(name: &str, mechanism: &AnyMechanism) -> Option<Body> {
     if name == GROUND {
         return Some(Body::Ground);
     }
-    let link = mechanism.link_names().iter().position(|link| link == name)?;
+    let link = mechanism
+        .link_names()
+        .iter()
+        .position(|link| link == name)?;
     Some(Body::Link(link))
 }
 

@@ -87,8 +87,7 @@ fn load(section: &Section, mechanism: &AnyMechanism, drive: DriveLink) -> Result
         return Err(item
             .problem(
                 &format!(
-                    "acts in a fixed direction on \"{link_name}\", which does not turn a whole number of times for each \
-                     turn of the drive link"
+                    "acts in a fixed direction on \"{link_name}\", which does not move alike in every turn of the drive link"
                 ),
                 "does not repeat with the drive link",
             )
@@ -121,7 +120,7 @@ struct Movement {
     slides: bool,
     /// The origin of its frame never moves.
     pivots: bool,
-    /// It is where it was after every turn of the drive link.
+    /// It stands as it stood and moves as it moved after every turn of the drive link.
     closes: bool,
 }
 
@@ -143,6 +142,9 @@ impl Movement {
             if let (Domain::Turn, Some(later)) = (domain, frame(phi + TAU)) {
                 let turns = (later.psi.value - now.psi.value) / TAU;
                 movement.closes &= (turns - turns.round()).abs() < 1e-9;
+                // A rack may be elsewhere after a turn, but must move as before.
+                let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * (1.0 + a.abs());
+                movement.closes &= same(now.x.d1, later.x.d1) && same(now.y.d1, later.y.d1);
             }
         }
         movement
@@ -329,6 +331,9 @@ fn stretch(section: &Section, drive: DriveLink) -> Result<Option<Window>> {
     Window::on_stroke(from.si, to.si, ramp.si.min(width / 2.0))
         .map(Some)
         .map_err(|error| {
-            between.problem(&format!("is not possible: {error}"), "check these positions")
+            between.problem(
+                &format!("is not possible: {error}"),
+                "check these positions",
+            )
         })
 }

@@ -266,7 +266,9 @@ fn check_stroke(
                     ),
                     "leaves the stroke",
                 )
-                .help("shorten this move, start elsewhere, or lengthen the stroke of the mechanism"));
+                .help(
+                    "shorten this move, start elsewhere, or lengthen the stroke of the mechanism",
+                ));
         }
     }
     Ok(())
@@ -285,7 +287,11 @@ fn check_returns(
         return Ok(());
     }
     let shown = |way: f64| {
-        format!("{} {}", figure(drive.coordinate.shown(way)), drive.coordinate.unit())
+        format!(
+            "{} {}",
+            figure(drive.coordinate.shown(way)),
+            drive.coordinate.unit()
+        )
     };
     let mut problem = section.problem(
         format!(

@@ -76,7 +76,8 @@ pub(super) fn read(section: &Section, folder: &Path, drive: DriveLink) -> Result
         item.problem(&format!("cannot be read: {}", fault.message), "this file")
             .help(fault.help)
     })?;
-    curve(&text, cyclic, drive).map_err(|problem| problem.in_file(&path.display().to_string(), &text))
+    curve(&text, cyclic, drive)
+        .map_err(|problem| problem.in_file(&path.display().to_string(), &text))
 }
 
 fn curve(text: &str, cyclic: bool, drive: DriveLink) -> Result<Motion> {
@@ -279,5 +280,8 @@ fn broken(error: &csv::Error, text: &str, drive: DriveLink) -> Problem {
     let start = error.position().map_or(0, |p| p.byte() as usize);
     Problem::new(format!("not a readable CSV file: {error}"))
         .at(line_at(text, start), "here")
-        .help(format!("give two columns of numbers under the header {}", columns_of(drive).1))
+        .help(format!(
+            "give two columns of numbers under the header {}",
+            columns_of(drive).1
+        ))
 }

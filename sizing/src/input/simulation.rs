@@ -34,7 +34,11 @@ pub(super) fn read(
     };
     let start = section.quantity(key, drive.position())?;
     if !drive.reaches(start.si) {
-        let what = format!("is {}, outside the stroke, {}", start.shown(), drive.range());
+        let what = format!(
+            "is {}, outside the stroke, {}",
+            start.shown(),
+            drive.range()
+        );
         return Err(start
             .problem(&what, "out of reach")
             .help("start at a position within the stroke"));
@@ -63,7 +67,14 @@ pub(super) fn read(
                 output_step.show(duration.si)
             )));
     }
-    let words = ["motor", if drive.slides() { "drive-link" } else { "crank" }];
+    let words = [
+        "motor",
+        if drive.slides() {
+            "drive-link"
+        } else {
+            "crank"
+        },
+    ];
     let at = match section.get("at") {
         Some(item) if item.choice(&words)? == 1 => Shaft::DriveLink,
         _ => Shaft::Motor,
@@ -71,10 +82,23 @@ pub(super) fn read(
     // What drives directly a link that slides is a linear motor or a cylinder.
     let linear = drive.slides() && (at == Shaft::DriveLink || drive_train.stages().is_empty());
     let torque = if linear {
-        effort(&section, ["force", "force_speed"], drive, ["0.2 m/s", "400 N"])?
+        effort(
+            &section,
+            ["force", "force_speed"],
+            drive,
+            ["0.2 m/s", "400 N"],
+        )?
     } else {
-        let rotary = DriveLink { coordinate: Coordinate::Angle, ..drive };
-        effort(&section, ["torque", "torque_speed"], rotary, ["3000 rpm", "14 N m"])?
+        let rotary = DriveLink {
+            coordinate: Coordinate::Angle,
+            ..drive
+        };
+        effort(
+            &section,
+            ["torque", "torque_speed"],
+            rotary,
+            ["3000 rpm", "14 N m"],
+        )?
     };
     // A linear motor has a mass where a rotary one has an inertia.
     let direct = drive.slides() && drive_train.stages().is_empty();
@@ -117,15 +141,21 @@ fn effort(
     match (section.get(key), section.get(curve_key)) {
         (Some(constant), None) => Ok(vec![(0.0, constant.quantity(drive.effort())?.si)]),
         (None, Some(curve)) => points(&curve, drive, &example),
-        (Some(constant), Some(curve)) => {
-            Err(Problem::new(format!("[simulation] has both `{key}` and `{curve_key}`"))
-                .at(constant.key_span(), format!("a constant {key}"))
-                .at(curve.key_span(), format!("a {key} that depends on the speed"))
-                .help("keep one of them"))
-        }
+        (Some(constant), Some(curve)) => Err(Problem::new(format!(
+            "[simulation] has both `{key}` and `{curve_key}`"
+        ))
+        .at(constant.key_span(), format!("a constant {key}"))
+        .at(
+            curve.key_span(),
+            format!("a {key} that depends on the speed"),
+        )
+        .help("keep one of them")),
         (None, None) => Err(section.missing(
             key,
-            &format!("{key} = \"{}\", or {curve_key} = {example}", drive.effort().example),
+            &format!(
+                "{key} = \"{}\", or {curve_key} = {example}",
+                drive.effort().example
+            ),
         )),
     }
 }

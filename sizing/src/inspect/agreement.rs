@@ -42,7 +42,10 @@ pub(super) fn inertia(file: &MachineFile) -> Result<Inertia, Error> {
         .map(|phi| Ok(machine.bare_reduction(phi)?.inertia[0]))
         .collect::<Result<Vec<f64>, Error>>()?;
     // The trapezoidal rule: over a turn both ends are the same position.
-    let ends = values.first().zip(values.last()).map_or(0.0, |(a, b)| 0.5 * (a + b));
+    let ends = values
+        .first()
+        .zip(values.last())
+        .map_or(0.0, |(a, b)| 0.5 * (a + b));
     let mean = (values.iter().sum::<f64>() - ends) / STEPS as f64;
     Ok(Inertia {
         reduced: [
@@ -51,7 +54,12 @@ pub(super) fn inertia(file: &MachineFile) -> Result<Inertia, Error> {
             values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
         ],
         flywheel: machine.flywheel(),
-        mass: machine.mechanism().links().iter().map(jred::Link::mass).sum(),
+        mass: machine
+            .mechanism()
+            .links()
+            .iter()
+            .map(jred::Link::mass)
+            .sum(),
     })
 }
 
@@ -72,9 +80,17 @@ pub(super) fn agreement(file: &MachineFile) -> Result<Agreement, Error> {
         let terms = machine.bare_reduction(phi)?.torque(omega, alpha);
         let found = machine.forces(phi, omega, alpha)?.drive;
         worst = worst.max((found - terms.total()).abs());
-        largest = terms.values().into_iter().map(f64::abs).fold(largest, f64::max);
+        largest = terms
+            .values()
+            .into_iter()
+            .map(f64::abs)
+            .fold(largest, f64::max);
     }
-    let share = if largest > 0.0 { worst / largest } else { worst };
+    let share = if largest > 0.0 {
+        worst / largest
+    } else {
+        worst
+    };
     let energy = match &file.motion {
         Some(motion) => Some(balance(file, motion)?),
         None => None,

@@ -36,11 +36,15 @@ pub(super) fn travels(mechanism: &AnyMechanism) -> Result<Vec<Travel>, Error> {
     let joints = mechanism.joints(start, &mechanism.frames(start)?)?;
     let mut travels: Vec<Travel> = Vec::new();
     for (k, joint) in joints.iter().enumerate() {
-        let link = match joint.bodies() {
-            [Body::Ground, Body::Link(link)] | [Body::Link(link), Body::Ground] => link,
-            _ => continue,
+        let ([Body::Ground, Body::Link(link)] | [Body::Link(link), Body::Ground]) = joint.bodies()
+        else {
+            continue;
         };
-        let name = mechanism.link_names().get(link).cloned().unwrap_or_default();
+        let name = mechanism
+            .link_names()
+            .get(link)
+            .cloned()
+            .unwrap_or_default();
         let held = matches!(joint, Joint::Revolute(_) | Joint::Prismatic(_));
         if k == mechanism.drive() || !held || travels.iter().any(|t| t.link == name) {
             continue;
@@ -50,7 +54,9 @@ pub(super) fn travels(mechanism: &AnyMechanism) -> Result<Vec<Travel>, Error> {
             let frames = mechanism.frames(phi)?;
             if slides {
                 let joints = mechanism.joints(phi, &frames)?;
-                Ok(joints.get(k).map_or(Transfer::default(), |j| j.coordinate(&frames)))
+                Ok(joints
+                    .get(k)
+                    .map_or(Transfer::default(), |j| j.coordinate(&frames)))
             } else {
                 Ok(frames.get(link).map_or(Transfer::default(), |f| f.psi))
             }
@@ -69,47 +75,80 @@ struct Sample {
     sign: i8,
 }
 
-fn travel(
+fn place(domain: Domain, k: usize) -> f64 {
+    domain.position(k as f64 / SAMPLES as f64)
+}
+
+/// The sign of a transfer function, 0 if not above `still`.
+fn sign(slope: f64, still: f64) -> i8 {
+    if slope.abs() <= still {
+        0
+    } else if slope > 0.0 {
+        1
+    } else {
+        -1
+    }
+}
+
+/// Pairs of numbers.
+type Pairs = Vec<[f64; 2]>;
+
+/// The samples over the range, from where the link is fastest: then no rest of a turn lies across its ends; and the transfer
+/// function up to which it stands still.
+fn samples(
     domain: Domain,
-    slides: bool,
-    coordinate: &dyn Fn(f64) -> Result<Transfer, Error>,
-) -> Result<Travel, Error> {
-    let place = |k: usize| domain.position(k as f64 / SAMPLES as f64);
+    slope: &dyn Fn(f64) -> Result<f64, Error>,
+) -> Result<(Vec<Sample>, f64), Error> {
     let slopes = (0..=SAMPLES)
-        .map(|k| Ok(coordinate(place(k))?.d1))
+        .map(|k| slope(place(domain, k)))
         .collect::<Result<Vec<f64>, Error>>()?;
-    let (fastest, most) = slopes
-        .iter()
-        .enumerate()
-        .fold((0, 0.0), |most: (usize, f64), (k, slope)| {
-            if slope.abs() > most.1 { (k, slope.abs()) } else { most }
-        });
+    let (fastest, most) =
+        slopes
+            .iter()
+            .enumerate()
+            .fold((0, 0.0), |most: (usize, f64), (k, slope)| {
+                if slope.abs() > most.1 {
+                    (k, slope.abs())
+                } else {
+                    most
+                }
+            });
     let still = STILL * most;
-    let sign = |phi: f64| -> Result<i8, Error> {
-        let slope = coordinate(phi)?.d1;
-        Ok(if slope.abs() <= still {
-            0
-        } else if slope > 0.0 {
-            1
-        } else {
-            -1
-        })
+    let first = if domain == Domain::Turn {
+        place(domain, fastest)
+    } else {
+        place(domain, 0)
     };
-    // A turn is searched from where the link is fastest, so that no rest lies across the ends.
-    let first = if domain == Domain::Turn { place(fastest) } else { place(0) };
     let step = domain.span() / SAMPLES as f64;
     let samples = (0..=SAMPLES)
         .map(|k| {
             let phi = first + step * k as f64;
-            Ok(Sample { phi, sign: sign(phi)? })
+            Ok(Sample {
+                phi,
+                sign: sign(slope(phi)?, still),
+            })
         })
         .collect::<Result<Vec<Sample>, Error>>()?;
+    Ok((samples, still))
+}
 
+/// Dead centres, as positions of the drive and of the link, and dwells.
+fn rests(
+    domain: Domain,
+    coordinate: &dyn Fn(f64) -> Result<Transfer, Error>,
+) -> Result<(Pairs, Pairs), Error> {
+    let slope = |phi: f64| Ok(coordinate(phi)?.d1);
+    let (samples, still) = samples(domain, &slope)?;
+    let sign = |phi: f64| Ok::<i8, Error>(sign(slope(phi)?, still));
     let wrap = |phi: f64| match domain {
         Domain::Turn => {
             let phi = phi.rem_euclid(std::f64::consts::TAU);
             // What is a rounding before a whole turn is its start.
-            if std::f64::consts::TAU - phi < 1e-9 { 0.0 } else { phi }
+            if std::f64::consts::TAU - phi < 1e-9 {
+                0.0
+            } else {
+                phi
+            }
         }
         Domain::Stroke { .. } => phi,
     };
@@ -120,7 +159,10 @@ fn travel(
         let here = &samples[k];
         if here.sign != 0 {
             if let Some(before) = before.filter(|b| b.sign == -here.sign) {
-                let phi = halve(before.phi, here.phi, |phi| Ok(sign(phi)? == before.sign))?;
+                let way = f64::from(before.sign);
+                let phi = halve(before.phi, here.phi, |phi| {
+                    Ok(coordinate(phi)?.d1 * way > 0.0)
+                })?;
                 dead_centres.push([wrap(phi), coordinate(phi)?.value]);
             }
             k += 1;
@@ -141,15 +183,34 @@ fn travel(
             };
             dwells.push([wrap(from), wrap(to)]);
         } else if before.map(|s| s.sign) != after.map(|s| s.sign) {
-            let middle = here.phi.midpoint(last.phi);
+            let middle = match (before, after) {
+                (Some(before), Some(after)) => {
+                    let way = f64::from(before.sign);
+                    halve(before.phi, after.phi, |phi| {
+                        Ok(coordinate(phi)?.d1 * way > 0.0)
+                    })?
+                }
+                _ => here.phi.midpoint(last.phi),
+            };
             dead_centres.push([wrap(middle), coordinate(middle)?.value]);
         }
         k += count;
     }
     dead_centres.sort_by(|a, b| a[0].total_cmp(&b[0]));
     dwells.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    Ok((dead_centres, dwells))
+}
 
-    let ends = [coordinate(place(0))?.value, coordinate(place(SAMPLES))?.value];
+fn travel(
+    domain: Domain,
+    slides: bool,
+    coordinate: &dyn Fn(f64) -> Result<Transfer, Error>,
+) -> Result<Travel, Error> {
+    let (dead_centres, dwells) = rests(domain, coordinate)?;
+    let ends = [
+        coordinate(place(domain, 0))?.value,
+        coordinate(place(domain, SAMPLES))?.value,
+    ];
     let advance = ends[1] - ends[0];
     let on = domain == Domain::Turn && dead_centres.is_empty() && advance.abs() > 1e-9;
     let mut values: Vec<f64> = dead_centres.iter().map(|c| c[1]).collect();
@@ -196,14 +257,22 @@ fn halve(
 impl Travel {
     /// In one sentence.
     pub(super) fn sentence(&self, drive: Coordinate) -> String {
-        let own = if ["slides", "advances"].contains(&self.way) { Coordinate::Length } else { Coordinate::Angle };
+        let own = if ["slides", "advances"].contains(&self.way) {
+            Coordinate::Length
+        } else {
+            Coordinate::Angle
+        };
         let number = |x: f64| crate::output::rounded((x * 1e6).round() / 1e6 + 0.0);
         let at = |phi: f64| format!("{} {}", number(drive.shown(phi)), drive.unit());
         let centres: Vec<String> = self.dead_centres.iter().map(|c| at(c[0])).collect();
         let centres = match centres.len() {
             0 => "no dead centre".to_owned(),
             1 => format!("dead centre at {} = {}", drive.symbol(), centres[0]),
-            _ => format!("dead centres at {} = {}", drive.symbol(), centres.join(", ")),
+            _ => format!(
+                "dead centres at {} = {}",
+                drive.symbol(),
+                centres.join(", ")
+            ),
         };
         let dwells: Vec<String> = self
             .dwells

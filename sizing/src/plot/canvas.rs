@@ -134,7 +134,7 @@ impl Canvas {
 
     /// Inline SVG that the page can scale.
     pub(crate) fn finish(self) -> String {
-        finish_drawing(self.scene)
+        finish_drawing(&self.scene)
     }
 }
 

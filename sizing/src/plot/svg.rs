@@ -12,9 +12,9 @@ pub(super) fn finish(mut scene: Scene) -> String {
 }
 
 /// Writes a drawing in its own size.
-pub(super) fn finish_drawing(scene: Scene) -> String {
+pub(super) fn finish_drawing(scene: &Scene) -> String {
     responsive(
-        &SvgBackend::new().render_scene(&scene),
+        &SvgBackend::new().render_scene(scene),
         scene.width,
         scene.height,
     )

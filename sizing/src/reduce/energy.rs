@@ -19,9 +19,8 @@ impl Set for Energy {
         let mut force = |name: &str| names.push(format!("Q {name} [{unit}]"));
         force("weight");
         source.file.loads.iter().for_each(|load| force(&load.name));
-        for k in 1..=source.machine.elements().len() {
-            force(&format!("spring or damper {k}"));
-        }
+        let elements = source.file.elements.iter();
+        elements.for_each(|element| force(&element.name));
         force("total");
         names
     }

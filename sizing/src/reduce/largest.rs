@@ -29,7 +29,10 @@ impl Largest {
         let (name, unit) = split(&self.quantity);
         let (place, place_unit) = split(&self.over);
         let value = short(self.value);
-        format!("{name} {value} {unit} at {place} = {} {place_unit}", short(self.at))
+        format!(
+            "{name} {value} {unit} at {place} = {} {place_unit}",
+            short(self.at)
+        )
     }
 }
 
@@ -53,7 +56,14 @@ pub fn largest(file: &MachineFile, request: &Request) -> Result<Vec<Largest>, Er
         Over::Angle => request.positions.max(SEARCHED - 1),
         Over::Time => request.positions.max(SEARCHED),
     };
-    let columns = reduce(file, &Request { sets, positions, ..*request })?;
+    let columns = reduce(
+        file,
+        &Request {
+            positions,
+            sets,
+            ..*request
+        },
+    )?;
     Ok(of_columns(&columns))
 }
 

@@ -71,7 +71,9 @@ impl Set for Points {
             values.extend(point.map(|c| Some(c.d1)));
             values.extend(point.map(|c| Some(c.d2)));
             if self.in_time {
-                values.extend(with_size(place.state, |s| point.map(|c| c.velocity(s.omega))));
+                values.extend(with_size(place.state, |s| {
+                    point.map(|c| c.velocity(s.omega))
+                }));
                 values.extend(with_size(place.state, |s| {
                     point.map(|c| c.acceleration(s.omega, s.alpha))
                 }));

@@ -20,7 +20,7 @@ fn carries(joint: &Joint) -> [bool; 2] {
         Joint::Revolute(_) | Joint::PinInSlot(_) => [true, false],
         Joint::Prismatic(_) | Joint::Fixed(_) => [true, true],
         Joint::Transmission(wrenches) => {
-            let force = wrenches.iter().any(|w| w.force != [0.0; 2]);
+            let force = wrenches.iter().any(|w| w.force[0].hypot(w.force[1]) > 0.0);
             [force, !force || wrenches.iter().any(|w| w.moment != 0.0)]
         }
     }
@@ -53,7 +53,11 @@ impl Reactions {
 impl Set for Reactions {
     fn names(&self, source: &Source) -> Vec<String> {
         let coordinate = source.coordinate;
-        let drive = format!("{}_drive [{}]", coordinate.effort(), coordinate.effort_unit());
+        let drive = format!(
+            "{}_drive [{}]",
+            coordinate.effort(),
+            coordinate.effort_unit()
+        );
         let mut names = vec![drive];
         let joints = source.machine.mechanism().joint_names();
         for (k, joint) in joints.iter().enumerate().take(self.carries.len()) {

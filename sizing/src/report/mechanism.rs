@@ -3,20 +3,18 @@
 use askama::Template;
 use jred::Error;
 
+use super::extract::{Table, largest_forces, tables};
 use super::figures::{self, line};
 use crate::coordinate::Coordinate;
 use crate::drawing;
 use crate::inspect::Findings;
 use crate::machine::MachineFile;
-use crate::output::{Columns, rounded, short};
+use crate::output::{Columns, short};
 use crate::plot::{Axes, Series, lines};
-use crate::reduce::{Over, Request, Sets, largest, reduce};
+use crate::reduce::{Over, Request, Sets, reduce};
 
 /// Points of each curve.
-const POINTS: usize = 361;
-
-/// Rows of each table.
-const ROWS: usize = 13;
+pub(super) const POINTS: usize = 361;
 
 #[derive(Template)]
 #[template(path = "mechanism.html")]
@@ -47,26 +45,20 @@ struct Figure {
     caption: String,
 }
 
-struct Table {
-    heading: &'static str,
-    names: Vec<String>,
-    rows: Vec<Vec<String>>,
-}
-
 /// What the curves of motions and forces run over, with the columns at their points.
-struct Source<'f> {
-    file: &'f MachineFile,
+pub(super) struct Source<'f> {
+    pub(super) file: &'f MachineFile,
     coordinate: Coordinate,
-    over: Over,
-    state: Option<[f64; 2]>,
+    pub(super) over: Over,
+    pub(super) state: Option<[f64; 2]>,
 }
 
 impl Source<'_> {
-    fn moves(&self) -> bool {
+    pub(super) fn moves(&self) -> bool {
         self.over == Over::Time || self.state.is_some()
     }
 
-    fn columns(&self, sets: Sets, positions: usize) -> Result<Columns, Error> {
+    pub(super) fn columns(&self, sets: Sets, positions: usize) -> Result<Columns, Error> {
         let request = Request {
             over: self.over,
             positions,
@@ -203,7 +195,10 @@ fn sections(source: &Source) -> Result<Vec<Section>, Error> {
         motions.extend(plot.map(|svg| figure(svg, caption)));
     };
     if source.moves() {
-        add(source.plot(&points, "speed [m/s]", &[" v [m/s]"]), "Speed of every point, its magnitude.");
+        add(
+            source.plot(&points, "speed [m/s]", &[" v [m/s]"]),
+            "Speed of every point, its magnitude.",
+        );
         add(
             source.plot(&points, "acceleration [m/s²]", &[" a [m/s^2]"]),
             "Acceleration of every point, its magnitude.",
@@ -213,16 +208,28 @@ fn sections(source: &Source) -> Result<Vec<Section>, Error> {
             "Angular speed of every link.",
         );
         add(
-            source.plot(&points, "angular acceleration [rad/s²]", &[" alpha [rad/s^2]"]),
+            source.plot(
+                &points,
+                "angular acceleration [rad/s²]",
+                &[" alpha [rad/s^2]"],
+            ),
             "Angular acceleration of every link.",
         );
     } else {
         add(
-            source.plot(&points, &format!("x′ [m/{per}]"), &[&format!(" x' [m/{per}]")]),
+            source.plot(
+                &points,
+                &format!("x′ [m/{per}]"),
+                &[&format!(" x' [m/{per}]")],
+            ),
             "Velocity transfer functions of every point, x: times the drive's speed they are the velocity.",
         );
         add(
-            source.plot(&points, &format!("y′ [m/{per}]"), &[&format!(" y' [m/{per}]")]),
+            source.plot(
+                &points,
+                &format!("y′ [m/{per}]"),
+                &[&format!(" y' [m/{per}]")],
+            ),
             "Velocity transfer functions of every point, y.",
         );
         let unit = format!("ψ′ [rad/{per}]");
@@ -280,83 +287,6 @@ fn forces(source: &Source) -> Result<Section, Error> {
         heading: "Forces",
         figures: figures.collect(),
     })
-}
-
-fn largest_forces(source: &Source) -> Result<Vec<[String; 3]>, Error> {
-    if !source.moves() {
-        return Ok(Vec::new());
-    }
-    let request = Request {
-        over: source.over,
-        positions: POINTS,
-        sets: Sets::default(),
-        state: source.state,
-    };
-    let rows = largest(source.file, &request)?;
-    Ok(rows
-        .iter()
-        .map(|row| {
-            let (name, unit) = row.quantity.split_once(" [").unwrap_or((&row.quantity, ""));
-            let (over, over_unit) = row.over.split_once(" [").unwrap_or((&row.over, ""));
-            let value = format!("{} {}", short(row.value), unit.trim_end_matches(']'));
-            let at = format!("{over} = {} {}", short(row.at), over_unit.trim_end_matches(']'));
-            [name.to_owned(), value, at]
-        })
-        .collect())
-}
-
-/// Extracts; the whole tables come from the command line.
-fn tables(source: &Source) -> Result<Vec<Table>, Error> {
-    let table = |heading, columns: &Columns, wanted: &dyn Fn(&str) -> bool| {
-        let names = columns.names().iter().enumerate();
-        let kept: Vec<(usize, &String)> = names
-            .filter(|(k, name)| *k < 2 && !name.contains("red") || wanted(name))
-            .collect();
-        Table {
-            heading,
-            names: kept.iter().map(|(_, name)| (*name).clone()).collect(),
-            rows: columns
-                .rows()
-                .iter()
-                .map(|row| {
-                    let cells = kept.iter().map(|(k, _)| row[*k]);
-                    cells.map(|x| x.map_or(String::new(), rounded)).collect()
-                })
-                .collect(),
-        }
-    };
-    let curves = Sets {
-        curves: true,
-        ..Sets::default()
-    };
-    let points = Sets {
-        points: true,
-        ..Sets::default()
-    };
-    let named: Vec<String> = source
-        .file
-        .machine
-        .mechanism()
-        .points()
-        .iter()
-        .map(|point| format!("{} ", point.name))
-        .collect();
-    let mut tables = vec![table(
-        "Extract of the curves",
-        &source.columns(curves, ROWS)?,
-        &|name| name.contains("red [") || name.contains("red' ") || name.ends_with("_drive [N m]"),
-    )];
-    if !named.is_empty() {
-        tables.push(table(
-            "Extract of the points",
-            &source.columns(points, ROWS)?,
-            &|name| {
-                let own = named.iter().any(|point| name.starts_with(point.as_str()));
-                own && [" x [", " y [", " v [", " a ["].iter().any(|part| name.contains(part))
-            },
-        ));
-    }
-    Ok(tables)
 }
 
 fn notes(source: &Source) -> Vec<String> {

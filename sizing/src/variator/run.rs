@@ -16,8 +16,14 @@ use crate::output::Columns;
 use crate::simulate::{SimulationError, interpolate, stopped};
 
 /// φ₁, ω₁ of the input shaft; φ of the drive link; ω₂ of the output shaft (creep only); work of the motor, work of the
-/// process loads, losses.
-type State = SVector<f64, 7>;
+/// process loads, losses; the time.
+///
+/// The time is a state because the integrator's twelfth stage asks for the forces at the wrong time (`ode_solvers` 0.6.2,
+/// node c₁₂ of its table, its pull request 42): with the time among the states no stage needs to be told.
+type State = SVector<f64, 8>;
+
+/// Index of the time.
+const TIME: usize = 7;
 
 /// Losses may be negative by this share of the power through the contact: rounding.
 const ROUNDING: f64 = 1e-9;
@@ -30,8 +36,6 @@ struct Plant<'a> {
     stage: Stage<'a>,
     /// Direction of the drive link that friction opposes: +1, −1, or 0 where friction holds it.
     direction: f64,
-    /// Time at which the integrator counts from zero.
-    base: f64,
     /// The integrator cannot pass on errors: the first one waits here.
     fault: &'a RefCell<Option<Error>>,
 }
@@ -211,8 +215,8 @@ impl Plant<'_> {
 }
 
 impl System<f64, State> for &Plant<'_> {
-    fn system(&self, t: f64, y: &State, dy: &mut State) {
-        match self.instant(self.base + t, y) {
+    fn system(&self, _t: f64, y: &State, dy: &mut State) {
+        match self.instant(y[TIME], y) {
             Ok(now) => {
                 let held = self.direction == 0.0;
                 let free = if held && !self.creeps() { 0.0 } else { 1.0 };
@@ -226,6 +230,7 @@ impl System<f64, State> for &Plant<'_> {
                     now.motor_power,
                     now.process_power,
                     now.loss,
+                    1.0,
                 ]);
             }
             Err(error) => {
@@ -236,8 +241,8 @@ impl System<f64, State> for &Plant<'_> {
     }
 
     /// Ends the integration with the step in which friction changes.
-    fn solout(&mut self, t: f64, y: &State, _dy: &State) -> bool {
-        self.over(self.base + t, y).unwrap_or(true)
+    fn solout(&mut self, _t: f64, y: &State, _dy: &State) -> bool {
+        self.over(y[TIME], y).unwrap_or(true)
     }
 }
 
@@ -254,7 +259,6 @@ pub(crate) fn simulate(
         variator,
         stage: variator.stage()?,
         direction: 0.0,
-        base: 0.0,
         fault: &fault,
     };
     let n = file.drive_train.ratio();
@@ -266,6 +270,7 @@ pub(crate) fn simulate(
         second / start,
         simulation.start_angle,
         own,
+        0.0,
         0.0,
         0.0,
         0.0,
@@ -411,7 +416,7 @@ fn first_over(plant: &Plant, steps: &[(f64, State)]) -> Result<Option<usize>, Si
 
 /// The integrator's steps from `t` to `end` as (time, state), up to the one in which friction changes.
 fn integrate(
-    plant: &mut Plant,
+    plant: &Plant,
     t: f64,
     end: f64,
     y: &State,
@@ -419,10 +424,11 @@ fn integrate(
     if end <= t {
         return Ok(vec![(t, *y)]);
     }
-    plant.base = t;
     let tolerance = plant.simulation.tolerance;
     let span = end - t;
-    let mut solver = Dop853::new(&*plant, 0.0, span, span, *y, tolerance, tolerance);
+    let mut from = *y;
+    from[TIME] = t;
+    let mut solver = Dop853::new(plant, 0.0, span, span, from, tolerance, tolerance);
     // Only the steps themselves: their last is the end, to full order.
     solver.set_output(OutputType::Sparse);
     let outcome = solver.integrate();

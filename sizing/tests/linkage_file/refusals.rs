@@ -14,22 +14,110 @@ fn refused(edits: Edits) {
 #[test]
 fn bodies_and_points() {
     refused(&[
-        ("[\"crank.A\"", "[\"krank.A\"", &["there is no such body", "did you mean \"crank\"?", "\"ground\", \"crank\", \"coupler\""]),
-        ("[\"crank.A\"", "[\"crank.X\"", &["names the point \"X\", which \"crank\" does not have", "points of \"crank\": A", "\"crank\" alone is the origin"]),
-        ("\"ground.C\"", "\"ground.D\"", &["which \"ground\" does not have", "points of \"ground\": O, C"]),
-        ("[\"ground.C\", \"rocker\"]", "[\"rocker.B\", \"rocker\"]", &["joins \"rocker\" to itself", "two different bodies"]),
-        ("[\"ground.C\", \"rocker\"]", "[\"rocker\"]", &["has 1 ends, but a joint connects two", "two joints"]),
-        ("name = \"coupler\"", "name = \"crank\"", &["two bodies have the name \"crank\"", "the first", "the second"]),
-        ("name = \"coupler\"", "name = \"ground\"", &["is \"ground\", the name of the fixed frame"]),
-        ("name = \"coupler\"", "name = \"coup.ler\"", &["contains a point"]),
-        ("name = \"coupler pin\"", "name = \"crank pin\"", &["two joints have the name \"crank pin\""]),
-        ("{ O = [\"0 mm\", \"0 mm\"], C", "{ O = [\"0 mm\", \"0 mm\"], O", &["duplicate", "remove or rename"]),
-        ("points = { A = [\"80 mm\", \"0 mm\"] }", "length = \"80 mm\"", &["`length` in [[mechanism.body]] number 1 is not known", "give its points"]),
-        ("angle = \"50 deg\"\n", "", &["`angle` of body \"coupler\" is missing", "angle = \"30 deg\""]),
-        ("inertia = \"0.006 kg m^2\"\n", "", &["`inertia` of body \"coupler\" is missing, and the body turns"]),
-        ("mass = \"0.9 kg\"\n", "", &["`mass` in [[mechanism.body]] number 2 is missing"]),
-        ("between = [\"crank.A\", \"coupler\"]", "type = \"revolut\"\nbetween = [\"crank.A\", \"coupler\"]", &["did you mean \"revolute\"?", "\"pin-in-slot\""]),
-        ("between = [\"crank.A\", \"coupler\"]", "between = [\"crank.A\", \"coupler\"]\nradius = \"1 mm\"", &["`radius` in [[mechanism.joint]] number 2 is not known", "a rack has the radius"]),
+        (
+            "[\"crank.A\"",
+            "[\"krank.A\"",
+            &[
+                "there is no such body",
+                "did you mean \"crank\"?",
+                "\"ground\", \"crank\", \"coupler\"",
+            ],
+        ),
+        (
+            "[\"crank.A\"",
+            "[\"crank.X\"",
+            &[
+                "names the point \"X\", which \"crank\" does not have",
+                "points of \"crank\": A",
+                "\"crank\" alone is the origin",
+            ],
+        ),
+        (
+            "\"ground.C\"",
+            "\"ground.D\"",
+            &[
+                "which \"ground\" does not have",
+                "points of \"ground\": O, C",
+            ],
+        ),
+        (
+            "[\"ground.C\", \"rocker\"]",
+            "[\"rocker.B\", \"rocker\"]",
+            &["joins \"rocker\" to itself", "two different bodies"],
+        ),
+        (
+            "[\"ground.C\", \"rocker\"]",
+            "[\"rocker\"]",
+            &["has 1 ends, but a joint connects two", "two joints"],
+        ),
+        (
+            "name = \"coupler\"",
+            "name = \"crank\"",
+            &[
+                "two bodies have the name \"crank\"",
+                "the first",
+                "the second",
+            ],
+        ),
+        (
+            "name = \"coupler\"",
+            "name = \"ground\"",
+            &["is \"ground\", the name of the fixed frame"],
+        ),
+        (
+            "name = \"coupler\"",
+            "name = \"coup.ler\"",
+            &["contains a point"],
+        ),
+        (
+            "name = \"coupler pin\"",
+            "name = \"crank pin\"",
+            &["two joints have the name \"crank pin\""],
+        ),
+        (
+            "{ O = [\"0 mm\", \"0 mm\"], C",
+            "{ O = [\"0 mm\", \"0 mm\"], O",
+            &["duplicate", "remove or rename"],
+        ),
+        (
+            "points = { A = [\"80 mm\", \"0 mm\"] }",
+            "length = \"80 mm\"",
+            &[
+                "`length` in [[mechanism.body]] number 1 is not known",
+                "give its points",
+            ],
+        ),
+        (
+            "angle = \"50 deg\"\n",
+            "",
+            &[
+                "`angle` of body \"coupler\" is missing",
+                "angle = \"30 deg\"",
+            ],
+        ),
+        (
+            "inertia = \"0.006 kg m^2\"\n",
+            "",
+            &["`inertia` of body \"coupler\" is missing, and the body turns"],
+        ),
+        (
+            "mass = \"0.9 kg\"\n",
+            "",
+            &["`mass` in [[mechanism.body]] number 2 is missing"],
+        ),
+        (
+            "between = [\"crank.A\", \"coupler\"]",
+            "type = \"revolut\"\nbetween = [\"crank.A\", \"coupler\"]",
+            &["did you mean \"revolute\"?", "\"pin-in-slot\""],
+        ),
+        (
+            "between = [\"crank.A\", \"coupler\"]",
+            "between = [\"crank.A\", \"coupler\"]\nradius = \"1 mm\"",
+            &[
+                "`radius` in [[mechanism.joint]] number 2 is not known",
+                "a rack has the radius",
+            ],
+        ),
     ]);
     let body = "[[mechanism.body]]\nname = \"strut\"\nmass = \"1 kg\"\nangle = \"0 deg\"\n\n[[mechanism.joint]]";
     refuses_edit(
@@ -44,26 +132,70 @@ fn bodies_and_points() {
         FOUR_BAR,
         "[[mechanism.joint]]",
         two,
-        &["nothing connects body \"a\" with the ground", "floats freely"],
+        &[
+            "nothing connects body \"a\" with the ground",
+            "floats freely",
+        ],
     );
 }
 
 #[test]
 fn drives() {
     refused(&[
-        ("drive = \"crank bearing\"", "drive = [\"crank bearing\", \"rocker bearing\"]", &["is a list, but a linkage has one drive"]),
-        ("drive = \"crank bearing\"", "drive = \"crank bearing\"\ndrive = \"rocker bearing\"", &["duplicate key"]),
-        ("drive = \"crank bearing\"", "drive = \"crank\"", &["\"crank\", which does not exist here", "\"crank bearing\", \"crank pin\""]),
-        ("drive = \"crank bearing\"", "", &["`drive` in [mechanism] is missing", "drive = \"crank bearing\""]),
-        ("between = [\"ground.O\", \"crank\"]", "between = [\"ground.O\", \"crank\"]\ntype = \"fixed\"", &["is \"crank bearing\", of type \"fixed\"", "cannot be driven"]),
-        ("drive = \"crank bearing\"", "drive = \"crank bearing\"\nstroke = [\"60 deg\", \"-30 deg\"]", &["runs from 60 deg to -30 deg", "the second end is the larger one"]),
-        ("drive = \"crank bearing\"", "drive = \"crank bearing\"\nstroke = [\"10 mm\", \"30 mm\"]", &["must be an angle, but \"10 mm\" is a length"]),
+        (
+            "drive = \"crank bearing\"",
+            "drive = [\"crank bearing\", \"rocker bearing\"]",
+            &["is a list, but a linkage has one drive"],
+        ),
+        (
+            "drive = \"crank bearing\"",
+            "drive = \"crank bearing\"\ndrive = \"rocker bearing\"",
+            &["duplicate key"],
+        ),
+        (
+            "drive = \"crank bearing\"",
+            "drive = \"crank\"",
+            &[
+                "\"crank\", which does not exist here",
+                "\"crank bearing\", \"crank pin\"",
+            ],
+        ),
+        (
+            "drive = \"crank bearing\"",
+            "",
+            &[
+                "`drive` in [mechanism] is missing",
+                "drive = \"crank bearing\"",
+            ],
+        ),
+        (
+            "between = [\"ground.O\", \"crank\"]",
+            "between = [\"ground.O\", \"crank\"]\ntype = \"fixed\"",
+            &[
+                "is \"crank bearing\", of type \"fixed\"",
+                "cannot be driven",
+            ],
+        ),
+        (
+            "drive = \"crank bearing\"",
+            "drive = \"crank bearing\"\nstroke = [\"60 deg\", \"-30 deg\"]",
+            &[
+                "runs from 60 deg to -30 deg",
+                "the second end is the larger one",
+            ],
+        ),
+        (
+            "drive = \"crank bearing\"",
+            "drive = \"crank bearing\"\nstroke = [\"10 mm\", \"30 mm\"]",
+            &["must be an angle, but \"10 mm\" is a length"],
+        ),
     ]);
 }
 
 #[test]
 fn freedoms_are_counted_joint_by_joint() {
-    let last = "[[mechanism.joint]]\nname = \"rocker bearing\"\nbetween = [\"ground.C\", \"rocker\"]\n";
+    let last =
+        "[[mechanism.joint]]\nname = \"rocker bearing\"\nbetween = [\"ground.C\", \"rocker\"]\n";
     refuses_edit(
         FOUR_BAR,
         last,
@@ -74,7 +206,9 @@ fn freedoms_are_counted_joint_by_joint() {
             "can still move by itself",
         ],
     );
-    let twice = format!("{last}\n[[mechanism.joint]]\nname = \"stay\"\nbetween = [\"ground.O\", \"rocker.B\"]\n");
+    let twice = format!(
+        "{last}\n[[mechanism.joint]]\nname = \"stay\"\nbetween = [\"ground.O\", \"rocker.B\"]\n"
+    );
     refuses_edit(
         FOUR_BAR,
         last,
@@ -100,7 +234,10 @@ fn freedoms_are_counted_joint_by_joint() {
     );
     refuses(
         &strut,
-        &["that other joints hold already, while \"strut\" can still move", "one too many"],
+        &[
+            "that other joints hold already, while \"strut\" can still move",
+            "one too many",
+        ],
     );
 }
 
@@ -132,8 +269,14 @@ fn what_cannot_be_assembled_or_driven_round() {
     );
     // With the stroke that the message proposes it works.
     let driven = FOUR_BAR
-        .replace("{ A = [\"80 mm\", \"0 mm\"] }", "{ A = [\"200 mm\", \"0 mm\"] }")
-        .replace("drive = \"crank bearing\"", "drive = \"crank bearing\"\nstroke = [\"-94 deg\", \"94 deg\"]");
+        .replace(
+            "{ A = [\"80 mm\", \"0 mm\"] }",
+            "{ A = [\"200 mm\", \"0 mm\"] }",
+        )
+        .replace(
+            "drive = \"crank bearing\"",
+            "drive = \"crank bearing\"\nstroke = [\"-94 deg\", \"94 deg\"]",
+        );
     assert!(crate::parse(&driven).is_ok());
 }
 
@@ -182,7 +325,11 @@ joint = [
     let fitting = gears.replace("\"80 mm\"", "\"90 mm\"");
     refuses(
         &fitting,
-        &["the linkage does not repeat", "body \"large\" is", "stroke = ["],
+        &[
+            "the linkage does not repeat",
+            "body \"large\" is",
+            "stroke = [",
+        ],
     );
     refuses_edit(
         &fitting,
@@ -205,7 +352,10 @@ joint = [
     // Three bodies: the belt's second pulley rides on the first.
     let riding = fitting
         .replace("[\"ground.P\", \"large\"]", "[\"small.P\", \"large\"]")
-        .replace("inertia = \"3 kg cm^2\", angle = \"0 deg\"", "inertia = \"3 kg cm^2\", angle = \"0 deg\", points = { P = [\"120 mm\", \"0 mm\"] }")
+        .replace(
+            "inertia = \"3 kg cm^2\", angle = \"0 deg\"",
+            "inertia = \"3 kg cm^2\", angle = \"0 deg\", points = { P = [\"120 mm\", \"0 mm\"] }",
+        )
         .replace("type = \"gears\"", "type = \"belt\"")
         .replace(", com = [\"5 mm\", \"0 mm\"]", "");
     refuses(&riding, &["the centre of the pulley \"large\" moves"]);
@@ -230,20 +380,46 @@ joint = [
 "#;
     refuses(
         rack,
-        &["joint \"teeth\": the pinion has a radius of 30 mm, but its centre lies 0 mm from the rack's pitch line"],
+        &[
+            "joint \"teeth\": the pinion has a radius of 30 mm, but its centre lies 0 mm from the rack's pitch line",
+        ],
     );
-    refuses_edit(rack, ", direction = \"0 deg\" },\n  { name = \"teeth\"", " },\n  { name = \"teeth\"", &["`direction`", "the guide's direction on the first body"]);
+    refuses_edit(
+        rack,
+        ", direction = \"0 deg\" },\n  { name = \"teeth\"",
+        " },\n  { name = \"teeth\"",
+        &["`direction`", "the guide's direction on the first body"],
+    );
     let slides = rack
-        .replace("drive = \"bearing\"\nstroke = [\"0 deg\", \"90 deg\"]", "drive = \"guide\"")
-        .replace("between = [\"ground\", \"rack\"]", "between = [\"ground.G\", \"rack\"]")
-        .replace("body = [", "ground = { G = [\"0 mm\", \"-30 mm\"] }\nbody = [");
-    refuses(&slides, &["`stroke` in [mechanism] is missing", "between two ends"]);
+        .replace(
+            "drive = \"bearing\"\nstroke = [\"0 deg\", \"90 deg\"]",
+            "drive = \"guide\"",
+        )
+        .replace(
+            "between = [\"ground\", \"rack\"]",
+            "between = [\"ground.G\", \"rack\"]",
+        )
+        .replace(
+            "body = [",
+            "ground = { G = [\"0 mm\", \"-30 mm\"] }\nbody = [",
+        );
+    refuses(
+        &slides,
+        &["`stroke` in [mechanism] is missing", "between two ends"],
+    );
 }
 
 #[test]
 fn nothing_has_a_mass() {
     let mut text = FOUR_BAR.to_owned();
-    for weight in ["0.5 kg", "4 kg", "0.9 kg", "0.006 kg", "0.7 kg", "0.0025 kg"] {
+    for weight in [
+        "0.5 kg",
+        "4 kg",
+        "0.9 kg",
+        "0.006 kg",
+        "0.7 kg",
+        "0.0025 kg",
+    ] {
         text = text.replacen(&format!("\"{weight}"), "\"0 kg", 1);
     }
     refuses(&text, &["reduced inertia is not positive", "flywheel"]);

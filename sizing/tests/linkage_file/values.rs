@@ -90,7 +90,12 @@ fn names_and_points() {
     assert_eq!(mechanism.link_names(), ["crank", "coupler", "rocker"]);
     assert_eq!(
         mechanism.joint_names(),
-        ["crank bearing", "crank pin", "coupler pin", "rocker bearing"]
+        [
+            "crank bearing",
+            "crank pin",
+            "coupler pin",
+            "rocker bearing"
+        ]
     );
     let points: Vec<&str> = mechanism.points().iter().map(|p| p.name.as_str()).collect();
     assert_eq!(points, ["crank.A", "coupler.B", "rocker.B"]);
@@ -231,11 +236,13 @@ fn the_six_links_of_equations_81() {
     }
 }
 
-/// Sun 24 teeth of module 2, planet 18, ring 60: the sun drives, the ring is the ground.
+/// Sun 24 teeth of module 2, planet 18, ring 60: the sun drives, the ring is the ground; 3.5 turns of the sun are one of the
+/// arm.
 const PLANETARY: &str = r#"gravity = ["0 m/s^2", "0 m/s^2"]
 [mechanism]
 type = "linkage"
 drive = "sun bearing"
+stroke = ["0 deg", "1260 deg"]
 body = [
   { name = "sun", mass = "1 kg", inertia = "3 kg cm^2", angle = "0 deg" },
   { name = "arm", mass = "2 kg", inertia = "40 kg cm^2", angle = "0 deg", points = { P = ["42 mm", "0 mm"] } },
@@ -299,7 +306,13 @@ fn belt_and_rack() {
     for (text, sign) in [
         (RACK.to_owned(), 1.0),
         // A crossed belt turns the other way round, and so does a rack above the pinion.
-        (RACK.replace("[\"20 mm\", \"60 mm\"]", "[\"20 mm\", \"60 mm\"], crossed = true"), -1.0),
+        (
+            RACK.replace(
+                "[\"20 mm\", \"60 mm\"]",
+                "[\"20 mm\", \"60 mm\"], crossed = true",
+            ),
+            -1.0,
+        ),
         (RACK.replace("\"-70 mm\"", "\"-10 mm\""), -1.0),
     ] {
         let file = read(&text);
@@ -319,7 +332,9 @@ fn belt_and_rack() {
 fn the_drawing_need_not_be_exact() {
     let exact = read(FOUR_BAR);
     for (coupler, rocker) in [("30 deg", "120 deg"), ("70 deg", "85 deg")] {
-        let text = FOUR_BAR.replace("50 deg", coupler).replace("100 deg", rocker);
+        let text = FOUR_BAR
+            .replace("50 deg", coupler)
+            .replace("100 deg", rocker);
         let file = read(&text);
         for phi in [0.3, 3.0, 5.5] {
             let [found, expected] =
@@ -328,7 +343,11 @@ fn the_drawing_need_not_be_exact() {
         }
     }
     // The other branch: the coupler pin below the line of the bearings.
-    let below = read(&FOUR_BAR.replace("50 deg", "-45 deg").replace("100 deg", "-105 deg"));
+    let below = read(
+        &FOUR_BAR
+            .replace("50 deg", "-45 deg")
+            .replace("100 deg", "-105 deg"),
+    );
     let found = below.machine.mechanism().frames(0.0).unwrap()[2].psi;
     let above = exact.machine.mechanism().frames(0.0).unwrap()[2].psi;
     within(found.value, -above.value, 1e-12);
@@ -346,4 +365,14 @@ fn the_machines_are_read() {
             .unwrap_or_else(|report| panic!("{}", rendered(&report)));
         assert_eq!(file.machine.mechanism().kind(), "linkage", "{name}");
     }
+}
+
+#[test]
+fn the_documented_example_is_read() {
+    let doc = include_str!("../../../docs/mechanisms/linkage.md");
+    let mut blocks = doc.split("\n```toml\n").skip(1);
+    let block = blocks.next().and_then(|rest| rest.split("\n```").next());
+    assert!(blocks.next().is_none(), "one example a document");
+    let file = read(block.unwrap());
+    assert_eq!(file.machine.mechanism().links().len(), 3);
 }

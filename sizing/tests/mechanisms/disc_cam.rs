@@ -327,17 +327,12 @@ fn wrong_entries_are_refused_with_their_cure() {
         "type = \"translating-roller\"\noffset = \"5 mm\"",
         "type = \"oscillating-roller\"\npivot = [\"200 mm\", \"0 mm\"]\narm = \"100 mm\"\nswing = \"clockwise\"\ninertia = \"0.01 kg m^2\"",
     ).replace("= \"20 mm\"", "= \"7 deg\"");
-    refuses_edit(&arm, "\"3 N/mm\"", "\"60 N m/rad\"", &["must be a torque"]);
-    let arm = arm
-        .replace("\"3 N/mm\"", "\"60 N m/rad\"")
-        .replace("\"80 N\"", "\"12 N m\"");
-    refuses_edit(
-        &arm,
-        "mass",
-        "mass",
-        &[
-            "cannot hold the roller on the base circle",
-            "between 100 mm and 300 mm",
-        ],
-    );
+    let arm = arm.replace("\"3 N/mm\"", "\"60 N m/rad\"");
+    let reach: &[&str] = &[
+        "cannot hold the roller on the base circle",
+        "between 100 mm and 300 mm",
+    ];
+    refuses_edit(&arm, "\"100 mm\"", "\"100 mm\"", reach);
+    let torque: &[&str] = &["`preload` in [mechanism.spring]", "must be a torque"];
+    refuses_edit(&arm, "\"100 mm\"", "\"190 mm\"", torque);
 }

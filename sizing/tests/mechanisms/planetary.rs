@@ -99,3 +99,23 @@ fn wrong_entries_are_refused_with_their_cure() {
         refuses_edit(base, from, to, words);
     }
 }
+
+/// With these teeth the planets' angle comes back after every turn of the sun, but they themselves do not.
+#[test]
+fn a_force_on_the_planets_does_not_repeat() {
+    let base = example(DOC)
+        .replace("teeth = 18", "teeth = 40")
+        .replace("teeth = 72", "teeth = 80");
+    let file = parse(&base).unwrap();
+    let planets = |phi| file.machine.mechanism().frames(phi).unwrap()[3].psi.value;
+    close(
+        planets(std::f64::consts::TAU) - planets(0.0),
+        -std::f64::consts::TAU,
+    );
+    let load = "[[load]]\non = \"planets\"\nforce = [\"5 N\", \"0 N\"]\n\n[mechanism]";
+    let words = [
+        "acts in a fixed direction on \"planets\"",
+        "does not move alike in every turn",
+    ];
+    refuses_edit(&base, "[mechanism]", load, &words);
+}

@@ -69,6 +69,7 @@ fn wrong_entries_are_refused_with_their_cure() {
             &[
                 "the rod no longer reaches the guide at φ = ",
                 "make it longer than 0.575000 m",
+                "too short",
             ],
         ),
         (

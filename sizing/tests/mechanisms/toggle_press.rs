@@ -83,6 +83,7 @@ fn wrong_entries_are_refused_with_their_cure() {
             &[
                 "the lower link no longer reaches the guide at φ = ",
                 "make it longer than 0.",
+                "too short",
             ],
         ),
         (

@@ -100,3 +100,6 @@ pub(crate) const LINKAGE: f64 = 1e-11;
 
 /// ½·J·ω² + U of a free motion at a tolerance of 1e-12, as a share of the energy turned over.
 pub(crate) const CONSERVED: f64 = 1e-9;
+
+/// The same machine by two readings of it, tolerance 1e-10 each over 1.5 s, of the column's largest value.
+pub(crate) const SAME_MOTION: f64 = 1e-7;

@@ -194,6 +194,27 @@ impl Geometry {
         }
     }
 
+    /// Speed of the roller's centre along the pitch curve (m/rad) without its derivatives: |w| by the law of cosines.
+    pub(super) fn pitch_speed(&self, s: Transfer) -> f64 {
+        let (rise, speed) = (self.zero + s.value, s.d1);
+        let square = match self.follower {
+            Follower::OscillatingRoller {
+                pivot, arm, swing, ..
+            } => {
+                let along = distance(pivot) * math::sin_cos(rise).1;
+                let turning = swing.sign() * speed;
+                let centre =
+                    pivot[0] * pivot[0] + pivot[1] * pivot[1] + arm * arm - 2.0 * arm * along;
+                centre + arm * turning * (arm * turning - 2.0 * (arm - along))
+            }
+            Follower::TranslatingRoller { offset, .. } => {
+                rise * rise + (speed - offset) * (speed - offset)
+            }
+            Follower::TranslatingFace { .. } | Follower::OscillatingFace { .. } => 0.0,
+        };
+        math::sqrt(square)
+    }
+
     fn touch_face(&self, s: Transfer) -> Touch {
         // Distance from the cam's pivot, turning of the normal in the cam, and the normal.
         let (p, turning, normal) = match self.follower {

@@ -20,8 +20,8 @@ use crate::transfer::Transfer;
 /// A segment has at most five pieces.
 const MAX_PIECES: usize = 5 * MAX_SEGMENTS;
 
-/// Panels of a piece, each with five nodes.
-const PANELS: u32 = 8;
+/// Widest panel (rad), each with five nodes: the fastest law within 60° leaves an error of 1e-11 of the length.
+const PANEL: f64 = 0.25;
 
 /// Nodes and weights of Gauss's formula of order 10 on [−1, 1].
 const NODES: [[f64; 2]; 5] = [
@@ -78,13 +78,14 @@ impl Spin {
 
 /// Length of the pitch curve from `from` to `to`, within one piece.
 fn length(program: &Program, geometry: &Geometry, from: f64, to: f64) -> f64 {
-    let half = 0.5 * (to - from) / f64::from(PANELS);
+    let panels = 1 + ((to - from) / PANEL) as u32;
+    let half = 0.5 * (to - from) / f64::from(panels);
     let mut sum = 0.0;
-    for panel in 0..PANELS {
+    for panel in 0..panels {
         let middle = from + half * f64::from(2 * panel + 1);
         for [node, weight] in NODES {
             let s = program.displacement(middle + half * node);
-            sum += weight * geometry.touch(s).pitch_speed.value;
+            sum += weight * geometry.pitch_speed(s);
         }
     }
     sum * half

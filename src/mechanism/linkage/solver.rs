@@ -147,6 +147,7 @@ impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
     ) -> Result<Placed, Unsolved> {
         let equations = self.structure.equations(group);
         let coordinates = self.structure.coordinates(group);
+        let contents = self.structure.contents(group);
         let size = equations.len();
         let phi = Transfer::constant(phi);
         let mut placed = Placed::default();
@@ -162,8 +163,12 @@ impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
                 let link = usize::from(c.link);
                 frames[link].seed(c.axis, 1.0);
                 let mut length = 0.0;
-                for (entry, equation) in column.iter_mut().zip(equations) {
-                    *entry = self.order::<1>(*equation, frames, phi);
+                for ((entry, equation), content) in column.iter_mut().zip(equations).zip(contents) {
+                    *entry = if c.is_in(*content) {
+                        self.order::<1>(*equation, frames, phi)
+                    } else {
+                        0.0
+                    };
                     length += *entry * *entry;
                 }
                 frames[link].seed(c.axis, 0.0);

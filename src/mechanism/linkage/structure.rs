@@ -31,6 +31,14 @@ pub(super) struct Coordinate {
     pub(super) axis: u8,
 }
 
+impl Coordinate {
+    /// Whether it is one of a set of bits 3·link + axis.
+    #[inline]
+    pub(super) const fn is_in(self, bits: u64) -> bool {
+        bits >> (3 * self.link + self.axis) & 1 == 1
+    }
+}
+
 /// The angle among the coordinates.
 pub(super) const PSI: u8 = 2;
 
@@ -39,6 +47,8 @@ pub(super) const PSI: u8 = 2;
 pub(super) struct Structure<const LINKS: usize> {
     equations: [[Equation; 3]; LINKS],
     coordinates: [[Coordinate; 3]; LINKS],
+    /// For each equation, the coordinates in it.
+    contents: [[u64; 3]; LINKS],
     groups: heapless::Vec<Group, MOST>,
 }
 
@@ -114,6 +124,7 @@ impl<const LINKS: usize> Structure<LINKS> {
         let mut structure = Self {
             equations: [[Equation::default(); 3]; LINKS],
             coordinates: [[Coordinate::default(); 3]; LINKS],
+            contents: [[0; 3]; LINKS],
             groups: heapless::Vec::new(),
         };
         let mut before = None;
@@ -129,6 +140,7 @@ impl<const LINKS: usize> Structure<LINKS> {
             ) {
                 *slot = coordinate;
                 structure.equations.as_flattened_mut()[place] = *equation;
+                structure.contents.as_flattened_mut()[place] = depends[e];
             }
             if before != Some(reach[c]) {
                 let _ = structure.groups.push(Group {
@@ -185,6 +197,12 @@ impl<const LINKS: usize> Structure<LINKS> {
     pub(super) fn equations(&self, group: Group) -> &[Equation] {
         let start = usize::from(group.start);
         &self.equations.as_flattened()[start..start + usize::from(group.size)]
+    }
+
+    /// For each equation of a group, the coordinates in it, as bits.
+    pub(super) fn contents(&self, group: Group) -> &[u64] {
+        let start = usize::from(group.start);
+        &self.contents.as_flattened()[start..start + usize::from(group.size)]
     }
 
     /// The coordinates of a group.

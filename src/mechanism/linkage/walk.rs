@@ -30,7 +30,8 @@ type Station<const LINKS: usize> = [[[f64; 2]; 3]; LINKS];
 ///
 /// Accuracy: positions 1e-12, transfer functions and reduced inertia 1e-11 of the largest value, against closed forms and
 /// golden data (tests `four_bar_golden_as_a_linkage`, `library_mechanisms_as_linkages`). Cost: proportional to the number
-/// of positions; in each, to the sum of the cubes of the [group sizes](Linkage::group_sizes).
+/// of positions; in each, the sum over the [groups](Linkage::group_sizes), one of which costs at most the cube of its size
+/// (bench `linkage`, docs/performance.md).
 #[derive(Clone, Debug)]
 pub struct Assembly<const LINKS: usize, const PAIRS: usize, const STATIONS: usize> {
     linkage: Linkage<LINKS, PAIRS>,

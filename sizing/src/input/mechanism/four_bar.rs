@@ -1,7 +1,7 @@
 //! `type = "four-bar"`.
 
 use jred::Error;
-use jred::mechanism::{FourBar, Side};
+use jred::mechanism::{Blocked, FourBar, Side};
 
 use super::{core, link};
 use crate::input::item::{Item, Value};
@@ -30,7 +30,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let links = [link(&crank)?, link(&coupler)?, link(&rocker)?];
     let mechanism = match &stroke {
         None => FourBar::new(lengths, pivot, side, links)
-            .map_err(|error| blocked(section, &length, &error))?,
+            .map_err(|error| blocked(section, &length, &length, &error))?,
         Some(item) => {
             let [from, to] = item.pair([&ANGLE, &ANGLE])?.map(|value| value.si);
             FourBar::over_stroke(lengths, pivot, side, [from, to], links)
@@ -59,17 +59,23 @@ pub(super) fn side(item: Option<Item>) -> Result<Side> {
     })
 }
 
-/// A crank that cannot turn fully: shown at its `length`, the cure as help.
-pub(super) fn blocked(section: &Section, length: &Value, error: &Error) -> Problem {
+/// A crank that cannot turn fully: shown at its length, or at that of the `last` link, to the slider, if that is too
+/// short; the cure as help.
+pub(super) fn blocked(section: &Section, crank: &Value, last: &Value, error: &Error) -> Problem {
+    let Error::Blocked(blocked) = error else {
+        return core(section, error);
+    };
+    let (place, label) = match blocked {
+        Blocked::TooShort { .. } => (last, "too short"),
+        _ => (crank, "this crank"),
+    };
     let text = error.to_string();
-    match (error, text.split_once("; ")) {
-        (Error::Blocked(_), Some((what, cure))) => {
-            Problem::new(format!("{}: {what}", section.title()))
-                .at(length.span(), "this crank")
-                .help(cure)
-        }
-        _ => core(section, error),
-    }
+    let (what, cure) = text
+        .split_once("; ")
+        .unwrap_or((&text, "change the lengths"));
+    Problem::new(format!("{}: {what}", section.title()))
+        .at(place.span(), label)
+        .help(cure)
 }
 
 /// A stroke that the linkage cannot follow.

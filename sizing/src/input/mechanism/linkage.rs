@@ -160,9 +160,8 @@ fn domain(section: &Section, coordinate: Coordinate) -> Result<Domain> {
     };
     let [from, to] = item.pair([kind, kind])?;
     if to.si - from.si < kind.smallest {
-        return Err(stroke_problem(&item, &from.shown(), &to.shown()).help(format!(
-            "the second end is the larger one: {example}"
-        )));
+        return Err(stroke_problem(&item, &from.shown(), &to.shown())
+            .help(format!("the second end is the larger one: {example}")));
     }
     Domain::stroke(from.si, to.si).map_err(|error| super::core(section, &error))
 }

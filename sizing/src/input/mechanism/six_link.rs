@@ -38,7 +38,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     ];
     // The core measures the guide downwards, as the printed equations do.
     let mechanism = SixLink::new(lengths, centres, -guide, branch, links)
-        .map_err(|error| blocked(section, &crank_length, &error))?;
+        .map_err(|error| blocked(section, &crank_length, &rod_length, &error))?;
     let names = ["crank", "block", "rocker", "rod", "slider"];
     let joints = [
         "crank pivot",

@@ -26,12 +26,12 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         section.section("lower")?,
         section.section("ram")?,
     );
-    let crank_length = length(&crank)?;
+    let (crank_length, lower_length) = (length(&crank)?, length(&lower)?);
     let lengths = [
         crank_length.si,
         length(&rod)?.si,
         length(&upper)?.si,
-        length(&lower)?.si,
+        lower_length.si,
     ];
     let links = [
         link(&crank)?,
@@ -41,7 +41,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         slide(&ram)?,
     ];
     let mechanism = TogglePress::new(lengths, pivot, guide, (knee, branch), links)
-        .map_err(|error| blocked(section, &crank_length, &error))?;
+        .map_err(|error| blocked(section, &crank_length, &lower_length, &error))?;
     let names = ["crank", "rod", "upper", "lower", "ram"];
     let joints = [
         "crank pivot",

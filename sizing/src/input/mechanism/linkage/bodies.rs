@@ -6,9 +6,9 @@ use jred::{Body, Link, Marker};
 
 use crate::input::item::{Item, Value};
 use crate::input::kind::{ANGLE, INERTIA, LENGTH, MASS};
+use crate::input::mechanism::core;
 use crate::input::problem::{Problem, Result, closest, quoted};
 use crate::input::section::Section;
-use crate::input::mechanism::core;
 
 /// What joints call the fixed frame.
 pub(super) const GROUND: &str = "ground";
@@ -77,7 +77,10 @@ impl Bodies {
         if let Some(surplus) = sections.get(MOST) {
             return Err(surplus
                 .problem(
-                    format!("the linkage has {} bodies, more than {MOST}", sections.len()),
+                    format!(
+                        "the linkage has {} bodies, more than {MOST}",
+                        sections.len()
+                    ),
                     "one too many",
                 )
                 .help("bodies that are rigidly connected are one body: add up their masses"));
@@ -155,8 +158,9 @@ impl Bodies {
             return Ok(End { body, at: found.at });
         }
         let names: Vec<&str> = points.iter().map(|p| p.name.as_str()).collect();
-        let near = closest(point, &names)
-            .map_or_else(String::new, |near| format!("did you mean \"{name}.{near}\"? "));
+        let near = closest(point, &names).map_or_else(String::new, |near| {
+            format!("did you mean \"{name}.{near}\"? ")
+        });
         let known = match (body, names.as_slice()) {
             (Body::Ground, []) => format!(
                 "the ground has no points yet: add ground = {{ {point} = [\"0 mm\", \"0 mm\"] }} to [mechanism]"
@@ -171,12 +175,16 @@ impl Bodies {
                 &format!("names the point \"{point}\", which \"{name}\" does not have"),
                 "unknown point",
             )
-            .help(format!("{near}{known}; \"{name}\" alone is the origin of its frame")))
+            .help(format!(
+                "{near}{known}; \"{name}\" alone is the origin of its frame"
+            )))
     }
 }
 
 fn drawn(section: &Section) -> Result<Drawn> {
-    section.expects(&["name", "mass", "inertia", "com", "angle", "position", "points"]);
+    section.expects(&[
+        "name", "mass", "inertia", "com", "angle", "position", "points",
+    ]);
     let item = section.require("name", "name = \"crank\"")?;
     let name = item.text("crank")?.to_owned();
     if name == GROUND || name.contains('.') {
@@ -205,7 +213,9 @@ fn drawn(section: &Section) -> Result<Drawn> {
         None => Vec::new(),
     };
     section.finish_with(|key| match key {
-        "length" => Some("a body has no length: give its points, such as points = { A = [\"80 mm\", \"0 mm\"] }"),
+        "length" => Some(
+            "a body has no length: give its points, such as points = { A = [\"80 mm\", \"0 mm\"] }",
+        ),
         "at" => Some("where the body is drawn is its position"),
         _ => None,
     })?;

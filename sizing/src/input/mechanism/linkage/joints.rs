@@ -62,10 +62,15 @@ pub(super) fn read(section: &Section, bodies: &Bodies) -> Result<Vec<Held>> {
     if let Some(surplus) = sections.get(MOST) {
         return Err(surplus
             .problem(
-                format!("the linkage has {} joints, more than {MOST}", sections.len()),
+                format!(
+                    "the linkage has {} joints, more than {MOST}",
+                    sections.len()
+                ),
                 "one too many",
             )
-            .help("bodies that are rigidly connected are one body: leave out the joint between them"));
+            .help(
+                "bodies that are rigidly connected are one body: leave out the joint between them",
+            ));
     }
     let mut joints: Vec<Held> = Vec::with_capacity(sections.len());
     for section in &sections {
@@ -95,7 +100,10 @@ fn joint(section: &Section, bodies: &Bodies) -> Result<Held> {
     let [first, second] = list.as_slice() else {
         let count = list.len();
         return Err(between
-            .problem(&format!("has {count} ends, but a joint connects two"), "here")
+            .problem(
+                &format!("has {count} ends, but a joint connects two"),
+                "here",
+            )
             .help("a pin that holds three bodies is two joints at the same point"));
     };
     let ends = [bodies.end(first)?, bodies.end(second)?];
@@ -195,7 +203,9 @@ fn pair(
             let [r_a, r_b] = item.pair([&LENGTH, &LENGTH])?;
             let radii = [r_a.positive()?, r_b.positive()?];
             let pair = if kind == "belt" {
-                let crossed = section.get("crossed").map_or(Ok(false), |item| item.flag())?;
+                let crossed = section
+                    .get("crossed")
+                    .map_or(Ok(false), |item| item.flag())?;
                 Pair::Belt {
                     centres: [a, b],
                     radii: [radii[0], if crossed { -radii[1] } else { radii[1] }],

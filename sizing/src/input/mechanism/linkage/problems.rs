@@ -44,12 +44,11 @@ pub(super) fn check_topology(section: &Section, bodies: &Bodies, joints: &[Held]
     }
     for (k, body) in bodies.moving.iter().enumerate() {
         if !used.get(k).copied().unwrap_or_default() {
-            return Err(Problem::new(format!(
-                "body \"{}\" is in no joint",
-                body.name
-            ))
-            .at(body.place.clone(), "never used")
-            .help("remove it, or add the [[mechanism.joint]] that holds it"));
+            return Err(
+                Problem::new(format!("body \"{}\" is in no joint", body.name))
+                    .at(body.place.clone(), "never used")
+                    .help("remove it, or add the [[mechanism.joint]] that holds it"),
+            );
         }
         if !held.get(k).copied().unwrap_or_default() {
             return Err(Problem::new(format!(
@@ -211,7 +210,9 @@ impl Context<'_> {
             Coordinate::Angle => std::f64::consts::TAU,
             Coordinate::Length => {
                 let points = self.joints.iter().flat_map(|j| j.pair.markers());
-                let far = points.flat_map(|m| m.at).fold(0.0_f64, |most, c| most.max(c.abs()));
+                let far = points
+                    .flat_map(|m| m.at)
+                    .fold(0.0_f64, |most, c| most.max(c.abs()));
                 4.0 * far.max(1e-3)
             }
         }
@@ -252,5 +253,4 @@ impl Context<'_> {
 }
 
 /// A linkage that was followed over its range, kept where it does not fill the stack.
-pub(super) type Assembled =
-    Box<Assembly<{ bodies::MOST }, { joints::MOST }, { super::STATIONS }>>;
+pub(super) type Assembled = Box<Assembly<{ bodies::MOST }, { joints::MOST }, { super::STATIONS }>>;

@@ -90,7 +90,12 @@ fn gears(
     if (distance - needed).abs() > ROUNDING * needed {
         let ratio = (r_b / r_a).abs();
         let internal = r_a * r_b < 0.0;
-        let first = distance / if internal { (ratio - 1.0).abs() } else { ratio + 1.0 };
+        let first = distance
+            / if internal {
+                (ratio - 1.0).abs()
+            } else {
+                ratio + 1.0
+            };
         return Err(misfit(
             joint,
             format!(

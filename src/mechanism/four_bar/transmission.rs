@@ -1,0 +1,63 @@
+//! How well the coupler pushes the rocker.
+
+use core::f64::consts::{PI, TAU};
+
+use super::{FourBar, beyond};
+use crate::transfer::Transfer;
+use crate::{Domain, Error, math};
+
+impl FourBar {
+    /// Transmission angle μ (rad) between coupler and rocker at B, 0 to π, with its derivatives by φ:
+    ///
+    /// ```text
+    /// cos μ = (b² + c² − f²)/(2·b·c)
+    /// ```
+    ///
+    /// The rocker is pushed best at 90° and not at all at 0° and 180°. Rule of thumb (H. Alt, 1932): not below 40° and not
+    /// above 140°.
+    ///
+    /// # Errors
+    /// No position at `phi`.
+    pub fn transmission_angle(&self, phi: f64) -> Result<Transfer, Error> {
+        let [_, coupler, rocker] = self.place(phi)?;
+        let turned = rocker.psi - coupler.psi;
+        // From BA to BC as from AB to CB; which way round depends on the side.
+        let angle = turned * self.side.sign();
+        let whole = math::floor(angle.value / TAU) * TAU;
+        Ok(angle - Transfer::constant(whole))
+    }
+
+    /// Smallest and largest transmission angle (rad) over the crank's range.
+    #[must_use]
+    pub fn transmission_angle_range(&self) -> [f64; 2] {
+        let (b, c) = (self.coupler, self.rocker);
+        let angle = |span: f64| math::acos((b * b + c * c - span * span) / (2.0 * b * c));
+        self.span_range().map(angle)
+    }
+
+    /// Smallest and largest f = |AC| (m) over the crank's range: at its ends, and where O, A and C are in line.
+    fn span_range(&self) -> [f64; 2] {
+        let (near, far) = (
+            math::abs(self.ground - self.crank),
+            self.ground + self.crank,
+        );
+        let Domain::Stroke { from, to } = self.domain else {
+            return [near, far];
+        };
+        let ends = [self.span(from), self.span(to)];
+        let inside = |phi: f64| from + beyond(phi - from) <= to;
+        let gamma = self.ground_angle();
+        [
+            if inside(gamma) {
+                near
+            } else {
+                ends[0].min(ends[1])
+            },
+            if inside(gamma + PI) {
+                far
+            } else {
+                ends[0].max(ends[1])
+            },
+        ]
+    }
+}
