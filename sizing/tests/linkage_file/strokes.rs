@@ -214,6 +214,15 @@ fn motions_of_a_sliding_drive() {
         refuses_edit(&text, from, to, words);
     }
     refuses_edit(
+        LIFT,
+        "drive = \"cylinder\"",
+        "drive = \"cylinder\"\nflywheel = \"1 kg m^2\"",
+        &[
+            "`flywheel` in [mechanism] turns, but the drive link",
+            "slides",
+        ],
+    );
+    refuses_edit(
         FOUR_BAR,
         "[[load]]",
         "[[drive_train]]\ntype = \"rack\"\nradius = \"30 mm\"\ninertia = \"2 kg cm^2\"\n[[load]]",
