@@ -9,7 +9,7 @@
 //! cargo run -p jred --example 04_payload --profile firmware --target thumbv7em-none-eabihf
 //! ```
 //!
-//! A general linkage, its stations and a machine on it need some 30 KiB of stack; the Cortex-M0 of the examples has 16.
+//! It needs between 32 and 40 KiB of stack; the Cortex-M0 of the examples has 16.
 //!
 //! runs on: cortex-m3 cortex-m4 cortex-m7 cortex-m33
 //! computes in: double precision

@@ -79,10 +79,11 @@ fn check_drawing(svg: &str) {
 /// The scale (px/m) by the scale bar.
 fn scale(document: &Document) -> f64 {
     let text = document.descendants().filter_map(|n| n.text());
-    let label = text.filter(|t| t.ends_with(" mm")).last().unwrap();
+    let mut labels = text.filter(|t| t.ends_with(" mm"));
+    let label = labels.next_back().unwrap();
     let length: f64 = label.trim_end_matches(" mm").parse().unwrap();
-    let bars = document.descendants().filter(|n| n.has_tag_name("path"));
-    let bar = points(bars.last().unwrap());
+    let mut bars = document.descendants().filter(|n| n.has_tag_name("path"));
+    let bar = points(bars.next_back().unwrap());
     assert_eq!(bar.len(), 4);
     distance(bar[1], bar[2]) / (length * 1e-3)
 }

@@ -9,8 +9,12 @@ mod elements;
 mod refusals;
 #[path = "linkage_file/strokes.rs"]
 mod strokes;
+#[path = "linkage_file/trains.rs"]
+mod trains;
 #[path = "linkage_file/values.rs"]
 mod values;
+#[path = "linkage_file/wheels.rs"]
+mod wheels;
 
 use std::path::Path;
 

@@ -110,7 +110,7 @@ fn every_force_of_the_press_by_hand() {
         let found: Vec<f64> = rows.iter().map(|&k| found.get(column)[k]).collect();
         let expected: Vec<f64> = hand.iter().map(f).collect();
         // At a dead centre sin φ is a rounding, and with it the way that friction acts.
-        let ends = |k: &usize| k % 18 != 0;
+        let ends = |k: &usize| !k.is_multiple_of(18);
         let keep = |values: &[f64]| -> Vec<f64> {
             rows.iter()
                 .filter(|k| ends(k))

@@ -38,7 +38,7 @@ pub struct Traction {
 
 impl CreepContact {
     /// The circumferential speed, as an angular speed of the second shaft (rad/s), below which the contact is viscous.
-    pub const SLOW: f64 = 0.1;
+    pub const SLOW: f64 = 1.0;
 
     /// The `slip` s₁ in (0, 1) at the torque `limit` (N·m) on the second shaft, where the contact begins to slide.
     ///

@@ -27,23 +27,7 @@ pub(super) fn read(
         return Ok(None);
     };
     let section = item.section("[simulation]".into())?;
-    let key = if drive.slides() {
-        "start_position"
-    } else {
-        "start_angle"
-    };
-    let start = section.quantity(key, drive.position())?;
-    if !drive.reaches(start.si) {
-        let what = format!(
-            "is {}, outside the stroke, {}",
-            start.shown(),
-            drive.range()
-        );
-        return Err(start
-            .problem(&what, "out of reach")
-            .help("start at a position within the stroke"));
-    }
-    let start_angle = start.si;
+    let start_angle = start(&section, drive)?;
     let start_speed = section
         .optional("start_speed", drive.speed())?
         .map_or(0.0, |value| value.si);
@@ -126,6 +110,27 @@ pub(super) fn read(
         rotor_inertia,
         tolerance,
     }))
+}
+
+/// Where the drive link starts (rad, or m).
+fn start(section: &Section, drive: DriveLink) -> Result<f64> {
+    let key = if drive.slides() {
+        "start_position"
+    } else {
+        "start_angle"
+    };
+    let start = section.quantity(key, drive.position())?;
+    if !drive.reaches(start.si) {
+        let what = format!(
+            "is {}, outside the stroke, {}",
+            start.shown(),
+            drive.range()
+        );
+        return Err(start
+            .problem(&what, "out of reach")
+            .help("start at a position within the stroke"));
+    }
+    Ok(start.si)
 }
 
 /// The torque or force as points over speed.

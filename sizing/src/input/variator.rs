@@ -37,7 +37,15 @@ pub(super) fn read(root: &Section, drive_link: DriveLink) -> Result<Option<Varia
             )
             .help("put the screw, rack or crank that moves the drive link into the mechanism"));
     }
-    section.expects(&["ratio", "slip", "creep", "power_flow", "shift"]);
+    section.expects(&[
+        "ratio",
+        "input_inertia",
+        "output_inertia",
+        "slip",
+        "creep",
+        "power_flow",
+        "shift",
+    ]);
     let mut ratio = Ratio::new(ratio(&section)?);
     let input = section.quantity("input_inertia", &INERTIA)?.positive()?;
     let output = section
@@ -137,6 +145,7 @@ pub(super) fn flow(section: &Section, why: &str) -> Result<Flow> {
 
 fn creep(item: &Item) -> Result<Slip> {
     let section = item.section("`creep` of [variator]".into())?;
+    section.expects(&["slip", "torque"]);
     let slip = section.quantity("slip", &SHARE)?;
     slip.check_positive()?;
     if slip.si >= 1.0 {

@@ -28,6 +28,13 @@ const TIME: usize = 7;
 /// Losses may be negative by this share of the power through the contact: rounding.
 const ROUNDING: f64 = 1e-9;
 
+/// Step control of the integrator: its own defaults, without its test for stiffness. A creeping contact near standstill is
+/// stiff (J·s·ω/torque is some microseconds), but small steps master it.
+const CONTROL: [f64; 4] = [0.9, 0.0, 0.333, 6.0];
+
+/// The most steps within one output step.
+const MOST_STEPS: u32 = 1_000_000;
+
 /// The machine with its variator, motor torque and direction.
 struct Plant<'a> {
     file: &'a MachineFile,
@@ -428,9 +435,26 @@ fn integrate(
     let span = end - t;
     let mut from = *y;
     from[TIME] = t;
-    let mut solver = Dop853::new(plant, 0.0, span, span, from, tolerance, tolerance);
-    // Only the steps themselves: their last is the end, to full order.
-    solver.set_output(OutputType::Sparse);
+    let [safety, beta, fac_min, fac_max] = CONTROL;
+    // Sparse output: the steps themselves, of which the last is the end, to full order.
+    let mut solver = Dop853::from_param(
+        plant,
+        0.0,
+        span,
+        span,
+        from,
+        tolerance,
+        tolerance,
+        safety,
+        beta,
+        fac_min,
+        fac_max,
+        span,
+        0.0,
+        MOST_STEPS,
+        u32::MAX,
+        OutputType::Sparse,
+    );
     let outcome = solver.integrate();
     if let Some(error) = plant.fault.borrow_mut().take() {
         return Err(error.into());

@@ -1,17 +1,16 @@
 //! Bounded drives: a boom lifted by a cylinder, and a crank that swings.
 
-use std::f64::consts::TAU;
-
 use jred::{Domain, Mechanism as _, Reducible as _};
 use jred_sizing::coordinate::Coordinate;
 use jred_sizing::duty::Duty;
 use jred_sizing::simulate::simulate;
 
 use crate::support::{Folder, budget, jred};
-use crate::{FOUR_BAR, machine_path, parse, read, refuses, refuses_edit, within};
+use crate::trains::SCREW;
+use crate::{FOUR_BAR, parse, read, refuses, refuses_edit, within};
 
 /// A boom on a bearing, lifted by a cylinder: s² = a² + b² − 2·a·b·cos θ with a = 500 mm, b = 600 mm.
-const LIFT: &str = r#"gravity = ["0 m/s^2", "-9.81 m/s^2"]
+pub(crate) const LIFT: &str = r#"gravity = ["0 m/s^2", "-9.81 m/s^2"]
 
 [mechanism]
 type = "linkage"
@@ -31,7 +30,7 @@ joint = [
 ]
 "#;
 
-const MOTION: &str = r#"
+pub(crate) const MOTION: &str = r#"
 [motion]
 type = "cycle"
 start = "450 mm"
@@ -47,22 +46,8 @@ law = "polynomial-345"
 duration = "3 s"
 "#;
 
-const SCREW: &str = r#"
-[[drive_train]]
-type = "belt"
-driver = { radius = "30 mm", inertia = "2 kg cm^2" }
-driven = { radius = "60 mm", inertia = "12 kg cm^2" }
-
-[[drive_train]]
-type = "ball-screw"
-lead = "10 mm"
-inertia = "6 kg cm^2"
-mass = "4 kg"
-efficiency = "90 %"
-"#;
-
 /// θ′, and cos θ, of the lift at s.
-fn boom(s: f64) -> [f64; 2] {
+pub(crate) fn boom(s: f64) -> [f64; 2] {
     let cos = (0.25 + 0.36 - s * s) / 0.6;
     let sin = (1.0 - cos * cos).sqrt();
     [s / (0.3 * sin), cos]
@@ -259,57 +244,6 @@ fn recorded_motions_of_a_sliding_drive() {
 }
 
 #[test]
-fn a_ball_screw_lets_a_motor_turn() {
-    let text = format!("{LIFT}{SCREW}{MOTION}");
-    let file = read(&text);
-    let train = &file.drive_train;
-    within(train.ratio(), 2.0 * TAU / 0.01, 1e-9);
-    // What turns and slides, as a mass at the rod: the screw's 6 kg cm² alone are 237 kg.
-    let turns = TAU / 0.01;
-    let mass = 4.0 + (6e-4 + 12e-4) * turns * turns + 2e-4 * (2.0 * turns).powi(2);
-    let whole = file.with_drive_train().unwrap();
-    let bare = file.machine.reduction(0.6).unwrap().inertia[0];
-    within(whole.reduction(0.6).unwrap().inertia[0] - bare, mass, 1e-8);
-    // Statically, T·2π·η = F·lead.
-    let [slope, cos] = boom(0.6);
-    let force = 100.0 * 9.81 * 0.8 * cos * slope;
-    let input = train.input(force, 0.0, 0.0, 0.0);
-    within(input.torque, force * 0.01 / (TAU * 0.9) / 2.0, 1e-12);
-
-    let folder = Folder::new();
-    let sized = jred([&"size", &folder.file("lift.toml", &text)]);
-    assert!(sized.code < 2, "{}", sized.err);
-    let direct = jred([
-        &"size",
-        &folder.file("direct.toml", format!("{LIFT}{MOTION}")),
-    ])
-    .ends(2);
-    assert!(
-        direct
-            .message()
-            .contains("the drive link slides, and the motors of the catalogue turn"),
-        "{}",
-        direct.message()
-    );
-    let file = folder.file("lift.toml", &text);
-    let out = folder.path("table.bin");
-    let exported = jred([
-        &"export",
-        &file,
-        &"--out",
-        &out,
-        &"--torque-error",
-        &"5 N m",
-    ]);
-    assert!(
-        exported.code < 2 && (exported.code == 1 || exported.out.contains("force error reached")),
-        "{} {}",
-        exported.out,
-        exported.err
-    );
-}
-
-#[test]
 fn free_motions_of_a_sliding_drive() {
     // Pushed from below and let go by gravity: the energy stays.
     let free = format!(
@@ -415,20 +349,4 @@ fn a_crank_that_swings() {
         ),
         &["lies outside the stroke, -60 deg to 90 deg"],
     );
-}
-
-#[test]
-fn the_excavator_is_sized() {
-    let path = machine_path("excavator-bucket.toml");
-    jred([&"reduce", &path]).ends(0);
-    let run = jred([&"size", &path]);
-    assert!(run.code < 2, "{}", run.err);
-    jred([&"simulate", &path]).ends(0);
-    for name in [
-        "linkage-four-bar.toml",
-        "linkage-press.toml",
-        "linkage-planetary.toml",
-    ] {
-        jred([&"size", &machine_path(name)]).ends(0);
-    }
 }

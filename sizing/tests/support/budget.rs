@@ -103,3 +103,6 @@ pub(crate) const CONSERVED: f64 = 1e-9;
 
 /// The same machine by two readings of it, tolerance 1e-10 each over 1.5 s, of the column's largest value.
 pub(crate) const SAME_MOTION: f64 = 1e-7;
+
+/// Ratios and their courses: a few roundings.
+pub(crate) const RATIO: f64 = 1e-12;

@@ -92,7 +92,10 @@ impl Context<'_> {
             Error::BranchChange { phi, joint } => self
                 .at_joint(
                     joint,
-                    &format!("the linkage changes to another branch at {}", self.place(phi)),
+                    &format!(
+                        "is where the linkage changes to another branch, at {}",
+                        self.place(phi)
+                    ),
                     "stretched or folded here",
                 )
                 .help(
@@ -100,15 +103,7 @@ impl Context<'_> {
                      before it",
                 ),
             Error::NotClosed { link, gap } => self.not_closed(link, gap),
-            Error::OverConstrained { joint, free } => {
-                let free = self.bodies.name(Body::Link(free));
-                self.at_joint(
-                    joint,
-                    &format!("holds bodies that other joints hold already, while {free} can still move"),
-                    "one too many",
-                )
-                .help(format!("leave out this joint, and add one that holds {free}"))
-            }
+            Error::OverConstrained { joint, free } => self.held_twice(joint, free),
             _ => core(self.section, error),
         }
     }
@@ -119,7 +114,7 @@ impl Context<'_> {
 
     fn at_joint(&self, joint: usize, message: &str, label: &str) -> Problem {
         match self.joints.get(joint) {
-            Some(joint) => Problem::new(format!("joint \"{}\": {message}", joint.name))
+            Some(joint) => Problem::new(format!("joint \"{}\" {message}", joint.name))
                 .at(joint.place.clone(), label),
             None => self.section.problem(message, label),
         }
@@ -135,14 +130,6 @@ impl Context<'_> {
             _ => format!("{} mm", figure(gap * 1e3)),
         };
         let [a, b] = held.pair.bodies().map(|body| self.bodies.name(body));
-        let drawn = match held.pair {
-            Pair::Joint(Joint::Revolute([a, b])) => {
-                let (a, b) = (a.position(self.frames), b.position(self.frames));
-                let gap = (b[0].value - a[0].value).hypot(b[1].value - a[1].value);
-                format!(" (it is open by {} mm in the drawing)", figure(gap * 1e3))
-            }
-            _ => String::new(),
-        };
         self.at_joint(
             joint,
             &format!(
@@ -152,7 +139,49 @@ impl Context<'_> {
             "stays open",
         )
         .help(format!(
-            "check the angles of {a} and {b} in the drawing{drawn}, and whether their points are long enough to meet"
+            "check the angles of {a} and {b} in the drawing, and whether their points can meet{}",
+            self.widest_gap()
+        ))
+    }
+
+    /// Where the drawing itself is open.
+    fn widest_gap(&self) -> String {
+        let gap = |held: &Held| match held.pair {
+            Pair::Joint(Joint::Revolute([a, b])) => {
+                let (a, b) = (a.position(self.frames), b.position(self.frames));
+                (b[0].value - a[0].value).hypot(b[1].value - a[1].value)
+            }
+            _ => 0.0,
+        };
+        let widest = self
+            .joints
+            .iter()
+            .map(|held| (gap(held), &held.name))
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        match widest {
+            Some((gap, name)) if gap > 0.0 => format!(
+                "; the widest gap in the drawing is {} mm, at \"{name}\"",
+                figure(gap * 1e3)
+            ),
+            _ => String::new(),
+        }
+    }
+
+    /// As many equations as coordinates, but some joints hold the same.
+    fn held_twice(&self, joint: usize, free: usize) -> Problem {
+        let free = self.bodies.name(Body::Link(free));
+        let what = if joint == self.drive {
+            "is driven, but the other joints leave it no freedom"
+        } else {
+            "holds bodies that other joints hold already"
+        };
+        self.at_joint(
+            joint,
+            &format!("{what}, while {free} can still move"),
+            "held twice",
+        )
+        .help(format!(
+            "leave out one of the joints between the bodies of this loop, and add one that holds {free}"
         ))
     }
 
@@ -237,7 +266,8 @@ impl Context<'_> {
 
     fn not_closed(&self, link: usize, gap: f64) -> Problem {
         let message = format!(
-            "the linkage does not repeat: after a turn of the drive link, body {} is {} mm from where it was",
+            "the linkage does not repeat: after a turn of the drive link, body {} is {} mm from where it was, or turned \
+             as much at the linkage's size",
             self.bodies.name(Body::Link(link)),
             figure(gap * 1e3)
         );

@@ -53,7 +53,7 @@ pub(super) fn check(mechanism: &impl Mechanism, bodies: &Bodies, joints: &[Held]
                     if (found - radius.abs()).abs() > ROUNDING * radius.abs() {
                         return Err(misfit(
                             joint,
-                            format!(
+                            &format!(
                                 "the pinion has a radius of {} mm, but its centre lies {} mm from the rack's pitch line",
                                 figure(radius.abs() * 1e3),
                                 figure(found * 1e3)
@@ -70,7 +70,7 @@ pub(super) fn check(mechanism: &impl Mechanism, bodies: &Bodies, joints: &[Held]
     Ok(())
 }
 
-fn misfit(joint: &Held, message: String) -> Problem {
+fn misfit(joint: &Held, message: &str) -> Problem {
     let place = joint.radii.clone().unwrap_or(joint.place.clone());
     Problem::new(format!("joint \"{}\": {message}", joint.name)).at(place, "does not fit")
 }
@@ -98,7 +98,7 @@ fn gears(
             };
         return Err(misfit(
             joint,
-            format!(
+            &format!(
                 "the gears' radii {} mm and {} mm ask for centres {} mm apart, but these are {} mm apart",
                 figure(r_a.abs() * 1e3),
                 figure(r_b.abs() * 1e3),
@@ -119,7 +119,7 @@ fn gears(
     if (turn - carried).abs() > STILL * (1.0 + turn.abs().max(carried.abs())) {
         return Err(misfit(
             joint,
-            format!("{} does not carry both gears", bodies.name(carrier)),
+            &format!("{} does not carry both gears", bodies.name(carrier)),
         )
         .help("the centres of both gears turn in one body: name it, such as carrier = \"arm\""));
     }
@@ -132,7 +132,7 @@ fn belt(joint: &Held, bodies: &Bodies, centres: &[Marker; 2], frames: &[Frame]) 
         if x.d1.hypot(y.d1) > STILL {
             let name = bodies.name(centre.body);
             return Err(
-                misfit(joint, format!("the centre of the pulley {name} moves")).help(
+                misfit(joint, &format!("the centre of the pulley {name} moves")).help(
                     "a belt runs between pulleys that turn about fixed points; between moving centres use gears",
                 ),
             );
