@@ -34,7 +34,9 @@ fn on_a_turn_and_on_a_stroke() {
     let long = Window::on_stroke(3.0, 20.0, 1.0).unwrap();
     near(long.factor(10.0), 1.0);
     near(long.factor(3.5), 0.5);
-    assert_eq!(long.edges(), [3.0, 4.0, 19.0, 20.0]);
+    for (found, expected) in long.edges().into_iter().zip([3.0, 4.0, 19.0, 20.0]) {
+        near(found, expected);
+    }
 }
 
 #[test]

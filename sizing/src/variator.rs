@@ -4,6 +4,7 @@
 //! a function of the motor's angle, and there is no one table J_red(φ) of the motor shaft. What remains is the equation of
 //! motion, [`simulate`](crate::simulate).
 
+mod plant;
 mod run;
 
 pub(crate) use run::simulate;

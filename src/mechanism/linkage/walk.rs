@@ -29,7 +29,7 @@ type Station<const LINKS: usize> = [[[f64; 2]; 3]; LINKS];
 /// linkages.
 ///
 /// Accuracy: positions 1e-12, transfer functions and reduced inertia 1e-11 of the largest value, against closed forms and
-/// golden data (tests `four_bar_golden_as_a_linkage`, `library_mechanisms_as_linkages`). Cost: proportional to the number
+/// golden data (tests `four_bar_golden_as_a_linkage` and those of `library_as_linkages.rs`). Cost: proportional to the number
 /// of positions; in each, the sum over the [groups](Linkage::group_sizes), one of which costs at most the cube of its size
 /// (bench `linkage`, docs/performance.md).
 #[derive(Clone, Debug)]
