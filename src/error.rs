@@ -89,6 +89,18 @@ pub enum Error {
         /// Index of the joint.
         joint: usize,
     },
+    /// A pair refers to a cam that the linkage does not have.
+    NoSuchCam {
+        /// The index asked for, from 0.
+        cam: usize,
+        /// How many cams there are.
+        cams: usize,
+    },
+    /// The base of a cam is on the cam itself, or on its follower.
+    CamBase {
+        /// Index of the cam.
+        cam: usize,
+    },
     /// The mechanism has no joint of this number, or one of a kind that does not fit.
     NoSuchJoint {
         /// The index asked for, from 0.
@@ -284,6 +296,16 @@ impl Error {
             Self::NotADrive { joint } => write!(
                 f,
                 "joint {joint} cannot be driven: the drive of a linkage must be a pin or a guide"
+            ),
+            Self::NoSuchCam { cam, cams } => {
+                write!(
+                    f,
+                    "there is no cam {cam}: the linkage has {cams} cams, counted from 0"
+                )
+            }
+            Self::CamBase { cam } => write!(
+                f,
+                "the base of cam {cam} is on the cam or its follower: put it on the body that carries both"
             ),
             Self::NoSuchJoint { joint, joints } => {
                 write!(

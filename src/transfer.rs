@@ -106,6 +106,17 @@ impl Transfer {
         }
     }
 
+    /// f(g(φ)), the chain rule, where `self` is f with its derivatives by g, at the value of `g`.
+    #[must_use]
+    pub fn after(self, g: Self) -> Self {
+        Self {
+            value: self.value,
+            d1: self.d1 * g.d1,
+            d2: self.d2 * g.d1 * g.d1 + self.d1 * g.d2,
+            d3: self.d3 * g.d1 * g.d1 * g.d1 + 3.0 * self.d2 * g.d1 * g.d2 + self.d1 * g.d3,
+        }
+    }
+
     /// f′ with its transfer functions; its third order is unknown and left zero.
     pub(crate) const fn derivative(self) -> Self {
         Self {

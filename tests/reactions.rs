@@ -31,7 +31,12 @@ fn slider_crank_reactions_golden() {
     assert_eq!(support::largest(table.column("M_0_3")), 0.0);
     let moments = forces.iter().map(|f| f.reactions[3].moment);
     let force = support::largest(table.column("N_0_3"));
-    assert_near("M_0_3", support::largest(moments), 0.0, budget::REACTIONS * force);
+    assert_near(
+        "M_0_3",
+        support::largest(moments),
+        0.0,
+        budget::REACTIONS * force,
+    );
 }
 
 proptest! {

@@ -25,7 +25,9 @@ pub enum SimulationError {
     #[error(transparent)]
     Machine(#[from] Error),
     /// The drive link has passed the end of its stroke.
-    #[error("the drive link runs against the end of its stroke, {end}, before t = {t:.6} s, at {speed}")]
+    #[error(
+        "the drive link runs against the end of its stroke, {end}, before t = {t:.6} s, at {speed}"
+    )]
     #[diagnostic(help(
         "what stops it there is not in the machine file: shorten `duration` in [simulation], start elsewhere, or give a \
          spring or a damper as a buffer and a longer stroke"

@@ -330,10 +330,24 @@ fn every_machine_of_the_folder_can_be_reduced() {
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|e| e == "toml") {
-            let columns = jred([&"reduce", &path, &"--format", &"csv"])
-                .ends(0)
-                .columns();
-            let inertia = columns.get("J_red [kg m^2]");
+            let reduce = jred([&"reduce", &path, &"--format", &"csv"]);
+            let text = std::fs::read_to_string(&path).unwrap();
+            // Behind a variator the crank's angle is no function of the drive's: refused, with the reason.
+            if text.contains("[variator]") {
+                assert!(
+                    reduce.ends(2).message().contains("variator"),
+                    "{}",
+                    path.display()
+                );
+                continue;
+            }
+            let columns = reduce.ends(0).columns();
+            let sliding = columns.names.iter().any(|name| name == "m_red [kg]");
+            let inertia = columns.get(if sliding {
+                "m_red [kg]"
+            } else {
+                "J_red [kg m^2]"
+            });
             assert_eq!(inertia.len(), 36);
             assert!(inertia.iter().all(|j| *j > 0.0), "{}", path.display());
             count += 1;

@@ -107,7 +107,10 @@ fn machine(name: &str, text: &str, folder: &Path) -> Result<MachineFile> {
     let (mechanism, flywheel) = mechanism::read(&section)?;
     let drive_link = DriveLink::of(&mechanism)
         .map_err(|error| section.problem(error.to_string(), "in this mechanism"))?;
-    if let (true, Some(item)) = (drive_link.slides() && flywheel > 0.0, section.peek("flywheel")) {
+    if let (true, Some(item)) = (
+        drive_link.slides() && flywheel > 0.0,
+        section.peek("flywheel"),
+    ) {
         return Err(item
             .problem("turns, but the drive link of this mechanism slides", "nothing turns with it")
             .help("give a mass that slides with the drive link to its body; what turns belongs to a stage of [[drive_train]]"));

@@ -165,7 +165,7 @@ fn loads_that_make_no_sense_are_refused() {
         (
             "opposing_force = \"150 N\"",
             "opposing_moment = \"150 N m\"",
-            &["the slider does not turn"],
+            &["\"slider\" does not turn"],
         ),
         (
             "opposing_force = \"150 N\"",
@@ -356,6 +356,11 @@ fn a_force_that_does_not_repeat_with_the_drive_link_is_refused() {
         GEARS,
         "on = \"shaft-1\"\nat",
         "on = \"shaft-3\"\nat",
-        &["`force`", "shaft-3", "whole number", "moment"],
+        &[
+            "`force`",
+            "shaft-3",
+            "does not move alike in every turn",
+            "moment",
+        ],
     );
 }

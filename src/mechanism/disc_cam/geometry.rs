@@ -31,7 +31,7 @@ use crate::transfer::Transfer;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Geometry {
     pub(super) follower: Follower,
-    base_radius: f64,
+    pub(super) base_radius: f64,
     /// Height of the roller's centre or of the face at s = 0, or the angle from the line of pivots to the arm or face.
     zero: f64,
 }
@@ -129,10 +129,11 @@ impl Geometry {
         }
     }
 
-    /// Angle of the arm or the face for the displacement s; zero for one that translates.
-    fn angle(&self, s: Transfer) -> Transfer {
+    /// The follower's coordinate for the displacement s: the height of one that translates, the angle of the arm or the
+    /// face of one that oscillates.
+    pub(super) fn coordinate(&self, s: Transfer) -> Transfer {
         let Some(([x, y], swing)) = self.follower.pivot() else {
-            return Transfer::constant(0.0);
+            return s + Transfer::constant(self.zero);
         };
         // From the follower's pivot towards the cam's.
         // 0 − y, as −y of a zero is a negative zero, whose angle is −π.
@@ -145,11 +146,10 @@ impl Geometry {
     pub(super) fn frame(&self, s: Transfer) -> Frame {
         match self.follower {
             Follower::TranslatingRoller { offset, .. } | Follower::TranslatingFace { offset } => {
-                let height = s + Transfer::constant(self.zero);
-                Frame::translating([Transfer::constant(offset), height])
+                Frame::translating([Transfer::constant(offset), self.coordinate(s)])
             }
             Follower::OscillatingRoller { pivot, .. } | Follower::OscillatingFace { pivot, .. } => {
-                Frame::turning(pivot, self.angle(s))
+                Frame::turning(pivot, self.coordinate(s))
             }
         }
     }
@@ -225,7 +225,7 @@ impl Geometry {
             } => {
                 let sign = swing.sign();
                 let (sin, _) = (s + Transfer::constant(self.zero)).sin_cos();
-                let (sin_psi, cos_psi) = math::sin_cos(self.angle(s).value);
+                let (sin_psi, cos_psi) = math::sin_cos(self.coordinate(s).value);
                 (
                     sin * distance(pivot) - Transfer::constant(offset),
                     s.derivative() * sign - Transfer::constant(1.0),

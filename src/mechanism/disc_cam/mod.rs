@@ -14,9 +14,11 @@
 mod check;
 mod follower;
 mod geometry;
+mod profile;
 mod spin;
 
 pub use follower::{Follower, Roller, Swing};
+pub use profile::{CamContact, CamProfile};
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -27,8 +29,7 @@ use crate::error::{finite, not_negative, positive};
 use crate::joint::{Body, Joint, Joints, Marker};
 use crate::link::{Frame, Link};
 use crate::transfer::Transfer;
-use crate::{Domain, Error, math};
-use geometry::{Geometry, Touch};
+use crate::{Domain, Error};
 use spin::Spin;
 
 /// A disc cam, driven at the cam, with its follower.
@@ -43,25 +44,9 @@ use spin::Spin;
 /// `roller_touches_the_profile_all_round`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiscCam {
-    program: Program,
-    geometry: Geometry,
-    base_radius: f64,
+    profile: CamProfile,
     spin: Option<Spin>,
     links: heapless::Vec<Link, 3>,
-}
-
-/// Where and how cam and follower touch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct CamContact {
-    /// Point of contact, global (m).
-    pub point: [f64; 2],
-    /// Unit normal from the cam to the follower, global.
-    pub normal: [f64; 2],
-    /// Pressure angle (rad): from the direction in which the follower rises to the normal, counter-clockwise positive.
-    pub pressure_angle: f64,
-    /// Curvature of the profile (1/m): positive where it is convex, the reciprocal of its radius.
-    pub curvature: f64,
 }
 
 impl DiscCam {
@@ -79,54 +64,41 @@ impl DiscCam {
     /// its roller.
     ///
     /// # Errors
-    /// Dimensions that are not finite or not positive; a follower that cannot be placed on the base circle, or goes out of
-    /// its range; undercut, with the smallest base radius that cures it. A steep pressure angle is no error:
-    /// [`pressure_angles`](Self::pressure_angles). That distant parts of a profile cut each other is not looked for; with a
-    /// curvature that fits everywhere it takes a deep hollow and a large roller.
+    /// Those of [`CamProfile::new`].
     pub fn new(
         program: Program,
         base_radius: f64,
         follower: Follower,
         links: [Link; 2],
     ) -> Result<Self, Error> {
-        let base_radius = positive("base radius", base_radius)?;
-        follower.check()?;
-        let geometry = check::checked(&program, follower, base_radius)?;
+        let profile = CamProfile::new(program, base_radius, follower)?;
         let roller = follower.roller();
         Ok(Self {
-            spin: roller.map(|_| Spin::new(&program, &geometry)),
+            spin: roller.map(|_| Spin::new(profile.program(), profile.geometry())),
             links: links.into_iter().chain(roller.map(Roller::link)).collect(),
-            program,
-            geometry,
-            base_radius,
+            profile,
         })
     }
 
     /// The cam program.
     pub const fn program(&self) -> &Program {
-        &self.program
+        self.profile.program()
     }
 
     /// The follower.
     pub const fn follower(&self) -> &Follower {
-        &self.geometry.follower
+        self.profile.follower()
     }
 
     /// Base radius (m).
     pub const fn base_radius(&self) -> f64 {
-        self.base_radius
+        self.profile.base_radius()
     }
 
     /// Where and how cam and follower touch at `phi` (rad).
     #[must_use]
     pub fn contact(&self, phi: f64) -> CamContact {
-        let touch = self.touch(phi);
-        CamContact {
-            point: touch.point,
-            normal: touch.normal,
-            pressure_angle: touch.pressure_angle,
-            curvature: touch.curvature,
-        }
+        self.profile.contact(phi)
     }
 
     /// The point [u, v] (m) of the profile, in the cam's frame, that touches the follower at `phi`. Over a turn they run
@@ -139,27 +111,21 @@ impl DiscCam {
     /// The point of the pitch curve, in the cam's frame: where the roller's centre is at `phi`. For a face the profile.
     #[must_use]
     pub fn pitch_curve(&self, phi: f64) -> [f64; 2] {
-        self.equidistant(phi, self.geometry.follower.roller_radius())
+        self.equidistant(phi, self.follower().roller_radius())
     }
 
     /// The point at `distance` (m) outside the profile, along its normal, in the cam's frame: the path of the centre of a
     /// milling cutter or grinding wheel of this radius.
     #[must_use]
     pub fn equidistant(&self, phi: f64, distance: f64) -> [f64; 2] {
-        let Touch { point, normal, .. } = self.touch(phi);
-        let (sin, cos) = math::sin_cos(phi);
-        let [x, y] = [
-            point[0] + distance * normal[0],
-            point[1] + distance * normal[1],
-        ];
-        [cos * x + sin * y, cos * y - sin * x]
+        self.profile.equidistant(phi, distance)
     }
 
     /// The smallest and the largest pressure angle (rad), with sign, and where they occur. Customary limits of the size
     /// are 30° for translating and 45° for oscillating followers.
     #[must_use]
     pub fn pressure_angles(&self) -> [Extreme; 2] {
-        check::pressure_angles(&self.program, &self.geometry)
+        self.profile.pressure_angles()
     }
 
     /// The smallest and the largest curvature of the profile (1/m). The reciprocal of the largest is the smallest radius
@@ -167,7 +133,7 @@ impl DiscCam {
     /// wheel must be smaller than.
     #[must_use]
     pub fn curvatures(&self) -> [Extreme; 2] {
-        check::curvatures(&self.program, &self.geometry)
+        self.profile.curvatures()
     }
 
     /// A spring that presses the follower on the cam with `preload` in its lowest position, s = 0, and `stiffness`·s more
@@ -179,12 +145,12 @@ impl DiscCam {
     pub fn closing_spring(&self, stiffness: f64, preload: f64) -> Result<Element, Error> {
         let stiffness = positive("spring stiffness", stiffness)?;
         let squeeze = not_negative("preload of the spring", preload)? / stiffness;
-        let rest = self.geometry.frame(Transfer::constant(0.0));
+        let rest = self.profile.geometry().frame(Transfer::constant(0.0));
         let on_follower = Marker::on(Self::FOLLOWER, [0.0, 0.0]);
-        match self.geometry.follower.pivot() {
+        match self.follower().pivot() {
             None => {
                 // Any seat beyond the highest position does: only the change of length counts.
-                let length = 2.0 * self.program.range()[1].value + self.base_radius;
+                let length = 2.0 * self.program().range()[1].value + self.base_radius();
                 let seat = [rest.x.value, rest.y.value + length];
                 Element::spring(
                     [Marker::ground(seat), on_follower],
@@ -199,10 +165,6 @@ impl DiscCam {
             ),
         }
     }
-
-    fn touch(&self, phi: f64) -> Touch {
-        self.geometry.touch(self.program.displacement(phi))
-    }
 }
 
 impl Jointed for DiscCam {
@@ -210,10 +172,10 @@ impl Jointed for DiscCam {
     /// roller its pin: follower and roller; and rolling: cam and roller, the friction along the profile that turns the
     /// roller.
     fn joints(&self, phi: f64, _frames: &Frames) -> Result<Joints, Error> {
-        let touch = self.touch(phi);
+        let touch = self.profile.touch(phi);
         let origin = [0.0, 0.0];
         let on_follower = Marker::on(Self::FOLLOWER, origin);
-        let guide = match self.geometry.follower {
+        let guide = match *self.follower() {
             Follower::TranslatingRoller { offset, .. } | Follower::TranslatingFace { offset } => {
                 Joint::Prismatic([
                     Marker::ground([offset, 0.0]).with_angle(FRAC_PI_2),
@@ -239,7 +201,7 @@ impl Jointed for DiscCam {
             let along = [touch.normal[1], -touch.normal[0]];
             joints.extend([
                 Joint::Revolute([
-                    Marker::on(Self::FOLLOWER, self.geometry.roller_at()),
+                    Marker::on(Self::FOLLOWER, self.profile.geometry().roller_at()),
                     Marker::on(Self::ROLLER, origin),
                 ]),
                 Joint::contact(bodies, touch.point, along),
@@ -260,13 +222,14 @@ impl Mechanism for DiscCam {
 
     fn frames(&self, phi: f64) -> Result<Frames, Error> {
         let angle = Transfer::variable(finite("cam angle", phi)?);
-        let s = self.program.displacement(phi);
+        let (program, geometry) = (self.program(), self.profile.geometry());
+        let s = program.displacement(phi);
         let cam = Frame::turning([0.0, 0.0], angle);
-        let follower = self.geometry.frame(s);
+        let follower = geometry.frame(s);
         let roller = self.spin.as_ref().map(|spin| {
-            let pitch_speed = self.geometry.touch(s).pitch_speed;
-            let angle = spin.angle(&self.program, &self.geometry, phi, pitch_speed);
-            Frame::turned(follower.point(self.geometry.roller_at()), angle)
+            let pitch_speed = geometry.touch(s).pitch_speed;
+            let angle = spin.angle(program, geometry, phi, pitch_speed);
+            Frame::turned(follower.point(geometry.roller_at()), angle)
         });
         Ok([cam, follower].into_iter().chain(roller).collect())
     }

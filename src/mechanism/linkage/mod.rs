@@ -8,21 +8,27 @@
 //! Kinematics chapter (equations (73)-(84)) of the lecture notes on planar mechanisms; the equations are solved group by
 //! group, the groups of L. V. Assur.
 
+mod cam;
 mod pair;
 mod solver;
 mod structure;
 mod walk;
 
+pub use cam::PlacedCam;
 pub use pair::Pair;
 pub use walk::Assembly;
 
 use crate::error::finite;
-use crate::joint::Joint;
+use crate::joint::{Body, Joint};
 use crate::link::{Frame, Link};
 use crate::transfer::Transfer;
 use crate::{Error, math};
 
-use structure::Structure;
+use cam::Cams;
+use structure::{Equation, Structure};
+
+/// s′ of a cam for the structure alone, where any does but 0 and ±1.
+const SLOPE: f64 = 0.618_033_988_749_895;
 
 /// Where a link is: origin of its frame (m) and angle (rad).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -48,13 +54,14 @@ impl Pose {
 }
 
 /// Links and the pairs that hold them together, with the drive in one of them: the topology, checked. At most `LINKS` ≤ 16
-/// links and `PAIRS` pairs.
+/// links, `PAIRS` pairs and `CAMS` cams.
 ///
 /// [`assemble`](Self::assemble) makes a [`Mechanism`](crate::Mechanism) of it.
 #[derive(Clone, Debug)]
-pub struct Linkage<const LINKS: usize, const PAIRS: usize> {
+pub struct Linkage<const LINKS: usize, const PAIRS: usize, const CAMS: usize = 0> {
     links: heapless::Vec<Link, LINKS>,
     pairs: heapless::Vec<Pair, PAIRS>,
+    cams: Cams<CAMS>,
     drive: usize,
     structure: Structure<LINKS>,
     /// Largest distance in a link or between markers of the ground (m): what lengths are measured by.
@@ -70,20 +77,55 @@ impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
     /// or guide; more or fewer than one degree of freedom, 3·n − Σ constraints ≠ 1; a link left free while others are held
     /// twice.
     pub fn new(links: &[Link], pairs: &[Pair], drive: usize) -> Result<Self, Error> {
+        Self::with_cams(links, pairs, &[], drive)
+    }
+}
+
+impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, PAIRS, CAMS> {
+    /// A linkage with cams, which [`Pair::Cam`] refers to; else as [`new`](Linkage::new).
+    ///
+    /// A cam's bearings are pairs of their own: the cam turns about the point of its base, and the follower is guided as its
+    /// [`CamProfile`](super::CamProfile) has it, seen from there. The force of the pair acts along the common normal at the
+    /// point of contact; a negative one, for [`contact_force`](crate::cam::contact_force), would need a groove.
+    ///
+    /// # Errors
+    /// Those of [`new`](Linkage::new); too many cams; a pair of a cam that does not exist, or one with its base on the cam
+    /// or the follower.
+    pub fn with_cams(
+        links: &[Link],
+        pairs: &[Pair],
+        cams: &[PlacedCam],
+        drive: usize,
+    ) -> Result<Self, Error> {
         const { assert!(LINKS <= super::MAX_LINKS && PAIRS <= crate::joint::MAX_JOINTS) }
         let too_many = |what, capacity| Error::TooMany { what, capacity };
         let links = heapless::Vec::from_slice(links).map_err(|_| too_many("links", LINKS))?;
         let pairs: heapless::Vec<Pair, PAIRS> =
             heapless::Vec::from_slice(pairs).map_err(|_| too_many("joints", PAIRS))?;
+        let cams = Cams::from_slice(cams).map_err(|_| too_many("cams", CAMS))?;
         let mut size = 0.0_f64;
+        let exists = |body: Body| match body.link().filter(|link| *link >= links.len()) {
+            None => Ok(()),
+            Some(link) => Err(Error::NoSuchLink {
+                link,
+                links: links.len(),
+            }),
+        };
+        for cam in &cams {
+            cam.base().check()?;
+            exists(cam.base().body)?;
+            size = size.max(cam.profile().base_radius());
+        }
         for pair in &pairs {
             pair.check()?;
-            for body in pair.bodies() {
-                if let Some(link) = body.link().filter(|link| *link >= links.len()) {
-                    return Err(Error::NoSuchLink {
-                        link,
-                        links: links.len(),
-                    });
+            pair.bodies().into_iter().try_for_each(exists)?;
+            if let Pair::Cam { place, .. } = *pair {
+                let cam = cams.get(place).ok_or(Error::NoSuchCam {
+                    cam: place,
+                    cams: cams.len(),
+                })?;
+                if pair.bodies().contains(&cam.base().body) {
+                    return Err(Error::CamBase { cam: place });
                 }
             }
             for marker in pair.markers() {
@@ -106,12 +148,25 @@ impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
             return Err(Error::NotADrive { joint: drive });
         }
         let phi = Transfer::constant(0.4);
-        let evaluate =
-            |equation, frames: &[Frame]| solver::evaluate(&pairs, equation, frames, phi).d1;
+        let evaluate = |equation: Equation, frames: &[Frame]| {
+            if let Some(Pair::Cam {
+                cam,
+                follower,
+                place,
+            }) = pairs.get(usize::from(equation.pair))
+                && let Some(placed) = cams.get(*place)
+            {
+                // A dwell would hide that the follower depends on the cam.
+                let sloped = |theta: Transfer| theta * SLOPE;
+                return placed.equation([cam, follower], frames, sloped).d1;
+            }
+            solver::evaluate(&pairs, &cams, equation, frames, phi).d1
+        };
         let structure = Structure::new(links.len(), &pairs, evaluate, drive)?;
         Ok(Self {
             links,
             pairs,
+            cams,
             drive,
             structure,
             size: if size > 0.0 { size } else { 1.0 },
@@ -137,6 +192,11 @@ impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
     /// The pairs.
     pub fn pairs(&self) -> &[Pair] {
         &self.pairs
+    }
+
+    /// The cams.
+    pub fn cams(&self) -> &[PlacedCam] {
+        &self.cams
     }
 
     /// Sizes of the groups of coordinates that are solved together, in the order of solving.

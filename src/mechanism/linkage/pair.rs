@@ -15,6 +15,8 @@ use crate::link::Frame;
 use crate::transfer::Transfer;
 use crate::{Error, math};
 
+use super::cam::{Cams, PlacedCam};
+
 /// What holds two links of a linkage together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -53,6 +55,16 @@ pub enum Pair {
         /// r₁·ψ₁ − r₂·ψ₂ (m).
         phase: f64,
     },
+    /// A disc cam that moves a follower, roller or flat face. The roller is part of the follower; its spin is left out.
+    Cam {
+        /// A point of the cam with the direction from which its angle is counted.
+        cam: Marker,
+        /// A point of a follower that translates: the roller's centre, or where the guide's axis meets the face. Of one that
+        /// oscillates the direction: of the arm from its pivot to the roller's centre, or of the face.
+        follower: Marker,
+        /// Index of the [`PlacedCam`](super::PlacedCam) in the linkage.
+        place: usize,
+    },
 }
 
 /// From the first marker's point to the second's.
@@ -78,9 +90,9 @@ impl Pair {
     /// The same pair, meshing as its links are at `frames`.
     #[must_use]
     pub fn meshing_at(mut self, frames: &[Frame]) -> Self {
-        let now = self.equation(0, frames).value;
+        let now = self.equation(0, frames, &Cams::<0>::new()).value;
         match &mut self {
-            Self::Joint(_) => {}
+            Self::Joint(_) | Self::Cam { .. } => {}
             Self::Gears { phase, .. } | Self::Rack { phase, .. } | Self::Belt { phase, .. } => {
                 *phase += now;
             }
@@ -98,6 +110,7 @@ impl Pair {
             Self::Joint(Joint::Transmission(_)) => [Marker::ground([0.0, 0.0]); 2],
             Self::Gears { centres, .. } | Self::Belt { centres, .. } => *centres,
             Self::Rack { pinion, rack, .. } => [*pinion, *rack],
+            Self::Cam { cam, follower, .. } => [*cam, *follower],
         }
     }
 
@@ -113,7 +126,7 @@ impl Pair {
     pub const fn constraints(&self) -> usize {
         match self {
             Self::Joint(joint) => joint.constraints(),
-            Self::Gears { .. } | Self::Rack { .. } | Self::Belt { .. } => 1,
+            Self::Gears { .. } | Self::Rack { .. } | Self::Belt { .. } | Self::Cam { .. } => 1,
         }
     }
 
@@ -125,7 +138,7 @@ impl Pair {
         };
         match self {
             Self::Joint(Joint::Transmission(_)) => return Err(Error::NotAPair),
-            Self::Joint(_) => {}
+            Self::Joint(_) | Self::Cam { .. } => {}
             Self::Gears { radii, phase, .. } | Self::Belt { radii, phase, .. } => {
                 finite("phase of the mesh", *phase)?;
                 wheel(radii[0])?;
@@ -141,7 +154,12 @@ impl Pair {
 
     /// The left-hand side of equation number `component`, which is zero where the pair is closed (m, or rad).
     #[inline(always)]
-    pub(super) fn equation(&self, component: usize, frames: &[Frame]) -> Transfer {
+    pub(super) fn equation<const CAMS: usize>(
+        &self,
+        component: usize,
+        frames: &[Frame],
+        cams: &Cams<CAMS>,
+    ) -> Transfer {
         match self {
             Self::Joint(joint) => joint_equation(joint, component, frames),
             Self::Gears {
@@ -176,11 +194,16 @@ impl Pair {
                     + (angle(pinion.body, frames) - angle(rack.body, frames)) * *radius
                     - Transfer::constant(*phase)
             }
+            Self::Cam {
+                cam,
+                follower,
+                place,
+            } => cam_equation([cam, follower], *place, frames, cams),
         }
     }
 
     /// The pair as a joint that carries forces, where the links are at `frames`.
-    pub(super) fn joint(&self, frames: &[Frame]) -> Joint {
+    pub(super) fn joint<const CAMS: usize>(&self, frames: &[Frame], cams: &Cams<CAMS>) -> Joint {
         let values = |v: [Transfer; 2]| v.map(|c| c.value);
         match self {
             Self::Joint(joint) => *joint,
@@ -216,6 +239,15 @@ impl Pair {
                 Wrench::moment(a.body, -r_a / r_b),
                 Wrench::moment(b.body, 1.0),
             ]),
+            Self::Cam {
+                cam,
+                follower,
+                place,
+            } => match cams.get(*place) {
+                Some(placed) if CAMS > 0 => placed.joint([cam, follower], frames),
+                // Cannot be: checked when the linkage was built.
+                _ => Joint::contact([cam.body, follower.body], [0.0; 2], [0.0; 2]),
+            },
         }
     }
 }
@@ -238,9 +270,30 @@ fn joint_equation(joint: &Joint, component: usize, frames: &[Frame]) -> Transfer
     }
 }
 
+/// The left-hand side of a cam's equation. A linkage that has no room for cams has no code for them.
+#[inline(always)]
+fn cam_equation<const CAMS: usize>(
+    markers: [&Marker; 2],
+    place: usize,
+    frames: &[Frame],
+    cams: &Cams<CAMS>,
+) -> Transfer {
+    match cams.get(place) {
+        Some(placed) if CAMS > 0 => moved(placed, markers, frames),
+        // Cannot be: checked when the linkage was built.
+        _ => Transfer::constant(f64::NAN),
+    }
+}
+
+/// Out of line: all orders at once, as the program gives them.
+#[inline(never)]
+fn moved(placed: &PlacedCam, markers: [&Marker; 2], frames: &[Frame]) -> Transfer {
+    placed.equation(markers, frames, |theta| placed.displacement(theta))
+}
+
 /// How far the point of `point` is to the left of the line through `line` along its direction.
 #[inline(always)]
-fn off_line(line: &Marker, point: &Marker, frames: &[Frame]) -> Transfer {
+pub(super) fn off_line(line: &Marker, point: &Marker, frames: &[Frame]) -> Transfer {
     let [cos, sin] = line.axis(frames);
     let [x, y] = apart(line, point, frames);
     cos * y - sin * x

@@ -4,6 +4,7 @@ use crate::linear;
 use crate::link::Frame;
 use crate::transfer::Transfer;
 
+use super::cam::Cams;
 use super::structure::{Coordinate, Equation, Group, Method, PSI};
 use super::{Linkage, Pair};
 
@@ -44,8 +45,9 @@ pub(super) struct Unsolved {
 /// An equation's left-hand side, with the drive at `phi`.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "as in `pair`")]
-pub(super) fn evaluate(
+pub(super) fn evaluate<const CAMS: usize>(
     pairs: &[Pair],
+    cams: &Cams<CAMS>,
     equation: Equation,
     frames: &[Frame],
     phi: Transfer,
@@ -54,7 +56,7 @@ pub(super) fn evaluate(
         Some(Pair::Joint(joint)) if equation.component == Equation::DRIVE => {
             joint.coordinate(frames) - phi
         }
-        Some(pair) => pair.equation(equation.component.into(), frames),
+        Some(pair) => pair.equation(equation.component.into(), frames, cams),
         None => Transfer::constant(f64::NAN), // cannot be: the structure was made from these pairs
     }
 }
@@ -65,7 +67,7 @@ struct Factors<const LINKS: usize> {
     pivots: [[usize; 3]; LINKS],
 }
 
-impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
+impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, PAIRS, CAMS> {
     /// The derivative of this `ORDER`, 0 to 3, of an equation's left-hand side, with the drive at `phi`.
     fn order<const ORDER: usize>(
         &self,
@@ -73,7 +75,7 @@ impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
         frames: &[Frame],
         phi: Transfer,
     ) -> f64 {
-        let f = evaluate(&self.pairs, equation, frames, phi);
+        let f = evaluate(&self.pairs, &self.cams, equation, frames, phi);
         match ORDER {
             0 => f.value,
             1 => f.d1,
@@ -231,7 +233,7 @@ impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
             if let Some((equation, c, sign)) = self.explicit(group) {
                 let frame = usize::from(c.link);
                 // Nothing else in the equation is unknown.
-                let f = evaluate(&self.pairs, equation, frames, phi);
+                let f = evaluate(&self.pairs, &self.cams, equation, frames, phi);
                 frames[frame].differ(c.axis, [f.d1, f.d2, f.d3].map(|d| sign * d));
                 continue;
             }

@@ -152,8 +152,14 @@ impl<const LINKS: usize> Structure<LINKS> {
             before = Some(reach[c]);
             if let Some(group) = structure.groups.last_mut() {
                 group.size += 1;
-                // Every equation is linear in x and y, and those between angles alone are linear in ψ.
-                if coordinate.axis == PSI && depends[e] & !ANGLES != 0 {
+                // Every equation is linear in x and y, and those between angles alone are linear in ψ, but for a cam's.
+                let cam = equations.get(e).is_some_and(|equation| {
+                    matches!(
+                        pairs.get(usize::from(equation.pair)),
+                        Some(Pair::Cam { .. })
+                    )
+                });
+                if cam || (coordinate.axis == PSI && depends[e] & !ANGLES != 0) {
                     group.method = Method::Newton;
                 }
             }

@@ -33,8 +33,13 @@ type Station<const LINKS: usize> = [[[f64; 2]; 3]; LINKS];
 /// of positions; in each, the sum over the [groups](Linkage::group_sizes), one of which costs at most the cube of its size
 /// (bench `linkage`, docs/performance.md).
 #[derive(Clone, Debug)]
-pub struct Assembly<const LINKS: usize, const PAIRS: usize, const STATIONS: usize> {
-    linkage: Linkage<LINKS, PAIRS>,
+pub struct Assembly<
+    const LINKS: usize,
+    const PAIRS: usize,
+    const STATIONS: usize,
+    const CAMS: usize = 0,
+> {
+    linkage: Linkage<LINKS, PAIRS, CAMS>,
     domain: Domain,
     stations: [Station<LINKS>; STATIONS],
     /// Signs of the determinants on this branch.
@@ -43,7 +48,7 @@ pub struct Assembly<const LINKS: usize, const PAIRS: usize, const STATIONS: usiz
     turn: [f64; LINKS],
 }
 
-impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
+impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, PAIRS, CAMS> {
     /// Assembles the linkage at the drive's position `phi` (rad, or m) from an approximate drawing, one pose a link, and
     /// follows it over the `domain`.
     ///
@@ -55,7 +60,7 @@ impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
         domain: Domain,
         phi: f64,
         drawing: &[Pose],
-    ) -> Result<Assembly<LINKS, PAIRS, STATIONS>, Error> {
+    ) -> Result<Assembly<LINKS, PAIRS, STATIONS, CAMS>, Error> {
         const { assert!(STATIONS >= 2, "a range has two ends") }
         let phi = finite("drive position of the drawing", phi)?;
         let span = domain.span();
@@ -170,11 +175,11 @@ fn predicted<const LINKS: usize>(frames: &[Frame; LINKS], h: f64) -> [Frame; LIN
     frames.map(|frame| Frame::turned([on(frame.x), on(frame.y)], on(frame.psi)))
 }
 
-impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize>
-    Assembly<LINKS, PAIRS, STATIONS>
+impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: usize>
+    Assembly<LINKS, PAIRS, STATIONS, CAMS>
 {
     /// The linkage.
-    pub const fn linkage(&self) -> &Linkage<LINKS, PAIRS> {
+    pub const fn linkage(&self) -> &Linkage<LINKS, PAIRS, CAMS> {
         &self.linkage
     }
 
@@ -248,8 +253,8 @@ impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize>
     }
 }
 
-impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize> Mechanism
-    for Assembly<LINKS, PAIRS, STATIONS>
+impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: usize> Mechanism
+    for Assembly<LINKS, PAIRS, STATIONS, CAMS>
 {
     fn links(&self) -> &[Link] {
         &self.linkage.links
@@ -273,13 +278,14 @@ impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize> Mechanism
     }
 }
 
-impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize> Jointed
-    for Assembly<LINKS, PAIRS, STATIONS>
+impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: usize> Jointed
+    for Assembly<LINKS, PAIRS, STATIONS, CAMS>
 {
     /// The pairs, in their order.
     fn joints(&self, _phi: f64, frames: &Frames) -> Result<Joints, Error> {
         let pairs = self.linkage.pairs.iter();
-        Ok(pairs.map(|pair| pair.joint(frames)).collect())
+        let cams = &self.linkage.cams;
+        Ok(pairs.map(|pair| pair.joint(frames, cams)).collect())
     }
 
     fn drive(&self) -> usize {
