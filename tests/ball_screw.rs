@@ -107,9 +107,7 @@ proptest! {
         omega in -300.0..300.0_f64,
         alpha in -1000.0..1000.0_f64,
     ) {
-        jointed::joints_close(machine.mechanism(), phi);
-        jointed::dalembert(&machine, phi, omega, alpha);
-        jointed::energy(&machine, phi, omega);
+        jointed::holds(&machine, phi, omega, alpha);
         jointed::turns(machine.mechanism(), 100);
         let (now, later) = (machine.reduction(phi).unwrap(), machine.reduction(phi + TAU).unwrap());
         assert_near("J", later.inertia[0], now.inertia[0], budget::CLOSED_FORM * now.inertia[0]);

@@ -111,9 +111,7 @@ proptest! {
         spec in spec(), phi in -7.0..7.0, omega in -40.0..40.0, alpha in -500.0..500.0,
     ) {
         let machine = spec.machine();
-        jointed::joints_close(machine.mechanism(), phi);
-        jointed::dalembert(&machine, phi, omega, alpha);
-        jointed::energy(&machine, phi, omega);
+        jointed::holds(&machine, phi, omega, alpha);
     }
 
     #[test]

@@ -4,8 +4,8 @@ mod support;
 
 use jred::mechanism::{FourBar, Side};
 use jred::{Action, Link, Load, Machine, Mechanism, Reducible};
-use support::budget;
 use support::golden::Case;
+use support::{budget, jointed};
 
 fn golden() -> (Case, Machine<FourBar>) {
     let case = Case::new(include_str!("data/02_four_bar_A.json"));
@@ -109,17 +109,5 @@ fn four_bar_golden_motion() {
 fn four_bar_reactions_golden() {
     let (case, machine) = golden();
     let table = case.table("motion");
-    let [phi, omega, alpha] = ["phi", "omega", "alpha"].map(|name| table.column(name));
-    let forces: Vec<_> = (0..phi.len())
-        .map(|k| machine.forces(phi[k], omega[k], alpha[k]).unwrap())
-        .collect();
-    let compare = |column: &str, f: &dyn Fn(&jred::Forces) -> f64| {
-        let found: Vec<f64> = forces.iter().map(f).collect();
-        table.compare(column, &found, budget::REACTIONS);
-    };
-    compare("T_drive", &|f| f.drive);
-    for (joint, name) in ["F_0_1", "F_1_2", "F_2_3", "F_0_3"].iter().enumerate() {
-        compare(&format!("{name}x"), &|f| f.reactions[joint].force[0]);
-        compare(&format!("{name}y"), &|f| f.reactions[joint].force[1]);
-    }
+    jointed::forces_golden(&machine, &table, &["F_0_1", "F_1_2", "F_2_3", "F_0_3"]);
 }

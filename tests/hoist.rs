@@ -143,9 +143,7 @@ proptest! {
         omega in -15.0..15.0_f64,
         alpha in -100.0..100.0_f64,
     ) {
-        jointed::joints_close(machine.mechanism(), phi);
-        jointed::dalembert(&machine, phi, omega, alpha);
-        jointed::energy(&machine, phi, omega);
+        jointed::holds(&machine, phi, omega, alpha);
         jointed::turns(machine.mechanism(), 100);
         // All that the reduced equation needs repeats, though the load does not come back.
         let (now, later) = (machine.reduction(phi).unwrap(), machine.reduction(phi + TAU).unwrap());

@@ -79,20 +79,7 @@ fn four_bar_golden_as_a_linkage() {
     table.compare("Q", &at(&|phi| reduced(phi).load_torque()), budget::LINKAGE);
 
     let table = case.table("motion");
-    let [phi, omega, alpha] = ["phi", "omega", "alpha"].map(|name| table.column(name));
-    let forces: Vec<_> = (0..phi.len())
-        .map(|k| machine.forces(phi[k], omega[k], alpha[k]).unwrap())
-        .collect();
-    let compare = |column: &str, f: &dyn Fn(&jred::Forces) -> f64| {
-        let found: Vec<f64> = forces.iter().map(f).collect();
-        table.compare(column, &found, budget::REACTIONS);
-    };
-    compare("T_drive", &|f| f.drive);
-    // In the linkage the coupler is the first body of pin B: it acts on the rocker.
-    for (joint, name) in ["F_0_1", "F_1_2", "F_2_3", "F_0_3"].iter().enumerate() {
-        compare(&format!("{name}x"), &|f| f.reactions[joint].force[0]);
-        compare(&format!("{name}y"), &|f| f.reactions[joint].force[1]);
-    }
+    jointed::forces_golden(&machine, &table, &["F_0_1", "F_1_2", "F_2_3", "F_0_3"]);
 }
 
 proptest! {

@@ -13,20 +13,9 @@ fn slider_crank_reactions_golden() {
     let case = Case::new(include_str!("data/01_slider_crank_A.json"));
     let machine = golden_slider_crank(&case);
     let table = case.table("motion");
-    let [phi, omega, alpha] = ["phi", "omega", "alpha"].map(|name| table.column(name));
-    let forces: Vec<_> = (0..phi.len())
-        .map(|k| machine.forces(phi[k], omega[k], alpha[k]).unwrap())
-        .collect();
-    let compare = |column: &str, f: &dyn Fn(&jred::Forces) -> f64| {
-        let found: Vec<f64> = forces.iter().map(f).collect();
-        table.compare(column, &found, budget::REACTIONS);
-    };
-    compare("T_drive", &|f| f.drive);
-    for (joint, name) in ["F_0_1", "F_1_2", "F_2_3"].iter().enumerate() {
-        compare(&format!("{name}x"), &|f| f.reactions[joint].force[0]);
-        compare(&format!("{name}y"), &|f| f.reactions[joint].force[1]);
-    }
-    compare("N_0_3", &|f| f.reactions[3].force[1]);
+    let forces = jointed::forces_golden(&machine, &table, &["F_0_1", "F_1_2", "F_2_3"]);
+    let across: Vec<f64> = forces.iter().map(|f| f.reactions[3].force[1]).collect();
+    table.compare("N_0_3", &across, budget::REACTIONS);
     // The force in the guide passes through B, where the slider's mass and load are: no moment.
     assert_eq!(support::largest(table.column("M_0_3")), 0.0);
     let moments = forces.iter().map(|f| f.reactions[3].moment);

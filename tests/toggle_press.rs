@@ -82,9 +82,7 @@ proptest! {
         spec in spec(), phi in -7.0..7.0, omega in -40.0..40.0, alpha in -500.0..500.0,
     ) {
         let machine = spec.machine();
-        jointed::joints_close(machine.mechanism(), phi);
-        jointed::dalembert(&machine, phi, omega, alpha);
-        jointed::energy(&machine, phi, omega);
+        jointed::holds(&machine, phi, omega, alpha);
     }
 
     /// The ram is the slider of a slider-crank whose crank is the upper link: position and chain rule, to the second order.

@@ -50,6 +50,17 @@ proptest! {
     }
 
     #[test]
+    fn chain_rule(g in transfer()) {
+        let (s, c) = g.value.sin_cos();
+        let outer = Transfer { value: s, d1: c, d2: -s, d3: -c };
+        assert_same("sin(g)", outer.after(g), g.sin_cos().0, 40.0);
+        let x = g.value;
+        let outer = Transfer { value: x * x * x, d1: 3.0 * x * x, d2: 6.0 * x, d3: 6.0 };
+        let cube = g * g * g;
+        assert_same("g³", outer.after(g), cube, 100.0 + largest(parts(cube)));
+    }
+
+    #[test]
     fn angle_inverts_sine_and_cosine(f in transfer()) {
         let (sin, cos) = f.sin_cos();
         let mut angle = Transfer::angle(sin, cos);

@@ -1,8 +1,11 @@
 //! What must hold for every mechanism that knows its joints.
 
 use jred::mechanism::{Assembly, Frames, Linkage, Pair, Pose};
-use jred::{Domain, Error, Joint, Jointed, Machine, Mechanism, Reducible, Transfer, Wrench};
+use jred::{
+    Domain, Error, Forces, Joint, Jointed, Machine, Mechanism, Reducible, Transfer, Wrench,
+};
 
+use super::golden::Table;
 use super::{assert_near, budget, largest};
 
 /// Largest distance from the origin of anything in the mechanism, at least 1 mm: what lengths are measured by.
@@ -286,4 +289,35 @@ pub(crate) fn same_frames(one: &impl Mechanism, other: &impl Mechanism, phi: f64
             }
         }
     }
+}
+
+/// Everything of the above that holds at one instant: the joints close, the forces balance, the energies agree.
+#[track_caller]
+pub(crate) fn holds<M: Jointed>(machine: &Machine<M>, phi: f64, omega: f64, alpha: f64) {
+    joints_close(machine.mechanism(), phi);
+    dalembert(machine, phi, omega, alpha);
+    energy(machine, phi, omega);
+}
+
+/// Drive torque and pin forces against a golden table of a motion; `pins` names the columns of joint 0, 1, …
+#[track_caller]
+pub(crate) fn forces_golden<M: Jointed>(
+    machine: &Machine<M>,
+    table: &Table,
+    pins: &[&str],
+) -> Vec<Forces> {
+    let [phi, omega, alpha] = ["phi", "omega", "alpha"].map(|name| table.column(name));
+    let forces: Vec<Forces> = (0..phi.len())
+        .map(|k| machine.forces(phi[k], omega[k], alpha[k]).unwrap())
+        .collect();
+    let compare = |column: &str, f: &dyn Fn(&Forces) -> f64| {
+        let found: Vec<f64> = forces.iter().map(f).collect();
+        table.compare(column, &found, budget::REACTIONS);
+    };
+    compare("T_drive", &|f| f.drive);
+    for (joint, name) in pins.iter().enumerate() {
+        compare(&format!("{name}x"), &|f| f.reactions[joint].force[0]);
+        compare(&format!("{name}y"), &|f| f.reactions[joint].force[1]);
+    }
+    forces
 }
