@@ -145,9 +145,13 @@ impl Element {
         }
     }
 
-    pub(crate) fn reduce(&self, frames: &[Frame]) -> Share {
+    /// The element's share; `None` where its ends meet, for there it has no direction.
+    pub(crate) fn reduce(&self, frames: &[Frame]) -> Option<Share> {
         let length = self.length(frames);
-        match self.law {
+        if !length.d1.is_finite() {
+            return None;
+        }
+        Some(match self.law {
             Law::Spring {
                 stiffness,
                 free_length: free,
@@ -169,10 +173,11 @@ impl Element {
                 potential_energy: [0.0; 2],
                 viscous: coefficient * length.d1 * length.d1,
             },
-        }
+        })
     }
 
-    /// What the element does to its two bodies at speed ω (rad/s).
+    /// What the element does to its two bodies at speed ω (rad/s); nothing where its ends meet, for there it has no
+    /// direction.
     #[must_use]
     pub fn wrenches(&self, frames: &[Frame], omega: f64) -> [Wrench; 2] {
         let [a, b] = &self.between;
@@ -181,7 +186,13 @@ impl Element {
             Law::Spring { .. } | Law::Damper { .. } => {
                 let line = self.line(frames).map(|c| c.value);
                 let length = math::sqrt(line[0] * line[0] + line[1] * line[1]);
-                let force = line.map(|c| effort * c / length);
+                let force = line.map(|c| {
+                    if length > 0.0 {
+                        effort * c / length
+                    } else {
+                        0.0
+                    }
+                });
                 let at = |marker: &Marker| marker.position(frames).map(|c| c.value);
                 [
                     Wrench::force(a.body, at(a), force).times(-1.0),

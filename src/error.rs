@@ -63,6 +63,11 @@ pub enum Error {
         /// How far off it is (m, or rad).
         gap: f64,
     },
+    /// The ends of a spring or a damper meet: its direction is not known there.
+    EndsMeet {
+        /// Position of the drive link (rad, or m for a sliding link).
+        phi: f64,
+    },
     /// Inertia or load are not the same one turn of the drive link later.
     NotPeriodic {
         /// Angle of the drive link (rad).
@@ -272,6 +277,11 @@ impl Error {
             Self::NotClosed { link, gap } => write!(
                 f,
                 "after a turn of the drive link, link {link} is {gap:.3e} off its first position: the mechanism does not close"
+            ),
+            Self::EndsMeet { phi } => write!(
+                f,
+                "the ends of a spring or damper meet at {}, where it has no direction: move one of them a little aside",
+                Place(phi)
             ),
             Self::NotPeriodic { phi } => write!(
                 f,

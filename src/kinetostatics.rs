@@ -87,7 +87,7 @@ impl<M: Jointed> Machine<M> {
         let inertia = -self.flywheel() * driven.coordinate(&frames).acceleration(omega, alpha);
         let unit_drive = driven.unit_drive(&frames);
         balance.add(&unit_drive[1].times(inertia));
-        self.add_active_forces(&mut balance, phi, omega);
+        self.add_active_forces(&mut balance, phi, omega)?;
         let (shaking_force, shaking_moment) = balance.add_inertia_forces(omega, alpha);
         // Σ unknown reactions = −(active forces + inertia forces)
         let mut solution = balance.column.map(|f| -f);
@@ -144,7 +144,7 @@ impl<M: Jointed> Machine<M> {
     }
 
     /// Gravity, loads and force elements.
-    fn add_active_forces(&self, balance: &mut Balance, phi: f64, omega: f64) {
+    fn add_active_forces(&self, balance: &mut Balance, phi: f64, omega: f64) -> Result<(), Error> {
         for (k, (link, frame)) in balance.links.iter().zip(balance.frames).enumerate() {
             let point = frame.point(link.com()).map(|c| c.value);
             let weight = self.gravity().map(|g| link.mass() * g);
@@ -156,10 +156,14 @@ impl<M: Jointed> Machine<M> {
             }
         }
         for element in self.elements() {
+            if element.reduce(balance.frames).is_none() {
+                return Err(Error::EndsMeet { phi });
+            }
             for wrench in element.wrenches(balance.frames, omega) {
                 balance.add(&wrench);
             }
         }
+        Ok(())
     }
 }
 

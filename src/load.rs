@@ -188,6 +188,11 @@ impl Load {
         self.window
     }
 
+    /// Whether it is a force that keeps its direction while the link turns.
+    pub const fn has_fixed_direction(&self) -> bool {
+        matches!(self.action, Action::Force(_))
+    }
+
     /// Index of the link.
     pub const fn link(&self) -> usize {
         self.link

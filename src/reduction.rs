@@ -9,6 +9,8 @@
 //!
 //! V. G. Nazarenko, *Dynamics of mechanisms*, Minsk 2002. For a sliding drive link read m_red for J, F for T (7.10).
 
+use core::f64::consts::TAU;
+
 use crate::element::{Element, MAX_ELEMENTS};
 use crate::error::{finite, not_negative};
 use crate::load::Load;
@@ -28,7 +30,37 @@ pub trait Reducible {
     /// # Errors
     /// The mechanism cannot be placed there, or the reduced inertia is not positive.
     fn reduction(&self, phi: f64) -> Result<Reduction, Error>;
+
+    /// Whether a table of one turn stands for every turn: inertia and loads are the same a turn later. Asked of a drive link
+    /// that turns fully, before a table is made. This default looks at three places.
+    ///
+    /// # Errors
+    /// [`Error::NotPeriodic`], with a place where it is not so; those of [`reduction`](Self::reduction).
+    fn check_repeats(&self) -> Result<(), Error> {
+        for phi in SAMPLES {
+            let [now, later] = [self.reduction(phi)?, self.reduction(phi + TAU)?];
+            for (a, b) in [
+                (now.inertia[0], later.inertia[0]),
+                (now.load_torque(), later.load_torque()),
+                (now.viscous, later.viscous),
+                (now.coulomb, later.coulomb),
+            ] {
+                // U′ and the process may cancel in the load torque.
+                let size = math::abs(a) + math::abs(b) + math::abs(now.process);
+                if math::abs(a - b) > REPEATS * size {
+                    return Err(Error::NotPeriodic { phi });
+                }
+            }
+        }
+        Ok(())
+    }
 }
+
+/// Places to compare with those a turn later.
+const SAMPLES: [f64; 3] = [0.4, 2.9, 5.1];
+
+/// Largest difference between two turns, of the size compared: roundings of φ + 2π, and of the sums.
+const REPEATS: f64 = 1e-6;
 
 /// The reduced link at one position.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -273,7 +305,7 @@ impl<M: Mechanism> Machine<M> {
             }
         }
         for element in &self.elements {
-            let share = element.reduce(&frames);
+            let share = element.reduce(&frames).ok_or(Error::EndsMeet { phi })?;
             reduction.potential_energy[0] += share.potential_energy[0];
             reduction.potential_energy[1] += share.potential_energy[1];
             reduction.viscous += share.viscous;
@@ -301,5 +333,40 @@ impl<M: Mechanism> Reducible for Machine<M> {
         } else {
             Err(Error::NoInertia { phi })
         }
+    }
+
+    /// Decided by where the links are a turn later, not by the size of the loads, which may act in a part of the turn only:
+    /// a force or a weight of fixed direction needs a link that points the same way again, a spring the same length.
+    fn check_repeats(&self) -> Result<(), Error> {
+        let links = self.mechanism.links();
+        for phi in SAMPLES {
+            let [now, later] = [
+                self.mechanism.frames(phi)?,
+                self.mechanism.frames(phi + TAU)?,
+            ];
+            let comes_back = |link: usize| {
+                now.get(link).zip(later.get(link)).is_none_or(|(a, b)| {
+                    let turns = (b.psi.value - a.psi.value) / TAU;
+                    math::abs(turns - math::floor(turns + 0.5)) <= REPEATS
+                })
+            };
+            let heavy = |link: usize| {
+                let off_axis = links
+                    .get(link)
+                    .is_some_and(|l| l.mass() > 0.0 && l.com() != [0.0; 2]);
+                off_axis && self.gravity != [0.0; 2]
+            };
+            let mut pulled = self.loads.iter().filter(|load| load.has_fixed_direction());
+            let forced = pulled.all(|load| comes_back(load.link()));
+            let weighed = (0..links.len()).all(|link| !heavy(link) || comes_back(link));
+            let sprung = self.elements.iter().all(|element| {
+                let [a, b] = [element.effort(&now, 1.0), element.effort(&later, 1.0)];
+                math::abs(a - b) <= REPEATS * (math::abs(a) + math::abs(b))
+            });
+            if !(forced && weighed && sprung) {
+                return Err(Error::NotPeriodic { phi });
+            }
+        }
+        Ok(())
     }
 }

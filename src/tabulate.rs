@@ -10,8 +10,6 @@
 //! δ is the table's own value, read in its own arithmetic (quantisation and rounding included), against the exact
 //! reduction, at [`CHECKS_PER_CELL`] places of every cell.
 
-use core::f64::consts::TAU;
-
 use crate::error::positive;
 use crate::reduction::Reducible;
 use crate::scalar::Scalar;
@@ -89,33 +87,6 @@ pub fn curves_in_use(machine: &impl Reducible, positions: u32) -> Result<u8, Err
     Ok(set)
 }
 
-/// A table of one turn stands for every turn: a spring between links that do not come back, or a force of fixed direction
-/// on one, would make it wrong from the second turn on.
-fn check_repeats(machine: &impl Reducible) -> Result<(), Error> {
-    for phi in [0.4, 2.9, 5.1] {
-        let [now, later] = [machine.reduction(phi)?, machine.reduction(phi + TAU)?];
-        for (a, b, unit) in [
-            (now.inertia[0], later.inertia[0], now.inertia[0]),
-            (
-                now.load_torque(),
-                later.load_torque(),
-                now.potential_energy[1],
-            ),
-            (now.viscous, later.viscous, 0.0),
-            (now.coulomb, later.coulomb, 0.0),
-        ] {
-            let size = math::abs(a) + math::abs(b) + math::abs(unit);
-            if math::abs(a - b) > REPEATS * size {
-                return Err(Error::NotPeriodic { phi });
-            }
-        }
-    }
-    Ok(())
-}
-
-/// Largest difference between two turns, of the curve's size: roundings of φ + 2π, and of the sums.
-const REPEATS: f64 = 1e-6;
-
 /// Fills `words` with the table of exactly `cells` cells and returns it.
 ///
 /// # Errors
@@ -143,7 +114,7 @@ pub fn fill<'w, S: Scalar, const CURVES: u8>(
     let domain = machine.domain();
     let periodic = domain == Domain::Turn;
     if periodic {
-        check_repeats(machine)?;
+        machine.check_repeats()?;
     }
     let knots = if periodic { cells } else { cells + 1 } as usize;
     for k in 0..knots {

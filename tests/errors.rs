@@ -4,7 +4,7 @@ mod support;
 
 use std::f64::consts::PI;
 
-use jred::mechanism::{Branch, Mesh, RackAndPinion, SliderCrank, Stage, Train};
+use jred::mechanism::{Branch, Geneva, Mesh, RackAndPinion, SliderCrank, Stage, Train};
 use jred::motion::{Law, Move};
 use jred::table::{CubicSpline, MAX_CELLS, curves, fit_bounded, fit_periodic};
 use jred::tabulate::{Request, fill, tabulate};
@@ -375,4 +375,43 @@ fn a_load_that_does_not_repeat_is_not_tabulated() {
             "limit the drive by a stroke",
         ],
     );
+}
+
+/// Geneva wheel: a force of fixed direction on it turns with the stations, even if it acts in a part of the turn only, where
+/// none of a few samples would see it. A spring whose ends meet has no direction.
+#[test]
+fn loads_are_judged_where_they_do_not_act() {
+    let crank = Link::rotor(0.02).unwrap();
+    let geneva = Geneva::new(6, 0.1, [crank, Link::rotor(0.3).unwrap()]).unwrap();
+    let load = |action| {
+        let window = Window::new(0.5, 1.0, 0.1).unwrap();
+        let load = Load::new(Geneva::WHEEL, action).and_then(|l| l.at([0.08, 0.0]));
+        load.unwrap().within(window)
+    };
+    let with = |action| {
+        Machine::new(geneva.clone())
+            .with_load(load(action))
+            .unwrap()
+    };
+    let fill = |machine| words::<f64, { curves::LOAD }>(&machine, 64, &Scale::SI);
+    assert!(fill(with(Action::Moment(3.0))).is_ok());
+    says(
+        fill(with(Action::Force([0.0, 50.0]))),
+        &["not the same a turn of the drive link later"],
+    );
+
+    let press = support::samples(1, 3, &support::machines::spec())
+        .remove(0)
+        .machine();
+    let slider = press.mechanism().frames(0.3).unwrap()[2];
+    let here = [slider.x.value, slider.y.value];
+    let between = [Marker::ground(here), Marker::on(2, [0.0, 0.0])];
+    let spring = Element::spring(between, 100.0, 0.1).unwrap();
+    let machine = press.with_element(spring).unwrap();
+    says(
+        machine.reduction(0.3),
+        &["ends of a spring or damper meet at φ = 17.19°", "aside"],
+    );
+    says(machine.forces(0.3, 1.0, 0.0), &["meet"]);
+    assert!(machine.reduction(0.4).unwrap().potential_energy[1].is_finite());
 }

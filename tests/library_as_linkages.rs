@@ -4,10 +4,11 @@
 mod support;
 
 use jred::mechanism::{
-    Assembly, Branch, FourBar, Geneva, InvertedSliderCrank, Linkage, Member, Pair, Planetary,
-    PlanetaryGears, Pose, RackAndPinion, ScotchYoke, Side, SixLink,
+    Assembly, Branch, FourBar, Geneva, Hoist, InvertedSliderCrank, Linkage, Member, Pair,
+    ParallelShafts, Planetary, PlanetaryGears, Pose, RackAndPinion, Rope, ScotchYoke, Side,
+    SixLink, Stage, TogglePress, Train,
 };
-use jred::{Body, Domain, Joint, Jointed, Link, Machine, Marker, Mechanism, Reducible};
+use jred::{Body, Domain, Frame, Joint, Jointed, Link, Machine, Marker, Mechanism, Reducible};
 use proptest::prelude::*;
 use support::{assert_near, budget, config, jointed};
 
@@ -47,7 +48,7 @@ fn same_motion(mechanism: &(impl Jointed + Clone), phi: f64) {
 }
 
 proptest! {
-    #![proptest_config(config(60, 0x11_b0))]
+    #![proptest_config(config(60, 0x11b0))]
 
     #[test]
     fn four_bars(
@@ -101,9 +102,115 @@ proptest! {
     }
 
     #[test]
+    fn toggle_presses(
+        sizes in [0.03..0.08, 1.2..2.0, 1.0..1.8, 1.3..2.0],
+        direction in -0.4..0.4,
+        left in any::<bool>(),
+        backward in any::<bool>(),
+        phi in 0.0..6.3,
+    ) {
+        // A crank-rocker: the crank is the shortest, and with the ground shorter than the other two together.
+        let crank = sizes[0];
+        let [rod, upper] = [4.0 * crank * sizes[1], 4.0 * crank * sizes[2]];
+        let ground = 0.75 * (rod + upper) * 0.9;
+        let pivot = [ground * f64::cos(direction), ground * f64::sin(direction)];
+        let lower = sizes[3] * (upper + f64::abs(pivot[1]));
+        let sides = (
+            if left { Side::Left } else { Side::Right },
+            if backward { Branch::Left } else { Branch::Right },
+        );
+        let press = TogglePress::new([crank, rod, upper, lower], pivot, 0.0, sides, links());
+        prop_assume!(press.is_ok());
+        same_motion(&press.unwrap(), phi);
+    }
+
+    #[test]
+    fn shafts(ratios in [0.3..4.0, 0.3..4.0, 0.3..4.0], reversed in [any::<bool>(), any::<bool>(), any::<bool>()], phi in -3.0..3.0) {
+        let [a, b, c]: [f64; 3] = std::array::from_fn(|k| if reversed[k] { -1.0 * ratios[k] } else { ratios[k] });
+        let rotors = [0.01, 0.02, 0.03, 0.04].map(|j| Link::rotor(j).unwrap());
+        // In series: the driven side of a stage and the driver of the next turn together.
+        let stages = [(a, 0.01), (b, 0.02), (c, 0.03)].map(|(i, j)| Stage::new(i, [j, 0.0]).unwrap());
+        let train = Train::new(&stages).unwrap();
+        let belt = |from: usize, to: usize, ratio: f64| Pair::Belt {
+            centres: [Marker::on(from, O), Marker::on(to, O)],
+            radii: [0.02, 0.02 * ratio],
+            phase: 0.0,
+        };
+        same_shafts(&train, [belt(0, 1, a), belt(1, 2, b), belt(2, 3, c)], phi);
+        // Side by side.
+        let driven = [(a, rotors[1]), (b, rotors[2]), (c, rotors[3])];
+        let shafts = ParallelShafts::new(rotors[0], &driven).unwrap();
+        same_shafts(&shafts, [belt(0, 1, a), belt(0, 2, b), belt(0, 3, c)], phi);
+    }
+
+    #[test]
+    fn hoists(radii in [0.05..0.4, 0.05..0.4], falls in [1_u32..6, 1_u32..6], masses in [10.0..900.0, 10.0..900.0], phi in -3.0..3.0) {
+        let rope = |k: usize| Rope::new(radii[k], falls[k]).unwrap();
+        let mass = |k: usize| Link::new(masses[k], 0.0, O).unwrap();
+        let drum = Link::rotor(0.5).unwrap();
+        let hoist = Hoist::with_counterweight(drum, (rope(0), mass(0)), (rope(1), mass(1)));
+        let frames = hoist.frames(0.0).unwrap();
+        let joints = hoist.joints(0.0, &frames).unwrap();
+        // A rope is a rack that the drum winds up; a tackle moves its load by a share of it.
+        let wound = |k: usize, side: f64| Pair::Rack {
+            pinion: Marker::on(0, O),
+            rack: Marker::on(k + 1, O).with_angle(std::f64::consts::FRAC_PI_2),
+            radius: side * radii[k] / f64::from(falls[k]),
+            phase: 0.0,
+        };
+        let held = joints.iter().take(3).copied().map(Pair::Joint);
+        let pairs: Vec<Pair> = held.chain([wound(0, 1.0), wound(1, -1.0)]).collect();
+        let linkage = over_a_stroke::<3>(&hoist, &pairs);
+        jointed::same_frames(&hoist, &linkage, phi, budget::LINKAGE);
+        let [a, b] = [
+            Machine::new(hoist).with_gravity([0.0, -9.81]).unwrap().reduction(phi).unwrap(),
+            Machine::new(&linkage).with_gravity([0.0, -9.81]).unwrap().reduction(phi).unwrap(),
+        ];
+        assert_near("J", b.inertia[0], a.inertia[0], budget::LINKAGE * a.inertia[0]);
+        let size = 9.81 * (masses[0] + masses[1]);
+        assert_near("weights", b.load_torque(), a.load_torque(), budget::LINKAGE * size);
+    }
+
+    #[test]
     fn scotch_yokes(crank in 0.02..0.2, slot in 0.5..2.6, phi in 0.0..6.3) {
         same_motion(&ScotchYoke::new(crank, slot, links()).unwrap(), phi);
     }
+}
+
+/// The links of a mechanism that does not come back, held by `pairs`, over a stroke.
+fn over_a_stroke<const LINKS: usize>(
+    mechanism: &impl Mechanism,
+    pairs: &[Pair],
+) -> Assembly<LINKS, 7, 8> {
+    let drawing: Vec<Pose> = mechanism.frames(0.0).unwrap().iter().map(pose).collect();
+    let linkage = Linkage::new(mechanism.links(), pairs, 0).unwrap();
+    let stroke = Domain::stroke(-3.0, 3.0).unwrap();
+    linkage.assemble(stroke, 0.0, &drawing).unwrap()
+}
+
+fn pose(frame: &Frame) -> Pose {
+    Pose {
+        x: frame.x.value,
+        y: frame.y.value,
+        psi: frame.psi.value,
+    }
+}
+
+/// Four shafts with three belts between them.
+fn same_shafts(shafts: &(impl Jointed + Clone), belts: [Pair; 3], phi: f64) {
+    let frames = shafts.frames(0.0).unwrap();
+    let joints = shafts.joints(0.0, &frames).unwrap();
+    let bearings = joints.iter().take(4).copied().map(Pair::Joint);
+    let pairs: Vec<Pair> = bearings.chain(belts).collect();
+    let linkage = over_a_stroke::<4>(shafts, &pairs);
+    jointed::same_frames(shafts, &linkage, phi, budget::LINKAGE);
+    let [a, b] = [
+        Machine::new(shafts.clone()).reduction(phi),
+        Machine::new(&linkage).reduction(phi),
+    ]
+    .map(|r| r.unwrap().inertia[0]);
+    assert_near("J", b, a, budget::LINKAGE * a);
+    jointed::dalembert(&Machine::new(&linkage), phi, 5.0, -30.0);
 }
 
 /// While the pin is in the slot.
@@ -117,14 +224,7 @@ fn a_geneva_drive_while_engaged() {
         let frames = geneva.frames(0.0).unwrap();
         let joints = geneva.joints(0.0, &frames).unwrap();
         let pairs: Vec<Pair> = joints.iter().copied().map(Pair::Joint).collect();
-        let drawing: Vec<Pose> = frames
-            .iter()
-            .map(|f| Pose {
-                x: f.x.value,
-                y: f.y.value,
-                psi: f.psi.value,
-            })
-            .collect();
+        let drawing: Vec<Pose> = frames.iter().map(pose).collect();
         let domain = Domain::stroke(-engaged, engaged).unwrap();
         let linkage: Assembly<2, 3, 64> = Linkage::new(geneva.links(), &pairs, 0)
             .unwrap()
@@ -148,14 +248,7 @@ fn a_rack_and_a_planetary_gear() {
     let radius = 0.04;
     let closed = RackAndPinion::new(radius, [pinion, rack]).unwrap();
     let start = closed.frames(0.0).unwrap();
-    let drawing: Vec<Pose> = start
-        .iter()
-        .map(|f| Pose {
-            x: f.x.value,
-            y: f.y.value,
-            psi: f.psi.value,
-        })
-        .collect();
+    let drawing: Vec<Pose> = start.iter().map(pose).collect();
     let along = Pair::Rack {
         pinion: Marker::on(0, O),
         rack: Marker::on(1, O),

@@ -17,7 +17,7 @@ fn slider_crank_reactions_golden() {
     let across: Vec<f64> = forces.iter().map(|f| f.reactions[3].force[1]).collect();
     table.compare("N_0_3", &across, budget::REACTIONS);
     // The force in the guide passes through B, where the slider's mass and load are: no moment.
-    assert_eq!(support::largest(table.column("M_0_3")), 0.0);
+    assert_near("M_0_3", support::largest(table.column("M_0_3")), 0.0, 0.0);
     let moments = forces.iter().map(|f| f.reactions[3].moment);
     let force = support::largest(table.column("N_0_3"));
     assert_near(
@@ -29,7 +29,7 @@ fn slider_crank_reactions_golden() {
 }
 
 proptest! {
-    #![proptest_config(config(200, 0x2b_1))]
+    #![proptest_config(config(200, 0x02b1))]
 
     #[test]
     fn dalembert_is_the_reduced_equation(

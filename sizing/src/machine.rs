@@ -33,7 +33,7 @@ pub struct NamedPoint {
 pub struct Contact {
     /// Index of the joint.
     pub joint: usize,
-    /// The smooth pieces of the turn.
+    /// The pieces of the drive's range in which it is smooth.
     pub pieces: Vec<jred::cam::Piece>,
 }
 
@@ -48,7 +48,7 @@ pub struct AnyMechanism {
     outlines: Vec<(usize, Vec<[f64; 2]>)>,
     ground_points: Vec<(String, [f64; 2])>,
     elements: Vec<NamedElement>,
-    contact: Option<Contact>,
+    contacts: Vec<Contact>,
 }
 
 impl AnyMechanism {
@@ -69,7 +69,7 @@ impl AnyMechanism {
             outlines: Vec::new(),
             ground_points: Vec::new(),
             elements: Vec::new(),
-            contact: None,
+            contacts: Vec::new(),
         }
     }
 
@@ -103,10 +103,10 @@ impl AnyMechanism {
         self
     }
 
-    /// With a contact that must not open.
+    /// With one more contact that must not open.
     #[must_use]
-    pub fn with_contact(mut self, contact: Option<Contact>) -> Self {
-        self.contact = contact;
+    pub fn with_contact(mut self, contact: Contact) -> Self {
+        self.contacts.push(contact);
         self
     }
 
@@ -115,9 +115,9 @@ impl AnyMechanism {
         &self.elements
     }
 
-    /// The contact that must not open, if there is one.
-    pub const fn contact(&self) -> Option<&Contact> {
-        self.contact.as_ref()
+    /// The contacts that must not open.
+    pub fn contacts(&self) -> &[Contact] {
+        &self.contacts
     }
 
     /// The `type` of the machine file.

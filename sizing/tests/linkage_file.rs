@@ -3,6 +3,8 @@
 
 mod support;
 
+#[path = "linkage_file/cams.rs"]
+mod cams;
 #[path = "linkage_file/elements.rs"]
 mod elements;
 #[path = "linkage_file/refusals.rs"]

@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use jred::Error;
 use jred::cam::{contact_force, lift_off};
 
-use crate::machine::MachineFile;
+use crate::coordinate::Coordinate;
+use crate::machine::{Contact, MachineFile};
 use crate::motion::Motion;
 
 use super::problem::{Result, figure};
@@ -15,12 +16,24 @@ use super::section::Section;
 const PER_TURN: f64 = 1440.0;
 const FEWEST: f64 = 128.0;
 
-/// Checks that the contact force is positive over the whole motion. A cam that holds its follower on both sides has no
+/// Checks that every contact force is positive over the whole motion. A cam that holds its follower on both sides has no
 /// contact to check.
 pub(super) fn check(file: &MachineFile, mechanism: &Section) -> Result<()> {
-    let (Some(contact), Some(motion)) = (file.machine.mechanism().contact(), &file.motion) else {
+    let Some(motion) = &file.motion else {
         return Ok(());
     };
+    let contacts = file.machine.mechanism().contacts();
+    contacts
+        .iter()
+        .try_for_each(|contact| holds(file, mechanism, motion, contact))
+}
+
+fn holds(
+    file: &MachineFile,
+    mechanism: &Section,
+    motion: &Motion,
+    contact: &Contact,
+) -> Result<()> {
     let report = |error: Error| mechanism.problem(error.to_string(), "in this mechanism");
     let force = |t: f64| {
         let state = motion.at(t);
@@ -39,12 +52,30 @@ pub(super) fn check(file: &MachineFile, mechanism: &Section) -> Result<()> {
     let state = motion.at(t);
     let pieces = contact.pieces.iter().copied();
     let limit = lift_off(&file.machine, contact.joint, pieces, state.omega).map_err(report)?;
+    let known = file.machine.mechanism();
+    let name = match known.joint_names().get(contact.joint) {
+        Some(name) if name != "contact" => format!("joint \"{name}\": "),
+        _ => String::new(),
+    };
+    let leaves = format!("{name}the follower leaves the cam in the prescribed motion");
+    if Coordinate::of(known).map_err(report)? == Coordinate::Length {
+        let message = format!(
+            "{leaves}: at {}, {} m/s, the contact force would be {} N",
+            Coordinate::Length.place(state.phi),
+            figure(state.omega),
+            figure(least)
+        );
+        return Err(mechanism.problem(message, "in this cam").help(
+            "use a stiffer spring, more preload or a slower motion; write closure = \"form\" for a grooved or conjugate cam, \
+             which holds the follower on both sides",
+        ));
+    }
     let cure = limit.map_or_else(
         || "at a constant speed it would not: accelerate more slowly, or add preload".to_owned(),
         |limit| limit.to_string(),
     );
     let message = format!(
-        "the follower leaves the cam in the prescribed motion: at φ = {:.2}°, {} rpm, the contact force would be {} N",
+        "{leaves}: at φ = {:.2}°, {} rpm, the contact force would be {} N",
         state.phi.rem_euclid(TAU).to_degrees(),
         figure(state.omega * 60.0 / TAU),
         figure(least)

@@ -359,6 +359,7 @@ fn the_machines_are_read() {
         "linkage-four-bar.toml",
         "linkage-press.toml",
         "linkage-planetary.toml",
+        "linkage-cam-lever.toml",
         "excavator-bucket.toml",
     ] {
         let file = jred_sizing::input::read(&machine_path(name))
@@ -368,11 +369,14 @@ fn the_machines_are_read() {
 }
 
 #[test]
-fn the_documented_example_is_read() {
+fn the_documented_examples_are_read() {
     let doc = include_str!("../../../docs/mechanisms/linkage.md");
-    let mut blocks = doc.split("\n```toml\n").skip(1);
-    let block = blocks.next().and_then(|rest| rest.split("\n```").next());
-    assert!(blocks.next().is_none(), "one example a document");
-    let file = read(block.unwrap());
-    assert_eq!(file.machine.mechanism().links().len(), 3);
+    let blocks = doc.split("\n```toml\n").skip(1);
+    let links = |block: &str| {
+        let file = read(block.split("\n```").next().unwrap());
+        file.machine.mechanism().links().len()
+    };
+    let found: Vec<usize> = blocks.map(links).collect();
+    // A cam with its lever, and a four-bar.
+    assert_eq!(found, [4, 3]);
 }

@@ -80,7 +80,7 @@ fn risen(z: f64) -> f64 {
 fn the_documented_example_is_read() {
     let file = parse(example(DOC)).unwrap();
     let cam = file.machine.mechanism();
-    assert_eq!(cam.contact().unwrap().joint, 2);
+    assert_eq!(cam.contacts()[0].joint, 2);
     close(
         cam.frames(2.0).unwrap()[1].y.value,
         (0.055_f64.powi(2) - 0.005_f64.powi(2)).sqrt() + 0.02,
@@ -139,8 +139,8 @@ fn every_follower_is_read() {
             .unwrap()
             .machine
             .mechanism()
-            .contact()
-            .is_none()
+            .contacts()
+            .is_empty()
     );
 }
 

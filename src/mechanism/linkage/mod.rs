@@ -103,7 +103,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         let pairs: heapless::Vec<Pair, PAIRS> =
             heapless::Vec::from_slice(pairs).map_err(|_| too_many("joints", PAIRS))?;
         let cams = Cams::from_slice(cams).map_err(|_| too_many("cams", CAMS))?;
-        let mut size = 0.0_f64;
+        let mut size = largest_distance(&pairs);
         let exists = |body: Body| match body.link().filter(|link| *link >= links.len()) {
             None => Ok(()),
             Some(link) => Err(Error::NoSuchLink {
@@ -127,12 +127,6 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
                 if pair.bodies().contains(&cam.base().body) {
                     return Err(Error::CamBase { cam: place });
                 }
-            }
-            for marker in pair.markers() {
-                size = marker
-                    .at
-                    .iter()
-                    .fold(size, |most, c| most.max(math::abs(*c)));
             }
         }
         let Some(driven) = pairs.get(drive) else {
@@ -221,4 +215,17 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         }
         Ok(frames)
     }
+}
+
+/// Largest distance between two markers of the same body, the ground among them (m).
+fn largest_distance(pairs: &[Pair]) -> f64 {
+    let markers = || pairs.iter().flat_map(|pair| pair.markers());
+    let mut largest = 0.0_f64;
+    for a in markers() {
+        for b in markers().filter(|b| b.body == a.body) {
+            let [x, y] = [b.at[0] - a.at[0], b.at[1] - a.at[1]];
+            largest = largest.max(math::sqrt(x * x + y * y));
+        }
+    }
+    largest
 }

@@ -194,6 +194,16 @@ impl<const LINKS: usize> Structure<LINKS> {
         }
     }
 
+    /// The equations that contain the angle of a link, and whether each contains angles alone.
+    pub(super) fn with_angle_of(&self, link: usize) -> impl Iterator<Item = (Equation, bool)> + '_ {
+        let angle = 1_u64 << (3 * link + usize::from(PSI));
+        let equations = self.equations.as_flattened().iter().copied();
+        equations
+            .zip(self.contents.as_flattened())
+            .filter(move |(_, contents)| *contents & angle != 0)
+            .map(|(equation, contents)| (equation, contents & !ANGLES == 0))
+    }
+
     /// The groups, in the order of solving.
     pub(super) fn groups(&self) -> impl Iterator<Item = Group> + '_ {
         self.groups.iter().copied()

@@ -10,7 +10,7 @@ use crate::transfer::Transfer;
 use crate::{Domain, Error, math};
 
 use super::solver::{Solved, Unsolved};
-use super::{Linkage, Pose};
+use super::{Linkage, Pair, Pose};
 
 /// The corrector may move a link so far (rad, or of the linkage's size): beyond, the predictor was not to be trusted.
 const TRUSTED: f64 = 0.02;
@@ -53,7 +53,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
     /// follows it over the `domain`.
     ///
     /// # Errors
-    /// A drawing from which no position is found: which pair stays open and how far. A dead point of the drive or a change
+    /// A drawing far outside the domain, or one from which no position is found: which pair stays open and how far. A dead point of the drive or a change
     /// of branch: where, and at which pair. A turn after which a link is not where it was.
     pub fn assemble<const STATIONS: usize>(
         self,
@@ -62,8 +62,16 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         drawing: &[Pose],
     ) -> Result<Assembly<LINKS, PAIRS, STATIONS, CAMS>, Error> {
         const { assert!(STATIONS >= 2, "a range has two ends") }
-        let phi = finite("drive position of the drawing", phi)?;
         let span = domain.span();
+        let [min, max] = [domain.position(0.0) - span, domain.position(1.0) + span];
+        if !(min..=max).contains(&finite("drive position of the drawing", phi)?) {
+            return Err(Error::OutOfRange {
+                what: "drive position of the drawing",
+                value: phi,
+                min,
+                max,
+            });
+        }
         let first = self
             .solve(phi, self.drawing(drawing)?)
             .map_err(|why| why.at(phi))?;
@@ -96,26 +104,37 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         })
     }
 
-    /// How far a link's angle has advanced in a turn, if it is where it was: the same place, the same angle but for whole
-    /// turns. A wheel with its centre of mass on its axis may stop at any angle.
+    /// How far a link's angle has advanced in a turn, if it stands where it stood and moves on as it began: the same place,
+    /// the same angle but for whole turns, the same first transfer functions. A balanced wheel that only rolls with other
+    /// wheels may stop at any angle.
     fn closes(&self, link: usize, start: &Frame, end: &Frame) -> Result<f64, Error> {
         let advance = end.psi.value - start.psi.value;
         let whole = math::floor(advance / TAU + 0.5) * TAU;
-        let aside =
-            math::abs(end.x.value - start.x.value).max(math::abs(end.y.value - start.y.value));
-        let mut gap = aside;
-        let wheel = self.links.get(link).is_some_and(|l| l.com() == [0.0, 0.0]);
         let turned = math::abs(advance - whole);
-        let steady =
-            math::abs(end.psi.d1 - start.psi.d1) <= CLOSED * (1.0 + math::abs(start.psi.d1));
-        if !(wheel && steady) {
-            gap = gap.max(turned * self.size);
-        }
+        let balanced = self.links.get(link).is_some_and(|l| l.com() == [0.0, 0.0]);
+        let wheel = balanced && self.only_rolls(link);
+        let apart = |a: f64, b: f64| math::abs(a - b);
+        let gap = [
+            if wheel { 0.0 } else { turned * self.size },
+            apart(start.x.value, end.x.value),
+            apart(start.y.value, end.y.value),
+            apart(start.x.d1, end.x.d1),
+            apart(start.y.d1, end.y.d1),
+            apart(start.psi.d1, end.psi.d1) * self.size,
+        ];
+        let gap = gap.into_iter().fold(0.0, f64::max);
         if gap <= CLOSED * self.size {
             Ok(if turned <= CLOSED { whole } else { advance })
         } else {
             Err(Error::NotClosed { link, gap })
         }
+    }
+
+    /// Whether nothing but the angles of other wheels depends on the angle of this link, and that in proportion.
+    fn only_rolls(&self, link: usize) -> bool {
+        let is_cam = |pair: usize| matches!(self.pairs.get(pair), Some(Pair::Cam { .. }));
+        let mut held = self.structure.with_angle_of(link);
+        held.all(|(equation, angles_alone)| angles_alone && !is_cam(equation.pair.into()))
     }
 
     /// From a solved position to another φ, in steps as long as the predictor is to be trusted.

@@ -1,6 +1,7 @@
 //! `type = "linkage"`: bodies and joints of any topology, from an approximate drawing.
 
 mod bodies;
+mod cam;
 mod drawing;
 mod joints;
 mod problems;
@@ -85,6 +86,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     };
     let assembly = assembled(&context, domain, drawn_at)?;
     wheels::check(&assembly, &bodies, &joints)?;
+    cam::check(&assembly, &bodies, &joints)?;
     inertias(&assembly, &bodies)?;
 
     let names = bodies.names();
@@ -99,7 +101,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     for point in &bodies.ground {
         mechanism = mechanism.with_ground_point(point.name.clone(), point.at);
     }
-    Ok(mechanism)
+    Ok(cam::described(mechanism, &joints))
 }
 
 /// Out of line, so that the stations leave the stack with it.

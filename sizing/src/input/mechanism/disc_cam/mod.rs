@@ -1,27 +1,22 @@
 //! `type = "disc-cam"`.
 
+mod follower;
 mod program;
+mod refusal;
 
 use std::f64::consts::TAU;
 
-use jred::cam::CamError;
-use jred::mechanism::{DiscCam, Follower, Roller, Swing};
-use jred::{Error, Link};
+use jred::mechanism::{DiscCam, Follower, Roller};
 
 use super::{core, link, parts};
-use crate::input::item::Value;
 use crate::input::kind::{FORCE, INERTIA, LENGTH, MASS, STIFFNESS, TORQUE, TORSION_STIFFNESS};
-use crate::input::problem::{Problem, Result};
+use crate::input::problem::Result;
 use crate::input::section::Section;
 use crate::machine::{AnyMechanism, Contact, NamedElement};
 
-/// The kinds of follower.
-const FOLLOWERS: [&str; 4] = [
-    "translating-roller",
-    "translating-flat-face",
-    "oscillating-roller",
-    "oscillating-flat-face",
-];
+pub(super) use follower::follower;
+pub(super) use program::read as program;
+pub(super) use refusal::problem;
 
 /// Points of the profile for drawings.
 const OUTLINE: u32 = 720;
@@ -36,13 +31,12 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     };
     let cam = link(&section.section("cam")?)?;
     let part = section.section("follower")?;
-    let kind = part
-        .require("type", "type = \"translating-roller\"")?
-        .choice(&FOLLOWERS)?;
-    let has_roller = kind % 2 == 0;
-    let roller = has_roller.then(|| roller(section)).transpose()?;
-    let (follower, mass) = read_follower(&part, kind >= 2, roller)?;
-    let program = program::read(section, follower.pivot().is_some())?;
+    let follower = follower(&part, || roller(section))?;
+    let mass = match follower.pivot() {
+        Some(_) => link(&part)?,
+        None => parts::slide(&part)?,
+    };
+    let program = program(section, "[[mechanism.segment]]", follower.pivot().is_some())?;
     let spring = section
         .get("spring")
         .map(|item| item.section("[mechanism.spring]".into()))
@@ -57,9 +51,11 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         joint: DiscCam::CONTACT,
         pieces: mechanism.program().pieces().collect(),
     });
-    Ok(described(mechanism)
-        .with_elements(spring)
-        .with_contact(contact))
+    let mechanism = described(mechanism).with_elements(spring);
+    Ok(match contact {
+        Some(contact) => mechanism.with_contact(contact),
+        None => mechanism,
+    })
 }
 
 /// Names, points and outlines.
@@ -118,44 +114,6 @@ fn roller(section: &Section) -> Result<Roller> {
     Roller::new(radius, mass, inertia).map_err(|error| core(&section, &error))
 }
 
-/// The follower's geometry and its mass properties without the roller.
-fn read_follower(
-    section: &Section,
-    oscillating: bool,
-    roller: Option<Roller>,
-) -> Result<(Follower, Link)> {
-    if !oscillating {
-        let offset = section.optional("offset", &LENGTH)?.map_or(0.0, |v| v.si);
-        let follower = match roller {
-            Some(roller) => Follower::TranslatingRoller { offset, roller },
-            None => Follower::TranslatingFace { offset },
-        };
-        return Ok((follower, parts::slide(section)?));
-    }
-    let pivot = section
-        .require("pivot", "pivot = [\"90 mm\", \"0 mm\"]")?
-        .pair([&LENGTH, &LENGTH])?
-        .map(|value| value.si);
-    let swing = section
-        .require("swing", "swing = \"counter-clockwise\"")?
-        .choice(&["counter-clockwise", "clockwise"])?;
-    let swing = [Swing::CounterClockwise, Swing::Clockwise][swing];
-    let follower = match roller {
-        Some(roller) => Follower::OscillatingRoller {
-            pivot,
-            arm: section.quantity("arm", &LENGTH)?.positive()?,
-            swing,
-            roller,
-        },
-        None => Follower::OscillatingFace {
-            pivot,
-            offset: section.optional("offset", &LENGTH)?.map_or(0.0, |v| v.si),
-            swing,
-        },
-    };
-    Ok((follower, link(section)?))
-}
-
 fn closing_spring(section: &Section, mechanism: &DiscCam) -> Result<NamedElement> {
     let (stiffness, preload) = if mechanism.follower().pivot().is_some() {
         (&TORSION_STIFFNESS, &TORQUE)
@@ -171,88 +129,4 @@ fn closing_spring(section: &Section, mechanism: &DiscCam) -> Result<NamedElement
             .closing_spring(stiffness, preload)
             .map_err(|error| core(section, &error))?,
     })
-}
-
-/// What is wrong with the cam, at the key that cures it.
-fn problem(section: &Section, follower: &Section, base_radius: &Value, error: &Error) -> Problem {
-    let Error::Cam(cam) = error else {
-        return core(section, error);
-    };
-    let deg = |phi: f64| format!("{:.2}°", phi.to_degrees());
-    match *cam {
-        CamError::Undercut {
-            phi,
-            radius,
-            limit,
-            base_radius: cure,
-        } => {
-            let found = base_radius.problem(
-                &format!(
-                    "is too small: the cam is undercut at φ = {}, where the radius of curvature is {}, \
-                     but must be larger than {}",
-                    deg(phi),
-                    base_radius.show(radius),
-                    base_radius.show(limit)
-                ),
-                "undercut",
-            );
-            match cure {
-                Some(least) => found.help(format!(
-                    "make the base radius larger than {}, or the rise smaller, or its angle longer",
-                    base_radius.show(least)
-                )),
-                None => found
-                    .help("no base radius cures it: make the rise smaller, or its angle longer"),
-            }
-        }
-        CamError::Offset {
-            offset,
-            base_radius: least,
-        } => base_radius
-            .problem(
-                &format!(
-                    "is too small for the guide's offset of {}",
-                    base_radius.show(offset)
-                ),
-                "too small",
-            )
-            .help(format!(
-                "make it larger than {}, or the offset smaller",
-                base_radius.show(least)
-            )),
-        CamError::Arm {
-            pivot_distance,
-            reach,
-        } => follower
-            .problem(
-                format!(
-                    "the arm in {} cannot hold the roller on the base circle",
-                    follower.title()
-                ),
-                "this follower",
-            )
-            .help(format!(
-                "with the pivot {} from the cam's, base radius + roller radius must lie between {} and {}",
-                base_radius.show(pivot_distance),
-                base_radius.show(reach[0]),
-                base_radius.show(reach[1])
-            )),
-        CamError::Face {
-            pivot_distance,
-            least,
-        } => follower
-            .problem(
-                format!(
-                    "the face in {} cannot lie on the base circle",
-                    follower.title()
-                ),
-                "this follower",
-            )
-            .help(format!(
-                "its pivot is {} from the cam's, but must be farther than base radius + offset = {}",
-                base_radius.show(pivot_distance),
-                base_radius.show(least)
-            )),
-        _ => section.problem(error.to_string(), "in this cam"),
-    }
 }

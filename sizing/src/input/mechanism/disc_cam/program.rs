@@ -28,13 +28,17 @@ enum Written<'a> {
     },
 }
 
-/// The program; `oscillating`: rises are angles.
-pub(super) fn read(section: &Section, oscillating: bool) -> Result<Program> {
+/// The program; `header`: of its segments in messages; `oscillating`: rises are angles.
+pub(in crate::input::mechanism) fn read(
+    section: &Section,
+    header: &str,
+    oscillating: bool,
+) -> Result<Program> {
     let item = section.require(
         "segment",
-        "[[mechanism.segment]] once for each rise = \"…\", each return = \"…\" and each dwell = \"…\"",
+        &format!("{header} once for each rise = \"…\", each return = \"…\" and each dwell = \"…\""),
     )?;
-    let parts = item.sections("[[mechanism.segment]]")?;
+    let parts = item.sections(header)?;
     if parts.is_empty() || parts.len() > MAX_SEGMENTS {
         let what = format!(
             "has {} entries, but must have 1 to {MAX_SEGMENTS}",
@@ -78,7 +82,7 @@ fn segment<'a>(
             ))
             .at(one.key_span(), *first)
             .at(other.key_span(), *second)
-            .help("write one [[mechanism.segment]] for each"));
+            .help("write one segment for each"));
         }
     };
     if *key == "dwell" {

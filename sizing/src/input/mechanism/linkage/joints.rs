@@ -11,12 +11,13 @@ use crate::input::problem::{Problem, Result};
 use crate::input::section::Section;
 
 use super::bodies::{Bodies, End};
+use super::cam::{self, Cam};
 
 /// The most joints of a linkage.
 pub(super) const MOST: usize = 32;
 
 /// The types of joint, as machine files write them.
-const TYPES: [&str; 7] = [
+const TYPES: [&str; 8] = [
     "revolute",
     "prismatic",
     "fixed",
@@ -24,6 +25,7 @@ const TYPES: [&str; 7] = [
     "gears",
     "rack",
     "belt",
+    "cam",
 ];
 
 /// One joint as the file gives it.
@@ -34,6 +36,7 @@ pub(super) struct Held {
     pub(super) place: Range<usize>,
     /// Where the radii stand, of a joint that rolls.
     pub(super) radii: Option<Range<usize>>,
+    pub(super) cam: Option<Cam>,
 }
 
 impl Held {
@@ -74,7 +77,8 @@ pub(super) fn read(section: &Section, bodies: &Bodies) -> Result<Vec<Held>> {
     }
     let mut joints: Vec<Held> = Vec::with_capacity(sections.len());
     for section in &sections {
-        let joint = joint(section, bodies)?;
+        let cams = joints.iter().filter(|joint| joint.cam.is_some()).count();
+        let joint = joint(section, bodies, cams)?;
         if let Some(first) = joints.iter().find(|j| j.name == joint.name) {
             return Err(
                 Problem::new(format!("two joints have the name \"{}\"", joint.name))
@@ -88,7 +92,8 @@ pub(super) fn read(section: &Section, bodies: &Bodies) -> Result<Vec<Held>> {
     Ok(joints)
 }
 
-fn joint(section: &Section, bodies: &Bodies) -> Result<Held> {
+/// A joint; `cams` of those before it are cams.
+fn joint(section: &Section, bodies: &Bodies, cams: usize) -> Result<Held> {
     section.expects(&["name", "type", "between"]);
     let kind = match section.get("type") {
         Some(item) => item.choice(&TYPES)?,
@@ -119,15 +124,22 @@ fn joint(section: &Section, bodies: &Bodies) -> Result<Held> {
         Some(item) => item.text("crank pin")?.to_owned(),
         None => format!("{} to {}", first.text("")?, second.text("")?),
     };
-    let (pair, radii) = pair(kind, section, bodies, ends)?;
+    let (pair, radii, cam) = if kind == "cam" {
+        let (pair, cam) = cam::read(section, bodies, ends, cams)?;
+        (pair, None, Some(cam))
+    } else {
+        let (pair, radii) = pair(kind, section, bodies, ends)?;
+        (pair, radii, None)
+    };
     section.finish_with(|key| {
         Some(match key {
             "direction" | "second_direction" => {
-                "only prismatic and fixed joints, slots and racks have a direction"
+                "only prismatic and fixed joints, slots, racks and cams have a direction"
             }
             "radius" => "gears and belts have radii = [\"40 mm\", \"80 mm\"], a rack has the radius of its pinion",
             "radii" | "mesh" | "carrier" => "only gears and belts have radii, only gears mesh and carrier",
             "crossed" => "only belts can be crossed",
+            "axis" | "base_radius" | "follower" | "roller" | "segment" => "only cams have it",
             "at" => "the points that a joint connects are its ends: between = [\"crank.A\", \"rod\"]",
             _ => return None,
         })
@@ -138,6 +150,7 @@ fn joint(section: &Section, bodies: &Bodies) -> Result<Held> {
         pair,
         place: section.header(),
         radii,
+        cam,
     })
 }
 

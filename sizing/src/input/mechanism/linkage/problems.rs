@@ -9,6 +9,7 @@ use crate::input::problem::{Problem, Result, figure};
 use crate::input::section::Section;
 
 use super::bodies::{self, Bodies};
+use super::cam;
 use super::joints::{self, Held};
 
 /// Everything that messages speak of.
@@ -126,7 +127,9 @@ impl Context<'_> {
             return core(self.section, &Error::CannotAssemble { phi, joint, gap });
         };
         let size = match held.kind {
-            "prismatic" | "fixed" => format!("{} mm, or mrad of an angle", figure(gap * 1e3)),
+            "prismatic" | "fixed" | "cam" => {
+                format!("{} mm, or mrad of an angle", figure(gap * 1e3))
+            }
             _ => format!("{} mm", figure(gap * 1e3)),
         };
         let [a, b] = held.pair.bodies().map(|body| self.bodies.name(body));
@@ -256,12 +259,10 @@ impl Context<'_> {
     }
 
     /// The linkage, its topology checked.
-    pub(super) fn linkage(
-        &self,
-    ) -> std::result::Result<Linkage<{ bodies::MOST }, { joints::MOST }>, Error> {
+    pub(super) fn linkage(&self) -> std::result::Result<Whole, Error> {
         let links: Vec<_> = self.bodies.moving.iter().map(|body| body.link).collect();
         let pairs: Vec<_> = self.joints.iter().map(|joint| joint.pair).collect();
-        Linkage::new(&links, &pairs, self.drive)
+        Linkage::with_cams(&links, &pairs, &cam::placed(self.joints), self.drive)
     }
 
     fn not_closed(&self, link: usize, gap: f64) -> Problem {
@@ -282,5 +283,9 @@ impl Context<'_> {
     }
 }
 
+/// Room for the largest linkage.
+type Whole = Linkage<{ bodies::MOST }, { joints::MOST }, { cam::MOST }>;
+
 /// A linkage that was followed over its range, kept where it does not fill the stack.
-pub(super) type Assembled = Box<Assembly<{ bodies::MOST }, { joints::MOST }, { super::STATIONS }>>;
+pub(super) type Assembled =
+    Box<Assembly<{ bodies::MOST }, { joints::MOST }, { super::STATIONS }, { cam::MOST }>>;

@@ -63,7 +63,7 @@ pub(super) fn check(mechanism: &impl Mechanism, bodies: &Bodies, joints: &[Held]
                     }
                 }
                 Pair::Belt { centres, .. } => belt(joint, bodies, centres, &frames)?,
-                Pair::Joint(_) => {}
+                Pair::Joint(_) | Pair::Cam { .. } => {}
             }
         }
     }
