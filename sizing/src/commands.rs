@@ -213,16 +213,18 @@ fn run_export(options: &cli::Export) -> Result<Done> {
     ))
 }
 
-/// Largest speed and acceleration: as given, else those of the motion, which at constant speed has no acceleration of its
-/// own: the speed reached within a radian stands in.
+/// Largest speed and acceleration: as given, else those of the motion. Where there is no acceleration, at constant speed or
+/// without a motion, the speed reached within a radian stands in.
 fn range(options: &cli::Export, file: &MachineFile) -> Result<(f64, f64)> {
-    if let (Some(omega), Some(alpha)) = (options.omega, options.alpha) {
-        return Ok((omega, alpha));
+    match (options.omega, options.alpha, &file.motion) {
+        (Some(omega), Some(alpha), _) => return Ok((omega, alpha)),
+        (Some(omega), None, None) => return Ok((omega, omega * omega)),
+        _ => {}
     }
     let motion = file.motion.as_ref().ok_or_else(|| {
         miette!(
-            help = "give --omega and --alpha, or add a [motion] to the machine file",
-            "the largest speed and acceleration are not known: {} has no [motion]",
+            help = "give --omega, or add a [motion] to the machine file",
+            "the largest speed is not known: {} has no [motion]",
             options.file.display()
         )
     })?;

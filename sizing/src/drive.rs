@@ -182,6 +182,13 @@ impl<'c> Judged<'c> {
         uses.filter(|u| u.is_finite()).fold(0.0, f64::max)
     }
 
+    /// How many rules ask for something where the limit is zero, as a peak torque beyond the largest speed: by how much they
+    /// are missed cannot be said.
+    pub fn beyond_all_limits(&self) -> usize {
+        let uses = self.checks.iter().map(Check::use_of_limit);
+        uses.filter(|u| u.is_infinite()).count()
+    }
+
     /// Installed power: rated torque times rated speed (W).
     pub fn rated_power(&self) -> f64 {
         self.drive.motor.rated_torque * self.drive.motor.rated_speed

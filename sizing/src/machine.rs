@@ -37,6 +37,15 @@ pub struct Contact {
     pub pieces: Vec<jred::cam::Piece>,
 }
 
+/// A figure that one kind of mechanism has, such as the largest pressure angle of a cam.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct Fact {
+    /// What it is.
+    pub label: String,
+    /// The figure, its unit and where it is.
+    pub text: String,
+}
+
 /// Any mechanism that a machine file can name, with the names of its parts.
 #[derive(Clone, Debug)]
 pub struct AnyMechanism {
@@ -49,6 +58,8 @@ pub struct AnyMechanism {
     ground_points: Vec<(String, [f64; 2])>,
     elements: Vec<NamedElement>,
     contacts: Vec<Contact>,
+    ropes: Vec<usize>,
+    facts: Vec<Fact>,
 }
 
 impl AnyMechanism {
@@ -70,6 +81,8 @@ impl AnyMechanism {
             ground_points: Vec::new(),
             elements: Vec::new(),
             contacts: Vec::new(),
+            ropes: Vec::new(),
+            facts: Vec::new(),
         }
     }
 
@@ -110,6 +123,21 @@ impl AnyMechanism {
         self
     }
 
+    /// With one more joint, number `joint`, whose rope can only pull: its force on the second body is positive then.
+    #[must_use]
+    pub fn with_rope(mut self, joint: usize) -> Self {
+        self.ropes.push(joint);
+        self
+    }
+
+    /// With one more figure of its kind that `jred check` shows.
+    #[must_use]
+    pub fn with_fact(mut self, label: impl Into<String>, text: impl Into<String>) -> Self {
+        let (label, text) = (label.into(), text.into());
+        self.facts.push(Fact { label, text });
+        self
+    }
+
     /// The mechanism's own springs.
     pub fn own_elements(&self) -> &[NamedElement] {
         &self.elements
@@ -118,6 +146,16 @@ impl AnyMechanism {
     /// The contacts that must not open.
     pub fn contacts(&self) -> &[Contact] {
         &self.contacts
+    }
+
+    /// The joints that are ropes.
+    pub fn ropes(&self) -> &[usize] {
+        &self.ropes
+    }
+
+    /// The figures of its kind.
+    pub fn facts(&self) -> &[Fact] {
+        &self.facts
     }
 
     /// The `type` of the machine file.

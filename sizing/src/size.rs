@@ -45,7 +45,10 @@ impl<'c> Selection<'c> {
                 .then_with(|| a.verdict().cmp(&b.verdict()))
                 .then_with(|| a.worst_use().total_cmp(&b.worst_use()))
         });
-        refused.sort_by(|a, b| a.worst_use().total_cmp(&b.worst_use()));
+        refused.sort_by(|a, b| {
+            (a.beyond_all_limits().cmp(&b.beyond_all_limits()))
+                .then_with(|| a.worst_use().total_cmp(&b.worst_use()))
+        });
         Self { fit, refused }
     }
 }

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use jred::{Domain, Error, Reducible};
 
 use crate::machine::MachineFile;
+use crate::numerics;
 
 use super::problem::{Problem, Result};
 use super::section::Section;
@@ -38,19 +39,11 @@ pub(super) fn inertia(file: &MachineFile, mechanism: &Section) -> Result<()> {
         }
     }
     // Between the samples the smallest value is found by thirds.
-    let (mut low, mut high) = match domain {
+    let (low, high) = match domain {
         Domain::Turn => (place - step, place + step),
         Domain::Stroke { .. } => ((place - step).max(from), (place + step).min(to)),
     };
-    for _ in 0..80 {
-        let third = (high - low) / 3.0;
-        if inertia(low + third)? < inertia(high - third)? {
-            high -= third;
-        } else {
-            low += third;
-        }
-    }
-    let phi = low.midpoint(high);
+    let phi = numerics::least(inertia, low, high)?;
     if inertia(phi)? <= ZERO * largest {
         let phi = match domain {
             Domain::Turn => phi.rem_euclid(TAU),

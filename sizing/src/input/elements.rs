@@ -318,17 +318,9 @@ impl Survey<'_> {
             return Err(self.nothing());
         }
         if !self.torsion {
-            let (mut low, mut high) = ((place - step).max(0.0), (place + step).min(1.0));
-            for _ in 0..80 {
-                let third = (high - low) / 3.0;
-                let [a, b] = [low + third, high - third].map(|part| domain.position(part));
-                if length(a)?.value < length(b)?.value {
-                    high -= third;
-                } else {
-                    low += third;
-                }
-            }
-            let phi = domain.position(low.midpoint(high));
+            let value = |part: f64| Ok(length(domain.position(part))?.value);
+            let [low, high] = [(place - step).max(0.0), (place + step).min(1.0)];
+            let phi = domain.position(numerics::least(value, low, high)?);
             if length(phi)?.value <= 1e-9 * longest {
                 return Err(self.meets(phi));
             }

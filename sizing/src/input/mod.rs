@@ -15,7 +15,7 @@ mod kind;
 mod loads;
 mod mechanism;
 mod motion;
-mod problem;
+pub(crate) mod problem;
 mod profile;
 mod quantity;
 mod rules;

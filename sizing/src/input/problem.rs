@@ -143,7 +143,7 @@ pub(super) fn closest<S: AsRef<str>>(wrong: &str, words: &[S]) -> Option<String>
 }
 
 /// A figure for a message: at most six significant digits, no trailing zeros.
-pub(super) fn figure(value: f64) -> String {
+pub(crate) fn figure(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }

@@ -16,11 +16,9 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         let joints = ["drum bearing", "guide of the load", "rope of the load"];
         let names = ["drum", "load"];
         return Ok(
-            AnyMechanism::new(super::HOIST, Hoist::new(drum, load), names, joints).with_point(
-                "L",
-                Hoist::LOAD,
-                [0.0, 0.0],
-            ),
+            AnyMechanism::new(super::HOIST, Hoist::new(drum, load), names, joints)
+                .with_point("L", Hoist::LOAD, [0.0, 0.0])
+                .with_rope(2),
         );
     };
     let counterweight = hanging(&item.section("[mechanism.counterweight]".to_owned())?)?;
@@ -35,7 +33,9 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let names = ["drum", "load", "counterweight"];
     Ok(AnyMechanism::new(super::HOIST, mechanism, names, joints)
         .with_point("L", Hoist::LOAD, [0.0, 0.0])
-        .with_point("G", Hoist::COUNTERWEIGHT, [0.0, 0.0]))
+        .with_point("G", Hoist::COUNTERWEIGHT, [0.0, 0.0])
+        .with_rope(3)
+        .with_rope(4))
 }
 
 /// What hangs on a rope, and the rope.

@@ -1,0 +1,157 @@
+//! Numerical methods that several commands use.
+
+use std::cell::Cell;
+
+/// Thirds after which the bracket is down to rounding.
+const THIRDS: u32 = 80;
+
+/// The most halvings of one [`integral`]: a curve of roundings alone must not be halved without end.
+const MOST_HALVINGS: u32 = 20_000;
+
+/// The place of the smallest value of `f` between `low` and `high`, where it has one minimum, by thirds.
+///
+/// # Errors
+/// Those of `f`.
+pub fn least<E>(
+    f: impl Fn(f64) -> Result<f64, E>,
+    mut low: f64,
+    mut high: f64,
+) -> Result<f64, E> {
+    for _ in 0..THIRDS {
+        let third = (high - low) / 3.0;
+        if f(low + third)? < f(high - third)? {
+            high -= third;
+        } else {
+            low += third;
+        }
+    }
+    Ok(low.midpoint(high))
+}
+
+/// The place between `a`, where `before` holds, and `b`, where it does not hold any more.
+///
+/// # Errors
+/// Those of `before`.
+pub fn edge<E>(
+    before: impl Fn(f64) -> Result<bool, E>,
+    mut a: f64,
+    mut b: f64,
+) -> Result<f64, E> {
+    for _ in 0..60 {
+        let middle = a.midpoint(b);
+        if before(middle)? {
+            a = middle;
+        } else {
+            b = middle;
+        }
+    }
+    Ok(a.midpoint(b))
+}
+
+/// The integral of `f` from `a` to `b` to about `tolerance`: Gauss and Legendre's rule with five points over `panels` equal
+/// parts, each halved where its two halves disagree, so that a jump or a bend of the curve is closed in.
+///
+/// # Errors
+/// Those of `f`.
+pub fn integral<E>(
+    f: impl Fn(f64) -> Result<f64, E>,
+    [a, b]: [f64; 2],
+    panels: u32,
+    tolerance: f64,
+) -> Result<f64, E> {
+    const DEEPEST: u32 = 32;
+    let halvings = Cell::new(MOST_HALVINGS);
+    let place = |k: u32| a + (b - a) * f64::from(k) / f64::from(panels);
+    let mut sum = 0.0;
+    for k in 0..panels {
+        let ends = [place(k), place(k + 1)];
+        let whole = gauss(&f, ends)?;
+        sum += halved(&f, ends, whole, tolerance / f64::from(panels), DEEPEST, &halvings)?;
+    }
+    Ok(sum)
+}
+
+fn gauss<E>(f: &impl Fn(f64) -> Result<f64, E>, [a, b]: [f64; 2]) -> Result<f64, E> {
+    const POINTS: [(f64, f64); 5] = [
+        (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
+        (-0.538_469_310_105_683, 0.478_628_670_499_366_5),
+        (0.0, 128.0 / 225.0),
+        (0.538_469_310_105_683, 0.478_628_670_499_366_5),
+        (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+    ];
+    let (middle, half) = (a.midpoint(b), 0.5 * (b - a));
+    let mut sum = 0.0;
+    for (x, weight) in POINTS {
+        sum += weight * f(middle + half * x)?;
+    }
+    Ok(half * sum)
+}
+
+fn halved<E>(
+    f: &impl Fn(f64) -> Result<f64, E>,
+    [a, b]: [f64; 2],
+    whole: f64,
+    tolerance: f64,
+    depth: u32,
+    halvings: &Cell<u32>,
+) -> Result<f64, E> {
+    let middle = a.midpoint(b);
+    let [left, right] = [gauss(f, [a, middle])?, gauss(f, [middle, b])?];
+    let left_over = halvings.get();
+    if depth == 0 || left_over == 0 || (left + right - whole).abs() <= tolerance {
+        return Ok(left + right);
+    }
+    halvings.set(left_over - 1);
+    let half = 0.5 * tolerance;
+    Ok(halved(f, [a, middle], left, half, depth - 1, halvings)?
+        + halved(f, [middle, b], right, half, depth - 1, halvings)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::convert::Infallible;
+
+    fn sure<T>(result: Result<T, Infallible>) -> T {
+        match result {
+            Ok(value) => value,
+            Err(never) => match never {},
+        }
+    }
+
+    #[test]
+    fn jumps_and_bends_are_closed_in() {
+        let kink = |x: f64| Ok::<f64, Infallible>((x - 0.3).abs());
+        let found = sure(integral(kink, [0.0, 1.0], 7, 1e-12));
+        assert!((found - (0.045 + 0.245)).abs() < 1e-12, "{found}");
+        let step = |x: f64| Ok::<f64, Infallible>(if x < 0.3 { 2.0 } else { -1.0 });
+        let found = sure(integral(step, [0.0, 1.0], 7, 1e-12));
+        assert!((found - (0.6 - 0.7)).abs() < 1e-10, "{found}");
+    }
+
+    #[test]
+    fn a_smooth_curve_is_exact_to_rounding() {
+        let found = sure(integral(|x| Ok::<f64, Infallible>(x.exp()), [-1.0, 2.0], 4, 1e-13));
+        assert!((found - (2f64.exp() - (-1f64).exp())).abs() < 1e-13);
+    }
+
+    /// What only rounds up and down ends after a limited number of halvings.
+    #[test]
+    fn noise_ends() {
+        let calls = Cell::new(0u32);
+        let noise = |x: f64| {
+            calls.set(calls.get() + 1);
+            Ok::<f64, Infallible>((x * 1e9).sin())
+        };
+        sure(integral(noise, [0.0, 1.0], 4, 1e-15));
+        assert!(calls.get() < 20 * MOST_HALVINGS + 200, "{}", calls.get());
+    }
+
+    #[test]
+    fn minima_and_edges() {
+        let found = sure(least(|x: f64| Ok::<f64, Infallible>((x - 0.7).abs()), 0.0, 1.0));
+        assert!((found - 0.7).abs() < 1e-12);
+        let found = sure(edge(|x: f64| Ok::<bool, Infallible>(x < 0.7), 0.0, 1.0));
+        assert!((found - 0.7).abs() < 1e-15);
+    }
+}
