@@ -52,6 +52,12 @@ impl Link {
         self.com
     }
 
+    /// Whether the centre of mass is the origin of the link's frame.
+    #[must_use]
+    pub fn is_centred(&self) -> bool {
+        self.com.iter().all(|c| math::abs(*c) <= 0.0)
+    }
+
     /// This link's share of the reduced inertia, m·(x′² + y′²) + J·ψ′² as one term of (6.4), with its first and
     /// second derivative by φ.
     #[must_use]

@@ -353,8 +353,8 @@ impl<M: Mechanism> Reducible for Machine<M> {
             let heavy = |link: usize| {
                 let off_axis = links
                     .get(link)
-                    .is_some_and(|l| l.mass() > 0.0 && l.com() != [0.0; 2]);
-                off_axis && self.gravity != [0.0; 2]
+                    .is_some_and(|l| l.mass() > 0.0 && !l.is_centred());
+                off_axis && self.gravity.iter().any(|g| math::abs(*g) > 0.0)
             };
             let mut pulled = self.loads.iter().filter(|load| load.has_fixed_direction());
             let forced = pulled.all(|load| comes_back(load.link()));

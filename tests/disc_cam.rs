@@ -4,8 +4,12 @@ mod support;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use jred::mechanism::{DiscCam, Follower, Roller};
-use jred::{Action, Joint, Jointed as _, Link, Load, Machine, Mechanism as _, Reducible as _};
+use jred::cam::{CamError, Program, Segment};
+use jred::mechanism::{DiscCam, Follower, Roller, Swing};
+use jred::motion::Law;
+use jred::{
+    Action, Error, Joint, Jointed as _, Link, Load, Machine, Mechanism as _, Reducible as _,
+};
 use proptest::prelude::*;
 use support::cams::{build, cam, eccentric, follower, four, links};
 use support::{assert_near, budget, config, derivative, jointed};
@@ -289,5 +293,50 @@ fn cutter_paths() {
         Machine::new(DiscCam::new(four(0.01), 0.05, roller, [still; 2]).unwrap())
             .reduction(0.1)
             .is_ok()
+    );
+}
+
+/// A cam that would cover the axis of its own follower cannot be built; nor does such a one cure an undercut.
+#[test]
+fn a_cam_does_not_cover_the_followers_pivot() {
+    let roller = Roller::new(0.01, 0.1, 5e-6).unwrap();
+    let pivot = [0.1, 0.0];
+    let swing = Swing::CounterClockwise;
+    let follower = |arm| Follower::OscillatingRoller {
+        pivot,
+        arm,
+        swing,
+        roller,
+    };
+    let refused = DiscCam::new(four(0.14), 0.105, follower(0.15), links()).unwrap_err();
+    let Error::Cam(CamError::CoversPivot {
+        reach,
+        pivot: distance,
+        ..
+    }) = refused
+    else {
+        panic!("{refused}")
+    };
+    assert_near("pivot", distance, 0.1, 1e-15);
+    assert!((0.105..0.13).contains(&reach), "{reach}");
+    assert!(
+        refused.to_string().contains("make the base radius smaller"),
+        "{refused}"
+    );
+    // 18° in 25° of the cam: a cam without undercut would be larger than the distance of the pivots.
+    let [steep, rest] = [25.0_f64, 335.0].map(f64::to_radians);
+    let rise = 18.0_f64.to_radians();
+    let program = Program::new(&[
+        Segment::law(Law::Cycloidal, steep, rise),
+        Segment::law(Law::Cycloidal, rest, -rise),
+    ]);
+    let refused = DiscCam::new(program.unwrap(), 0.03, follower(0.09), links()).unwrap_err();
+    let Error::Cam(CamError::Undercut { base_radius, .. }) = refused else {
+        panic!("{refused}")
+    };
+    assert_eq!(base_radius, None);
+    assert!(
+        refused.to_string().contains("no base radius cures it here"),
+        "{refused}"
     );
 }

@@ -126,7 +126,8 @@ proptest! {
 
     #[test]
     fn shafts(ratios in [0.3..4.0, 0.3..4.0, 0.3..4.0], reversed in [any::<bool>(), any::<bool>(), any::<bool>()], phi in -3.0..3.0) {
-        let [a, b, c]: [f64; 3] = std::array::from_fn(|k| if reversed[k] { -1.0 * ratios[k] } else { ratios[k] });
+        let ratios: [f64; 3] = ratios;
+        let [a, b, c] = [0, 1, 2].map(|k| if reversed[k] { -ratios[k] } else { ratios[k] });
         let rotors = [0.01, 0.02, 0.03, 0.04].map(|j| Link::rotor(j).unwrap());
         // In series: the driven side of a stage and the driver of the next turn together.
         let stages = [(a, 0.01), (b, 0.02), (c, 0.03)].map(|(i, j)| Stage::new(i, [j, 0.0]).unwrap());
@@ -136,11 +137,11 @@ proptest! {
             radii: [0.02, 0.02 * ratio],
             phase: 0.0,
         };
-        same_shafts(&train, [belt(0, 1, a), belt(1, 2, b), belt(2, 3, c)], phi);
+        same_shafts(&train, &[belt(0, 1, a), belt(1, 2, b), belt(2, 3, c)], phi);
         // Side by side.
         let driven = [(a, rotors[1]), (b, rotors[2]), (c, rotors[3])];
         let shafts = ParallelShafts::new(rotors[0], &driven).unwrap();
-        same_shafts(&shafts, [belt(0, 1, a), belt(0, 2, b), belt(0, 3, c)], phi);
+        same_shafts(&shafts, &[belt(0, 1, a), belt(0, 2, b), belt(0, 3, c)], phi);
     }
 
     #[test]
@@ -197,11 +198,11 @@ fn pose(frame: &Frame) -> Pose {
 }
 
 /// Four shafts with three belts between them.
-fn same_shafts(shafts: &(impl Jointed + Clone), belts: [Pair; 3], phi: f64) {
+fn same_shafts(shafts: &(impl Jointed + Clone), belts: &[Pair; 3], phi: f64) {
     let frames = shafts.frames(0.0).unwrap();
     let joints = shafts.joints(0.0, &frames).unwrap();
     let bearings = joints.iter().take(4).copied().map(Pair::Joint);
-    let pairs: Vec<Pair> = bearings.chain(belts).collect();
+    let pairs: Vec<Pair> = bearings.chain(belts.iter().copied()).collect();
     let linkage = over_a_stroke::<4>(shafts, &pairs);
     jointed::same_frames(shafts, &linkage, phi, budget::LINKAGE);
     let [a, b] = [

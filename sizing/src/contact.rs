@@ -42,7 +42,10 @@ impl OneWay {
             joint: contact.joint,
             rope: false,
         });
-        let ropes = mechanism.ropes().iter().map(|&joint| Self { joint, rope: true });
+        let ropes = mechanism
+            .ropes()
+            .iter()
+            .map(|&joint| Self { joint, rope: true });
         contacts.chain(ropes).collect()
     }
 
@@ -95,7 +98,8 @@ impl OneWay {
                     "it would have to push with {} N, and a rope can only pull",
                     figure(-force)
                 ),
-                cure: "accelerate or brake more slowly, or hang more weight on this rope".to_owned(),
+                cure: "accelerate or brake more slowly, or hang more weight on this rope"
+                    .to_owned(),
             });
         }
         let joint = match name {

@@ -76,7 +76,11 @@ pub const STEPS: usize = 2000;
 
 /// The stretches of the motion, cut as well where the drive link passes an edge of a load's window: a load that acts for
 /// a moment only gets instants of its own.
-fn smooth_stretches(file: &MachineFile, motion: &Motion, steps: usize) -> Vec<(f64, f64)> {
+pub(crate) fn smooth_stretches(
+    file: &MachineFile,
+    motion: &Motion,
+    steps: usize,
+) -> Vec<(f64, f64)> {
     use std::f64::consts::TAU;
     let loads = file.machine.loads().iter();
     let edges: Vec<f64> = loads

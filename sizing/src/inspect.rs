@@ -44,7 +44,10 @@ pub const RECOMMENDED: f64 = 0.642_787_609_686_539_3;
 const CLOSED: f64 = 1e-9;
 
 /// How far the two ways to the drive torque may be apart, as a share of its largest term.
-const AGREED: f64 = 1e-8;
+const AGREED: f64 = 1e-10;
+
+/// How far work and energy may be apart, as a share of the energy that the drive moves.
+const BALANCED: f64 = 1e-9;
 
 /// One joint.
 #[derive(Clone, Debug, Serialize)]
@@ -161,6 +164,11 @@ impl Findings {
             violations.push(format!(
                 "drive torque by d'Alembert and by reduction are {:.1e} apart",
                 self.agreement.dalembert
+            ));
+        }
+        if let Some(off) = self.agreement.energy.filter(|off| *off > BALANCED) {
+            violations.push(format!(
+                "work and energy over the motion are {off:.1e} of what the drive moves apart"
             ));
         }
         violations

@@ -12,11 +12,7 @@ const MOST_HALVINGS: u32 = 20_000;
 ///
 /// # Errors
 /// Those of `f`.
-pub fn least<E>(
-    f: impl Fn(f64) -> Result<f64, E>,
-    mut low: f64,
-    mut high: f64,
-) -> Result<f64, E> {
+pub fn least<E>(f: impl Fn(f64) -> Result<f64, E>, mut low: f64, mut high: f64) -> Result<f64, E> {
     for _ in 0..THIRDS {
         let third = (high - low) / 3.0;
         if f(low + third)? < f(high - third)? {
@@ -32,11 +28,7 @@ pub fn least<E>(
 ///
 /// # Errors
 /// Those of `before`.
-pub fn edge<E>(
-    before: impl Fn(f64) -> Result<bool, E>,
-    mut a: f64,
-    mut b: f64,
-) -> Result<f64, E> {
+pub fn edge<E>(before: impl Fn(f64) -> Result<bool, E>, mut a: f64, mut b: f64) -> Result<f64, E> {
     for _ in 0..60 {
         let middle = a.midpoint(b);
         if before(middle)? {
@@ -66,7 +58,14 @@ pub fn integral<E>(
     for k in 0..panels {
         let ends = [place(k), place(k + 1)];
         let whole = gauss(&f, ends)?;
-        sum += halved(&f, ends, whole, tolerance / f64::from(panels), DEEPEST, &halvings)?;
+        sum += halved(
+            &f,
+            ends,
+            whole,
+            tolerance / f64::from(panels),
+            DEEPEST,
+            &halvings,
+        )?;
     }
     Ok(sum)
 }
@@ -131,7 +130,12 @@ mod tests {
 
     #[test]
     fn a_smooth_curve_is_exact_to_rounding() {
-        let found = sure(integral(|x| Ok::<f64, Infallible>(x.exp()), [-1.0, 2.0], 4, 1e-13));
+        let found = sure(integral(
+            |x| Ok::<f64, Infallible>(x.exp()),
+            [-1.0, 2.0],
+            4,
+            1e-13,
+        ));
         assert!((found - (2f64.exp() - (-1f64).exp())).abs() < 1e-13);
     }
 
@@ -149,7 +153,11 @@ mod tests {
 
     #[test]
     fn minima_and_edges() {
-        let found = sure(least(|x: f64| Ok::<f64, Infallible>((x - 0.7).abs()), 0.0, 1.0));
+        let found = sure(least(
+            |x: f64| Ok::<f64, Infallible>((x - 0.7).abs()),
+            0.0,
+            1.0,
+        ));
         assert!((found - 0.7).abs() < 1e-12);
         let found = sure(edge(|x: f64| Ok::<bool, Infallible>(x < 0.7), 0.0, 1.0));
         assert!((found - 0.7).abs() < 1e-15);

@@ -7,7 +7,7 @@
 use std::cell::RefCell;
 
 use jred::{Domain, Error, Reducible as _};
-use ode_solvers::dop_shared::{IntegrationError, OutputType};
+use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, SVector, System};
 
 use crate::coordinate::Coordinate;
@@ -15,73 +15,15 @@ use crate::machine::{MachineFile, Shaft, Simulation};
 use crate::output::Columns;
 use crate::variator;
 
+mod error;
+mod watch;
+
+pub use error::SimulationError;
+pub(crate) use error::stopped;
+pub(crate) use watch::{At, Watch};
+
 /// φ, ω, work of the motor, work of the process loads, losses.
 type State = SVector<f64, 5>;
-
-/// Why a simulation did not come to its end.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-pub enum SimulationError {
-    /// The machine cannot be placed.
-    #[error(transparent)]
-    Machine(#[from] Error),
-    /// The drive link has passed the end of its stroke.
-    #[error(
-        "the drive link runs against the end of its stroke, {end}, before t = {t:.6} s, at {speed}"
-    )]
-    #[diagnostic(help(
-        "what stops it there is not in the machine file: shorten `duration` in [simulation], start elsewhere, or give a \
-         spring or a damper as a buffer and a longer stroke"
-    ))]
-    EndOfStroke {
-        /// Time reached (s).
-        t: f64,
-        /// The end that was passed.
-        end: String,
-        /// Speed there.
-        speed: String,
-    },
-    /// The integrator gave up.
-    #[error("the integrator stopped at t = {t} s: {reason}")]
-    #[diagnostic(help(
-        "loosen `tolerance` in [simulation], or look for a torque that grows without bound"
-    ))]
-    Integrator {
-        /// Time reached (s).
-        t: f64,
-        /// What the integrator says.
-        reason: String,
-    },
-    /// A constant slip in a contact whose power has turned round.
-    #[error(
-        "at t = {t:.6} s power flows through the variator against its `power_flow`: a constant slip would give {power:.3e} W \
-         there, which no contact does"
-    )]
-    #[diagnostic(help(
-        "let the slip turn round with the load: creep = {{ slip = \"2 %\", torque = \"80 N m\" }} instead of `slip`; or turn \
-         `power_flow` round"
-    ))]
-    PowerFlowsBack {
-        /// When (s).
-        t: f64,
-        /// Power that the contact would give (W).
-        power: f64,
-    },
-}
-
-/// Why the integrator stopped, for times counted from `t`.
-pub(crate) fn stopped(t: f64, error: &IntegrationError) -> SimulationError {
-    let (x, reason) = match error {
-        IntegrationError::MaxNumStepReached { x, n_step } => {
-            (x, format!("more than {n_step} steps would be needed"))
-        }
-        IntegrationError::StepSizeUnderflow { x } => (
-            x,
-            "the step has become too small for the numbers".to_owned(),
-        ),
-        IntegrationError::StiffnessDetected { x } => (x, "the problem is stiff".to_owned()),
-    };
-    SimulationError::Integrator { t: t + x, reason }
-}
 
 /// The machine with its drive and motor torque, moving in one direction.
 struct Plant<'a> {
@@ -91,6 +33,8 @@ struct Plant<'a> {
     direction: f64,
     /// The integrator cannot pass on errors: the first one waits here.
     fault: &'a RefCell<Option<Error>>,
+    /// The joints that can let go.
+    watch: &'a Watch<'a>,
 }
 
 /// What happens at one state.
@@ -165,6 +109,27 @@ impl Plant<'_> {
     }
 }
 
+impl Plant<'_> {
+    /// Looks at the joints that can let go from one of the `steps` after `t` to the next.
+    fn watch_over(&self, t: f64, steps: Option<&[(f64, State)]>) -> Result<(), SimulationError> {
+        if self.watch.is_idle() {
+            return Ok(());
+        }
+        let alpha = |phi, omega| Ok::<f64, Error>(self.instant(phi, omega)?.alpha);
+        let at = |(x, y): &(f64, State)| {
+            let state = [y[0], y[1], alpha(y[0], y[1])?];
+            Ok::<At, Error>(At { t: t + x, state })
+        };
+        for pair in steps.unwrap_or_default().windows(2) {
+            let [from, to] = pair else { continue };
+            let ends = [at(from)?, at(to)?];
+            self.watch
+                .check_between(ends, |_, [phi, omega]| Ok(alpha(phi, omega)?))?;
+        }
+        Ok(())
+    }
+}
+
 impl System<f64, State> for &Plant<'_> {
     fn system(&self, _t: f64, y: &State, dy: &mut State) {
         match self.instant(y[0], y[1]) {
@@ -200,11 +165,13 @@ pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Columns, 
         return variator::simulate(file, variator, simulation);
     }
     let fault = RefCell::new(None);
+    let watch = Watch::new(file);
     let mut plant = Plant {
         file,
         simulation,
         direction: 0.0,
         fault: &fault,
+        watch: &watch,
     };
     let mut y = State::from([
         simulation.start_angle,
@@ -255,6 +222,10 @@ pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Columns, 
         } else {
             now.alpha
         };
+        if k == 0 {
+            let state = [y[0], y[1], alpha];
+            watch.check(At { t, state })?;
+        }
         let inertia = point.inertia[0] + drive;
         let kinetic = 0.5 * inertia * y[1] * y[1];
         let energy = kinetic + point.potential_energy[0];
@@ -301,7 +272,9 @@ fn advance(
         }
         let steps = integrate(plant, t, end, &y)?;
         let turned = |state: &State| state[1] * plant.direction < 0.0;
-        let Some(k) = steps.iter().position(|(_, state)| turned(state)) else {
+        let reversal = steps.iter().position(|(_, state)| turned(state));
+        plant.watch_over(t, steps.get(..reversal.unwrap_or(steps.len())))?;
+        let Some(k) = reversal else {
             return Ok(steps.last().map_or(y, |last| last.1));
         };
         // ω changed its sign within a step: halve it down to the instant of rest.
@@ -319,6 +292,7 @@ fn advance(
                 _ => after = middle,
             }
         }
+        plant.watch_over(start, Some(&[(0.0, state), (before - start, at_rest)]))?;
         y = at_rest;
         y[1] = 0.0;
         t = after.min(end);

@@ -214,9 +214,9 @@ fn every_example_machine() {
         let found = check(&file, 0);
         let name = file.display();
         assert_eq!(found["degrees of freedom"], 1, "{name}");
-        assert!(number(&found["agreement"]["dalembert"]) < 1e-9, "{name}");
+        assert!(number(&found["agreement"]["dalembert"]) < 1e-10, "{name}");
         if let Some(energy) = found["agreement"]["energy"].as_f64() {
-            assert!(energy < 1e-6, "{name}: {energy:e}");
+            assert!(energy < 1e-9, "{name}: {energy:e}");
         }
     }
 }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use jred::{Domain, Jointed, Mechanism, Reducible};
 use jred_sizing::input;
 use jred_sizing::machine::MachineFile;
+use jred_sizing::numerics::integral;
 
 fn machines() -> Vec<(PathBuf, MachineFile)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../machines");
@@ -81,13 +82,8 @@ fn energy_balances_over_a_cycle() {
             let r = machine.bare_reduction(phi).unwrap();
             drive(phi) + r.process - r.viscous * OMEGA - r.coulomb
         };
-        let panels = 48;
-        let tolerance = 1e-11 * size / f64::from(panels);
-        let panel = |k| {
-            let [a, b] = [k, k + 1].map(|k| domain.position(f64::from(k) / f64::from(panels)));
-            integral(&unbalanced, a, b, tolerance, 24)
-        };
-        let work: f64 = (0..panels).map(panel).sum();
+        let unbalanced = |phi: f64| Ok::<f64, jred::Error>(unbalanced(phi));
+        let work = integral(unbalanced, [from, to], 48, 1e-11 * size).unwrap();
         let gap = work - kinetic - potential;
         println!(
             "{}: {:.1e} of {size:.3e} J",
@@ -107,32 +103,6 @@ fn energy_balances_over_a_cycle() {
             );
         }
     }
-}
-
-/// Gauss-Legendre with five points, halved where two halves disagree: breaks of the curves are closed in.
-fn integral(f: &impl Fn(f64) -> f64, a: f64, b: f64, tolerance: f64, depth: u32) -> f64 {
-    let rule = |a: f64, b: f64| {
-        let (middle, half) = (f64::midpoint(a, b), 0.5 * (b - a));
-        let points = [
-            (0.0, 128.0 / 225.0),
-            (0.538_469_310_105_683, 0.478_628_670_499_366_5),
-            (0.906_179_845_938_664, 0.236_926_885_056_189_1),
-        ];
-        let at = |(x, w): (f64, f64)| {
-            let [left, right] = [f(middle - half * x), f(middle + half * x)];
-            w * if x == 0.0 { left } else { left + right }
-        };
-        half * points.map(at).iter().sum::<f64>()
-    };
-    let middle = f64::midpoint(a, b);
-    let halves = rule(a, middle) + rule(middle, b);
-    if depth == 0 || (rule(a, b) - halves).abs() <= tolerance {
-        return halves;
-    }
-    [(a, middle), (middle, b)]
-        .map(|(a, b)| integral(f, a, b, 0.5 * tolerance, depth - 1))
-        .iter()
-        .sum()
 }
 
 /// Every joint of every machine carries finite forces, and its reactions do no work.

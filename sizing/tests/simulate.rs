@@ -2,6 +2,8 @@
 // Copied figures, counts and zeros are exact.
 #![allow(clippy::float_cmp)]
 
+#[path = "simulate/parting.rs"]
+mod parting;
 #[path = "simulate/pendulum.rs"]
 mod pendulum;
 mod support;

@@ -102,6 +102,15 @@ pub enum CamError {
         /// The smallest base radius that cures it (m); `None` if none does.
         base_radius: Option<f64>,
     },
+    /// The cam is so large that it would cover the axis about which its follower swings.
+    CoversPivot {
+        /// Where the profile is farthest from the cam's axis (rad).
+        phi: f64,
+        /// How far (m).
+        reach: f64,
+        /// Distance of the two axes (m).
+        pivot: f64,
+    },
     /// A swinging face turns with the cam as fast as the cam itself, so it touches in no single point.
     FaceTooFast {
         /// Where (rad).
@@ -224,6 +233,12 @@ impl fmt::Display for CamError {
                     ),
                 }
             }
+            Self::CoversPivot { phi, reach, pivot } => write!(
+                f,
+                "the cam reaches {reach:.6} m from its axis at φ = {:.2}° and so covers the follower's pivot, {pivot:.6} m away: \
+                 make the base radius smaller or move the pivot outwards",
+                deg(phi)
+            ),
             Self::FaceTooFast { phi, ratio } => write!(
                 f,
                 "the face turns {ratio:.3} times as fast as the cam at φ = {:.2}°, but must be slower than the cam: \

@@ -62,7 +62,7 @@ impl fmt::Display for Blocked {
             ),
             Self::FourBar { lengths, reach } => write!(
                 f,
-                "{}, or drive it over a stroke within its range, φ = {:.2}° to {:.2}°",
+                "{}, or drive it over a stroke that stays inside φ = {:.2}° and {:.2}°, its dead points",
                 Reason(lengths),
                 reach[0].to_degrees(),
                 reach[1].to_degrees()

@@ -106,10 +106,10 @@ impl From<Misfit> for Error {
 
 /// Checks that a link's centre of mass lies on its axis, the origin of its frame.
 pub(super) fn centred(name: &'static str, link: &Link) -> Result<(), Error> {
-    let [u, v] = link.com();
-    if u == 0.0 && v == 0.0 {
+    if link.is_centred() {
         return Ok(());
     }
+    let [u, v] = link.com();
     let distance = math::sqrt(u * u + v * v);
     Err(Misfit::OffAxis {
         link: name,

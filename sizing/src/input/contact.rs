@@ -48,7 +48,11 @@ fn holds(file: &MachineFile, mechanism: &Section, motion: &Motion, joint: OneWay
         "{} in the prescribed motion: at {}, {}",
         parted.what, parted.state, parted.force
     );
-    let label = if joint.rope { "in this mechanism" } else { "in this cam" };
+    let label = if joint.rope {
+        "in this mechanism"
+    } else {
+        "in this cam"
+    };
     Err(mechanism.problem(message, label).help(parted.cure))
 }
 

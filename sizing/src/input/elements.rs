@@ -6,6 +6,7 @@ use jred::{Body, Domain, Element, MAX_ELEMENTS, Marker, Mechanism as _, Transfer
 
 use crate::coordinate::Coordinate;
 use crate::machine::{AnyMechanism, NamedElement};
+use crate::numerics;
 
 use super::item::Item;
 use super::kind::{ANGLE, LENGTH, STIFFNESS, TORSION_STIFFNESS, VISCOUS_FORCE, VISCOUS_MOMENT};

@@ -4,14 +4,19 @@ use jred::{Error, Mechanism as _, Reducible as _};
 use serde::Serialize;
 
 use crate::coordinate::whole_range;
+use crate::duty;
 use crate::machine::MachineFile;
 use crate::motion::Motion;
+use crate::numerics;
 
 /// Positions or instants that are compared.
 const STEPS: usize = 360;
 
-/// Intervals of Simpson's rule over a motion.
-const INTERVALS: usize = 2000;
+/// Parts of the motion that its work is integrated over, each halved where it must be.
+const PANELS: u32 = 96;
+
+/// Tolerance of the work, as a share of the energy that the drive moves.
+const SHARE: f64 = 1e-11;
 
 /// What moves.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -104,28 +109,34 @@ pub(super) fn agreement(file: &MachineFile) -> Result<Agreement, Error> {
 
 /// The energy balance over the motion.
 fn balance(file: &MachineFile, motion: &Motion) -> Result<f64, Error> {
-    const INSIDE: f64 = 1e-9;
     let machine = &file.machine;
-    let (mut work, mut moved) = (0.0, 0.0);
-    for (from, to) in motion.stretches() {
-        let span = to - from;
-        let share = (INTERVALS as f64 * span / motion.duration() / 2.0).ceil();
-        let n = 2 * (share.max(16.0) as usize);
-        for k in 0..=n {
-            let weight = match k {
-                _ if k == 0 || k == n => 1.0,
-                _ if k % 2 == 1 => 4.0,
-                _ => 2.0,
-            } * span
-                / (3.0 * n as f64);
-            let place = (k as f64 / n as f64).clamp(INSIDE, 1.0 - INSIDE);
-            let state = motion.at(from + place * span);
-            let point = machine.bare_reduction(state.phi)?;
-            let drive = machine.forces(state.phi, state.omega, state.alpha)?.drive;
-            let loads = point.reduced_torque(state.omega) + point.potential_energy[1];
-            work += weight * (drive + loads) * state.omega;
-            moved += weight * (drive * state.omega).abs();
-        }
+    let drive = |t: f64| -> Result<f64, Error> {
+        let state = motion.at(t);
+        let drive = machine.forces(state.phi, state.omega, state.alpha)?.drive;
+        Ok(drive * state.omega)
+    };
+    // What loads and losses leave of the drive's power.
+    let power = |t: f64| -> Result<f64, Error> {
+        let state = motion.at(t);
+        let point = machine.bare_reduction(state.phi)?;
+        let loads = point.reduced_torque(state.omega) + point.potential_energy[1];
+        Ok(drive(t)? + loads * state.omega)
+    };
+    let stretches = duty::smooth_stretches(file, motion, STEPS);
+    let panels = |from: f64, to: f64| {
+        let share = (f64::from(PANELS) * (to - from) / motion.duration()).ceil();
+        share.max(2.0) as u32
+    };
+    let mut moved = 0.0;
+    for &(from, to) in &stretches {
+        let to_and_fro = |t: f64| Ok::<f64, Error>(drive(t)?.abs());
+        // Only a scale: the rule without halvings.
+        moved += numerics::integral(to_and_fro, [from, to], panels(from, to), f64::INFINITY)?;
+    }
+    let mut work = 0.0;
+    for &(from, to) in &stretches {
+        let tolerance = SHARE * moved * (to - from) / motion.duration();
+        work += numerics::integral(power, [from, to], panels(from, to), tolerance)?;
     }
     let energy = |t: f64| -> Result<f64, Error> {
         let state = motion.at(t);

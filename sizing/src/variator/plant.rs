@@ -8,6 +8,7 @@ use ode_solvers::SVector;
 
 use super::{Slip, Variator};
 use crate::machine::{MachineFile, Shaft, Simulation};
+use crate::simulate::Watch;
 use crate::simulate::interpolate;
 
 /// φ₁, ω₁ of the input shaft; φ of the drive link; ω₂ of the output shaft (creep only); work of the motor, work of the
@@ -30,6 +31,8 @@ pub(super) struct Plant<'a> {
     pub(super) direction: f64,
     /// The integrator cannot pass on errors: the first one waits here.
     pub(super) fault: &'a RefCell<Option<Error>>,
+    /// The joints that can let go.
+    pub(super) watch: &'a Watch<'a>,
 }
 
 /// What happens at one state.

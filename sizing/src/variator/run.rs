@@ -13,7 +13,7 @@ use super::Variator;
 use super::plant::{Plant, State, TIME};
 use crate::machine::{MachineFile, Simulation};
 use crate::output::Columns;
-use crate::simulate::{SimulationError, stopped};
+use crate::simulate::{At, SimulationError, Watch, stopped};
 
 /// Losses may be negative by this share of the power through the contact: rounding.
 const ROUNDING: f64 = 1e-9;
@@ -64,6 +64,7 @@ pub(crate) fn simulate(
     simulation: &Simulation,
 ) -> Result<Columns, SimulationError> {
     let fault = RefCell::new(None);
+    let watch = Watch::new(file);
     let mut plant = Plant {
         file,
         simulation,
@@ -71,6 +72,7 @@ pub(crate) fn simulate(
         stage: variator.stage()?,
         direction: 0.0,
         fault: &fault,
+        watch: &watch,
     };
     let n = file.drive_train.ratio();
     let start = plant.stage.at(Place::new(0.0, 0.0, 0.0))?.speed.value;
@@ -215,6 +217,10 @@ fn first_over(plant: &Plant, steps: &[(f64, State)]) -> Result<Option<usize>, Si
             return Ok(Some(k));
         }
         let now = plant.instant(*t, y)?;
+        if plant.direction != 0.0 {
+            let state = [y[2], now.omega[1], now.alpha[2]];
+            plant.watch.check(At { t: *t, state })?;
+        }
         if now.contact_loss < -ROUNDING * (now.contact * now.omega[0]).abs() {
             return Err(SimulationError::PowerFlowsBack {
                 t: *t,

@@ -3,6 +3,7 @@
 use super::follower::Follower;
 use super::geometry::{Geometry, Touch};
 use crate::cam::{CamError, Extreme, Program, smallest};
+use crate::math;
 
 /// The geometry with this base radius, checked over the whole turn.
 pub(super) fn checked(
@@ -20,7 +21,26 @@ pub(super) fn checked(
             base_radius: cure(program, follower, base_radius),
         });
     }
+    clear_of_pivot(program, &geometry)?;
     Ok(geometry)
+}
+
+/// The cam must not reach the axis about which its follower swings.
+fn clear_of_pivot(program: &Program, geometry: &Geometry) -> Result<(), CamError> {
+    let Some(([x, y], _)) = geometry.follower.pivot() else {
+        return Ok(());
+    };
+    let length = |[x, y]: [f64; 2]| math::sqrt(x * x + y * y);
+    let pivot = length([x, y]);
+    let farthest = least(program, |phi| -length(touch(program, geometry, phi).point));
+    if -farthest.value < pivot {
+        return Ok(());
+    }
+    Err(CamError::CoversPivot {
+        phi: farthest.phi,
+        reach: -farthest.value,
+        pivot,
+    })
 }
 
 /// The geometry with every position of the follower possible by itself.
@@ -46,6 +66,7 @@ fn cure(program: &Program, follower: Follower, from: f64) -> Option<f64> {
     let fits = |radius: f64| {
         placed(program, follower, radius).is_ok_and(|geometry| {
             least(program, |phi| touch(program, &geometry, phi).margin).value > 0.0
+                && clear_of_pivot(program, &geometry).is_ok()
         })
     };
     let mut low = from;

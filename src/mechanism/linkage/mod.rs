@@ -219,7 +219,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
 
 /// Largest distance between two markers of the same body, the ground among them (m).
 fn largest_distance(pairs: &[Pair]) -> f64 {
-    let markers = || pairs.iter().flat_map(|pair| pair.markers());
+    let markers = || pairs.iter().flat_map(Pair::markers);
     let mut largest = 0.0_f64;
     for a in markers() {
         for b in markers().filter(|b| b.body == a.body) {

@@ -111,7 +111,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         let advance = end.psi.value - start.psi.value;
         let whole = math::floor(advance / TAU + 0.5) * TAU;
         let turned = math::abs(advance - whole);
-        let balanced = self.links.get(link).is_some_and(|l| l.com() == [0.0, 0.0]);
+        let balanced = self.links.get(link).is_some_and(Link::is_centred);
         let wheel = balanced && self.only_rolls(link);
         let apart = |a: f64, b: f64| math::abs(a - b);
         let gap = [

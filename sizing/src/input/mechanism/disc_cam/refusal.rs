@@ -42,7 +42,7 @@ pub(in crate::input::mechanism) fn problem(
                     base_radius.show(least)
                 )),
                 None => found
-                    .help("no base radius cures it: make the rise smaller, or its angle longer"),
+                    .help("no base radius cures it: make the rise smaller, its angle longer, or the roller smaller"),
             }
         }
         CamError::Offset {
@@ -93,6 +93,17 @@ pub(in crate::input::mechanism) fn problem(
                 base_radius.show(pivot_distance),
                 base_radius.show(least)
             )),
+        CamError::CoversPivot { phi, reach, pivot } => base_radius
+            .problem(
+                &format!(
+                    "is too large: the cam reaches {} from its axis at φ = {} and covers the follower's pivot, {} away",
+                    base_radius.show(reach),
+                    deg(phi),
+                    base_radius.show(pivot)
+                ),
+                "too large",
+            )
+            .help("make the base radius or the rise smaller, or move the pivot outwards"),
         _ => section.problem(error.to_string(), "in this cam"),
     }
 }
