@@ -270,19 +270,19 @@ fn what_cannot_turn_is_refused_with_its_reason() {
         refused([0.3, 0.25, 0.18], [0.4, 0.0]),
         "the crank cannot turn fully: by Grashof's condition no link can: rocker + ground (shortest and longest) = 0.580000 \
          m, but must be less than coupler + crank = 0.550000 m; shorten the rocker or the ground, or drive it over a \
-         stroke within its range, φ = -74.26° to 74.26°"
+         stroke that stays inside φ = -74.26° and 74.26°, its dead points"
     );
     assert_eq!(
         refused([0.18, 0.25, 0.08], [0.3, 0.0]),
         "the crank cannot turn fully: by Grashof's condition only the shortest link can, the rocker of 0.080000 m; make the \
-         crank or the ground the shortest link, or drive it over a stroke within its range, φ = 30.03° to 82.82°"
+         crank or the ground the shortest link, or drive it over a stroke that stays inside φ = 30.03° and 82.82°, its dead points"
     );
     // Parallelogram: a = c, b = d.
     assert_eq!(
         refused([0.1, 0.3, 0.1], [0.3, 0.0]),
         "the crank cannot turn fully: crank + ground = rocker + coupler = 0.400000 m, so the linkage flattens into one line, \
          a dead point where its motion is not determined (parallelogram, kite); shorten the crank or the ground, or drive \
-         it over a stroke within its range, φ = 0.00° to 180.00°"
+         it over a stroke that stays inside φ = 0.00° and 180.00°, its dead points"
     );
     assert_eq!(
         refused([0.1, 0.2, 0.1], [0.5, 0.0]),
