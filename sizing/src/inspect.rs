@@ -6,13 +6,15 @@
 //! an index of 0.643. Below 0.3, an angle of 17.5°, forces and play are more than three times those at 90°: the mechanism is
 //! near a dead point, and the check fails.
 
+use jred::cam::lift_off;
 use jred::joint::Joints;
 use jred::mechanism::Frames;
 use jred::{Body, Domain, Error, Frame, Joint, Jointed as _, Mechanism as _};
 use serde::Serialize;
 
 use crate::coordinate::{Coordinate, whole_range};
-use crate::machine::{AnyMechanism, MachineFile};
+use crate::machine::{AnyMechanism, Fact, MachineFile};
+use crate::numerics;
 use crate::output::short;
 
 mod agreement;
@@ -39,6 +41,9 @@ pub const NEAR_DEAD_POINT: f64 = 0.3;
 
 /// sin 40°: below it the transmission is poorer than textbooks recommend.
 pub const RECOMMENDED: f64 = 0.642_787_609_686_539_3;
+
+/// An index that changes by less is constant.
+const CONSTANT: f64 = 1e-9;
 
 /// How far the links' speeds may be off after a turn, as a share of the mechanism's size (or of the drive's speed).
 const CLOSED: f64 = 1e-9;
@@ -69,15 +74,25 @@ pub struct JointFinding {
 pub struct Transmission {
     /// The index, 0 (dead point) to 1.
     pub index: f64,
-    /// The transmission angle of a dyad with this index (deg).
+    /// The transmission angle of a dyad with this index (deg); none of a contact or a mesh.
     #[serde(rename = "angle [deg]")]
-    pub angle: f64,
-    /// Position of the drive link (rad or m).
-    pub at: f64,
+    pub angle: Option<f64>,
+    /// Position of the drive link (rad or m); none where the index is the same everywhere.
+    pub at: Option<f64>,
     /// The links of the group.
     pub links: Vec<String>,
     /// Whether every group keeps the sign of its determinant, and so its branch.
     pub branch_kept: bool,
+}
+
+impl Transmission {
+    /// Where the index is smallest, in words.
+    fn place(&self, coordinate: Coordinate) -> String {
+        self.at.map_or_else(
+            || "everywhere".to_owned(),
+            |at| format!("at {}", coordinate.place(at)),
+        )
+    }
 }
 
 /// What the check found.
@@ -94,6 +109,7 @@ pub struct Findings {
     transmission: Option<Transmission>,
     inertia: Inertia,
     agreement: Agreement,
+    facts: Vec<Fact>,
     notes: Vec<String>,
 }
 
@@ -120,6 +136,7 @@ impl Findings {
             transmission: transmission(file)?,
             inertia: agreement::inertia(file)?,
             agreement: agreement::agreement(file)?,
+            facts: facts(file)?,
             notes: crate::variator::integrability_text(file)
                 .into_iter()
                 .collect(),
@@ -150,9 +167,9 @@ impl Findings {
         if let Some(transmission) = &self.transmission {
             if transmission.index < NEAR_DEAD_POINT {
                 violations.push(format!(
-                    "too near a dead point: transmission index {} at {}, at least {NEAR_DEAD_POINT} is asked for",
+                    "too near a dead point: transmission index {} {}, at least {NEAR_DEAD_POINT} is asked for",
                     short(transmission.index),
-                    self.coordinate.place(transmission.at)
+                    transmission.place(self.coordinate)
                 ));
             }
             if !transmission.branch_kept {
@@ -178,6 +195,40 @@ impl Findings {
     pub fn holds(&self) -> bool {
         self.violations().is_empty()
     }
+}
+
+/// The figures of the mechanism's kind, and the speeds at which its followers leave their cams.
+fn facts(file: &MachineFile) -> Result<Vec<Fact>, Error> {
+    let mechanism = file.machine.mechanism();
+    let mut facts = mechanism.facts().to_vec();
+    if Coordinate::of(mechanism)? == Coordinate::Length {
+        return Ok(facts);
+    }
+    // The way the motion goes; a cam that swings has the limit of its way forward.
+    let direction = file.motion.as_ref().map_or(1.0, |motion| {
+        motion.at(motion.duration()).phi - motion.at(0.0).phi
+    });
+    for contact in mechanism.contacts() {
+        let name = mechanism.joint_names().get(contact.joint);
+        let joint = match name {
+            Some(name) if name != "contact" => format!("joint \"{name}\": "),
+            _ => String::new(),
+        };
+        let pieces = contact.pieces.iter().copied();
+        let text = match lift_off(&file.machine, contact.joint, pieces, direction)? {
+            None => "none: it holds at any constant speed".to_owned(),
+            Some(limit) => format!(
+                "{} rpm at {}",
+                short(limit.omega * 60.0 / std::f64::consts::TAU),
+                Coordinate::Angle.place(limit.phi)
+            ),
+        };
+        facts.push(Fact {
+            label: format!("{joint}constant speed at which the follower lifts off"),
+            text,
+        });
+    }
+    Ok(facts)
 }
 
 fn body_name(mechanism: &AnyMechanism, body: Body) -> String {
@@ -305,36 +356,35 @@ fn transmission(file: &MachineFile) -> Result<Option<Transmission>, Error> {
     let Some((_, k, block)) = worst else {
         return Ok(None);
     };
-    // Between the samples by thirds.
-    let (mut low, mut high) = (places[k.saturating_sub(1)], places[(k + 1).min(STEPS)]);
+    let [low, high] = [places[k.saturating_sub(1)], places[(k + 1).min(STEPS)]];
     let index = |phi: f64| -> Result<f64, Error> {
         Ok(at(phi)?.get(block).map_or(1.0, |index| index.value.abs()))
     };
-    for _ in 0..60 {
-        let third = (high - low) / 3.0;
-        if index(low + third)? < index(high - third)? {
-            high -= third;
-        } else {
-            low += third;
-        }
-    }
-    let middle = low.midpoint(high);
+    let middle = numerics::least(index, low, high)?;
     let (phi, least) = if index(middle)? < index(places[k])? {
         (middle, index(middle)?)
     } else {
         (places[k], index(places[k])?)
     };
     let names = mechanism.link_names();
-    let group = values[k].get(block).map_or(0, |index| index.group);
+    let here = values[k].get(block).copied();
+    let group = here.map_or(0, |index| index.group);
+    let most = values
+        .iter()
+        .filter_map(|row| Some(row.get(block)?.value.abs()))
+        .fold(0.0, f64::max);
+    let shown = if mechanism.domain() == Domain::Turn {
+        phi.rem_euclid(std::f64::consts::TAU)
+    } else {
+        phi
+    };
     let links = structure.links(group);
     Ok(Some(Transmission {
         index: least,
-        angle: least.min(1.0).asin().to_degrees(),
-        at: if mechanism.domain() == Domain::Turn {
-            phi.rem_euclid(std::f64::consts::TAU)
-        } else {
-            phi
-        },
+        angle: here
+            .is_some_and(|index| index.bilateral)
+            .then(|| least.min(1.0).asin().to_degrees()),
+        at: (most - least > CONSTANT).then_some(shown),
         links: links
             .iter()
             .filter_map(|&k| names.get(k).cloned())

@@ -220,3 +220,74 @@ fn every_example_machine() {
         }
     }
 }
+
+fn example(name: &str) -> std::path::PathBuf {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../machines");
+    folder.join(name)
+}
+
+/// A text that `jred check` prints of an example.
+fn says(name: &str, words: &[&str]) {
+    let text = jred([&"check", &example(name)]).ends(0).out;
+    for words in words {
+        assert!(text.contains(words), "{words:?} is not in\n{text}");
+    }
+}
+
+/// The dwells of the program, to the digit; the pressure angle has its own figure.
+#[test]
+fn a_cam() {
+    says(
+        "cam-translating.toml",
+        &[
+            "rests from 0 deg to 70 deg, 170 deg to 250 deg",
+            "(follower, roller): ok",
+            "largest pressure angle: 25.73 deg at φ = 312.5995 deg",
+            "smallest radius of curvature of the profile: 39.56 mm at φ = ",
+            "constant speed at which the follower lifts off: 322.1 rpm at φ = 156.4936 deg",
+        ],
+    );
+    let found = check(&example("cam-translating.toml"), 0);
+    assert!(found["transmission"]["angle [deg]"].is_null());
+    let facts = found["facts"].as_array().unwrap();
+    assert_eq!(facts.len(), 3);
+    assert_eq!(facts[0]["label"], "largest pressure angle");
+    // The index of the contact is the cosine of the pressure angle.
+    let angle: f64 = facts[0]["text"].as_str().unwrap()[..5].parse().unwrap();
+    near(
+        "pressure angle",
+        number(&found["transmission"]["index"]).acos().to_degrees(),
+        angle,
+        2e-4,
+    );
+    let at = number(&found["transmission"]["at"]).to_degrees();
+    within("where", at, 312.5995, 1e-4);
+}
+
+/// What Grashof and Alt say of a four-bar; its transmission angle is the index's.
+#[test]
+fn facts_of_a_four_bar() {
+    says(
+        "four-bar.toml",
+        &[
+            "Grashof's type: crank-rocker: the crank turns fully, the rocker swings",
+            "transmission angle over the crank's range: 43.26 to 99.72 deg",
+            "(a transmission angle of 43.26 deg; coupler, rocker)",
+        ],
+    );
+}
+
+/// Gears mesh alike everywhere, and have no transmission angle.
+#[test]
+fn an_index_that_never_changes_has_no_place() {
+    let train = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/gear-train.toml");
+    let found = check(&train, 0);
+    assert!(found["transmission"]["at"].is_null());
+    assert!(found["transmission"]["angle [deg]"].is_null());
+    let text = jred([&"check", &train]).ends(0).out;
+    assert!(
+        text.contains("smallest transmission index: 1 everywhere ("),
+        "{text}"
+    );
+    assert!(!text.contains("a transmission angle"), "{text}");
+}

@@ -5,12 +5,16 @@ use serde::Serialize;
 
 use crate::coordinate::Coordinate;
 use crate::machine::AnyMechanism;
+use crate::numerics::edge;
 
 /// Places that are sampled over the range.
 const SAMPLES: usize = 1440;
 
 /// Share of the largest transfer function below which a link stands still.
 const STILL: f64 = 1e-9;
+
+/// Places (rad) nearer to a whole turn than this are its start.
+const ROUNDING: f64 = 1e-8;
 
 /// How one link moves on the ground.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -21,6 +25,8 @@ pub struct Travel {
     pub way: &'static str,
     /// Stroke, swing, or advance over a turn of the drive (m or rad).
     pub stroke: f64,
+    /// How far a link that advances or turns on goes back in between, over a turn of the drive (m or rad).
+    pub back: f64,
     /// Dead centres: position of the drive link (rad or m), and the link's own there (m or rad).
     pub dead_centres: Vec<[f64; 2]>,
     /// Dwells: from and to (rad or m of the drive link).
@@ -90,9 +96,6 @@ fn sign(slope: f64, still: f64) -> i8 {
     }
 }
 
-/// Pairs of numbers.
-type Pairs = Vec<[f64; 2]>;
-
 /// The samples over the range, from where the link is fastest: then no rest of a turn lies across its ends; and the transfer
 /// function up to which it stands still.
 fn samples(
@@ -132,19 +135,60 @@ fn samples(
     Ok((samples, still))
 }
 
-/// Dead centres, as positions of the drive and of the link, and dwells.
+/// Where a link rests.
+#[derive(Default)]
+struct Rests {
+    /// Dead centres, as positions of the drive and of the link.
+    dead_centres: Vec<[f64; 2]>,
+    dwells: Vec<[f64; 2]>,
+    /// Positions of the link at all of them, in the order in which the drive passes them.
+    turns: Vec<f64>,
+    /// The link where the drive's range, or a turn of it, begins and ends for them.
+    ends: [f64; 2],
+}
+
+/// The edge of a rest between `inside` it and `outside`. Above `still` a link moves, but where it starts softly, as
+/// (φ − φ₀)ⁿ, it is already on its way there: three speeds a decade apart lie in a geometric series from φ₀ (Aitken).
+fn rest_edge(
+    speed: &dyn Fn(f64) -> Result<f64, Error>,
+    [inside, outside]: [f64; 2],
+    still: f64,
+) -> Result<f64, Error> {
+    let at = |most: f64| edge(|phi| Ok::<_, Error>(speed(phi)? <= most), inside, outside);
+    let [a, b, c] = [at(still)?, at(10.0 * still)?, at(100.0 * still)?];
+    let back = (b - a) * (b - a) / ((c - b) - (b - a));
+    // A link that starts with a jump has no series, nor has one that is not fast enough at the outside.
+    let series = (c - a).abs() > 1e-12
+        && back.is_finite()
+        && back.abs() < (c - a).abs()
+        && speed(outside)? > 100.0 * still;
+    Ok(if series { a - back } else { a })
+}
+
+/// What the speed of a rest over `from` to `to` may be: above its roundings, so that its edges are sharp.
+fn stillness(
+    speed: &dyn Fn(f64) -> Result<f64, Error>,
+    [from, to]: [f64; 2],
+    still: f64,
+) -> Result<f64, Error> {
+    let mut noise = 0.0f64;
+    for k in 1..16 {
+        noise = noise.max(speed(from + (to - from) * f64::from(k) / 16.0)?);
+    }
+    Ok((100.0 * noise).clamp(1e-5 * still, still))
+}
+
 fn rests(
     domain: Domain,
     coordinate: &dyn Fn(f64) -> Result<Transfer, Error>,
-) -> Result<(Pairs, Pairs), Error> {
+) -> Result<Rests, Error> {
     let slope = |phi: f64| Ok(coordinate(phi)?.d1);
     let (samples, still) = samples(domain, &slope)?;
-    let sign = |phi: f64| Ok::<i8, Error>(sign(slope(phi)?, still));
     let wrap = |phi: f64| match domain {
         Domain::Turn => {
             let phi = phi.rem_euclid(std::f64::consts::TAU);
             // What is a rounding before a whole turn is its start.
-            if std::f64::consts::TAU - phi < 1e-9 {
+            if std::f64::consts::TAU - phi < ROUNDING {
                 0.0
             } else {
                 phi
@@ -152,7 +196,10 @@ fn rests(
         }
         Domain::Stroke { .. } => phi,
     };
-    let (mut dead_centres, mut dwells) = (Vec::new(), Vec::new());
+    let mut rests = Rests::default();
+    if let (Some(first), Some(last)) = (samples.first(), samples.last()) {
+        rests.ends = [coordinate(first.phi)?.value, coordinate(last.phi)?.value];
+    }
     let mut k = 0;
     while k < samples.len() {
         let before = k.checked_sub(1).and_then(|k| samples.get(k));
@@ -160,10 +207,9 @@ fn rests(
         if here.sign != 0 {
             if let Some(before) = before.filter(|b| b.sign == -here.sign) {
                 let way = f64::from(before.sign);
-                let phi = halve(before.phi, here.phi, |phi| {
-                    Ok(coordinate(phi)?.d1 * way > 0.0)
-                })?;
-                dead_centres.push([wrap(phi), coordinate(phi)?.value]);
+                let ahead = |phi| Ok::<_, Error>(coordinate(phi)?.d1 * way > 0.0);
+                let phi = edge(ahead, before.phi, here.phi)?;
+                rests.turns_at(wrap(phi), phi, coordinate)?;
             }
             k += 1;
             continue;
@@ -173,32 +219,64 @@ fn rests(
         let count = end.unwrap_or(samples.len() - k);
         let last = &samples[k + count - 1];
         if count >= 3 {
+            let middle = here.phi.midpoint(last.phi);
+            let speed = |phi: f64| Ok(slope(phi)?.abs());
+            let still = stillness(&speed, [here.phi, last.phi], still)?;
             let from = match before {
-                Some(before) => halve(before.phi, here.phi, |phi| Ok(sign(phi)? != 0))?,
+                Some(before) => rest_edge(&speed, [middle, before.phi], still)?,
                 None => here.phi,
             };
             let to = match after {
-                Some(after) => halve(last.phi, after.phi, |phi| Ok(sign(phi)? == 0))?,
+                Some(after) => rest_edge(&speed, [middle, after.phi], still)?,
                 None => last.phi,
             };
-            dwells.push([wrap(from), wrap(to)]);
+            rests.turns.push(coordinate(middle)?.value);
+            rests.dwells.push([wrap(from), wrap(to)]);
         } else if before.map(|s| s.sign) != after.map(|s| s.sign) {
             let middle = match (before, after) {
                 (Some(before), Some(after)) => {
                     let way = f64::from(before.sign);
-                    halve(before.phi, after.phi, |phi| {
-                        Ok(coordinate(phi)?.d1 * way > 0.0)
-                    })?
+                    edge(
+                        |phi| Ok::<_, Error>(coordinate(phi)?.d1 * way > 0.0),
+                        before.phi,
+                        after.phi,
+                    )?
                 }
                 _ => here.phi.midpoint(last.phi),
             };
-            dead_centres.push([wrap(middle), coordinate(middle)?.value]);
+            rests.turns_at(wrap(middle), middle, coordinate)?;
         }
         k += count;
     }
-    dead_centres.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    dwells.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    Ok((dead_centres, dwells))
+    rests.dead_centres.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    rests.dwells.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    Ok(rests)
+}
+
+impl Rests {
+    /// A dead centre at `phi` of the drive, which is `shown` within the range.
+    fn turns_at(
+        &mut self,
+        shown: f64,
+        phi: f64,
+        coordinate: &dyn Fn(f64) -> Result<Transfer, Error>,
+    ) -> Result<(), Error> {
+        self.turns.push(coordinate(phi)?.value);
+        self.dead_centres.push([shown, coordinate(shown)?.value]);
+        Ok(())
+    }
+
+    /// How far the link goes against its `advance`.
+    fn back(&self, advance: f64) -> f64 {
+        let places: Vec<f64> = std::iter::once(self.ends[0])
+            .chain(self.turns.iter().copied())
+            .chain([self.ends[1]])
+            .collect();
+        let steps = places
+            .windows(2)
+            .map(|pair| (pair[1] - pair[0]) * advance.signum());
+        steps.filter(|step| *step < 0.0).map(|step| -step).sum()
+    }
 }
 
 fn travel(
@@ -206,52 +284,30 @@ fn travel(
     slides: bool,
     coordinate: &dyn Fn(f64) -> Result<Transfer, Error>,
 ) -> Result<Travel, Error> {
-    let (dead_centres, dwells) = rests(domain, coordinate)?;
-    let ends = [
-        coordinate(place(domain, 0))?.value,
-        coordinate(place(domain, SAMPLES))?.value,
-    ];
-    let advance = ends[1] - ends[0];
-    let on = domain == Domain::Turn && dead_centres.is_empty() && advance.abs() > 1e-9;
-    let mut values: Vec<f64> = dead_centres.iter().map(|c| c[1]).collect();
+    let rests = rests(domain, coordinate)?;
+    let mut values = rests.turns.clone();
     if let Domain::Stroke { .. } = domain {
-        values.extend(ends);
-    }
-    for dwell in &dwells {
-        values.push(coordinate(dwell[0])?.value);
+        values.extend(rests.ends);
     }
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let (way, stroke) = match (slides, on) {
-        (true, true) => ("advances", advance),
-        (false, true) => ("turns", advance),
-        (true, _) => ("slides", (high - low).max(0.0)),
-        (false, _) => ("swings", (high - low).max(0.0)),
+    let range = (high - low).max(0.0);
+    let advance = rests.ends[1] - rests.ends[0];
+    let on = domain == Domain::Turn && advance.abs() > 1e-9 * range.max(1.0);
+    let (way, stroke, back) = match (slides, on) {
+        (true, true) => ("advances", advance, rests.back(advance)),
+        (false, true) => ("turns", advance, rests.back(advance)),
+        (true, false) => ("slides", range, 0.0),
+        (false, false) => ("swings", range, 0.0),
     };
     Ok(Travel {
         link: String::new(),
         way,
         stroke,
-        dead_centres,
-        dwells,
+        back,
+        dead_centres: rests.dead_centres,
+        dwells: rests.dwells,
     })
-}
-
-/// The place between `a`, where `before` holds, and `b`, where it does not hold any more.
-fn halve(
-    mut a: f64,
-    mut b: f64,
-    before: impl Fn(f64) -> Result<bool, Error>,
-) -> Result<f64, Error> {
-    for _ in 0..60 {
-        let middle = a.midpoint(b);
-        if before(middle)? {
-            a = middle;
-        } else {
-            b = middle;
-        }
-    }
-    Ok(a.midpoint(b))
 }
 
 impl Travel {
@@ -286,9 +342,19 @@ impl Travel {
         };
         let stroke = format!("{} {}", number(own.shown(self.stroke)), own.unit());
         let way = match self.way {
-            way @ ("turns" | "advances") => format!("{way} by {stroke} a turn"),
+            way @ ("turns" | "advances") if self.dead_centres.is_empty() => {
+                format!("{way} by {stroke} a turn")
+            }
+            way @ ("turns" | "advances") => format!(
+                "{way} by {stroke} a turn and goes back by {} {} of it",
+                number(own.shown(self.back)),
+                own.unit()
+            ),
             way => format!("{way} by {stroke}"),
         };
         format!("{} {way}; {centres}{rests}", self.link)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -121,12 +121,14 @@ impl Findings {
             } else {
                 "ok"
             };
+            let angle = transmission.angle.map_or_else(String::new, |angle| {
+                format!("a transmission angle of {} deg; ", short(angle))
+            });
             let _ = writeln!(
                 text,
-                "smallest transmission index: {} at {} (a transmission angle of {} deg; {}): {verdict}",
+                "smallest transmission index: {} {} ({angle}{}): {verdict}",
                 short(transmission.index),
-                c.place(transmission.at),
-                short(transmission.angle),
+                transmission.place(c),
                 transmission.links.join(", ")
             );
             let branch = if transmission.branch_kept {
@@ -135,6 +137,9 @@ impl Findings {
                 "CHANGES"
             };
             let _ = writeln!(text, "branch: {branch}");
+        }
+        for fact in &self.facts {
+            let _ = writeln!(text, "{}: {}", fact.label, fact.text);
         }
     }
 
@@ -159,6 +164,7 @@ impl Findings {
             "transmission": self.transmission,
             "inertia": self.inertia,
             "agreement": self.agreement,
+            "facts": self.facts,
             "notes": self.notes,
             "violations": self.violations(),
         })

@@ -34,7 +34,7 @@ joint = [
         &[
             "the linkage does not repeat",
             "body \"large\" is",
-            "stroke = [",
+            "drive it over as many with `stroke`, or drive the slowest shaft",
         ],
     );
     refuses_edit(

@@ -153,3 +153,30 @@ fn a_rope_at_its_limit() {
         assert_eq!(run.code, code, "{share}: {}{}", run.out, run.err);
     }
 }
+
+/// Behind a variator as well.
+#[test]
+fn a_cam_behind_a_variator() {
+    let with = |speed: &str| {
+        let text = edited(
+            &example("cam-translating.toml"),
+            "start_speed = \"120 rpm\"",
+            &format!("start_speed = \"{speed}\""),
+        );
+        let text = edited(&text, "duration = \"2 s\"", "duration = \"0.4 s\"");
+        let start = text.find("[motion]").unwrap();
+        let end = text.find("[simulation]").unwrap();
+        let variator = "[variator]\nratio = 0.5\ninput_inertia = \"60 kg cm^2\"\noutput_inertia = \"0.012 kg m^2\"\n\
+                        creep = { slip = \"3 %\", torque = \"45 N m\" }\n";
+        format!("{}{variator}{}", &text[..start], &text[end..])
+    };
+    let folder = Folder::new();
+    jred([&"simulate", &folder.file("slow.toml", with("120 rpm"))]).ends(0);
+    let message = refused(&with("600 rpm"));
+    assert!(
+        message.contains("the follower leaves the cam: at φ = "),
+        "{message}"
+    );
+    let limit = number_after(&message, "° above");
+    assert!((321.0..324.0).contains(&limit), "{message}");
+}

@@ -1,7 +1,7 @@
 //! `type = "four-bar"`.
 
 use jred::Error;
-use jred::mechanism::{Blocked, FourBar, Side};
+use jred::mechanism::{Blocked, FourBar, Grashof, Side};
 
 use super::{core, link};
 use crate::input::item::{Item, Value};
@@ -9,6 +9,7 @@ use crate::input::kind::{ANGLE, LENGTH};
 use crate::input::problem::{Problem, Result};
 use crate::input::section::Section;
 use crate::machine::AnyMechanism;
+use crate::output::short;
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let item = section.require("pivot", "pivot = [\"300 mm\", \"0 mm\"]")?;
@@ -38,10 +39,26 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         }
     };
     let joints = ["crank pivot", "crank pin", "rocker pin", "rocker pivot"];
+    let [least, most] = mechanism.transmission_angle_range().map(f64::to_degrees);
+    let angles = format!("{} to {} deg", short(least), short(most));
+    let grashof = grashof(mechanism.grashof());
     Ok(AnyMechanism::new(super::FOUR_BAR, mechanism, parts, joints)
         .with_point("A", FourBar::CRANK, [lengths[0], 0.0])
         .with_point("B", FourBar::ROCKER, [lengths[2], 0.0])
-        .with_point("C", FourBar::ROCKER, [0.0, 0.0]))
+        .with_point("C", FourBar::ROCKER, [0.0, 0.0])
+        .with_fact("Grashof's type", grashof)
+        .with_fact("transmission angle over the crank's range", angles))
+}
+
+fn grashof(kind: Grashof) -> &'static str {
+    match kind {
+        Grashof::CrankRocker => "crank-rocker: the crank turns fully, the rocker swings",
+        Grashof::DoubleCrank => "double crank (drag link): crank, coupler and rocker turn fully",
+        Grashof::RockerCrank => "rocker-crank: the rocker could turn fully, the crank swings",
+        Grashof::DoubleRocker => "double rocker: only the coupler could turn fully",
+        Grashof::TripleRocker => "triple rocker: no link turns fully",
+        Grashof::ChangePoint => "change point: the linkage can flatten",
+    }
 }
 
 /// The length of a link, greater than zero.

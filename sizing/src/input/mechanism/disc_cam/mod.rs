@@ -1,5 +1,6 @@
 //! `type = "disc-cam"`.
 
+mod facts;
 mod follower;
 mod program;
 mod refusal;
@@ -51,7 +52,11 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         joint: DiscCam::CONTACT,
         pieces: mechanism.program().pieces().collect(),
     });
+    let facts = facts::of(&mechanism);
     let mechanism = described(mechanism).with_elements(spring);
+    let mechanism = facts
+        .into_iter()
+        .fold(mechanism, |any, [label, text]| any.with_fact(label, text));
     Ok(match contact {
         Some(contact) => mechanism.with_contact(contact),
         None => mechanism,

@@ -277,8 +277,8 @@ impl Context<'_> {
             None => self.section.problem(message, "in this linkage"),
         };
         problem.help(
-            "with gears the whole may repeat after several turns only: drive it over these, such as stroke = \
-             [\"0 deg\", \"1080 deg\"], or drive the slowest shaft",
+            "with gears the whole may repeat after several turns only: drive it over as many with `stroke`, or drive the \
+             slowest shaft",
         )
     }
 }
