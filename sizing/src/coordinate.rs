@@ -81,6 +81,14 @@ impl Coordinate {
         }
     }
 
+    /// Unit of the speed.
+    pub const fn speed_unit(self) -> &'static str {
+        match self {
+            Self::Angle => "rad/s",
+            Self::Length => "m/s",
+        }
+    }
+
     /// Symbol of the drive's effort: torque or force.
     pub const fn effort(self) -> &'static str {
         self.pick("T", "F")

@@ -342,7 +342,7 @@ fn within_stroke(plant: &Plant, t: f64, steps: &[(f64, State)]) -> Result<(), Si
     Err(SimulationError::EndOfStroke {
         t: t + x,
         end: coordinate.place(if y[0] < from { from } else { to }),
-        speed: format!("{} {}", (y[1] * 1e6).round() / 1e6, coordinate.rates()[0]),
+        speed: format!("{} {}", (y[1] * 1e6).round() / 1e6, coordinate.speed_unit()),
     })
 }
 

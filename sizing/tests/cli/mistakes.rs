@@ -54,7 +54,7 @@ fn what_a_command_needs_is_named() {
     let out = folder.path("out");
     export(&no_motion, &["--torque-error", "1 N m"], &out)
         .ends(2)
-        .says(&["has no [motion]", "--omega and --alpha"]);
+        .says(&["has no [motion]", "give --omega"]);
     export(
         &no_motion,
         &[

@@ -197,6 +197,7 @@ fn a_follower_that_lifts_off_is_refused() {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "a list of mistakes")]
 fn wrong_entries_are_refused_with_their_cure() {
     let base = example(DOC);
     let edits: [(&str, &str, &[&str]); 15] = [
