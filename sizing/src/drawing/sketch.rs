@@ -105,9 +105,14 @@ impl Sketch {
             sketch.bodies(mechanism, size);
         }
         sketch.poses = frames.iter().map(|frames| sketch.placed(frames)).collect();
-        for point in &sketch.points {
+        for point in std::mem::take(&mut sketch.points) {
             let path = sketch.poses.iter().map(|p| p.point(point.link, point.at));
-            sketch.paths.push(path.collect());
+            let path: Vec<[f64; 2]> = path.collect();
+            // Two links name the pin between them: one name is enough.
+            if !sketch.paths.iter().any(|drawn| coincide(drawn, &path)) {
+                sketch.paths.push(path);
+                sketch.points.push(point);
+            }
         }
         Ok(sketch)
     }
@@ -336,4 +341,10 @@ fn hull(mut points: Vec<[f64; 2]>, near: f64) -> Vec<[f64; 2]> {
     let mut hull = chain(&mut points.iter().copied());
     hull.extend(chain(&mut points.iter().rev().copied()));
     hull
+}
+
+/// Whether two points are in the same place all the time, to a micrometre.
+fn coincide(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
+    let together = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-6;
+    a.iter().zip(b).all(together)
 }

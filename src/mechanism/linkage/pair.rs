@@ -62,7 +62,7 @@ pub enum Pair {
         /// A point of a follower that translates: the roller's centre, or where the guide's axis meets the face. Of one that
         /// oscillates the direction: of the arm from its pivot to the roller's centre, or of the face.
         follower: Marker,
-        /// Index of the [`PlacedCam`](super::PlacedCam) in the linkage.
+        /// Index of the [`PlacedCam`] in the linkage.
         place: usize,
     },
 }
