@@ -8,6 +8,7 @@ use miette::{IntoDiagnostic as _, Result, WrapErr as _, miette};
 
 use crate::catalogue::Catalogue;
 use crate::cli;
+use crate::contact::OneWay;
 use crate::coordinate::Coordinate;
 use crate::duty::Duty;
 use crate::export::Export;
@@ -78,6 +79,9 @@ fn run_reduce(options: &cli::Reduce) -> Result<Done> {
         state,
     };
     let columns = reduce(&file, &request).into_diagnostic()?;
+    if let Some(state) = state {
+        mind(&file, state)?;
+    }
     if let Some(path) = &options.report {
         let name = options.file.display().to_string();
         let page = report::mechanism_page(&name, &file, state).into_diagnostic()?;
@@ -128,6 +132,14 @@ fn run_reduce(options: &cli::Reduce) -> Result<Done> {
         }
         Format::Csv | Format::Json => print(&columns.write(options.format, &title)),
     }
+}
+
+/// Says on the standard error what comes apart at this speed and acceleration, though the result is computed all the same.
+fn mind(file: &MachineFile, state: [f64; 2]) -> Result<()> {
+    if let Some(words) = OneWay::mind(&file.machine, state).into_diagnostic()? {
+        eprintln!("{words}");
+    }
+    Ok(())
 }
 
 /// Speed and acceleration of the command line.
@@ -206,6 +218,7 @@ fn run_export(options: &cli::Export) -> Result<Done> {
         Err(error) => return Err(error).into_diagnostic(),
     };
     write(&options.out, &export.write(options.format), &options.file)?;
+    mind(&file, [omega, 0.0])?;
     print(&format!(
         "{}written to {}\n",
         export.summary(),

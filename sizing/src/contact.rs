@@ -4,14 +4,17 @@
 use std::f64::consts::TAU;
 
 use jred::cam::{contact_force, lift_off};
-use jred::{Error, Machine};
+use jred::{Error, Machine, Mechanism as _};
 
-use crate::coordinate::Coordinate;
+use crate::coordinate::{Coordinate, positions};
 use crate::input::problem::figure;
 use crate::machine::AnyMechanism;
 
 /// A rope that is pushed with less than this (N) is slack: nothing but rounding.
 const ROUNDING: f64 = 1e-6;
+
+/// Positions at which a whole range is looked at.
+const SCANNED: usize = 1440;
 
 /// A joint that can let go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,6 +62,35 @@ impl OneWay {
         [phi, omega, alpha]: [f64; 3],
     ) -> Result<f64, Error> {
         contact_force(machine, self.joint, phi, omega, alpha)
+    }
+
+    /// What comes apart somewhere in the drive link's range at this speed and acceleration (rad/s, rad/s²; or m), in words for
+    /// a figure that is computed as if it did not.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub fn mind(
+        machine: &Machine<AnyMechanism>,
+        [omega, alpha]: [f64; 2],
+    ) -> Result<Option<String>, Error> {
+        for joint in Self::all(machine.mechanism()) {
+            let mut worst = (f64::INFINITY, 0.0);
+            for phi in positions(machine.mechanism().domain(), SCANNED) {
+                let force = joint.force(machine, [phi, omega, alpha])?;
+                if force < worst.0 {
+                    worst = (force, phi);
+                }
+            }
+            let (force, phi) = worst;
+            if !joint.holds(force) {
+                let parted = joint.parted(machine, [phi, omega], force)?;
+                return Ok(Some(format!(
+                    "mind: {} ({}): {}; the figures hold only if it is held by other means",
+                    parted.what, parted.state, parted.force
+                )));
+            }
+        }
+        Ok(None)
     }
 
     /// Whether a joint with this force holds.

@@ -424,3 +424,35 @@ speed = "60 rpm"
         .ends(2)
         .says(&["inertia"]);
 }
+
+/// Figures for a speed at which the follower has left the cam are given, with the place and the speed.
+#[test]
+fn a_speed_above_lift_off_is_not_passed_over() {
+    let cam = Path::new(env!("CARGO_MANIFEST_DIR")).join("../machines/cam-translating.toml");
+    let at = |speed: &str| jred([&"reduce", &cam, &"--reactions", &"--speed", &speed]).ends(0);
+    let fast = at("600 rpm");
+    for words in [
+        "mind: the follower leaves the cam",
+        "600 rpm",
+        "by other means",
+    ] {
+        assert!(fast.message().contains(words), "{}", fast.message());
+    }
+    assert_eq!(at("300 rpm").message(), "");
+    let folder = Folder::new();
+    let out = folder.path("cam.jred");
+    export(
+        &cam,
+        &[
+            "--torque-error",
+            "5 N m",
+            "--omega",
+            "600 rpm",
+            "--alpha",
+            "100 rad/s^2",
+        ],
+        &out,
+    )
+    .ends(0)
+    .says(&["the follower leaves the cam"]);
+}
