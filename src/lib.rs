@@ -110,6 +110,7 @@ pub mod mechanism;
 mod model;
 pub mod motion;
 mod phase;
+mod quadrature;
 mod reduction;
 mod scalar;
 mod scale;

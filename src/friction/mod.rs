@@ -19,7 +19,6 @@ mod creep;
 mod drive;
 mod dual;
 pub mod integrability;
-mod quadrature;
 mod rheonomic;
 mod stage;
 mod state;

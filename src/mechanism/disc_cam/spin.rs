@@ -10,11 +10,13 @@
 //! The transfer functions are exact. The angle itself, which nothing depends on as the roller is round and balanced, is
 //! integrated by Gauss's formula piece by piece.
 
+use core::convert::Infallible;
 use core::f64::consts::TAU;
 
 use super::geometry::Geometry;
 use crate::cam::{MAX_SEGMENTS, Program};
 use crate::math;
+use crate::quadrature::integrate;
 use crate::transfer::Transfer;
 
 /// A segment has at most five pieces.
@@ -22,15 +24,6 @@ const MAX_PIECES: usize = 5 * MAX_SEGMENTS;
 
 /// Widest panel (rad), each with five nodes: the fastest law within 60° leaves an error of 1e-11 of the length.
 const PANEL: f64 = 0.25;
-
-/// Nodes and weights of Gauss's formula of order 10 on [−1, 1].
-const NODES: [[f64; 2]; 5] = [
-    [-0.906_179_845_938_664, 0.236_926_885_056_189_1],
-    [-0.538_469_310_105_683_1, 0.478_628_670_499_366_5],
-    [0.0, 0.568_888_888_888_888_9],
-    [0.538_469_310_105_683_1, 0.478_628_670_499_366_5],
-    [0.906_179_845_938_664, 0.236_926_885_056_189_1],
-];
 
 /// The length of the pitch curve up to each piece.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,14 +72,9 @@ impl Spin {
 /// Length of the pitch curve from `from` to `to`, within one piece.
 fn length(program: &Program, geometry: &Geometry, from: f64, to: f64) -> f64 {
     let panels = 1 + ((to - from) / PANEL) as u32;
-    let half = 0.5 * (to - from) / f64::from(panels);
-    let mut sum = 0.0;
-    for panel in 0..panels {
-        let middle = from + half * f64::from(2 * panel + 1);
-        for [node, weight] in NODES {
-            let s = program.displacement(middle + half * node);
-            sum += weight * geometry.pitch_speed(s);
-        }
+    let speed = |phi| Ok::<_, Infallible>(geometry.pitch_speed(program.displacement(phi)));
+    match integrate(from, to, panels, speed) {
+        Ok(length) => length,
+        Err(never) => match never {},
     }
-    sum * half
 }

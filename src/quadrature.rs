@@ -1,7 +1,5 @@
 //! Integrals of smooth functions.
 
-use crate::Error;
-
 /// Places and weights of the Gauss-Legendre rule of five points on [−1, 1] (Abramowitz and Stegun, table 25.4).
 #[expect(clippy::excessive_precision, reason = "the table's digits")]
 const RULE: [(f64, f64); 5] = [
@@ -12,13 +10,13 @@ const RULE: [(f64, f64); 5] = [
     (0.906_179_845_938_663_993, 0.236_926_885_056_189_088),
 ];
 
-/// ∫ f from `from` to `to`, on `cells` equal cells.
-pub(super) fn integrate(
+/// ∫ f from `from` to `to`, on `cells` equal cells. The error is of order 10.
+pub(crate) fn integrate<E>(
     from: f64,
     to: f64,
     cells: u32,
-    f: impl Fn(f64) -> Result<f64, Error>,
-) -> Result<f64, Error> {
+    f: impl Fn(f64) -> Result<f64, E>,
+) -> Result<f64, E> {
     let half = 0.5 * (to - from) / f64::from(cells);
     let mut sum = 0.0;
     for cell in 0..cells {
