@@ -176,23 +176,20 @@ impl Element {
         })
     }
 
-    /// What the element does to its two bodies at speed ω (rad/s); nothing where its ends meet, for there it has no
+    /// What the element does to its two bodies at speed ω (rad/s); `None` where its ends meet, for there it has no
     /// direction.
     #[must_use]
-    pub fn wrenches(&self, frames: &[Frame], omega: f64) -> [Wrench; 2] {
+    pub fn wrenches(&self, frames: &[Frame], omega: f64) -> Option<[Wrench; 2]> {
         let [a, b] = &self.between;
         let effort = self.effort(frames, omega);
-        match self.law {
+        Some(match self.law {
             Law::Spring { .. } | Law::Damper { .. } => {
                 let line = self.line(frames).map(|c| c.value);
                 let length = math::sqrt(line[0] * line[0] + line[1] * line[1]);
-                let force = line.map(|c| {
-                    if length > 0.0 {
-                        effort * c / length
-                    } else {
-                        0.0
-                    }
-                });
+                if length <= 0.0 {
+                    return None;
+                }
+                let force = line.map(|c| effort * c / length);
                 let at = |marker: &Marker| marker.position(frames).map(|c| c.value);
                 [
                     Wrench::force(a.body, at(a), force).times(-1.0),
@@ -203,6 +200,6 @@ impl Element {
                 Wrench::moment(a.body, -effort),
                 Wrench::moment(b.body, effort),
             ],
-        }
+        })
     }
 }

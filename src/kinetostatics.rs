@@ -156,10 +156,8 @@ impl<M: Jointed> Machine<M> {
             }
         }
         for element in self.elements() {
-            if element.reduce(balance.frames).is_none() {
-                return Err(Error::EndsMeet { phi });
-            }
-            for wrench in element.wrenches(balance.frames, omega) {
+            let wrenches = element.wrenches(balance.frames, omega);
+            for wrench in wrenches.ok_or(Error::EndsMeet { phi })? {
                 balance.add(&wrench);
             }
         }

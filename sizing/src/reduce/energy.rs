@@ -50,7 +50,8 @@ impl Set for Energy {
         }
         for element in machine.elements() {
             let wrenches = element.wrenches(frames, omega);
-            forces.push(wrenches.iter().map(|w| generalised(w, frames)).sum());
+            let parts = wrenches.iter().flatten();
+            forces.push(parts.map(|w| generalised(w, frames)).sum());
         }
         let total = forces.iter().sum::<f64>();
         values.extend(forces);
