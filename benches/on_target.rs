@@ -141,11 +141,11 @@ mod target {
             count / CELLS
         };
         let cell = filled(&|scratch, words| {
-            fill::<f32, { curves::LOAD }>(&four_bar, CELLS, &Scale::SI, scratch, words).is_ok()
+            fill::<f32, Spline>(&four_bar, curves::LOAD, CELLS, &Scale::SI, scratch, words).is_ok()
         });
         report("four-bar-fill-cell", cell);
         let cell = filled(&|scratch, words| {
-            fill::<f32, { curves::LOAD }>(&linkage, CELLS, &Scale::SI, scratch, words).is_ok()
+            fill::<f32, Spline>(&linkage, curves::LOAD, CELLS, &Scale::SI, scratch, words).is_ok()
         });
         report("linkage-fill-cell", cell);
         Ok(failures)

@@ -95,7 +95,7 @@ fn assemble(links: &[Link; 3]) -> Result<Assembly<3, 4, 32>, Error> {
 fn tabulate(mechanism: &impl Mechanism, words: &mut Words) -> Result<(), Error> {
     let machine = Machine::new(mechanism).with_gravity(GRAVITY)?;
     let mut scratch = [0.0; scratch_len(CELLS, curves::LOAD)];
-    fill::<f32, { curves::LOAD }>(&machine, CELLS, &Scale::SI, &mut scratch, words)?;
+    fill::<f32, Spline>(&machine, curves::LOAD, CELLS, &Scale::SI, &mut scratch, words)?;
     Ok(())
 }
 

@@ -146,6 +146,8 @@ pub enum Error {
     Misfit(crate::mechanism::Misfit),
     /// A cam program or a cam that is not possible.
     Cam(crate::cam::CamError),
+    /// A machine without harmonics, or harmonics that cannot be identified.
+    Harmonic(crate::harmonic::HarmonicError),
     /// The drive link of a library mechanism cannot turn fully.
     Blocked(crate::mechanism::Blocked),
     /// A curve does not fit the fixed-point range: choose a larger base for the named quantity.
@@ -225,6 +227,7 @@ impl fmt::Display for Error {
             ),
             Self::Misfit(misfit) => misfit.fmt(f),
             Self::Cam(error) => error.fmt(f),
+            Self::Harmonic(error) => error.fmt(f),
             Self::Blocked(blocked) => blocked.fmt(f),
             Self::Overflow { base, cell } => write!(
                 f,

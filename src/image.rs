@@ -7,17 +7,15 @@
 use core::fmt;
 
 use crate::scalar::Scalar;
-use crate::table::{Table, TableError, control_points, curves};
+use crate::table::{Constants, Layout, Table, TableError, curves};
 use crate::{Domain, Error, Model, Scale};
 
 /// "JRED" in the file's first four bytes.
 const MAGIC: u32 = u32::from_le_bytes(*b"JRED");
 /// Version of the layout.
-pub const VERSION: u16 = 1;
+pub const VERSION: u16 = 2;
 /// Words of the header.
 pub const HEADER_WORDS: usize = 16;
-/// Code of the uniform cubic B-spline.
-const CUBIC_B_SPLINE: u8 = 1;
 /// Domain codes.
 const TURN: u8 = 0;
 const STROKE: u8 = 1;
@@ -58,10 +56,10 @@ pub enum ImageError {
     },
     /// A header field has a value that this version does not know or that is out of range; the word's index.
     Header(u8),
-    /// The image holds another number type; its code (1 = f32, 2 = q31).
+    /// The image holds another number type; its code (1 = f32, 2 = i32, 3 = i16).
     NumberType(u8),
-    /// The image has other curves than the model's type; the image's set of [`curves`].
-    Curves(u8),
+    /// The image has another layout; its code (1 = spline, 2 = cubic, 3 = quadratic).
+    Layout(u8),
     /// The table is not sound.
     Table(TableError),
 }
@@ -100,10 +98,13 @@ impl fmt::Display for ImageError {
             Self::NumberType(code) => {
                 write!(
                     f,
-                    "the image holds numbers of type {code} (1 = f32, 2 = q31)"
+                    "the image holds numbers of type {code} (1 = f32, 2 = i32, 3 = i16)"
                 )
             }
-            Self::Curves(set) => write!(f, "the image has the set of curves {set:#05b}"),
+            Self::Layout(code) => write!(
+                f,
+                "the image has layout {code} (1 = spline, 2 = cubic, 3 = quadratic)"
+            ),
             Self::Table(error) => error.fmt(f),
         }
     }
@@ -135,6 +136,8 @@ pub struct Image<'a> {
     rows: &'a [u32],
     code: u8,
     curves: u8,
+    layout: u8,
+    constants: [u32; 3],
     cells: u32,
     domain: Domain<f32>,
     scale: Scale,
@@ -171,7 +174,7 @@ impl<'a> Image<'a> {
             omega,
             alpha,
             torque_error,
-            ..,
+            constants @ ..,
         ] = header;
         if magic != MAGIC {
             return Err(ImageError::NotAnImage(magic));
@@ -199,7 +202,7 @@ impl<'a> Image<'a> {
         if (version >> 16) as usize != HEADER_WORDS {
             return Err(ImageError::Header(1));
         }
-        let [code, set, interpolant, domain] = kind.to_le_bytes();
+        let [code, set, layout, domain] = kind.to_le_bytes();
         let (from, to) = (f32::from_bits(from), f32::from_bits(to));
         let domain = match domain {
             TURN => Domain::Turn,
@@ -207,11 +210,8 @@ impl<'a> Image<'a> {
             STROKE => return Err(ImageError::Header(5)),
             _ => return Err(ImageError::Header(3)),
         };
-        if interpolant != CUBIC_B_SPLINE || set > curves::ALL {
+        if set > curves::EVERY {
             return Err(ImageError::Header(3));
-        }
-        if header.get(13..) != Some(&[0; 3]) {
-            return Err(ImageError::Header(13));
         }
         let scale = Scale::from_bases([torque, speed, inertia].map(f32::from_bits));
         if !scale.is_sound() {
@@ -230,6 +230,8 @@ impl<'a> Image<'a> {
             rows,
             code,
             curves: set,
+            layout,
+            constants,
             cells,
             domain,
             scale,
@@ -250,17 +252,40 @@ impl<'a> Image<'a> {
     ///
     /// # Errors
     /// Another number type or other curves than the image has, or a table that is not sound.
-    pub fn model<S: Scalar, const CURVES: u8>(&self) -> Result<Model<'a, S, CURVES>, ImageError> {
+    pub fn model<S: Scalar, const CURVES: u8, L: Layout>(
+        &self,
+    ) -> Result<Model<'a, S, CURVES, L>, ImageError> {
+        let table = self.table::<S, L>()?;
+        Ok(Model::new(table, S::span_f32(self.domain), &self.scale)?)
+    }
+
+    /// The table, in place in the image.
+    ///
+    /// # Errors
+    /// Another number type or layout than the image has, or a table that is not sound.
+    pub fn table<S: Scalar, L: Layout>(&self) -> Result<Table<'a, S, L>, ImageError> {
         if S::CODE != Some(self.code) {
             return Err(ImageError::NumberType(self.code));
         }
-        if self.curves != CURVES {
-            return Err(ImageError::Curves(self.curves));
+        if L::CODE != self.layout {
+            return Err(ImageError::Layout(self.layout));
         }
-        let rows = bytemuck::try_cast_slice(self.rows).map_err(|_| ImageError::Misaligned)?;
+        let words = bytemuck::try_cast_slice(self.rows).map_err(|_| ImageError::Misaligned)?;
+        // 16-bit words may leave half a word unused at the end.
+        let used = L::words(self.cells as usize, self.curves);
+        let words = match words.get(..used) {
+            Some(used) if words.len() - used.len() <= 1 => used,
+            _ => words,
+        };
+        let [inertia, viscous, coulomb] = self.constants.map(S::word_from_bits);
+        let constants = Constants {
+            inertia,
+            viscous,
+            coulomb,
+        };
         let periodic = matches!(self.domain, Domain::Turn);
-        let table = Table::new(rows, self.cells, periodic)?;
-        Ok(Model::new(table, S::span_f32(self.domain), &self.scale)?)
+        let table = Table::with_constants(words, constants, self.curves, self.cells, periodic)?;
+        Ok(table)
     }
 
     /// The machine units.
@@ -296,22 +321,23 @@ const fn word_of(low: u16, high: u16) -> u32 {
 
 /// Words of the image of a table.
 #[must_use]
-pub const fn image_words(cells: u32, set: u8) -> usize {
-    HEADER_WORDS + control_points(cells as usize) * curves::width(set) + 1
+pub fn image_words<S: Scalar, L: Layout>(cells: u32, set: u8) -> usize {
+    let bytes = L::words(cells as usize, set) * size_of::<S::Word>();
+    HEADER_WORDS + bytes.div_ceil(4) + 1
 }
 
 /// Writes the image of `table` and returns it. The table was checked when it was built.
 ///
 /// # Errors
 /// A buffer shorter than [`image_words`], or a number type that is not stored in images (f64).
-pub fn encode<'b, S: Scalar, const CURVES: u8>(
-    table: &Table<'_, S, CURVES>,
+pub fn encode<'b, S: Scalar, L: Layout>(
+    table: &Table<'_, S, L>,
     domain: Domain,
     scale: &Scale,
     validity: Validity,
     buffer: &'b mut [u32],
 ) -> Result<&'b [u32], Error> {
-    let needed = image_words(table.cells(), CURVES);
+    let needed = image_words::<S, L>(table.cells(), table.curves());
     let given = buffer.len();
     let short = Error::BufferTooShort { needed, given };
     let code = S::CODE.ok_or(Error::NoImage(S::NAME))?;
@@ -320,11 +346,12 @@ pub fn encode<'b, S: Scalar, const CURVES: u8>(
         Domain::Turn => (TURN, 0.0, 0.0),
         Domain::Stroke { from, to } => (STROKE, from, to),
     };
+    let constants = table.constants();
     let header: [u32; HEADER_WORDS] = [
         MAGIC,
         word_of(VERSION, HEADER_WORDS as u16),
         needed as u32,
-        u32::from_le_bytes([code, CURVES, CUBIC_B_SPLINE, domain_code]),
+        u32::from_le_bytes([code, table.curves(), L::CODE, domain_code]),
         table.cells(),
         from.to_bits(),
         to.to_bits(),
@@ -334,14 +361,18 @@ pub fn encode<'b, S: Scalar, const CURVES: u8>(
         validity.omega.to_bits(),
         validity.alpha.to_bits(),
         validity.torque_error.to_bits(),
-        0,
-        0,
-        0,
+        S::word_bits(constants.inertia),
+        S::word_bits(constants.viscous),
+        S::word_bits(constants.coulomb),
     ];
-    let rows: &[u32] = bytemuck::cast_slice(table.words());
-    let contents = header.iter().chain(rows);
-    for (slot, word) in image.iter_mut().zip(contents) {
-        *slot = *word;
+    image.fill(0);
+    if let Some(head) = image.first_chunk_mut() {
+        *head = header;
+    }
+    let rows: &[u8] = bytemuck::cast_slice(table.words());
+    let bytes: &mut [u8] = bytemuck::cast_slice_mut(image);
+    for (slot, byte) in bytes.iter_mut().skip(4 * HEADER_WORDS).zip(rows) {
+        *slot = *byte;
     }
     if let Some((crc, covered)) = image.split_last_mut() {
         *crc = CRC.checksum(bytemuck::cast_slice(covered));

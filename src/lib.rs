@@ -59,12 +59,12 @@
 //!     let request = Request { torque_error: 0.01, omega: 60.0, alpha: 400.0, max_cells: MOST };
 //!     let mut scratch = [0.0; scratch_len(MOST, curves::LOAD)];
 //!     let mut words = [0.0f32; 2 * (MOST as usize + 3)];
-//!     let found = tabulate::<f32, { curves::LOAD }>(&machine, &request, &Scale::SI, &mut scratch, &mut words)?;
+//!     let found = tabulate::<f32, Spline>(&machine, curves::LOAD, &request, &Scale::SI, &mut scratch, &mut words)?;
 //!     assert!(found.torque_error <= 0.01);
 //!
 //!     // The tick: torque for a motion, and back.
 //!     let rows = &words[..2 * (found.cells as usize + 3)];
-//!     let table = Table::<f32, { curves::LOAD }>::new(rows, found.cells, true).map_err(Error::Table)?;
+//!     let table = Table::<f32>::new(rows, curves::LOAD, found.cells, true).map_err(Error::Table)?;
 //!     let model = Model::new(table, core::f32::consts::TAU, &Scale::SI).map_err(Error::Table)?;
 //!     let phase = Phase::from_radians(0.5);
 //!     let torque = model.torque(phase, 40.0, 200.0).value;
@@ -99,6 +99,7 @@ mod element;
 mod error;
 mod fixed;
 pub mod friction;
+pub mod harmonic;
 mod image;
 pub mod joint;
 mod kinetostatics;
@@ -128,7 +129,7 @@ pub use link::{Frame, Link};
 pub use load::{Action, Load, LoadCurves, Window};
 pub use math::Real;
 pub use mechanism::{Jointed, Mechanism};
-pub use model::Model;
+pub use model::{AccelerationRange, Model, Usage};
 pub use phase::{Domain, Phase};
 pub use reduction::{MAX_LOADS, Machine, Reducible, Reduction, TorqueTerms};
 pub use scalar::{Outcome, Q31, Scalar};
@@ -142,6 +143,9 @@ mod sealed {
     impl Sealed for f32 {}
     impl Sealed for f64 {}
     impl Sealed for crate::Q31 {}
+    impl Sealed for crate::table::Spline {}
+    impl Sealed for crate::table::Cubic {}
+    impl Sealed for crate::table::Quadratic {}
 }
 
 /// The README's program is compiled and run with the documentation tests.

@@ -73,11 +73,11 @@ impl Phase {
 
     /// The cell of a table with `cells` cells, and the place within it as a fraction of 2³².
     ///
-    /// One long multiplication; any number of cells.
+    /// One long multiplication (two short ones on a Cortex-M0); any number of cells up to 65535.
     #[must_use]
-    pub const fn cell(self, cells: u32) -> (u32, u32) {
-        let product = self.0 as u64 * cells as u64;
-        ((product >> 32) as u32, product as u32)
+    #[inline]
+    pub fn cell(self, cells: u32) -> (u32, u32) {
+        cell(self.0, cells)
     }
 
     /// Sine and cosine by `micromath`: no double precision, about 60 instructions, |error| ≤ 1.2e-3 (test
@@ -90,6 +90,41 @@ impl Phase {
             micromath::F32(self.0 as i32 as f32 * (core::f32::consts::PI / 2_147_483_648.0));
         (angle.sin().0, angle.cos().0)
     }
+}
+
+/// Index of the cell, and the place within it as a fraction of 2³²; for up to 65535 cells.
+#[inline]
+pub(crate) fn cell(phase: u32, cells: u32) -> (u32, u32) {
+    if cfg!(short_multiply) {
+        cell_by_halves(phase, cells)
+    } else {
+        let product = u64::from(phase) * u64::from(cells);
+        ((product >> 32) as u32, product as u32)
+    }
+}
+
+/// As `cell`; only the upper half of the place is sure to be right.
+#[inline]
+pub(crate) fn cell_short(phase: u32, cells: u32) -> (u32, u32) {
+    if cfg!(short_multiply) {
+        let [upper, _] = products(phase, cells);
+        (upper >> 16, upper << 16)
+    } else {
+        let product = u64::from(phase) * u64::from(cells);
+        ((product >> 32) as u32, product as u32)
+    }
+}
+
+fn cell_by_halves(phase: u32, cells: u32) -> (u32, u32) {
+    let [upper, low] = products(phase, cells);
+    (upper >> 16, upper << 16 | low & 0xffff)
+}
+
+/// phase·cells/2¹⁶, and phase's lower half·cells.
+#[inline]
+fn products(phase: u32, cells: u32) -> [u32; 2] {
+    let low = (phase & 0xffff).wrapping_mul(cells);
+    [(phase >> 16).wrapping_mul(cells).wrapping_add(low >> 16), low]
 }
 
 /// Wrapping: a full turn is nothing.
@@ -196,6 +231,26 @@ impl Domain<f32> {
             Self::Turn => Phase::from_radians_f32(position),
             Self::Stroke { from, to } => {
                 Phase(((position - from) / (to - from) * 4_294_967_296.0) as u32)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{cell_by_halves, products};
+
+    #[test]
+    fn halves_give_the_cell_of_the_long_product() {
+        for cells in [1, 2, 4, 100, 255, 256, 1000, 32_768, 65_535] {
+            for phase in (0..70_000u32)
+                .map(|k| k.wrapping_mul(61_357))
+                .chain([u32::MAX, 0xffff, 0x1_0000, 0xffff_0000])
+            {
+                let long = u64::from(phase) * u64::from(cells);
+                let expected = ((long >> 32) as u32, long as u32);
+                assert_eq!(cell_by_halves(phase, cells), expected);
+                assert_eq!(u64::from(products(phase, cells)[0]), long >> 16);
             }
         }
     }

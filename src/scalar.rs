@@ -1,11 +1,13 @@
-//! The numbers a table and a tick are made of: `f32`, `f64` and [`Q31`].
+//! The numbers a table and a tick are made of: `f32`, `f64`, [`Q31`] and [`Q15`].
 
 use core::fmt;
+use core::ops::{Add, Sub};
 
 pub use crate::fixed::Q31;
+use crate::table::Role;
 use crate::{Domain, Scale};
 
-/// A number type for tables and ticks. Sealed: `f32`, `f64`, [`Q31`].
+/// A number type for tables and ticks. Sealed: `f32`, `f64`, [`Q31`], [`Q15`].
 ///
 /// Floating point works in SI units or in per-unit, as its [`Scale`] says; fixed point always in per-unit.
 pub trait Scalar: Kernel {
@@ -23,26 +25,59 @@ pub struct Outcome<S> {
     pub saturated: bool,
 }
 
+/// What coefficients of a cell are computed in.
+pub trait Ring: Copy + Default + Add<Output = Self> + Sub<Output = Self> {
+    /// A small multiple.
+    fn times(self, factor: i8) -> Self;
+}
+
 /// The arithmetic behind a tick. Not nameable outside the crate: it may change with every release.
+///
+/// A curve is evaluated in [`Raw`](Self::Raw) numbers, in a format that its [`Role`] fixes; see `fixed` for those of the
+/// fixed-point types. For floating point every format is the plain number.
 pub trait Kernel:
     Copy + Default + PartialEq + PartialOrd + fmt::Debug + crate::sealed::Sealed + 'static
 {
     /// A number as it lies in a table image.
     type Word: bytemuck::Pod + fmt::Debug + PartialEq;
-    /// Sums of products before the one rounding at the end.
-    type Wide: Copy + core::ops::Add<Output = Self::Wide> + core::ops::Sub<Output = Self::Wide>;
+    /// What polynomials are evaluated and torques are summed in.
+    type Raw: Ring;
+    /// As `Raw`, wide enough that no check overflows.
+    type Wide: Ring;
     /// A constant to multiply slopes by, of any size.
     type Factor: Copy + fmt::Debug + PartialEq;
+    /// Constants of forward dynamics without a division.
+    type Reciprocal: Copy + Default + fmt::Debug + PartialEq;
     /// Length of the drive link's range: `f64` for `f64` models, else `f32`.
     type Span: Copy + fmt::Debug;
     /// A place within a cell, 0 to 1.
     type Fraction: Copy;
     /// Code in the image header; `None`: not stored in images.
     const CODE: Option<u8>;
+    /// What [`step`](Self::step) divides by.
+    const STEP: i8;
+    /// The place in a cell that the polynomials of rows are about.
+    const ROW_CENTRE: f64;
+    /// The largest number is 1, and forward dynamics can do without a division.
+    const FIXED: bool;
 
-    fn from_word(word: Self::Word) -> Self;
-    fn to_word(self) -> Self::Word;
-    /// The nearest number, if `value` is in range.
+    /// A word of the header, and back.
+    fn word_bits(word: Self::Word) -> u32;
+    fn word_from_bits(bits: u32) -> Self::Word;
+    fn raw(word: Self::Word) -> Self::Raw;
+    /// The nearest word for a coefficient in machine units, if it is in range.
+    fn word(role: Role, coefficient: f64) -> Option<Self::Word>;
+    fn widen(raw: Self::Raw) -> Self::Wide;
+    /// A coefficient or sum in machine units, in single precision: for checks without double precision in firmware.
+    fn approximate(role: Role, wide: Self::Wide) -> f32;
+    /// A coefficient in machine units.
+    fn exact(role: Role, raw: Self::Raw) -> f64;
+    /// Whether a cell can be evaluated anywhere without overflow, NaN or infinity.
+    fn is_sound(coefficients: [Self::Wide; 4]) -> bool;
+    /// A value of this role as a number of the type.
+    fn number(role: Role, raw: Self::Raw) -> Self;
+    /// The slope a cell, of a raw slope times `step`.
+    fn slope_number(slope: Self::Raw, step: i8) -> Self;
     fn from_f64(value: f64) -> Option<Self>;
     fn to_f64(self) -> f64;
     /// `value` in units of `base`.
@@ -52,50 +87,117 @@ pub trait Kernel:
 
     fn span(domain: Domain) -> Self::Span;
     fn span_f32(domain: Domain<f32>) -> Self::Span;
-    /// ½·(dJ/du)·cells/span·J_b·ω_b²/T_b is the velocity torque at the speed base: this is all but dJ/du.
-    fn velocity_factor(cells: u32, span: Self::Span, scale: &Scale) -> Option<Self::Factor>;
-    fn fraction(bits: u32) -> Self::Fraction;
-    /// The cubic of a cell from its four control points (in sixths).
-    fn cubic(points: [Self; 4]) -> [Self; 4];
-    fn value(cubic: [Self; 4], u: Self::Fraction) -> Self;
-    /// Slope per cell.
-    fn slope(cubic: [Self; 4], u: Self::Fraction) -> Self;
-    /// Whether a cell can be evaluated anywhere without overflow, NaN or infinity.
-    fn cell_is_sound(points: [Self; 4]) -> bool;
-    /// Whether slope · factor fits.
-    fn factor_fits(slope: f32, factor: Self::Factor) -> bool;
-    /// The number in single precision, for checks: no double-precision code in firmware that loads an image.
-    fn to_wide_f32(self) -> f32;
+    fn span_to_f32(span: Self::Span) -> f32;
+    /// ½·cells/span·J_b·ω_b²/T_b: the velocity torque at the speed base is this times dJ/du. For a slope that is stored
+    /// times `step`.
+    fn velocity_factor(
+        cells: u32,
+        span: Self::Span,
+        scale: &Scale,
+        step: i8,
+    ) -> Option<Self::Factor>;
 
-    fn wide(self) -> Self::Wide;
-    fn times(self, other: Self) -> Self::Wide;
-    fn scaled(self, factor: Self::Factor) -> Self;
-    /// `self` with the sign of `other`; zero where `other` is zero.
-    fn signed_like(self, other: Self) -> Self::Wide;
-    fn narrow(wide: Self::Wide) -> Outcome<Self>;
-    /// `wide` / `divisor` for a positive divisor.
-    fn quotient(wide: Self::Wide, divisor: Self) -> Outcome<Self>;
+    /// The cell that a phase lies in, and where.
+    fn locate(phase: u32, cells: u32) -> (u32, Self::Fraction);
+    /// As `locate`, the place from `ROW_CENTRE` on.
+    fn locate_row(phase: u32, cells: u32) -> (u32, Self::Fraction);
+    /// As `locate_row`, to 2⁻¹⁶ of a cell.
+    fn locate_row_short(phase: u32, cells: u32) -> (u32, Self::Fraction);
+    /// x·u/STEP, for a place of `locate`.
+    fn step(x: Self::Raw, u: Self::Fraction) -> Self::Raw;
+    /// x·u, for a place of `locate_row`.
+    fn row_step(x: Self::Raw, u: Self::Fraction) -> Self::Raw;
+    /// x·u, for a place of `locate_row_short`.
+    fn row_step_short(x: Self::Raw, u: Self::Fraction) -> Self::Raw;
+
+    fn magnitude(raw: Self::Raw) -> Self::Raw;
+    /// ½·J′·ω_b²/T_b·ω from the slope: a coefficient that adds to b.
+    fn velocity(slope: Self::Raw, factor: Self::Factor, omega: Self) -> Self::Raw;
+    /// a·b: J·α, or (½·J′·ω + b)·ω.
+    fn product(a: Self::Raw, b: Self) -> Self::Raw;
+    /// sum + a·b
+    fn accumulate(sum: Self::Raw, a: Self::Raw, b: Self) -> Self::Raw;
+    /// sum + c·sgn ω; nothing for ω = 0.
+    fn add_signed(sum: Self::Raw, c: Self::Raw, omega: Self) -> Self::Raw;
+    /// The sum as a torque. It fits: `Model::new` saw to it.
+    fn torque(sum: Self::Raw) -> Self;
+    /// (torque − resisting)/J
+    fn quotient(torque: Self, resisting: Self::Raw, inertia: Self::Raw) -> Outcome<Self>;
+    /// What `by_reciprocal` needs, from J and J_m/J at one place, and |1 − J·(1/J)|; `None` if they do not belong together.
+    fn reciprocal_of(
+        inertia: Self::Raw,
+        reciprocal: Self::Raw,
+    ) -> Option<(Self::Reciprocal, f32)>;
+    /// As `quotient`, with J_m/J; with one step of Newton's iteration if J is given.
+    fn by_reciprocal(
+        torque: Self,
+        resisting: Self::Raw,
+        reciprocal: Self::Raw,
+        constants: Self::Reciprocal,
+        inertia: Option<Self::Raw>,
+    ) -> Outcome<Self>;
 }
 
 macro_rules! float {
     ($float:ident, $code:expr) => {
+        impl Ring for $float {
+            #[inline]
+            fn times(self, factor: i8) -> Self {
+                self * $float::from(factor)
+            }
+        }
+
         impl Scalar for $float {
             const NAME: &'static str = stringify!($float);
         }
 
         impl Kernel for $float {
             type Word = $float;
+            type Raw = $float;
             type Wide = $float;
             type Factor = $float;
+            type Reciprocal = ();
             type Span = $float;
             type Fraction = $float;
             const CODE: Option<u8> = $code;
+            const STEP: i8 = 1;
+            const ROW_CENTRE: f64 = 0.0;
+            const FIXED: bool = false;
 
-            fn from_word(word: $float) -> Self {
+            fn word_bits(word: $float) -> u32 {
+                // f64 is not stored in images.
+                (word as f32).to_bits()
+            }
+            fn word_from_bits(bits: u32) -> $float {
+                f32::from_bits(bits) as $float
+            }
+            #[inline]
+            fn raw(word: $float) -> $float {
                 word
             }
-            fn to_word(self) -> $float {
-                self
+            fn word(_: Role, coefficient: f64) -> Option<$float> {
+                Self::from_f64(coefficient)
+            }
+            fn widen(raw: $float) -> $float {
+                raw
+            }
+            fn approximate(_: Role, wide: $float) -> f32 {
+                wide as f32
+            }
+            fn exact(_: Role, raw: $float) -> f64 {
+                raw as f64
+            }
+            fn is_sound(coefficients: [$float; 4]) -> bool {
+                // Far below the largest number, no sum of a few such products overflows.
+                coefficients.iter().all(|c| c.abs() < 1e30)
+            }
+            #[inline]
+            fn number(_: Role, raw: $float) -> $float {
+                raw
+            }
+            #[inline]
+            fn slope_number(slope: $float, _: i8) -> $float {
+                slope
             }
             fn from_f64(value: f64) -> Option<Self> {
                 let nearest = value as $float;
@@ -119,74 +221,94 @@ macro_rules! float {
             fn span_f32(domain: Domain<f32>) -> $float {
                 domain.span() as $float
             }
-            fn velocity_factor(cells: u32, span: $float, scale: &Scale) -> Option<$float> {
+            fn span_to_f32(span: $float) -> f32 {
+                span as f32
+            }
+            fn velocity_factor(
+                cells: u32,
+                span: $float,
+                scale: &Scale,
+                _: i8,
+            ) -> Option<$float> {
                 let bases = scale.velocity_base() as $float;
                 let factor = 0.5 * cells as $float / span * bases;
                 (factor.is_finite() && factor > 0.0).then_some(factor)
             }
             #[inline]
-            fn fraction(bits: u32) -> $float {
-                bits as $float * (1.0 / 4_294_967_296.0)
+            fn locate(phase: u32, cells: u32) -> (u32, $float) {
+                let (cell, fraction) = crate::phase::cell(phase, cells);
+                (cell, fraction as $float * (1.0 / 4_294_967_296.0))
             }
             #[inline]
-            fn cubic([c0, c1, c2, c3]: [Self; 4]) -> [Self; 4] {
-                [
-                    c0 + 4.0 * c1 + c2,
-                    3.0 * (c2 - c0),
-                    3.0 * (c0 - 2.0 * c1 + c2),
-                    (c3 - c0) + 3.0 * (c1 - c2),
-                ]
+            fn locate_row(phase: u32, cells: u32) -> (u32, $float) {
+                Self::locate(phase, cells)
             }
             #[inline]
-            fn value([p0, p1, p2, p3]: [Self; 4], u: $float) -> Self {
-                p0 + u * (p1 + u * (p2 + u * p3))
+            fn locate_row_short(phase: u32, cells: u32) -> (u32, $float) {
+                Self::locate(phase, cells)
             }
             #[inline]
-            fn slope([_, p1, p2, p3]: [Self; 4], u: $float) -> Self {
-                p1 + u * (2.0 * p2 + u * (3.0 * p3))
-            }
-            fn cell_is_sound(points: [Self; 4]) -> bool {
-                // Far below the largest number, no sum of a few such products overflows.
-                points.iter().all(|c| c.abs() < 1e30)
-            }
-            fn factor_fits(slope: f32, factor: $float) -> bool {
-                (slope as $float * factor).abs() < 1e30
-            }
-            fn to_wide_f32(self) -> f32 {
-                self as f32
+            fn step(x: $float, u: $float) -> $float {
+                x * u
             }
             #[inline]
-            fn wide(self) -> $float {
-                self
+            fn row_step(x: $float, u: $float) -> $float {
+                x * u
             }
             #[inline]
-            fn times(self, other: Self) -> $float {
-                self * other
+            fn row_step_short(x: $float, u: $float) -> $float {
+                x * u
             }
             #[inline]
-            fn scaled(self, factor: $float) -> Self {
-                self * factor
+            fn magnitude(raw: $float) -> $float {
+                raw.abs()
             }
             #[inline]
-            fn signed_like(self, other: Self) -> $float {
-                if other > 0.0 {
-                    self
-                } else if other < 0.0 {
-                    -self
+            fn velocity(slope: $float, factor: $float, omega: $float) -> $float {
+                slope * factor * omega
+            }
+            #[inline]
+            fn product(a: $float, b: $float) -> $float {
+                a * b
+            }
+            #[inline]
+            fn accumulate(sum: $float, a: $float, b: $float) -> $float {
+                sum + a * b
+            }
+            #[inline]
+            fn add_signed(sum: $float, c: $float, omega: $float) -> $float {
+                if omega > 0.0 {
+                    sum + c
+                } else if omega < 0.0 {
+                    sum - c
                 } else {
-                    0.0
+                    sum
                 }
             }
             #[inline]
-            fn narrow(wide: $float) -> Outcome<Self> {
+            fn torque(sum: $float) -> $float {
+                sum
+            }
+            #[inline]
+            fn quotient(torque: $float, resisting: $float, inertia: $float) -> Outcome<$float> {
                 Outcome {
-                    value: wide,
+                    value: (torque - resisting) / inertia,
                     saturated: false,
                 }
             }
+            fn reciprocal_of(_: $float, _: $float) -> Option<((), f32)> {
+                None
+            }
             #[inline]
-            fn quotient(wide: $float, divisor: Self) -> Outcome<Self> {
-                Self::narrow(wide / divisor)
+            fn by_reciprocal(
+                torque: $float,
+                resisting: $float,
+                reciprocal: $float,
+                (): (),
+                _: Option<$float>,
+            ) -> Outcome<$float> {
+                // Not reached: `Table::new` refuses a reciprocal in floating point.
+                Self::quotient(torque * reciprocal, resisting * reciprocal, 1.0)
             }
         }
     };

@@ -2,7 +2,7 @@
 
 use crate::error::positive;
 use crate::scalar::{Outcome, Scalar};
-use crate::{Error, Reducible};
+use crate::{Error, Reducible, math};
 
 /// The bases of the per-unit system: what the number 1 stands for.
 ///
@@ -46,6 +46,39 @@ impl Scale {
         })
     }
 
+    /// The same with the speed base enlarged a little, so that in a fixed-point table of `cells` cells over `span` (2π, or the
+    /// stroke) the velocity torque is a whole multiple of the slope a cell:
+    ///
+    /// ```text
+    /// ½·cells/span·J_b·ω_b²/T_b = 1, 2, 3, …
+    /// ```
+    ///
+    /// One integer multiplication then replaces a product with a fraction and a shift. Speed grows to the next whole number, a
+    /// few percent where the number is not small; the bases of torque and inertia grow as its square does, so that no
+    /// curve leaves the range that it was in, and that of the acceleration stays. The bases are rounded to single precision,
+    /// which leaves an error of up to 3e-7 of the velocity torque.
+    #[must_use]
+    pub fn for_cells(self, cells: u32, span: f64) -> Self {
+        let (torque, speed, inertia) = (
+            f64::from(self.torque),
+            f64::from(self.speed),
+            f64::from(self.inertia),
+        );
+        let per_square = 0.5 * f64::from(cells) / span * inertia / torque;
+        let factor = per_square * speed * speed;
+        // A scale that is whole already stays as it is.
+        let nearest = math::floor(factor + 0.5);
+        if nearest >= 1.0 && math::abs(factor - nearest) < 5e-7 * factor {
+            return self;
+        }
+        let growth = (math::floor(factor) + 1.0) / factor;
+        Self {
+            torque: (torque * growth) as f32,
+            speed: (speed * math::sqrt(growth)) as f32,
+            inertia: (inertia * growth) as f32,
+        }
+    }
+
     /// Whether the bases are positive, finite numbers.
     pub(crate) fn is_sound(&self) -> bool {
         [self.torque, self.speed, self.inertia]
@@ -68,7 +101,7 @@ impl Scale {
     /// and drive torques of the size that these need: the acceleration that such a torque gives where the inertia
     /// is smallest fits as well.
     ///
-    /// The machine is sampled at `positions` places; 5 % are added.
+    /// The machine is sampled at `positions` places; 5 % are added to speed and acceleration, and 5 % to the torque.
     ///
     /// # Errors
     /// Those of the machine, or `omega` or `alpha` not positive.
@@ -78,28 +111,23 @@ impl Scale {
         alpha: f64,
         positions: u32,
     ) -> Result<Self, Error> {
-        const MARGIN: f64 = 1.05;
-        positive("largest speed", omega)?;
-        positive("largest acceleration", alpha)?;
-        let (mut least, mut most) = (f64::INFINITY, 0.0f64);
-        let (mut torque, mut resisting) = (0.0f64, 0.0f64);
-        for k in 0..positions {
-            let place = f64::from(k) / f64::from(positions);
-            let point = machine.reduction(machine.domain().position(place))?;
-            least = least.min(point.inertia[0]);
-            most = most.max(point.inertia[0]);
-            let terms = point.torque(omega, alpha).values();
-            let against: f64 = terms.iter().skip(1).map(|t| crate::math::abs(*t)).sum();
-            torque = torque.max(crate::math::abs(terms[0]) + against);
-            resisting = resisting.max(against);
-        }
-        // What resists may add to the torque; the margin counts twice, as J_b has it, too, and ω_b² has it squared.
-        let torque = (torque + resisting) * most / least;
-        Self::new(
-            (torque * MARGIN * MARGIN) as f32,
-            (omega * MARGIN) as f32,
-            (most * MARGIN) as f32,
-        )
+        let most = Most::of(machine, omega, alpha, positions)?;
+        // The greatest torque against the greatest resistance, where the inertia is least.
+        most.scale((most.inertia * alpha + 2.0 * most.resisting) / most.least)
+    }
+
+    /// A scale for speeds up to `omega` and accelerations up to `alpha`, and no more: an acceleration beyond saturates in
+    /// forward dynamics. It makes the best of 16 bits; with 32, [`covering`](Self::covering) costs nothing.
+    ///
+    /// # Errors
+    /// As [`covering`](Self::covering).
+    pub fn limited_to(
+        machine: &impl Reducible,
+        omega: f64,
+        alpha: f64,
+        positions: u32,
+    ) -> Result<Self, Error> {
+        Most::of(machine, omega, alpha, positions)?.scale(alpha)
     }
 
     /// Torque base T_b (N·m).
@@ -150,5 +178,56 @@ impl Scale {
     /// An acceleration in machine units, in rad/s².
     pub fn alpha_si<S: Scalar>(&self, alpha: S) -> f32 {
         alpha.si(self.acceleration())
+    }
+}
+
+/// The largest quantities of a machine, with the margin of a scale for its speed.
+struct Most {
+    /// Least inertia.
+    least: f64,
+    /// Greatest inertia.
+    inertia: f64,
+    /// Greatest torque besides that of the acceleration.
+    resisting: f64,
+    /// Greatest speed.
+    omega: f64,
+}
+
+impl Most {
+    const MARGIN: f64 = 1.05;
+
+    fn of(
+        machine: &impl Reducible,
+        omega: f64,
+        alpha: f64,
+        positions: u32,
+    ) -> Result<Self, Error> {
+        positive("largest speed", omega)?;
+        positive("largest acceleration", alpha)?;
+        let mut most = Self {
+            least: f64::INFINITY,
+            inertia: 0.0,
+            resisting: 0.0,
+            omega: omega * Self::MARGIN,
+        };
+        for k in 0..positions {
+            let place = f64::from(k) / f64::from(positions);
+            let point = machine.reduction(machine.domain().position(place))?;
+            most.least = most.least.min(point.inertia[0]);
+            most.inertia = most.inertia.max(point.inertia[0]);
+            let resisting = 0.5 * math::abs(point.inertia[1]) * most.omega * most.omega
+                + math::abs(point.load_torque())
+                + math::abs(point.viscous) * most.omega
+                + math::abs(point.coulomb);
+            most.resisting = most.resisting.max(resisting);
+        }
+        Ok(most)
+    }
+
+    /// The scale for accelerations up to `alpha`.
+    fn scale(&self, alpha: f64) -> Result<Scale, Error> {
+        let alpha = alpha * Self::MARGIN;
+        let torque = (self.inertia * alpha + self.resisting) * Self::MARGIN;
+        Scale::new(torque as f32, self.omega as f32, (torque / alpha) as f32)
     }
 }

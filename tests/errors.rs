@@ -313,7 +313,7 @@ fn tables_that_cannot_be_made_say_why() {
     assert!(matches!(error, Error::Table(_)));
     let mut rows = [0.0f32; 19];
     let error = says(
-        fill::<f32, 0>(&wave, 16, &Scale::SI, &mut [0.0; 37], &mut rows),
+        fill::<f32, Spline>(&wave, 0, 16, &Scale::SI, &mut [0.0; 37], &mut rows),
         &["holds 37", "38"],
     );
     assert_eq!(
@@ -324,7 +324,7 @@ fn tables_that_cannot_be_made_say_why() {
         }
     );
     says(
-        fill::<f32, 0>(&wave, 16, &Scale::SI, &mut [0.0; 38], &mut rows[..18]),
+        fill::<f32, Spline>(&wave, 0, 16, &Scale::SI, &mut [0.0; 38], &mut rows[..18]),
         &["holds 18", "19"],
     );
     let request = Request {
@@ -335,7 +335,7 @@ fn tables_that_cannot_be_made_say_why() {
     };
     let parts = ["1e-9", "16 cells reach", "allow a larger error"];
     let error = says(
-        tabulate::<f32, 0>(&wave, &request, &Scale::SI, &mut [0.0; 38], &mut rows),
+        tabulate::<f32, Spline>(&wave, 0, &request, &Scale::SI, &mut [0.0; 38], &mut rows),
         &parts,
     );
     let Error::TorqueErrorNotReached { reached, .. } = error else {
@@ -349,7 +349,7 @@ fn tables_that_cannot_be_made_say_why() {
             alpha,
             max_cells: 16,
         };
-        let refused = tabulate::<f32, 0>(&wave, &bad, &Scale::SI, &mut [0.0; 38], &mut rows);
+        let refused = tabulate::<f32, Spline>(&wave, 0, &bad, &Scale::SI, &mut [0.0; 38], &mut rows);
         says(refused, &["greater than zero"]);
     }
     says(CubicSpline::new([0.0; 6]), &["holds 6", "7"]);

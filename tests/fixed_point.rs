@@ -185,7 +185,7 @@ proptest! {
     #[test]
     fn sound_cells_never_wrap([load, inertia] in cell_rows(), bits: u32) {
         let words: Vec<i32> = inertia.iter().zip(&load).flat_map(|(j, load)| [*j, *load]).collect();
-        let Ok(table) = Table::<Q31, { curves::LOAD }>::new(&words, 4, false) else {
+        let Ok(table) = Table::<Q31>::new(&words, curves::LOAD, 4, false) else {
             return Err(TestCaseError::reject("leaves the range"));
         };
         let phase = Phase::from_bits(bits);
@@ -241,7 +241,7 @@ fn covering_scale_covers_the_velocity_torque() {
     let machine = Wave::bare(1.0, 0.01);
     let scale = Scale::covering(&machine, 100.0, 0.1, 256).unwrap();
     let words = words::<Q31, 0>(&machine, 64, &scale).unwrap();
-    let table = Table::<Q31, 0>::new(&words, 64, true).unwrap();
+    let table = Table::<Q31>::new(&words, 0, 64, true).unwrap();
     let built = Model::new(table, core::f32::consts::TAU, &scale);
     assert!(built.is_ok(), "{:?} with {scale:?}", built.err());
 }
@@ -275,7 +275,7 @@ fn covering_scale_covers_forward_dynamics() {
 #[test]
 fn a_slope_whose_rounding_leaves_the_range_is_refused() {
     let words = [0, -165, -332, -499, -666, -833, -1000].map(|step| (1 << 27) + step);
-    let table = Table::<Q31, { curves::INERTIA }>::new(&words, 4, false).unwrap();
+    let table = Table::<Q31>::new(&words, curves::INERTIA, 4, false).unwrap();
     // ½·4 cells/span 2 = 1, and J_b·ω_b²/T_b is the rest of the factor.
     let build = |factor: f32| {
         let scale = Scale::new(1.0, factor.sqrt(), 1.0).unwrap();
@@ -297,7 +297,7 @@ fn a_very_slow_machine_has_a_model() {
     let machine = Wave::bare(1.0, 0.25);
     let scale = Scale::new(1e5, 1e-3, 1.5).unwrap();
     let words = words::<Q31, { curves::INERTIA }>(&machine, 64, &scale).unwrap();
-    let table = Table::<Q31, { curves::INERTIA }>::new(&words, 64, true).unwrap();
+    let table = Table::<Q31>::new(&words, curves::INERTIA, 64, true).unwrap();
     let model = Model::new(table, core::f32::consts::TAU, &scale).unwrap();
     // ½·J′·ω² is 1e-7 N·m of 1e5: less than one unit.
     let torque = model.torque(Phase::from_radians(1.0), Q31::MAX, Q31::from_bits(0));

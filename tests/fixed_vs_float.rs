@@ -20,7 +20,7 @@ fn table_of<S: Scalar>(
 ) -> (Tabulated, Vec<S::Word>) {
     let mut scratch = vec![0.0; scratch_len(request.max_cells, ALL)];
     let mut words = zeros::<S>(control_points(request.max_cells as usize) * curves::width(ALL));
-    let found = tabulate::<S, ALL>(machine, request, scale, &mut scratch, &mut words).unwrap();
+    let found = tabulate::<S, Spline>(machine, ALL, request, scale, &mut scratch, &mut words).unwrap();
     words.truncate(control_points(found.cells as usize) * curves::width(ALL));
     (found, words)
 }
@@ -141,7 +141,7 @@ fn tabulate_finds_the_smallest_table_that_holds_everywhere() {
             max_cells: 400,
         };
         let (found, rows) = table_of::<Q31>(&machine, &request, &scale);
-        let table = Table::<Q31, ALL>::new(&rows, found.cells, true).unwrap();
+        let table = Table::<Q31>::new(&rows, ALL, found.cells, true).unwrap();
         assert!(found.torque_error <= torque_error);
         assert_eq!(
             measure(&machine, &table, &request, &scale)
@@ -157,7 +157,7 @@ fn tabulate_finds_the_smallest_table_that_holds_everywhere() {
             let Ok(rows) = words::<Q31, ALL>(&machine, cells, &scale) else {
                 continue;
             };
-            let table = Table::<Q31, ALL>::new(&rows, cells, true).unwrap();
+            let table = Table::<Q31>::new(&rows, ALL, cells, true).unwrap();
             let reached = measure(&machine, &table, &request, &scale)
                 .unwrap()
                 .torque_error;

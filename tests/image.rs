@@ -240,11 +240,11 @@ fn model_of_another_type_or_of_an_unsound_table_is_refused() {
 #[test]
 fn encoding_needs_room_and_a_stored_number_type() {
     let words = words::<f64, 0>(&Wave::bare(1.0, 0.0), 4, &Scale::SI).unwrap();
-    let table = Table::<f64, 0>::new(&words, 4, true).unwrap();
+    let table = Table::<f64>::new(&words, 0, 4, true).unwrap();
     let mut buffer = [0; 24];
     assert!(encode(&table, Domain::Turn, &Scale::SI, VALIDITY, &mut buffer).is_err());
     let words = support::words::<f32, 0>(&Wave::bare(1.0, 0.0), 4, &Scale::SI).unwrap();
-    let table = Table::<f32, 0>::new(&words, 4, true).unwrap();
+    let table = Table::<f32>::new(&words, 0, 4, true).unwrap();
     let error = encode(
         &table,
         Domain::Turn,
@@ -275,7 +275,7 @@ proptest! {
 #[test]
 fn tables_of_f64_have_no_image() {
     let words = [1.0f64 / 6.0; 7];
-    let table = Table::<f64, { curves::INERTIA }>::new(&words, 4, true).unwrap();
+    let table = Table::<f64>::new(&words, curves::INERTIA, 4, true).unwrap();
     let mut buffer = [0; image_words(4, curves::INERTIA)];
     let error = encode(&table, Domain::Turn, &Scale::SI, VALIDITY, &mut buffer).unwrap_err();
     assert_eq!(error, Error::NoImage("f64"));

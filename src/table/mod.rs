@@ -1,41 +1,28 @@
-//! Tables of the reduced machine's curves: value and slope from one twice continuously differentiable curve.
+//! Tables of the reduced machine's curves: value and slope from one continuously differentiable curve.
 //!
-//! Rows of control points lie one after another; a row holds one control point of every curve of the machine, so
-//! that one index and one contiguous read of four rows serve them all. See [`CubicSpline`] for the interpolant.
+//! A table is a run of words in RAM or in flash; its [`Layout`] says what a word is, its set of [`curves`] which curves a row
+//! holds.
 
+pub mod curves;
+mod layout;
 mod spline;
 
-pub use spline::{CubicSpline, MIN_CELLS, control_points, fit_bounded, fit_periodic};
+pub use curves::Role;
+pub use layout::{Cubic, Layout, Quadratic, Spline};
+pub(crate) use layout::cubic;
+pub use spline::{
+    CubicSpline, MIN_CELLS, control_points, fit_bounded, fit_periodic, fit_quadratic_bounded,
+    fit_quadratic_periodic,
+};
 
 use core::fmt;
+use core::marker::PhantomData;
 
 use crate::Phase;
 use crate::scalar::Scalar;
 
-/// Which curves a table has beside the reduced inertia, as a bit set.
-///
-/// The set is part of a table's type: curves that a machine does not have cost neither memory nor instructions.
-pub mod curves {
-    /// Only J_red.
-    pub const INERTIA: u8 = 0;
-    /// The part of the reduced torque that does not depend on ω: −U′ + process.
-    pub const LOAD: u8 = 1;
-    /// b in −b·ω.
-    pub const VISCOUS: u8 = 2;
-    /// c in −c·sgn ω.
-    pub const COULOMB: u8 = 4;
-    /// Every curve.
-    pub const ALL: u8 = LOAD | VISCOUS | COULOMB;
-
-    /// Control points a row: J_red and one for each curve of the set.
-    #[must_use]
-    pub const fn width(set: u8) -> usize {
-        1 + (set & ALL).count_ones() as usize
-    }
-}
-
-/// Most cells of a table.
-pub const MAX_CELLS: u32 = 1 << 16;
+/// Most cells of a table: an index has 16 bits.
+pub const MAX_CELLS: u32 = 65_535;
 
 /// Why rows of control points are not a usable table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,6 +61,23 @@ pub enum TableError {
         /// Index of the cell.
         cell: u32,
     },
+    /// In fixed point the speed base must be one of [`Scale::for_cells`](crate::Scale::for_cells); in floating point the bases
+    /// overflow.
+    SpeedBase,
+    /// At full speed and acceleration the torque may leave the fixed-point range in this cell: a larger torque base is
+    /// needed, or a larger inertia base (which makes that of the acceleration smaller).
+    TorqueRange {
+        /// Index of the cell.
+        cell: u32,
+    },
+    /// The table has another set of [`curves`] than the model; or the set has an unknown bit, or a reciprocal for a number
+    /// type that divides. The set.
+    Curves(u8),
+    /// The curve of the reciprocal inertia is not that of the inertia in this cell.
+    Reciprocal {
+        /// Index of the cell.
+        cell: u32,
+    },
 }
 
 impl fmt::Display for TableError {
@@ -102,17 +106,48 @@ impl fmt::Display for TableError {
                 "the torque of J' leaves the number range in cell {cell}: \
                  choose a larger torque base or a smaller speed base"
             ),
+            Self::SpeedBase => write!(
+                f,
+                "the speed base does not suit the number of cells: take Scale::for_cells"
+            ),
+            Self::TorqueRange { cell } => write!(
+                f,
+                "at full speed and acceleration the torque leaves the number range in cell {cell}: \
+                 choose a larger torque base, or a larger inertia base for less acceleration"
+            ),
+            Self::Curves(set) => write!(
+                f,
+                "the table has the set of curves {set:#08b}: not that of the model, or not possible for this number type"
+            ),
+            Self::Reciprocal { cell } => write!(
+                f,
+                "the curve of the reciprocal inertia does not belong to that of the inertia in cell {cell}"
+            ),
         }
     }
 }
 
 impl core::error::Error for TableError {}
 
+/// What a table has beside its rows; in machine units, zero where there is none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Constants<W> {
+    /// Added to every J of a [`Spline`], so that its control points are small and lose little to rounding.
+    pub inertia: W,
+    /// Added to b.
+    pub viscous: W,
+    /// Added to c.
+    pub coulomb: W,
+}
+
 /// The curves of a reduced machine, in RAM or in flash, checked.
 #[derive(Clone, Copy, Debug)]
-pub struct Table<'a, S: Scalar, const CURVES: u8> {
+pub struct Table<'a, S: Scalar, L: Layout = Spline> {
     words: &'a [S::Word],
+    curves: u8,
     cells: u32,
+    constants: Constants<S::Word>,
+    layout: PhantomData<L>,
 }
 
 /// All curves at one phase, in machine units; zero where the machine has none.
@@ -130,47 +165,85 @@ pub struct CurveValues<S> {
     pub coulomb: S,
 }
 
-impl<'a, S: Scalar, const CURVES: u8> Table<'a, S, CURVES> {
-    /// Control points a row.
-    pub const WIDTH: usize = curves::width(CURVES);
-
-    /// Checks `words`: (cells + 3) rows of control points, as `tabulate` makes them; `periodic` for a turn.
+impl<'a, S: Scalar, L: Layout> Table<'a, S, L> {
+    /// Checks `words`, the rows of this set of [`curves`] as [`tabulate`](crate::tabulate) makes them; `periodic` for a turn.
     ///
     /// # Errors
     /// What [`TableError`] lists. A table that passes can be read at any phase.
-    pub fn new(words: &'a [S::Word], cells: u32, periodic: bool) -> Result<Self, TableError> {
-        const { assert!(CURVES <= curves::ALL, "unknown curve in the set") };
+    pub fn new(
+        words: &'a [S::Word],
+        curves: u8,
+        cells: u32,
+        periodic: bool,
+    ) -> Result<Self, TableError> {
+        let zero = <S::Word as bytemuck::Zeroable>::zeroed();
+        let constants = Constants {
+            inertia: zero,
+            viscous: zero,
+            coulomb: zero,
+        };
+        Self::with_constants(words, constants, curves, cells, periodic)
+    }
+
+    /// As [`new`](Self::new), of a table with constants.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_constants(
+        words: &'a [S::Word],
+        constants: Constants<S::Word>,
+        curves: u8,
+        cells: u32,
+        periodic: bool,
+    ) -> Result<Self, TableError> {
+        if curves > curves::EVERY || (!S::FIXED && curves & curves::RECIPROCAL != 0) {
+            return Err(TableError::Curves(curves));
+        }
         if cells < MIN_CELLS as u32 || cells > MAX_CELLS {
             return Err(TableError::Cells(cells));
         }
-        let needed = control_points(cells as usize) * Self::WIDTH;
+        let needed = L::words(cells as usize, curves);
         if words.len() != needed {
             return Err(TableError::Length {
                 needed: needed as u32,
                 given: words.len() as u32,
             });
         }
-        let table = Self { words, cells };
+        let table = Self {
+            words,
+            curves,
+            cells,
+            constants,
+            layout: PhantomData,
+        };
         for cell in 0..cells {
-            for curve in 0..Self::WIDTH {
-                let points = table.points(cell, curve);
-                if !S::cell_is_sound(points) {
-                    let curve = curve as u8;
+            for (column, role) in curves::roles(curves) {
+                let curve = column as u8;
+                if !S::is_sound(table.wide(cell, role)) {
                     return Err(TableError::Range { curve, cell });
                 }
             }
-            if !is_positive(table.points(cell, 0)) {
+            if !is_positive(table.polynomial(cell, Role::Inertia)) {
                 return Err(TableError::NoInertia { cell });
             }
         }
-        for curve in 0..Self::WIDTH {
-            let (first, last) = (table.points(0, curve), table.points(cells - 1, curve));
-            if periodic && first.get(..3) != last.get(1..) {
-                let curve = curve as u8;
+        if periodic {
+            table.check_closed()?;
+        }
+        Ok(table)
+    }
+
+    /// Rows beyond the cells repeat the first ones.
+    fn check_closed(&self) -> Result<(), TableError> {
+        let width = self.width();
+        let end = self.cells as usize * width;
+        for k in 0..L::MORE_ROWS * width {
+            if self.words.get(k) != self.words.get(end + k) {
+                let curve = (k % width) as u8;
                 return Err(TableError::NotClosed { curve });
             }
         }
-        Ok(table)
+        Ok(())
     }
 
     /// Number of cells.
@@ -178,93 +251,165 @@ impl<'a, S: Scalar, const CURVES: u8> Table<'a, S, CURVES> {
         self.cells
     }
 
+    /// The set of [`curves`].
+    pub const fn curves(&self) -> u8 {
+        self.curves
+    }
+
+    /// Curves in a row.
+    pub const fn width(&self) -> usize {
+        curves::width(self.curves)
+    }
+
     /// The rows, as they are stored.
     pub const fn words(&self) -> &'a [S::Word] {
         self.words
     }
 
+    /// What it has beside its rows.
+    pub const fn constants(&self) -> Constants<S::Word> {
+        self.constants
+    }
+
     /// All curves at `phase`.
     #[inline]
     pub fn at(&self, phase: Phase) -> CurveValues<S> {
-        let Some(cell) = self.cell(phase) else {
+        let Some(cell) = self.cell(phase, self.curves) else {
             return CurveValues::default();
         };
-        let inertia = cell.cubic(0);
+        let (inertia, slope) = cell.inertia();
+        let number = |role, raw: Option<S::Raw>| raw.map_or(S::default(), |r| S::number(role, r));
         CurveValues {
-            inertia: S::value(inertia, cell.u),
-            inertia_slope: S::slope(inertia, cell.u),
-            load: cell.curve(curves::LOAD),
-            viscous: cell.curve(curves::VISCOUS),
-            coulomb: cell.curve(curves::COULOMB),
+            inertia: S::number(Role::Inertia, inertia),
+            inertia_slope: S::slope_number(slope, L::step::<S>()),
+            load: number(Role::Load, cell.load()),
+            viscous: number(Role::Viscous, cell.viscous()),
+            coulomb: number(Role::Coulomb, cell.coulomb()),
         }
     }
 
-    /// The four rows around `phase`. Always `Some`: the length was checked when the table was built, but saying so
-    /// costs a compare, not a panic path.
+    /// The cell around `phase`, of a table whose set is `curves`: a model knows it when it is compiled. Always `Some`: the
+    /// length was checked when the table was built, but saying so costs a compare, not a panic path.
     #[inline]
-    pub(crate) fn cell(&self, phase: Phase) -> Option<Cell<'a, S, CURVES>> {
-        let (index, fraction) = phase.cell(self.cells);
-        let start = index as usize * Self::WIDTH;
-        let rows = self.words.get(start..)?.get(..4 * Self::WIDTH)?;
+    pub(crate) fn cell(&self, phase: Phase, curves: u8) -> Option<Cell<'_, S, L>> {
+        let (index, u) = L::locate::<S>(phase.to_bits(), self.cells);
+        let words = L::cell(self.words, index as usize, curves)?;
         Some(Cell {
-            rows,
-            u: S::fraction(fraction),
+            words,
+            curves,
+            constants: &self.constants,
+            u,
+            layout: PhantomData,
         })
     }
 
-    /// Four control points of one curve, by cell.
-    pub(crate) fn points(&self, cell: u32, curve: usize) -> [S; 4] {
-        let start = cell as usize * Self::WIDTH + curve;
-        let mut points = [S::default(); 4];
-        for (point, word) in points
-            .iter_mut()
-            .zip(self.words.iter().skip(start).step_by(Self::WIDTH))
-        {
-            *point = S::from_word(*word);
-        }
-        points
+    /// Coefficients of a curve of the set, wide.
+    fn wide(&self, cell: u32, role: Role) -> [S::Wide; 4] {
+        let set = self.curves;
+        let words = L::cell(self.words, cell as usize, set).unwrap_or_default();
+        let column = role.column(self.curves).unwrap_or(0);
+        let offset = match role {
+            Role::Inertia => S::widen(S::raw(self.constants.inertia)),
+            _ => S::Wide::default(),
+        };
+        L::coefficients(words, column, set, offset, L::step::<S>(), |word| {
+            S::widen(S::raw(word))
+        })
+    }
+
+    /// p0…p3 of a curve of the set in machine units, in single precision.
+    pub(crate) fn polynomial(&self, cell: u32, role: Role) -> [f32; 4] {
+        let mut scale = 1.0;
+        let centred = self.wide(cell, role).map(|coefficient| {
+            let unscaled = S::approximate(role, coefficient) / scale;
+            scale *= f32::from(L::step::<S>());
+            unscaled
+        });
+        layout::about(centred, -L::centre::<S>() as f32)
     }
 }
 
 /// Whether the cubic of a cell is positive throughout, by its Bézier points (sufficient; the tabulator adds cells
 /// until it holds).
-fn is_positive<S: Scalar>(points: [S; 4]) -> bool {
-    let [c0, c1, c2, c3] = points.map(S::to_wide_f32);
-    let ends = [c0 + 4.0 * c1 + c2, c1 + 4.0 * c2 + c3];
-    let inner = [4.0 * c1 + 2.0 * c2, 2.0 * c1 + 4.0 * c2];
+fn is_positive(polynomial: [f32; 4]) -> bool {
+    let hull = bezier(polynomial);
     // Above the roundings of these sums, so that no cell passes that dips below zero by a few units.
-    let rounding = 1e-5
-        * [c0, c1, c2, c3]
-            .iter()
-            .fold(0.0f32, |most, c| most.max(c.abs()));
-    ends.iter().chain(&inner).all(|b| *b > rounding)
+    let rounding = 1e-6 * hull.iter().fold(0.0f32, |most, b| most.max(b.abs()));
+    hull.iter().all(|b| *b > rounding)
 }
 
-/// One cell's rows and the place in it.
-pub(crate) struct Cell<'a, S: Scalar, const CURVES: u8> {
-    rows: &'a [S::Word],
-    pub(crate) u: S::Fraction,
+/// The Bézier points of a cubic: it stays within them.
+pub(crate) fn bezier([p0, p1, p2, p3]: [f32; 4]) -> [f32; 4] {
+    [
+        p0,
+        p0 + p1 / 3.0,
+        p0 + (2.0 * p1 + p2) / 3.0,
+        p0 + p1 + p2 + p3,
+    ]
 }
 
-impl<S: Scalar, const CURVES: u8> Cell<'_, S, CURVES> {
+/// One cell's words and the place in it.
+pub(crate) struct Cell<'a, S: Scalar, L: Layout> {
+    words: &'a [S::Word],
+    curves: u8,
+    constants: &'a Constants<S::Word>,
+    u: S::Fraction,
+    layout: PhantomData<L>,
+}
+
+impl<S: Scalar, L: Layout> Cell<'_, S, L> {
+    /// Coefficients of the curve in this column.
     #[inline]
-    pub(crate) fn cubic(&self, position: usize) -> [S; 4] {
-        let width = curves::width(CURVES);
-        let point = |row: usize| {
-            let word = self.rows.get(row * width + position);
-            word.map_or(S::default(), |w| S::from_word(*w))
-        };
-        S::cubic([point(0), point(1), point(2), point(3)])
+    fn coefficients(&self, column: usize, offset: S::Raw) -> [S::Raw; 4] {
+        L::coefficients(self.words, column, self.curves, offset, L::step::<S>(), S::raw)
     }
 
-    /// Value of a curve that the table may have; zero if it has not.
+    /// J, and its slope a cell times the layout's step.
     #[inline]
-    pub(crate) fn curve(&self, curve: u8) -> S {
-        if CURVES & curve == 0 {
-            return S::default();
+    pub(crate) fn inertia(&self) -> (S::Raw, S::Raw) {
+        L::value_and_slope::<S>(self.coefficients(0, S::raw(self.constants.inertia)), self.u)
+    }
+
+    /// A curve that the table may have.
+    #[inline]
+    fn curve(&self, role: Role) -> Option<S::Raw> {
+        let column = role.column(self.curves)?;
+        Some(L::value::<S>(
+            self.coefficients(column, S::Raw::default()),
+            self.u,
+        ))
+    }
+
+    #[inline]
+    pub(crate) fn load(&self) -> Option<S::Raw> {
+        self.curve(Role::Load)
+    }
+
+    /// b, its constant part included.
+    #[inline]
+    pub(crate) fn viscous(&self) -> Option<S::Raw> {
+        let constant = S::raw(self.constants.viscous);
+        match (self.curve(Role::Viscous), self.curves & curves::CONSTANT_VISCOUS != 0) {
+            (Some(curve), true) => Some(curve + constant),
+            (None, true) => Some(constant),
+            (curve, false) => curve,
         }
-        // Curves of a row stand in the order of their bits, after the inertia.
-        let before = (CURVES & (curve - 1)).count_ones() as usize;
-        S::value(self.cubic(1 + before), self.u)
+    }
+
+    /// |c|, its constant part included.
+    #[inline]
+    pub(crate) fn coulomb(&self) -> Option<S::Raw> {
+        let constant = S::raw(self.constants.coulomb);
+        let curve = self.curve(Role::Coulomb).map(S::magnitude);
+        match (curve, self.curves & curves::CONSTANT_COULOMB != 0) {
+            (Some(curve), true) => Some(curve + constant),
+            (None, true) => Some(constant),
+            (curve, false) => curve,
+        }
+    }
+
+    #[inline]
+    pub(crate) fn reciprocal(&self) -> Option<S::Raw> {
+        self.curve(Role::Reciprocal)
     }
 }

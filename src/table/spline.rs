@@ -30,10 +30,24 @@ pub const MIN_CELLS: usize = 4;
 /// Fewer than [`MIN_CELLS`] samples, or a buffer of another length than samples + 3.
 pub fn fit_periodic(samples: &[f64], control: &mut [f64]) -> Result<(), Error> {
     check_lengths(samples.len(), samples.len(), control.len())?;
+    solve_periodic(4.0, samples, control);
+    // The rows that close the turn.
     let cells = samples.len();
-    let pole = math::sqrt(3.0) - 2.0;
+    for (to, from) in [(0, cells), (cells + 1, 1), (cells + 2, 2)] {
+        let value = control.get(from).copied().unwrap_or(0.0);
+        if let Some(slot) = control.get_mut(to) {
+            *slot = value;
+        }
+    }
+    Ok(())
+}
+
+/// Solves x[k−1] + a·x[k] + x[k+1] = f[k], indices modulo their number, into `control[1..]`.
+fn solve_periodic(a: f64, f: &[f64], control: &mut [f64]) {
+    let cells = f.len();
+    let pole = 0.5 * (math::sqrt(a * a - 4.0) - a);
     // Causal filter y[k] = f[k] + z·y[k−1], started with the periodic sum Σ z^j·f[−j].
-    let at = |index: usize| samples.get(index % cells).copied().unwrap_or(0.0);
+    let at = |index: usize| f.get(index % cells).copied().unwrap_or(0.0);
     let wrap = 1.0 / (1.0 - power(pole, cells));
     let mut y = (0..cells)
         .rev()
@@ -49,7 +63,7 @@ pub fn fit_periodic(samples: &[f64], control: &mut [f64]) -> Result<(), Error> {
             *slot = y;
         }
     }
-    // Anticausal filter x[k] = y[k] + z·x[k+1], and the gain −6z, of which the stored sixth is −z.
+    // Anticausal filter x[k] = y[k] + z·x[k+1], and the gain −z.
     let mut x = {
         let filtered = |index: usize| control.get(1 + index % cells).copied().unwrap_or(0.0);
         (0..cells)
@@ -64,7 +78,21 @@ pub fn fit_periodic(samples: &[f64], control: &mut [f64]) -> Result<(), Error> {
         }
         *slot = -pole * x;
     }
-    // The rows that close the turn.
+}
+
+/// Control points (in halves) of the periodic C1 quadratic through `samples` in the middle of every cell. Interpolating
+/// there keeps an even degree well-posed; value and slope are then continuous at the knots.
+///
+/// # Errors
+/// As [`fit_periodic`].
+pub fn fit_quadratic_periodic(samples: &[f64], control: &mut [f64]) -> Result<(), Error> {
+    let cells = samples.len();
+    check_lengths(cells, cells, control.len())?;
+    // (h₀ + 6·h₁ + h₂)/4 is the value in the middle.
+    solve_periodic(6.0, samples, control);
+    for slot in control.iter_mut() {
+        *slot *= 4.0;
+    }
     for (to, from) in [(0, cells), (cells + 1, 1), (cells + 2, 2)] {
         let value = control.get(from).copied().unwrap_or(0.0);
         if let Some(slot) = control.get_mut(to) {
@@ -72,6 +100,54 @@ pub fn fit_periodic(samples: &[f64], control: &mut [f64]) -> Result<(), Error> {
         }
     }
     Ok(())
+}
+
+/// As [`fit_quadratic_periodic`], for a stroke: `samples` are the start, the middle of every cell, and the end.
+///
+/// # Errors
+/// As [`fit_bounded`].
+pub fn fit_quadratic_bounded(samples: &[f64], control: &mut [f64]) -> Result<(), Error> {
+    let cells = samples.len().saturating_sub(2);
+    check_lengths(samples.len(), cells, control.len())?;
+    let f = |k: usize| samples.get(k).copied().unwrap_or(0.0);
+    let (start, end) = (f(0), f(cells + 1));
+    // h₋₁ = start − h₀ and hₙ = end − hₙ₋₁ leave the tridiagonal system (1, 6, 1) with 5 in both corners; hₖ sits at
+    // index k + 1.
+    let mut set = |k: usize, value: f64| {
+        if let Some(slot) = control.get_mut(k) {
+            *slot = value;
+        }
+    };
+    // Of the eliminated rows: h[k] = right − pivot·h[k+1].
+    let mut right = (4.0 * f(1) - start) / 5.0;
+    set(1, right);
+    for k in 1..cells {
+        let last = k == cells - 1;
+        let value = 4.0 * f(k + 1) - if last { end } else { 0.0 };
+        let before = quadratic_pivot(k - 1);
+        let pivot = 1.0 / (if last { 5.0 } else { 6.0 } - before);
+        right = (value - right) * pivot;
+        set(k + 1, right);
+    }
+    let get = |control: &[f64], k: usize| control.get(k).copied().unwrap_or(0.0);
+    for k in (0..cells - 1).rev() {
+        let value = get(control, k + 1) - quadratic_pivot(k) * get(control, k + 2);
+        if let Some(slot) = control.get_mut(k + 1) {
+            *slot = value;
+        }
+    }
+    let (first, last) = (start - get(control, 1), end - get(control, cells));
+    for (k, value) in [(0, first), (cells + 1, last), (cells + 2, 0.0)] {
+        if let Some(slot) = control.get_mut(k) {
+            *slot = value;
+        }
+    }
+    Ok(())
+}
+
+/// What elimination leaves of the system (1, 6, 1) that begins with 5, at row k.
+fn quadratic_pivot(k: usize) -> f64 {
+    (0..k.min(20)).fold(0.2, |before, _| 1.0 / (6.0 - before))
 }
 
 /// Control points of the curve through `samples` at both ends and between (one more than cells), with not-a-knot
@@ -190,21 +266,11 @@ impl<C: AsRef<[f64]>> CubicSpline<C> {
         let Some(&[c0, c1, c2, c3]) = points.and_then(|p| p.first_chunk()) else {
             return [0.0; 3];
         };
-        let [p0, p1, p2, p3] = cubic([c0, c1, c2, c3]);
+        let [p0, p1, p2, p3] = super::cubic([c0, c1, c2, c3], 1);
         [
             p0 + u * (p1 + u * (p2 + u * p3)),
             (p1 + u * (2.0 * p2 + u * 3.0 * p3)) * cells,
             (2.0 * p2 + u * 6.0 * p3) * cells * cells,
         ]
     }
-}
-
-/// The cubic of a cell from its four control points.
-fn cubic([c0, c1, c2, c3]: [f64; 4]) -> [f64; 4] {
-    [
-        c0 + 4.0 * c1 + c2,
-        3.0 * (c2 - c0),
-        3.0 * (c0 - 2.0 * c1 + c2),
-        (c3 - c0) + 3.0 * (c1 - c2),
-    ]
 }

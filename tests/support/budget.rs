@@ -215,3 +215,38 @@ pub(crate) const GENEVA_EDGE: f64 = 4e-9;
 
 /// The step of J″ there, whose neighbours are as far away: ten times that a radian.
 pub(crate) const GENEVA_STEP: f64 = 1e-7;
+
+/// `Circular::sin_cos_of` in f32 promises this: the roundings of phase, angle and result, each up to 2⁻²⁵ of numbers up to one.
+/// Over all 2³² phases it is 1.02e-7.
+pub(crate) const SIN_COS_F32: f64 = 1.05e-7;
+
+/// The same in f64: `libm`'s and the angle's rounding.
+pub(crate) const SIN_COS_F64: f64 = 2.5e-16;
+
+/// `HarmonicModel::at` in f32 promises this, of the sum of the coefficients' sizes: k times the errors of sine and cosine, and
+/// of k rotations.
+pub(crate) const HARMONIC_F32: f64 = 4e-7;
+
+/// The same in f64, where the series it is compared with rounds k·φ.
+pub(crate) const HARMONIC_F64: f64 = 4e-15;
+
+/// Fourier coefficients from up to 256 samples, of the curve's size.
+pub(crate) const COEFFICIENT: f64 = 1e-14;
+
+/// Curves of a machine from harmonics that were asked for 1e-10 of the peak torque, as shares of it.
+pub(crate) const HARMONIC_CURVE: f64 = 1e-10;
+
+/// Least error found over the bound on it, which adds up amplitudes.
+pub(crate) const HARMONIC_BOUND_SLACK: f64 = 0.05;
+
+/// RK4 with 4096 steps a turn on a J that swings by a factor of five; the phase is rounded to 2⁻³² turn.
+pub(crate) const HARMONIC_ENERGY: f64 = 1e-8;
+
+/// Harmonics of the example press for 1e-3 to 1e-9 of its peak torque: the figures of `docs/harmonics.md`.
+pub(crate) const PRESS_HARMONICS: [u32; 7] = [5, 6, 8, 9, 10, 11, 12];
+
+/// Coefficients identified from exact samples, of the largest and times the condition; the residual, of the largest torque.
+pub(crate) const IDENTIFIED: f64 = 1e-14;
+
+/// J, b and c of a slider-crank (λ = 0.25) identified with 10 harmonics, those behind being below 1e-7 of it.
+pub(crate) const IDENTIFIED_INERTIA: f64 = 1e-6;

@@ -1,10 +1,10 @@
 //! Images to test with, and an independent CRC.
 
-use jred::table::curves;
-use jred::{Domain, Image, ImageError, Q31, Scalar, Scale, Table, Validity, encode, image_words};
+use jred::table::{Layout, Spline, curves};
+use jred::{Domain, Image, ImageError, Q31, Scalar, Scale, Validity, encode, image_words};
 
 use super::machines::Wave;
-use super::words;
+use super::rows::Rows;
 
 /// CRC-32 as IEEE 802.3 defines it, bit by bit: polynomial 0x04C11DB7 reflected, start and end inverted.
 pub(crate) fn crc32(words: &[u32]) -> u32 {
@@ -31,26 +31,30 @@ pub(crate) const VALIDITY: Validity = Validity {
     torque_error: 0.01,
 };
 
-pub(crate) fn encoded<S: Scalar, const CURVES: u8>(
+pub(crate) fn encoded<S: Scalar, L: Layout>(
     machine: &Wave,
+    set: u8,
     cells: u32,
     scale: &Scale,
 ) -> Vec<u32> {
-    let words = words::<S, CURVES>(machine, cells, scale).unwrap();
-    let periodic = machine.domain == Domain::Turn;
-    let table = Table::<S, CURVES>::new(&words, cells, periodic).unwrap();
-    let mut buffer = vec![0; image_words(cells, CURVES) + 3];
-    encode(&table, machine.domain, scale, VALIDITY, &mut buffer)
+    let rows = Rows::<S, L>::of(machine, set, cells, scale).unwrap();
+    let mut buffer = vec![0; image_words::<S, L>(cells, set) + 3];
+    encode(&rows.table(), machine.domain, scale, VALIDITY, &mut buffer)
         .unwrap()
         .to_vec()
 }
 
 /// The smallest image there is: four cells, inertia only.
 pub(crate) fn small() -> Vec<u32> {
-    encoded::<f32, { curves::INERTIA }>(&Wave::bare(1.0, 0.25), 4, &Scale::SI)
+    encoded::<f32, Spline>(&Wave::bare(1.0, 0.25), curves::INERTIA, 4, &Scale::SI)
 }
 
 pub(crate) fn stroke() -> Vec<u32> {
+    stroke_in::<Q31, Spline>(curves::ALL)
+}
+
+/// Over a stroke, with the curves of this set.
+pub(crate) fn stroke_in<S: Scalar, L: Layout>(set: u8) -> Vec<u32> {
     let domain = Domain::stroke(-0.5, 1.5).unwrap();
     let wave = Wave {
         mean: 1.0,
@@ -60,7 +64,8 @@ pub(crate) fn stroke() -> Vec<u32> {
         coulomb: 0.5,
         domain,
     };
-    encoded::<Q31, { curves::ALL }>(&wave, 12, &Scale::new(60.0, 11.0, 2.0).unwrap())
+    let scale = Scale::new(60.0, 11.0, 2.0).unwrap();
+    encoded::<S, L>(&wave, set, 12, &scale.for_cells(12, domain.span()))
 }
 
 pub(crate) fn refused(image: &[u32]) -> ImageError {

@@ -3,14 +3,15 @@
 
 pub(crate) mod budget;
 pub(crate) mod cams;
+pub(crate) mod exact;
 pub(crate) mod golden;
+pub(crate) mod harmonics;
 pub(crate) mod images;
 pub(crate) mod jointed;
 pub(crate) mod machines;
+pub(crate) mod rows;
 
-use jred::table::{control_points, curves};
-use jred::tabulate::{fill, scratch_len};
-use jred::{Domain, Error, Model, Reducible, Scalar, Scale, Table};
+use jred::Scalar;
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
@@ -62,34 +63,6 @@ pub(crate) fn rk4(f: impl Fn(f64, f64) -> f64, x: f64, y: f64, h: f64) -> f64 {
 /// Largest magnitude.
 pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |most, v| v.abs().max(most))
-}
-
-/// The words of a table with exactly `cells` cells.
-pub(crate) fn words<S: Scalar, const CURVES: u8>(
-    machine: &impl Reducible,
-    cells: u32,
-    scale: &Scale,
-) -> Result<Vec<S::Word>, Error> {
-    let mut scratch = vec![0.0; scratch_len(cells, CURVES)];
-    let mut words = zeros::<S>(control_points(cells as usize) * curves::width(CURVES));
-    fill::<S, CURVES>(machine, cells, scale, &mut scratch, &mut words)?;
-    Ok(words)
-}
-
-/// A buffer for a table.
-pub(crate) fn zeros<S: Scalar>(len: usize) -> Vec<S::Word> {
-    vec![S::default().to_word(); len]
-}
-
-/// The model over such words.
-pub(crate) fn model<'a, S: Scalar, const CURVES: u8>(
-    words: &'a [S::Word],
-    cells: u32,
-    domain: Domain,
-    scale: &Scale,
-) -> Model<'a, S, CURVES> {
-    let table = Table::new(words, cells, domain == Domain::Turn).unwrap();
-    Model::new(table, S::span(domain), scale).unwrap()
 }
 
 /// The nearest number of a type; its own name for it is reachable from generic code only.

@@ -1,0 +1,102 @@
+//! Time of the way from a machine to its harmonics on this computer: `cargo bench -p jred --bench harmonic`. Figures for
+//! `docs/harmonics.md`; judges nothing.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use jred::harmonic::{
+    HarmonicModel, Identification, Request, Sample, fit, scratch_len, terms, words_len,
+};
+use jred::mechanism::{Branch, SliderCrank};
+use jred::table::curves;
+use jred::{Error, Link, Machine, Phase};
+
+const SET: u8 = curves::LOAD;
+const TERMS: u8 = terms::SYMMETRIC;
+/// J and load, eleven harmonics.
+const WORDS: usize = words_len(11, SET, TERMS);
+
+/// Shortest of many runs, in µs.
+fn time(what: &str, runs: u32, mut work: impl FnMut()) {
+    let mut once = || {
+        let start = Instant::now();
+        work();
+        start.elapsed().as_secs_f64()
+    };
+    let best = (0..runs).map(|_| once()).fold(f64::INFINITY, f64::min);
+    println!("{what:<60} {:9.2} µs", best * 1e6);
+}
+
+fn main() -> Result<(), Error> {
+    let massless = Link::new(0.0, 0.0, [0.0, 0.0])?;
+    let ram = Link::new(10.0, 0.0, [0.0, 0.0])?;
+    let mechanism = SliderCrank::new(0.05, 0.2, 0.0, Branch::Right, [massless, massless, ram])?;
+    let machine = Machine::new(mechanism)
+        .with_gravity([9.81, 0.0])?
+        .with_flywheel(0.0063)?;
+    let mut scratch = [0.0; scratch_len(16)];
+    let mut words = [0.0f64; words_len(16, SET, TERMS)];
+    let mut single = [0.0f32; words_len(16, SET, TERMS)];
+    for torque_error in [1e-3, 1e-5, 1e-7] {
+        let request = Request {
+            torque_error,
+            omega: 60.0,
+            alpha: 400.0,
+            max_harmonics: 16,
+        };
+        let found = fit::<f64, SET, TERMS>(&machine, &request, &mut scratch, &mut words)?;
+        let what = format!(
+            "fit f64 to {torque_error:e} N m: {} harmonics, {} samples",
+            found.harmonics, found.samples
+        );
+        time(&what, 200, || {
+            let found = fit::<f64, SET, TERMS>(&machine, &request, &mut scratch, &mut words);
+            black_box(found).ok();
+        });
+    }
+    let request = Request {
+        torque_error: 1e-4,
+        omega: 60.0,
+        alpha: 400.0,
+        max_harmonics: 16,
+    };
+    let found = fit::<f32, SET, TERMS>(&machine, &request, &mut scratch, &mut single)?;
+    let single = single.get(..found.words).unwrap_or_default();
+    let what = format!("show J positive, f32, {} harmonics", found.harmonics);
+    time(&what, 200, || {
+        black_box(HarmonicModel::<f32, SET, TERMS>::new(single)).ok();
+    });
+    let model = HarmonicModel::<f32, SET, TERMS>::new(single)?;
+    time("1000 torques, f32", 200, || {
+        for k in 0..1000u32 {
+            let phase = Phase::from_bits(k.wrapping_mul(0x9e37_79b9));
+            black_box(model.torque(black_box(phase), 10.0, 20.0));
+        }
+    });
+    let samples: Vec<_> = (0..1000u32)
+        .map(|k| {
+            let t = f64::from(k) * 0.01;
+            let phase = Phase::from_radians(6.0 * t.sin());
+            let (omega, alpha) = (6.0 * t.cos(), -6.0 * t.sin());
+            let torque = model.torque(phase, omega as f32, alpha as f32).into();
+            Sample {
+                phase,
+                omega,
+                alpha,
+                torque,
+            }
+        })
+        .collect();
+    time(
+        &format!("identify {WORDS} coefficients from 1000 samples"),
+        50,
+        || {
+            let mut kept = Identification::<WORDS, SET, TERMS>::new().expect("whole harmonics");
+            for sample in &samples {
+                kept.add(sample).expect("finite");
+            }
+            black_box(kept.solve()).ok();
+        },
+    );
+    Ok(())
+}

@@ -1,0 +1,80 @@
+//! Upper halves of products, the same bits with and without a long multiplication.
+//!
+//! Cortex-M3 and up multiply 32 × 32 bits into 64 in one instruction. Cortex-M0, M0+ and M23 do not; there the compiler
+//! would call a helper of about 40 instructions, so products are put together from 16-bit halves instead. `build.rs` sets
+//! `short_multiply` for them; the tests compare both.
+
+/// Floor of a·b/2³².
+#[inline]
+pub(crate) fn high(a: i32, b: i32) -> i32 {
+    if cfg!(short_multiply) {
+        high_by_halves(a, b)
+    } else {
+        ((i64::from(a) * i64::from(b)) >> 32) as i32
+    }
+}
+
+#[inline]
+fn high_by_halves(a: i32, b: i32) -> i32 {
+    let (a1, a0) = (a >> 16, a & 0xffff);
+    let (b1, b0) = (b >> 16, b & 0xffff);
+    let low = ((a0 as u32).wrapping_mul(b0 as u32) >> 16) as i32;
+    // No sum overflows: |a0·b1| ≤ 65535·2¹⁵, and at most 65535 is added.
+    let middle = a0.wrapping_mul(b1).wrapping_add(low);
+    let other = a1.wrapping_mul(b0).wrapping_add(middle & 0xffff);
+    a1.wrapping_mul(b1)
+        .wrapping_add(middle >> 16)
+        .wrapping_add(other >> 16)
+}
+
+/// Floor of x·n/2¹⁶, where n is the upper half of u.
+#[inline]
+pub(crate) fn high_short(x: i32, u: i32) -> i32 {
+    if cfg!(short_multiply) {
+        high_short_by_halves(x, u)
+    } else if cfg!(dsp) {
+        // One instruction (SMULWT), which takes the upper half of u by itself.
+        ((i64::from(x) * i64::from(u >> 16)) >> 16) as i32
+    } else {
+        high(x, u & !0xffff)
+    }
+}
+
+#[inline]
+fn high_short_by_halves(x: i32, u: i32) -> i32 {
+    let n = u >> 16;
+    let low = (x & 0xffff).wrapping_mul(n) >> 16;
+    (x >> 16).wrapping_mul(n).wrapping_add(low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{high_by_halves, high_short_by_halves};
+
+    /// A fixed sequence of numbers of every size (xorshift; G. Marsaglia 2003), after the extremes.
+    fn numbers() -> impl Iterator<Item = i32> + Clone {
+        let mut state = 0x9e37_79b9_u32;
+        let random = core::iter::repeat_with(move || {
+            state ^= state << 13;
+            state ^= state >> 17;
+            state ^= state << 5;
+            (state as i32) >> (state % 31)
+        });
+        [i32::MIN, i32::MAX, 0, 1, -1, 0xffff, 0x1_0000, -0x1_0000, 0x7fff_0000]
+            .into_iter()
+            .chain(random.take(600))
+    }
+
+    #[test]
+    fn halves_give_the_bits_of_the_long_product() {
+        for a in numbers() {
+            for b in numbers() {
+                let long = ((i64::from(a) * i64::from(b)) >> 32) as i32;
+                assert_eq!(high_by_halves(a, b), long, "{a} · {b}");
+                let u = b;
+                let long = ((i64::from(a) * i64::from(u & !0xffff)) >> 32) as i32;
+                assert_eq!(high_short_by_halves(a, u), long, "{a} · {u}");
+            }
+        }
+    }
+}

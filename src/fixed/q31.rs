@@ -1,0 +1,280 @@
+//! Fixed point with 32-bit tables.
+
+use core::num::{NonZeroU64, Wrapping};
+
+use super::product::{high, high_short};
+use crate::scalar::{Kernel, Outcome, Ring, Scalar};
+use crate::table::Role;
+use crate::{Domain, Scale};
+
+/// A per-unit number in [−1, 1): an `i32` in units of 2⁻³¹.
+///
+/// What 1 stands for is said by the [`Scale`] of the model it is used with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Q31(i32);
+
+impl Q31 {
+    /// The largest number, 1 − 2⁻³¹.
+    pub const MAX: Self = Self(i32::MAX);
+    /// The smallest number, −1.
+    pub const MIN: Self = Self(i32::MIN);
+
+    /// From the raw integer, in units of 2⁻³¹.
+    #[must_use]
+    pub const fn from_bits(bits: i32) -> Self {
+        Self(bits)
+    }
+
+    /// The raw integer, in units of 2⁻³¹.
+    #[must_use]
+    pub const fn to_bits(self) -> i32 {
+        self.0
+    }
+}
+
+impl Ring for Wrapping<i32> {
+    #[inline]
+    fn times(self, factor: i8) -> Self {
+        self * Self(i32::from(factor))
+    }
+}
+
+impl Ring for i64 {
+    #[inline]
+    fn times(self, factor: i8) -> Self {
+        self * Self::from(factor)
+    }
+}
+
+impl Scalar for Q31 {
+    const NAME: &'static str = "i32";
+}
+
+/// 2 to the power of the fractional bits that a raw value of this role has.
+const fn unit(role: Role) -> f64 {
+    match role {
+        Role::Inertia | Role::Viscous => 1_073_741_824.0,
+        Role::Load | Role::Coulomb => 536_870_912.0,
+        Role::Reciprocal => 2_147_483_648.0,
+    }
+}
+
+impl Kernel for Q31 {
+    type Word = i32;
+    type Raw = Wrapping<i32>;
+    type Wide = i64;
+    type Factor = i32;
+    type Reciprocal = Reciprocal;
+    type Span = f32;
+    type Fraction = i32; // Q31 from 0 to 1; in rows Q32 from −½ to ½
+    const CODE: Option<u8> = Some(2);
+    const STEP: i8 = 2;
+    const ROW_CENTRE: f64 = 0.5;
+    const FIXED: bool = true;
+
+    fn word_bits(word: i32) -> u32 {
+        word.cast_unsigned()
+    }
+    fn word_from_bits(bits: u32) -> i32 {
+        bits.cast_signed()
+    }
+    #[inline]
+    fn raw(word: i32) -> Self::Raw {
+        Wrapping(word)
+    }
+    fn word(role: Role, coefficient: f64) -> Option<i32> {
+        let scaled = libm::rint(coefficient * unit(role));
+        (-2_147_483_648.0..2_147_483_648.0)
+            .contains(&scaled)
+            .then_some(scaled as i32)
+    }
+    fn widen(raw: Self::Raw) -> i64 {
+        i64::from(raw.0)
+    }
+    fn approximate(role: Role, wide: i64) -> f32 {
+        wide as f32 / unit(role) as f32
+    }
+    fn exact(role: Role, raw: Self::Raw) -> f64 {
+        f64::from(raw.0) / unit(role)
+    }
+    fn is_sound(coefficients: [i64; 4]) -> bool {
+        // Every step of a value or slope stays within this sum; each floor adds less than 1.
+        let [p0, p1, p2, p3] = coefficients.map(i64::abs);
+        let limit = i64::from(i32::MAX) - 8;
+        p1 + p2 + p3 <= limit && p0 + (p1 + p2 + p3) / 2 <= limit
+    }
+    fn number(role: Role, raw: Self::Raw) -> Self {
+        let bits = 31 - unit(role).to_bits().wrapping_shr(52).wrapping_sub(1023) as u32;
+        let fits = i32::MIN >> bits..=i32::MAX >> bits;
+        Self(raw.0.clamp(*fits.start(), *fits.end()) << bits)
+    }
+    fn slope_number(slope: Self::Raw, step: i8) -> Self {
+        // Q30 times `step`, which is 1 or 2.
+        Self(if step == 2 {
+            slope.0
+        } else {
+            slope.0.saturating_mul(2)
+        })
+    }
+    fn from_f64(value: f64) -> Option<Self> {
+        Self::word(Role::Reciprocal, value).map(Self)
+    }
+    fn to_f64(self) -> f64 {
+        f64::from(self.0) * (1.0 / 2_147_483_648.0)
+    }
+    fn per_unit(value: f32, base: f32) -> Outcome<Self> {
+        let scaled = value / base * 2_147_483_648.0;
+        Outcome {
+            value: Self(scaled as i32), // `as` saturates
+            saturated: !(-2_147_483_648.0..2_147_483_648.0).contains(&scaled),
+        }
+    }
+    fn si(self, base: f32) -> f32 {
+        self.0 as f32 * (1.0 / 2_147_483_648.0) * base
+    }
+    fn span(domain: Domain) -> f32 {
+        domain.to_f32().span()
+    }
+    fn span_f32(domain: Domain<f32>) -> f32 {
+        domain.span()
+    }
+    fn span_to_f32(span: f32) -> f32 {
+        span
+    }
+    fn velocity_factor(cells: u32, span: f32, scale: &Scale, step: i8) -> Option<i32> {
+        whole(f32::velocity_factor(cells, span, scale, step)? * 2.0 / f32::from(step))
+    }
+    #[inline]
+    fn locate(phase: u32, cells: u32) -> (u32, i32) {
+        let (cell, fraction) = crate::phase::cell(phase, cells);
+        (cell, (fraction >> 1) as i32)
+    }
+    #[inline]
+    fn locate_row(phase: u32, cells: u32) -> (u32, i32) {
+        let (cell, fraction) = crate::phase::cell(phase, cells);
+        (cell, (fraction ^ 0x8000_0000) as i32)
+    }
+    #[inline]
+    fn locate_row_short(phase: u32, cells: u32) -> (u32, i32) {
+        let (cell, fraction) = crate::phase::cell_short(phase, cells);
+        (cell, (fraction ^ 0x8000_0000) as i32)
+    }
+    #[inline]
+    fn step(x: Self::Raw, u: i32) -> Self::Raw {
+        Wrapping(high(x.0, u))
+    }
+    #[inline]
+    fn row_step(x: Self::Raw, u: i32) -> Self::Raw {
+        Wrapping(high(x.0, u))
+    }
+    #[inline]
+    fn row_step_short(x: Self::Raw, u: i32) -> Self::Raw {
+        Wrapping(high_short(x.0, u))
+    }
+    #[inline]
+    fn magnitude(raw: Self::Raw) -> Self::Raw {
+        Wrapping(raw.0.wrapping_abs())
+    }
+    #[inline]
+    fn velocity(slope: Self::Raw, factor: i32, omega: Self) -> Self::Raw {
+        // The slope is Q30 times `step`, the factor makes 31 fractional bits of it. `Model::new` saw to it that the product fits.
+        Wrapping(high(slope.0.wrapping_mul(factor), omega.0))
+    }
+    #[inline]
+    fn product(a: Self::Raw, b: Self) -> Self::Raw {
+        Wrapping(high(a.0, b.0))
+    }
+    #[inline]
+    fn accumulate(sum: Self::Raw, a: Self::Raw, b: Self) -> Self::Raw {
+        sum + Wrapping(high(a.0, b.0))
+    }
+    #[inline]
+    fn add_signed(sum: Self::Raw, c: Self::Raw, omega: Self) -> Self::Raw {
+        if omega.0 > 0 {
+            sum + c
+        } else if omega.0 < 0 {
+            sum - c
+        } else {
+            sum
+        }
+    }
+    #[inline]
+    fn torque(sum: Self::Raw) -> Self {
+        Self(sum.0.wrapping_shl(2))
+    }
+    fn quotient(torque: Self, resisting: Self::Raw, inertia: Self::Raw) -> Outcome<Self> {
+        let net = i64::from(torque.0) - (i64::from(resisting.0) << 2); // Q31
+        let magnitude = net.unsigned_abs();
+        let divisor =
+            NonZeroU64::new(u64::from(inertia.0.unsigned_abs()) << 1).unwrap_or(NonZeroU64::MIN);
+        if magnitude >= divisor.get() {
+            // |quotient| ≥ 1: outside the range (−1 itself is given as saturated, too).
+            return Outcome {
+                value: if net < 0 { Self::MIN } else { Self::MAX },
+                saturated: true,
+            };
+        }
+        let quotient = ((magnitude << 31) / divisor) as i32; // below 2³¹
+        Outcome {
+            value: Self(if net < 0 { -quotient } else { quotient }),
+            saturated: false,
+        }
+    }
+    fn reciprocal_of(inertia: Self::Raw, seed: Self::Raw) -> Option<(Reciprocal, f32)> {
+        // J·ρ is a power of two, 2⁻ᵐ of the inertia base, but for the seed's error.
+        let product = high(inertia.0, seed.0); // Q29
+        let nearest = (u32::try_from(product).ok()? + product as u32 / 3).checked_ilog2()?;
+        let shift = 29u32.checked_sub(nearest)?;
+        let error = 1.0 - product as f32 / (1u32 << nearest) as f32;
+        let constants = Reciprocal {
+            unit: 1i32.checked_shl(28u32.checked_sub(shift)?)?,
+            gain: 8i32 << shift.min(24),
+        };
+        (shift <= 20).then_some((constants, error.abs()))
+    }
+    #[inline]
+    fn by_reciprocal(
+        torque: Self,
+        resisting: Self::Raw,
+        reciprocal: Self::Raw,
+        Reciprocal { unit, gain }: Reciprocal,
+        inertia: Option<Self::Raw>,
+    ) -> Outcome<Self> {
+        let net = (torque.0 >> 2).wrapping_sub(resisting.0); // Q29, |net| < 2
+        let mut quotient = high(net, reciprocal.0); // Q28 − m
+        if let Some(inertia) = inertia {
+            // One step of Newton's iteration, ρ ← ρ + ρ·(1 − J·ρ), taken on the quotient: its error is squared.
+            let error = (unit << 1).wrapping_sub(high(inertia.0, reciprocal.0)); // Q29 + m
+            quotient = quotient.wrapping_add(high(quotient, error.wrapping_mul(gain))); // Q32
+        }
+        if (quotient.wrapping_add(unit) as u32) < (unit as u32) << 1 {
+            Outcome {
+                value: Self(quotient.wrapping_mul(gain)),
+                saturated: false,
+            }
+        } else {
+            Outcome {
+                value: if quotient < 0 { Self::MIN } else { Self::MAX },
+                saturated: true,
+            }
+        }
+    }
+}
+
+/// What makes an acceleration of a torque and the seed of 1/J, in units of 2⁻ᵐ.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Reciprocal {
+    /// 2²⁸⁻ᵐ
+    unit: i32,
+    /// 2³⁺ᵐ
+    gain: i32,
+}
+
+/// The whole number that a factor is, but for the rounding of its three bases.
+pub(super) fn whole(factor: f32) -> Option<i32> {
+    const ROUNDING: f32 = 1e-6;
+    let nearest = (factor + 0.5) as i32;
+    let off = (factor - nearest as f32).abs();
+    (nearest > 0 && factor < 1e6 && off <= ROUNDING * factor).then_some(nearest)
+}

@@ -1,0 +1,300 @@
+//! From a machine to the fewest harmonics that meet a torque error.
+//!
+//! ```text
+//! |δT| ≤ Σ over what was left out or rounded of  |δJₖ|·(α_max + ½·k·ω_max²) + |δloadₖ| + |δbₖ|·ω_max + |δcₖ|
+//! ```
+//!
+//! with δₖ the size √(aₖ² + bₖ²) of a harmonic left out, or the rounding of a coefficient kept: a bound for all φ, not for
+//! places looked at. What lies behind the last harmonic that the samples tell is bounded from the fall of the terms before
+//! it.
+
+use super::spectrum::Spectrum;
+use super::word::{Coefficient, Curve, Kind, in_use, words_len};
+use super::{Circular, HarmonicError, HarmonicModel, MAX_HARMONICS};
+use crate::error::positive;
+use crate::reduction::Reducible;
+use crate::{Domain, Error, Phase, math};
+
+/// What the harmonics are for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Request {
+    /// Largest error of the drive torque (N·m).
+    pub torque_error: f64,
+    /// Largest speed (rad/s).
+    pub omega: f64,
+    /// Largest acceleration (rad/s²).
+    pub alpha: f64,
+    /// Most harmonics to try, up to [`MAX_HARMONICS`].
+    pub max_harmonics: u32,
+}
+
+impl Request {
+    /// Torque that one unit of the k-th harmonic of a curve makes at most.
+    fn weight(&self, curve: Curve, k: usize) -> f64 {
+        match curve {
+            Curve::Inertia => self.alpha + 0.5 * k as f64 * self.omega * self.omega,
+            Curve::Viscous => self.omega,
+            Curve::Load | Curve::Coulomb | Curve::Constant => 1.0,
+        }
+    }
+}
+
+/// Harmonics found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Fitted {
+    /// Number of harmonics.
+    pub harmonics: u32,
+    /// Number of coefficients.
+    pub words: usize,
+    /// Bytes that they take.
+    pub bytes: usize,
+    /// Bound on the error of the drive torque (N·m) at every phase, but for the rounding of the evaluation.
+    pub bound: f64,
+    /// Largest error of the drive torque (N·m) at the places checked, with the rounding of the evaluation.
+    pub torque_error: f64,
+    /// Where it is (rad).
+    pub worst: f64,
+    /// Number of samples a turn that it took.
+    pub samples: u32,
+}
+
+/// Numbers of `f64` scratch that [`fit`] needs: 576 for up to 8 harmonics, 72 for each harmonic up to 16, 32, …
+#[must_use]
+pub const fn scratch_len(max_harmonics: u32) -> usize {
+    Spectrum::scratch_len(max_harmonics)
+}
+
+/// The terms that the machine's curves of this set need, of up to `max_harmonics` harmonics: a curve without cosines is odd
+/// but for its mean, one without sines even. What is below 1e-12 of a curve's size counts as rounding. `scratch` is that of
+/// [`fit`].
+///
+/// # Errors
+/// Those of the machine; [`HarmonicError::Stroke`]; a buffer too short.
+pub fn terms_in_use(
+    machine: &impl Reducible,
+    set: u8,
+    max_harmonics: u32,
+    scratch: &mut [f64],
+) -> Result<u8, Error> {
+    const ROUNDING: f64 = 1e-12;
+    let mut spectrum = spectrum(machine, set, max_harmonics, scratch)?;
+    while spectrum.can_grow() {
+        spectrum.grow(machine)?;
+    }
+    let mut terms = 0;
+    for (curve, bit) in Curve::ALL.into_iter().zip([0, 2, 4, 6]) {
+        let limit = ROUNDING * spectrum.size(curve);
+        for k in 1..=spectrum.samples() / 2 {
+            let [a, b] = spectrum.coefficient(curve, k).map(|x| math::abs(x) > limit);
+            terms |= (u8::from(a) | u8::from(b) << 1) << bit;
+        }
+    }
+    Ok(in_use(set, terms))
+}
+
+/// The curves of a machine that turns, not sampled yet.
+fn spectrum<'s>(
+    machine: &impl Reducible,
+    set: u8,
+    max_harmonics: u32,
+    scratch: &'s mut [f64],
+) -> Result<Spectrum<'s>, Error> {
+    if max_harmonics > MAX_HARMONICS {
+        return Err(Error::OutOfRange {
+            what: "most harmonics",
+            value: f64::from(max_harmonics),
+            min: 0.0,
+            max: f64::from(MAX_HARMONICS),
+        });
+    }
+    if machine.domain() != Domain::Turn {
+        return Err(HarmonicError::Stroke.into());
+    }
+    machine.check_repeats()?;
+    Spectrum::new(scratch, max_harmonics, set)
+}
+
+/// Finds the fewest harmonics of these curves and terms that meet the request, fills `words` with their coefficients, and
+/// says how exact they are. What the machine has and `CURVES` or `TERMS` leave out counts as error.
+///
+/// Coulomb friction F·|v′| is taken as F·v′, which is smooth, if its magnitude has kinks at zero only; with
+/// `CONSTANT_COULOMB` in `CURVES` the value at φ = 0 is taken off before.
+///
+/// 32 samples a turn are taken first and doubled until the terms behind the harmonics kept have fallen so far that what no sample
+/// shows is bounded; then the error is measured, in `T`, at 4·N + 1 other places.
+///
+/// **Accuracy**: `bound` and `torque_error` are both no larger than asked for; coefficients of a series are found to
+/// 1e-14 of its size (test `a_series_comes_back`). **Cost**: `samples` reductions and twice four times as many to check;
+/// some 0.1 ms for a slider-crank on a host (`docs/harmonics.md`).
+///
+/// # Errors
+/// [`HarmonicError::Stroke`]; [`HarmonicError::NotConverged`], for a curve with a kink in particular;
+/// [`HarmonicError::Coefficients`] if J is not shown to be positive between the samples; [`Error::NoInertia`] if it is not at one;
+/// buffers too short; those of the machine.
+pub fn fit<T: Circular, const CURVES: u8, const TERMS: u8>(
+    machine: &impl Reducible,
+    request: &Request,
+    scratch: &mut [f64],
+    words: &mut [T],
+) -> Result<Fitted, Error> {
+    positive("torque error", request.torque_error)?;
+    positive("largest speed", request.omega)?;
+    positive("largest acceleration", request.alpha)?;
+    let max = request.max_harmonics;
+    let mut spectrum = spectrum(machine, CURVES, max, scratch)?;
+    let (needed, given) = (words_len(max, CURVES, TERMS), words.len());
+    if given < needed {
+        return Err(Error::BufferTooShort { needed, given });
+    }
+    let mut reached = (f64::INFINITY, 0);
+    while spectrum.can_grow() {
+        spectrum.grow(machine)?;
+        let samples = spectrum.samples();
+        let unseen = unseen(&spectrum, request).unwrap_or(f64::INFINITY);
+        let most = max.min(samples as u32 / 4);
+        for harmonics in 0..=most {
+            let left_out = left_out::<T, CURVES, TERMS>(&spectrum, request, harmonics as usize);
+            // Terms that the samples do not tell are missing, and are added to others instead.
+            let bound = left_out + 2.0 * unseen;
+            let last = harmonics == most && !spectrum.can_grow();
+            if bound > request.torque_error && !last {
+                continue;
+            }
+            let count = words_len(harmonics, CURVES, TERMS);
+            let words = words.get_mut(..count).unwrap_or_default();
+            fill::<T, CURVES, TERMS>(&spectrum, words);
+            let model = HarmonicModel::<T, CURVES, TERMS>::unproved(words)?;
+            let (torque_error, worst) = measure(machine, &model, request, 4 * samples as u32 + 1)?;
+            if torque_error < reached.0 {
+                reached = (torque_error, harmonics);
+            }
+            if torque_error <= request.torque_error && bound <= request.torque_error {
+                model.check_inertia()?;
+                return Ok(Fitted {
+                    harmonics,
+                    words: count,
+                    bytes: count * size_of::<T>(),
+                    bound,
+                    torque_error,
+                    worst,
+                    samples: samples as u32,
+                });
+            }
+            // What is off by so much more than its bound is so by rounding, or by a term that the samples did not show.
+            if torque_error > 16.0 * bound {
+                break;
+            }
+        }
+    }
+    Err(HarmonicError::NotConverged {
+        asked: request.torque_error,
+        reached: reached.0,
+        harmonics: reached.1,
+    }
+    .into())
+}
+
+/// The largest error of the drive torque (N·m) within the range of the request, in the model's own arithmetic, at so many
+/// places of a turn (an odd number: not in step with any samples), and where it is (rad).
+///
+/// # Errors
+/// Those of the machine.
+pub fn measure<T: Circular, const CURVES: u8, const TERMS: u8>(
+    machine: &impl Reducible,
+    model: &HarmonicModel<'_, T, CURVES, TERMS>,
+    request: &Request,
+    places: u32,
+) -> Result<(f64, f64), Error> {
+    let mut worst = (0.0, 0.0);
+    for k in 0..u64::from(places) {
+        let phase = Phase::from_bits(((k << 32) / u64::from(places)) as u32);
+        let exact = machine.reduction(phase.radians())?;
+        let read = model.at(phase);
+        let error = [
+            (read.inertia.to_f64() - exact.inertia[0]) * request.alpha,
+            0.5 * (read.inertia_slope.to_f64() - exact.inertia[1]) * request.omega * request.omega,
+            read.load.to_f64() - exact.load_torque(),
+            (read.viscous.to_f64() - exact.viscous) * request.omega,
+            read.coulomb.to_f64() - exact.coulomb,
+        ]
+        .iter()
+        .map(|part| math::abs(*part))
+        .sum();
+        if error > worst.0 {
+            worst = (error, phase.radians());
+        }
+    }
+    Ok(worst)
+}
+
+/// √(a² + b²)
+fn amplitude([a, b]: [f64; 2]) -> f64 {
+    math::sqrt(a * a + b * b)
+}
+
+/// The bound's share of what the samples tell: harmonics and kinds left out, and the rounding of the rest to `T`.
+fn left_out<T: Circular, const CURVES: u8, const TERMS: u8>(
+    spectrum: &Spectrum<'_>,
+    request: &Request,
+    harmonics: usize,
+) -> f64 {
+    let rounding = |x: f64| x - T::from_f64(x).to_f64();
+    let mut sum = 0.0;
+    for curve in Curve::ALL {
+        let kinds = u16::from(in_use(CURVES, TERMS)) >> (2 * curve as u8);
+        for k in 0..=spectrum.samples() / 2 {
+            let [a, b] = spectrum.coefficient(curve, k);
+            let (cosine, sine) = if k == 0 {
+                (curve.is_in(CURVES), true)
+            } else {
+                let kept = k <= harmonics;
+                (kept && kinds & 1 != 0, kept && kinds & 2 != 0)
+            };
+            let missing = [
+                if cosine { rounding(a) } else { a },
+                if sine { rounding(b) } else { b },
+            ];
+            sum += request.weight(curve, k) * amplitude(missing);
+        }
+    }
+    sum
+}
+
+/// A bound on the terms that N samples do not tell, from the sums of the terms between N/8 and N/4 and between N/4 and N/2.
+/// Terms that fall like a power of k keep the ratio q of such sums, those of smooth curves fall faster: all that follows the last
+/// sum is at most q/(1 − q) of it. What follows also hides in the last sum, by up to half of it at the slowest fall accepted,
+/// k^−2.4; hence twice. `None` if the terms fall more slowly, as those of a kink do, unless they are rounding.
+fn unseen(spectrum: &Spectrum<'_>, request: &Request) -> Option<f64> {
+    const SLOWEST: f64 = 0.3;
+    let samples = spectrum.samples();
+    let sum = |range: core::ops::RangeInclusive<usize>, term: &dyn Fn(Curve, usize) -> f64| {
+        let terms = range.flat_map(|k| Curve::ALL.map(|c| request.weight(c, k) * term(c, k)));
+        terms.sum::<f64>()
+    };
+    let size = |curve, k| amplitude(spectrum.coefficient(curve, k));
+    let last = sum(samples / 4 + 1..=samples / 2, &size);
+    let before = sum(samples / 8 + 1..=samples / 4, &size);
+    let sizes = Curve::ALL.map(|curve| spectrum.size(curve));
+    let rounding = sum(samples / 4 + 1..=samples / 2, &|curve, _| {
+        4.0 * f64::EPSILON * sizes[curve as usize]
+    });
+    if last <= rounding {
+        return Some(last);
+    }
+    let ratio = last / before;
+    (ratio <= SLOWEST).then(|| 2.0 * last * ratio / (1.0 - ratio))
+}
+
+/// The coefficients, in the order of [`Coefficient::of_word`].
+fn fill<T: Circular, const CURVES: u8, const TERMS: u8>(spectrum: &Spectrum<'_>, words: &mut [T]) {
+    for (word, slot) in words.iter_mut().enumerate() {
+        if let Some(Coefficient { curve, kind }) = Coefficient::of_word(word, CURVES, TERMS) {
+            *slot = T::from_f64(match kind {
+                Kind::Mean => spectrum.coefficient(curve, 0)[0],
+                Kind::Cosine(k) => spectrum.coefficient(curve, k as usize)[0],
+                Kind::Sine(k) => spectrum.coefficient(curve, k as usize)[1],
+            });
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! Harmonics from measurements.
+//!
+//! The drive torque is linear in all coefficients:
+//!
+//! ```text
+//! T = Σ aₖ·(cos kφ·α − ½·k·sin kφ·ω²) + bₖ·(sin kφ·α + ½·k·cos kφ·ω²)       J
+//!   − Σ (aₖ·cos kφ + bₖ·sin kφ)                                             load
+//!   + Σ (aₖ·cos kφ + bₖ·sin kφ)·ω + Σ (aₖ·cos kφ + bₖ·sin kφ)·sgn ω         b, c
+//! ```
+//!
+//! with the Coulomb friction c not negative, so that measured φ, ω, α and T give them by least squares. Each sample is taken into a triangle R with RᵀR = ΦᵀΦ by
+//! Givens' rotations: memory does not grow with the samples, and the error is that of the measurements' condition, not of its square as
+//! with normal equations (Å. Björck, *Numerical Methods for Least Squares Problems*, SIAM 1996, 2.4 and 3.2).
+
+use nalgebra::{SMatrix, SVector, Vector2, linalg::givens::GivensRotation};
+
+use super::word::{Coefficient, Curve, Kind, means, row, words_len};
+use super::{Circular, HarmonicError, MAX_HARMONICS};
+use crate::error::finite;
+use crate::{Error, Phase, math};
+
+/// A coefficient counts as excited if its effect in the samples is not made up by the others' to this share. A factor of
+/// 1/share is what measuring errors gain.
+pub const EXCITED: f64 = 1e-6;
+
+/// One measurement. α is best computed from the measured motion without delay against φ, ω and T.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Phase of the drive link.
+    pub phase: Phase,
+    /// Its speed (rad/s).
+    pub omega: f64,
+    /// Its acceleration (rad/s²).
+    pub alpha: f64,
+    /// Torque on it (N·m).
+    pub torque: f64,
+}
+
+/// What was identified; every array in the order of [`Coefficient::of_word`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Identified<const WORDS: usize> {
+    /// The coefficients, for [`HarmonicModel::new`](super::HarmonicModel::new), which shows J positive.
+    pub words: [f64; WORDS],
+    /// Standard error of each, in its own unit, if the errors of the measured torques are independent of each other and of
+    /// the motion, and of one size.
+    pub standard_error: [f64; WORDS],
+    /// Share of each coefficient's effect that no combination of the others makes up, 0 to 1 (the sine of the angle between them).
+    pub excitation: [f64; WORDS],
+    /// Root of the mean square of what the coefficients leave unexplained (N·m), over the number of samples beyond that of coefficients.
+    pub residual: f64,
+    /// Condition of the samples, each coefficient's effect scaled to one: ‖R‖·‖R⁻¹‖/WORDS in Frobenius' norm. 1 is best; the
+    /// condition number is between this and WORDS times it.
+    pub condition: f64,
+    /// Number of samples.
+    pub samples: u32,
+}
+
+/// Takes samples one after another; `WORDS` coefficients, which are the means and a whole number of harmonics.
+///
+/// **Cost** of a sample: 3·WORDS² multiplications in `f64`; 8·WORDS² bytes.
+#[derive(Clone, Debug)]
+pub struct Identification<const WORDS: usize, const CURVES: u8, const TERMS: u8> {
+    triangle: SMatrix<f64, WORDS, WORDS>,
+    right: SVector<f64, WORDS>,
+    residual_square: f64,
+    samples: u32,
+}
+
+impl<const WORDS: usize, const CURVES: u8, const TERMS: u8> Identification<WORDS, CURVES, TERMS> {
+    /// No samples yet.
+    ///
+    /// # Errors
+    /// `WORDS` is not the number of means and of coefficients of a whole number of harmonics:
+    /// [`HarmonicError::Coefficients`].
+    pub fn new() -> Result<Self, Error> {
+        let whole = (0..=MAX_HARMONICS).any(|n| words_len(n, CURVES, TERMS) == WORDS);
+        if !whole {
+            let error = super::CoefficientError::Length {
+                given: WORDS as u32,
+                means: means(CURVES) as u32,
+                row: row(CURVES, TERMS) as u32,
+            };
+            return Err(HarmonicError::Coefficients(error).into());
+        }
+        Ok(Self {
+            triangle: SMatrix::zeros(),
+            right: SVector::zeros(),
+            residual_square: 0.0,
+            samples: 0,
+        })
+    }
+
+    /// One more sample.
+    ///
+    /// # Errors
+    /// A number of it is not finite; nothing was taken in then.
+    pub fn add(&mut self, sample: &Sample) -> Result<(), Error> {
+        finite("measured speed", sample.omega)?;
+        finite("measured acceleration", sample.alpha)?;
+        let mut right = finite("measured torque", sample.torque)?;
+        let mut effects = Self::effects(sample);
+        for j in 0..WORDS {
+            let pair = Vector2::new(self.triangle[(j, j)], effects[j]);
+            let Some((rotation, size)) = GivensRotation::cancel_y(&pair) else {
+                continue;
+            };
+            let (c, s) = (rotation.c(), rotation.s());
+            self.triangle[(j, j)] = size;
+            let turn = |kept: &mut f64, new: &mut f64| {
+                (*kept, *new) = (c * *kept - s * *new, s * *kept + c * *new);
+            };
+            for i in j + 1..WORDS {
+                turn(&mut self.triangle[(j, i)], &mut effects[i]);
+            }
+            turn(&mut self.right[j], &mut right);
+        }
+        self.residual_square += right * right;
+        self.samples += 1;
+        Ok(())
+    }
+
+    /// ∂T/∂(coefficient) of each.
+    fn effects(sample: &Sample) -> SVector<f64, WORDS> {
+        let (sin, cos) = f64::sin_cos_of(sample.phase);
+        let (omega, alpha) = (sample.omega, sample.alpha);
+        let (mut order, mut c, mut s) = (0, 1.0, 0.0);
+        SVector::from_fn(|word, _| {
+            let Some(Coefficient { curve, kind }) = Coefficient::of_word(word, CURVES, TERMS)
+            else {
+                return 0.0;
+            };
+            let k = match kind {
+                Kind::Mean => 0,
+                Kind::Cosine(k) | Kind::Sine(k) => k,
+            };
+            while order < k {
+                (s, c) = (s * cos + c * sin, c * cos - s * sin);
+                order += 1;
+            }
+            // A harmonic and its derivative by φ.
+            let (wave, slope) = match kind {
+                Kind::Sine(_) => (s, f64::from(k) * c),
+                Kind::Mean | Kind::Cosine(_) => (c, -f64::from(k) * s),
+            };
+            match curve {
+                Curve::Inertia => wave * alpha + 0.5 * slope * omega * omega,
+                Curve::Load => -wave,
+                Curve::Viscous => wave * omega,
+                Curve::Coulomb | Curve::Constant => wave * math::sign(omega),
+            }
+        })
+    }
+
+    /// The coefficients that explain the samples best.
+    ///
+    /// # Errors
+    /// [`HarmonicError::TooFewSamples`]; [`HarmonicError::NotExcited`] with the least excited coefficient if its
+    /// excitation is below [`EXCITED`].
+    pub fn solve(&self) -> Result<Identified<WORDS>, Error> {
+        let free = (self.samples as usize)
+            .checked_sub(WORDS)
+            .filter(|free| *free > 0);
+        let free = free.ok_or(HarmonicError::TooFewSamples {
+            needed: WORDS as u32 + 1,
+            given: self.samples,
+        })?;
+        let mut scaled = self.triangle;
+        let mut sizes = [0.0; WORDS];
+        for (word, size) in sizes.iter_mut().enumerate() {
+            *size = scaled.column(word).norm();
+            if finite("sum of the squares of the samples", *size)? <= 0.0 {
+                return Err(Self::not_excited(word, None));
+            }
+            scaled.column_mut(word).unscale_mut(*size);
+            // A coefficient that depends on the ones before it, so that its fellow can be named.
+            if math::abs(scaled[(word, word)]) < f64::EPSILON {
+                scaled[(word, word)] = f64::EPSILON;
+            }
+        }
+        let inverse = scaled
+            .solve_upper_triangular(&SMatrix::identity())
+            .unwrap_or_else(SMatrix::zeros);
+        let gain: [f64; WORDS] = core::array::from_fn(|word| inverse.row(word).norm());
+        let worst = (0..WORDS).max_by(|a, b| gain[*a].total_cmp(&gain[*b]));
+        if let Some(word) = worst.filter(|word| gain[*word] * EXCITED >= 1.0) {
+            let alike =
+                |other: usize| math::abs(inverse.row(word).dot(&inverse.row(other))) / gain[other];
+            let others = (0..WORDS).filter(|other| *other != word);
+            let like = others.max_by(|a, b| alike(*a).total_cmp(&alike(*b)));
+            return Err(Self::not_excited(word, like));
+        }
+        let residual = math::sqrt(self.residual_square / free as f64);
+        let solution = inverse * self.right;
+        Ok(Identified {
+            words: core::array::from_fn(|word| solution[word] / sizes[word]),
+            standard_error: core::array::from_fn(|word| residual * gain[word] / sizes[word]),
+            excitation: gain.map(|gain| 1.0 / gain),
+            residual,
+            condition: scaled.norm() * inverse.norm() / WORDS as f64,
+            samples: self.samples,
+        })
+    }
+
+    fn not_excited(word: usize, like: Option<usize>) -> Error {
+        let name = |word| {
+            let fallback = Coefficient {
+                curve: Curve::Inertia,
+                kind: Kind::Mean,
+            };
+            Coefficient::of_word(word, CURVES, TERMS).unwrap_or(fallback)
+        };
+        HarmonicError::NotExcited {
+            coefficient: name(word),
+            like: like.map(name),
+        }
+        .into()
+    }
+}
+
+/// The coefficients of a machine from samples of its motion: [`Identification`] in one call.
+///
+/// ```
+/// use jred::harmonic::{HarmonicModel, Sample, identify, terms};
+/// use jred::{Phase, table::curves};
+///
+/// // J = 0.5 − 0.2·cos 2φ kg·m², 3 N·m of Coulomb friction.
+/// const TERMS: u8 = terms::INERTIA_COS;
+/// let made = [0.5, 3.0, 0.0, -0.2];
+/// let machine = HarmonicModel::<f64, { curves::COULOMB }, TERMS>::new(&made)?;
+/// let samples = core::array::from_fn::<_, 50, _>(|k| {
+///     let time = k as f64 * 0.1;
+///     let (phase, omega, alpha) = (Phase::from_radians(time + time.sin()), 1.0 + 2.0 * time.cos(), -2.0 * time.sin());
+///     Sample { phase, omega, alpha, torque: machine.torque(phase, omega, alpha) }
+/// });
+/// let found = identify::<4, { curves::COULOMB }, TERMS>(&samples)?;
+/// assert!(found.words.iter().zip(made).all(|(found, made)| (found - made).abs() < 1e-12));
+/// # Ok::<(), jred::Error>(())
+/// ```
+///
+/// # Errors
+/// As [`Identification::new`], [`add`](Identification::add) and [`solve`](Identification::solve).
+pub fn identify<const WORDS: usize, const CURVES: u8, const TERMS: u8>(
+    samples: &[Sample],
+) -> Result<Identified<WORDS>, Error> {
+    let mut identification = Identification::<WORDS, CURVES, TERMS>::new()?;
+    for sample in samples {
+        identification.add(sample)?;
+    }
+    identification.solve()
+}

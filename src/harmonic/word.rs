@@ -1,0 +1,176 @@
+//! Which coefficients there are, and the order in which they lie.
+
+use core::fmt;
+
+use crate::table::curves;
+
+/// The cosines and sines that curves consist of beside their means, as a bit set.
+///
+/// A curve without terms is constant and takes one number. A machine that is its own mirror image at φ = 0 (a slider-crank
+/// without offset whose centres of mass are on the links' lines and whose weight acts along the guide) has even J and
+/// odd load: half the coefficients. [`terms_in_use`](super::terms_in_use) finds the set.
+pub mod terms {
+    /// Cosines of J.
+    pub const INERTIA_COS: u8 = 1;
+    /// Sines of J.
+    pub const INERTIA_SIN: u8 = 1 << 1;
+    /// Cosines of the load.
+    pub const LOAD_COS: u8 = 1 << 2;
+    /// Sines of the load.
+    pub const LOAD_SIN: u8 = 1 << 3;
+    /// Cosines of the viscous coefficient.
+    pub const VISCOUS_COS: u8 = 1 << 4;
+    /// Sines of the viscous coefficient.
+    pub const VISCOUS_SIN: u8 = 1 << 5;
+    /// Cosines of the Coulomb friction.
+    pub const COULOMB_COS: u8 = 1 << 6;
+    /// Sines of the Coulomb friction.
+    pub const COULOMB_SIN: u8 = 1 << 7;
+    /// J and load of any machine; constant viscous and Coulomb friction.
+    pub const GENERAL: u8 = INERTIA_COS | INERTIA_SIN | LOAD_COS | LOAD_SIN;
+    /// J even, load odd; constant viscous and Coulomb friction.
+    pub const SYMMETRIC: u8 = INERTIA_COS | LOAD_SIN;
+    /// All.
+    pub const ALL: u8 = u8::MAX;
+}
+
+/// The terms of curves that there are.
+pub(super) const fn in_use(set: u8, terms: u8) -> u8 {
+    let mut used = terms & 0b11;
+    let mut curve = 1;
+    while curve < 4 {
+        if set & (1 << (curve - 1)) != 0 {
+            used |= terms & (0b11 << (2 * curve));
+        }
+        curve += 1;
+    }
+    used
+}
+
+/// Means of J and of the curves of the set.
+pub(super) const fn means(set: u8) -> usize {
+    let mut means = 0;
+    let mut curve = 0;
+    while curve < Curve::ALL.len() {
+        means += Curve::ALL[curve].is_in(set) as usize;
+        curve += 1;
+    }
+    means
+}
+
+/// Coefficients of each harmonic.
+pub(super) const fn row(set: u8, terms: u8) -> usize {
+    in_use(set, terms).count_ones() as usize
+}
+
+/// Number of coefficients of so many harmonics.
+#[must_use]
+pub const fn words_len(harmonics: u32, set: u8, terms: u8) -> usize {
+    means(set) + harmonics as usize * row(set, terms)
+}
+
+/// A curve of the reduced machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Curve {
+    /// J (kg·m²).
+    Inertia,
+    /// −U′ + process (N·m).
+    Load,
+    /// b in −b·ω (N·m·s/rad).
+    Viscous,
+    /// The part of c in −c·sgn ω that varies (N·m), signed: the tick takes its magnitude.
+    Coulomb,
+    /// The part of c that is constant (N·m).
+    Constant,
+}
+
+impl Curve {
+    pub(super) const ALL: [Self; 5] = [
+        Self::Inertia,
+        Self::Load,
+        Self::Viscous,
+        Self::Coulomb,
+        Self::Constant,
+    ];
+
+    /// Whether machines of this set have it. A constant b is the mean of a curve without terms.
+    pub(super) const fn is_in(self, set: u8) -> bool {
+        let bits = match self {
+            Self::Inertia => return true,
+            Self::Load => curves::LOAD,
+            Self::Viscous => curves::VISCOUS | curves::CONSTANT_VISCOUS,
+            Self::Coulomb => curves::COULOMB,
+            Self::Constant => curves::CONSTANT_COULOMB,
+        };
+        set & bits != 0
+    }
+}
+
+/// Which part of a curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Kind {
+    /// a₀, the mean over a turn.
+    Mean,
+    /// aₖ of cos kφ.
+    Cosine(u32),
+    /// bₖ of sin kφ.
+    Sine(u32),
+}
+
+/// One coefficient: its unit is that of the curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Coefficient {
+    /// The curve.
+    pub curve: Curve,
+    /// The part of it.
+    pub kind: Kind,
+}
+
+impl Coefficient {
+    /// What the coefficient `word` is, counted from 0. First the means of J and of the curves of `set`, constant Coulomb friction last; then for each harmonic, the
+    /// cosine and the sine of J, of the load, of the viscous coefficient, of the Coulomb friction, as far as they are in
+    /// `terms`. `None` behind the last possible one.
+    #[must_use]
+    pub fn of_word(word: usize, set: u8, terms: u8) -> Option<Self> {
+        let mut present = Curve::ALL.into_iter().filter(|curve| curve.is_in(set));
+        let Some(place) = word.checked_sub(means(set)) else {
+            let kind = Kind::Mean;
+            return present.nth(word).map(|curve| Self { curve, kind });
+        };
+        let row = row(set, terms);
+        let order = place.checked_div(row)? as u32 + 1;
+        let used = in_use(set, terms);
+        let bit = (0..8)
+            .filter(|bit| used & (1 << bit) != 0)
+            .nth(place % row)?;
+        Some(Self {
+            // There are two bits for each of the first four.
+            curve: *Curve::ALL.get(bit / 2)?,
+            kind: if bit % 2 == 0 {
+                Kind::Cosine(order)
+            } else {
+                Kind::Sine(order)
+            },
+        })
+    }
+}
+
+impl fmt::Display for Coefficient {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.kind {
+            Kind::Mean => f.write_str("the mean of ")?,
+            Kind::Cosine(order) => write!(f, "cos {order}φ of ")?,
+            Kind::Sine(order) => write!(f, "sin {order}φ of ")?,
+        }
+        f.write_str(match self.curve {
+            Curve::Inertia => "J",
+            Curve::Load => "the load",
+            Curve::Viscous => "the viscous coefficient",
+            Curve::Coulomb => "the Coulomb friction",
+            Curve::Constant => "the constant Coulomb friction",
+        })
+    }
+}

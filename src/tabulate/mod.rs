@@ -1,0 +1,256 @@
+//! From a machine to the smallest table that meets a torque error.
+//!
+//! The error of the drive torque that a table causes is bounded, at every position checked, by the sum of what its
+//! curves contribute at the ends of the stated range:
+//!
+//! ```text
+//! |δT| ≤ |δJ|·α_max + ½·|δJ′|·ω_max² + |δload| + |δb|·ω_max + |δc|
+//! ```
+//!
+//! δ is the table's own value, read in its own arithmetic (quantisation and rounding included), against the exact
+//! reduction, at [`CHECKS_PER_CELL`] places of every cell.
+
+mod fill;
+mod measure;
+mod rounding;
+mod unfold;
+
+pub use fill::fill;
+pub use measure::measure;
+pub(crate) use unfold::unfold;
+
+use measure::measure_until;
+
+use crate::error::positive;
+use crate::reduction::Reducible;
+use crate::scalar::Scalar;
+use crate::table::{Layout, control_points, curves};
+use crate::{Error, Scale, Validity, math};
+
+/// Places in each cell at which a table is compared with the exact curves.
+pub const CHECKS_PER_CELL: u32 = 64;
+/// Places at which a candidate is looked at first.
+const COARSE_CHECKS: u32 = 8;
+
+/// Sizes up to this one are all tried.
+pub const EXHAUSTIVE: u32 = 128;
+
+/// What a table is for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Request {
+    /// Largest error of the drive torque (N·m).
+    pub torque_error: f64,
+    /// Largest speed (rad/s).
+    pub omega: f64,
+    /// Largest acceleration (rad/s²).
+    pub alpha: f64,
+    /// Most cells to try.
+    pub max_cells: u32,
+}
+
+impl Request {
+    fn check(&self) -> Result<(), Error> {
+        positive("torque error", self.torque_error)?;
+        positive("largest speed", self.omega)?;
+        positive("largest acceleration", self.alpha)?;
+        Ok(())
+    }
+}
+
+/// A table found.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Tabulated {
+    /// Number of cells.
+    pub cells: u32,
+    /// Largest error of the drive torque (N·m) at the places checked.
+    pub torque_error: f64,
+    /// The same between the places as well, by the second differences of the error (N·m): for the exhaustive check of a
+    /// table that was found.
+    pub bound: f64,
+    /// Where it is (rad).
+    pub worst: f64,
+}
+
+impl Tabulated {
+    /// What the image says about itself.
+    #[must_use]
+    pub fn validity(&self, request: &Request) -> Validity {
+        Validity {
+            omega: request.omega as f32,
+            alpha: request.alpha as f32,
+            torque_error: self.torque_error as f32,
+        }
+    }
+}
+
+/// Numbers of `f64` scratch that tables of up to `cells` cells need.
+#[must_use]
+pub const fn scratch_len(cells: u32, set: u8) -> usize {
+    (curves::width(set) + 1) * control_points(cells as usize)
+}
+
+/// Words that a table of `cells` cells has.
+#[must_use]
+pub fn words_len<L: Layout>(cells: u32, set: u8) -> usize {
+    L::words(cells as usize, set)
+}
+
+/// The set of curves that the machine has: those that are not zero at all of `positions` places. Viscous and Coulomb friction
+/// that is the same at all of them is one number instead of a curve.
+///
+/// # Errors
+/// Those of the machine.
+pub fn curves_in_use(machine: &impl Reducible, positions: u32) -> Result<u8, Error> {
+    // Roundings of sums over links.
+    const SAME: f64 = 1e-12;
+    let mut set = curves::INERTIA;
+    let mut first = None;
+    for k in 0..positions {
+        let place = f64::from(k) / f64::from(positions);
+        let point = machine.reduction(machine.domain().position(place))?;
+        let start = *first.get_or_insert(point);
+        if point.load_torque() != 0.0 {
+            set |= curves::LOAD;
+        }
+        for (curve, constant, value, before) in [
+            (
+                curves::VISCOUS,
+                curves::CONSTANT_VISCOUS,
+                point.viscous,
+                start.viscous,
+            ),
+            (
+                curves::COULOMB,
+                curves::CONSTANT_COULOMB,
+                point.coulomb,
+                start.coulomb,
+            ),
+        ] {
+            if math::abs(value - before) > SAME * math::abs(before) {
+                set |= curve;
+            }
+            if value != 0.0 {
+                set |= constant;
+            }
+        }
+    }
+    for (curve, constant) in [
+        (curves::VISCOUS, curves::CONSTANT_VISCOUS),
+        (curves::COULOMB, curves::CONSTANT_COULOMB),
+    ] {
+        if set & curve != 0 {
+            set &= !constant;
+        }
+    }
+    Ok(set)
+}
+
+/// Finds the table with the fewest cells that meets the request, fills `words` with it, and says how exact it is.
+///
+/// Sizes that grow by a quarter each are tried until one meets the request; then the sizes below it: every one of them from
+/// the smallest on, up to [`EXHAUSTIVE`] cells, and beyond by bisection, which takes for granted that more cells err less. A
+/// candidate is dropped at its first position that misses, which is looked for first where the one before it was worst.
+///
+/// # Errors
+/// [`Error::TorqueErrorNotReached`] if none of the growing sizes up to `max_cells` does, with the best of them;
+/// otherwise as [`fill`].
+pub fn tabulate<S: Scalar, L: Layout>(
+    machine: &impl Reducible,
+    set: u8,
+    request: &Request,
+    scale: &Scale,
+    scratch: &mut [f64],
+    words: &mut [S::Word],
+) -> Result<Tabulated, Error> {
+    request.check()?;
+    let least = crate::table::MIN_CELLS as u32;
+    let most = request.max_cells.max(least);
+    let mut worst = 0.0;
+    let mut meets = |cells: u32, words: &mut [S::Word], scratch: &mut [f64]| {
+        let Ok(table) = fill::<S, L>(machine, set, cells, scale, scratch, words) else {
+            return Ok(None);
+        };
+        let mut found = Tabulated::default();
+        for checks in [COARSE_CHECKS, CHECKS_PER_CELL] {
+            found = measure_until(machine, &table, request, scale, (worst, checks), true)?;
+            worst = found.worst;
+            if found.torque_error > request.torque_error {
+                return Ok(None);
+            }
+        }
+        Ok::<_, Error>(Some(found))
+    };
+    let mut below = least - 1; // the largest size known to miss
+    let mut cells = least;
+    let mut best = loop {
+        if let Some(found) = meets(cells, words, scratch)? {
+            break found;
+        }
+        if cells >= most {
+            return Err(not_reached::<S, L>(
+                machine, set, request, scale, scratch, words,
+            ));
+        }
+        below = cells;
+        cells = (cells + cells.div_ceil(4)).min(most);
+    };
+    for cells in least..best.cells.min(EXHAUSTIVE) {
+        if let Some(found) = meets(cells, words, scratch)? {
+            fill::<S, L>(machine, set, cells, scale, scratch, words)?;
+            return Ok(found);
+        }
+    }
+    below = below.max(EXHAUSTIVE.min(best.cells) - 1);
+    while below + 1 < best.cells {
+        let middle = below.midpoint(best.cells);
+        match meets(middle, words, scratch)? {
+            Some(found) => best = found,
+            None => below = middle,
+        }
+    }
+    fill::<S, L>(machine, set, best.cells, scale, scratch, words)?;
+    Ok(best)
+}
+
+/// The best that any of the growing sizes reaches, or why none of them is a table at all.
+fn not_reached<S: Scalar, L: Layout>(
+    machine: &impl Reducible,
+    set: u8,
+    request: &Request,
+    scale: &Scale,
+    scratch: &mut [f64],
+    words: &mut [S::Word],
+) -> Error {
+    let least = crate::table::MIN_CELLS as u32;
+    let most = request.max_cells.max(least);
+    let mut best: Option<Tabulated> = None;
+    let mut refused = None;
+    let mut cells = least;
+    loop {
+        match fill::<S, L>(machine, set, cells, scale, scratch, words)
+            .and_then(|table| measure(machine, &table, request, scale))
+        {
+            Ok(found) if best.is_none_or(|best| found.torque_error < best.torque_error) => {
+                best = Some(found);
+            }
+            Ok(_) => {}
+            // A coarse curve may dip below zero or overshoot: more cells cure it. What the largest size says counts.
+            Err(error) => refused = Some((cells, error)),
+        }
+        if cells >= most {
+            break;
+        }
+        cells = (cells + cells.div_ceil(4)).min(most);
+    }
+    match (best, refused) {
+        (_, Some((at, error))) if at == most => error,
+        (Some(best), _) => Error::TorqueErrorNotReached {
+            asked: request.torque_error,
+            reached: best.torque_error,
+            cells: best.cells,
+        },
+        (None, Some((_, error))) => error,
+        (None, None) => Error::NotFinite("torque error of the table"),
+    }
+}

@@ -1,0 +1,179 @@
+//! Harmonics: their evaluation, and the equation of motion with them.
+
+mod support;
+
+use std::f64::consts::TAU;
+
+use jred::harmonic::{Circular, HarmonicModel, terms};
+use jred::table::curves;
+use jred::{Phase, Reducible};
+use proptest::prelude::*;
+use support::harmonics::{Waves, fitted, phases, press, request, series, waves, words_of};
+use support::{assert_near, budget, config, largest};
+
+#[test]
+fn sine_and_cosine_keep_their_bounds() {
+    let error = |found: (f64, f64), phase: Phase| {
+        // The quarter turn nearest is taken off exactly, as a multiple of 2³⁰.
+        let quarter = phase.to_bits().wrapping_add(1 << 29) >> 30;
+        let x = f64::from(phase.to_bits().wrapping_sub(quarter << 30) as i32) * TAU / 2f64.powi(32);
+        let (s, c) = x.sin_cos();
+        let (s, c) = [(s, c), (c, -s), (-s, -c), (-c, s)][quarter as usize];
+        (found.0 - s).abs().max((found.1 - c).abs())
+    };
+    let edges = [
+        0u32,
+        1,
+        1 << 29,
+        (1 << 29) - 1,
+        1 << 30,
+        1 << 31,
+        3 << 30,
+        u32::MAX,
+    ];
+    let all = || phases(1 << 20).chain(edges.map(Phase::from_bits));
+    let single = largest(all().map(|phase| {
+        let (s, c) = f32::sin_cos_of(phase);
+        error((f64::from(s), f64::from(c)), phase)
+    }));
+    let double = largest(all().map(|phase| error(f64::sin_cos_of(phase), phase)));
+    println!("sine and cosine: f32 {single:e}, f64 {double:e}");
+    assert_near(
+        "f32",
+        single,
+        budget::SIN_COS_F32 * 0.75,
+        budget::SIN_COS_F32 * 0.25,
+    );
+    assert!(double <= budget::SIN_COS_F64, "{double:e}");
+    // Independent of the quarters: the angle in radians, rounded to 2⁻⁵³ of 2π.
+    for phase in all() {
+        let (s, c) = f64::sin_cos_of(phase);
+        assert_near("sin", s, phase.radians().sin(), 4.0 * budget::SIN_COS_F64);
+        assert_near("cos", c, phase.radians().cos(), 4.0 * budget::SIN_COS_F64);
+    }
+}
+
+/// Relative to the sum of the sizes that `HarmonicModel::at` names.
+fn rounding<T: Circular>(waves: &Waves) -> f64 {
+    let words: Vec<T> = words_of(waves).into_iter().map(T::from_f64).collect();
+    let model = HarmonicModel::<T, { curves::ALL }, { terms::GENERAL }>::new(&words).unwrap();
+    // Of the coefficients as the type holds them.
+    let held = |c: &[[f64; 2]]| -> Vec<[f64; 2]> {
+        c.iter()
+            .map(|p| p.map(|x| T::from_f64(x).to_f64()))
+            .collect()
+    };
+    let held = [held(&waves.inertia), held(&waves.load)];
+    let size = |c: &[[f64; 2]], weight: &dyn Fn(usize) -> f64| -> f64 {
+        c.iter()
+            .enumerate()
+            .map(|(k, [a, b])| weight(k) * (a.abs() + b.abs()))
+            .sum()
+    };
+    largest(phases(500).flat_map(|phase| {
+        let read = model.at(phase);
+        let [j, dj, _] = series(&held[0], phase.radians());
+        let load = series(&held[1], phase.radians())[0];
+        [
+            (read.inertia.to_f64() - j) / size(&held[0], &|_| 1.0),
+            (read.inertia_slope.to_f64() - dj) / size(&held[0], &|k| k as f64),
+            (read.load.to_f64() - load) / size(&held[1], &|_| 1.0),
+        ]
+    }))
+}
+
+#[test]
+fn evaluation_rounds_as_stated() {
+    let cases = support::samples(60, 0x4a01, &waves());
+    let single = largest(cases.iter().map(rounding::<f32>));
+    let double = largest(cases.iter().map(rounding::<f64>));
+    println!("evaluation: f32 {single:e}, f64 {double:e}");
+    assert!(
+        (budget::HARMONIC_F32 / 10.0..=budget::HARMONIC_F32).contains(&single),
+        "{single:e}"
+    );
+    assert!(double <= budget::HARMONIC_F64, "{double:e}");
+}
+
+proptest! {
+    #![proptest_config(config(48, 0x4a03))]
+
+    #[test]
+    fn forward_inverts_inverse(waves in waves(), omega in -60f64..60.0, alpha in -400f64..400.0, bits: u32) {
+        both_ways::<f64>(&waves, omega, alpha, Phase::from_bits(bits), f64::EPSILON);
+        both_ways::<f32>(&waves, omega, alpha, Phase::from_bits(bits), f64::from(f32::EPSILON));
+        both_ways::<f32>(&waves, 0.0, alpha, Phase::from_bits(bits), f64::from(f32::EPSILON));
+    }
+}
+
+/// There and back, the torque against the terms of the reduction, and the range of accelerations.
+fn both_ways<T: Circular>(waves: &Waves, omega: f64, alpha: f64, phase: Phase, epsilon: f64) {
+    let words: Vec<T> = words_of(waves).into_iter().map(T::from_f64).collect();
+    let model = HarmonicModel::<T, { curves::ALL }, { terms::GENERAL }>::new(&words).unwrap();
+    let (w, a) = (T::from_f64(omega), T::from_f64(alpha));
+    let torque = model.torque(phase, w, a);
+    let terms = waves
+        .reduction(phase.radians())
+        .unwrap()
+        .torque(omega, alpha);
+    let size =
+        largest(terms.values()).max(largest(words.iter().map(|x| x.to_f64())) * omega * omega);
+    // Some tens of roundings of coefficients, waves and the motion.
+    assert_near(
+        "torque",
+        torque.to_f64(),
+        terms.total(),
+        10.0 * budget::TICK_ROUNDINGS * epsilon * size,
+    );
+    let inertia = model.at(phase).inertia.to_f64();
+    let back = model.acceleration(phase, w, torque).value;
+    let rounding = budget::TICK_ROUNDINGS * epsilon * size / inertia;
+    assert_near("alpha", back.to_f64(), a.to_f64(), rounding);
+    let more = torque + T::from_f64(10.0);
+    let range = model.acceleration_range(phase, w, torque, more);
+    assert_eq!(range.least.value, back);
+    assert_eq!(
+        range.greatest.value,
+        model.acceleration(phase, w, more).value
+    );
+    let gained = range.greatest.value.to_f64() - range.least.value.to_f64();
+    assert_near(
+        "range",
+        gained,
+        10.0 / inertia,
+        2.0 * rounding + 4.0 * epsilon * 10.0 / inertia,
+    );
+}
+
+/// A free machine keeps ½·J·ω²: the slope is that of the same J, in f32 coefficients as well.
+#[test]
+fn free_machine_keeps_its_energy() {
+    let (_, words) = fitted::<f64, { curves::INERTIA }, { terms::INERTIA_COS }>(
+        &press().with_gravity([0.0, 0.0]).unwrap(),
+        &request(1.0, 16),
+    )
+    .unwrap();
+    let model =
+        HarmonicModel::<f64, { curves::INERTIA }, { terms::INERTIA_COS }>::new(&words).unwrap();
+    let energy =
+        |phi: f64, omega: f64| 0.5 * model.at(Phase::from_radians(phi)).inertia * omega * omega;
+    let step = TAU / 4096.0;
+    let mut omega = 10.0;
+    let start = energy(0.0, omega);
+    // dω/dφ = α/ω
+    let slope = |phi: f64, w: f64| model.acceleration(Phase::from_radians(phi), w, 0.0).value / w;
+    for k in 0..2 * 4096 {
+        omega = support::rk4(slope, f64::from(k) * step, omega, step);
+        let phi = f64::from(k + 1) * step;
+        assert_near(
+            "energy",
+            energy(phi, omega),
+            start,
+            budget::HARMONIC_ENERGY * start,
+        );
+    }
+    // And it did exchange: the speed is not constant.
+    let quarter =
+        model.at(Phase::from_radians(TAU / 4.0)).inertia / model.at(Phase::default()).inertia;
+    assert!(quarter > 4.0, "{quarter}");
+}

@@ -1,0 +1,264 @@
+//! From a machine to its harmonics.
+
+mod support;
+
+use std::f64::consts::TAU;
+
+use jred::harmonic::{HarmonicError, HarmonicModel, Request, measure, terms};
+use jred::mechanism::SliderCrank;
+use jred::table::curves;
+use jred::{Action, Domain, Error, Load, Phase, Reducible, Reduction};
+use proptest::prelude::*;
+use support::harmonics::{
+    ALPHA, OMEGA, Waves, fitted, peak, phases, press, request, rubbing, terms_of, waves, words_of,
+};
+use support::machines::{Wave, spec};
+use support::{assert_near, budget, config};
+
+proptest! {
+    #![proptest_config(config(48, 0x4a02))]
+
+    #[test]
+    fn a_series_comes_back(waves in waves()) {
+        let asked = 1e-10 * peak(&waves);
+        let (found, words) = fitted::<f64, { curves::ALL }, { terms::GENERAL }>(&waves, &request(asked, 32)).unwrap();
+        prop_assert!(found.harmonics < waves.inertia.len() as u32, "{found:?}");
+        let size = 10.0 * waves.load.len() as f64;
+        let made = words_of(&waves);
+        for (found, made) in words.iter().zip(&made) {
+            assert_near("coefficient", *found, *made, budget::COEFFICIENT * size);
+        }
+        // What was left out is no more than asked for.
+        let left: f64 = made.iter().skip(words.len()).map(|x| x.abs()).sum();
+        prop_assert!(left <= asked);
+    }
+
+    /// The bound holds on a grid that no sample lies on, and is no more than some times the error found.
+    #[test]
+    fn the_bound_holds_everywhere(spec in spec(), exponent in 2f64..9.0) {
+        let machine = spec.heavy();
+        let asked = peak(&machine) * 10f64.powf(-exponent);
+        let request = request(asked, 64);
+        let (found, words) = fitted::<f64, { curves::LOAD }, { terms::GENERAL }>(&machine, &request).unwrap();
+        prop_assert!(found.bound <= asked && found.torque_error <= asked);
+        let model = HarmonicModel::new(&words).unwrap();
+        let (dense, _) = measure::<f64, { curves::LOAD }, { terms::GENERAL }>(&machine, &model, &request, 4001).unwrap();
+        prop_assert!(dense <= found.bound, "{dense:e} {found:?}");
+        prop_assert!(dense >= found.bound * budget::HARMONIC_BOUND_SLACK, "{dense:e} {found:?}");
+        // One harmonic less misses.
+        if found.harmonics > 0 {
+            let fewer = Request { max_harmonics: found.harmonics - 1, ..request };
+            let missed = fitted::<f64, { curves::LOAD }, { terms::GENERAL }>(&machine, &fewer);
+            prop_assert!(matches!(missed, Err(Error::Harmonic(HarmonicError::NotConverged { .. }))), "{missed:?}");
+        }
+    }
+
+    /// J, J′ and load of a machine, from the coefficients.
+    #[test]
+    fn slope_is_that_of_the_machine(spec in spec(), bits: u32) {
+        let machine = spec.heavy();
+        let asked = 1e-10 * peak(&machine);
+        let (_, words) = fitted::<f64, { curves::LOAD }, { terms::GENERAL }>(&machine, &request(asked, 128)).unwrap();
+        let model = HarmonicModel::<f64, { curves::LOAD }, { terms::GENERAL }>::new(&words).unwrap();
+        let phase = Phase::from_bits(bits);
+        let (read, exact) = (model.at(phase), machine.reduction(phase.radians()).unwrap());
+        let torque = peak(&machine);
+        assert_near("J", read.inertia, exact.inertia[0], budget::HARMONIC_CURVE * torque / ALPHA);
+        assert_near("J'", read.inertia_slope, exact.inertia[1], budget::HARMONIC_CURVE * 2.0 * torque / (OMEGA * OMEGA));
+        assert_near("load", read.load, exact.load_torque(), budget::HARMONIC_CURVE * torque);
+    }
+}
+
+/// The example press to 1e-6 of its peak torque in 200 bytes, half of it with its symmetry.
+#[test]
+fn the_press_fits_in_200_bytes() {
+    let machine = press();
+    assert_eq!(terms_of(&machine, curves::ALL).unwrap(), terms::SYMMETRIC);
+    let asked = 1e-6 * peak(&machine);
+    let (half, words) =
+        fitted::<f32, { curves::LOAD }, { terms::SYMMETRIC }>(&machine, &request(asked, 16))
+            .unwrap();
+    println!("press, f32, symmetric: {half:?} of {:e}", peak(&machine));
+    assert!(
+        half.bytes <= 100 && half.bytes == 4 * words.len(),
+        "{half:?}"
+    );
+    let (whole, _) =
+        fitted::<f32, { curves::LOAD }, { terms::GENERAL }>(&machine, &request(asked, 16)).unwrap();
+    println!("press, f32, general: {whole:?}");
+    assert!(whole.bytes <= 200, "{whole:?}");
+    let model = HarmonicModel::<f32, { curves::LOAD }, { terms::SYMMETRIC }>::new(&words).unwrap();
+    for phase in phases(5000) {
+        let exact = machine.reduction(phase.radians()).unwrap();
+        for (omega, alpha) in [
+            (OMEGA, ALPHA),
+            (-OMEGA, ALPHA),
+            (OMEGA, -ALPHA),
+            (0.0, ALPHA),
+        ] {
+            let torque = model.torque(phase, omega as f32, alpha as f32);
+            assert_near(
+                "torque",
+                f64::from(torque),
+                exact.torque(omega, alpha).total(),
+                asked,
+            );
+        }
+    }
+    for exponent in 3..=9 {
+        let asked = peak(&machine) * 10f64.powi(-exponent);
+        let (double, _) =
+            fitted::<f64, { curves::LOAD }, { terms::SYMMETRIC }>(&machine, &request(asked, 16))
+                .unwrap();
+        let single =
+            fitted::<f32, { curves::LOAD }, { terms::SYMMETRIC }>(&machine, &request(asked, 16))
+                .map(|f| f.0);
+        println!(
+            "1e-{exponent}: {} harmonics, {} words, f32 {:?}",
+            double.harmonics,
+            double.words,
+            single.map(|f| f.harmonics)
+        );
+        assert_eq!(
+            double.harmonics,
+            budget::PRESS_HARMONICS[exponent as usize - 3],
+            "{double:?}"
+        );
+    }
+}
+
+#[test]
+fn constant_curves_cost_one_number() {
+    let load = |action| Load::new(SliderCrank::CRANK, action).unwrap();
+    let machine = press()
+        .with_load(load(Action::OpposingMoment(2.0)))
+        .and_then(|m| m.with_load(load(Action::ViscousMoment(0.1))))
+        .unwrap();
+    assert_eq!(terms_of(&machine, curves::ALL).unwrap(), terms::SYMMETRIC);
+    let asked = 1e-6 * peak(&machine);
+    let (found, words) =
+        fitted::<f64, { curves::ALL }, { terms::SYMMETRIC }>(&machine, &request(asked, 16))
+            .unwrap();
+    assert_eq!(found.words, 4 + 2 * found.harmonics as usize);
+    assert_near("b", words[2], 0.1, budget::COEFFICIENT);
+    assert_near("c", words[3], 2.0, budget::COEFFICIENT);
+    // A machine of constant J has one number, and no harmonics.
+    let turntable = Wave {
+        load: 0.0,
+        ..Wave::bare(0.3, 0.0)
+    };
+    let (found, words) =
+        fitted::<f32, { curves::INERTIA }, 0>(&turntable, &request(1e-3, 8)).unwrap();
+    assert_eq!(
+        (found.harmonics, words.as_slice()),
+        (0, [0.3f32].as_slice())
+    );
+    let model = HarmonicModel::<f32, { curves::INERTIA }, 0>::new(&words).unwrap();
+    assert_eq!(
+        (
+            model.harmonics(),
+            model.torque(Phase::from_bits(7), 5.0, 2.0)
+        ),
+        (0, 0.6)
+    );
+}
+
+#[test]
+fn terms_are_told_from_the_curves() {
+    let on = |j, load| Waves {
+        inertia: vec![[1.0, 0.0], j],
+        load: vec![[2.0, 0.0], load],
+        viscous: 0.1,
+        coulomb: 0.0,
+    };
+    for (j, load, expected) in [
+        ([0.1, 0.0], [0.0, 1.0], terms::SYMMETRIC),
+        ([0.0, 0.1], [1.0, 0.0], terms::INERTIA_SIN | terms::LOAD_COS),
+        ([0.1, 0.1], [1.0, 1.0], terms::GENERAL),
+        ([0.0, 0.0], [0.0, 0.0], 0),
+    ] {
+        assert_eq!(terms_of(&on(j, load), curves::ALL).unwrap(), expected);
+    }
+    // What the terms leave out counts as error.
+    let sine = on([0.0, 0.1], [0.0, 0.0]);
+    let missed = fitted::<f64, { curves::ALL }, { terms::INERTIA_COS }>(&sine, &request(1e-3, 8));
+    let Err(Error::Harmonic(HarmonicError::NotConverged { reached, .. })) = missed else {
+        panic!("{missed:?}");
+    };
+    // 0.1·√(α² + (ω²/2)²) or, as the bound adds sizes, up to 0.1·(α + ω²/2)
+    assert!(
+        (0.05 * OMEGA * OMEGA..=0.05 * OMEGA * OMEGA + 0.1 * ALPHA).contains(&reached),
+        "{reached}"
+    );
+    // So does a curve that is not in the set.
+    let missed = fitted::<f64, { curves::LOAD }, { terms::GENERAL }>(&sine, &request(1e-3, 8));
+    assert!(
+        matches!(missed, Err(Error::Harmonic(HarmonicError::NotConverged { reached, .. })) if (reached - 0.1 * OMEGA).abs() < 1e-3),
+        "{missed:?}"
+    );
+}
+
+/// J = 1, load |sin (φ − from)|³: its third derivative jumps at `from`, and its coefficients fall like 1/k⁴.
+struct SlowFall {
+    from: f64,
+}
+
+impl Reducible for SlowFall {
+    fn domain(&self) -> Domain {
+        Domain::Turn
+    }
+    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+        Ok(Reduction {
+            inertia: [1.0, 0.0, 0.0],
+            process: (phi - self.from).sin().abs().powi(3),
+            ..Reduction::default()
+        })
+    }
+}
+
+/// Half way between two samples all terms that are left out add up, and those behind them are missing in what is seen.
+#[test]
+fn what_no_sample_shows_is_in_the_bound() {
+    for samples in [32, 64, 128, 256] {
+        let machine = SlowFall {
+            from: TAU / f64::from(2 * samples),
+        };
+        for step in 0..30 {
+            let asked = 1e-2 * 0.8f64.powi(step);
+            let (found, words) =
+                fitted::<f64, { curves::LOAD }, { terms::GENERAL }>(&machine, &request(asked, 64))
+                    .unwrap();
+            let model =
+                HarmonicModel::<f64, { curves::LOAD }, { terms::GENERAL }>::new(&words).unwrap();
+            let (dense, _) = measure(&machine, &model, &request(asked, 0), 4096).unwrap();
+            assert!(
+                dense <= found.bound && found.bound <= asked,
+                "{dense:e} {found:?}"
+            );
+        }
+    }
+}
+
+/// F·|x′| has kinks at the dead centres, F·x′ has none; a constant friction beside it has a number of its own.
+#[test]
+fn friction_of_the_ram_is_smooth() {
+    const SET: u8 = curves::LOAD | curves::COULOMB | curves::CONSTANT_COULOMB;
+    const TERMS: u8 = terms::SYMMETRIC | terms::COULOMB_SIN;
+    for constant in [0.0, 2.0] {
+        let load = Load::new(SliderCrank::CRANK, Action::OpposingMoment(constant)).unwrap();
+        let machine = rubbing().with_load(load).unwrap();
+        assert_eq!(terms_of(&machine, SET).unwrap(), TERMS);
+        let asked = 1e-9 * peak(&machine);
+        let (found, words) = fitted::<f64, SET, TERMS>(&machine, &request(asked, 16)).unwrap();
+        assert!(found.harmonics <= 12, "{found:?}");
+        assert_near("constant", words[3], constant, budget::COEFFICIENT);
+        let model = HarmonicModel::<f64, SET, TERMS>::new(&words).unwrap();
+        for phase in phases(1000) {
+            let exact = machine.reduction(phase.radians()).unwrap();
+            for omega in [-OMEGA, 0.0, OMEGA] {
+                let torque = model.torque(phase, omega, ALPHA);
+                assert_near("torque", torque, exact.torque(omega, ALPHA).total(), asked);
+            }
+        }
+    }
+}

@@ -1,0 +1,221 @@
+//! Harmonics that are refused, and why.
+
+mod support;
+
+use std::f64::consts::TAU;
+
+use jred::harmonic::{
+    CoefficientError, HarmonicError, HarmonicModel, Request, fit, scratch_len, terms,
+};
+use jred::mechanism::SliderCrank;
+use jred::table::curves;
+use jred::{Action, Domain, Error, Load, Phase, Window};
+use support::assert_near;
+use support::harmonics::{Waves, fitted, press, request, rubbing, terms_of};
+use support::machines::Wave;
+
+#[test]
+fn kinks_and_hidden_harmonics_are_refused() {
+    let constant = Load::new(SliderCrank::CRANK, Action::OpposingMoment(1.0)).unwrap();
+    let force = Load::new(SliderCrank::SLIDER, Action::Force([-100.0, 0.0])).unwrap();
+    let pressing = force.within(Window::new(5.0, 6.0, 0.01).unwrap());
+    for machine in [
+        // Friction that falls to a minimum above zero at both dead centres.
+        rubbing().with_load(constant).unwrap(),
+        press().with_load(pressing).unwrap(),
+    ] {
+        for max in [8, 32, 256] {
+            let found =
+                fitted::<f64, { curves::ALL }, { terms::ALL }>(&machine, &request(1e-3, max));
+            let Err(error) = found else {
+                panic!("{found:?}")
+            };
+            let Error::Harmonic(HarmonicError::NotConverged { asked, reached, .. }) = error else {
+                panic!("{error:?}")
+            };
+            assert_near("asked", asked, 1e-3, 0.0);
+            assert!(reached > 1e-3 && reached < 100.0, "{max}: {reached}");
+            assert!(error.to_string().contains("needs a table"), "{error}");
+        }
+    }
+    // Harmonics that 32 samples, or 64 and their checks, take for others.
+    for order in [31, 32, 33, 63, 64, 128, 256] {
+        let mut waves = Waves {
+            inertia: vec![[0.0; 2]; order + 1],
+            load: vec![[1.0, 0.0]],
+            viscous: 0.0,
+            coulomb: 0.0,
+        };
+        waves.inertia[0] = [1.0, 0.0];
+        waves.inertia[order] = [1e-3, 0.0];
+        let found = fitted::<f64, { curves::LOAD }, { terms::GENERAL }>(&waves, &request(1e-3, 8));
+        assert!(
+            matches!(
+                found,
+                Err(Error::Harmonic(HarmonicError::NotConverged { .. }))
+            ),
+            "{order}: {found:?}"
+        );
+        if order <= 128 {
+            let (found, _) =
+                fitted::<f64, { curves::LOAD }, { terms::GENERAL }>(&waves, &request(1e-3, 256))
+                    .unwrap();
+            assert_eq!(found.harmonics as usize, order);
+        }
+    }
+    // Less than f64 can: named with what was reached.
+    let found = fitted::<f64, { curves::LOAD }, { terms::GENERAL }>(&press(), &request(1e-20, 16));
+    assert!(
+        matches!(found, Err(Error::Harmonic(HarmonicError::NotConverged { reached, .. })) if reached < 1e-9),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn bad_requests_are_named() {
+    let machine = press();
+    let stroke = Wave {
+        domain: Domain::stroke(0.0, 1.0).unwrap(),
+        ..Wave::bare(1.0, 0.1)
+    };
+    let error = fitted::<f64, 0, 1>(&stroke, &request(1e-3, 8)).unwrap_err();
+    assert_eq!(error, Error::Harmonic(HarmonicError::Stroke));
+    assert!(error.to_string().contains("use a table"));
+    assert_eq!(terms_of(&stroke, curves::ALL).unwrap_err(), error);
+    for (bad, what) in [
+        (
+            Request {
+                torque_error: 0.0,
+                ..request(1.0, 8)
+            },
+            "torque error",
+        ),
+        (
+            Request {
+                omega: -1.0,
+                ..request(1.0, 8)
+            },
+            "largest speed",
+        ),
+        (
+            Request {
+                alpha: 0.0,
+                ..request(1.0, 8)
+            },
+            "largest acceleration",
+        ),
+    ] {
+        let error = fitted::<f64, 0, 1>(&machine, &bad).unwrap_err();
+        assert!(
+            matches!(error, Error::NotPositive(name, _) if name == what),
+            "{error:?}"
+        );
+    }
+    let nan = Request {
+        alpha: f64::NAN,
+        ..request(1.0, 8)
+    };
+    assert_eq!(
+        fitted::<f64, 0, 1>(&machine, &nan).unwrap_err(),
+        Error::NotFinite("largest acceleration")
+    );
+    let many = fitted::<f64, 0, 1>(&machine, &request(1.0, 257)).unwrap_err();
+    assert!(
+        matches!(
+            many,
+            Error::OutOfRange {
+                what: "most harmonics",
+                ..
+            }
+        ),
+        "{many:?}"
+    );
+    let (mut scratch, mut words) = (vec![0.0; scratch_len(8)], vec![0.0; 9]);
+    let short = |scratch: &mut [f64], words: &mut [f64]| {
+        fit::<f64, 0, 1>(&machine, &request(1.0, 8), scratch, words).unwrap_err()
+    };
+    let needed = scratch_len(8);
+    assert_eq!(
+        short(&mut scratch[1..], &mut words),
+        Error::BufferTooShort {
+            needed,
+            given: needed - 1
+        }
+    );
+    assert_eq!(
+        short(&mut scratch, &mut words[1..]),
+        Error::BufferTooShort {
+            needed: 9,
+            given: 8
+        }
+    );
+    // J negative in a part of the turn.
+    let negative = fitted::<f64, 0, 1>(&Wave::bare(1.0, 1.1), &request(1.0, 8)).unwrap_err();
+    assert!(
+        matches!(negative, Error::NoInertia { phi } if (phi - TAU / 2.0).abs() < 0.5),
+        "{negative:?}"
+    );
+    // And between the 32 samples only: J is 1.2 at all of them.
+    let mut waves = Waves {
+        inertia: vec![[0.0; 2]; 33],
+        load: vec![[1.0, 0.0]],
+        viscous: 0.0,
+        coulomb: 0.0,
+    };
+    (waves.inertia[0], waves.inertia[32]) = ([0.1, 0.0], [1.1, 0.0]);
+    let between =
+        fitted::<f64, { curves::LOAD }, { terms::GENERAL }>(&waves, &request(1.0, 64)).unwrap_err();
+    assert!(matches!(between, Error::NoInertia { .. }), "{between:?}");
+}
+
+#[test]
+fn bad_coefficients_are_named() {
+    fn check<const CURVES: u8, const TERMS: u8>(words: &[f32]) -> Option<CoefficientError> {
+        HarmonicModel::<f32, CURVES, TERMS>::new(words).err()
+    }
+    let length = |given, means, row| Some(CoefficientError::Length { given, means, row });
+    assert_eq!(check::<1, { terms::SYMMETRIC }>(&[]), length(0, 2, 2));
+    assert_eq!(
+        check::<1, { terms::SYMMETRIC }>(&[1.0, 0.0, 0.1]),
+        length(3, 2, 2)
+    );
+    assert_eq!(check::<0, 0>(&[1.0, 0.0]), length(2, 1, 0));
+    assert_eq!(
+        check::<0, { terms::INERTIA_COS }>(&[1.0; 258]),
+        length(258, 1, 1)
+    );
+    for bad in [f32::NAN, f32::INFINITY, -1e30] {
+        assert_eq!(
+            check::<0, { terms::INERTIA_COS }>(&[1.0, 0.1, bad]),
+            Some(CoefficientError::Range { word: 2 })
+        );
+    }
+    let at = |bits| {
+        Some(CoefficientError::NoInertia {
+            phase: Phase::from_bits(bits),
+        })
+    };
+    assert_eq!(check::<0, 0>(&[0.0]), at(0));
+    assert_eq!(
+        check::<0, { terms::INERTIA_COS }>(&[1.0, 1.5]),
+        at(0x6000_0000)
+    );
+    // 2.2 at the 64 places looked at first, −0.2 half way between them.
+    let mut hidden = [0.0f32; 65];
+    (hidden[0], hidden[64]) = (1.0, 1.2);
+    assert_eq!(check::<0, { terms::INERTIA_COS }>(&hidden), at(1 << 25));
+    // Zero in theory at φ = 0, and at π/3 between all places looked at.
+    let close = check::<0, { terms::INERTIA_COS }>(&[1.0, -0.999_999_9]);
+    assert_eq!(
+        close,
+        Some(CoefficientError::InertiaNotShown {
+            phase: Phase::default()
+        })
+    );
+    let message = check::<0, { terms::INERTIA_COS }>(&hidden)
+        .unwrap()
+        .to_string();
+    assert!(message.contains("φ = 2.81°"), "{message}");
+    // J down to a thousandth of its mean is shown.
+    assert_eq!(check::<0, { terms::INERTIA_COS }>(&[1.0, -0.999]), None);
+}

@@ -1,0 +1,86 @@
+//! The cores, and how programs for them are compiled and emulated.
+
+use crate::timing::Timing;
+
+/// A Cortex-M core.
+pub(crate) struct Core {
+    /// As `benches/ceilings.txt` names it.
+    pub(crate) name: &'static str,
+    /// As a table's head names it.
+    pub(crate) title: &'static str,
+    /// The target of rustc.
+    pub(crate) target: &'static str,
+    /// Options of rustc beside those of `.cargo/config.toml`.
+    pub(crate) rustc: &'static [&'static str],
+    /// Options of gcc.
+    pub(crate) gcc: &'static [&'static str],
+    /// QEMU's machine.
+    pub(crate) machine: &'static str,
+    /// QEMU's core.
+    pub(crate) cpu: &'static str,
+    /// Frequency of the machine's SysTick (Hz).
+    pub(crate) clock: f64,
+    /// Published instruction timings, if there are any.
+    pub(crate) timing: Option<Timing>,
+}
+
+/// Every core, from the smallest to the largest.
+pub(crate) const CORES: [Core; 5] = [
+    // QEMU has no M0+. The M0 has the same instructions; the timings are those of the M0+.
+    Core {
+        name: "cortex-m0",
+        title: "M0+",
+        target: "thumbv6m-none-eabi",
+        rustc: &[],
+        gcc: &["-mcpu=cortex-m0plus", "-mfloat-abi=soft"],
+        machine: "microbit",
+        cpu: "cortex-m0",
+        clock: 16e6,
+        timing: Some(Timing::M0Plus),
+    },
+    Core {
+        name: "cortex-m3",
+        title: "M3",
+        target: "thumbv7m-none-eabi",
+        rustc: &[],
+        gcc: &["-mcpu=cortex-m3", "-mfloat-abi=soft"],
+        machine: "mps2-an385",
+        cpu: "cortex-m3",
+        clock: 25e6,
+        timing: Some(Timing::M3),
+    },
+    Core {
+        name: "cortex-m4",
+        title: "M4F",
+        target: "thumbv7em-none-eabihf",
+        rustc: &[],
+        gcc: &["-mcpu=cortex-m4", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16"],
+        machine: "mps2-an386",
+        cpu: "cortex-m4",
+        clock: 25e6,
+        timing: Some(Timing::M4),
+    },
+    // Arm publishes no timings of the M7 and the M33.
+    Core {
+        name: "cortex-m7",
+        title: "M7",
+        target: "thumbv7em-none-eabihf",
+        rustc: &["-Ctarget-cpu=cortex-m7"],
+        gcc: &["-mcpu=cortex-m7", "-mfloat-abi=hard", "-mfpu=fpv5-d16"],
+        machine: "mps2-an500",
+        cpu: "cortex-m7",
+        clock: 25e6,
+        timing: None,
+    },
+    Core {
+        name: "cortex-m33",
+        title: "M33",
+        target: "thumbv8m.main-none-eabihf",
+        rustc: &["-Ctarget-cpu=cortex-m33"],
+        gcc: &["-mcpu=cortex-m33", "-mfloat-abi=hard", "-mfpu=fpv5-sp-d16"],
+        machine: "lm3s6965evb",
+        cpu: "cortex-m33",
+        clock: 12.5e6,
+        timing: None,
+    },
+];

@@ -1,0 +1,418 @@
+//! Instructions: what their timing and their use of the stack depend on.
+
+use std::collections::HashMap;
+
+use anyhow::{Context, Result, bail};
+use capstone::arch::arm::{ArchExtraMode, ArchMode, ArmOperandType};
+use capstone::prelude::*;
+
+use crate::elf::Program;
+
+/// What an instruction does, as far as its timing goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// Everything that takes one cycle.
+    Plain,
+    Multiply,
+    MultiplyAdd,
+    /// 32 by 32 to 64 bits, `add` with an addition; or its high word (M4).
+    MultiplyLong {
+        add: bool,
+    },
+    Divide,
+    Load,
+    Store,
+    /// So many words at once.
+    Multiple(u32),
+    /// A branch to a place that the instruction names.
+    Branch {
+        link: bool,
+    },
+    /// A branch to a register's contents.
+    BranchRegister {
+        link: bool,
+    },
+    /// Loads so many words, the last of them into the program counter.
+    PopPc(u32),
+    /// `tbb`, `tbh`.
+    TableBranch,
+    /// Floating point with one cycle.
+    Float,
+    FloatMultiplyAdd,
+    /// Division and root.
+    FloatDivide,
+    /// `vldr`, `vstr` of so many words.
+    FloatMemory(u32),
+    /// Between two core registers and the floating-point unit.
+    FloatMovePair,
+    /// Reads or writes a special register.
+    System,
+}
+
+/// How the stack pointer moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stack {
+    /// Down by so many bytes; up if negative.
+    By(i32),
+    /// Back to what a register holds.
+    Restore,
+}
+
+/// An instruction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Instruction {
+    pub(crate) size: u32,
+    pub(crate) kind: Kind,
+    pub(crate) stack: Stack,
+    /// Core registers read and written, one bit each.
+    pub(crate) reads: u16,
+    pub(crate) writes: u16,
+    /// Single-precision registers read and written, one bit each.
+    pub(crate) float_reads: u32,
+    pub(crate) float_writes: u32,
+    /// Whether the address is a register and an immediate.
+    pub(crate) immediate_offset: bool,
+}
+
+/// Decodes the instructions of a program, each of them once.
+pub(crate) struct Decoder<'p> {
+    program: &'p Program,
+    capstone: Capstone,
+    known: HashMap<u32, Instruction>,
+}
+
+impl<'p> Decoder<'p> {
+    pub(crate) fn new(program: &'p Program) -> Result<Self> {
+        let capstone = Capstone::new()
+            .arm()
+            .mode(ArchMode::Thumb)
+            .extra_mode([ArchExtraMode::MClass, ArchExtraMode::V8].into_iter())
+            .detail(true)
+            .build()?;
+        Ok(Self {
+            program,
+            capstone,
+            known: HashMap::new(),
+        })
+    }
+
+    /// The instruction at `address`.
+    pub(crate) fn at(&mut self, address: u32) -> Result<Instruction> {
+        if let Some(known) = self.known.get(&address) {
+            return Ok(*known);
+        }
+        let code = self
+            .program
+            .code(address)
+            .with_context(|| format!("no code at {address:#x}"))?;
+        let decoded = self
+            .decode(code, address)
+            .with_context(|| format!("the instruction at {address:#x}: {code:02x?}"))?;
+        self.known.insert(address, decoded);
+        Ok(decoded)
+    }
+
+    fn decode(&self, code: &[u8], address: u32) -> Result<Instruction> {
+        let found = self.capstone.disasm_count(code, u64::from(address), 1)?;
+        let one = found.iter().next().context("not decoded")?;
+        let mnemonic = one.mnemonic().context("no mnemonic")?;
+        let detail = self.capstone.insn_detail(one)?;
+        let arch = detail.arch_detail();
+        let arm = arch.arm().context("not an Arm instruction")?;
+        let mut operands = Operands::default();
+        for operand in arm.operands() {
+            let access = operand.access;
+            match operand.op_type {
+                ArmOperandType::Reg(register) => {
+                    let name = self.capstone.reg_name(register).unwrap_or_default();
+                    let reads = access.is_none_or(|a| a.is_readable());
+                    operands.register(&name, reads, access.is_some_and(|a| a.is_writable()));
+                }
+                ArmOperandType::Mem(memory) => {
+                    let base = self.capstone.reg_name(memory.base()).unwrap_or_default();
+                    let index = self.capstone.reg_name(memory.index()).unwrap_or_default();
+                    operands.memory(&base, &index, memory.disp());
+                }
+                ArmOperandType::Imm(value) => operands.immediate = Some(value),
+                _ => {}
+            }
+        }
+        operands.instruction(mnemonic, one.len() as u32, arm.writeback())
+    }
+}
+
+/// The operands of an instruction.
+#[derive(Default)]
+struct Operands {
+    /// Names of the registers, in order.
+    registers: Vec<String>,
+    reads: u16,
+    writes: u16,
+    float_reads: u32,
+    float_writes: u32,
+    immediate: Option<i32>,
+    base: Option<String>,
+    indexed: bool,
+    offset: i32,
+}
+
+const SP: &str = "sp";
+
+/// Bit of a core register.
+fn core_bit(name: &str) -> u16 {
+    let number = match name {
+        "sb" => 9,
+        "sl" => 10,
+        "fp" => 11,
+        "ip" => 12,
+        SP => 13,
+        "lr" => 14,
+        "pc" => 15,
+        _ => match name.strip_prefix('r').and_then(|n| n.parse::<u32>().ok()) {
+            Some(number) => number,
+            None => return 0,
+        },
+    };
+    1 << number
+}
+
+/// Bits of a floating-point register: a double is two singles.
+fn float_bits(name: &str) -> u32 {
+    let number = |prefix| {
+        name.strip_prefix(prefix)
+            .and_then(|n: &str| n.parse::<u32>().ok())
+    };
+    match (number('s'), number('d')) {
+        (Some(single), _) => 1u32.checked_shl(single).unwrap_or(0),
+        (_, Some(double)) => 3u32.checked_shl(2 * double).unwrap_or(0),
+        _ => 0,
+    }
+}
+
+impl Operands {
+    fn register(&mut self, name: &str, reads: bool, writes: bool) {
+        if reads {
+            self.reads |= core_bit(name);
+            self.float_reads |= float_bits(name);
+        }
+        if writes {
+            self.writes |= core_bit(name);
+            self.float_writes |= float_bits(name);
+        }
+        self.registers.push(name.to_owned());
+    }
+
+    fn memory(&mut self, base: &str, index: &str, offset: i32) {
+        self.reads |= core_bit(base) | core_bit(index);
+        self.base = Some(base.to_owned());
+        self.indexed = core_bit(index) != 0;
+        self.offset = offset;
+    }
+
+    /// Words of a register list from the operand `from` on.
+    fn words(&self, from: usize) -> u32 {
+        self.registers
+            .iter()
+            .skip(from)
+            .map(|name| if name.starts_with('d') { 2 } else { 1 })
+            .sum()
+    }
+
+    fn instruction(self, mnemonic: &str, size: u32, writeback: bool) -> Result<Instruction> {
+        let (name, suffix) = mnemonic.split_once('.').unwrap_or((mnemonic, ""));
+        let (kind, stack) = self.classify(name, suffix, writeback)?;
+        Ok(Instruction {
+            size,
+            kind,
+            stack,
+            reads: self.reads,
+            writes: self.writes,
+            float_reads: self.float_reads,
+            float_writes: self.float_writes,
+            immediate_offset: !self.indexed,
+        })
+    }
+
+    fn classify(&self, name: &str, suffix: &str, writeback: bool) -> Result<(Kind, Stack)> {
+        let still = Stack::By(0);
+        let to_pc = self.registers.iter().any(|r| r == "pc");
+        let on_stack =
+            self.base.as_deref() == Some(SP) || self.registers.first().is_some_and(|r| r == SP);
+        let moved = |words: u32, down: bool| {
+            let bytes = 4 * words as i32;
+            Stack::By(if down { bytes } else { -bytes })
+        };
+        let double =
+            self.registers.first().is_some_and(|r| r.starts_with('d')) || suffix.contains("f64");
+        Ok(match name {
+            "push" | "vpush" => (Kind::Multiple(self.words(0)), moved(self.words(0), true)),
+            "pop" if to_pc => (Kind::PopPc(self.words(0)), moved(self.words(0), false)),
+            "pop" | "vpop" => (Kind::Multiple(self.words(0)), moved(self.words(0), false)),
+            "ldm" | "ldmdb" | "stm" | "stmdb" | "vldmia" | "vldmdb" | "vstmia" | "vstmdb" => {
+                let words = self.words(1);
+                let kind = if to_pc {
+                    Kind::PopPc(words)
+                } else {
+                    Kind::Multiple(words)
+                };
+                let pushes = writeback && on_stack;
+                (
+                    kind,
+                    if pushes {
+                        moved(words, name.ends_with("db"))
+                    } else {
+                        still
+                    },
+                )
+            }
+            "ldrd" | "strd" => (Kind::Multiple(2), self.moved_base(writeback)),
+            _ if name.starts_with("ldr") && to_pc => (Kind::PopPc(1), self.moved_base(writeback)),
+            _ if name.starts_with("ldr") => (Kind::Load, self.moved_base(writeback)),
+            _ if name.starts_with("str") => (Kind::Store, self.moved_base(writeback)),
+            "vldr" | "vstr" => (Kind::FloatMemory(if double { 2 } else { 1 }), still),
+            "mul" | "muls" | "smulbb" | "smulbt" | "smultb" | "smultt" | "smulwb" | "smulwt" => {
+                (Kind::Multiply, still)
+            }
+            "mla" | "mls" => (Kind::MultiplyAdd, still),
+            "smull" | "umull" | "smmul" | "smmulr" => (Kind::MultiplyLong { add: false }, still),
+            "smlal" | "umlal" | "umaal" | "smmla" | "smmlar" | "smmls" | "smmlsr" => {
+                (Kind::MultiplyLong { add: true }, still)
+            }
+            "sdiv" | "udiv" => (Kind::Divide, still),
+            "b" | "cbz" | "cbnz" => (Kind::Branch { link: false }, still),
+            "bl" => (Kind::Branch { link: true }, still),
+            "bx" => (Kind::BranchRegister { link: false }, still),
+            "blx" => (Kind::BranchRegister { link: true }, still),
+            "tbb" | "tbh" => (Kind::TableBranch, still),
+            "mrs" | "msr" | "dmb" | "dsb" | "isb" | "cpsid" | "cpsie" | "bkpt" | "svc" => {
+                (Kind::System, still)
+            }
+            _ if name.len() == 3 && name.starts_with('b') && is_condition(&name[1..]) => {
+                (Kind::Branch { link: false }, still)
+            }
+            "vmla" | "vmls" | "vnmla" | "vnmls" | "vfma" | "vfms" | "vfnma" | "vfnms" => {
+                (Kind::FloatMultiplyAdd, still)
+            }
+            "vdiv" | "vsqrt" => (Kind::FloatDivide, still),
+            "vmov" if self.registers.len() > 2 => (Kind::FloatMovePair, still),
+            "vadd" | "vsub" | "vmul" | "vnmul" | "vneg" | "vabs" | "vcmp" | "vcmpe" | "vcvt"
+            | "vcvtr" | "vmov" | "vmrs" | "vmsr" | "vrintz" | "vrintr" | "vrintx" | "vrinta"
+            | "vrintn" | "vrintp" | "vrintm" | "vcvta" | "vcvtn" | "vcvtp" | "vcvtm" | "vmaxnm"
+            | "vminnm" => (Kind::Float, still),
+            _ if name.starts_with("vsel") => (Kind::Float, still),
+            _ if name.starts_with('v') => bail!("no timing for {name}"),
+            _ if self.registers.first().is_some_and(|r| r == SP)
+                && self.writes & core_bit(SP) != 0 =>
+            {
+                (Kind::Plain, self.moved_pointer(name))
+            }
+            _ => (Kind::Plain, still),
+        })
+    }
+
+    /// A load or store that moves the stack pointer by its own offset.
+    fn moved_base(&self, writeback: bool) -> Stack {
+        let by = if self.offset != 0 {
+            self.offset
+        } else {
+            self.immediate.unwrap_or(0)
+        };
+        let moves = writeback && self.base.as_deref() == Some(SP);
+        Stack::By(if moves { -by } else { 0 })
+    }
+
+    /// `sub sp, …`, `add sp, …`, `mov sp, …`.
+    fn moved_pointer(&self, name: &str) -> Stack {
+        let own = self.registers.get(1).is_none_or(|r| r == SP);
+        match (name, self.immediate) {
+            ("sub" | "subw", Some(bytes)) if own => Stack::By(bytes),
+            ("add" | "addw", Some(bytes)) if own => Stack::By(-bytes),
+            _ => Stack::Restore,
+        }
+    }
+}
+
+fn is_condition(name: &str) -> bool {
+    matches!(
+        name,
+        "eq" | "ne"
+            | "hs"
+            | "cs"
+            | "lo"
+            | "cc"
+            | "mi"
+            | "pl"
+            | "vs"
+            | "vc"
+            | "hi"
+            | "ls"
+            | "ge"
+            | "lt"
+            | "gt"
+            | "le"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn decode(code: &[u8]) -> Instruction {
+        let program = Program::of(0x100, code, &[]);
+        Decoder::new(&program).unwrap().at(0x100).unwrap()
+    }
+
+    #[test]
+    fn instructions_are_told_apart() {
+        for (code, size, kind) in [
+            (&[0x80, 0xb5][..], 2, Kind::Multiple(2)), // push {r7, lr}
+            (&[0x80, 0xbd], 2, Kind::PopPc(2)),        // pop {r7, pc}
+            (&[0x88, 0x42], 2, Kind::Plain),           // cmp r0, r1
+            (&[0x48, 0x43], 2, Kind::Multiply),        // muls r0, r1, r0
+            (&[0x70, 0x47], 2, Kind::BranchRegister { link: false }), // bx lr
+            (&[0x98, 0x47], 2, Kind::BranchRegister { link: true }), // blx r3
+            (&[0x08, 0xd0], 2, Kind::Branch { link: false }), // beq
+            (
+                &[0xa1, 0xfb, 0x02, 0x01],
+                4,
+                Kind::MultiplyLong { add: false },
+            ), // umull r0, r1, r1, r2
+            (&[0x90, 0xfb, 0xf1, 0xf0], 4, Kind::Divide), // sdiv r0, r0, r1
+            (&[0x88, 0x69], 2, Kind::Load),            // ldr r0, [r1, #24]
+            (&[0xd0, 0xe9, 0x01, 0x32], 4, Kind::Multiple(2)), // ldrd r3, r2, [r0, #4]
+            (&[0x30, 0xee, 0x21, 0x0a], 4, Kind::Float), // vadd.f32 s0, s0, s3
+            (&[0x81, 0xee, 0x00, 0x0a], 4, Kind::FloatDivide), // vdiv.f32 s0, s2, s0
+            (&[0x00, 0xee, 0x81, 0x0a], 4, Kind::FloatMultiplyAdd), // vmla.f32 s0, s1, s2
+            (&[0x91, 0xed, 0x03, 0x7a], 4, Kind::FloatMemory(1)), // vldr s14, [r1, #12]
+            (&[0x91, 0xec, 0x06, 0x0a], 4, Kind::Multiple(6)), // vldmia r1, {s0-s5}
+        ] {
+            let found = decode(code);
+            assert_eq!((found.size, found.kind), (size, kind), "{code:02x?}");
+        }
+    }
+
+    #[test]
+    fn the_stack_pointer_is_followed() {
+        for (code, stack) in [
+            (&[0xf0, 0xb5][..], Stack::By(20)),         // push {r4-r7, lr}
+            (&[0x82, 0xb0], Stack::By(8)),              // sub sp, #8
+            (&[0x02, 0xb0], Stack::By(-8)),             // add sp, #8
+            (&[0x2d, 0xed, 0x04, 0x8b], Stack::By(16)), // vpush {d8, d9}
+            (&[0x4d, 0xf8, 0x04, 0xbd], Stack::By(4)),  // str r11, [sp, #-4]!
+            (&[0x5d, 0xf8, 0x04, 0xbb], Stack::By(-4)), // ldr r11, [sp], #4
+            (&[0x2d, 0xe9, 0xf0, 0x0f], Stack::By(32)), // push.w {r4-r11}
+            (&[0xa5, 0x46], Stack::Restore),            // mov sp, r4
+            (&[0x01, 0x98], Stack::By(0)),              // ldr r0, [sp, #4]
+        ] {
+            assert_eq!(decode(code).stack, stack, "{code:02x?}");
+        }
+    }
+
+    #[test]
+    fn registers_are_read_and_written() {
+        let add = decode(&[0x30, 0xee, 0x21, 0x0a]); // vadd.f32 s0, s0, s3
+        assert_eq!((add.float_reads, add.float_writes), (0b1001, 0b1));
+        let load = decode(&[0x88, 0x69]); // ldr r0, [r1, #24]
+        assert_eq!((load.reads, load.writes), (0b10, 0b1));
+    }
+}

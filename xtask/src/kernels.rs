@@ -1,0 +1,100 @@
+//! The kernels: what is measured, the numbers it computes with, the data it needs.
+//!
+//! To add one: a line in [`KERNELS`], and the function of that name in `benches/tick/`.
+
+use crate::data::Data;
+use crate::image::Layout::{self, Cubic, Quadratic, Spline};
+use crate::image::{BARE, FULL, SEED};
+use crate::number::Number;
+
+/// What a kernel computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Quantity {
+    /// Inverse dynamics.
+    Torque,
+    /// Forward dynamics.
+    Acceleration,
+}
+
+/// Whose it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Origin {
+    /// The library: its instructions and bytes have ceilings.
+    Jred,
+    /// For comparison: always there.
+    Other,
+    /// For comparison: needs `--peers`.
+    Peer,
+}
+
+/// A function of the on-target program.
+pub(crate) struct Kernel {
+    /// Its symbol.
+    pub(crate) name: &'static str,
+    /// What a table of results calls it.
+    pub(crate) title: &'static str,
+    pub(crate) quantity: Quantity,
+    pub(crate) origin: Origin,
+    pub(crate) number: Number,
+    pub(crate) data: Data,
+}
+
+macro_rules! kernels {
+    ($($name:ident $quantity:ident $origin:ident $number:ident $data:expr, $title:literal;)*) => {
+        [$(Kernel {
+            name: stringify!($name),
+            title: $title,
+            quantity: Quantity::$quantity,
+            origin: Origin::$origin,
+            number: Number::$number,
+            data: $data,
+        }),*]
+    };
+}
+
+/// A table of 64 cells.
+const fn table(layout: Layout, set: u8) -> Data {
+    Data::Jred {
+        layout,
+        set,
+        cells: 64,
+    }
+}
+
+/// Every kernel, in the order of the tables of results.
+#[rustfmt::skip]
+pub(crate) const KERNELS: &[Kernel] = &kernels![
+    // symbol                    quantity     origin number  data, title
+    jred_f32_torque              Torque       Jred  PhaseF32 table(Cubic, FULL), "jred f32, cubic";
+    jred_f32_spline_torque       Torque       Jred  PhaseF32 table(Spline, FULL), "jred f32, spline";
+    jred_q31_torque              Torque       Jred  PhaseQ31 table(Cubic, FULL), "jred q31, cubic";
+    jred_q31_quadratic_torque    Torque       Jred  PhaseQ31 table(Quadratic, FULL), "jred q31, quadratic";
+    hand_f32_torque              Torque       Other Radians  Data::LinearF32, "by hand, f32, one index (Rust)";
+    analytic_libm_torque         Torque       Other Radians  Data::Dimensions, "no table, crate libm";
+    analytic_micromath_torque    Torque       Other Radians  Data::Dimensions, "no table, crate micromath";
+    hand_c_f32_torque            Torque       Peer  Radians  Data::LinearF32, "by hand, f32, one index (C)";
+    cmsis_f32_torque             Torque       Peer  Radians  Data::LinearF32, "arm_linear_interp_f32 × 3";
+    cmsis_q31_torque             Torque       Peer  PhaseQ31 Data::LinearQ31, "arm_linear_interp_q31 × 3";
+    cmsis_q15_torque             Torque       Peer  PhaseQ15 Data::LinearQ15, "arm_linear_interp_q15 × 3";
+    cmsis_analytic_torque        Torque       Peer  Radians  Data::Dimensions, "no table, arm_sin_f32, arm_cos_f32";
+    jred_f32_acceleration        Acceleration Jred  PhaseF32 table(Cubic, BARE), "jred f32, cubic";
+    jred_f32_spline_acceleration Acceleration Jred  PhaseF32 table(Spline, BARE), "jred f32, spline";
+    jred_q31_acceleration        Acceleration Jred  PhaseQ31 table(Cubic, SEED), "jred q31, cubic, 1/J";
+    jred_q31_quadratic_acceleration Acceleration Jred PhaseQ31 table(Quadratic, SEED), "jred q31, quadratic, 1/J";
+    hand_f32_acceleration        Acceleration Other Radians  Data::LinearF32, "by hand, f32, one index (Rust)";
+    analytic_libm_acceleration   Acceleration Other Radians  Data::Dimensions, "no table, crate libm";
+    analytic_micromath_acceleration Acceleration Other Radians Data::Dimensions, "no table, crate micromath";
+    hand_c_f32_acceleration      Acceleration Peer  Radians  Data::LinearF32, "by hand, f32, one index (C)";
+    cmsis_f32_acceleration       Acceleration Peer  Radians  Data::LinearF32, "arm_linear_interp_f32 × 2";
+    cmsis_q31_acceleration       Acceleration Peer  PhaseQ31 Data::LinearQ31, "arm_linear_interp_q31 × 2, 64-bit division";
+    cmsis_q15_acceleration       Acceleration Peer  PhaseQ15 Data::LinearQ15, "arm_linear_interp_q15 × 2";
+    cmsis_analytic_acceleration  Acceleration Peer  Radians  Data::Dimensions, "no table, arm_sin_f32, arm_cos_f32";
+];
+
+impl Kernel {
+    /// Whether this is the other quantity of the same thing.
+    pub(crate) fn data_of(&self, other: &Self) -> bool {
+        let stem = |name: &'static str| name.rsplit_once('_').map(|(stem, _)| stem);
+        stem(self.name) == stem(other.name)
+    }
+}

@@ -1,0 +1,47 @@
+//! Commands for those who work on jred: `cargo xtask perf`.
+
+mod calls;
+mod ceilings;
+mod cores;
+mod data;
+mod elf;
+mod image;
+mod instruction;
+mod kernels;
+mod machine;
+mod number;
+mod peers;
+mod perf;
+mod program;
+mod report;
+mod timing;
+mod trace;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+#[derive(Parser)]
+#[command(about, bin_name = "cargo xtask")]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Perf(perf::Options),
+}
+
+fn main() -> ExitCode {
+    let result = match Cli::parse().command {
+        Command::Perf(options) => perf::run(&options),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! `cargo xtask perf`: builds, traces, checks and reports.
+
+use std::path::Path;
+
+use anyhow::{Context, Result, bail, ensure};
+use clap::Args;
+
+use crate::calls::{Call, Calls, Splitter};
+use crate::ceilings::{Verdict, judge};
+use crate::cores::{CORES, Core};
+use crate::elf::Program;
+use crate::kernels::{KERNELS, Kernel, Origin};
+use crate::machine::Example;
+use crate::peers;
+use crate::program::{self, Work};
+use crate::report::{Measurement, Report};
+use crate::trace::Emulator;
+
+/// Measures one control tick on emulated Cortex-M cores: instructions, estimated cycles, bytes, error.
+///
+/// The library's own kernels must keep within benches/ceilings.txt.
+#[derive(Args)]
+pub(crate) struct Options {
+    /// Only these cores, by their names in benches/ceilings.txt.
+    #[arg(long, value_name = "CORE")]
+    core: Vec<String>,
+    /// Only kernels whose names contain this.
+    #[arg(long, value_name = "TEXT")]
+    kernel: Option<String>,
+    /// Compare with CMSIS-DSP and with C as well: needs arm-none-eabi-gcc, curl, tar, and a network at first.
+    #[arg(long)]
+    peers: bool,
+    /// Print the tables of docs/performance.md.
+    #[arg(long)]
+    markdown: bool,
+}
+
+/// Runs it; an error if a figure is out of bounds.
+pub(crate) fn run(options: &Options) -> Result<()> {
+    let emulator = Emulator::installed()?;
+    let cores: Vec<&Core> = CORES
+        .iter()
+        .filter(|core| options.core.is_empty() || options.core.iter().any(|name| name == core.name))
+        .collect();
+    ensure!(
+        !cores.is_empty(),
+        "no such core; there are {}",
+        CORES.map(|core| core.name).join(", ")
+    );
+    let sources = match options.peers.then(peers::fetch).transpose() {
+        Ok(sources) => sources,
+        Err(error) => {
+            eprintln!("without the peers: {error:#}");
+            None
+        }
+    };
+    let with_peers = sources.is_some();
+    let chosen = |kernel: &&Kernel| {
+        (with_peers || kernel.origin != Origin::Peer)
+            && options
+                .kernel
+                .as_ref()
+                .is_none_or(|text| kernel.name.contains(text))
+    };
+    let kernels: Vec<&Kernel> = KERNELS.iter().filter(chosen).collect();
+    ensure!(!kernels.is_empty(), "no kernel has that in its name");
+    let mut report = Report::default();
+    for core in cores {
+        let objects = sources
+            .as_ref()
+            .map(|sources| peers::compile(core, sources))
+            .transpose()?;
+        let program = program::compile(core, objects.as_deref())?;
+        report
+            .measurements
+            .extend(measure(emulator, core, &program, &kernels)?);
+    }
+    print!(
+        "{}",
+        if options.markdown {
+            report.markdown()
+        } else {
+            report.text()
+        }
+    );
+    check(&report)
+}
+
+/// Runs the program twice, once for the trace and once for the clock, and puts both together.
+fn measure(
+    emulator: Emulator,
+    core: &'static Core,
+    path: &Path,
+    kernels: &[&'static Kernel],
+) -> Result<Vec<Measurement>> {
+    let example = Example::new();
+    let folder = program::target_dir().join("tick").join(core.name);
+    // Nothing of an earlier run may be taken for a result.
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
+    let work = kernels
+        .iter()
+        .map(|kernel| Work::new(kernel, &example))
+        .collect::<Result<Vec<_>>>()?;
+    for (kernel, work) in kernels.iter().zip(&work) {
+        work.write(kernel, &folder)?;
+    }
+    let program = Program::read(path)?;
+    let names: Vec<_> = kernels.iter().map(|kernel| kernel.name).collect();
+    let mut splitter = Splitter::new(&program, core.timing, &names)?;
+    emulator.trace(core, path, &folder, program.range(), |address| {
+        splitter.step(address)
+    })?;
+    let calls = splitter.finish()?;
+    Emulator::count(core, path, &folder)?;
+
+    let mut found = Vec::new();
+    for ((kernel, work), calls) in kernels.iter().zip(&work).zip(&calls) {
+        let made = calls.calls.len();
+        ensure!(
+            made == work.calls(),
+            "{}: {made} calls of {} in the trace",
+            kernel.name,
+            work.calls()
+        );
+        let (error, ticks) = work.read(kernel, &folder)?;
+        agree(core, calls, ticks).with_context(|| format!("{} on {}", kernel.name, core.name))?;
+        let most = |of: fn(&Call) -> u32| calls.calls.iter().map(of).max().unwrap_or(0);
+        let sum: u64 = calls
+            .calls
+            .iter()
+            .map(|call| u64::from(call.instructions))
+            .sum();
+        found.push(Measurement {
+            kernel,
+            core,
+            worst: Call {
+                instructions: most(|call| call.instructions),
+                cycles: most(|call| call.cycles),
+                stack: most(|call| call.stack),
+            },
+            mean: sum as f64 / made as f64,
+            code: calls.bytes(&program),
+            table: work.table_bytes(),
+            error,
+        });
+    }
+    Ok(found)
+}
+
+/// Whether the instructions in the trace are those that the clock counted, to a tick of it.
+fn agree(core: &Core, calls: &Calls, ticks: u32) -> Result<()> {
+    let per_tick = 1e9 / core.clock;
+    let counted = f64::from(ticks) * per_tick;
+    let traced = calls.between_clocks as f64;
+    ensure!(
+        (counted - traced).abs() <= per_tick,
+        "{traced} instructions in the trace, but SysTick counted {counted}: the trace is not exact"
+    );
+    Ok(())
+}
+
+/// The library's kernels against their ceilings.
+fn check(report: &Report) -> Result<()> {
+    let path = program::root().join("benches/ceilings.txt");
+    let text = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
+    let mut failures = 0;
+    for m in report
+        .measurements
+        .iter()
+        .filter(|m| m.kernel.origin == Origin::Jred)
+    {
+        let figures = [
+            (
+                m.kernel.name.to_owned(),
+                "instructions",
+                m.worst.instructions,
+                true,
+            ),
+            // Code differs little from core to core: one ceiling is enough.
+            (
+                format!("{}-bytes", m.kernel.name),
+                "bytes of code",
+                m.code,
+                m.core.name == "cortex-m4",
+            ),
+        ];
+        for (name, unit, figure, _) in figures.into_iter().filter(|(_, _, _, judged)| *judged) {
+            let verdict = judge(&text, m.core.name, &name, figure);
+            if verdict != Verdict::Within {
+                eprintln!("FAILED: {} {name}: {figure} {unit}, {verdict}", m.core.name);
+                failures += 1;
+            }
+        }
+    }
+    if failures > 0 {
+        bail!("{failures} figures out of bounds");
+    }
+    Ok(())
+}

@@ -1,0 +1,173 @@
+//! The on-target program: compiled, linked, and the files through which it gets its work.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use anyhow::{Context, Result, ensure};
+
+use crate::cores::Core;
+use crate::data::{self, Words};
+use crate::kernels::{Kernel, Quantity};
+use crate::machine::{Example, motions};
+
+/// The workspace.
+pub(crate) fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .unwrap_or(Path::new("."))
+}
+
+/// Where everything is built.
+pub(crate) fn target_dir() -> PathBuf {
+    let set =
+        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| PathBuf::from("target"), PathBuf::from);
+    root().join(set)
+}
+
+/// Compiles the program for `core`, with the objects of `peers` if there are any.
+pub(crate) fn compile(core: &Core, peers: Option<&Path>) -> Result<PathBuf> {
+    let mut flags: Vec<String> = core.rustc.iter().map(|flag| (*flag).to_owned()).collect();
+    if let Some(object) = peers {
+        flags.extend([
+            "--cfg=tick_peers".to_owned(),
+            format!("-Clink-arg={}", object.display()),
+        ]);
+    }
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo
+        .current_dir(root())
+        .args([
+            "bench",
+            "--no-run",
+            "--package",
+            "jred",
+            "--bench",
+            "tick",
+            "--profile",
+            "firmware",
+        ])
+        .args([
+            "--target",
+            core.target,
+            "--message-format",
+            "json-render-diagnostics",
+            "--quiet",
+        ]);
+    // Each set of options compiles everything anew: a folder of its own keeps the others.
+    let folder = match (flags.is_empty(), peers) {
+        (true, _) => target_dir(),
+        (_, None) => target_dir().join(core.name),
+        (_, Some(_)) => target_dir().join("peers").join(core.name),
+    };
+    cargo.arg("--target-dir").arg(folder);
+    if !flags.is_empty() {
+        cargo
+            .arg("--config")
+            .arg(format!("target.{}.rustflags = {flags:?}", core.target));
+    }
+    let output = cargo.stderr(Stdio::inherit()).output().context("cargo")?;
+    ensure!(
+        output.status.success(),
+        "the program for {} does not compile",
+        core.name
+    );
+    String::from_utf8_lossy(&output.stdout)
+        .lines()
+        .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
+        .find_map(|message| message.get("executable")?.as_str().map(PathBuf::from))
+        .context("cargo named no program")
+}
+
+/// A kernel's arguments and the results to expect.
+pub(crate) struct Work {
+    points: Vec<[u32; 3]>,
+    expected: Vec<f64>,
+    data: Words,
+    scale: jred::Scale,
+}
+
+impl Work {
+    pub(crate) fn new(kernel: &Kernel, example: &Example) -> Result<Self> {
+        let scale = data::scale(kernel, example)?;
+        let data = data::words(kernel, example, &scale)?;
+        let (number, of) = (kernel.number, kernel.quantity);
+        let mut points = Vec::new();
+        let mut expected = Vec::new();
+        for [turn, omega, alpha] in motions() {
+            let phi = turn * std::f64::consts::TAU;
+            let curves = example.curves(phi);
+            let third = match of {
+                Quantity::Torque => alpha,
+                Quantity::Acceleration => {
+                    curves.inertia * alpha + curves.half_slope * omega * omega
+                }
+            };
+            let words = number.encode(&scale, of, [turn, omega, third]);
+            // The reference is for the arguments as they were rounded: the error is the kernel's own.
+            let [phi, omega, third] = number.decode(&scale, of, words);
+            points.push(words);
+            expected.push(match of {
+                Quantity::Torque => example.torque(phi, omega, third),
+                Quantity::Acceleration => example.acceleration(phi, omega, third),
+            });
+        }
+        Ok(Self {
+            points,
+            expected,
+            data,
+            scale,
+        })
+    }
+
+    /// Bytes of the tables.
+    pub(crate) fn table_bytes(&self) -> usize {
+        self.data.table_bytes
+    }
+
+    /// How many calls there will be.
+    pub(crate) fn calls(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Writes `NAME.in`.
+    pub(crate) fn write(&self, kernel: &Kernel, folder: &Path) -> Result<()> {
+        let counts = [self.data.words.len() as u32, self.points.len() as u32];
+        let words = counts
+            .iter()
+            .chain(&self.data.words)
+            .chain(self.points.as_flattened());
+        let bytes: Vec<u8> = words.flat_map(|word| word.to_le_bytes()).collect();
+        let path = folder.join(format!("{}.in", kernel.name));
+        std::fs::write(&path, bytes).with_context(|| path.display().to_string())
+    }
+
+    /// Reads `NAME.out`: the largest error, relative to the largest result, and the reading of the clock.
+    pub(crate) fn read(&self, kernel: &Kernel, folder: &Path) -> Result<(f64, u32)> {
+        let path = folder.join(format!("{}.out", kernel.name));
+        let bytes = std::fs::read(&path).with_context(|| path.display().to_string())?;
+        let (words, rest) = bytes.as_chunks();
+        let words: Vec<u32> = words.iter().map(|word| u32::from_le_bytes(*word)).collect();
+        let complete = rest.is_empty() && words.len() == 3 * self.points.len() + 1;
+        ensure!(
+            complete,
+            "{}: {} bytes are not the results",
+            path.display(),
+            bytes.len()
+        );
+        let result = |word| kernel.number.result(&self.scale, kernel.quantity, word);
+        let largest = self
+            .expected
+            .iter()
+            .fold(0.0f64, |most, value| most.max(value.abs()));
+        let error = words
+            .chunks_exact(3)
+            .zip(&self.expected)
+            .map(|(words, value)| (result(words[0]) - value).abs());
+        // A result that is no number must not pass as a small error.
+        let error = error.fold(
+            0.0f64,
+            |most, e| if e.is_nan() || e > most { e } else { most },
+        );
+        Ok((error / largest, words[words.len() - 1]))
+    }
+}
