@@ -15,7 +15,7 @@ const MAGIC: u32 = u32::from_le_bytes(*b"JRED");
 /// Version of the layout.
 pub const VERSION: u16 = 2;
 /// Words of the header.
-pub const HEADER_WORDS: usize = 16;
+pub const HEADER_WORDS: usize = 24;
 /// Domain codes.
 const TURN: u8 = 0;
 const STROKE: u8 = 1;
@@ -58,7 +58,7 @@ pub enum ImageError {
     Header(u8),
     /// The image holds another number type; its code (1 = f32, 2 = i32, 3 = i16).
     NumberType(u8),
-    /// The image has another layout; its code (1 = spline, 2 = cubic, 3 = quadratic).
+    /// The image has another layout; its code (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16).
     Layout(u8),
     /// The table is not sound.
     Table(TableError),
@@ -103,7 +103,7 @@ impl fmt::Display for ImageError {
             }
             Self::Layout(code) => write!(
                 f,
-                "the image has layout {code} (1 = spline, 2 = cubic, 3 = quadratic)"
+                "the image has layout {code} (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16)"
             ),
             Self::Table(error) => error.fmt(f),
         }
@@ -137,7 +137,7 @@ pub struct Image<'a> {
     code: u8,
     curves: u8,
     layout: u8,
-    constants: [u32; 3],
+    constants: [u32; 11],
     cells: u32,
     domain: Domain<f32>,
     scale: Scale,
@@ -277,11 +277,19 @@ impl<'a> Image<'a> {
             Some(used) if words.len() - used.len() <= 1 => used,
             _ => words,
         };
-        let [inertia, viscous, coulomb] = self.constants.map(S::word_from_bits);
+        let [inertia, viscous, coulomb, j_load, b_c, reciprocal, ..] = self.constants;
+        let gain = |bits: u32| S::whole(bits as u16);
         let constants = Constants {
-            inertia,
-            viscous,
-            coulomb,
+            inertia: S::word_from_bits(inertia),
+            viscous: S::word_from_bits(viscous),
+            coulomb: S::word_from_bits(coulomb),
+            gains: [
+                gain(j_load),
+                gain(j_load >> 16),
+                gain(b_c),
+                gain(b_c >> 16),
+                gain(reciprocal),
+            ],
         };
         let periodic = matches!(self.domain, Domain::Turn);
         let table = Table::with_constants(words, constants, self.curves, self.cells, periodic)?;
@@ -347,6 +355,7 @@ pub fn encode<'b, S: Scalar, L: Layout>(
         Domain::Stroke { from, to } => (STROKE, from, to),
     };
     let constants = table.constants();
+    let [j, load, b, c, reciprocal] = constants.gains.map(|g| S::exact_whole(g));
     let header: [u32; HEADER_WORDS] = [
         MAGIC,
         word_of(VERSION, HEADER_WORDS as u16),
@@ -364,6 +373,14 @@ pub fn encode<'b, S: Scalar, L: Layout>(
         S::word_bits(constants.inertia),
         S::word_bits(constants.viscous),
         S::word_bits(constants.coulomb),
+        word_of(j, load),
+        word_of(b, c),
+        word_of(reciprocal, 0),
+        0,
+        0,
+        0,
+        0,
+        0,
     ];
     image.fill(0);
     if let Some(head) = image.first_chunk_mut() {

@@ -129,10 +129,10 @@ pub use link::{Frame, Link};
 pub use load::{Action, Load, LoadCurves, Window};
 pub use math::Real;
 pub use mechanism::{Jointed, Mechanism};
-pub use model::{AccelerationRange, Model, Usage};
+pub use model::{AccelerationRange, Model, Part, Pieces, Usage};
 pub use phase::{Domain, Phase};
 pub use reduction::{MAX_LOADS, Machine, Reducible, Reduction, TorqueTerms};
-pub use scalar::{Outcome, Q31, Scalar};
+pub use scalar::{Number, Outcome, Q15, Q31, Scalar};
 pub use scale::Scale;
 pub use table::{Table, TableError};
 pub use transfer::Transfer;
@@ -142,8 +142,10 @@ mod sealed {
     pub trait Sealed {}
     impl Sealed for f32 {}
     impl Sealed for f64 {}
+    impl Sealed for crate::Q15 {}
     impl Sealed for crate::Q31 {}
     impl Sealed for crate::table::Spline {}
+    impl Sealed for crate::table::Spline16 {}
     impl Sealed for crate::table::Cubic {}
     impl Sealed for crate::table::Quadratic {}
 }

@@ -1,18 +1,33 @@
 //! The numbers a table and a tick are made of: `f32`, `f64`, [`Q31`] and [`Q15`].
 
 use core::fmt;
-use core::ops::{Add, Sub};
+use core::ops::{Add, Mul, Sub};
 
-pub use crate::fixed::Q31;
+pub use crate::fixed::{Q15, Q31};
 use crate::table::Role;
 use crate::{Domain, Scale};
 
-/// A number type for tables and ticks. Sealed: `f32`, `f64`, [`Q31`], [`Q15`].
+/// A number type for tables and ticks. Sealed: `f32`, `f64`, [`Q31`].
 ///
 /// Floating point works in SI units or in per-unit, as its [`Scale`] says; fixed point always in per-unit.
-pub trait Scalar: Kernel {
+pub trait Scalar: Kernel + Number {
     /// Name as the command line and the generated sources use it.
     const NAME: &'static str;
+}
+
+/// A number that a [`Scale`] converts: those of [`Scalar`] and [`Q15`], whose tables have rows of their own
+/// ([`short`](crate::short)). Sealed.
+pub trait Number:
+    Copy + Default + PartialEq + PartialOrd + fmt::Debug + crate::sealed::Sealed + 'static
+{
+    /// The nearest number, if it is in range.
+    fn from_f64(value: f64) -> Option<Self>;
+    /// The same number.
+    fn to_f64(self) -> f64;
+    /// `value` in units of `base`.
+    fn per_unit(value: f32, base: f32) -> Outcome<Self>;
+    /// Back to SI.
+    fn si(self, base: f32) -> f32;
 }
 
 /// A result, and whether it had to be limited to the number's range.
@@ -26,7 +41,9 @@ pub struct Outcome<S> {
 }
 
 /// What coefficients of a cell are computed in.
-pub trait Ring: Copy + Default + Add<Output = Self> + Sub<Output = Self> {
+pub trait Ring:
+    Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+{
     /// A small multiple.
     fn times(self, factor: i8) -> Self;
 }
@@ -35,9 +52,7 @@ pub trait Ring: Copy + Default + Add<Output = Self> + Sub<Output = Self> {
 ///
 /// A curve is evaluated in [`Raw`](Self::Raw) numbers, in a format that its [`Role`] fixes; see `fixed` for those of the
 /// fixed-point types. For floating point every format is the plain number.
-pub trait Kernel:
-    Copy + Default + PartialEq + PartialOrd + fmt::Debug + crate::sealed::Sealed + 'static
-{
+pub trait Kernel: Number {
     /// A number as it lies in a table image.
     type Word: bytemuck::Pod + fmt::Debug + PartialEq;
     /// What polynomials are evaluated and torques are summed in.
@@ -64,6 +79,13 @@ pub trait Kernel:
     /// A word of the header, and back.
     fn word_bits(word: Self::Word) -> u32;
     fn word_from_bits(bits: u32) -> Self::Word;
+    /// The lower or upper half of a word, as a number of its own.
+    fn half(word: Self::Word, upper: bool) -> Self::Word;
+    /// `word` with one half replaced, if that fits into 16 bits.
+    fn with_half(word: Self::Word, upper: bool, half: Self::Word) -> Option<Self::Word>;
+    /// A whole number, and back.
+    fn whole(number: u16) -> Self::Word;
+    fn exact_whole(word: Self::Word) -> u16;
     fn raw(word: Self::Word) -> Self::Raw;
     /// The nearest word for a coefficient in machine units, if it is in range.
     fn word(role: Role, coefficient: f64) -> Option<Self::Word>;
@@ -78,12 +100,6 @@ pub trait Kernel:
     fn number(role: Role, raw: Self::Raw) -> Self;
     /// The slope a cell, of a raw slope times `step`.
     fn slope_number(slope: Self::Raw, step: i8) -> Self;
-    fn from_f64(value: f64) -> Option<Self>;
-    fn to_f64(self) -> f64;
-    /// `value` in units of `base`.
-    fn per_unit(value: f32, base: f32) -> Outcome<Self>;
-    /// Back to SI.
-    fn si(self, base: f32) -> f32;
 
     fn span(domain: Domain) -> Self::Span;
     fn span_f32(domain: Domain<f32>) -> Self::Span;
@@ -151,6 +167,25 @@ macro_rules! float {
             const NAME: &'static str = stringify!($float);
         }
 
+        impl Number for $float {
+            fn from_f64(value: f64) -> Option<Self> {
+                let nearest = value as $float;
+                nearest.is_finite().then_some(nearest)
+            }
+            fn to_f64(self) -> f64 {
+                self as f64
+            }
+            fn per_unit(value: f32, base: f32) -> Outcome<Self> {
+                Outcome {
+                    value: value as $float / base as $float,
+                    saturated: false,
+                }
+            }
+            fn si(self, base: f32) -> f32 {
+                self as f32 * base
+            }
+        }
+
         impl Kernel for $float {
             type Word = $float;
             type Raw = $float;
@@ -170,6 +205,19 @@ macro_rules! float {
             }
             fn word_from_bits(bits: u32) -> $float {
                 f32::from_bits(bits) as $float
+            }
+            #[inline]
+            fn half(word: $float, _: bool) -> $float {
+                word
+            }
+            fn with_half(_: $float, _: bool, _: $float) -> Option<$float> {
+                None
+            }
+            fn whole(number: u16) -> $float {
+                $float::from(number)
+            }
+            fn exact_whole(word: $float) -> u16 {
+                word as u16
             }
             #[inline]
             fn raw(word: $float) -> $float {
@@ -198,22 +246,6 @@ macro_rules! float {
             #[inline]
             fn slope_number(slope: $float, _: i8) -> $float {
                 slope
-            }
-            fn from_f64(value: f64) -> Option<Self> {
-                let nearest = value as $float;
-                nearest.is_finite().then_some(nearest)
-            }
-            fn to_f64(self) -> f64 {
-                self as f64
-            }
-            fn per_unit(value: f32, base: f32) -> Outcome<Self> {
-                Outcome {
-                    value: value as $float / base as $float,
-                    saturated: false,
-                }
-            }
-            fn si(self, base: f32) -> f32 {
-                self as f32 * base
             }
             fn span(domain: Domain) -> $float {
                 domain.span() as $float

@@ -1,7 +1,7 @@
 //! SI units to machine units and back.
 
 use crate::error::positive;
-use crate::scalar::{Outcome, Scalar};
+use crate::scalar::{Number, Outcome};
 use crate::{Error, Reducible, math};
 
 /// The bases of the per-unit system: what the number 1 stands for.
@@ -76,6 +76,15 @@ impl Scale {
             torque: (torque * growth) as f32,
             speed: (speed * math::sqrt(growth)) as f32,
             inertia: (inertia * growth) as f32,
+        }
+    }
+
+    /// This scale, as a table of the number type S with so many cells needs it.
+    pub(crate) fn suiting<S: crate::Scalar>(self, cells: u32, span: f64) -> Self {
+        if S::FIXED {
+            self.for_cells(cells, span)
+        } else {
+            self
         }
     }
 
@@ -156,28 +165,34 @@ impl Scale {
     }
 
     /// A speed (rad/s) in machine units.
-    pub fn omega<S: Scalar>(&self, omega: f32) -> Outcome<S> {
+    pub fn omega<S: Number>(&self, omega: f32) -> Outcome<S> {
         S::per_unit(omega, self.speed)
     }
 
     /// An acceleration (rad/s²) in machine units.
-    pub fn alpha<S: Scalar>(&self, alpha: f32) -> Outcome<S> {
+    pub fn alpha<S: Number>(&self, alpha: f32) -> Outcome<S> {
         S::per_unit(alpha, self.acceleration())
     }
 
     /// A torque (N·m) in machine units.
-    pub fn to_torque<S: Scalar>(&self, torque: f32) -> Outcome<S> {
+    pub fn to_torque<S: Number>(&self, torque: f32) -> Outcome<S> {
         S::per_unit(torque, self.torque)
     }
 
     /// A torque in machine units, in N·m.
-    pub fn torque_si<S: Scalar>(&self, torque: S) -> f32 {
+    pub fn torque_si<S: Number>(&self, torque: S) -> f32 {
         torque.si(self.torque)
     }
 
     /// An acceleration in machine units, in rad/s².
-    pub fn alpha_si<S: Scalar>(&self, alpha: S) -> f32 {
+    pub fn alpha_si<S: Number>(&self, alpha: S) -> f32 {
         alpha.si(self.acceleration())
+    }
+}
+
+impl Default for Scale {
+    fn default() -> Self {
+        Self::SI
     }
 }
 

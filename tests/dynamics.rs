@@ -5,57 +5,15 @@ mod support;
 use std::f64::consts::TAU;
 
 use jred::mechanism::{Mesh, SliderCrank, Stage, Train};
-use jred::table::curves;
-use jred::{
-    Domain, Error, Machine, Mechanism, Model, Phase, Q31, Reducible, Reduction, Scalar, Scale,
-    Table,
-};
+use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
+use jred::{Domain, Error, Machine, Mechanism, Phase, Reducible, Reduction, Scale, Table};
 use proptest::prelude::*;
 use support::machines::{Spec, spec};
-use support::{assert_near, budget, config, derivative, largest, model, rk4, words};
-
-/// Acceleration → torque → acceleration, with states of either sign; `units` bounds the difference from the exact
-/// terms [J·α, what resists] and J in machine units.
-fn there_and_back<S: Scalar>(
-    spec: &Spec,
-    [omega, alpha]: [f64; 2],
-    phase: Phase,
-    bound: impl Fn([f64; 2], f64) -> f64,
-) {
-    let machine = spec.machine();
-    let scale = Scale::covering(&machine, 60.0, 900.0, 256).unwrap();
-    let words = words::<S, { curves::ALL }>(&machine, 64, &scale).unwrap();
-    let model = model::<S, { curves::ALL }>(&words, 64, Domain::Turn, &scale);
-    let (base, acceleration) = (f64::from(scale.speed()), f64::from(scale.acceleration()));
-    let omega = S::from_f64(omega * 60.0 / base).unwrap();
-    let alpha = S::from_f64(alpha * 900.0 / acceleration).unwrap();
-    let torque = model.torque(phase, omega, alpha);
-    assert!(!torque.saturated, "{torque:?}");
-    let back = model.acceleration(phase, omega, torque.value);
-    assert!(!back.saturated, "{back:?}");
-    let inertia = model.table().at(phase).inertia.to_f64();
-    let own = inertia * alpha.to_f64();
-    let resisting = torque.value.to_f64() - own;
-    let budget = bound([own, resisting], inertia);
-    assert_near(S::NAME, back.value.to_f64(), alpha.to_f64(), budget);
-}
-
-fn float_bound(epsilon: f64) -> impl Fn([f64; 2], f64) -> f64 {
-    // The parts of what resists may be larger than their sum: up to the torque base, 1.
-    move |[own, _], inertia| budget::TICK_ROUNDINGS * epsilon * (own.abs() + 1.0) / inertia
-}
+use support::rows::Rows;
+use support::{assert_near, budget, config, derivative, largest, rk4};
 
 proptest! {
     #![proptest_config(config(64, 0x0003))]
-
-    #[test]
-    fn forward_inverts_inverse(spec in spec(), omega in -1.0..1.0, alpha in -1.0..1.0, bits: u32) {
-        let (state, phase) = ([omega, alpha], Phase::from_bits(bits));
-        there_and_back::<f64>(&spec, state, phase, float_bound(f64::EPSILON));
-        there_and_back::<f32>(&spec, state, phase, float_bound(f64::from(f32::EPSILON)));
-        // What resists is the same number both ways, J·α lost up to one unit to its floor, the quotient another.
-        there_and_back::<Q31>(&spec, state, phase, |_, inertia| budget::Q31_UNIT * (1.0 / inertia + 1.0));
-    }
 
     /// The same without a table, and Coulomb friction changes sign with ω and vanishes at rest.
     #[test]
@@ -134,8 +92,8 @@ const CELLS: u32 = 32;
 
 /// Largest share by which ½·J·ω² + U of the table leaves its start over four turns without drive torque, with
 /// `per_cell` Runge-Kutta steps a cell. dω/dφ = α/ω over steps of a power of two of a turn: phases are exact.
-fn energy_drift<const CURVES: u8>(
-    table: &Table<'_, f64, CURVES>,
+fn energy_drift<L: Layout>(
+    table: &Table<'_, f64, L>,
     omega: f64,
     per_cell: u32,
     acceleration: impl Fn(Phase, f64) -> f64,
@@ -161,9 +119,9 @@ fn energy_drift<const CURVES: u8>(
     drift
 }
 
-fn drifts<const CURVES: u8>(machine: &impl Reducible, omega: f64) {
-    let words = words::<f64, CURVES>(machine, CELLS, &Scale::SI).unwrap();
-    let model = model::<f64, CURVES>(&words, CELLS, Domain::Turn, &Scale::SI);
+fn drifts<const CURVES: u8, L: Layout>(machine: &impl Reducible, omega: f64) {
+    let rows = Rows::<f64, L>::of(machine, CURVES, CELLS, &Scale::SI).unwrap();
+    let model = rows.model::<CURVES>(&Scale::SI);
     let forward = |phase, w| model.acceleration(phase, w, 0.0).value;
     let at = |per_cell| energy_drift(model.table(), omega, per_cell, forward);
     let [coarse, fine] = [at(8), at(16)];
@@ -208,12 +166,16 @@ fn press() -> Spec {
 
 #[test]
 fn energy_is_conserved_through_the_table() {
-    drifts::<{ curves::INERTIA }>(&press().bare(), 10.0);
+    drifts::<{ curves::INERTIA }, Spline>(&press().bare(), 10.0);
+    drifts::<{ curves::INERTIA }, Cubic>(&press().bare(), 10.0);
+    drifts::<{ curves::INERTIA }, Quadratic>(&press().bare(), 10.0);
 }
 
 #[test]
 fn energy_is_conserved_through_the_table_with_gravity() {
-    drifts::<{ curves::LOAD }>(&press().heavy(), 60.0);
+    drifts::<{ curves::LOAD }, Spline>(&press().heavy(), 60.0);
+    drifts::<{ curves::LOAD }, Cubic>(&press().heavy(), 60.0);
+    drifts::<{ curves::LOAD }, Quadratic>(&press().heavy(), 60.0);
 }
 
 /// A slider-crank reduced to the way of its slider, over a stroke between its dead centres: (7.10).
@@ -280,8 +242,8 @@ fn sliding_drive_link_is_the_same_machine() {
         phi: [0.6, 2.4],
     };
     let domain = sliding.domain();
-    let words = words::<f64, { curves::ALL }>(&sliding, 128, &Scale::SI).unwrap();
-    let model: Model<'_, f64, { curves::ALL }> = model(&words, 128, domain, &Scale::SI);
+    let rows = Rows::<f64>::of(&sliding, curves::ALL, 128, &Scale::SI).unwrap();
+    let model = rows.model::<{ curves::ALL }>(&Scale::SI);
     let mut worst = 0.0;
     for k in 0..200 {
         let phi = 0.62 + 1.76 * f64::from(k) / 199.0;
@@ -290,7 +252,7 @@ fn sliding_drive_link_is_the_same_machine() {
             let terms = spec.machine().reduction(phi).unwrap().torque(omega, alpha);
             let (speed, acceleration) = (x.velocity(omega), x.acceleration(omega, alpha));
             let phase = domain.phase(x.value);
-            let force = model.torque(phase, speed, acceleration).value;
+            let force = model.torque(phase, speed, acceleration);
             // T·ω = F·v, and at rest by virtual work: T = F·x′.
             let size = largest(terms.values());
             worst = largest([worst, (force * x.d1 - terms.total()) / size]);

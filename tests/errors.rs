@@ -6,14 +6,15 @@ use std::f64::consts::PI;
 
 use jred::mechanism::{Branch, Geneva, Mesh, RackAndPinion, SliderCrank, Stage, Train};
 use jred::motion::{Law, Move};
-use jred::table::{CubicSpline, MAX_CELLS, curves, fit_bounded, fit_periodic};
+use jred::table::{CubicSpline, MAX_CELLS, Spline, curves, fit_bounded, fit_periodic};
 use jred::tabulate::{Request, fill, tabulate};
 use jred::{
-    Action, Domain, Element, Error, Link, Load, Machine, Marker, Mechanism, Q31, Reducible, Scale,
-    Window,
+    Action, Domain, Element, Error, Link, Load, Machine, Marker, Mechanism, Q31, Reducible, Scalar,
+    Scale, Window,
 };
 use support::machines::Wave;
-use support::{assert_near, budget, words};
+use support::rows::Rows;
+use support::{assert_near, budget};
 
 /// The error, after checking that its text holds every part.
 #[track_caller]
@@ -32,6 +33,16 @@ fn links() -> [Link; 3] {
 
 fn slider_crank(r: f64, l: f64, e: f64) -> Result<SliderCrank, Error> {
     SliderCrank::new(r, l, e, Branch::Right, links())
+}
+
+/// The table of a machine, or why there is none.
+fn rows<S: Scalar>(
+    machine: &impl Reducible,
+    set: u8,
+    cells: u32,
+    scale: &Scale,
+) -> Result<Vec<S::Word>, Error> {
+    Rows::<S>::of(machine, set, cells, scale).map(|rows| rows.words)
 }
 
 fn machine() -> Machine<SliderCrank> {
@@ -283,7 +294,7 @@ fn tables_that_cannot_be_made_say_why() {
     let wave = Wave::bare(1.0, 0.5);
     let small = Scale::new(1.0, 1.0, 1.0).unwrap();
     let error = says(
-        words::<Q31, 0>(&wave, 16, &small),
+        rows::<Q31>(&wave, 0, 16, &small),
         &["inertia base", "cell", "larger"],
     );
     assert!(matches!(
@@ -296,18 +307,18 @@ fn tables_that_cannot_be_made_say_why() {
     let loaded = Wave { load: 9.0, ..wave };
     let enough = Scale::new(1.0, 1.0, 4.0).unwrap();
     let error = says(
-        words::<Q31, 1>(&loaded, 16, &enough),
+        rows::<Q31>(&loaded, 1, 16, &enough),
         &["torque base", "larger"],
     );
     assert!(matches!(error, Error::Overflow { base: "torque", .. }));
     // The spline of samples that touch zero goes below it.
     let dips = Wave::bare(1.0, 0.999);
     says(
-        words::<f32, 0>(&dips, 5, &Scale::SI),
+        rows::<f32>(&dips, 0, 5, &Scale::SI),
         &["reduced inertia", "not positive"],
     );
     let error = says(
-        words::<f32, 0>(&wave, MAX_CELLS + 1, &Scale::SI),
+        rows::<f32>(&wave, 0, MAX_CELLS + 1, &Scale::SI),
         &["65537 cells", "4 to 65536"],
     );
     assert!(matches!(error, Error::Table(_)));
@@ -349,7 +360,8 @@ fn tables_that_cannot_be_made_say_why() {
             alpha,
             max_cells: 16,
         };
-        let refused = tabulate::<f32, Spline>(&wave, 0, &bad, &Scale::SI, &mut [0.0; 38], &mut rows);
+        let refused =
+            tabulate::<f32, Spline>(&wave, 0, &bad, &Scale::SI, &mut [0.0; 38], &mut rows);
         says(refused, &["greater than zero"]);
     }
     says(CubicSpline::new([0.0; 6]), &["holds 6", "7"]);
@@ -361,11 +373,11 @@ fn a_load_that_does_not_repeat_is_not_tabulated() {
     let rack = Link::new(2.0, 0.0, [0.0, 0.0]).unwrap();
     let rack = RackAndPinion::new(0.03, [Link::rotor(0.01).unwrap(), rack]).unwrap();
     let machine = Machine::new(rack);
-    assert!(words::<f64, { curves::LOAD }>(&machine, 16, &Scale::SI).is_ok());
+    assert!(rows::<f64>(&machine, curves::LOAD, 16, &Scale::SI).is_ok());
     let between = [Marker::ground([-1.0, -0.03]), Marker::on(1, [0.0, 0.0])];
     let spring = Element::spring(between, 500.0, 0.4).unwrap();
     let sprung = machine.with_element(spring).unwrap();
-    let refused = words::<f64, { curves::LOAD }>(&sprung, 16, &Scale::SI).unwrap_err();
+    let refused = rows::<f64>(&sprung, curves::LOAD, 16, &Scale::SI).unwrap_err();
     assert_eq!(refused, Error::NotPeriodic { phi: 0.4 });
     says::<()>(
         Err(refused),
@@ -393,7 +405,7 @@ fn loads_are_judged_where_they_do_not_act() {
             .with_load(load(action))
             .unwrap()
     };
-    let fill = |machine| words::<f64, { curves::LOAD }>(&machine, 64, &Scale::SI);
+    let fill = |machine: Machine<Geneva>| rows::<f64>(&machine, curves::LOAD, 64, &Scale::SI);
     assert!(fill(with(Action::Moment(3.0))).is_ok());
     says(
         fill(with(Action::Force([0.0, 50.0]))),

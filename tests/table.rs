@@ -182,15 +182,8 @@ fn numbers_out_of_range_are_refused_with_their_cell() {
         for (index, cell) in [(0, 0), (2, 0), (5, 1), (14, 3)] {
             assert_eq!(refused_with::<f32, Quadratic>(index, value), range(cell));
         }
-        let constants = Constants {
-            inertia: value,
-            viscous: 0.0,
-            coulomb: 0.0,
-        };
-        let rows = Rows {
-            constants,
-            ..good::<f32, Spline>()
-        };
+        let mut rows = good::<f32, Spline>();
+        rows.constants.inertia = value;
         assert_eq!(refused(&rows), range(0));
     }
     assert_eq!(refused_with::<f64, Spline>(2, f64::NAN), range(0));
@@ -217,16 +210,12 @@ fn constants_that_are_not_finite_are_refused() {
             (curves::CONSTANT_VISCOUS, value, 0.0),
             (curves::CONSTANT_COULOMB, 0.0, value),
         ] {
-            let constants = Constants {
-                inertia: 0.0,
-                viscous,
-                coulomb,
-            };
-            let rows = Rows {
-                constants,
+            let mut rows = Rows {
                 set,
                 ..good::<f32, Spline>()
             };
+            rows.constants.viscous = viscous;
+            rows.constants.coulomb = coulomb;
             let model = rows.try_model::<{ curves::CONSTANT_VISCOUS }>(&Scale::SI);
             let other = rows.try_model::<{ curves::CONSTANT_COULOMB }>(&Scale::SI);
             assert!(model.is_err() && other.is_err(), "{set} of {value}");

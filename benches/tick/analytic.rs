@@ -41,7 +41,7 @@ impl Machine {
     }
 
     /// x′ and x″, given the sine and cosine of the crank angle.
-    #[inline(always)]
+    #[inline]
     fn transfer(&self, [sin, cos]: [f32; 2], sqrt: fn(f32) -> f32) -> [f32; 2] {
         let [s, c] = [self.ratio * sin, self.ratio * cos];
         // One division, by the root; (l/r)·(√(1 − s²))′ = −s·cos φ/√(1 − s²).
@@ -52,7 +52,7 @@ impl Machine {
         [self.radius * first, self.radius * second]
     }
 
-    #[inline(always)]
+    #[inline]
     fn torque(&self, [first, second]: [f32; 2], omega: f32, alpha: f32) -> f32 {
         let friction = if omega > 0.0 {
             self.coulomb
@@ -68,47 +68,62 @@ impl Machine {
             + friction
     }
 
-    #[inline(always)]
+    #[inline]
     fn acceleration(&self, [first, second]: [f32; 2], omega: f32, torque: f32) -> f32 {
         (torque - self.mass * first * second * omega * omega)
             / (self.rotating + self.mass * first * first)
     }
 }
 
-#[inline(always)]
+#[inline]
 fn libm_sin_cos(phi: f32) -> [f32; 2] {
     [libm::sinf(phi), libm::cosf(phi)]
 }
 
-#[inline(always)]
+#[inline]
 fn micromath_sin_cos(phi: f32) -> [f32; 2] {
     [F32Ext::sin(phi), F32Ext::cos(phi)]
 }
 
 #[unsafe(no_mangle)]
 #[inline(never)]
-fn analytic_libm_torque(machine: &Machine, phi: f32, omega: f32, alpha: f32) -> f32 {
+extern "Rust" fn analytic_libm_torque(machine: &Machine, phi: f32, omega: f32, alpha: f32) -> f32 {
     let transfer = machine.transfer(libm_sin_cos(phi), libm::sqrtf);
     machine.torque(transfer, omega, alpha)
 }
 
 #[unsafe(no_mangle)]
 #[inline(never)]
-fn analytic_libm_acceleration(machine: &Machine, phi: f32, omega: f32, torque: f32) -> f32 {
+extern "Rust" fn analytic_libm_acceleration(
+    machine: &Machine,
+    phi: f32,
+    omega: f32,
+    torque: f32,
+) -> f32 {
     let transfer = machine.transfer(libm_sin_cos(phi), libm::sqrtf);
     machine.acceleration(transfer, omega, torque)
 }
 
 #[unsafe(no_mangle)]
 #[inline(never)]
-fn analytic_micromath_torque(machine: &Machine, phi: f32, omega: f32, alpha: f32) -> f32 {
+extern "Rust" fn analytic_micromath_torque(
+    machine: &Machine,
+    phi: f32,
+    omega: f32,
+    alpha: f32,
+) -> f32 {
     let transfer = machine.transfer(micromath_sin_cos(phi), F32Ext::sqrt);
     machine.torque(transfer, omega, alpha)
 }
 
 #[unsafe(no_mangle)]
 #[inline(never)]
-fn analytic_micromath_acceleration(machine: &Machine, phi: f32, omega: f32, torque: f32) -> f32 {
+extern "Rust" fn analytic_micromath_acceleration(
+    machine: &Machine,
+    phi: f32,
+    omega: f32,
+    torque: f32,
+) -> f32 {
     let transfer = machine.transfer(micromath_sin_cos(phi), F32Ext::sqrt);
     machine.acceleration(transfer, omega, torque)
 }
@@ -124,15 +139,15 @@ fn over(data: &[u32], points: &mut [Point], kernel: fn(&Machine, f32, f32, f32) 
 
 pub(crate) const KERNELS: &[Kernel] = &[
     ("analytic_libm_torque", |d, p| {
-        over(d, p, analytic_libm_torque)
+        over(d, p, analytic_libm_torque);
     }),
     ("analytic_libm_acceleration", |d, p| {
-        over(d, p, analytic_libm_acceleration)
+        over(d, p, analytic_libm_acceleration);
     }),
     ("analytic_micromath_torque", |d, p| {
-        over(d, p, analytic_micromath_torque)
+        over(d, p, analytic_micromath_torque);
     }),
     ("analytic_micromath_acceleration", |d, p| {
-        over(d, p, analytic_micromath_acceleration)
+        over(d, p, analytic_micromath_acceleration);
     }),
 ];

@@ -50,7 +50,7 @@ fn interpolated(table: &[f32; VALUES], cell: usize, u: f32) -> f32 {
 
 #[unsafe(no_mangle)]
 #[inline(never)]
-fn hand_f32_torque(machine: &Machine, phi: f32, omega: f32, alpha: f32) -> f32 {
+extern "Rust" fn hand_f32_torque(machine: &Machine, phi: f32, omega: f32, alpha: f32) -> f32 {
     let (cell, u) = machine.place(phi);
     let friction = if omega > 0.0 {
         machine.coulomb
@@ -68,7 +68,12 @@ fn hand_f32_torque(machine: &Machine, phi: f32, omega: f32, alpha: f32) -> f32 {
 
 #[unsafe(no_mangle)]
 #[inline(never)]
-fn hand_f32_acceleration(machine: &Machine, phi: f32, omega: f32, torque: f32) -> f32 {
+extern "Rust" fn hand_f32_acceleration(
+    machine: &Machine,
+    phi: f32,
+    omega: f32,
+    torque: f32,
+) -> f32 {
     let (cell, u) = machine.place(phi);
     (torque - interpolated(&machine.half_slope, cell, u) * omega * omega)
         / interpolated(&machine.inertia, cell, u)
@@ -84,8 +89,10 @@ fn over(data: &[u32], points: &mut [Point], kernel: fn(&Machine, f32, f32, f32) 
 }
 
 pub(crate) const KERNELS: &[Kernel] = &[
-    ("hand_f32_torque", |d, p| over(d, p, hand_f32_torque)),
+    ("hand_f32_torque", |d, p| {
+        over(d, p, hand_f32_torque);
+    }),
     ("hand_f32_acceleration", |d, p| {
-        over(d, p, hand_f32_acceleration)
+        over(d, p, hand_f32_acceleration);
     }),
 ];

@@ -22,7 +22,7 @@ macro_rules! kernels {
         $(
             #[unsafe(no_mangle)]
             #[inline(never)]
-            fn $name(
+            extern "Rust" fn $name(
                 model: &Model<$number, $set, $layout>,
                 phase: Phase,
                 omega: $number,

@@ -29,6 +29,7 @@ fn main() {
 mod target {
     use cortex_m::peripheral::SYST;
     use cortex_m::peripheral::syst::SystClkSource;
+    use cortex_m::singleton;
     use cortex_m_rt::entry;
     use cortex_m_semihosting::{debug, hprintln};
     use panic_semihosting as _;
@@ -58,12 +59,10 @@ mod target {
 
     /// Words of the largest file: the microbit has 16 KiB of RAM.
     const WORDS: usize = 2700;
-    static mut BUFFER: [u32; WORDS] = [0; WORDS];
 
     #[entry]
     fn main() -> ! {
-        // SAFETY: taken here alone, once.
-        let buffer = unsafe { &mut *(&raw mut BUFFER) };
+        let buffer: &mut [u32] = singleton!(: [u32; WORDS] = [0; WORDS]).expect("taken once");
         let mut clock = cortex_m::Peripherals::take().expect("taken once").SYST;
         clock.set_clock_source(SystClkSource::Core);
         clock.set_reload(RELOAD);
@@ -96,7 +95,7 @@ mod target {
     /// counts when each takes 1 ns.
     #[unsafe(no_mangle)]
     #[inline(never)]
-    fn tick_clock() -> u32 {
+    extern "Rust" fn tick_clock() -> u32 {
         SYST::get_current()
     }
 

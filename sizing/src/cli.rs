@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-use crate::export::{Form, Number};
+use crate::export::{Choice, Form, LayoutChoice, Number};
 use crate::inspect::Format as CheckFormat;
 use crate::output::Format;
 use crate::reduce::Over;
@@ -140,25 +140,35 @@ pub struct Export {
     /// Number type of the table.
     #[arg(long = "type", value_enum, default_value_t)]
     pub number: Number,
-    /// Largest error of the drive torque, which acts at the drive link, e.g. "0.5 N m".
-    #[arg(long, value_parser = crate::input::torque_argument)]
-    pub torque_error: f64,
-    /// Largest speed of the drive link, e.g. "90 rpm"; from the motion if not given.
-    #[arg(long, value_parser = crate::input::speed_argument)]
-    pub omega: Option<f64>,
-    /// Largest acceleration of the drive link, e.g. "120 rad/s^2"; if not given, that of the motion, or omega^2 where
-    /// the motion has none.
-    #[arg(long, value_parser = crate::input::acceleration_argument)]
-    pub alpha: Option<f64>,
+    /// How the curves lie in memory.
+    #[arg(long, value_enum, default_value_t)]
+    pub layout: LayoutChoice,
+    /// A curve of 1/J as well, with which fixed-point forward dynamics does without a division.
+    #[arg(long, value_enum, default_value_t)]
+    pub reciprocal: Choice,
+    /// Largest error of the drive torque, which acts at the drive link, e.g. "0.5 N m" ("5 N" of a sliding link); may be left
+    /// out with --max-bytes.
+    #[arg(long, required_unless_present = "max_bytes", allow_hyphen_values = true)]
+    pub torque_error: Option<String>,
+    /// Largest speed of the drive link, e.g. "90 rpm" ("0.2 m/s" of a sliding link); from the motion if not given.
+    #[arg(long, allow_hyphen_values = true)]
+    pub omega: Option<String>,
+    /// Largest acceleration of the drive link, e.g. "120 rad/s^2" ("3 m/s^2"); if not given, that of the motion, or omega^2
+    /// where the motion has none.
+    #[arg(long, allow_hyphen_values = true)]
+    pub alpha: Option<String>,
     /// Inertia of rotor and gearbox at the input of the drive train, e.g. "90 kg cm^2", to be moved as well.
     #[arg(long, value_parser = crate::input::inertia_argument)]
     pub rotor_inertia: Option<f64>,
     /// Most cells to try.
-    #[arg(long, default_value_t = 4096, value_parser = clap::value_parser!(u32).range(4..=65536))]
+    #[arg(long, default_value_t = 4096, value_parser = clap::value_parser!(u32).range(4..=65535))]
     pub max_cells: u32,
-    /// File to write.
+    /// Most bytes of the image, header and CRC included. Without --torque-error: the most exact table of so many bytes.
+    #[arg(long)]
+    pub max_bytes: Option<u32>,
+    /// File to write; without one only what was found is printed (as JSON with --format json).
     #[arg(long, short)]
-    pub out: PathBuf,
+    pub out: Option<PathBuf>,
 }
 
 /// `jred split`

@@ -3,7 +3,6 @@
 use std::io::Write as _;
 use std::path::Path;
 
-use jred::tabulate::Request;
 use miette::{IntoDiagnostic as _, Result, WrapErr as _, miette};
 
 use crate::catalogue::Catalogue;
@@ -11,7 +10,7 @@ use crate::cli;
 use crate::contact::OneWay;
 use crate::coordinate::Coordinate;
 use crate::duty::Duty;
-use crate::export::Export;
+use crate::export::{Choice, Export, Failure, Form, Number, Task};
 use crate::inspect::{self, Findings};
 use crate::machine::MachineFile;
 use crate::motion::Motion;
@@ -201,51 +200,85 @@ fn run_simulate(options: &cli::Simulate) -> Result<Done> {
 fn run_export(options: &cli::Export) -> Result<Done> {
     let file = input::read(&options.file)?;
     variator::refuse(&file, "export")?;
-    let (omega, alpha) = range(options, &file)?;
-    let request = Request {
-        torque_error: options.torque_error,
+    let reciprocal = options.reciprocal == Choice::Yes;
+    if reciprocal && options.number == Number::F32 {
+        return Err(miette!(
+            help = "leave out --reciprocal, or take --type i32",
+            "f32 tables have no curve of 1/J: floating point divides"
+        ));
+    }
+    let coordinate = Coordinate::of(file.machine.mechanism()).into_diagnostic()?;
+    let quantity = |name: &str, text: &Option<String>, read: input::Reader| {
+        let value = text.as_deref().map(|text| {
+            read(text, coordinate).map_err(|why| miette!("--{name} {text:?} cannot be used: {why}"))
+        });
+        value.transpose()
+    };
+    let torque_error = quantity("torque-error", &options.torque_error, input::drive_effort)?;
+    let omega = quantity("omega", &options.omega, input::largest_speed)?;
+    let alpha = quantity("alpha", &options.alpha, input::largest_acceleration)?;
+    let (omega, alpha) = range([omega, alpha], &file, &options.file)?;
+    let task = Task {
+        number: options.number,
+        layout: options.layout,
+        reciprocal,
+        torque_error,
+        max_bytes: options.max_bytes,
+        max_cells: options.max_cells,
         omega,
         alpha,
-        max_cells: options.max_cells,
+        rotor: options.rotor_inertia.unwrap_or(0.0),
     };
-    let rotor = options.rotor_inertia.unwrap_or(0.0);
-    let export = match Export::new(&file, options.number, request, rotor) {
+    let export = match Export::new(&file, task) {
         Ok(export) => export,
-        Err(error @ jred::Error::TorqueErrorNotReached { .. }) => {
-            eprintln!("{error}");
+        Err(Failure::NotReached(why)) => {
+            eprintln!("{why}");
             return Ok(Done::Violated);
         }
-        Err(error) => return Err(error).into_diagnostic(),
+        Err(Failure::NoneFits { message, help }) => return Err(miette!(help = help, "{message}")),
+        Err(Failure::Machine(error)) => return Err(error).into_diagnostic(),
     };
-    write(&options.out, &export.write(options.format), &options.file)?;
+    if let Some(out) = &options.out {
+        write(out, &export.write(options.format), &options.file)?;
+    }
     mind(&file, [omega, 0.0])?;
-    print(&format!(
-        "{}written to {}\n",
-        export.summary(),
-        options.out.display()
-    ))
+    match (&options.out, options.format) {
+        (None, Form::Json) => print(&format!("{:#}\n", export.json())),
+        (None, _) => print(&format!(
+            "{}\n{}nothing written: --out names a file\n",
+            export.summary(),
+            export.alternatives()
+        )),
+        (Some(out), _) => print(&format!(
+            "{}\n{}written to {}\n",
+            export.summary(),
+            export.alternatives(),
+            out.display()
+        )),
+    }
 }
 
 /// Largest speed and acceleration: as given, else those of the motion. Where there is no acceleration, at constant speed or
 /// without a motion, the speed reached within a radian stands in.
-fn range(options: &cli::Export, file: &MachineFile) -> Result<(f64, f64)> {
-    match (options.omega, options.alpha, &file.motion) {
-        (Some(omega), Some(alpha), _) => return Ok((omega, alpha)),
-        (Some(omega), None, None) => return Ok((omega, omega * omega)),
+fn range(given: [Option<f64>; 2], file: &MachineFile, path: &Path) -> Result<(f64, f64)> {
+    match (given, &file.motion) {
+        ([Some(omega), Some(alpha)], _) => return Ok((omega, alpha)),
+        ([Some(omega), None], None) => return Ok((omega, omega * omega)),
         _ => {}
     }
     let motion = file.motion.as_ref().ok_or_else(|| {
         miette!(
             help = "give --omega, or add a [motion] to the machine file",
             "the largest speed is not known: {} has no [motion]",
-            options.file.display()
+            path.display()
         )
     })?;
     let duty = Duty::new(file, motion, crate::duty::STEPS).into_diagnostic()?;
-    let omega = options.omega.unwrap_or(duty.figures(|i| i.omega).peak());
+    let [omega, alpha] = given;
+    let omega = omega.unwrap_or(duty.figures(|i| i.omega).peak());
     let moved = duty.figures(|i| i.alpha).peak();
     let own = if moved > 0.0 { moved } else { omega * omega };
-    Ok((omega, options.alpha.unwrap_or(own)))
+    Ok((omega, alpha.unwrap_or(own)))
 }
 
 /// Motors of the catalogue turn: a drive link that slides needs a stage between.

@@ -15,7 +15,9 @@
 
 mod product;
 
+mod q15;
 mod q31;
 
 
+pub use q15::Q15;
 pub use q31::Q31;

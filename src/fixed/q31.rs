@@ -3,7 +3,7 @@
 use core::num::{NonZeroU64, Wrapping};
 
 use super::product::{high, high_short};
-use crate::scalar::{Kernel, Outcome, Ring, Scalar};
+use crate::scalar::{Kernel, Number, Outcome, Ring, Scalar};
 use crate::table::Role;
 use crate::{Domain, Scale};
 
@@ -60,6 +60,25 @@ const fn unit(role: Role) -> f64 {
     }
 }
 
+impl Number for Q31 {
+    fn from_f64(value: f64) -> Option<Self> {
+        Self::word(Role::Reciprocal, value).map(Self)
+    }
+    fn to_f64(self) -> f64 {
+        f64::from(self.0) * (1.0 / 2_147_483_648.0)
+    }
+    fn per_unit(value: f32, base: f32) -> Outcome<Self> {
+        let scaled = value / base * 2_147_483_648.0;
+        Outcome {
+            value: Self(scaled as i32), // `as` saturates
+            saturated: !(-2_147_483_648.0..2_147_483_648.0).contains(&scaled),
+        }
+    }
+    fn si(self, base: f32) -> f32 {
+        self.0 as f32 * (1.0 / 2_147_483_648.0) * base
+    }
+}
+
 impl Kernel for Q31 {
     type Word = i32;
     type Raw = Wrapping<i32>;
@@ -78,6 +97,24 @@ impl Kernel for Q31 {
     }
     fn word_from_bits(bits: u32) -> i32 {
         bits.cast_signed()
+    }
+    #[inline]
+    fn half(word: i32, upper: bool) -> i32 {
+        if upper { word >> 16 } else { i32::from(word as i16) }
+    }
+    fn with_half(word: i32, upper: bool, half: i32) -> Option<i32> {
+        let half = i32::from(i16::try_from(half).ok()?);
+        Some(if upper {
+            half << 16 | word & 0xffff
+        } else {
+            word & !0xffff | half & 0xffff
+        })
+    }
+    fn whole(number: u16) -> i32 {
+        i32::from(number)
+    }
+    fn exact_whole(word: i32) -> u16 {
+        word as u16
     }
     #[inline]
     fn raw(word: i32) -> Self::Raw {
@@ -116,22 +153,6 @@ impl Kernel for Q31 {
         } else {
             slope.0.saturating_mul(2)
         })
-    }
-    fn from_f64(value: f64) -> Option<Self> {
-        Self::word(Role::Reciprocal, value).map(Self)
-    }
-    fn to_f64(self) -> f64 {
-        f64::from(self.0) * (1.0 / 2_147_483_648.0)
-    }
-    fn per_unit(value: f32, base: f32) -> Outcome<Self> {
-        let scaled = value / base * 2_147_483_648.0;
-        Outcome {
-            value: Self(scaled as i32), // `as` saturates
-            saturated: !(-2_147_483_648.0..2_147_483_648.0).contains(&scaled),
-        }
-    }
-    fn si(self, base: f32) -> f32 {
-        self.0 as f32 * (1.0 / 2_147_483_648.0) * base
     }
     fn span(domain: Domain) -> f32 {
         domain.to_f32().span()

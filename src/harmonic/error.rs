@@ -30,8 +30,8 @@ pub enum CoefficientError {
         /// The phase of the drive link.
         phase: Phase,
     },
-    /// At every place looked at the reduced inertia is positive, but so little that between two of them its curvature may take it to
-    /// zero.
+    /// At every place looked at the reduced inertia is positive, but so little that between two of them its curvature
+    /// may take it to zero.
     InertiaNotShown {
         /// Where it is least.
         phase: Phase,

@@ -4,9 +4,9 @@
 //! |δT| ≤ Σ over what was left out or rounded of  |δJₖ|·(α_max + ½·k·ω_max²) + |δloadₖ| + |δbₖ|·ω_max + |δcₖ|
 //! ```
 //!
-//! with δₖ the size √(aₖ² + bₖ²) of a harmonic left out, or the rounding of a coefficient kept: a bound for all φ, not for
-//! places looked at. What lies behind the last harmonic that the samples tell is bounded from the fall of the terms before
-//! it.
+//! with δₖ the size √(aₖ² + bₖ²) of a harmonic left out, or the rounding of a coefficient kept: a bound for all φ, not
+//! for places looked at. What lies behind the last harmonic that the samples tell is bounded from the fall of the terms
+//! before it.
 
 use super::spectrum::Spectrum;
 use super::word::{Coefficient, Curve, Kind, in_use, words_len};
@@ -65,9 +65,9 @@ pub const fn scratch_len(max_harmonics: u32) -> usize {
     Spectrum::scratch_len(max_harmonics)
 }
 
-/// The terms that the machine's curves of this set need, of up to `max_harmonics` harmonics: a curve without cosines is odd
-/// but for its mean, one without sines even. What is below 1e-12 of a curve's size counts as rounding. `scratch` is that of
-/// [`fit`].
+/// The terms that the machine's curves of this set need, of up to `max_harmonics` harmonics: a curve without cosines is
+/// odd but for its mean, one without sines even. What is below 1e-12 of a curve's size counts as rounding. `scratch` is
+/// that of [`fit`].
 ///
 /// # Errors
 /// Those of the machine; [`HarmonicError::Stroke`]; a buffer too short.
@@ -115,23 +115,23 @@ fn spectrum<'s>(
     Spectrum::new(scratch, max_harmonics, set)
 }
 
-/// Finds the fewest harmonics of these curves and terms that meet the request, fills `words` with their coefficients, and
-/// says how exact they are. What the machine has and `CURVES` or `TERMS` leave out counts as error.
+/// Finds the fewest harmonics of these curves and terms that meet the request, fills `words` with their coefficients,
+/// and says how exact they are. What the machine has and `CURVES` or `TERMS` leave out counts as error.
 ///
 /// Coulomb friction F·|v′| is taken as F·v′, which is smooth, if its magnitude has kinks at zero only; with
 /// `CONSTANT_COULOMB` in `CURVES` the value at φ = 0 is taken off before.
 ///
-/// 32 samples a turn are taken first and doubled until the terms behind the harmonics kept have fallen so far that what no sample
-/// shows is bounded; then the error is measured, in `T`, at 4·N + 1 other places.
+/// 32 samples a turn are taken first and doubled until the terms behind the harmonics kept have fallen so far that what
+/// no sample shows is bounded; then the error is measured, in `T`, at 4·N + 1 other places.
 ///
 /// **Accuracy**: `bound` and `torque_error` are both no larger than asked for; coefficients of a series are found to
-/// 1e-14 of its size (test `a_series_comes_back`). **Cost**: `samples` reductions and twice four times as many to check;
-/// some 0.1 ms for a slider-crank on a host (`docs/harmonics.md`).
+/// 1e-14 of its size (test `a_series_comes_back`). **Cost**: `samples` reductions, and four times as many for each
+/// number of harmonics that is checked; below 0.1 ms for a slider-crank on a host (`docs/harmonics.md`).
 ///
 /// # Errors
 /// [`HarmonicError::Stroke`]; [`HarmonicError::NotConverged`], for a curve with a kink in particular;
-/// [`HarmonicError::Coefficients`] if J is not shown to be positive between the samples; [`Error::NoInertia`] if it is not at one;
-/// buffers too short; those of the machine.
+/// [`HarmonicError::Coefficients`] if J is not shown to be positive between the samples; [`Error::NoInertia`] if it is
+/// not at one; buffers too short; those of the machine.
 pub fn fit<T: Circular, const CURVES: u8, const TERMS: u8>(
     machine: &impl Reducible,
     request: &Request,
@@ -195,8 +195,8 @@ pub fn fit<T: Circular, const CURVES: u8, const TERMS: u8>(
     .into())
 }
 
-/// The largest error of the drive torque (N·m) within the range of the request, in the model's own arithmetic, at so many
-/// places of a turn (an odd number: not in step with any samples), and where it is (rad).
+/// The largest error of the drive torque (N·m) within the range of the request, in the model's own arithmetic, at so
+/// many places of a turn (an odd number: not in step with any samples), and where it is (rad).
 ///
 /// # Errors
 /// Those of the machine.
@@ -261,12 +261,13 @@ fn left_out<T: Circular, const CURVES: u8, const TERMS: u8>(
     sum
 }
 
-/// A bound on the terms that N samples do not tell, from the sums of the terms between N/8 and N/4 and between N/4 and N/2.
-/// Terms that fall like a power of k keep the ratio q of such sums, those of smooth curves fall faster: all that follows the last
-/// sum is at most q/(1 − q) of it. What follows also hides in the last sum, by up to half of it at the slowest fall accepted,
-/// k^−2.4; hence twice. `None` if the terms fall more slowly, as those of a kink do, unless they are rounding.
+/// A bound on the terms that N samples do not tell, from the sums of the terms between N/8 and N/4 and between N/4 and
+/// N/2. Terms that fall like a power of k keep the ratio q of such sums, those of smooth curves fall faster: all that
+/// follows the last sum is at most q/(1 − q) of it. What follows also hides in the last sum, by up to half of it at the
+/// slowest fall accepted, k^−2.5; hence twice. `None` if the terms fall more slowly, as those of a kink do, unless they
+/// are rounding.
 fn unseen(spectrum: &Spectrum<'_>, request: &Request) -> Option<f64> {
-    const SLOWEST: f64 = 0.3;
+    const SLOWEST: f64 = 0.27;
     let samples = spectrum.samples();
     let sum = |range: core::ops::RangeInclusive<usize>, term: &dyn Fn(Curve, usize) -> f64| {
         let terms = range.flat_map(|k| Curve::ALL.map(|c| request.weight(c, k) * term(c, k)));

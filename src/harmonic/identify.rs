@@ -8,9 +8,10 @@
 //!   + Σ (aₖ·cos kφ + bₖ·sin kφ)·ω + Σ (aₖ·cos kφ + bₖ·sin kφ)·sgn ω         b, c
 //! ```
 //!
-//! with the Coulomb friction c not negative, so that measured φ, ω, α and T give them by least squares. Each sample is taken into a triangle R with RᵀR = ΦᵀΦ by
-//! Givens' rotations: memory does not grow with the samples, and the error is that of the measurements' condition, not of its square as
-//! with normal equations (Å. Björck, *Numerical Methods for Least Squares Problems*, SIAM 1996, 2.4 and 3.2).
+//! with the Coulomb friction c not negative, so that measured φ, ω, α and T give them by least squares. Each sample is
+//! taken into a triangle R with RᵀR = ΦᵀΦ by Givens' rotations: memory does not grow with the samples, and the error is
+//! that of the measurements' condition, not of its square as with normal equations (Å. Björck, *Numerical Methods for
+//! Least Squares Problems*, SIAM 1996, 2.4 and 3.2).
 
 use nalgebra::{SMatrix, SVector, Vector2, linalg::givens::GivensRotation};
 
@@ -41,15 +42,17 @@ pub struct Sample {
 pub struct Identified<const WORDS: usize> {
     /// The coefficients, for [`HarmonicModel::new`](super::HarmonicModel::new), which shows J positive.
     pub words: [f64; WORDS],
-    /// Standard error of each, in its own unit, if the errors of the measured torques are independent of each other and of
-    /// the motion, and of one size.
+    /// Standard error of each, in its own unit, if the errors of the measured torques are independent of each other and
+    /// of the motion, and of one size.
     pub standard_error: [f64; WORDS],
-    /// Share of each coefficient's effect that no combination of the others makes up, 0 to 1 (the sine of the angle between them).
+    /// Share of each coefficient's effect that no combination of the others makes up, 0 to 1 (the sine of the angle
+    /// between them).
     pub excitation: [f64; WORDS],
-    /// Root of the mean square of what the coefficients leave unexplained (N·m), over the number of samples beyond that of coefficients.
+    /// Root of the mean square of what the coefficients leave unexplained (N·m), over the number of samples beyond that
+    /// of coefficients.
     pub residual: f64,
-    /// Condition of the samples, each coefficient's effect scaled to one: ‖R‖·‖R⁻¹‖/WORDS in Frobenius' norm. 1 is best; the
-    /// condition number is between this and WORDS times it.
+    /// Condition of the samples, each coefficient's effect scaled to one: ‖R‖·‖R⁻¹‖/WORDS in Frobenius' norm. 1 is
+    /// best; the condition number is between this and WORDS times it.
     pub condition: f64,
     /// Number of samples.
     pub samples: u32,

@@ -5,9 +5,9 @@
 //! J′(φ) =      Σ k·(bₖ·cos kφ − aₖ·sin kφ)              (kg·m²/rad)
 //! ```
 //!
-//! and load, viscous and Coulomb coefficient likewise, as far as the machine has them; φ is the angle of a drive link that
-//! turns fully. The slope is that of the same series, so a free machine keeps its energy. cos kφ and sin kφ come from one
-//! sine and cosine by turning on:
+//! and load, viscous and Coulomb coefficient likewise, as far as the machine has them; φ is the angle of a drive link
+//! that turns fully. The slope is that of the same series, so a free machine keeps its energy. cos kφ and sin kφ come
+//! from one sine and cosine by turning on:
 //!
 //! ```text
 //! cos (k+1)φ = cos kφ·cos φ − sin kφ·sin φ,   sin (k+1)φ = sin kφ·cos φ + cos kφ·sin φ
@@ -68,11 +68,12 @@ pub const MAX_HARMONICS: u32 = 256;
 /// Places looked at to show the inertia positive: at first, and at most.
 const PLACES: [u32; 2] = [64, 4096];
 
-/// A reduced machine ready for the tick, as harmonics in RAM or in flash. The counterpart of [`Model`](crate::Model), in SI
-/// units.
+/// A reduced machine ready for the tick, as harmonics in RAM or in flash. The counterpart of [`Model`](crate::Model),
+/// in SI units.
 ///
-/// `CURVES` are the curves that the machine has beside J ([`curves`](crate::table::curves)); `TERMS` are the cosines and sines that they consist of
-/// ([`terms`]; those of curves that are not in `CURVES` do not count). What is in neither costs no memory and no instruction.
+/// `CURVES` are the curves that the machine has beside J ([`curves`](crate::table::curves)); `TERMS` are the cosines
+/// and sines that they consist of ([`terms`]; those of curves that are not in `CURVES` do not count). What is in
+/// neither costs no memory and no instruction.
 ///
 /// Everything was checked when it was built: [`torque`](Self::torque) and [`acceleration`](Self::acceleration) neither
 /// fail nor panic nor allocate, and take the same path for every phase.
@@ -105,10 +106,11 @@ impl<'a, T: Circular, const CURVES: u8, const TERMS: u8> HarmonicModel<'a, T, CU
     /// Coefficients of each harmonic.
     const ROW: usize = word::row(CURVES, TERMS);
 
-    /// A model with these coefficients, which lie as [`Coefficient::of_word`] says: the means, then harmonic after harmonic.
+    /// A model with these coefficients, which lie as [`Coefficient::of_word`] says: the means, then harmonic after
+    /// harmonic.
     ///
-    /// J is shown to be positive everywhere: at 64 places its least value must exceed what J″ can take off between two of them,
-    /// h²/8·Σ k²·(|aₖ| + |bₖ|), and the rounding; else 128, up to 4096 places are looked at.
+    /// J is shown to be positive everywhere: at 64 places its least value must exceed what J″ can take off between two
+    /// of them, h²/8·Σ k²·(|aₖ| + |bₖ|), and the rounding; else 128, up to 4096 places are looked at.
     ///
     /// # Errors
     /// See [`CoefficientError`].
@@ -202,8 +204,8 @@ impl<'a, T: Circular, const CURVES: u8, const TERMS: u8> HarmonicModel<'a, T, CU
 
     /// All curves at a phase.
     ///
-    /// **Accuracy**: in `f64` 4e-15, in `f32` 4e-7 of the sum of the sizes of the coefficients, that of k·(|aₖ| + |bₖ|) for the
-    /// slope, for up to 12 harmonics (test `evaluation_rounds_as_stated`).
+    /// **Accuracy**: in `f64` 4e-15, in `f32` 4e-7 of the sum of the sizes of the coefficients, that of k·(|aₖ| + |bₖ|)
+    /// for the slope, for up to 12 harmonics (test `evaluation_rounds_as_stated`).
     #[inline]
     #[must_use]
     pub fn at(&self, phase: Phase) -> Values<T> {

@@ -1,9 +1,9 @@
 //! Sine and cosine of a binary angle.
 //!
-//! `libm` and the other crates for single precision take radians: the phase would be rounded to radians and reduced to an
-//! octant again, with a number for π of more than single precision (`libm::sinf` computes in double precision for that).
-//! A binary angle is reduced by integers, exactly; what is left are two short polynomials, best approximations by Remez'
-//! algorithm on |x| ≤ π/4. They are those of κ·x, where κ − 1 = −2.8e-8 makes up for the rounding of 2π in x:
+//! `libm` and the other crates for single precision take radians: the phase would be rounded to radians and reduced to
+//! an octant again, with a number for π of more than single precision (`libm::sinf` computes in double precision for
+//! that). A binary angle is reduced by integers, exactly; what is left are two short polynomials, best approximations
+//! by Remez' algorithm on |x| ≤ π/4. They are those of κ·x, where κ − 1 = −2.8e-8 makes up for the rounding of 2π in x:
 //!
 //! ```text
 //! sin κx ≈ x + x³·(s₀ + s₁·x² + s₂·x⁴)         |error| ≤ 4.8e-9

@@ -4,9 +4,9 @@
 //! aₖ = 2/N·Σ f(φⱼ)·cos kφⱼ,   bₖ = 2/N·Σ f(φⱼ)·sin kφⱼ,   φⱼ = 2π·j/N
 //! ```
 //!
-//! The trapezoidal rule: for a periodic curve its only error is that aₖ also holds a₍N±k₎, a₍2N±k₎ and so on, which fall
-//! like a geometric series (L. N. Trefethen, J. A. C. Weideman, *SIAM Review* 56, 2014). The sums are written out: N is some tens, and there is
-//! no transform in `f64` without an allocator to take from elsewhere.
+//! The trapezoidal rule: for a periodic curve its only error is that aₖ also holds a₍N±k₎, a₍2N±k₎ and so on, which
+//! fall like a geometric series (L. N. Trefethen, J. A. C. Weideman, *SIAM Review* 56, 2014). The sums are written out:
+//! N is some tens, and there is no transform in `f64` without an allocator to take from elsewhere.
 
 use core::f64::consts::TAU;
 
@@ -19,8 +19,8 @@ use crate::{Error, math};
 /// Samples taken at first; also the least room for them.
 pub(super) const FIRST: usize = 32;
 
-/// Samples that there is room for when up to `harmonics` are asked for: twice what they need to be told from their aliases, and as
-/// much again to see the terms behind them fall.
+/// Samples that there is room for when up to `harmonics` are asked for: twice what they need to be told from their
+/// aliases, and as much again to see the terms behind them fall.
 pub(super) const fn most_samples(harmonics: u32) -> usize {
     let most = (8 * harmonics as usize).next_power_of_two();
     if most < 2 * FIRST { 2 * FIRST } else { most }

@@ -6,9 +6,9 @@ use crate::table::curves;
 
 /// The cosines and sines that curves consist of beside their means, as a bit set.
 ///
-/// A curve without terms is constant and takes one number. A machine that is its own mirror image at φ = 0 (a slider-crank
-/// without offset whose centres of mass are on the links' lines and whose weight acts along the guide) has even J and
-/// odd load: half the coefficients. [`terms_in_use`](super::terms_in_use) finds the set.
+/// A curve without terms is constant and takes one number. A machine that is its own mirror image at φ = 0 (a
+/// slider-crank without offset whose centres of mass are on the links' lines and whose weight acts along the guide) has
+/// even J and odd load: half the coefficients. [`terms_in_use`](super::terms_in_use) finds the set.
 pub mod terms {
     /// Cosines of J.
     pub const INERTIA_COS: u8 = 1;
@@ -130,9 +130,9 @@ pub struct Coefficient {
 }
 
 impl Coefficient {
-    /// What the coefficient `word` is, counted from 0. First the means of J and of the curves of `set`, constant Coulomb friction last; then for each harmonic, the
-    /// cosine and the sine of J, of the load, of the viscous coefficient, of the Coulomb friction, as far as they are in
-    /// `terms`. `None` behind the last possible one.
+    /// What the coefficient `word` is, counted from 0. First the means of J and of the curves of `set`, constant
+    /// Coulomb friction last; then for each harmonic, the cosine and the sine of J, of the load, of the viscous
+    /// coefficient, of the Coulomb friction, as far as they are in `terms`. `None` behind the last possible one.
     #[must_use]
     pub fn of_word(word: usize, set: u8, terms: u8) -> Option<Self> {
         let mut present = Curve::ALL.into_iter().filter(|curve| curve.is_in(set));

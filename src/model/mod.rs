@@ -10,8 +10,10 @@
 //! i²·J_M (`Machine::with_flywheel`). sgn 0 = 0: at standstill the model states no friction, because friction there is whatever holds the
 //! machine.
 
+mod pieces;
 mod range;
 
+pub use pieces::{Part, Pieces};
 pub use range::Usage;
 
 use crate::scalar::{Outcome, Scalar};

@@ -4,130 +4,26 @@
 //! holds.
 
 pub mod curves;
+mod error;
 mod layout;
 mod spline;
 
 pub use curves::Role;
-pub use layout::{Cubic, Layout, Quadratic, Spline};
-pub(crate) use layout::cubic;
+pub use error::TableError;
+pub use layout::{Cubic, Layout, Quadratic, Spline, Spline16};
+pub(crate) use layout::{More, cubic};
 pub use spline::{
     CubicSpline, MIN_CELLS, control_points, fit_bounded, fit_periodic, fit_quadratic_bounded,
     fit_quadratic_periodic,
 };
 
-use core::fmt;
 use core::marker::PhantomData;
 
 use crate::Phase;
-use crate::scalar::Scalar;
+use crate::scalar::{Kernel, Scalar};
 
 /// Most cells of a table: an index has 16 bits.
 pub const MAX_CELLS: u32 = 65_535;
-
-/// Why rows of control points are not a usable table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum TableError {
-    /// Fewer than [`MIN_CELLS`] or more than [`MAX_CELLS`] cells.
-    Cells(u32),
-    /// Not the number of words that the cells and curves need.
-    Length {
-        /// Words needed.
-        needed: u32,
-        /// Words given.
-        given: u32,
-    },
-    /// A cell of this curve holds a number that is not finite, or leaves the fixed-point range.
-    Range {
-        /// Position of the curve in a row.
-        curve: u8,
-        /// Index of the cell.
-        cell: u32,
-    },
-    /// The reduced inertia is not positive everywhere in this cell.
-    NoInertia {
-        /// Index of the cell.
-        cell: u32,
-    },
-    /// A periodic curve does not close: its last three rows are not its first three.
-    NotClosed {
-        /// Position of the curve in a row.
-        curve: u8,
-    },
-    /// The torque ½·J′·ω² leaves the fixed-point range in this cell at the speed base: a larger torque base or a
-    /// smaller speed base is needed.
-    VelocityTorque {
-        /// Index of the cell.
-        cell: u32,
-    },
-    /// In fixed point the speed base must be one of [`Scale::for_cells`](crate::Scale::for_cells); in floating point the bases
-    /// overflow.
-    SpeedBase,
-    /// At full speed and acceleration the torque may leave the fixed-point range in this cell: a larger torque base is
-    /// needed, or a larger inertia base (which makes that of the acceleration smaller).
-    TorqueRange {
-        /// Index of the cell.
-        cell: u32,
-    },
-    /// The table has another set of [`curves`] than the model; or the set has an unknown bit, or a reciprocal for a number
-    /// type that divides. The set.
-    Curves(u8),
-    /// The curve of the reciprocal inertia is not that of the inertia in this cell.
-    Reciprocal {
-        /// Index of the cell.
-        cell: u32,
-    },
-}
-
-impl fmt::Display for TableError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::Cells(cells) => write!(
-                f,
-                "a table of {cells} cells: {MIN_CELLS} to {MAX_CELLS} are possible"
-            ),
-            Self::Length { needed, given } => {
-                write!(f, "the table has {given} words, but needs {needed}")
-            }
-            Self::Range { curve, cell } => write!(
-                f,
-                "curve {curve} of the table leaves the number range in cell {cell}"
-            ),
-            Self::NoInertia { cell } => write!(
-                f,
-                "the reduced inertia is not positive everywhere in cell {cell}: use more cells"
-            ),
-            Self::NotClosed { curve } => {
-                write!(f, "curve {curve} of the table does not close after a turn")
-            }
-            Self::VelocityTorque { cell } => write!(
-                f,
-                "the torque of J' leaves the number range in cell {cell}: \
-                 choose a larger torque base or a smaller speed base"
-            ),
-            Self::SpeedBase => write!(
-                f,
-                "the speed base does not suit the number of cells: take Scale::for_cells"
-            ),
-            Self::TorqueRange { cell } => write!(
-                f,
-                "at full speed and acceleration the torque leaves the number range in cell {cell}: \
-                 choose a larger torque base, or a larger inertia base for less acceleration"
-            ),
-            Self::Curves(set) => write!(
-                f,
-                "the table has the set of curves {set:#08b}: not that of the model, or not possible for this number type"
-            ),
-            Self::Reciprocal { cell } => write!(
-                f,
-                "the curve of the reciprocal inertia does not belong to that of the inertia in cell {cell}"
-            ),
-        }
-    }
-}
-
-impl core::error::Error for TableError {}
 
 /// What a table has beside its rows; in machine units, zero where there is none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -138,6 +34,29 @@ pub struct Constants<W> {
     pub viscous: W,
     /// Added to c.
     pub coulomb: W,
+    /// What the points of J, load, b, c and 1/J are multiplied by in a [`Spline16`].
+    pub gains: [W; 5],
+}
+
+impl<W: Copy> Constants<W> {
+    #[inline]
+    fn more<S: Kernel<Word = W>>(&self, role: Role) -> More<S::Raw> {
+        let [inertia, load, viscous, coulomb, reciprocal] = self.gains;
+        let gain = match role {
+            Role::Inertia => inertia,
+            Role::Load => load,
+            Role::Viscous => viscous,
+            Role::Coulomb => coulomb,
+            Role::Reciprocal => reciprocal,
+        };
+        More {
+            offset: match role {
+                Role::Inertia => S::raw(self.inertia),
+                _ => S::Raw::default(),
+            },
+            gain: S::raw(gain),
+        }
+    }
 }
 
 /// The curves of a reduced machine, in RAM or in flash, checked.
@@ -181,6 +100,7 @@ impl<'a, S: Scalar, L: Layout> Table<'a, S, L> {
             inertia: zero,
             viscous: zero,
             coulomb: zero,
+            gains: [zero; 5],
         };
         Self::with_constants(words, constants, curves, cells, periodic)
     }
@@ -196,7 +116,7 @@ impl<'a, S: Scalar, L: Layout> Table<'a, S, L> {
         cells: u32,
         periodic: bool,
     ) -> Result<Self, TableError> {
-        if curves > curves::EVERY || (!S::FIXED && curves & curves::RECIPROCAL != 0) {
+        if curves > curves::EVERY || (!S::FIXED && (curves & curves::RECIPROCAL != 0 || L::HALVES)) {
             return Err(TableError::Curves(curves));
         }
         if cells < MIN_CELLS as u32 || cells > MAX_CELLS {
@@ -235,11 +155,11 @@ impl<'a, S: Scalar, L: Layout> Table<'a, S, L> {
 
     /// Rows beyond the cells repeat the first ones.
     fn check_closed(&self) -> Result<(), TableError> {
-        let width = self.width();
-        let end = self.cells as usize * width;
-        for k in 0..L::MORE_ROWS * width {
+        let pitch = L::pitch(self.curves);
+        let end = self.cells as usize * pitch;
+        for k in 0..L::MORE_ROWS * pitch {
             if self.words.get(k) != self.words.get(end + k) {
-                let curve = (k % width) as u8;
+                let curve = (k % pitch * if L::HALVES { 2 } else { 1 }) as u8;
                 return Err(TableError::NotClosed { curve });
             }
         }
@@ -308,13 +228,12 @@ impl<'a, S: Scalar, L: Layout> Table<'a, S, L> {
         let set = self.curves;
         let words = L::cell(self.words, cell as usize, set).unwrap_or_default();
         let column = role.column(self.curves).unwrap_or(0);
-        let offset = match role {
-            Role::Inertia => S::widen(S::raw(self.constants.inertia)),
-            _ => S::Wide::default(),
+        let more = self.constants.more::<S>(role);
+        let more = More {
+            offset: S::widen(more.offset),
+            gain: S::widen(more.gain),
         };
-        L::coefficients(words, column, set, offset, L::step::<S>(), |word| {
-            S::widen(S::raw(word))
-        })
+        L::coefficients::<S, _>(words, column, set, more, |word| S::widen(S::raw(word)))
     }
 
     /// p0…p3 of a curve of the set in machine units, in single precision.
@@ -358,26 +277,24 @@ pub(crate) struct Cell<'a, S: Scalar, L: Layout> {
 }
 
 impl<S: Scalar, L: Layout> Cell<'_, S, L> {
-    /// Coefficients of the curve in this column.
+    /// Coefficients of a curve of the set.
     #[inline]
-    fn coefficients(&self, column: usize, offset: S::Raw) -> [S::Raw; 4] {
-        L::coefficients(self.words, column, self.curves, offset, L::step::<S>(), S::raw)
+    fn coefficients(&self, role: Role, column: usize) -> [S::Raw; 4] {
+        let more = self.constants.more::<S>(role);
+        L::coefficients::<S, _>(self.words, column, self.curves, more, S::raw)
     }
 
     /// J, and its slope a cell times the layout's step.
     #[inline]
     pub(crate) fn inertia(&self) -> (S::Raw, S::Raw) {
-        L::value_and_slope::<S>(self.coefficients(0, S::raw(self.constants.inertia)), self.u)
+        L::value_and_slope::<S>(self.coefficients(Role::Inertia, 0), self.u)
     }
 
     /// A curve that the table may have.
     #[inline]
     fn curve(&self, role: Role) -> Option<S::Raw> {
         let column = role.column(self.curves)?;
-        Some(L::value::<S>(
-            self.coefficients(column, S::Raw::default()),
-            self.u,
-        ))
+        Some(L::value::<S>(self.coefficients(role, column), self.u))
     }
 
     #[inline]

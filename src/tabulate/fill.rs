@@ -1,6 +1,6 @@
 //! Fills a table of a given size.
 
-use super::rounding::{Places, round_together};
+use super::rounding::Points;
 use super::unfold::unfold;
 use super::{scratch_len, words_len};
 use crate::reduction::{Reducible, Reduction};
@@ -46,6 +46,7 @@ pub fn fill<'w, S: Scalar, L: Layout>(
     }
     let knots = sample::<S, L>(machine, set, cells, scale, samples)?;
     let constants = constants::<S, L>(machine, set, scale, samples.get(..knots))?;
+    let mut gains = [0u16; 5];
     for (column, role) in curves::roles(set) {
         let overflow = |cell| Error::Overflow {
             base: base_name(role),
@@ -66,27 +67,37 @@ pub fn fill<'w, S: Scalar, L: Layout>(
             (_, true) => fit_quadratic_periodic(samples, control)?,
             (_, false) => fit_quadratic_bounded(samples, control)?,
         }
-        for row in 0..cells as usize + L::MORE_ROWS {
-            let points = [0, 1, 2, 3].map(|k| control.get(row + k).copied().unwrap_or(0.0));
-            let (stored, count) = L::stored::<S>(points);
-            for (k, value) in stored.into_iter().take(count).enumerate() {
+        let gain = if L::HALVES {
+            let gain = gain::<S>(role, control).ok_or(overflow(0))?;
+            if let Some(slot) = gains.get_mut(role as usize) {
+                *slot = gain;
+            }
+            f64::from(gain)
+        } else {
+            1.0
+        };
+        let halves = L::HALVES.then_some(column % 2 == 1);
+        for part in 0..L::COLUMN {
+            let mut points: Points<'_, S> = Points {
+                words: &mut *words,
+                role,
+                first: if L::HALVES { column / 2 } else { column * L::COLUMN + part },
+                pitch: L::pitch(set),
+                upper: halves,
+                gain,
+            };
+            for row in 0..cells as usize + L::MORE_ROWS {
+                let control = [0, 1, 2, 3].map(|k| control.get(row + k).copied().unwrap_or(0.0));
+                let value = L::stored::<S>(control).get(part).copied().unwrap_or(0.0);
                 let cell = row.min(cells as usize - 1) as u32;
-                let word = S::word(role, value).ok_or(overflow(cell))?;
-                if let Some(slot) = words.get_mut(row * L::pitch(set) + column * L::COLUMN + k) {
-                    *slot = word;
-                }
+                points.set(row, value).ok_or(overflow(cell))?;
+            }
+            if L::MORE_ROWS > 0 && role == Role::Inertia {
+                points.round_together(control, periodic.then_some(cells as usize));
             }
         }
-        if L::MORE_ROWS > 0 && role == Role::Inertia {
-            let places = Places {
-                first: column,
-                pitch: L::pitch(set),
-                period: periodic.then_some(cells as usize),
-            };
-            round_together::<S>(role, control, words, places);
-        }
     }
-    let constants = constants.words::<S>()?;
+    let constants = constants.words::<S>(gains)?;
     let table = Table::with_constants(words, constants, set, cells, periodic);
     table.map_err(|error| match error {
         TableError::Range { curve, cell } => Error::Overflow {
@@ -173,11 +184,22 @@ fn constants<S: Scalar, L: Layout>(
             Role::Viscous,
             has(curves::CONSTANT_VISCOUS) * machine_units(&start, Role::Viscous, scale),
         )?,
+        gains: [0.0; 5],
         coulomb: stored(
             Role::Coulomb,
             has(curves::CONSTANT_COULOMB) * machine_units(&start, Role::Coulomb, scale),
         )?,
     })
+}
+
+/// The least whole number that brings all of a curve's points into 16 bits.
+fn gain<S: Scalar>(role: Role, control: &[f64]) -> Option<u16> {
+    // Sweeps of the rounding may move a point by a unit or two.
+    const LARGEST: f64 = 32_760.0;
+    let most = control.iter().fold(0.0f64, |most, c| most.max(math::abs(*c)));
+    let unit = S::exact(role, S::raw(S::whole(1)));
+    let gain = math::floor(most / unit / LARGEST) + 1.0;
+    (gain <= f64::from(u16::MAX)).then_some(gain as u16)
 }
 
 impl Constants<f64> {
@@ -190,7 +212,7 @@ impl Constants<f64> {
         }
     }
 
-    fn words<S: Scalar>(&self) -> Result<Constants<S::Word>, Error> {
+    fn words<S: Scalar>(&self, gains: [u16; 5]) -> Result<Constants<S::Word>, Error> {
         let word = |role: Role| {
             let base = base_name(role);
             S::word(role, self.of(role)).ok_or(Error::Overflow { base, cell: 0 })
@@ -199,6 +221,7 @@ impl Constants<f64> {
             inertia: word(Role::Inertia)?,
             viscous: word(Role::Viscous)?,
             coulomb: word(Role::Coulomb)?,
+            gains: gains.map(S::whole),
         })
     }
 }

@@ -44,6 +44,7 @@ pub(super) fn measure_until<S: Scalar, L: Layout>(
         torque_error: 0.0,
         bound: 0.0,
         worst: start,
+        scale: *scale,
     };
     let mut before: heapless::Deque<f64, 2> = heapless::Deque::new();
     let mut curvature = 0.0f64;

@@ -24,7 +24,8 @@ use measure::measure_until;
 use crate::error::positive;
 use crate::reduction::Reducible;
 use crate::scalar::Scalar;
-use crate::table::{Layout, control_points, curves};
+use crate::model::Usage;
+use crate::table::{Layout, Table, control_points, curves};
 use crate::{Error, Scale, Validity, math};
 
 /// Places in each cell at which a table is compared with the exact curves.
@@ -70,6 +71,8 @@ pub struct Tabulated {
     pub bound: f64,
     /// Where it is (rad).
     pub worst: f64,
+    /// Machine units of the table: those asked for, in fixed point as [`Scale::for_cells`] makes them.
+    pub scale: Scale,
 }
 
 impl Tabulated {
@@ -150,11 +153,12 @@ pub fn curves_in_use(machine: &impl Reducible, positions: u32) -> Result<u8, Err
 ///
 /// Sizes that grow by a quarter each are tried until one meets the request; then the sizes below it: every one of them from
 /// the smallest on, up to [`EXHAUSTIVE`] cells, and beyond by bisection, which takes for granted that more cells err less. A
-/// candidate is dropped at its first position that misses, which is looked for first where the one before it was worst.
+/// candidate is dropped at its first position that misses, which is looked for first where the one before it was worst. In
+/// fixed point the machine units of the table are those in [`Tabulated::scale`].
 ///
 /// # Errors
 /// [`Error::TorqueErrorNotReached`] if none of the growing sizes up to `max_cells` does, with the best of them;
-/// otherwise as [`fill`].
+/// [`Error::Table`] if a fixed-point model cannot be made of the largest; otherwise as [`fill`].
 pub fn tabulate<S: Scalar, L: Layout>(
     machine: &impl Reducible,
     set: u8,
@@ -164,56 +168,90 @@ pub fn tabulate<S: Scalar, L: Layout>(
     words: &mut [S::Word],
 ) -> Result<Tabulated, Error> {
     request.check()?;
-    let least = crate::table::MIN_CELLS as u32;
-    let most = request.max_cells.max(least);
     let mut worst = 0.0;
-    let mut meets = |cells: u32, words: &mut [S::Word], scratch: &mut [f64]| {
-        let Ok(table) = fill::<S, L>(machine, set, cells, scale, scratch, words) else {
+    let found = search(request, |cells| {
+        let Ok((table, scale)) = candidate::<S, L>(machine, set, cells, scale, scratch, words)
+        else {
             return Ok(None);
         };
         let mut found = Tabulated::default();
         for checks in [COARSE_CHECKS, CHECKS_PER_CELL] {
-            found = measure_until(machine, &table, request, scale, (worst, checks), true)?;
+            found = measure_until(machine, &table, request, &scale, (worst, checks), true)?;
             worst = found.worst;
             if found.torque_error > request.torque_error {
                 return Ok(None);
             }
         }
-        Ok::<_, Error>(Some(found))
+        Ok(Some(found))
+    })?;
+    let Some(found) = found else {
+        return Err(not_reached::<S, L>(
+            machine, set, request, scale, scratch, words,
+        ));
     };
-    let mut below = least - 1; // the largest size known to miss
-    let mut cells = least;
-    let mut best = loop {
-        if let Some(found) = meets(cells, words, scratch)? {
-            break found;
-        }
-        if cells >= most {
-            return Err(not_reached::<S, L>(
-                machine, set, request, scale, scratch, words,
-            ));
+    candidate::<S, L>(machine, set, found.cells, scale, scratch, words)?;
+    Ok(found)
+}
+
+/// The table of so many cells, and its machine units, if a model can be made of it.
+fn candidate<'w, S: Scalar, L: Layout>(
+    machine: &impl Reducible,
+    set: u8,
+    cells: u32,
+    scale: &Scale,
+    scratch: &mut [f64],
+    words: &'w mut [S::Word],
+) -> Result<(Table<'w, S, L>, Scale), Error> {
+    let domain = machine.domain();
+    let scale = scale.suiting::<S>(cells, domain.span());
+    let table = fill::<S, L>(machine, set, cells, &scale, scratch, words)?;
+    Usage::of(&table, S::span(domain), &scale).map_err(Error::Table)?;
+    Ok((table, scale))
+}
+
+/// The sizes of a table from few cells to `request.max_cells`, growing by a quarter.
+fn sizes(request: &Request) -> impl Iterator<Item = u32> {
+    let least = crate::table::MIN_CELLS as u32;
+    let most = request.max_cells.max(least);
+    core::iter::successors(Some(least), move |cells| {
+        (*cells < most).then(|| (cells + cells.div_ceil(4)).min(most))
+    })
+}
+
+/// The smallest size that `meets` says yes to, as [`tabulate`] looks for it.
+pub(crate) fn search(
+    request: &Request,
+    mut meets: impl FnMut(u32) -> Result<Option<Tabulated>, Error>,
+) -> Result<Option<Tabulated>, Error> {
+    let mut below = 0; // the largest size known to miss
+    let mut best = None;
+    for cells in sizes(request) {
+        best = meets(cells)?;
+        if best.is_some() {
+            break;
         }
         below = cells;
-        cells = (cells + cells.div_ceil(4)).min(most);
+    }
+    let Some(mut best) = best else {
+        return Ok(None);
     };
-    for cells in least..best.cells.min(EXHAUSTIVE) {
-        if let Some(found) = meets(cells, words, scratch)? {
-            fill::<S, L>(machine, set, cells, scale, scratch, words)?;
-            return Ok(found);
+    for cells in crate::table::MIN_CELLS as u32..best.cells.min(EXHAUSTIVE) {
+        if let Some(found) = meets(cells)? {
+            return Ok(Some(found));
         }
     }
     below = below.max(EXHAUSTIVE.min(best.cells) - 1);
     while below + 1 < best.cells {
         let middle = below.midpoint(best.cells);
-        match meets(middle, words, scratch)? {
+        match meets(middle)? {
             Some(found) => best = found,
             None => below = middle,
         }
     }
-    fill::<S, L>(machine, set, best.cells, scale, scratch, words)?;
-    Ok(best)
+    Ok(Some(best))
 }
 
-/// The best that any of the growing sizes reaches, or why none of them is a table at all.
+/// The best that any of the growing sizes reaches, or why the largest is no table at all.
 fn not_reached<S: Scalar, L: Layout>(
     machine: &impl Reducible,
     set: u8,
@@ -222,35 +260,28 @@ fn not_reached<S: Scalar, L: Layout>(
     scratch: &mut [f64],
     words: &mut [S::Word],
 ) -> Error {
-    let least = crate::table::MIN_CELLS as u32;
-    let most = request.max_cells.max(least);
-    let mut best: Option<Tabulated> = None;
+    let mut best = Tabulated {
+        torque_error: f64::INFINITY,
+        ..Tabulated::default()
+    };
     let mut refused = None;
-    let mut cells = least;
-    loop {
-        match fill::<S, L>(machine, set, cells, scale, scratch, words)
-            .and_then(|table| measure(machine, &table, request, scale))
-        {
-            Ok(found) if best.is_none_or(|best| found.torque_error < best.torque_error) => {
-                best = Some(found);
+    for cells in sizes(request) {
+        let found = candidate::<S, L>(machine, set, cells, scale, scratch, words)
+            .and_then(|(table, scale)| measure(machine, &table, request, &scale));
+        // A coarse curve may dip below zero or overshoot: more cells cure it. What the largest size says counts.
+        refused = match found {
+            Ok(found) => {
+                if found.torque_error < best.torque_error {
+                    best = found;
+                }
+                None
             }
-            Ok(_) => {}
-            // A coarse curve may dip below zero or overshoot: more cells cure it. What the largest size says counts.
-            Err(error) => refused = Some((cells, error)),
-        }
-        if cells >= most {
-            break;
-        }
-        cells = (cells + cells.div_ceil(4)).min(most);
+            Err(error) => Some(error),
+        };
     }
-    match (best, refused) {
-        (_, Some((at, error))) if at == most => error,
-        (Some(best), _) => Error::TorqueErrorNotReached {
-            asked: request.torque_error,
-            reached: best.torque_error,
-            cells: best.cells,
-        },
-        (None, Some((_, error))) => error,
-        (None, None) => Error::NotFinite("torque error of the table"),
-    }
+    refused.unwrap_or(Error::TorqueErrorNotReached {
+        asked: request.torque_error,
+        reached: best.torque_error,
+        cells: best.cells,
+    })
 }

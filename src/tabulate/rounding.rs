@@ -20,62 +20,69 @@ const BESIDE: [f64; 3] = [-1.0 / 8.0, -1.0 / 5.0, -1.0 / 120.0];
 const DIAGONAL: f64 = 2.0 / 3.0 + 0.02;
 const SWEEPS: usize = 6;
 
-/// Where the points of a curve lie among the words.
-#[derive(Clone, Copy)]
-pub(super) struct Places {
-    /// Index of the first.
+/// The control points of one curve among the words of a table.
+pub(super) struct Points<'w, S: Scalar> {
+    pub(super) words: &'w mut [S::Word],
+    pub(super) role: Role,
+    /// Index of the word that the first is in.
     pub(super) first: usize,
-    /// From one to the next.
+    /// Words from one to the next.
     pub(super) pitch: usize,
-    /// After so many they repeat.
-    pub(super) period: Option<usize>,
+    /// Which half of a word it is; `None`: all of it.
+    pub(super) upper: Option<bool>,
+    /// What the stored number is multiplied by.
+    pub(super) gain: f64,
 }
 
-impl Places {
-    fn of(self, point: usize) -> usize {
-        self.first + point * self.pitch
+impl<S: Scalar> Points<'_, S> {
+    /// What is stored.
+    fn get(&self, point: usize) -> Option<f64> {
+        let word = *self.words.get(self.first + point * self.pitch)?;
+        let stored = self.upper.map_or(word, |upper| S::half(word, upper));
+        Some(S::exact(self.role, S::raw(stored)) * self.gain)
     }
-}
 
-/// Rounds the points `control`, which `words` holds rounded one by one.
-pub(super) fn round_together<S: Scalar>(
-    role: Role,
-    control: &[f64],
-    words: &mut [S::Word],
-    places: Places,
-) {
-    let points = places.period.unwrap_or(control.len());
-    let exact = |point: usize| control.get(point).copied().unwrap_or(0.0);
-    for _ in 0..SWEEPS {
-        for point in 0..points {
-            let error = |step: isize| {
-                let neighbour = point.checked_add_signed(step).filter(|k| *k < points);
-                let neighbour = match (neighbour, places.period) {
-                    (Some(neighbour), _) => neighbour,
-                    (None, Some(period)) => (point + period).saturating_add_signed(step) % period,
-                    (None, None) => return 0.0,
+    /// Stores what is nearest to `value`; `None` if it is out of range.
+    pub(super) fn set(&mut self, point: usize, value: f64) -> Option<()> {
+        let stored = S::word(self.role, value / self.gain)?;
+        let slot = self.words.get_mut(self.first + point * self.pitch)?;
+        *slot = match self.upper {
+            None => stored,
+            Some(upper) => S::with_half(*slot, upper, stored)?,
+        };
+        Some(())
+    }
+
+    /// Rounds the points `control`, which are stored rounded one by one; after `period` of them they repeat.
+    pub(super) fn round_together(&mut self, control: &[f64], period: Option<usize>) {
+        let points = period.unwrap_or(control.len());
+        let exact = |point: usize| control.get(point).copied().unwrap_or(0.0);
+        for _ in 0..SWEEPS {
+            for point in 0..points {
+                let error = |step: isize| {
+                    let neighbour = point.checked_add_signed(step).filter(|k| *k < points);
+                    let neighbour = match (neighbour, period) {
+                        (Some(neighbour), _) => neighbour,
+                        (None, Some(period)) => (point + period).saturating_add_signed(step) % period,
+                        (None, None) => return 0.0,
+                    };
+                    let stored = self.get(neighbour);
+                    stored.map_or(0.0, |stored| stored - exact(neighbour))
                 };
-                words.get(places.of(neighbour)).map_or(0.0, |word| {
-                    S::exact(role, S::raw(*word)) - exact(neighbour)
-                })
-            };
-            let pull: f64 = (1isize..)
-                .zip(BESIDE)
-                .map(|(step, product)| product * (error(step) + error(-step)))
-                .sum();
-            let best = exact(point) - pull / DIAGONAL;
-            let word = S::word(role, best);
-            if let (Some(slot), Some(word)) = (words.get_mut(places.of(point)), word) {
-                *slot = word;
+                let pull: f64 = (1isize..)
+                    .zip(BESIDE)
+                    .map(|(step, product)| product * (error(step) + error(-step)))
+                    .sum();
+                // Out of range it stays as it is.
+                let _ = self.set(point, exact(point) - pull / DIAGONAL);
             }
         }
-    }
-    // The rows that close the turn.
-    if let Some(period) = places.period {
-        for point in period..control.len() {
-            let word = words.get(places.of(point - period)).copied();
-            if let (Some(slot), Some(word)) = (words.get_mut(places.of(point)), word) {
-                *slot = word;
+        // The rows that close the turn.
+        if let Some(period) = period {
+            for point in period..control.len() {
+                if let Some(value) = self.get(point - period) {
+                    let _ = self.set(point, value);
+                }
             }
         }
     }

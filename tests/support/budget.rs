@@ -60,25 +60,47 @@ pub(crate) const STROKE_TABLE: f64 = 2e-4;
 /// One unit of Q31.
 pub(crate) const Q31_UNIT: f64 = 1.0 / 2_147_483_648.0;
 
-/// Arithmetic of `Model::<Q31>::torque`, in units of 2⁻³¹ of the torque base, found − exact. Every product rounds
-/// towards −∞, so J·α, slope·factor (times ω² ≤ 1), slope·ω² and b·ω lower the sum by at most one unit each; ω² is low
-/// by at most one unit and is multiplied by a slope of either sign.
-pub(crate) const Q31_TORQUE_UNITS: [f64; 2] = [-5.0, 1.0];
+/// Arithmetic of `Model::<Q31>::torque`, in units of 2⁻³¹ of the torque base, found − exact. Every product rounds towards −∞.
+/// (1) The velocity coefficient is in Q30: its floor is multiplied by ω and halved, ±½ unit of Q29. (2) That times ω and
+/// (3) J·α are in Q29: each lowers the sum by up to a unit. Slope times factor is a whole number and rounds nothing; load
+/// and friction are in Q29 as they are. Together −2.5 to 0.5 units of Q29, each of them four of 2⁻³¹.
+pub(crate) const Q31_TORQUE_UNITS: [f64; 2] = [-10.0, 2.0];
 
-/// Mean of the same where the factor is ½: J·α, slope·ω² and b·ω lose half a unit each, the halves of slope·factor a
-/// quarter times the mean of ω², ⅓; what the floor of ω² does averages out over the slope's signs: −3/2 − 1/12.
-pub(crate) const Q31_TORQUE_BIAS: [f64; 2] = [-1.62, -1.55];
+/// Mean of the same over all speeds: the floors (2) and (3) lose half a unit of Q29 each, (1) averages out with the sign of
+/// ω: −4. Three standard errors of 80,000 ticks are 0.02.
+pub(crate) const Q31_TORQUE_BIAS: [f64; 2] = [-4.03, -3.97];
 
-/// RMS of the same: √(1.583² + 0.26), the variances being 1/12 for each of three floors and 0.01 of the fourth.
-pub(crate) const Q31_TORQUE_RMS: [f64; 2] = [1.63, 1.69];
+/// RMS of the same: variances of 1/12 for (2) and for (3), ¼·⅓·⅓ for (1), times 4²: √(16 + 3.11) = 4.372.
+pub(crate) const Q31_TORQUE_RMS: [f64; 2] = [4.34, 4.40];
 
-/// `Table::<Q31>::at` in units of 2⁻³¹: three floors for the value, two for the slope, none upwards.
-pub(crate) const Q31_VALUE_UNITS: f64 = 3.0;
-/// See [`Q31_VALUE_UNITS`].
-pub(crate) const Q31_SLOPE_UNITS: f64 = 2.0;
+/// A value and a slope as a fixed-point table reads them, in units of the curve's own format (the slope of a Spline in half
+/// of it), lowest and highest. Here of a Spline: coefficient k is stored times 2ᵏ, so each product with the place halves what
+/// the floors below it lost. A value has floors of 1 + ½ + ¼, a slope 1 + 1 + 3/2. The place is rounded down to 2⁻³¹ of a cell,
+/// by up to 2⁻³²: times a slope of up to 2³⁰ units a cell and a curvature of up to 1½·2³¹.
+pub(crate) const Q31_SPLINE_READ: [[f64; 2]; 2] = [[-2.0, 0.25], [-4.25, 0.75]];
+
+/// The same of a Cubic, with places from −½ to ½ that are not rounded: value 1 ± ½ + ¼, slope 1 + 1 ± 3/2.
+pub(crate) const Q31_CUBIC_READ: [[f64; 2]; 2] = [[-1.75, 0.5], [-3.5, 1.5]];
+
+/// The same of a Quadratic at the place rounded down to 2⁻¹⁶ of a cell: value 1 ± ½, slope two floors of the same product.
+pub(crate) const Q31_QUADRATIC_READ: [[f64; 2]; 2] = [[-1.5, 0.5], [-2.0, 0.0]];
+
+/// A value of size one or less as a table in f32 reads it: control points or coefficients and the sums over them, half a unit of
+/// 2⁻²³ of the largest for each of six.
+pub(crate) const F32_READ: f64 = 4e-7;
+
+/// Values and slopes of size one or less as Q31 tables read them against those of f64: stored words off by half a unit of Q29,
+/// six of them in a Spline, and the floors of [`Q31_SPLINE_READ`]; slopes of differences of two.
+pub(crate) const Q31_READ: [f64; 2] = [6.0 * 4.0 * Q31_UNIT, 12.0 * 4.0 * Q31_UNIT];
 
 /// The factor ½·cells/span·J_b·ω_b²/T_b is computed in f32 in six operations with span rounded once: relative.
 pub(crate) const FACTOR_ROUNDING: f64 = 7.0 * 5.97e-8;
+
+/// `Scale::for_cells` promises this share of the factor: three bases rounded to 2⁻²⁵ each, the speed squared.
+pub(crate) const WHOLE_FACTOR: f64 = 3e-7;
+
+/// A quotient of two bases in f32, before and after: five roundings of 2⁻²⁴.
+pub(crate) const BASE_ROUNDINGS: f64 = 3e-7;
 
 /// Largest table error on an independent, dense grid over that at the places that `tabulate` checks (64 a cell), either
 /// way: at a distance d from the extreme of a curve of the shape u·(1 − u)·(1 − 2u) or u²·(1 − u)² it is lower by up to
@@ -115,8 +137,11 @@ pub(crate) const YOKE: f64 = 0.005;
 /// A limit angle depends on a rounding of 2⁻⁵³ by its square root, 1e-8.
 pub(crate) const LIMIT_ANGLE: f64 = 1e-6;
 
-/// A tick in Q31: five floors and the rounding of the state.
-pub(crate) const Q31_TICK_UNITS: f64 = 6.0;
+/// A tick in Q31: the floors of [`Q31_TORQUE_UNITS`] and the rounding of the state.
+pub(crate) const Q31_TICK_UNITS: f64 = 12.0;
+
+/// Values of b (in Q30) and c (in Q29) of a Spline, in units of 2⁻³¹: six points' weights, each rounded by half a unit.
+pub(crate) const Q31_POINTS_UNITS: f64 = 3.0 * 2.0 + 3.0 * 4.0;
 
 /// Rounding of the exact sum in f64, 2⁻⁵³ of terms of 2³³ units.
 pub(crate) const Q31_EXACT_UNITS: f64 = 1e-5;

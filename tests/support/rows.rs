@@ -45,6 +45,7 @@ impl<S: Scalar, L: Layout> Rows<S, L> {
             inertia: zero::<S>(),
             viscous: zero::<S>(),
             coulomb: zero::<S>(),
+            gains: [zero::<S>(); 5],
         };
         Self {
             words,

@@ -26,7 +26,7 @@ pub(crate) struct Call {
 #[derive(Debug, Default)]
 pub(crate) struct Calls {
     /// One after the other.
-    pub(crate) calls: Vec<Call>,
+    pub(crate) each: Vec<Call>,
     /// Addresses of the functions executed.
     functions: BTreeSet<u32>,
     /// Instructions from reading the clock to reading it again.
@@ -112,7 +112,7 @@ impl<'p> Splitter<'p> {
         if let Some(mut open) = self.open.take() {
             if address == open.return_to {
                 Self::charge(self.timing, &mut open, None, address);
-                self.kernels[open.kernel].calls.push(open.call);
+                self.kernels[open.kernel].each.push(open.call);
                 self.last = Some(open.kernel);
             } else {
                 let next = self.decoder.at(address)?;
@@ -213,7 +213,7 @@ impl<'p> Splitter<'p> {
     fn read_clock(&mut self) {
         match (self.started.take(), self.last.take()) {
             (Some(started), Some(kernel)) => {
-                self.kernels[kernel].between_clocks = self.count - started
+                self.kernels[kernel].between_clocks = self.count - started;
             }
             _ => self.started = Some(self.count),
         }
@@ -280,7 +280,7 @@ mod tests {
             cycles: 25,
             stack: 28,
         };
-        assert_eq!(kernel.calls, vec![expected; 3]);
+        assert_eq!(kernel.each, vec![expected; 3]);
         assert_eq!(kernel.bytes(&program), 8 + 6);
     }
 
@@ -294,7 +294,7 @@ mod tests {
         }
         let kernel = splitter.finish().unwrap().remove(0);
         assert_eq!(kernel.between_clocks, 9);
-        assert_eq!(kernel.calls[0].cycles, 0);
+        assert_eq!(kernel.each[0].cycles, 0);
     }
 
     #[test]

@@ -103,6 +103,9 @@ pub(crate) fn words(kernel: &Kernel, example: &Example, scale: &Scale) -> Result
     }
 }
 
+/// One of the curves.
+type Curve = fn(&Curves) -> f64;
+
 /// N, `more`, b, c, then the three tables of N + 1 values.
 fn linear(example: &Example, scale: &Scale, number: Number, more: &[f64]) -> Words {
     let [torque, speed] = [scale.torque(), scale.speed()].map(f64::from);
@@ -111,7 +114,7 @@ fn linear(example: &Example, scale: &Scale, number: Number, more: &[f64]) -> Wor
     words.extend(more.iter().map(|value| (*value as f32).to_bits()));
     words.push(number.word(VISCOUS, torque / speed));
     words.push(number.word(COULOMB, torque));
-    let tables: [(fn(&Curves) -> f64, f64); 3] = [
+    let tables: [(Curve, f64); 3] = [
         (|c| c.inertia, inertia),
         (|c| c.half_slope, torque / (speed * speed)),
         (|c| c.load, torque),

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use anyhow::{Context, Result, bail};
+use capstone::AccessType;
 use capstone::arch::arm::{ArchExtraMode, ArchMode, ArmOperandType};
 use capstone::prelude::*;
 
@@ -125,8 +126,8 @@ impl<'p> Decoder<'p> {
             match operand.op_type {
                 ArmOperandType::Reg(register) => {
                     let name = self.capstone.reg_name(register).unwrap_or_default();
-                    let reads = access.is_none_or(|a| a.is_readable());
-                    operands.register(&name, reads, access.is_some_and(|a| a.is_writable()));
+                    let reads = access.is_none_or(AccessType::is_readable);
+                    operands.register(&name, reads, access.is_some_and(AccessType::is_writable));
                 }
                 ArmOperandType::Mem(memory) => {
                     let base = self.capstone.reg_name(memory.base()).unwrap_or_default();

@@ -68,7 +68,6 @@ pub(crate) fn rotating() -> f64 {
 }
 
 /// The machine with its J₀.
-#[derive(Clone, Copy)]
 pub(crate) struct Example {
     pub(crate) rotating: f64,
 }

@@ -4,6 +4,7 @@
 //! compiled as it builds without CMSIS-Core (`__GNUC_PYTHON__`), because none of the functions used here holds an
 //! intrinsic. gcc's own libgcc and newlib go with it, under names that rustc's routines cannot take the place of.
 
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -66,8 +67,10 @@ fn curl(url: &str) -> Result<Vec<u8>> {
 fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes)
         .iter()
-        .map(|byte| format!("{byte:02x}"))
-        .collect()
+        .fold(String::new(), |mut text, byte| {
+            let _ = write!(text, "{byte:02x}");
+            text
+        })
 }
 
 /// The package's sources, downloaded at first.
@@ -164,8 +167,8 @@ mod tests {
 
     #[test]
     fn the_archive_is_found_in_the_index() {
-        let page = r##"<a href="https://host/a/cmsisdsp-1.10.2.tar.gz#sha256=0">x</a>
-            <a href="https://host/b/cmsisdsp-1.10.3.tar.gz#sha256=1">y</a>"##;
+        let page = r#"<a href="https://host/a/cmsisdsp-1.10.2.tar.gz#sha256=0">x</a>
+            <a href="https://host/b/cmsisdsp-1.10.3.tar.gz#sha256=1">y</a>"#;
         assert_eq!(link(page), Some("https://host/b/cmsisdsp-1.10.3.tar.gz"));
         assert_eq!(link("<a href=\"other\">"), None);
     }

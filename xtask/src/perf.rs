@@ -116,7 +116,7 @@ fn measure(
 
     let mut found = Vec::new();
     for ((kernel, work), calls) in kernels.iter().zip(&work).zip(&calls) {
-        let made = calls.calls.len();
+        let made = calls.each.len();
         ensure!(
             made == work.calls(),
             "{}: {made} calls of {} in the trace",
@@ -125,9 +125,9 @@ fn measure(
         );
         let (error, ticks) = work.read(kernel, &folder)?;
         agree(core, calls, ticks).with_context(|| format!("{} on {}", kernel.name, core.name))?;
-        let most = |of: fn(&Call) -> u32| calls.calls.iter().map(of).max().unwrap_or(0);
+        let most = |of: fn(&Call) -> u32| calls.each.iter().map(of).max().unwrap_or(0);
         let sum: u64 = calls
-            .calls
+            .each
             .iter()
             .map(|call| u64::from(call.instructions))
             .sum();

@@ -47,11 +47,10 @@ impl Timing {
 
 fn m0plus(step: &Step) -> u32 {
     match step.this.kind {
-        Kind::Load | Kind::Store => 2,
+        Kind::Load | Kind::Store | Kind::BranchRegister { .. } => 2,
         Kind::Multiple(words) => 1 + words,
         Kind::PopPc(words) => 3 + words,
         Kind::Branch { link: true } | Kind::System => 3,
-        Kind::BranchRegister { .. } => 2,
         Kind::Branch { .. } if step.taken => 2,
         _ => 1,
     }
@@ -89,16 +88,14 @@ fn armv7m(step: &Step) -> u32 {
         // In an IT block, and skipped.
         Kind::BranchRegister { .. } | Kind::PopPc(_) if !step.taken => 1,
         Kind::Load if follows_memory(step) => 1,
-        Kind::Load => 2,
         Kind::Store if step.this.immediate_offset => 1,
-        Kind::Store => 2,
+        Kind::Load | Kind::Store | Kind::System => 2,
         Kind::Multiple(words) => 1 + words,
         Kind::PopPc(words) => 3 + words,
         Kind::Divide => DIVIDE,
         Kind::Branch { .. } if step.taken => 2,
         Kind::BranchRegister { .. } => 3,
         Kind::TableBranch => 4,
-        Kind::System => 2,
         _ => 1,
     }
 }

@@ -1,33 +1,42 @@
 //! Quantities on the command line, read as in machine files.
 
 use super::kind::{
-    ACCELERATION, ANGULAR_ACCELERATION, ANGULAR_SPEED, INERTIA, Kind, TORQUE, VELOCITY,
+    ACCELERATION, ANGULAR_ACCELERATION, ANGULAR_SPEED, FORCE, INERTIA, Kind, TORQUE, VELOCITY,
 };
 use super::quantity;
 use crate::coordinate::Coordinate;
 
-/// A torque greater than zero, such as "0.5 N m" (N·m).
+/// What reads a quantity of the drive link, which turns or slides.
+pub type Reader = fn(&str, Coordinate) -> Result<f64, String>;
+
+/// A torque at the drive link greater than zero, such as "0.5 N m", or a force, "5 N", of one that slides.
 ///
 /// # Errors
 /// In words for the command line.
-pub fn torque_argument(text: &str) -> Result<f64, String> {
-    positive(text, &TORQUE)
+pub fn drive_effort(text: &str, coordinate: Coordinate) -> Result<f64, String> {
+    positive(
+        text,
+        match coordinate {
+            Coordinate::Angle => &TORQUE,
+            Coordinate::Length => &FORCE,
+        },
+    )
 }
 
-/// A speed greater than zero, such as "90 rpm" (rad/s).
+/// A speed of the drive link greater than zero.
 ///
 /// # Errors
 /// In words for the command line.
-pub fn speed_argument(text: &str) -> Result<f64, String> {
-    positive(text, &ANGULAR_SPEED)
+pub fn largest_speed(text: &str, coordinate: Coordinate) -> Result<f64, String> {
+    above_zero(drive_speed(text, coordinate)?)
 }
 
-/// An angular acceleration greater than zero, such as "120 rad/s^2" (rad/s²).
+/// An acceleration of the drive link greater than zero.
 ///
 /// # Errors
 /// In words for the command line.
-pub fn acceleration_argument(text: &str) -> Result<f64, String> {
-    positive(text, &ANGULAR_ACCELERATION)
+pub fn largest_acceleration(text: &str, coordinate: Coordinate) -> Result<f64, String> {
+    above_zero(drive_acceleration(text, coordinate)?)
 }
 
 /// An inertia greater than zero, such as "8.5 kg cm^2" (kg·m²).
@@ -67,7 +76,10 @@ pub fn drive_acceleration(text: &str, coordinate: Coordinate) -> Result<f64, Str
 }
 
 fn positive(text: &str, kind: &'static Kind) -> Result<f64, String> {
-    let value = any(text, kind)?;
+    above_zero(any(text, kind)?)
+}
+
+fn above_zero(value: f64) -> Result<f64, String> {
     if value > 0.0 {
         Ok(value)
     } else {

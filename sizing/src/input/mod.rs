@@ -26,8 +26,8 @@ mod unit;
 mod variator;
 
 pub use argument::{
-    acceleration_argument, drive_acceleration, drive_speed, inertia_argument, speed_argument,
-    torque_argument,
+    Reader, drive_acceleration, drive_effort, drive_speed, inertia_argument, largest_acceleration,
+    largest_speed,
 };
 pub use mechanism::mechanism_types;
 

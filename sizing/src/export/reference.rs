@@ -1,0 +1,123 @@
+//! The exact curves, computed once and compared with every table that is tried.
+
+use std::cell::{OnceCell, RefCell};
+use std::collections::HashMap;
+
+use jred::table::{Layout, Table};
+use jred::{Domain, Error, Phase, Reducible, Reduction, Scalar, Scale};
+
+/// Places of the range, a prime number: no number of cells has a common measure with it, so that they fall on every part of a
+/// cell.
+const PLACES: u32 = 16_381;
+
+/// A machine that remembers its knots: tables of different types and layouts ask for the same ones.
+pub(super) struct Remembered<'m, M> {
+    machine: &'m M,
+    knots: RefCell<HashMap<u64, Reduction>>,
+    repeats: OnceCell<Result<(), Error>>,
+}
+
+impl<'m, M: Reducible> Remembered<'m, M> {
+    pub(super) fn new(machine: &'m M) -> Self {
+        Self {
+            machine,
+            knots: RefCell::default(),
+            repeats: OnceCell::new(),
+        }
+    }
+}
+
+impl<M: Reducible> Reducible for Remembered<'_, M> {
+    fn domain(&self) -> Domain {
+        self.machine.domain()
+    }
+
+    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+        if let Some(known) = self.knots.borrow().get(&phi.to_bits()) {
+            return Ok(*known);
+        }
+        let found = self.machine.reduction(phi)?;
+        self.knots.borrow_mut().insert(phi.to_bits(), found);
+        Ok(found)
+    }
+
+    fn check_repeats(&self) -> Result<(), Error> {
+        *self.repeats.get_or_init(|| self.machine.check_repeats())
+    }
+}
+
+/// The exact curves at one place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) phase: Phase,
+    /// Position (rad, or m).
+    pub(super) phi: f64,
+    pub(super) exact: Reduction,
+}
+
+/// The exact curves at places all over the range.
+#[derive(Clone, Debug)]
+pub(super) struct Reference {
+    pub(super) places: Vec<Place>,
+    span: f64,
+}
+
+impl Reference {
+    pub(super) fn new(machine: &impl Reducible) -> Result<Self, Error> {
+        let domain = machine.domain();
+        let place = |k: u32| {
+            let phase = Phase::from_bits(((u64::from(k) << 32) / u64::from(PLACES)) as u32);
+            let phi = domain.position(f64::from(phase.to_bits()) / 4_294_967_296.0);
+            let exact = machine.reduction(phi)?;
+            Ok(Place { phase, phi, exact })
+        };
+        Ok(Self {
+            places: (0..PLACES).map(place).collect::<Result<_, Error>>()?,
+            span: domain.span(),
+        })
+    }
+
+    /// The largest bound of a table's torque error (see [`jred::tabulate`]) for |ω|, |α| up to `range`, and the index of its
+    /// place. Looks from index `start` on, and no further than the first place above `limit`.
+    pub(super) fn error<S: Scalar, L: Layout>(
+        &self,
+        table: &Table<'_, S, L>,
+        scale: &Scale,
+        [omega, alpha]: [f64; 2],
+        (start, limit): (usize, f64),
+    ) -> (f64, usize) {
+        let [torque, speed, inertia] =
+            [scale.torque(), scale.speed(), scale.inertia()].map(f64::from);
+        let per_position = f64::from(table.cells()) / self.span;
+        let mut worst = (0.0, start);
+        let order = (start..self.places.len()).chain(0..start);
+        for (index, place) in order.filter_map(|k| Some((k, self.places.get(k)?))) {
+            let (exact, read) = (&place.exact, table.at(place.phase));
+            let slope = read.inertia_slope.to_f64() * inertia * per_position;
+            let error = (read.inertia.to_f64() * inertia - exact.inertia[0]).abs() * alpha
+                + 0.5 * (slope - exact.inertia[1]).abs() * omega * omega
+                + (read.load.to_f64() * torque - exact.load_torque()).abs()
+                + (read.viscous.to_f64() * torque / speed - exact.viscous).abs() * omega
+                + (read.coulomb.to_f64() * torque - exact.coulomb).abs();
+            if error > worst.0 {
+                worst = (error, index);
+                if error > limit {
+                    break;
+                }
+            }
+        }
+        worst
+    }
+
+    /// The largest drive torque (N·m) for |ω|, |α| up to `range`.
+    pub(super) fn peak_torque(&self, [omega, alpha]: [f64; 2]) -> f64 {
+        let corners = [(omega, alpha), (omega, -alpha), (-omega, alpha), (-omega, -alpha)];
+        let at = |place: &Place| {
+            corners.map(|(omega, alpha)| place.exact.torque(omega, alpha).total().abs())
+        };
+        self.places
+            .iter()
+            .flat_map(at)
+            .fold(0.0, |most, torque: f64| most.max(torque))
+    }
+}

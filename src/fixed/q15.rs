@@ -1,0 +1,62 @@
+//! Fixed point with 16-bit tables.
+
+use crate::scalar::{Number, Outcome};
+
+/// A per-unit number in [−1, 1): an `i16` in units of 2⁻¹⁵, for the tables of [`short`](crate::short).
+///
+/// What 1 stands for is said by the [`Scale`](crate::Scale) of the model it is used with. Conversions round to the nearest
+/// number, halves away from zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Q15(i16);
+
+/// 1 in units of the last place.
+const UNIT: f32 = 32_768.0;
+
+impl Q15 {
+    /// The largest number, 1 − 2⁻¹⁵.
+    pub const MAX: Self = Self(i16::MAX);
+    /// The smallest number, −1.
+    pub const MIN: Self = Self(i16::MIN);
+
+    /// From the raw integer, in units of 2⁻¹⁵.
+    #[must_use]
+    #[inline]
+    pub const fn from_bits(bits: i16) -> Self {
+        Self(bits)
+    }
+
+    /// The raw integer, in units of 2⁻¹⁵.
+    #[must_use]
+    #[inline]
+    pub const fn to_bits(self) -> i16 {
+        self.0
+    }
+}
+
+impl Number for Q15 {
+    fn from_f64(value: f64) -> Option<Self> {
+        let nearest = libm::round(value * f64::from(UNIT));
+        let fits = (f64::from(i16::MIN)..=f64::from(i16::MAX)).contains(&nearest);
+        fits.then_some(Self(nearest as i16))
+    }
+
+    fn to_f64(self) -> f64 {
+        f64::from(self.0) / f64::from(UNIT)
+    }
+
+    fn per_unit(value: f32, base: f32) -> Outcome<Self> {
+        let scaled = value / base * UNIT;
+        // Towards zero after half a unit more: the nearest. `as` saturates, and gives 0 for NaN.
+        let nearest = (scaled + if scaled < 0.0 { -0.5 } else { 0.5 }) as i32;
+        let limited = nearest.clamp(i32::from(i16::MIN), i32::from(i16::MAX));
+        Outcome {
+            value: Self(limited as i16),
+            saturated: limited != nearest || scaled.is_nan(),
+        }
+    }
+
+    fn si(self, base: f32) -> f32 {
+        f32::from(self.0) * (1.0 / UNIT) * base
+    }
+}

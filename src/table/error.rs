@@ -1,0 +1,116 @@
+//! Why a table or a model is refused.
+
+use core::fmt;
+
+use super::{MAX_CELLS, MIN_CELLS};
+
+/// Why rows of control points are not a usable table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum TableError {
+    /// Fewer than [`MIN_CELLS`] or more than [`MAX_CELLS`] cells.
+    Cells(u32),
+    /// Not the number of words that the cells and curves need.
+    Length {
+        /// Words needed.
+        needed: u32,
+        /// Words given.
+        given: u32,
+    },
+    /// A cell of this curve holds a number that is not finite, or leaves the fixed-point range.
+    Range {
+        /// Position of the curve in a row.
+        curve: u8,
+        /// Index of the cell.
+        cell: u32,
+    },
+    /// The reduced inertia is not positive everywhere in this cell.
+    NoInertia {
+        /// Index of the cell.
+        cell: u32,
+    },
+    /// A periodic curve does not close: its last three rows are not its first three.
+    NotClosed {
+        /// Position of the curve in a row.
+        curve: u8,
+    },
+    /// The torque ½·J′·ω² leaves the fixed-point range in this cell at the speed base: a larger torque base or a
+    /// smaller speed base is needed.
+    VelocityTorque {
+        /// Index of the cell.
+        cell: u32,
+    },
+    /// In fixed point the speed base must be one of [`Scale::for_cells`](crate::Scale::for_cells); in floating point the bases
+    /// overflow.
+    SpeedBase,
+    /// At full speed and acceleration the torque may leave the fixed-point range in this cell: a larger torque base is
+    /// needed, or a larger inertia base (which makes that of the acceleration smaller).
+    TorqueRange {
+        /// Index of the cell.
+        cell: u32,
+    },
+    /// The pieces of a turn do not start one after another, or one is shorter than 2⁻¹⁶ of a turn.
+    Pieces,
+    /// The table has another set of [`curves`] than the model; or the set has an unknown bit, or a reciprocal or a layout of
+    /// 16 bits for floating point. The set.
+    Curves(u8),
+    /// The curve of the reciprocal inertia is not that of the inertia in this cell.
+    Reciprocal {
+        /// Index of the cell.
+        cell: u32,
+    },
+}
+
+impl fmt::Display for TableError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Cells(cells) => write!(
+                f,
+                "a table of {cells} cells: {MIN_CELLS} to {MAX_CELLS} are possible"
+            ),
+            Self::Length { needed, given } => {
+                write!(f, "the table has {given} words, but needs {needed}")
+            }
+            Self::Range { curve, cell } => write!(
+                f,
+                "curve {curve} of the table leaves the number range in cell {cell}"
+            ),
+            Self::NoInertia { cell } => write!(
+                f,
+                "the reduced inertia is not positive everywhere in cell {cell}: use more cells"
+            ),
+            Self::NotClosed { curve } => {
+                write!(f, "curve {curve} of the table does not close after a turn")
+            }
+            Self::VelocityTorque { cell } => write!(
+                f,
+                "the torque of J' leaves the number range in cell {cell}: \
+                 choose a larger torque base or a smaller speed base"
+            ),
+            Self::SpeedBase => write!(
+                f,
+                "the speed base does not suit the number of cells: take Scale::for_cells"
+            ),
+            Self::TorqueRange { cell } => write!(
+                f,
+                "at full speed and acceleration the torque leaves the number range in cell {cell}: \
+                 choose a larger torque base, or a larger inertia base for less acceleration"
+            ),
+            Self::Pieces => write!(
+                f,
+                "the pieces of a turn must start one after another, each at least 1/65536 of a turn long"
+            ),
+            Self::Curves(set) => write!(
+                f,
+                "the table has the set of curves {set:#08b}: not that of the model, or not possible with this number type and layout"
+            ),
+            Self::Reciprocal { cell } => write!(
+                f,
+                "the curve of the reciprocal inertia does not belong to that of the inertia in cell {cell}"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for TableError {}

@@ -1,0 +1,214 @@
+//! The three layouts against the exact machine, against each other, at knots, at the turn and at the ends of a stroke.
+
+mod support;
+
+use std::f64::consts::TAU;
+
+use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
+use jred::{Domain, Error, Phase, Q31, Reducible, Reduction, Scalar, Scale};
+use proptest::prelude::*;
+use support::machines::spec;
+use support::rows::Rows;
+use support::{assert_near, budget, config, largest};
+
+const ALL: u8 = curves::ALL;
+
+/// Curves that are not polynomials, with exact slopes: sizes of one.
+struct Smooth(Domain);
+
+impl Reducible for Smooth {
+    fn domain(&self) -> Domain {
+        self.0
+    }
+
+    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+        let (sin, cos) = phi.sin_cos();
+        let inertia = 0.2 * sin.exp();
+        Ok(Reduction {
+            inertia: [inertia, cos * inertia, (cos * cos - sin) * inertia],
+            potential_energy: [0.0, 0.0],
+            process: 0.1 * (cos.exp() - 1.0),
+            viscous: 0.02 * (2.0 + (2.0 * phi).sin()),
+            coulomb: 0.03 * (2.0 + (3.0 * phi).cos()),
+        })
+    }
+}
+
+/// Largest errors of the values and of the slope a cell, in machine units, over a grid that has every knot and both ends.
+fn errors<S: Scalar, L: Layout>(domain: Domain, cells: u32, scale: &Scale) -> [f64; 2] {
+    let machine = Smooth(domain);
+    let rows = Rows::<S, L>::of(&machine, ALL, cells, scale).unwrap();
+    let table = rows.table();
+    let mut found = [0.0; 2];
+    let places = 24 * cells;
+    for k in 0..=places {
+        let place = (u64::from(k) << 32) / u64::from(places);
+        let phase = Phase::from_bits(u32::try_from(place).unwrap_or(u32::MAX));
+        let turns = f64::from(phase.to_bits()) / 4_294_967_296.0;
+        let exact = machine.reduction(domain.position(turns)).unwrap();
+        let read = table.at(phase);
+        let [torque, speed, inertia] =
+            [scale.torque(), scale.speed(), scale.inertia()].map(f64::from);
+        let values = [
+            read.inertia.to_f64() - exact.inertia[0] / inertia,
+            read.load.to_f64() - exact.load_torque() / torque,
+            read.viscous.to_f64() - exact.viscous * speed / torque,
+            read.coulomb.to_f64() - exact.coulomb / torque,
+        ];
+        let slope = exact.inertia[1] / inertia * domain.span() / f64::from(cells);
+        found[0] = largest(values).max(found[0]);
+        found[1] = largest([read.inertia_slope.to_f64() - slope]).max(found[1]);
+    }
+    found
+}
+
+/// The slope is one a cell here, which is one order more.
+fn converges<L: Layout>(orders: [i32; 2]) {
+    for domain in [Domain::Turn, Domain::stroke(-0.4, 1.3).unwrap()] {
+        for cells in [48, 96] {
+            let [coarse, fine] =
+                [cells, 2 * cells].map(|n| errors::<f64, L>(domain, n, &Scale::SI));
+            for (k, order) in orders.iter().enumerate() {
+                let ratio = coarse[k] / fine[k];
+                println!(
+                    "{} {domain:?} {cells}: {:.1e}, ratio {ratio:.2}",
+                    L::NAME,
+                    coarse[k]
+                );
+                let expected = f64::from(1 << order);
+                assert_near("order", ratio, expected, budget::ORDER_SHARE * expected);
+            }
+        }
+    }
+}
+
+#[test]
+fn errors_fall_with_the_order_of_the_spline() {
+    converges::<Spline>([4, 4]);
+    converges::<Cubic>([4, 4]);
+    converges::<Quadratic>([3, 3]);
+}
+
+/// In every number type as in f64, but for the type's own roundings.
+fn agrees_with_f64<S: Scalar, L: Layout>(roundings: [f64; 2]) {
+    let scale = Scale::new(1.0, 2.0, 1.0).unwrap();
+    for domain in [Domain::Turn, Domain::stroke(-0.4, 1.3).unwrap()] {
+        for cells in [8, 37, 250] {
+            let exact = errors::<f64, L>(domain, cells, &scale);
+            let found = errors::<S, L>(domain, cells, &scale);
+            let [value, slope] = [found[0] - exact[0], found[1] - exact[1]];
+            println!("{} {} {cells}: {value:.1e} {slope:.1e}", S::NAME, L::NAME);
+            // A place of 16 bits moves along the slope, which is below 2.5 times the width of a cell.
+            let place = if S::FIXED && L::NAME == "quadratic" {
+                2.5 * domain.span() / f64::from(cells) / 65_536.0
+            } else {
+                0.0
+            };
+            assert_near("value", found[0], exact[0], roundings[0] + place);
+            assert_near("slope", found[1], exact[1], roundings[1] + place);
+        }
+    }
+}
+
+#[test]
+fn every_number_type_reads_the_same_curves() {
+    let f32 = [budget::F32_READ; 2];
+    agrees_with_f64::<f32, Spline>(f32);
+    agrees_with_f64::<f32, Cubic>(f32);
+    agrees_with_f64::<f32, Quadratic>(f32);
+    agrees_with_f64::<Q31, Spline>(budget::Q31_READ);
+    agrees_with_f64::<Q31, Cubic>(budget::Q31_READ);
+    agrees_with_f64::<Q31, Quadratic>(budget::Q31_READ);
+}
+
+/// A Cubic is the Spline's own curve.
+fn cubic_is_the_spline<S: Scalar>(machine: &impl Reducible, cells: u32, bits: u32, roundings: f64) {
+    let scale = Scale::covering(machine, 60.0, 900.0, 64).unwrap();
+    let scale = scale.for_cells(cells, TAU);
+    let Ok(spline) = Rows::<S, Spline>::of(machine, ALL, cells, &scale) else {
+        return; // too few cells
+    };
+    let cubic = Rows::<S, Cubic>::of(machine, ALL, cells, &scale).unwrap();
+    let phase = Phase::from_bits(bits);
+    let [a, b] = [spline.table().at(phase), cubic.table().at(phase)];
+    for (what, a, b) in [
+        ("J", a.inertia, b.inertia),
+        ("J' a cell", a.inertia_slope, b.inertia_slope),
+        ("load", a.load, b.load),
+        ("b", a.viscous, b.viscous),
+        ("c", a.coulomb, b.coulomb),
+    ] {
+        assert_near(what, b.to_f64(), a.to_f64(), roundings);
+    }
+}
+
+/// Value and slope on both sides of every knot, and of the turn: equal but for what changes within the phases between.
+fn smooth_at_knots<S: Scalar, L: Layout>(rows: &Rows<S, L>, roundings: [f64; 2]) {
+    let table = rows.table();
+    let cells = rows.cells;
+    let turn = rows.domain == Domain::Turn;
+    for knot in u32::from(!turn)..cells {
+        // The first phase in the cell after the knot.
+        let bits = (u64::from(knot) << 32).div_ceil(u64::from(cells)) as u32;
+        let after = Phase::from_bits(bits);
+        let before = Phase::from_bits(bits.wrapping_sub(1));
+        assert_eq!(after.cell(cells).0, knot);
+        assert_eq!(before.cell(cells).0, (knot + cells - 1) % cells);
+        let [a, b] = [table.at(before), table.at(after)];
+        // Two phases are cells·2⁻³² of a cell apart; in 16 bits of a cell one step more.
+        let apart = f64::from(cells) / 4_294_967_296.0
+            + if S::FIXED && L::NAME == "quadratic" {
+                1.0 / 65_536.0
+            } else {
+                0.0
+            };
+        let moved = 2.0 * a.inertia_slope.to_f64().abs().max(0.05) * apart;
+        for (what, a, b, roundings) in [
+            ("J", a.inertia, b.inertia, roundings[0]),
+            ("J' a cell", a.inertia_slope, b.inertia_slope, roundings[1]),
+            ("load", a.load, b.load, roundings[0]),
+            ("b", a.viscous, b.viscous, roundings[0]),
+            ("c", a.coulomb, b.coulomb, roundings[0]),
+        ] {
+            let jump = b.to_f64() - a.to_f64();
+            assert_near(what, jump, 0.0, roundings + moved);
+        }
+    }
+}
+
+fn smooth_everywhere<S: Scalar, L: Layout>(roundings: [f64; 2]) {
+    let scale = Scale::new(1.0, 2.0, 1.0).unwrap();
+    for domain in [Domain::Turn, Domain::stroke(-0.4, 1.3).unwrap()] {
+        for cells in [8, 13, 64, 300] {
+            let rows = Rows::<S, L>::of(&Smooth(domain), ALL, cells, &scale).unwrap();
+            smooth_at_knots(&rows, roundings);
+        }
+    }
+}
+
+#[test]
+fn value_and_slope_meet_at_every_knot() {
+    let f64 = [budget::SPLINE_END; 2];
+    smooth_everywhere::<f64, Spline>(f64);
+    smooth_everywhere::<f64, Cubic>(f64);
+    smooth_everywhere::<f64, Quadratic>(f64);
+    let f32 = [budget::F32_READ; 2];
+    smooth_everywhere::<f32, Spline>(f32);
+    smooth_everywhere::<f32, Cubic>(f32);
+    smooth_everywhere::<f32, Quadratic>(f32);
+    smooth_everywhere::<Q31, Spline>(budget::Q31_READ);
+    smooth_everywhere::<Q31, Cubic>(budget::Q31_READ);
+    smooth_everywhere::<Q31, Quadratic>(budget::Q31_READ);
+}
+
+proptest! {
+    #![proptest_config(config(128, 0x0081))]
+
+    #[test]
+    fn a_cubic_is_the_spline(spec in spec(), cells in 8u32..300, bits: u32) {
+        let machine = spec.machine();
+        cubic_is_the_spline::<f64>(&machine, cells, bits, budget::SPLINE_END);
+        cubic_is_the_spline::<f32>(&machine, cells, bits, budget::F32_READ);
+        cubic_is_the_spline::<Q31>(&machine, cells, bits, budget::Q31_READ[1]);
+    }
+}

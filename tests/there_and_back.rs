@@ -1,0 +1,76 @@
+//! Inverse and forward dynamics of one table are inverse to each other: every number type, every layout, with and without
+//! division.
+
+mod support;
+
+use std::f64::consts::TAU;
+
+use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
+use jred::{Phase, Q31, Scalar, Scale};
+use proptest::prelude::*;
+use support::machines::{Spec, spec};
+use support::rows::Rows;
+use support::{assert_near, budget, config};
+
+const ALL: u8 = curves::ALL;
+const CELLS: u32 = 64;
+
+/// Acceleration → torque → acceleration, and the range of accelerations of two torques. `bound` is of J·α and J in machine
+/// units.
+fn there_and_back<S: Scalar, L: Layout>(
+    spec: &Spec,
+    [omega, alpha, other]: [f64; 3],
+    phase: Phase,
+    bound: impl Fn(f64, f64) -> f64,
+) {
+    let machine = spec.machine();
+    let scale = Scale::covering(&machine, 60.0, 900.0, 256).unwrap();
+    let scale = scale.for_cells(CELLS, TAU);
+    let rows = Rows::<S, L>::of(&machine, ALL, CELLS, &scale).unwrap();
+    let model = rows.model::<ALL>(&scale);
+    let (base, acceleration) = (f64::from(scale.speed()), f64::from(scale.acceleration()));
+    let omega = S::from_f64(omega * 60.0 / base).unwrap();
+    let [alpha, other] = [alpha, other].map(|a| S::from_f64(a * 900.0 / acceleration).unwrap());
+    let torque = model.torque(phase, omega, alpha);
+    let back = model.acceleration(phase, omega, torque);
+    assert!(!back.saturated, "{back:?}");
+    let inertia = model.table().at(phase).inertia.to_f64();
+    let budget = bound(inertia * alpha.to_f64(), inertia);
+    assert_near(S::NAME, back.value.to_f64(), alpha.to_f64(), budget);
+    // Both at once are each by itself.
+    let least = model.torque(phase, omega, other);
+    let range = model.acceleration_range(phase, omega, least, torque);
+    assert_eq!(range.greatest, back);
+    assert_eq!(range.least, model.acceleration(phase, omega, least));
+    let mut many = [S::default(); 3];
+    let done = model.torques(&[phase; 2], &[omega; 3], &[alpha, other], &mut many);
+    assert_eq!((done, many), (2, [torque, least, S::default()]));
+}
+
+fn float(epsilon: f64) -> impl Fn(f64, f64) -> f64 {
+    // The parts of what resists may be larger than their sum: up to the torque base, 1.
+    move |own, inertia| budget::TICK_ROUNDINGS * epsilon * (own.abs() + 1.0) / inertia
+}
+
+/// What resists is the same number both ways, J·α lost up to a unit of Q29 to its floor, the quotient up to one of Q31.
+fn fixed(_: f64, inertia: f64) -> f64 {
+    budget::Q31_UNIT * (4.0 / inertia + 1.0)
+}
+
+proptest! {
+    #![proptest_config(config(64, 0x0003))]
+
+    #[test]
+    fn forward_inverts_inverse(spec in spec(), state in [-1.0..1.0, -1.0..1.0, -1.0..1.0], bits: u32) {
+        let phase = Phase::from_bits(bits);
+        there_and_back::<f64, Spline>(&spec, state, phase, float(f64::EPSILON));
+        there_and_back::<f64, Cubic>(&spec, state, phase, float(f64::EPSILON));
+        there_and_back::<f64, Quadratic>(&spec, state, phase, float(f64::EPSILON));
+        there_and_back::<f32, Spline>(&spec, state, phase, float(f64::from(f32::EPSILON)));
+        there_and_back::<f32, Cubic>(&spec, state, phase, float(f64::from(f32::EPSILON)));
+        there_and_back::<f32, Quadratic>(&spec, state, phase, float(f64::from(f32::EPSILON)));
+        there_and_back::<Q31, Spline>(&spec, state, phase, fixed);
+        there_and_back::<Q31, Cubic>(&spec, state, phase, fixed);
+        there_and_back::<Q31, Quadratic>(&spec, state, phase, fixed);
+    }
+}
