@@ -9,6 +9,8 @@
 //! at most twice: another program on the machine may have disturbed it. docs/performance.md has the results.
 #![cfg(not(target_os = "none"))]
 
+#[path = "support/clock.rs"]
+mod clock;
 #[path = "support/shapes.rs"]
 mod shapes;
 mod support;
@@ -18,11 +20,10 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::Instant;
 
+use clock::{RUNS, Report, best, sin_cos};
 use jred::mechanism::{Branch, Mechanism, SixLink};
-use jred::{Error, Machine, Real, Reducible};
-use support::Verdict;
+use jred::{Error, Machine, Reducible};
 
 /// Counts what is allocated.
 struct Counting;
@@ -43,36 +44,10 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// Each time is the best of so many runs.
-const RUNS: u32 = 7;
 /// Positions of a run.
 const POSITIONS: u32 = 4096;
 /// Positions that are timed together.
 const PIECE: u32 = 64;
-/// Attempts before a ratio out of bounds counts.
-const ATTEMPTS: u32 = 3;
-
-/// The shortest time of several runs (s).
-fn best(mut run: impl FnMut()) -> f64 {
-    let mut shortest = f64::INFINITY;
-    for _ in 0..RUNS {
-        let start = Instant::now();
-        run();
-        shortest = shortest.min(start.elapsed().as_secs_f64());
-    }
-    shortest
-}
-
-/// Time of one sine with cosine (s): the reference.
-fn sin_cos() -> f64 {
-    let count = 20_000;
-    let time = best(|| {
-        for k in 0..count {
-            black_box(Real::sin_cos(black_box(f64::from(k) * 1e-3)));
-        }
-    });
-    time / f64::from(count)
-}
 
 /// Time of one reduction (s), over a turn of so many positions. Timed in pieces shorter than a time slice: on a busy machine
 /// every longer run is interrupted.
@@ -93,51 +68,13 @@ fn position(machine: &impl Reducible, positions: u32) -> f64 {
     pieces.sum::<f64>() / f64::from(positions)
 }
 
-/// Prints, and remembers what was out of bounds.
-struct Report {
-    failures: u32,
-}
-
-impl Report {
-    /// Measures a ratio that must lie in `[low, high]`.
-    fn band(&mut self, what: &str, [low, high]: [f64; 2], mut measure: impl FnMut() -> f64) {
-        let mut found = measure();
-        for _ in 1..ATTEMPTS {
-            if found >= low && found <= high {
-                break;
-            }
-            found = measure();
-        }
-        println!("{what}: {found:.2}, allowed {low} to {high}");
-        if !(found >= low && found <= high) {
-            println!("FAILED: {what}");
-            self.failures += 1;
-        }
-    }
-
-    /// Measures the cost of a position in sines, which has a ceiling, and prints its time for a turn.
-    fn cost(&mut self, name: &str, machine: &impl Reducible) {
-        let mut line = String::new();
-        let mut verdict = Verdict::Missing;
-        for _ in 0..ATTEMPTS {
-            let (time, sine) = (position(machine, POSITIONS), sin_cos());
-            let sines = time / sine;
-            verdict = support::judge("host", name, sines);
-            line = format!(
-                "{name:24} {:8.0} {:9.2} {sines:8.0}",
-                time * 1e9,
-                time * 1e3 * f64::from(POSITIONS)
-            );
-            if matches!(verdict, Verdict::Within(_) | Verdict::Slack(_)) {
-                break;
-            }
-        }
-        println!("{line}  {verdict:?}");
-        if !matches!(verdict, Verdict::Within(_) | Verdict::Slack(_)) {
-            println!("FAILED: {name} {verdict:?}");
-            self.failures += 1;
-        }
-    }
+/// Judges the cost of a position in sines, and prints its time for a turn.
+fn cost(report: &mut Report, name: &str, machine: &impl Reducible) {
+    let line = |time: f64| {
+        let turn = time * 1e3 * f64::from(POSITIONS);
+        format!("{:8.0} {turn:9.2}", time * 1e9)
+    };
+    report.cost(name, || position(machine, POSITIONS), line);
 }
 
 /// The exponent p of time ~ nᵖ between the least squares of the points (n, time).
@@ -177,7 +114,7 @@ fn print(samples: &[Sample]) {
 }
 
 fn run() -> Result<u32, Error> {
-    let mut report = Report { failures: 0 };
+    let mut report = Report::default();
     let gravity = [0.0, -9.81];
     let six_link = Machine::new(shapes::six_link()?).with_gravity(gravity)?;
     let [crank, rocker, rod, centres, guide] = shapes::SIX_LINK;
@@ -189,11 +126,11 @@ fn run() -> Result<u32, Error> {
         Machine::new(support::four_bar_linkage::<256>()?).with_gravity(gravity)?;
 
     println!("reference: one sine with cosine, {:.1} ns", sin_cos() * 1e9);
-    println!("reduction                      ns  ms/4096    sines");
-    report.cost("six-link-closed", &closed);
-    report.cost("six-link-linkage", &six_link);
-    report.cost("four-bar-closed", &four_bar);
-    report.cost("four-bar-linkage", &four_bar_linkage);
+    println!("reduction                        ns   ms/4096     sines");
+    cost(&mut report, "six-link-closed", &closed);
+    cost(&mut report, "six-link-linkage", &six_link);
+    cost(&mut report, "four-bar-closed", &four_bar);
+    cost(&mut report, "four-bar-linkage", &four_bar_linkage);
 
     println!("\nnumber of positions, six-link as a linkage");
     for positions in [1024, 16384] {
@@ -237,7 +174,7 @@ fn run() -> Result<u32, Error> {
     );
     assert_eq!(allocated, 0, "a position must not allocate");
     assert!(before > 0, "allocations are counted");
-    Ok(report.failures)
+    Ok(report.failures())
 }
 
 fn main() -> ExitCode {

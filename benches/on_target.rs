@@ -26,7 +26,7 @@ mod target {
     use cortex_m::peripheral::{CPUID, SYST};
     use cortex_m_rt::entry;
     use cortex_m_semihosting::{debug, hprintln};
-    use jred::table::curves;
+    use jred::table::{Spline, curves};
     use jred::tabulate::{fill, scratch_len};
     use jred::{Error, Machine, Mechanism, Reducible, Scale};
     use panic_semihosting as _;

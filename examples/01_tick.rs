@@ -38,7 +38,7 @@ fn run() -> Result<(), Failure> {
     println!("count   torque for 10 rad/s, 50 rad/s2   acceleration from 100 N m at 10 rad/s");
     for count in (0..4096).step_by(256) {
         let phase = Phase::from_counts(count, ENCODER);
-        let needed = press.torque(phase, 10.0, 50.0).value;
+        let needed = press.torque(phase, 10.0, 50.0);
         let gained = press.acceleration(phase, 10.0, 100.0).value;
         println!(
             "{:5} {:10} mN m {:31} mrad/s2",

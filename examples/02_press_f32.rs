@@ -38,11 +38,11 @@ fn run() -> Result<(), Failure> {
         let wanted = stroke.at(tick as f32 * TICK);
         let phase = image.domain().phase(wanted.phi);
         let torque = press.torque(phase, wanted.omega, wanted.alpha);
-        let alpha = press.acceleration(phase, wanted.omega, torque.value);
+        let alpha = press.acceleration(phase, wanted.omega, torque);
 
         worst = worst.max((alpha.value - wanted.alpha).abs());
-        saturated += u32::from(torque.saturated) + u32::from(alpha.saturated);
-        for bits in [torque.value.to_bits(), alpha.value.to_bits()] {
+        saturated += u32::from(alpha.saturated);
+        for bits in [torque.to_bits(), alpha.value.to_bits()] {
             checksum = (checksum ^ bits).wrapping_mul(16_777_619);
         }
         if tick % 20 == 0 {
@@ -50,8 +50,8 @@ fn run() -> Result<(), Failure> {
                 "{:4}  {:08x}  {:08x} {:8} mN m  {:08x} {:7} mrad/s2",
                 tick,
                 phase.to_bits(),
-                torque.value.to_bits(),
-                milli(torque.value),
+                torque.to_bits(),
+                milli(torque),
                 alpha.value.to_bits(),
                 milli(alpha.value)
             );

@@ -51,20 +51,15 @@ fn run() -> Result<(), Failure> {
         let omega = scale.omega(wanted.omega);
         let alpha = scale.alpha(wanted.alpha);
         let torque = press.torque(phase, omega.value, alpha.value);
-        let back = press.acceleration(phase, omega.value, torque.value);
+        let back = press.acceleration(phase, omega.value, torque);
 
         worst = worst.max(back.value.to_bits().abs_diff(alpha.value.to_bits()));
-        let exact = float.torque(phase, wanted.omega, wanted.alpha).value;
-        apart = apart.max((scale.torque_si(torque.value) - exact).abs());
-        for flag in [
-            omega.saturated,
-            alpha.saturated,
-            torque.saturated,
-            back.saturated,
-        ] {
+        let exact = float.torque(phase, wanted.omega, wanted.alpha);
+        apart = apart.max((scale.torque_si(torque) - exact).abs());
+        for flag in [omega.saturated, alpha.saturated, back.saturated] {
             saturated += u32::from(flag);
         }
-        for value in [torque.value, back.value] {
+        for value in [torque, back.value] {
             checksum = (checksum ^ value.to_bits() as u32).wrapping_mul(16_777_619);
         }
         if tick % 20 == 0 {
@@ -72,8 +67,8 @@ fn run() -> Result<(), Failure> {
                 "{:4}  {:08x}  {:08x} {:8} mN m  {:08x} {:7} mrad/s2",
                 tick,
                 phase.to_bits(),
-                torque.value.to_bits(),
-                milli(scale.torque_si(torque.value)),
+                torque.to_bits(),
+                milli(scale.torque_si(torque)),
                 back.value.to_bits(),
                 milli(scale.alpha_si(back.value))
             );

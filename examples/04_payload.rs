@@ -92,23 +92,25 @@ fn assemble(links: &[Link; 3]) -> Result<Assembly<3, 4, 32>, Error> {
 }
 
 /// Fills a table from a mechanism.
-fn tabulate(mechanism: &impl Mechanism, words: &mut Words) -> Result<(), Error> {
+fn tabulate<'w>(mechanism: &impl Mechanism, words: &'w mut Words) -> Result<Table<'w, f32>, Error> {
     let machine = Machine::new(mechanism).with_gravity(GRAVITY)?;
     let mut scratch = [0.0; scratch_len(CELLS, curves::LOAD)];
-    fill::<f32, Spline>(&machine, curves::LOAD, CELLS, &Scale::SI, &mut scratch, words)?;
-    Ok(())
-}
-
-fn table(words: &Words) -> Result<Table<'_, f32, { curves::LOAD }>, Error> {
-    Table::new(words, CELLS, true).map_err(Error::Table)
+    fill(
+        &machine,
+        curves::LOAD,
+        CELLS,
+        &Scale::SI,
+        &mut scratch,
+        words,
+    )
 }
 
 /// Checks a table against the closed form, and prints how exact it is.
-fn check(words: &Words, links: [Link; 3]) -> Result<(), Failure> {
+fn check(table: &Table<'_, f32>, links: [Link; 3]) -> Result<(), Failure> {
     let four_bar = FourBar::new(LENGTHS, PIVOT, Side::Left, links)?;
     let machine = Machine::new(&four_bar).with_gravity(GRAVITY)?;
-    let found = measure(&machine, &table(words)?, &DESIGN, &Scale::SI)?;
-    let sum = words.iter().fold(0u32, |sum, word| {
+    let found = measure(&machine, table, &DESIGN, &Scale::SI)?;
+    let sum = table.words().iter().fold(0u32, |sum, word| {
         (sum ^ word.to_bits()).wrapping_mul(16_777_619)
     });
     let error = milli(found.torque_error as f32 * 1000.0);
@@ -123,26 +125,24 @@ fn run() -> Result<(), Failure> {
     let [crank, coupler, arm] = links()?;
     let mut linkage = assemble(&[crank, coupler, arm])?;
     let (mut in_use, mut spare): (Words, Words) = ([0.0; WORDS], [0.0; WORDS]);
-    tabulate(&linkage, &mut in_use)?;
+    let in_use = tabulate(&linkage, &mut in_use)?;
     println!("empty gripper");
     check(&in_use, [crank, coupler, arm])?;
 
     // The gripper closes. The linkage's positions stay; only a mass is another.
     let arm = loaded(&arm)?;
     linkage.set_link(2, arm)?;
-    tabulate(&linkage, &mut spare)?;
+    let spare = tabulate(&linkage, &mut spare)?;
     println!("with {} g", milli(PAYLOAD[0] as f32));
     check(&spare, [crank, coupler, arm])?;
 
-    let model = |words| -> Result<_, Error> {
-        Model::for_domain(table(words)?, Domain::Turn, &Scale::SI).map_err(Error::Table)
-    };
-    let (before, after) = (model(&in_use)?, model(&spare)?);
+    let model = |table| Model::for_domain(table, Domain::Turn, &Scale::SI).map_err(Error::Table);
+    let (before, after) = (model(in_use)?, model(spare)?);
     println!("   phase   drive torque for 10 rad/s, 50 rad/s2: empty, loaded");
     for eighth in 0..8u32 {
         let phase = Phase::from_bits(eighth << 29);
         let torque =
-            |model: &Model<'_, f32, { curves::LOAD }>| milli(model.torque(phase, 10.0, 50.0).value);
+            |model: &Model<'_, f32, { curves::LOAD }>| milli(model.torque(phase, 10.0, 50.0));
         println!(
             "{:08x} {:12} {:12} mN m",
             phase.to_bits(),

@@ -11,13 +11,26 @@ use core::hint::black_box;
 use core::num::NonZeroU32;
 
 use jred::motion::{Law, Move};
-use jred::table::curves;
+use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
 use jred::{Image, ImageError, Model, Outcome, Phase, Q31, Scalar, include_image};
 
 /// Everything that firmware calls, with arguments that the optimiser knows nothing about.
 fn calls() -> Result<(), ImageError> {
-    every_tick::<f32>(include_image!("data/press_f32.jred"))?;
-    every_tick::<Q31>(include_image!("data/press_q31.jred"))?;
+    let (float, fixed) = (
+        include_image!("data/press_f32.jred"),
+        include_image!("data/press_q31.jred"),
+    );
+    every_tick::<f32, { curves::ALL }, Spline>(float)?;
+    every_tick::<Q31, { curves::ALL }, Spline>(fixed)?;
+    // Refused, because the images are not of these layouts and sets; the linker does not know.
+    let other = [
+        every_tick::<f32, { curves::ALL }, Cubic>(float),
+        every_tick::<f32, { curves::EVERY & !curves::RECIPROCAL }, Quadratic>(float),
+        every_tick::<Q31, { curves::EVERY }, Spline>(fixed),
+        every_tick::<Q31, { curves::EVERY }, Cubic>(fixed),
+        every_tick::<Q31, { curves::LOAD | curves::RECIPROCAL }, Quadratic>(fixed),
+    ];
+    black_box(other);
 
     let stroke = Move::new(
         Law::Polynomial345,
@@ -44,9 +57,9 @@ fn calls() -> Result<(), ImageError> {
     Ok(())
 }
 
-fn every_tick<S: Scalar>(bytes: &'static [u8]) -> Result<(), ImageError> {
+fn every_tick<S: Scalar, const SET: u8, L: Layout>(bytes: &'static [u8]) -> Result<(), ImageError> {
     let image = Image::from_bytes(black_box(bytes))?;
-    let model: Model<'_, S, { curves::ALL }> = image.model()?;
+    let model: Model<'_, S, SET, L> = image.model()?;
     let scale = image.scale();
     let phase = image.domain().phase(black_box(1.0));
     let omega: Outcome<S> = scale.omega(black_box(10.0));
@@ -54,7 +67,21 @@ fn every_tick<S: Scalar>(bytes: &'static [u8]) -> Result<(), ImageError> {
     let limit: Outcome<S> = scale.to_torque(black_box(100.0));
     let torque = model.torque(phase, omega.value, alpha.value);
     let back = model.acceleration(phase, omega.value, limit.value);
-    black_box((scale.torque_si(torque.value), scale.alpha_si(back.value)));
+    let range = model.acceleration_range(phase, omega.value, torque, limit.value);
+    let mut torques = black_box([S::default(); 3]);
+    let done = model.torques(
+        black_box(&[phase; 3]),
+        black_box(&[omega.value; 3]),
+        black_box(&[alpha.value; 3]),
+        &mut torques,
+    );
+    black_box((
+        scale.torque_si(torque),
+        scale.alpha_si(back.value),
+        range,
+        done,
+        torques,
+    ));
     Ok(())
 }
 

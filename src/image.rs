@@ -16,6 +16,8 @@ const MAGIC: u32 = u32::from_le_bytes(*b"JRED");
 pub const VERSION: u16 = 2;
 /// Words of the header.
 pub const HEADER_WORDS: usize = 24;
+/// Words of it for what a layout has beside its rows.
+pub(crate) const CONSTANTS: usize = HEADER_WORDS - 13;
 /// Domain codes.
 const TURN: u8 = 0;
 const STROKE: u8 = 1;
@@ -133,11 +135,11 @@ pub struct Validity {
 /// A table image whose header and CRC were checked.
 #[derive(Clone, Copy, Debug)]
 pub struct Image<'a> {
-    rows: &'a [u32],
-    code: u8,
+    pub(crate) rows: &'a [u32],
+    pub(crate) code: u8,
     curves: u8,
-    layout: u8,
-    constants: [u32; 11],
+    pub(crate) layout: u8,
+    pub(crate) constants: [u32; CONSTANTS],
     cells: u32,
     domain: Domain<f32>,
     scale: Scale,
@@ -345,23 +347,65 @@ pub fn encode<'b, S: Scalar, L: Layout>(
     validity: Validity,
     buffer: &'b mut [u32],
 ) -> Result<&'b [u32], Error> {
-    let needed = image_words::<S, L>(table.cells(), table.curves());
+    let code = S::CODE.ok_or(Error::NoImage(S::NAME))?;
+    let constants = table.constants();
+    let [j, load, b, c, reciprocal] = constants.gains.map(|g| S::exact_whole(g));
+    let header = Header {
+        kind: [code, table.curves(), L::CODE],
+        cells: table.cells(),
+        domain,
+        scale,
+        validity,
+        constants: [
+            S::word_bits(constants.inertia),
+            S::word_bits(constants.viscous),
+            S::word_bits(constants.coulomb),
+            word_of(j, load),
+            word_of(b, c),
+            word_of(reciprocal, 0),
+            0,
+            0,
+            0,
+            0,
+            0,
+        ],
+    };
+    seal(&header, bytemuck::cast_slice(table.words()), buffer)
+}
+
+/// What an image says about its rows.
+pub(crate) struct Header<'s> {
+    /// Codes of the number type, the set of curves, and the layout.
+    pub(crate) kind: [u8; 3],
+    pub(crate) cells: u32,
+    pub(crate) domain: Domain,
+    pub(crate) scale: &'s Scale,
+    pub(crate) validity: Validity,
+    pub(crate) constants: [u32; CONSTANTS],
+}
+
+/// Writes an image: header, rows, CRC.
+pub(crate) fn seal<'b>(
+    header: &Header<'_>,
+    rows: &[u8],
+    buffer: &'b mut [u32],
+) -> Result<&'b [u32], Error> {
+    let needed = HEADER_WORDS + rows.len().div_ceil(4) + 1;
     let given = buffer.len();
     let short = Error::BufferTooShort { needed, given };
-    let code = S::CODE.ok_or(Error::NoImage(S::NAME))?;
     let image = buffer.get_mut(..needed).ok_or(short)?;
-    let (domain_code, from, to) = match domain.to_f32() {
+    let (domain, from, to) = match header.domain.to_f32() {
         Domain::Turn => (TURN, 0.0, 0.0),
         Domain::Stroke { from, to } => (STROKE, from, to),
     };
-    let constants = table.constants();
-    let [j, load, b, c, reciprocal] = constants.gains.map(|g| S::exact_whole(g));
-    let header: [u32; HEADER_WORDS] = [
+    let [code, set, layout] = header.kind;
+    let (scale, validity) = (header.scale, header.validity);
+    let words: [u32; HEADER_WORDS - CONSTANTS] = [
         MAGIC,
         word_of(VERSION, HEADER_WORDS as u16),
         needed as u32,
-        u32::from_le_bytes([code, table.curves(), L::CODE, domain_code]),
-        table.cells(),
+        u32::from_le_bytes([code, set, layout, domain]),
+        header.cells,
         from.to_bits(),
         to.to_bits(),
         scale.torque().to_bits(),
@@ -370,23 +414,11 @@ pub fn encode<'b, S: Scalar, L: Layout>(
         validity.omega.to_bits(),
         validity.alpha.to_bits(),
         validity.torque_error.to_bits(),
-        S::word_bits(constants.inertia),
-        S::word_bits(constants.viscous),
-        S::word_bits(constants.coulomb),
-        word_of(j, load),
-        word_of(b, c),
-        word_of(reciprocal, 0),
-        0,
-        0,
-        0,
-        0,
-        0,
     ];
     image.fill(0);
-    if let Some(head) = image.first_chunk_mut() {
-        *head = header;
+    for (slot, word) in image.iter_mut().zip(words.iter().chain(&header.constants)) {
+        *slot = *word;
     }
-    let rows: &[u8] = bytemuck::cast_slice(table.words());
     let bytes: &mut [u8] = bytemuck::cast_slice_mut(image);
     for (slot, byte) in bytes.iter_mut().skip(4 * HEADER_WORDS).zip(rows) {
         *slot = *byte;

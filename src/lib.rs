@@ -42,9 +42,9 @@
 //!
 //! ```
 //! use jred::mechanism::{Branch, SliderCrank};
-//! use jred::table::curves;
-//! use jred::tabulate::{Request, scratch_len, tabulate};
-//! use jred::{Domain, Error, Link, Machine, Model, Phase, Reducible, Scale, Table};
+//! use jred::table::{Spline, curves};
+//! use jred::tabulate::{Request, fill, scratch_len, tabulate};
+//! use jred::{Domain, Error, Link, Machine, Model, Phase, Reducible, Scale};
 //!
 //! fn main() -> Result<(), Error> {
 //!     // Crank 50 mm, rod 200 mm; masses in kg, inertias about the centres of mass in kg·m².
@@ -63,11 +63,11 @@
 //!     assert!(found.torque_error <= 0.01);
 //!
 //!     // The tick: torque for a motion, and back.
-//!     let rows = &words[..2 * (found.cells as usize + 3)];
-//!     let table = Table::<f32>::new(rows, curves::LOAD, found.cells, true).map_err(Error::Table)?;
-//!     let model = Model::new(table, core::f32::consts::TAU, &Scale::SI).map_err(Error::Table)?;
+//!     let set = curves::LOAD;
+//!     let table = fill::<f32, Spline>(&machine, set, found.cells, &found.scale, &mut scratch, &mut words)?;
+//!     let model = Model::<_, { curves::LOAD }>::for_domain(table, machine.domain(), &found.scale).map_err(Error::Table)?;
 //!     let phase = Phase::from_radians(0.5);
-//!     let torque = model.torque(phase, 40.0, 200.0).value;
+//!     let torque = model.torque(phase, 40.0, 200.0);
 //!     let alpha = model.acceleration(phase, 40.0, torque).value;
 //!     assert!((alpha - 200.0).abs() < 0.01);
 //!
@@ -115,6 +115,7 @@ mod quadrature;
 mod reduction;
 mod scalar;
 mod scale;
+pub mod short;
 pub mod synthesis;
 pub mod table;
 pub mod tabulate;

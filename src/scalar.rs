@@ -112,6 +112,8 @@ pub trait Kernel: Number {
         scale: &Scale,
         step: i8,
     ) -> Option<Self::Factor>;
+    /// Its size, up to a constant of the type.
+    fn factor_size(factor: Self::Factor) -> f32;
 
     /// The cell that a phase lies in, and where.
     fn locate(phase: u32, cells: u32) -> (u32, Self::Fraction);
@@ -255,6 +257,9 @@ macro_rules! float {
             }
             fn span_to_f32(span: $float) -> f32 {
                 span as f32
+            }
+            fn factor_size(factor: $float) -> f32 {
+                factor as f32
             }
             fn velocity_factor(
                 cells: u32,

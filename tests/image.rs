@@ -1,17 +1,21 @@
-//! The table image: layout, bit-exact round trips, and what is refused when reading or writing it.
+//! The table image: its words, bit-exact round trips, and what cannot be written.
 
 mod support;
 
-use jred::table::curves;
+use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
 use jred::tabulate::{Request, Tabulated};
 use jred::{
-    Domain, Error, Image, ImageError, Model, Phase, Q31, Scalar, Scale, Table, TableError, VERSION,
-    encode, image_words,
+    Domain, Error, HEADER_WORDS, Image, Model, Phase, Q31, Scalar, Scale, VERSION, encode,
+    image_words,
 };
 use proptest::prelude::*;
-use support::images::{VALIDITY, crc32, refused, sealed, small, stroke};
+use support::images::{VALIDITY, crc32, small, stroke, stroke_in};
 use support::machines::{Spec, Wave, spec};
-use support::{config, model, number, words};
+use support::rows::Rows;
+use support::{config, number, samples};
+
+/// Words of the smallest image: header, seven points, CRC.
+const SMALL: u32 = 24 + 7 + 1;
 
 #[test]
 fn known_crc_and_layout() {
@@ -21,10 +25,11 @@ fn known_crc_and_layout() {
         0x9AE0_DAAF
     );
     let image = small();
-    assert_eq!(image.len(), 16 + 7 + 1);
+    assert_eq!((HEADER_WORDS, VERSION), (24, 2));
+    assert_eq!(image.len(), 24 + 7 + 1);
     assert_eq!(image[0].to_le_bytes(), *b"JRED");
-    assert_eq!(image[1], u32::from(VERSION) | 16 << 16);
-    assert_eq!(image[2], 24);
+    assert_eq!(image[1], 2 | 24 << 16);
+    assert_eq!(image[2], SMALL);
     assert_eq!(image[3].to_le_bytes(), [1, 0, 1, 0]);
     assert_eq!(image[4], 4);
     let numbers = [7, 8, 9, 10, 11, 12].map(|k: usize| f32::from_bits(image[k]));
@@ -32,7 +37,7 @@ fn known_crc_and_layout() {
         numbers.map(f32::to_bits),
         [1.0f32, 1.0, 1.0, 10.0, 100.0, 0.01].map(f32::to_bits)
     );
-    assert_eq!(image[23], crc32(&image[..23]));
+    assert_eq!(image[31], crc32(&image[..31]));
     let image = stroke();
     assert_eq!(image[3].to_le_bytes(), [2, 7, 1, 1]);
     assert_eq!([image[5], image[6]], [-0.5f32, 1.5].map(f32::to_bits));
@@ -48,11 +53,12 @@ fn known_crc_and_layout() {
             to: 1.5
         }
     );
-    assert_eq!(*read.scale(), Scale::new(60.0, 11.0, 2.0).unwrap());
+    let scale = Scale::new(60.0, 11.0, 2.0).unwrap();
+    assert_eq!(*read.scale(), scale.for_cells(12, 2.0));
     let found = Tabulated {
         cells: 12,
         torque_error: 0.01,
-        worst: 1.0,
+        ..Tabulated::default()
     };
     let request = Request {
         torque_error: 0.02,
@@ -63,18 +69,21 @@ fn known_crc_and_layout() {
     assert_eq!(found.validity(&request), VALIDITY);
 }
 
-fn same_bits<S: Scalar>(spec: &Spec, bits: u32, omega: f64, alpha: f64) {
+fn same_bits<S: Scalar, const SET: u8, L: Layout>(spec: &Spec, bits: u32, state: [f64; 2]) {
     let machine = spec.machine();
     let scale = Scale::covering(&machine, 60.0, 900.0, 64).unwrap();
-    let rows = words::<S, { curves::ALL }>(&machine, 64, &scale).unwrap();
-    let before = model::<S, { curves::ALL }>(&rows, 64, Domain::Turn, &scale);
-    let mut buffer = vec![0; image_words(64, curves::ALL)];
+    let scale = scale.for_cells(90, std::f64::consts::TAU);
+    let rows = Rows::<S, L>::of(&machine, SET, 90, &scale).unwrap();
+    let before = rows.model::<SET>(&scale);
+    let mut buffer = vec![u32::MAX; image_words::<S, L>(90, SET)];
     let image = encode(before.table(), Domain::Turn, &scale, VALIDITY, &mut buffer).unwrap();
     let image = Image::new(image).unwrap();
     assert_eq!(*image.scale(), scale);
-    let after: Model<'_, S, { curves::ALL }> = image.model().unwrap();
-    assert_eq!(after.table().words(), rows);
-    let (phase, omega, alpha) = (Phase::from_bits(bits), number(omega), number(alpha));
+    let after: Model<'_, S, SET, L> = image.model().unwrap();
+    assert_eq!(after.table().words(), rows.words);
+    assert_eq!(after.table().constants(), rows.constants);
+    assert_eq!(image.table::<S, L>().unwrap().curves(), SET);
+    let (phase, [omega, alpha]) = (Phase::from_bits(bits), state.map(number));
     assert_eq!(
         after.torque(phase, omega, alpha),
         before.torque(phase, omega, alpha)
@@ -85,181 +94,26 @@ fn same_bits<S: Scalar>(spec: &Spec, bits: u32, omega: f64, alpha: f64) {
     );
 }
 
-/// Another magic, version and length are named even with a right CRC.
-#[test]
-fn other_kinds_of_image_are_named() {
-    let with = |word: usize, value: u32| {
-        let mut image = small();
-        image[word] = value;
-        refused(&sealed(image))
-    };
-    assert_eq!(with(0, 0x1234), ImageError::NotAnImage(0x1234));
-    assert_eq!(
-        with(1, 2 | 16 << 16),
-        ImageError::Version {
-            found: 2,
-            supported: VERSION
-        }
-    );
-    assert_eq!(
-        with(2, 25),
-        ImageError::Length {
-            needed: 25,
-            given: 24
-        }
-    );
-}
-
-#[test]
-fn meaningless_header_words_are_refused() {
-    let with = |image: &[u32], word: usize, value: u32| {
-        let mut image = image.to_vec();
-        image[word] = value;
-        refused(&sealed(image))
-    };
-    let kind =
-        |code, set, interpolant, domain| u32::from_le_bytes([code, set, interpolant, domain]);
-    let [turn, stroke] = [small(), stroke()];
-    assert_eq!(
-        with(&turn, 1, u32::from(VERSION) | 17 << 16),
-        ImageError::Header(1),
-        "another header length"
-    );
-    assert_eq!(
-        with(&turn, 3, kind(1, 0, 2, 0)),
-        ImageError::Header(3),
-        "another interpolant"
-    );
-    assert_eq!(
-        with(&turn, 3, kind(1, 8, 1, 0)),
-        ImageError::Header(3),
-        "an unknown curve"
-    );
-    for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
-        assert_eq!(
-            with(&stroke, 5, value.to_bits()),
-            ImageError::Header(5),
-            "from {value}"
-        );
-    }
-    for value in [f32::NAN, f32::INFINITY, -0.5, -1.0] {
-        assert_eq!(
-            with(&stroke, 6, value.to_bits()),
-            ImageError::Header(5),
-            "to {value}"
-        );
-    }
-    for (word, first) in [(7, 7), (8, 7), (9, 7)] {
-        for value in [0.0, -1.0, f32::NAN, f32::INFINITY] {
-            assert_eq!(
-                with(&turn, word, value.to_bits()),
-                ImageError::Header(first),
-                "base {value}"
-            );
-        }
-    }
-    for word in [10, 11, 12] {
-        for value in [-1.0, f32::NAN, f32::INFINITY] {
-            assert_eq!(
-                with(&turn, word, value.to_bits()),
-                ImageError::Header(10),
-                "limit {value}"
-            );
-        }
-    }
-    for word in [13, 14, 15] {
-        assert_eq!(with(&turn, word, 1), ImageError::Header(13), "reserved");
-    }
-    // Bases that are numbers, but whose acceleration or velocity torque is none.
-    assert_eq!(with(&turn, 7, 1e-45f32.to_bits()), ImageError::Header(7));
-    assert_eq!(with(&turn, 8, 1e30f32.to_bits()), ImageError::Header(7));
-}
-
-/// The code of the domain is a byte of word 3.
-#[test]
-fn unknown_domain_is_refused_with_its_word() {
-    let mut image = small();
-    image[3] |= 2 << 24;
-    assert_eq!(refused(&sealed(image)), ImageError::Header(3));
-}
-
-fn no_model<S: Scalar, const CURVES: u8>(image: Vec<u32>) -> ImageError {
-    let image = sealed(image);
-    Image::new(&image)
-        .unwrap()
-        .model::<S, CURVES>()
-        .unwrap_err()
-}
-
-#[test]
-fn model_of_another_type_or_of_an_unsound_table_is_refused() {
-    assert_eq!(no_model::<Q31, 0>(small()), ImageError::NumberType(1));
-    assert_eq!(no_model::<f64, 0>(small()), ImageError::NumberType(1));
-    assert_eq!(no_model::<f32, 7>(stroke()), ImageError::NumberType(2));
-    assert_eq!(no_model::<f32, 1>(small()), ImageError::Curves(0));
-    assert_eq!(no_model::<Q31, 3>(stroke()), ImageError::Curves(7));
-    let with = |word: usize, value: u32| {
-        let mut image = small();
-        image[word] = value;
-        no_model::<f32, 0>(image)
-    };
-    assert_eq!(
-        with(3, u32::from_le_bytes([9, 0, 1, 0])),
-        ImageError::NumberType(9)
-    );
-    let table = |error| ImageError::Table(error);
-    assert_eq!(with(4, 3), table(TableError::Cells(3)));
-    assert_eq!(with(4, u32::MAX), table(TableError::Cells(u32::MAX)));
-    assert_eq!(
-        with(4, 5),
-        table(TableError::Length {
-            needed: 8,
-            given: 7
-        })
-    );
-    assert_eq!(
-        with(16 + 3, f32::NAN.to_bits()),
-        table(TableError::Range { curve: 0, cell: 0 })
-    );
-    assert_eq!(
-        with(16 + 3, (-1f32).to_bits()),
-        table(TableError::NoInertia { cell: 0 })
-    );
-    assert_eq!(
-        with(16, 0.2f32.to_bits()),
-        table(TableError::NotClosed { curve: 0 })
-    );
-    let mut fast = stroke();
-    fast[8] = 3e4f32.to_bits();
-    assert!(matches!(
-        no_model::<Q31, 7>(fast),
-        ImageError::Table(TableError::VelocityTorque { .. })
-    ));
-}
-
 #[test]
 fn encoding_needs_room_and_a_stored_number_type() {
-    let words = words::<f64, 0>(&Wave::bare(1.0, 0.0), 4, &Scale::SI).unwrap();
-    let table = Table::<f64>::new(&words, 0, 4, true).unwrap();
-    let mut buffer = [0; 24];
-    assert!(encode(&table, Domain::Turn, &Scale::SI, VALIDITY, &mut buffer).is_err());
-    let words = support::words::<f32, 0>(&Wave::bare(1.0, 0.0), 4, &Scale::SI).unwrap();
-    let table = Table::<f32>::new(&words, 0, 4, true).unwrap();
-    let error = encode(
-        &table,
-        Domain::Turn,
-        &Scale::SI,
-        VALIDITY,
-        &mut buffer[..23],
-    )
-    .unwrap_err();
+    let machine = Wave::bare(1.0, 0.0);
+    let mut buffer = [0; SMALL as usize];
+    let rows = Rows::<f64>::of(&machine, 0, 4, &Scale::SI).unwrap();
+    let turn = Domain::Turn;
+    let error = encode(&rows.table(), turn, &Scale::SI, VALIDITY, &mut buffer).unwrap_err();
+    assert_eq!(error, Error::NoImage("f64"));
+    assert!(error.to_string().contains("use f32"), "{error}");
+    let rows = Rows::<f32>::of(&machine, 0, 4, &Scale::SI).unwrap();
+    let short = &mut buffer[..SMALL as usize - 1];
+    let error = encode(&rows.table(), turn, &Scale::SI, VALIDITY, short).unwrap_err();
     assert_eq!(
         error,
         Error::BufferTooShort {
-            needed: 24,
-            given: 23
+            needed: 32,
+            given: 31
         }
     );
+    assert!(encode(&rows.table(), turn, &Scale::SI, VALIDITY, &mut buffer).is_ok());
 }
 
 proptest! {
@@ -267,17 +121,29 @@ proptest! {
 
     #[test]
     fn round_trip_is_bit_exact(spec in spec(), bits: u32, omega in -0.9..0.9, alpha in -0.9..0.9) {
-        same_bits::<f32>(&spec, bits, omega, alpha);
-        same_bits::<Q31>(&spec, bits, omega, alpha);
+        let state = [omega, alpha];
+        same_bits::<f32, { curves::ALL }, Spline>(&spec, bits, state);
+        same_bits::<f32, { curves::LOAD | curves::CONSTANT_VISCOUS }, Quadratic>(&spec, bits, state);
+        same_bits::<f32, { curves::COULOMB }, Cubic>(&spec, bits, state);
+        same_bits::<Q31, { curves::ALL }, Spline>(&spec, bits, state);
+        same_bits::<Q31, { curves::LOAD | curves::VISCOUS | curves::CONSTANT_COULOMB }, Cubic>(&spec, bits, state);
+        same_bits::<Q31, { curves::ALL }, Quadratic>(&spec, bits, state);
     }
 }
 
+/// With the curve of 1/J, and every constant.
 #[test]
-fn tables_of_f64_have_no_image() {
-    let words = [1.0f64 / 6.0; 7];
-    let table = Table::<f64>::new(&words, curves::INERTIA, 4, true).unwrap();
-    let mut buffer = [0; image_words(4, curves::INERTIA)];
-    let error = encode(&table, Domain::Turn, &Scale::SI, VALIDITY, &mut buffer).unwrap_err();
-    assert_eq!(error, Error::NoImage("f64"));
-    assert!(error.to_string().contains("use f32 or q31"), "{error}");
+fn round_trip_of_every_curve_is_bit_exact() {
+    const EVERY: u8 = curves::EVERY;
+    for spec in samples(3, 0x0007, &spec()) {
+        same_bits::<Q31, EVERY, Spline>(&spec, 0x1234_5678, [0.3, -0.2]);
+        same_bits::<Q31, EVERY, Cubic>(&spec, 0x8765_4321, [-0.3, 0.2]);
+    }
+    let reciprocal = stroke_in::<Q31, Quadratic>(curves::RECIPROCAL);
+    let image = Image::new(&reciprocal).unwrap();
+    assert!(
+        image
+            .model::<Q31, { curves::RECIPROCAL }, Quadratic>()
+            .is_ok()
+    );
 }

@@ -2,15 +2,21 @@
 
 mod support;
 
-use jred::table::curves;
-use jred::{HEADER_WORDS, Image, ImageError, Phase, Q31, VERSION};
+use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
+use jred::{HEADER_WORDS, Image, ImageError, Phase, Q31, Scalar, VERSION};
 use proptest::prelude::*;
-use support::images::{refused, sealed, small, stroke};
+use support::images::{refused, sealed, small, stroke, stroke_in};
 use support::{config, samples};
 
 #[test]
 fn every_flipped_bit_is_refused() {
-    for image in [small(), stroke()] {
+    let images = [
+        small(),
+        stroke(),
+        stroke_in::<Q31, Cubic>(curves::LOAD | curves::RECIPROCAL),
+        stroke_in::<f32, Quadratic>(curves::LOAD | curves::CONSTANT_COULOMB),
+    ];
+    for image in images {
         assert!(Image::new(&image).is_ok());
         for bit in 0..32 * image.len() {
             let mut damaged = image.clone();
@@ -30,13 +36,11 @@ fn every_flipped_bit_is_refused() {
 #[test]
 fn truncated_extended_and_misaligned_images_are_refused() {
     let image = small();
-    for given in 0..24u32 {
+    let needed = image.len() as u32;
+    for given in 0..needed {
         let error = refused(&image[..given as usize]);
-        let needed = if given < 17 {
-            HEADER_WORDS as u32 + 1
-        } else {
-            24
-        };
+        let least = HEADER_WORDS as u32 + 1;
+        let needed = if given < least { least } else { needed };
         assert_eq!(error, ImageError::Length { needed, given });
     }
     for more in 1..5 {
@@ -44,8 +48,8 @@ fn truncated_extended_and_misaligned_images_are_refused() {
         assert_eq!(
             refused(&longer),
             ImageError::Length {
-                needed: 24,
-                given: 24 + more as u32
+                needed,
+                given: needed + more as u32
             }
         );
     }
@@ -69,33 +73,45 @@ fn truncated_extended_and_misaligned_images_are_refused() {
     }
 }
 
+/// Ticks a model if there is one; in fixed point a limited acceleration is at an end of the range.
+fn tick<S: Scalar, const SET: u8, L: Layout>(
+    image: &Image<'_>,
+    state: [S; 2],
+    phase: Phase,
+    ends: Option<[S; 2]>,
+) -> u32 {
+    let Ok(model) = image.model::<S, SET, L>() else {
+        return 0;
+    };
+    let [a, b] = state;
+    let torque = model.torque(phase, a, b);
+    let range = model.acceleration_range(phase, a, b, torque);
+    for found in [range.least, range.greatest] {
+        assert!(!found.saturated || ends.is_some_and(|ends| ends.contains(&found.value)));
+        assert!(found.value.to_f64().is_finite() && torque.to_f64().is_finite());
+    }
+    1
+}
+
 /// Whatever an image holds, looking at it neither panics nor overflows (overflow checks are on in debug builds).
 /// Returns how many models there were to tick.
 fn look_at(image: &[u32], state: [i32; 2], phase: Phase) -> u32 {
+    const ALL: u8 = curves::ALL;
+    const SEEDED: u8 = curves::VISCOUS | curves::COULOMB | curves::RECIPROCAL;
     let Ok(image) = Image::new(image) else {
         return 0;
     };
-    let fixed = image.model::<Q31, { curves::ALL }>();
-    let float = image.model::<f32, { curves::ALL }>();
-    if let Ok(model) = &fixed {
-        let [a, b] = state.map(Q31::from_bits);
-        let ticks = [model.torque(phase, a, b), model.acceleration(phase, a, b)];
-        assert!(
-            ticks
-                .iter()
-                .all(|t| !t.saturated || [Q31::MIN, Q31::MAX].contains(&t.value)),
-            "{ticks:?}"
-        );
-    }
-    if let Ok(model) = &float {
-        let [a, b] = state.map(|bits| bits as f32 * 1e-6);
-        let ticks = [model.torque(phase, a, b), model.acceleration(phase, a, b)];
-        assert!(
-            ticks.iter().all(|t| t.value.is_finite() && !t.saturated),
-            "{ticks:?}"
-        );
-    }
-    u32::from(fixed.is_ok()) + u32::from(float.is_ok())
+    let fixed = state.map(Q31::from_bits);
+    let float = state.map(|bits| bits as f32 * 1e-6);
+    let ends = Some([Q31::MIN, Q31::MAX]);
+    tick::<Q31, ALL, Spline>(&image, fixed, phase, ends)
+        + tick::<Q31, ALL, Cubic>(&image, fixed, phase, ends)
+        + tick::<Q31, ALL, Quadratic>(&image, fixed, phase, ends)
+        + tick::<Q31, SEEDED, Spline>(&image, fixed, phase, ends)
+        + tick::<Q31, SEEDED, Quadratic>(&image, fixed, phase, ends)
+        + tick::<f32, ALL, Spline>(&image, float, phase, None)
+        + tick::<f32, ALL, Cubic>(&image, float, phase, None)
+        + tick::<f32, ALL, Quadratic>(&image, float, phase, None)
 }
 
 proptest! {
@@ -110,29 +126,51 @@ proptest! {
 /// Garbage behind a header that is right, with a right CRC: small enough rows are let in and ticked.
 #[test]
 fn garbage_with_a_header_never_panics() {
-    let rows = prop::collection::vec(any::<i32>(), 28);
-    let state = (any::<[i32; 2]>(), any::<u32>());
-    let mut ticked = [0, 0];
-    for (rows, shift, code, bases, (state, bits)) in samples(
-        2000,
+    let rows = prop::collection::vec(any::<i32>(), 64);
+    let state = (any::<[i32; 2]>(), any::<u32>(), any::<[i32; 3]>());
+    let mut ticked = [[0; 4]; 2];
+    for (rows, shift, (code, layout), bases, (state, bits, constants)) in samples(
+        4000,
         0x0041,
-        &(rows, 0..8, 1u8..=2, any::<Option<[u32; 3]>>(), state),
+        &(
+            rows,
+            0..8,
+            (1u8..=2, 1u8..=3),
+            any::<Option<[u32; 3]>>(),
+            state,
+        ),
     ) {
+        // Words of a cell, and those of J in it.
+        let [words, pitch, own] = [[28, 4, 1], [64, 16, 4], [48, 12, 3]][usize::from(layout) - 1];
         let mut image = vec![0; HEADER_WORDS];
         image[0] = u32::from_le_bytes(*b"JRED");
-        image[1] = u32::from(VERSION) | 16 << 16;
-        image[2] = 16 + 28 + 1;
-        image[3] = u32::from_le_bytes([code, 7, 1, 1]);
+        image[1] = u32::from(VERSION) | (HEADER_WORDS as u32) << 16;
+        image[2] = (HEADER_WORDS + words + 1) as u32;
+        // Four curves: all, or b, c and a seed of 1/J.
+        let seeded = state[0] % 4 == 0;
+        let set = if seeded { 14 } else { 7 };
+        image[3] = u32::from_le_bytes([code, set, layout, 1]);
         image[4] = 4;
         image[6] = 1f32.to_bits();
-        let right = [1f32, 0.5, 1.0].map(f32::to_bits);
+        // ½·4 cells/1·½ is one.
+        let right = [2f32, 1.0, 1.0].map(f32::to_bits);
         image[7..10].copy_from_slice(&bases.unwrap_or(right));
-        image.extend(rows.iter().enumerate().map(|(k, row)| {
-            // Every fourth is of the inertia, which is to be positive.
-            let row = if k % 4 == 0 {
-                (row >> 8) + (1 << 26)
+        for (slot, constant) in image[13..16].iter_mut().zip(constants) {
+            *slot = if code == 2 {
+                (constant >> (6 + shift)) as u32
             } else {
-                row >> (2 + shift)
+                0
+            };
+        }
+        image.extend(rows.iter().take(words).enumerate().map(|(k, row)| {
+            let (column, power) = (k % pitch / own, k % own);
+            let row = match (column, power) {
+                // The inertia, which is to be positive; and a seed that is about its reciprocal.
+                (0, 0) => (row >> 10) + (1 << if own == 1 { 26 } else { 28 }),
+                (0, _) => row >> 8,
+                (3, 0) if seeded => (row >> 8) + if own == 1 { (1 << 28) / 3 * 2 } else { 1 << 30 },
+                (3, _) if seeded => row >> 9,
+                _ => row >> (3 + shift),
             };
             if code == 2 {
                 row as u32
@@ -143,8 +181,12 @@ fn garbage_with_a_header_never_panics() {
         image.push(0);
         let image = sealed(image);
         assert!(bases.is_some() || Image::new(&image).is_ok());
-        ticked[usize::from(code) - 1] += look_at(&image, state, Phase::from_bits(bits));
+        let place = if seeded { 3 } else { usize::from(layout) - 1 };
+        ticked[usize::from(code) - 1][place] += look_at(&image, state, Phase::from_bits(bits));
     }
     println!("ticked: {ticked:?}");
-    assert!(ticked.iter().all(|count| *count > 100), "{ticked:?}");
+    // Of f32 and of i32; the last are seeds, which f32 has not.
+    assert!(ticked[0][..3].iter().all(|count| *count > 50), "{ticked:?}");
+    assert!(ticked[1].iter().all(|count| *count > 50), "{ticked:?}");
+    assert_eq!(ticked[0][3], 0);
 }

@@ -162,7 +162,9 @@ fn smooth_at_knots<S: Scalar, L: Layout>(rows: &Rows<S, L>, roundings: [f64; 2])
             } else {
                 0.0
             };
-        let moved = 2.0 * a.inertia_slope.to_f64().abs().max(0.05) * apart;
+        // Slopes and curvatures of these curves are below 1, those a cell below h and h².
+        let h = rows.domain.span() / f64::from(cells);
+        let moved = apart * h.max(h * h);
         for (what, a, b, roundings) in [
             ("J", a.inertia, b.inertia, roundings[0]),
             ("J' a cell", a.inertia_slope, b.inertia_slope, roundings[1]),

@@ -4,7 +4,7 @@ mod support;
 
 use jred::mechanism::{Branch, Mesh, SliderCrank, Stage, Train};
 use jred::motion::{Law, Move};
-use jred::table::CubicSpline;
+use jred::table::{CubicSpline, Spline, curves};
 use jred::tabulate::{Request, tabulate};
 use jred::{Action, Domain, Error, Link, Load, Machine, Mechanism, Reducible, Scale, Window};
 use support::machines::Wave;
@@ -149,8 +149,9 @@ fn request(torque_error: f64, omega: f64, alpha: f64) -> Result<(), Error> {
         alpha,
         max_cells: 8,
     };
-    tabulate::<f32, 0>(
+    tabulate::<f32, Spline>(
         &Wave::bare(1.0, 0.1),
+        curves::INERTIA,
         &request,
         &Scale::SI,
         &mut [0.0; 22],

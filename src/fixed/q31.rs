@@ -163,6 +163,9 @@ impl Kernel for Q31 {
     fn span_to_f32(span: f32) -> f32 {
         span
     }
+    fn factor_size(factor: i32) -> f32 {
+        factor as f32
+    }
     fn velocity_factor(cells: u32, span: f32, scale: &Scale, step: i8) -> Option<i32> {
         whole(f32::velocity_factor(cells, span, scale, step)? * 2.0 / f32::from(step))
     }

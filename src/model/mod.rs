@@ -169,6 +169,12 @@ impl<'a, S: Scalar, const CURVES: u8, L: Layout> Model<'a, S, CURVES, L> {
         })
     }
 
+    /// Factor of the velocity torque a unit of the slope a cell and a cell, up to a constant: inversely proportional to the
+    /// range, and otherwise the same for all models in the same machine units.
+    pub(super) fn factor_of_range(&self) -> f32 {
+        S::factor_size(self.velocity_factor) / self.table.cells() as f32
+    }
+
     /// ½·J′·ω + b
     #[inline]
     fn speed_coefficient(&self, cell: &Cell<'_, S, L>, slope: S::Raw, omega: S) -> S::Raw {

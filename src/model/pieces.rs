@@ -1,14 +1,15 @@
 //! A turn in pieces, for curves with jumps.
 //!
-//! A table is at least continuously differentiable. Where a curve of the machine jumps (a load that is switched on, a dwell cam
-//! whose follower starts with a jerk or a blow), no number of cells makes the error next to the jump small: it falls with the
-//! width of a cell only. A table for each piece between the jumps has no such cells. [`Part`] is a piece of a machine, to be
-//! tabulated as a stroke; [`Pieces`] puts their models together again.
+//! A table is at least continuously differentiable. Where a curve of the machine jumps (a load that is switched on, a cam whose
+//! follower starts with a blow), the largest error of one table over the turn stays half the jump or more, with any number
+//! of cells; only the part of the turn in which it is large shrinks, with the width of a cell (test
+//! `one_table_cannot_follow_a_jump`). A table for each piece between the jumps has no such cells. [`Part`] is a piece of a
+//! machine, to be tabulated as a stroke; [`Pieces`] puts their models together again.
 
 use crate::error::finite;
 use crate::scalar::{Outcome, Scalar};
 use crate::table::{Layout, Spline, TableError};
-use crate::{Domain, Error, Model, Phase, Reducible, Reduction};
+use crate::{AccelerationRange, Domain, Error, Model, Phase, Reducible, Reduction};
 
 /// A part of a machine's range, as a stroke.
 #[derive(Clone, Copy, Debug)]
@@ -18,7 +19,8 @@ pub struct Part<'m, M> {
     to: f64,
 }
 
-/// The end of a part belongs to the next one; so close to it (in lengths of the part) its last place lies.
+/// The end of a part belongs to the next one, and its start may be rounded into the one before; so far inside (in lengths of
+/// the part) its first and last place lie.
 const INSIDE: f64 = 1e-11;
 
 impl<'m, M: Reducible> Part<'m, M> {
@@ -51,15 +53,66 @@ impl<M: Reducible> Reducible for Part<'_, M> {
     }
 
     fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
-        // What holds from the end on is not what holds before it.
-        let last = self.to - INSIDE * (self.to - self.from);
-        self.machine.reduction(phi.clamp(self.from, last))
+        let margin = INSIDE * (self.to - self.from);
+        // Not `clamp`, which panics if a part is so short that roundings turn the two round.
+        let phi = phi.max(self.from + margin).min(self.to - margin);
+        self.machine.reduction(phi)
     }
 }
 
-/// A turn of N pieces, each with a model of its own; they share the machine units and the set of curves.
+/// A turn (or a stroke, whose first piece starts at phase 0) of N pieces, each with a model of its own; they share the machine
+/// units and the set of curves.
 ///
-/// Costs beside the model's tick: N comparisons and one long multiplication.
+/// The place within a piece is right to 2⁻³¹ of its length (test `phases_are_mapped_to_2_31_of_a_piece`). Costs beside the
+/// model's tick: N comparisons and one long multiplication.
+///
+/// In fixed point the machine units of a model go with the width of its cells ([`Scale::for_cells`](crate::Scale::for_cells)).
+/// Pieces share them if all their cells are equally wide: then `for_cells` of all cells together and 2π suits every piece. So
+/// there the jumps must lie at multiples of a cell.
+///
+/// ```
+/// use core::f64::consts::TAU;
+/// use jred::table::{Spline, curves};
+/// use jred::tabulate::{Request, fill, scratch_len, tabulate};
+/// use jred::{Domain, Error, Model, Part, Phase, Pieces, Reducible, Reduction, Scale};
+///
+/// /// A flywheel, and a brake that is on from 1 to 2 rad.
+/// struct Braked;
+///
+/// impl Reducible for Braked {
+///     fn domain(&self) -> Domain {
+///         Domain::Turn
+///     }
+///     fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+///         let on = (1.0..2.0).contains(&phi.rem_euclid(TAU));
+///         let process = if on { -5.0 } else { 0.0 };
+///         Ok(Reduction { inertia: [0.1, 0.0, 0.0], process, ..Reduction::default() })
+///     }
+/// }
+///
+/// fn main() -> Result<(), Error> {
+///     const SET: u8 = curves::LOAD;
+///     const MOST: u32 = 16;
+///     let request = Request { torque_error: 0.001, omega: 20.0, alpha: 100.0, max_cells: MOST };
+///     let mut scratch = [0.0; scratch_len(MOST, SET)];
+///     let mut words = [[0.0f32; 2 * (MOST as usize + 3)]; 2];
+///     let [on, off] = words.each_mut();
+///     let mut model = |from: f64, to: f64, words| {
+///         let part = Part::new(&Braked, from, to)?;
+///         let words: &mut [f32; 2 * (MOST as usize + 3)] = words;
+///         let cells = tabulate::<f32, Spline>(&part, SET, &request, &Scale::SI, &mut scratch, &mut words[..])?.cells;
+///         let table = fill::<f32, Spline>(&part, SET, cells, &Scale::SI, &mut scratch, words)?;
+///         let model = Model::for_domain(table, part.domain(), &Scale::SI).map_err(Error::Table)?;
+///         Ok::<_, Error>((Phase::from_radians(from), model))
+///     };
+///     let turn: Pieces<'_, f32, SET, 2> =
+///         Pieces::new([model(1.0, 2.0, on)?, model(2.0, 1.0 + TAU, off)?]).map_err(Error::Table)?;
+///     let torque = |phi: f64| turn.torque(Phase::from_radians(phi), 0.0, 0.0);
+///     assert!(torque(0.999_999).abs() < 0.001 && (torque(1.000_001) - 5.0).abs() < 0.001);
+///     assert!((torque(1.999_999) - 5.0).abs() < 0.001 && torque(2.000_001).abs() < 0.001);
+///     Ok(())
+/// }
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Pieces<'a, S: Scalar, const CURVES: u8, const N: usize, L: Layout = Spline> {
     pieces: [Piece<'a, S, CURVES, L>; N],
@@ -75,18 +128,23 @@ struct Piece<'a, S: Scalar, const CURVES: u8, L: Layout> {
     model: Model<'a, S, CURVES, L>,
 }
 
+/// Largest difference of the factor of the velocity torque between two pieces: of a length of 2¹⁶ units, rounded to one.
+const UNITS: f32 = 1e-4;
+
 impl<'a, S: Scalar, const CURVES: u8, const N: usize, L: Layout> Pieces<'a, S, CURVES, N, L> {
     /// From the models of pieces and the phases at which they start, in ascending order; the last ends where the first starts.
     ///
     /// # Errors
     /// [`TableError::Pieces`]: no piece, starts that do not ascend, or a piece shorter than 2⁻¹⁶ of a turn.
+    /// [`TableError::PieceUnits`]: a model whose range is not the distance of the starts, or whose machine units are not those of
+    /// the first.
     pub fn new(models: [(Phase, Model<'a, S, CURVES, L>); N]) -> Result<Self, TableError> {
         let starts = models.map(|(start, _)| start.to_bits());
         if N == 0 || !starts.is_sorted_by(|a, b| a < b) {
             return Err(TableError::Pieces);
         }
         let mut following = starts.iter().cycle().skip(1);
-        let mut too_short = false;
+        let (mut too_short, mut apart, mut units_of_first) = (false, false, None);
         let pieces = models.map(|(start, model)| {
             let start = start.to_bits();
             let next = following.next().copied().unwrap_or(start);
@@ -98,7 +156,11 @@ impl<'a, S: Scalar, const CURVES: u8, const N: usize, L: Layout> Pieces<'a, S, C
             too_short |= length < 1 << 16;
             let shift = length.leading_zeros();
             let shifted = u64::from(length.wrapping_shl(shift)).max(1);
-            let stretch = ((1u64 << 63) / shifted).min(u64::from(u32::MAX));
+            // To the nearest: off by half a unit, which is a unit of 2⁻³² at the end of the piece.
+            let stretch = (((1u64 << 63) + shifted / 2) / shifted).min(u64::from(u32::MAX));
+            let units = model.factor_of_range() * length as f32;
+            let expected = *units_of_first.get_or_insert(units);
+            apart |= !((units - expected).abs() <= UNITS * expected);
             Piece {
                 start,
                 shift,
@@ -108,6 +170,9 @@ impl<'a, S: Scalar, const CURVES: u8, const N: usize, L: Layout> Pieces<'a, S, C
         });
         if too_short {
             return Err(TableError::Pieces);
+        }
+        if apart {
+            return Err(TableError::PieceUnits);
         }
         Ok(Self { pieces })
     }
@@ -133,7 +198,9 @@ impl<'a, S: Scalar, const CURVES: u8, const N: usize, L: Layout> Pieces<'a, S, C
     #[inline]
     pub fn torque(&self, phase: Phase, omega: S, alpha: S) -> S {
         let found = self.at(phase);
-        found.map_or(S::default(), |(model, phase)| model.torque(phase, omega, alpha))
+        found.map_or(S::default(), |(model, phase)| {
+            model.torque(phase, omega, alpha)
+        })
     }
 
     /// As [`Model::acceleration`].
@@ -142,6 +209,21 @@ impl<'a, S: Scalar, const CURVES: u8, const N: usize, L: Layout> Pieces<'a, S, C
         let found = self.at(phase);
         found.map_or(Outcome::default(), |(model, phase)| {
             model.acceleration(phase, omega, torque)
+        })
+    }
+
+    /// As [`Model::acceleration_range`].
+    #[inline]
+    pub fn acceleration_range(
+        &self,
+        phase: Phase,
+        omega: S,
+        least: S,
+        greatest: S,
+    ) -> AccelerationRange<S> {
+        let found = self.at(phase);
+        found.map_or(AccelerationRange::default(), |(model, phase)| {
+            model.acceleration_range(phase, omega, least, greatest)
         })
     }
 }

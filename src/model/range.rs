@@ -84,7 +84,7 @@ impl Usage {
     }
 
     /// The largest of each.
-    fn or(self, other: Self) -> Self {
+    pub(crate) fn or(self, other: Self) -> Self {
         Self {
             inertia: self.inertia.max(other.inertia),
             velocity: self.velocity.max(other.velocity),

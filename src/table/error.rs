@@ -52,11 +52,19 @@ pub enum TableError {
     },
     /// The pieces of a turn do not start one after another, or one is shorter than 2⁻¹⁶ of a turn.
     Pieces,
+    /// The models of a turn's pieces do not share their machine units, or the range of one is not the distance from its start to
+    /// the next.
+    PieceUnits,
     /// The table has another set of [`curves`] than the model; or the set has an unknown bit, or a reciprocal or a layout of
     /// 16 bits for floating point. The set.
     Curves(u8),
     /// The curve of the reciprocal inertia is not that of the inertia in this cell.
     Reciprocal {
+        /// Index of the cell.
+        cell: u32,
+    },
+    /// The velocity torque in this cell, which a table of 16-bit rows holds, is not that of the slope of its inertia.
+    Slope {
         /// Index of the cell.
         cell: u32,
     },
@@ -101,9 +109,19 @@ impl fmt::Display for TableError {
                 f,
                 "the pieces of a turn must start one after another, each at least 1/65536 of a turn long"
             ),
+            Self::PieceUnits => write!(
+                f,
+                "the models of a turn's pieces do not belong together: make them in the same machine units, \
+                 each over the range from its start to the next"
+            ),
             Self::Curves(set) => write!(
                 f,
                 "the table has the set of curves {set:#08b}: not that of the model, or not possible with this number type and layout"
+            ),
+            Self::Slope { cell } => write!(
+                f,
+                "the velocity torque in cell {cell} is not that of the slope of the inertia: \
+                 take the span and the scale that the table was made with"
             ),
             Self::Reciprocal { cell } => write!(
                 f,

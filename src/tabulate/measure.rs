@@ -4,7 +4,7 @@ use super::{CHECKS_PER_CELL, Request, Tabulated};
 use crate::reduction::Reducible;
 use crate::scalar::Scalar;
 use crate::table::{Layout, Table};
-use crate::{Error, Phase, Scale, math};
+use crate::{Domain, Error, Phase, Scale, math};
 
 /// The largest torque error of a table within the range of the request.
 ///
@@ -33,32 +33,96 @@ pub(super) fn measure_until<S: Scalar, L: Layout>(
     table: &Table<'_, S, L>,
     request: &Request,
     scale: &Scale,
-    (start, checks): (f64, u32),
+    from: (f64, u32),
     stop: bool,
 ) -> Result<Tabulated, Error> {
-    let cells = table.cells();
-    let places = u64::from(cells) * u64::from(checks);
-    let first = u64::from(machine.domain().phase(start).cell(cells).0) * u64::from(checks);
+    let limit = stop.then_some(request.torque_error);
+    let found = scan(machine.domain(), table.cells(), limit, from, |phase| {
+        torque_error(machine, table, request, scale, phase)
+    })?;
+    Ok(Tabulated {
+        scale: *scale,
+        ..found
+    })
+}
+
+/// The largest of the errors that `torque_error` says (with their positions) at so many places of every one of these cells, from
+/// `start` on round the range; up to the first beyond `limit`, if there is one.
+pub(crate) fn scan(
+    domain: Domain,
+    cells: u32,
+    limit: Option<f64>,
+    (start, checks): (f64, u32),
+    torque_error: impl Fn(Phase) -> Result<(f64, f64), Error>,
+) -> Result<Tabulated, Error> {
+    let places = Places {
+        first: domain.phase(start).cell(cells).0,
+        cells,
+        checks,
+    };
+    let found = scan_places(domain, cells, limit, places, torque_error)?;
+    // Nothing found: there is no error at all.
+    let worst = if found.torque_error > 0.0 {
+        found.worst
+    } else {
+        start
+    };
+    Ok(Tabulated { worst, ..found })
+}
+
+/// Places of a table at which its error is looked at.
+pub(super) struct Places {
+    /// The first cell; after the last of the table comes its first again.
+    pub(super) first: u32,
+    /// How many cells.
+    pub(super) cells: u32,
+    /// Places in each of them.
+    pub(super) checks: u32,
+}
+
+/// As [`scan`], of a table of so many cells. The ends of a stroke are looked at as well: no neighbour makes them
+/// continuous, so the slope errs most there.
+pub(super) fn scan_places(
+    domain: Domain,
+    cells: u32,
+    limit: Option<f64>,
+    places: Places,
+    torque_error: impl Fn(Phase) -> Result<(f64, f64), Error>,
+) -> Result<Tabulated, Error> {
+    let checks = u64::from(places.checks);
+    let first = u64::from(places.first) * checks;
+    let count = u64::from(places.cells) * checks;
+    let all = u64::from(cells) * checks;
     let mut found = Tabulated {
         cells,
         torque_error: 0.0,
         bound: 0.0,
-        worst: start,
-        scale: *scale,
+        ..Tabulated::default()
     };
-    let mut before: heapless::Deque<f64, 2> = heapless::Deque::new();
-    let mut curvature = 0.0f64;
-    for k in 0..places {
-        // In the middle of a piece, as exactly as a phase can say it.
-        let place = 2 * ((first + k) % places) + 1;
-        let phase = Phase::from_bits(((place << 31) / places) as u32);
-        let (error, phi) = torque_error(machine, table, request, scale, phase)?;
+    let mut find = |phase: Phase| -> Result<(f64, bool), Error> {
+        let (error, phi) = torque_error(phase)?;
         if error > found.torque_error {
             found.torque_error = error;
             found.worst = phi;
-            if stop && error > request.torque_error {
-                break;
+        }
+        Ok((error, limit.is_some_and(|limit| error > limit)))
+    };
+    if domain != Domain::Turn {
+        for end in [0, u32::MAX] {
+            if find(Phase::from_bits(end))?.1 {
+                return Ok(found);
             }
+        }
+    }
+    let mut before: heapless::Deque<f64, 2> = heapless::Deque::new();
+    let mut curvature = 0.0f64;
+    for k in 0..count {
+        // In the middle of a piece, as exactly as a phase can say it.
+        let place = 2 * ((first + k) % all) + 1;
+        let phase = Phase::from_bits(((place << 31) / all) as u32);
+        let (error, stop) = find(phase)?;
+        if stop {
+            break;
         }
         if let (Some(two), Some(one)) = (before.pop_front(), before.front()) {
             curvature = curvature.max(math::abs(error - 2.0 * one + two));
@@ -72,7 +136,7 @@ pub(super) fn measure_until<S: Scalar, L: Layout>(
 }
 
 /// The bound of the module's head, at one phase, and where that is.
-fn torque_error<S: Scalar, L: Layout>(
+pub(super) fn torque_error<S: Scalar, L: Layout>(
     machine: &impl Reducible,
     table: &Table<'_, S, L>,
     request: &Request,

@@ -8,18 +8,21 @@
 //! ```
 //!
 //! δ is the table's own value, read in its own arithmetic (quantisation and rounding included), against the exact
-//! reduction, at [`CHECKS_PER_CELL`] places of every cell.
+//! reduction, at [`CHECKS_PER_CELL`] places of every cell, and at both ends of a stroke.
 
 mod fill;
 mod measure;
+mod near;
 mod rounding;
 mod unfold;
 
 pub use fill::fill;
 pub use measure::measure;
+pub(crate) use measure::scan;
 pub(crate) use unfold::unfold;
 
 use measure::measure_until;
+use near::{Look, meets_near, search_near};
 
 use crate::error::positive;
 use crate::reduction::Reducible;
@@ -50,7 +53,7 @@ pub struct Request {
 }
 
 impl Request {
-    fn check(&self) -> Result<(), Error> {
+    pub(crate) fn check(&self) -> Result<(), Error> {
         positive("torque error", self.torque_error)?;
         positive("largest speed", self.omega)?;
         positive("largest acceleration", self.alpha)?;
@@ -153,8 +156,9 @@ pub fn curves_in_use(machine: &impl Reducible, positions: u32) -> Result<u8, Err
 ///
 /// Sizes that grow by a quarter each are tried until one meets the request; then the sizes below it: every one of them from
 /// the smallest on, up to [`EXHAUSTIVE`] cells, and beyond by bisection, which takes for granted that more cells err less. A
-/// candidate is dropped at its first position that misses, which is looked for first where the one before it was worst. In
-/// fixed point the machine units of the table are those in [`Tabulated::scale`].
+/// candidate is dropped at its first position that misses, which is looked for first where the one before it was worst. In the
+/// bisection only the cells near the worst position are looked at; the size that comes out is checked at all places, and
+/// larger ones after it if it misses. In fixed point the machine units of the table are those in [`Tabulated::scale`].
 ///
 /// # Errors
 /// [`Error::TorqueErrorNotReached`] if none of the growing sizes up to `max_cells` does, with the best of them;
@@ -168,26 +172,24 @@ pub fn tabulate<S: Scalar, L: Layout>(
     words: &mut [S::Word],
 ) -> Result<Tabulated, Error> {
     request.check()?;
-    let mut worst = 0.0;
-    let found = search(request, |cells| {
+    let (mut worst, mut near) = (0.0, None);
+    let found = search_near(request, |cells, look| {
         let Ok((table, scale)) = candidate::<S, L>(machine, set, cells, scale, scratch, words)
         else {
             return Ok(None);
         };
-        let mut found = Tabulated::default();
-        for checks in [COARSE_CHECKS, CHECKS_PER_CELL] {
-            found = measure_until(machine, &table, request, &scale, (worst, checks), true)?;
-            worst = found.worst;
-            if found.torque_error > request.torque_error {
-                return Ok(None);
-            }
+        if look == Look::Near && cells > EXHAUSTIVE {
+            return meets_near(machine, &table, request, &scale, &mut near);
         }
-        Ok(Some(found))
+        meets(request, &mut worst, |from| {
+            measure_until(machine, &table, request, &scale, from, true)
+        })
     })?;
     let Some(found) = found else {
-        return Err(not_reached::<S, L>(
-            machine, set, request, scale, scratch, words,
-        ));
+        return Err(not_reached(request, |cells| {
+            let (table, scale) = candidate::<S, L>(machine, set, cells, scale, scratch, words)?;
+            measure(machine, &table, request, &scale)
+        }));
     };
     candidate::<S, L>(machine, set, found.cells, scale, scratch, words)?;
     Ok(found)
@@ -251,14 +253,28 @@ pub(crate) fn search(
     Ok(Some(best))
 }
 
-/// The best that any of the growing sizes reaches, or why the largest is no table at all.
-fn not_reached<S: Scalar, L: Layout>(
-    machine: &impl Reducible,
-    set: u8,
+/// What `measure` says of a candidate that meets the request, looked at first in few places, and where the one before it was
+/// worst.
+pub(crate) fn meets(
     request: &Request,
-    scale: &Scale,
-    scratch: &mut [f64],
-    words: &mut [S::Word],
+    worst: &mut f64,
+    measure: impl Fn((f64, u32)) -> Result<Tabulated, Error>,
+) -> Result<Option<Tabulated>, Error> {
+    let mut found = Tabulated::default();
+    for checks in [COARSE_CHECKS, CHECKS_PER_CELL] {
+        found = measure((*worst, checks))?;
+        *worst = found.worst;
+        if found.torque_error > request.torque_error {
+            return Ok(None);
+        }
+    }
+    Ok(Some(found))
+}
+
+/// The best that any of the growing sizes reaches, or why the largest is no table at all.
+pub(crate) fn not_reached(
+    request: &Request,
+    mut measured: impl FnMut(u32) -> Result<Tabulated, Error>,
 ) -> Error {
     let mut best = Tabulated {
         torque_error: f64::INFINITY,
@@ -266,10 +282,8 @@ fn not_reached<S: Scalar, L: Layout>(
     };
     let mut refused = None;
     for cells in sizes(request) {
-        let found = candidate::<S, L>(machine, set, cells, scale, scratch, words)
-            .and_then(|(table, scale)| measure(machine, &table, request, &scale));
         // A coarse curve may dip below zero or overshoot: more cells cure it. What the largest size says counts.
-        refused = match found {
+        refused = match measured(cells) {
             Ok(found) => {
                 if found.torque_error < best.torque_error {
                     best = found;

@@ -93,6 +93,23 @@ pub(crate) const F32_READ: f64 = 4e-7;
 /// six of them in a Spline, and the floors of [`Q31_SPLINE_READ`]; slopes of differences of two.
 pub(crate) const Q31_READ: [f64; 2] = [6.0 * 4.0 * Q31_UNIT, 12.0 * 4.0 * Q31_UNIT];
 
+/// Forward dynamics by the curve of 1/J, in units of 2⁻³¹ over J_m: product and Newton's step are in Q28 times J_m, eight units
+/// each; the step's factor is in Q29, four units of a full acceleration. And as much again for the curves' own words.
+pub(crate) const RECIPROCAL_UNITS: f64 = 40.0;
+
+/// `Model::reciprocal_error` looks at four places of a cell: between them, and in a cell's worst place, it may be this many times
+/// more, or less.
+pub(crate) const RECIPROCAL_STATED: f64 = 1.5;
+
+/// Energy over four turns of a Q31 model, as a share: what resists is low by a unit of Q29 on average ([`Q31_TORQUE_BIAS`]),
+/// which does the work 2e-9·T_b·8π; T_b is up to ten times the energy [3e-7 found].
+pub(crate) const Q31_ENERGY: f64 = 5e-7;
+
+/// The same by the curve of 1/J: the quotient is low by up to two units of Q28 times J_m, one half of that on average, which is
+/// up to 1/J_m times as much; a Quadratic's 1/J is not quite that of J besides, with a sign that changes in every cell
+/// [4e-6 to 8e-6 found].
+pub(crate) const Q31_ENERGY_RECIPROCAL: f64 = 2e-5;
+
 /// The factor ½·cells/span·J_b·ω_b²/T_b is computed in f32 in six operations with span rounded once: relative.
 pub(crate) const FACTOR_ROUNDING: f64 = 7.0 * 5.97e-8;
 
@@ -106,6 +123,10 @@ pub(crate) const BASE_ROUNDINGS: f64 = 3e-7;
 /// way: at a distance d from the extreme of a curve of the shape u·(1 − u)·(1 − 2u) or u²·(1 − u)² it is lower by up to
 /// 16·d², d ≤ 1/128 [6e-4].
 pub(crate) const DENSE_GRID: f64 = 1.001;
+
+/// The same of a Quadratic, whose slope errs most at the knots, half a place from the nearest checked, and in proportion to the
+/// distance from the middle of the cell: 1/64.
+pub(crate) const DENSE_GRID_QUADRATIC: f64 = 1.0 + 1.05 / 64.0;
 
 /// Ends and symmetry of a law: a few roundings of numbers of size one (S″ up to 40 times that).
 pub(crate) const LAW_END: f64 = 4e-15;
@@ -275,3 +296,48 @@ pub(crate) const IDENTIFIED: f64 = 1e-14;
 
 /// J, b and c of a slider-crank (λ = 0.25) identified with 10 harmonics, those behind being below 1e-7 of it.
 pub(crate) const IDENTIFIED_INERTIA: f64 = 1e-6;
+
+/// What is left of a jump beside it in one table, as a share: half of it on one side at least, and an interpolating spline
+/// overshoots by less than half.
+pub(crate) const JUMP_LEFT: [f64; 2] = [0.5, 1.5];
+
+/// Torques of pieces in f32 where the request is far above it: the roundings of a tick, of the largest torque.
+pub(crate) const PIECES_F32: f64 = 3e-6;
+
+/// Acceleration from the torque that it gave, in f32, of its size.
+pub(crate) const PIECES_BACK: f64 = 3e-6;
+
+/// A place in a piece read from a straight line in f64, in units of 2⁻³²: 2⁻⁵³ times a few.
+pub(crate) const RULER: f64 = 1e-4;
+
+/// Torques of pieces in Q31 against those in f64: stored words as in [`Q31_READ`], times α and ω of size one, and the floors of
+/// [`Q31_TORQUE_UNITS`].
+pub(crate) const PIECES_Q31: f64 = Q31_READ[0] * 2.0 + Q31_READ[1] + 10.0 * Q31_UNIT;
+
+/// Curves of 16-bit rows at 300 cells against a machine of size one, in units of 2⁻¹⁵: J, V, load, b, c (whose kinks lie beside the
+/// knots of a stroke), and J times 1/J.
+pub(crate) const SHORT_CURVES: [f64; 6] = [1.0, 1.7, 1.3, 1.3, 1.3, 15.0];
+
+/// The largest step of a 16-bit curve at a knot, in units of 2⁻¹⁵: what both sides round off.
+pub(crate) const SHORT_STEP: f64 = 3.0;
+
+/// `short::Model::torque` promises this against the curves of its table, in units of 2⁻¹⁵.
+pub(crate) const SHORT_TORQUE: f64 = 0.75;
+
+/// Forward after inverse, in units of 2⁻¹⁵ of the torque: one rounding of the torque and one of what resists, half a unit each, and the
+/// unit that the floor of the quotient may take off where J is 1.
+pub(crate) const SHORT_BACK: f64 = 1.5;
+
+/// The same where only J and V are there: two floors instead of the latter.
+pub(crate) const SHORT_BARE_BACK: f64 = 3.0;
+
+/// Cells of the example press with its load for shares of the peak torque: the figures of `docs/table-image.md`.
+pub(crate) const SHORT_PRESS_CELLS: [(f64, u32); 4] =
+    [(3e-3, 58), (1e-3, 103), (3e-4, 214), (1.5e-4, 483)];
+
+/// The least share of the peak torque that 16 bits reach for the example press with its load [1.2e-4 found].
+pub(crate) const SHORT_FLOOR: [f64; 2] = [1.15e-4, 1.3e-4];
+
+/// Largest error of a Quadratic over that at the places that `tabulate` checks: that of its slope is in proportion to ½ − 6·v²
+/// with v the distance from the middle of the cell, and the last place is half of 1/64 before the knot: 1/0.953.
+pub(crate) const PIECES_QUADRATIC: f64 = 1.05;

@@ -20,6 +20,8 @@ pub(crate) struct Core {
     pub(crate) cpu: &'static str,
     /// Frequency of the machine's SysTick (Hz).
     pub(crate) clock: f64,
+    /// Whether it has a floating-point unit.
+    pub(crate) float: bool,
     /// Published instruction timings, if there are any.
     pub(crate) timing: Option<Timing>,
 }
@@ -36,6 +38,7 @@ pub(crate) const CORES: [Core; 5] = [
         machine: "microbit",
         cpu: "cortex-m0",
         clock: 16e6,
+        float: false,
         timing: Some(Timing::M0Plus),
     },
     Core {
@@ -47,6 +50,7 @@ pub(crate) const CORES: [Core; 5] = [
         machine: "mps2-an385",
         cpu: "cortex-m3",
         clock: 25e6,
+        float: false,
         timing: Some(Timing::M3),
     },
     Core {
@@ -58,6 +62,7 @@ pub(crate) const CORES: [Core; 5] = [
         machine: "mps2-an386",
         cpu: "cortex-m4",
         clock: 25e6,
+        float: true,
         timing: Some(Timing::M4),
     },
     // Arm publishes no timings of the M7 and the M33.
@@ -70,6 +75,7 @@ pub(crate) const CORES: [Core; 5] = [
         machine: "mps2-an500",
         cpu: "cortex-m7",
         clock: 25e6,
+        float: true,
         timing: None,
     },
     Core {
@@ -81,6 +87,7 @@ pub(crate) const CORES: [Core; 5] = [
         machine: "lm3s6965evb",
         cpu: "cortex-m33",
         clock: 12.5e6,
+        float: true,
         timing: None,
     },
 ];

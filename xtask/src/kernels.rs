@@ -52,13 +52,10 @@ macro_rules! kernels {
     };
 }
 
-/// A table of 64 cells.
+/// A table of the library: 64 cells, quadratic 256.
 const fn table(layout: Layout, set: u8) -> Data {
-    Data::Jred {
-        layout,
-        set,
-        cells: 64,
-    }
+    let cells = if matches!(layout, Quadratic) { 256 } else { 64 };
+    Data::Jred { layout, set, cells }
 }
 
 /// Every kernel, in the order of the tables of results.

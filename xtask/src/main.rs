@@ -9,6 +9,7 @@ mod image;
 mod instruction;
 mod kernels;
 mod machine;
+mod mnemonic;
 mod number;
 mod peers;
 mod perf;

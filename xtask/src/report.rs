@@ -198,3 +198,50 @@ fn aligned<const N: usize>(lines: impl Iterator<Item = [String; N]>) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cores::CORES;
+    use crate::kernels::KERNELS;
+
+    fn report() -> Report {
+        let kernel = |name: &str| KERNELS.iter().find(|kernel| kernel.name == name).unwrap();
+        let kernels = [kernel("hand_f32_torque"), kernel("hand_f32_acceleration")];
+        let measurement = |core: &'static Core, kernel, cycles| Measurement {
+            kernel,
+            core,
+            worst: Call {
+                instructions: 50,
+                cycles,
+                stack: 8,
+            },
+            mean: 48.0,
+            code: 192,
+            table: 3084,
+            error: 1.2e-4,
+        };
+        let [m4, m7] = [&CORES[2], &CORES[3]];
+        let of = |core, cycles| kernels.map(|kernel| measurement(core, kernel, cycles));
+        Report {
+            measurements: of(m4, 80).into_iter().chain(of(m7, 0)).collect(),
+        }
+    }
+
+    #[test]
+    fn markdown_has_a_row_for_each_kernel_and_a_column_for_each_core() {
+        let text = report().markdown();
+        assert!(text.contains("| torque | M4F | M7 | error |\n|---|---:|---:|---:|\n"));
+        let row = "| by hand, f32, one index (Rust) | 50 / ~80 | 50 | 1e-4 |\n";
+        assert_eq!(text.matches(row).count(), 2);
+        assert!(text.contains("| by hand, f32, one index (Rust) | 192 | 192 | 8 | 3084 |\n"));
+    }
+
+    #[test]
+    fn the_text_has_a_line_for_each_measurement() {
+        let text = report().text();
+        assert_eq!(text.lines().count(), 1 + 4);
+        // No cycles where there are no timings.
+        assert_eq!(text.lines().filter(|line| line.contains(" - ")).count(), 2);
+    }
+}

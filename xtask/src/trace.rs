@@ -11,7 +11,7 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, anyhow, bail, ensure};
 
 use crate::cores::Core;
 
@@ -25,6 +25,8 @@ pub(crate) enum Emulator {
 }
 
 const QEMU: &str = "qemu-system-arm";
+/// Instructions after which a program is taken to hang, as one with a fault does: twice what all kernels need.
+const MOST: u32 = 40_000_000;
 
 impl Emulator {
     /// The one that is installed.
@@ -84,12 +86,23 @@ impl Emulator {
         // The log goes to standard error; so would a complaint of QEMU's or of the program.
         let mut child = command.stderr(Stdio::piped()).spawn().context(QEMU)?;
         let mut log = BufReader::with_capacity(1 << 16, child.stderr.take().context("no log")?);
-        let (mut line, mut other, mut result) = (Vec::new(), String::new(), Ok(()));
+        let (mut line, mut other, mut count) = (Vec::new(), String::new(), 0u32);
         while log.read_until(b'\n', &mut line)? > 0 {
-            match address(&line) {
-                Some(address) if result.is_ok() => result = each(address),
-                Some(_) => {}
-                None => other.push_str(&String::from_utf8_lossy(&line)),
+            if let Some(address) = address(&line) {
+                count += 1;
+                let hangs = || anyhow!("{count} instructions, and no end, on {}", core.name);
+                let result = if count < MOST {
+                    each(address)
+                } else {
+                    Err(hangs())
+                };
+                if result.is_err() {
+                    child.kill()?;
+                    child.wait()?;
+                    return result;
+                }
+            } else {
+                other.push_str(&String::from_utf8_lossy(&line));
             }
             line.clear();
         }
@@ -99,7 +112,7 @@ impl Emulator {
             "{QEMU} on {}: {status}\n{other}",
             core.name
         );
-        result
+        Ok(())
     }
 
     /// Runs the program in `folder` with an instruction a nanosecond, so that SysTick counts instructions.

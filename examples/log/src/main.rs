@@ -21,7 +21,7 @@ mod target {
     use cortex_m_semihosting::debug;
     use defmt_semihosting as _;
     use jred::motion::{Law, Move};
-    use jred::table::curves;
+    use jred::table::{Spline, curves};
     use jred::{Error, Image, ImageError, Model, Q31, include_image};
 
     fn run() -> Result<(), ImageError> {
@@ -44,7 +44,7 @@ mod target {
         if let Err(error) = Image::from_bytes(bytes.get(..256).unwrap_or_default()) {
             defmt::warn!("cut off: {}", error);
         }
-        if let Err(error) = image.model::<Q31, { curves::ALL }>() {
+        if let Err(error) = image.model::<Q31, { curves::ALL }, Spline>() {
             defmt::warn!("not fixed point: {}", error);
         }
         Ok(())

@@ -1,8 +1,9 @@
 //! Number types and layouts that a table can have, by name.
 
-use jred::table::{Cubic, Layout as _, Quadratic, Spline};
+use jred::table::{Cubic, Layout as _, Quadratic, Spline, Spline16};
 use jred::{Error, Q31, Reducible, Scalar as _, Scale};
 
+use super::kind::{Long, Short};
 use super::search::{Answer, Search};
 
 /// Places at which a machine is sampled for its scale and its set of curves.
@@ -14,8 +15,10 @@ pub enum Number {
     /// Single precision, SI units.
     #[default]
     F32,
-    /// Fixed point with 32-bit words, per-unit.
+    /// Fixed point with 32 bits, per-unit.
     I32,
+    /// Fixed point with 16 bits, per-unit: for processors without a long multiplication.
+    I16,
 }
 
 /// How the curves lie in memory.
@@ -23,10 +26,14 @@ pub enum Number {
 pub enum LayoutName {
     /// One word a curve and cell.
     Spline,
+    /// Half a word a curve and cell.
+    Spline16,
     /// Four words a curve and cell.
     Cubic,
     /// Three words a curve and cell.
     Quadratic,
+    /// Packed words of 16-bit tables.
+    Rows,
 }
 
 /// Which layout is asked for.
@@ -37,10 +44,14 @@ pub enum LayoutChoice {
     Auto,
     /// Control points of a cubic B-spline: the smallest table.
     Spline,
+    /// The same in 16 bits, of i32: half of that.
+    Spline16,
     /// The coefficients of each cell's cubic: a faster tick.
     Cubic,
     /// The coefficients of each cell's quadratic: the fastest tick without a long multiplication.
     Quadratic,
+    /// The packed rows of i16.
+    Rows,
 }
 
 /// Yes or no.
@@ -55,13 +66,14 @@ pub enum Choice {
 
 impl Number {
     /// Every type.
-    pub const ALL: [Self; 2] = [Self::F32, Self::I32];
+    pub const ALL: [Self; 3] = [Self::F32, Self::I32, Self::I16];
 
     /// Name as the command line writes it.
     pub const fn name(self) -> &'static str {
         match self {
             Self::F32 => f32::NAME,
             Self::I32 => Q31::NAME,
+            Self::I16 => "i16",
         }
     }
 
@@ -70,6 +82,7 @@ impl Number {
         match self {
             Self::F32 => "f32",
             Self::I32 => "Q31",
+            Self::I16 => "Q15",
         }
     }
 
@@ -81,11 +94,18 @@ impl Number {
     /// The layouts that tables of this type can have.
     pub const fn layouts(self) -> &'static [LayoutName] {
         match self {
-            Self::F32 | Self::I32 => &[
+            Self::F32 => &[
                 LayoutName::Spline,
                 LayoutName::Cubic,
                 LayoutName::Quadratic,
             ],
+            Self::I32 => &[
+                LayoutName::Spline,
+                LayoutName::Spline16,
+                LayoutName::Cubic,
+                LayoutName::Quadratic,
+            ],
+            Self::I16 => &[LayoutName::Rows],
         }
     }
 
@@ -98,18 +118,21 @@ impl Number {
         match self {
             Self::F32 => Ok(Scale::SI),
             Self::I32 => Scale::covering(machine, omega, alpha, PLACES),
+            Self::I16 => Scale::limited_to(machine, omega, alpha, PLACES),
         }
     }
 
     /// What the search finds for this type and a layout of it.
     pub(super) fn search(self, layout: LayoutName, search: &Search<'_>) -> Result<Answer, Error> {
         match (self, layout) {
-            (Self::F32, LayoutName::Spline) => search.run::<f32, Spline>(self, layout),
-            (Self::F32, LayoutName::Cubic) => search.run::<f32, Cubic>(self, layout),
-            (Self::F32, LayoutName::Quadratic) => search.run::<f32, Quadratic>(self, layout),
-            (Self::I32, LayoutName::Spline) => search.run::<Q31, Spline>(self, layout),
-            (Self::I32, LayoutName::Cubic) => search.run::<Q31, Cubic>(self, layout),
-            (Self::I32, LayoutName::Quadratic) => search.run::<Q31, Quadratic>(self, layout),
+            (Self::F32, LayoutName::Cubic) => search.run::<Long<f32, Cubic>>(self, layout),
+            (Self::F32, LayoutName::Quadratic) => search.run::<Long<f32, Quadratic>>(self, layout),
+            (Self::F32, _) => search.run::<Long<f32, Spline>>(self, layout),
+            (Self::I32, LayoutName::Spline16) => search.run::<Long<Q31, Spline16>>(self, layout),
+            (Self::I32, LayoutName::Cubic) => search.run::<Long<Q31, Cubic>>(self, layout),
+            (Self::I32, LayoutName::Quadratic) => search.run::<Long<Q31, Quadratic>>(self, layout),
+            (Self::I32, _) => search.run::<Long<Q31, Spline>>(self, layout),
+            (Self::I16, _) => search.run::<Short>(self, layout),
         }
     }
 }
@@ -119,17 +142,21 @@ impl LayoutName {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Spline => Spline::NAME,
+            Self::Spline16 => Spline16::NAME,
             Self::Cubic => Cubic::NAME,
             Self::Quadratic => Quadratic::NAME,
+            Self::Rows => "rows",
         }
     }
 
-    /// Name of the type in Rust.
-    pub const fn type_name(self) -> &'static str {
+    /// Name of the type in Rust, of those that are one.
+    pub const fn type_name(self) -> Option<&'static str> {
         match self {
-            Self::Spline => "Spline",
-            Self::Cubic => "Cubic",
-            Self::Quadratic => "Quadratic",
+            Self::Spline => Some("Spline"),
+            Self::Spline16 => Some("Spline16"),
+            Self::Cubic => Some("Cubic"),
+            Self::Quadratic => Some("Quadratic"),
+            Self::Rows => None,
         }
     }
 }
@@ -140,8 +167,10 @@ impl LayoutChoice {
         match self {
             Self::Auto => true,
             Self::Spline => layout == LayoutName::Spline,
+            Self::Spline16 => layout == LayoutName::Spline16,
             Self::Cubic => layout == LayoutName::Cubic,
             Self::Quadratic => layout == LayoutName::Quadratic,
+            Self::Rows => layout == LayoutName::Rows,
         }
     }
 }

@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 
 use jred::table::{Cubic, MAX_CELLS, Quadratic, Spline};
-use jred::{Error, Reducible as _};
+use jred::Error;
 
 use super::choice::{LayoutName, Number};
-use super::place::feature;
+use super::place::{Feature, feature};
 use super::search::{Answer, Candidate, Search};
 use super::{Failure, Task};
 use crate::coordinate::Coordinate;
@@ -45,7 +45,7 @@ impl NotReached<'_> {
             _ => None,
         });
         let mut misses: Vec<&Candidate> = misses.collect();
-        misses.sort_by(|a, b| a.found.bound.total_cmp(&b.found.bound));
+        misses.sort_by(|a, b| a.error.total_cmp(&b.error));
         if let Some(most) = self.task.max_bytes {
             return Ok(self.none_fits(most, &own, misses.first().copied()));
         }
@@ -90,14 +90,14 @@ impl NotReached<'_> {
                 text,
                 "  {}: {cells} cells reach {}",
                 candidate.layout.name(),
-                self.error(candidate.found.bound)
+                self.error(candidate.error)
             );
             text += &match self.limit(candidate)? {
                 Limit::Rounding => format!(
                     "; that is the floor of rounding in {number}, more cells do not lower it"
                 ),
                 Limit::Cells(Some(order)) => {
-                    let needed = f64::from(cells) * (candidate.found.bound / allowed).powf(1.0 / order);
+                    let needed = f64::from(cells) * (candidate.error / allowed).powf(1.0 / order);
                     let words = format!("; the error falls with the power {order:.1} of the cells");
                     if needed <= f64::from(MAX_CELLS) {
                         let needed = round_up(needed);
@@ -113,14 +113,23 @@ impl NotReached<'_> {
             };
             text.push('\n');
         }
-        let worst = best.found.worst;
-        let near = 1.5 * self.search.domain.span() / f64::from(best.found.cells);
-        let found = feature(self.file, self.search.machine, self.coordinate, worst, near)?;
         let rounding = matches!(self.limit(best)?, Limit::Rounding);
-        let found = found.filter(|_| !rounding);
+        let worst = best.found.worst;
         let _ = write!(text, "largest error at {}", self.coordinate.place(worst));
-        if let Some(found) = &found {
-            let _ = write!(text, ": {}", found.words);
+        let mut found = None;
+        if !rounding {
+            found = self.feature(worst, best.found.cells)?;
+            if let Some(found) = &found {
+                let _ = write!(text, ": {}", found.words);
+            } else {
+                // What is smooth grows small with more cells, and what is not stands out.
+                let finer = (4 * best.found.cells).min(MAX_CELLS);
+                let (_, worst) = self.without_rounding(best.layout, finer)?;
+                found = self.feature(worst, finer)?;
+                if let Some(found) = &found {
+                    let _ = write!(text, "; with more cells, where {}", found.words);
+                }
+            }
         }
         text += "\nallow a larger error";
         for cure in self.cures() {
@@ -138,6 +147,12 @@ impl NotReached<'_> {
             text += ", or state a smaller range with --omega and --alpha";
         }
         Ok(text)
+    }
+
+    /// What is within a cell and a half of a position.
+    fn feature(&self, at: f64, cells: u32) -> Result<Option<Feature>, Error> {
+        let near = 1.5 * self.search.domain.span() / f64::from(cells);
+        feature(self.file, self.search.machine, self.coordinate, at, near)
     }
 
     /// What other layouts and types do: each was tried.
@@ -168,17 +183,30 @@ impl NotReached<'_> {
             .collect()
     }
 
-    fn limit(&self, candidate: &Candidate) -> Result<Limit, Error> {
-        // Below this share of the error, what is left without rounding is not what counts.
-        const SHARE: f64 = 0.5;
-        let without = |cells: u32| match candidate.layout {
-            LayoutName::Spline => self.search.without_rounding::<Spline>(cells),
+    /// The torque error in double precision, and where it is largest.
+    fn without_rounding(&self, layout: LayoutName, cells: u32) -> Result<(f64, f64), Error> {
+        match layout {
+            LayoutName::Spline | LayoutName::Spline16 => {
+                self.search.without_rounding::<Spline>(cells)
+            }
             LayoutName::Cubic => self.search.without_rounding::<Cubic>(cells),
-            LayoutName::Quadratic => self.search.without_rounding::<Quadratic>(cells),
-        };
+            LayoutName::Quadratic | LayoutName::Rows => {
+                self.search.without_rounding::<Quadratic>(cells)
+            }
+        }
+    }
+
+    fn limit(&self, candidate: &Candidate) -> Result<Limit, Error> {
+        // Of what is there, or of what is allowed, rounding may make up so much.
+        const SHARE: f64 = 0.5;
+        let without = |cells| self.without_rounding(candidate.layout, cells).map(|(error, _)| error);
         let cells = candidate.found.cells;
-        let error = without(cells)?;
-        if error < SHARE * candidate.found.bound {
+        let allowed = self.task.torque_error.unwrap_or_default();
+        let (bound, error) = (candidate.looked, without(cells)?);
+        // More cells were tried and were worse, though the curves themselves come closer.
+        let larger = cells + cells.div_ceil(4) <= self.task.max_cells;
+        let closer = larger && without(self.task.max_cells)? < SHARE * bound;
+        if closer || error < SHARE * bound || bound - error > SHARE * allowed {
             return Ok(Limit::Rounding);
         }
         // The largest error of a curve with a kink swings with the place of the kink in its cell: the mean of a few sizes.
@@ -209,7 +237,7 @@ impl NotReached<'_> {
                 self.effort(),
                 rounded(allowed),
                 self.coordinate.effort_unit(),
-                self.error(best.found.bound),
+                self.error(best.error),
                 best.layout.name(),
                 best.found.cells
             ),

@@ -43,6 +43,15 @@ fn rust_set(set: u8) -> String {
     }
 }
 
+/// What loads the image in Rust.
+fn rust_call(table: &Candidate) -> String {
+    let (scalar, set) = (table.number.scalar(), rust_set(table.curves));
+    match table.layout.type_name() {
+        Some(layout) => format!("image.model::<{scalar}, {{ {set} }}, {layout}>()"),
+        None => format!("image.short_model::<{{ {set} }}>()"),
+    }
+}
+
 /// The part of a number range that is left, in bits.
 fn headroom(usage: f32) -> Option<f64> {
     (usage > 0.0).then(|| -f64::from(usage).log2())
@@ -101,20 +110,14 @@ impl Export {
             chosen.row_bytes,
             chosen.bytes()
         );
-        let _ = writeln!(
-            text,
-            "in Rust: image.model::<{}, {{ {} }}, {}>()",
-            chosen.number.scalar(),
-            rust_set(chosen.curves),
-            chosen.layout.type_name()
-        );
+        let _ = writeln!(text, "in Rust: {}", rust_call(chosen));
         let allowed = self.task.torque_error.map_or(String::new(), |allowed| {
             format!(" of {} {effort} allowed", rounded(allowed))
         });
         let _ = writeln!(
             text,
             "{word} error reached {} {effort}{allowed}, at {} {}, for |{v}| <= {} {speed}, |{a}| <= {} {acceleration}",
-            rounded(chosen.found.bound),
+            rounded(chosen.error),
             rounded(coordinate.shown(chosen.found.worst)),
             coordinate.unit(),
             rounded(self.task.omega),
@@ -175,7 +178,7 @@ impl Export {
                         c.found.cells.to_string(),
                         c.row_bytes.to_string(),
                         c.bytes().to_string(),
-                        short(c.found.bound),
+                        short(c.error),
                         short(c.ticks.torque),
                         remark(answer).to_owned(),
                     ]);
@@ -226,12 +229,7 @@ impl Export {
             "max_cells": task.max_cells,
             "type": chosen.number.name(),
             "layout": chosen.layout.name(),
-            "rust": format!(
-                "image.model::<{}, {{ {} }}, {}>()",
-                chosen.number.scalar(),
-                rust_set(chosen.curves),
-                chosen.layout.type_name()
-            ),
+            "rust": rust_call(chosen),
         });
         if let Some(map) = object.as_object_mut() {
             map.extend(figures(chosen));
@@ -282,8 +280,8 @@ fn figures(c: &Candidate) -> serde_json::Map<String, Value> {
         "cells": c.found.cells,
         "row_bytes": c.row_bytes,
         "image_bytes": c.bytes(),
-        "torque_error": c.found.bound,
-        "torque_error_checked": c.found.torque_error,
+        "torque_error": c.error,
+        "curve_error": c.found.bound,
         "worst": c.found.worst,
         "tick_torque_error": c.ticks.torque,
         "tick_worst": c.ticks.worst,

@@ -5,6 +5,7 @@ mod choice;
 mod fault;
 mod figures;
 mod form;
+mod kind;
 mod place;
 mod reference;
 mod search;
@@ -146,7 +147,7 @@ fn choose(task: &Task, answers: &[(Number, LayoutName, Answer)]) -> Option<usize
             Some(_) => candidate.bytes(),
             None => 0,
         };
-        (bytes, candidate.found.bound)
+        (bytes, candidate.error)
     };
     let own = answers.iter().enumerate().filter_map(|(k, answer)| {
         let (number, layout, Answer::Meets(candidate)) = answer else {

@@ -124,7 +124,7 @@ fn jump_or_kink(
         };
         for (what, found) in [
             ("jumps", narrow(&value, ends, 0.0)?),
-            ("has a kink", narrow(&slope, ends, 4.0 * step)?),
+            ("has a kink", narrow(&slope, ends, 2.0 * step)?),
         ] {
             if let Some(phi) = found {
                 let name = if name.starts_with('J') {
@@ -140,41 +140,37 @@ fn jump_or_kink(
     Ok(None)
 }
 
-/// Where a function steps within an interval: the part with the largest difference, again and again; a step is what keeps its
-/// size. Not looked at closer than `finest`.
+/// Where a function steps within an interval: the part whose difference is least like those beside it, again and again; a step
+/// is what keeps its size. Not looked at closer than `finest`.
 fn narrow(
     f: &impl Fn(f64) -> Result<f64, Error>,
     [mut from, mut to]: [f64; 2],
     finest: f64,
 ) -> Result<Option<f64>, Error> {
-    const PARTS: u32 = 8;
-    const DEPTH: u32 = 6;
-    // Of the step seen first, what must be left in an eighth of the interval; of a smooth curve it would be an eighth.
+    const PARTS: u32 = 16;
+    const DEPTH: u32 = 8;
+    // An interval of three parts of the one before shows a smooth curve 150 times, a kink 5 times smaller.
     const KEPT: f64 = 0.5;
     let mut first = None;
-    let mut size = 0.0f64;
     for depth in 0..DEPTH {
-        if depth > 1 && to - from < finest {
+        if depth > 1 && to - from < finest * f64::from(PARTS) {
             break;
         }
         let at = |k: u32| from + (to - from) * f64::from(k) / f64::from(PARTS);
-        let mut best = (0.0, 0);
-        let mut before = f(at(0))?;
-        size = size.max(before.abs());
-        for k in 0..PARTS {
-            let after = f(at(k + 1))?;
-            size = size.max(after.abs());
-            if (after - before).abs() > best.0 {
-                best = ((after - before).abs(), k);
-            }
-            before = after;
-        }
-        let first = *first.get_or_insert(best.0);
+        let values = (0..=PARTS).map(|k| f(at(k)));
+        let values = values.collect::<Result<Vec<f64>, Error>>()?;
+        let size = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let steps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let odd = |triple: &[f64]| (triple[1] - 0.5 * (triple[0] + triple[2])).abs();
+        let best = (1..).zip(steps.windows(3).map(odd));
+        let Some((k, step)) = best.max_by(|a: &(u32, f64), b| a.1.total_cmp(&b.1)) else {
+            return Ok(None);
+        };
         // Nothing but roundings, or smooth.
-        if best.0 <= 1e-6 * size || best.0 < KEPT * first {
+        if step <= 1e-6 * size || step < KEPT * *first.get_or_insert(step) {
             return Ok(None);
         }
-        (from, to) = (at(best.1), at(best.1 + 1));
+        (from, to) = (at(k - 1), at(k + 2));
     }
     Ok(Some(0.5 * (from + to)))
 }

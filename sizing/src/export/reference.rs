@@ -3,8 +3,7 @@
 use std::cell::{OnceCell, RefCell};
 use std::collections::HashMap;
 
-use jred::table::{Layout, Table};
-use jred::{Domain, Error, Phase, Reducible, Reduction, Scalar, Scale};
+use jred::{Domain, Error, Phase, Reducible, Reduction};
 
 /// Places of the range, a prime number: no number of cells has a common measure with it, so that they fall on every part of a
 /// cell.
@@ -55,11 +54,24 @@ pub(super) struct Place {
     pub(super) exact: Reduction,
 }
 
+/// The curves of a table at one place, in SI units.
+pub(super) struct Curves {
+    /// J
+    pub(super) inertia: f64,
+    /// dJ/dφ
+    pub(super) slope: f64,
+    /// −U′ + process
+    pub(super) load: f64,
+    /// b
+    pub(super) viscous: f64,
+    /// c
+    pub(super) coulomb: f64,
+}
+
 /// The exact curves at places all over the range.
 #[derive(Clone, Debug)]
 pub(super) struct Reference {
     pub(super) places: Vec<Place>,
-    span: f64,
 }
 
 impl Reference {
@@ -71,34 +83,27 @@ impl Reference {
             let exact = machine.reduction(phi)?;
             Ok(Place { phase, phi, exact })
         };
-        Ok(Self {
-            places: (0..PLACES).map(place).collect::<Result<_, Error>>()?,
-            span: domain.span(),
-        })
+        let places = (0..PLACES).map(place).collect::<Result<_, Error>>()?;
+        Ok(Self { places })
     }
 
     /// The largest bound of a table's torque error (see [`jred::tabulate`]) for |ω|, |α| up to `range`, and the index of its
     /// place. Looks from index `start` on, and no further than the first place above `limit`.
-    pub(super) fn error<S: Scalar, L: Layout>(
+    pub(super) fn error(
         &self,
-        table: &Table<'_, S, L>,
-        scale: &Scale,
+        read: impl Fn(Phase) -> Curves,
         [omega, alpha]: [f64; 2],
         (start, limit): (usize, f64),
     ) -> (f64, usize) {
-        let [torque, speed, inertia] =
-            [scale.torque(), scale.speed(), scale.inertia()].map(f64::from);
-        let per_position = f64::from(table.cells()) / self.span;
         let mut worst = (0.0, start);
         let order = (start..self.places.len()).chain(0..start);
         for (index, place) in order.filter_map(|k| Some((k, self.places.get(k)?))) {
-            let (exact, read) = (&place.exact, table.at(place.phase));
-            let slope = read.inertia_slope.to_f64() * inertia * per_position;
-            let error = (read.inertia.to_f64() * inertia - exact.inertia[0]).abs() * alpha
-                + 0.5 * (slope - exact.inertia[1]).abs() * omega * omega
-                + (read.load.to_f64() * torque - exact.load_torque()).abs()
-                + (read.viscous.to_f64() * torque / speed - exact.viscous).abs() * omega
-                + (read.coulomb.to_f64() * torque - exact.coulomb).abs();
+            let (exact, read) = (&place.exact, read(place.phase));
+            let error = (read.inertia - exact.inertia[0]).abs() * alpha
+                + 0.5 * (read.slope - exact.inertia[1]).abs() * omega * omega
+                + (read.load - exact.load_torque()).abs()
+                + (read.viscous - exact.viscous).abs() * omega
+                + (read.coulomb - exact.coulomb).abs();
             if error > worst.0 {
                 worst = (error, index);
                 if error > limit {
@@ -107,17 +112,5 @@ impl Reference {
             }
         }
         worst
-    }
-
-    /// The largest drive torque (N·m) for |ω|, |α| up to `range`.
-    pub(super) fn peak_torque(&self, [omega, alpha]: [f64; 2]) -> f64 {
-        let corners = [(omega, alpha), (omega, -alpha), (-omega, alpha), (-omega, -alpha)];
-        let at = |place: &Place| {
-            corners.map(|(omega, alpha)| place.exact.torque(omega, alpha).total().abs())
-        };
-        self.places
-            .iter()
-            .flat_map(at)
-            .fold(0.0, |most, torque: f64| most.max(torque))
     }
 }

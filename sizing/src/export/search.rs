@@ -1,15 +1,16 @@
 //! The smallest table of one number type and layout that meets a torque error, or the best one for its bytes.
 //!
 //! A size is looked at in two steps: against exact curves computed once, which refuses nearly all that miss; then against
-//! [`tabulate::measure`] and by ticking its image. What passes both is a table.
+//! [`tabulate::measure`], and by ticking its image. What passes both is a table.
 
-use jred::table::{Layout, MAX_CELLS, MIN_CELLS, Table, curves};
+use jred::table::{Layout, MAX_CELLS, MIN_CELLS, curves};
 use jred::tabulate::{self, Request, Tabulated};
-use jred::{Domain, Error, Image, Machine, Model, Reducible as _, Scalar, Scale, Usage, Validity};
+use jred::{Domain, Error, Machine, Reducible as _, Scale, Usage};
 
 use super::choice::{LayoutName, Number};
-use super::reference::{Reference, Remembered};
-use super::ticks::{self, Ticks};
+use super::kind::{Kind, Made, Size};
+use super::reference::{Curves, Reference, Remembered};
+use super::ticks::Ticks;
 use crate::machine::AnyMechanism;
 
 /// Sizes up to this one are all tried.
@@ -24,9 +25,13 @@ pub struct Candidate {
     pub layout: LayoutName,
     /// Set of [`curves`].
     pub curves: u8,
-    /// How exact it is.
+    /// How exact its curves are.
     pub found: Tabulated,
-    /// The same of its ticks.
+    /// The largest error of the drive torque (N·m, or N): of the curves and of the ticks.
+    pub error: f64,
+    /// Its torque error at the places of the search alone (N·m, or N).
+    pub looked: f64,
+    /// How exact its ticks are.
     pub ticks: Ticks,
     /// How much of the number range each quantity uses.
     pub usage: Usage,
@@ -76,7 +81,7 @@ pub(super) struct Goal {
 /// A search for one machine.
 pub(super) struct Search<'m> {
     pub(super) machine: &'m Machine<AnyMechanism>,
-    knots: Remembered<'m, Machine<AnyMechanism>>,
+    pub(super) knots: Remembered<'m, Machine<AnyMechanism>>,
     pub(super) domain: Domain,
     pub(super) reference: Reference,
     pub(super) goal: Goal,
@@ -103,42 +108,51 @@ impl<'m> Search<'m> {
     ///
     /// # Errors
     /// Those of the machine.
-    pub(super) fn run<S: Scalar, L: Layout>(
+    pub(super) fn run<K: Kind>(
         &self,
         number: Number,
         layout: LayoutName,
     ) -> Result<Answer, Error> {
-        let reciprocal = if self.goal.reciprocal && S::FIXED {
+        let reciprocal = if self.goal.reciprocal && K::RECIPROCAL {
             curves::RECIPROCAL
         } else {
             0
         };
-        let mut attempt = Attempt::<S, L> {
+        let mut attempt = Attempt::<K> {
             search: self,
             number,
             layout,
             set: self.set | reciprocal,
             scale: number.scale(self.machine, self.goal.range)?,
-            buffers: Buffers {
-                scratch: Vec::new(),
-                words: Vec::new(),
-            },
+            buffers: K::Buffers::default(),
             worst: 0,
             refused: None,
-            kinds: std::marker::PhantomData,
         };
         attempt.run()
     }
 
-    /// The bound of the torque error of a table in double precision: what is left without roundings.
-    pub(super) fn without_rounding<L: Layout>(&self, cells: u32) -> Result<f64, Error> {
+    /// The torque error of a table in double precision, which is what is left without roundings, and where it is largest.
+    pub(super) fn without_rounding<L: Layout>(&self, cells: u32) -> Result<(f64, f64), Error> {
         let mut scratch = vec![0.0; tabulate::scratch_len(cells, self.set)];
         let mut words = vec![0.0f64; tabulate::words_len::<L>(cells, self.set)];
         let (scale, words) = (&Scale::SI, words.as_mut_slice());
         let table =
             tabulate::fill::<f64, L>(&self.knots, self.set, cells, scale, &mut scratch, words)?;
+        let per_position = f64::from(cells) / self.domain.span();
+        let read = |phase| {
+            let read = table.at(phase);
+            Curves {
+                inertia: read.inertia,
+                slope: read.inertia_slope * per_position,
+                load: read.load,
+                viscous: read.viscous,
+                coulomb: read.coulomb,
+            }
+        };
         let all = (0, f64::INFINITY);
-        Ok(self.reference.error(&table, scale, self.goal.range, all).0)
+        let (error, index) = self.reference.error(read, self.goal.range, all);
+        let worst = self.reference.places.get(index);
+        Ok((error, worst.map_or(0.0, |place| place.phi)))
     }
 }
 
@@ -149,21 +163,20 @@ fn growing(most: u32) -> impl Iterator<Item = u32> {
     })
 }
 
-struct Attempt<'s, S: Scalar, L: Layout> {
+struct Attempt<'s, K: Kind> {
     search: &'s Search<'s>,
     number: Number,
     layout: LayoutName,
     set: u8,
     scale: Scale,
-    buffers: Buffers<S>,
+    buffers: K::Buffers,
     /// Index of the place where the table before was worst: the next one is looked at there first.
     worst: usize,
     /// Why the last size that was refused was.
     refused: Option<Error>,
-    kinds: std::marker::PhantomData<L>,
 }
 
-impl<S: Scalar, L: Layout> Attempt<'_, S, L> {
+impl<'s, K: Kind> Attempt<'s, K> {
     fn run(&mut self) -> Result<Answer, Error> {
         let goal = self.search.goal;
         let Some(most) = self.most_cells() else {
@@ -180,13 +193,13 @@ impl<S: Scalar, L: Layout> Attempt<'_, S, L> {
         };
         let candidate = Box::new(candidate);
         Ok(match goal.torque_error {
-            Some(allowed) if candidate.found.bound > allowed => Answer::Misses(candidate),
+            Some(allowed) if candidate.error > allowed => Answer::Misses(candidate),
             _ => Answer::Meets(candidate),
         })
     }
 
     fn bytes(&self, cells: u32) -> usize {
-        4 * jred::image_words::<S, L>(cells, self.set)
+        K::bytes(cells, self.set)
     }
 
     /// The most cells that may be tried; `None` if not even the fewest fit.
@@ -262,70 +275,62 @@ impl<S: Scalar, L: Layout> Attempt<'_, S, L> {
         Ok(None)
     }
 
-    fn scale_for(&self, cells: u32) -> Scale {
-        if S::FIXED {
-            self.scale.for_cells(cells, self.search.domain.span())
-        } else {
-            self.scale
+    fn size(&self, cells: u32) -> Size<'s> {
+        Size {
+            search: self.search,
+            set: self.set,
+            cells,
+            scale: K::scale(self.scale, cells, self.search.domain.span()),
         }
     }
 
     /// The bound of the torque error of this size at the places of the reference; `None` if it is above `limit`, or if the
     /// size gives no sound table.
     fn look(&mut self, cells: u32, limit: f64) -> Result<Option<f64>, Error> {
-        let scale = self.scale_for(cells);
-        let (search, set) = (self.search, self.set);
-        let table = match fill::<S, L>(search, set, cells, &scale, &mut self.buffers) {
-            Ok(table) => table,
-            Err(error) => return self.refuse(error),
-        };
-        let start = (self.worst, limit);
-        let (error, worst) = search
-            .reference
-            .error(&table, &scale, search.goal.range, start);
-        self.worst = worst;
-        Ok((error <= limit).then_some(error))
+        let size = self.size(cells);
+        match K::look(&size, &mut self.buffers, (self.worst, limit)) {
+            Ok((error, worst)) => {
+                self.worst = worst;
+                Ok((error <= limit).then_some(error))
+            }
+            Err(error) => self.refuse(error),
+        }
     }
 
     /// This size, if it meets the limit everywhere.
     fn make(&mut self, cells: u32, limit: f64) -> Result<Option<Candidate>, Error> {
-        if self.look(cells, limit)?.is_none() {
+        let Some(looked) = self.look(cells, limit)? else {
             return Ok(None);
-        }
-        let scale = self.scale_for(cells);
-        let (search, set) = (self.search, self.set);
-        let table = fill::<S, L>(search, set, cells, &scale, &mut self.buffers)?;
-        let [omega, alpha] = search.goal.range;
+        };
+        let [omega, alpha] = self.search.goal.range;
         let request = Request {
             torque_error: limit,
             omega,
             alpha,
             max_cells: cells,
         };
-        let found = tabulate::measure(search.machine, &table, &request, &scale)?;
-        if found.bound > limit {
-            return Ok(None);
-        }
-        let span = S::span(search.domain);
-        let usage = Model::<S, 0, L>::usage(&table, span, &scale).map_err(Error::Table)?;
-        let mut words = vec![0; jred::image_words::<S, L>(cells, set)];
-        let validity = Validity {
-            torque_error: not_below(found.bound),
-            ..found.validity(&request)
-        };
-        jred::encode(&table, search.domain, &scale, validity, &mut words)?;
-        let row_bytes = size_of_val(table.words());
-        // What firmware will do with it: what it would refuse shows here, not there.
-        let image = Image::new(&words).map_err(ticks::refusal)?;
-        let ticks = match ticks::measure::<S, L>(&image, &search.reference, search.goal.range) {
-            Ok(ticks) => ticks,
+        let size = self.size(cells);
+        let made = match K::make(&size, &mut self.buffers, &request, looked) {
+            Ok(Some(made)) => made,
+            Ok(None) => return Ok(None),
             Err(error) => return self.refuse(error),
         };
+        let scale = size.scale;
+        let Made {
+            found,
+            error,
+            usage,
+            ticks,
+            row_bytes,
+            words,
+        } = made;
         Ok(Some(Candidate {
             number: self.number,
             layout: self.layout,
-            curves: set,
+            curves: self.set,
             found,
+            error,
+            looked,
             ticks,
             usage,
             scale,
@@ -343,37 +348,5 @@ impl<S: Scalar, L: Layout> Attempt<'_, S, L> {
             }
             error => Err(error),
         }
-    }
-}
-
-struct Buffers<S: Scalar> {
-    scratch: Vec<f64>,
-    words: Vec<S::Word>,
-}
-
-/// The table of this size, checked for the tick.
-fn fill<'w, S: Scalar, L: Layout>(
-    search: &Search<'_>,
-    set: u8,
-    cells: u32,
-    scale: &Scale,
-    buffers: &'w mut Buffers<S>,
-) -> Result<Table<'w, S, L>, Error> {
-    let zero = bytemuck::Zeroable::zeroed();
-    let Buffers { scratch, words } = buffers;
-    scratch.resize(tabulate::scratch_len(cells, set), 0.0);
-    words.resize(tabulate::words_len::<L>(cells, set), zero);
-    let table = tabulate::fill::<S, L>(&search.knots, set, cells, scale, scratch, words)?;
-    Model::<S, 0, L>::usage(&table, S::span(search.domain), scale).map_err(Error::Table)?;
-    Ok(table)
-}
-
-/// The nearest number in single precision that is not below.
-fn not_below(value: f64) -> f32 {
-    let nearest = value as f32;
-    if f64::from(nearest) < value {
-        nearest.next_up()
-    } else {
-        nearest
     }
 }

@@ -97,8 +97,20 @@ fn wrong_command_lines() {
             &["reduce", press, "--over", "space"],
             &["space", "angle", "time"],
         ),
-        (&["export", press, "--torque-error", "1 N m"], &["--out"]),
         (&["export", press, "--out", "x"], &["--torque-error"]),
+        (
+            &["export", press, "--torque-error", "1 N m", "--type", "q31"],
+            &["q31", "f32", "i32", "i16"],
+        ),
+        (
+            &["export", press, "--torque-error", "1 N m", "--layout", "linear"],
+            &["linear", "auto", "spline16", "quadratic"],
+        ),
+        (
+            &["export", press, "--torque-error", "1 N m", "--reciprocal", "maybe"],
+            &["maybe", "yes", "no"],
+        ),
+        (&["export", press, "--max-bytes", "-1"], &["-1"]),
     ] {
         let done = run(arguments).ends(2);
         done.says(words);
@@ -128,7 +140,8 @@ fn wrong_quantities_on_the_command_line() {
         ("--omega", "90 N m", &["rpm"]),
         ("--alpha", "fast", &["--alpha", "fast"]),
         ("--max-cells", "3", &["4"]),
-        ("--max-cells", "65537", &["65536"]),
+        ("--max-cells", "65536", &["65535"]),
+        ("--max-bytes", "many", &["many", "--max-bytes"]),
     ] {
         let mut more: Vec<String> = ok.map(String::from).into();
         if let Some(at) = more.iter().position(|o| o == option) {

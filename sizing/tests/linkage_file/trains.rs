@@ -63,7 +63,7 @@ fn a_ball_screw_lets_a_motor_turn() {
         &"--out",
         &out,
         &"--torque-error",
-        &"5 N m",
+        &"5 N",
     ]);
     assert!(
         exported.code < 2 && (exported.code == 1 || exported.out.contains("force error reached")),

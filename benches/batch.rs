@@ -1,0 +1,371 @@
+//! Inverse dynamics of a million samples, beside NumPy on the same table, and the time that a table takes to make.
+//!
+//! ```text
+//! cargo bench -p jred --bench batch --profile firmware
+//! ```
+//!
+//! Times depend on the machine, so they are judged in times of one sine with cosine in the same run, by `ceilings.txt`. NumPy is
+//! run by `python3 benches/batch.py` where there is one; its torques are compared with these. docs/performance.md has the results.
+#![cfg(not(target_os = "none"))]
+
+#[path = "support/clock.rs"]
+mod clock;
+mod support;
+
+use std::f64::consts::TAU;
+use std::hint::black_box;
+use std::path::Path;
+use std::process::{Command, ExitCode};
+use std::time::Instant;
+use std::{fs, io};
+
+use bytemuck::Zeroable;
+use clock::Report;
+use jred::harmonic::{self, terms};
+use jred::mechanism::{Branch, SliderCrank};
+use jred::table::{Cubic, Layout, Quadratic, Spline, Spline16, curves};
+use jred::tabulate::{Request, fill, scratch_len, tabulate, words_len};
+use jred::{
+    Action, Error, Link, Load, Machine, Model, Phase, Q31, Reducible, Scalar, Scale, Table,
+};
+
+/// Samples of a batch.
+const SAMPLES: usize = 1_000_000;
+/// Cells of the batch's table.
+const CELLS: u32 = 128;
+/// Its curves: inertia and load, constant friction.
+const SET: u8 = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+/// Largest speed and acceleration (rad/s, rad/s²).
+const OMEGA: f64 = 60.0;
+const ALPHA: f64 = 400.0;
+/// Largest difference between two batches in f32, of the largest torque: roundings of 2⁻²⁴ in a tick and in the place.
+const DIFFERENCE: f64 = 1e-6;
+
+/// λ = 0.25, 10 kg at the slider, largest inertia 5.25 times the least; weight acts along the guide.
+fn slider_crank() -> Result<Machine<SliderCrank>, Error> {
+    let massless = Link::new(0.0, 0.0, [0.0, 0.0])?;
+    let slider = Link::new(10.0, 0.0, [0.0, 0.0])?;
+    let links = [massless, massless, slider];
+    let mechanism = SliderCrank::new(0.05, 0.2, 0.0, Branch::Right, links)?;
+    Machine::new(mechanism)
+        .with_gravity([9.81, 0.0])?
+        .with_flywheel(0.0063)
+}
+
+/// With friction at the crank.
+fn with_friction() -> Result<Machine<SliderCrank>, Error> {
+    let crank = SliderCrank::CRANK;
+    slider_crank()?
+        .with_load(Load::new(crank, Action::ViscousMoment(0.02))?)?
+        .with_load(Load::new(crank, Action::OpposingMoment(0.3))?)
+}
+
+/// The largest torque in the range (N·m).
+fn peak(machine: &impl Reducible) -> Result<f64, Error> {
+    let mut most = 0.0f64;
+    for k in 0..3600 {
+        let point = machine.reduction(f64::from(k) * TAU / 3600.0)?;
+        for alpha in [ALPHA, -ALPHA] {
+            most = most.max(point.torque(OMEGA, alpha).total().abs());
+        }
+    }
+    Ok(most)
+}
+
+/// Phases, speeds, accelerations, and room for torques.
+struct Batch<S> {
+    phases: Vec<Phase>,
+    omegas: Vec<S>,
+    alphas: Vec<S>,
+    torques: Vec<S>,
+}
+
+impl<S: Scalar> Batch<S> {
+    /// Phases of a turn in order, or one after another far away: 2³²/φ apart, φ the golden ratio.
+    fn new(ordered: bool) -> Self {
+        let step = if ordered { 4295 } else { 0x9e37_79b9 };
+        let wave = |k: u32, step: f64, size: f64| {
+            S::from_f64((f64::from(k) * step).sin() * size).unwrap_or_default()
+        };
+        let each = || 0..SAMPLES as u32;
+        Self {
+            phases: each()
+                .map(|k| Phase::from_bits(k.wrapping_mul(step)))
+                .collect(),
+            omegas: each().map(|k| wave(k, 0.010, OMEGA)).collect(),
+            alphas: each().map(|k| wave(k, 0.013, ALPHA)).collect(),
+            torques: vec![S::default(); SAMPLES],
+        }
+    }
+
+    /// Time of all samples (s), of one run.
+    fn run<L: Layout>(&mut self, model: &Model<'_, S, SET, L>) -> f64 {
+        let start = Instant::now();
+        let count = model.torques(
+            black_box(&self.phases),
+            black_box(&self.omegas),
+            black_box(&self.alphas),
+            black_box(&mut self.torques),
+        );
+        let time = start.elapsed().as_secs_f64();
+        assert_eq!(count, SAMPLES);
+        time
+    }
+}
+
+/// The words of the table, filled.
+fn words<S: Scalar, L: Layout>(
+    machine: &impl Reducible,
+) -> Result<(Vec<S::Word>, jred::table::Constants<S::Word>), Error> {
+    let mut scratch = vec![0.0; scratch_len(CELLS, SET)];
+    let mut words = vec![S::Word::zeroed(); words_len::<L>(CELLS, SET)];
+    let constants =
+        fill::<S, L>(machine, SET, CELLS, &Scale::SI, &mut scratch, &mut words)?.constants();
+    Ok((words, constants))
+}
+
+/// Runs of a batch: 3 ms each, so that some of them are not interrupted.
+const BATCHES: u32 = 31;
+
+/// Both orders of phases with one number type and layout.
+fn batch<S: Scalar, L: Layout>(report: &mut Report, machine: &impl Reducible) -> Result<(), Error> {
+    let (words, constants) = words::<S, L>(machine)?;
+    let table = Table::with_constants(&words, constants, SET, CELLS, true).map_err(Error::Table)?;
+    let model = Model::<S, SET, L>::for_domain(table, machine.domain(), &Scale::SI)
+        .map_err(Error::Table)?;
+    for (order, ordered) in [("ordered", true), ("random", false)] {
+        let mut batch = Batch::<S>::new(ordered);
+        let first = batch.run(&model);
+        let name = format!("batch-{}-{}-{order}", S::NAME, L::NAME);
+        let hundred = 100.0 / SAMPLES as f64;
+        report.cost(
+            &name,
+            || {
+                let runs = (0..BATCHES).map(|_| batch.run(&model));
+                runs.fold(f64::INFINITY, f64::min) * hundred
+            },
+            |time| {
+                let rate = 1e-6 * 100.0 / time;
+                let first = 1e-6 * SAMPLES as f64 / first;
+                format!("{:9.2} {rate:9.0} {first:9.0}", time * 1e7)
+            },
+        );
+    }
+    Ok(())
+}
+
+/// NumPy with the same cubic table and samples.
+fn numpy(machine: &impl Reducible, peak: f64) -> Result<u32, Error> {
+    let (words, constants) = words::<f32, Cubic>(machine)?;
+    let table = Table::with_constants(&words, constants, SET, CELLS, true).map_err(Error::Table)?;
+    let model = Model::<f32, SET, Cubic>::for_domain(table, machine.domain(), &Scale::SI)
+        .map_err(Error::Table)?;
+    let mut failures = 0;
+    for (order, ordered) in [("ordered", true), ("random", false)] {
+        let mut batch = Batch::<f32>::new(ordered);
+        let mut own = (0..BATCHES)
+            .map(|_| batch.run(&model))
+            .fold(f64::INFINITY, f64::min);
+        let [viscous, coulomb] = [constants.viscous, constants.coulomb];
+        let torques = match numpy_torques(&words, [viscous, coulomb], &batch) {
+            Ok(Some(answer)) => answer,
+            Ok(None) => {
+                println!(
+                    "NUMPY IS MISSING (python3 -c 'import numpy' fails): not compared with it"
+                );
+                return Ok(failures);
+            }
+            Err(error) => {
+                println!("FAILED: benches/batch.py: {error}");
+                return Ok(failures + 1);
+            }
+        };
+        // The other half of the runs after it: both see the same machine.
+        own = own.min(
+            (0..BATCHES)
+                .map(|_| batch.run(&model))
+                .fold(f64::INFINITY, f64::min),
+        );
+        let (version, time, torques) = torques;
+        let pairs = batch.torques.iter().zip(&torques);
+        let difference = pairs.map(|(a, b)| f64::from((a - b).abs())).fold(
+            if torques.len() == SAMPLES {
+                0.0
+            } else {
+                f64::NAN
+            },
+            f64::max,
+        );
+        println!(
+            "{order:8} NumPy {version}: {:.1} M/s, jred {:.0} M/s: {:.0} times as many; largest difference {:.1e} of the peak torque",
+            1e-6 * SAMPLES as f64 / time,
+            1e-6 * SAMPLES as f64 / own,
+            time / own,
+            difference / peak,
+        );
+        if !(difference <= DIFFERENCE * peak) {
+            println!("FAILED: NumPy and jred differ by more than {DIFFERENCE:e}");
+            failures += 1;
+        }
+    }
+    Ok(failures)
+}
+
+type Numpy = (String, f64, Vec<f32>);
+
+/// NumPy's version, its best time (s) and its torques; `None` without NumPy.
+fn numpy_torques(
+    words: &[f32],
+    constants: [f32; 2],
+    batch: &Batch<f32>,
+) -> io::Result<Option<Numpy>> {
+    let there = Command::new("python3")
+        .args(["-c", "import numpy"])
+        .output();
+    if !there.is_ok_and(|output| output.status.success()) {
+        return Ok(None);
+    }
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    fs::create_dir_all(folder)?;
+    let phases: Vec<u32> = batch.phases.iter().map(|p| p.to_bits()).collect();
+    for (name, bytes) in [
+        ("table", bytemuck::cast_slice(words)),
+        ("constants", bytemuck::cast_slice(&constants)),
+        ("phase", bytemuck::cast_slice(&phases)),
+        ("omega", bytemuck::cast_slice(&batch.omegas)),
+        ("alpha", bytemuck::cast_slice(&batch.alphas)),
+    ] {
+        fs::write(folder.join(name), bytes)?;
+    }
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/batch.py");
+    let output = Command::new("python3").arg(script).arg(folder).output()?;
+    if !output.status.success() {
+        return Err(io::Error::other(String::from_utf8_lossy(&output.stderr)));
+    }
+    let answer = String::from_utf8_lossy(&output.stdout);
+    let mut answer = answer.split_whitespace();
+    let version = answer.next().unwrap_or_default().to_owned();
+    let time = answer.next().and_then(|time| time.parse().ok());
+    let time = time.ok_or_else(|| io::Error::other("no time"))?;
+    let torques = fs::read(folder.join("torque"))?;
+    let (numbers, _) = torques.as_chunks::<4>();
+    let torques = numbers.iter().map(|bytes| f32::from_le_bytes(*bytes));
+    Ok(Some((version, time, torques.collect())))
+}
+
+/// Most cells of a table that is looked for.
+const MOST: u32 = 16_384;
+
+/// The smallest table for an error, as a share of the peak torque.
+fn table<S: Scalar, L: Layout>(
+    report: &mut Report,
+    machine: &impl Reducible,
+    peak: f64,
+    share: f64,
+    scale: &Scale,
+) -> Result<(), Error> {
+    let set = curves::LOAD;
+    let request = Request {
+        torque_error: share * peak,
+        omega: OMEGA,
+        alpha: ALPHA,
+        max_cells: MOST,
+    };
+    let mut scratch = vec![0.0; scratch_len(MOST, set)];
+    let mut words = vec![S::Word::zeroed(); words_len::<L>(MOST, set)];
+    let mut run = || tabulate::<S, L>(machine, set, &request, scale, &mut scratch, &mut words);
+    let found = run()?;
+    report.cost(
+        &format!("table-{}-{}-{share:e}", S::NAME, L::NAME),
+        || {
+            clock::best(|| {
+                black_box(run()).ok();
+            })
+        },
+        |time| format!("{:9.3} {:9} cells", time * 1e3, found.cells),
+    );
+    Ok(())
+}
+
+/// The fewest harmonics for an error.
+fn harmonics<T: harmonic::Circular>(
+    report: &mut Report,
+    name: &str,
+    machine: &impl Reducible,
+    peak: f64,
+    share: f64,
+) -> Result<(), Error> {
+    const SET: u8 = curves::LOAD;
+    const TERMS: u8 = terms::SYMMETRIC;
+    const MOST: u32 = 16;
+    let request = harmonic::Request {
+        torque_error: share * peak,
+        omega: OMEGA,
+        alpha: ALPHA,
+        max_harmonics: MOST,
+    };
+    let mut scratch = [0.0; harmonic::scratch_len(MOST)];
+    let mut words = vec![T::from_f64(0.0); harmonic::words_len(MOST, SET, TERMS)];
+    let mut run = || harmonic::fit::<T, SET, TERMS>(machine, &request, &mut scratch, &mut words);
+    let found = run()?;
+    report.cost(
+        &format!("harmonics-{name}-{share:e}"),
+        || {
+            clock::best(|| {
+                black_box(run()).ok();
+            })
+        },
+        |time| format!("{:9.3} {:9} harmonics", time * 1e3, found.harmonics),
+    );
+    Ok(())
+}
+
+fn run() -> Result<u32, Error> {
+    let mut report = Report::default();
+    println!(
+        "reference: one sine with cosine, {:.1} ns",
+        clock::sin_cos() * 1e9
+    );
+
+    let machine = with_friction()?;
+    println!(
+        "\n{SAMPLES} torques     ns a sample, million/s, the same at the first touch, sines a hundred samples"
+    );
+    batch::<f32, Cubic>(&mut report, &machine)?;
+    batch::<f32, Spline>(&mut report, &machine)?;
+    batch::<f64, Cubic>(&mut report, &machine)?;
+    batch::<f64, Spline>(&mut report, &machine)?;
+    println!();
+    let failures = numpy(&machine, peak(&machine)?)?;
+
+    let machine = slider_crank()?;
+    let peak = peak(&machine)?;
+    let covering = Scale::covering(&machine, OMEGA, ALPHA, 1440)?;
+    println!("\ntable for an error                ms, size, sines");
+    let report = &mut report;
+    table::<Q31, Spline16>(report, &machine, peak, 1e-3, &covering)?;
+    table::<Q31, Quadratic>(report, &machine, peak, 1e-4, &covering)?;
+    table::<Q31, Spline>(report, &machine, peak, 1e-6, &covering)?;
+    table::<f32, Cubic>(report, &machine, peak, 1e-6, &Scale::SI)?;
+    table::<f64, Cubic>(report, &machine, peak, 1e-6, &Scale::SI)?;
+    table::<f64, Spline>(report, &machine, peak, 1e-6, &Scale::SI)?;
+    table::<f64, Spline>(report, &machine, peak, 1e-9, &Scale::SI)?;
+    harmonics::<f32>(report, "f32", &machine, peak, 1e-6)?;
+    harmonics::<f64>(report, "f64", &machine, peak, 1e-6)?;
+    harmonics::<f64>(report, "f64", &machine, peak, 1e-9)?;
+    Ok(report.failures() + failures)
+}
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(0) => ExitCode::SUCCESS,
+        Ok(failures) => {
+            println!("{failures} out of bounds");
+            ExitCode::FAILURE
+        }
+        Err(error) => {
+            println!("FAILED: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}

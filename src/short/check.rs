@@ -1,0 +1,221 @@
+//! What is proven of a table when it is built: no number leaves its range in a tick.
+//!
+//! A line is greatest at an end of its cell, a quadratic stays within its Bézier points: the bounds hold everywhere in a cell. They
+//! are integers, for arguments −1 … 1, both ends included, and count every rounding of the tick.
+
+use super::Table;
+use super::row::{self, has};
+use crate::Scale;
+use crate::model::Usage;
+use crate::scalar::Kernel;
+use crate::table::{TableError, curves};
+
+/// One unit of the upper half of a word.
+const UNIT: i64 = 1 << 16;
+
+/// A word as a line: its start and rise over the cell, in units of 2⁻¹⁶ of the upper half's.
+fn line(word: u32) -> [i64; 2] {
+    [i64::from(word as i32), i64::from(word as i16) << 16]
+}
+
+/// The smallest and the largest value of a line in the tick, if they are in this range.
+fn line_range(word: u32, range: [i64; 2]) -> Option<[i64; 2]> {
+    let [start, rise] = line(word);
+    let ends = [start >> 16, (start + rise) >> 16];
+    let [least, most] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+    (least >= range[0] && most <= range[1]).then_some([least, most])
+}
+
+/// The Bézier points of a quadratic start + (line + difference·u)·u.
+fn bezier(start: i64, word: u32) -> [i64; 3] {
+    let [slope, rise] = line(word);
+    [start, start + slope / 2, start + slope + rise]
+}
+
+fn largest(points: &[i64]) -> i64 {
+    points.iter().fold(0, |most, p| most.max(p.abs()))
+}
+
+const SIGNED: [i64; 2] = [-32_768, 32_767];
+
+/// The largest size of each quantity in a cell.
+#[derive(Clone, Copy)]
+struct Most {
+    /// Q16
+    inertia: i64,
+    /// Q15
+    velocity: i64,
+    /// Q31
+    load: i64,
+    /// Q30
+    viscous: i64,
+    /// Q31
+    coulomb: i64,
+}
+
+impl Most {
+    /// The largest torque, Q31.
+    fn torque(&self) -> i64 {
+        // (V·ω + b) is rounded to Q16 by a floor after half a unit more.
+        let of_speed = (((self.velocity << 15) + self.viscous + (1 << 13)) >> 14) + 1;
+        // Half a unit of 2⁻¹⁵ more rounds the torque.
+        (self.inertia << 15) + (of_speed << 15) + self.load + self.coulomb + (1 << 15)
+    }
+
+    fn usage(&self) -> Usage {
+        let per_unit = |most: i64, bits: u32| most as f32 / (1u64 << bits) as f32;
+        Usage {
+            inertia: per_unit(self.inertia, 16),
+            velocity: per_unit(self.velocity, 15),
+            load: per_unit(self.load, 31),
+            viscous: per_unit(self.viscous, 30),
+            coulomb: per_unit(self.coulomb, 31),
+            torque: per_unit(self.torque(), 31),
+        }
+    }
+
+    fn of(table: &Table<'_>, cell: u32) -> Result<Self, TableError> {
+        let set = table.curves();
+        let constants = table.constants();
+        let row = table.rows.get(cell as usize, set).unwrap_or_default();
+        let word = |index| row::at(row, index);
+        let range = |index: usize| TableError::Range {
+            curve: index as u8,
+            cell,
+        };
+        let signed = |index| {
+            let range = line_range(word(index), SIGNED).ok_or(range(index))?;
+            Ok::<_, TableError>(largest(&range))
+        };
+        let start = word(row::start(set));
+
+        signed(row::inertia(set))?;
+        let points = bezier(i64::from(start), word(row::inertia(set)));
+        // The tick's floors take up to a unit of Q16 off.
+        if points.iter().any(|p| *p < 2 * UNIT) {
+            return Err(TableError::NoInertia { cell });
+        }
+        let inertia = largest(&points);
+        if inertia >= 1 << 32 {
+            return Err(range(row::inertia(set)));
+        }
+
+        let mut load = 0;
+        if has(set, curves::LOAD) {
+            signed(0)?;
+            load = largest(&bezier(i64::from(start as i16) << 16, word(0))) + UNIT;
+        }
+        let mut viscous = 0;
+        if has(set, curves::VISCOUS) {
+            viscous = signed(row::viscous(set))? << 15;
+        }
+        if has(set, curves::CONSTANT_VISCOUS) {
+            viscous += i64::from(constants.viscous).abs();
+        }
+        let mut coulomb = 0;
+        if has(set, curves::COULOMB) {
+            coulomb = signed(row::coulomb(set))? << 16;
+        }
+        if has(set, curves::CONSTANT_COULOMB) {
+            coulomb += i64::from(constants.coulomb).abs();
+        }
+        Ok(Self {
+            inertia: (inertia >> 16) + 1,
+            velocity: signed(row::velocity(set))?,
+            load,
+            viscous,
+            coulomb,
+        })
+    }
+}
+
+/// Every cell, for [`Table::new`].
+pub(super) fn all(table: &Table<'_>) -> Result<(), TableError> {
+    // Of 1/J, beyond what the tick rounds away where J is large.
+    const RECIPROCAL: f32 = 0.02;
+    let set = table.curves();
+    for cell in 0..table.cells() {
+        if Most::of(table, cell)?.torque() > i64::from(i32::MAX) {
+            return Err(TableError::TorqueRange { cell });
+        }
+        if has(set, curves::RECIPROCAL) {
+            let refused = TableError::Reciprocal { cell };
+            let error = reciprocal_error_in(table, cell).ok_or(refused)?;
+            if error.is_nan() || error >= RECIPROCAL {
+                return Err(refused);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A bound on |J·(1/J) − 1| in a cell, by the Bézier points of that cubic; `None` if 1/J leaves its range.
+fn reciprocal_error_in(table: &Table<'_>, cell: u32) -> Option<f32> {
+    const UNSIGNED: [i64; 2] = [1, 32_767];
+    let set = table.curves();
+    let row = table.rows.get(cell as usize, set)?;
+    let word = row::at(row, row::reciprocal(set));
+    let [least, _] = line_range(word, UNSIGNED)?;
+    let unit = match table.constants().shift {
+        shift @ 0..=15 => (UNIT << shift) as f32,
+        _ => return None,
+    };
+    let [start, rise] = line(word);
+    let [r0, r1] = [start, start + rise].map(|r| r as f32 / unit);
+    let points = bezier(
+        i64::from(row::at(row, row::start(set))),
+        row::at(row, row::inertia(set)),
+    );
+    let [j0, j1, j2] = points.map(|j| j as f32 / 4_294_967_296.0);
+    let product = [
+        j0 * r0,
+        (j0 * r1 + 2.0 * j1 * r0) / 3.0,
+        (2.0 * j1 * r1 + j2 * r0) / 3.0,
+        j2 * r1,
+    ];
+    let off = product
+        .iter()
+        .fold(0.0f32, |most, p| most.max((p - 1.0).abs()));
+    // The tick takes floors of both.
+    let smallest = j0.min(j1).min(j2) * 65_536.0;
+    Some(off + 1.0 / least as f32 + 1.0 / smallest)
+}
+
+/// The largest of all cells.
+pub(super) fn reciprocal_error(table: &Table<'_>) -> f32 {
+    (0..table.cells())
+        .filter_map(|cell| reciprocal_error_in(table, cell))
+        .fold(0.0, f32::max)
+}
+
+/// Whether V is what the slope of J makes of it in these machine units, but for the roundings of their numbers.
+pub(super) fn velocity(table: &Table<'_>, span: f32, scale: &Scale) -> Result<(), TableError> {
+    let set = table.curves();
+    let factor = <f32 as Kernel>::velocity_factor(table.cells(), span, scale, 1)
+        .ok_or(TableError::SpeedBase)?;
+    // Two numbers of J's, one of them counted twice, and two of V's, each to a unit and a half.
+    let limit = 4.5 * factor / 65_536.0 + 3.0 / 32_768.0;
+    for cell in 0..table.cells() {
+        let row = table.rows.get(cell as usize, set).unwrap_or_default();
+        let [slope, twice] = line(row::at(row, row::inertia(set)));
+        let [start, rise] = line(row::at(row, row::velocity(set)));
+        for (slope, velocity) in [(slope, start), (slope + 2 * twice, start + rise)] {
+            let expected = factor * (slope as f32 / 4_294_967_296.0);
+            let off = (velocity as f32 / 2_147_483_648.0 - expected).abs();
+            if off.is_nan() || off > limit {
+                return Err(TableError::Slope { cell });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// How much of the number range each quantity of a table uses at most, over all phases and at full speed and acceleration: 1 is
+/// all of it.
+#[must_use]
+pub fn usage(table: &Table<'_>) -> Usage {
+    // Every cell was found sound when the table was built.
+    (0..table.cells())
+        .filter_map(|cell| Most::of(table, cell).ok())
+        .fold(Usage::default(), |all, most| all.or(most.usage()))
+}

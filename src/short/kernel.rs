@@ -1,0 +1,134 @@
+//! The arithmetic of a tick over 16-bit rows: the same bits on every processor.
+//!
+//! Qn is an integer in units of 2⁻ⁿ. All products fit into 32 bits, so that one short multiplication is enough:
+//!
+//! | | bits | limit |
+//! |---|---|---|
+//! | a line's difference times the place | i16·u16 | 2¹⁵·(2¹⁶ − 1) < 2³¹ |
+//! | J·α | u16·i16 | (2¹⁶ − 1)·2¹⁵ < 2³¹ |
+//! | V·ω + b, Q30 | i16·i16, and b | < 2³¹ |
+//! | T − resisting, times 1/J | 17 bits·u15 | 65535·32767 < 2³¹ |
+//!
+//! The product (V·ω + b)·ω and the partial sums may wrap: they are taken modulo 2³², and only the whole sum counts, of
+//! which [`Table`](super::Table) knows that it fits.
+
+#![allow(
+    clippy::inline_always,
+    reason = "inlined later, each function has been optimised for itself: loads move out of branches and past fences"
+)]
+
+use crate::scalar::Outcome;
+use crate::{Phase, Q15};
+
+/// A compiler fence where the processor has no long multiplication, nothing elsewhere. No instruction; no value depends on it.
+///
+/// Such a core works with eight registers. The fence keeps the loads of one term behind the term before, or the compiler
+/// loads everything first and spills it to the stack: 9 instructions more in the inverse tick.
+#[inline(always)]
+pub(super) fn fence() {
+    #[cfg(short_multiply)]
+    core::sync::atomic::compiler_fence(core::sync::atomic::Ordering::SeqCst);
+}
+
+/// The cell, and the place in it in units of 2⁻¹⁶ of a cell.
+#[inline(always)]
+pub(super) fn locate(phase: Phase, cells: u32) -> (usize, i32) {
+    let (cell, fraction) = crate::phase::cell_short(phase.to_bits(), cells);
+    (cell as usize, (fraction >> 16) as i32)
+}
+
+/// A line over the cell, from a word of its value (upper half) and difference: floor((word + difference·u)/2¹⁶).
+///
+/// The word goes in whole: its lower half adds up to one unit to the value, which [`fill`](super::fill()) takes into account.
+#[inline(always)]
+pub(super) fn line(word: u32, u: i32) -> i32 {
+    let difference = i32::from(word as i16);
+    (word as i32).wrapping_add(difference.wrapping_mul(u)) >> 16
+}
+
+/// J in Q16, of the words of its line and of its start.
+#[inline(always)]
+pub(super) fn inertia(line_word: u32, start: u32, u: i32) -> i32 {
+    let rise = line(line_word, u).wrapping_mul(u);
+    (start.wrapping_add(rise as u32) >> 16) as i32
+}
+
+/// −load in Q31, of the words of its line and of its start.
+#[inline(always)]
+pub(super) fn minus_load(sum: i32, line_word: u32, start: u32, u: i32) -> i32 {
+    let sum = sum.wrapping_add((start << 16) as i32);
+    sum.wrapping_add(line(line_word, u).wrapping_mul(u))
+}
+
+/// (V·ω + b)·ω in Q31, for V and ω in Q15 and b in Q30.
+#[inline(always)]
+pub(super) fn of_speed(velocity: i32, b: i32, omega: i32) -> i32 {
+    let coefficient = velocity.wrapping_mul(omega).wrapping_add(b) >> 14; // Q16
+    coefficient.wrapping_mul(omega)
+}
+
+/// V·ω² in Q15, for V and ω in Q15: both products rounded down.
+#[inline(always)]
+pub(super) fn of_speed_alone(velocity: i32, omega: i32) -> i32 {
+    (velocity.wrapping_mul(omega) >> 15).wrapping_mul(omega) >> 15
+}
+
+/// sum + c·sgn ω
+#[inline(always)]
+#[allow(
+    clippy::comparison_chain,
+    reason = "a match costs two instructions more"
+)]
+pub(super) fn add_signed(sum: i32, c: impl FnOnce() -> i32, omega: i32) -> i32 {
+    // c comes as a function, so that it is read within the branch: one register less is alive beside it.
+    if omega > 0 {
+        sum.wrapping_add(c())
+    } else if omega < 0 {
+        sum.wrapping_sub(c())
+    } else {
+        sum
+    }
+}
+
+/// A torque in Q31 as a number: the `Table` was checked, so it fits.
+#[inline(always)]
+pub(super) fn torque(sum: i32) -> Q15 {
+    Q15::from_bits((sum >> 16) as i16)
+}
+
+/// Limited to the range of the number, for a whole part of any size.
+#[inline(always)]
+pub(super) fn limited(x: i32) -> Outcome<Q15> {
+    if x >> 15 == x >> 31 {
+        return Outcome {
+            value: Q15::from_bits(x as i16),
+            saturated: false,
+        };
+    }
+    // Or the two ways are made one, and the way that most ticks take longer.
+    fence();
+    Outcome {
+        value: Q15::from_bits((x >> 31 ^ 0x7fff) as i16),
+        saturated: true,
+    }
+}
+
+/// net/J towards zero, for net in Q15 (17 bits) and J in Q16, greater than 0. One division of 32 bits, in software where
+/// the processor has none.
+#[inline(always)]
+pub(super) fn quotient(net: i32, inertia: i32) -> Outcome<Q15> {
+    let (magnitude, divisor) = (net.unsigned_abs(), inertia.unsigned_abs());
+    if magnitude << 1 >= divisor {
+        // |net/J| ≥ 1; −1 itself is given as saturated, too.
+        return Outcome {
+            value: if net < 0 { Q15::MIN } else { Q15::MAX },
+            saturated: true,
+        };
+    }
+    // Below 2¹⁵, because magnitude < divisor/2 < 2¹⁵; the divisor is not 0.
+    let quotient = (magnitude << 16).checked_div(divisor).unwrap_or(0) as i32;
+    Outcome {
+        value: Q15::from_bits(if net < 0 { -quotient } else { quotient } as i16),
+        saturated: false,
+    }
+}

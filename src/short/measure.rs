@@ -1,0 +1,84 @@
+//! How exact a table of 16-bit rows is.
+
+use super::Table;
+use crate::reduction::Reducible;
+use crate::tabulate::{CHECKS_PER_CELL, Request, Tabulated, scan};
+use crate::{Error, Phase, Scale, math};
+
+/// What the tick rounds away beside the curves, in units of the torque base: half a unit of the result, and half a unit of 2⁻¹⁶ of
+/// V·ω + b.
+pub(super) const TICK: f64 = 0.75 / 32_768.0;
+
+/// The largest torque error of a table within the range of the request.
+///
+/// As [`tabulate::measure`](crate::tabulate::measure), and the roundings of the tick in addition, at most ¾ of a unit of 2⁻¹⁵ of the
+/// torque base: with 16 bits they count. So at the places checked no tick within the range of the request, whose ω and α are numbers
+/// of the type, is off by more.
+///
+/// # Errors
+/// Those of the machine.
+pub fn measure(
+    machine: &impl Reducible,
+    table: &Table<'_>,
+    request: &Request,
+    scale: &Scale,
+) -> Result<Tabulated, Error> {
+    measure_until(
+        machine,
+        table,
+        request,
+        scale,
+        (0.0, CHECKS_PER_CELL),
+        false,
+    )
+}
+
+/// As [`measure`], from `start` on round the range at so many places a cell; if `stop`, only up to the first that misses.
+pub(super) fn measure_until(
+    machine: &impl Reducible,
+    table: &Table<'_>,
+    request: &Request,
+    scale: &Scale,
+    from: (f64, u32),
+    stop: bool,
+) -> Result<Tabulated, Error> {
+    let limit = stop.then_some(request.torque_error);
+    let found = scan(machine.domain(), table.cells(), limit, from, |phase| {
+        torque_error(machine, table, request, scale, phase)
+    })?;
+    Ok(Tabulated {
+        scale: *scale,
+        ..found
+    })
+}
+
+/// The bound at one phase, and where that is.
+fn torque_error(
+    machine: &impl Reducible,
+    table: &Table<'_>,
+    request: &Request,
+    scale: &Scale,
+    phase: Phase,
+) -> Result<(f64, f64), Error> {
+    let domain = machine.domain();
+    let phi = domain.position(f64::from(phase.to_bits()) / 4_294_967_296.0);
+    let exact = machine.reduction(phi)?;
+    let read = table.at(phase);
+    let (torque, speed, inertia) = (
+        f64::from(scale.torque()),
+        f64::from(scale.speed()),
+        f64::from(scale.inertia()),
+    );
+    let velocity = read.velocity * torque / (speed * speed);
+    let curves: f64 = [
+        (read.inertia * inertia - exact.inertia[0]) * request.alpha,
+        (velocity - 0.5 * exact.inertia[1]) * request.omega * request.omega,
+        read.load * torque - exact.load_torque(),
+        (read.viscous * torque / speed - exact.viscous) * request.omega,
+        read.coulomb * torque - exact.coulomb,
+    ]
+    .iter()
+    .map(|part| math::abs(*part))
+    .sum();
+    Ok((curves + TICK * torque, phi))
+}

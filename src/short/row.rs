@@ -1,0 +1,133 @@
+//! How a row of 16-bit numbers is packed.
+//!
+//! Words in this order; a row has those that its set of [`curves`] needs. Upper half : lower half, signed 16-bit numbers
+//! except J₀.
+//!
+//! | word | of the set | content | units |
+//! |---|---|---|---|
+//! | g₁ : g₂ | `LOAD` | −load(u) = g₀ + g₁·u + g₂·u² | 2⁻¹⁵ |
+//! | j₁ : j₂ | always | J(u) = J₀ + j₁·u + j₂·u² | 2⁻¹⁶ |
+//! | v₀ : v₁ | always | V(u) = v₀ + v₁·u, the velocity torque at ω = 1 | 2⁻¹⁵ |
+//! | J₀ : g₀ | always | J₀ unsigned; g₀ is 0 without `LOAD` | 2⁻¹⁶, 2⁻¹⁵ |
+//! | b₀ : b₁ | `VISCOUS` | b(u) = b₀ + b₁·u | 2⁻¹⁵ |
+//! | c₀ : c₁ | `COULOMB` | c(u) = c₀ + c₁·u, of which the tick takes the magnitude | 2⁻¹⁵ |
+//! | r₀ : r₁ | `RECIPROCAL` | 1/J(u) = (r₀ + r₁·u)/2ᵏ | 1 |
+//!
+//! u is the place in the cell, 0 to 1. Every lower half also adds to the upper half beside it as the fraction of a unit that
+//! it is when it is read as an unsigned number.
+
+use crate::table::curves;
+
+/// Words of a row.
+#[must_use]
+pub const fn row_words(set: u8) -> usize {
+    let more = curves::LOAD | curves::VISCOUS | curves::COULOMB | curves::RECIPROCAL;
+    3 + (set & more).count_ones() as usize
+}
+
+/// Whether the set has this curve.
+pub(super) const fn has(set: u8, curve: u8) -> bool {
+    set & curve != 0
+}
+
+/// Index of the line of J.
+pub(super) const fn inertia(set: u8) -> usize {
+    has(set, curves::LOAD) as usize
+}
+
+/// Index of the line of V.
+pub(super) const fn velocity(set: u8) -> usize {
+    inertia(set) + 1
+}
+
+/// Index of the starts of J and of the load.
+pub(super) const fn start(set: u8) -> usize {
+    inertia(set) + 2
+}
+
+/// Index of the line of b, if the set has it.
+pub(super) const fn viscous(set: u8) -> usize {
+    inertia(set) + 3
+}
+
+/// Index of the line of c, if the set has it.
+pub(super) const fn coulomb(set: u8) -> usize {
+    viscous(set) + has(set, curves::VISCOUS) as usize
+}
+
+/// Index of the line of 1/J, if the set has it.
+pub(super) const fn reciprocal(set: u8) -> usize {
+    coulomb(set) + has(set, curves::COULOMB) as usize
+}
+
+/// Two halves of a word.
+pub(super) const fn word(upper: u16, lower: u16) -> u32 {
+    (upper as u32) << 16 | lower as u32
+}
+
+/// The rows of a table, by their length: the one that is in use has all of them. So the compiler knows the length of a row, and
+/// a read from it needs no check; the number of rows is at hand without a division.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Rows<'a> {
+    pub(super) three: &'a [[u32; 3]],
+    pub(super) four: &'a [[u32; 4]],
+    pub(super) five: &'a [[u32; 5]],
+    pub(super) six: &'a [[u32; 6]],
+    pub(super) seven: &'a [[u32; 7]],
+}
+
+impl<'a> Rows<'a> {
+    pub(super) fn new(words: &'a [u32], set: u8) -> Self {
+        let mut rows = Self::default();
+        match row_words(set) {
+            3 => rows.three = words.as_chunks().0,
+            4 => rows.four = words.as_chunks().0,
+            5 => rows.five = words.as_chunks().0,
+            6 => rows.six = words.as_chunks().0,
+            _ => rows.seven = words.as_chunks().0,
+        }
+        rows
+    }
+
+    /// How many there are, of this set.
+    #[inline]
+    pub(super) fn count(&self, set: u8) -> u32 {
+        let count = match row_words(set) {
+            3 => self.three.len(),
+            4 => self.four.len(),
+            5 => self.five.len(),
+            6 => self.six.len(),
+            _ => self.seven.len(),
+        };
+        count as u32
+    }
+
+    /// All words.
+    pub(super) fn words(&self, set: u8) -> &'a [u32] {
+        match row_words(set) {
+            3 => self.three.as_flattened(),
+            4 => self.four.as_flattened(),
+            5 => self.five.as_flattened(),
+            6 => self.six.as_flattened(),
+            _ => self.seven.as_flattened(),
+        }
+    }
+
+    #[inline]
+    pub(super) fn get(&self, index: usize, set: u8) -> Option<&'a [u32]> {
+        match row_words(set) {
+            3 => self.three.get(index).map(<[u32; 3]>::as_slice),
+            4 => self.four.get(index).map(<[u32; 4]>::as_slice),
+            5 => self.five.get(index).map(<[u32; 5]>::as_slice),
+            6 => self.six.get(index).map(<[u32; 6]>::as_slice),
+            _ => self.seven.get(index).map(<[u32; 7]>::as_slice),
+        }
+    }
+}
+
+/// A word of a row; 0 beyond its end, where the compiler sees that no read is.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "as in the kernel")]
+pub(super) fn at(row: &[u32], index: usize) -> u32 {
+    row.get(index).copied().unwrap_or(0)
+}

@@ -1,0 +1,141 @@
+//! Finds large tables without looking at every place of every candidate.
+//!
+//! Where a table errs most hardly changes from one size to the next. So sizes beyond [`EXHAUSTIVE`] are narrowed down by the
+//! cells around that place alone: a miss there is a miss, wherever else one looks. Only the size that comes out is looked at in
+//! all places. If it misses after all, as it may where roundings make most of the error, larger sizes are searched with
+//! all places of every candidate.
+
+use super::measure::{Places, measure_until, scan_places, torque_error};
+use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, Tabulated, search};
+use crate::reduction::Reducible;
+use crate::scalar::Scalar;
+use crate::table::{Layout, Table};
+use crate::{Error, Scale};
+
+/// Cells on each side of the worst place that are looked at.
+const NEIGHBOURS: u32 = 8;
+
+/// Which places of a candidate are looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Look {
+    /// All of them.
+    All,
+    /// For sizes beyond [`EXHAUSTIVE`] those near the worst.
+    Near,
+}
+
+/// As [`search`], for a `meets` that can look at fewer places.
+pub(super) fn search_near(
+    request: &Request,
+    mut meets: impl FnMut(u32, Look) -> Result<Option<Tabulated>, Error>,
+) -> Result<Option<Tabulated>, Error> {
+    let Some(guess) = search(request, |cells| meets(cells, Look::Near))? else {
+        return Ok(None);
+    };
+    if guess.cells <= EXHAUSTIVE {
+        return Ok(Some(guess));
+    }
+    if let Some(found) = meets(guess.cells, Look::All)? {
+        return Ok(Some(found));
+    }
+    search(request, |cells| {
+        if cells <= guess.cells {
+            return Ok(None);
+        }
+        meets(cells, Look::All)
+    })
+}
+
+/// Where a table errs most, and its number of cells.
+pub(super) type Worst = Option<(f64, u32)>;
+
+/// What is found of a table near its worst place, if it meets the request there. That place is looked for all round, in few
+/// places, in the first table, and again in one that meets the request and is much larger.
+pub(super) fn meets_near<S: Scalar, L: Layout>(
+    machine: &impl Reducible,
+    table: &Table<'_, S, L>,
+    request: &Request,
+    scale: &Scale,
+    worst: &mut Worst,
+) -> Result<Option<Tabulated>, Error> {
+    let (domain, cells) = (machine.domain(), table.cells());
+    let meets = |found: &Tabulated| found.torque_error <= request.torque_error;
+    let survey = || measure_until(machine, table, request, scale, (0.0, COARSE_CHECKS), false);
+    let around = |place: f64| {
+        let first = domain.phase(place).cell(cells).0 + cells - NEIGHBOURS;
+        let places = Places {
+            first: first % cells,
+            cells: 2 * NEIGHBOURS + 1,
+            checks: CHECKS_PER_CELL,
+        };
+        scan_places(domain, cells, Some(request.torque_error), places, |phase| {
+            torque_error(machine, table, request, scale, phase)
+        })
+    };
+    if let Some((place, of)) = *worst {
+        let found = around(place)?;
+        if !meets(&found) {
+            return Ok(None);
+        }
+        if cells <= of + of / 4 {
+            return Ok(Some(found));
+        }
+    }
+    let found = survey()?;
+    *worst = Some((found.worst, cells));
+    if !meets(&found) {
+        return Ok(None);
+    }
+    let found = around(found.worst)?;
+    Ok(meets(&found).then_some(found))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Look, search_near};
+    use crate::tabulate::{EXHAUSTIVE, Request, Tabulated};
+
+    /// What is found where sizes from `near` on pass a look near the worst place, and those from `all` on pass every look; and
+    /// how many looks at all places of sizes beyond [`EXHAUSTIVE`] that takes.
+    fn found(near: u32, all: u32, max_cells: u32) -> (Option<u32>, u32) {
+        let request = Request {
+            torque_error: 1.0,
+            omega: 1.0,
+            alpha: 1.0,
+            max_cells,
+        };
+        let mut looks = 0;
+        let found = search_near(&request, |cells, look| {
+            let near_only = look == Look::Near && cells > EXHAUSTIVE;
+            looks += u32::from(!near_only && cells > EXHAUSTIVE);
+            let enough = if near_only { near } else { all };
+            Ok((cells >= enough).then(|| Tabulated {
+                cells,
+                ..Tabulated::default()
+            }))
+        });
+        (found.ok().flatten().map(|found| found.cells), looks)
+    }
+
+    #[test]
+    fn finds_the_smallest_size_with_one_look_at_all_places() {
+        for size in [EXHAUSTIVE + 1, EXHAUSTIVE + 2, 200, 2946, 16_384] {
+            assert_eq!(found(size, size, 16_384), (Some(size), 1));
+        }
+        for size in [4, 5, 77, EXHAUSTIVE - 1, EXHAUSTIVE] {
+            assert_eq!(found(size, size, 16_384), (Some(size), 0));
+        }
+    }
+
+    #[test]
+    fn finds_it_where_the_worst_place_is_elsewhere() {
+        for (near, all) in [(129, 130), (200, 1000), (2945, 2946), (4, 300)] {
+            let (size, looks) = found(near, all, 16_384);
+            assert_eq!(size, Some(all), "{near}");
+            assert!(looks > 1 && looks < 40, "{looks}");
+        }
+        assert_eq!(found(4, 80, 16_384).0, Some(80));
+        assert_eq!(found(300, 401, 400).0, None);
+        assert_eq!(found(401, 401, 400), (None, 0));
+    }
+}

@@ -1,0 +1,270 @@
+//! Friction in tables: magnitudes with kinks become smooth curves with a sign, and constants are numbers, not curves.
+
+mod support;
+
+use std::f64::consts::TAU;
+
+use jred::mechanism::{Branch, SliderCrank};
+use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
+use jred::tabulate::curves_in_use;
+use jred::{
+    Action, Domain, Error, Link, Load, Machine, Phase, Q31, Reducible, Reduction, Scalar, Scale,
+};
+use proptest::prelude::*;
+use support::rows::Rows;
+use support::{assert_near, budget, config, largest};
+
+/// J = 1 and c = |v|, of any v.
+struct Friction<V> {
+    domain: Domain,
+    v: V,
+}
+
+impl<V: Fn(f64) -> f64> Reducible for Friction<V> {
+    fn domain(&self) -> Domain {
+        self.domain
+    }
+
+    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+        Ok(Reduction {
+            inertia: [1.0, 0.0, 0.0],
+            potential_energy: [0.0, 0.0],
+            process: 0.0,
+            viscous: 0.0,
+            coulomb: (self.v)(phi).abs(),
+        })
+    }
+}
+
+/// Largest error of c.
+fn error<S: Scalar, L: Layout>(machine: &impl Reducible, cells: u32, scale: &Scale) -> f64 {
+    let rows = Rows::<S, L>::of(machine, curves::COULOMB, cells, scale).unwrap();
+    let table = rows.table();
+    let places = 48 * cells;
+    largest((0..places).map(|k| {
+        let phase = Phase::from_bits(((u64::from(2 * k + 1) << 31) / u64::from(places)) as u32);
+        let phi = machine
+            .domain()
+            .position(f64::from(phase.to_bits()) / 4_294_967_296.0);
+        let exact = machine.reduction(phi).unwrap().coulomb;
+        table.at(phase).coulomb.to_f64() * f64::from(scale.torque()) - exact
+    }))
+}
+
+/// A slider-crank with friction at its slider, which turns round twice a turn.
+fn press() -> Machine<SliderCrank> {
+    let link = |mass| Link::new(mass, 0.002, [0.01, 0.0]).unwrap();
+    let links = [
+        link(0.8),
+        link(0.5),
+        Link::new(0.6, 0.0, [0.0, 0.0]).unwrap(),
+    ];
+    let mechanism = SliderCrank::new(0.05, 0.2, 0.01, Branch::Right, links).unwrap();
+    let friction = Load::new(SliderCrank::SLIDER, Action::OpposingForce(40.0)).unwrap();
+    Machine::new(mechanism).with_load(friction).unwrap()
+}
+
+fn converges<L: Layout>(machine: &impl Reducible, order: i32) {
+    for cells in [64, 128] {
+        let [coarse, fine] = [cells, 2 * cells].map(|n| error::<f64, L>(machine, n, &Scale::SI));
+        println!(
+            "{} {cells} cells: {coarse:.1e}, ratio {:.2}",
+            L::NAME,
+            coarse / fine
+        );
+        let expected = f64::from(1 << order);
+        assert_near(
+            "order",
+            coarse / fine,
+            expected,
+            budget::ORDER_SHARE * expected,
+        );
+    }
+}
+
+#[test]
+fn friction_of_a_slider_converges_as_a_smooth_curve_does() {
+    converges::<Spline>(&press(), 4);
+    converges::<Cubic>(&press(), 4);
+    converges::<Quadratic>(&press(), 3);
+    // Over a stroke with one reversal inside.
+    let stroke = Friction {
+        domain: Domain::stroke(-0.7, 1.9).unwrap(),
+        v: |x: f64| (1.3 * x).sin() * (2.0 + x),
+    };
+    converges::<Spline>(&stroke, 4);
+    converges::<Quadratic>(&stroke, 3);
+}
+
+/// A magnitude that touches zero an odd number of times a turn belongs to no curve that closes: it stays as it is, with its
+/// kink, of order 1.
+#[test]
+fn a_single_kink_a_turn_stays() {
+    let odd = Friction {
+        domain: Domain::Turn,
+        v: |phi: f64| (0.5 * phi - 0.3).sin(),
+    };
+    for cells in [64, 128] {
+        let ratio = error::<f64, Spline>(&odd, cells, &Scale::SI)
+            / error::<f64, Spline>(&odd, 2 * cells, &Scale::SI);
+        assert!((1.0..4.0).contains(&ratio), "{ratio}");
+    }
+    // Over a stroke of the same length nothing need close.
+    let stroke = Friction {
+        domain: Domain::stroke(0.0, TAU).unwrap(),
+        v: odd.v,
+    };
+    converges::<Spline>(&stroke, 4);
+    // A curve that touches zero without a change of sign is the same either way: of order 4 or, mirrored, 2.
+    let touching = Friction {
+        domain: Domain::Turn,
+        v: |phi: f64| 1.0 - phi.cos(),
+    };
+    let found = error::<f64, Spline>(&touching, 128, &Scale::SI);
+    assert!(found < 2.0 * (TAU / 128.0).powi(2), "{found:e}");
+}
+
+/// Magnitudes without a zero stay as they are, bit by bit.
+#[test]
+fn a_magnitude_without_zeros_keeps_its_sign() {
+    let rippled = Friction {
+        domain: Domain::Turn,
+        v: |phi: f64| 1.0 + 0.9 * (3.0 * phi).cos(),
+    };
+    let set = curves::COULOMB;
+    let rows = Rows::<f64>::of(&rippled, set, 64, &Scale::SI).unwrap();
+    for knot in 0..64u32 {
+        let exact = 1.0 + 0.9 * (3.0 * f64::from(knot) / 64.0 * TAU).cos();
+        let read = rows.exact(Phase::from_bits(knot << 26), !0);
+        assert_near("c", read.coulomb, exact, budget::SPLINE_END);
+        assert!(rows.words[2 * knot as usize + 1] > 0.0);
+    }
+}
+
+proptest! {
+    #![proptest_config(config(128, 0x00a1))]
+
+    /// Any even number of reversals anywhere on a turn. A sample so near a zero that a straight line does not tell its sign is
+    /// smaller than h²·f″, and off by twice itself at most; far from zeros the curve is as exact as any.
+    #[test]
+    fn reversals_anywhere_are_found(shift in 0.0..TAU, mean in -0.7..0.7, ripple in 0.0..0.2, twice: bool) {
+        let waves = if twice { 2.0 } else { 1.0 };
+        let v = move |phi: f64| mean + (waves * (phi - shift)).sin() + ripple * (3.0 * phi).cos();
+        let machine = Friction { domain: Domain::Turn, v };
+        let scale = Scale::new(4.0, 1.0, 2.0).unwrap().for_cells(128, TAU);
+        let h = TAU / 128.0;
+        let near = 2.0 * 5.8 * h * h;
+        prop_assert!(error::<f64, Spline>(&machine, 128, &Scale::SI) < near);
+        prop_assert!(error::<Q31, Cubic>(&machine, 128, &scale) < near);
+        prop_assert!(error::<f64, Quadratic>(&machine, 128, &Scale::SI) < near);
+    }
+}
+
+/// The same everywhere, or nowhere.
+struct Constant {
+    viscous: f64,
+    coulomb: f64,
+    load: f64,
+    domain: Domain,
+}
+
+impl Reducible for Constant {
+    fn domain(&self) -> Domain {
+        self.domain
+    }
+
+    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+        Ok(Reduction {
+            inertia: [1.0 + 0.2 * phi.cos(), -0.2 * phi.sin(), -0.2 * phi.cos()],
+            potential_energy: [0.0, 0.0],
+            process: self.load,
+            viscous: self.viscous,
+            coulomb: self.coulomb,
+        })
+    }
+}
+
+fn constants_are_curves<S: Scalar, L: Layout>(units: f64) {
+    const CURVES: u8 = curves::VISCOUS | curves::COULOMB;
+    const CONSTANTS: u8 = curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+    let scale = Scale::new(4.0, 3.0, 5.0).unwrap().for_cells(32, TAU);
+    let machine = Constant {
+        viscous: 0.3,
+        coulomb: 0.7,
+        load: 0.0,
+        domain: Domain::Turn,
+    };
+    let curves = Rows::<S, L>::of(&machine, CURVES, 32, &scale).unwrap();
+    let constants = Rows::<S, L>::of(&machine, CONSTANTS, 32, &scale).unwrap();
+    assert!(constants.words.len() < curves.words.len());
+    let [a, b] = [curves.table(), constants.table()];
+    let (model_a, model_b) = (
+        curves.model::<CURVES>(&scale),
+        constants.model::<CONSTANTS>(&scale),
+    );
+    for k in 0..97u32 {
+        let phase = Phase::from_bits(k.wrapping_mul(0x9E37_79B9));
+        let [a, b] = [a.at(phase), b.at(phase)];
+        assert_near("b", b.viscous.to_f64(), a.viscous.to_f64(), units);
+        assert_near("c", b.coulomb.to_f64(), a.coulomb.to_f64(), units);
+        for omega in [-0.8, 0.0, 0.8] {
+            let [omega, alpha] = [omega, 0.1].map(support::number::<S>);
+            let [a, b] = [
+                model_a.torque(phase, omega, alpha),
+                model_b.torque(phase, omega, alpha),
+            ];
+            assert_near("T", b.to_f64(), a.to_f64(), 2.0 * units);
+            let back = model_b.acceleration(phase, omega, b).value.to_f64();
+            assert_near("α", back, alpha.to_f64(), 2.0 * units / 0.15);
+        }
+    }
+}
+
+#[test]
+fn a_constant_equals_a_curve_that_is_constant() {
+    constants_are_curves::<f64, Spline>(budget::SPLINE_KNOT);
+    constants_are_curves::<f32, Spline>(budget::F32_READ);
+    constants_are_curves::<f32, Quadratic>(budget::F32_READ);
+    let q31 = (budget::Q31_POINTS_UNITS + budget::Q31_TICK_UNITS) * budget::Q31_UNIT;
+    constants_are_curves::<Q31, Spline>(q31);
+    constants_are_curves::<Q31, Cubic>(q31);
+    constants_are_curves::<Q31, Quadratic>(q31);
+}
+
+#[test]
+fn the_set_in_use_has_what_the_machine_has() {
+    let set = |viscous, coulomb, load, domain| {
+        let machine = Constant {
+            viscous,
+            coulomb,
+            load,
+            domain,
+        };
+        curves_in_use(&machine, 64).unwrap()
+    };
+    let stroke = Domain::stroke(-1.0, 2.0).unwrap();
+    for domain in [Domain::Turn, stroke] {
+        assert_eq!(set(0.0, 0.0, 0.0, domain), curves::INERTIA);
+        assert_eq!(set(0.0, 0.0, -1.0, domain), curves::LOAD);
+        assert_eq!(set(0.2, 0.0, 0.0, domain), curves::CONSTANT_VISCOUS);
+        assert_eq!(set(0.0, 0.2, 0.0, domain), curves::CONSTANT_COULOMB);
+        let both = curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+        assert_eq!(set(0.1, 0.2, 1.0, domain), curves::LOAD | both);
+    }
+    // What varies is a curve, whatever it starts with.
+    let friction = |v: fn(f64) -> f64| {
+        let domain = Domain::Turn;
+        curves_in_use(&Friction { domain, v }, 64).unwrap()
+    };
+    assert_eq!(friction(f64::sin), curves::COULOMB);
+    assert_eq!(
+        friction(|phi| if phi > 6.0 { 1.0 } else { 0.0 }),
+        curves::COULOMB
+    );
+    assert_eq!(friction(|phi| 1.0 + 1e-9 * phi.sin()), curves::COULOMB);
+    assert_eq!(
+        friction(|phi| 1.0 + 1e-14 * phi.sin()),
+        curves::CONSTANT_COULOMB
+    );
+    assert_eq!(curves_in_use(&press(), 64).unwrap(), curves::COULOMB);
+}
