@@ -1,28 +1,29 @@
 //! Cycles of a tick, on a board of your own.
 //!
-//! Built, not run on a board: QEMU has no cycle counter. There, and on the host, the program says so, checks the torques and
-//! ends.
+//! Built, not run on a board: QEMU has no cycle counter. There, and on the host, the program says so and ends.
 //!
-//! Cortex-M3, M4, M7 and M33 count cycles in DWT's CYCCNT, the Cortex-M0 and M0+ have SysTick only; both run at the core's
-//! clock. A loop of 64 calls is timed, and one of the same calls twice; the difference is that of 64 calls, without what loop
+//! Cortex-M3, M4, M7 and M33 count cycles in CYCCNT of the DWT, the Cortex-M0 and M0+ have SysTick only; both run at the
+//! core's clock. A loop of 64 calls is timed, and one of the same calls twice; the difference is that of 64 calls, without what loop
 //! and counter take. The shortest of several runs is the one that no wait for flash or cache made longer.
 //!
 //! ```text
 //! cargo run -p jred --example 05_board_cycles --profile firmware --target thumbv7em-none-eabihf
 //! ```
 //!
-//! For a board: its memory in memory.x, its probe as the runner (`probe-rs run --chip …`) in .cargo/config.toml. Set the clock and the flash's
-//! wait states as your firmware does before `run`; at reset most parts run from a slow oscillator without wait states.
+//! For a board: its memory in memory.x, its probe as the runner (`probe-rs run --chip …`) in .cargo/config.toml. Set clock and
+//! wait states of the flash as your firmware does; at reset most parts run from a slow oscillator without wait states.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
+#[path = "support/cycles.rs"]
+mod cycles;
 mod support;
 
 use core::hint::black_box;
 
+use cycles::Counter;
 use jred::table::curves;
 use jred::{Image, Model, Phase, Q31, Scalar, include_image};
-use support::cycles::Counter;
-use support::{Failure, println, program};
+use support::{Failure, milli, println, program};
 
 type Press<S> = Model<'static, S, { curves::ALL }>;
 
@@ -49,46 +50,56 @@ fn shortest(counter: &Counter, times: u32, mut call: impl FnMut(Phase)) -> u32 {
     shortest
 }
 
-/// Cycles of `call`, on average; the loop over `times` is the same in both.
-fn cycles(counter: &Counter, mut call: impl FnMut(Phase)) -> u32 {
+/// Thousandths of the cycles of `call`, on average; the loop over `times` is the same in both.
+fn cycles_of(counter: &Counter, mut call: impl FnMut(Phase)) -> i32 {
     let once = shortest(counter, black_box(1), &mut call);
     let twice = shortest(counter, black_box(2), &mut call);
-    let twice_less_once = twice.saturating_sub(once);
-    (twice_less_once + CALLS / 2) / CALLS
+    milli(twice.saturating_sub(once) as f32 / CALLS as f32)
 }
 
 /// Prints what a call takes.
-fn report<S: Scalar>(counter: &Counter, number: &str, press: &Press<S>, [omega, alpha, torque]: [S; 3]) {
-    let inverse = cycles(counter, |phase| {
+fn report<S: Scalar>(
+    counter: &Counter,
+    number: &str,
+    press: &Press<S>,
+    [omega, alpha, torque]: [S; 3],
+) {
+    let inverse = cycles_of(counter, |phase| {
         black_box(press.torque(phase, black_box(omega), black_box(alpha)));
     });
-    let forward = cycles(counter, |phase| {
+    let forward = cycles_of(counter, |phase| {
         black_box(press.acceleration(phase, black_box(omega), black_box(torque)));
     });
-    // What the counting takes beside the call: the loop over `times` and the black boxes.
-    let empty = cycles(counter, |phase| {
+    // What is left of the counting: the loop over `times`, and the black boxes.
+    let empty = cycles_of(counter, |phase| {
         black_box((phase, black_box(omega), black_box(alpha)));
     });
-    println!("{number}: torque {inverse}, acceleration {forward} cycles a call; of each the loop has {empty}");
+    println!(
+        "{number}: torque {inverse}, acceleration {forward} cycles a thousand calls, of each the loop {empty}"
+    );
 }
 
 fn run() -> Result<(), Failure> {
+    let Some(counter) = Counter::start() else {
+        println!("no cycle counter counts here: run this on a board");
+        return Ok(());
+    };
     let single = Image::from_bytes(include_image!("data/press_f32.jred"))?;
     let single: Press<f32> = single.model()?;
     let fixed = Image::from_bytes(include_image!("data/press_q31.jred"))?;
     let scale = fixed.scale();
     let fixed: Press<Q31> = fixed.model()?;
     let [omega, alpha, torque] = [10.0, 50.0, 20.0];
-    let units = [scale.omega(omega), scale.alpha(alpha), scale.to_torque(torque)];
+    let units = [
+        scale.omega(omega),
+        scale.alpha(alpha),
+        scale.to_torque(torque),
+    ];
     if units.iter().any(|number| number.saturated) {
         return Err("the press is not made for these numbers".into());
     }
     let units = units.map(|number| number.value);
 
-    let Some(counter) = Counter::start() else {
-        println!("no cycle counter counts here: run this on a board");
-        return Ok(());
-    };
     report(&counter, "f32", &single, [omega, alpha, torque]);
     report(&counter, "Q31", &fixed, units);
     Ok(())

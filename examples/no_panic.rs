@@ -30,7 +30,7 @@ fn calls() -> Result<(), ImageError> {
         every_tick::<Q31, { curves::EVERY }, Cubic>(fixed),
         every_tick::<Q31, { curves::LOAD | curves::RECIPROCAL }, Quadratic>(fixed),
     ];
-    black_box(other);
+    let _ = black_box(other);
 
     let stroke = Move::new(
         Law::Polynomial345,

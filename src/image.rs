@@ -60,7 +60,7 @@ pub enum ImageError {
     Header(u8),
     /// The image holds another number type; its code (1 = f32, 2 = i32, 3 = i16).
     NumberType(u8),
-    /// The image has another layout; its code (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16).
+    /// The image has another layout; its code (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16, 5 = rows of 16 bits).
     Layout(u8),
     /// The table is not sound.
     Table(TableError),
@@ -105,7 +105,7 @@ impl fmt::Display for ImageError {
             }
             Self::Layout(code) => write!(
                 f,
-                "the image has layout {code} (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16)"
+                "the image has layout {code} (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16, 5 = rows of 16 bits)"
             ),
             Self::Table(error) => error.fmt(f),
         }

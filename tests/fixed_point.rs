@@ -184,9 +184,9 @@ fn cell_words<L: Layout>() -> impl Strategy<Value = Vec<i32>> {
     (words, 1..12u32, 0..3u32).prop_map(move |(words, size, more)| {
         let positive = |k: usize| {
             if L::NAME == "spline" {
-                k % 2 == 0
+                k.is_multiple_of(2)
             } else {
-                k % 8 == 0
+                k.is_multiple_of(8)
             }
         };
         let tame = |(k, word): (usize, i32)| {

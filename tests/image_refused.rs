@@ -153,6 +153,7 @@ fn model_of_another_type_set_or_layout_is_refused() {
 
 #[test]
 fn model_of_an_unsound_table_is_refused() {
+    const RECIPROCAL: u8 = curves::RECIPROCAL;
     let with = |word: usize, value: u32| {
         let mut image = small();
         image[word] = value;
@@ -197,7 +198,6 @@ fn model_of_an_unsound_table_is_refused() {
         no_model::<Q31, 7, Spline>(fast),
         table(TableError::SpeedBase)
     );
-    const RECIPROCAL: u8 = curves::RECIPROCAL;
     let mut wrong = stroke_in::<Q31, Cubic>(RECIPROCAL);
     wrong[row + 4] /= 2; // 1/J in cell 0 then has another unit than in cell 1
     assert_eq!(

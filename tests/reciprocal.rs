@@ -231,6 +231,8 @@ fn energy_drift<const S: u8, L: Layout>(spec: &Spec) -> f64 {
 
 #[test]
 fn energy_is_conserved_without_division() {
+    const DIVIDE: u8 = curves::LOAD;
+    const MULTIPLY: u8 = curves::LOAD | curves::RECIPROCAL;
     let press = Spec {
         crank: 0.08,
         rod_ratio: 2.5,
@@ -242,8 +244,6 @@ fn energy_is_conserved_without_division() {
         loads: [0.0; 4],
         flywheel: 0.6,
     };
-    const DIVIDE: u8 = curves::LOAD;
-    const MULTIPLY: u8 = curves::LOAD | curves::RECIPROCAL;
     let divided = energy_drift::<DIVIDE, Spline>(&press);
     println!("spline, divided {divided:.1e}");
     assert_near("spline", divided, 0.0, budget::Q31_ENERGY);

@@ -1,4 +1,5 @@
 //! Times on the host, in times of one sine with cosine of the same run.
+#![allow(dead_code, reason = "every benchmark uses its own part")]
 
 use std::hint::black_box;
 use std::time::Instant;

@@ -1,4 +1,5 @@
-//! What both benchmarks use: the four-bar linkage in two descriptions, and the file of ceilings.
+//! What the benchmarks share: the four-bar linkage in two descriptions, and the file of ceilings.
+#![allow(dead_code, reason = "every benchmark uses its own part")]
 
 use jred::mechanism::{Assembly, FourBar, Linkage, Pair, Pose, Side};
 use jred::{Domain, Error, Joint, Link, Marker};

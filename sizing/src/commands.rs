@@ -207,6 +207,16 @@ fn run_export(options: &cli::Export) -> Result<Done> {
             "f32 tables have no curve of 1/J: floating point divides"
         ));
     }
+    let layouts = options.number.layouts();
+    if !layouts.iter().any(|layout| options.layout.allows(*layout)) {
+        let names: Vec<&str> = layouts.iter().map(|layout| layout.name()).collect();
+        return Err(miette!(
+            help = format!("leave out --layout, or take one of: {}", names.join(", ")),
+            "{} tables have no layout {}",
+            options.number.name(),
+            options.layout.name()
+        ));
+    }
     let coordinate = Coordinate::of(file.machine.mechanism()).into_diagnostic()?;
     let quantity = |name: &str, text: &Option<String>, read: input::Reader| {
         let value = text.as_deref().map(|text| {

@@ -16,9 +16,9 @@ mod support;
 
 use std::path::{Path, PathBuf};
 
-use support::{Folder, Run, jred, press_file};
+use support::{Folder, Run, press_file};
 
-/// Every type with its layouts, and the curves of the press in Rust's words for it.
+/// Every type with its layouts.
 const KINDS: [(&str, &str); 8] = [
     ("f32", "spline"),
     ("f32", "cubic"),
@@ -32,15 +32,19 @@ const KINDS: [(&str, &str); 8] = [
 
 /// Runs the export of a machine file.
 fn export_of(file: &Path, more: &[&str], out: Option<&Path>) -> Run {
-    let mut arguments: Vec<&dyn AsRef<std::ffi::OsStr>> = vec![&"export", &file];
-    for word in more {
-        arguments.push(word);
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_jred"));
+    command.arg("export").arg(file).args(more).env("NO_COLOR", "1");
+    if let Some(out) = out {
+        command.arg("--out").arg(out);
     }
-    if let Some(out) = &out {
-        arguments.push(&"--out");
-        arguments.push(out);
-    }
-    jred(arguments)
+    let output = command.output().unwrap();
+    let run = Run {
+        code: output.status.code().unwrap_or(-1),
+        out: String::from_utf8(output.stdout).unwrap(),
+        err: String::from_utf8(output.stderr).unwrap(),
+    };
+    assert!(!run.err.contains("panicked"), "{}", run.err);
+    run
 }
 
 /// Exports the press as an image.

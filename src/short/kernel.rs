@@ -99,6 +99,14 @@ pub(super) fn torque(sum: i32) -> Q15 {
 /// Limited to the range of the number, for a whole part of any size.
 #[inline(always)]
 pub(super) fn limited(x: i32) -> Outcome<Q15> {
+    if cfg!(not(short_multiply)) {
+        // Without a branch, where an instruction can be left out on a condition.
+        let value = x.clamp(i32::from(i16::MIN), i32::from(i16::MAX));
+        return Outcome {
+            value: Q15::from_bits(value as i16),
+            saturated: value != x,
+        };
+    }
     if x >> 15 == x >> 31 {
         return Outcome {
             value: Q15::from_bits(x as i16),

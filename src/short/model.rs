@@ -207,7 +207,7 @@ impl<'a, const CURVES: u8> Model<'a, CURVES> {
             kernel::of_speed_alone(velocity, i32::from(omega.to_bits()))
         } else {
             let resisting = self.of_speed(row, u, omega);
-            kernel::fence();
+            
             Self::with_load(resisting, row, start, u) >> 16
         };
         kernel::fence();

@@ -41,6 +41,7 @@ fn errors(set: u8, domain: Domain, cells: u32) -> [f64; 6] {
     assert_eq!(rows.words.len(), cells as usize * row_words(set));
     assert_eq!(rows.table().words(), rows.words);
     assert_eq!((rows.table().cells(), rows.table().curves()), (cells, set));
+    let table = rows.table();
     let has = |of: u8| if set & of == 0 { 0.0 } else { 1.0 };
     let mut found = [0.0; 6];
     let places = 16 * cells;
@@ -50,7 +51,7 @@ fn errors(set: u8, domain: Domain, cells: u32) -> [f64; 6] {
         let turns = f64::from(phase.to_bits()) / 4_294_967_296.0;
         let exact = machine.reduction(domain.position(turns)).unwrap();
         let start = machine.reduction(domain.position(0.0)).unwrap();
-        let read = rows.table().at(phase);
+        let read = table.at(phase);
         let of = |curve: u8, constant: u8, here: f64, at_start: f64| {
             if set & curve != 0 {
                 here
@@ -129,10 +130,11 @@ fn a_curve_holds_what_its_constant_leaves() {
 fn value_and_slope_hardly_step_at_knots() {
     let scale = Scale::new(1.0, 0.9, 1.0).unwrap();
     let rows = Short::of(&Smooth(Domain::Turn), curves::LOAD, 60, &scale).unwrap();
+    let table = rows.table();
     let step = |of: &dyn Fn(CurveValues) -> f64| {
         let steps = (1..=60u64).map(|knot| {
             let bits = ((knot << 32) / 60 + 1) as u32;
-            let at = |bits| of(rows.table().at(Phase::from_bits(bits)));
+            let at = |bits| of(table.at(Phase::from_bits(bits)));
             32_768.0 * (at(bits) - at(bits.wrapping_sub(1 << 16)))
         });
         largest(steps)
@@ -151,9 +153,10 @@ fn usage_is_the_largest_size() {
     let scale = Scale::new(1.0, 0.9, 1.0).unwrap();
     for domain in domains() {
         let rows = Short::of(&Smooth(domain), curves::ALL, 100, &scale).unwrap();
-        let most = usage(&rows.table());
+        let table = rows.table();
+        let most = usage(&table);
         let read: Vec<CurveValues> = (0..20_000u32)
-            .map(|k| rows.table().at(Phase::from_bits(k * 214_748)))
+            .map(|k| table.at(Phase::from_bits(k * 214_748)))
             .collect();
         for (stated, of) in [
             (

@@ -17,8 +17,12 @@ use crate::program::{root, target_dir};
 
 const ARCHIVE: &str = "cmsisdsp-1.10.3.tar.gz";
 const SHA256: &str = "307d32298faa7c58db912851027fce35f886fec7eb1a27c4b309ce1a97f47519";
-/// The page that lists the package's files.
-const INDEX: &str = "https://pypi.org/simple/cmsisdsp/";
+/// Prints the address of the package index that pip is set up for.
+const INDEX: &str = "import subprocess, sys; from pip._internal.models.index import PyPI; \
+    own = subprocess.run([sys.executable, '-m', 'pip', 'config', 'get', 'global.index-url'], \
+    capture_output=True, text=True).stdout.strip(); print(own or PyPI.simple_url)";
+/// The package's name there.
+const PACKAGE: &str = "cmsisdsp";
 const GCC: &str = "arm-none-eabi-gcc";
 /// Functions of kernels.c that make a machine of the data.
 const BUILDERS: [&str; 5] = [
@@ -83,8 +87,11 @@ pub(crate) fn fetch() -> Result<PathBuf> {
     std::fs::create_dir_all(&folder)?;
     if !archive.exists() {
         eprintln!("downloading {ARCHIVE} into {}", folder.display());
-        let page = String::from_utf8_lossy(&curl(INDEX)?).into_owned();
-        let bytes = curl(link(&page).with_context(|| format!("no {ARCHIVE} in {INDEX}"))?)?;
+        let index = run(Command::new("python3").args(["-c", INDEX])).context("pip is needed")?;
+        let index = String::from_utf8(index)?;
+        let index = format!("{}/{PACKAGE}/", index.trim().trim_end_matches('/'));
+        let page = String::from_utf8_lossy(&curl(&index)?).into_owned();
+        let bytes = curl(link(&page).with_context(|| format!("no {ARCHIVE} in {index}"))?)?;
         let found = sha256(&bytes);
         ensure!(
             found == SHA256,

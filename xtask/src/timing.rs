@@ -34,8 +34,8 @@ impl Timing {
     ///
     /// Where the manuals leave a choice: a taken branch refills in one cycle, a return or a branch to a register in two;
     /// divisions take the most, long multiplications of the M3 the middle; a load after a load or store that does not
-    /// make its address takes one cycle; an instruction in an IT block is charged whether it is skipped or not; nothing
-    /// is folded.
+    /// make its address takes one cycle; in an IT block only a branch is known to be skipped, and the rest is charged as
+    /// executed; nothing is folded.
     pub(crate) fn cycles(self, step: &Step) -> u32 {
         match self {
             Self::M0Plus => m0plus(step),

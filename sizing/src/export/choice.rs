@@ -162,6 +162,22 @@ impl LayoutName {
 }
 
 impl LayoutChoice {
+    /// Name as the command line writes it.
+    pub fn name(self) -> &'static str {
+        let all = [
+            LayoutName::Spline,
+            LayoutName::Spline16,
+            LayoutName::Cubic,
+            LayoutName::Quadratic,
+            LayoutName::Rows,
+        ];
+        let mut allowed = all.iter().filter(|layout| self.allows(**layout));
+        match (self, allowed.next()) {
+            (Self::Auto, _) | (_, None) => "auto",
+            (_, Some(layout)) => layout.name(),
+        }
+    }
+
     /// Whether this layout may be taken.
     pub fn allows(self, layout: LayoutName) -> bool {
         match self {

@@ -1,0 +1,139 @@
+//! What an export is written as: image, source text, JSON, and the words on the terminal.
+
+use super::support::{Folder, edited_press, press_file};
+use super::{KINDS, export, export_of, image, words_of};
+
+/// The hexadecimal words of a source text.
+fn words_in(source: &str) -> Vec<u32> {
+    source
+        .split(|c: char| !c.is_ascii_alphanumeric())
+        .filter_map(|word| word.strip_prefix("0x"))
+        .map(|word| u32::from_str_radix(word, 16).unwrap())
+        .collect()
+}
+
+#[test]
+fn source_texts_hold_the_image() {
+    let folder = Folder::new();
+    for (number, layout) in KINDS {
+        let kind = ["--type", number, "--layout", layout, "--torque-error", "0.5 N m"];
+        let of = |form: &str| {
+            let out = folder.path(form);
+            export_of(&press_file(), &[&kind[..], &["--format", form]].concat(), Some(&out)).ends(0);
+            std::fs::read_to_string(out).unwrap()
+        };
+        let words = image(&folder, &kind);
+        let (rust, c) = (of("rust"), of("c"));
+        assert!(rust.contains(&format!("pub static TABLE: [u32; {}] = [", words.len())));
+        assert_eq!(words_in(&rust), words);
+        assert!(c.contains("#include <stdint.h>"));
+        assert!(c.contains(&format!("const uint32_t jred_table[{}] = {{", words.len())));
+        assert_eq!(words_in(&c), words);
+        for text in [&rust, &c] {
+            // Outside the comment: a declaration, words, and a closing bracket; as many open as close.
+            let code: String = text.lines().filter(|l| !l.starts_with("//")).collect();
+            let count = |c: char| code.matches(c).count();
+            assert_eq!(
+                (count('['), count('{'), count('(')),
+                (count(']'), count('}'), count(')'))
+            );
+            assert!(code.trim_end().ends_with("};") || code.trim_end().ends_with("];"));
+            assert!(text.lines().all(|line| line.is_ascii() || line.starts_with("//")));
+            // The comment says what to load it as.
+            assert!(text.contains(&format!("// {number}, layout {layout}, ")));
+            let set = "{ curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS }";
+            let call = match (number, layout) {
+                ("f32", "spline") => format!("image.model::<f32, {set}, Spline>()"),
+                ("f32", "cubic") => format!("image.model::<f32, {set}, Cubic>()"),
+                ("f32", _) => format!("image.model::<f32, {set}, Quadratic>()"),
+                ("i32", "spline") => format!("image.model::<Q31, {set}, Spline>()"),
+                ("i32", "spline16") => format!("image.model::<Q31, {set}, Spline16>()"),
+                ("i32", "cubic") => format!("image.model::<Q31, {set}, Cubic>()"),
+                ("i32", _) => format!("image.model::<Q31, {set}, Quadratic>()"),
+                _ => format!("image.short_model::<{set}>()"),
+            };
+            assert!(text.contains(&format!("// in Rust: {call}\n")), "{text}");
+        }
+    }
+}
+
+/// A title goes into a comment, and must not leave it.
+#[test]
+fn a_title_stays_in_its_comment() {
+    let folder = Folder::new();
+    let title = "title = \"one\\nint evil; \\\\\\nend\"";
+    let text = edited_press("title = \"Servo press, 60 mm stroke, 10 kN\"", title);
+    let file = folder.file("m.toml", text);
+    let out = folder.path("table.c");
+    let run = export_of(&file, &["--format", "c", "--torque-error", "1 N m"], Some(&out));
+    if run.code == 2 {
+        return; // Refused as a title: just as good.
+    }
+    let source = std::fs::read_to_string(out).unwrap();
+    for line in source.lines() {
+        assert!(line.starts_with("//") || !line.contains("evil"), "{line}");
+    }
+}
+
+#[test]
+fn json_says_everything() {
+    let folder = Folder::new();
+    let more = ["--type", "i32", "--torque-error", "0.5 N m", "--reciprocal", "yes"];
+    let (run, path) = export(&folder, &more);
+    run.ends(0);
+    let words = words_of(&path);
+    let with_json = [&more[..], &["--format", "json"]].concat();
+    let printed = export_of(&press_file(), &with_json, None).ends(0);
+    let value = printed.json();
+    let out = folder.path("table.json");
+    export_of(&press_file(), &with_json, Some(&out)).ends(0);
+    assert_eq!(std::fs::read_to_string(out).unwrap(), printed.out);
+
+    let list = value["words"].as_array().unwrap();
+    let list: Vec<u32> = list.iter().map(|w| w.as_u64().unwrap() as u32).collect();
+    assert_eq!(list, words);
+    assert_eq!(value["image_bytes"], 4 * words.len());
+    assert_eq!(value["cells"], words[4]);
+    assert_eq!(value["curves"], 1 + 4 + 8 + 16);
+    assert_eq!(value["type"], "i32");
+    let stated = f64::from(f32::from_bits(words[12]));
+    let error = value["torque_error"].as_f64().unwrap();
+    assert!(error <= stated && stated < error * (1.0 + 2e-7));
+    for (name, word) in [("torque", 7), ("speed", 8), ("inertia", 9)] {
+        let base = value["scale"][name].as_f64().unwrap();
+        assert_eq!(base as f32, f32::from_bits(words[word]), "{name}");
+    }
+    // Headroom: the parts of the sum add up to it in each cell, so that the sum of the largest is not below it.
+    let share = |name: &str| 0.5f64.powf(value["bits_unused"][name].as_f64().unwrap());
+    let parts = ["inertia", "velocity", "load", "viscous", "coulomb"].map(share);
+    assert!(parts.iter().all(|part| *part > 0.0 && *part <= share("torque")));
+    assert!(parts.iter().sum::<f64>() >= share("torque") * (1.0 - 1e-6));
+    assert!(share("torque") < 1.0);
+    // Every type and layout, and the smallest of those of the type is the one chosen.
+    let all = value["alternatives"].as_array().unwrap();
+    let names: Vec<_> = all
+        .iter()
+        .map(|a| (a["type"].as_str().unwrap(), a["layout"].as_str().unwrap()))
+        .collect();
+    assert_eq!(names, KINDS);
+    let own = all.iter().filter(|a| a["type"] == "i32" && a["meets"] == true);
+    let least = own.map(|a| a["image_bytes"].as_u64().unwrap()).min();
+    assert_eq!(least, value["image_bytes"].as_u64());
+}
+
+#[test]
+fn without_a_file_nothing_is_written() {
+    let run = export_of(&press_file(), &["--torque-error", "1 N m"], None).ends(0);
+    assert!(run.out.contains("nothing written: --out names a file"), "{}", run.out);
+    for (number, layout) in KINDS {
+        let row = run.out.lines().any(|line| {
+            let words: Vec<_> = line.split_whitespace().filter(|w| *w != "*").collect();
+            words.len() > 5 && words[..2] == [number, layout]
+        });
+        assert!(row, "{number} {layout} is not in\n{}", run.out);
+    }
+    // Bits unused are those of fixed point.
+    assert!(!run.out.contains("bits unused"));
+    let fixed = export_of(&press_file(), &["--torque-error", "1 N m", "--type", "i16"], None);
+    assert!(fixed.ends(0).out.contains("bits unused: J_red "));
+}

@@ -1,0 +1,129 @@
+//! What `jred export` says when there is no table, word by word.
+
+use super::export_of;
+use super::support::{Folder, edited_press, press_file};
+
+#[test]
+fn too_few_cells_name_the_load_and_the_cures() {
+    let more = ["--torque-error", "0.5 N m", "--max-cells", "60", "--layout", "spline"];
+    let run = export_of(&press_file(), &more, None).ends(1);
+    run.says(&[
+        "no table meets a torque error of 0.5 N m: type f32, up to 60 cells",
+        "spline: ",
+        " cells reach ",
+        "the error falls with the power ",
+        " of the cells, about ",
+        " would do",
+        "largest error at φ = ",
+        "the load \"pressing force\"",
+        "over a ramp of 15 deg",
+        "allow a larger error, or --max-cells ",
+        "or a longer ramp of the load \"pressing force\" in the machine file",
+    ]);
+    assert!(run.out.is_empty());
+    // The number of cells that is named is enough.
+    let message = run.message();
+    let cells = message.split_once("--max-cells ").unwrap().1;
+    let cells: String = cells.chars().take_while(char::is_ascii_digit).collect();
+    let more = ["--torque-error", "0.5 N m", "--max-cells", &cells, "--layout", "spline"];
+    export_of(&press_file(), &more, None).ends(0);
+}
+
+/// A ramp makes the kink: with a longer one the same number of cells does.
+#[test]
+fn the_ramp_is_a_cure() {
+    let folder = Folder::new();
+    let longer = folder.file("ramp.toml", edited_press("ramp = \"15 deg\"", "ramp = \"22 deg\""));
+    let more = ["--torque-error", "0.5 N m", "--max-cells", "96", "--layout", "spline"];
+    export_of(&press_file(), &more, None).ends(1);
+    export_of(&longer, &more, None).ends(0);
+}
+
+#[test]
+fn the_floor_of_single_precision_is_named_with_what_is_below_it() {
+    let more = ["--torque-error", "0.00001 N m"];
+    let run = export_of(&press_file(), &more, None).ends(1);
+    run.says(&[
+        "no table meets a torque error of 1.00000e-5 N m: type f32, up to 4096 cells",
+        "cubic: ",
+        "that is the floor of rounding in f32, more cells do not lower it",
+        "allow a larger error",
+        "or state a smaller range with --omega and --alpha",
+    ]);
+    // 16 bits end far above; what the message offers does it.
+    let more = ["--torque-error", "0.02 N m", "--type", "i16"];
+    let run = export_of(&press_file(), &more, None).ends(1);
+    run.says(&[
+        "rows: ",
+        "that is the floor of rounding in i16",
+        "or take --type f32 (",
+        "or take --type i32 (",
+    ]);
+    for number in ["f32", "i32"] {
+        export_of(&press_file(), &["--torque-error", "0.02 N m", "--type", number], None).ends(0);
+    }
+}
+
+#[test]
+fn another_layout_is_offered_where_it_does() {
+    let more = ["--torque-error", "0.5 N m", "--layout", "quadratic", "--max-cells", "120"];
+    let run = export_of(&press_file(), &more, None).ends(1);
+    run.says(&["quadratic: ", "or take --layout spline (", " cells, ", " bytes)"]);
+    assert!(!run.message().contains("cubic: "), "{}", run.message());
+}
+
+#[test]
+fn a_kink_of_the_mechanism_is_named() {
+    let geneva = press_file().with_file_name("geneva.toml");
+    let more = ["--torque-error", "0.0001 N m", "--omega", "60 rpm", "--max-cells", "200"];
+    let run = export_of(&geneva, &more, None).ends(1);
+    // The pin enters a slot at ±60 degrees, and the wheel's acceleration jumps.
+    let message = run.message();
+    assert!(
+        message.contains("J_red' has a kink at φ = 300 deg")
+            || message.contains("J_red' has a kink at φ = 60 deg"),
+        "{message}"
+    );
+}
+
+#[test]
+fn bytes_that_are_too_few() {
+    let run = export_of(&press_file(), &["--max-bytes", "100"], None).ends(2);
+    run.says(&[
+        "no f32 table fits into 100 bytes: the smallest image has 184",
+        "allow more bytes",
+    ]);
+}
+
+#[test]
+fn a_reciprocal_of_floating_point() {
+    let more = ["--torque-error", "1 N m", "--reciprocal", "yes"];
+    let run = export_of(&press_file(), &more, None).ends(2);
+    run.says(&[
+        "f32 tables have no curve of 1/J: floating point divides",
+        "leave out --reciprocal, or take --type i32",
+    ]);
+}
+
+#[test]
+fn a_layout_that_the_type_has_not() {
+    for (number, layout) in [("f32", "spline16"), ("f32", "rows"), ("i16", "spline"), ("i32", "rows")] {
+        let more = ["--torque-error", "1 N m", "--type", number, "--layout", layout];
+        let run = export_of(&press_file(), &more, None).ends(2);
+        run.says(&[&format!("{number} tables have no layout {layout}"), "--layout"]);
+    }
+}
+
+/// A drive link that slides has forces and speeds in m/s.
+#[test]
+fn quantities_of_a_link_that_slides() {
+    let hoist = press_file().with_file_name("excavator-bucket.toml");
+    export_of(&hoist, &["--torque-error", "100 N"], None)
+        .ends(0);
+    let run = export_of(&hoist, &["--torque-error", "100 N m"], None).ends(2);
+    run.says(&["--torque-error \"100 N m\" cannot be used", "N"]);
+    let run = export_of(&hoist, &["--torque-error", "100 N", "--omega", "60 rpm"], None).ends(2);
+    run.says(&["--omega \"60 rpm\" cannot be used", "m/s"]);
+    let run = export_of(&press_file(), &["--torque-error", "1 N m", "--alpha", "3 m/s^2"], None);
+    run.ends(2).says(&["--alpha \"3 m/s^2\" cannot be used"]);
+}
