@@ -18,6 +18,8 @@ pub const VERSION: u16 = 2;
 pub const HEADER_WORDS: usize = 24;
 /// Words of it for what a layout has beside its rows.
 pub(crate) const CONSTANTS: usize = HEADER_WORDS - 13;
+/// Words from here on are zero.
+const RESERVED: usize = 19;
 /// Domain codes.
 const TURN: u8 = 0;
 const STROKE: u8 = 1;
@@ -214,6 +216,9 @@ impl<'a> Image<'a> {
         };
         if set > curves::EVERY {
             return Err(ImageError::Header(3));
+        }
+        if header.get(RESERVED..) != Some(&[0; HEADER_WORDS - RESERVED]) {
+            return Err(ImageError::Header(RESERVED as u8));
         }
         let scale = Scale::from_bases([torque, speed, inertia].map(f32::from_bits));
         if !scale.is_sound() {

@@ -54,9 +54,10 @@ impl Scale {
     /// ```
     ///
     /// One integer multiplication then replaces a product with a fraction and a shift. Speed grows to the next whole number, a
-    /// few percent where the number is not small; the bases of torque and inertia grow as its square does, so that no
-    /// curve leaves the range that it was in, and that of the acceleration stays. The bases are rounded to single precision,
-    /// which leaves an error of up to 3e-7 of the velocity torque.
+    /// few percent where the number is not small. The bases of torque and inertia grow with its square, so that no curve leaves
+    /// the range that it was in, but not more than by 2 or as the speed (from the whole number 1 on, the velocity torque is
+    /// only the slope a cell); that of the acceleration stays. The bases are rounded to single precision, which leaves an error
+    /// of up to 3e-7 of the velocity torque.
     #[must_use]
     pub fn for_cells(self, cells: u32, span: f64) -> Self {
         let (torque, speed, inertia) = (
@@ -72,10 +73,12 @@ impl Scale {
             return self;
         }
         let growth = (math::floor(factor) + 1.0) / factor;
+        let faster = math::sqrt(growth);
+        let larger = growth.min(faster.max(2.0));
         Self {
-            torque: (torque * growth) as f32,
-            speed: (speed * math::sqrt(growth)) as f32,
-            inertia: (inertia * growth) as f32,
+            torque: (torque * larger) as f32,
+            speed: (speed * faster) as f32,
+            inertia: (inertia * larger) as f32,
         }
     }
 

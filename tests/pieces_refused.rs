@@ -124,6 +124,9 @@ fn parts_that_are_not_possible() {
     assert!(Part::new(&wave, 1.0, 1.0 + TAU).is_ok());
 }
 
+/// A quarter of a turn.
+const QUARTER: u32 = 1 << 30;
+
 #[test]
 fn pieces_that_do_not_belong_together() {
     let part = |k: f64, length: f64| {
@@ -138,7 +141,6 @@ fn pieces_that_do_not_belong_together() {
             (Phase::from_bits(starts[k]), models[k])
         }))
     };
-    const QUARTER: u32 = 1 << 30;
     let right = [0, QUARTER, 2 * QUARTER, 3 * QUARTER];
     assert!(pieces(right).is_ok());
     assert!(pieces(right.map(|start| start + 77)).is_ok());

@@ -68,11 +68,22 @@ impl Report {
         }
         let [time, sines] = found;
         println!("{name:26} {} {sines:9.0}  {verdict:?}", line(time));
+        self.remember(name, verdict);
+        found
+    }
+
+    /// Prints a line whose figure, a number of reductions, has a ceiling in `ceilings.txt`.
+    pub(crate) fn count(&mut self, name: &str, count: u32, line: &str) {
+        let verdict = support::judge("host", name, f64::from(count));
+        println!("{name:26} {line} {count:9}  {verdict:?}");
+        self.remember(name, verdict);
+    }
+
+    fn remember(&mut self, name: &str, verdict: Verdict) {
         if !matches!(verdict, Verdict::Within(_) | Verdict::Slack(_)) {
             println!("FAILED: {name} {verdict:?}");
             self.failures += 1;
         }
-        found
     }
 
     /// Measures a ratio that must lie in `[low, high]`.

@@ -215,6 +215,8 @@ impl Kernel for Q31 {
     }
     #[inline]
     fn add_signed(sum: Self::Raw, c: Self::Raw, omega: Self) -> Self::Raw {
+        // A match on the ordering would cost eight instructions more.
+        #[expect(clippy::comparison_chain)]
         if omega.0 > 0 {
             sum + c
         } else if omega.0 < 0 {

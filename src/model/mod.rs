@@ -15,6 +15,7 @@ mod range;
 
 pub use pieces::{Part, Pieces};
 pub use range::Usage;
+pub(crate) use range::check;
 
 use crate::scalar::{Outcome, Scalar};
 use crate::table::{Cell, Layout, Spline, Table, TableError, curves};
@@ -57,13 +58,7 @@ impl<'a, S: Scalar, const CURVES: u8, L: Layout> Model<'a, S, CURVES, L> {
         if table.curves() != CURVES {
             return Err(TableError::Curves(table.curves()));
         }
-        let factor = S::velocity_factor(table.cells(), span, scale, L::step::<S>())
-            .ok_or(TableError::SpeedBase)?;
-        let reciprocal = match curves::RECIPROCAL & CURVES {
-            0 => S::Reciprocal::default(),
-            _ => range::reciprocal(&table)?.0,
-        };
-        Usage::of(&table, span, scale)?;
+        let (factor, reciprocal) = check(&table, span, scale)?;
         Ok(Self {
             table,
             velocity_factor: factor,

@@ -160,7 +160,8 @@ impl<'a, S: Scalar, const CURVES: u8, const N: usize, L: Layout> Pieces<'a, S, C
             let stretch = (((1u64 << 63) + shifted / 2) / shifted).min(u64::from(u32::MAX));
             let units = model.factor_of_range() * length as f32;
             let expected = *units_of_first.get_or_insert(units);
-            apart |= !((units - expected).abs() <= UNITS * expected);
+            let near = (units - expected).abs() <= UNITS * expected;
+            apart |= !near;
             Piece {
                 start,
                 shift,

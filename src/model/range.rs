@@ -3,7 +3,7 @@
 //! Every polynomial stays within its Bézier points, so the bounds hold everywhere in a cell, not only at the knots.
 
 use crate::scalar::{Kernel, Scalar};
-use crate::table::{Layout, Role, Table, TableError, bezier};
+use crate::table::{Layout, Role, Table, TableError, bezier, curves};
 use crate::{Phase, Scale};
 
 /// How much of the number range each quantity uses at most, over all phases and at full speed and acceleration: 1 is all of it
@@ -71,11 +71,12 @@ impl Usage {
         let mut all = Self::default();
         for cell in 0..table.cells() {
             let usage = Self::of_cell(table, cell, per_slope);
-            // Negated comparisons refuse NaN as well.
-            if !(usage.velocity < limit) {
+            // NaN is not less than anything.
+            let fits = |size: f32| size < limit;
+            if !fits(usage.velocity) {
                 return Err(TableError::VelocityTorque { cell });
             }
-            if !(usage.torque < limit) {
+            if !fits(usage.torque) {
                 return Err(TableError::TorqueRange { cell });
             }
             all = all.or(usage);
@@ -94,6 +95,22 @@ impl Usage {
             torque: self.torque.max(other.torque),
         }
     }
+}
+
+/// What makes a model of a table: the factor of the velocity torque, and the constants of the reciprocal.
+pub(crate) fn check<S: Scalar, L: Layout>(
+    table: &Table<'_, S, L>,
+    span: S::Span,
+    scale: &Scale,
+) -> Result<(S::Factor, S::Reciprocal), TableError> {
+    let factor = S::velocity_factor(table.cells(), span, scale, L::step::<S>())
+        .ok_or(TableError::SpeedBase)?;
+    Usage::of(table, span, scale)?;
+    let reciprocal = match curves::RECIPROCAL & table.curves() {
+        0 => S::Reciprocal::default(),
+        _ => reciprocal(table)?.0,
+    };
+    Ok((factor, reciprocal))
 }
 
 /// The constants of the reciprocal, the same in every cell; and the part of an acceleration that it errs by.
@@ -116,7 +133,8 @@ pub(super) fn reciprocal<S: Scalar, L: Layout>(
         let reciprocal = here.reciprocal().ok_or(refused)?;
         let inertia = here.inertia().0;
         let (constants, error) = S::reciprocal_of(inertia, reciprocal).ok_or(refused)?;
-        if *found.get_or_insert(constants) != constants || !(error < limit) {
+        let close = error < limit;
+        if *found.get_or_insert(constants) != constants || !close {
             return Err(refused);
         }
         most = most.max(if L::NEWTON { error * error } else { error });

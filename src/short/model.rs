@@ -122,12 +122,11 @@ impl<'a, const CURVES: u8> Model<'a, CURVES> {
         };
         if has(CURVES, curves::COULOMB | curves::CONSTANT_COULOMB) {
             let sum = self.of_speed(row, u, omega);
-            kernel::fence();
             return kernel::torque(Self::with_load(of_inertia(sum), row, start, u));
         }
         let sum = Self::with_load(0, row, start, u);
-        kernel::fence();
         let sum = of_inertia(sum);
+        // V and b are not read before J·α is done with its registers.
         kernel::fence();
         kernel::torque(sum.wrapping_add(self.of_speed(row, u, omega)))
     }
@@ -200,17 +199,14 @@ impl<'a, const CURVES: u8> Model<'a, CURVES> {
             kernel::fence();
             return R::default();
         };
-        kernel::fence();
         let start = row::at(row, row::start(CURVES));
         let resisting = if CURVES & !curves::RECIPROCAL == curves::INERTIA {
             let velocity = kernel::line(row::at(row, row::velocity(CURVES)), u);
             kernel::of_speed_alone(velocity, i32::from(omega.to_bits()))
         } else {
             let resisting = self.of_speed(row, u, omega);
-            
             Self::with_load(resisting, row, start, u) >> 16
         };
-        kernel::fence();
         let inertia = if has(CURVES, curves::RECIPROCAL) {
             kernel::line(row::at(row, row::reciprocal(CURVES)), u)
         } else {
@@ -241,7 +237,6 @@ impl<'a, const CURVES: u8> Model<'a, CURVES> {
         let velocity = kernel::line(row::at(row, row::velocity(CURVES)), u);
         let sum = kernel::of_speed(velocity, b, omega);
         if has(CURVES, curves::COULOMB) {
-            kernel::fence();
             let c = kernel::line(row::at(row, row::coulomb(CURVES)), u).wrapping_abs() << 16;
             return kernel::add_signed(sum, || c.wrapping_add(self.coulomb), omega);
         }

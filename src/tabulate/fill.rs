@@ -13,7 +13,7 @@ use crate::{Domain, Error, Scale, math};
 
 /// Fills `words` with the table of exactly `cells` cells and of this set of curves, and returns it.
 ///
-/// A constant of the set is the machine's value at the start of its range; a curve beside it is what is left. Coulomb
+/// A constant of the set is the machine's value; the least of them if there is a curve as well, which is what is left. Coulomb
 /// friction is stored with a sign that changes where its magnitude has a kink at zero (see [`curves::COULOMB`]).
 ///
 /// # Errors
@@ -44,19 +44,28 @@ pub fn fill<'w, S: Scalar, L: Layout>(
     if periodic {
         machine.check_repeats()?;
     }
-    let knots = sample::<S, L>(machine, set, cells, scale, samples)?;
-    let constants = constants::<S, L>(machine, set, scale, samples.get(..knots))?;
+    let knots = sample::<L>(machine, set, cells, scale, samples)?;
+    let constants = constants::<S, L>(machine, set, scale, |column| {
+        let samples = samples.get(column * rows..).and_then(|s| s.get(..knots));
+        samples.unwrap_or_default()
+    })?;
     let mut gains = [0u16; 5];
     for (column, role) in curves::roles(set) {
-        let overflow = |cell| Error::Overflow {
-            base: base_name(role),
-            cell,
+        let overflow = |cell| match role {
+            // More cells cure it.
+            Role::Reciprocal => Error::Table(TableError::Reciprocal { cell }),
+            _ => Error::Overflow {
+                base: base_name(role),
+                cell,
+            },
         };
         let samples = samples.get_mut(column * rows..).and_then(|s| s.get_mut(..knots));
         let samples = samples.unwrap_or_default();
         let constant = constants.of(role);
         if constant != 0.0 {
-            samples.iter_mut().for_each(|s| *s -= constant);
+            for sample in samples.iter_mut() {
+                *sample -= constant;
+            }
         }
         if role == Role::Coulomb {
             unfold(samples, periodic);
@@ -115,7 +124,7 @@ pub fn fill<'w, S: Scalar, L: Layout>(
 
 /// Samples of every curve of the set, in machine units, at the places that the layout's spline passes through; returns their
 /// number. Samples of one curve lie side by side.
-fn sample<S: Scalar, L: Layout>(
+fn sample<L: Layout>(
     machine: &impl Reducible,
     set: u8,
     cells: u32,
@@ -146,8 +155,8 @@ fn sample<S: Scalar, L: Layout>(
     if let Some(column) = Role::Reciprocal.column(set) {
         let inertia = samples.get(..count as usize).unwrap_or_default();
         let least = inertia.iter().copied().fold(f64::INFINITY, f64::min);
-        // 2 % below, so that Newton's step does not leave the range.
-        let unit = libm::exp2(math::floor(libm::log2(0.98 * least)));
+        // A tenth below, for what a coarse curve overshoots.
+        let unit = libm::exp2(math::floor(libm::log2(0.9 * least)));
         for k in 0..count as usize {
             let inertia = samples.get(k).copied().unwrap_or(1.0);
             if let Some(slot) = samples.get_mut(column * rows + k) {
@@ -159,11 +168,11 @@ fn sample<S: Scalar, L: Layout>(
 }
 
 /// What a table has beside its curves, in machine units and rounded as it will be stored.
-fn constants<S: Scalar, L: Layout>(
+fn constants<'s, S: Scalar, L: Layout>(
     machine: &impl Reducible,
     set: u8,
     scale: &Scale,
-    inertia: Option<&[f64]>,
+    samples: impl Fn(usize) -> &'s [f64],
 ) -> Result<Constants<f64>, Error> {
     let start = machine.reduction(machine.domain().position(0.0))?;
     let stored = |role: Role, value: f64| -> Result<f64, Error> {
@@ -171,24 +180,36 @@ fn constants<S: Scalar, L: Layout>(
         let word = S::word(role, value).ok_or(Error::Overflow { base, cell: 0 })?;
         Ok(S::exact(role, S::raw(word)))
     };
-    let has = |constant: u8| if set & constant == 0 { 0.0 } else { 1.0 };
+    let range = |column: usize| {
+        samples(column)
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), j| {
+                (least.min(*j), most.max(*j))
+            })
+    };
     // The middle of the range: every control point is then as small as it can be.
-    let range = inertia.unwrap_or_default().iter().fold(
-        (f64::INFINITY, f64::NEG_INFINITY),
-        |(least, most), j| (least.min(*j), most.max(*j)),
-    );
-    let middle = if L::OFFSET { 0.5 * (range.0 + range.1) } else { 0.0 };
+    let inertia = if L::OFFSET {
+        0.5 * (range(0).0 + range(0).1)
+    } else {
+        0.0
+    };
+    // Beside a curve the least value: what is left of a magnitude is one, too.
+    let constant = |bit: u8, role: Role| match role.column(set) {
+        _ if set & bit == 0 => 0.0,
+        Some(column) => range(column).0,
+        None => machine_units(&start, role, scale),
+    };
     Ok(Constants {
-        inertia: stored(Role::Inertia, middle)?,
+        inertia: stored(Role::Inertia, inertia)?,
         viscous: stored(
             Role::Viscous,
-            has(curves::CONSTANT_VISCOUS) * machine_units(&start, Role::Viscous, scale),
+            constant(curves::CONSTANT_VISCOUS, Role::Viscous),
         )?,
-        gains: [0.0; 5],
         coulomb: stored(
             Role::Coulomb,
-            has(curves::CONSTANT_COULOMB) * machine_units(&start, Role::Coulomb, scale),
+            constant(curves::CONSTANT_COULOMB, Role::Coulomb),
         )?,
+        gains: [0.0; 5],
     })
 }
 

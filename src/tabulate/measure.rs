@@ -71,6 +71,7 @@ pub(crate) fn scan(
 }
 
 /// Places of a table at which its error is looked at.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Places {
     /// The first cell; after the last of the table comes its first again.
     pub(super) first: u32,

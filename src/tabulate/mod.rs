@@ -27,7 +27,6 @@ use near::{Look, meets_near, search_near};
 use crate::error::positive;
 use crate::reduction::Reducible;
 use crate::scalar::Scalar;
-use crate::model::Usage;
 use crate::table::{Layout, Table, control_points, curves};
 use crate::{Error, Scale, Validity, math};
 
@@ -207,7 +206,7 @@ fn candidate<'w, S: Scalar, L: Layout>(
     let domain = machine.domain();
     let scale = scale.suiting::<S>(cells, domain.span());
     let table = fill::<S, L>(machine, set, cells, &scale, scratch, words)?;
-    Usage::of(&table, S::span(domain), &scale).map_err(Error::Table)?;
+    crate::model::check(&table, S::span(domain), &scale).map_err(Error::Table)?;
     Ok((table, scale))
 }
 

@@ -2,44 +2,49 @@
 
 use crate::math;
 
-/// Gives samples of a magnitude the signs of the smoothest curve that has this magnitude: each takes the sign that a straight
-/// line through the two before it predicts. On a turn the signs must meet; if not, the samples stay as they are.
+/// Gives samples of a magnitude the signs of the smoothest curve that has this magnitude: each takes the sign that the cubic
+/// through the four before it predicts, so that a sign can be wrong only where the sample is as small as the error of the
+/// fit. On a turn the signs must meet; if not, the samples stay as they are.
 pub(crate) fn unfold(samples: &mut [f64], periodic: bool) {
-    let sign = |before: [f64; 2], magnitude: f64| {
-        let predicted = 2.0 * before[1] - before[0];
-        if predicted < 0.0 { -magnitude } else { magnitude }
-    };
+    let count = samples.len();
     let magnitude = |samples: &[f64], k: usize| samples.get(k).map_or(0.0, |s| math::abs(*s));
-    // Where the magnitude is greatest the sign is sure.
-    let start = (0..samples.len())
+    // Where the magnitude is greatest the sign is sure, and round about.
+    let start = (0..count)
         .max_by(|a, b| magnitude(samples, *a).total_cmp(&magnitude(samples, *b)))
         .unwrap_or(0);
-    let count = samples.len();
-    let mut before = [magnitude(samples, start); 2];
+    let next = |before: [f64; 4], magnitude: f64| {
+        let [f4, f3, f2, f1] = before;
+        let predicted = 4.0 * f1 - 6.0 * f2 + 4.0 * f3 - f4;
+        [f3, f2, f1, if predicted < 0.0 { -magnitude } else { magnitude }]
+    };
     if periodic {
-        // One turn and one more sample from there, first only to see whether the signs meet.
-        let end = (1..=count).fold(before, |before, k| {
-            [before[1], sign(before, magnitude(samples, (start + k) % count))]
-        });
-        if end[1] < 0.0 {
+        let at = |k: usize| (start + count + k - 3) % count;
+        let before = [0, 1, 2, 3].map(|k| magnitude(samples, at(k)));
+        // One turn and the first sample again, first only to see whether the signs meet.
+        let end = (4..count + 4).fold(before, |before, k| next(before, magnitude(samples, at(k))));
+        if end.iter().any(|sample| *sample < 0.0) {
             return;
         }
-        for k in 1..count {
-            let at = (start + k) % count;
-            before = [before[1], sign(before, magnitude(samples, at))];
-            if let Some(slot) = samples.get_mut(at) {
-                *slot = before[1];
+        let mut before = before;
+        for k in 4..count + 4 {
+            before = next(before, magnitude(samples, at(k)));
+            if let Some(slot) = samples.get_mut(at(k)) {
+                *slot = before[3];
             }
         }
         return;
     }
     for step in [1isize, -1] {
-        let mut before = before;
+        // At an end of the stroke the greatest stands for those that are not there.
+        let mut before = [3isize, 2, 1, 0].map(|back| {
+            let neighbour = start.checked_add_signed(-step * back);
+            magnitude(samples, neighbour.filter(|k| *k < count).unwrap_or(start))
+        });
         let mut at = start.checked_add_signed(step);
         while let Some(k) = at.filter(|k| *k < count) {
-            before = [before[1], sign(before, magnitude(samples, k))];
+            before = next(before, magnitude(samples, k));
             if let Some(slot) = samples.get_mut(k) {
-                *slot = before[1];
+                *slot = before[3];
             }
             at = k.checked_add_signed(step);
         }

@@ -57,7 +57,7 @@ pub(crate) const CORES: [Core; 5] = [
         name: "cortex-m4",
         title: "M4F",
         target: "thumbv7em-none-eabihf",
-        rustc: &["-Ctarget-cpu=cortex-m4"],
+        rustc: &[],
         gcc: &["-mcpu=cortex-m4", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16"],
         machine: "mps2-an386",
         cpu: "cortex-m4",

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use jred::table::{Cubic, Layout, Quadratic, Spline, Spline16};
-use jred::{Image, Number as _, Phase, Q31, Scalar};
+use jred::{Image, Phase, Q31, Scalar};
 
 use super::support::{Folder, budget};
 use super::{KINDS, export_of, image, words_of};
@@ -276,12 +276,17 @@ fn compare(words: Vec<u32>, kind: (&str, &str)) {
         ("i32", _) => budget::DOCUMENT_I32,
         _ => budget::DOCUMENT_I16,
     };
+    // Units of fixed point are those of the bases, however small a curve is.
+    let fixed = f64::from(u8::from(kind.0 != "f32"));
+    let [torque, speed, inertia] = [7, 8, 9].map(|word| fixed * reader.float(word));
+    let per_position = f64::from(reader.words[4]) / reader.range();
+    let per_speed = torque / speed.max(f64::MIN_POSITIVE);
     for (what, worst, most) in [
-        ("J", worst.inertia, largest.inertia),
-        ("J'", worst.slope, largest.slope),
-        ("load", worst.load, largest.load),
-        ("b", worst.viscous, largest.viscous),
-        ("c", worst.coulomb, largest.coulomb),
+        ("J", worst.inertia, largest.inertia.max(inertia)),
+        ("J'", worst.slope, largest.slope.max(inertia * per_position)),
+        ("load", worst.load, largest.load.max(torque)),
+        ("b", worst.viscous, largest.viscous.max(per_speed)),
+        ("c", worst.coulomb, largest.coulomb.max(torque)),
     ] {
         println!("{kind:?} {what}: {:e} of {most}", worst / most.max(1e-300));
         assert!(worst <= share * most, "{kind:?} {what}: {worst} of {most}");
