@@ -4,8 +4,8 @@
 
 use core::hint::black_box;
 
-use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
-use jred::{Image, Model, Phase, Q31, Scalar};
+use jred::table::{Cubic, Layout, Quadratic, Spline, Spline16, curves};
+use jred::{Image, Model, Phase, Q15, Q31, Scalar, short};
 
 use crate::target::{Kernel, Point, each};
 
@@ -47,7 +47,57 @@ kernels! {
     jred_q31_torque: Q31 Cubic FULL, |m, p, w, a| m.torque(p, w, a);
     jred_q31_acceleration: Q31 Cubic SEED, |m, p, w, t| m.acceleration(p, w, t).value;
     jred_q31_quadratic_torque: Q31 Quadratic FULL, |m, p, w, a| m.torque(p, w, a);
+    jred_q31_spline16_torque: Q31 Spline16 FULL, |m, p, w, a| m.torque(p, w, a);
+    jred_q31_spline16_acceleration: Q31 Spline16 SEED, |m, p, w, t| m.acceleration(p, w, t).value;
     jred_q31_quadratic_acceleration: Q31 Quadratic SEED, |m, p, w, t| m.acceleration(p, w, t).value;
+}
+
+#[unsafe(no_mangle)]
+#[inline(never)]
+extern "Rust" fn jred_q15_torque(
+    model: &short::Model<FULL>,
+    phase: Phase,
+    omega: Q15,
+    alpha: Q15,
+) -> Q15 {
+    model.torque(phase, omega, alpha)
+}
+
+#[unsafe(no_mangle)]
+#[inline(never)]
+extern "Rust" fn jred_q15_acceleration(
+    model: &short::Model<SEED>,
+    phase: Phase,
+    omega: Q15,
+    torque: Q15,
+) -> Q15 {
+    model.acceleration(phase, omega, torque).value
+}
+
+/// The ticks over 16-bit rows.
+pub(crate) const SHORT: &[Kernel] = &[
+    ("jred_q15_torque", |image, points| {
+        over_short(image, points, jred_q15_torque);
+    }),
+    ("jred_q15_acceleration", |image, points| {
+        over_short(image, points, jred_q15_acceleration);
+    }),
+];
+
+/// As `over`, for 16-bit rows.
+fn over_short<const CURVES: u8>(
+    image: &[u32],
+    points: &mut [Point],
+    kernel: fn(&short::Model<CURVES>, Phase, Q15, Q15) -> Q15,
+) {
+    let kernel = black_box(kernel);
+    let image = Image::new(image).expect("a table image");
+    let model = image.short_model().expect("of this set of curves");
+    let number = |bits: u32| Q15::from_bits(bits as i16);
+    each(points, |[phase, omega, third]| {
+        let result = kernel(&model, Phase::from_bits(phase), number(omega), number(third));
+        i32::from(result.to_bits()).cast_unsigned()
+    });
 }
 
 /// Calls a kernel over the model that the image holds.

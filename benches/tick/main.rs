@@ -51,6 +51,7 @@ mod target {
 
     const LISTS: &[&[Kernel]] = &[
         crate::library::KERNELS,
+        crate::library::SHORT,
         crate::hand::KERNELS,
         crate::analytic::KERNELS,
         #[cfg(tick_peers)]

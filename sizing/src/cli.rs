@@ -148,7 +148,11 @@ pub struct Export {
     pub reciprocal: Choice,
     /// Largest error of the drive torque, which acts at the drive link, e.g. "0.5 N m" ("5 N" of a sliding link); may be left
     /// out with --max-bytes.
-    #[arg(long, required_unless_present = "max_bytes", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        required_unless_present = "max_bytes",
+        allow_hyphen_values = true
+    )]
     pub torque_error: Option<String>,
     /// Largest speed of the drive link, e.g. "90 rpm" ("0.2 m/s" of a sliding link); from the motion if not given.
     #[arg(long, allow_hyphen_values = true)]

@@ -33,7 +33,11 @@ const KINDS: [(&str, &str); 8] = [
 /// Runs the export of a machine file.
 fn export_of(file: &Path, more: &[&str], out: Option<&Path>) -> Run {
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_jred"));
-    command.arg("export").arg(file).args(more).env("NO_COLOR", "1");
+    command
+        .arg("export")
+        .arg(file)
+        .args(more)
+        .env("NO_COLOR", "1");
     if let Some(out) = out {
         command.arg("--out").arg(out);
     }

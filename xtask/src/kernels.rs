@@ -3,7 +3,7 @@
 //! To add one: a line in [`KERNELS`], and the function of that name in `benches/tick/`.
 
 use crate::data::Data;
-use crate::image::Layout::{self, Cubic, Quadratic, Spline};
+use crate::image::Layout::{self, Cubic, Quadratic, Rows16, Spline, Spline16};
 use crate::image::{BARE, FULL, SEED};
 use crate::number::Number;
 
@@ -52,9 +52,9 @@ macro_rules! kernels {
     };
 }
 
-/// A table of the library: 64 cells, quadratic 256.
+/// A table of the library: 64 cells, quadratics 256.
 const fn table(layout: Layout, set: u8) -> Data {
-    let cells = if matches!(layout, Quadratic) { 256 } else { 64 };
+    let cells = if matches!(layout, Quadratic | Rows16) { 256 } else { 64 };
     Data::Jred { layout, set, cells }
 }
 
@@ -66,6 +66,8 @@ pub(crate) const KERNELS: &[Kernel] = &kernels![
     jred_f32_spline_torque       Torque       Jred  PhaseF32 table(Spline, FULL), "jred f32, spline";
     jred_q31_torque              Torque       Jred  PhaseQ31 table(Cubic, FULL), "jred q31, cubic";
     jred_q31_quadratic_torque    Torque       Jred  PhaseQ31 table(Quadratic, FULL), "jred q31, quadratic";
+    jred_q31_spline16_torque     Torque       Jred  PhaseQ31 table(Spline16, FULL), "jred q31, 16-bit spline";
+    jred_q15_torque              Torque       Jred  PhaseQ15 table(Rows16, FULL), "jred q15, 16-bit rows";
     hand_f32_torque              Torque       Other Radians  Data::LinearF32, "by hand, f32, one index (Rust)";
     analytic_libm_torque         Torque       Other Radians  Data::Dimensions, "no table, crate libm";
     analytic_micromath_torque    Torque       Other Radians  Data::Dimensions, "no table, crate micromath";
@@ -78,6 +80,8 @@ pub(crate) const KERNELS: &[Kernel] = &kernels![
     jred_f32_spline_acceleration Acceleration Jred  PhaseF32 table(Spline, BARE), "jred f32, spline";
     jred_q31_acceleration        Acceleration Jred  PhaseQ31 table(Cubic, SEED), "jred q31, cubic, 1/J";
     jred_q31_quadratic_acceleration Acceleration Jred PhaseQ31 table(Quadratic, SEED), "jred q31, quadratic, 1/J";
+    jred_q31_spline16_acceleration Acceleration Jred PhaseQ31 table(Spline16, SEED), "jred q31, 16-bit spline, 1/J";
+    jred_q15_acceleration        Acceleration Jred  PhaseQ15 table(Rows16, SEED), "jred q15, 16-bit rows, 1/J";
     hand_f32_acceleration        Acceleration Other Radians  Data::LinearF32, "by hand, f32, one index (Rust)";
     analytic_libm_acceleration   Acceleration Other Radians  Data::Dimensions, "no table, crate libm";
     analytic_micromath_acceleration Acceleration Other Radians Data::Dimensions, "no table, crate micromath";

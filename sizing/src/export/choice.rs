@@ -94,11 +94,7 @@ impl Number {
     /// The layouts that tables of this type can have.
     pub const fn layouts(self) -> &'static [LayoutName] {
         match self {
-            Self::F32 => &[
-                LayoutName::Spline,
-                LayoutName::Cubic,
-                LayoutName::Quadratic,
-            ],
+            Self::F32 => &[LayoutName::Spline, LayoutName::Cubic, LayoutName::Quadratic],
             Self::I32 => &[
                 LayoutName::Spline,
                 LayoutName::Spline16,

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use jred::table::{Cubic, MAX_CELLS, Quadratic, Spline};
 use jred::Error;
+use jred::table::{Cubic, MAX_CELLS, Quadratic, Spline};
 
 use super::choice::{LayoutName, Number};
 use super::place::{Feature, feature};
@@ -158,10 +158,13 @@ impl NotReached<'_> {
     /// What other layouts and types do: each was tried.
     fn cures(&self) -> Vec<String> {
         let meets = |number: Number, layouts: bool| {
-            let found = self.answers.iter().filter_map(|(n, _, answer)| match answer {
-                Answer::Meets(c) if *n == number => Some(c.as_ref()),
-                _ => None,
-            });
+            let found = self
+                .answers
+                .iter()
+                .filter_map(|(n, _, answer)| match answer {
+                    Answer::Meets(c) if *n == number => Some(c.as_ref()),
+                    _ => None,
+                });
             let best = found.min_by_key(|candidate| candidate.bytes())?;
             let layout = if layouts {
                 format!("--layout {}", best.layout.name())
@@ -199,7 +202,10 @@ impl NotReached<'_> {
     fn limit(&self, candidate: &Candidate) -> Result<Limit, Error> {
         // Of what is there, or of what is allowed, rounding may make up so much.
         const SHARE: f64 = 0.5;
-        let without = |cells| self.without_rounding(candidate.layout, cells).map(|(error, _)| error);
+        let without = |cells| {
+            self.without_rounding(candidate.layout, cells)
+                .map(|(error, _)| error)
+        };
         let cells = candidate.found.cells;
         let allowed = self.task.torque_error.unwrap_or_default();
         let (bound, error) = (candidate.looked, without(cells)?);
@@ -211,7 +217,12 @@ impl NotReached<'_> {
         }
         // The largest error of a curve with a kink swings with the place of the kink in its cell: the mean of a few sizes.
         let mean = |cells: u32| -> Result<f64, Error> {
-            let sizes = [cells, cells - cells / 24, cells - cells / 12, cells - cells / 8];
+            let sizes = [
+                cells,
+                cells - cells / 24,
+                cells - cells / 12,
+                cells - cells / 8,
+            ];
             let mut sum = 0.0;
             for cells in sizes {
                 sum += without(cells.max(4))?.ln();

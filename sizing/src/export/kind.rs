@@ -123,8 +123,12 @@ impl<S: Scalar, L: Layout> Kind for Long<S, L> {
     ) -> Result<(f64, usize), Error> {
         let (table, _) = Self::fill(size, buffers)?;
         let reference = &size.search.reference;
-        let [torque, speed, inertia] =
-            [size.scale.torque(), size.scale.speed(), size.scale.inertia()].map(f64::from);
+        let [torque, speed, inertia] = [
+            size.scale.torque(),
+            size.scale.speed(),
+            size.scale.inertia(),
+        ]
+        .map(f64::from);
         let per_position = f64::from(size.cells) / size.search.domain.span();
         let read = |phase| {
             let read = table.at(phase);
@@ -216,8 +220,12 @@ impl Kind for Short {
         from: (usize, f64),
     ) -> Result<(f64, usize), Error> {
         let table = Self::fill(size, buffers)?;
-        let [torque, speed, inertia] =
-            [size.scale.torque(), size.scale.speed(), size.scale.inertia()].map(f64::from);
+        let [torque, speed, inertia] = [
+            size.scale.torque(),
+            size.scale.speed(),
+            size.scale.inertia(),
+        ]
+        .map(f64::from);
         let read = |phase| {
             let read = table.at(phase);
             Curves {

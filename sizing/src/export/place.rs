@@ -49,12 +49,7 @@ pub(super) fn feature(
     })
 }
 
-fn window_edge(
-    file: &MachineFile,
-    coordinate: Coordinate,
-    at: f64,
-    near: f64,
-) -> Option<Feature> {
+fn window_edge(file: &MachineFile, coordinate: Coordinate, at: f64, near: f64) -> Option<Feature> {
     const WHAT: [&str; 4] = ["begins", "is fully there", "begins to fall", "ends"];
     let domain = file.machine.mechanism().domain();
     let edges = file.loads.iter().filter_map(|load| {
@@ -73,7 +68,9 @@ fn window_edge(
         "the load {name:?} {what} at {}, over a ramp of {ramp} {unit}",
         coordinate.place(edge)
     );
-    let cure = Some(format!("a longer ramp of the load {name:?} in the machine file"));
+    let cure = Some(format!(
+        "a longer ramp of the load {name:?} in the machine file"
+    ));
     Some(Feature { words, cure })
 }
 
@@ -159,7 +156,9 @@ fn narrow(
         let at = |k: u32| from + (to - from) * f64::from(k) / f64::from(PARTS);
         let values = (0..=PARTS).map(|k| f(at(k)));
         let values = values.collect::<Result<Vec<f64>, Error>>()?;
-        let size = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let size = values
+            .iter()
+            .fold(0.0, |most: f64, value| most.max(value.abs()));
         let steps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let odd = |triple: &[f64]| (triple[1] - 0.5 * (triple[0] + triple[2])).abs();
         let best = (1..).zip(steps.windows(3).map(odd));

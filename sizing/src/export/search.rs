@@ -108,11 +108,7 @@ impl<'m> Search<'m> {
     ///
     /// # Errors
     /// Those of the machine.
-    pub(super) fn run<K: Kind>(
-        &self,
-        number: Number,
-        layout: LayoutName,
-    ) -> Result<Answer, Error> {
+    pub(super) fn run<K: Kind>(&self, number: Number, layout: LayoutName) -> Result<Answer, Error> {
         let reciprocal = if self.goal.reciprocal && K::RECIPROCAL {
             curves::RECIPROCAL
         } else {

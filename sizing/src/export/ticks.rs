@@ -96,16 +96,30 @@ fn run<N: Number>(
 ) -> Ticks {
     let [torque_base, speed_base, acceleration_base] =
         [scale.torque(), scale.speed(), scale.acceleration()].map(f64::from);
-    let (number, value) = (|value: f64| N::from_f64(value).unwrap_or_default(), N::to_f64);
+    let (number, value) = (
+        |value: f64| N::from_f64(value).unwrap_or_default(),
+        N::to_f64,
+    );
     // The arguments as the number type holds them: their own rounding is not an error of the table.
-    let corners = [(omega, alpha), (omega, -alpha), (-omega, alpha), (-omega, -alpha)];
-    let corners = corners
-        .map(|(omega, alpha)| (number(omega / speed_base), number(alpha / acceleration_base)));
+    let corners = [
+        (omega, alpha),
+        (omega, -alpha),
+        (-omega, alpha),
+        (-omega, -alpha),
+    ];
+    let corners = corners.map(|(omega, alpha)| {
+        (
+            number(omega / speed_base),
+            number(alpha / acceleration_base),
+        )
+    });
     let mut worst = Ticks::default();
     for Place { phase, phi, exact } in &reference.places {
         for (omega, alpha) in corners {
             let speed = value(omega) * speed_base;
-            let expected = exact.torque(speed, value(alpha) * acceleration_base).total();
+            let expected = exact
+                .torque(speed, value(alpha) * acceleration_base)
+                .total();
             let found = value(torque(*phase, omega, alpha)) * torque_base;
             let error = (found - expected).abs();
             if error > worst.torque {

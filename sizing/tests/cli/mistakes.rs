@@ -103,11 +103,25 @@ fn wrong_command_lines() {
             &["q31", "f32", "i32", "i16"],
         ),
         (
-            &["export", press, "--torque-error", "1 N m", "--layout", "linear"],
+            &[
+                "export",
+                press,
+                "--torque-error",
+                "1 N m",
+                "--layout",
+                "linear",
+            ],
             &["linear", "auto", "spline16", "quadratic"],
         ),
         (
-            &["export", press, "--torque-error", "1 N m", "--reciprocal", "maybe"],
+            &[
+                "export",
+                press,
+                "--torque-error",
+                "1 N m",
+                "--reciprocal",
+                "maybe",
+            ],
             &["maybe", "yes", "no"],
         ),
         (&["export", press, "--max-bytes", "-1"], &["-1"]),

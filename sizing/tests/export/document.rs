@@ -110,7 +110,11 @@ impl Reader {
                     f64::from(half as i16) * self.gain(bit) / Self::unit(bit)
                 };
                 let [c0, c1, c2, c3] = [0, 1, 2, 3].map(point);
-                let offset = if bit == 0 { self.number(self.words[13], 0) } else { 0.0 };
+                let offset = if bit == 0 {
+                    self.number(self.words[13], 0)
+                } else {
+                    0.0
+                };
                 [
                     c0 + 4.0 * c1 + c2 + offset,
                     3.0 * (c2 - c0),
@@ -157,7 +161,11 @@ impl Reader {
         }
         let at = |bit| self.polynomial(cell, f64::from(low) / 2f64.powi(32), bit);
         let constant = |of: u8, word: usize, bit| {
-            if set & of == 0 { 0.0 } else { self.number(self.words[word], bit) }
+            if set & of == 0 {
+                0.0
+            } else {
+                self.number(self.words[word], bit)
+            }
         };
         let [value, slope] = at(0);
         Read {
@@ -260,11 +268,31 @@ fn compare(words: Vec<u32>, kind: (&str, &str)) {
             library(&words, kind, Phase::from_bits(bits)),
         );
         for (worst, most, a, b) in [
-            (&mut worst.inertia, &mut largest.inertia, found.inertia, library.inertia),
-            (&mut worst.slope, &mut largest.slope, found.slope, library.slope),
+            (
+                &mut worst.inertia,
+                &mut largest.inertia,
+                found.inertia,
+                library.inertia,
+            ),
+            (
+                &mut worst.slope,
+                &mut largest.slope,
+                found.slope,
+                library.slope,
+            ),
             (&mut worst.load, &mut largest.load, found.load, library.load),
-            (&mut worst.viscous, &mut largest.viscous, found.viscous, library.viscous),
-            (&mut worst.coulomb, &mut largest.coulomb, found.coulomb, library.coulomb),
+            (
+                &mut worst.viscous,
+                &mut largest.viscous,
+                found.viscous,
+                library.viscous,
+            ),
+            (
+                &mut worst.coulomb,
+                &mut largest.coulomb,
+                found.coulomb,
+                library.coulomb,
+            ),
         ] {
             *worst = worst.max((a - b).abs());
             *most = most.max(b.abs());
@@ -376,7 +404,10 @@ fn the_reciprocal_is_a_power_of_two_over_the_inertia() {
             1.0
         } else {
             let read = reader.read(0);
-            (read.inertia / base * read.reciprocal).log2().round().exp2()
+            (read.inertia / base * read.reciprocal)
+                .log2()
+                .round()
+                .exp2()
         };
         for k in 0..2000u32 {
             let read = reader.read(k.wrapping_mul(2_147_483));

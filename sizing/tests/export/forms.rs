@@ -16,10 +16,22 @@ fn words_in(source: &str) -> Vec<u32> {
 fn source_texts_hold_the_image() {
     let folder = Folder::new();
     for (number, layout) in KINDS {
-        let kind = ["--type", number, "--layout", layout, "--torque-error", "0.5 N m"];
+        let kind = [
+            "--type",
+            number,
+            "--layout",
+            layout,
+            "--torque-error",
+            "0.5 N m",
+        ];
         let of = |form: &str| {
             let out = folder.path(form);
-            export_of(&press_file(), &[&kind[..], &["--format", form]].concat(), Some(&out)).ends(0);
+            export_of(
+                &press_file(),
+                &[&kind[..], &["--format", form]].concat(),
+                Some(&out),
+            )
+            .ends(0);
             std::fs::read_to_string(out).unwrap()
         };
         let words = image(&folder, &kind);
@@ -38,7 +50,10 @@ fn source_texts_hold_the_image() {
                 (count(']'), count('}'), count(')'))
             );
             assert!(code.trim_end().ends_with("};") || code.trim_end().ends_with("];"));
-            assert!(text.lines().all(|line| line.is_ascii() || line.starts_with("//")));
+            assert!(
+                text.lines()
+                    .all(|line| line.is_ascii() || line.starts_with("//"))
+            );
             // The comment says what to load it as.
             assert!(text.contains(&format!("// {number}, layout {layout}, ")));
             let set = "{ curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS }";
@@ -65,7 +80,11 @@ fn a_title_stays_in_its_comment() {
     let text = edited_press("title = \"Servo press, 60 mm stroke, 10 kN\"", title);
     let file = folder.file("m.toml", text);
     let out = folder.path("table.c");
-    let run = export_of(&file, &["--format", "c", "--torque-error", "1 N m"], Some(&out));
+    let run = export_of(
+        &file,
+        &["--format", "c", "--torque-error", "1 N m"],
+        Some(&out),
+    );
     if run.code == 2 {
         return; // Refused as a title: just as good.
     }
@@ -78,7 +97,14 @@ fn a_title_stays_in_its_comment() {
 #[test]
 fn json_says_everything() {
     let folder = Folder::new();
-    let more = ["--type", "i32", "--torque-error", "0.5 N m", "--reciprocal", "yes"];
+    let more = [
+        "--type",
+        "i32",
+        "--torque-error",
+        "0.5 N m",
+        "--reciprocal",
+        "yes",
+    ];
     let (run, path) = export(&folder, &more);
     run.ends(0);
     let words = words_of(&path);
@@ -106,7 +132,11 @@ fn json_says_everything() {
     // Headroom: the parts of the sum add up to it in each cell, so that the sum of the largest is not below it.
     let share = |name: &str| 0.5f64.powf(value["bits_unused"][name].as_f64().unwrap());
     let parts = ["inertia", "velocity", "load", "viscous", "coulomb"].map(share);
-    assert!(parts.iter().all(|part| *part > 0.0 && *part <= share("torque")));
+    assert!(
+        parts
+            .iter()
+            .all(|part| *part > 0.0 && *part <= share("torque"))
+    );
     assert!(parts.iter().sum::<f64>() >= share("torque") * (1.0 - 1e-6));
     assert!(share("torque") < 1.0);
     // Every type and layout, and the smallest of those of the type is the one chosen.
@@ -116,7 +146,9 @@ fn json_says_everything() {
         .map(|a| (a["type"].as_str().unwrap(), a["layout"].as_str().unwrap()))
         .collect();
     assert_eq!(names, KINDS);
-    let own = all.iter().filter(|a| a["type"] == "i32" && a["meets"] == true);
+    let own = all
+        .iter()
+        .filter(|a| a["type"] == "i32" && a["meets"] == true);
     let least = own.map(|a| a["image_bytes"].as_u64().unwrap()).min();
     assert_eq!(least, value["image_bytes"].as_u64());
 }
@@ -124,7 +156,11 @@ fn json_says_everything() {
 #[test]
 fn without_a_file_nothing_is_written() {
     let run = export_of(&press_file(), &["--torque-error", "1 N m"], None).ends(0);
-    assert!(run.out.contains("nothing written: --out names a file"), "{}", run.out);
+    assert!(
+        run.out.contains("nothing written: --out names a file"),
+        "{}",
+        run.out
+    );
     for (number, layout) in KINDS {
         let row = run.out.lines().any(|line| {
             let words: Vec<_> = line.split_whitespace().filter(|w| *w != "*").collect();
@@ -134,6 +170,10 @@ fn without_a_file_nothing_is_written() {
     }
     // Bits unused are those of fixed point.
     assert!(!run.out.contains("bits unused"));
-    let fixed = export_of(&press_file(), &["--torque-error", "1 N m", "--type", "i16"], None);
+    let fixed = export_of(
+        &press_file(),
+        &["--torque-error", "1 N m", "--type", "i16"],
+        None,
+    );
     assert!(fixed.ends(0).out.contains("bits unused: J_red "));
 }

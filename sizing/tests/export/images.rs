@@ -149,7 +149,8 @@ fn every_type_and_layout_holds_its_error() {
                 ("i16", "yes") => budget::SHORT_RECIPROCAL,
                 _ => budget::BETWEEN_PLACES,
             };
-            let most = stated * (1.0 + of_reciprocal) + budget::SHORT_QUOTIENT[usize::from(number == "i16")];
+            let most = stated * (1.0 + of_reciprocal)
+                + budget::SHORT_QUOTIENT[usize::from(number == "i16")];
             assert!(
                 acceleration <= most,
                 "{number} {layout}: {acceleration} above {stated}"
@@ -160,7 +161,10 @@ fn every_type_and_layout_holds_its_error() {
             }
             // What is printed is what the header says.
             let printed = number_after(&run.out, "torque error reached ");
-            assert!((printed / stated - 1.0).abs() < 1e-5, "{printed} and {stated}");
+            assert!(
+                (printed / stated - 1.0).abs() < 1e-5,
+                "{printed} and {stated}"
+            );
             let printed = number_after(&run.out, &format!("{number}, layout {layout}, "));
             assert_eq!(printed, f64::from(image.cells()));
             let bytes = number_after(&run.out, " bytes of rows, ");
@@ -190,7 +194,11 @@ fn every_machine_holds_its_error() {
         }
         let out = folder.path("machine.jred");
         let number = ["f32", "i32", "i16"][k % 3];
-        let more: &[&str] = if file.motion.is_some() { &[] } else { &["--omega", "60 rpm"] };
+        let more: &[&str] = if file.motion.is_some() {
+            &[]
+        } else {
+            &["--omega", "60 rpm"]
+        };
         let arguments = [&["--type", number, "--max-bytes", "1500"], more].concat();
         let run = export_of(path, &arguments, Some(&out)).ends(0);
         let words = words_of(&out);
@@ -200,7 +208,10 @@ fn every_machine_holds_its_error() {
         let layout = layout.split_once(',').unwrap().0;
         let stated = f64::from(image.validity().torque_error);
         let worst = of_curves(&image, &file, (number, layout));
-        println!("{} {number} {layout}: stated {stated}, found {worst}", path.display());
+        println!(
+            "{} {number} {layout}: stated {stated}, found {worst}",
+            path.display()
+        );
         assert!(
             worst <= stated * (1.0 + budget::BETWEEN_PLACES) + budget::NO_ERROR,
             "{}: {worst} above {stated}",
@@ -221,11 +232,13 @@ fn of_curves(image: &Image<'_>, file: &MachineFile, kind: (&str, &str)) -> f64 {
     for _ in 0..2000 {
         let bits = (random() * 4_294_967_296.0) as u32;
         let phi = domain.position(f64::from(bits) / 4_294_967_296.0);
-        let [inertia, slope, load, viscous, coulomb] = curves_at(image, kind, Phase::from_bits(bits));
+        let [inertia, slope, load, viscous, coulomb] =
+            curves_at(image, kind, Phase::from_bits(bits));
         let omega = f64::from(omega) * (2.0 * random() - 1.0);
         let alpha = f64::from(alpha) * (2.0 * random() - 1.0);
-        let found =
-            inertia * alpha + 0.5 * slope * omega * omega - load + viscous * omega + coulomb * omega.signum();
+        let found = inertia * alpha + 0.5 * slope * omega * omega - load
+            + viscous * omega
+            + coulomb * omega.signum();
         let exact = machine.reduction(phi).unwrap().torque(omega, alpha).total();
         worst = worst.max((found - exact).abs());
     }
@@ -277,7 +290,14 @@ fn no_smaller_table_would_do() {
     let folder = Folder::new();
     for (number, layout) in KINDS {
         let of = |most: &str| {
-            let more = ["--type", number, "--layout", layout, "--torque-error", "0.5 N m"];
+            let more = [
+                "--type",
+                number,
+                "--layout",
+                layout,
+                "--torque-error",
+                "0.5 N m",
+            ];
             export(&folder, &[&more[..], &["--max-cells", most]].concat())
         };
         let (run, path) = of("4096");
@@ -307,7 +327,10 @@ fn a_damaged_file_is_refused() {
     load(&words).unwrap();
     for length in 0..words.len() {
         let error = load(&words[..length]).unwrap_err();
-        assert!(matches!(error, ImageError::Length { .. }), "{length}: {error}");
+        assert!(
+            matches!(error, ImageError::Length { .. }),
+            "{length}: {error}"
+        );
     }
     let mut longer = words.clone();
     longer.push(0);
@@ -328,9 +351,18 @@ fn a_damaged_file_is_refused() {
     assert_eq!(error, ImageError::Misaligned);
     // Another number type, layout or set is refused, not misread.
     let image = Image::new(&words).unwrap();
-    assert!(matches!(image.model::<Q31, SET, Spline>(), Err(ImageError::NumberType(1))));
-    assert!(matches!(image.model::<f32, SET, Cubic>(), Err(ImageError::Layout(1))));
-    assert!(matches!(image.short_model::<SET>(), Err(ImageError::NumberType(1))));
+    assert!(matches!(
+        image.model::<Q31, SET, Spline>(),
+        Err(ImageError::NumberType(1))
+    ));
+    assert!(matches!(
+        image.model::<f32, SET, Cubic>(),
+        Err(ImageError::Layout(1))
+    ));
+    assert!(matches!(
+        image.short_model::<SET>(),
+        Err(ImageError::NumberType(1))
+    ));
     assert!(matches!(
         image.model::<f32, 0, Spline>(),
         Err(ImageError::Table(jred::TableError::Curves(SET)))
@@ -342,7 +374,10 @@ fn a_damaged_file_is_refused() {
 fn the_rotor_comes_into_the_table() {
     let folder = Folder::new();
     let torque = |more: &[&str]| {
-        let words = image(&folder, &[&["--torque-error", "0.05 N m", "--layout", "spline"], more].concat());
+        let words = image(
+            &folder,
+            &[&["--torque-error", "0.05 N m", "--layout", "spline"], more].concat(),
+        );
         let model = Image::new(&words).unwrap();
         let model = model.model::<f32, SET, Spline>().unwrap();
         f64::from(model.torque(Phase::from_radians(0.7), 0.0, 100.0))

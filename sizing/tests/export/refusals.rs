@@ -5,7 +5,14 @@ use super::support::{Folder, edited_press, press_file};
 
 #[test]
 fn too_few_cells_name_the_load_and_the_cures() {
-    let more = ["--torque-error", "0.5 N m", "--max-cells", "60", "--layout", "spline"];
+    let more = [
+        "--torque-error",
+        "0.5 N m",
+        "--max-cells",
+        "60",
+        "--layout",
+        "spline",
+    ];
     let run = export_of(&press_file(), &more, None).ends(1);
     run.says(&[
         "no table meets a torque error of 0.5 N m: type f32, up to 60 cells",
@@ -25,7 +32,14 @@ fn too_few_cells_name_the_load_and_the_cures() {
     let message = run.message();
     let cells = message.split_once("--max-cells ").unwrap().1;
     let cells: String = cells.chars().take_while(char::is_ascii_digit).collect();
-    let more = ["--torque-error", "0.5 N m", "--max-cells", &cells, "--layout", "spline"];
+    let more = [
+        "--torque-error",
+        "0.5 N m",
+        "--max-cells",
+        &cells,
+        "--layout",
+        "spline",
+    ];
     export_of(&press_file(), &more, None).ends(0);
 }
 
@@ -33,8 +47,18 @@ fn too_few_cells_name_the_load_and_the_cures() {
 #[test]
 fn the_ramp_is_a_cure() {
     let folder = Folder::new();
-    let longer = folder.file("ramp.toml", edited_press("ramp = \"15 deg\"", "ramp = \"22 deg\""));
-    let more = ["--torque-error", "0.5 N m", "--max-cells", "96", "--layout", "spline"];
+    let longer = folder.file(
+        "ramp.toml",
+        edited_press("ramp = \"15 deg\"", "ramp = \"22 deg\""),
+    );
+    let more = [
+        "--torque-error",
+        "0.5 N m",
+        "--max-cells",
+        "96",
+        "--layout",
+        "spline",
+    ];
     export_of(&press_file(), &more, None).ends(1);
     export_of(&longer, &more, None).ends(0);
 }
@@ -60,22 +84,46 @@ fn the_floor_of_single_precision_is_named_with_what_is_below_it() {
         "or take --type i32 (",
     ]);
     for number in ["f32", "i32"] {
-        export_of(&press_file(), &["--torque-error", "0.02 N m", "--type", number], None).ends(0);
+        export_of(
+            &press_file(),
+            &["--torque-error", "0.02 N m", "--type", number],
+            None,
+        )
+        .ends(0);
     }
 }
 
 #[test]
 fn another_layout_is_offered_where_it_does() {
-    let more = ["--torque-error", "0.5 N m", "--layout", "quadratic", "--max-cells", "120"];
+    let more = [
+        "--torque-error",
+        "0.5 N m",
+        "--layout",
+        "quadratic",
+        "--max-cells",
+        "120",
+    ];
     let run = export_of(&press_file(), &more, None).ends(1);
-    run.says(&["quadratic: ", "or take --layout spline (", " cells, ", " bytes)"]);
+    run.says(&[
+        "quadratic: ",
+        "or take --layout spline (",
+        " cells, ",
+        " bytes)",
+    ]);
     assert!(!run.message().contains("cubic: "), "{}", run.message());
 }
 
 #[test]
 fn a_kink_of_the_mechanism_is_named() {
     let geneva = press_file().with_file_name("geneva.toml");
-    let more = ["--torque-error", "0.0001 N m", "--omega", "60 rpm", "--max-cells", "200"];
+    let more = [
+        "--torque-error",
+        "0.0001 N m",
+        "--omega",
+        "60 rpm",
+        "--max-cells",
+        "200",
+    ];
     let run = export_of(&geneva, &more, None).ends(1);
     // The pin enters a slot at ±60 degrees, and the wheel's acceleration jumps.
     let message = run.message();
@@ -107,10 +155,25 @@ fn a_reciprocal_of_floating_point() {
 
 #[test]
 fn a_layout_that_the_type_has_not() {
-    for (number, layout) in [("f32", "spline16"), ("f32", "rows"), ("i16", "spline"), ("i32", "rows")] {
-        let more = ["--torque-error", "1 N m", "--type", number, "--layout", layout];
+    for (number, layout) in [
+        ("f32", "spline16"),
+        ("f32", "rows"),
+        ("i16", "spline"),
+        ("i32", "rows"),
+    ] {
+        let more = [
+            "--torque-error",
+            "1 N m",
+            "--type",
+            number,
+            "--layout",
+            layout,
+        ];
         let run = export_of(&press_file(), &more, None).ends(2);
-        run.says(&[&format!("{number} tables have no layout {layout}"), "--layout"]);
+        run.says(&[
+            &format!("{number} tables have no layout {layout}"),
+            "--layout",
+        ]);
     }
 }
 
@@ -118,12 +181,20 @@ fn a_layout_that_the_type_has_not() {
 #[test]
 fn quantities_of_a_link_that_slides() {
     let hoist = press_file().with_file_name("excavator-bucket.toml");
-    export_of(&hoist, &["--torque-error", "100 N"], None)
-        .ends(0);
+    export_of(&hoist, &["--torque-error", "100 N"], None).ends(0);
     let run = export_of(&hoist, &["--torque-error", "100 N m"], None).ends(2);
     run.says(&["--torque-error \"100 N m\" cannot be used", "N"]);
-    let run = export_of(&hoist, &["--torque-error", "100 N", "--omega", "60 rpm"], None).ends(2);
+    let run = export_of(
+        &hoist,
+        &["--torque-error", "100 N", "--omega", "60 rpm"],
+        None,
+    )
+    .ends(2);
     run.says(&["--omega \"60 rpm\" cannot be used", "m/s"]);
-    let run = export_of(&press_file(), &["--torque-error", "1 N m", "--alpha", "3 m/s^2"], None);
+    let run = export_of(
+        &press_file(),
+        &["--torque-error", "1 N m", "--alpha", "3 m/s^2"],
+        None,
+    );
     run.ends(2).says(&["--alpha \"3 m/s^2\" cannot be used"]);
 }
