@@ -10,6 +10,8 @@ mod document;
 mod forms;
 #[path = "export/images.rs"]
 mod images;
+#[path = "export/reader.rs"]
+mod reader;
 #[path = "export/refusals.rs"]
 mod refusals;
 mod support;

@@ -118,9 +118,9 @@ pub(super) fn scan_places(
     let mut before: heapless::Deque<f64, 2> = heapless::Deque::new();
     let mut curvature = 0.0f64;
     for k in 0..count {
-        // In the middle of a piece, as exactly as a phase can say it.
-        let place = 2 * ((first + k) % all) + 1;
-        let phase = Phase::from_bits(((place << 31) / all) as u32);
+        // The knots are among them: a quadratic's slope is worst there.
+        let place = (first + k) % all;
+        let phase = Phase::from_bits(((place << 32) / all) as u32);
         let (error, stop) = find(phase)?;
         if stop {
             break;

@@ -92,25 +92,31 @@ impl NotReached<'_> {
                 candidate.layout.name(),
                 self.error(candidate.error)
             );
-            text += &match self.limit(candidate)? {
-                Limit::Rounding => format!(
-                    "; that is the floor of rounding in {number}, more cells do not lower it"
-                ),
+            match self.limit(candidate)? {
+                Limit::Rounding => {
+                    let _ = write!(
+                        text,
+                        "; that is the floor of rounding in {number}, more cells do not lower it"
+                    );
+                }
                 Limit::Cells(Some(order)) => {
+                    let _ = write!(
+                        text,
+                        "; the error falls with the power {order:.1} of the cells"
+                    );
                     let needed = f64::from(cells) * (candidate.error / allowed).powf(1.0 / order);
-                    let words = format!("; the error falls with the power {order:.1} of the cells");
                     if needed <= f64::from(MAX_CELLS) {
                         let needed = round_up(needed);
                         if most_cells.is_none_or(|most| needed < most) {
                             most_cells = Some(needed);
                         }
-                        format!("{words}, about {needed} would do")
+                        let _ = write!(text, ", about {needed} would do");
                     } else {
-                        format!("{words}, and {MAX_CELLS} are too few")
+                        let _ = write!(text, ", and {MAX_CELLS} are too few");
                     }
                 }
-                Limit::Cells(None) => "; more cells hardly lower it".to_owned(),
-            };
+                Limit::Cells(None) => text += "; more cells hardly lower it",
+            }
             text.push('\n');
         }
         let rounding = matches!(self.limit(best)?, Limit::Rounding);

@@ -89,8 +89,11 @@ fn piece_end(file: &MachineFile, coordinate: Coordinate, at: f64, near: f64) -> 
     })
 }
 
+/// A curve of the reduced machine.
+type Curve = fn(&Reduction) -> f64;
+
 /// The curves that a table follows.
-const CURVES: [(&str, fn(&Reduction) -> f64); 5] = [
+const CURVES: [(&str, Curve); 5] = [
     ("J", |r| r.inertia[0]),
     ("J'", |r| r.inertia[1]),
     ("load", |r| r.load_torque()),

@@ -144,13 +144,7 @@ fn every_type_and_layout_holds_its_error() {
             assert!(torque <= most, "{number} {layout}: {torque} above {stated}");
             // The statement is not idle.
             assert!(torque > stated / 4.0, "{torque} far below {stated}");
-            // J·δα is the torque's error but for that of J itself, which is small, and 1/J of 16 bits.
-            let of_reciprocal = match (number, reciprocal) {
-                ("i16", "yes") => budget::SHORT_RECIPROCAL,
-                _ => budget::BETWEEN_PLACES,
-            };
-            let most = stated * (1.0 + of_reciprocal)
-                + budget::SHORT_QUOTIENT[usize::from(number == "i16")];
+            // J·δα is the torque's error, but for that of J itself.
             assert!(
                 acceleration <= most,
                 "{number} {layout}: {acceleration} above {stated}"

@@ -91,24 +91,18 @@ pub(crate) const BETWEEN_PLACES: f64 = 1e-3;
 /// A machine whose table is exact but for roundings states hardly any error (N·m, or N).
 pub(crate) const NO_ERROR: f64 = 1e-9;
 
-/// J·δα of 16-bit forward dynamics with a curve of 1/J, as a share of the torque's error.
-pub(crate) const SHORT_RECIPROCAL: f64 = 2.0;
-
-/// J·δα of the quotient's own rounding (N·m): nothing of 32 bits, some units of 2⁻¹⁵ of the acceleration base times J of 16.
-pub(crate) const SHORT_QUOTIENT: [f64; 2] = [0.0, 0.02];
-
 /// An image read in double precision from its documentation, against its own arithmetic, of the curve's largest value: single
-/// precision rounds sums of a few terms of its size.
-pub(crate) const DOCUMENT_F32: f64 = 2e-5;
-/// The same of 32-bit fixed point: some units of the last place, and slopes of a cell.
-pub(crate) const DOCUMENT_I32: f64 = 1e-6;
-/// The same where the place in a cell has 16 bits.
-pub(crate) const DOCUMENT_SHORT_PLACE: f64 = 1e-5;
+/// precision rounds sums of a few terms of its size [1.3e-7].
+pub(crate) const DOCUMENT_F32: f64 = 5e-7;
+/// The same of 32-bit fixed point, of the base: some units of 2⁻²⁹ [3.1e-9].
+pub(crate) const DOCUMENT_I32: f64 = 1e-8;
+/// The same where the place in a cell has 16 bits [5.4e-7].
+pub(crate) const DOCUMENT_SHORT_PLACE: f64 = 2e-6;
 /// The same of rows of 16 bits, in their own integers: nothing.
 pub(crate) const DOCUMENT_I16: f64 = 1e-12;
 
-/// The seed of 1/J times J.
-pub(crate) const RECIPROCAL_SEED: f64 = 0.02;
+/// The curve of 1/J times J, of what it should be: the units of 16 bits [2.8e-4; 1.6e-5 for 16-bit splines].
+pub(crate) const RECIPROCAL_SEED: f64 = 1e-3;
 
 /// Work of a blow over 0.1° by its mean slope: (0.05°)² of the slope's curvature, and Simpson's rule on its ramps.
 pub(crate) const BLOW: f64 = 1e-5;
