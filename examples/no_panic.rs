@@ -11,8 +11,11 @@ use core::hint::black_box;
 use core::num::NonZeroU32;
 
 use jred::motion::{Law, Move};
-use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
-use jred::{Image, ImageError, Model, Outcome, Phase, Q31, Scalar, include_image};
+use jred::table::{Cubic, Layout, Quadratic, Spline, Spline16, curves};
+use jred::{Image, ImageError, Model, Outcome, Phase, Pieces, Q15, Q31, Scalar, include_image};
+
+/// The curves of the press, as `jred export` prints them.
+const PRESS: u8 = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// Everything that firmware calls, with arguments that the optimiser knows nothing about.
 fn calls() -> Result<(), ImageError> {
@@ -20,8 +23,8 @@ fn calls() -> Result<(), ImageError> {
         include_image!("data/press_f32.jred"),
         include_image!("data/press_q31.jred"),
     );
-    every_tick::<f32, { curves::ALL }, Spline>(float)?;
-    every_tick::<Q31, { curves::ALL }, Spline>(fixed)?;
+    every_tick::<f32, PRESS, Spline>(float)?;
+    every_tick::<Q31, PRESS, Spline>(fixed)?;
     // Refused, because the images are not of these layouts and sets; the linker does not know.
     let other = [
         every_tick::<f32, { curves::ALL }, Cubic>(float),
@@ -29,6 +32,9 @@ fn calls() -> Result<(), ImageError> {
         every_tick::<Q31, { curves::EVERY }, Spline>(fixed),
         every_tick::<Q31, { curves::EVERY }, Cubic>(fixed),
         every_tick::<Q31, { curves::LOAD | curves::RECIPROCAL }, Quadratic>(fixed),
+        every_tick::<Q31, { curves::EVERY }, Spline16>(fixed),
+        every_short_tick::<{ curves::ALL }>(fixed),
+        every_short_tick::<{ curves::EVERY }>(fixed),
     ];
     let _ = black_box(other);
 
@@ -82,6 +88,25 @@ fn every_tick<S: Scalar, const SET: u8, L: Layout>(bytes: &'static [u8]) -> Resu
         done,
         torques,
     ));
+    let half = Phase::from_bits(1 << 31);
+    if let Ok(pieces) = Pieces::new(black_box([(Phase::default(), model), (half, model)])) {
+        black_box(pieces.torque(phase, omega.value, alpha.value));
+        black_box(pieces.acceleration(phase, omega.value, torque));
+    }
+    Ok(())
+}
+
+fn every_short_tick<const SET: u8>(bytes: &'static [u8]) -> Result<(), ImageError> {
+    let image = Image::from_bytes(black_box(bytes))?;
+    let model = image.short_model::<SET>()?;
+    let scale = image.scale();
+    let phase = image.domain().phase(black_box(1.0));
+    let omega: Outcome<Q15> = scale.omega(black_box(10.0));
+    let alpha: Outcome<Q15> = scale.alpha(black_box(50.0));
+    let torque = model.torque(phase, omega.value, alpha.value);
+    let back = model.acceleration(phase, omega.value, torque);
+    let range = model.acceleration_range(phase, omega.value, Q15::MIN, Q15::MAX);
+    black_box((scale.torque_si(torque), scale.alpha_si(back.value), range));
     Ok(())
 }
 

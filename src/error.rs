@@ -235,7 +235,7 @@ impl fmt::Display for Error {
             ),
             Self::NoImage(name) => write!(
                 f,
-                "tables of {name} are not stored in images: use f32 or q31"
+                "tables of {name} are not stored in images: use f32 or i32"
             ),
             Self::Table(error) => error.fmt(f),
             Self::TorqueErrorNotReached {

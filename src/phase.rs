@@ -124,7 +124,10 @@ fn cell_by_halves(phase: u32, cells: u32) -> (u32, u32) {
 #[inline]
 fn products(phase: u32, cells: u32) -> [u32; 2] {
     let low = (phase & 0xffff).wrapping_mul(cells);
-    [(phase >> 16).wrapping_mul(cells).wrapping_add(low >> 16), low]
+    [
+        (phase >> 16).wrapping_mul(cells).wrapping_add(low >> 16),
+        low,
+    ]
 }
 
 /// Wrapping: a full turn is nothing.
@@ -243,10 +246,12 @@ mod tests {
     #[test]
     fn halves_give_the_cell_of_the_long_product() {
         for cells in [1, 2, 4, 100, 255, 256, 1000, 32_768, 65_535] {
-            for phase in (0..70_000u32)
-                .map(|k| k.wrapping_mul(61_357))
-                .chain([u32::MAX, 0xffff, 0x1_0000, 0xffff_0000])
-            {
+            for phase in (0..70_000u32).map(|k| k.wrapping_mul(61_357)).chain([
+                u32::MAX,
+                0xffff,
+                0x1_0000,
+                0xffff_0000,
+            ]) {
                 let long = u64::from(phase) * u64::from(cells);
                 let expected = ((long >> 32) as u32, long as u32);
                 assert_eq!(cell_by_halves(phase, cells), expected);

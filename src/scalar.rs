@@ -142,10 +142,7 @@ pub trait Kernel: Number {
     /// (torque − resisting)/J
     fn quotient(torque: Self, resisting: Self::Raw, inertia: Self::Raw) -> Outcome<Self>;
     /// What `by_reciprocal` needs, from J and J_m/J at one place, and |1 − J·(1/J)|; `None` if they do not belong together.
-    fn reciprocal_of(
-        inertia: Self::Raw,
-        reciprocal: Self::Raw,
-    ) -> Option<(Self::Reciprocal, f32)>;
+    fn reciprocal_of(inertia: Self::Raw, reciprocal: Self::Raw) -> Option<(Self::Reciprocal, f32)>;
     /// As `quotient`, with J_m/J; with one step of Newton's iteration if J is given.
     fn by_reciprocal(
         torque: Self,
@@ -261,12 +258,7 @@ macro_rules! float {
             fn factor_size(factor: $float) -> f32 {
                 factor as f32
             }
-            fn velocity_factor(
-                cells: u32,
-                span: $float,
-                scale: &Scale,
-                _: i8,
-            ) -> Option<$float> {
+            fn velocity_factor(cells: u32, span: $float, scale: &Scale, _: i8) -> Option<$float> {
                 let bases = scale.velocity_base() as $float;
                 let factor = 0.5 * cells as $float / span * bases;
                 (factor.is_finite() && factor > 0.0).then_some(factor)

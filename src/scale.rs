@@ -214,12 +214,7 @@ struct Most {
 impl Most {
     const MARGIN: f64 = 1.05;
 
-    fn of(
-        machine: &impl Reducible,
-        omega: f64,
-        alpha: f64,
-        positions: u32,
-    ) -> Result<Self, Error> {
+    fn of(machine: &impl Reducible, omega: f64, alpha: f64, positions: u32) -> Result<Self, Error> {
         positive("largest speed", omega)?;
         positive("largest acceleration", alpha)?;
         let mut most = Self {

@@ -95,7 +95,12 @@ fn over_short<const CURVES: u8>(
     let model = image.short_model().expect("of this set of curves");
     let number = |bits: u32| Q15::from_bits(bits as i16);
     each(points, |[phase, omega, third]| {
-        let result = kernel(&model, Phase::from_bits(phase), number(omega), number(third));
+        let result = kernel(
+            &model,
+            Phase::from_bits(phase),
+            number(omega),
+            number(third),
+        );
         i32::from(result.to_bits()).cast_unsigned()
     });
 }

@@ -18,6 +18,5 @@ mod product;
 mod q15;
 mod q31;
 
-
 pub use q15::Q15;
 pub use q31::Q31;

@@ -60,9 +60,19 @@ mod tests {
             state ^= state << 5;
             (state as i32) >> (state % 31)
         });
-        [i32::MIN, i32::MAX, 0, 1, -1, 0xffff, 0x1_0000, -0x1_0000, 0x7fff_0000]
-            .into_iter()
-            .chain(random.take(600))
+        [
+            i32::MIN,
+            i32::MAX,
+            0,
+            1,
+            -1,
+            0xffff,
+            0x1_0000,
+            -0x1_0000,
+            0x7fff_0000,
+        ]
+        .into_iter()
+        .chain(random.take(600))
     }
 
     #[test]

@@ -100,7 +100,11 @@ impl Kernel for Q31 {
     }
     #[inline]
     fn half(word: i32, upper: bool) -> i32 {
-        if upper { word >> 16 } else { i32::from(word as i16) }
+        if upper {
+            word >> 16
+        } else {
+            i32::from(word as i16)
+        }
     }
     fn with_half(word: i32, upper: bool, half: i32) -> Option<i32> {
         let half = i32::from(i16::try_from(half).ok()?);

@@ -49,8 +49,7 @@ impl Usage {
             coulomb: curve(Role::Coulomb, Some(constants.coulomb)),
             torque: 0.0,
         };
-        usage.torque =
-            usage.inertia + usage.velocity + usage.load + usage.viscous + usage.coulomb;
+        usage.torque = usage.inertia + usage.velocity + usage.load + usage.viscous + usage.coulomb;
         usage
     }
 

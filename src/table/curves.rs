@@ -52,7 +52,8 @@ pub(crate) fn roles(set: u8) -> impl Iterator<Item = (usize, Role)> {
         Role::Coulomb,
         Role::Reciprocal,
     ];
-    all.into_iter().filter_map(move |role| Some((role.column(set)?, role)))
+    all.into_iter()
+        .filter_map(move |role| Some((role.column(set)?, role)))
 }
 
 impl Role {

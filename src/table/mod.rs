@@ -116,7 +116,8 @@ impl<'a, S: Scalar, L: Layout> Table<'a, S, L> {
         cells: u32,
         periodic: bool,
     ) -> Result<Self, TableError> {
-        if curves > curves::EVERY || (!S::FIXED && (curves & curves::RECIPROCAL != 0 || L::HALVES)) {
+        if curves > curves::EVERY || (!S::FIXED && (curves & curves::RECIPROCAL != 0 || L::HALVES))
+        {
             return Err(TableError::Curves(curves));
         }
         if cells < MIN_CELLS as u32 || cells > MAX_CELLS {
@@ -306,7 +307,10 @@ impl<S: Scalar, L: Layout> Cell<'_, S, L> {
     #[inline]
     pub(crate) fn viscous(&self) -> Option<S::Raw> {
         let constant = S::raw(self.constants.viscous);
-        match (self.curve(Role::Viscous), self.curves & curves::CONSTANT_VISCOUS != 0) {
+        match (
+            self.curve(Role::Viscous),
+            self.curves & curves::CONSTANT_VISCOUS != 0,
+        ) {
             (Some(curve), true) => Some(curve + constant),
             (None, true) => Some(constant),
             (curve, false) => curve,

@@ -59,7 +59,9 @@ pub fn fill<'w, S: Scalar, L: Layout>(
                 cell,
             },
         };
-        let samples = samples.get_mut(column * rows..).and_then(|s| s.get_mut(..knots));
+        let samples = samples
+            .get_mut(column * rows..)
+            .and_then(|s| s.get_mut(..knots));
         let samples = samples.unwrap_or_default();
         let constant = constants.of(role);
         if constant != 0.0 {
@@ -90,7 +92,11 @@ pub fn fill<'w, S: Scalar, L: Layout>(
             let mut points: Points<'_, S> = Points {
                 words: &mut *words,
                 role,
-                first: if L::HALVES { column / 2 } else { column * L::COLUMN + part },
+                first: if L::HALVES {
+                    column / 2
+                } else {
+                    column * L::COLUMN + part
+                },
                 pitch: L::pitch(set),
                 upper: halves,
                 gain,
@@ -217,7 +223,9 @@ fn constants<'s, S: Scalar, L: Layout>(
 fn gain<S: Scalar>(role: Role, control: &[f64]) -> Option<u16> {
     // Sweeps of the rounding may move a point by a unit or two.
     const LARGEST: f64 = 32_760.0;
-    let most = control.iter().fold(0.0f64, |most, c| most.max(math::abs(*c)));
+    let most = control
+        .iter()
+        .fold(0.0f64, |most, c| most.max(math::abs(*c)));
     let unit = S::exact(role, S::raw(S::whole(1)));
     let gain = math::floor(most / unit / LARGEST) + 1.0;
     (gain <= f64::from(u16::MAX)).then_some(gain as u16)
@@ -261,5 +269,9 @@ fn machine_units(point: &Reduction, role: Role, scale: &Scale) -> f64 {
 
 /// The base to enlarge when a curve does not fit.
 fn base_name(role: Role) -> &'static str {
-    if role == Role::Inertia { "inertia" } else { "torque" }
+    if role == Role::Inertia {
+        "inertia"
+    } else {
+        "torque"
+    }
 }

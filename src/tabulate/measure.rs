@@ -115,7 +115,7 @@ pub(super) fn scan_places(
             }
         }
     }
-    let mut before: heapless::Deque<f64, 2> = heapless::Deque::new();
+    let mut before = [f64::NAN; 2];
     let mut curvature = 0.0f64;
     for k in 0..count {
         // The knots are among them: a quadratic's slope is worst there.
@@ -125,11 +125,9 @@ pub(super) fn scan_places(
         if stop {
             break;
         }
-        if let (Some(two), Some(one)) = (before.pop_front(), before.front()) {
-            curvature = curvature.max(math::abs(error - 2.0 * one + two));
-        }
-        // Cannot overflow: at most one is left.
-        let _ = before.push_back(error);
+        // NaN, while there are not yet three, is not the greater of two.
+        curvature = curvature.max(math::abs(error - 2.0 * before[1] + before[0]));
+        before = [before[1], error];
     }
     // Between two places a parabola is higher than both by an eighth of the second difference at most.
     found.bound = found.torque_error + 0.125 * curvature;

@@ -63,7 +63,9 @@ impl<S: Scalar> Points<'_, S> {
                     let neighbour = point.checked_add_signed(step).filter(|k| *k < points);
                     let neighbour = match (neighbour, period) {
                         (Some(neighbour), _) => neighbour,
-                        (None, Some(period)) => (point + period).saturating_add_signed(step) % period,
+                        (None, Some(period)) => {
+                            (point + period).saturating_add_signed(step) % period
+                        }
                         (None, None) => return 0.0,
                     };
                     let stored = self.get(neighbour);

@@ -15,7 +15,16 @@ pub(crate) fn unfold(samples: &mut [f64], periodic: bool) {
     let next = |before: [f64; 4], magnitude: f64| {
         let [f4, f3, f2, f1] = before;
         let predicted = 4.0 * f1 - 6.0 * f2 + 4.0 * f3 - f4;
-        [f3, f2, f1, if predicted < 0.0 { -magnitude } else { magnitude }]
+        [
+            f3,
+            f2,
+            f1,
+            if predicted < 0.0 {
+                -magnitude
+            } else {
+                magnitude
+            },
+        ]
     };
     if periodic {
         let at = |k: usize| (start + count + k - 3) % count;

@@ -54,9 +54,7 @@ pub(crate) fn scale(kernel: &Kernel, example: &Example) -> Result<Scale> {
     let bases = [torque, OMEGA * MARGIN, inertia].map(|base| base as f32);
     let scale = Scale::new(bases[0], bases[1], bases[2]).map_err(|e| anyhow!("{e}"))?;
     Ok(match kernel.data {
-        Data::Jred { cells, layout, .. } if layout != Layout::Rows16 => {
-            scale.for_cells(cells, TAU)
-        }
+        Data::Jred { cells, layout, .. } if layout != Layout::Rows16 => scale.for_cells(cells, TAU),
         _ => scale,
     })
 }

@@ -54,7 +54,11 @@ macro_rules! kernels {
 
 /// A table of the library: 64 cells, quadratics 256.
 const fn table(layout: Layout, set: u8) -> Data {
-    let cells = if matches!(layout, Quadratic | Rows16) { 256 } else { 64 };
+    let cells = if matches!(layout, Quadratic | Rows16) {
+        256
+    } else {
+        64
+    };
     Data::Jred { layout, set, cells }
 }
 

@@ -57,14 +57,7 @@ fn a_ball_screw_lets_a_motor_turn() {
     );
     let file = folder.file("lift.toml", &text);
     let out = folder.path("table.bin");
-    let exported = jred([
-        &"export",
-        &file,
-        &"--out",
-        &out,
-        &"--torque-error",
-        &"5 N",
-    ]);
+    let exported = jred([&"export", &file, &"--out", &out, &"--torque-error", &"5 N"]);
     assert!(
         exported.code < 2 && (exported.code == 1 || exported.out.contains("force error reached")),
         "{} {}",

@@ -83,10 +83,7 @@ pub trait Store: crate::sealed::Sealed + Copy + core::fmt::Debug + 'static {
     fn locate<S: Kernel>(phase: u32, cells: u32) -> (u32, S::Fraction);
     fn value<S: Kernel>(coefficients: [S::Raw; 4], u: S::Fraction) -> S::Raw;
     /// Value, and slope a cell times `step`.
-    fn value_and_slope<S: Kernel>(
-        coefficients: [S::Raw; 4],
-        u: S::Fraction,
-    ) -> (S::Raw, S::Raw);
+    fn value_and_slope<S: Kernel>(coefficients: [S::Raw; 4], u: S::Fraction) -> (S::Raw, S::Raw);
     /// What is stored for a cell of one curve, of control points c₀…c₃ (or c₀…c₂) divided so that their sum is the value: the
     /// coefficients, or the point c₀ first; `COLUMN` of them count.
     fn stored<S: Kernel>(points: [f64; 4]) -> [f64; 4];

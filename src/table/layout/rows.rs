@@ -54,10 +54,7 @@ impl Store for Cubic {
         cubic_value::<S>(coefficients, u, S::row_step)
     }
     #[inline]
-    fn value_and_slope<S: Kernel>(
-        coefficients: [S::Raw; 4],
-        u: S::Fraction,
-    ) -> (S::Raw, S::Raw) {
+    fn value_and_slope<S: Kernel>(coefficients: [S::Raw; 4], u: S::Fraction) -> (S::Raw, S::Raw) {
         cubic_value_and_slope::<S>(coefficients, u, S::row_step)
     }
     fn step<S: Kernel>() -> i8 {

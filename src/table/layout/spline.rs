@@ -1,6 +1,8 @@
 //! Control points of a uniform cubic B-spline.
 
-use super::{Layout, More, Spline, Spline16, Store, cubic, cubic_value, cubic_value_and_slope, word};
+use super::{
+    Layout, More, Spline, Spline16, Store, cubic, cubic_value, cubic_value_and_slope, word,
+};
 use crate::scalar::{Kernel, Ring};
 use crate::table::curves::width;
 
@@ -60,10 +62,7 @@ impl Store for Spline {
         cubic_value::<S>(coefficients, u, S::step)
     }
     #[inline]
-    fn value_and_slope<S: Kernel>(
-        coefficients: [S::Raw; 4],
-        u: S::Fraction,
-    ) -> (S::Raw, S::Raw) {
+    fn value_and_slope<S: Kernel>(coefficients: [S::Raw; 4], u: S::Fraction) -> (S::Raw, S::Raw) {
         cubic_value_and_slope::<S>(coefficients, u, S::step)
     }
     fn step<S: Kernel>() -> i8 {
@@ -126,10 +125,7 @@ impl Store for Spline16 {
         cubic_value::<S>(coefficients, u, S::step)
     }
     #[inline]
-    fn value_and_slope<S: Kernel>(
-        coefficients: [S::Raw; 4],
-        u: S::Fraction,
-    ) -> (S::Raw, S::Raw) {
+    fn value_and_slope<S: Kernel>(coefficients: [S::Raw; 4], u: S::Fraction) -> (S::Raw, S::Raw) {
         cubic_value_and_slope::<S>(coefficients, u, S::step)
     }
     fn step<S: Kernel>() -> i8 {
