@@ -28,6 +28,8 @@ impl Counter {
     /// QEMU has no CYCCNT, which reads 0 there, and its SysTick follows the clock on the wall.
     #[cfg(target_os = "none")]
     pub(crate) fn start() -> Option<Self> {
+        /// SysTick has 24 bits and counts down.
+        const SYSTICK: u32 = 0x00ff_ffff;
         let mut core = cortex_m::Peripherals::take()?;
         #[cfg(not(short_multiply))]
         {
@@ -44,8 +46,6 @@ impl Counter {
                 return Some(counter);
             }
         }
-        /// SysTick has 24 bits and counts down.
-        const SYSTICK: u32 = 0x00ff_ffff;
         core.SYST
             .set_clock_source(cortex_m::peripheral::syst::SystClkSource::Core);
         core.SYST.set_reload(SYSTICK);

@@ -7,13 +7,13 @@ use crate::tabulate::{self, Request, Tabulated};
 use crate::{Error, Scale};
 
 /// Finds the table with the fewest cells that meets the request, fills `words` with it, and says how exact it is: as
-/// [`tabulate::tabulate`](crate::tabulate::tabulate), with the error of [`measure`](super::measure()).
+/// [`crate::tabulate::tabulate`], with the error of [`measure`](super::measure()).
 ///
 /// 16 bits cannot go below an error of about three units of 2⁻¹⁵ of the torque base, see `docs/table-image.md`; with more cells the
 /// numbers of a cell become smaller, and the error does not.
 ///
 /// # Errors
-/// As [`tabulate::tabulate`](crate::tabulate::tabulate).
+/// As [`crate::tabulate::tabulate`].
 pub fn tabulate(
     machine: &impl Reducible,
     set: u8,

@@ -42,7 +42,7 @@ pub fn fit_periodic(samples: &[f64], control: &mut [f64]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Solves x[k−1] + a·x[k] + x[k+1] = f[k], indices modulo their number, into `control[1..]`.
+/// Solves `x[k−1] + a·x[k] + x[k+1] = f[k]`, indices modulo their number, into `control[1..]`.
 fn solve_periodic(a: f64, f: &[f64], control: &mut [f64]) {
     let cells = f.len();
     let pole = 0.5 * (math::sqrt(a * a - 4.0) - a);

@@ -161,7 +161,7 @@ pub fn curves_in_use(machine: &impl Reducible, positions: u32) -> Result<u8, Err
 ///
 /// # Errors
 /// [`Error::TorqueErrorNotReached`] if none of the growing sizes up to `max_cells` does, with the best of them;
-/// [`Error::Table`] if a fixed-point model cannot be made of the largest; otherwise as [`fill`].
+/// [`Error::Table`] if a fixed-point model cannot be made of the largest; otherwise as [`fill`](fill()).
 pub fn tabulate<S: Scalar, L: Layout>(
     machine: &impl Reducible,
     set: u8,

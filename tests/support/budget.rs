@@ -124,6 +124,10 @@ pub(crate) const BASE_ROUNDINGS: f64 = 3e-7;
 /// 16·d², d ≤ 1/128 [6e-4].
 pub(crate) const DENSE_GRID: f64 = 1.001;
 
+/// Largest bound of a table's error over the largest error found: an eighth of what the roundings of three neighbouring places
+/// may differ by, where roundings make most of the error.
+pub(crate) const BOUND_SLACK: f64 = 1.5;
+
 /// The least share of the stated error that a dense grid finds of a Quadratic, whose slope errs most at the knots: the grid
 /// misses them, and within a hundredth of a cell the error falls by 6 % [0.959].
 pub(crate) const DENSE_GRID_QUADRATIC: f64 = 0.95;
