@@ -165,7 +165,7 @@ pub enum Error {
     TorqueErrorNotReached {
         /// Torque error asked for (N·m).
         asked: f64,
-        /// Torque error of the largest table that fits (N·m).
+        /// Least torque error of the sizes tried (N·m).
         reached: f64,
         /// Number of cells of that table.
         cells: u32,
@@ -245,7 +245,8 @@ impl fmt::Display for Error {
             } => write!(
                 f,
                 "no table meets a torque error of {asked:e} N m: {cells} cells reach {reached:.3e} N m; \
-                 allow a larger error, or smooth the load (longer ramps)"
+                 allow a larger error, take another layout or number type, or smooth the load (longer ramps); \
+                 of a turn with jumps tabulate the pieces between them (Part, Pieces)"
             ),
             Self::BufferTooShort { needed, given } => {
                 write!(

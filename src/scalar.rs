@@ -7,7 +7,7 @@ pub use crate::fixed::{Q15, Q31};
 use crate::table::Role;
 use crate::{Domain, Scale};
 
-/// A number type for tables and ticks. Sealed: `f32`, `f64`, [`Q31`].
+/// A number type for tables and ticks. Sealed: `f32`, `f64`, [`Q31`]; [`Q15`] has ticks of its own, [`short`](crate::short).
 ///
 /// Floating point works in SI units or in per-unit, as its [`Scale`] says; fixed point always in per-unit.
 pub trait Scalar: Kernel + Number {
@@ -143,6 +143,8 @@ pub trait Kernel: Number {
     fn quotient(torque: Self, resisting: Self::Raw, inertia: Self::Raw) -> Outcome<Self>;
     /// What `by_reciprocal` needs, from J and J_m/J at one place, and |1 − J·(1/J)|; `None` if they do not belong together.
     fn reciprocal_of(inertia: Self::Raw, reciprocal: Self::Raw) -> Option<(Self::Reciprocal, f32)>;
+    /// J_m, in machine units.
+    fn reciprocal_unit(constants: Self::Reciprocal) -> f32;
     /// As `quotient`, with J_m/J; with one step of Newton's iteration if J is given.
     fn by_reciprocal(
         torque: Self,
@@ -327,6 +329,9 @@ macro_rules! float {
             }
             fn reciprocal_of(_: $float, _: $float) -> Option<((), f32)> {
                 None
+            }
+            fn reciprocal_unit((): ()) -> f32 {
+                1.0
             }
             #[inline]
             fn by_reciprocal(

@@ -155,7 +155,14 @@ fn garbage_with_a_header_never_panics() {
         // ½·4 cells/1·½ is one.
         let right = [2f32, 1.0, 1.0].map(f32::to_bits);
         image[7..10].copy_from_slice(&bases.unwrap_or(right));
-        for (slot, constant) in image[13..16].iter_mut().zip(constants) {
+        for (k, (slot, constant)) in image[13..16].iter_mut().zip(constants).enumerate() {
+            // A negative friction is refused: now and then it is tried.
+            let friction = k > 0 && state[1] % 8 != 0;
+            let constant = if friction {
+                constant.saturating_abs()
+            } else {
+                constant
+            };
             *slot = if code == 2 {
                 (constant >> (6 + shift)) as u32
             } else {
@@ -168,8 +175,8 @@ fn garbage_with_a_header_never_panics() {
                 // The inertia, which is to be positive; and a seed that is about its reciprocal.
                 (0, 0) => (row >> 10) + (1 << if own == 1 { 26 } else { 28 }),
                 (0, _) => row >> 8,
-                (3, 0) if seeded => (row >> 8) + if own == 1 { (1 << 28) / 3 * 2 } else { 1 << 30 },
-                (3, _) if seeded => row >> 9,
+                (3, 0) if seeded => (row >> 9) + if own == 1 { (1 << 28) / 3 * 2 } else { 1 << 30 },
+                (3, _) if seeded => row >> 10,
                 _ => row >> (3 + shift),
             };
             if code == 2 {

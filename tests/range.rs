@@ -192,12 +192,12 @@ fn a_slope_whose_rounding_leaves_the_range_is_refused() {
     let refused = rows
         .try_model::<{ curves::INERTIA }>(&scale(edge))
         .map(|_| ());
-    // J itself is 0.0015 there.
-    assert_eq!(refused, Err(TableError::TorqueRange { cell: 0 }));
-    let refused = rows.try_model::<{ curves::INERTIA }>(&scale(1.001 * edge));
+    assert_eq!(refused, Err(TableError::VelocityTorque { cell: 0 }));
+    // Less of it by eight units for each of the factor's, and by J, which is 0.0015 there.
+    let refused = rows.try_model::<{ curves::INERTIA }>(&scale(0.9975 * edge));
     assert_eq!(
         refused.map(|_| ()),
-        Err(TableError::VelocityTorque { cell: 0 })
+        Err(TableError::TorqueRange { cell: 0 })
     );
     let model = rows.model::<{ curves::INERTIA }>(&scale(0.99 * edge));
     let mut least = i32::MAX;

@@ -263,6 +263,9 @@ impl Kernel for Q31 {
         };
         (shift <= 20).then_some((constants, error.abs()))
     }
+    fn reciprocal_unit(constants: Reciprocal) -> f32 {
+        constants.unit as f32 / 268_435_456.0 // 2²⁸
+    }
     #[inline]
     fn by_reciprocal(
         torque: Self,

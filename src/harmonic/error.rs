@@ -125,7 +125,8 @@ impl fmt::Display for HarmonicError {
             } => write!(
                 f,
                 "{harmonics} harmonics reach a torque error of {reached:.3e} N m, not {asked:e} N m: a curve with a kink, \
-                 a jump or a steep ramp needs a table; of a smooth machine allow more harmonics or a larger error"
+                 a jump or a steep ramp needs a table; of a smooth machine allow more harmonics or a larger error, and see that \
+                 TERMS has all of its cosines and sines (terms::ALL, or what terms_in_use finds)"
             ),
             Self::Coefficients(error) => error.fmt(f),
             Self::TooFewSamples { needed, given } => write!(

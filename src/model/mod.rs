@@ -48,7 +48,7 @@ impl<'a, S: Scalar, const CURVES: u8, L: Layout> Model<'a, S, CURVES, L> {
     /// In fixed point it is proven here that no torque leaves the number range for any speed and acceleration in it.
     ///
     /// # Errors
-    /// [`TableError::VelocityTorque`]: ½·J′·ω_b² does not fit half the torque base. [`TableError::TorqueRange`]: all terms
+    /// [`TableError::VelocityTorque`]: ½·J′·ω_b² does not fit the torque base. [`TableError::TorqueRange`]: all terms
     /// together do not fit the torque base. [`TableError::Reciprocal`]: the seed of 1/J is not that of J.
     pub fn new(table: Table<'a, S, L>, span: S::Span, scale: &Scale) -> Result<Self, TableError> {
         if table.curves() != CURVES {

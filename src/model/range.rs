@@ -65,8 +65,10 @@ impl Usage {
         let per_slope =
             <f32 as Kernel>::velocity_factor(table.cells(), S::span_to_f32(span), scale, 1)
                 .ok_or(TableError::SpeedBase)?;
-        // Below 1 by more than the roundings of a tick and of these sums.
-        let limit = if S::FIXED { 0.999_99 } else { 1e30 };
+        // Below 1 by more than the roundings of a tick and of these sums. Those of the slope count as often as the factor of
+        // the velocity torque says: less than 8 units of Q30.
+        let roundings = 1e-5 + per_slope * (8.0 / 1_073_741_824.0);
+        let limit = if S::FIXED { 1.0 - roundings } else { 1e30 };
         let mut all = Self::default();
         for cell in 0..table.cells() {
             let usage = Self::of_cell(table, cell, per_slope);
@@ -138,5 +140,31 @@ pub(super) fn reciprocal<S: Scalar, L: Layout>(
         }
         most = most.max(if L::NEWTON { error * error } else { error });
     }
+    // Between those places as well: Newton's step would overflow from an error of one half on.
+    let unit = found.map_or(0.0, S::reciprocal_unit);
+    for cell in 0..table.cells() {
+        let product = product(
+            bezier(table.polynomial(cell, Role::Inertia)),
+            bezier(table.polynomial(cell, Role::Reciprocal)),
+        );
+        let close = |point: &f32| (1.0 - point / unit).abs() < 2.0 * limit;
+        if !product.iter().all(close) {
+            return Err(TableError::Reciprocal { cell });
+        }
+    }
     Ok((found.unwrap_or_default(), most))
+}
+
+/// The Bézier points of the product of two cubics.
+fn product(a: [f32; 4], b: [f32; 4]) -> [f32; 7] {
+    const BINOMIALS: [f32; 4] = [1.0, 3.0, 3.0, 1.0];
+    const OF_SIX: [f32; 7] = [1.0, 6.0, 15.0, 20.0, 15.0, 6.0, 1.0];
+    let mut product = [0.0; 7];
+    for (i, (a, m)) in a.iter().zip(BINOMIALS).enumerate() {
+        let slots = product.iter_mut().zip(OF_SIX).skip(i);
+        for ((slot, of_six), (b, n)) in slots.zip(b.iter().zip(BINOMIALS)) {
+            *slot += m * n / of_six * a * b;
+        }
+    }
+    product
 }

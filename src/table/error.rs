@@ -2,9 +2,9 @@
 
 use core::fmt;
 
-use super::{MAX_CELLS, MIN_CELLS};
+use super::{MAX_CELLS, MIN_CELLS, curves};
 
-/// Why rows of control points are not a usable table.
+/// Why words are not a usable table, or a table not a usable model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -50,6 +50,8 @@ pub enum TableError {
         /// Index of the cell.
         cell: u32,
     },
+    /// The constant part of b or c is negative or not finite.
+    Constant,
     /// The pieces of a turn do not start one after another, or one is shorter than 2⁻¹⁶ of a turn.
     Pieces,
     /// The models of a turn's pieces do not share their machine units, or the range of one is not the distance from its start to
@@ -69,6 +71,16 @@ pub enum TableError {
         cell: u32,
     },
 }
+
+/// The curves of a set, as their constants are called.
+const NAMES: [(u8, &str); 6] = [
+    (curves::LOAD, "LOAD"),
+    (curves::VISCOUS, "VISCOUS"),
+    (curves::COULOMB, "COULOMB"),
+    (curves::RECIPROCAL, "RECIPROCAL"),
+    (curves::CONSTANT_VISCOUS, "CONSTANT_VISCOUS"),
+    (curves::CONSTANT_COULOMB, "CONSTANT_COULOMB"),
+];
 
 impl fmt::Display for TableError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -105,6 +117,10 @@ impl fmt::Display for TableError {
                 "at full speed and acceleration the torque leaves the number range in cell {cell}: \
                  choose a larger torque base, or a larger inertia base for less acceleration"
             ),
+            Self::Constant => write!(
+                f,
+                "the constant part of the friction is negative or not a finite number"
+            ),
             Self::Pieces => write!(
                 f,
                 "the pieces of a turn must start one after another, each at least 1/65536 of a turn long"
@@ -114,10 +130,18 @@ impl fmt::Display for TableError {
                 "the models of a turn's pieces do not belong together: make them in the same machine units, \
                  each over the range from its start to the next"
             ),
-            Self::Curves(set) => write!(
-                f,
-                "the table has the set of curves {set:#08b}: not that of the model, or not possible with this number type and layout"
-            ),
+            Self::Curves(set) => {
+                write!(f, "the table has J")?;
+                for (bit, name) in NAMES {
+                    if set & bit != 0 {
+                        write!(f, " | {name}")?;
+                    }
+                }
+                write!(
+                    f,
+                    " (set {set}): another set than the model's type says, or one that this number type or layout cannot have"
+                )
+            }
             Self::Slope { cell } => write!(
                 f,
                 "the velocity torque in cell {cell} is not that of the slope of the inertia: \

@@ -137,10 +137,23 @@ impl<'a, S: Scalar, L: Layout> Table<'a, S, L> {
             constants,
             layout: PhantomData,
         };
+        for role in [Role::Viscous, Role::Coulomb] {
+            // Friction does not drive. NaN is not from zero on, either.
+            let constant = S::approximate(role, table.constant(role));
+            if !(0.0..1e30).contains(&constant) {
+                return Err(TableError::Constant);
+            }
+        }
         for cell in 0..cells {
             for (column, role) in curves::roles(curves) {
                 let curve = column as u8;
-                if !S::is_sound(table.wide(cell, role)) {
+                let coefficients @ [p0, more @ ..] = table.wide(cell, role);
+                let [p1, p2, p3] = more;
+                // Where a curve has both signs, the constant adds to its magnitude.
+                let constant = table.constant(role);
+                let raised = [p0 + constant, p1, p2, p3];
+                let lowered = [p0 - constant, p1, p2, p3];
+                if ![coefficients, raised, lowered].into_iter().all(S::is_sound) {
                     return Err(TableError::Range { curve, cell });
                 }
             }
@@ -152,6 +165,15 @@ impl<'a, S: Scalar, L: Layout> Table<'a, S, L> {
             table.check_closed()?;
         }
         Ok(table)
+    }
+
+    /// What adds to b or c, wide; zero for another role.
+    fn constant(&self, role: Role) -> S::Wide {
+        match role {
+            Role::Viscous => S::widen(S::raw(self.constants.viscous)),
+            Role::Coulomb => S::widen(S::raw(self.constants.coulomb)),
+            _ => S::Wide::default(),
+        }
     }
 
     /// Rows beyond the cells repeat the first ones.

@@ -6,8 +6,8 @@ use super::{scratch_len, words_len};
 use crate::reduction::{Reducible, Reduction};
 use crate::scalar::Scalar;
 use crate::table::{
-    Constants, Layout, Role, Table, TableError, control_points, curves, fit_bounded, fit_periodic,
-    fit_quadratic_bounded, fit_quadratic_periodic,
+    Constants, Layout, MAX_CELLS, MIN_CELLS, Role, Table, TableError, control_points, curves,
+    fit_bounded, fit_periodic, fit_quadratic_bounded, fit_quadratic_periodic,
 };
 use crate::{Domain, Error, Scale, math};
 
@@ -27,6 +27,9 @@ pub fn fill<'w, S: Scalar, L: Layout>(
     scratch: &mut [f64],
     words: &'w mut [S::Word],
 ) -> Result<Table<'w, S, L>, Error> {
+    if cells < MIN_CELLS as u32 || cells > MAX_CELLS {
+        return Err(Error::Table(TableError::Cells(cells)));
+    }
     let width = curves::width(set);
     let rows = control_points(cells as usize);
     let (given, needed) = (scratch.len(), scratch_len(cells, set));

@@ -120,6 +120,10 @@ pub(super) fn scan_places(
     for k in 0..count {
         // The knots are among them: a quadratic's slope is worst there.
         let place = (first + k) % all;
+        if place == 0 && domain != Domain::Turn {
+            // The start of a stroke is no neighbour of its end.
+            before = [f64::NAN; 2];
+        }
         let phase = Phase::from_bits(((place << 32) / all) as u32);
         let (error, stop) = find(phase)?;
         if stop {

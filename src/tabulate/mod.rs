@@ -27,7 +27,7 @@ use near::{Look, meets_near, search_near};
 use crate::error::positive;
 use crate::reduction::Reducible;
 use crate::scalar::Scalar;
-use crate::table::{Layout, Table, control_points, curves};
+use crate::table::{Layout, MAX_CELLS, Table, control_points, curves};
 use crate::{Error, Scale, Validity, math};
 
 /// Places in each cell at which a table is compared with the exact curves.
@@ -213,7 +213,7 @@ fn candidate<'w, S: Scalar, L: Layout>(
 /// The sizes of a table from few cells to `request.max_cells`, growing by a quarter.
 fn sizes(request: &Request) -> impl Iterator<Item = u32> {
     let least = crate::table::MIN_CELLS as u32;
-    let most = request.max_cells.max(least);
+    let most = request.max_cells.clamp(least, MAX_CELLS);
     core::iter::successors(Some(least), move |cells| {
         (*cells < most).then(|| (cells + cells.div_ceil(4)).min(most))
     })

@@ -105,14 +105,17 @@ impl NotReached<'_> {
                         "; the error falls with the power {order:.1} of the cells"
                     );
                     let needed = f64::from(cells) * (candidate.error / allowed).powf(1.0 / order);
-                    if needed <= f64::from(MAX_CELLS) {
+                    // Where less than what was tried would do by this, there is more to the error than its order.
+                    if round_up(needed.min(1e9)) <= self.task.max_cells {
+                        text += " so far, but not to the error asked for";
+                    } else if needed <= f64::from(MAX_CELLS) {
                         let needed = round_up(needed);
                         if most_cells.is_none_or(|most| needed < most) {
                             most_cells = Some(needed);
                         }
-                        let _ = write!(text, ", about {needed} would do");
+                        let _ = write!(text, "; if it goes on so, about {needed} would do");
                     } else {
-                        let _ = write!(text, ", and {MAX_CELLS} are too few");
+                        let _ = write!(text, "; if it goes on so, {MAX_CELLS} are too few");
                     }
                 }
                 Limit::Cells(None) => text += "; more cells hardly lower it",

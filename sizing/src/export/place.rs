@@ -69,7 +69,8 @@ fn window_edge(file: &MachineFile, coordinate: Coordinate, at: f64, near: f64) -
         coordinate.place(edge)
     );
     let cure = Some(format!(
-        "a longer ramp of the load {name:?} in the machine file"
+        "a longer ramp of the load {name:?} in the machine file (or tables of the pieces between its edges: \
+         Part and Pieces of the library)"
     ));
     Some(Feature { words, cure })
 }

@@ -37,7 +37,7 @@ fn the_indexing_table_is_read_in_si_units() {
 #[test]
 fn tables_need_as_many_cells_as_documented() {
     let folder = Folder::new();
-    for (error, cells) in [("0.1", 60), ("0.01", 612)] {
+    for (error, cells) in [("0.1", 66), ("0.01", 785)] {
         let asked = format!("{error} N m");
         let (path, out) = (machine_path("geneva.toml"), folder.path("table.img"));
         let run = jred([&"export", &path, &"--torque-error", &asked, &"--out", &out]).ends(0);
