@@ -57,7 +57,7 @@ pub enum TableError {
     /// The models of a turn's pieces do not share their machine units, or the range of one is not the distance from its start to
     /// the next.
     PieceUnits,
-    /// The table has another set of [`curves`](super::curves) than the model; or the set has an unknown bit, or a reciprocal or a layout of
+    /// The table has another set of [`curves`] than the model; or the set has an unknown bit, or a reciprocal or a layout of
     /// 16 bits for floating point. The set.
     Curves(u8),
     /// The curve of the reciprocal inertia is not that of the inertia in this cell.
