@@ -71,7 +71,7 @@ fn a_reciprocal_is_looked_at_everywhere() {
     let build = |e: f64| {
         // Powers of v by differences at −1, 0, 1 and 2.
         let f = |v: f64| 1.0 + through(e, v);
-        let (f0, even, odd) = (f(0.0), (f(1.0) + f(-1.0)) / 2.0, (f(1.0) - f(-1.0)) / 2.0);
+        let (f0, even, odd) = (f(0.0), f(1.0).midpoint(f(-1.0)), (f(1.0) - f(-1.0)) / 2.0);
         let p2 = even - f0;
         let p3 = (f(2.0) - f0 - 4.0 * p2 - 2.0 * odd) / 6.0;
         let seed = [f0, odd - p3, p2, p3].map(|p| (p / 30.4 * 2f64.powi(31)) as i32);
