@@ -103,7 +103,11 @@ impl<'a, S: Scalar, const CURVES: u8, L: Layout> Model<'a, S, CURVES, L> {
             .count()
     }
 
-    /// Inverse dynamics: the torque on the drive link that the motion needs. It never saturates.
+    /// Inverse dynamics: the torque on the drive link (N·m, or per unit) that the speed `omega` and the acceleration `alpha` need.
+    /// It never saturates.
+    ///
+    /// Exact for the table's curves to the roundings of the number type: in `Q31` to 10 units of 2⁻³¹ of the torque base (test
+    /// `tests/fixed_point.rs`). What the table itself is off by, `tabulate` says. Cost: docs/performance.md.
     #[inline]
     pub fn torque(&self, phase: Phase, omega: S, alpha: S) -> S {
         let Some(cell) = self.table.cell(phase, CURVES) else {
@@ -115,7 +119,9 @@ impl<'a, S: Scalar, const CURVES: u8, L: Layout> Model<'a, S, CURVES, L> {
         S::torque(Self::with_load_and_friction(&cell, sum, omega))
     }
 
-    /// Forward dynamics: the acceleration that a torque on the drive link gives.
+    /// Forward dynamics: the acceleration that the torque `torque` on the drive link gives at the speed `omega`; in fixed point
+    /// limited to the number range, and flagged. With [`curves::RECIPROCAL`] there is no division;
+    /// [`reciprocal_error`](Self::reciprocal_error) says how far it is from one.
     #[inline]
     pub fn acceleration(&self, phase: Phase, omega: S, torque: S) -> Outcome<S> {
         let Some(cell) = self.table.cell(phase, CURVES) else {

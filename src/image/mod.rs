@@ -4,10 +4,12 @@
 //! image needs 4-byte alignment and nothing else; no number is copied or converted on loading. A CRC-32 covers all
 //! of it. [`Image::new`] checks header and CRC, [`Image::model`] the table itself: what passes both can be ticked.
 
-use core::fmt;
+mod error;
+
+pub use error::ImageError;
 
 use crate::scalar::Scalar;
-use crate::table::{Constants, Layout, Table, TableError, curves};
+use crate::table::{Constants, Layout, Table, curves};
 use crate::{Domain, Error, Model, Scale};
 
 /// "JRED" in the file's first four bytes.
@@ -25,102 +27,6 @@ const TURN: u8 = 0;
 const STROKE: u8 = 1;
 
 const CRC: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
-
-/// Why an image is refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum ImageError {
-    /// The bytes do not start on a 4-byte boundary, or are not whole words.
-    Misaligned,
-    /// This processor is big-endian; images are little-endian and used in place.
-    BigEndian,
-    /// Shorter than a header, or not as long as the header says.
-    Length {
-        /// Words that the image must have.
-        needed: u32,
-        /// Words given.
-        given: u32,
-    },
-    /// The first word is not "JRED".
-    NotAnImage(u32),
-    /// Made for another version of the layout.
-    Version {
-        /// Version of the image.
-        found: u16,
-        /// Version that this library reads.
-        supported: u16,
-    },
-    /// The contents were damaged.
-    Crc {
-        /// CRC-32 stored in the image.
-        stored: u32,
-        /// CRC-32 of its contents.
-        computed: u32,
-    },
-    /// A header field has a value that this version does not know or that is out of range; the word's index.
-    Header(u8),
-    /// The image holds another number type; its code (1 = f32, 2 = i32, 3 = i16).
-    NumberType(u8),
-    /// The image has another layout; its code (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16, 5 = rows of 16 bits).
-    Layout(u8),
-    /// The table is not sound.
-    Table(TableError),
-}
-
-impl fmt::Display for ImageError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::Misaligned => {
-                write!(
-                    f,
-                    "the image is not a whole number of words on a 4-byte boundary"
-                )
-            }
-            Self::BigEndian => write!(f, "images are little-endian, this processor is not"),
-            Self::Length { needed, given } => {
-                write!(
-                    f,
-                    "the image has {given} words, but {needed} are needed: truncated?"
-                )
-            }
-            Self::NotAnImage(word) => {
-                write!(
-                    f,
-                    "not a table image: it starts with {word:#010x} instead of \"JRED\""
-                )
-            }
-            Self::Version { found, supported } => write!(
-                f,
-                "image version {found}, this library reads version {supported}: export the table anew"
-            ),
-            Self::Crc { stored, computed } => write!(
-                f,
-                "the image is damaged: CRC-32 {computed:#010x}, stored {stored:#010x}"
-            ),
-            Self::Header(word) => write!(f, "header word {word} of the image has no meaning"),
-            Self::NumberType(code) => {
-                write!(
-                    f,
-                    "the image holds numbers of type {code} (1 = f32, 2 = i32, 3 = i16)"
-                )
-            }
-            Self::Layout(code) => write!(
-                f,
-                "the image has layout {code} (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16, 5 = rows of 16 bits)"
-            ),
-            Self::Table(error) => error.fmt(f),
-        }
-    }
-}
-
-impl core::error::Error for ImageError {}
-
-impl From<TableError> for ImageError {
-    fn from(error: TableError) -> Self {
-        Self::Table(error)
-    }
-}
 
 /// What the table was made for and how exact it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
