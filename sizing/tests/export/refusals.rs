@@ -19,7 +19,7 @@ fn too_few_cells_name_the_load_and_the_cures() {
         "spline: ",
         " cells reach ",
         "the error falls with the power ",
-        " of the cells, about ",
+        " of the cells; if it goes on so, about ",
         " would do",
         "largest error at φ = ",
         "the load \"pressing force\"",
