@@ -1,9 +1,9 @@
 //! How exact a table of 16-bit rows is.
 
 use super::Table;
-use crate::reduction::Reducible;
-use crate::tabulate::{CHECKS_PER_CELL, Request, Tabulated, scan};
-use crate::{Error, Phase, Scale, math};
+use crate::reduction::{Reducible, Reduction};
+use crate::tabulate::{CHECKS_PER_CELL, Request, Tabulated, scan, torque_between};
+use crate::{Error, Phase, Scale};
 
 /// What the tick rounds away beside the curves, in units of the torque base: half a unit of the result, and half a unit of 2⁻¹⁶ of
 /// V·ω + b.
@@ -69,16 +69,16 @@ fn torque_error(
         f64::from(scale.speed()),
         f64::from(scale.inertia()),
     );
-    let velocity = read.velocity * torque / (speed * speed);
-    let curves: f64 = [
-        (read.inertia * inertia - exact.inertia[0]) * request.alpha,
-        (velocity - 0.5 * exact.inertia[1]) * request.omega * request.omega,
-        read.load * torque - exact.load_torque(),
-        (read.viscous * torque / speed - exact.viscous) * request.omega,
-        read.coulomb * torque - exact.coulomb,
-    ]
-    .iter()
-    .map(|part| math::abs(*part))
-    .sum();
-    Ok((curves + TICK * torque, phi))
+    let read = Reduction {
+        inertia: [
+            read.inertia * inertia,
+            2.0 * read.velocity * torque / (speed * speed),
+            0.0,
+        ],
+        process: read.load * torque,
+        viscous: read.viscous * torque / speed,
+        coulomb: read.coulomb * torque,
+        ..Reduction::default()
+    };
+    Ok((torque_between(request, &read, &exact) + TICK * torque, phi))
 }

@@ -1,7 +1,7 @@
 //! How exact a table is.
 
 use super::{CHECKS_PER_CELL, Request, Tabulated};
-use crate::reduction::Reducible;
+use crate::reduction::{Reducible, Reduction};
 use crate::scalar::Scalar;
 use crate::table::{Layout, Table};
 use crate::{Domain, Error, Phase, Scale, math};
@@ -157,15 +157,27 @@ pub(super) fn torque_error<S: Scalar, L: Layout>(
     );
     let per_position = f64::from(table.cells()) / domain.span();
     let slope = read.inertia_slope.to_f64() * inertia * per_position;
-    let error = [
-        (read.inertia.to_f64() * inertia - exact.inertia[0]) * request.alpha,
-        0.5 * (slope - exact.inertia[1]) * request.omega * request.omega,
-        read.load.to_f64() * torque - exact.load_torque(),
-        (read.viscous.to_f64() * torque / speed - exact.viscous) * request.omega,
-        read.coulomb.to_f64() * torque - exact.coulomb,
+    let read = Reduction {
+        inertia: [read.inertia.to_f64() * inertia, slope, 0.0],
+        process: read.load.to_f64() * torque,
+        viscous: read.viscous.to_f64() * torque / speed,
+        coulomb: read.coulomb.to_f64() * torque,
+        ..Reduction::default()
+    };
+    Ok((torque_between(request, &read, &exact), phi))
+}
+
+/// How far the drive torques of two reductions are apart at most within the range of the request: the bound of the module's
+/// head.
+pub(crate) fn torque_between(request: &Request, read: &Reduction, exact: &Reduction) -> f64 {
+    [
+        (read.inertia[0] - exact.inertia[0]) * request.alpha,
+        0.5 * (read.inertia[1] - exact.inertia[1]) * request.omega * request.omega,
+        read.load_torque() - exact.load_torque(),
+        (read.viscous - exact.viscous) * request.omega,
+        read.coulomb - exact.coulomb,
     ]
     .iter()
     .map(|part| math::abs(*part))
-    .sum();
-    Ok((error, phi))
+    .sum()
 }

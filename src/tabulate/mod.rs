@@ -18,7 +18,7 @@ mod unfold;
 
 pub use fill::fill;
 pub use measure::measure;
-pub(crate) use measure::scan;
+pub(crate) use measure::{scan, torque_between};
 pub(crate) use unfold::unfold;
 
 use measure::measure_until;
