@@ -10,6 +10,7 @@
 use core::hint::black_box;
 use core::num::NonZeroU32;
 
+use jred::duty::{Curve, Limits, Meter, Window};
 use jred::motion::{Law, Move};
 use jred::table::{Cubic, Layout, Quadratic, Spline, Spline16, curves};
 use jred::{Image, ImageError, Model, Outcome, Phase, Pieces, Q15, Q31, Scalar, include_image};
@@ -53,6 +54,9 @@ fn calls() -> Result<(), ImageError> {
         #[cfg(feature = "micromath")]
         black_box(sum.sin_cos_approx());
     }
+
+    every_meter(Window::SinceStart);
+    every_meter(Window::Exponential(600.0));
 
     if option_env!("GATE_PANIC").is_some() {
         black_box([1, 2, 3][black_box(1usize)]);
@@ -108,6 +112,24 @@ fn every_short_tick<const SET: u8>(bytes: &'static [u8]) -> Result<(), ImageErro
     let range = model.acceleration_range(phase, omega.value, Q15::MIN, Q15::MAX);
     black_box((scale.torque_si(torque), scale.alpha_si(back.value), range));
     Ok(())
+}
+
+fn every_meter(window: Window<f32>) {
+    let limits = Limits {
+        continuous: Curve::new(black_box(&[[0.0, 3.0], [300.0, 2.0]])).ok(),
+        peak: Curve::new(black_box(&[[0.0, 9.0], [200.0, 9.0], [300.0, 4.0]])).ok(),
+        speed: Some(black_box(300.0)),
+        ..Limits::default()
+    };
+    if let Ok(mut meter) = Meter::new(limits, black_box(1e-3), black_box(window)) {
+        for _ in 0..black_box(3) {
+            meter.tick(black_box(1.0), black_box(100.0), black_box(5.0));
+        }
+        meter.count_cycle();
+        black_box((meter.figures(), meter.verdicts()));
+        meter.restart();
+        black_box(&meter);
+    }
 }
 
 #[cfg(not(target_os = "none"))]

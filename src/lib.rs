@@ -95,6 +95,7 @@
 //! Neither is on by default.
 
 pub mod cam;
+pub mod duty;
 mod element;
 mod error;
 mod fixed;

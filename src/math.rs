@@ -18,10 +18,19 @@ pub trait Real:
     fn from_f64(value: f64) -> Self;
     /// The same number in double precision.
     fn to_f64(self) -> f64;
+    /// The nearest value to a count, in single precision without double precision inside.
+    fn from_count(count: u32) -> Self;
     /// Neither NaN nor infinite.
     fn is_finite(self) -> bool;
     /// Sine and cosine by `libm`, correct to 1 ulp. In `f32` this computes in double precision inside.
     fn sin_cos(self) -> (Self, Self);
+    /// Square root by `libm`, correctly rounded.
+    #[must_use]
+    fn sqrt(self) -> Self;
+    /// Cube root of a number that is not negative, to 3 ulp (test `cube_roots_are_right`); zero below the smallest normal
+    /// number. In single precision without double precision inside.
+    #[must_use]
+    fn cbrt(self) -> Self;
 }
 
 impl Real for f32 {
@@ -34,8 +43,27 @@ impl Real for f32 {
     fn from_f64(value: f64) -> Self {
         value as Self
     }
+    fn from_count(count: u32) -> Self {
+        count as Self
+    }
     fn sin_cos(self) -> (Self, Self) {
         libm::sincosf(self)
+    }
+    fn sqrt(self) -> Self {
+        libm::sqrtf(self)
+    }
+    fn cbrt(self) -> Self {
+        if self < Self::MIN_POSITIVE {
+            return 0.0;
+        }
+        // A third of the exponent, five bits; each step of Halley's iteration makes three times as many. `libm::cbrtf` does its
+        // steps in double precision.
+        let mut root = Self::from_bits(self.to_bits() / 3 + 709_958_130);
+        for _ in 0..2 {
+            let off = self / (root * root * root);
+            root = root * (1.0 + 2.0 * off) / (2.0 + off);
+        }
+        root
     }
 }
 
@@ -49,8 +77,17 @@ impl Real for f64 {
     fn from_f64(value: f64) -> Self {
         value
     }
+    fn from_count(count: u32) -> Self {
+        f64::from(count)
+    }
     fn sin_cos(self) -> (Self, Self) {
         libm::sincos(self)
+    }
+    fn sqrt(self) -> Self {
+        libm::sqrt(self)
+    }
+    fn cbrt(self) -> Self {
+        libm::cbrt(self)
     }
 }
 

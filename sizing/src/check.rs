@@ -2,12 +2,17 @@
 
 use serde::Serialize;
 
+use crate::judge::{Finding, Words};
 use crate::output::short;
+use crate::rule::Rule;
+use crate::rules::RuleSet;
 
 /// How a rule came out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
+    /// The rule set does not judge it.
+    Off,
     /// The rule holds.
     Pass,
     /// The rule holds, but its warning limit is passed.
@@ -22,6 +27,7 @@ impl Verdict {
     /// One word for tables.
     pub const fn word(self) -> &'static str {
         match self {
+            Self::Off => "off",
             Self::Pass => "ok",
             Self::Warn => "warning",
             Self::NotChecked => "not checked",
@@ -35,63 +41,81 @@ impl Verdict {
 pub struct Check {
     /// Name of the rule.
     pub rule: &'static str,
-    /// The figure judged, in `unit`.
-    pub value: f64,
+    /// The rule.
+    pub id: Rule,
+    /// The figure judged, in `unit`; `None` if it cannot be had.
+    pub value: Option<f64>,
     /// Its limit, in `unit`; `None` if the catalogue does not hold what it is made of.
     pub limit: Option<f64>,
     /// Unit of figure and limit.
     pub unit: &'static str,
+    /// The share of the limit that is used; zero without a limit. JSON has it as the margin.
+    #[serde(skip)]
+    pub used: f64,
+    /// What is left of the limit, as a share of it; `None` where there is no limit.
+    pub margin: Option<f64>,
     /// How it came out.
     pub verdict: Verdict,
     /// What the limit is made of, or what is missing.
     pub note: String,
+    /// Where the limit comes from.
+    pub source: String,
 }
 
 impl Check {
-    /// `value` must not be above `share` of `rating`.
-    pub fn share(
-        rule: &'static str,
-        value: f64,
-        rating: Option<f64>,
-        share: f64,
-        unit: &'static str,
-        what: &str,
-    ) -> Self {
-        let Some(rating) = rating else {
-            return Self {
-                rule,
-                value,
-                limit: None,
-                unit,
-                verdict: Verdict::NotChecked,
-                note: format!("the catalogue has no {what}"),
-            };
-        };
-        Self {
-            rule,
-            value,
-            limit: Some(share * rating),
-            unit,
-            verdict: if value <= share * rating {
-                Verdict::Pass
-            } else {
-                Verdict::Fail
-            },
-            note: format!(
-                "{:.0} % of {} {unit}, the {what}",
+    /// A finding under a rule set, in words.
+    pub fn new(rules: &RuleSet, rule: Rule, finding: Finding, words: Words) -> Self {
+        let verdict = rules.verdict(rule, finding);
+        let limit = rules.limit(rule);
+        let share = limit.fail.or(limit.warn);
+        let used = rules.use_shown(rule, finding);
+        let shown = |x: f64| x / words.scale;
+        let bound = share.map(|share| share * finding.rating);
+        let bound = bound.filter(|bound| finding.is_known() && bound.is_finite());
+        let mut note = match share {
+            _ if !finding.is_known() => format!("not known: {}", words.rating),
+            None if rules.is_off(rule) => "switched off".to_owned(),
+            None => "no limit set".to_owned(),
+            Some(_) if !finding.rating.is_finite() => format!("no limit: {}", words.rating),
+            Some(share) if rule.is_ratio() => {
+                let bound = short(share * shown(finding.rating));
+                format!("{bound} {} {}", words.unit, words.rating).replace("  ", " ")
+            }
+            Some(share) => format!(
+                "{:.0} % of {} {}, the {}",
                 share * 100.0,
-                short(rating)
+                short(shown(finding.rating)),
+                words.unit,
+                words.rating
             ),
+        };
+        if !words.place.is_empty() {
+            note += ", ";
+            note += &words.place;
+        }
+        let margin = bound.is_some() && used.is_finite();
+        Self {
+            rule: rule.name(),
+            id: rule,
+            value: Some(shown(finding.value)).filter(|v| v.is_finite()),
+            limit: bound.map(shown),
+            unit: words.unit,
+            used,
+            margin: margin.then_some(1.0 - used),
+            verdict,
+            note,
+            source: rules.source(rule).to_owned(),
         }
     }
 
-    /// The figure as a share of its limit; zero if there is no limit.
-    pub fn use_of_limit(&self) -> f64 {
-        match self.limit {
-            Some(limit) if limit > 0.0 => self.value / limit,
-            Some(_) if self.value > 0.0 => f64::INFINITY,
-            _ => 0.0,
-        }
+    /// The figure as a share of its limit; zero if there is no limit, infinite where the limit is zero.
+    pub const fn use_of_limit(&self) -> f64 {
+        self.used
+    }
+
+    /// What is left of the limit, as a share of it; nothing where there is no limit.
+    pub const fn margin(&self) -> Option<f64> {
+        self.margin
     }
 
     /// Four digits and the unit.
@@ -110,9 +134,14 @@ impl Check {
         }
     }
 
+    /// The figure with its unit, or a dash.
+    pub fn figure(&self) -> String {
+        self.value.map_or("–".to_owned(), |v| self.with_unit(v))
+    }
+
     /// Figure, limit and what the limit is, as one sentence.
     pub fn sentence(&self) -> String {
-        let value = self.with_unit(self.value);
+        let value = self.figure();
         match self.limit {
             Some(limit) => format!(
                 "{} {value} against {} ({})",

@@ -1,9 +1,15 @@
 //! The command line: declarations only.
 
+pub mod bus;
+pub mod catalogue;
+pub mod search;
+
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use self::catalogue::CatalogueFiles;
+use self::search::Objectives;
 use crate::export::{Choice, Form, LayoutChoice, Number};
 use crate::inspect::Format as CheckFormat;
 use crate::output::Format;
@@ -31,10 +37,24 @@ pub enum Command {
     Check(Check),
     /// Check every motor and gearbox of the catalogue against the motion, and rank what fits.
     Size(Size),
+    /// Vary quantities of the machine file over ranges, and size every machine.
+    Vary(search::Vary),
+    /// The gear ratio that suits each motor: best ratio, range, and the gearboxes in it.
+    Ratio(search::Ratio),
+    /// How much of each rule's limit every quantity of the machine file moves, and which breaks a rule first.
+    Sensitivity(search::Sensitivity),
+    /// How likely a drive holds its rules when quantities scatter within tolerances.
+    Tolerance(search::Tolerance),
+    /// Put the shares of a study that `--shard` wrote together again.
+    Merge(search::Merge),
+    /// The DC bus of one axis or several: power, voltage and brake resistor, and the worst of the phases between the axes.
+    Bus(bus::Bus),
     /// Integrate the free motion under the motor torque of `[simulation]`.
     Simulate(Simulate),
     /// Write the smallest table for the firmware that meets a torque error.
     Export(Export),
+    /// The rule sets that come with the tool, or the limits of one of them, each with its source.
+    Rules(Rules),
     /// Divide a total gear ratio over stages so that the reduced inertia is smallest.
     Split(Split),
 }
@@ -93,24 +113,54 @@ pub struct Check {
 pub struct Size {
     /// Machine file, with a `[motion]`.
     pub file: PathBuf,
-    /// Motors from this CSV file instead of the built-in ones.
-    #[arg(long, value_name = "CSV")]
-    pub motors: Option<PathBuf>,
-    /// Gearboxes from this CSV file instead of the built-in ones.
-    #[arg(long, value_name = "CSV")]
-    pub gearboxes: Option<PathBuf>,
+    /// What drives are made of.
+    #[command(flatten)]
+    pub catalogue: CatalogueFiles,
+    /// Rule set instead of the machine file's: a name from `jred rules`, or a file; what [rules] says beside stays.
+    #[arg(long, value_name = "SET")]
+    pub rules: Option<String>,
     /// Time steps of the cycle.
     #[arg(long, default_value_t = crate::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=10_000_000))]
     pub steps: u32,
+    /// Instead of the ranking: the drives that no other beats in everything, over two or three of power, mass, price, energy,
+    /// margin and temperature, e.g. "mass,energy".
+    #[arg(long, value_name = "OBJECTIVES", value_parser = Objectives::read, conflicts_with = "rank")]
+    pub pareto: Option<Objectives>,
+    /// Which drives are considered, and which comes first.
+    #[command(flatten)]
+    pub search: search::Search,
     /// Number of ranked drives to list.
     #[arg(long, default_value_t = 10)]
     pub top: usize,
+    /// Number of refused drives to list in CSV and JSON and to explain with --explain, those that miss by least first.
+    #[arg(long, default_value_t = 3)]
+    pub nearest: usize,
     /// List every refused drive with its reasons.
     #[arg(long)]
     pub refused: bool,
+    /// List every drive, ranked or refused.
+    #[arg(long)]
+    pub all: bool,
+    /// Say what torque and inertia of the best drive are made of, how far each of gear ratio, cycle time, moving masses and
+    /// process loads may go, and what would have to change for the nearest refused drives to hold.
+    #[arg(long)]
+    pub explain: bool,
+    /// Explain this drive instead, MOTOR+GEARBOX (or MOTOR for a direct drive) with the keys of the catalogue.
+    #[arg(long, value_name = "DRIVE")]
+    pub why: Option<String>,
     /// Write a report: one self-contained HTML page.
     #[arg(long, value_name = "HTML")]
     pub report: Option<PathBuf>,
+    /// How to write the result.
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+/// `jred rules`
+#[derive(Debug, Args)]
+pub struct Rules {
+    /// Name of a set, or a file; without one all sets are listed.
+    pub set: Option<String>,
     /// How to write the result.
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,

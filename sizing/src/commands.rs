@@ -5,19 +5,21 @@ use std::path::Path;
 
 use miette::{IntoDiagnostic as _, Result, WrapErr as _, miette};
 
-use crate::catalogue::Catalogue;
+use crate::catalogue::{Catalogue, MotorKind};
 use crate::cli;
 use crate::contact::OneWay;
 use crate::coordinate::Coordinate;
+use crate::cycle::Cycle;
 use crate::duty::Duty;
 use crate::export::{Choice, Export, Failure, Form, Number, Task};
 use crate::inspect::{self, Findings};
 use crate::machine::MachineFile;
 use crate::motion::Motion;
 use crate::output::Format;
+use crate::pareto::Front;
 use crate::reduce::{self, Over, Sets, reduce};
 use crate::size::Selection;
-use crate::{input, listing, report, simulate, variator};
+use crate::{input, listing, report, simulate, variator, vary};
 
 /// How a command ended, short of an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,6 +28,8 @@ pub enum Done {
     Holds,
     /// The answer is no: a rule is violated by every drive, or a torque error is not reached.
     Violated,
+    /// Somebody stopped it before it was done.
+    Stopped,
 }
 
 /// Runs a command.
@@ -37,8 +41,18 @@ pub fn run(command: &cli::Command) -> Result<Done> {
         cli::Command::Reduce(options) => run_reduce(options),
         cli::Command::Check(options) => run_check(options),
         cli::Command::Size(options) => run_size(options),
+        cli::Command::Vary(options) => vary::command::vary(options),
+        cli::Command::Ratio(options) => crate::ratio::command::ratio(options),
+        cli::Command::Sensitivity(options) => crate::sensitivity::command::sensitivity(options),
+        cli::Command::Tolerance(options) => crate::tolerance::command::tolerance(options),
+        cli::Command::Merge(options) => vary::command::run_merge(options),
+        cli::Command::Bus(options) => crate::bus::command::run(options),
         cli::Command::Simulate(options) => run_simulate(options),
         cli::Command::Export(options) => run_export(options),
+        cli::Command::Rules(options) => print(&crate::rules::command::show(
+            options.set.as_deref(),
+            options.format,
+        )?),
         cli::Command::Split(options) => print(&crate::split::run(options)?),
     }
 }
@@ -291,48 +305,94 @@ fn range(given: [Option<f64>; 2], file: &MachineFile, path: &Path) -> Result<(f6
     Ok((omega, alpha.unwrap_or(own)))
 }
 
-/// Motors of the catalogue turn: a drive link that slides needs a stage between.
-fn rotary_input(file: &MachineFile) -> Result<()> {
+/// What the machine is driven by at its input: a drive link that slides, without a drive train, takes a linear motor.
+///
+/// # Errors
+/// The mechanism cannot be placed.
+pub(crate) fn input_kind(file: &MachineFile) -> Result<MotorKind> {
     let coordinate = Coordinate::of(file.machine.mechanism()).into_diagnostic()?;
     if coordinate == Coordinate::Angle || !file.drive_train.stages().is_empty() {
+        Ok(MotorKind::Rotary)
+    } else {
+        Ok(MotorKind::Linear)
+    }
+}
+
+/// Leaves the motors that fit the machine's input: turning ones, or linear ones.
+///
+/// # Errors
+/// There are none.
+pub(crate) fn fit_input(catalogue: &mut Catalogue, file: &MachineFile) -> Result<()> {
+    let kind = input_kind(file)?;
+    catalogue.keep_kind(kind);
+    if !catalogue.motors.is_empty() {
         return Ok(());
     }
-    Err(miette!(
-        help = "add what turns the rotation into a displacement: [[drive_train]] with type = \"ball-screw\" and lead = \
-                \"10 mm\", or type = \"rack\" and the radius of its pinion; `jred reduce --over time` gives the force itself",
-        "the drive link slides, and the motors of the catalogue turn"
-    ))
+    Err(match kind {
+        MotorKind::Linear => miette!(
+            help = "give a catalogue with linear motors (docs/catalogue.md: kind = linear), or add what turns the rotation \
+                    into a displacement: [[drive_train]] with type = \"ball-screw\" and lead = \"10 mm\", or type = \"rack\" \
+                    and the radius of its pinion; `jred reduce --over time` gives the force itself",
+            "the drive link slides, and the motors of the catalogue turn: it holds no linear motor"
+        ),
+        MotorKind::Rotary => miette!(
+            help = "give a catalogue with motors that turn",
+            "the input of the machine turns, and the catalogue holds linear motors only"
+        ),
+    })
 }
 
 fn run_size(options: &cli::Size) -> Result<Done> {
-    let file = input::read(&options.file)?;
+    let mut file = input::read(&options.file)?;
+    if let Some(word) = &options.rules {
+        file.rules = crate::rules::command::chosen(&file.rules, word)?;
+    }
     variator::refuse(&file, "size")?;
-    rotary_input(&file)?;
     let motion = motion(&file, &options.file)?;
-    let catalogue = Catalogue::load(options.motors.as_deref(), options.gearboxes.as_deref())?;
+    let mut catalogue = options.catalogue.open()?;
+    fit_input(&mut catalogue, &file)?;
+    let filter = options.search.filter();
+    filter.thin(&mut catalogue)?;
     let duty = Duty::new(&file, motion, options.steps as usize).into_diagnostic()?;
-    let selection = Selection::new(&catalogue, &duty, &file.rules);
+    let cycle = Cycle::new(&duty);
+    let motors = catalogue.prepare(&file.site);
+    let mut selection = Selection::new(&catalogue, &motors, &cycle, &file.site, &file.rules);
+    for gap in options.search.apply(&filter, &mut selection) {
+        eprintln!("mind: {gap}");
+    }
+    let selection = selection;
+    if let Some(objectives) = &options.pareto {
+        let front = Front::new(&selection, &objectives.0);
+        let title = format!("{}: the Pareto front of the drives that hold every rule", file.title);
+        print(&front.write(options.format, &title))?;
+        return Ok(if front.points.is_empty() { Done::Violated } else { Done::Holds });
+    }
     if let Some(path) = &options.report {
         let name = options.file.display().to_string();
         let page = report::page(&name, &file, &duty, &selection).into_diagnostic()?;
         write(path, page.unwrap_or_default().as_bytes(), &options.file)?;
     }
+    let list = listing::List {
+        top: options.top,
+        nearest: options.nearest,
+        refused: options.refused,
+        all: options.all,
+    };
+    let explanation = explanation(options, &file, &duty, &selection)?;
+    let explanation = explanation.as_ref();
     match options.format {
         Format::Table => {
-            let list = listing::List {
-                top: options.top,
-                refused: options.refused,
-            };
-            print(&listing::text(list, &file, &duty, &selection))?;
+            print(&listing::text(list, &file, &duty, &selection, explanation))?;
             if let Some(path) = &options.report {
                 print(&format!("report written to {}\n", path.display()))?;
             }
         }
         Format::Csv => {
-            print(&listing::csv(&selection)?)?;
+            print(&listing::csv(list, &selection)?)?;
         }
         Format::Json => {
-            print(&format!("{:#}\n", listing::json(&file, &duty, &selection)))?;
+            let answer = listing::json(list, &file, &duty, &selection, explanation);
+            print(&format!("{answer:#}\n"))?;
         }
     }
     Ok(if selection.fit.is_empty() {
@@ -340,6 +400,29 @@ fn run_size(options: &cli::Size) -> Result<Done> {
     } else {
         Done::Holds
     })
+}
+
+/// What was asked to be explained; in words, the nearest refused drives also where none holds.
+fn explanation(
+    options: &cli::Size,
+    file: &MachineFile,
+    duty: &Duty,
+    selection: &Selection,
+) -> Result<Option<listing::Explanation>> {
+    use listing::Explanation;
+    if options.explain || options.why.is_some() {
+        let Some(drive) = listing::explained(selection, options.why.as_deref())? else {
+            return Ok(None);
+        };
+        let nearest = options.nearest;
+        let explanation = Explanation::new(file, duty, selection, drive, nearest);
+        return explanation.map(Some).into_diagnostic();
+    }
+    if options.format == Format::Table && selection.fit.is_empty() {
+        let nearest = Explanation::of_refused(file, duty, selection, options.nearest);
+        return nearest.map(Some).into_diagnostic();
+    }
+    Ok(None)
 }
 
 fn motion<'f>(file: &'f MachineFile, path: &Path) -> Result<&'f Motion> {
@@ -353,7 +436,7 @@ fn motion<'f>(file: &'f MachineFile, path: &Path) -> Result<&'f Motion> {
 }
 
 /// Prints to stdout; a closed pipe (`jred … | head`) is no error.
-fn print(text: &str) -> Result<Done> {
+pub(crate) fn print(text: &str) -> Result<Done> {
     match std::io::stdout().write_all(text.as_bytes()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error)
             .into_diagnostic()

@@ -4,6 +4,7 @@ use jred::{Domain, Error, Reducible as _, TorqueTerms};
 
 use crate::coordinate;
 use crate::machine::MachineFile;
+use crate::mechanics::Mechanics;
 use crate::motion::Motion;
 
 /// One instant of the cycle. "Input" is the input shaft of the machine's fixed drive train: what a motor or the
@@ -44,6 +45,8 @@ pub struct Duty {
     /// Largest torque (N·m) that holds the machine at the input, without losses and without the help of friction: against
     /// the weight anywhere in the turn, and against weight and process loads where the motion stands still.
     pub hold_torque: f64,
+    /// What the mechanical rules need to know.
+    pub mechanics: Mechanics,
 }
 
 /// Root mean square, extremes and the rest of a quantity over the cycle.
@@ -236,6 +239,7 @@ impl Duty {
         let held = at_rest.map(|i| ((i.terms.potential + i.terms.process) / ratio).abs());
         let hold_torque = held.fold(hold_torque, f64::max);
         Ok(Self {
+            mechanics: Mechanics::new(file, &instants, duration, hold_torque),
             instants,
             duration,
             hold_torque,

@@ -8,8 +8,11 @@ use jred::mechanism::{Frames, Train};
 use jred::{Domain, Element, Error, Jointed, Link, Load, Machine, Mechanism};
 
 use crate::coordinate::Coordinate;
+use crate::input::tolerance::Tolerance;
 use crate::motion::Motion;
-use crate::rules::Rules;
+use crate::rules::RuleSet;
+use crate::site::Site;
+use crate::tabulated::{StandIn, Tabulated};
 use crate::variator::Variator;
 
 /// A mechanism that knows its joints and can be kept in a machine.
@@ -57,6 +60,8 @@ pub struct AnyMechanism {
     outlines: Vec<(usize, Vec<[f64; 2]>)>,
     ground_points: Vec<(String, [f64; 2])>,
     elements: Vec<NamedElement>,
+    loads: Vec<NamedLoad>,
+    stand_ins: usize,
     contacts: Vec<Contact>,
     ropes: Vec<usize>,
     facts: Vec<Fact>,
@@ -80,6 +85,8 @@ impl AnyMechanism {
             outlines: Vec::new(),
             ground_points: Vec::new(),
             elements: Vec::new(),
+            loads: Vec::new(),
+            stand_ins: 0,
             contacts: Vec::new(),
             ropes: Vec::new(),
             facts: Vec::new(),
@@ -114,6 +121,40 @@ impl AnyMechanism {
     pub fn with_elements(mut self, elements: impl IntoIterator<Item = NamedElement>) -> Self {
         self.elements.extend(elements);
         self
+    }
+
+    /// With curves over the drive link's position: each becomes a link with its bearing and gearing, and a load or a spring.
+    ///
+    /// # Errors
+    /// More links than a mechanism may have.
+    pub fn with_stand_ins(mut self, stand_ins: &[StandIn]) -> Result<Self, Error> {
+        let own = self.links.len();
+        self.inner = Arc::new(Tabulated::new(Arc::clone(&self.inner), stand_ins)?);
+        for (k, StandIn { name, course }) in stand_ins.iter().enumerate() {
+            if let Some(load) = course.load(own + k)? {
+                let name = name.clone();
+                self.loads.push(NamedLoad { name, load });
+            }
+            if let Some(element) = course.spring(own + k)? {
+                let name = name.clone();
+                self.elements.push(NamedElement { name, element });
+            }
+            self.links.push(name.clone());
+            self.joints.push(format!("bearing of {name}"));
+            self.joints.push(format!("gearing of {name}"));
+        }
+        self.stand_ins += stand_ins.len();
+        Ok(self)
+    }
+
+    /// Number of links that are parts of the mechanism; those after them stand in for curves.
+    pub fn own_links(&self) -> usize {
+        self.links.len() - self.stand_ins
+    }
+
+    /// The mechanism's own loads.
+    pub fn own_loads(&self) -> &[NamedLoad] {
+        &self.loads
     }
 
     /// With one more contact that must not open.
@@ -251,7 +292,11 @@ pub struct MachineFile {
     /// What `jred simulate` runs, if the file says.
     pub simulation: Option<Simulation>,
     /// Sizing rules, defaults unless the file overrides them.
-    pub rules: Rules,
+    pub rules: RuleSet,
+    /// How far quantities of the file may lie from what it says, of `[tolerance]`.
+    pub tolerances: Vec<Tolerance>,
+    /// Supply, surroundings, stiffness and tool.
+    pub site: Site,
 }
 
 /// Where a torque acts.

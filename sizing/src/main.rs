@@ -11,6 +11,8 @@ fn main() -> ExitCode {
     match run(&Cli::parse().command) {
         Ok(Done::Holds) => ExitCode::SUCCESS,
         Ok(Done::Violated) => ExitCode::from(1),
+        // As a shell reports a program that Ctrl-C ended.
+        Ok(Done::Stopped) => ExitCode::from(130),
         Err(report) => {
             eprintln!("{report:?}");
             ExitCode::from(2)

@@ -1,7 +1,8 @@
 //! The prescribed motion of the drive link over one cycle.
 
 use jred::motion::{Law, Move, State};
-use jred::table::CubicSpline;
+
+use crate::spline::{Fault, Spline, Way};
 
 /// A motion in consecutive pieces.
 #[derive(Clone, Debug)]
@@ -25,10 +26,20 @@ enum Kind {
         omega: f64,
     },
     Move(Move<f64>),
-    Profile {
-        deviation: CubicSpline<Vec<f64>>,
+    /// φ is the curve and a steady advance.
+    Positions {
+        curve: Spline,
+        /// rad/s
         advance: f64,
         /// Speeds (rad/s) below this are standstill.
+        standstill: f64,
+    },
+    /// ω is the curve and a constant; φ its integral.
+    Speeds {
+        curve: Spline,
+        start: f64,
+        /// rad/s
+        advance: f64,
         standstill: f64,
     },
 }
@@ -88,46 +99,69 @@ impl Motion {
         Ok(Self { pieces, cyclic })
     }
 
-    /// A recorded motion: positions `phi` (rad) at equal time steps `dt` (s), the last at the end of the motion.
-    /// The twice continuously differentiable curve through them gives speed and acceleration. A cyclic profile ends
-    /// a whole number of turns from where it starts, and speed and acceleration close as well.
+    /// A motion through recorded positions (rad, or m). The twice continuously differentiable curve through them, or near them,
+    /// gives speed and acceleration; of a cyclic one all three close.
     ///
     /// # Errors
-    /// Too few positions, or one that is not finite.
-    pub fn profile(phi: &[f64], dt: f64, cyclic: bool) -> Result<Self, jred::Error> {
-        let cells = phi.len().saturating_sub(1);
-        let mut control = vec![0.0; jred::table::control_points(cells)];
-        let (first, last) = (
-            phi.first().copied().unwrap_or(0.0),
-            phi.last().copied().unwrap_or(0.0),
-        );
-        let drift = if cyclic { last - first } else { 0.0 };
-        if cyclic {
-            // What is periodic is the deviation from the steady advance.
-            let deviation: Vec<f64> = (0..cells)
-                .map(|k| phi[k] - drift * k as f64 / cells as f64)
-                .collect();
-            jred::table::fit_periodic(&deviation, &mut control)?;
-        } else {
-            jred::table::fit_bounded(phi, &mut control)?;
-        }
-        let deviation = CubicSpline::new(control)?;
-        let duration = dt * cells as f64;
-        let speeds = (0..=cells).map(|k| (deviation.at(k as f64 / cells as f64)[1] + drift).abs());
-        let standstill = STANDSTILL * speeds.fold(0.0, f64::max) / duration;
-        let kind = Kind::Profile {
-            deviation,
-            advance: drift,
-            standstill,
+    /// Times that do not rise, too few rows, numbers that are not finite.
+    pub fn positions(recording: &Recording) -> Result<Self, Fault> {
+        let duration = recording.duration()?;
+        let advance = match recording.closing {
+            Closing::Open => 0.0,
+            Closing::After(advance) => advance / duration,
         };
-        Ok(Self {
+        // What is periodic is the deviation from the steady advance.
+        let deviation = recording.times.iter().zip(recording.values);
+        let deviation: Vec<f64> = deviation.map(|(t, phi)| phi - advance * t).collect();
+        let curve = recording.curve(&deviation)?;
+        let speeds = recording.times.iter().map(|t| (curve.at(*t)[1] + advance).abs());
+        let standstill = STANDSTILL * speeds.fold(0.0, f64::max);
+        Ok(Self::recorded(
+            duration,
+            recording,
+            Kind::Positions {
+                curve,
+                advance,
+                standstill,
+            },
+        ))
+    }
+
+    /// A motion with recorded speeds (rad/s, or m/s), from the position `start`. The position is the exact integral of the curve
+    /// through them. What a cyclic one misses is spread over the cycle as a constant speed.
+    ///
+    /// # Errors
+    /// As for [`positions`](Self::positions).
+    pub fn speeds(recording: &Recording, start: f64) -> Result<Self, Fault> {
+        let duration = recording.duration()?;
+        let curve = recording.curve(recording.values)?;
+        let advance = match recording.closing {
+            Closing::Open => 0.0,
+            Closing::After(advance) => (advance - curve.integral(duration)) / duration,
+        };
+        let speeds = recording.values.iter().map(|speed| speed.abs());
+        let standstill = STANDSTILL * speeds.fold(0.0, f64::max);
+        Ok(Self::recorded(
+            duration,
+            recording,
+            Kind::Speeds {
+                curve,
+                start,
+                advance,
+                standstill,
+            },
+        ))
+    }
+
+    fn recorded(duration: f64, recording: &Recording, kind: Kind) -> Self {
+        Self {
             pieces: vec![Piece {
                 start: 0.0,
                 duration,
                 kind,
             }],
-            cyclic,
-        })
+            cyclic: recording.closing != Closing::Open,
+        }
     }
 
     /// Length of the motion (s).
@@ -169,23 +203,78 @@ impl Motion {
                 alpha: 0.0,
             },
             Kind::Move(step) => step.at(t),
-            Kind::Profile {
-                deviation,
+            Kind::Positions {
+                curve,
                 advance,
                 standstill,
             } => {
-                let [value, d1, d2] = deviation.at(t / piece.duration);
-                let speed = (d1 + advance) / piece.duration;
+                // The end of a period is its beginning, a cycle later.
+                let [value, d1, d2, _] = curve.at(t);
                 State {
-                    phi: value + advance * t / piece.duration,
-                    omega: if speed.abs() > *standstill {
-                        speed
-                    } else {
-                        0.0
-                    },
-                    alpha: d2 / (piece.duration * piece.duration),
+                    phi: value + advance * t,
+                    omega: moving(d1 + advance, *standstill),
+                    alpha: d2,
                 }
             }
+            Kind::Speeds {
+                curve,
+                start,
+                advance,
+                standstill,
+            } => {
+                let [speed, alpha, ..] = curve.at(t);
+                State {
+                    phi: start + curve.integral(t) + advance * t,
+                    omega: moving(speed + advance, *standstill),
+                    alpha,
+                }
+            }
+        }
+    }
+}
+
+/// A speed, or zero below `standstill`.
+fn moving(speed: f64, standstill: f64) -> f64 {
+    if speed.abs() > standstill { speed } else { 0.0 }
+}
+
+/// Whether a recorded motion repeats.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Closing {
+    /// It does not.
+    Open,
+    /// It does, and goes on by this (rad, or m) in a cycle: whole turns, or nothing.
+    After(f64),
+}
+
+/// Rows of a recorded motion.
+#[derive(Clone, Copy, Debug)]
+pub struct Recording<'r> {
+    /// Times from 0 on, rising, the last at the end of the motion (s).
+    pub times: &'r [f64],
+    /// Positions or speeds.
+    pub values: &'r [f64],
+    /// Angular frequency at which smoothing halves an amplitude (rad/s); none: the curve goes through every row.
+    pub cutoff: Option<f64>,
+    /// Whether it repeats: then its last row is its first, a cycle later.
+    pub closing: Closing,
+}
+
+impl Recording<'_> {
+    fn duration(&self) -> Result<f64, Fault> {
+        match self.times {
+            [first, .., last] if *first == 0.0 && *last > 0.0 => Ok(*last),
+            _ => Err(Fault::NotRising),
+        }
+    }
+
+    fn curve(&self, values: &[f64]) -> Result<Spline, Fault> {
+        let way = self.cutoff.map_or(Way::Interpolating, Way::Smoothing);
+        match (self.closing, self.times) {
+            (Closing::After(_), [times @ .., duration]) if values.len() == self.times.len() => {
+                Spline::periodic(times, &values[..times.len()], *duration, way)
+            }
+            _ => Spline::bounded(self.times, values, way),
         }
     }
 }

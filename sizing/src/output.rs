@@ -163,6 +163,14 @@ pub fn short(x: f64) -> String {
     rounded((x * scale).round() / scale)
 }
 
+/// A number with four significant digits; zero where it is nothing but rounding beside `largest`.
+pub fn shown(x: f64, largest: f64) -> String {
+    if x.abs() <= 1e-9 * largest.abs() {
+        return "0".to_owned();
+    }
+    short(x)
+}
+
 /// A number with six significant digits, plain between 1e-4 and 1e6, else with an exponent.
 pub fn rounded(x: f64) -> String {
     if x == 0.0 {

@@ -1,24 +1,47 @@
 //! The report: one self-contained HTML page about a sizing.
+//!
+//! Every chart is on the page twice: as a picture, for paper and for browsers without scripts, and as data that the page's
+//! script draws with uPlot (`templates/vendor/uplot`, MIT licence), to be zoomed and read out.
 
 use askama::Template;
-use jred::{Error, TorqueTerms};
+use jred::Error;
 
-use crate::check::{Check, Verdict};
-use crate::drive::{Judged, RPM};
-use crate::duty::{Duty, Figures};
+use crate::duty::Duty;
+use crate::explain::{Breakdown, Cells, Lever, Remedies};
+use crate::judge::Context;
+use crate::listing::{Explanation, nearest};
 use crate::machine::MachineFile;
 use crate::output::{Columns, rounded, short};
-use crate::rules::Rules;
-use crate::size::{RANKING, Selection};
+use crate::size::{Candidate, Selection};
+use crate::units::Units;
 
+mod chart;
+mod drive;
 mod extract;
 mod figures;
 mod mechanism;
+mod notes;
+mod rows;
+
+use chart::Chart;
+use drive::Subject;
+use rows::{ChangeRow, CheckRow, FitRow, InertiaRow, ShareRow};
 
 pub use mechanism::mechanism_page;
 
 /// Most ranked drives that the page lists.
 const LISTED: usize = 25;
+
+/// Most refused drives that the page lists.
+const REFUSED: usize = 50;
+
+/// Refused drives of which the page says what would have to change.
+const CHANGED: usize = 3;
+
+struct Figure {
+    chart: Chart,
+    caption: &'static str,
+}
 
 #[derive(Template)]
 #[template(path = "report.html")]
@@ -28,19 +51,25 @@ struct Page {
     file: String,
     found: bool,
     answer: String,
-    cards: Vec<(&'static str, String)>,
+    cards: Vec<(String, String)>,
     drive: String,
     checks: Vec<CheckRow>,
-    assumptions: String,
-    plane: String,
-    torque_time: String,
-    speed_time: String,
+    open: Vec<(&'static str, String)>,
+    plane: Vec<Figure>,
+    over_time: Vec<Figure>,
     drawing: String,
-    inertia: String,
-    reduced: String,
-    terms: String,
-    links: String,
-    duty: Vec<(&'static str, Vec<String>)>,
+    machine: Vec<Figure>,
+    torque_unit: &'static str,
+    effects: Vec<ShareRow>,
+    parts: Vec<ShareRow>,
+    inertia_unit: &'static str,
+    inertias: Vec<InertiaRow>,
+    peak_time: String,
+    effects_chart: Vec<Figure>,
+    ratio: Vec<Figure>,
+    change: ChangeRow,
+    nearest: Vec<ChangeRow>,
+    duty: Vec<(String, Vec<String>)>,
     energy: String,
     fit_count: usize,
     all_count: usize,
@@ -48,30 +77,11 @@ struct Page {
     fit: Vec<FitRow>,
     fit_more: usize,
     ranking: &'static str,
+    refused_count: usize,
     refused: Vec<(String, String)>,
+    rule_set: String,
+    rules: Vec<[String; 4]>,
     notes: Vec<String>,
-}
-
-struct CheckRow {
-    rule: &'static str,
-    value: String,
-    limit: String,
-    used: String,
-    verdict: &'static str,
-    class: &'static str,
-    note: String,
-}
-
-struct FitRow {
-    rank: usize,
-    motor: String,
-    gearbox: String,
-    ratio: String,
-    power: String,
-    rms: String,
-    peak: String,
-    lambda: String,
-    remarks: String,
 }
 
 /// The page for a selection. It is about the best drive, or, if none holds, the one that misses by least.
@@ -84,78 +94,205 @@ pub fn page(
     duty: &Duty,
     selection: &Selection,
 ) -> Result<Option<String>, Error> {
-    let found = !selection.fit.is_empty();
-    let Some(best) = selection.fit.first().or(selection.refused.first()) else {
+    let Some(candidate) = selection.fit.first().or(selection.refused.first()) else {
         return Ok(None);
     };
-    let rules = &file.rules;
-    let motor = &best.duty;
-    let page = Page {
-        title: file.title.clone(),
-        version: env!("CARGO_PKG_VERSION"),
-        file: name.to_owned(),
-        found,
-        answer: answer(best, found),
-        cards: vec![
-            ("cycle", format!("{} s", rounded(duty.duration))),
-            ("RMS torque", format!("{} N m", short(motor.torque.rms))),
-            ("peak torque", format!("{} N m", short(motor.torque.peak()))),
-            (
-                "largest speed",
-                format!("{} rpm", short(motor.speed.peak() / RPM)),
-            ),
-            (
-                "inertia ratio λ",
-                format!(
-                    "{} to {}",
-                    short(motor.inertia_ratio.min),
-                    short(motor.inertia_ratio.max)
-                ),
-            ),
-            (
-                "regenerative energy",
-                format!("{} J per cycle", short(motor.regenerative_energy)),
-            ),
-        ],
-        drive: best.drive.name(),
-        checks: best.checks.iter().map(check_row).collect(),
-        assumptions: best.assumptions.join("; "),
-        plane: figures::torque_speed_plane(best, duty, rules),
-        torque_time: figures::torque_over_time(best, duty),
-        speed_time: figures::speed_over_time(best, duty),
-        drawing: crate::drawing::still(file.machine.mechanism())?,
-        inertia: figures::reduced_inertia(file)?,
-        reduced: figures::reduced_torque(file, duty.integral(|i| i.omega.abs()) / duty.duration)?,
-        terms: figures::terms(duty),
-        links: figures::links(file)?,
-        duty: duty_rows(best, duty),
-        energy: format!(
-            "Over a cycle the motor puts in {} J and takes back {} J; what the brake resistor or the DC bus has to \
-             take is at most the latter.",
-            rounded(motor.motoring_energy),
-            rounded(motor.regenerative_energy)
-        ),
-        fit_count: selection.fit.len(),
-        all_count: selection.fit.len() + selection.refused.len(),
-        partly: selection.partly_checked(),
-        fit: selection
-            .fit
-            .iter()
-            .take(LISTED)
-            .enumerate()
-            .map(|(k, judged)| fit_row(k + 1, judged))
-            .collect(),
-        fit_more: selection.fit.len().saturating_sub(LISTED),
-        ranking: RANKING,
-        refused: selection
-            .refused
-            .iter()
-            .map(|judged| (judged.drive.name(), judged.reasons()))
-            .collect(),
-        notes: notes(best, file, duty),
-    };
+    let page = Page::of(name, file, duty, selection, candidate)?;
     // Rendering into a string fails only if a template is wrong, which the tests would show.
     Ok(Some(page.render().unwrap_or_default()))
+}
+
+impl Page {
+    fn of(
+        name: &str,
+        file: &MachineFile,
+        duty: &Duty,
+        selection: &Selection,
+        candidate: &Candidate,
+    ) -> Result<Self, Error> {
+        let found = !selection.fit.is_empty();
+        let best = &selection.judged(candidate);
+        let units = Units::of(best.drive.motor.kind);
+        let explanation = Explanation::new(file, duty, selection, candidate, CHANGED)?;
+        let cells = Cells::new(file, duty, &best.drive)?;
+        let breakdown = Breakdown::of(duty, &best.drive, &cells);
+        let subject = Subject {
+            context: Context::new(
+                selection.cycle,
+                selection.site,
+                candidate.drive,
+                candidate.motor,
+            ),
+            judged: best,
+            duty,
+            rules: selection.rules,
+        };
+        let mean_speed = duty.integral(|i| i.omega.abs()) / duty.duration;
+        let (checked, open) = split_checks(best);
+        let all_count = selection.fit.len() + selection.refused.len();
+        Ok(Self {
+            title: file.title.clone(),
+            version: env!("CARGO_PKG_VERSION"),
+            file: name.to_owned(),
+            found,
+            answer: notes::answer(best, found),
+            cards: cards(best, duty, units),
+            drive: best.drive.name(),
+            checks: checked,
+            open,
+            plane: vec![Figure {
+                chart: subject.plane(),
+                caption: "Torque and speed of the motor over the cycle in all four quadrants; where their signs differ, it brakes. Dashed: what the rules allow.",
+            }],
+            over_time: over_time(&subject),
+            drawing: crate::drawing::still(file.machine.mechanism())?,
+            machine: machine(&subject, file, mean_speed)?,
+            torque_unit: units.torque,
+            effects: rows::share_rows(&breakdown.effects, &breakdown),
+            parts: rows::share_rows(&breakdown.parts, &breakdown),
+            inertia_unit: units.shown_inertia().0,
+            inertias: rows::inertia_rows(&breakdown),
+            peak_time: short(breakdown.peak_time),
+            effects_chart: vec![Figure {
+                chart: subject.effects(&cells),
+                caption: "Motor torque over the cycle, effect by effect; at every instant they add up to the motor torque.",
+            }],
+            ratio: ratio(&subject, explanation.change.as_ref()),
+            change: explanation
+                .change
+                .as_ref()
+                .map_or_else(ChangeRow::default, |c| ChangeRow::of(c, duty.duration)),
+            nearest: explanation
+                .nearest
+                .iter()
+                .map(|refused| ChangeRow::of(refused, duty.duration))
+                .collect(),
+            duty: rows::duty_rows(best, duty, units),
+            energy: format!(
+                "Over a cycle the motor puts in {} J and takes back {} J; what the brake resistor or the DC bus has to \
+                 take is at most the latter.",
+                rounded(best.duty.motoring_energy),
+                rounded(best.duty.regenerative_energy)
+            ),
+            fit_count: selection.fit.len(),
+            all_count,
+            partly: selection.partly_checked(),
+            fit: ranked(selection),
+            fit_more: selection.fit.len().saturating_sub(LISTED),
+            ranking: selection.ranking,
+            refused_count: selection.refused.len(),
+            refused: nearest(selection, REFUSED)
+                .iter()
+                .map(|c| (c.drive.name(), selection.judged(c).reasons()))
+                .collect(),
+            rule_set: format!("{}: {}", selection.rules.name, selection.rules.title),
+            rules: rows::rule_rows(selection.rules),
+            notes: notes::notes(best, duty),
+        })
+    }
+}
+
+fn ranked(selection: &Selection) -> Vec<FitRow> {
+    let listed = selection.fit.iter().take(LISTED).enumerate();
+    listed
+        .map(|(k, candidate)| FitRow::of(k + 1, &selection.judged(candidate)))
+        .collect()
+}
+
+/// The rules that were checked, and those that were not with what is missing.
+fn split_checks(best: &crate::drive::Judged) -> (Vec<CheckRow>, Vec<(&'static str, String)>) {
+    let (open, checked): (Vec<_>, Vec<_>) = best
+        .checks
+        .iter()
+        .partition(|check| check.verdict == crate::check::Verdict::NotChecked);
+    let checked = checked.into_iter().map(CheckRow::of).collect();
+    let open = open.into_iter().map(|check| (check.rule, check.note.clone()));
+    (checked, open.collect())
+}
+
+fn cards(best: &crate::drive::Judged, duty: &Duty, units: Units) -> Vec<(String, String)> {
+    let motor = &best.duty;
+    let (word, unit) = (units.torque_word, units.torque);
+    let card = |name: String, value: String| (name, value);
+    vec![
+        card("cycle".to_owned(), format!("{} s", rounded(duty.duration))),
+        card(format!("RMS {word}"), format!("{} {unit}", short(motor.torque.rms))),
+        card(format!("peak {word}"), format!("{} {unit}", short(motor.torque.peak()))),
+        card(
+            "largest speed".to_owned(),
+            format!("{} {}", short(motor.speed.peak() / units.speed_scale), units.speed),
+        ),
+        card(
+            "inertia ratio λ".to_owned(),
+            format!(
+                "{} to {}",
+                short(motor.inertia_ratio.min),
+                short(motor.inertia_ratio.max)
+            ),
+        ),
+        card(
+            "regenerative energy".to_owned(),
+            format!("{} J per cycle", short(motor.regenerative_energy)),
+        ),
+    ]
+}
+
+fn over_time(subject: &Subject) -> Vec<Figure> {
+    let mut figures = vec![
+        Figure {
+            chart: subject.torque(),
+            caption: "Motor torque, and what the rotor itself takes of it.",
+        },
+        Figure {
+            chart: subject.speed(),
+            caption: "Motor speed.",
+        },
+        Figure {
+            chart: subject.power(),
+            caption: "Mechanical power at the motor shaft; below zero it flows back.",
+        },
+    ];
+    figures.extend(subject.rises().map(|chart| Figure {
+        chart,
+        caption: "Temperature rise once the cycle repeats without end.",
+    }));
+    figures.extend(subject.bus_voltage().map(|chart| Figure {
+        chart,
+        caption: "Voltage of the DC bus once the cycle repeats without end.",
+    }));
+    figures
+}
+
+fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec<Figure>, Error> {
+    Ok(vec![
+        Figure {
+            chart: figures::reduced_inertia(file)?,
+            caption: "Reduced inertia with flywheel and drive train, and its derivative. Where J_red varies, a drive that knows only a mean value is wrong by ½·J′·ω² at every speed.",
+        },
+        Figure {
+            chart: figures::reduced_torque(file, mean_speed)?,
+            caption: "Parts of the reduced torque that do not depend on the motion: weight, process loads, and the sizes of the viscous and motion-opposing loads at the mean speed.",
+        },
+        Figure {
+            chart: subject.inertia_ratio(file)?,
+            caption: "Inertia ratio λ of this drive over the range of the drive link, with the value that is judged.",
+        },
+    ])
+}
+
+/// Every rule over the gear ratio, wide enough for the range in which all hold.
+fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
+    let now = subject.context.ratio;
+    let remedies = change.map_or(&[][..], |c| &c.remedies);
+    let found = remedies.iter().find(|r| matches!(r.lever, Lever::GearRatio | Lever::IdealGearbox));
+    let (mut from, mut to) = (now / 3.0, now * 3.0);
+    if let Some([low, high]) = found.and_then(|r| r.range) {
+        (from, to) = (from.min(low.value / 1.3), to.max(high.value * 1.3));
+    }
+    vec![Figure {
+        chart: subject.ratios(from, to),
+        caption: "What each rule uses of its limit over the gear ratio, the other data of motor and gearbox kept. Where all are below 100 %, the drive holds.",
+    }]
 }
 
 #[derive(Template)]
@@ -172,161 +309,4 @@ pub fn simulation_page(title: &str, run: &Columns) -> String {
         figures: figures::simulation(run),
     };
     page.render().unwrap_or_default()
-}
-
-fn answer(best: &Judged, found: bool) -> String {
-    let motor = best.drive.motor;
-    let gearbox = best
-        .drive
-        .gearbox
-        .map_or("coupled directly".to_owned(), |g| {
-            format!("with {} {} (i = {})", g.maker, g.model, g.ratio)
-        });
-    let drive = escape(&format!("{} {} {gearbox}", motor.maker, motor.model));
-    if found {
-        format!("<b>{drive}</b><br>is the smallest drive of the catalogue that holds every rule.")
-    } else {
-        let reasons = escape(&best.reasons());
-        format!(
-            "<b>No drive of the catalogue holds every rule.</b><br>{drive} misses by least: {reasons}."
-        )
-    }
-}
-
-/// The answer is the one piece of HTML that is put together by hand.
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-}
-
-fn check_row(check: &Check) -> CheckRow {
-    let class = match check.verdict {
-        Verdict::Pass => "ok",
-        Verdict::Warn | Verdict::NotChecked => "warn",
-        Verdict::Fail => "bad",
-    };
-    CheckRow {
-        rule: check.rule,
-        value: check.with_unit(check.value),
-        limit: check
-            .limit
-            .map_or("–".into(), |limit| check.with_unit(limit)),
-        used: check.used(),
-        verdict: check.verdict.word(),
-        class,
-        note: check.note.clone(),
-    }
-}
-
-fn fit_row(rank: usize, judged: &Judged) -> FitRow {
-    let drive = &judged.drive;
-    let remarks: Vec<String> = judged
-        .checks
-        .iter()
-        .filter(|c| matches!(c.verdict, Verdict::Warn | Verdict::NotChecked))
-        .map(|c| format!("{}: {}", c.rule, c.verdict.word()))
-        .collect();
-    FitRow {
-        rank,
-        motor: format!("{} {}", drive.motor.maker, drive.motor.model),
-        gearbox: drive
-            .gearbox
-            .map_or("direct".into(), |g| format!("{} {}", g.maker, g.model)),
-        ratio: rounded(drive.ratio()),
-        power: format!("{:.2} kW", judged.rated_power() / 1000.0),
-        rms: judged.used("RMS torque"),
-        peak: judged.used("peak torque"),
-        lambda: short(judged.duty.inertia_ratio.max),
-        remarks: remarks.join("; "),
-    }
-}
-
-fn duty_rows(best: &Judged, duty: &Duty) -> Vec<(&'static str, Vec<String>)> {
-    let row = |name, figures: Figures, unit: f64| {
-        let cells = figures.values().map(|x| rounded(x / unit));
-        (name, cells.to_vec())
-    };
-    vec![
-        row(
-            "torque at the drive link [N m], without drive train",
-            duty.figures(|i| i.terms.total()),
-            1.0,
-        ),
-        row(
-            "speed of the drive link [rpm]",
-            duty.figures(|i| i.omega),
-            RPM,
-        ),
-        row(
-            "torque at the drive train's input [N m]",
-            duty.figures(|i| i.input_torque),
-            1.0,
-        ),
-        row("motor torque [N m]", best.duty.torque, 1.0),
-        row("motor speed [rpm]", best.duty.speed, RPM),
-        row("motor power [W]", best.duty.power, 1.0),
-        row("inertia ratio λ", best.duty.inertia_ratio, 1.0),
-    ]
-}
-
-fn notes(best: &Judged, file: &MachineFile, duty: &Duty) -> Vec<String> {
-    let rules: &Rules = &file.rules;
-    let work = duty.integral(|i| i.terms.total() * i.omega);
-    let kinetic = duty.integral(|i| (i.terms.acceleration + i.terms.velocity) * i.omega);
-    let potential = duty.integral(|i| i.terms.potential * i.omega);
-    let mut notes = vec![
-        format!(
-            "Self-check over the cycle: work at the drive link {} J; of it into kinetic energy {} J and potential \
-             energy {} J (zero for a cycle that closes).",
-            rounded(work),
-            short(kinetic),
-            short(potential)
-        ),
-        format!(
-            "Rules: RMS torque up to {} of the S1 torque, peak torque {} of the envelope, speed {} of the maximum, \
-             holding torque {} of the standstill torque, inertia ratio up to {} (warning above {}), judged at its \
-             largest value over the cycle.",
-            percent(rules.rms_torque),
-            percent(rules.peak_torque),
-            percent(rules.speed),
-            percent(rules.gravity_hold),
-            rules.inertia_ratio,
-            rules.inertia_ratio_warning
-        ),
-        "Losses: an efficiency divides the torque where power flows to the machine and multiplies it where power flows \
-         back."
-            .to_owned(),
-        format!(
-            "The cycle is evaluated exactly at {} instants; integrals by Simpson's rule on each smooth stretch.",
-            duty.instants.len()
-        ),
-        "Not checked, because the catalogue has no such figures: winding temperature, drive current, brake resistor, \
-         mounting dimensions between motor and gearbox, stiffness (rigid-body validity, VDI 2149), backlash."
-            .to_owned(),
-    ];
-    let drive = &best.drive;
-    notes.push(format!(
-        "Source of {}: {}",
-        drive.motor.model, drive.motor.source
-    ));
-    if let Some(gearbox) = drive.gearbox {
-        notes.push(format!("Source of {}: {}", gearbox.model, gearbox.source));
-    }
-    notes
-}
-
-fn percent(share: f64) -> String {
-    format!("{:.0} %", share * 100.0)
-}
-
-/// The terms' names with their formulas.
-fn term_names() -> [String; 6] {
-    let formulas = ["J·α", "½·J′·ω²", "U′", "", "b·ω", "c·sgn ω"];
-    let mut k = 0;
-    TorqueTerms::NAMES.map(|name| {
-        let formula = formulas[k];
-        k += 1;
-        format!("{name} {formula}").trim_end().to_owned()
-    })
 }

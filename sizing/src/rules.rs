@@ -1,42 +1,153 @@
-//! The rules that a drive is judged by, with their limits.
+//! A rule set: which rules are judged, with what limits, and who says so.
+//!
+//! The sets that come with the tool are files of `sizing/rules`; `docs/sizing-rules.md` lists them with their sources.
 
-/// Limits of the sizing rules. All can be overridden in `[rules]` of the machine file, and all are printed.
-///
-/// The defaults and their sources are listed in `docs/sizing-rules.md`.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct Rules {
-    /// RMS torque as a share of the S1 torque at mean speed.
-    pub rms_torque: f64,
-    /// Torque as a share of the peak-torque envelope at the same speed.
-    pub peak_torque: f64,
-    /// Largest speed as a share of the motor's maximum speed.
-    pub speed: f64,
-    /// Largest torque against gravity as a share of the standstill torque.
-    pub gravity_hold: f64,
-    /// Largest inertia ratio λ allowed.
-    pub inertia_ratio: f64,
-    /// Inertia ratio λ above which a warning is given.
-    pub inertia_ratio_warning: f64,
-    /// Gearbox: peak output torque as a share of its acceleration torque.
-    pub gearbox_peak: f64,
-    /// Gearbox: root-mean-cube output torque as a share of its rated torque.
-    pub gearbox_rated: f64,
-    /// Gearbox: mean and largest input speed as a share of its rated and maximum input speed.
-    pub gearbox_speed: f64,
+use serde::Serialize;
+
+use crate::check::Verdict;
+use crate::judge::Finding;
+use crate::rule::{Rule, Sense};
+
+mod change;
+mod choice;
+pub mod command;
+
+pub use change::{Change, Changes, Contradiction, What};
+pub use choice::{Choices, InertiaOf, MeanTorque, Moves};
+
+/// The limits of one rule, as shares of its rating. `None`: no such limit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Limit {
+    /// Beyond this the rule is violated.
+    pub fail: Option<f64>,
+    /// Beyond this a warning is given.
+    pub warn: Option<f64>,
 }
 
-impl Default for Rules {
-    fn default() -> Self {
+impl Limit {
+    /// Whether the rule is judged at all.
+    pub const fn is_set(&self) -> bool {
+        self.fail.is_some() || self.warn.is_some()
+    }
+}
+
+/// Limits of the sizing rules. All can be overridden in `[rules]` of the machine file, and all are printed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RuleSet {
+    /// Name of the set that was chosen.
+    pub name: String,
+    /// What the set is, in a few words.
+    pub title: String,
+    /// Figures that a rule may be judged by, where there is more than one.
+    pub choices: Choices,
+    limits: [Limit; Rule::COUNT],
+    off: [bool; Rule::COUNT],
+    sources: [String; Rule::COUNT],
+    /// What the machine file changed; kept so that the same changes can be made to another set.
+    own: Changes,
+}
+
+impl RuleSet {
+    /// A set that judges nothing.
+    pub fn empty(name: impl Into<String>, title: impl Into<String>) -> Self {
         Self {
-            rms_torque: 0.8,
-            peak_torque: 0.8,
-            speed: 0.9,
-            gravity_hold: 0.6,
-            inertia_ratio: 10.0,
-            inertia_ratio_warning: 5.0,
-            gearbox_peak: 1.0,
-            gearbox_rated: 1.0,
-            gearbox_speed: 1.0,
+            name: name.into(),
+            title: title.into(),
+            choices: Choices::default(),
+            limits: [Limit::default(); Rule::COUNT],
+            off: [false; Rule::COUNT],
+            sources: std::array::from_fn(|_| String::new()),
+            own: Changes::default(),
         }
+    }
+
+    /// The limits of a rule.
+    pub const fn limit(&self, rule: Rule) -> Limit {
+        self.limits[rule as usize]
+    }
+
+    /// Sets the limits of a rule.
+    pub const fn set(&mut self, rule: Rule, limit: Limit) {
+        self.limits[rule as usize] = limit;
+    }
+
+    /// Whether the rule was switched off on purpose.
+    pub const fn is_off(&self, rule: Rule) -> bool {
+        self.off[rule as usize]
+    }
+
+    /// Whether reports show the rule: it has a limit, or was switched off on purpose.
+    pub const fn shows(&self, rule: Rule) -> bool {
+        self.is_off(rule) || self.limit(rule).is_set()
+    }
+
+    /// Where the rule's limits come from.
+    pub fn source(&self, rule: Rule) -> &str {
+        &self.sources[rule as usize]
+    }
+
+    /// How a finding comes out under a rule.
+    pub fn verdict(&self, rule: Rule, finding: Finding) -> Verdict {
+        let limit = self.limit(rule);
+        if !limit.is_set() {
+            return Verdict::Off;
+        }
+        if !finding.is_known() {
+            return Verdict::NotChecked;
+        }
+        let beyond = |share: Option<f64>| {
+            share.is_some_and(|share| {
+                let limit = share * finding.rating;
+                match rule.sense() {
+                    Sense::AtMost => finding.value > limit,
+                    Sense::AtLeast => finding.value < limit,
+                }
+            })
+        };
+        if beyond(limit.fail) {
+            Verdict::Fail
+        } else if beyond(limit.warn) {
+            Verdict::Warn
+        } else {
+            Verdict::Pass
+        }
+    }
+
+    /// How much of the limit whose passing violates the rule a finding uses; zero where there is no such limit, infinite
+    /// where the limit is zero and something is asked for.
+    pub fn use_of_limit(&self, rule: Rule, finding: Finding) -> f64 {
+        use_of(self.limit(rule).fail, rule, finding)
+    }
+
+    /// The same of the limit that is shown: that of the warning, where there is no other.
+    pub fn use_shown(&self, rule: Rule, finding: Finding) -> f64 {
+        let limit = self.limit(rule);
+        use_of(limit.fail.or(limit.warn), rule, finding)
+    }
+}
+
+fn use_of(share: Option<f64>, rule: Rule, finding: Finding) -> f64 {
+    let Some(share) = share.filter(|_| finding.is_known()) else {
+        return 0.0;
+    };
+    let limit = share * finding.rating;
+    let (top, bottom) = match rule.sense() {
+        Sense::AtMost => (finding.value, limit),
+        Sense::AtLeast => (limit, finding.value),
+    };
+    if bottom > 0.0 {
+        top / bottom
+    } else if top > 0.0 {
+        f64::INFINITY
+    } else {
+        0.0
+    }
+}
+
+impl Default for RuleSet {
+    /// The set `general`.
+    fn default() -> Self {
+        // The file is part of the tool, and a test reads it.
+        crate::input::built_in_rules("general").unwrap_or_else(|| Self::empty("general", ""))
     }
 }

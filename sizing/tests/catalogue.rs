@@ -2,6 +2,16 @@
 // Copied figures, counts and zeros are exact.
 #![allow(clippy::float_cmp)]
 
+#[path = "catalogue/broken.rs"]
+mod broken;
+#[path = "catalogue/database.rs"]
+mod database;
+#[path = "catalogue/format.rs"]
+mod format;
+#[path = "catalogue/pairing.rs"]
+mod pairing;
+#[path = "catalogue/plausible.rs"]
+mod plausible;
 mod support;
 
 use std::collections::BTreeSet;
@@ -28,29 +38,43 @@ fn the_built_in_catalogue_is_plausible() {
     for motor in &catalogue.motors {
         let key = &motor.key;
         assert!(motor.source.len() > 20, "{key}");
-        let power = motor.rated_torque * motor.rated_speed;
+        let rated_torque = motor.rated_torque.unwrap();
+        let rated_speed = motor.rated_speed.unwrap();
+        let peak_torque = motor.peak_torque.unwrap();
+        let power = rated_torque * rated_speed;
         assert!((50.0..20e3).contains(&power), "{key}: {power} W");
-        let rpm = motor.rated_speed / RPM;
+        let rpm = rated_speed / RPM;
         assert!((500.0..6001.0).contains(&rpm), "{key}: {rpm} rpm");
-        let overload = motor.peak_torque / motor.rated_torque;
+        let overload = peak_torque / rated_torque;
         assert!(
             (1.5..10.0).contains(&overload),
             "{key}: peak/rated {overload}"
         );
         if let Some(standstill) = motor.standstill_torque {
-            let share = standstill / motor.rated_torque;
+            let share = standstill / rated_torque;
             assert!((1.0..2.0).contains(&share), "{key}: M0/Mn {share}");
-            assert!(standstill < motor.peak_torque, "{key}");
+            assert!(standstill < peak_torque, "{key}");
         }
         // Rotors grow with the torque to the power 5/3 (similar shape); makers differ by a factor of ten.
-        let slimness = motor.rotor_inertia / motor.peak_torque.powf(5.0 / 3.0);
+        let slimness = motor.rotor_inertia / peak_torque.powf(5.0 / 3.0);
         assert!((5e-7..2e-5).contains(&slimness), "{key}: {slimness:e}");
         // Time to accelerate the bare rotor to rated speed at peak torque.
-        let time = motor.rotor_inertia * motor.rated_speed / motor.peak_torque;
+        let time = motor.rotor_inertia * rated_speed / peak_torque;
         assert!((1e-3..0.2).contains(&time), "{key}: {time} s");
         if let Some(mass) = motor.mass {
-            assert!((0.2..20.0).contains(&(motor.rated_torque / mass)), "{key}");
+            assert!((0.2..20.0).contains(&(rated_torque / mass)), "{key}");
         }
+    }
+    // Torque constants are stated at 20 °C or 100 °C, torques with hot windings.
+    let currents = catalogue.motors.iter().filter_map(|motor| {
+        let winding = &motor.winding;
+        let given = winding.torque_constant.zip(winding.rated_current);
+        given.map(|(k_t, i)| (&motor.key, k_t * i / motor.rated_torque.unwrap()))
+    });
+    let currents: Vec<_> = currents.collect();
+    assert_eq!(currents.len(), 12);
+    for (key, share) in currents {
+        assert!((0.95..1.35).contains(&share), "{key}: {share}");
     }
     let keys: BTreeSet<&str> = catalogue.gearboxes.iter().map(|g| g.key.as_str()).collect();
     assert_eq!(keys.len(), catalogue.gearboxes.len());
@@ -60,13 +84,18 @@ fn the_built_in_catalogue_is_plausible() {
         assert!((2.0..=200.0).contains(&gearbox.ratio), "{key}");
         assert!((0.8..1.0).contains(&gearbox.efficiency), "{key}");
         if let Some(rated) = gearbox.rated_torque {
-            let overload = gearbox.peak_torque / rated;
+            let overload = gearbox.peak_torque.unwrap() / rated;
             assert!((1.0..4.0).contains(&overload), "{key}: {overload}");
         }
         if let Some(speed) = gearbox.rated_speed {
-            assert!(speed < gearbox.max_speed, "{key}");
+            assert!(speed < gearbox.max_speed.unwrap(), "{key}");
         }
         assert!((1e-6..1e-2).contains(&gearbox.inertia), "{key}");
+        if let (Some(stiffness), Some(torque)) = (gearbox.stiffness, gearbox.rated_torque) {
+            // The rated torque twists a planetary gearbox by some arcminutes.
+            let twist = (torque / stiffness).to_degrees() * 60.0;
+            assert!((3.0..10.0).contains(&twist), "{key}: {twist} arcmin");
+        }
         // The ratio is part of the type designation.
         assert!(
             gearbox.model.contains(&format!("i={}", gearbox.ratio)),
@@ -74,6 +103,19 @@ fn the_built_in_catalogue_is_plausible() {
             gearbox.model
         );
     }
+}
+
+#[test]
+fn the_built_in_brake_resistors() {
+    let catalogue = built_in();
+    let found: Vec<[f64; 2]> = catalogue
+        .resistors
+        .iter()
+        .map(|r| [r.resistance, r.rated_power])
+        .collect();
+    let expected = [10.0, 18.0, 23.0, 33.0, 47.0].map(|ohm| [ohm, 450.0]);
+    assert_eq!(found, expected);
+    assert!(catalogue.resistors.iter().all(|r| r.from_maker && r.source.len() > 20));
 }
 
 const HEADER: &str = "key,maker,model,rated_torque [N m],rated_speed [rpm],peak_torque [N m],rotor_inertia [kg cm^2],source";
@@ -147,7 +189,19 @@ fn wrong_columns() {
         Some((1, 36)),
         &["rated_speed", "[rpm]", "[rad/s]"],
     );
-    refuses(&HEADER.replace(',', ";"), None, &["unknown column"]);
+    for (separator, name) in [(";", "semicolons"), ("\t", "tabs")] {
+        let table = table(HEADER).replace("8.5", "8,5");
+        refuses(
+            &table.replace(',', separator),
+            Some((1, 1)),
+            &[&format!("the columns are separated by {name}"), "commas", "\"3.2\""],
+        );
+    }
+    refuses(
+        &table(&HEADER.replace("rated_speed [rpm]", "ratio")),
+        Some((1, 36)),
+        &["unknown column \"ratio\"", "it is a column of gearboxes"],
+    );
 }
 
 /// Two columns of one name cannot both be right.
@@ -202,7 +256,7 @@ fn wrong_cells() {
     refuses(
         &format!("{HEADER}\n{FIRST}\nm2,Maker,Model,9,2000\n"),
         Some((3, 1)),
-        &["8", "5", "every row needs as many cells"],
+        &["this row has 5 cells, but the header has 8", "every row needs as many cells"],
     );
     refuses(
         &format!("{HEADER}\n{FIRST}\n{SECOND},extra\n"),
@@ -275,7 +329,7 @@ fn what_spreadsheets_write_is_read() {
         assert_eq!(motors[0].key, "m1");
         assert_eq!(motors[0].maker, "Maker, Sons & Co");
         assert_eq!(motors[0].model, "The \"big\" one");
-        assert_eq!(motors[0].rated_torque, 8.0);
+        assert_eq!(motors[0].rated_torque, Some(8.0));
         assert_eq!(motors[0].source, "Sheet, page 3");
     }
 }
@@ -289,18 +343,18 @@ fn units_of_the_header_are_converted() {
     };
     let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-15 * b, "{a} and {b}");
     let plain = motor(HEADER, FIRST);
-    near(plain.rated_torque, 8.0);
+    near(plain.rated_torque.unwrap(), 8.0);
     near(
-        plain.rated_speed,
+        plain.rated_speed.unwrap(),
         2000.0 * 2.0 * std::f64::consts::PI / 60.0,
     );
     near(plain.rotor_inertia, 8.5e-4);
     let header = "source,rotor_inertia [g cm^2],peak_torque [mN m],max_speed [rad/s],rated_speed [rad/s],rated_torque [Nm],model,maker,key,mass [g]";
     let other = motor(header, "Sheet,8500,36000,300,209.5,8,Model,Maker,m1,7500");
     near(other.rotor_inertia, 8500.0 * 1e-3 * 1e-4);
-    near(other.peak_torque, 36.0);
+    near(other.peak_torque.unwrap(), 36.0);
     near(other.max_speed.unwrap(), 300.0);
-    near(other.rated_speed, 209.5);
+    near(other.rated_speed.unwrap(), 209.5);
     near(other.mass.unwrap(), 7.5);
     let header = HEADER.replace("kg cm^2", "kg m^2");
     near(motor(&header, FIRST).rotor_inertia, 8.5);

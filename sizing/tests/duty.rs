@@ -4,6 +4,8 @@
 
 #[path = "duty/drives.rs"]
 mod drives;
+#[path = "duty/limits.rs"]
+mod limits;
 mod support;
 
 use std::fmt::Write as _;
@@ -11,7 +13,7 @@ use std::path::Path;
 
 use jred::motion::Law;
 use jred_sizing::catalogue::Catalogue;
-use jred_sizing::drive::Drive;
+use jred_sizing::cycle::Cycle;
 use jred_sizing::duty::Duty;
 use jred_sizing::input;
 use jred_sizing::machine::MachineFile;
@@ -60,12 +62,8 @@ speed = "-300 rpm"
         near("speed", instant.input_speed, speed, 1e-15);
         assert_eq!(instant.input_alpha, 0.0);
     }
-    let motor = drives::motor();
-    let geared = Drive {
-        motor: &motor,
-        gearbox: None,
-    }
-    .duty(&duty);
+    let motor = limits::motor();
+    let geared = Cycle::new(&duty).motor_duty(&drives::drive(&motor, None));
     near("RMS", geared.torque.rms, expected.abs(), 1e-13);
     assert_eq!(geared.regenerative_energy, 0.0);
     near(

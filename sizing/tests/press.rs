@@ -205,6 +205,7 @@ fn size(steps: &str, motors: Option<&str>, gearboxes: Option<&str>) -> Value {
             &file,
             &"--format",
             &"json",
+            &"--all",
             &"--steps",
             &steps,
             &"--motors",
@@ -212,7 +213,7 @@ fn size(steps: &str, motors: Option<&str>, gearboxes: Option<&str>) -> Value {
             &"--gearboxes",
             &folder.file("gearboxes.csv", gearboxes),
         ]),
-        _ => jred([&"size", &file, &"--format", &"json", &"--steps", &steps]),
+        _ => jred([&"size", &file, &"--format", &"json", &"--all", &"--steps", &steps]),
     };
     run.ends(0).json()
 }

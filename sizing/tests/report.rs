@@ -20,10 +20,19 @@ fn plots(page: &str) -> Vec<&str> {
     plots
 }
 
+/// The charts' data, for the page's script.
+fn charts(page: &str) -> Vec<serde_json::Value> {
+    let parts = page.split("<script type=\"application/json\" class=\"chart\">");
+    parts
+        .skip(1)
+        .map(|part| serde_json::from_str(part.split("</script>").next().unwrap()).unwrap())
+        .collect()
+}
+
 fn check_plots(page: &str, count: usize) {
     let plots = plots(page);
     assert_eq!(plots.len(), count);
-    assert_eq!(page.matches("<figure>").count(), count);
+    assert_eq!(page.matches("<figure").count(), count);
     for plot in plots {
         // Inline in HTML an SVG needs no namespace; the parser does where prefixes are used.
         let document = roxmltree::Document::parse(plot).unwrap_or_else(|e| panic!("{e}: {plot}"));
@@ -50,10 +59,16 @@ fn check_plots(page: &str, count: usize) {
 /// Nothing is loaded from anywhere: neither by an element nor by the style.
 fn check_self_contained(page: &str) {
     for word in [
-        "src=", "<link", "<script", "@import", "url(http", "<iframe", "<object", "srcset",
+        "src=", "<link", "@import", "url(http", "<iframe", "<object", "srcset", "fetch(", "XMLHttpRequest", "import(",
     ] {
         assert!(!page.contains(word), "{word}");
     }
+    // Two kinds of scripts: the page's own, and data.
+    let own = page.matches("<script>").count();
+    let data = page.matches("<script type=\"application/json\" class=\"chart\">").count();
+    assert!(own <= 1);
+    assert_eq!(page.matches("<script").count(), own + data);
+    assert_eq!(page.matches("</script>").count(), own + data);
     for part in page.split("href=").skip(1) {
         assert!(
             part.starts_with("\"#") || part.starts_with("'#"),
@@ -68,10 +83,21 @@ fn check_self_contained(page: &str) {
     assert!(page.contains("<meta charset=\"utf-8\">"));
 }
 
+/// The page without what stands in its scripts.
+fn without_scripts(page: &str) -> String {
+    let mut parts = page.split("<script");
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        text += part.split_once("</script>").unwrap().1;
+    }
+    text
+}
+
 /// Every element that is opened is closed, in order.
 fn check_nesting(page: &str) {
     let mut open: Vec<String> = Vec::new();
-    let mut rest = page;
+    let page = without_scripts(page);
+    let mut rest = page.as_str();
     while let Some(start) = rest.find('<') {
         let tag = &rest[start + 1..];
         let end = tag.find('>').expect("an open tag");
@@ -105,7 +131,7 @@ fn size(folder: &Folder, file: &Path, code: i32) -> String {
 fn plain(page: &str) -> String {
     let mut text = String::new();
     let mut inside = false;
-    for c in page.chars() {
+    for c in without_scripts(page).chars() {
         match c {
             '<' => inside = true,
             '>' => inside = false,
@@ -135,10 +161,11 @@ fn the_report_of_the_press() {
     let page = size(&folder, &press_file(), 0);
     check_self_contained(&page);
     check_nesting(&page);
-    // Operating points, torque, speed, drawing, inertia, reduced torque, terms, links.
-    check_plots(&page, 8);
+    // Operating points, torque, speed, power, effects, ratios, drawing, inertia, reduced torque, λ.
+    check_plots(&page, 10);
+    check_charts(&page, 9);
     let text = plain(&page);
-    let answer = jred([&"size", &press_file(), &"--format", &"json"]).json();
+    let answer = jred([&"size", &press_file(), &"--refused", &"--format", &"json"]).json();
     let best = &answer["fit"][0];
     assert!(text.contains(best["motor"].as_str().unwrap()));
     for word in [
@@ -149,14 +176,14 @@ fn the_report_of_the_press() {
     ] {
         assert!(text.contains(word), "{word}");
     }
-    // Every refused drive, and every rule that it breaks.
+    // The nearest refused drives, and every rule that they break.
     let refused = answer["refused"].as_array().unwrap();
     assert!(text.contains(&format!(
         "{} drives, those that miss by least first",
         refused.len()
     )));
     let rows: Vec<&str> = page.split("<tr>").collect();
-    for drive in refused {
+    for drive in &refused[..50] {
         let motor = drive["motor"].as_str().unwrap();
         let name = match drive["gearbox"].as_str() {
             Some(gearbox) => format!("<td>{motor} + {gearbox}</td>"),
@@ -172,12 +199,49 @@ fn the_report_of_the_press() {
             }
         }
     }
-    // Every check of the best drive with its verdict.
+    // Every check of the best drive with its verdict, or what is missing.
     for check in best["checks"].as_array().unwrap() {
-        let row = format!("<td>{}</td>", check["rule"].as_str().unwrap());
+        let rule = check["rule"].as_str().unwrap();
+        let row = if check["verdict"] == "not-checked" {
+            format!("<span class=\"warn\">{rule}</span> (")
+        } else {
+            format!("<tr><td>{rule}</td>")
+        };
         assert!(page.contains(&row), "{row}");
     }
+    for words in [
+        "What the torque is made of",
+        "How far it may change",
+        "Refused by least",
+        "cycle time 0.5 s: may be ",
+        "Rules and their sources",
+        "uPlot",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
     assert!(page.len() < 3_000_000, "{} bytes", page.len());
+}
+
+/// The charts' data: as many as there are pictures of charts, finite, and the same curves.
+fn check_charts(page: &str, count: usize) {
+    let charts = charts(page);
+    assert_eq!(charts.len(), count);
+    for chart in &charts {
+        let series = chart["series"].as_array().unwrap();
+        assert!(!series.is_empty() || page.contains("No drive"), "{}", chart["y"]);
+        for one in series {
+            let (x, y) = (one["x"].as_array().unwrap(), one["y"].as_array().unwrap());
+            assert_eq!(x.len(), y.len());
+            assert!(x.iter().chain(y).all(|v| v.is_number() || v.is_null()));
+            assert!(x.iter().any(serde_json::Value::is_number), "{}", one["name"]);
+        }
+    }
+    // The plane knows when each of its points is.
+    let plane = charts.iter().find(|c| c["form"] == "plane").unwrap();
+    let mut series = plane["series"].as_array().unwrap().iter();
+    let duty = series.find(|s| s["name"] == "duty").unwrap();
+    let times = duty["t"].as_array().unwrap();
+    assert_eq!(times.len(), duty["x"].as_array().unwrap().len());
 }
 
 #[test]
@@ -191,7 +255,7 @@ fn a_title_is_text_not_markup() {
     jred([&"simulate", &file, &"--plot", &plot]).ends(0);
     for page in [page, std::fs::read_to_string(plot).unwrap()] {
         assert!(
-            !page.contains("<script") && !page.contains("<b>&\""),
+            !page.contains("<script>alert") && !page.contains("<b>&\""),
             "markup got through"
         );
         check_self_contained(&page);
@@ -219,7 +283,7 @@ fn names_of_the_catalogue_are_text_not_markup() {
         &report,
     ]);
     let page = std::fs::read_to_string(report).unwrap();
-    for markup in ["<script", "<img", "<i>k", "A<b>"] {
+    for markup in ["M\"<script", "<img", "<i>k", "A<b>"] {
         assert!(!page.contains(markup), "{markup}");
     }
     check_nesting(&page);
@@ -233,9 +297,10 @@ fn a_report_where_no_drive_holds() {
     let page = size(&folder, &file, 1);
     check_self_contained(&page);
     check_nesting(&page);
-    check_plots(&page, 8);
+    check_plots(&page, 10);
     let text = plain(&page);
     for word in [
+        "What would have to change",
         "No drive of the catalogue holds every rule.",
         "misses by least: ",
         "hold every rule (0 of ",
@@ -285,5 +350,5 @@ speed = "60 rpm"
     let (_, rest) = rest.split_once("# Toothed belt").unwrap();
     let file = folder.file("no load.toml", format!("{machine}#{rest}"));
     let page = size(&folder, &file, 0);
-    check_plots(&page, 8);
+    check_plots(&page, 10);
 }

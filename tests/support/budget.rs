@@ -344,3 +344,13 @@ pub(crate) const SHORT_FLOOR: [f64; 2] = [1.2e-4, 1.4e-4];
 
 /// Largest error of Quadratic pieces over the stated one, which is found at the knots, too: as `DENSE_GRID`.
 pub(crate) const PIECES_QUADRATIC: f64 = 1.001;
+
+/// The duty meter in f32 against f64, over 10⁶ ticks of the same readings, relative: a sum is right to
+/// two roundings, terms and figures add three or four, each half of 1.2e-7, and not all of one sign.
+pub(crate) const METER_F32: f64 = 2e-7;
+
+/// Rectangle rule with 10⁴ ticks a period for a curve with two bends: h²·|jump of the slope|/24 a bend, relative.
+pub(crate) const METER_RECTANGLE: f64 = 3e-7;
+
+/// The cube root in f32 promises three units in the last place: the last step has six roundings.
+pub(crate) const CUBE_ROOT_ULP: f64 = 3.0;

@@ -1,343 +1,254 @@
-//! A CSV table with units in its header, read row by row with errors that name line and column.
+//! A CSV table with units in its header, read row by row.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
-use miette::NamedSource;
+use super::cell::{Cell, find_unit, nearest, unit_cure};
+use super::column::{Column, Kind, Unit};
+use super::fault::{Fault, Text};
+use super::row::{Cells, Row};
 
-use super::{CatalogueError, Misplaced};
-
-/// Columns that the tool knows: name, and the units accepted with their factor to SI.
-const COLUMNS: &[(&str, &[(&str, f64)])] = &[
-    ("key", TEXT),
-    ("maker", TEXT),
-    ("model", TEXT),
-    ("source", TEXT),
-    ("figures_from", TEXT),
-    ("rated_torque", TORQUE),
-    ("rated_speed", SPEED),
-    ("standstill_torque", TORQUE),
-    ("peak_torque", TORQUE),
-    ("max_speed", SPEED),
-    ("rotor_inertia", INERTIA),
-    ("peak_corner_speed", SPEED),
-    ("peak_torque_at_max_speed", TORQUE),
-    ("bus_voltage", &[("V", 1.0)]),
-    ("mass", &[("kg", 1.0), ("g", 1e-3)]),
-    ("ratio", &[("", 1.0)]),
-    ("rated_output_torque", TORQUE),
-    ("peak_output_torque", TORQUE),
-    ("emergency_output_torque", TORQUE),
-    ("rated_input_speed", SPEED),
-    ("max_input_speed", SPEED),
-    ("input_inertia", INERTIA),
-    ("efficiency", &[("%", 0.01), ("", 1.0)]),
-    ("backlash", &[("arcmin", std::f64::consts::PI / 10_800.0)]),
-];
-const TEXT: &[(&str, f64)] = &[("", 1.0)];
-const TORQUE: &[(&str, f64)] = &[("N m", 1.0), ("Nm", 1.0), ("mN m", 1e-3)];
-const SPEED: &[(&str, f64)] = &[("rpm", std::f64::consts::PI / 30.0), ("rad/s", 1.0)];
-const INERTIA: &[(&str, f64)] = &[("kg cm^2", 1e-4), ("kg m^2", 1.0), ("g cm^2", 1e-7)];
-
-/// A catalogue file, its header understood.
-pub(super) struct Table {
-    name: String,
-    text: String,
-    columns: BTreeMap<&'static str, (usize, f64)>,
-    records: Vec<csv::StringRecord>,
+/// A CSV file, its header understood.
+pub(super) struct Table<'t> {
+    text: &'t str,
+    kind: Kind,
+    columns: [Option<(usize, &'static Unit)>; Column::COUNT],
+    header: csv::StringRecord,
+    reader: csv::Reader<&'t [u8]>,
 }
 
-impl Table {
-    pub(super) fn read(name: &str, text: &str) -> Result<Self, CatalogueError> {
-        let mut table = Self {
-            name: name.to_owned(),
-            text: text.to_owned(),
-            columns: BTreeMap::new(),
-            records: Vec::new(),
-        };
+impl<'t> Table<'t> {
+    /// Reads the header; `None` if there is none.
+    pub(super) fn read(text: &'t Text, kind: Kind) -> Result<Option<Self>, Fault> {
+        let text = text.text.as_str();
         let mut reader = csv::ReaderBuilder::new()
             .trim(csv::Trim::All)
             .comment(Some(b'#'))
             .from_reader(text.as_bytes());
-        let header = reader
-            .headers()
-            .map_err(|error| table.csv_error(&error))?
-            .clone();
+        let header = reader.headers().map_err(|e| csv_fault(text, &e))?.clone();
+        let mut table = Self {
+            text,
+            kind,
+            columns: [None; Column::COUNT],
+            header,
+            reader,
+        };
+        let header = table.header.clone();
+        if header.iter().all(str::is_empty) {
+            return Ok(None);
+        }
+        table.separators()?;
         for (index, title) in header.iter().enumerate() {
-            let (name, unit) = match title.split_once('[') {
-                Some((name, unit)) => (name.trim(), unit.trim_end_matches(']').trim()),
-                None => (title.trim(), ""),
-            };
-            let Some((known, units)) = COLUMNS.iter().find(|c| c.0 == name) else {
-                let names: Vec<&str> = COLUMNS.iter().map(|c| c.0).collect();
-                let nearest = nearest(name, &names);
-                return Err(table.wrong(
-                    0,
-                    title,
-                    format!("unknown column \"{name}\""),
-                    "not a column of a catalogue",
-                    format!("did you mean \"{nearest}\"? Columns: {}", names.join(", ")),
-                ));
-            };
-            let Some((_, factor)) = units.iter().find(|u| u.0 == unit) else {
-                let accepted: Vec<String> = units.iter().map(|u| format!("[{}]", u.0)).collect();
-                return Err(table.wrong(
-                    0,
-                    title,
-                    format!("column \"{name}\" has the unit [{unit}]"),
-                    "not a unit of this quantity",
-                    format!(
-                        "write the unit into the header as one of {}",
-                        accepted.join(", ")
-                    ),
-                ));
-            };
-            if table.columns.insert(known, (index, *factor)).is_some() {
-                return Err(table.wrong(
-                    0,
-                    title,
-                    format!("the column \"{name}\" is there twice"),
-                    "twice in this header",
-                    "keep one of the two".to_owned(),
-                ));
-            }
+            table.column(index, title)?;
         }
-        for record in reader.records() {
-            let record = record.map_err(|error| table.csv_error(&error))?;
-            table.records.push(record);
-        }
-        Ok(table)
+        Ok(Some(table))
     }
 
-    /// All rows through `build`.
-    pub(super) fn rows<T>(
-        &self,
-        what: &'static str,
-        build: impl Fn(&mut Row) -> Result<T, CatalogueError>,
-    ) -> Result<Vec<T>, CatalogueError> {
-        if self.records.is_empty() {
-            return Err(CatalogueError::Empty(self.name.clone(), what));
-        }
-        let mut keys = BTreeSet::new();
-        let mut rows = Vec::with_capacity(self.records.len());
-        for record in &self.records {
-            let mut row = Row {
-                table: self,
-                record,
-            };
-            let key = row.key()?;
-            rows.push(build(&mut row)?);
-            if !keys.insert(key.clone()) {
-                return Err(row.wrong(
-                    "key",
-                    format!("the key \"{key}\" is there twice"),
-                    "again here",
-                    "give every row a key of its own".to_owned(),
-                ));
-            }
-        }
-        Ok(rows)
-    }
-
-    fn csv_error(&self, error: &csv::Error) -> CatalogueError {
-        let at = error.position().map_or(0, |p| p.byte() as usize);
-        self.wrong(
-            at,
-            "",
-            format!("not readable as CSV: {error}"),
-            "in this row",
-            "every row needs as many cells as the header; quote cells that hold a comma".to_owned(),
-        )
-    }
-
-    /// An error at the first occurrence of `cell` from byte `from` on.
-    fn wrong(
-        &self,
-        from: usize,
-        cell: &str,
-        message: String,
-        label: &str,
-        help: String,
-    ) -> CatalogueError {
-        let from = from.min(self.text.len());
-        let found = self.text.get(from..).and_then(|rest| rest.find(cell));
-        let start = from + found.unwrap_or(0);
-        CatalogueError::Wrong(Box::new(Misplaced {
-            message,
-            file: NamedSource::new(&self.name, self.text.clone()),
-            place: (start, cell.len()).into(),
-            label: label.to_owned(),
-            help,
-        }))
-    }
-}
-
-fn nearest<'a>(word: &str, names: &[&'a str]) -> &'a str {
-    names
-        .iter()
-        .max_by(|a, b| strsim::jaro_winkler(word, a).total_cmp(&strsim::jaro_winkler(word, b)))
-        .copied()
-        .unwrap_or("")
-}
-
-/// One row.
-pub(super) struct Row<'t> {
-    table: &'t Table,
-    record: &'t csv::StringRecord,
-}
-
-impl Row<'_> {
-    pub(super) fn key(&mut self) -> Result<String, CatalogueError> {
-        self.text("key")
-    }
-
-    /// A cell that must hold text.
-    pub(super) fn text(&mut self, column: &'static str) -> Result<String, CatalogueError> {
-        match self.cell(column)? {
-            "" => Err(self.empty(column)),
-            text => Ok(text.to_owned()),
-        }
-    }
-
-    /// Whether the figures were read in the maker's own document; so if there is no such column or the cell is empty.
-    pub(super) fn is_from_maker(&mut self) -> Result<bool, CatalogueError> {
-        const COLUMN: &str = "figures_from";
-        if !self.table.columns.contains_key(COLUMN) {
-            return Ok(true);
-        }
-        match self.cell(COLUMN)? {
-            "" | "maker" => Ok(true),
-            "other" => Ok(false),
-            word => Err(self.wrong(
-                COLUMN,
-                format!("{COLUMN} of \"{}\" is \"{word}\"", self.name()),
-                "not known",
-                "write \"maker\" for figures from the maker's own document, else \"other\""
-                    .to_owned(),
+    /// A sheet saved with other separators has one column only.
+    fn separators(&self) -> Result<(), Fault> {
+        let title = self.header.get(0).unwrap_or_default();
+        let separator = [(';', "semicolons"), ('\t', "tabs")];
+        let found = separator.into_iter().find(|(c, _)| title.contains(*c));
+        match found {
+            Some((_, name)) if self.header.len() == 1 => Err(Fault::new(
+                format!("the columns are separated by {name}"),
+                self.place_of(0, title),
+                "no comma in this header",
+                "save the sheet with commas between the columns and points in the numbers (\"3.2\", not \"3,2\")",
             )),
+            _ => Ok(()),
         }
     }
 
-    /// A figure that must be there and be greater than zero, in SI units.
-    pub(super) fn positive(&mut self, column: &'static str) -> Result<f64, CatalogueError> {
-        match self.optional(column)? {
-            Some(value) => Ok(value),
-            None => Err(self.empty(column)),
-        }
-    }
-
-    /// A figure that may be left out (an empty cell, or no such column), in SI units.
-    pub(super) fn optional(&mut self, column: &'static str) -> Result<Option<f64>, CatalogueError> {
-        let Some(&(index, factor)) = self.table.columns.get(column) else {
-            return Ok(None);
+    fn column(&mut self, index: usize, title: &str) -> Result<(), Fault> {
+        let (name, unit) = match title.split_once('[') {
+            Some((name, unit)) => (name.trim(), unit.trim_end_matches(']').trim()),
+            None => (title.trim(), ""),
         };
-        let cell = self.record.get(index).unwrap_or("");
-        if cell.is_empty() {
-            return Ok(None);
-        }
-        match cell.parse::<f64>() {
-            Ok(value) if value.is_finite() && value > 0.0 => Ok(Some(value * factor)),
-            _ => Err(self.wrong(
-                column,
-                format!("{column} of \"{}\" is \"{cell}\"", self.name()),
-                "not a number greater than zero",
-                "write a plain number; its unit stands in the header; leave the cell empty if the data sheet does \
-                 not say"
-                    .to_owned(),
-            )),
-        }
-    }
-
-    /// A figure that must not be below another one.
-    pub(super) fn at_least(
-        &self,
-        column: &'static str,
-        value: f64,
-        other: &'static str,
-        least: f64,
-    ) -> Result<(), CatalogueError> {
-        if value >= least {
-            return Ok(());
-        }
-        Err(self.wrong(
-            column,
-            format!("{column} of \"{}\" is below its {other}", self.name()),
-            "too small",
-            format!(
-                "check {column} and {other} against the data sheet, and the units in the header"
-            ),
-        ))
-    }
-
-    /// A figure with an upper limit.
-    pub(super) fn at_most(
-        &self,
-        column: &'static str,
-        value: f64,
-        most: f64,
-    ) -> Result<(), CatalogueError> {
-        if value <= most {
-            return Ok(());
-        }
-        Err(self.wrong(
-            column,
-            format!("{column} of \"{}\" is above {most}", self.name()),
-            "too large",
-            "check the figure and the unit in the header".to_owned(),
-        ))
-    }
-
-    fn name(&self) -> &str {
-        let key = self.table.columns.get("key");
-        key.and_then(|c| self.record.get(c.0)).unwrap_or("?")
-    }
-
-    fn cell(&self, column: &'static str) -> Result<&str, CatalogueError> {
-        let Some(&(index, _)) = self.table.columns.get(column) else {
-            return Err(self.table.wrong(
-                0,
-                "",
-                format!("the column \"{column}\" is missing"),
-                "in this header",
-                format!("add the column \"{column}\"; docs/catalogue.md shows all columns"),
-            ));
+        let at = self.place_of(index, title);
+        let Some(column) = Column::of(self.kind).find(|c| c.name() == name) else {
+            return Err(unknown(name, self.kind, at));
         };
-        Ok(self.record.get(index).unwrap_or(""))
-    }
-
-    fn empty(&self, column: &'static str) -> CatalogueError {
-        if self.table.columns.contains_key(column) {
-            self.wrong(
-                column,
-                format!("{column} of \"{}\" is empty", self.name()),
-                "needed in every row",
-                format!("fill in {column}, or leave the row out"),
-            )
+        let unit = if column == Column::Price {
+            column.units().first()
         } else {
-            self.table.wrong(
-                0,
-                "",
-                format!("the column \"{column}\" is missing"),
-                "in this header",
-                format!(
-                    "add the column \"{column}\" with its unit; docs/catalogue.md shows all columns"
-                ),
-            )
+            find_unit(unit, column.units())
         }
+        .ok_or_else(|| {
+            Fault::new(
+                format!("column \"{name}\" has the unit [{unit}]"),
+                at.clone(),
+                "not a unit of this quantity",
+                match column.unit_list() {
+                    none if none.is_empty() => format!("write \"{name}\" without a unit"),
+                    list => format!(
+                        "write the unit into the header as one of {list}; {}",
+                        unit_cure(unit, column.units())
+                    ),
+                },
+            )
+        })?;
+        if self.columns[column as usize]
+            .replace((index, unit))
+            .is_some()
+        {
+            return Err(Fault::new(
+                format!("the column \"{name}\" is there twice"),
+                at,
+                "twice in this header",
+                "keep one of the two",
+            ));
+        }
+        Ok(())
     }
 
-    fn wrong(&self, column: &str, message: String, label: &str, help: String) -> CatalogueError {
-        let index = self.table.columns.get(column).map_or(0, |c| c.0);
+    /// Where a title of the header stands.
+    fn place_of(&self, index: usize, title: &str) -> Range<usize> {
+        let from = cell_start(self.text, 0, index);
+        find(self.text, from, title)
+    }
+
+    /// Calls `take` with every row and the number of its line, or with what makes it unreadable.
+    pub(super) fn each(mut self, mut take: impl FnMut(Result<(Row<'_>, usize), Fault>)) -> usize {
+        let mut record = csv::StringRecord::new();
+        let mut count = 0;
+        loop {
+            match self.reader.read_record(&mut record) {
+                Ok(false) => return count,
+                Err(error) => {
+                    count += 1;
+                    take(Err(csv_fault(self.text, &error)));
+                    // Only a row of the wrong length leaves the reader where it can go on.
+                    if !matches!(error.kind(), csv::ErrorKind::UnequalLengths { .. }) {
+                        return count;
+                    }
+                }
+                Ok(true) => {
+                    count += 1;
+                    let position = record.position();
+                    let line = position.map_or(0, csv::Position::line) as usize;
+                    let cells = CsvRow {
+                        table: &self,
+                        record: &record,
+                    };
+                    if record == self.header {
+                        let start = cells.place_at(0);
+                        take(Err(Fault::new(
+                            "the header is there twice",
+                            start,
+                            "again here",
+                            "remove this line; a table has one header",
+                        )));
+                    } else {
+                        take(Ok((Row::new(self.kind, &cells), line)));
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The fault of a name that is no column of this table.
+pub(super) fn unknown(name: &str, kind: Kind, at: Range<usize>) -> Fault {
+    let names: Vec<&str> = Column::of(kind).map(Column::name).collect();
+    let near = nearest(name, &names);
+    let near = near.map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
+    let elsewhere = Column::ALL.iter().find(|column| column.name() == name);
+    let elsewhere = elsewhere.and_then(|column| column.kinds().first());
+    let elsewhere = elsewhere.map_or(String::new(), |kind| {
+        format!("it is a column of {}. ", kind.plural())
+    });
+    Fault::new(
+        format!("unknown column \"{name}\""),
+        at,
+        "not a column of this table",
+        format!(
+            "{elsewhere}{near}Columns of {}: {}",
+            kind.plural(),
+            names.join(", ")
+        ),
+    )
+}
+
+/// What the CSV reader does not like.
+pub(super) fn csv_fault(text: &str, error: &csv::Error) -> Fault {
+    let from = error.position().map_or(0, |p| p.byte() as usize);
+    let at = cell_start(text, from, 0);
+    let message = match error.kind() {
+        csv::ErrorKind::UnequalLengths {
+            expected_len, len, ..
+        } => {
+            format!("this row has {len} cells, but the header has {expected_len}")
+        }
+        _ => format!("not readable as CSV: {error}"),
+    };
+    Fault::new(
+        message,
+        at..at,
+        "in this row",
+        "every row needs as many cells as the header; quote cells that hold a comma",
+    )
+}
+
+struct CsvRow<'r> {
+    table: &'r Table<'r>,
+    record: &'r csv::StringRecord,
+}
+
+impl CsvRow<'_> {
+    fn place_at(&self, index: usize) -> Range<usize> {
         let row = self.record.position().map_or(0, |p| p.byte() as usize);
-        let from = cell_start(&self.table.text, row, index);
-        let cell = self.record.get(index).unwrap_or("");
-        self.table.wrong(from, cell, message, label, help)
+        let from = cell_start(self.table.text, row, index);
+        find(self.table.text, from, self.record.get(index).unwrap_or(""))
+    }
+}
+
+impl Cells for CsvRow<'_> {
+    fn cell(&self, column: Column) -> Option<Cell<'_>> {
+        let (index, unit) = self.table.columns[column as usize]?;
+        let text = self.record.get(index)?;
+        (!text.is_empty()).then_some(Cell {
+            text,
+            unit: Some(unit),
+        })
+    }
+
+    fn place(&self, column: Column) -> Range<usize> {
+        self.place_at(self.table.columns[column as usize].map_or(0, |c| c.0))
+    }
+
+    fn has(&self, column: Column) -> bool {
+        self.table.columns[column as usize].is_some()
+    }
+
+    fn given(&self, column: Column) -> bool {
+        self.has(column)
+    }
+
+    fn header(&self) -> Range<usize> {
+        let at = cell_start(self.table.text, 0, 0);
+        at..at
+    }
+}
+
+/// The first occurrence of `cell` from byte `from` on.
+fn find(text: &str, from: usize, cell: &str) -> Range<usize> {
+    let from = from.min(text.len());
+    let rest = text.get(from..).unwrap_or("");
+    let line_end = rest.find('\n').unwrap_or(rest.len());
+    let found = rest.get(..line_end).and_then(|line| line.find(cell));
+    match found {
+        Some(at) => from + at..from + at + cell.len(),
+        None => from..from,
     }
 }
 
 /// Where cell number `index` of the row begins that follows byte `from`: past comments and blank lines, and past as
 /// many commas outside quotes.
-fn cell_start(text: &str, from: usize, index: usize) -> usize {
+pub(super) fn cell_start(text: &str, from: usize, index: usize) -> usize {
     let mut start = from.min(text.len());
+    if start == 0 && text.starts_with('\u{feff}') {
+        start = '\u{feff}'.len_utf8();
+    }
     for line in text.get(start..).unwrap_or("").split_inclusive('\n') {
         if !(line.starts_with('#') || line.trim().is_empty()) {
             break;

@@ -1,7 +1,7 @@
 //! Quantities on the command line, read as in machine files.
 
 use super::kind::{
-    ACCELERATION, ANGULAR_ACCELERATION, ANGULAR_SPEED, FORCE, INERTIA, Kind, TORQUE, VELOCITY,
+    ACCELERATION, ANGULAR_ACCELERATION, ANGULAR_SPEED, FORCE, INERTIA, Kind, MASS, TORQUE, VELOCITY,
 };
 use super::quantity;
 use crate::coordinate::Coordinate;
@@ -45,6 +45,14 @@ pub fn largest_acceleration(text: &str, coordinate: Coordinate) -> Result<f64, S
 /// In words for the command line.
 pub fn inertia_argument(text: &str) -> Result<f64, String> {
     positive(text, &INERTIA)
+}
+
+/// A mass greater than zero, such as "12 kg" (kg).
+///
+/// # Errors
+/// In words for the command line.
+pub fn mass_argument(text: &str) -> Result<f64, String> {
+    positive(text, &MASS)
 }
 
 /// A speed of the drive link of either sign, such as "-60 rpm", or "0.2 m/s" of one that slides.

@@ -178,6 +178,11 @@ impl<'a> Item<'a> {
         Ok(text.trim())
     }
 
+    /// Whether the value is this text.
+    pub(super) fn is_word(&self, word: &str) -> bool {
+        matches!(self.value.get_ref(), DeValue::String(text) if text.trim() == word)
+    }
+
     /// `true` or `false`.
     pub(super) fn flag(&self) -> Result<bool> {
         let example = format!("{0} = true or {0} = false, without quotes", self.key);

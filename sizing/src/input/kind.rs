@@ -37,11 +37,26 @@ const fn kind(
             mass,
             time,
             angle,
+            current: 0,
+            temperature: 0,
         },
         angle_optional: angle < 0,
         largest,
         smallest,
     }
+}
+
+/// The same with powers of A and K.
+const fn electric(
+    words: [&'static str; 4],
+    mechanical: [i8; 4],
+    [current, temperature]: [i8; 2],
+    range: [f64; 2],
+) -> Kind {
+    let mut kind = kind(words, mechanical, range);
+    kind.dimension.current = current;
+    kind.dimension.temperature = temperature;
+    kind
 }
 
 pub(super) const LENGTH: Kind = kind(
@@ -155,6 +170,41 @@ pub(super) const SHARE: Kind = kind(
     [1e-6, 1e3],
 );
 
+pub(super) const VOLTAGE: Kind = electric(
+    ["a voltage", "560 V", "V", "V, kV, mV"],
+    [2, 1, -3, 0],
+    [-1, 0],
+    [1e-6, 1e5],
+);
+pub(super) const RESISTANCE: Kind = electric(
+    ["a resistance", "47 Ohm", "Ohm", "Ohm, mOhm, kOhm"],
+    [2, 1, -3, 0],
+    [-2, 0],
+    [1e-6, 1e6],
+);
+pub(super) const CAPACITANCE: Kind = electric(
+    ["a capacitance", "470 uF", "uF", "F, mF, uF"],
+    [-2, -1, 4, 0],
+    [2, 0],
+    [1e-9, 1e3],
+);
+pub(super) const POWER: Kind = kind(
+    ["a power", "200 W", "W", "W, kW"],
+    [2, 1, -3, 0],
+    [1e-6, 1e9],
+);
+pub(super) const ENERGY: Kind = kind(
+    ["an energy", "2 kW s", "W s", "W s, kW s"],
+    [2, 1, -2, 0],
+    [1e-9, 1e12],
+);
+pub(super) const TEMPERATURE: Kind = electric(
+    ["a temperature", "40 degC", "degC", "degC"],
+    [0, 0, 0, 0],
+    [0, 1],
+    [1e-9, 1e3],
+);
+
 /// s′ of a follower that slides.
 pub(super) const CAM_VELOCITY: Kind = kind(
     [
@@ -189,12 +239,35 @@ pub(super) const CAM_TURNING: Kind = kind(
     [1e-9, 1e6],
 );
 
+/// J′ of a drive link that turns.
+pub(super) const INERTIA_SLOPE: Kind = kind(
+    [
+        "a moment of inertia per angle",
+        "0.01 kg m^2/rad",
+        "kg m^2/rad",
+        "kg m^2/rad, kg cm^2/deg",
+    ],
+    [2, 1, 0, -1],
+    [1e-12, 1e10],
+);
+/// m′ of one that slides.
+pub(super) const MASS_SLOPE: Kind = kind(
+    ["a mass per length", "2 kg/m", "kg/m", "kg/m, kg/mm"],
+    [-1, 1, 0, 0],
+    [1e-12, 1e10],
+);
+/// Frequency at which smoothing halves an amplitude.
+pub(super) const CUTOFF: Kind = kind(
+    ["a frequency", "40 Hz", "Hz", "Hz, kHz"],
+    [0, 0, -1, 0],
+    [1e-6, 1e6],
+);
+
 /// Kinds that no key asks for but that people write.
-const OTHERS: [(&str, [i8; 4]); 6] = [
+const OTHERS: [(&str, [i8; 4]); 5] = [
     ("a frequency", [0, 0, -1, 0]),
     ("a speed", [1, 0, -1, 0]),
     ("an angular acceleration", [0, 0, -2, 1]),
-    ("a power", [2, 1, -3, 0]),
     ("an area", [2, 0, 0, 0]),
     ("a mass times length", [1, 1, 0, 0]),
 ];
@@ -208,6 +281,8 @@ const fn dimension_of([length, mass, time, angle]: [i8; 4]) -> Dimension {
         mass,
         time,
         angle,
+        current: 0,
+        temperature: 0,
     }
 }
 
@@ -232,6 +307,10 @@ pub(super) fn describe(found: Dimension) -> String {
     if found == SHARE.dimension {
         return "a plain number".to_owned();
     }
+    let electric = [&VOLTAGE, &RESISTANCE, &CAPACITANCE, &POWER, &TEMPERATURE];
+    if let Some(kind) = electric.iter().find(|k| k.dimension == found) {
+        return kind.name.to_owned();
+    }
     if let Some(kind) = kinds.iter().find(|k| k.dimension == found) {
         return kind.name.to_owned();
     }
@@ -243,6 +322,8 @@ pub(super) fn describe(found: Dimension) -> String {
         ("kg", found.mass),
         ("s", found.time),
         ("rad", found.angle),
+        ("A", found.current),
+        ("K", found.temperature),
     ];
     let text: Vec<String> = powers
         .iter()

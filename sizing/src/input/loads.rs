@@ -8,6 +8,7 @@ use crate::machine::{AnyMechanism, NamedLoad};
 
 use super::drive_link::DriveLink;
 use super::item::Item;
+use super::load_table;
 use super::kind::{ANGLE, FORCE, Kind, LENGTH, TORQUE, VISCOUS_FORCE, VISCOUS_MOMENT};
 use super::problem::{Problem, Result};
 use super::section::Section;
@@ -28,19 +29,21 @@ pub(super) fn read(
     mechanism: &AnyMechanism,
     drive: DriveLink,
 ) -> Result<Vec<NamedLoad>> {
+    let mut loads = mechanism.own_loads().to_vec();
     let Some(item) = root.get("load") else {
-        return Ok(Vec::new());
+        return Ok(loads);
     };
-    let sections = item.sections("[[load]]")?;
-    if let Some(surplus) = sections.get(MAX_LOADS) {
+    let mut sections = item.sections("[[load]]")?;
+    sections.retain(|section| !load_table::is_table(section));
+    if let Some(surplus) = sections.get(MAX_LOADS.saturating_sub(loads.len())) {
         return Err(surplus
             .problem(format!("more than {MAX_LOADS} loads"), "one too many")
             .help("combine loads that act on the same link"));
     }
-    sections
-        .iter()
-        .map(|section| load(section, mechanism, drive))
-        .collect()
+    for section in &sections {
+        loads.push(load(section, mechanism, drive)?);
+    }
+    Ok(loads)
 }
 
 fn load(section: &Section, mechanism: &AnyMechanism, drive: DriveLink) -> Result<NamedLoad> {

@@ -5,13 +5,18 @@
 
 mod argument;
 mod check;
+mod columns;
 mod contact;
+mod curve_file;
 mod drive_link;
 mod drive_train;
+mod duty_type;
 mod elements;
 mod file;
 mod item;
 mod kind;
+mod load_table;
+pub(crate) mod literal;
 mod loads;
 mod mechanism;
 mod motion;
@@ -22,12 +27,17 @@ mod rules;
 mod section;
 mod simulation;
 mod stage;
+mod supply;
+mod surroundings;
+mod stiffness;
+pub(crate) mod tolerance;
+mod tool;
 mod unit;
 mod variator;
 
 pub use argument::{
     Reader, drive_acceleration, drive_effort, drive_speed, inertia_argument, largest_acceleration,
-    largest_speed,
+    largest_speed, mass_argument,
 };
 pub use mechanism::mechanism_types;
 
@@ -38,6 +48,7 @@ use miette::Report;
 use toml::de::DeTable;
 
 use crate::machine::MachineFile;
+use crate::rules::RuleSet;
 
 use drive_link::DriveLink;
 use kind::ACCELERATION;
@@ -47,21 +58,51 @@ use section::Section;
 /// The largest machine file (bytes).
 const MAX_SIZE: u64 = 1 << 20;
 
+/// The rule set of this name that comes with the tool.
+pub fn built_in_rules(name: &str) -> Option<RuleSet> {
+    rules::built_in(name)?.ok()
+}
+
+/// The names of the rule sets that come with the tool.
+pub fn rule_set_names() -> impl Iterator<Item = &'static str> {
+    rules::BUILT_IN.iter().map(|(name, _)| *name)
+}
+
+/// The rule set of a name, or of a file: what ends in `.toml` or holds a slash.
+///
+/// # Errors
+/// A name that does not exist, a file that cannot be read, or whatever is wrong in it, with its place.
+pub fn rule_set(word: &str) -> std::result::Result<RuleSet, Report> {
+    rules::named_or_file(word, Path::new("")).map_err(|problem| problem.into_report(word, ""))
+}
+
 /// Reads the machine file at `path`.
 ///
 /// # Errors
 /// A file that cannot be read, or anything that [`parse`] reports.
 pub fn read(path: &Path) -> std::result::Result<MachineFile, Report> {
+    parse(&path.display().to_string(), &text(path)?, folder(path))
+}
+
+/// The text of the machine file at `path`.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn text(path: &Path) -> std::result::Result<String, Report> {
     let name = path.display().to_string();
-    let text = file::read(path, MAX_SIZE).map_err(|fault| {
+    file::read(path, MAX_SIZE).map_err(|fault| {
         Problem::new(format!(
             "cannot read the machine file {name}: {}",
             fault.message
         ))
         .help(fault.help)
         .into_report(&name, "")
-    })?;
-    parse(&name, &text, path.parent().unwrap_or(Path::new("")))
+    })
+}
+
+/// The folder of a machine file, in which the files that it names are looked for.
+pub fn folder(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
 }
 
 /// Reads a machine file from its `text`. The `name` is used in messages; a profile's CSV file is looked for in
@@ -104,7 +145,7 @@ fn machine(name: &str, text: &str, folder: &Path) -> Result<MachineFile> {
         .pair([&ACCELERATION, &ACCELERATION])?
         .map(|value| value.si);
     let section = root.section("mechanism")?;
-    let (mechanism, flywheel) = mechanism::read(&section)?;
+    let (mechanism, flywheel) = mechanism::read(&section, folder)?;
     let drive_link = DriveLink::of(&mechanism)
         .map_err(|error| section.problem(error.to_string(), "in this mechanism"))?;
     if let (true, Some(item)) = (
@@ -115,13 +156,21 @@ fn machine(name: &str, text: &str, folder: &Path) -> Result<MachineFile> {
             .problem("turns, but the drive link of this mechanism slides", "nothing turns with it")
             .help("give a mass that slides with the drive link to its body; what turns belongs to a stage of [[drive_train]]"));
     }
+    let mechanism = load_table::read(&root, mechanism, drive_link, gravity, folder)?;
     let loads = loads::read(&root, &mechanism, drive_link)?;
     let elements = elements::read(&root, &mechanism, drive_link.coordinate)?;
     let drive_train = drive_train::read(&root, drive_link)?;
     let variator = variator::read(&root, drive_link)?;
     let motion = motion::read(&root, folder, drive_link)?;
     let simulation = simulation::read(&root, drive_link, &drive_train)?;
-    let rules = rules::read(&root)?;
+    let rules = rules::read(&root, folder)?;
+    let stiffness = stiffness::read(&root, drive_link, &drive_train)?;
+    let tool = tool::read(&root, &mechanism)?;
+    let tolerances = tolerance::read(&root)?;
+    let mut site = crate::site::Site::default();
+    supply::read(&root, &mut site)?;
+    surroundings::read(&root, &mut site)?;
+    duty_type::read(&root, &mut site)?;
     root.finish()?;
 
     let machine = Machine::new(mechanism)
@@ -149,6 +198,13 @@ fn machine(name: &str, text: &str, folder: &Path) -> Result<MachineFile> {
         motion,
         simulation,
         rules,
+        tolerances,
+        site: crate::site::Site {
+            shaft_stiffness: stiffness.shaft,
+            train_play: stiffness.play,
+            tool,
+            ..crate::site::Site::default()
+        },
     };
     check::inertia(&file, &section)?;
     contact::check(&file, &section)?;

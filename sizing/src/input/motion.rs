@@ -55,8 +55,9 @@ pub(super) fn finish(section: &Section) -> Result<()> {
     section.finish_with(|key| match key {
         "segment" => Some("segments belong to the types \"cycle\" and \"point-to-point\""),
         "speed" => Some("a speed belongs to the type \"constant-speed\""),
-        "file" | "cyclic" => Some("a file belongs to the type \"profile\""),
-        "start" => Some("a profile starts at its first position"),
+        "file" | "cyclic" | "step" | "smoothing" | "close_within" => {
+            Some("a file, and how it is read, belongs to the type \"profile\"")
+        }
         _ => None,
     })
 }

@@ -130,7 +130,7 @@ pub(super) fn quoted<S: AsRef<str>>(words: &[S]) -> String {
 }
 
 /// The word that `wrong` was most likely meant to be.
-pub(super) fn closest<S: AsRef<str>>(wrong: &str, words: &[S]) -> Option<String> {
+pub(crate) fn closest<S: AsRef<str>>(wrong: &str, words: &[S]) -> Option<String> {
     let lower = wrong.to_lowercase();
     let allowed = (lower.chars().count() / 3).clamp(1, 3);
     let distance = |word: &str| strsim::damerau_levenshtein(&lower, &word.to_lowercase());

@@ -1,287 +1,342 @@
-//! `[motion] type = "profile"`: recorded positions from a CSV file.
+//! `[motion] type = "profile"`: positions or speeds over time from a CSV file, as a drive or a motion program records them.
 
 use std::f64::consts::TAU;
-use std::ops::Range;
 use std::path::Path;
 
 use jred::Domain;
 
 use crate::coordinate::Coordinate;
-use crate::motion::Motion;
+use crate::motion::{Closing, Motion, Recording};
+use crate::spline::MIN_POINTS;
 
+use super::columns::{self, Columns, CsvFile, Format, Known};
 use super::drive_link::DriveLink;
-use super::file;
+use super::item::Value;
+use super::kind::{ANGLE, ANGULAR_SPEED, CUTOFF, Kind, LENGTH, TIME, VELOCITY};
 use super::motion;
-use super::problem::{Problem, Result, closest, figure};
+use super::problem::{Problem, Result, figure};
 use super::section::Section;
 
-/// The largest CSV file (bytes).
-const MAX_SIZE: u64 = 64 << 20;
-
-/// The fewest rows that a curve can be laid through.
-const MIN_ROWS: usize = 5;
-
-/// Largest relative deviation of a time step.
-const STEP_TOLERANCE: f64 = 1e-6;
-
-/// A cyclic profile closes if it misses a whole number of turns by less than this (turns).
+/// A cyclic profile closes if it misses a whole number of turns, or its start on a stroke, by less than this share of a turn
+/// or of the stroke, unless the file says how much it may miss.
 const CLOSED: f64 = 1e-5;
 
-/// A column: its name, the factor to SI and whether it is the time.
-type Column = (&'static str, f64, bool);
+/// Share of the largest speed by which the first and the last speed of a cycle may differ.
+const SPEED_CLOSED: f64 = 0.01;
+
+/// A time step so many times the usual one is a gap in the recording.
+const GAP: f64 = 20.0;
+
+/// The fewest rows in a period of the cut-off frequency, and the fewest such periods in a recording.
+const ROWS_PER_CUTOFF: f64 = 4.0;
+const CUTOFFS: f64 = 2.0;
+
+const TIME_COLUMN: usize = 0;
+const POSITION: usize = 1;
+const SPEED: usize = 2;
+
+const fn known(names: &'static [&'static str], kind: &'static Kind) -> Known {
+    Known { names, kind }
+}
 
 /// The columns of a drive link that turns or swings.
-const ANGLES: [Column; 4] = [
-    ("t [s]", 1.0, true),
-    ("t [ms]", 1e-3, true),
-    ("phi [deg]", std::f64::consts::PI / 180.0, false),
-    ("phi [rad]", 1.0, false),
+const ANGLES: [Known; 3] = [
+    known(&["t", "time"], &TIME),
+    known(&["phi", "φ", "angle", "position"], &ANGLE),
+    known(&["omega", "ω", "n", "speed"], &ANGULAR_SPEED),
 ];
 
 /// The columns of one that slides.
-const LENGTHS: [Column; 4] = [
-    ("t [s]", 1.0, true),
-    ("t [ms]", 1e-3, true),
-    ("s [mm]", 1e-3, false),
-    ("s [m]", 1.0, false),
+const LENGTHS: [Known; 3] = [
+    known(&["t", "time"], &TIME),
+    known(&["s", "position"], &LENGTH),
+    known(&["v", "speed"], &VELOCITY),
 ];
 
-/// The columns that a profile of this drive link may have, and the header to suggest.
-const fn columns_of(drive: DriveLink) -> ([Column; 4], &'static str) {
-    match drive.coordinate {
-        Coordinate::Angle => (ANGLES, "\"t [s],phi [deg]\" (or t [ms], phi [rad])"),
-        Coordinate::Length => (LENGTHS, "\"t [s],s [mm]\" (or t [ms], s [m])"),
-    }
-}
-
 /// The cure of most things that are wrong with the time column.
-const RESAMPLE: &str =
-    "record or resample the motion at equal time steps, and give the times with more digits";
+const TIMES: &str = "give one row for each instant, in order, and the times with enough digits to tell them apart";
 
-/// A row with its place in the CSV file.
-struct Row {
-    t: f64,
-    phi: f64,
-    place: Range<usize>,
+/// What `[motion]` says about the file.
+struct Request {
+    cyclic: bool,
+    /// Where a recorded speed starts (rad or m).
+    start: Option<Value>,
+    /// Time between rows (s), if there is no column for it.
+    step: Option<Value>,
+    /// Cut-off frequency of smoothing.
+    smoothing: Option<Value>,
+    /// How far a cycle may miss its start.
+    close_within: Option<Value>,
 }
 
 /// The motion of the file named in `section`.
 pub(super) fn read(section: &Section, folder: &Path, drive: DriveLink) -> Result<Motion> {
     let item = section.require("file", "file = \"profile.csv\"")?;
-    let name = item.text("profile.csv")?;
-    let cyclic = section.get("cyclic").map_or(Ok(true), |item| item.flag())?;
+    let request = Request {
+        cyclic: section.get("cyclic").map_or(Ok(true), |item| item.flag())?,
+        start: section.optional("start", drive.position())?,
+        step: section.optional("step", &TIME)?,
+        smoothing: section.optional("smoothing", &CUTOFF)?,
+        close_within: section.optional("close_within", drive.position())?,
+    };
     motion::finish(section)?;
-    let path = folder.join(name);
-    let text = file::read(&path, MAX_SIZE).map_err(|fault| {
-        item.problem(&format!("cannot be read: {}", fault.message), "this file")
-            .help(fault.help)
-    })?;
-    curve(&text, cyclic, drive)
-        .map_err(|problem| problem.in_file(&path.display().to_string(), &text))
+    for value in [&request.step, &request.smoothing, &request.close_within]
+        .into_iter()
+        .flatten()
+    {
+        value.check_positive()?;
+    }
+    let file = CsvFile::open(&item, "profile.csv", folder)?;
+    let columns = read_columns(&file.text, drive).map_err(|problem| file.shows(problem))?;
+    check_request(&request, &columns, drive)?;
+    curve(&columns, &request, drive, &file.text).map_err(|fault| match fault {
+        Place::File(problem) => file.shows(problem),
+        Place::Machine(problem) => problem,
+    })
 }
 
-fn curve(text: &str, cyclic: bool, drive: DriveLink) -> Result<Motion> {
-    let mut rows = rows(text, drive)?;
-    let step = check_times(&rows, text, drive)?;
-    let outside = |row: &&Row| !drive.reaches(row.phi);
-    if let Some(row) = rows.iter().find(outside) {
+/// Which file a problem is shown in.
+enum Place {
+    File(Problem),
+    Machine(Problem),
+}
+
+impl From<Problem> for Place {
+    fn from(problem: Problem) -> Self {
+        Self::File(problem)
+    }
+}
+
+fn read_columns(text: &str, drive: DriveLink) -> Result<Columns> {
+    let (known, example) = match drive.coordinate {
+        Coordinate::Angle => (&ANGLES, "\"t [s],phi [deg]\" (or t [ms], phi [rad]; or omega [rpm] instead of phi)"),
+        Coordinate::Length => (&LENGTHS, "\"t [s],s [mm]\" (or t [ms], s [m]; or v [m/s] instead of s)"),
+    };
+    let format = Format {
+        known,
+        ignored: |_| false,
+        example,
+        min_rows: MIN_POINTS,
+    };
+    let columns = columns::read(text, &format)?;
+    if columns.get(POSITION).is_some() == columns.get(SPEED).is_some() {
+        return Err(Problem::new("the header must have one column for the position or for the speed, and not both")
+            .at(columns::line_at(text, 0), "header")
+            .help(format!("the first line names columns with their units: {example}")));
+    }
+    Ok(columns)
+}
+
+/// Whether the keys of `[motion]` go with the columns of the file.
+fn check_request(request: &Request, columns: &Columns, drive: DriveLink) -> Result<()> {
+    let of_positions = columns.get(POSITION).is_some();
+    if let (Some(start), true) = (&request.start, of_positions) {
+        return Err(start
+            .problem("is given, but the file has positions", "not needed")
+            .help("a profile of positions starts at its first position; remove this"));
+    }
+    if let Some(start) = request.start.as_ref().filter(|start| !drive.reaches(start.si)) {
+        let what = format!("is {}, outside the stroke, {}", start.shown(), drive.range());
+        return Err(start
+            .problem(&what, "out of reach")
+            .help("start at a position within the stroke"));
+    }
+    match (&request.step, columns.get(TIME_COLUMN)) {
+        (Some(step), Some(_)) => Err(step
+            .problem("is given, but the file has a column for the time", "not needed")
+            .help("remove this, or the column")),
+        (None, None) => Err(Problem::new("the file has no column for the time")
+            .help("add the column \"t [s]\", or write the time between rows into [motion]: step = \"1 ms\"")),
+        _ => Ok(()),
+    }
+}
+
+fn curve(
+    columns: &Columns,
+    request: &Request,
+    drive: DriveLink,
+    text: &str,
+) -> std::result::Result<Motion, Place> {
+    let times = times(columns, request)?;
+    let duration = times.last().copied().unwrap_or_default();
+    let cutoff = cutoff(request, &times)?;
+    let closing = |what: f64| {
+        if request.cyclic {
+            Closing::After(what)
+        } else {
+            Closing::Open
+        }
+    };
+    let unmade = |fault| {
+        Problem::new(format!("no motion can be made of these rows: {fault}"))
+            .at(columns::line_at(text, 0), "in this file")
+    };
+    let most = |default: f64| request.close_within.as_ref().map_or(default, |value| value.si);
+    let mut advance = 0.0;
+    let motion = if let Some(positions) = columns.get(POSITION) {
+        let (first, last) = (
+            positions.first().copied().unwrap_or_default(),
+            positions.last().copied().unwrap_or_default(),
+        );
+        if request.cyclic {
+            advance = closed(last - first, most(CLOSED * drive.domain.span()), columns, drive)?;
+        }
+        let recording = Recording {
+            times: &times,
+            values: positions,
+            cutoff,
+            closing: closing(advance),
+        };
+        Motion::positions(&recording).map_err(unmade)?
+    } else {
+        let speeds = columns.get(SPEED).unwrap_or_default();
+        let start = request.start.as_ref().map_or_else(
+            || match drive.domain {
+                Domain::Turn => 0.0,
+                Domain::Stroke { from, .. } => from,
+            },
+            |start| start.si,
+        );
+        if request.cyclic {
+            check_speed_closes(columns, speeds)?;
+        }
+        let mut recording = Recording {
+            times: &times,
+            values: speeds,
+            cutoff,
+            closing: Closing::Open,
+        };
+        if request.cyclic {
+            let way = Motion::speeds(&recording, start).map_err(unmade)?.at(duration).phi - start;
+            advance = closed(way, most(CLOSED * drive.domain.span()), columns, drive)?;
+            recording.closing = Closing::After(advance);
+        }
+        Motion::speeds(&recording, start).map_err(unmade)?
+    };
+    let outside = times.iter().position(|t| !drive.reaches(motion.at(*t).phi));
+    if let Some(row) = outside {
         return Err(Problem::new(format!(
-            "the position {} lies outside the stroke, {}",
-            drive.coordinate.place(row.phi),
+            "row {}: the position {} lies outside the stroke, {}",
+            row + 1,
+            drive.coordinate.place(motion.at(times[row]).phi),
             drive.range()
         ))
-        .at(row.place.clone(), "leaves the stroke")
-        .help("record a motion that stays within the stroke of the mechanism"));
+        .at(columns.place(row), "leaves the stroke")
+        .help("record a motion that stays within the stroke of the mechanism")
+        .into());
     }
-    if let (true, [first, .., last], Domain::Stroke { .. }) =
-        (cyclic, rows.as_mut_slice(), drive.domain)
-    {
-        let gap = last.phi - first.phi;
-        if gap.abs() > CLOSED * drive.domain.span() {
-            return Err(Problem::new(format!(
-                "the last position lies {} {} from the first one",
-                figure(drive.coordinate.shown(gap)),
-                drive.coordinate.unit()
-            ))
-            .at(first.place.clone(), "first position")
-            .at(last.place.clone(), "last position")
-            .help(
-                "a cyclic motion ends where it began; for a motion that does not repeat write cyclic = false in \
-                 [motion]",
-            ));
-        }
-        last.phi = first.phi;
-    } else if let (true, [first, .., last]) = (cyclic, rows.as_mut_slice()) {
-        let turns = (last.phi - first.phi) / TAU;
-        let gap = turns - turns.round();
-        if gap.abs() > CLOSED {
-            return Err(Problem::new(format!(
-                "the last position lies {} deg {} a whole number of turns from the first one",
-                figure(gap.abs() * 360.0),
-                if gap > 0.0 { "beyond" } else { "short of" }
-            ))
-            .at(first.place.clone(), "first position")
-            .at(last.place.clone(), "last position")
-            .help(
-                "a cyclic motion ends where it began or whole turns further on, with the last row at the end of the \
-                 cycle; for a motion that does not repeat write cyclic = false in [motion]",
-            ));
-        }
-        last.phi = first.phi + turns.round() * TAU;
-    }
-    let phi: Vec<f64> = rows.iter().map(|row| row.phi).collect();
-    Motion::profile(&phi, step, cyclic)
-        .map_err(|error| Problem::new(format!("no motion can be made of these positions: {error}")))
+    Ok(motion)
 }
 
-/// Checks that the times rise in equal steps, and returns the step (s).
-fn check_times(rows: &[Row], text: &str, drive: DriveLink) -> Result<f64> {
-    let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
-        return Err(too_short(0, text, drive));
-    };
-    if rows.len() < MIN_ROWS {
-        return Err(too_short(rows.len(), text, drive));
+/// The times from the first row on (s).
+fn times(columns: &Columns, request: &Request) -> Result<Vec<f64>> {
+    if let Some(step) = &request.step {
+        return Ok((0..columns.rows()).map(|k| k as f64 * step.si).collect());
     }
-    let mut steps: Vec<f64> = Vec::with_capacity(rows.len());
-    for (number, (row, next)) in rows.iter().zip(rows.iter().skip(1)).enumerate() {
-        if next.t <= row.t {
-            return Err(Problem::new(format!(
-                "the time does not rise: row {} has {} s after {} s",
-                number + 2,
-                figure(next.t),
-                figure(row.t)
-            ))
-            .at(next.place.clone(), "this row")
-            .help(RESAMPLE));
-        }
-        steps.push(next.t - row.t);
-    }
+    columns.check_rising(TIME_COLUMN, "time", TIMES)?;
+    let times = columns.get(TIME_COLUMN).unwrap_or_default();
+    let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
     // The usual step is the middle one: a single gap then does not shift what is expected of all others.
     let mut sorted = steps.clone();
     sorted.sort_by(f64::total_cmp);
-    let expected = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
-    let odd = |step: &f64| (step / expected - 1.0).abs() > STEP_TOLERANCE;
-    if let Some(k) = steps.iter().position(odd) {
-        let row = rows.get(k + 1).unwrap_or(last);
-        let found = steps.get(k).copied().unwrap_or_default();
+    let usual = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
+    if let Some(row) = steps.iter().position(|step| *step > GAP * usual) {
         return Err(Problem::new(format!(
-            "the time steps are not equal: row {} comes {found:.9} s after the row before, expected {expected:.9} s",
-            k + 2
+            "there is a gap in the times: row {} comes {} s after the row before, usual are {} s",
+            row + 2,
+            figure(steps[row]),
+            figure(usual)
         ))
-        .at(row.place.clone(), "this row")
-        .help(RESAMPLE));
+        .at(columns.place(row + 1), "this row")
+        .help(format!(
+            "a curve through a gap of more than {GAP} steps would be invented: fill the rows in, also those of a standstill"
+        )));
     }
-    Ok((last.t - first.t) / steps.len() as f64)
+    let first = times.first().copied().unwrap_or_default();
+    Ok(times.iter().map(|t| t - first).collect())
 }
 
-fn too_short(rows: usize, text: &str, drive: DriveLink) -> Problem {
-    let end = text.trim_end().len();
-    Problem::new(format!(
-        "the profile has {rows} rows, but needs at least {MIN_ROWS}"
-    ))
-    .at(end..end, "ends here")
-    .help(format!(
-        "give the columns {} and one row for each time step",
-        columns_of(drive).1
-    ))
+/// The cut-off (rad/s), which the rows must be able to show.
+fn cutoff(request: &Request, times: &[f64]) -> std::result::Result<Option<f64>, Place> {
+    let Some(smoothing) = &request.smoothing else {
+        return Ok(None);
+    };
+    let duration = times.last().copied().unwrap_or_default();
+    let rate = (times.len() - 1) as f64 / duration;
+    let (low, high) = (CUTOFFS / duration, rate / ROWS_PER_CUTOFF);
+    if !(low..=high).contains(&smoothing.si) {
+        let what = format!(
+            "is {}, but these rows can be smoothed at {} to {}",
+            smoothing.shown(),
+            smoothing.show(low),
+            smoothing.show(high)
+        );
+        return Err(Place::Machine(
+            smoothing.problem(&what, "cannot be done").help(
+                "take a frequency well above that of the motion and well below that of the rows; without `smoothing` the curve \
+                 goes through every row",
+            ),
+        ));
+    }
+    Ok(Some(smoothing.si * TAU))
 }
 
-/// Reads header and rows.
-fn rows(text: &str, drive: DriveLink) -> Result<Vec<Row>> {
-    let mut reader = csv::ReaderBuilder::new()
-        .trim(csv::Trim::All)
-        .has_headers(true)
-        .flexible(true)
-        .from_reader(text.as_bytes());
-    let header = reader
-        .headers()
-        .map_err(|error| broken(&error, text, drive))?
-        .clone();
-    let columns = columns(&header, text, drive)?;
-    let mut rows = Vec::new();
-    for (index, record) in reader.records().enumerate() {
-        let record = record.map_err(|error| broken(&error, text, drive))?;
-        let start = record.position().map_or(0, |p| p.byte() as usize);
-        let place = line_at(text, start);
-        if record.len() != columns.len() {
-            return Err(Problem::new(format!(
-                "row {} has {} values, but the header has {} columns",
-                index + 1,
-                record.len(),
-                columns.len()
-            ))
-            .at(place, "this row")
-            .help("separate values with a comma and write decimals with a point"));
-        }
-        let mut row = Row {
-            t: 0.0,
-            phi: 0.0,
-            place,
-        };
-        for (field, (name, factor, is_time)) in record.iter().zip(&columns) {
-            let value = field.parse::<f64>().ok().filter(|value| value.is_finite());
-            let Some(value) = value else {
-                return Err(Problem::new(format!(
-                    "row {}: \"{field}\" in the column \"{name}\" is not a finite number",
-                    index + 1
-                ))
-                .at(row.place, "this row")
-                .help("write plain numbers with a decimal point, without units, such as 12.5"));
-            };
-            let target = if *is_time { &mut row.t } else { &mut row.phi };
-            *target = value * factor;
-        }
-        rows.push(row);
+/// The first and the last speed of a cycle are one.
+fn check_speed_closes(columns: &Columns, speeds: &[f64]) -> Result<()> {
+    let [first, .., last] = speeds else {
+        return Ok(());
+    };
+    let most = speeds.iter().fold(0.0f64, |most, v| most.max(v.abs()));
+    if (last - first).abs() <= SPEED_CLOSED * most {
+        return Ok(());
     }
-    Ok(rows)
-}
-
-/// What the header's columns are.
-fn columns(header: &csv::StringRecord, text: &str, drive: DriveLink) -> Result<Vec<Column>> {
-    let (known, shape) = columns_of(drive);
-    let help = format!("the first line must be {shape}, separated by a comma");
-    let place = line_at(text, 0);
-    let names = known.map(|(name, ..)| name);
-    let mut columns: Vec<Column> = Vec::new();
-    for name in header
-        .iter()
-        .map(|name| name.trim_start_matches('\u{feff}'))
-    {
-        let Some(column) = known.into_iter().find(|(known, ..)| *known == name) else {
-            let near = closest(name, &names)
-                .map_or_else(String::new, |near| format!("did you mean \"{near}\"? "));
-            return Err(Problem::new(format!("the column \"{name}\" is not known"))
-                .at(place, "header")
-                .help(format!("{near}{help}")));
-        };
-        columns.push(column);
-    }
-    let times = columns.iter().filter(|(.., is_time)| *is_time).count();
-    if columns.len() == 2 && times == 1 {
-        return Ok(columns);
-    }
+    let [first, last] = [*first, *last].map(|v| columns.shown(SPEED, v));
     Err(
-        Problem::new("the header must have one column for the time and one for the position")
-            .at(place, "header")
-            .help(help),
+        Problem::new(format!("the cycle begins with {first} and ends with {last}"))
+            .at(columns.place(0), "first speed")
+            .at(columns.place(columns.rows() - 1), "last speed")
+            .help(
+                "a cyclic motion ends as it began, with the last row at the end of the cycle: cut the recording at a place where \
+                 they meet; for a motion that does not repeat write cyclic = false in [motion]",
+            ),
     )
 }
 
-/// The line that begins at or after `start`.
-fn line_at(text: &str, start: usize) -> Range<usize> {
-    let rest = text.get(start..).unwrap_or_default();
-    let start = start + rest.len() - rest.trim_start().len();
-    let line = text.get(start..).unwrap_or_default();
-    let length = line.find(['\n', '\r']).unwrap_or(line.len());
-    start..start + length
+/// The whole turns (or nothing, on a stroke) that a cycle goes on by (rad or m), if it misses them by no more than `most`.
+fn closed(way: f64, most: f64, columns: &Columns, drive: DriveLink) -> Result<f64> {
+    let whole = match drive.domain {
+        Domain::Turn => (way / TAU).round() * TAU,
+        Domain::Stroke { .. } => 0.0,
+    };
+    let gap = way - whole;
+    if gap.abs() <= most {
+        return Ok(whole);
+    }
+    let shown = |gap: f64| {
+        let unit = drive.coordinate.unit();
+        format!("{} {unit}", figure(drive.coordinate.shown(gap)))
+    };
+    let message = match drive.domain {
+        Domain::Stroke { .. } => format!("the last position lies {} from the first one", shown(gap)),
+        Domain::Turn => format!(
+            "the last position lies {} {} a whole number of turns from the first one",
+            shown(gap.abs()),
+            if gap > 0.0 { "beyond" } else { "short of" }
+        ),
+    };
+    Err(Problem::new(message)
+        .at(columns.place(0), "first position")
+        .at(columns.place(columns.rows() - 1), "last position")
+        .help(format!(
+            "a cyclic motion ends where it began or whole turns further on, with the last row at the end of the cycle; for a motion \
+             that does not repeat write cyclic = false in [motion]; if this is what the measurement is worth, write \
+             close_within = \"{}\": it is then spread over the cycle as a constant speed",
+            shown(rounded_up(gap.abs()))
+        )))
 }
 
-fn broken(error: &csv::Error, text: &str, drive: DriveLink) -> Problem {
-    let start = error.position().map_or(0, |p| p.byte() as usize);
-    Problem::new(format!("not a readable CSV file: {error}"))
-        .at(line_at(text, start), "here")
-        .help(format!(
-            "give two columns of numbers under the header {}",
-            columns_of(drive).1
-        ))
+/// A little more, with two digits.
+fn rounded_up(gap: f64) -> f64 {
+    let unit = 10f64.powf(gap.log10().floor() - 1.0);
+    (gap / unit * 1.05).ceil() * unit
 }

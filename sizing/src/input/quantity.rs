@@ -119,7 +119,7 @@ fn scaled(number: &str, scale: f64) -> f64 {
 }
 
 /// Splits "1.2e-3 kg m^2" into its number and its unit.
-fn split_number<'t>(text: &'t str, kind: &Kind) -> Result<(String, &'t str), Fault> {
+pub(super) fn split_number<'t>(text: &'t str, kind: &Kind) -> Result<(String, &'t str), Fault> {
     let bytes = text.as_bytes();
     let is = |index: usize, set: &[u8]| bytes.get(index).is_some_and(|b| set.contains(b));
     let digits = |from: usize| {

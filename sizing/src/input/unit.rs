@@ -10,13 +10,15 @@ use dyn_quantity::DynQuantity;
 
 use super::problem::{Fault, closest};
 
-/// Powers of m, kg, s and of the angle.
+/// Powers of m, kg, s, of the angle, of A and K.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Dimension {
     pub(super) length: i8,
     pub(super) mass: i8,
     pub(super) time: i8,
     pub(super) angle: i8,
+    pub(super) current: i8,
+    pub(super) temperature: i8,
 }
 
 /// A unit as read.
@@ -30,7 +32,7 @@ pub(super) struct Unit {
 }
 
 /// Every unit word, with the power of an angle that it contains.
-const WORDS: [(&str, i8); 31] = [
+const WORDS: [(&str, i8); 48] = [
     ("mm", 0),
     ("m", 0),
     ("km", 0),
@@ -56,13 +58,45 @@ const WORDS: [(&str, i8); 31] = [
     ("mrad", 1),
     ("deg", 1),
     ("degree", 1),
+    ("arcmin", 1),
     ("rpm", 1),
     ("Hz", 0),
     ("kHz", 0),
     ("W", 0),
     ("kW", 0),
     ("%", 0),
+    ("V", 0),
+    ("mV", 0),
+    ("kV", 0),
+    ("A", 0),
+    ("mA", 0),
+    ("Ohm", 0),
+    ("mOhm", 0),
+    ("kOhm", 0),
+    ("F", 0),
+    ("mF", 0),
+    ("uF", 0),
+    ("H", 0),
+    ("mH", 0),
+    ("uH", 0),
+    ("K", 0),
+    ("degC", 0),
 ];
+
+/// Units that `dyn_quantity` does not know: their size and what they are made of. A degree Celsius is as large as a kelvin;
+/// where it begins to count is the affair of who asks for a temperature.
+const COMPOSED: [(&str, f64, [(&str, i8); 4]); 8] = [
+    ("arcmin", std::f64::consts::PI / 10_800.0, [("rad", 1), ("m", 0), ("kg", 0), ("s", 0)]),
+    ("F", 1.0, FARAD),
+    ("mF", 1e-3, FARAD),
+    ("uF", 1e-6, FARAD),
+    ("H", 1.0, HENRY),
+    ("mH", 1e-3, HENRY),
+    ("uH", 1e-6, HENRY),
+    ("degC", 1.0, [("K", 1), ("m", 0), ("kg", 0), ("s", 0)]),
+];
+const FARAD: [(&str, i8); 4] = [("A", 2), ("s", 4), ("kg", -1), ("m", -2)];
+const HENRY: [(&str, i8); 4] = [("kg", 1), ("m", 2), ("s", -2), ("A", -2)];
 
 /// Words that are units elsewhere, and what to write instead.
 const FOREIGN: [(&[&str], &str); 18] = [
@@ -84,7 +118,10 @@ const FOREIGN: [(&[&str], &str); 18] = [
     (&["ozf"], "1 ozf = 0.27801385 N"),
     (&["kp", "kgf"], "1 kgf = 9.80665 N"),
     (&["daN"], "1 daN = 10 N"),
-    (&["J", "kJ"], "1 J = 1 N m; a torque is in \"N m\""),
+    (
+        &["J", "kJ"],
+        "1 J = 1 N m = 1 W s; a torque is in \"N m\", an energy in \"W s\"",
+    ),
     (&["RPM", "Rpm", "U/min"], "turns per minute are \"rpm\""),
     (&["percent", "pct"], "per cent is \"%\""),
 ];
@@ -94,8 +131,16 @@ pub(super) fn read(text: &str) -> Result<Unit, Fault> {
     let factors = factors(text)?;
     let mut canonical = String::from("1");
     let (mut angle, mut turns) = (0, 0);
+    let mut size = 1.0;
     for (word, power) in &factors {
-        canonical.push_str(&format!(" {word}^{power}").replace("%^1", "%"));
+        if let Some((_, one, parts)) = COMPOSED.iter().find(|(w, ..)| w == word) {
+            size *= f64::powi(*one, i32::from(*power));
+            for (part, times) in parts.iter().filter(|(_, times)| *times != 0) {
+                canonical.push_str(&format!(" {part}^{}", times * power));
+            }
+        } else {
+            canonical.push_str(&format!(" {word}^{power}").replace("%^1", "%"));
+        }
         angle += power * WORDS.iter().find(|(w, _)| w == word).map_or(0, |w| w.1);
         if *word == "rpm" {
             turns += i32::from(*power);
@@ -110,12 +155,14 @@ pub(super) fn read(text: &str) -> Result<Unit, Fault> {
     let quantity = DynQuantity::<f64>::from_str(&canonical).map_err(unreadable)?;
     Ok(Unit {
         text: text.to_owned(),
-        scale: quantity.value * TAU.powi(turns),
+        scale: quantity.value * size * TAU.powi(turns),
         dimension: Dimension {
             length: quantity.unit.meter,
             mass: quantity.unit.kilogram,
             time: quantity.unit.second,
             angle,
+            current: quantity.unit.ampere,
+            temperature: quantity.unit.kelvin,
         },
     })
 }
@@ -258,6 +305,7 @@ pub(super) fn tidy(text: &str) -> String {
             '·' | '⋅' | '×' | '∙' | '•' => tidy.push('*'),
             'µ' | 'μ' => tidy.push('u'),
             '°' => tidy.push_str("deg"),
+            '\u{2126}' | '\u{3a9}' => tidy.push_str("Ohm"),
             c if c.is_whitespace() => tidy.push(' '),
             c => tidy.extend(digit.map_or(Some(c), |d| char::from_digit(d as u32, 10))),
         }

@@ -52,7 +52,8 @@ pub(super) fn travels(mechanism: &AnyMechanism) -> Result<Vec<Travel>, Error> {
             .cloned()
             .unwrap_or_default();
         let held = matches!(joint, Joint::Revolute(_) | Joint::Prismatic(_));
-        if k == mechanism.drive() || !held || travels.iter().any(|t| t.link == name) {
+        let stands_in = link >= mechanism.own_links();
+        if k == mechanism.drive() || !held || stands_in || travels.iter().any(|t| t.link == name) {
             continue;
         }
         let slides = matches!(joint, Joint::Prismatic(_));

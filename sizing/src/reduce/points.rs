@@ -50,7 +50,7 @@ impl Set for Points {
                 names.extend(["a_x", "a_y", "a"].map(|c| format!("{name} {c} [m/s^2]")));
             }
         }
-        for link in mechanism.link_names() {
+        for link in mechanism.link_names().iter().take(mechanism.own_links()) {
             names.push(format!("{link} psi [deg]"));
             names.push(format!("{link} psi' [{}]", ratio[0]));
             names.push(format!("{link} psi'' [{}]", ratio[1]));
@@ -79,7 +79,7 @@ impl Set for Points {
                 }));
             }
         }
-        for frame in &place.frames {
+        for frame in place.frames.iter().take(mechanism.own_links()) {
             values.extend([frame.psi.value.to_degrees(), frame.psi.d1, frame.psi.d2].map(Some));
             if self.in_time {
                 let state = place.state;

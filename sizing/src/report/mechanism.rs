@@ -173,11 +173,11 @@ fn sections(source: &Source) -> Result<Vec<Section>, Error> {
         heading: "The machine, reduced to its drive link",
         figures: vec![
             figure(
-                figures::reduced_inertia(source.file)?,
+                figures::reduced_inertia(source.file)?.svg,
                 "Reduced inertia with flywheel and drive train, and its derivative by the drive link's position.",
             ),
             figure(
-                figures::reduced_torque(source.file, speed)?,
+                figures::reduced_torque(source.file, speed)?.svg,
                 "Parts of the reduced torque: weight and springs, process loads, and the sizes of viscous and motion-opposing loads.",
             ),
         ],

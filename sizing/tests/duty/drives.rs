@@ -1,24 +1,69 @@
 //! Drives against the duty: brute force, limits of the motor, ranking.
 
-use jred_sizing::catalogue::Motor;
+use jred_sizing::catalogue::{Catalogue, Gearbox, Motor, Prepared};
 use jred_sizing::check::Verdict;
-use jred_sizing::drive::{Drive, Judged};
-use jred_sizing::envelope::Envelope;
-use jred_sizing::rules::Rules;
-use jred_sizing::size::Selection;
+use jred_sizing::cycle::Cycle;
+use jred_sizing::drive::Drive;
+use jred_sizing::duty::Duty;
+use jred_sizing::rule::Rule;
+use jred_sizing::rules::RuleSet;
+use jred_sizing::site::Site;
+use jred_sizing::size::{Candidate, Selection};
 
 use super::support::{budget, near, press_text, within};
-use super::{RPM, catalogue, duty_of, read};
+use super::{catalogue, duty_of, read};
+
+/// What a selection borrows.
+struct Ready {
+    catalogue: Catalogue,
+    motors: Vec<Prepared>,
+    cycle: Cycle,
+    site: Site,
+    rules: RuleSet,
+}
+
+impl Ready {
+    fn new(duty: &Duty) -> Self {
+        let (catalogue, site) = (catalogue(), Site::default());
+        Self {
+            motors: catalogue.prepare(&site),
+            catalogue,
+            cycle: Cycle::new(duty),
+            site,
+            rules: RuleSet::default(),
+        }
+    }
+
+    fn selection(&self) -> Selection<'_> {
+        Selection::new(
+            &self.catalogue,
+            &self.motors,
+            &self.cycle,
+            &self.site,
+            &self.rules,
+        )
+    }
+}
+
+/// A drive of these parts, without an amplifier.
+pub(super) const fn drive<'c>(motor: &'c Motor, gearbox: Option<&'c Gearbox>) -> Drive<'c> {
+    Drive {
+        motor,
+        gearbox,
+        amplifier: None,
+    }
+}
 
 /// Every figure of every drive, computed once more from the instants in the plainest way.
 #[test]
 fn every_drive_by_brute_force() {
-    let catalogue = catalogue();
     let file = read(&press_text());
     let duty = duty_of(&file, 400);
     let cycle = 0.5;
-    let selection = Selection::new(&catalogue, &duty, &Rules::default());
-    for judged in selection.fit.iter().chain(&selection.refused) {
+    let ready = Ready::new(&duty);
+    let selection = ready.selection();
+    for candidate in selection.fit.iter().chain(&selection.refused) {
+        let judged = selection.judged(candidate);
         let motor = judged.drive.motor;
         let (mut squares, mut mean, mut back, mut forth, mut turns) = (0.0, 0.0, 0.0, 0.0, 0.0);
         let (mut least, mut most, mut fastest) = (f64::MAX, f64::MIN, 0.0f64);
@@ -95,16 +140,31 @@ fn every_drive_by_brute_force() {
         // A loss is never a gain: what the motor gives net is at least what the machine takes at its input.
         let taken = duty.integral(|i| i.input_torque * i.input_speed);
         assert!(forth - back >= taken * (1.0 - 1e-6), "{name}");
-        let rules = judged.checks.len();
+        // What the catalogue always has figures for.
+        let of_motor = [
+            Rule::RmsTorque,
+            Rule::PeakTorque,
+            Rule::Speed,
+            Rule::HoldingTorque,
+            Rule::InertiaRatio,
+        ];
         // With two cycles a second, the warning about T2B is among those of a gearbox.
-        assert_eq!(
-            rules,
-            if judged.drive.gearbox.is_some() {
-                10
-            } else {
-                5
-            }
-        );
+        let of_gearbox = [
+            Rule::GearboxPeak,
+            Rule::GearboxCubicMean,
+            Rule::GearboxMeanSpeed,
+            Rule::GearboxSpeed,
+            Rule::GearboxCycles,
+        ];
+        let value = |rule: Rule| {
+            let check = judged.checks.iter().find(|c| c.id == rule);
+            check.and_then(|c| c.value)
+        };
+        assert!(of_motor.iter().all(|rule| value(*rule).is_some()), "{name}");
+        for rule in of_gearbox {
+            let applies = judged.drive.gearbox.is_some();
+            assert_eq!(value(rule).is_some(), applies, "{name}: {rule:?}");
+        }
     }
 }
 
@@ -121,20 +181,15 @@ fn scaling_with_the_ratio() {
         gearbox.ratio = ratio;
         gearbox.inertia = 0.0;
         gearbox.efficiency = 1.0;
+        gearbox.back_efficiency = 1.0;
+        gearbox.no_load_torque = 0.0;
         gearbox
     };
-    let direct = Drive {
-        motor: &motor,
-        gearbox: None,
-    }
-    .duty(&duty);
+    let cycle = Cycle::new(&duty);
+    let direct = cycle.motor_duty(&drive(&motor, None));
     for ratio in [1.0, 2.0, 4.0, 8.5] {
         let gearbox = gearbox(ratio);
-        let drive = Drive {
-            motor: &motor,
-            gearbox: Some(&gearbox),
-        };
-        let geared = drive.duty(&duty);
+        let geared = cycle.motor_duty(&drive(&motor, Some(&gearbox)));
         near("torque", geared.torque.rms, direct.torque.rms / ratio, 1e-8);
         near(
             "peak",
@@ -155,10 +210,9 @@ fn scaling_with_the_ratio() {
     // An efficiency makes what is driven harder by 1/η and what drives easier by η.
     let mut lossy = gearbox(4.0);
     lossy.efficiency = 0.5;
-    let drive = Drive {
-        motor: &motor,
-        gearbox: Some(&lossy),
-    };
+    lossy.back_efficiency = 0.5;
+    lossy.no_load_torque = 0.0;
+    let drive = drive(&motor, Some(&lossy));
     for instant in &duty.instants {
         let ideal = instant.input_torque / 4.0;
         let found = drive.motor_point(instant).torque;
@@ -176,167 +230,15 @@ fn scaling_with_the_ratio() {
     }
 }
 
-pub(super) fn motor() -> Motor {
-    Motor {
-        key: "m".into(),
-        maker: "Maker".into(),
-        model: "Model".into(),
-        rated_torque: 8.0,
-        rated_speed: 3000.0 * RPM,
-        standstill_torque: Some(9.0),
-        peak_torque: 30.0,
-        max_speed: Some(5000.0 * RPM),
-        rotor_inertia: 8e-4,
-        corner_speed: Some(2500.0 * RPM),
-        torque_at_max_speed: Some(10.0),
-        from_maker: true,
-        mass: None,
-        source: "Sheet".into(),
-    }
-}
-
-fn check_envelope(motor: &Motor) {
-    let envelope = Envelope::of(motor);
-    let top = envelope.max_speed();
-    let n = 20_000;
-    let at = |k: i32| top * f64::from(k) / f64::from(n);
-    let mut before = (envelope.peak_torque(0.0), envelope.continuous_torque(0.0));
-    assert_eq!(before.0, motor.peak_torque);
-    assert_eq!(
-        before.1,
-        motor.standstill_torque.unwrap_or(motor.rated_torque)
-    );
-    for k in 1..=n {
-        let now = (
-            envelope.peak_torque(at(k)),
-            envelope.continuous_torque(at(k)),
-        );
-        for (a, b) in [(before.0, now.0), (before.1, now.1)] {
-            assert!(b <= a * (1.0 + 1e-14), "{}: rises at {}", motor.key, at(k));
-            // The steepest part: all of the peak torque over a tenth of the speed range would be 1e-3 a step.
-            assert!(
-                a - b <= 1e-3 * motor.peak_torque,
-                "{}: jumps at {}",
-                motor.key,
-                at(k)
-            );
-        }
-        assert!(now.1 <= now.0, "{}: S1 above peak at {}", motor.key, at(k));
-        // The same in all quadrants.
-        assert_eq!(envelope.peak_torque(-at(k)), now.0);
-        assert_eq!(envelope.continuous_torque(-at(k)), now.1);
-        before = now;
-    }
-    near(
-        "rated point",
-        envelope.continuous_torque(motor.rated_speed),
-        motor.rated_torque,
-        1e-12,
-    );
-    for beyond in [1.000_001, 1.3, 10.0] {
-        assert_eq!(envelope.peak_torque(beyond * top), 0.0, "{}", motor.key);
-        assert_eq!(
-            envelope.continuous_torque(beyond * top),
-            0.0,
-            "{}",
-            motor.key
-        );
-    }
-}
-
-#[test]
-fn envelopes_fall_without_jumps() {
-    for motor in &catalogue().motors {
-        check_envelope(motor);
-    }
-    for missing in 0..16u8 {
-        check_envelope(&without(missing));
-    }
-}
-
-/// The motor without some of its four figures.
-fn without(missing: u8) -> Motor {
-    let mut motor = motor();
-    if missing & 1 != 0 {
-        motor.max_speed = None;
-    }
-    if missing & 2 != 0 {
-        motor.corner_speed = None;
-    }
-    if missing & 4 != 0 {
-        motor.torque_at_max_speed = None;
-    }
-    if missing & 8 != 0 {
-        motor.standstill_torque = None;
-    }
-    motor
-}
-
-#[test]
-fn assumptions_are_reported_exactly_where_a_figure_is_missing() {
-    for missing in 0..16u8 {
-        let motor = without(missing);
-        let envelope = Envelope::of(&motor);
-        let said = |word: &str| envelope.assumptions().iter().any(|a| a.starts_with(word));
-        assert_eq!(said("maximum speed not stated"), motor.max_speed.is_none());
-        assert_eq!(
-            said("corner of the peak torque not stated"),
-            motor.corner_speed.is_none()
-        );
-        assert_eq!(
-            said("standstill torque not stated"),
-            motor.standstill_torque.is_none()
-        );
-        // At a top speed that is the corner speed no such figure is needed.
-        let corner = motor.corner_speed.unwrap_or(motor.rated_speed);
-        let needed = motor.max_speed.unwrap_or(motor.rated_speed) > corner;
-        assert_eq!(
-            said("peak torque at maximum speed not stated"),
-            needed && motor.torque_at_max_speed.is_none(),
-            "{missing:04b}"
-        );
-    }
-    // Printed with the result as well.
-    let file = read(&press_text());
-    let duty = duty_of(&file, 100);
-    let motor = without(15);
-    let judged = Judged::new(
-        Drive {
-            motor: &motor,
-            gearbox: None,
-        },
-        &duty,
-        &file.rules,
-    );
-    assert_eq!(judged.assumptions, Envelope::of(&motor).assumptions());
-}
-
-/// Peak torque stated up to a speed that the motor does not reach: beyond the largest speed there is still none.
-#[test]
-fn no_torque_beyond_the_largest_speed() {
-    for max_speed in [None, Some(3500.0 * RPM)] {
-        let mut motor = motor();
-        motor.max_speed = max_speed;
-        motor.corner_speed = Some(4500.0 * RPM);
-        let envelope = Envelope::of(&motor);
-        let beyond = 1.1 * envelope.max_speed();
-        assert!(beyond < 4500.0 * RPM);
-        assert_eq!(
-            envelope.peak_torque(beyond),
-            0.0,
-            "largest speed {max_speed:?}"
-        );
-    }
-}
-
 #[test]
 fn ranking() {
-    let catalogue = catalogue();
     let file = read(&press_text());
     let duty = duty_of(&file, 400);
-    let selection = Selection::new(&catalogue, &duty, &file.rules);
+    let ready = Ready::new(&duty);
+    let selection = ready.selection();
     let (fit, refused) = (&selection.fit, &selection.refused);
     assert!(fit.len() > 10 && refused.len() > 100);
+    let catalogue = &ready.catalogue;
     assert_eq!(
         fit.len() + refused.len(),
         catalogue.motors.len() * (catalogue.gearboxes.len() + 1)
@@ -345,37 +247,38 @@ fn ranking() {
     names.sort();
     names.dedup();
     assert_eq!(names.len(), fit.len() + refused.len());
-    assert!(
-        fit.iter()
-            .all(|j| j.checks.iter().all(|c| c.verdict != Verdict::Fail))
-    );
-    for judged in refused {
+    for candidate in refused {
+        let judged = selection.judged(candidate);
         let broken = judged.checks.iter().filter(|c| c.verdict == Verdict::Fail);
-        let broken: Vec<_> = broken
-            .map(|c| (c.rule, c.value, c.limit.unwrap()))
-            .collect();
+        let broken: Vec<_> = broken.collect();
         assert!(!broken.is_empty());
-        for (rule, value, limit) in broken {
-            assert!(value > limit, "{rule}: {value} against {limit}");
-            assert!(judged.reasons().contains(rule));
+        for check in broken {
+            let (value, limit) = (check.value.unwrap(), check.limit.unwrap());
+            assert!(value > limit, "{}: {value} against {limit}", check.rule);
+            assert!(judged.reasons().contains(check.rule));
+            assert!(check.margin().is_none_or(|margin| margin < 0.0));
         }
-        assert!(judged.worst_use() > 1.0);
+        assert!(candidate.outcome.worst_use > 1.0);
     }
-    for judged in fit {
-        assert!(judged.worst_use() <= 1.0);
+    for candidate in fit {
+        let judged = selection.judged(candidate);
+        assert!(judged.holds());
+        assert!(candidate.outcome.worst_use <= 1.0);
         for check in &judged.checks {
-            assert!(check.limit.is_none_or(|limit| check.value <= limit));
+            let held = check.limit.is_none_or(|limit| check.value <= Some(limit));
+            assert!(
+                held || check.verdict == Verdict::Warn,
+                "{}",
+                check.sentence()
+            );
         }
     }
     for pair in fit.windows(2) {
-        let key = |j: &Judged| {
-            let warned = j.checks.iter().any(|c| c.verdict == Verdict::Warn);
-            let unchecked = j.checks.iter().any(|c| c.verdict == Verdict::NotChecked);
-            let class = if unchecked { 2 } else { i32::from(warned) };
+        let key = |c: &Candidate| {
             (
-                j.drive.motor.rated_torque * j.drive.motor.rated_speed,
-                class,
-                j.worst_use(),
+                c.drive.motor.rated_power(),
+                c.outcome.warnings > 0,
+                c.outcome.worst_use,
             )
         };
         assert!(
@@ -386,7 +289,7 @@ fn ranking() {
         );
     }
     for pair in refused.windows(2) {
-        let key = |j: &Judged| (j.beyond_all_limits(), j.worst_use());
+        let key = |c: &Candidate| (c.outcome.beyond_all_limits, c.outcome.worst_use);
         assert!(key(&pair[0]) <= key(&pair[1]));
     }
 }
@@ -394,11 +297,11 @@ fn ranking() {
 /// What a user reads about a refused drive.
 #[test]
 fn reasons_read_well() {
-    let catalogue = catalogue();
     let file = read(&press_text());
-    let duty = duty_of(&file, 100);
-    for judged in &Selection::new(&catalogue, &duty, &file.rules).refused {
-        let reasons = judged.reasons();
+    let ready = Ready::new(&duty_of(&file, 100));
+    let selection = ready.selection();
+    for candidate in &selection.refused {
+        let reasons = selection.judged(candidate).reasons();
         for blemish in ["  ", " )", "inf", "NaN"] {
             assert!(!reasons.contains(blemish), "{blemish:?} in: {reasons}");
         }

@@ -7,8 +7,15 @@ use jred::mechanism::Train;
 use jred::{Action, Load, Mechanism, Window};
 use jred_sizing::input;
 use jred_sizing::machine::Shaft;
+use jred_sizing::rule::Rule;
+use jred_sizing::rules::RuleSet;
 
 use crate::{GEARS, PRESS, close, data, parse, rendered};
+
+/// Beyond this share a rule is violated.
+fn limit(rules: &RuleSet, rule: Rule) -> f64 {
+    rules.limit(rule).fail.unwrap()
+}
 
 #[test]
 fn the_press_is_read_in_si_units() {
@@ -83,7 +90,7 @@ fn the_press_is_read_in_si_units() {
     assert_eq!(simulation.at, Shaft::Motor);
     close(simulation.rotor_inertia, 0.0012);
     close(simulation.tolerance, 1e-10);
-    close(press.rules.rms_torque, 0.8);
+    close(limit(&press.rules, Rule::RmsTorque), 0.8);
 }
 
 #[test]
@@ -102,9 +109,9 @@ fn a_gear_train_with_every_optional_key_is_read() {
     let simulation = file.simulation.unwrap();
     assert_eq!(simulation.torque, [(0.0, 2.5)]);
     assert_eq!(simulation.at, Shaft::DriveLink);
-    close(file.rules.rms_torque, 0.7);
-    close(file.rules.peak_torque, 0.75);
-    close(file.rules.inertia_ratio, 8.0);
+    close(limit(&file.rules, Rule::RmsTorque), 0.7);
+    close(limit(&file.rules, Rule::PeakTorque), 0.75);
+    close(limit(&file.rules, Rule::InertiaRatio), 8.0);
 }
 
 #[test]

@@ -118,3 +118,103 @@ pub(crate) const SAME_MOTION: f64 = 1e-7;
 
 /// Ratios and their courses: a few roundings.
 pub(crate) const RATIO: f64 = 1e-12;
+
+/// Some twenty cells of an instant against the motor torque, of the largest torque: the same products in another order.
+pub(crate) const CELLS: f64 = 1e-12;
+
+/// Energy stored over a closed cycle at 40 000 steps, of the energy turned over: Simpson's rule, the ends of a stretch taken
+/// from 1e-9 inside.
+pub(crate) const CLOSED_CYCLE: f64 = 1e-8;
+
+/// The end of a range in which a drive holds, found by bisection to 1e-10, against its closed form.
+pub(crate) const RANGE_END: f64 = 1e-8;
+
+/// The largest torque of a circuit from a search over its currents, of the peak torque: steps of 2⁻⁴⁰ of the current; at the
+/// edge of two circles the search creeps along it [1e-7].
+pub(crate) const GRID_SEARCH: f64 = 1e-5;
+/// By how much a piece of an envelope may leave the bend that it states, of the peak torque: roundings.
+pub(crate) const PIECE_SHAPE: f64 = 1e-12;
+/// By how much two pieces of an envelope may miss each other where they join without a jump, of the peak torque: their joint is
+/// found by halving.
+pub(crate) const PIECE_JOINT: f64 = 1e-9;
+
+/// A figure of a prepared cycle against the sum or the extreme over its samples, of the sum of its terms at their largest:
+/// roundings of some hundred terms, and 64 units of the last place that the search may pass over.
+pub(crate) const PREPARED_CYCLE: f64 = 1e-12;
+
+/// A spline that is one cubic: a few roundings of numbers up to 20, times steps up to 1/30 that are divided by twice.
+pub(crate) const SPLINE_EXACT: f64 = 1e-11;
+
+/// Frequency response of the smoothing spline of 100 rows a wave, against that of the continuous one: (ω·h)²/12 = 3e-4 at even
+/// steps, a few times that where steps vary by four.
+pub(crate) const SMOOTHING: f64 = 4e-3;
+
+/// Temperatures in closed form: exponentials and, over thousands of cycles, products of matrices.
+pub(crate) const THERMAL: f64 = 1e-11;
+
+/// Temperatures of a cycle that is short beside the time constants, 2000 steps.
+pub(crate) const MANY_STEPS: f64 = 1e-10;
+
+/// Losses that change all the time, 2000 steps a cycle.
+pub(crate) const THERMAL_STEPS: f64 = 1e-6;
+
+/// Order of the error of their temperatures.
+pub(crate) const THERMAL_ORDER: f64 = 0.2;
+
+/// Temperatures by Runge and Kutta's method at steps of 1 ms, the extremes of which are missed by half a step.
+pub(crate) const RUNGE_KUTTA: f64 = 1e-8;
+
+/// The integral of squared currents over straight lines.
+pub(crate) const OVERLOAD: f64 = 1e-12;
+
+/// A catalogue figure in its unit, converted in another order of operations: a few roundings [3e-16].
+pub(crate) const UNIT_CONVERSION: f64 = 1e-14;
+
+/// A row of a study against the same machine sized by itself: the same operations on the same numbers.
+pub(crate) const ROW: f64 = 1e-12;
+
+/// A derivative by differences of 1 % and less, extrapolated: ε⁴ of the function's fifth derivative, and roundings of the
+/// shares divided by ε.
+pub(crate) const SLOPE: f64 = 1e-7;
+
+/// How far a quantity may move, from 16 halvings of a step of at most 25 %: 4e-6 of the quantity, of a room of 11 %.
+pub(crate) const ROOM: f64 = 5e-5;
+
+/// The ratio of the smallest RMS torque by golden section: the root of the roundings of a minimum.
+pub(crate) const BEST_RATIO: f64 = 1e-6;
+
+/// RMS torque from its moments and from the instants: sums of some thousand terms in another order, of which parts cancel.
+pub(crate) const MOMENTS: f64 = 1e-10;
+
+/// Ends of a range of ratios, in closed form and by halving.
+pub(crate) const RATIO_END: f64 = 1e-9;
+/// Stall torque and torque at the no-load speed of a data sheet, of the stall torque: figures of three digits [2e-3].
+pub(crate) const DATA_SHEET: f64 = 4e-3;
+/// Torque and current at its nominal point, the same [1.7e-2].
+pub(crate) const DATA_SHEET_NOMINAL: f64 = 2.5e-2;
+
+/// A natural frequency against a chain with a coupling of a millionth of the machine's inertia between two springs.
+pub(crate) const COUPLING: f64 = 1e-5;
+
+/// The DC bus in closed form.
+pub(crate) const BUS: f64 = 1e-11;
+
+/// Energies of a period of the DC bus, of the energy turned over.
+pub(crate) const BUS_BALANCE: f64 = 1e-9;
+
+/// The DC bus in 60 000 steps of the simplest kind.
+pub(crate) const SMALL_STEPS: f64 = 1e-3;
+
+/// Sums of straight lines, of the largest power.
+pub(crate) const CURVES: f64 = 1e-9;
+
+/// Worst phases against brute force on another grid: no smaller, but for the grids' own distance …
+pub(crate) const PHASES: f64 = 1e-6;
+/// … and larger by no more than what such a grid misses.
+pub(crate) const COARSE_PHASES: f64 = 0.05;
+
+/// The press exported with 360 rows and read back: J and J′ as shares of their largest values; orders h⁴ and h³.
+pub(crate) const IMPORTED: [f64; 2] = [1e-7, 1e-5];
+
+/// Acceleration from a speed log of 1 kHz with noise of 0.02 rad/s, smoothed at 20 Hz, as a share of the largest one.
+pub(crate) const SMOOTHED_LOG: f64 = 0.02;

@@ -1,6 +1,7 @@
 //! What the test files of the tool share. Not every file uses all of it.
 #![allow(dead_code)]
 
+pub(crate) mod brute;
 pub(crate) mod budget;
 pub(crate) mod json;
 pub(crate) mod machines;

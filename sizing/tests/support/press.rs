@@ -71,7 +71,7 @@ const GUIDE: f64 = 150.0;
 const BEARINGS: f64 = 0.4;
 /// Ratio of the belt.
 pub(crate) const RATIO: f64 = 3.0;
-const BELT_EFFICIENCY: f64 = 0.97;
+pub(crate) const BELT_EFFICIENCY: f64 = 0.97;
 /// Driver pulley, and the belt's mass, which runs at the driver's rim.
 const DRIVER: f64 = 0.0006 + 0.6 * 0.04 * 0.04;
 const DRIVEN: f64 = 0.03;

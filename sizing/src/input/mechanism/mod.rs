@@ -12,11 +12,14 @@ mod parallel_shafts;
 mod parts;
 mod planetary;
 mod rack;
+mod reduced_curves;
 mod scotch_yoke;
 mod six_link;
 mod slider_crank;
 mod toggle_press;
 mod train;
+
+use std::path::Path;
 
 use jred::{Error, Link};
 
@@ -44,9 +47,13 @@ const BALL_SCREW: &str = "ball-screw";
 const HOIST: &str = "hoist";
 const PLANETARY: &str = "planetary";
 const PARALLEL_SHAFTS: &str = "parallel-shafts";
+const REDUCED_CURVES: &str = "reduced-curves";
 
 /// A reader of one type of mechanism: it takes every key that it knows and leaves the rest to be refused.
 type Reader = fn(&Section) -> Result<AnyMechanism>;
+
+/// A reader of one that names a file in the machine file's folder.
+type FileReader = fn(&Section, &Path) -> Result<AnyMechanism>;
 
 /// Every type with its reader.
 const TYPES: [(&str, Reader); 17] = [
@@ -69,22 +76,28 @@ const TYPES: [(&str, Reader); 17] = [
     (FRICTION_DRIVE, friction_drive::read),
 ];
 
+/// Every type that is read from a file of its own.
+const FILE_TYPES: [(&str, FileReader); 1] = [(REDUCED_CURVES, reduced_curves::read)];
+
 /// The types of mechanism that machine files can name.
 pub fn mechanism_types() -> impl Iterator<Item = &'static str> {
-    TYPES.iter().map(|(name, _)| *name)
+    let files = FILE_TYPES.iter().map(|(name, _)| *name);
+    TYPES.iter().map(|(name, _)| *name).chain(files)
 }
 
 /// The mechanism and the inertia of its flywheel (kg·m²).
-pub(super) fn read(section: &Section) -> Result<(AnyMechanism, f64)> {
+pub(super) fn read(section: &Section, folder: &Path) -> Result<(AnyMechanism, f64)> {
     let kind = section
         .require("type", "type = \"slider-crank\"")?
-        .choice(&TYPES.map(|(name, _)| name))?;
+        .choice(&mechanism_types().collect::<Vec<_>>())?;
     let flywheel = match section.optional("flywheel", &INERTIA)? {
         Some(value) => value.not_negative()?,
         None => 0.0,
     };
-    let (_, reader) = TYPES.get(kind).unwrap_or(&TYPES[0]);
-    let mechanism = reader(section)?;
+    let mechanism = match (TYPES.get(kind), kind.checked_sub(TYPES.len())) {
+        (None, Some(file)) => FILE_TYPES[file].1(section, folder)?,
+        (reader, _) => reader.unwrap_or(&TYPES[0]).1(section)?,
+    };
     let elsewhere = |key: &str| match key {
         "efficiency" => Some("efficiency belongs to [[drive_train]]"),
         _ => None,

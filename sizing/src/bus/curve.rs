@@ -1,0 +1,178 @@
+//! Power over time that repeats: straight lines between points, with jumps.
+
+/// Power drawn from the bus (W, negative: fed back) over one period.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PowerCurve {
+    /// (time (s), power (W)), times not falling, from 0 to the period; two points at one time are a jump.
+    points: Vec<[f64; 2]>,
+    period: f64,
+}
+
+impl PowerCurve {
+    /// A curve through points in order of time; before the first its power holds, and from the last to the period's end the
+    /// last one's.
+    pub fn new(inner: impl IntoIterator<Item = [f64; 2]>, period: f64) -> Self {
+        let mut points: Vec<[f64; 2]> = Vec::new();
+        for [t, power] in inner {
+            let t = t.clamp(0.0, period);
+            if points.is_empty() && t > 0.0 {
+                points.push([0.0, power]);
+            }
+            points.push([t, power]);
+        }
+        match points.last().copied() {
+            Some([t, power]) if t < period => points.push([period, power]),
+            Some(_) => {}
+            None => points.extend([[0.0, 0.0], [period, 0.0]]),
+        }
+        Self { points, period }
+    }
+
+    /// The period (s).
+    pub const fn period(&self) -> f64 {
+        self.period
+    }
+
+    /// The points.
+    pub fn points(&self) -> &[[f64; 2]] {
+        &self.points
+    }
+
+    /// The straight pieces: length (s), power at both ends (W).
+    pub fn pieces(&self) -> impl Iterator<Item = (f64, [f64; 2])> {
+        let pairs = self.points.windows(2);
+        pairs.filter_map(|pair| match pair {
+            [[t, a], [next, b]] if next > t => Some((next - t, [*a, *b])),
+            _ => None,
+        })
+    }
+
+    /// Energy drawn less energy fed back over a period (J).
+    pub fn energy(&self) -> f64 {
+        self.pieces().map(|(h, [a, b])| 0.5 * h * (a + b)).sum()
+    }
+
+    /// Energy drawn and energy fed back over a period (J).
+    pub fn energies(&self) -> [f64; 2] {
+        let [mut drawn, mut back] = [0.0; 2];
+        for (h, [a, b]) in self.pieces() {
+            for (h, [a, b]) in split(h, [a, b], 0.0) {
+                let area = 0.5 * h * (a + b);
+                drawn += area.max(0.0);
+                back += (-area).max(0.0);
+            }
+        }
+        [drawn, back]
+    }
+
+    /// Smallest and largest power (W).
+    pub fn extremes(&self) -> [f64; 2] {
+        let powers = self.points.iter().map(|[_, p]| *p);
+        powers.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
+            [low.min(p), high.max(p)]
+        })
+    }
+
+    /// The curve moved later by `shift` (s).
+    #[must_use]
+    pub fn shifted(&self, shift: f64) -> Self {
+        let cut = (self.period - shift).rem_euclid(self.period);
+        // What begins at `cut` comes first.
+        let split = self.points.partition_point(|[t, _]| *t < cut);
+        let (head, tail) = self.points.split_at(split);
+        let at_cut = match (head.last(), tail.first()) {
+            (Some([t, a]), Some([next, b])) if next > t => a + (b - a) * (cut - t) / (next - t),
+            (_, Some([_, b])) => *b,
+            (Some([_, a]), None) => *a,
+            (None, None) => 0.0,
+        };
+        let mut points = Vec::with_capacity(self.points.len() + 2);
+        points.push([0.0, at_cut]);
+        points.extend(tail.iter().map(|[t, p]| [t - cut, *p]));
+        let rest = self.period - cut;
+        points.extend(head.iter().map(|[t, p]| [t + rest, *p]));
+        points.push([self.period, at_cut]);
+        Self {
+            points,
+            period: self.period,
+        }
+    }
+
+    /// The curve `count` times one after another.
+    #[must_use]
+    pub fn repeated(&self, count: u32) -> Self {
+        let times = (0..count).flat_map(|k| {
+            let start = f64::from(k) * self.period;
+            self.points.iter().map(move |[t, p]| [t + start, *p])
+        });
+        Self {
+            points: times.collect(),
+            period: self.period * f64::from(count),
+        }
+    }
+
+    /// The sum with a curve of the same period.
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        let (a, b) = (&self.points, &other.points);
+        let mut points = Vec::with_capacity(a.len() + b.len());
+        let (mut i, mut k) = (0, 0);
+        // The value of a curve at `t` between its points number n − 1 and n.
+        let value = |points: &[[f64; 2]], n: usize, t: f64| {
+            match (n.checked_sub(1).and_then(|m| points.get(m)), points.get(n)) {
+                (Some([from, p]), Some([to, q])) if to > from => p + (q - p) * (t - from) / (to - from),
+                (Some([_, p]), _) | (None, Some([_, p])) => *p,
+                (None, None) => 0.0,
+            }
+        };
+        while let (Some([ta, pa]), Some([tb, pb])) = (a.get(i), b.get(k)) {
+            if ta < tb {
+                points.push([*ta, pa + value(b, k, *ta)]);
+                i += 1;
+            } else if tb < ta {
+                points.push([*tb, pb + value(a, i, *tb)]);
+                k += 1;
+            } else {
+                points.push([*ta, pa + pb]);
+                // Of a jump only one side moves on at a time.
+                let jumps = |points: &[[f64; 2]], n: usize, t: f64| {
+                    points.get(n + 1).is_some_and(|[next, _]| *next <= t)
+                };
+                match (jumps(a, i, *ta), jumps(b, k, *tb)) {
+                    (true, false) => i += 1,
+                    (false, true) => k += 1,
+                    _ => {
+                        i += 1;
+                        k += 1;
+                    }
+                }
+            }
+        }
+        // Past the end of one curve the other's last points stand at the period.
+        let last_of = |points: &[[f64; 2]]| points.last().map_or(0.0, |[_, p]| *p);
+        for [t, p] in a.iter().skip(i) {
+            points.push([*t, p + last_of(b)]);
+        }
+        for [t, p] in b.iter().skip(k) {
+            points.push([*t, p + last_of(a)]);
+        }
+        Self {
+            points,
+            period: self.period,
+        }
+    }
+}
+
+/// A straight piece cut where its power passes `level`.
+pub(super) fn split(h: f64, [a, b]: [f64; 2], level: f64) -> impl Iterator<Item = (f64, [f64; 2])> {
+    let place = (level - a) / (b - a);
+    let cut = ((a - level) * (b - level) < 0.0 && place > 0.0 && place < 1.0).then_some(place);
+    let [first, second] = match cut {
+        Some(place) => [
+            Some((h * place, [a, level])),
+            Some((h * (1.0 - place), [level, b])),
+        ],
+        None => [Some((h, [a, b])), None],
+    };
+    first.into_iter().chain(second)
+}

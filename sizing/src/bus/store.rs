@@ -1,0 +1,323 @@
+//! The DC bus: a capacitor between the supply, the axes and the brake resistor.
+//!
+//! ```text
+//! E = ½·C·U²,   E′ = P_supply − P − P_R
+//! ```
+//!
+//! P is the power that the axes draw. A supply of diodes holds U ≥ U₀ and takes nothing back; one that feeds back holds U = U₀.
+//! From the chopper's voltage on, the brake resistor takes what comes back, at most U²/R: what is more raises the voltage
+//! further. The chopper's switching and the ripple of the mains are not followed. Power runs in straight lines; between
+//! its events (empty, chopper on, resistor at its most) the course is exact.
+
+use super::curve::{PowerCurve, split};
+
+/// The bus and what holds its voltage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bus {
+    /// Voltage that the supply holds (V).
+    pub voltage: f64,
+    /// Capacitance (F); zero: none is known, and nothing is stored.
+    pub capacitance: f64,
+    /// Whether the supply takes energy back.
+    pub regenerative: bool,
+    /// Brake resistor: voltage at which it comes on (V), resistance (Ω).
+    pub resistor: Option<[f64; 2]>,
+}
+
+/// What happens on the bus in one period, once it repeats.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct BusFigures {
+    /// Energy from the supply (J).
+    #[serde(rename = "supplied [J]")]
+    pub supplied: f64,
+    /// Energy that the supply takes back (J).
+    #[serde(rename = "returned [J]")]
+    pub returned: f64,
+    /// Energy that the brake resistor turns into heat (J).
+    #[serde(rename = "burnt [J]")]
+    pub burnt: f64,
+    /// Its largest power (W).
+    #[serde(rename = "resistor peak [W]")]
+    pub burnt_peak: f64,
+    /// Largest energy of it without a pause (J); of a resistor that never pauses that of a period.
+    #[serde(rename = "resistor pulse [J]")]
+    pub pulse: f64,
+    /// Highest voltage (V); infinite where nothing bounds it.
+    #[serde(rename = "highest voltage [V]")]
+    pub highest: f64,
+    /// Energy stored at the start of a period above that at U₀ (J).
+    #[serde(rename = "stored at the start [J]")]
+    pub stored: f64,
+}
+
+/// How close the start of the next period must come, as a share of the energy at U₀ and that fed back.
+const PERIODIC: f64 = 1e-13;
+
+/// The most periods until it does.
+const MOST_PERIODS: u32 = 10_000;
+
+impl Bus {
+    /// What a power does to the bus when it repeats without end.
+    pub fn run(&self, curve: &PowerCurve) -> BusFigures {
+        let [drawn, back] = curve.energies();
+        if self.regenerative || back == 0.0 {
+            let mut walk = Walk::new(self, 0.0, 0.0);
+            walk.period(curve);
+            return walk.finish(0.0);
+        }
+        let nothing_bounds_it = self.resistor.is_none() && (back > drawn || self.capacitance <= 0.0);
+        let scale = 0.5 * self.capacitance * self.voltage * self.voltage + back;
+        // The course nears its period from where it must end up: full if more comes back than is drawn, else empty.
+        let mut start = match self.resistor {
+            Some(_) if back > drawn => Walk::new(self, 0.0, 0.0).full,
+            _ => 0.0,
+        };
+        let mut pulse = 0.0;
+        for period in 0..MOST_PERIODS {
+            if nothing_bounds_it {
+                break;
+            }
+            let mut walk = Walk::new(self, start, pulse);
+            walk.period(curve);
+            if (walk.excess - start).abs() <= PERIODIC * scale && period > 0 {
+                return walk.finish(start);
+            }
+            start = walk.excess;
+            pulse = if walk.paused { walk.pulse } else { 0.0 };
+        }
+        BusFigures {
+            highest: f64::INFINITY,
+            ..BusFigures::default()
+        }
+    }
+
+    /// Voltage over a period: \[time (s), voltage (V)\]; nothing where nothing bounds it.
+    pub fn trace(&self, curve: &PowerCurve) -> Vec<[f64; 2]> {
+        let figures = self.run(curve);
+        if figures.highest.is_infinite() {
+            return Vec::new();
+        }
+        let mut walk = Walk::new(self, figures.stored, 0.0);
+        let mut t = 0.0;
+        let mut trace = vec![[t, walk.voltage(walk.excess)]];
+        for (h, ends) in curve.pieces() {
+            walk.piece(h, ends);
+            t += h;
+            trace.push([t, walk.voltage(walk.excess)]);
+        }
+        trace
+    }
+}
+
+/// The bus on its way through a period.
+struct Walk<'b> {
+    bus: &'b Bus,
+    /// ½·C·U₀² (J).
+    base: f64,
+    /// Energy above `base` at which the resistor comes on (J); infinite without one.
+    full: f64,
+    /// 2/(R·C): power of the resistor over stored energy (1/s); infinite without capacitance.
+    rate: f64,
+    /// Largest power of the resistor at the voltage at which it comes on (W).
+    most: f64,
+    /// Energy above `base` (J).
+    excess: f64,
+    /// Energy of the resistor since its last pause (J).
+    pulse: f64,
+    /// Whether it had a pause in this period.
+    paused: bool,
+    figures: BusFigures,
+}
+
+impl<'b> Walk<'b> {
+    fn new(bus: &'b Bus, excess: f64, pulse: f64) -> Self {
+        let c = bus.capacitance;
+        let base = 0.5 * c * bus.voltage * bus.voltage;
+        let (full, rate, most) = match bus.resistor {
+            Some([on, r]) => (0.5 * c * on * on - base, 2.0 / (r * c), on * on / r),
+            None => (f64::INFINITY, 0.0, 0.0),
+        };
+        Self {
+            bus,
+            base,
+            full,
+            rate,
+            most,
+            excess,
+            pulse,
+            paused: false,
+            figures: BusFigures {
+                highest: bus.voltage,
+                ..BusFigures::default()
+            },
+        }
+    }
+
+    fn finish(mut self, start: f64) -> BusFigures {
+        self.figures.stored = start;
+        if !self.paused {
+            self.figures.pulse = self.figures.burnt;
+        }
+        self.figures
+    }
+
+    fn period(&mut self, curve: &PowerCurve) {
+        self.seen(self.excess);
+        curve.pieces().for_each(|(h, ends)| self.piece(h, ends));
+    }
+
+    fn voltage(&self, excess: f64) -> f64 {
+        if self.bus.capacitance > 0.0 {
+            (2.0 * (self.base + excess) / self.bus.capacitance).sqrt()
+        } else {
+            self.bus.voltage
+        }
+    }
+
+    fn seen(&mut self, excess: f64) {
+        self.figures.highest = self.figures.highest.max(self.voltage(excess));
+    }
+
+    /// A straight piece of power.
+    fn piece(&mut self, h: f64, ends: [f64; 2]) {
+        for (h, ends) in split(h, ends, 0.0) {
+            for (h, ends) in split(h, ends, -self.most) {
+                self.events(h, ends);
+            }
+        }
+    }
+
+    /// A piece in which neither the sign of the power nor whether the resistor can take all of it changes.
+    fn events(&mut self, mut h: f64, [mut a, mut b]: [f64; 2]) {
+        if self.bus.regenerative {
+            let area = 0.5 * h * (a + b);
+            self.figures.supplied += area.max(0.0);
+            self.figures.returned += (-area).max(0.0);
+            self.pause();
+            return;
+        }
+        let draws = a + b >= 0.0;
+        let resistor = self.bus.resistor.is_some();
+        let overloaded = resistor && -(a + b) > 2.0 * self.most;
+        // Each event ends a part of the piece; there are three at most.
+        for _ in 0..4 {
+            if h <= 0.0 {
+                return;
+            }
+            let area = 0.5 * h * (a + b);
+            let stores = self.bus.capacitance > 0.0;
+            let taken = if resistor && !draws && !stores {
+                self.burns_at_once(area, a, b);
+                h
+            } else if resistor && (self.excess > self.full || overloaded && self.excess == self.full) {
+                self.burns_at_most(h, [a, b], overloaded)
+            } else if resistor && !draws && self.excess == self.full {
+                self.burn(-area, a.min(b).abs());
+                h
+            } else if draws && self.excess == 0.0 {
+                self.figures.supplied += area;
+                self.pause();
+                h
+            } else if draws {
+                self.pause();
+                self.moves(h, [a, b], 0.0)
+            } else {
+                self.pause();
+                self.moves(h, [a, b], self.full)
+            };
+            a += (b - a) * (taken / h).min(1.0);
+            h = if taken >= h { 0.0 } else { h - taken };
+            if h <= 0.0 {
+                b = a;
+            }
+        }
+    }
+
+    /// The capacitor alone, until its energy reaches `bound` or the piece ends; returns the time (s).
+    fn moves(&mut self, h: f64, [a, b]: [f64; 2], bound: f64) -> f64 {
+        let area = 0.5 * h * (a + b);
+        let way = (bound - self.excess).abs();
+        let (time, excess) = if area.abs() < way {
+            (h, self.excess - area)
+        } else {
+            // |a|·t + ½·|b − a|/h·t² = way, in the form that holds for a slope of either sign and for none.
+            let (start, slope) = (a.abs(), (b.abs() - a.abs()) / h);
+            let root = (start * start + 2.0 * slope * way).max(0.0).sqrt();
+            let time = if start + root > 0.0 {
+                2.0 * way / (start + root)
+            } else {
+                h
+            };
+            (time.min(h), bound)
+        };
+        self.excess = excess;
+        self.seen(excess);
+        time
+    }
+
+    /// Without capacitance: all that comes back goes into the resistor, and raises the voltage to √(P·R).
+    fn burns_at_once(&mut self, area: f64, a: f64, b: f64) {
+        let peak = a.min(b).abs();
+        self.burn(-area, peak);
+        if let Some([on, r]) = self.bus.resistor
+            && peak > 0.0
+        {
+            let voltage = on.max((peak * r).sqrt());
+            self.figures.highest = self.figures.highest.max(voltage);
+        }
+    }
+
+    /// The resistor at U²/R, until the voltage is back to where it came on or the piece ends; returns the time (s).
+    /// y = E satisfies y′ = s(t) − k·y with s = −P.
+    fn burns_at_most(&mut self, h: f64, [a, b]: [f64; 2], overloaded: bool) -> f64 {
+        let k = self.rate;
+        let slope = (a - b) / h;
+        let start = self.base + self.excess;
+        let steady = |t: f64| (slope * t - a) / k - slope / (k * k);
+        let free = start - steady(0.0);
+        let energy = |t: f64| steady(t) + free * (-k * t).exp();
+        let bound = self.base + self.full;
+        let mut time = h;
+        if !overloaded && energy(h) < bound {
+            // Where the resistor can take all that comes back, the energy only falls.
+            let (mut above, mut below) = (0.0, h);
+            for _ in 0..200 {
+                let middle = f64::midpoint(above, below);
+                if middle <= above || middle >= below {
+                    break;
+                }
+                if energy(middle) >= bound {
+                    above = middle;
+                } else {
+                    below = middle;
+                }
+            }
+            time = below;
+        }
+        let end = if time < h { bound } else { energy(h).max(bound) };
+        let fed = -(a * time - 0.5 * slope * time * time);
+        // Rising, then falling: y′ = slope/k − k·free·e^(−k·t) is zero where y is largest.
+        let extreme = (k * k * free / slope).ln() / k;
+        let mut highest = start.max(end);
+        if extreme > 0.0 && extreme < time {
+            highest = highest.max(energy(extreme));
+        }
+        self.burn(fed - (end - start), k * highest);
+        self.excess = if time < h { self.full } else { end - self.base };
+        self.seen(highest - self.base);
+        time
+    }
+
+    fn burn(&mut self, energy: f64, peak: f64) {
+        let energy = energy.max(0.0);
+        self.figures.burnt += energy;
+        self.figures.burnt_peak = self.figures.burnt_peak.max(peak);
+        self.pulse += energy;
+        self.figures.pulse = self.figures.pulse.max(self.pulse);
+    }
+
+    fn pause(&mut self) {
+        self.pulse = 0.0;
+        self.paused = true;
+    }
+}

@@ -1,0 +1,63 @@
+//! Servo amplifiers and brake resistors of the catalogue.
+
+/// A servo amplifier (drive controller); SI units, currents RMS.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Amplifier {
+    /// Short name, unique in the catalogue.
+    pub key: String,
+    /// Maker.
+    pub maker: String,
+    /// Maker's type designation.
+    pub model: String,
+    /// Rated current (A).
+    pub rated_current: f64,
+    /// Peak current (A).
+    pub peak_current: f64,
+    /// How long the peak current may flow from cold (s).
+    pub peak_time: Option<f64>,
+    /// DC-bus voltage (V).
+    pub bus_voltage: Option<f64>,
+    /// DC-bus capacitance (F).
+    pub capacitance: Option<f64>,
+    /// DC-bus voltage at which the brake resistor switches on (V).
+    pub chopper_voltage: Option<f64>,
+    /// Highest DC-bus voltage (V).
+    pub max_voltage: Option<f64>,
+    /// Smallest brake resistance (Ω).
+    pub min_resistance: Option<f64>,
+    /// Losses: constant (W), and per ampere of RMS current (V).
+    pub losses: [f64; 2],
+    /// Mass (kg).
+    pub mass: Option<f64>,
+    /// Price, in the currency of the catalogue.
+    pub price: Option<f64>,
+    /// Whether the figures were read in the maker's own document.
+    pub from_maker: bool,
+    /// Where the figures are from.
+    pub source: String,
+}
+
+/// A brake resistor; SI units.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Resistor {
+    /// Short name, unique in the catalogue.
+    pub key: String,
+    /// Maker.
+    pub maker: String,
+    /// Maker's type designation.
+    pub model: String,
+    /// Resistance (Ω).
+    pub resistance: f64,
+    /// Continuous power (W).
+    pub rated_power: f64,
+    /// Largest short-time power (W).
+    pub peak_power: Option<f64>,
+    /// Energy of a single pulse (J).
+    pub pulse_energy: Option<f64>,
+    /// Price, in the currency of the catalogue.
+    pub price: Option<f64>,
+    /// Whether the figures were read in the maker's own document.
+    pub from_maker: bool,
+    /// Where the figures are from.
+    pub source: String,
+}

@@ -1,0 +1,83 @@
+//! A gearbox of the catalogue.
+
+/// A gearbox; SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gearbox {
+    /// Short name, unique in the catalogue.
+    pub key: String,
+    /// Maker.
+    pub maker: String,
+    /// Maker's type designation.
+    pub model: String,
+    /// Input speed over output speed.
+    pub ratio: f64,
+    /// Whether the output turns against the input.
+    pub reverses: bool,
+    /// Number of stages.
+    pub stages: Option<u32>,
+    /// Rated output torque T2N (N·m).
+    pub rated_torque: Option<f64>,
+    /// Acceleration torque T2B at the output (N·m).
+    pub peak_torque: Option<f64>,
+    /// Emergency torque at the output (N·m), which may occur a limited number of times.
+    pub emergency_torque: Option<f64>,
+    /// Rated input speed (rad/s).
+    pub rated_speed: Option<f64>,
+    /// Largest input speed (rad/s).
+    pub max_speed: Option<f64>,
+    /// Inertia at the input (kg·m²).
+    pub inertia: f64,
+    /// Efficiency at full load, 0 to 1, where power flows to the machine.
+    pub efficiency: f64,
+    /// Whether the data sheet gives no efficiency and one was assumed.
+    pub efficiency_assumed: bool,
+    /// Factor of the torque where power flows back: η again, or 2 − 1/η for friction; negative: self-locking.
+    pub back_efficiency: f64,
+    /// Torque to turn it without load, at the input (N·m); zero where the data sheet does not say.
+    pub no_load_torque: f64,
+    /// Torsional stiffness at the output (N·m/rad).
+    pub stiffness: Option<f64>,
+    /// Play at the output (rad).
+    pub backlash: Option<f64>,
+    /// Shock factors of the maker: (cycles per hour, factor), cycles rising; empty: not given.
+    pub shock_factors: Vec<[f64; 2]>,
+    /// Mass (kg).
+    pub mass: Option<f64>,
+    /// Price, in the currency of the catalogue.
+    pub price: Option<f64>,
+    /// Whether the figures were read in the maker's own document.
+    pub from_maker: bool,
+    /// Where the figures are from.
+    pub source: String,
+}
+
+impl Default for Gearbox {
+    /// A shaft: ratio 1, no inertia, no losses, no limits stated.
+    fn default() -> Self {
+        Self {
+            key: String::new(),
+            maker: String::new(),
+            model: String::new(),
+            ratio: 1.0,
+            reverses: false,
+            stages: None,
+            rated_torque: None,
+            peak_torque: None,
+            emergency_torque: None,
+            rated_speed: None,
+            max_speed: None,
+            inertia: 0.0,
+            efficiency: 1.0,
+            efficiency_assumed: false,
+            back_efficiency: 1.0,
+            no_load_torque: 0.0,
+            stiffness: None,
+            backlash: None,
+            shock_factors: Vec::new(),
+            mass: None,
+            price: None,
+            from_maker: false,
+            source: String::new(),
+        }
+    }
+}

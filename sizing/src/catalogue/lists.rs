@@ -1,0 +1,163 @@
+//! Who goes with whom: gear motors, and the compatibility lists of the catalogues.
+
+use std::collections::{HashMap, HashSet};
+use std::ops::Range;
+
+use super::Pairing;
+use super::cell::nearest;
+use super::column::Column;
+use super::fault::Fault;
+use super::load::{Group, Loader};
+use super::pairing::Keys;
+use super::row::{Read, Row};
+
+/// One line of a compatibility table.
+#[derive(Debug)]
+pub(super) struct Listing {
+    pub(super) at: Range<usize>,
+    /// Key of a motor, or with "*" the beginning of several keys.
+    pub(super) motor: String,
+    /// Keys of gearboxes; `None`: any.
+    pub(super) gearboxes: Option<Vec<String>>,
+    /// Whether the motor may be coupled directly.
+    pub(super) direct: bool,
+    /// Keys of amplifiers; `None`: any that suits.
+    pub(super) amplifiers: Option<Vec<String>>,
+}
+
+impl Loader {
+    /// Gear motors go with their own gearbox only, and it with no other motor.
+    pub(super) fn pair_gear_motors(&mut self, pairing: &mut Pairing) {
+        let keys = Keys::new(self.catalogue.gearboxes.iter().map(|g| g.key.as_str()));
+        for (motor, key, index, at) in &self.gear_motors {
+            let mut found = Vec::new();
+            if !key.ends_with('*') {
+                keys.find(key, |gearbox| found.push(gearbox));
+            }
+            if let Some(own) = found.first()
+                && let Some(built_in) = pairing.built_in.get_mut(*own as usize)
+            {
+                *built_in = true;
+            } else if let Some(text) = self.texts.get(*index) {
+                let near = nearest(key, &keys.names());
+                let near = near.map_or(String::new(), |n| format!("did you mean \"{n}\"? "));
+                self.faults.add(
+                    text,
+                    Fault::new(
+                        format!("no gearbox has the key \"{key}\""),
+                        at.clone(),
+                        "not a gearbox of the catalogue",
+                        format!(
+                            "{near}add the gearbox to a gearbox table, or leave this cell empty"
+                        ),
+                    ),
+                );
+            }
+            if let Some(partners) = pairing.motors.get_mut(*motor as usize) {
+                partners.gearboxes = Some(found.into());
+                partners.never_direct = true;
+            }
+        }
+    }
+
+    /// Pairs the motors of one catalogue by its list.
+    pub(super) fn pair(&mut self, group: &Group, pairing: &mut Pairing) {
+        let lists_gearboxes = group.listings.iter().any(|(_, l)| l.gearboxes.is_some());
+        let gear_motors: HashSet<u32> = self.gear_motors.iter().map(|g| g.0).collect();
+        if lists_gearboxes {
+            // A motor that its own catalogue's list leaves out is coupled directly only.
+            for motor in group.motors.iter().filter(|m| !gear_motors.contains(m)) {
+                if let Some(partners) = pairing.motors.get_mut(*motor as usize) {
+                    partners.gearboxes = Some(Box::default());
+                }
+            }
+        }
+        let motors = Keys::new(self.catalogue.motors.iter().map(|m| m.key.as_str()));
+        let gearboxes = Keys::new(self.catalogue.gearboxes.iter().map(|g| g.key.as_str()));
+        let amplifiers = Keys::new(self.catalogue.amplifiers.iter().map(|a| a.key.as_str()));
+        let mut gathered: HashMap<u32, [Vec<u32>; 2]> = HashMap::new();
+        for (index, listing) in &group.listings {
+            let Some(text) = self.texts.get(*index) else {
+                continue;
+            };
+            let mut found = |keys: &Keys, pattern: &str, what: &str| {
+                let mut indices = Vec::new();
+                keys.find(pattern, |i| indices.push(i));
+                if indices.is_empty() && !self.broken.contains(pattern) {
+                    let near = nearest(pattern, &keys.names());
+                    let near = near.map_or(String::new(), |n| format!("did you mean \"{n}\"? "));
+                    self.faults.add(
+                        text,
+                        Fault::new(
+                            if what == "motor" {
+                                format!("no motor has the key \"{pattern}\"")
+                            } else {
+                                format!(
+                                    "no {what} has the key \"{pattern}\", which the list of \"{}\" names",
+                                    listing.motor
+                                )
+                            },
+                            listing.at.clone(),
+                            "in this list",
+                            format!("{near}correct the key; a \"*\" at its end stands for all that begin so"),
+                        ),
+                    );
+                }
+                indices
+            };
+            let named = found(&motors, &listing.motor, "motor");
+            let mut partners = [Vec::new(), Vec::new()];
+            for key in listing.gearboxes.iter().flatten() {
+                partners[0].extend(found(&gearboxes, key, "gearbox"));
+            }
+            for key in listing.amplifiers.iter().flatten() {
+                partners[1].extend(found(&amplifiers, key, "amplifier"));
+            }
+            for motor in named {
+                let all = gathered.entry(motor).or_default();
+                for (all, these) in all.iter_mut().zip(&partners) {
+                    all.extend(these);
+                }
+                if let Some(known) = pairing.motors.get_mut(motor as usize) {
+                    known.never_direct |= !listing.direct;
+                    if listing.gearboxes.is_none() && !gear_motors.contains(&motor) {
+                        known.gearboxes = None;
+                    }
+                }
+            }
+        }
+        for (motor, mut all) in gathered {
+            let Some(known) = pairing.motors.get_mut(motor as usize) else {
+                continue;
+            };
+            for list in &mut all {
+                list.sort_unstable();
+                list.dedup();
+            }
+            let [gearboxes, amplifiers] = all;
+            if known.gearboxes.is_some() && !gear_motors.contains(&motor) {
+                known.gearboxes = Some(gearboxes.into());
+            }
+            if !amplifiers.is_empty() {
+                known.amplifiers = Some(amplifiers.into());
+            }
+        }
+    }
+}
+
+/// A line of jred's own compatibility table.
+pub(super) fn listing(row: &Row) -> Read<Listing> {
+    let keys = |column| {
+        let words = row.words(column).unwrap_or_default();
+        let keys = words.split([';', ' ']).filter(|key| !key.is_empty());
+        let keys: Vec<String> = keys.map(ToOwned::to_owned).collect();
+        row.given(column).then_some(keys)
+    };
+    Ok(Listing {
+        at: row.place(Column::ListedMotor),
+        motor: row.text(Column::ListedMotor)?,
+        gearboxes: keys(Column::ListedGearboxes),
+        direct: row.yes_or_no(Column::Direct)?.unwrap_or(true),
+        amplifiers: keys(Column::ListedAmplifiers),
+    })
+}

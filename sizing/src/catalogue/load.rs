@@ -1,0 +1,327 @@
+//! Gathers catalogue files into one catalogue: which file holds what, keys that clash, rows that are broken, who goes with
+//! whom.
+
+use std::collections::{HashMap, HashSet};
+use std::ops::Range;
+use std::path::PathBuf;
+
+use super::column::{Column, Kind};
+use super::fault::{CatalogueError, Fault, Faults, Remarks, Text};
+use super::files::{Format, built_in, file, folder, format_of, read};
+use super::lists::{Listing, listing};
+use super::pairing::Partners;
+use super::row::{Read, Row};
+use super::table::Table;
+use super::{Catalogue, Pairing, entry, mgdb, plausible, toml_table};
+
+/// What to load.
+#[derive(Clone, Debug, Default)]
+pub struct Sources {
+    /// Folders or files, each a catalogue of its own.
+    pub catalogues: Vec<PathBuf>,
+    /// A file of motors.
+    pub motors: Option<PathBuf>,
+    /// A file of gearboxes.
+    pub gearboxes: Option<PathBuf>,
+    /// Whether broken rows are left out instead of refusing the catalogue.
+    pub skip_broken_rows: bool,
+}
+
+/// The files of one catalogue: they share a compatibility list.
+#[derive(Debug, Default)]
+pub(super) struct Group {
+    pub(super) listings: Vec<(usize, Listing)>,
+    pub(super) motors: Vec<u32>,
+}
+
+/// A catalogue in the making.
+#[derive(Debug, Default)]
+pub(super) struct Loader {
+    pub(super) catalogue: Catalogue,
+    pub(super) texts: Vec<Text>,
+    pub(super) faults: Faults,
+    remarks: Remarks,
+    /// Kind and key of each entry, with the file that holds it.
+    keys: HashMap<(Kind, String), usize>,
+    /// What is wrong with every row of the present file.
+    whole_file: Option<Fault>,
+    /// Keys of broken rows, which lists may go on naming.
+    pub(super) broken: HashSet<String>,
+    /// Gear motors: index of the motor, key of its gearbox, and where it says so.
+    pub(super) gear_motors: Vec<(u32, String, usize, Range<usize>)>,
+}
+
+impl Sources {
+    /// Reads everything.
+    pub(super) fn load(&self) -> Result<Catalogue, CatalogueError> {
+        let mut loader = Loader::default();
+        let mut groups = Vec::new();
+        let single = |path: &PathBuf, kind| {
+            let text = read(path)?;
+            Ok(vec![(format_of(kind, &text), text)])
+        };
+        // A file of motors goes with the built-in gearboxes, and the other way round.
+        let halves = [
+            (&self.motors, Kind::Motors),
+            (&self.gearboxes, Kind::Gearboxes),
+        ];
+        for (path, kind) in halves {
+            match path {
+                Some(path) => groups.push(single(path, kind)?),
+                None if self.catalogues.is_empty() => groups.push(built_in(|k| k == kind)),
+                None => {}
+            }
+        }
+        if self.catalogues.is_empty() {
+            groups.push(built_in(|k| !matches!(k, Kind::Motors | Kind::Gearboxes)));
+        }
+        for path in &self.catalogues {
+            groups.push(if path.as_os_str() == "built-in" {
+                built_in(|_| true)
+            } else if path.is_dir() {
+                folder(path, &mut loader.remarks)?
+            } else {
+                file(path)?
+            });
+        }
+        let mut read_groups = Vec::new();
+        for files in groups {
+            read_groups.push(loader.group(files)?);
+        }
+        loader.finish(read_groups, self.skip_broken_rows)
+    }
+}
+
+impl Loader {
+    /// Reads the files of one catalogue.
+    fn group(&mut self, files: Vec<(Format, Text)>) -> Result<Group, CatalogueError> {
+        let first = self.catalogue.motors.len();
+        let mut group = Group::default();
+        for (format, text) in files {
+            self.texts.push(text.clone());
+            let index = self.texts.len() - 1;
+            let count = match format {
+                Format::Csv(kind) => self.csv(kind, index, &text, &mut group)?,
+                Format::Toml => {
+                    toml_table::each(&text, |row| self.row(index, &text, &mut group, row))
+                        .map_err(|fault| wrong(&text, fault))?
+                }
+                Format::Database(kind) => self.database(kind, index, &text, &mut group)?,
+            };
+            if count == 0 {
+                let what = match format {
+                    Format::Csv(kind) | Format::Database(kind) => kind.plural(),
+                    Format::Toml => "tables",
+                };
+                return Err(CatalogueError::Empty(text.name, what));
+            }
+        }
+        group.motors = (first as u32..self.catalogue.motors.len() as u32).collect();
+        Ok(group)
+    }
+
+    fn csv(
+        &mut self,
+        kind: Kind,
+        index: usize,
+        text: &Text,
+        group: &mut Group,
+    ) -> Result<usize, CatalogueError> {
+        let table = Table::read(text, kind).map_err(|fault| wrong(text, fault))?;
+        let Some(table) = table else {
+            return Ok(0);
+        };
+        let count = table.each(|row| self.row(index, text, group, row));
+        match self.whole_file.take() {
+            Some(fault) => Err(wrong(text, fault)),
+            None => Ok(count),
+        }
+    }
+
+    fn database(
+        &mut self,
+        kind: Kind,
+        index: usize,
+        text: &Text,
+        group: &mut Group,
+    ) -> Result<usize, CatalogueError> {
+        let mut remarks = std::mem::take(&mut self.remarks);
+        let place = |line: usize| format!("{}:{line}", text.name);
+        let mut motors = Vec::new();
+        let mut gearboxes = Vec::new();
+        let count = match kind {
+            Kind::Motors => mgdb::motors(text, &mut remarks, &mut |entry| motors.push(entry)),
+            Kind::Gearboxes => {
+                mgdb::gearboxes(text, &mut remarks, &mut |entry| gearboxes.push(entry))
+            }
+            _ => {
+                mgdb::listings(text, |listing| match listing {
+                    Ok(listing) => group.listings.push((index, listing)),
+                    Err(fault) => self.faults.add(text, fault),
+                });
+                Ok(group.listings.len())
+            }
+        };
+        self.remarks = remarks;
+        for entry in motors {
+            match entry {
+                Ok((motor, line, at)) => {
+                    if self.claim(Kind::Motors, &motor.key, index, at) {
+                        plausible::motor(&mut self.remarks, &|| place(line), &motor);
+                        self.catalogue.motors.push(motor);
+                    }
+                }
+                Err(fault) => self.faults.add(text, fault),
+            }
+        }
+        for entry in gearboxes {
+            match entry {
+                Ok((gearbox, line, at)) => {
+                    if self.claim(Kind::Gearboxes, &gearbox.key, index, at) {
+                        plausible::gearbox(&mut self.remarks, &|| place(line), &gearbox);
+                        self.catalogue.gearboxes.push(gearbox);
+                    }
+                }
+                Err(fault) => self.faults.add(text, fault),
+            }
+        }
+        count.map_err(|fault| wrong(text, fault))
+    }
+
+    fn row(
+        &mut self,
+        index: usize,
+        text: &Text,
+        group: &mut Group,
+        row: Result<(Row, usize), Fault>,
+    ) {
+        let taken = match row {
+            Err(fault) => Err(fault),
+            Ok((mut row, line)) => {
+                let taken = self.entry(index, text, group, &mut row, line);
+                if taken.is_err() {
+                    self.broken.insert(row.name().to_owned());
+                }
+                taken
+            }
+        };
+        match taken {
+            // A missing column is missing in every row: that is one fault, not many.
+            Err(fault) if fault.whole_file => {
+                self.whole_file = self.whole_file.take().or(Some(fault));
+            }
+            Err(fault) => self.faults.add(text, fault),
+            Ok(()) => {}
+        }
+    }
+
+    fn entry(
+        &mut self,
+        index: usize,
+        text: &Text,
+        group: &mut Group,
+        row: &mut Row,
+        line: usize,
+    ) -> Read<()> {
+        let place = || format!("{}:{line}", text.name);
+        match row.kind {
+            Kind::Motors => {
+                let (motor, gearbox) = entry::motor(row)?;
+                self.new_key(row, &motor.key, index)?;
+                plausible::motor(&mut self.remarks, &place, &motor);
+                if let Some(gearbox) = gearbox {
+                    let motor = self.catalogue.motors.len() as u32;
+                    let at = row.place(Column::BuiltInGearbox);
+                    self.gear_motors.push((motor, gearbox, index, at));
+                }
+                self.catalogue.motors.push(motor);
+            }
+            Kind::Gearboxes => {
+                let gearbox = entry::gearbox(row)?;
+                self.new_key(row, &gearbox.key, index)?;
+                plausible::gearbox(&mut self.remarks, &place, &gearbox);
+                self.catalogue.gearboxes.push(gearbox);
+            }
+            Kind::Amplifiers => {
+                let amplifier = entry::amplifier(row)?;
+                self.new_key(row, &amplifier.key, index)?;
+                self.catalogue.amplifiers.push(amplifier);
+            }
+            Kind::Resistors => {
+                let resistor = entry::resistor(row)?;
+                self.new_key(row, &resistor.key, index)?;
+                self.catalogue.resistors.push(resistor);
+            }
+            Kind::Compatibility => {
+                let listing = listing(row)?;
+                group.listings.push((index, listing));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a key is new; if not, that is a fault.
+    fn claim(&mut self, kind: Kind, key: &str, index: usize, at: Range<usize>) -> bool {
+        let Some(before) = self.keys.insert((kind, key.to_owned()), index) else {
+            return true;
+        };
+        let fault = self.clash(key, before, index, at);
+        if let Some(text) = self.texts.get(index) {
+            self.faults.add(text, fault);
+        }
+        false
+    }
+
+    fn new_key(&mut self, row: &Row, key: &str, index: usize) -> Read<()> {
+        match self.keys.insert((row.kind, key.to_owned()), index) {
+            None => Ok(()),
+            Some(before) => Err(self.clash(key, before, index, row.place(Column::Key))),
+        }
+    }
+
+    fn clash(&self, key: &str, before: usize, index: usize, at: Range<usize>) -> Fault {
+        let name = |index: usize| self.texts.get(index).map_or("", |text| text.name.as_str());
+        let message = if before == index {
+            format!("the key \"{key}\" is there twice")
+        } else {
+            format!(
+                "the key \"{key}\" is in {} as well as in {}",
+                name(before),
+                name(index)
+            )
+        };
+        Fault::new(message, at, "again here", "give every row a key of its own")
+    }
+
+    fn finish(mut self, groups: Vec<Group>, skip: bool) -> Result<Catalogue, CatalogueError> {
+        let mut pairing = Pairing {
+            motors: vec![Partners::default(); self.catalogue.motors.len()],
+            built_in: vec![false; self.catalogue.gearboxes.len()],
+        };
+        self.pair_gear_motors(&mut pairing);
+        for group in groups {
+            self.pair(&group, &mut pairing);
+        }
+        let broken = self.faults.count();
+        if !skip {
+            self.faults.into_result()?;
+        } else if broken > 0 {
+            self.remarks.add("rows left out", || {
+                format!("{broken} broken rows of the catalogue are left out")
+            });
+        }
+        let mut catalogue = self.catalogue;
+        catalogue.left_out = broken;
+        catalogue.pairing = pairing;
+        catalogue.warnings = self.remarks.into_lines();
+        if catalogue.motors.is_empty() {
+            let names: Vec<&str> = self.texts.iter().map(|t| t.name.as_str()).collect();
+            return Err(CatalogueError::Empty(names.join(", "), "motors"));
+        }
+        Ok(catalogue)
+    }
+}
+
+fn wrong(text: &Text, fault: Fault) -> CatalogueError {
+    CatalogueError::Wrong(Box::new(text.misplaced(fault)))
+}

@@ -1,0 +1,230 @@
+//! Which gearboxes and amplifiers go with which motor.
+
+use std::collections::HashMap;
+
+use super::amplifier::Amplifier;
+use super::motor::{Motor, MotorKind};
+use super::{Catalogue, Gearbox};
+use crate::drive::Drive;
+
+/// Which gearboxes and amplifiers go with each motor, as indices into the lists of the catalogue.
+///
+/// The default: every motor goes with every gearbox, without a gearbox, and with every amplifier that suits it
+/// ([`Pairing::suits`]).
+#[derive(Clone, Debug, Default)]
+pub struct Pairing {
+    /// By index of the motor; a motor beyond the end goes with everything.
+    pub(super) motors: Vec<Partners>,
+    /// By index of the gearbox: whether it is part of gear motors and goes with no other motor.
+    pub(super) built_in: Vec<bool>,
+}
+
+/// What goes with one motor.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Partners {
+    /// Gearboxes in rising order; `None`: all that are not part of gear motors.
+    pub(super) gearboxes: Option<Box<[u32]>>,
+    /// Whether it may not be coupled directly.
+    pub(super) never_direct: bool,
+    /// Amplifiers in rising order; `None`: all that suit.
+    pub(super) amplifiers: Option<Box<[u32]>>,
+}
+
+/// Voltages of one class: 24 and 28 V, 282 and 325 V, 540 and 680 V are; 48 and 325 V, or 325 and 560 V, are not.
+const VOLTAGE_CLASS: f64 = 4.0 / 3.0;
+
+/// Rated current of an amplifier in units of the motor's: smaller ones starve the motor, larger ones regulate it coarsely.
+const CURRENTS: [f64; 2] = [0.5, 4.0];
+
+impl Pairing {
+    /// Whether an amplifier goes with a motor where no list says: its bus voltage lies within a factor of 4/3 of the one the
+    /// motor's figures hold for, and its rated current is half to four times that of the motor (standstill, else rated). What
+    /// is not stated does not exclude.
+    pub fn suits(motor: &Motor, amplifier: &Amplifier) -> bool {
+        let voltage = motor.bus_voltage.zip(amplifier.bus_voltage);
+        let same_class = voltage.is_none_or(|(motor, amplifier)| {
+            amplifier <= motor * VOLTAGE_CLASS && motor <= amplifier * VOLTAGE_CLASS
+        });
+        let winding = &motor.winding;
+        let current = winding.standstill_current.or(winding.rated_current);
+        let [least, most] = CURRENTS;
+        let enough = current.is_none_or(|current| {
+            (least * current..=most * current).contains(&amplifier.rated_current)
+        });
+        same_class && enough
+    }
+
+    fn partners(&self, motor: usize) -> Option<&Partners> {
+        self.motors.get(motor)
+    }
+}
+
+/// Finds entries by key, and by the beginning of a key.
+pub(super) struct Keys<'k> {
+    exact: HashMap<&'k str, u32>,
+    sorted: Vec<(&'k str, u32)>,
+}
+
+impl<'k> Keys<'k> {
+    pub(super) fn new(keys: impl Iterator<Item = &'k str>) -> Self {
+        let mut sorted: Vec<(&str, u32)> = (0..).zip(keys).map(|(i, key)| (key, i)).collect();
+        let exact = sorted.iter().copied().collect();
+        sorted.sort_unstable();
+        Self { exact, sorted }
+    }
+
+    /// The entries that `pattern` names: one by its key, or with "*" at the end all whose key begins so.
+    pub(super) fn find(&self, pattern: &str, mut take: impl FnMut(u32)) {
+        if let Some(start) = pattern.strip_suffix('*') {
+            let first = self.sorted.partition_point(|(key, _)| *key < start);
+            let rest = self.sorted.get(first..).unwrap_or_default();
+            let found = rest.iter().take_while(|(key, _)| key.starts_with(start));
+            found.for_each(|(_, index)| take(*index));
+        } else if let Some(index) = self.exact.get(pattern) {
+            take(*index);
+        }
+    }
+
+    pub(super) fn names(&self) -> Vec<&'k str> {
+        self.sorted.iter().map(|(key, _)| *key).collect()
+    }
+}
+
+/// Every drive of a catalogue, or those of one of its motors: gearbox by gearbox, first coupled directly, with each
+/// amplifier in turn. Each step costs a few nanoseconds.
+#[derive(Clone, Debug)]
+pub struct Drives<'c> {
+    catalogue: &'c Catalogue,
+    /// Motors still to come, the present one not among them.
+    motors: std::ops::Range<usize>,
+    motor: Option<(usize, &'c Motor)>,
+    /// Gearboxes of the present motor still to come.
+    gearboxes: Gearboxes<'c>,
+    amplifiers: Vec<&'c Amplifier>,
+    gearbox: Option<&'c Gearbox>,
+    /// Index of the next amplifier; at the end the next gearbox is due.
+    next: usize,
+}
+
+#[derive(Clone, Debug)]
+enum Gearboxes<'c> {
+    All(std::ops::Range<usize>),
+    These(std::slice::Iter<'c, u32>),
+}
+
+impl<'c> Drives<'c> {
+    pub(super) fn new(catalogue: &'c Catalogue, motors: std::ops::Range<usize>) -> Self {
+        Self {
+            catalogue,
+            motors,
+            motor: None,
+            gearboxes: Gearboxes::All(0..0),
+            amplifiers: Vec::new(),
+            gearbox: None,
+            next: 0,
+        }
+    }
+
+    /// Goes on to the next motor that has any drive.
+    fn advance_motor(&mut self) -> Option<()> {
+        loop {
+            let index = self.motors.next()?;
+            let catalogue = self.catalogue;
+            let motor = catalogue.motors.get(index)?;
+            let partners = catalogue.pairing.partners(index);
+            self.motor = Some((index, motor));
+            self.gearboxes = match partners.and_then(|p| p.gearboxes.as_deref()) {
+                Some(these) => Gearboxes::These(these.iter()),
+                None if motor.kind == MotorKind::Linear => Gearboxes::All(0..0),
+                None => Gearboxes::All(0..catalogue.gearboxes.len()),
+            };
+            self.amplifiers = catalogue.amplifiers_of(index);
+            self.next = 0;
+            self.gearbox = None;
+            if !partners.is_some_and(|p| p.never_direct) {
+                return Some(());
+            }
+            if self.advance_gearbox() {
+                return Some(());
+            }
+        }
+    }
+
+    fn advance_gearbox(&mut self) -> bool {
+        let catalogue = self.catalogue;
+        let built_in = |index: usize| catalogue.pairing.built_in.get(index) == Some(&true);
+        let index = match &mut self.gearboxes {
+            Gearboxes::All(rest) => rest.find(|index| !built_in(*index)),
+            Gearboxes::These(rest) => rest.next().map(|index| *index as usize),
+        };
+        self.next = 0;
+        self.gearbox = index.and_then(|index| catalogue.gearboxes.get(index));
+        self.gearbox.is_some()
+    }
+}
+
+impl<'c> Iterator for Drives<'c> {
+    type Item = (usize, Drive<'c>);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        // Without amplifiers a drive stands once all the same.
+        let ways = self.amplifiers.len().max(1);
+        let done = self.motor.is_none() || self.next >= ways && !self.advance_gearbox();
+        if done {
+            self.advance_motor()?;
+        }
+        let (index, motor) = self.motor?;
+        let drive = Drive {
+            motor,
+            gearbox: self.gearbox,
+            amplifier: self.amplifiers.get(self.next).copied(),
+        };
+        self.next += 1;
+        Some((index, drive))
+    }
+}
+
+impl Catalogue {
+    /// Every drive that can be put together: the index of its motor in the list of motors, and the drive.
+    pub fn drives(&self) -> Drives<'_> {
+        Drives::new(self, 0..self.motors.len())
+    }
+
+    /// The drives with the motors of these indices, in the order in which [`Catalogue::drives`] has them.
+    pub fn drives_of(&self, motors: std::ops::Range<usize>) -> Drives<'_> {
+        Drives::new(self, motors)
+    }
+
+    /// The amplifiers that a motor goes with, by its index; each of its gearboxes goes with all of them.
+    pub fn amplifiers_of(&self, motor: usize) -> Vec<&Amplifier> {
+        let partners = self.pairing.partners(motor);
+        if let Some(these) = partners.and_then(|p| p.amplifiers.as_deref()) {
+            let named = these
+                .iter()
+                .map(|index| self.amplifiers.get(*index as usize));
+            return named.flatten().collect();
+        }
+        let Some(motor) = self.motors.get(motor) else {
+            return Vec::new();
+        };
+        let all = self.amplifiers.iter();
+        all.filter(|a| Pairing::suits(motor, a)).collect()
+    }
+
+    /// How many drives can be put together, worked out without going through them.
+    pub fn count(&self) -> usize {
+        let bound = self.pairing.built_in.iter().filter(|b| **b).count();
+        let free = self.gearboxes.len() - bound.min(self.gearboxes.len());
+        let of = |(index, motor): (usize, &Motor)| {
+            let partners = self.pairing.partners(index);
+            let gearboxes = match partners.and_then(|p| p.gearboxes.as_deref()) {
+                Some(these) => these.len(),
+                None if motor.kind == MotorKind::Linear => 0,
+                None => free,
+            };
+            let direct = usize::from(!partners.is_some_and(|p| p.never_direct));
+            (gearboxes + direct) * self.amplifiers_of(index).len().max(1)
+        };
+        self.motors.iter().enumerate().map(of).sum()
+    }
+}

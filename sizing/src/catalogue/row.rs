@@ -1,0 +1,255 @@
+//! One row of a catalogue table, from whatever kind of file: its cells by column, as quantities in SI or as words.
+
+use std::ops::Range;
+
+use super::cell::{self, Cell, NUMBER_CURE};
+use super::column::{Column, For, Kind, Unit};
+use super::fault::Fault;
+
+/// Where the cells of a row come from.
+pub(super) trait Cells {
+    /// What stands in a column; `None`: nothing, or there is no such column.
+    fn cell(&self, column: Column) -> Option<Cell<'_>>;
+    /// The place of the cell, or of the row if there is no such cell.
+    fn place(&self, column: Column) -> Range<usize>;
+    /// Whether the row could have such a cell.
+    fn has(&self, column: Column) -> bool;
+    /// Whether the file says anything in this column, be it only that there is nothing.
+    fn given(&self, column: Column) -> bool;
+    /// The place of the header, for columns that are missing.
+    fn header(&self) -> Range<usize>;
+}
+
+/// The result of reading a cell.
+pub(super) type Read<T> = Result<T, Fault>;
+
+/// One row.
+pub(super) struct Row<'t> {
+    pub(super) kind: Kind,
+    cells: &'t dyn Cells,
+    /// Which motors its units must be for.
+    motors: For,
+}
+
+impl<'t> Row<'t> {
+    pub(super) fn new(kind: Kind, cells: &'t dyn Cells) -> Self {
+        Self {
+            kind,
+            cells,
+            motors: For::Any,
+        }
+    }
+
+    /// From here on units of the other kind of motor are faults.
+    pub(super) const fn expect(&mut self, motors: For) {
+        self.motors = motors;
+    }
+
+    /// What the row is called in messages.
+    pub(super) fn name(&self) -> &'t str {
+        let column = match self.kind {
+            Kind::Compatibility => Column::ListedMotor,
+            _ => Column::Key,
+        };
+        self.cells.cell(column).map_or("?", |cell| cell.text)
+    }
+
+    /// Where a column of this row stands.
+    pub(super) fn place(&self, column: Column) -> Range<usize> {
+        self.cells.place(column)
+    }
+
+    /// Whether the file says anything in this column, be it only that there is nothing.
+    pub(super) fn given(&self, column: Column) -> bool {
+        self.cells.given(column)
+    }
+
+    /// A fault in a column of this row; `what` goes on after its name.
+    pub(super) fn fault(
+        &self,
+        column: Column,
+        what: &str,
+        label: &'static str,
+        help: impl Into<String>,
+    ) -> Fault {
+        let message = format!("{} of \"{}\" {what}", column.name(), self.name());
+        Fault::new(message, self.place(column), label, help)
+    }
+
+    /// Words, which may be missing.
+    pub(super) fn words(&self, column: Column) -> Option<&'t str> {
+        self.cells.cell(column).map(|cell| cell.text)
+    }
+
+    /// Words that must be there.
+    pub(super) fn text(&self, column: Column) -> Read<String> {
+        self.words(column)
+            .map(ToOwned::to_owned)
+            .ok_or_else(|| self.missing(column, &[]))
+    }
+
+    /// The fault of a cell that is needed; one of `instead` would do as well.
+    pub(super) fn missing(&self, column: Column, instead: &[Column]) -> Fault {
+        let name = column.name();
+        let mut or = String::new();
+        for other in instead {
+            or += ", or ";
+            or += other.name();
+        }
+        if self.cells.has(column) {
+            return self.fault(
+                column,
+                "is empty",
+                "needed in every row",
+                format!("fill in {name}{or}, or leave the row out"),
+            );
+        }
+        let units = column.unit_list();
+        let units = if units.is_empty() {
+            units
+        } else {
+            format!(" with its unit ({units})")
+        };
+        Fault::new(
+            format!("the column \"{name}\" is missing"),
+            self.cells.header(),
+            "in this header",
+            format!("add the column \"{name}\"{units}{or}; docs/catalogue.md shows all columns"),
+        )
+        .of_whole_file()
+    }
+
+    /// A number that may be left out, in SI.
+    fn number(&self, column: Column, least: f64, label: &'static str) -> Read<Option<f64>> {
+        let Some(Cell { text, unit }) = self.cells.cell(column) else {
+            return Ok(None);
+        };
+        let Unit { si, motors, .. } = unit.unwrap_or(&PLAIN);
+        if *motors != For::Any && self.motors != For::Any && *motors != self.motors {
+            return Err(self.fault(
+                column,
+                &format!(
+                    "is in [{}], a unit of {} motors, but the motor is {}",
+                    unit.map_or("", |u| u.text),
+                    cell::words(*motors),
+                    cell::words(self.motors)
+                ),
+                "the unit does not fit the motor",
+                "set the column \"kind\" to \"rotary\" or \"linear\", or correct the unit",
+            ));
+        }
+        let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
+        match value {
+            Some(value) if value > least => Ok(Some(value * si)),
+            _ => {
+                let cure = if text.contains(',') {
+                    format!("{NUMBER_CURE}: \"{}\"", text.replace(',', "."))
+                } else {
+                    format!(
+                        "{NUMBER_CURE}; its unit stands in the header; leave the cell empty if the data sheet does not say"
+                    )
+                };
+                Err(self.fault(column, &format!("is \"{text}\""), label, cure))
+            }
+        }
+    }
+
+    /// A figure greater than zero that may be left out, in SI.
+    pub(super) fn optional(&self, column: Column) -> Read<Option<f64>> {
+        self.number(column, 0.0, "not a number greater than zero")
+    }
+
+    /// A figure greater than zero that must be there, in SI.
+    pub(super) fn positive(&self, column: Column) -> Read<f64> {
+        self.optional(column)?
+            .ok_or_else(|| self.missing(column, &[]))
+    }
+
+    /// A figure that may be zero and may be left out, in SI.
+    pub(super) fn not_negative(&self, column: Column) -> Read<Option<f64>> {
+        self.number(column, -f64::MIN_POSITIVE, "not a number from zero up")
+    }
+
+    /// A whole number from 1 to 1000 that may be left out.
+    pub(super) fn count(&self, column: Column) -> Read<Option<u32>> {
+        let Some(value) = self.optional(column)? else {
+            return Ok(None);
+        };
+        if value.fract() == 0.0 && value <= 1000.0 {
+            return Ok(Some(value as u32));
+        }
+        Err(self.fault(
+            column,
+            &format!("is {value}"),
+            "not a whole number from 1 to 1000",
+            "write how many there are",
+        ))
+    }
+
+    /// Points "x: y; x: y", in SI; none if the cell is empty.
+    pub(super) fn points(
+        &self,
+        column: Column,
+        units: [&'static [Unit]; 2],
+    ) -> Read<Vec<[f64; 2]>> {
+        let Some(text) = self.words(column) else {
+            return Ok(Vec::new());
+        };
+        cell::points(text, units, self.motors)
+            .map_err(|[message, cure]| self.fault(column, &message, "here", cure))
+    }
+
+    /// One of some words; nothing if the cell is empty.
+    pub(super) fn choice<T: Copy>(&self, column: Column, words: &[(&str, T)]) -> Read<Option<T>> {
+        let Some(word) = self.words(column) else {
+            return Ok(None);
+        };
+        let lower = word.to_lowercase();
+        if let Some((_, value)) = words.iter().find(|known| known.0 == lower) {
+            return Ok(Some(*value));
+        }
+        let names: Vec<String> = words.iter().map(|w| format!("\"{}\"", w.0)).collect();
+        let help = format!("write {}", names.join(" or "));
+        Err(self.fault(column, &format!("is \"{word}\""), "not known", help))
+    }
+
+    /// Yes or no; nothing if the cell is empty.
+    pub(super) fn yes_or_no(&self, column: Column) -> Read<Option<bool>> {
+        self.choice(
+            column,
+            &[
+                ("yes", true),
+                ("no", false),
+                ("true", true),
+                ("false", false),
+            ],
+        )
+    }
+
+    /// A figure must not be below another one.
+    pub(super) fn at_least(
+        &self,
+        (column, value): (Column, Option<f64>),
+        (other, least): (Column, Option<f64>),
+    ) -> Read<()> {
+        match (value, least) {
+            (Some(value), Some(least)) if value < least => {
+                let (name, other) = (column.name(), other.name());
+                Err(self.fault(
+                    column,
+                    &format!("is below its {other}"),
+                    "too small",
+                    format!("check {name} and {other} against the data sheet, and the units in the header"),
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The unit of a plain number.
+const PLAIN: Unit = Unit {
+    text: "",
+    si: 1.0,
+    motors: For::Any,
+};

@@ -1,0 +1,359 @@
+//! Extremes over a cycle without looking at every sample: branch and bound over the [tree](super::tree) of stretches.
+//!
+//! A stretch is looked into only if its bound exceeds the best sample found so far. Where loads are smooth the bound's excess over
+//! the true largest value falls with the square of a stretch's length, so around a peak the stretches that must be looked into are a few at
+//! each size: their number grows with the logarithm of the number of samples, times the number of peaks of nearly
+//! the same height. Bounds hold for any course; jumps, noise and corners only cost time.
+//!
+//! A sample that exceeds the best by less than rounding, 64 units of the last place of the terms of the torque, may be passed over: else a
+//! constant torque would be looked at sample by sample.
+
+use super::front::Front;
+use super::tree::{Direction, Node, Tree};
+use super::{Peak, Sample};
+use crate::drive::{Coefficients, LOADS};
+use crate::envelope::Envelope;
+
+/// Rounding of a torque and of its bound, as a share of the sum of its terms' largest magnitudes.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// The samples and their stretches.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretches<'c> {
+    pub(super) samples: &'c [Sample],
+    pub(super) tree: &'c Tree,
+    pub(super) front: &'c Front,
+    pub(super) largest: &'c [f64; LOADS],
+}
+
+/// A lower bound of the torque limit.
+trait Floor: Copy {
+    /// Its least value at all speeds of the cycle, in both directions of power.
+    fn least(&self) -> f64;
+    /// The values at both ends of a chord that the limit does not fall below between the two speeds of the motor.
+    fn chord(&self, driving: bool, speeds: [f64; 2]) -> [f64; 2];
+    /// The torque's share of its limit.
+    fn used(&self, torque: f64, speed: f64) -> f64;
+}
+
+/// The same limit at every speed of the cycle.
+#[derive(Clone, Copy)]
+struct Level(f64);
+
+impl Floor for Level {
+    fn least(&self) -> f64 {
+        self.0
+    }
+
+    fn chord(&self, _driving: bool, _speeds: [f64; 2]) -> [f64; 2] {
+        [self.0; 2]
+    }
+
+    fn used(&self, torque: f64, _speed: f64) -> f64 {
+        torque.abs() / self.0
+    }
+}
+
+/// A limit that falls with speed.
+#[derive(Clone, Copy)]
+struct Falling<'e> {
+    envelope: &'e Envelope,
+    least: f64,
+}
+
+impl Floor for Falling<'_> {
+    fn least(&self) -> f64 {
+        self.least
+    }
+
+    fn chord(&self, driving: bool, speeds: [f64; 2]) -> [f64; 2] {
+        self.envelope.floor(driving, speeds)
+    }
+
+    fn used(&self, torque: f64, speed: f64) -> f64 {
+        self.envelope.peak_used(torque, speed)
+    }
+}
+
+impl<'c> Stretches<'c> {
+    /// The sample that comes closest to the envelope, or is beyond it by most; the first that has no limit at all, if there is one.
+    pub(super) fn peak(self, c: &Coefficients, ratio: f64, envelope: &Envelope) -> Option<Peak> {
+        let top = self.tree.nodes.first()?.speed[1] * ratio;
+        if let Some(limit) = envelope.level_up_to(top) {
+            let known = limit.is_finite() && limit > 0.0;
+            let level = Level(if known { limit } else { 1.0 });
+            let mut peak = Search::new(self, c, ratio, level).run();
+            peak.used = envelope.peak_used(peak.torque, peak.speed);
+            return Some(peak);
+        }
+        let floors = [true, false].map(|driving| envelope.floor(driving, [0.0, top]));
+        let least = floors.as_flattened().iter().copied().fold(f64::INFINITY, f64::min);
+        let floor = Falling { envelope, least };
+        let search = Search::new(self, c, ratio, floor);
+        if least <= 0.0
+            && let Some(beyond) = search.first_without_limit(0)
+        {
+            return Some(beyond);
+        }
+        Some(search.run())
+    }
+
+    /// Largest value of |c·x|.
+    pub(super) fn largest_magnitude(self, c: &Coefficients) -> f64 {
+        if self.samples.is_empty() {
+            return 0.0;
+        }
+        Search::new(self, c, 1.0, Level(1.0)).run().torque.abs()
+    }
+
+    /// Least and largest value of c·x.
+    pub(super) fn extremes(self, c: &Coefficients) -> [f64; 2] {
+        let opposite = Coefficients(c.0.map(|c| -c));
+        [-self.largest_value(&opposite), self.largest_value(c)]
+    }
+
+    fn largest_value(self, c: &Coefficients) -> f64 {
+        fn visit(stretches: Stretches, c: &Coefficients, slack: f64, node: usize, best: &mut f64) {
+            let node_index = node;
+            let node = &stretches.tree.nodes[node];
+            let ends = stretches.ends(node, c);
+            *best = best.max(ends[0]).max(ends[1]);
+            let reach: f64 = (0..LOADS).map(|k| c.0[k].abs() * node.reach[k]).sum();
+            if ends[0].max(ends[1]) + reach - slack <= *best {
+                return;
+            }
+            if node.second == 0 {
+                let samples = &stretches.samples[node.first as usize..=node.last as usize];
+                *best = samples
+                    .iter()
+                    .map(|s| c.torque(&s.loads))
+                    .fold(*best, f64::max);
+            } else {
+                visit(stretches, c, slack, node_index + 1, best);
+                visit(stretches, c, slack, node.second as usize, best);
+            }
+        }
+        let mut best = f64::NEG_INFINITY;
+        if !self.tree.nodes.is_empty() {
+            visit(self, c, self.slack(c), 0, &mut best);
+        }
+        best
+    }
+
+    /// Work that the motor puts in and work that it takes back (J): ∫max(P, 0) and ∫max(−P, 0). Where the power keeps its sign
+    /// over a stretch its work is a linear form; samples are looked at only around its zeros.
+    pub(super) fn energies(self, c: &Coefficients, ratio: f64) -> [f64; 2] {
+        let mut sums = [0.0; 2];
+        if !self.tree.nodes.is_empty() {
+            self.add_energy(c, self.slack(c), 0, &mut sums);
+        }
+        sums.map(|sum| sum * ratio)
+    }
+
+    fn add_energy(self, c: &Coefficients, slack: f64, index: usize, sums: &mut [f64; 2]) {
+        let node = &self.tree.nodes[index];
+        if node.speed[1] == 0.0 {
+            return;
+        }
+        let mut add = |work: f64| {
+            let [motoring, regenerative] = sums;
+            *motoring += work.max(0.0);
+            *regenerative += (-work).max(0.0);
+        };
+        let ends = self.ends(node, c);
+        let reach: f64 = (0..LOADS).map(|k| c.0[k].abs() * node.reach[k]).sum();
+        let one_sign = ends[0].min(ends[1]) - reach >= -slack || ends[0].max(ends[1]) + reach <= slack;
+        if one_sign && node.direction != Direction::Any {
+            add(c.torque(&node.energy));
+        } else if node.second == 0 {
+            for sample in &self.samples[node.first as usize..=node.last as usize] {
+                add(sample.weight * sample.speed() * c.torque(&sample.loads));
+            }
+        } else {
+            self.add_energy(c, slack, index + 1, sums);
+            self.add_energy(c, slack, node.second as usize, sums);
+        }
+    }
+
+    fn slack(self, c: &Coefficients) -> f64 {
+        let terms = c.0.iter().zip(self.largest).map(|(c, x)| c.abs() * x);
+        ROUNDING * terms.sum::<f64>()
+    }
+
+    /// The linear form at both ends of a stretch.
+    fn ends(self, node: &Node, c: &Coefficients) -> [f64; 2] {
+        [node.first, node.last].map(|k| c.torque(&self.samples[k as usize].loads))
+    }
+}
+
+/// The search for the largest share of a limit.
+struct Search<'s, F> {
+    stretches: Stretches<'s>,
+    c: &'s Coefficients,
+    ratio: f64,
+    floor: F,
+    slack: f64,
+    best: Peak,
+}
+
+impl<'s, F: Floor> Search<'s, F> {
+    fn new(stretches: Stretches<'s>, c: &'s Coefficients, ratio: f64, floor: F) -> Self {
+        Self {
+            slack: stretches.slack(c),
+            stretches,
+            c,
+            ratio,
+            floor,
+            best: Peak {
+                used: f64::NEG_INFINITY,
+                torque: 0.0,
+                speed: 0.0,
+            },
+        }
+    }
+
+    fn run(mut self) -> Peak {
+        let front = self.stretches.front;
+        let bounds = front.bounds(&self.c.0);
+        let bounds = &bounds[..front.len];
+        let mut first = 0;
+        for (k, bound) in bounds.iter().enumerate() {
+            if *bound > bounds[first] {
+                first = k;
+            }
+        }
+        self.look(front.nodes[first] as usize);
+        for (k, &bound) in bounds.iter().enumerate() {
+            if k != first && bound - self.slack > self.best.used * self.floor.least() {
+                self.look(front.nodes[k] as usize);
+            }
+        }
+        self.best
+    }
+
+    /// Looks at a stretch if it may hold more than the best.
+    fn look(&mut self, index: usize) {
+        let node = &self.stretches.tree.nodes[index];
+        let excess = self.excess(node);
+        self.look_into(index, excess);
+    }
+
+    fn look_into(&mut self, index: usize, excess: f64) {
+        if excess <= self.slack {
+            return;
+        }
+        let nodes = &self.stretches.tree.nodes;
+        let node = &nodes[index];
+        if node.second == 0 {
+            let samples = &self.stretches.samples[node.first as usize..=node.last as usize];
+            for sample in samples {
+                self.weigh(sample);
+            }
+            return;
+        }
+        let second = node.second as usize;
+        let [one, two] = [index + 1, second].map(|k| self.excess(&nodes[k]));
+        // The more promising half first: what it holds may spare the other. Its own bound is worked out anew, the best having risen.
+        if one >= two {
+            self.look_into(index + 1, one);
+            self.look(second);
+        } else {
+            self.look_into(second, two);
+            self.look(index + 1);
+        }
+    }
+
+    fn weigh(&mut self, sample: &Sample) {
+        let torque = self.c.torque(&sample.loads);
+        if torque.abs() <= self.best.used * self.floor.least() {
+            return;
+        }
+        let speed = sample.speed() * self.ratio;
+        let used = self.floor.used(torque, speed);
+        if used > self.best.used {
+            self.best = Peak {
+                used,
+                torque,
+                speed,
+            };
+        }
+    }
+
+    /// An upper bound of |T| − u·M over a stretch, u being the best share so far and M the limit; the stretch holds nothing better where that is
+    /// not positive. On one side of the torque, and with M replaced by a chord below it, that is a linear form of the loads.
+    fn excess(&self, node: &Node) -> f64 {
+        let u = self.best.used;
+        if u < 0.0 {
+            return f64::INFINITY;
+        }
+        let c = &self.c.0;
+        let torques = self.stretches.ends(node, self.c);
+        let [least, largest] = node.speed;
+        let speeds = [least * self.ratio, largest * self.ratio];
+        let reach_without_speed: f64 = c[0].abs() * node.reach[0]
+            + (c[1].abs() * node.reach[1] + c[2].abs() * node.reach[2])
+            + c[4].abs() * node.reach[4];
+        let side = |positive: bool| {
+            let sign = if positive { 1.0 } else { -1.0 };
+            let [a, b] = torques.map(|torque| sign * torque);
+            let driving = match node.direction {
+                Direction::One(forwards) => forwards == positive,
+                Direction::Any => true,
+            };
+            let [mut low, mut high] = self.floor.chord(driving, speeds);
+            if node.direction == Direction::Any || !driving && least == 0.0 {
+                // Both directions of power, rest counting as driving: the lower of all.
+                let [other_low, other_high] = self.floor.chord(!driving, speeds);
+                low = low.min(high).min(other_low).min(other_high);
+                high = low;
+            }
+            if low.is_infinite() || high.is_infinite() {
+                low = low.min(high);
+                high = low;
+                if low.is_infinite() {
+                    return f64::NEG_INFINITY;
+                }
+            }
+            if low == high {
+                return a.max(b) + reach_without_speed + c[3].abs() * node.reach[3] - u * low;
+            }
+            // M = low + slope·(|n| − least), and |n| is n itself or −n.
+            let slope = (high - low) / (largest - least);
+            let limit = |k: u32| {
+                let speed = self.stretches.samples[k as usize].speed().abs();
+                u * (low + slope * (speed - least))
+            };
+            let forwards = matches!(node.direction, Direction::One(true));
+            let coefficient = sign * c[3] - if forwards { u * slope } else { -u * slope };
+            (a - limit(node.first)).max(b - limit(node.last))
+                + reach_without_speed
+                + coefficient.abs() * node.reach[3]
+        };
+        side(true).max(side(false))
+    }
+
+    /// The first sample in a stretch at whose speed there is no torque at all.
+    fn first_without_limit(&self, index: usize) -> Option<Peak> {
+        let node = &self.stretches.tree.nodes[index];
+        let speeds = node.speed.map(|speed| speed * self.ratio);
+        let has_limit = |driving| self.floor.chord(driving, speeds).iter().all(|m| *m > 0.0);
+        if has_limit(true) && has_limit(false) {
+            return None;
+        }
+        if node.second > 0 {
+            return (self.first_without_limit(index + 1))
+                .or_else(|| self.first_without_limit(node.second as usize));
+        }
+        let samples = &self.stretches.samples[node.first as usize..=node.last as usize];
+        samples.iter().find_map(|sample| {
+            let torque = self.c.torque(&sample.loads);
+            let speed = sample.speed() * self.ratio;
+            let used = self.floor.used(torque, speed);
+            used.is_infinite().then_some(Peak {
+                used,
+                torque,
+                speed,
+            })
+        })
+    }
+}

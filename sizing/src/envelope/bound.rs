@@ -1,0 +1,78 @@
+//! Lower bounds of a limit between two speeds, for the search for the peak: see [`Cycle::peak`](crate::cycle::Cycle::peak).
+
+use super::{Curve, Envelope, Limit, Piece, Shape};
+
+impl Envelope {
+    /// A chord that the limit of the short-time torque does not fall below between two speeds (rad/s, not negative, rising): its torques at
+    /// both (N·m). Exact where the limit is straight or bends downwards; elsewhere its least value between them.
+    pub(crate) fn floor(&self, driving: bool, speeds: [f64; 2]) -> [f64; 2] {
+        self.limit(!driving).floor(speeds)
+    }
+
+    /// The limit, if it is the same in all four quadrants at every speed up to this one, and not zero.
+    pub(crate) fn level_up_to(&self, speed: f64) -> Option<f64> {
+        let level = |limit: &Limit| limit.pieces().first().and_then(|p| p.level_up_to(speed));
+        let driving = level(self.limit(false))?;
+        let braking = level(self.limit(true))?;
+        (driving == braking && driving > 0.0).then_some(driving)
+    }
+}
+
+impl Piece {
+    fn level_up_to(&self, speed: f64) -> Option<f64> {
+        match self.curve {
+            Curve::Line { start, slope } if slope == 0.0 && speed <= self.to => Some(start),
+            _ => None,
+        }
+    }
+
+    /// The least torque between two speeds of the piece: no shape has it inside.
+    fn least(&self, from: f64, to: f64) -> f64 {
+        self.torque(from).min(self.torque(to))
+    }
+}
+
+impl Limit {
+    /// See [`Envelope::floor`].
+    fn floor(&self, [from, to]: [f64; 2]) -> [f64; 2] {
+        let pieces = self.pieces();
+        let mut place = 0;
+        while pieces.get(place).is_some_and(|piece| piece.to < from) {
+            place += 1;
+        }
+        let Some(first) = pieces.get(place) else {
+            return [0.0; 2];
+        };
+        if to <= first.to {
+            let ends = [first.torque(from), first.torque(to)];
+            return match first.shape {
+                Shape::Straight | Shape::Concave => ends,
+                Shape::Monotone => [ends[0].min(ends[1]); 2],
+            };
+        }
+        if to > self.end() {
+            return [0.0; 2];
+        }
+        // Over several pieces the chord holds if no corner lies below it.
+        let covered = &pieces[place..];
+        let mut least = f64::INFINITY;
+        let mut bends_down = true;
+        let start = first.torque(from);
+        let end = self.torque(to);
+        let slope = (end - start) / (to - from);
+        let rounding = 8.0 * f64::EPSILON * (start + end);
+        let above = |torque: f64, speed: f64| torque + rounding >= start + slope * (speed - from);
+        for piece in covered.iter().take_while(|piece| piece.from < to) {
+            let (a, b) = (piece.from.max(from), piece.to.min(to));
+            least = least.min(piece.least(a, b));
+            bends_down &= piece.shape != Shape::Monotone
+                && above(piece.torque(a), a)
+                && above(piece.torque(b), b);
+        }
+        if bends_down && slope.is_finite() && start.is_finite() {
+            [start, end]
+        } else {
+            [least; 2]
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! The S1 torque over speed, as far as the motor's heat limits it.
+
+use crate::catalogue::Motor;
+
+/// S1 torque over speed.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Continuous {
+    pub standstill: f64,
+    rated_torque: f64,
+    rated_speed: f64,
+    max_power: f64,
+    points: Box<[[f64; 2]]>,
+}
+
+impl Continuous {
+    /// Infinite figures say that no limit is known.
+    pub fn of(motor: &Motor, known: impl Fn(Option<f64>) -> f64, points: Vec<[f64; 2]>) -> Self {
+        let rated_torque = known(motor.rated_torque);
+        let first = points.first().map(|p| p[1]);
+        let stated = known(motor.standstill_torque);
+        Self {
+            standstill: if stated.is_finite() {
+                stated
+            } else {
+                first.unwrap_or(rated_torque)
+            },
+            rated_torque,
+            rated_speed: known(motor.rated_speed),
+            max_power: known(motor.max_power),
+            points: points.into_boxed_slice(),
+        }
+    }
+
+    /// S1 torque (N·m) at a speed's magnitude (rad/s).
+    pub fn torque(&self, speed: f64) -> f64 {
+        let heat = match &*self.points {
+            [] => self.from_figures(speed),
+            points => between(points, speed),
+        };
+        let power = if speed > 0.0 {
+            self.max_power / speed
+        } else {
+            f64::INFINITY
+        };
+        heat.min(power)
+    }
+
+    fn from_figures(&self, speed: f64) -> f64 {
+        let Self {
+            standstill,
+            rated_torque: torque,
+            rated_speed: rated,
+            ..
+        } = *self;
+        if speed > rated && torque.is_finite() {
+            torque * (rated / speed)
+        } else if torque.is_finite() && standstill.is_finite() && rated.is_finite() {
+            standstill + (torque - standstill) * (speed / rated)
+        } else if speed == 0.0 {
+            standstill
+        } else {
+            torque
+        }
+    }
+}
+
+/// On the straight lines between points; level before the first, with constant power beyond the last.
+fn between(points: &[[f64; 2]], speed: f64) -> f64 {
+    let after = points.partition_point(|p| p[0] < speed);
+    match (after.checked_sub(1).map(|k| points[k]), points.get(after)) {
+        (None, Some([_, torque])) => *torque,
+        (Some([n0, t0]), Some([n1, t1])) => t0 + (t1 - t0) * ((speed - n0) / (n1 - n0)),
+        (Some([n, torque]), None) if n > 0.0 => torque * (n / speed),
+        (Some([_, torque]), None) => torque,
+        (None, None) => f64::INFINITY,
+    }
+}

@@ -1,0 +1,12 @@
+//! Why a drive comes out as it does: what its torque and its inertia are made of, and what would have to change for it to
+//! hold.
+
+mod altered;
+mod breakdown;
+mod course;
+mod remedy;
+
+pub use altered::{Alteration, Altered};
+pub use breakdown::{Breakdown, Cell, Cells, InertiaShare, Share};
+pub use course::ratio_course;
+pub use remedy::{Edge, Lever, Miss, Remedies, Remedy};

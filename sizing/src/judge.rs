@@ -1,0 +1,281 @@
+//! Judging a drive: every rule's figure and rating, as plain numbers; words come later, for the drives that are shown.
+//!
+//! Each family of rules is a file of [`judge`](self): it measures ([`Findings::set`]) and says what the rating is made of
+//! (`note`). A rule that does not apply to a drive, such as those of a gearbox to a direct drive, is left out of the
+//! findings; one that applies but lacks a figure of the catalogue or of the machine file is set with [`Finding::unknown`].
+
+use crate::catalogue::Prepared;
+use crate::check::{Check, Verdict};
+use crate::cycle::Cycle;
+use crate::drive::{Coefficients, Drive};
+use crate::rule::Rule;
+use crate::rules::RuleSet;
+use crate::site::Site;
+use crate::units::Units;
+
+mod electric;
+mod gearbox;
+mod motor;
+mod stiffness;
+mod thermal;
+
+/// A figure and the rating that it is compared with, in the same unit (SI).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Finding {
+    /// The figure.
+    pub value: f64,
+    /// The rating; NaN where it is not known.
+    pub rating: f64,
+}
+
+impl Finding {
+    /// A figure and its rating.
+    pub const fn new(value: f64, rating: f64) -> Self {
+        Self { value, rating }
+    }
+
+    /// A figure whose rating, if any, may be missing.
+    pub fn against(value: f64, rating: Option<f64>) -> Self {
+        Self::new(value, rating.unwrap_or(f64::NAN))
+    }
+
+    /// Nothing known: neither figure nor rating.
+    pub const UNKNOWN: Self = Self::new(f64::NAN, f64::NAN);
+
+    /// Whether both figure and rating are known. An infinite rating, no limit at all, is known.
+    pub const fn is_known(&self) -> bool {
+        !(self.value.is_nan() || self.rating.is_nan())
+    }
+}
+
+/// The findings of all rules that apply to a drive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Findings {
+    found: [Finding; Rule::COUNT],
+    /// A bit for each rule that applies.
+    apply: u32,
+}
+
+const _: () = assert!(Rule::COUNT <= u32::BITS as usize, "a bit for each rule");
+
+impl Default for Findings {
+    fn default() -> Self {
+        Self {
+            found: [Finding::new(0.0, 0.0); Rule::COUNT],
+            apply: 0,
+        }
+    }
+}
+
+impl Findings {
+    /// Sets the finding of a rule, which thereby applies.
+    pub const fn set(&mut self, rule: Rule, finding: Finding) {
+        self.found[rule as usize] = finding;
+        self.apply |= 1 << rule as u32;
+    }
+
+    /// The finding of a rule, if it applies.
+    pub const fn get(&self, rule: Rule) -> Option<Finding> {
+        if self.apply & 1 << rule as u32 == 0 {
+            None
+        } else {
+            Some(self.found[rule as usize])
+        }
+    }
+
+    /// The rules that apply, with their findings, in the order of reports.
+    pub fn iter(&self) -> impl Iterator<Item = (Rule, Finding)> {
+        let mut rest = self.apply;
+        std::iter::from_fn(move || {
+            let place = rest.trailing_zeros() as usize;
+            rest &= rest.wrapping_sub(1);
+            Some((*Rule::ALL.get(place)?, self.found[place]))
+        })
+    }
+}
+
+/// All that judging a drive looks at.
+#[derive(Clone, Copy, Debug)]
+pub struct Context<'a> {
+    /// The duty, prepared.
+    pub cycle: &'a Cycle,
+    /// Where the drive is to stand: supply, surroundings, stiffness, tool.
+    pub site: &'a Site,
+    /// The drive.
+    pub drive: Drive<'a>,
+    /// What is known of its motor's limits at this supply.
+    pub motor: &'a Prepared,
+    /// Its ratio.
+    pub ratio: f64,
+    /// Its motor torque as a linear form.
+    pub coefficients: Coefficients,
+}
+
+impl<'a> Context<'a> {
+    /// The context of one drive.
+    pub fn new(cycle: &'a Cycle, site: &'a Site, drive: Drive<'a>, motor: &'a Prepared) -> Self {
+        Self {
+            cycle,
+            site,
+            drive,
+            motor: motor.on(drive.amplifier),
+            ratio: drive.ratio(),
+            coefficients: drive.coefficients(),
+        }
+    }
+
+    /// What was assumed about the drive, and whose figures are not the maker's own.
+    pub fn assumptions(&self) -> Vec<&'static str> {
+        let mut assumptions = Vec::new();
+        if !self.drive.motor.from_maker {
+            assumptions.push(
+                "motor figures not read in the maker's own document: check them against the data sheet",
+            );
+        }
+        if self.drive.gearbox.is_some_and(|g| !g.from_maker) {
+            assumptions.push(
+                "gearbox figures not read in the maker's own document: check them against the data sheet",
+            );
+        }
+        if self.drive.gearbox.is_some_and(|g| g.efficiency_assumed) {
+            assumptions.push("gearbox efficiency not stated: 87 % per stage taken");
+        }
+        assumptions.extend(self.motor.envelope.assumptions());
+        assumptions
+    }
+
+    /// Every rule that applies.
+    pub fn findings(&self, rules: &RuleSet) -> Findings {
+        let mut findings = Findings::default();
+        self.measure_directly(rules, &mut findings);
+        self.follow_time(&mut findings);
+        findings
+    }
+
+    /// The rules that need no time course: see [`Rule::follows_time`]. The rule set says by which figure a rule is judged,
+    /// where there is more than one.
+    pub fn measure_directly(&self, rules: &RuleSet, findings: &mut Findings) {
+        motor::measure(self, rules, findings);
+        gearbox::measure(self, rules, findings);
+        electric::measure(self, findings);
+        stiffness::measure(self, findings);
+    }
+
+    /// The rules that follow a state over time.
+    pub fn follow_time(&self, findings: &mut Findings) {
+        thermal::follow(self, findings);
+        electric::follow(self, findings);
+    }
+
+    /// Time (s) and rises of winding and housing (K) over the cycle; `None` where they cannot be followed.
+    pub fn rises(&self) -> Option<Vec<(f64, [f64; 2])>> {
+        thermal::course(self)
+    }
+
+    /// Voltage of the DC bus over the cycle, \[time (s), voltage (V)\]; nothing where it is not known.
+    pub fn bus_voltage(&self) -> Vec<[f64; 2]> {
+        electric::trace(self)
+    }
+
+    /// The findings in words, under a rule set.
+    pub fn checks(&self, rules: &RuleSet) -> Vec<Check> {
+        let findings = self.findings(rules);
+        findings
+            .iter()
+            .filter(|(rule, _)| rules.shows(*rule))
+            .map(|(rule, finding)| self.check(rules, rule, finding))
+            .collect()
+    }
+
+    fn check(&self, rules: &RuleSet, rule: Rule, finding: Finding) -> Check {
+        use Rule::{
+            Backlash, BrakeTorque, ConstantTorque, GearboxCubicMean, GearboxCycles, GearboxEmergency,
+            GearboxMeanSpeed, GearboxPeak, GearboxSpeed, HoldingTorque, HousingTemperature,
+            InertiaRatio, NaturalFrequency, PeakTorque, RmsTorque, Speed, WindingTemperature,
+        };
+        let words = match rule {
+            RmsTorque | PeakTorque | Speed | HoldingTorque | ConstantTorque | BrakeTorque
+            | InertiaRatio => motor::words(self, rules, rule, finding),
+            GearboxPeak | GearboxCubicMean | GearboxEmergency | GearboxMeanSpeed | GearboxSpeed
+            | GearboxCycles => gearbox::words(self, rules, rule, finding),
+            WindingTemperature | HousingTemperature => thermal::words(self, rule, finding),
+            NaturalFrequency | Backlash => stiffness::words(self, rule, finding),
+            _ => electric::words(self, rule, finding),
+        };
+        let mut check = Check::new(rules, rule, finding, words);
+        check.rule = Units::of(self.drive.motor.kind).rule(rule);
+        check
+    }
+
+    /// The worst verdict and the largest share of a limit used. The rules that follow time are judged only if the others
+    /// hold: a drive that is refused already is not followed.
+    pub fn outcome(&self, rules: &RuleSet) -> Outcome {
+        let mut findings = Findings::default();
+        self.measure_directly(rules, &mut findings);
+        let outcome = Outcome::of(rules, &findings);
+        if outcome.verdict == Verdict::Fail {
+            return outcome;
+        }
+        self.follow_time(&mut findings);
+        Outcome::of(rules, &findings)
+    }
+}
+
+/// How a drive comes out, in numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// The worst verdict.
+    pub verdict: Verdict,
+    /// The largest finite share of a limit that is used. Where a limit is zero (no torque beyond the maximum speed) the
+    /// rule for the speed says by how much.
+    pub worst_use: f64,
+    /// The rule of which that share is used.
+    pub worst_rule: Option<Rule>,
+    /// How many rules give a warning.
+    pub warnings: u8,
+    /// How many rules could not be judged for want of a figure.
+    pub not_checked: u8,
+    /// How many rules ask for something where the limit is zero: by how much they are missed cannot be said.
+    pub beyond_all_limits: u8,
+}
+
+impl Outcome {
+    /// How these findings come out under a rule set.
+    pub fn of(rules: &RuleSet, findings: &Findings) -> Self {
+        let mut outcome = Self {
+            verdict: Verdict::Pass,
+            worst_use: 0.0,
+            worst_rule: None,
+            warnings: 0,
+            not_checked: 0,
+            beyond_all_limits: 0,
+        };
+        for (rule, finding) in findings.iter() {
+            let verdict = rules.verdict(rule, finding);
+            outcome.verdict = outcome.verdict.max(verdict);
+            outcome.warnings += u8::from(verdict == Verdict::Warn);
+            outcome.not_checked += u8::from(verdict == Verdict::NotChecked);
+            let used = rules.use_of_limit(rule, finding);
+            if used.is_infinite() {
+                outcome.beyond_all_limits += 1;
+            } else if used > outcome.worst_use {
+                outcome.worst_use = used;
+                outcome.worst_rule = Some(rule);
+            }
+        }
+        outcome
+    }
+}
+
+/// What a check says beside its numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Words {
+    /// Unit in which figure and rating are shown.
+    pub unit: &'static str,
+    /// SI value of that unit; figures are divided by it.
+    pub scale: f64,
+    /// What the rating is, such as "S1 torque at mean speed"; of an unknown finding what is missing.
+    pub rating: String,
+    /// Where or how the figure was found, or nothing.
+    pub place: String,
+}

@@ -1,0 +1,109 @@
+//! A chart of the report: as a picture for paper and for browsers without scripts, and as data for the page's script.
+
+use serde_json::{Value, json};
+
+use crate::plot::{Axes, Series, Style, lines, lines_two_axes};
+
+/// A chart.
+pub(super) struct Chart {
+    /// The picture.
+    pub(super) svg: String,
+    /// What the script draws it from.
+    data: Value,
+}
+
+/// How the script draws it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Form {
+    /// Curves over a common axis.
+    Course,
+    /// Curves over time: their cursors move together, and with the point in the plane.
+    Time,
+    /// Points of a plane in any order.
+    Plane,
+}
+
+impl Form {
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Course => "course",
+            Self::Time => "time",
+            Self::Plane => "plane",
+        }
+    }
+}
+
+impl Chart {
+    /// Curves over one pair of axes.
+    pub(super) fn new(form: Form, axes: &Axes, series: &[Series]) -> Self {
+        Self {
+            svg: lines(axes, series),
+            data: data(form, axes, "", series, &[]),
+        }
+    }
+
+    /// Curves over two vertical axes.
+    pub(super) fn two_axes(axes: &Axes, left: &[Series], label: &str, right: &[Series]) -> Self {
+        Self {
+            svg: lines_two_axes(axes, left, label, right),
+            data: data(Form::Course, axes, label, left, right),
+        }
+    }
+
+    /// With the time of every point of one series, so that the cursors over time find it.
+    pub(super) fn with_times(mut self, series: &str, times: impl Iterator<Item = f64>) -> Self {
+        let list = self.data["series"].as_array_mut();
+        let found = list.and_then(|list| list.iter_mut().find(|s| s["name"] == series));
+        if let Some(found) = found {
+            found["t"] = times.map(number).collect();
+        }
+        self
+    }
+
+    /// The data for an element of the page: text of the user's must not end it.
+    pub(super) fn json(&self) -> String {
+        self.data.to_string().replace('<', "\\u003c")
+    }
+}
+
+fn data(form: Form, axes: &Axes, right_label: &str, left: &[Series], right: &[Series]) -> Value {
+    let one = |series: &Series, right: bool| {
+        let style = match series.style {
+            Style::Line => "line",
+            Style::Dashed => "dashed",
+            Style::Dots => "dots",
+        };
+        let numbers = |of: fn(&(f64, f64)) -> f64| -> Vec<Value> {
+            series.points.iter().map(|point| number(of(point))).collect()
+        };
+        json!({
+            "name": series.name,
+            "style": style,
+            "right": right,
+            "x": numbers(|p| p.0),
+            "y": numbers(|p| p.1),
+        })
+    };
+    let all = left.iter().map(|s| one(s, false));
+    let all = all.chain(right.iter().map(|s| one(s, true)));
+    json!({
+        "form": form.name(),
+        "x": axes.x,
+        "y": axes.y,
+        "right": right_label,
+        "series": all.collect::<Vec<_>>(),
+    })
+}
+
+/// Six digits; nothing where the curve has a gap.
+fn number(x: f64) -> Value {
+    if !x.is_finite() {
+        return Value::Null;
+    }
+    let digits = format!("{x:.5e}");
+    let rounded: f64 = digits.parse().unwrap_or(x);
+    if rounded.fract() == 0.0 && rounded.abs() < 1e15 {
+        return json!(rounded as i64);
+    }
+    json!(rounded)
+}

@@ -1,0 +1,134 @@
+//! The rules of sizing: what each judges, and in which sense.
+
+use serde::Serialize;
+
+/// One table for all rules: what each is, its variant, its name in reports, its key in `[rules]`.
+macro_rules! rules {
+    ($($(#[$doc:meta])+ $rule:ident, $name:literal, $key:literal;)+) => {
+        /// One rule. A rule compares a figure of the duty with a share of a rating.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+        #[serde(rename_all = "kebab-case")]
+        pub enum Rule {
+            $($(#[$doc])+ $rule,)+
+        }
+
+        impl Rule {
+            /// All rules, in the order of reports.
+            pub const ALL: [Self; [$(Self::$rule),+].len()] = [$(Self::$rule),+];
+
+            /// Its name in reports.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$rule => $name,)+
+                }
+            }
+
+            /// Its key in `[rules]` and in rule sets.
+            pub const fn key(self) -> &'static str {
+                match self {
+                    $(Self::$rule => $key,)+
+                }
+            }
+
+            /// The key of its warning.
+            pub const fn warning_key(self) -> &'static str {
+                match self {
+                    $(Self::$rule => concat!($key, "_warning"),)+
+                }
+            }
+        }
+    };
+}
+
+rules! {
+    /// RMS torque against the S1 torque at mean speed.
+    RmsTorque, "RMS torque", "rms_torque";
+    /// Torque against the torque-speed envelope, at the instant that comes closest.
+    PeakTorque, "peak torque", "peak_torque";
+    /// Largest speed against the motor's largest speed.
+    Speed, "speed", "speed";
+    /// Torque that holds the machine at rest against the standstill torque.
+    HoldingTorque, "holding torque", "gravity_hold";
+    /// Torque of weight and friction, without acceleration and process loads, against the standstill torque.
+    ConstantTorque, "constant torque", "constant_torque";
+    /// Torque that holds the machine at rest against the motor's brake.
+    BrakeTorque, "brake torque", "brake_torque";
+    /// Inertia ratio λ.
+    InertiaRatio, "inertia ratio", "inertia_ratio";
+    /// Hottest point of the winding over the cycle, as a rise above the ambient temperature.
+    WindingTemperature, "winding temperature", "winding_temperature";
+    /// Hottest point of the housing, as a rise above the ambient temperature.
+    HousingTemperature, "housing temperature", "housing_temperature";
+    /// Largest torque at the gearbox output against T2B.
+    GearboxPeak, "gearbox peak torque", "gearbox_peak";
+    /// Root-mean-cube torque at the gearbox output against T2N.
+    GearboxCubicMean, "gearbox cubic-mean torque", "gearbox_rated";
+    /// Torque at the gearbox output in an emergency stop against T2Not.
+    GearboxEmergency, "gearbox emergency torque", "gearbox_emergency";
+    /// Mean input speed of the gearbox against n1N.
+    GearboxMeanSpeed, "gearbox mean speed", "gearbox_mean_speed";
+    /// Largest input speed of the gearbox.
+    GearboxSpeed, "gearbox largest speed", "gearbox_speed";
+    /// Cycles per hour of the gearbox.
+    GearboxCycles, "gearbox cycles", "gearbox_cycles";
+    /// RMS current against the amplifier's rated current.
+    RmsCurrent, "RMS current", "rms_current";
+    /// Largest current against the amplifier's peak current.
+    PeakCurrent, "peak current", "peak_current";
+    /// Overload integral I²t of the amplifier.
+    Overload, "amplifier overload", "overload";
+    /// Highest voltage of the DC bus.
+    BusVoltage, "bus voltage", "bus_voltage";
+    /// Mean power of the brake resistor.
+    ResistorPower, "brake resistor mean power", "resistor_power";
+    /// Largest power of the brake resistor.
+    ResistorPeak, "brake resistor peak power", "resistor_peak";
+    /// Largest energy of the brake resistor without a pause.
+    ResistorPulse, "brake resistor pulse energy", "resistor_pulse";
+    /// Lowest natural frequency against the drive frequency (VDI 2149).
+    NaturalFrequency, "natural frequency", "natural_frequency";
+    /// Play at the tool.
+    Backlash, "backlash", "backlash";
+}
+
+/// Which side of its limit a figure must keep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sense {
+    /// Not above.
+    AtMost,
+    /// Not below.
+    AtLeast,
+}
+
+impl Rule {
+    /// Number of rules.
+    pub const COUNT: usize = Self::ALL.len();
+
+    /// On which side of its limit the figure must be.
+    pub const fn sense(self) -> Sense {
+        match self {
+            Self::NaturalFrequency => Sense::AtLeast,
+            _ => Sense::AtMost,
+        }
+    }
+
+    /// Whether its limits are plain numbers instead of shares of a rating: a ratio of inertias or of frequencies.
+    pub const fn is_ratio(self) -> bool {
+        matches!(self, Self::InertiaRatio | Self::NaturalFrequency)
+    }
+
+    /// Whether judging it means following the time course of a state (temperature, charge), sample by sample. Such rules
+    /// are judged only for drives that hold all the others.
+    pub const fn follows_time(self) -> bool {
+        matches!(
+            self,
+            Self::WindingTemperature
+                | Self::HousingTemperature
+                | Self::Overload
+                | Self::BusVoltage
+                | Self::ResistorPower
+                | Self::ResistorPeak
+                | Self::ResistorPulse
+        )
+    }
+}

@@ -1,0 +1,45 @@
+//! How the cycle is run: without end, for a while from cold, or with rests.
+
+/// How long the machine runs through its cycle, and how long it rests.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Operation {
+    /// The cycle repeats without end: S1 and S6 to S9, and S3 to S5 whose rests are part of the motion.
+    #[default]
+    Continuous,
+    /// From the temperature of the surroundings for a while, then until all is cold again: S2.
+    Short {
+        /// Operating time (s).
+        operating: f64,
+    },
+    /// For a while, then at rest for a while, and so on: S3, S4, S5.
+    Intermittent {
+        /// Operating time (s).
+        operating: f64,
+        /// Rest (s).
+        rest: f64,
+        /// Whether the motor holds the machine at rest; else it is without current.
+        holding: bool,
+    },
+}
+
+/// Operation and duty type of the machine file.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Duty {
+    /// How the cycle is run.
+    pub operation: Operation,
+    /// Number of the duty type, 1 to 9, if the file names one.
+    pub kind: Option<u8>,
+}
+
+impl Operation {
+    /// Share of the time in which the machine runs; of a short operation nothing is known of it.
+    pub fn running(&self) -> Option<f64> {
+        match *self {
+            Self::Continuous => Some(1.0),
+            Self::Short { .. } => None,
+            Self::Intermittent {
+                operating, rest, ..
+            } => Some(operating / (operating + rest)),
+        }
+    }
+}

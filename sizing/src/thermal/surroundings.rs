@@ -1,0 +1,38 @@
+//! What a motor is cooled by.
+
+/// Temperature of the surroundings for which S1 torques are stated, and up to which none are reduced (°C): IEC 60034-1.
+pub const REFERENCE: f64 = 40.0;
+
+/// Altitude up to which the allowed rise is the whole one (m): IEC 60034-1.
+pub const LOW: f64 = 1000.0;
+
+/// The surroundings of the motor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surroundings {
+    /// Temperature (°C).
+    pub ambient: f64,
+    /// Altitude above sea level (m).
+    pub altitude: f64,
+    /// Temperature at which the copper's resistance is taken (°C); `None`: that of the winding at every instant.
+    pub resistance_at: Option<f64>,
+    /// Highest temperature of the housing (°C), as for touch; `None`: no such limit.
+    pub housing: Option<f64>,
+}
+
+impl Default for Surroundings {
+    fn default() -> Self {
+        Self {
+            ambient: REFERENCE,
+            altitude: 0.0,
+            resistance_at: None,
+            housing: None,
+        }
+    }
+}
+
+impl Surroundings {
+    /// The share of a rise that thin air leaves: 1 % less for every 100 m above 1000 m.
+    pub fn altitude_factor(&self) -> f64 {
+        1.0 - (self.altitude - LOW).max(0.0) / 1e4
+    }
+}

@@ -1,0 +1,151 @@
+//! `jred vary` and `jred merge`.
+
+use miette::{Result, miette};
+
+use super::axis::{Axis, Grid};
+use super::merge::merge;
+use super::rows::{Cell, Form, table};
+use super::run::{Ended, Plan, Task as _, run};
+use super::sized::Sized;
+use super::study::Study;
+use crate::catalogue::Catalogue;
+use crate::cli::search::{Merge, Rows, Supply, Vary};
+use crate::commands::{Done, print};
+use crate::filter::Filter;
+
+/// The catalogue that the options name, thinned by a filter.
+///
+/// # Errors
+/// Files that cannot be used; nothing left.
+pub fn catalogue(supply: &Supply, filter: &Filter) -> Result<Catalogue> {
+    let mut catalogue = supply.catalogue.open()?;
+    filter.thin(&mut catalogue)?;
+    Ok(catalogue)
+}
+
+impl Rows {
+    /// The plan that the options make.
+    pub fn plan(&self) -> Plan {
+        Plan {
+            out: self.out.clone(),
+            form: self.format,
+            resume: self.resume,
+            shard: self.shard.filter(|shard| shard.count > 1),
+        }
+    }
+}
+
+/// Runs `jred vary`.
+///
+/// # Errors
+/// Bad input, or a file that cannot be written.
+pub fn vary(options: &Vary) -> Result<Done> {
+    let filter = options.search.filter();
+    let catalogue = catalogue(&options.supply, &filter)?;
+    let study = Study::new(
+        &options.file,
+        catalogue,
+        options.supply.rules.as_deref(),
+        options.supply.steps as usize,
+    )?;
+    let axes = options
+        .vary
+        .iter()
+        .map(|text| Axis::parse(&study.document, text));
+    let grid = Grid::new(axes.collect::<Result<_>>()?)?;
+    let task = Sized {
+        study: &study,
+        grid,
+        filter,
+        rank: options.search.rank,
+    };
+    let plan = options.rows.plan();
+    let columns = task.header().columns;
+    let verdict = task.grid.axes.len();
+    let (mut shown, mut counts) = (Vec::new(), Counts::default());
+    let ended = run(&task, &plan, &mut |index, cells| {
+        counts.add(cells.get(verdict));
+        if plan.out.is_none() && plan.form == Form::Table {
+            shown.push((index, cells.to_vec()));
+        }
+    })?;
+    if plan.out.is_none() && plan.form == Form::Table {
+        let title = format!("{}: {}", study.nominal.title, counts.words());
+        print(&format!("{title}\n{}", table(&columns, &shown)))?;
+    } else if let Some(path) = &plan.out {
+        print(&format!(
+            "{}; rows written to {}\n",
+            counts.words(),
+            path.display()
+        ))?;
+    }
+    stopped(ended, &plan)
+}
+
+/// How the machines of a study came out.
+#[derive(Default)]
+struct Counts {
+    fit: u64,
+    none: u64,
+    refused: u64,
+}
+
+impl Counts {
+    fn add(&mut self, verdict: Option<&Cell>) {
+        match verdict.and_then(Cell::text) {
+            Some("fits") => self.fit += 1,
+            Some("none fits") => self.none += 1,
+            _ => self.refused += 1,
+        }
+    }
+
+    fn words(&self) -> String {
+        let mut words = format!(
+            "{} of {} machines have a drive",
+            self.fit,
+            self.fit + self.none + self.refused
+        );
+        if self.refused > 0 {
+            words += &format!(", {} cannot be built as described", self.refused);
+        }
+        words
+    }
+}
+
+/// What a run that ended means for the command.
+///
+/// # Errors
+/// None.
+pub fn stopped(ended: Ended, plan: &Plan) -> Result<Done> {
+    if ended.is_complete() {
+        return Ok(Done::Holds);
+    }
+    let cure = match &plan.out {
+        Some(path) => format!(
+            "the same command with --resume continues {}",
+            path.display()
+        ),
+        None => "with --out FILE a run can be continued".to_owned(),
+    };
+    eprintln!("stopped after {} of {} rows; {cure}", ended.rows, ended.of);
+    Ok(Done::Stopped)
+}
+
+/// Runs `jred merge`.
+///
+/// # Errors
+/// Shares that do not make one study.
+pub fn run_merge(options: &Merge) -> Result<Done> {
+    if options.parts.contains(&options.out) {
+        return Err(miette!(
+            help = "the first name is the file to write, the shares follow",
+            "{} is both written and read",
+            options.out.display()
+        ));
+    }
+    let rows = merge(&options.out, &options.parts)?;
+    print(&format!(
+        "{rows} rows written to {}\n",
+        options.out.display()
+    ))
+}

@@ -1,0 +1,96 @@
+//! One drive, judged in any machine of a study.
+
+use miette::{Result, miette};
+
+use super::study::{Prepared, Study};
+use crate::catalogue::{Amplifier, Catalogue, Gearbox};
+use crate::check::Verdict;
+use crate::drive::Drive;
+use crate::filter::Filter;
+use crate::judge::{Context, Findings};
+use crate::rank::{Objective, rank};
+use crate::rule::Rule;
+use crate::rules::RuleSet;
+use crate::size::Selection;
+
+/// A drive of the catalogue.
+#[derive(Clone, Debug)]
+pub struct One {
+    /// Its motor, as a catalogue of its own.
+    alone: Catalogue,
+    gearbox: Option<Gearbox>,
+    amplifier: Option<Amplifier>,
+}
+
+impl One {
+    /// The drive of this name; without a name the best for the machine as the file says, or the one that misses by least.
+    ///
+    /// # Errors
+    /// No such drive.
+    pub fn choose(
+        study: &Study,
+        name: Option<&str>,
+        filter: &Filter,
+        objective: Option<Objective>,
+    ) -> Result<Self> {
+        if let Some(name) = name {
+            return Ok(Self::of(&study.drive(name)?.1));
+        }
+        let machine = study.machine(&[])?;
+        let (site, rules) = (&machine.file.site, &machine.file.rules);
+        let motors = study.catalogue.prepare(site);
+        let mut selection = Selection::new(&study.catalogue, &motors, &machine.cycle, site, rules);
+        filter.sift(&mut selection);
+        if let Some(objective) = objective {
+            rank(&mut selection, objective);
+        }
+        let first = selection.fit.first().or(selection.refused.first());
+        let first = first.ok_or_else(|| miette!("no drive of the catalogue passes the filter"))?;
+        Ok(Self::of(&first.drive))
+    }
+
+    fn of(drive: &Drive) -> Self {
+        Self {
+            alone: Catalogue {
+                motors: vec![drive.motor.clone()],
+                ..Catalogue::default()
+            },
+            gearbox: drive.gearbox.cloned(),
+            amplifier: drive.amplifier.cloned(),
+        }
+    }
+
+    /// The drive.
+    pub fn drive(&self) -> Option<Drive<'_>> {
+        Some(Drive {
+            motor: self.alone.motors.first()?,
+            gearbox: self.gearbox.as_ref(),
+            amplifier: self.amplifier.as_ref(),
+        })
+    }
+
+    /// Its name.
+    pub fn name(&self) -> String {
+        self.drive().map_or_else(String::new, |drive| drive.name())
+    }
+
+    /// What every rule finds in a machine.
+    pub fn findings(&self, machine: &Prepared) -> Findings {
+        let site = &machine.file.site;
+        let limits = self.alone.prepare(site);
+        let Some((drive, motor)) = self.drive().zip(limits.first()) else {
+            return Findings::default();
+        };
+        Context::new(&machine.cycle, site, drive, motor).findings(&machine.file.rules)
+    }
+}
+
+/// The rule that is broken; of several that of which most of the limit is used.
+pub fn broken(rules: &RuleSet, findings: &Findings) -> Option<Rule> {
+    let broken = findings
+        .iter()
+        .filter(|(rule, finding)| rules.verdict(*rule, *finding) == Verdict::Fail);
+    let used = broken.map(|(rule, finding)| (rules.use_of_limit(rule, finding), rule));
+    used.max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, rule)| rule)
+}

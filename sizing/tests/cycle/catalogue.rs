@@ -1,0 +1,141 @@
+//! Whole catalogues: the same verdicts as by plain loops, and an order that does not depend on how the work was shared out.
+
+use std::path::Path;
+
+use jred_sizing::catalogue::{Catalogue, Prepared};
+use jred_sizing::check::Verdict;
+use jred_sizing::cycle::Cycle;
+use jred_sizing::duty::Duty;
+use jred_sizing::input;
+use jred_sizing::judge::{Context, Finding, Outcome};
+use jred_sizing::rule::Rule;
+use jred_sizing::rules::RuleSet;
+use jred_sizing::site::Site;
+use jred_sizing::size::{Candidate, NEAREST, Selection};
+
+use super::support::{brute, budget, press_text};
+
+struct Ready {
+    catalogue: Catalogue,
+    motors: Vec<Prepared>,
+    cycle: Cycle,
+    site: Site,
+    rules: RuleSet,
+}
+
+/// The press and the built-in catalogue, its gearboxes at many more ratios: enough drives that fit and that do not.
+fn ready() -> Ready {
+    let file = input::parse("press.toml", &press_text(), Path::new("")).unwrap();
+    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 400).unwrap();
+    let mut catalogue = Catalogue::load(None, None).unwrap();
+    let gearboxes = catalogue.gearboxes.clone();
+    for factor in [0.5, 0.7, 1.3, 1.7, 2.3] {
+        catalogue.gearboxes.extend(gearboxes.iter().map(|gearbox| {
+            let mut other = gearbox.clone();
+            other.key = format!("{}-{factor}", gearbox.key);
+            other.ratio *= factor;
+            other
+        }));
+    }
+    let site = Site::default();
+    Ready {
+        motors: catalogue.prepare(&site),
+        catalogue,
+        cycle: Cycle::new(&duty),
+        site,
+        rules: RuleSet::default(),
+    }
+}
+
+impl Ready {
+    fn selection(&self) -> Selection<'_> {
+        Selection::new(&self.catalogue, &self.motors, &self.cycle, &self.site, &self.rules)
+    }
+
+    /// The outcome of a drive with the figures over the samples by plain loops.
+    fn plain_outcome(&self, candidate: &Candidate) -> Outcome {
+        let context = Context::new(&self.cycle, &self.site, candidate.drive, candidate.motor);
+        let mut findings = context.findings(&self.rules);
+        let envelope = &context.motor.envelope;
+        let peak = brute::peak(&self.cycle, &context.coefficients, context.ratio, envelope);
+        let limit = envelope.peak_torque(peak.torque, peak.speed);
+        let mut replace = |rule: Rule, value: f64, rating: Option<f64>| {
+            if let Some(found) = findings.get(rule) {
+                let rating = rating.filter(|rating| rating.is_finite());
+                findings.set(rule, Finding::new(value, rating.unwrap_or(found.rating)));
+            }
+        };
+        replace(Rule::PeakTorque, peak.torque.abs(), Some(limit));
+        replace(Rule::RmsTorque, brute::rms_torque(&self.cycle, &context.coefficients), None);
+        replace(Rule::GearboxPeak, brute::peak_output_torque(&self.cycle), None);
+        let exponent = self.rules.choices.gearbox_mean_exponent.exponent();
+        replace(Rule::GearboxCubicMean, brute::mean_output_torque(&self.cycle, exponent), None);
+        let mut outcome = Outcome::of(&self.rules, &findings);
+        if outcome.verdict == Verdict::Fail {
+            // Rules that follow time are not judged for a drive that is refused.
+            outcome.not_checked = candidate.outcome.not_checked;
+        }
+        outcome
+    }
+}
+
+#[test]
+fn every_verdict_is_that_of_plain_loops() {
+    let ready = ready();
+    let selection = ready.selection();
+    assert!(selection.fit.len() > 10 && selection.refused.len() > NEAREST);
+    for candidate in selection.fit.iter().chain(&selection.refused) {
+        let expected = ready.plain_outcome(candidate);
+        let found = candidate.outcome;
+        let name = candidate.drive.name();
+        assert_eq!(found.verdict, expected.verdict, "{name}");
+        if found.verdict == Verdict::Fail && found.worst_use < expected.worst_use {
+            // What follows time was not looked at.
+            continue;
+        }
+        assert_eq!(found.worst_rule, expected.worst_rule, "{name}");
+        assert_eq!(found.beyond_all_limits, expected.beyond_all_limits, "{name}");
+        let off = (found.worst_use / expected.worst_use - 1.0).abs();
+        assert!(off <= budget::PREPARED_CYCLE, "{name}: off by {off:e}");
+    }
+}
+
+/// Drive and outcome, to compare lists.
+fn rows(candidates: &[Candidate]) -> Vec<(String, Outcome)> {
+    let row = |c: &Candidate| (c.drive.name(), c.outcome);
+    candidates.iter().map(row).collect()
+}
+
+#[test]
+fn all_cores_give_the_same_in_the_same_order() {
+    let ready = ready();
+    let one = ready.selection();
+    let all = Selection::parallel(&ready.catalogue, &ready.motors, &ready.cycle, &ready.site, &ready.rules);
+    assert_eq!(rows(&one.fit), rows(&all.fit));
+    assert_eq!(rows(&one.refused), rows(&all.refused));
+}
+
+#[test]
+fn the_nearest_of_those_refused_are_in_order_and_the_rest_in_the_catalogues() {
+    let ready = ready();
+    let selection = ready.selection();
+    let missed = |c: &Candidate| (c.outcome.beyond_all_limits, c.outcome.worst_use);
+    let in_order = selection.refused_in_order();
+    assert_eq!(in_order.len(), selection.refused.len());
+    assert!(in_order.is_sorted_by(|a, b| missed(a) <= missed(b)));
+    assert_eq!(rows(&in_order[..NEAREST]), rows(&selection.refused[..NEAREST]));
+    let places: Vec<String> = ready.catalogue.drives().map(|(_, drive)| drive.name()).collect();
+    let place = |c: &Candidate| places.iter().position(|name| *name == c.drive.name());
+    assert!(selection.refused[NEAREST..].is_sorted_by_key(place));
+    // Few drives are all in order.
+    let few = ready.catalogue.drives().step_by(ready.catalogue.count() / 40);
+    let few = Selection::among(few, &ready.motors, &ready.cycle, &ready.site, &ready.rules);
+    assert!(few.refused.len() <= NEAREST);
+    assert!(few.refused.is_sorted_by(|a, b| missed(a) <= missed(b)));
+}
+
+/// A candidate is kept for every drive, so its size is what a catalogue of a hundred thousand takes.
+#[test]
+fn a_candidate_is_small() {
+    assert!(size_of::<Candidate>() <= 48);
+}

@@ -1,0 +1,112 @@
+//! The torque-speed envelope of a motor: from its winding, from its data sheet, at another voltage, on an amplifier. What it
+//! is compared with is searched for on grids or written down in closed form, without the tool's formulas.
+
+#[path = "support/budget.rs"]
+#[allow(dead_code)]
+mod budget;
+#[path = "envelope/circuit.rs"]
+mod circuit;
+#[path = "envelope/current.rs"]
+mod current;
+#[path = "envelope/golden.rs"]
+mod golden;
+#[path = "envelope/pieces.rs"]
+mod pieces;
+#[path = "envelope/sheet.rs"]
+mod sheet;
+#[path = "envelope/total.rs"]
+mod total;
+
+use jred_sizing::catalogue::{Amplifier, Brake, Motor, MotorKind, Thermal, Winding};
+use jred_sizing::site::Site;
+
+/// rad/s of a revolution per minute.
+const RPM: f64 = std::f64::consts::PI / 30.0;
+
+/// A motor of which nothing is stated but its rotor.
+fn bare() -> Motor {
+    Motor {
+        key: "m".into(),
+        maker: String::new(),
+        model: String::new(),
+        kind: MotorKind::Rotary,
+        rated_torque: None,
+        rated_speed: None,
+        standstill_torque: None,
+        peak_torque: None,
+        max_speed: None,
+        max_power: None,
+        rotor_inertia: 1e-4,
+        corner_speed: None,
+        torque_at_max_speed: None,
+        peak_curve: Vec::new(),
+        continuous_curve: Vec::new(),
+        friction: [0.0; 2],
+        winding: Winding::default(),
+        thermal: Thermal::default(),
+        brake: None::<Brake>,
+        bus_voltage: None,
+        mass: None,
+        price: None,
+        from_maker: true,
+        source: String::new(),
+    }
+}
+
+/// A servo motor with its winding: 2.3 N·m, 4 A, four pole pairs, 560 V.
+fn servo() -> Motor {
+    Motor {
+        rated_torque: Some(2.1),
+        rated_speed: Some(4000.0 * RPM),
+        standstill_torque: Some(2.3),
+        peak_torque: Some(9.0),
+        winding: Winding {
+            torque_constant: Some(0.85),
+            voltage_constant: Some(0.85 / 3f64.sqrt()),
+            resistance: Some(3.8),
+            inductance: Some(14e-3),
+            pole_pairs: Some(4.0),
+            ..Winding::default()
+        },
+        bus_voltage: Some(560.0),
+        ..bare()
+    }
+}
+
+fn amplifier(peak_current: f64, bus_voltage: Option<f64>) -> Amplifier {
+    Amplifier {
+        key: "a".into(),
+        maker: String::new(),
+        model: String::new(),
+        rated_current: peak_current / 2.0,
+        peak_current,
+        peak_time: None,
+        bus_voltage,
+        capacitance: None,
+        chopper_voltage: None,
+        max_voltage: None,
+        min_resistance: None,
+        losses: [0.0; 2],
+        mass: None,
+        price: None,
+        from_maker: true,
+        source: String::new(),
+    }
+}
+
+fn site(bus_voltage: f64) -> Site {
+    let mut site = Site::default();
+    site.bus_voltage = Some(bus_voltage);
+    site
+}
+
+/// Two figures that must agree to a share of the larger; exactly zero agrees with zero only.
+#[track_caller]
+fn near(found: f64, expected: f64, budget: f64) {
+    let size = found.abs().max(expected.abs());
+    assert!(
+        (found - expected).abs() <= budget * size,
+        "{found} is not {expected} to {budget:e}: {:e}",
+        (found - expected) / size
+    );
+}

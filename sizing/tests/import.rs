@@ -1,0 +1,38 @@
+//! Data of other programs: reduced curves, tables of loads, recorded motions.
+
+mod support;
+
+#[path = "import/curves.rs"]
+mod curves;
+#[path = "import/faults.rs"]
+mod faults;
+#[path = "import/load_table.rs"]
+mod load_table;
+#[path = "import/recordings.rs"]
+mod recordings;
+
+use jred_sizing::input;
+use jred_sizing::machine::MachineFile;
+
+/// A machine file with files beside it.
+fn parse(machine: &str, files: &[(&str, &str)]) -> Result<MachineFile, String> {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in files {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    input::parse("machine.toml", machine, folder.path()).map_err(|report| {
+        let mut text = String::new();
+        miette::NarratableReportHandler::new()
+            .render_report(&mut text, report.as_ref())
+            .unwrap();
+        text
+    })
+}
+
+/// A machine of curves in `curves.csv`.
+fn of_curves(csv: &str, range: &str) -> Result<MachineFile, String> {
+    let machine = format!(
+        "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"reduced-curves\"\nfile = \"curves.csv\"\nrange = \"{range}\"\n"
+    );
+    parse(&machine, &[("curves.csv", csv)])
+}

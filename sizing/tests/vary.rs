@@ -1,0 +1,614 @@
+//! `jred vary` and `jred merge`: what a row says, shares, continuing, messages.
+// Rows are compared digit by digit.
+#![allow(clippy::float_cmp)]
+
+mod support;
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use jred_sizing::vary::axis::{Axis, Grid};
+use jred_sizing::vary::edit::{Document, Edit};
+use support::{Folder, jred, press_file, press_text};
+
+fn document() -> Document {
+    Document::parse(press_text()).unwrap()
+}
+
+/// The rows of a CSV file by column.
+fn rows(text: &str) -> Vec<HashMap<String, String>> {
+    let body: String = text
+        .lines()
+        .filter(|l| !l.starts_with("# "))
+        .map(|l| format!("{l}\n"))
+        .collect();
+    let mut reader = csv_reader(&body);
+    let names: Vec<String> = reader.remove(0);
+    let row = |cells: Vec<String>| names.iter().cloned().zip(cells).collect();
+    reader.into_iter().map(row).collect()
+}
+
+/// CSV as the test reads it, by hand: quotes, commas, lines.
+fn csv_reader(text: &str) -> Vec<Vec<String>> {
+    let mut rows = Vec::new();
+    for line in text.lines() {
+        let (mut cells, mut cell, mut quoted) = (Vec::new(), String::new(), false);
+        for c in line.chars() {
+            match c {
+                '"' => quoted = !quoted,
+                ',' if !quoted => cells.push(std::mem::take(&mut cell)),
+                c => cell.push(c),
+            }
+        }
+        cells.push(cell);
+        rows.push(cells);
+    }
+    rows
+}
+
+/// Quantities are found where they stand, and only the named ones change.
+#[test]
+fn a_changed_file_differs_in_the_named_place_only() {
+    let document = document();
+    let find = |path: &str| document.find(path).unwrap();
+    for (path, from, to) in [
+        ("slider.mass", "mass = \"42 kg\"", "mass = \"77.5 kg\""),
+        (
+            "mechanism.slider.mass",
+            "mass = \"42 kg\"",
+            "mass = \"77.5 kg\"",
+        ),
+        (
+            "load.guide friction.opposing_force",
+            "opposing_force = \"150 N\"",
+            "opposing_force = \"77.5 kg\"",
+        ),
+        (
+            "load.1.opposing_force",
+            "opposing_force = \"150 N\"",
+            "opposing_force = \"77.5 kg\"",
+        ),
+        (
+            "segment.0.duration",
+            "duration = \"0.4 s\"",
+            "duration = \"77.5 kg\"",
+        ),
+        (
+            "pressing force.between.0",
+            "between = [\"315 deg\"",
+            "between = [\"77.5 kg\"",
+        ),
+        (
+            "drive_train.0.driver.radius",
+            "driver = { radius = \"40 mm\"",
+            "driver = { radius = \"77.5 kg\"",
+        ),
+        (
+            "simulation.torque_speed.1.1",
+            "[\"500 rpm\", \"45 N m\"]",
+            "[\"500 rpm\", \"77.5 kg\"]",
+        ),
+    ] {
+        let edit = Edit {
+            quantity: find(path),
+            number: 77.5,
+            unit: "kg",
+        };
+        assert_eq!(
+            document.with(&[edit]),
+            press_text().replacen(from, to, 1),
+            "{path}"
+        );
+    }
+    // Two at once, given in the other order.
+    let edits =
+        [("slider.mass", 50.0, "kg"), ("crank.length", 31.0, "mm")].map(|(path, number, unit)| {
+            Edit {
+                quantity: find(path),
+                number,
+                unit,
+            }
+        });
+    let expected = press_text()
+        .replacen("length = \"30 mm\"", "length = \"31.0 mm\"", 1)
+        .replacen("mass = \"42 kg\"", "mass = \"50.0 kg\"", 1);
+    assert_eq!(document.with(&edits), expected);
+    assert_eq!(document.with(&[]), press_text());
+}
+
+/// Texts that are not quantities, names and titles are left alone.
+#[test]
+fn only_quantities_are_found() {
+    let text = press_text().replacen("Servo press, 60 mm stroke, 10 kN", "5 kg", 1);
+    let document = Document::parse(text).unwrap();
+    let paths: Vec<&str> = document
+        .quantities()
+        .iter()
+        .map(|q| q.path.as_str())
+        .collect();
+    assert!(!paths.contains(&"title"), "{paths:?}");
+    assert!(
+        !paths
+            .iter()
+            .any(|path| path.contains("law") || path.contains("type")),
+        "{paths:?}"
+    );
+    // By hand, from the file: two of gravity, 10 of crank and rod, the slider, flywheel and offset, force (2), between (2),
+    // ramp, friction, viscous moment, 6 of the belt, start, 3 of the motion, 4 + 6 + 1 of the simulation.
+    assert_eq!(
+        paths.len(),
+        2 + 10 + 1 + 2 + 2 + 2 + 1 + 1 + 1 + 6 + 1 + 3 + 11,
+        "{paths:#?}"
+    );
+}
+
+#[test]
+fn values_of_an_axis() {
+    let document = document();
+    let values = |text: &str| Axis::parse(&document, text).unwrap().values;
+    assert_eq!(values("slider.mass=30..60kg:4"), [30.0, 40.0, 50.0, 60.0]);
+    assert_eq!(values("slider.mass=60 kg..30 kg:3"), [60.0, 45.0, 30.0]);
+    assert_eq!(values("slider.mass=1..100 kg:3:log"), [1.0, 10.0, 100.0]);
+    assert_eq!(values("slider.mass=30,45,60kg"), [30.0, 45.0, 60.0]);
+    assert_eq!(values("slider.mass=45000g"), [45000.0]);
+    assert_eq!(
+        values("com.0=-5..5mm:2".replace("com", "crank.com").as_str()),
+        [-5.0, 5.0]
+    );
+    // What is in a row is what was put into the file.
+    assert_eq!(values("slider.mass=0.1..0.4kg:4"), [0.1, 0.2, 0.3, 0.4]);
+    let grid = Grid::new(vec![
+        Axis::parse(&document, "slider.mass=1,2kg").unwrap(),
+        Axis::parse(&document, "crank.length=10,20,30mm").unwrap(),
+    ])
+    .unwrap();
+    assert_eq!(grid.count(), 6);
+    let all: Vec<Vec<f64>> = (0..6).map(|row| grid.values(row)).collect();
+    assert_eq!(
+        all,
+        [
+            [1.0, 10.0],
+            [1.0, 20.0],
+            [1.0, 30.0],
+            [2.0, 10.0],
+            [2.0, 20.0],
+            [2.0, 30.0]
+        ]
+    );
+}
+
+/// A row says what `jred size` says of a machine file that was changed by hand.
+#[test]
+fn a_row_is_what_sizing_the_changed_file_gives() {
+    let folder = Folder::new();
+    let run = jred([
+        &"vary",
+        &press_file(),
+        &"--vary",
+        &"slider.mass=42,60kg",
+        &"--vary",
+        &"segment.0.duration=0.4,0.3s",
+        &"--format",
+        &"csv",
+    ])
+    .ends(0);
+    let rows = rows(&run.out);
+    assert_eq!(rows.len(), 4);
+    for row in &rows {
+        let text = press_text()
+            .replacen(
+                "\"42 kg\"",
+                &format!("\"{} kg\"", row["mechanism.slider.mass [kg]"]),
+                1,
+            )
+            .replacen(
+                "\"0.4 s\"",
+                &format!("\"{} s\"", row["motion.segment.0.duration [s]"]),
+                1,
+            );
+        let file = folder.file("changed.toml", text);
+        let sized = jred([&"size", &file, &"--format", &"json"]);
+        let sized = sized.json();
+        let fit = sized["fit"].as_array().unwrap();
+        if fit.is_empty() {
+            assert_eq!(row["verdict"], "none fits");
+            continue;
+        }
+        assert_eq!(row["verdict"], "fits");
+        let best = &fit[0];
+        assert_eq!(row["motor"], best["motor"].as_str().unwrap());
+        assert_eq!(row["gearbox"], best["gearbox"].as_str().unwrap_or("direct"));
+        let energy = best["duty"]["motoring energy [J]"].as_f64().unwrap();
+        support::near(
+            "energy",
+            row["energy [J]"].parse().unwrap(),
+            energy,
+            support::budget::ROW,
+        );
+        let checks = best["checks"].as_array().unwrap();
+        let margins = checks.iter().filter_map(|c| c["margin"].as_f64());
+        let margin = margins.fold(f64::INFINITY, f64::min);
+        support::within(
+            "margin",
+            row["margin"].parse().unwrap(),
+            margin,
+            support::budget::ROW,
+        );
+    }
+}
+
+/// Machines that cannot be built are rows with the reason.
+#[test]
+fn a_machine_that_is_refused_is_a_row() {
+    let run = jred([
+        &"vary",
+        &press_file(),
+        &"--vary",
+        &"rod.length=25,180mm",
+        &"--format",
+        &"json",
+    ])
+    .ends(0);
+    let rows: Vec<serde_json::Value> = run
+        .out
+        .lines()
+        .skip(1)
+        .map(|l| serde_json::from_str(l).unwrap())
+        .collect();
+    assert_eq!(rows.len(), 2);
+    assert_eq!(rows[0]["verdict"], "machine refused");
+    assert!(
+        rows[0]["note"]
+            .as_str()
+            .unwrap()
+            .contains("too short for a full turn"),
+        "{}",
+        rows[0]
+    );
+    assert!(rows[0]["motor"].is_null());
+    assert_eq!(rows[1]["verdict"], "fits");
+}
+
+const STUDY: [&str; 4] = [
+    "--vary",
+    "slider.mass=30..60kg:7",
+    "--vary",
+    "segment.0.duration=0.3,0.4s",
+];
+
+/// A quick study into a file.
+fn study(folder: &Folder, name: &str, more: &[&str]) -> (i32, String) {
+    let path = folder.path(name);
+    let mut command = Command::new(env!("CARGO_BIN_EXE_jred"));
+    command
+        .arg("vary")
+        .arg(press_file())
+        .args(STUDY)
+        .args(["--steps", "64", "--motor", "sgmsh-*"]);
+    command
+        .args(more)
+        .arg("--out")
+        .arg(path)
+        .env("NO_COLOR", "1");
+    let output = command.output().unwrap();
+    let message = String::from_utf8(output.stderr).unwrap();
+    let words = message.split_whitespace().filter(|w| *w != "│");
+    (
+        output.status.code().unwrap(),
+        words.collect::<Vec<_>>().join(" "),
+    )
+}
+
+fn read(folder: &Folder, name: &str) -> String {
+    std::fs::read_to_string(folder.path(name)).unwrap()
+}
+
+/// Shares put together are the file of one run, byte by byte, in CSV and in JSON; missing and doubled rows are found.
+#[test]
+fn shares_merge_to_the_whole() {
+    for format in ["csv", "json"] {
+        let folder = Folder::new();
+        assert_eq!(study(&folder, "whole", &["--format", format]).0, 0);
+        let mut parts: Vec<PathBuf> = Vec::new();
+        for k in 0..3 {
+            let (name, shard) = (format!("part-{k}"), format!("{k}/3"));
+            assert_eq!(
+                study(&folder, &name, &["--format", format, "--shard", &shard]).0,
+                0
+            );
+            parts.push(folder.path(&name));
+        }
+        let out = folder.path("merged");
+        // In any order.
+        jred([&"merge", &out, &parts[2], &parts[0], &parts[1]]).ends(0);
+        assert_eq!(read(&folder, "merged"), read(&folder, "whole"));
+        assert_eq!(
+            read(&folder, "whole").lines().count(),
+            14 + if format == "csv" { 2 } else { 1 }
+        );
+
+        let again = folder.path("again");
+        jred([&"merge", &again, &parts[0], &parts[2]])
+            .ends(2)
+            .says(&["row 1 alone is missing"]);
+        jred([&"merge", &again, &parts[0], &parts[1], &parts[1], &parts[2]])
+            .ends(2)
+            .says(&["row 1 is there twice"]);
+        jred([&"merge", &out, &parts[0], &parts[1], &parts[2]])
+            .ends(2)
+            .says(&["exists already"]);
+        assert!(!again.exists() && !folder.path("again.part").exists());
+
+        // A share that was cut off in its last row.
+        let text = read(&folder, "part-1");
+        folder.file("part-1", &text[..text.len() - 9]);
+        jred([&"merge", &again, &parts[0], &parts[1], &parts[2]])
+            .ends(2)
+            .says(&["no whole row", "--resume"]);
+        folder.file(
+            "part-1",
+            text.lines()
+                .map(|l| format!("{l}\n"))
+                .take(3)
+                .collect::<String>(),
+        );
+        jred([&"merge", &again, &parts[0], &parts[1], &parts[2]])
+            .ends(2)
+            .says(&["is missing"]);
+    }
+}
+
+#[test]
+fn shares_of_other_studies_are_refused() {
+    let folder = Folder::new();
+    assert_eq!(study(&folder, "a", &["--shard", "0/2"]).0, 0);
+    assert_eq!(
+        study(&folder, "b", &["--shard", "1/2", "--gearbox", "npt0*"]).0,
+        0
+    );
+    let [a, b, out] = ["a", "b", "out"].map(|name| folder.path(name));
+    let run = jred([&"merge", &out, &a, &b]).ends(2);
+    run.says(&["do not belong together", "the catalogue", "the options"]);
+    let run = jred([&"merge", &out, &press_file()]).ends(2);
+    run.says(&["is not a file of rows"]);
+}
+
+/// Wherever a run was cut off, continuing it gives the file of an undisturbed run.
+#[test]
+fn a_run_that_was_cut_off_is_continued() {
+    let folder = Folder::new();
+    assert_eq!(study(&folder, "whole", &[]).0, 0);
+    let whole = read(&folder, "whole");
+    // Nothing yet, inside the header, after it, inside a row, at the end of a row, all.
+    let header = whole.find('\n').unwrap();
+    for length in [
+        0,
+        20,
+        header + 1,
+        header + 30,
+        whole.len() / 2,
+        whole.len() * 3 / 4,
+        whole.len() - 1,
+        whole.len(),
+    ] {
+        folder.file("cut", &whole[..length]);
+        let (code, message) = study(&folder, "cut", &["--resume"]);
+        if length == 20 {
+            // What is no header might be a file of somebody else's.
+            assert_eq!(code, 0, "{message}");
+        }
+        assert_eq!(code, 0, "{length}: {message}");
+        assert_eq!(read(&folder, "cut"), whole, "cut at {length}");
+    }
+    // A file that is not there yet is begun.
+    assert_eq!(study(&folder, "new", &["--resume"]).0, 0);
+    assert_eq!(read(&folder, "new"), whole);
+    // Without --resume nothing is overwritten.
+    let (code, message) = study(&folder, "new", &[]);
+    assert_eq!(code, 2);
+    assert!(
+        message.contains("exists already") && message.contains("--resume"),
+        "{message}"
+    );
+    // Another study is refused, the file stays.
+    let (code, message) = study(&folder, "new", &["--resume", "--rank", "margin"]);
+    assert_eq!(code, 2);
+    assert!(
+        message.contains("not the same are the options"),
+        "{message}"
+    );
+    let (code, message) = study(&folder, "new", &["--resume", "--shard", "0/2"]);
+    assert_eq!(code, 2);
+    assert!(message.contains("another share"), "{message}");
+    assert_eq!(read(&folder, "new"), whole);
+}
+
+/// The number of threads does not change a byte.
+#[test]
+fn rows_do_not_depend_on_threads() {
+    let folder = Folder::new();
+    assert_eq!(study(&folder, "many", &[]).0, 0);
+    let mut command = Command::new(env!("CARGO_BIN_EXE_jred"));
+    command
+        .arg("vary")
+        .arg(press_file())
+        .args(STUDY)
+        .args(["--steps", "64", "--motor", "sgmsh-*", "--out"]);
+    let status = command
+        .arg(folder.path("one"))
+        .env("RAYON_NUM_THREADS", "1")
+        .status()
+        .unwrap();
+    assert!(status.success());
+    assert_eq!(read(&folder, "one"), read(&folder, "many"));
+}
+
+#[test]
+fn what_cannot_be_varied_is_said() {
+    let press = press_file();
+    let out = Folder::new();
+    let says = |vary: &str, words: &[&str]| {
+        jred([&"vary", &press, &"--vary", &vary])
+            .ends(2)
+            .says(words)
+    };
+    says(
+        "slider.mas=30..60kg:8",
+        &[
+            "no quantity \"slider.mas\"",
+            "did you mean \"slider.mass\"?",
+        ],
+    );
+    says(
+        "ram.mass=30..60kg:8",
+        &["no quantity \"ram.mass\"", "mechanism.slider.mass"],
+    );
+    says(
+        "mass=30..60kg:8",
+        &["names 3 quantities", "mechanism.crank.mass"],
+    );
+    says(
+        "rules.rms_torque=70..90%:3",
+        &["no quantity", "must be written there first"],
+    );
+    says(
+        "slider.mass=30..60mm:8",
+        &["\"mm\" is not a unit of mechanism.slider.mass", "42 kg"],
+    );
+    says(
+        "slider.mass=30..60:8",
+        &["is not a unit of mechanism.slider.mass"],
+    );
+    says("slider.mass=30g..60kg:8", &["write both in one unit"]);
+    says("slider.mass=30..60kg", &["how many values"]);
+    says("slider.mass=30..60kg:0", &["0 values", "1 to"]);
+    says("slider.mass=30..30kg:4", &["range is empty"]);
+    says("slider.mass=30..60kg:1", &["one value of a range"]);
+    says("slider.mass=-30..60kg:4:log", &["greater than zero"]);
+    says("slider.mass=30..60kg:4:lin", &["\"lin\" is not known"]);
+    says("slider.mass", &["has no \"=\""]);
+    says("slider.mass=heavy", &["does not begin with a number"]);
+    says("slider.mass=30..60kilos:3", &["unknown unit \"kilos\""]);
+    let twice = jred([
+        &"vary",
+        &press,
+        &"--vary",
+        &"slider.mass=30,40kg",
+        &"--vary",
+        &"mechanism.slider.mass=50kg",
+    ]);
+    twice
+        .ends(2)
+        .says(&["mechanism.slider.mass is varied twice"]);
+    let many = jred([
+        &"vary",
+        &press,
+        &"--vary",
+        &"slider.mass=30..60kg:100000",
+        &"--vary",
+        &"rod.mass=5..6kg:100000",
+    ]);
+    many.ends(2)
+        .says(&["100000 × 100000 machines are too many", "at most 100000000"]);
+    let shard = jred([
+        &"vary",
+        &press,
+        &"--vary",
+        &"slider.mass=30,40kg",
+        &"--shard",
+        &"2/2",
+        &"--out",
+        &out.path("x"),
+    ]);
+    shard.ends(2).says(&["there is no share 2 of 2"]);
+}
+
+/// `script` with the environment of task `index` of `count`.
+fn cluster(mut command: Command, folder: &Folder, environment: &[(&str, String)]) {
+    let binaries = Path::new(env!("CARGO_BIN_EXE_jred")).parent().unwrap();
+    let path = format!("{}:{}", binaries.display(), std::env::var("PATH").unwrap());
+    command
+        .current_dir(folder.path(""))
+        .env("PATH", path)
+        .env("MACHINE", press_file());
+    command.env("SLIDER", STUDY[1]).env("DURATION", STUDY[3]);
+    command.envs(
+        environment
+            .iter()
+            .map(|(name, value)| (*name, value.as_str())),
+    );
+    let output = command.output().unwrap();
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+}
+
+/// The scripts of machines/cluster, run as a cluster would run their tasks, merge to the file of one run.
+#[test]
+fn scripts_for_clusters() {
+    let scripts = Path::new(env!("CARGO_MANIFEST_DIR")).join("../machines/cluster");
+    let folder = Folder::new();
+    let whole = folder.path("whole.csv");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_jred"));
+    let status = command
+        .arg("vary")
+        .arg(press_file())
+        .args(STUDY)
+        .arg("--out")
+        .arg(&whole)
+        .status()
+        .unwrap();
+    assert!(status.success());
+    let whole = read(&folder, "whole.csv");
+
+    for index in 0..3 {
+        let mut command = Command::new("bash");
+        command.arg(scripts.join("vary.slurm.sh"));
+        let task = [
+            ("SLURM_ARRAY_TASK_ID", format!("{index}")),
+            ("SLURM_ARRAY_TASK_COUNT", "3".to_owned()),
+            ("SLURM_CPUS_PER_TASK", "1".to_owned()),
+            ("OUT", "slurm".to_owned()),
+        ];
+        cluster(command, &folder, &task);
+    }
+    let part = |name: &str, k: u32| folder.path(&format!("{name}.part-{k}.csv"));
+    jred([
+        &"merge",
+        &folder.path("slurm.csv"),
+        &part("slurm", 0),
+        &part("slurm", 1),
+        &part("slurm", 2),
+    ])
+    .ends(0);
+    assert_eq!(read(&folder, "slurm.csv"), whole);
+
+    let job = std::fs::read_to_string(scripts.join("vary.job.yaml")).unwrap();
+    assert!(job.contains("completionMode: Indexed"));
+    assert!(job.contains("command: [\"/bin/sh\", \"-euc\"]"));
+    let script: String = (job.lines().skip_while(|line| line.trim() != "- |").skip(1))
+        .take_while(|line| line.starts_with(&" ".repeat(14)))
+        .map(|line| format!("{}\n", &line[14..]))
+        .collect();
+    assert!(script.contains("jred vary"), "{job}");
+    for index in 0..2 {
+        let mut command = Command::new("/bin/sh");
+        command.args(["-euc", &script]);
+        let task = [
+            ("JOB_COMPLETION_INDEX", format!("{index}")),
+            ("SHARDS", "2".to_owned()),
+        ];
+        cluster(command, &folder, &task);
+    }
+    jred([
+        &"merge",
+        &folder.path("job.csv"),
+        &part("press", 0),
+        &part("press", 1),
+    ])
+    .ends(0);
+    assert_eq!(read(&folder, "job.csv"), whole);
+}

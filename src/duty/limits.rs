@@ -1,0 +1,167 @@
+//! What the figures may be, and whether they are.
+
+use super::{Curve, Figures, LimitError};
+use crate::math::Real;
+
+/// Limits of a drive; one that is `None` is not checked, and the verdict says so.
+///
+/// Rules of sizing that allow a share of a rating (80 % of the S1 torque, say) are written as limits that contain the share.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Limits<R> {
+    /// RMS torque of the motor over the mean speed (N·m over rad/s).
+    pub continuous: Option<Curve<R>>,
+    /// Torque of the motor over speed, instant by instant (N·m over rad/s).
+    pub peak: Option<Curve<R>>,
+    /// Largest speed of the motor (rad/s).
+    pub speed: Option<R>,
+    /// Mean speed of the motor, as of a gearbox input (rad/s).
+    pub mean_speed: Option<R>,
+    /// Largest torque at the gearbox output, T2B (N·m).
+    pub output_peak: Option<R>,
+    /// Root-mean-cube torque at the gearbox output, T2N (N·m).
+    pub output_mean: Option<R>,
+    /// Mean of the power that comes back, as of a brake resistor (W).
+    pub regenerative_power: Option<R>,
+    /// Cycles an hour up to which T2B holds.
+    pub cycles_per_hour: Option<R>,
+}
+
+impl<R> Default for Limits<R> {
+    fn default() -> Self {
+        Self {
+            continuous: None,
+            peak: None,
+            speed: None,
+            mean_speed: None,
+            output_peak: None,
+            output_mean: None,
+            regenerative_power: None,
+            cycles_per_hour: None,
+        }
+    }
+}
+
+impl<R: Real> Limits<R> {
+    pub(super) fn check(&self) -> Result<(), LimitError> {
+        for (what, limit) in [
+            ("limit of the speed", self.speed),
+            ("limit of the mean speed", self.mean_speed),
+            ("limit of the output's peak torque", self.output_peak),
+            ("limit of the output's mean torque", self.output_mean),
+            ("limit of the regenerative power", self.regenerative_power),
+            ("limit of the cycles an hour", self.cycles_per_hour),
+        ] {
+            let Some(limit) = limit else { continue };
+            if !limit.is_finite() {
+                return Err(LimitError::NotFinite(what));
+            }
+            if limit < R::from_f64(0.0) {
+                return Err(LimitError::Negative(what));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether a figure keeps its limit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Verdict {
+    /// There is no limit, or nothing was read yet.
+    #[default]
+    NotChecked,
+    /// At or below the limit.
+    Holds,
+    /// Above it.
+    Exceeded,
+}
+
+/// One verdict for each of the [`Limits`], and one on the readings.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Verdicts {
+    /// RMS torque, by the continuous torque at the mean speed.
+    pub rms_torque: Verdict,
+    /// Every instant's torque, by the peak torque at its speed.
+    pub peak_torque: Verdict,
+    /// Largest speed.
+    pub speed: Verdict,
+    /// Mean speed.
+    pub mean_speed: Verdict,
+    /// Largest torque at the gearbox output.
+    pub output_peak: Verdict,
+    /// Root-mean-cube torque at the gearbox output.
+    pub output_mean: Verdict,
+    /// Mean of the power that comes back.
+    pub regenerative_power: Verdict,
+    /// Cycles an hour.
+    pub cycles_per_hour: Verdict,
+    /// Exceeded if a reading could not be used: see [`Figures::invalid`].
+    pub readings: Verdict,
+}
+
+impl Verdicts {
+    pub(super) fn of<R: Real>(limits: &Limits<R>, figures: &Figures<R>) -> Self {
+        if figures.ticks == 0 {
+            return Self {
+                readings: match figures.invalid {
+                    0 => Verdict::NotChecked,
+                    _ => Verdict::Exceeded,
+                },
+                ..Self::default()
+            };
+        }
+        let judge = |figure: R, limit: Option<R>| match limit {
+            None => Verdict::NotChecked,
+            Some(limit) if figure <= limit => Verdict::Holds,
+            Some(_) => Verdict::Exceeded,
+        };
+        let one = R::from_f64(1.0);
+        Self {
+            rms_torque: judge(
+                figures.rms_torque,
+                limits.continuous.map(|curve| curve.at(figures.mean_speed)),
+            ),
+            peak_torque: match figures.peak_share {
+                None => Verdict::NotChecked,
+                Some(share) => judge(share, Some(one)),
+            },
+            speed: judge(figures.peak_speed, limits.speed),
+            mean_speed: judge(figures.mean_speed, limits.mean_speed),
+            output_peak: judge(figures.output_peak, limits.output_peak),
+            output_mean: judge(figures.output_mean, limits.output_mean),
+            regenerative_power: judge(figures.regenerative_power, limits.regenerative_power),
+            cycles_per_hour: match figures.cycles {
+                0 => Verdict::NotChecked,
+                _ => judge(figures.cycles_per_hour, limits.cycles_per_hour),
+            },
+            readings: match figures.invalid {
+                0 => Verdict::Holds,
+                _ => Verdict::Exceeded,
+            },
+        }
+    }
+
+    /// All of them, in the order of the fields.
+    #[must_use]
+    pub const fn all(&self) -> [Verdict; 9] {
+        [
+            self.rms_torque,
+            self.peak_torque,
+            self.speed,
+            self.mean_speed,
+            self.output_peak,
+            self.output_mean,
+            self.regenerative_power,
+            self.cycles_per_hour,
+            self.readings,
+        ]
+    }
+
+    /// Whether no limit is exceeded. Limits that were not checked do not count against it.
+    #[must_use]
+    pub fn hold(&self) -> bool {
+        !self.all().contains(&Verdict::Exceeded)
+    }
+}
