@@ -26,6 +26,7 @@ mod target {
     use cortex_m::peripheral::{CPUID, SYST};
     use cortex_m_rt::entry;
     use cortex_m_semihosting::{debug, hprintln};
+    use jred::duty::{Curve, Limits, Meter, Window};
     use jred::table::{Spline, curves};
     use jred::tabulate::{fill, scratch_len};
     use jred::{Error, Machine, Mechanism, Reducible, Scale};
@@ -38,6 +39,8 @@ mod target {
     const RELOAD: u32 = 0x00ff_ffff;
     /// Positions in a turn.
     const POSITIONS: u32 = 64;
+    /// Ticks of the duty meter.
+    const TICKS: u32 = 1024;
     /// Cells of the table.
     const CELLS: u32 = 64;
 
@@ -148,6 +151,29 @@ mod target {
             fill::<f32, Spline>(&linkage, curves::LOAD, CELLS, &Scale::SI, scratch, words).is_ok()
         });
         report("linkage-fill-cell", cell);
+
+        for (name, window) in [
+            ("duty-tick", Window::SinceStart),
+            ("duty-tick-forgets", Window::Exponential(600.0)),
+        ] {
+            let points = black_box([[0.0f32, 9.0], [200.0, 9.0], [300.0, 4.0]]);
+            let limits = Limits {
+                peak: Curve::new(&points).ok(),
+                ..Limits::default()
+            };
+            let Ok(mut meter) = Meter::new(limits, black_box(1e-3), black_box(window)) else {
+                return Ok(1);
+            };
+            let count = counter.count(|| {
+                for k in 0..TICKS {
+                    // Torques and speeds up to the last line of the curve.
+                    let (torque, speed) = ((k % 16) as f32 - 8.0, (k % 64) as f32 * 4.6 - 145.0);
+                    meter.tick(black_box(torque), black_box(speed), black_box(5.0 * torque));
+                }
+            });
+            black_box(meter.figures());
+            report(name, count / TICKS);
+        }
         Ok(failures)
     }
 

@@ -12,6 +12,7 @@
 pub mod axes;
 pub mod command;
 pub mod curve;
+mod report;
 pub mod store;
 pub mod supply;
 
@@ -103,7 +104,9 @@ impl Need {
         (least..=self.largest_resistance).contains(&resistor.resistance)
             && resistor.rated_power >= self.mean
             && resistor.peak_power.is_some_and(|peak| peak >= self.peak)
-            && resistor.pulse_energy.is_none_or(|energy| energy >= self.pulse)
+            && resistor
+                .pulse_energy
+                .is_none_or(|energy| energy >= self.pulse)
     }
 
     /// The smallest resistor (rated power, then price) of a catalogue that bears it.

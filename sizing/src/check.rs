@@ -67,31 +67,38 @@ impl Check {
     pub fn new(rules: &RuleSet, rule: Rule, finding: Finding, words: Words) -> Self {
         let verdict = rules.verdict(rule, finding);
         let limit = rules.limit(rule);
+        let Words {
+            unit,
+            scale,
+            rating,
+            place,
+        } = words;
         let share = limit.fail.or(limit.warn);
         let used = rules.use_shown(rule, finding);
-        let shown = |x: f64| x / words.scale;
+        let shown = |x: f64| x / scale;
         let bound = share.map(|share| share * finding.rating);
         let bound = bound.filter(|bound| finding.is_known() && bound.is_finite());
         let mut note = match share {
-            _ if !finding.is_known() => format!("not known: {}", words.rating),
             None if rules.is_off(rule) => "switched off".to_owned(),
+            _ if !finding.is_known() => format!("not known: {rating}"),
             None => "no limit set".to_owned(),
-            Some(_) if !finding.rating.is_finite() => format!("no limit: {}", words.rating),
-            Some(share) if rule.is_ratio() => {
-                let bound = short(share * shown(finding.rating));
-                format!("{bound} {} {}", words.unit, words.rating).replace("  ", " ")
+            Some(_) if !finding.rating.is_finite() => format!("no limit: {rating}"),
+            Some(share) if unit.is_empty() => {
+                format!("{} {rating}", short(share * shown(finding.rating)))
             }
-            Some(share) => format!(
-                "{:.0} % of {} {}, the {}",
-                share * 100.0,
-                short(shown(finding.rating)),
-                words.unit,
-                words.rating
-            ),
+            Some(share) => {
+                let share = if rule.is_ratio() {
+                    format!("{} times", short(share))
+                } else {
+                    format!("{:.0} % of", share * 100.0)
+                };
+                let shown = short(shown(finding.rating));
+                format!("{share} {shown} {unit}, the {rating}")
+            }
         };
-        if !words.place.is_empty() {
+        if !place.is_empty() {
             note += ", ";
-            note += &words.place;
+            note += &place;
         }
         let margin = bound.is_some() && used.is_finite();
         Self {
@@ -99,7 +106,7 @@ impl Check {
             id: rule,
             value: Some(shown(finding.value)).filter(|v| v.is_finite()),
             limit: bound.map(shown),
-            unit: words.unit,
+            unit,
             used,
             margin: margin.then_some(1.0 - used),
             verdict,

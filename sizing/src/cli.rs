@@ -148,7 +148,8 @@ pub struct Size {
     /// Explain this drive instead, MOTOR+GEARBOX (or MOTOR for a direct drive) with the keys of the catalogue.
     #[arg(long, value_name = "DRIVE")]
     pub why: Option<String>,
-    /// Write a report: one self-contained HTML page.
+    /// Write a report: one self-contained HTML page. As PDF: print it from a browser, or
+    /// `chromium --headless --no-pdf-header-footer --print-to-pdf=report.pdf report.html`.
     #[arg(long, value_name = "HTML")]
     pub report: Option<PathBuf>,
     /// How to write the result.

@@ -40,11 +40,13 @@ pub struct Sample {
 
 impl Sample {
     /// Speed at the gearbox output (rad/s).
+    #[inline]
     pub const fn speed(&self) -> f64 {
         self.loads[3]
     }
 
     /// Torque at the gearbox output (N·m).
+    #[inline]
     pub fn output_torque(&self) -> f64 {
         self.loads[1] + self.loads[2]
     }
@@ -218,6 +220,11 @@ impl Cycle {
     /// Energy that the motor puts in over a cycle and energy that comes back to it (J), neither negative.
     pub fn energies(&self, coefficients: &Coefficients, ratio: f64) -> [f64; 2] {
         self.stretches().energies(coefficients, ratio)
+    }
+
+    /// Whether the motor takes back energy at any instant: cheaper than [`Cycle::energies`].
+    pub fn regenerates(&self, coefficients: &Coefficients) -> bool {
+        self.stretches().regenerates(coefficients)
     }
 
     /// The instant that comes closest to the peak-torque envelope, or passes it furthest; the first beyond the envelope's largest

@@ -52,6 +52,7 @@ pub fn loads(instant: &Instant) -> [f64; LOADS] {
 
 impl Coefficients {
     /// The motor torque (N·m) under these loads.
+    #[inline]
     pub fn torque(&self, loads: &[f64; LOADS]) -> f64 {
         let [a, b, c, d, e] = self.0;
         let [alpha, driving, back, speed, sign] = loads;

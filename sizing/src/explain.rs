@@ -5,6 +5,8 @@ mod altered;
 mod breakdown;
 mod course;
 mod remedy;
+mod seek;
+mod words;
 
 pub use altered::{Alteration, Altered};
 pub use breakdown::{Breakdown, Cell, Cells, InertiaShare, Share};

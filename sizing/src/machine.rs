@@ -8,7 +8,7 @@ use jred::mechanism::{Frames, Train};
 use jred::{Domain, Element, Error, Jointed, Link, Load, Machine, Mechanism};
 
 use crate::coordinate::Coordinate;
-use crate::input::tolerance::Tolerance;
+use crate::input::Tolerance;
 use crate::motion::Motion;
 use crate::rules::RuleSet;
 use crate::site::Site;

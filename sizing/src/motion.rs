@@ -114,7 +114,10 @@ impl Motion {
         let deviation = recording.times.iter().zip(recording.values);
         let deviation: Vec<f64> = deviation.map(|(t, phi)| phi - advance * t).collect();
         let curve = recording.curve(&deviation)?;
-        let speeds = recording.times.iter().map(|t| (curve.at(*t)[1] + advance).abs());
+        let speeds = recording
+            .times
+            .iter()
+            .map(|t| (curve.at(*t)[1] + advance).abs());
         let standstill = STANDSTILL * speeds.fold(0.0, f64::max);
         Ok(Self::recorded(
             duration,

@@ -206,7 +206,9 @@ fn split_checks(best: &crate::drive::Judged) -> (Vec<CheckRow>, Vec<(&'static st
         .iter()
         .partition(|check| check.verdict == crate::check::Verdict::NotChecked);
     let checked = checked.into_iter().map(CheckRow::of).collect();
-    let open = open.into_iter().map(|check| (check.rule, check.note.clone()));
+    let open = open
+        .into_iter()
+        .map(|check| (check.rule, check.note.clone()));
     (checked, open.collect())
 }
 
@@ -216,11 +218,21 @@ fn cards(best: &crate::drive::Judged, duty: &Duty, units: Units) -> Vec<(String,
     let card = |name: String, value: String| (name, value);
     vec![
         card("cycle".to_owned(), format!("{} s", rounded(duty.duration))),
-        card(format!("RMS {word}"), format!("{} {unit}", short(motor.torque.rms))),
-        card(format!("peak {word}"), format!("{} {unit}", short(motor.torque.peak()))),
+        card(
+            format!("RMS {word}"),
+            format!("{} {unit}", short(motor.torque.rms)),
+        ),
+        card(
+            format!("peak {word}"),
+            format!("{} {unit}", short(motor.torque.peak())),
+        ),
         card(
             "largest speed".to_owned(),
-            format!("{} {}", short(motor.speed.peak() / units.speed_scale), units.speed),
+            format!(
+                "{} {}",
+                short(motor.speed.peak() / units.speed_scale),
+                units.speed
+            ),
         ),
         card(
             "inertia ratio λ".to_owned(),
@@ -284,7 +296,9 @@ fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec
 fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
     let now = subject.context.ratio;
     let remedies = change.map_or(&[][..], |c| &c.remedies);
-    let found = remedies.iter().find(|r| matches!(r.lever, Lever::GearRatio | Lever::IdealGearbox));
+    let found = remedies
+        .iter()
+        .find(|r| matches!(r.lever, Lever::GearRatio | Lever::IdealGearbox));
     let (mut from, mut to) = (now / 3.0, now * 3.0);
     if let Some([low, high]) = found.and_then(|r| r.range) {
         (from, to) = (from.min(low.value / 1.3), to.max(high.value * 1.3));

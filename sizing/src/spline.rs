@@ -17,7 +17,7 @@ mod fit;
 
 use std::fmt;
 
-/// Fewest points of a curve.
+/// Fewest points of a curve; of a period one less, for its first point is its last as well.
 pub const MIN_POINTS: usize = 5;
 
 /// What is wrong with points.
@@ -72,7 +72,7 @@ impl Spline {
     /// # Errors
     /// See [`Fault`].
     pub fn bounded(x: &[f64], y: &[f64], way: Way) -> Result<Self, Fault> {
-        check(x, y)?;
+        check(x, y, MIN_POINTS)?;
         Ok(Self::new(x.to_vec(), fit::bounded(x, y, way), false))
     }
 
@@ -81,7 +81,7 @@ impl Spline {
     /// # Errors
     /// See [`Fault`].
     pub fn periodic(x: &[f64], y: &[f64], period: f64, way: Way) -> Result<Self, Fault> {
-        check(x, y)?;
+        check(x, y, MIN_POINTS - 1)?;
         let (Some(first), Some(last)) = (x.first(), x.last()) else {
             return Err(Fault::TooFew);
         };
@@ -190,8 +190,8 @@ impl Spline {
     }
 }
 
-fn check(x: &[f64], y: &[f64]) -> Result<(), Fault> {
-    if x.len() < MIN_POINTS {
+fn check(x: &[f64], y: &[f64], fewest: usize) -> Result<(), Fault> {
+    if x.len() < fewest {
         return Err(Fault::TooFew);
     }
     let finite = x.iter().chain(y).all(|value| value.is_finite());

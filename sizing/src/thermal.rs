@@ -141,7 +141,9 @@ impl Model {
         }
         let standstill = prepared.envelope.standstill();
         if !(standstill.is_finite() && standstill > 0.0) {
-            return Err("S1 torque, or resistance, torque constant and thermal resistances of the winding");
+            return Err(
+                "S1 torque, or resistance, torque constant and thermal resistances of the winding",
+            );
         }
         let [winding, whole] = times;
         Ok(Self::Relative {
@@ -205,7 +207,10 @@ impl Model {
     /// [`mean_losses`](Self::mean_losses).
     pub fn needs_no_course(&self, prepared: &Prepared) -> bool {
         let straight = prepared.torques.is_some_and(|curve| !curve.saturates())
-            && !prepared.circuit.as_ref().is_some_and(|circuit| circuit.weakens);
+            && !prepared
+                .circuit
+                .as_ref()
+                .is_some_and(|circuit| circuit.weakens);
         matches!(self, Self::Steady { .. }) && straight
     }
 
@@ -254,7 +259,11 @@ impl Model {
             Self::Bodies {
                 follows_housing: false,
                 ..
-            } if from_cold => return Err("thermal time constant of the housing, to follow an operation from cold"),
+            } if from_cold => {
+                return Err(
+                    "thermal time constant of the housing, to follow an operation from cold",
+                );
+            }
             Self::Bodies { network, .. } => (losses.hottest(&network, operation, rest), true),
             Self::Steady { .. } | Self::Relative { time: None, .. } if from_cold => {
                 return Err("thermal time constants, to follow an operation from cold");

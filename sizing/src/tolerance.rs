@@ -16,7 +16,7 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution as _, StandardNormal};
 
-use crate::input::tolerance::{Shape, Tolerance};
+use crate::input::{Shape, Tolerance};
 use crate::rule::Rule;
 use crate::vary::edit::Edit;
 use crate::vary::one::{One, broken};

@@ -17,7 +17,7 @@ mod sheet;
 #[path = "envelope/total.rs"]
 mod total;
 
-use jred_sizing::catalogue::{Amplifier, Brake, Motor, MotorKind, Thermal, Winding};
+use jred_sizing::catalogue::{Amplifier, Motor, Winding};
 use jred_sizing::site::Site;
 
 /// rad/s of a revolution per minute.
@@ -27,29 +27,9 @@ const RPM: f64 = std::f64::consts::PI / 30.0;
 fn bare() -> Motor {
     Motor {
         key: "m".into(),
-        maker: String::new(),
-        model: String::new(),
-        kind: MotorKind::Rotary,
-        rated_torque: None,
-        rated_speed: None,
-        standstill_torque: None,
-        peak_torque: None,
-        max_speed: None,
-        max_power: None,
         rotor_inertia: 1e-4,
-        corner_speed: None,
-        torque_at_max_speed: None,
-        peak_curve: Vec::new(),
-        continuous_curve: Vec::new(),
-        friction: [0.0; 2],
-        winding: Winding::default(),
-        thermal: Thermal::default(),
-        brake: None::<Brake>,
-        bus_voltage: None,
-        mass: None,
-        price: None,
         from_maker: true,
-        source: String::new(),
+        ..Motor::default()
     }
 }
 
@@ -76,28 +56,18 @@ fn servo() -> Motor {
 fn amplifier(peak_current: f64, bus_voltage: Option<f64>) -> Amplifier {
     Amplifier {
         key: "a".into(),
-        maker: String::new(),
-        model: String::new(),
         rated_current: peak_current / 2.0,
         peak_current,
-        peak_time: None,
         bus_voltage,
-        capacitance: None,
-        chopper_voltage: None,
-        max_voltage: None,
-        min_resistance: None,
-        losses: [0.0; 2],
-        mass: None,
-        price: None,
-        from_maker: true,
-        source: String::new(),
+        ..Amplifier::default()
     }
 }
 
 fn site(bus_voltage: f64) -> Site {
-    let mut site = Site::default();
-    site.bus_voltage = Some(bus_voltage);
-    site
+    Site {
+        bus_voltage: Some(bus_voltage),
+        ..Site::default()
+    }
 }
 
 /// Two figures that must agree to a share of the larger; exactly zero agrees with zero only.

@@ -20,7 +20,12 @@ fn parse(text: &str) -> MachineFile {
 }
 
 fn machine(name: &str) -> MachineFile {
-    input::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../machines").join(name)).unwrap()
+    input::read(
+        &Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../machines")
+            .join(name),
+    )
+    .unwrap()
 }
 
 fn duty_of(file: &MachineFile) -> Duty {
@@ -100,8 +105,14 @@ fn the_cells_of_every_instant_add_up_to_the_motor_torque() {
             let rotor = drive.motor.rotor_inertia;
             let brake = drive.motor.brake.unwrap().inertia;
             for (found, load) in [
-                (breakdown.total_inertia.inertia.min, duty.figures(|i| i.input_inertia).min),
-                (breakdown.total_inertia.inertia.max, duty.figures(|i| i.input_inertia).max),
+                (
+                    breakdown.total_inertia.inertia.min,
+                    duty.figures(|i| i.input_inertia).min,
+                ),
+                (
+                    breakdown.total_inertia.inertia.max,
+                    duty.figures(|i| i.input_inertia).max,
+                ),
             ] {
                 let expected = drive.inertia_ratio(load) * rotor + rotor + brake;
                 near("inertia", found, expected, budget::SAME_SUMS);
@@ -126,24 +137,51 @@ fn energies_of_the_press() {
     };
     let stored = effect("acceleration").energy + effect("velocity").energy;
     let turned_over = duty.integral(|i| (i.terms.acceleration * i.omega).abs());
-    within("kinetic energy", stored, 0.0, budget::CLOSED_CYCLE * turned_over);
-    for name in ["weight", "rotor", "gearbox, inertia", "drive train, inertia"] {
+    within(
+        "kinetic energy",
+        stored,
+        0.0,
+        budget::CLOSED_CYCLE * turned_over,
+    );
+    for name in [
+        "weight",
+        "rotor",
+        "gearbox, inertia",
+        "drive train, inertia",
+    ] {
         let energy = effect(name).energy;
         within(name, energy, 0.0, budget::CLOSED_CYCLE * turned_over);
     }
     // The belt's losses, stage by stage: the train states them as power.
     let train = &file.drive_train;
     let loss = duty.integral(|i| {
-        train.input(i.terms.total(), i.inertia, i.omega, i.alpha).loss
+        train
+            .input(i.terms.total(), i.inertia, i.omega, i.alpha)
+            .loss
     });
-    near("belt", effect("drive train, losses").energy, loss, budget::SAME_SUMS);
+    near(
+        "belt",
+        effect("drive train, losses").energy,
+        loss,
+        budget::SAME_SUMS,
+    );
     // 150 N over twice the stroke of 60 mm; Coulomb friction of the guide alone.
-    near("guide", effect("Coulomb").energy, 150.0 * 0.12, budget::DEFAULT_STEPS);
+    near(
+        "guide",
+        effect("Coulomb").energy,
+        150.0 * 0.12,
+        budget::DEFAULT_STEPS,
+    );
     // The motor's and the gearbox's friction: c·∫|n| and b·∫n².
     let angle = duty.integral(|i| i.input_speed.abs()) * drive.ratio();
     let square = duty.integral(|i| i.input_speed.powi(2)) * drive.ratio().powi(2);
     let own = 0.05 * angle + 2e-4 * square;
-    near("motor friction", effect("motor friction").energy, own, budget::SAME_SUMS);
+    near(
+        "motor friction",
+        effect("motor friction").energy,
+        own,
+        budget::SAME_SUMS,
+    );
     // All of them are the work of the motor.
     let sum = total(&breakdown.effects, |e| e.energy);
     near("work", sum, breakdown.total.energy, budget::SAME_SUMS);
@@ -151,7 +189,12 @@ fn energies_of_the_press() {
         let point = drive.motor_point(i);
         point.torque * point.speed
     });
-    near("work of the motor", breakdown.total.energy, work, budget::SAME_SUMS);
+    near(
+        "work of the motor",
+        breakdown.total.energy,
+        work,
+        budget::SAME_SUMS,
+    );
 }
 
 /// A slower, lighter press under another force, read from an edited file, against the alteration.
@@ -175,17 +218,33 @@ fn an_altered_duty_is_that_of_the_altered_file() {
         ("mass = \"9 kg\"", "mass = \"7.2 kg\""),
         ("inertia = \"0.018 kg m^2\"", "inertia = \"0.0144 kg m^2\""),
         ("mass = \"6.5 kg\"", "mass = \"5.2 kg\""),
-        ("inertia = \"0.03 kg m^2\"\ncom = [\"55 mm\"", "inertia = \"0.024 kg m^2\"\ncom = [\"55 mm\""),
+        (
+            "inertia = \"0.03 kg m^2\"\ncom = [\"55 mm\"",
+            "inertia = \"0.024 kg m^2\"\ncom = [\"55 mm\"",
+        ),
         ("mass = \"42 kg\"", "mass = \"33.6 kg\""),
     ] {
         text = edited(&text, from, to);
     }
     let other = parse(&text);
     let expected = duty_of(&other);
-    near("duration", found.duration, expected.duration, budget::SAME_SUMS);
-    near("holding torque", found.hold_torque, expected.hold_torque, budget::SAME_SUMS);
+    near(
+        "duration",
+        found.duration,
+        expected.duration,
+        budget::SAME_SUMS,
+    );
+    near(
+        "holding torque",
+        found.hold_torque,
+        expected.hold_torque,
+        budget::SAME_SUMS,
+    );
     for (name, quantity) in [
-        ("torque", (|i| i.input_torque) as fn(&jred_sizing::duty::Instant) -> f64),
+        (
+            "torque",
+            (|i| i.input_torque) as fn(&jred_sizing::duty::Instant) -> f64,
+        ),
         ("speed", |i| i.input_speed),
         ("acceleration", |i| i.input_alpha),
         ("inertia", |i| i.input_inertia),
@@ -197,9 +256,19 @@ fn an_altered_duty_is_that_of_the_altered_file() {
     // Unaltered, it is the duty itself.
     let same = altered.duty(Alteration::default());
     for (a, b) in same.instants.iter().zip(&duty.instants) {
-        within("unaltered", a.input_torque, b.input_torque, 1e-12 * b.input_torque.abs());
+        within(
+            "unaltered",
+            a.input_torque,
+            b.input_torque,
+            1e-12 * b.input_torque.abs(),
+        );
     }
-    near("holding torque", same.hold_torque, duty.hold_torque, budget::SAME_SUMS);
+    near(
+        "holding torque",
+        same.hold_torque,
+        duty.hold_torque,
+        budget::SAME_SUMS,
+    );
 }
 
 /// A spring is no mass: it keeps its torque where the masses are gone.

@@ -59,13 +59,24 @@ fn check_plots(page: &str, count: usize) {
 /// Nothing is loaded from anywhere: neither by an element nor by the style.
 fn check_self_contained(page: &str) {
     for word in [
-        "src=", "<link", "@import", "url(http", "<iframe", "<object", "srcset", "fetch(", "XMLHttpRequest", "import(",
+        "src=",
+        "<link",
+        "@import",
+        "url(http",
+        "<iframe",
+        "<object",
+        "srcset",
+        "fetch(",
+        "XMLHttpRequest",
+        "import(",
     ] {
         assert!(!page.contains(word), "{word}");
     }
     // Two kinds of scripts: the page's own, and data.
     let own = page.matches("<script>").count();
-    let data = page.matches("<script type=\"application/json\" class=\"chart\">").count();
+    let data = page
+        .matches("<script type=\"application/json\" class=\"chart\">")
+        .count();
     assert!(own <= 1);
     assert_eq!(page.matches("<script").count(), own + data);
     assert_eq!(page.matches("</script>").count(), own + data);
@@ -228,12 +239,20 @@ fn check_charts(page: &str, count: usize) {
     assert_eq!(charts.len(), count);
     for chart in &charts {
         let series = chart["series"].as_array().unwrap();
-        assert!(!series.is_empty() || page.contains("No drive"), "{}", chart["y"]);
+        assert!(
+            !series.is_empty() || page.contains("No drive"),
+            "{}",
+            chart["y"]
+        );
         for one in series {
             let (x, y) = (one["x"].as_array().unwrap(), one["y"].as_array().unwrap());
             assert_eq!(x.len(), y.len());
             assert!(x.iter().chain(y).all(|v| v.is_number() || v.is_null()));
-            assert!(x.iter().any(serde_json::Value::is_number), "{}", one["name"]);
+            assert!(
+                x.iter().any(serde_json::Value::is_number),
+                "{}",
+                one["name"]
+            );
         }
     }
     // The plane knows when each of its points is.

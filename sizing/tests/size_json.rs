@@ -8,7 +8,9 @@ use serde_json::{Value, json};
 use support::{Folder, edited_press, jred, press_file};
 
 fn docs(name: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../docs")
+        .join(name);
     std::fs::read_to_string(path).unwrap()
 }
 
@@ -27,7 +29,9 @@ fn check(answer: &Value) {
 }
 
 fn machine(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../machines").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../machines")
+        .join(name)
 }
 
 #[test]
@@ -35,8 +39,12 @@ fn answers_follow_the_schema() {
     let explained = jred([&"size", &press_file(), &"--explain", &"--format", &"json"]);
     let answer = explained.ends(0).json();
     check(&answer);
-    let effects = answer["explanation"]["contributions"]["effects"].as_array().unwrap();
-    let shares = effects.iter().map(|e| e["share of mean square"].as_f64().unwrap());
+    let effects = answer["explanation"]["contributions"]["effects"]
+        .as_array()
+        .unwrap();
+    let shares = effects
+        .iter()
+        .map(|e| e["share of mean square"].as_f64().unwrap());
     support::within("shares", shares.sum(), 1.0, support::budget::CELLS);
     assert_eq!(answer["fit"].as_array().unwrap().len(), 10);
     assert_eq!(answer["refused"].as_array().unwrap().len(), 3);
@@ -45,7 +53,10 @@ fn answers_follow_the_schema() {
         let answer = run.json();
         check(&answer);
         for list in ["fit", "refused"] {
-            assert_eq!(answer["counts"][list], answer[list].as_array().unwrap().len());
+            assert_eq!(
+                answer["counts"][list],
+                answer[list].as_array().unwrap().len()
+            );
         }
     }
 }
@@ -87,7 +98,15 @@ fn the_schema_refuses_what_is_wrong() {
 #[test]
 fn a_drive_can_be_named() {
     let named = |name: &str, code: i32| {
-        jred([&"size", &press_file(), &"--why", &name, &"--format", &"json"]).ends(code)
+        jred([
+            &"size",
+            &press_file(),
+            &"--why",
+            &name,
+            &"--format",
+            &"json",
+        ])
+        .ends(code)
     };
     let answer = jred([&"size", &press_file(), &"--format", &"json"]).json();
     let refused = &answer["refused"][0];

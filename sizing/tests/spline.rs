@@ -19,7 +19,10 @@ fn uneven(count: usize, from: f64, to: f64) -> Vec<f64> {
         })
         .collect();
     let all = places[count];
-    places.iter().map(|p| from + (to - from) * p / all).collect()
+    places
+        .iter()
+        .map(|p| from + (to - from) * p / all)
+        .collect()
 }
 
 #[test]
@@ -34,7 +37,10 @@ fn a_cubic_comes_back_exactly() {
         let found = spline.at(at);
         let expected = [f(at), -3.0 + at - 0.75 * at * at, 1.0 - 1.5 * at, -1.5];
         for (found, expected) in found.into_iter().zip(expected) {
-            assert!((found - expected).abs() < budget::SPLINE_EXACT, "{at}: {found} {expected}");
+            assert!(
+                (found - expected).abs() < budget::SPLINE_EXACT,
+                "{at}: {found} {expected}"
+            );
         }
         let whole = spline.integral(at) - (area(at) - area(-2.0));
         assert!(whole.abs() < budget::SPLINE_EXACT, "{whole:e}");
@@ -67,9 +73,10 @@ fn errors_fall_with_the_order_of_a_cubic() {
             for k in 0..=5000 {
                 let at = 0.3 + TAU * f64::from(k) / 5000.0;
                 let found = spline.at(at);
-                for (worst, (found, exact)) in worst
-                    .iter_mut()
-                    .zip(found.into_iter().zip([f(at), slope(at), curvature(at)]))
+                for (worst, (found, exact)) in
+                    worst
+                        .iter_mut()
+                        .zip(found.into_iter().zip([f(at), slope(at), curvature(at)]))
                 {
                     *worst = worst.max((found - exact).abs());
                 }
@@ -122,21 +129,45 @@ fn smoothing_has_the_response_that_it_states() {
                 uneven(count, 0.0, 1.0)
             };
             let y: Vec<f64> = x.iter().map(|x| (omega * x).sin()).collect();
-            let ring = Spline::periodic(&x[..count], &y[..count], 1.0, Way::Smoothing(cutoff)).unwrap();
+            let ring =
+                Spline::periodic(&x[..count], &y[..count], 1.0, Way::Smoothing(cutoff)).unwrap();
             let chain = Spline::bounded(&x, &y, Way::Smoothing(cutoff)).unwrap();
             for k in 0..1000 {
                 let at = f64::from(k) / 1000.0;
                 let expected = kept * (omega * at).sin();
                 let error = (ring.at(at)[0] - expected).abs();
-                assert!(error < budget::SMOOTHING, "{ratio} {even} at {at}: {error:e}");
+                assert!(
+                    error < budget::SMOOTHING,
+                    "{ratio} {even} at {at}: {error:e}"
+                );
                 // The ends of a chain are felt for a few periods of the cut-off.
                 if (0.4..0.6).contains(&at) && ratio <= 1.0 {
                     let error = (chain.at(at)[0] - expected).abs();
-                    assert!(error < budget::SMOOTHING, "chain {ratio} {even} at {at}: {error:e}");
+                    assert!(
+                        error < budget::SMOOTHING,
+                        "chain {ratio} {even} at {at}: {error:e}"
+                    );
                 }
             }
         }
     }
+}
+
+/// The smallest ring: four points, in which the second neighbours on both sides are one. A quarter-wave cosine's spline has, by
+/// symmetry, the value 11/16 of the amplitude halfway to its zero.
+#[test]
+fn four_points_make_a_ring() {
+    let x = [0.0, 1.0, 2.0, 3.0];
+    let spline = Spline::periodic(&x, &[1.0, 0.0, -1.0, 0.0], 4.0, Way::Interpolating).unwrap();
+    assert!(
+        (spline.at(0.5)[0] - 0.6875).abs() < 1e-14,
+        "{:?}",
+        spline.at(0.5)
+    );
+    let smooth = Spline::periodic(&x, &[1.0, 0.0, -1.0, 0.0], 4.0, Way::Smoothing(1.0)).unwrap();
+    let kept = smooth.at(0.0)[0];
+    assert!(kept > 0.0 && kept < 1.0 && (smooth.at(2.0)[0] + kept).abs() < 1e-14);
+    assert!(smooth.at(1.0)[0].abs() < 1e-14 && smooth.integral(4.0).abs() < 1e-14);
 }
 
 #[test]
@@ -165,8 +196,18 @@ fn points_that_cannot_be_meant_are_refused() {
     let way = Way::Interpolating;
     assert_eq!(Spline::bounded(&x[..4], &y[..4], way), Err(Fault::TooFew));
     assert_eq!(Spline::bounded(&x, &y[..4], way), Err(Fault::NotRising));
-    assert_eq!(Spline::bounded(&[0.0, 1.0, 1.0, 3.0, 4.0], &y, way), Err(Fault::NotRising));
-    assert_eq!(Spline::bounded(&x, &[0.0, f64::NAN, 0.0, 0.0, 0.0], way), Err(Fault::NotRising));
+    assert_eq!(
+        Spline::bounded(&[0.0, 1.0, 1.0, 3.0, 4.0], &y, way),
+        Err(Fault::NotRising)
+    );
+    assert_eq!(
+        Spline::bounded(&x, &[0.0, f64::NAN, 0.0, 0.0, 0.0], way),
+        Err(Fault::NotRising)
+    );
+    assert_eq!(
+        Spline::periodic(&x[..3], &y[..3], 4.0, way),
+        Err(Fault::TooFew)
+    );
     assert_eq!(Spline::periodic(&x, &y, 4.0, way), Err(Fault::BeyondPeriod));
     assert!(Spline::periodic(&x, &y, 4.1, way).is_ok());
 }

@@ -118,12 +118,13 @@ impl PowerCurve {
         let mut points = Vec::with_capacity(a.len() + b.len());
         let (mut i, mut k) = (0, 0);
         // The value of a curve at `t` between its points number n − 1 and n.
-        let value = |points: &[[f64; 2]], n: usize, t: f64| {
-            match (n.checked_sub(1).and_then(|m| points.get(m)), points.get(n)) {
-                (Some([from, p]), Some([to, q])) if to > from => p + (q - p) * (t - from) / (to - from),
-                (Some([_, p]), _) | (None, Some([_, p])) => *p,
-                (None, None) => 0.0,
-            }
+        let value = |points: &[[f64; 2]], n: usize, t: f64| match (
+            n.checked_sub(1).and_then(|m| points.get(m)),
+            points.get(n),
+        ) {
+            (Some([from, p]), Some([to, q])) if to > from => p + (q - p) * (t - from) / (to - from),
+            (Some([_, p]), _) | (None, Some([_, p])) => *p,
+            (None, None) => 0.0,
         };
         while let (Some([ta, pa]), Some([tb, pb])) = (a.get(i), b.get(k)) {
             if ta < tb {

@@ -65,7 +65,8 @@ impl Bus {
             walk.period(curve);
             return walk.finish(0.0);
         }
-        let nothing_bounds_it = self.resistor.is_none() && (back > drawn || self.capacitance <= 0.0);
+        let nothing_bounds_it =
+            self.resistor.is_none() && (back > drawn || self.capacitance <= 0.0);
         let scale = 0.5 * self.capacitance * self.voltage * self.voltage + back;
         // The course nears its period from where it must end up: full if more comes back than is drawn, else empty.
         let mut start = match self.resistor {
@@ -209,7 +210,9 @@ impl<'b> Walk<'b> {
             let taken = if resistor && !draws && !stores {
                 self.burns_at_once(area, a, b);
                 h
-            } else if resistor && (self.excess > self.full || overloaded && self.excess == self.full) {
+            } else if resistor
+                && (self.excess > self.full || overloaded && self.excess == self.full)
+            {
                 self.burns_at_most(h, [a, b], overloaded)
             } else if resistor && !draws && self.excess == self.full {
                 self.burn(-area, a.min(b).abs());
@@ -294,7 +297,11 @@ impl<'b> Walk<'b> {
             }
             time = below;
         }
-        let end = if time < h { bound } else { energy(h).max(bound) };
+        let end = if time < h {
+            bound
+        } else {
+            energy(h).max(bound)
+        };
         let fed = -(a * time - 0.5 * slope * time * time);
         // Rising, then falling: y′ = slope/k − k·free·e^(−k·t) is zero where y is largest.
         let extreme = (k * k * free / slope).ln() / k;

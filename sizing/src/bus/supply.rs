@@ -65,9 +65,7 @@ impl BusData {
     ) -> Self {
         let own = |figure: fn(&Amplifier) -> Option<f64>| amplifier.and_then(figure);
         Self {
-            voltage: bus_voltage
-                .or(own(|a| a.bus_voltage))
-                .or(motor.bus_voltage),
+            voltage: bus_voltage.or(own(|a| a.bus_voltage)).or(motor.bus_voltage),
             capacitance: supply.capacitance.or(own(|a| a.capacitance)),
             chopper_voltage: supply.chopper_voltage.or(own(|a| a.chopper_voltage)),
             max_voltage: supply.max_voltage.or(own(|a| a.max_voltage)),

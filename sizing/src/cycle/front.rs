@@ -18,6 +18,8 @@ pub(super) struct Front {
     middle: [[f64; WIDTH]; LOADS],
     half: [[f64; WIDTH]; LOADS],
     reach: [[f64; WIDTH]; LOADS],
+    /// Least and largest magnitude of the speed at the gearbox output.
+    speeds: [[f64; WIDTH]; 2],
 }
 
 impl Front {
@@ -28,6 +30,7 @@ impl Front {
             middle: [[0.0; WIDTH]; LOADS],
             half: [[0.0; WIDTH]; LOADS],
             reach: [[0.0; WIDTH]; LOADS],
+            speeds: [[0.0; WIDTH]; 2],
         };
         let mut chosen = Vec::from_iter((!tree.nodes.is_empty()).then_some(0));
         let stray = |node: &Node| -> f64 {
@@ -52,6 +55,8 @@ impl Front {
             let node = &tree.nodes[index as usize];
             let (from, to) = (&samples[node.first as usize], &samples[node.last as usize]);
             front.nodes[place] = index;
+            front.speeds[0][place] = node.speed[0];
+            front.speeds[1][place] = node.speed[1];
             for k in 0..LOADS {
                 front.middle[k][place] = 0.5 * (from.loads[k] + to.loads[k]);
                 front.half[k][place] = 0.5 * (to.loads[k] - from.loads[k]);
@@ -75,5 +80,12 @@ impl Front {
                 + form(&magnitude, &self.reach, k);
         }
         bounds
+    }
+
+    /// The least of a line over the speed, its value at rest and its slope, on each stretch.
+    pub(super) fn floors(&self, [start, slope]: [f64; 2]) -> [f64; WIDTH] {
+        // One end of the speeds has it, the same one on every stretch.
+        let speeds = &self.speeds[usize::from(slope < 0.0)];
+        speeds.map(|speed| start + slope * speed)
     }
 }

@@ -28,6 +28,9 @@ pub(super) struct Stretches<'c> {
 
 /// A lower bound of the torque limit.
 trait Floor: Copy {
+    /// A chord that the limit does not fall below at any speed of the cycle, whatever the direction of power: its torque at rest
+    /// and its slope over the magnitude of the speed at the gearbox output.
+    fn line(&self) -> [f64; 2];
     /// Its least value at all speeds of the cycle, in both directions of power.
     fn least(&self) -> f64;
     /// The values at both ends of a chord that the limit does not fall below between the two speeds of the motor.
@@ -41,6 +44,10 @@ trait Floor: Copy {
 struct Level(f64);
 
 impl Floor for Level {
+    fn line(&self) -> [f64; 2] {
+        [self.0, 0.0]
+    }
+
     fn least(&self) -> f64 {
         self.0
     }
@@ -58,10 +65,15 @@ impl Floor for Level {
 #[derive(Clone, Copy)]
 struct Falling<'e> {
     envelope: &'e Envelope,
+    line: [f64; 2],
     least: f64,
 }
 
 impl Floor for Falling<'_> {
+    fn line(&self) -> [f64; 2] {
+        self.line
+    }
+
     fn least(&self) -> f64 {
         self.least
     }
@@ -86,14 +98,26 @@ impl<'c> Stretches<'c> {
             peak.used = envelope.peak_used(peak.torque, peak.speed);
             return Some(peak);
         }
-        let floors = [true, false].map(|driving| envelope.floor(driving, [0.0, top]));
-        let least = floors.as_flattened().iter().copied().fold(f64::INFINITY, f64::min);
-        let floor = Falling { envelope, least };
+        let [driving, braking] = [true, false].map(|driving| envelope.floor(driving, [0.0, top]));
+        let [start, end] = [driving[0].min(braking[0]), driving[1].min(braking[1])];
+        let least = start.min(end);
+        let slope = (end - start) / self.tree.nodes.first()?.speed[1];
+        let line = if slope.is_finite() {
+            [start, slope]
+        } else {
+            [least, 0.0]
+        };
+        let floor = Falling {
+            envelope,
+            line,
+            least,
+        };
         let search = Search::new(self, c, ratio, floor);
-        if least <= 0.0
-            && let Some(beyond) = search.first_without_limit(0)
-        {
-            return Some(beyond);
+        if least <= 0.0 {
+            let positive_below = envelope.positive_below() / ratio;
+            if let Some(beyond) = search.first_without_limit(positive_below, 0) {
+                return Some(beyond);
+            }
         }
         Some(search.run())
     }
@@ -175,6 +199,34 @@ impl<'c> Stretches<'c> {
         }
     }
 
+    /// Whether any sample's power is negative, by more than rounding.
+    pub(super) fn regenerates(self, c: &Coefficients) -> bool {
+        fn visit(stretches: Stretches, c: &Coefficients, slack: f64, index: usize) -> bool {
+            let node = &stretches.tree.nodes[index];
+            let back = |s: &Sample| s.speed() * c.torque(&s.loads) < -slack * s.speed().abs();
+            if [node.first, node.last].iter().any(|k| back(&stretches.samples[*k as usize])) {
+                return true;
+            }
+            let [a, b] = stretches.ends(node, c);
+            let reach: f64 = (0..LOADS).map(|k| c.0[k].abs() * node.reach[k]).sum();
+            let only_driving = match node.direction {
+                Direction::One(true) => a.min(b) - reach >= -slack,
+                Direction::One(false) => a.max(b) + reach <= slack,
+                Direction::Any => node.speed[1] == 0.0,
+            };
+            if only_driving {
+                false
+            } else if node.second == 0 {
+                let samples = &stretches.samples[node.first as usize..=node.last as usize];
+                samples.iter().any(back)
+            } else {
+                visit(stretches, c, slack, index + 1)
+                    || visit(stretches, c, slack, node.second as usize)
+            }
+        }
+        !self.tree.nodes.is_empty() && visit(self, c, self.slack(c), 0)
+    }
+
     fn slack(self, c: &Coefficients) -> f64 {
         let terms = c.0.iter().zip(self.largest).map(|(c, x)| c.abs() * x);
         ROUNDING * terms.sum::<f64>()
@@ -215,20 +267,30 @@ impl<'s, F: Floor> Search<'s, F> {
     fn run(mut self) -> Peak {
         let front = self.stretches.front;
         let bounds = front.bounds(&self.c.0);
-        let bounds = &bounds[..front.len];
-        let mut first = 0;
-        for (k, bound) in bounds.iter().enumerate() {
-            if *bound > bounds[first] {
-                first = k;
+        let floors = front.floors(self.floor.line());
+        let (mut first, mut most) = (0, f64::NEG_INFINITY);
+        for (k, (bound, floor)) in bounds.iter().zip(&floors).take(front.len).enumerate() {
+            let share = bound / floor.max(f64::MIN_POSITIVE);
+            if share > most {
+                (first, most) = (k, share);
             }
         }
+        self.weigh_ends(front.nodes[first]);
         self.look(front.nodes[first] as usize);
-        for (k, &bound) in bounds.iter().enumerate() {
-            if k != first && bound - self.slack > self.best.used * self.floor.least() {
+        for (k, (bound, floor)) in bounds.iter().zip(&floors).take(front.len).enumerate() {
+            if k != first && bound - self.slack > self.best.used * floor {
                 self.look(front.nodes[k] as usize);
             }
         }
         self.best
+    }
+
+    /// Weighs both ends of a stretch: what they hold may spare much of the search.
+    fn weigh_ends(&mut self, node: u32) {
+        let node = &self.stretches.tree.nodes[node as usize];
+        for end in [node.first, node.last] {
+            self.weigh(&self.stretches.samples[end as usize], self.floor.least());
+        }
     }
 
     /// Looks at a stretch if it may hold more than the best.
@@ -246,8 +308,9 @@ impl<'s, F: Floor> Search<'s, F> {
         let node = &nodes[index];
         if node.second == 0 {
             let samples = &self.stretches.samples[node.first as usize..=node.last as usize];
+            let least = self.least_on(node);
             for sample in samples {
-                self.weigh(sample);
+                self.weigh(sample, least);
             }
             return;
         }
@@ -263,9 +326,16 @@ impl<'s, F: Floor> Search<'s, F> {
         }
     }
 
-    fn weigh(&mut self, sample: &Sample) {
+    /// What the limit does not fall below on a stretch.
+    fn least_on(&self, node: &Node) -> f64 {
+        let [start, slope] = self.floor.line();
+        (start + slope * node.speed[0]).min(start + slope * node.speed[1])
+    }
+
+    /// Takes a sample for the best if it is; `least`: what its limit does not fall below.
+    fn weigh(&mut self, sample: &Sample, least: f64) {
         let torque = self.c.torque(&sample.loads);
-        if torque.abs() <= self.best.used * self.floor.least() {
+        if torque.abs() <= self.best.used * least {
             return;
         }
         let speed = sample.speed() * self.ratio;
@@ -290,12 +360,18 @@ impl<'s, F: Floor> Search<'s, F> {
         let torques = self.stretches.ends(node, self.c);
         let [least, largest] = node.speed;
         let speeds = [least * self.ratio, largest * self.ratio];
-        let reach_without_speed: f64 = c[0].abs() * node.reach[0]
+        let reach_without_speed = c[0].abs() * node.reach[0]
             + (c[1].abs() * node.reach[1] + c[2].abs() * node.reach[2])
             + c[4].abs() * node.reach[4];
+        let reach = reach_without_speed + c[3].abs() * node.reach[3];
+        let least_here = u * self.least_on(node);
         let side = |positive: bool| {
             let sign = if positive { 1.0 } else { -1.0 };
             let [a, b] = torques.map(|torque| sign * torque);
+            let flat = a.max(b) + reach - least_here;
+            if flat <= self.slack {
+                return flat;
+            }
             let driving = match node.direction {
                 Direction::One(forwards) => forwards == positive,
                 Direction::Any => true,
@@ -315,7 +391,7 @@ impl<'s, F: Floor> Search<'s, F> {
                 }
             }
             if low == high {
-                return a.max(b) + reach_without_speed + c[3].abs() * node.reach[3] - u * low;
+                return a.max(b) + reach - u * low;
             }
             // M = low + slope·(|n| − least), and |n| is n itself or −n.
             let slope = (high - low) / (largest - least);
@@ -332,20 +408,22 @@ impl<'s, F: Floor> Search<'s, F> {
         side(true).max(side(false))
     }
 
-    /// The first sample in a stretch at whose speed there is no torque at all.
-    fn first_without_limit(&self, index: usize) -> Option<Peak> {
+    /// The first sample in a stretch at whose speed there is no torque at all; there is some in all directions below the speed
+    /// `positive_below` at the gearbox output.
+    fn first_without_limit(&self, positive_below: f64, index: usize) -> Option<Peak> {
         let node = &self.stretches.tree.nodes[index];
-        let speeds = node.speed.map(|speed| speed * self.ratio);
-        let has_limit = |driving| self.floor.chord(driving, speeds).iter().all(|m| *m > 0.0);
-        if has_limit(true) && has_limit(false) {
+        if node.speed[1] < positive_below {
             return None;
         }
         if node.second > 0 {
-            return (self.first_without_limit(index + 1))
-                .or_else(|| self.first_without_limit(node.second as usize));
+            return (self.first_without_limit(positive_below, index + 1))
+                .or_else(|| self.first_without_limit(positive_below, node.second as usize));
         }
         let samples = &self.stretches.samples[node.first as usize..=node.last as usize];
         samples.iter().find_map(|sample| {
+            if sample.speed().abs() < positive_below {
+                return None;
+            }
             let torque = self.c.torque(&sample.loads);
             let speed = sample.speed() * self.ratio;
             let used = self.floor.used(torque, speed);

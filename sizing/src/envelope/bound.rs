@@ -9,6 +9,11 @@ impl Envelope {
         self.limit(!driving).floor(speeds)
     }
 
+    /// A speed (rad/s) below which there is some torque in all four quadrants.
+    pub(crate) fn positive_below(&self) -> f64 {
+        self.limit(false).positive_below().min(self.limit(true).positive_below())
+    }
+
     /// The limit, if it is the same in all four quadrants at every speed up to this one, and not zero.
     pub(crate) fn level_up_to(&self, speed: f64) -> Option<f64> {
         let level = |limit: &Limit| limit.pieces().first().and_then(|p| p.level_up_to(speed));
@@ -33,6 +38,23 @@ impl Piece {
 }
 
 impl Limit {
+    fn positive_below(&self) -> f64 {
+        // Just below the end, where rounding may have the last torques be zero already.
+        const BELOW: f64 = 1.0 - 1e-9;
+        for piece in self.pieces() {
+            let [from, to] = [piece.torque(piece.from), piece.torque(piece.to)];
+            let positive = match piece.shape {
+                _ if from <= 0.0 => piece.from,
+                _ if to > 0.0 => continue,
+                // A chord that is positive up to its end.
+                Shape::Straight | Shape::Concave => piece.to * BELOW,
+                Shape::Monotone => piece.from,
+            };
+            return positive;
+        }
+        self.end()
+    }
+
     /// See [`Envelope::floor`].
     fn floor(&self, [from, to]: [f64; 2]) -> [f64; 2] {
         let pieces = self.pieces();

@@ -14,7 +14,7 @@ pub(super) struct Builder<'a> {
     /// Actual bus voltage over that of the data sheet.
     share: f64,
     /// Current of a torque.
-    pub torques: Option<CurrentCurve>,
+    pub(super) torques: Option<CurrentCurve>,
     /// The winding at the actual voltage; reactance left out where it is not stated.
     line: Option<Circuit>,
     /// Peak torque (N·m).
@@ -51,7 +51,7 @@ fn falling(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 }
 
 impl<'a> Builder<'a> {
-    pub fn new(motor: &'a Motor, amplifier: Option<&Amplifier>, site: &Site) -> Self {
+    pub(super) fn new(motor: &'a Motor, amplifier: Option<&Amplifier>, site: &Site) -> Self {
         let mut assumptions = Vec::new();
         let torques = CurrentCurve::of(motor);
         let sheet = finite(motor.bus_voltage);
@@ -95,7 +95,7 @@ impl<'a> Builder<'a> {
     }
 
     /// The winding's voltage line, where enough is stated and the data sheet does not state the envelope itself.
-    pub fn circuit(&self) -> Option<Circuit> {
+    pub(super) fn circuit(&self) -> Option<Circuit> {
         let motor = self.motor;
         let points = !motor.peak_curve.is_empty();
         let figures =
@@ -125,7 +125,7 @@ impl<'a> Builder<'a> {
         (explained && plausible).then_some(circuit)
     }
 
-    pub fn build(mut self) -> Envelope {
+    pub(super) fn build(mut self) -> Envelope {
         let motor = self.motor;
         let [driving, braking] = match (self.circuit(), self.torques) {
             (Some(circuit), Some(torques)) => self.from_winding(&circuit, &torques),

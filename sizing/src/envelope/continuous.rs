@@ -5,7 +5,7 @@ use crate::catalogue::Motor;
 /// S1 torque over speed.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Continuous {
-    pub standstill: f64,
+    pub(super) standstill: f64,
     rated_torque: f64,
     rated_speed: f64,
     max_power: f64,
@@ -14,7 +14,7 @@ pub(super) struct Continuous {
 
 impl Continuous {
     /// Infinite figures say that no limit is known.
-    pub fn of(motor: &Motor, known: impl Fn(Option<f64>) -> f64, points: Vec<[f64; 2]>) -> Self {
+    pub(super) fn of(motor: &Motor, known: impl Fn(Option<f64>) -> f64, points: Vec<[f64; 2]>) -> Self {
         let rated_torque = known(motor.rated_torque);
         let first = points.first().map(|p| p[1]);
         let stated = known(motor.standstill_torque);
@@ -32,7 +32,7 @@ impl Continuous {
     }
 
     /// S1 torque (N·m) at a speed's magnitude (rad/s).
-    pub fn torque(&self, speed: f64) -> f64 {
+    pub(super) fn torque(&self, speed: f64) -> f64 {
         let heat = match &*self.points {
             [] => self.from_figures(speed),
             points => between(points, speed),

@@ -87,6 +87,7 @@ impl Piece {
     }
 
     /// Torque (N·m) at a speed of the piece (rad/s).
+    #[inline]
     pub fn torque(&self, speed: f64) -> f64 {
         match &self.curve {
             // Level: an infinite piece stays free of 0·∞.
@@ -145,6 +146,7 @@ impl Limit {
     }
 
     /// Torque (N·m) at a speed's magnitude (rad/s); zero beyond the end.
+    #[inline]
     pub fn torque(&self, speed: f64) -> f64 {
         // Two or three pieces: no search is faster than this.
         for piece in &self.pieces {

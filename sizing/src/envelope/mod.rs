@@ -66,6 +66,7 @@ impl Envelope {
     }
 
     /// The limit of the short-time torque in the quadrants where power flows to the shaft, or, `braking`, from it.
+    #[inline]
     pub const fn limit(&self, braking: bool) -> &Limit {
         if braking {
             &self.braking
@@ -75,11 +76,13 @@ impl Envelope {
     }
 
     /// Largest short-time torque in the direction of `torque` (N·m) at `speed` (rad/s); zero beyond the maximum speed.
+    #[inline]
     pub fn peak_torque(&self, torque: f64, speed: f64) -> f64 {
         self.limit(torque * speed < 0.0).torque(speed.abs())
     }
 
     /// |`torque`| as a share of the peak torque at `speed`; infinite where there is none.
+    #[inline]
     pub fn peak_used(&self, torque: f64, speed: f64) -> f64 {
         let limit = self.peak_torque(torque, speed);
         if limit > 0.0 {

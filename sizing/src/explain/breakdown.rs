@@ -193,7 +193,9 @@ impl Breakdown {
     /// Energy (J) beside which a rounding error is seen as one.
     pub fn turned_over(&self) -> f64 {
         let energies = self.effects.iter().map(|share| share.energy.abs());
-        energies.fold(self.total.energy.abs(), f64::max).max(self.stored)
+        energies
+            .fold(self.total.energy.abs(), f64::max)
+            .max(self.stored)
     }
 
     /// The figures of cells that are there already.
@@ -295,11 +297,19 @@ fn machine(
         let [inertia, slope, _] = Link::reduced_inertia(link, frame);
         let [_, weight] = link.potential_energy(frame, machine.gravity());
         cells.add((Kind::Link, name), ACCELERATION, inertia * alpha / total);
-        cells.add((Kind::Link, name), VELOCITY, 0.5 * slope * omega * omega / total);
+        cells.add(
+            (Kind::Link, name),
+            VELOCITY,
+            0.5 * slope * omega * omega / total,
+        );
         cells.add((Kind::Link, name), WEIGHT, weight / total);
         cells.add_inertia(name, inertia / (total * total));
     }
-    cells.add((Kind::Drive, "flywheel"), ACCELERATION, machine.flywheel() * alpha / total);
+    cells.add(
+        (Kind::Drive, "flywheel"),
+        ACCELERATION,
+        machine.flywheel() * alpha / total,
+    );
     cells.add_inertia("flywheel", machine.flywheel() / (total * total));
     for (load, named) in machine.loads().iter().zip(&file.loads) {
         let curves = frames.get(load.link());
@@ -335,7 +345,11 @@ fn drive_parts(
     let behind = train.inertia_at_input();
     let lossless = instant.terms.total() / train.ratio() + behind * instant.input_alpha;
     let loss = (instant.input_torque - lossless) / ratio;
-    cells.add((Kind::Drive, "drive train"), TRAIN, behind * instant.input_alpha / ratio);
+    cells.add(
+        (Kind::Drive, "drive train"),
+        TRAIN,
+        behind * instant.input_alpha / ratio,
+    );
     cells.add((Kind::Drive, "drive train"), TRAIN_LOSS, loss);
     cells.add_inertia("drive train", behind / (ratio * ratio));
     let [_, driving, back, speed, sign] = loads(instant);
@@ -351,7 +365,11 @@ fn drive_parts(
     );
     cells.add_inertia("gearbox", gearbox);
     let brake = drive.motor.brake.map_or(0.0, |brake| brake.inertia);
-    cells.add((Kind::Drive, "rotor"), ROTOR, drive.motor.rotor_inertia * alpha);
+    cells.add(
+        (Kind::Drive, "rotor"),
+        ROTOR,
+        drive.motor.rotor_inertia * alpha,
+    );
     cells.add_inertia("rotor", drive.motor.rotor_inertia);
     cells.add((Kind::Drive, "brake of the motor"), ROTOR, brake * alpha);
     cells.add_inertia("brake of the motor", brake);

@@ -14,7 +14,7 @@ pub fn ratio_course(context: &Context, rules: &RuleSet, ratios: &[f64]) -> Vec<(
         .map(|&ratio| {
             let gearbox = with_ratio(context.drive.gearbox, ratio);
             let drive = Drive {
-                gearbox: gearbox.as_ref(),
+                gearbox: Some(&gearbox),
                 ..context.drive
             };
             let mut findings = Findings::default();

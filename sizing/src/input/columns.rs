@@ -50,6 +50,7 @@ impl CsvFile {
                 .help(fault.help)
         })?;
         let name = path.display().to_string();
+        let text = text.trim_start_matches('\u{feff}').to_owned();
         Ok(Self { text, name })
     }
 
@@ -91,7 +92,9 @@ impl Columns {
             return figure(value);
         };
         let unit = split_header(header).map_or("", |(_, unit)| unit);
-        format!("{} {unit}", figure(value / scale)).trim_end().to_owned()
+        format!("{} {unit}", figure(value / scale))
+            .trim_end()
+            .to_owned()
     }
 
     /// A problem of one value: "row 3: J = −2 kg m^2 `what`".
@@ -127,10 +130,24 @@ fn split_header(header: &str) -> Option<(&str, &str)> {
     Some((name.trim_end(), unit.trim()))
 }
 
+/// The first line that is no comment.
+pub(super) fn header_of(text: &str) -> &str {
+    let mut lines = text
+        .lines()
+        .filter(|line| !line.starts_with('#') && !line.trim().is_empty());
+    lines.next().unwrap_or_default()
+}
+
+/// Where the header is.
+pub(super) fn header_place(text: &str) -> Range<usize> {
+    let header = header_of(text);
+    let start = text.find(header).unwrap_or(0);
+    start..start + header.len()
+}
+
 /// What separates the values: the first of tab and semicolon that the header has, else the comma.
 fn delimiter(text: &str) -> u8 {
-    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
-    let header = lines.next().unwrap_or_default();
+    let header = header_of(text);
     if header.contains('\t') {
         b'\t'
     } else if header.contains(';') {
@@ -153,7 +170,10 @@ pub(super) fn read(text: &str, format: &Format) -> Result<Columns> {
         let start = error.position().map_or(0, |p| p.byte() as usize);
         Problem::new(format!("not a readable CSV file: {error}"))
             .at(line_at(text, start), "here")
-            .help(format!("give columns of numbers under the header {}", format.example))
+            .help(format!(
+                "give columns of numbers under the header {}",
+                format.example
+            ))
     };
     let header = reader.headers().map_err(|error| broken(&error))?.clone();
     let columns = header_columns(&header, text, format)?;
@@ -162,7 +182,7 @@ pub(super) fn read(text: &str, format: &Format) -> Result<Columns> {
     for (column, name) in columns.iter().zip(&header) {
         if let Some((index, scale)) = column {
             values[*index] = Some(Vec::new());
-            headers[*index] = (name.trim_start_matches('\u{feff}').to_owned(), *scale);
+            headers[*index] = (name.to_owned(), *scale);
         }
     }
     let mut places = Vec::new();
@@ -188,7 +208,6 @@ pub(super) fn read(text: &str, format: &Format) -> Result<Columns> {
                 continue;
             };
             let value = number_of(field, delimiter).ok_or_else(|| {
-                let name = name.trim_start_matches('\u{feff}');
                 Problem::new(format!(
                     "row {}: \"{field}\" in the column \"{name}\" is not a finite number",
                     number + 1
@@ -198,7 +217,6 @@ pub(super) fn read(text: &str, format: &Format) -> Result<Columns> {
             })? * scale;
             let kind = format.known[index].kind;
             if value.abs() > kind.largest {
-                let name = name.trim_start_matches('\u{feff}');
                 return Err(Problem::new(format!(
                     "row {}: {field} in the column \"{name}\" is too large for {}",
                     number + 1,
@@ -222,7 +240,10 @@ pub(super) fn read(text: &str, format: &Format) -> Result<Columns> {
             format.min_rows
         ))
         .at(end..end, "ends here")
-        .help(format!("give the columns {} and a row for each point", format.example)));
+        .help(format!(
+            "give the columns {} and a row for each point",
+            format.example
+        )));
     }
     Ok(Columns {
         values,
@@ -247,13 +268,16 @@ fn header_columns(
     text: &str,
     format: &Format,
 ) -> Result<Vec<Option<(usize, f64)>>> {
-    let place = line_at(text, 0);
-    let help = format!("the first line names columns with their units: {}", format.example);
+    let place = header_place(text);
+    let help = format!(
+        "the first line names columns with their units: {}",
+        format.example
+    );
     let fault = |message: String, help: String| {
         Problem::new(message).at(place.clone(), "header").help(help)
     };
     let mut columns: Vec<Option<(usize, f64)>> = Vec::new();
-    for whole in header.iter().map(|name| name.trim_start_matches('\u{feff}')) {
+    for whole in header {
         let name = split_header(whole).map_or(whole, |(name, _)| name);
         let is = |known: &Known| known.names.iter().any(|n| n.eq_ignore_ascii_case(name));
         let Some(index) = format.known.iter().position(is) else {
@@ -264,18 +288,23 @@ fn header_columns(
             let names: Vec<&str> = format.known.iter().flat_map(|k| k.names).copied().collect();
             let near = closest(name, &names)
                 .map_or_else(String::new, |near| format!("did you mean \"{near}\"? "));
-            return Err(fault(format!("the column \"{whole}\" is not known"), near + &help));
+            return Err(fault(
+                format!("the column \"{whole}\" is not known"),
+                near + &help,
+            ));
         };
         let kind = format.known[index].kind;
         let Some((_, unit)) = split_header(whole) else {
             return Err(fault(
                 format!("the column \"{whole}\" has no unit"),
-                format!("write \"{name} [{}]\"; possible units: {}", kind.unit, kind.units),
+                format!(
+                    "write \"{name} [{}]\"; possible units: {}",
+                    kind.unit, kind.units
+                ),
             ));
         };
-        let read = unit::read(&unit::tidy(unit)).map_err(|f| {
-            fault(format!("the column \"{whole}\" {}", f.message), f.help)
-        })?;
+        let read = unit::read(&unit::tidy(unit))
+            .map_err(|f| fault(format!("the column \"{whole}\" {}", f.message), f.help))?;
         let mut dimension = read.dimension;
         if kind.angle_optional && dimension.angle == 0 {
             dimension.angle = kind.dimension.angle;
@@ -302,7 +331,7 @@ fn header_columns(
 }
 
 /// The line that begins at or after `start`.
-pub(super) fn line_at(text: &str, start: usize) -> Range<usize> {
+fn line_at(text: &str, start: usize) -> Range<usize> {
     let rest = text.get(start..).unwrap_or_default();
     let start = start + rest.len() - rest.trim_start().len();
     let line = text.get(start..).unwrap_or_default();

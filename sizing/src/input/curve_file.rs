@@ -68,7 +68,9 @@ impl<'c> Positions<'c> {
                 ))
                 .at(columns.place(0), "first row")
                 .at(columns.place(columns.rows() - 1), "last row")
-                .help("give rows over the whole stroke of the drive link; rows beyond it do no harm"));
+                .help(
+                    "give rows over the whole stroke of the drive link; rows beyond it do no harm",
+                ));
             }
             return Ok(Self {
                 columns,
@@ -79,7 +81,10 @@ impl<'c> Positions<'c> {
         }
         let open = first + TAU - last;
         let closing = open.abs() <= ROUNDING * TAU;
-        let widest = x.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+        let widest = x
+            .windows(2)
+            .map(|pair| pair[1] - pair[0])
+            .fold(0.0, f64::max);
         if !closing && (open < 0.0 || open > OPEN * widest) {
             return Err(Problem::new(format!(
                 "the rows cover {} of a turn, from {} to {}",
@@ -144,7 +149,12 @@ impl<'c> Positions<'c> {
     }
 
     /// The column's values, none of which may be negative (`zero`: nor zero).
-    pub(super) fn magnitudes(&self, index: usize, zero: bool, why: &str) -> Result<Option<Vec<f64>>> {
+    pub(super) fn magnitudes(
+        &self,
+        index: usize,
+        zero: bool,
+        why: &str,
+    ) -> Result<Option<Vec<f64>>> {
         let values = self.values(index)?;
         let bad = |value: &f64| *value < 0.0 || (!zero && *value == 0.0);
         if let Some(row) = values.as_deref().and_then(|v| v.iter().position(bad)) {
@@ -183,7 +193,11 @@ impl<'c> Positions<'c> {
         }
         .ok()?;
         let [from, to] = coarse.range();
-        let rows = self.x.iter().zip(values).filter(|(x, _)| (from..=to).contains(*x));
+        let rows = self
+            .x
+            .iter()
+            .zip(values)
+            .filter(|(x, _)| (from..=to).contains(*x));
         let missed = rows.map(|(x, y)| (coarse.at(*x)[0] - y).abs());
         let most = values.iter().fold(0.0f64, |most, v| most.max(v.abs()));
         Some(missed.fold(0.0, f64::max) / most)

@@ -35,7 +35,10 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
                 return Err(unused(rest, "after its run all is cold again"));
             }
             let operating = operating.ok_or_else(|| {
-                section.missing("operating_time", "operating_time = \"600 s\", how long the machine runs from cold")
+                section.missing(
+                    "operating_time",
+                    "operating_time = \"600 s\", how long the machine runs from cold",
+                )
             })?;
             Operation::Short {
                 operating: operating.positive()?,

@@ -64,6 +64,11 @@ pub(super) const LENGTH: Kind = kind(
     [1, 0, 0, 0],
     [1e-6, 1e3],
 );
+pub(super) const ALTITUDE: Kind = kind(
+    ["an altitude", "1400 m", "m", "m, km"],
+    [1, 0, 0, 0],
+    [1e-6, 1e5],
+);
 pub(super) const MASS: Kind = kind(
     ["a mass", "3.5 kg", "kg", "kg, g, t"],
     [0, 1, 0, 0],

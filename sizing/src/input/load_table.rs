@@ -82,9 +82,9 @@ pub(super) fn read(
     };
     for section in item.sections("[[load]]")?.iter().filter(|s| is_table(s)) {
         let stand_ins = table(section, &mechanism, drive, gravity, folder)?;
-        mechanism = mechanism
-            .with_stand_ins(&stand_ins)
-            .map_err(|error| section.problem(format!("{}: {error}", section.title()), "this table"))?;
+        mechanism = mechanism.with_stand_ins(&stand_ins).map_err(|error| {
+            section.problem(format!("{}: {error}", section.title()), "this table")
+        })?;
         if mechanism.own_loads().len() > MAX_LOADS {
             return Err(section
                 .problem(format!("more than {MAX_LOADS} loads"), "one too many")
@@ -110,7 +110,9 @@ fn table(
     let link = section.get("on").map(|on| on.choice(links)).transpose()?;
     section.finish_with(|key| match key {
         "force" | "moment" | "opposing_force" | "opposing_moment" | "viscous_force"
-        | "viscous_moment" => Some("a table says itself what acts; write this in a [[load]] of its own"),
+        | "viscous_moment" => {
+            Some("a table says itself what acts; write this in a [[load]] of its own")
+        }
         "between" | "ramp" => Some("the rows of a table say where it acts"),
         "at" => Some("a table acts at the origin of its link's frame"),
         _ => None,
@@ -145,8 +147,10 @@ fn curves(text: &str, drive: DriveLink, target: &Target) -> Result<Vec<StandIn>>
     let columns = columns::read(text, &format)?;
     let header = |message: &str| {
         Problem::new(message)
-            .at(columns::line_at(text, 0), "header")
-            .help(format!("the first line names columns with their units: {example}"))
+            .at(columns::header_place(text), "header")
+            .help(format!(
+                "the first line names columns with their units: {example}"
+            ))
     };
     if columns.get(POSITION).is_none() {
         return Err(header("there is no column for the position"));

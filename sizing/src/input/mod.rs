@@ -30,7 +30,7 @@ mod stage;
 mod supply;
 mod surroundings;
 mod stiffness;
-pub(crate) mod tolerance;
+mod tolerance;
 mod tool;
 mod unit;
 mod variator;
@@ -40,6 +40,7 @@ pub use argument::{
     largest_speed, mass_argument,
 };
 pub use mechanism::mechanism_types;
+pub use tolerance::{Shape, Tolerance};
 
 use std::path::Path;
 
@@ -203,7 +204,7 @@ fn machine(name: &str, text: &str, folder: &Path) -> Result<MachineFile> {
             shaft_stiffness: stiffness.shaft,
             train_play: stiffness.play,
             tool,
-            ..crate::site::Site::default()
+            ..site
         },
     };
     check::inertia(&file, &section)?;

@@ -54,7 +54,8 @@ const LENGTHS: [Known; 3] = [
 ];
 
 /// The cure of most things that are wrong with the time column.
-const TIMES: &str = "give one row for each instant, in order, and the times with enough digits to tell them apart";
+const TIMES: &str =
+    "give one row for each instant, in order, and the times with enough digits to tell them apart";
 
 /// What `[motion]` says about the file.
 struct Request {
@@ -109,8 +110,14 @@ impl From<Problem> for Place {
 
 fn read_columns(text: &str, drive: DriveLink) -> Result<Columns> {
     let (known, example) = match drive.coordinate {
-        Coordinate::Angle => (&ANGLES, "\"t [s],phi [deg]\" (or t [ms], phi [rad]; or omega [rpm] instead of phi)"),
-        Coordinate::Length => (&LENGTHS, "\"t [s],s [mm]\" (or t [ms], s [m]; or v [m/s] instead of s)"),
+        Coordinate::Angle => (
+            &ANGLES,
+            "\"t [s],phi [deg]\" (or t [ms], phi [rad]; or omega [rpm] instead of phi)",
+        ),
+        Coordinate::Length => (
+            &LENGTHS,
+            "\"t [s],s [mm]\" (or t [ms], s [m]; or v [m/s] instead of s)",
+        ),
     };
     let format = Format {
         known,
@@ -120,9 +127,13 @@ fn read_columns(text: &str, drive: DriveLink) -> Result<Columns> {
     };
     let columns = columns::read(text, &format)?;
     if columns.get(POSITION).is_some() == columns.get(SPEED).is_some() {
-        return Err(Problem::new("the header must have one column for the position or for the speed, and not both")
-            .at(columns::line_at(text, 0), "header")
-            .help(format!("the first line names columns with their units: {example}")));
+        return Err(Problem::new(
+            "the header must have one column for the position or for the speed, and not both",
+        )
+        .at(columns::header_place(text), "header")
+        .help(format!(
+            "the first line names columns with their units: {example}"
+        )));
     }
     Ok(columns)
 }
@@ -135,8 +146,16 @@ fn check_request(request: &Request, columns: &Columns, drive: DriveLink) -> Resu
             .problem("is given, but the file has positions", "not needed")
             .help("a profile of positions starts at its first position; remove this"));
     }
-    if let Some(start) = request.start.as_ref().filter(|start| !drive.reaches(start.si)) {
-        let what = format!("is {}, outside the stroke, {}", start.shown(), drive.range());
+    if let Some(start) = request
+        .start
+        .as_ref()
+        .filter(|start| !drive.reaches(start.si))
+    {
+        let what = format!(
+            "is {}, outside the stroke, {}",
+            start.shown(),
+            drive.range()
+        );
         return Err(start
             .problem(&what, "out of reach")
             .help("start at a position within the stroke"));
@@ -169,9 +188,14 @@ fn curve(
     };
     let unmade = |fault| {
         Problem::new(format!("no motion can be made of these rows: {fault}"))
-            .at(columns::line_at(text, 0), "in this file")
+            .at(columns::header_place(text), "in this file")
     };
-    let most = |default: f64| request.close_within.as_ref().map_or(default, |value| value.si);
+    let most = |default: f64| {
+        request
+            .close_within
+            .as_ref()
+            .map_or(default, |value| value.si)
+    };
     let mut advance = 0.0;
     let motion = if let Some(positions) = columns.get(POSITION) {
         let (first, last) = (
@@ -179,7 +203,12 @@ fn curve(
             positions.last().copied().unwrap_or_default(),
         );
         if request.cyclic {
-            advance = closed(last - first, most(CLOSED * drive.domain.span()), columns, drive)?;
+            advance = closed(
+                last - first,
+                most(CLOSED * drive.domain.span()),
+                columns,
+                drive,
+            )?;
         }
         let recording = Recording {
             times: &times,
@@ -207,7 +236,11 @@ fn curve(
             closing: Closing::Open,
         };
         if request.cyclic {
-            let way = Motion::speeds(&recording, start).map_err(unmade)?.at(duration).phi - start;
+            let way = Motion::speeds(&recording, start)
+                .map_err(unmade)?
+                .at(duration)
+                .phi
+                - start;
             advance = closed(way, most(CLOSED * drive.domain.span()), columns, drive)?;
             recording.closing = Closing::After(advance);
         }
@@ -265,12 +298,19 @@ fn cutoff(request: &Request, times: &[f64]) -> std::result::Result<Option<f64>, 
     let rate = (times.len() - 1) as f64 / duration;
     let (low, high) = (CUTOFFS / duration, rate / ROWS_PER_CUTOFF);
     if !(low..=high).contains(&smoothing.si) {
-        let what = format!(
-            "is {}, but these rows can be smoothed at {} to {}",
-            smoothing.shown(),
-            smoothing.show(low),
-            smoothing.show(high)
-        );
+        let what = if low > high {
+            format!(
+                "is {}, but these rows are too few to be smoothed",
+                smoothing.shown()
+            )
+        } else {
+            format!(
+                "is {}, but these rows can be smoothed at {} to {}",
+                smoothing.shown(),
+                smoothing.show(low),
+                smoothing.show(high)
+            )
+        };
         return Err(Place::Machine(
             smoothing.problem(&what, "cannot be done").help(
                 "take a frequency well above that of the motion and well below that of the rows; without `smoothing` the curve \
@@ -317,7 +357,9 @@ fn closed(way: f64, most: f64, columns: &Columns, drive: DriveLink) -> Result<f6
         format!("{} {unit}", figure(drive.coordinate.shown(gap)))
     };
     let message = match drive.domain {
-        Domain::Stroke { .. } => format!("the last position lies {} from the first one", shown(gap)),
+        Domain::Stroke { .. } => {
+            format!("the last position lies {} from the first one", shown(gap))
+        }
         Domain::Turn => format!(
             "the last position lies {} {} a whole number of turns from the first one",
             shown(gap.abs()),
@@ -331,7 +373,7 @@ fn closed(way: f64, most: f64, columns: &Columns, drive: DriveLink) -> Result<f6
             "a cyclic motion ends where it began or whole turns further on, with the last row at the end of the cycle; for a motion \
              that does not repeat write cyclic = false in [motion]; if this is what the measurement is worth, write \
              close_within = \"{}\": it is then spread over the cycle as a constant speed",
-            shown(rounded_up(gap.abs()))
+            format_args!("{} {}", figure(rounded_up(drive.coordinate.shown(gap.abs()))), drive.coordinate.unit())
         )))
 }
 

@@ -71,7 +71,7 @@ pub(super) fn read(root: &Section, folder: &Path) -> Result<RuleSet> {
         None => named(GENERAL)?,
     };
     let changes = changes(&section, "[rules] of the machine file")?;
-    section.finish_with(|key| explain(key))?;
+    section.finish_with(explain)?;
     set.with_own(changes).map_err(contradicts)
 }
 
@@ -152,25 +152,17 @@ fn parse(name: &str, text: &str) -> Result<RuleSet> {
     };
     let section = root.section("rules")?;
     let changes = changes(&section, &source)?;
-    section.finish_with(|key| explain(key))?;
+    section.finish_with(explain)?;
     root.finish()?;
     let mut set = base.with(&changes).map_err(contradicts)?;
-    let short = Path::new(name)
+    // A file is called by its name without folder and ending.
+    let path = Path::new(name);
+    let stem = path
         .file_stem()
-        .map(|stem| stem.display().to_string());
-    name_of(
-        &mut set,
-        if name.ends_with(".toml") { short } else { None }
-            .as_deref()
-            .unwrap_or(name),
-        title,
-    );
-    Ok(set)
-}
-
-fn name_of(set: &mut RuleSet, name: &str, title: String) {
-    set.name = name.to_owned();
+        .filter(|_| path.extension().is_some_and(|e| e == "toml"));
+    set.name = stem.map_or_else(|| name.to_owned(), |stem| stem.display().to_string());
     set.title = title;
+    Ok(set)
 }
 
 fn contradicts(contradiction: Contradiction) -> Problem {
@@ -252,8 +244,7 @@ fn changes(section: &Section, source: &str) -> Result<Changes> {
 /// A limit: a share of the rule's rating, or a plain ratio.
 fn limit(item: &Item, rule: Rule) -> Result<f64> {
     match rule {
-        Rule::InertiaRatio => item.number([0.01, MAX_RATIO], "10"),
-        Rule::NaturalFrequency => item.number([0.01, MAX_RATIO], "10"),
+        _ if rule.is_ratio() => item.number([0.01, MAX_RATIO], "10"),
         Rule::GearboxCycles => item.quantity(&SHARE)?.up_to(MAX_CYCLES),
         _ => item.quantity(&SHARE)?.up_to(MAX_SHARE),
     }

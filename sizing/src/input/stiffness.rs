@@ -3,6 +3,7 @@
 use jred::mechanism::Train;
 
 use super::drive_link::DriveLink;
+use super::item::Value;
 use super::kind::{ANGLE, Kind, LENGTH, STIFFNESS, TORSION_STIFFNESS};
 use super::problem::Result;
 use super::section::Section;
@@ -46,8 +47,8 @@ pub(super) fn read(root: &Section, drive: DriveLink, train: &Train) -> Result<St
             ));
     }
     let ratio = train.ratio().abs();
-    let shaft = shaft.map(|value| value.positive()).transpose()?;
-    let play = play.map(|value| value.not_negative()).transpose()?;
+    let shaft = shaft.map(Value::positive).transpose()?;
+    let play = play.map(Value::not_negative).transpose()?;
     Ok(Stiffness {
         // ½·c·θ² is the same at both ends.
         shaft: shaft.map(|c| if at_input { c } else { c / (ratio * ratio) }),

@@ -35,8 +35,18 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
     let positive = |value: Option<Value>| value.map(Value::positive).transpose();
     let chopper = section.optional("chopper_voltage", &VOLTAGE)?;
     let max = section.optional("max_voltage", &VOLTAGE)?;
-    above(&chopper, "chopper_voltage", voltage.as_ref(), "the brake resistor would always be on")?;
-    above(&max, "max_voltage", voltage.as_ref(), "the bus has that voltage already")?;
+    above(
+        &chopper,
+        "chopper_voltage",
+        voltage.as_ref(),
+        "the brake resistor would always be on",
+    )?;
+    above(
+        &max,
+        "max_voltage",
+        voltage.as_ref(),
+        "the bus has that voltage already",
+    )?;
     if let (Some(chopper), Some(max)) = (&chopper, &max)
         && chopper.si >= max.si
     {
@@ -127,7 +137,11 @@ fn resistor(
     if let Some(peak) = &peak
         && peak.si < power.si
     {
-        let what = format!("is {}, below `power`, which is {}", peak.shown(), power.shown());
+        let what = format!(
+            "is {}, below `power`, which is {}",
+            peak.shown(),
+            power.shown()
+        );
         return Err(peak
             .problem(&what, "too small")
             .help("`power` is what the resistor bears without end, `peak_power` for a short time: check which is which"));

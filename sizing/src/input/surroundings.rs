@@ -4,7 +4,7 @@ use crate::site::Site;
 use crate::thermal::surroundings::Surroundings;
 
 use super::item::Item;
-use super::kind::{LENGTH, TEMPERATURE};
+use super::kind::{ALTITUDE, TEMPERATURE};
 use super::problem::Result;
 use super::section::Section;
 
@@ -38,7 +38,7 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
             .problem(&what, "too low")
             .help("no motor is colder than what surrounds it: correct one of the two"));
     }
-    if let Some(altitude) = section.optional("altitude", &LENGTH)? {
+    if let Some(altitude) = section.optional("altitude", &ALTITUDE)? {
         found.altitude = altitude.si;
         if !(-500.0..=HIGHEST).contains(&altitude.si) {
             let what = format!(
@@ -66,7 +66,10 @@ fn celsius(item: &Item) -> Result<f64> {
     }
     let [low, high] = TEMPERATURES;
     if !(low..=high).contains(&value.si) {
-        let what = format!("is {}, but must lie between {low} degC and {high} degC", value.shown());
+        let what = format!(
+            "is {}, but must lie between {low} degC and {high} degC",
+            value.shown()
+        );
         return Err(value
             .problem(&what, "out of range")
             .help("check the number"));

@@ -86,7 +86,11 @@ const WORDS: [(&str, i8); 48] = [
 /// Units that `dyn_quantity` does not know: their size and what they are made of. A degree Celsius is as large as a kelvin;
 /// where it begins to count is the affair of who asks for a temperature.
 const COMPOSED: [(&str, f64, [(&str, i8); 4]); 8] = [
-    ("arcmin", std::f64::consts::PI / 10_800.0, [("rad", 1), ("m", 0), ("kg", 0), ("s", 0)]),
+    (
+        "arcmin",
+        std::f64::consts::PI / 10_800.0,
+        [("rad", 1), ("m", 0), ("kg", 0), ("s", 0)],
+    ),
     ("F", 1.0, FARAD),
     ("mF", 1e-3, FARAD),
     ("uF", 1e-6, FARAD),

@@ -20,7 +20,9 @@ pub(super) fn measure(context: &Context, findings: &mut Findings) {
     };
     let [rms, peak] = currents(context);
     findings.set(Rule::RmsCurrent, Finding::new(rms, amplifier.rated_current));
-    let limit = motor_peak.map_or(amplifier.peak_current, |motor| motor.min(amplifier.peak_current));
+    let limit = motor_peak.map_or(amplifier.peak_current, |motor| {
+        motor.min(amplifier.peak_current)
+    });
     findings.set(Rule::PeakCurrent, Finding::new(peak, limit));
 }
 
@@ -46,7 +48,9 @@ fn currents(context: &Context) -> [f64; 2] {
     let (mut squares, mut peak) = (0.0, 0.0f64);
     for sample in cycle.samples() {
         let torque = coefficients.torque(&sample.loads);
-        let current = motor.current(torque, sample.speed() * ratio).unwrap_or(f64::NAN);
+        let current = motor
+            .current(torque, sample.speed() * ratio)
+            .unwrap_or(f64::NAN);
         squares += sample.weight * current * current;
         peak = peak.max(current);
     }
@@ -82,7 +86,10 @@ pub(super) fn follow(context: &Context, findings: &mut Findings) {
         findings.set(Rule::ResistorPower, Finding::new(mean, resistor.power));
         // What never comes on needs no figures of short pulses.
         if figures.burnt > 0.0 || resistor.peak_power.is_some() {
-            findings.set(Rule::ResistorPeak, Finding::against(peak, resistor.peak_power));
+            findings.set(
+                Rule::ResistorPeak,
+                Finding::against(peak, resistor.peak_power),
+            );
         }
         if figures.burnt > 0.0 || resistor.pulse_energy.is_some() {
             let pulse = Finding::against(figures.pulse, resistor.pulse_energy);
@@ -96,12 +103,16 @@ fn overload(context: &Context, findings: &mut Findings) {
         return;
     };
     let rated = amplifier.rated_current;
-    let peak = findings.get(Rule::PeakCurrent).map_or(f64::NAN, |f| f.value);
+    let peak = findings
+        .get(Rule::PeakCurrent)
+        .map_or(f64::NAN, |f| f.value);
     if peak <= rated {
         findings.set(Rule::Overload, Finding::new(0.0, f64::INFINITY));
         return;
     }
-    let allowed = amplifier.peak_time.map(|time| overload::allowed(rated, amplifier.peak_current, time));
+    let allowed = amplifier
+        .peak_time
+        .map(|time| overload::allowed(rated, amplifier.peak_current, time));
     if peak.is_nan() || allowed.is_none() {
         findings.set(Rule::Overload, Finding::UNKNOWN);
         return;
@@ -171,7 +182,9 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
                 _ if finding.rating.is_infinite() => {
                     "the current never exceeds the amplifier's rated one"
                 }
-                Some(a) if a.peak_time.is_none() => "time for which the amplifier bears its peak current",
+                Some(a) if a.peak_time.is_none() => {
+                    "time for which the amplifier bears its peak current"
+                }
                 _ if finding.value.is_nan() => "torque constant of the motor",
                 _ => "(peak current² − rated current²)·peak time of the amplifier",
             };
@@ -179,7 +192,10 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
         }
         Rule::BusVoltage => {
             let missing = missing(&data(context)).filter(|_| !finding.is_known());
-            ("V", known(missing.unwrap_or("highest voltage of the DC bus")))
+            (
+                "V",
+                known(missing.unwrap_or("highest voltage of the DC bus")),
+            )
         }
         Rule::ResistorPower => ("W", known("continuous power of the brake resistor")),
         Rule::ResistorPeak => ("W", known("peak power of the brake resistor")),

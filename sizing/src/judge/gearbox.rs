@@ -122,8 +122,8 @@ pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Fin
             let cycles = cycles_per_hour(context);
             let factor = shock_factor(gearbox, cycles);
             if factor > 1.0 {
-                words.rating += &format!(
-                    " by the maker's shock factor of {} for {} cycles an hour",
+                words.rating = format!(
+                    "{rating} by the maker's shock factor of {} for {} cycles an hour",
                     short(factor),
                     short(cycles)
                 );
@@ -132,7 +132,7 @@ pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Fin
         Rule::GearboxCubicMean
             if rules.choices.gearbox_mean_exponent == MeanTorque::RollerBearing =>
         {
-            words.place = "mean with the exponent 10/3".to_owned();
+            "mean with the exponent 10/3".clone_into(&mut words.place);
         }
         Rule::GearboxEmergency if gearbox.emergency_torque.is_some() && !finding.is_known() => {
             words.rating = if gearbox.back_efficiency <= 0.0 {

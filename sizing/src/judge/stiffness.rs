@@ -65,32 +65,26 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
     if rule == Rule::Backlash {
         return backlash(context, finding);
     }
-    let (rating, place) = match frequencies(context) {
-        Some([_, free]) => {
-            let shafts = match (context.drive.gearbox, context.site.shaft_stiffness) {
-                (Some(_), None) => ", shafts taken as rigid",
-                _ => "",
-            };
-            (
-                format!("drive frequency, {} Hz", short(finding.rating)),
-                format!(
-                    "the motor holding its position at the largest inertia of the cycle ({} Hz with a free rotor){shafts}",
-                    short(free)
-                ),
-            )
-        }
-        None => {
-            let missing = match context.drive.gearbox {
-                Some(_) => "torsional stiffness of the gearbox",
-                None => "stiffness of the shafts, [stiffness] of the machine file",
-            };
-            (missing.to_owned(), String::new())
-        }
+    let (rating, place) = if let Some([_, free]) = frequencies(context) {
+        let shafts = match (context.drive.gearbox, context.site.shaft_stiffness) {
+            (Some(_), None) => ", shafts taken as rigid",
+            _ => "",
+        };
+        let free = short(free);
+        let place = format!(
+            "the motor holding its position at the largest inertia of the cycle ({free} Hz with a free rotor){shafts}"
+        );
+        ("drive frequency", place)
+    } else if context.drive.gearbox.is_some() {
+        ("torsional stiffness of the gearbox", String::new())
+    } else {
+        let missing = "stiffness of the shafts, [stiffness] of the machine file";
+        (missing, String::new())
     };
     Words {
         unit: "Hz",
         scale: 1.0,
-        rating,
+        rating: rating.to_owned(),
         place,
     }
 }

@@ -18,10 +18,7 @@ pub(super) fn follow(context: &Context, findings: &mut Findings) {
     };
     let surroundings = &context.site.surroundings;
     let allowed = allowed_rise(context.drive.motor, surroundings, heating.relative);
-    findings.set(
-        Rule::WindingTemperature,
-        Finding::against(winding, allowed),
-    );
+    findings.set(Rule::WindingTemperature, Finding::against(winding, allowed));
     if let Some(limit) = surroundings.housing {
         let finding = if heating.housing {
             Finding::new(housing, limit - surroundings.ambient)
@@ -79,7 +76,10 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
         (None, _) if relative => "rise that the S1 torque brings".to_owned(),
         (None, _) => {
             let thin = if surroundings.altitude_factor() < 1.0 {
-                format!(", less 1 % per 100 m above 1000 m at {} m", surroundings.altitude)
+                format!(
+                    ", less 1 % per 100 m above 1000 m at {} m",
+                    surroundings.altitude
+                )
             } else {
                 String::new()
             };
@@ -111,10 +111,15 @@ fn place(context: &Context, found: Heating) -> String {
         parts.push("thermal runaway: the copper loss grows faster with the temperature than the heat that flows off".to_owned());
     }
     if found.relative {
-        parts.push("from the squared torque, for want of thermal resistances and winding data".to_owned());
+        parts.push(
+            "from the squared torque, for want of thermal resistances and winding data".to_owned(),
+        );
     }
     if !found.ripple {
-        parts.push("at mean losses, the ripple over the cycle not followed for want of time constants".to_owned());
+        parts.push(
+            "at mean losses, the ripple over the cycle not followed for want of time constants"
+                .to_owned(),
+        );
     }
     parts.push(match site.duty.operation {
         Operation::Continuous => {

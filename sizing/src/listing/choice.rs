@@ -60,7 +60,9 @@ pub fn explained<'s, 'c>(
     };
     let key = |candidate: &Candidate| {
         let drive = &candidate.drive;
-        let gearbox = drive.gearbox.map_or(String::new(), |g| format!("+{}", g.key));
+        let gearbox = drive
+            .gearbox
+            .map_or(String::new(), |g| format!("+{}", g.key));
         format!("{}{gearbox}", drive.motor.key)
     };
     let asked: String = name.split('+').map(str::trim).collect::<Vec<_>>().join("+");
@@ -68,9 +70,8 @@ pub fn explained<'s, 'c>(
         return Ok(Some(found));
     }
     let keys = selection.fit.iter().chain(&selection.refused).map(key);
-    let closest = keys.max_by(|a, b| {
-        strsim::jaro_winkler(a, &asked).total_cmp(&strsim::jaro_winkler(b, &asked))
-    });
+    let closest = keys
+        .max_by(|a, b| strsim::jaro_winkler(a, &asked).total_cmp(&strsim::jaro_winkler(b, &asked)));
     let closest = closest.map_or(String::new(), |key| format!("; did you mean {key}?"));
     Err(miette!(
         help = format!(

@@ -8,7 +8,7 @@ use serde::Serialize;
 use crate::duty::Duty;
 use crate::explain::{Altered, Breakdown, InertiaShare, Remedies, Share};
 use crate::machine::MachineFile;
-use crate::output::{shown, text_table, short};
+use crate::output::{short, shown, text_table};
 use crate::size::{Candidate, Selection};
 
 /// The explanation of one drive, and the refused drives that miss by least.
@@ -146,7 +146,11 @@ fn contributions_text(breakdown: &Breakdown) -> String {
 /// A drive, what it breaks, and every way out.
 fn remedies_text(remedies: &Remedies, duration: f64) -> String {
     let mut text = format!("  {}", remedies.drive);
-    let misses: Vec<String> = remedies.misses.iter().map(crate::explain::Miss::sentence).collect();
+    let misses: Vec<String> = remedies
+        .misses
+        .iter()
+        .map(crate::explain::Miss::sentence)
+        .collect();
     if !misses.is_empty() {
         let _ = write!(text, ": {}", misses.join("; "));
     }

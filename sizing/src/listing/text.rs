@@ -29,9 +29,17 @@ pub fn text(
     let units = Units::of(shown.map_or(MotorKind::Rotary, |c| c.drive.motor.kind));
     let input = figures_table(&[
         (units.torque_label(), duty.figures(|i| i.input_torque), 1.0),
-        (units.speed_label(), duty.figures(|i| i.input_speed), units.speed_scale),
+        (
+            units.speed_label(),
+            duty.figures(|i| i.input_speed),
+            units.speed_scale,
+        ),
         ("power [W]".to_owned(), duty.figures(input_power), 1.0),
-        (units.inertia_label(), duty.figures(|i| i.input_inertia), units.inertia_scale),
+        (
+            units.inertia_label(),
+            duty.figures(|i| i.input_inertia),
+            units.inertia_scale,
+        ),
     ]);
     let mut parts = vec![format!(
         "{}\n\nDuty at the input of the drive train, cycle {} s\n{input}\n",
@@ -119,9 +127,17 @@ fn drive_text(judged: &Judged) -> String {
     let units = Units::of(judged.drive.motor.kind);
     let figures = figures_table(&[
         (format!("motor {}", units.torque_label()), duty.torque, 1.0),
-        (format!("motor {}", units.speed_label()), duty.speed, units.speed_scale),
+        (
+            format!("motor {}", units.speed_label()),
+            duty.speed,
+            units.speed_scale,
+        ),
         ("motor power [W]".to_owned(), duty.power, 1.0),
-        (format!("{} ratio λ", units.inertia_word), duty.inertia_ratio, 1.0),
+        (
+            format!("{} ratio λ", units.inertia_word),
+            duty.inertia_ratio,
+            1.0,
+        ),
     ]);
     format!(
         "{figures}\nper cycle {} J put in, {} J regenerated\n\n{}",

@@ -31,30 +31,30 @@ impl Moves {
         let peak = instants.iter().map(|i| i.omega.abs()).fold(0.0, f64::max);
         let direction = |instant: &Instant| {
             if instant.omega.abs() <= AT_REST * peak {
-                0.0
+                0i8
             } else {
-                instant.omega.signum()
+                instant.omega.signum() as i8
             }
         };
         let mut runs: Vec<Run> = Vec::new();
-        let (mut was, mut at) = (0.0, 0.0);
+        let (mut was, mut at) = (0, 0.0);
         for instant in instants {
             let now = direction(instant);
             let t = instant.t;
             // Between two instants of opposite directions it turned round.
-            let turned = if was == 0.0 { at } else { 0.5 * (at + t) };
-            if let Some(run) = runs.last_mut().filter(|_| was != 0.0) {
-                run.to = if now == was || now == 0.0 { t } else { turned };
+            let turned = if was == 0 { at } else { 0.5 * (at + t) };
+            if let Some(run) = runs.last_mut().filter(|_| was != 0) {
+                run.to = if now == was || now == 0 { t } else { turned };
             }
-            if now != 0.0 && now != was {
+            if now != 0 && now != was {
                 runs.push(Run {
                     from: turned,
                     to: t,
                     fastest: 0.0,
                 });
             }
-            if let Some(run) = runs.last_mut() {
-                run.fastest = run.fastest.max(now.abs() * instant.omega.abs());
+            if let Some(run) = runs.last_mut().filter(|_| now != 0) {
+                run.fastest = run.fastest.max(instant.omega.abs());
             }
             (was, at) = (now, t);
         }
@@ -62,7 +62,7 @@ impl Moves {
             .first()
             .map(direction)
             .zip(instants.last().map(direction));
-        if cyclic && ends.is_some_and(|(first, last)| first != 0.0 && first == last) {
+        if cyclic && ends.is_some_and(|(first, last)| first != 0 && first == last) {
             if runs.len() == 1 {
                 // It never stands.
                 runs.clear();

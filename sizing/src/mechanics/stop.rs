@@ -77,7 +77,7 @@ impl Stop {
                 hull.pop();
             }
             if let [single] = hull.as_slice()
-                && single[0] == point[0]
+                && single[0] >= point[0]
             {
                 hull.pop();
             }

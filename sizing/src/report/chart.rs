@@ -74,7 +74,11 @@ fn data(form: Form, axes: &Axes, right_label: &str, left: &[Series], right: &[Se
             Style::Dots => "dots",
         };
         let numbers = |of: fn(&(f64, f64)) -> f64| -> Vec<Value> {
-            series.points.iter().map(|point| number(of(point))).collect()
+            series
+                .points
+                .iter()
+                .map(|point| number(of(point)))
+                .collect()
         };
         json!({
             "name": series.name,

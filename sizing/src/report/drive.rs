@@ -68,7 +68,11 @@ impl Subject<'_> {
             _ => 1.2 * duty.speed.peak(),
         };
         let share = |rule: Rule| self.rules.limit(rule).fail.unwrap_or(f64::NAN);
-        let peak = |part: f64| outline(top, scale, |torque, n| part * envelope.peak_torque(torque, n));
+        let peak = |part: f64| {
+            outline(top, scale, |torque, n| {
+                part * envelope.peak_torque(torque, n)
+            })
+        };
         let steady = |part: f64| outline(top, scale, |_, n| part * envelope.continuous_torque(n));
         let (n, rms) = (duty.mean_speed / scale, duty.torque.rms);
         let cross = |x: f64, y: f64| {
@@ -76,11 +80,10 @@ impl Subject<'_> {
             let gap = (f64::NAN, f64::NAN);
             vec![(x - dx, y), (x + dx, y), gap, (x, y - dy), (x, y + dy)]
         };
-        let closest = self.context.cycle.peak(
-            &self.context.coefficients,
-            self.context.ratio,
-            envelope,
-        );
+        let closest =
+            self.context
+                .cycle
+                .peak(&self.context.coefficients, self.context.ratio, envelope);
         let axes = Axes {
             title: "",
             x: &format!("motor speed [{}]", units.speed),
@@ -180,13 +183,22 @@ impl Subject<'_> {
             line("power", self.over_time(|torque, speed| torque * speed)),
             dashed("mean", self.level(mean)),
         ];
-        Chart::new(Form::Time, &time_axes("power at the motor shaft [W]"), &series)
+        Chart::new(
+            Form::Time,
+            &time_axes("power at the motor shaft [W]"),
+            &series,
+        )
     }
 
     /// Rises of winding and housing over the cycle, where they can be followed.
     pub(super) fn rises(&self) -> Option<Chart> {
         let course = thinned(self.context.rises()?);
-        let body = |k: usize| course.iter().map(|(t, rise)| (*t, rise[k])).collect::<Vec<_>>();
+        let body = |k: usize| {
+            course
+                .iter()
+                .map(|(t, rise)| (*t, rise[k]))
+                .collect::<Vec<_>>()
+        };
         let mut series = vec![line("winding", body(0))];
         if course.iter().any(|(_, rise)| rise[1] != 0.0) {
             series.push(line("housing", body(1)));
@@ -217,7 +229,11 @@ impl Subject<'_> {
         let ends = [points.first(), points.last()].map(|p| p.map_or(0.0, |p| p.0));
         let level = |value: f64| ends.map(|x| (x, value)).to_vec();
         let mut series = vec![line("λ", points)];
-        let check = self.judged.checks.iter().find(|c| c.id == Rule::InertiaRatio);
+        let check = self
+            .judged
+            .checks
+            .iter()
+            .find(|c| c.id == Rule::InertiaRatio);
         if let Some(value) = check.and_then(|c| c.value) {
             series.push(dashed("judged", level(value)));
         }
@@ -245,7 +261,10 @@ impl Subject<'_> {
             .map(|(rule, uses)| {
                 let shown = |used: f64| Some(used * 100.0).filter(|used| *used <= TOP);
                 let uses = uses.iter().map(|used| shown(*used).unwrap_or(f64::NAN));
-                line(units.rule(*rule), ratios.iter().copied().zip(uses).collect())
+                line(
+                    units.rule(*rule),
+                    ratios.iter().copied().zip(uses).collect(),
+                )
             })
             .collect();
         series.push(dashed("limit", vec![(from, 100.0), (to, 100.0)]));
@@ -288,7 +307,9 @@ fn outline(top: f64, scale: f64, limit: impl Fn(f64, f64) -> f64) -> Vec<(f64, f
     let half = f64::from(INTERVALS) / 2.0;
     let speed = |k: u32| top * (f64::from(k) - half) / half;
     let upper = (0..=INTERVALS).map(|k| (speed(k) / scale, limit(1.0, speed(k))));
-    let lower = (0..=INTERVALS).rev().map(|k| (speed(k) / scale, -limit(-1.0, speed(k))));
+    let lower = (0..=INTERVALS)
+        .rev()
+        .map(|k| (speed(k) / scale, -limit(-1.0, speed(k))));
     let mut points: Vec<(f64, f64)> = upper.chain(lower).collect();
     points.extend(points.first().copied());
     points

@@ -38,7 +38,11 @@ impl CheckRow {
                 .limit
                 .map_or("–".into(), |limit| check.with_unit(limit)),
             used: check.used(),
-            bar: if used.is_finite() { (used * 100.0).clamp(0.0, 100.0).round() } else { 100.0 },
+            bar: if used.is_finite() {
+                (used * 100.0).clamp(0.0, 100.0).round()
+            } else {
+                100.0
+            },
             margin: crate::listing::margin(check),
             verdict: check.verdict.word(),
             class,
@@ -170,7 +174,11 @@ pub(super) fn rule_rows(rules: &RuleSet) -> Vec<[String; 4]> {
         .filter(|rule| rules.shows(*rule))
         .map(|rule| {
             let limit = rules.limit(rule);
-            let fail = if rules.is_off(rule) { "off".to_owned() } else { limit_of(limit.fail) };
+            let fail = if rules.is_off(rule) {
+                "off".to_owned()
+            } else {
+                limit_of(limit.fail)
+            };
             let source = rules.source(rule).to_owned();
             [rule.name().to_owned(), fail, limit_of(limit.warn), source]
         })

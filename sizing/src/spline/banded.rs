@@ -19,7 +19,7 @@ impl System {
         solution.into_iter().map(|s| s[0]).collect()
     }
 
-    /// The unknowns of a ring of at least five: those of the open chain for a given last two, which then follow from the
+    /// The unknowns of a ring of at least four: those of the open chain for a given last two, which then follow from the
     /// last two rows.
     pub(super) fn solve_ring(self) -> Vec<f64> {
         let n = self.rows.len();
@@ -58,10 +58,7 @@ impl System {
         });
         let [[a, b, r], [c, d, s]] = closing;
         let determinant = a * d - b * c;
-        let (p, q) = (
-            (r * d - b * s) / determinant,
-            (a * s - r * c) / determinant,
-        );
+        let (p, q) = ((r * d - b * s) / determinant, (a * s - r * c) / determinant);
         let mut solution: Vec<f64> = chain
             .iter()
             .map(|[given, by_p, by_q]| given + by_p * p + by_q * q)

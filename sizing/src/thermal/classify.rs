@@ -88,8 +88,7 @@ impl Features {
                 accelerating += weight * torque * torque;
             }
         }
-        let constant =
-            |low: f64, high: f64| high - low <= CONSTANT * high.abs().max(low.abs());
+        let constant = |low: f64, high: f64| high - low <= CONSTANT * high.abs().max(low.abs());
         let largest = fastest.abs().max(slowest.abs());
         let nearest = samples.iter().map(|s| (s.speed() * ratio).abs());
         let nearest = nearest.fold(f64::INFINITY, f64::min);

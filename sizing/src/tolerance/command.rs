@@ -6,7 +6,7 @@ use super::summary::{Probability, Summary, quantile};
 use super::{Samples, Scatter};
 use crate::cli::search::Tolerance as Options;
 use crate::commands::{Done, print};
-use crate::input::tolerance::Tolerance;
+use crate::input::Tolerance;
 use crate::output::Format;
 use crate::rules::RuleSet;
 use crate::vary::command::{catalogue, stopped};

@@ -265,7 +265,7 @@ fn ranking() {
         assert!(judged.holds());
         assert!(candidate.outcome.worst_use <= 1.0);
         for check in &judged.checks {
-            let held = check.limit.is_none_or(|limit| check.value <= Some(limit));
+            let held = check.margin().is_none_or(|margin| margin >= 0.0);
             assert!(
                 held || check.verdict == Verdict::Warn,
                 "{}",

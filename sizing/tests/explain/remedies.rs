@@ -73,8 +73,18 @@ fn ranges_of_a_wheel_in_closed_form() {
     let share = alpha * (rotor + load) / 10.0;
     assert_eq!(remedies.misses.len(), 1);
     assert_eq!(remedies.misses[0].rule, Rule::RmsTorque);
-    near("use", remedies.misses[0].used.unwrap(), share, budget::SAME_SUMS);
-    near("needed", remedies.misses[0].needed.unwrap(), share, budget::SAME_SUMS);
+    near(
+        "use",
+        remedies.misses[0].used.unwrap(),
+        share,
+        budget::SAME_SUMS,
+    );
+    near(
+        "needed",
+        remedies.misses[0].needed.unwrap(),
+        share,
+        budget::SAME_SUMS,
+    );
     // J_M·i² − (M/α)·i + J = 0
     let half = 10.0 / alpha / (2.0 * rotor);
     let root = (half * half - load / rotor).sqrt();
@@ -92,10 +102,20 @@ fn ranges_of_a_wheel_in_closed_form() {
     // α·(J_M + m·J) = M
     let found = remedy(&remedies, Lever::MovingMass);
     let [low, high] = found.range.unwrap();
-    near("mass", high.value, (10.0 / alpha - rotor) / load, budget::RANGE_END);
+    near(
+        "mass",
+        high.value,
+        (10.0 / alpha - rotor) / load,
+        budget::RANGE_END,
+    );
     assert!(low.value <= 0.0 && low.rule.is_none());
     // No load, no lever.
-    assert!(remedies.remedies.iter().all(|r| r.lever != Lever::ProcessLoad));
+    assert!(
+        remedies
+            .remedies
+            .iter()
+            .all(|r| r.lever != Lever::ProcessLoad)
+    );
 }
 
 #[test]
@@ -120,7 +140,12 @@ fn no_value_helps_where_the_rotor_alone_is_too_heavy() {
     assert!(best.value <= 0.0, "the lightest is the best");
     assert_eq!(best.rule, Some(Rule::RmsTorque));
     let alpha = duty.figures(|i| i.alpha).rms;
-    near("use", found.best_use.unwrap(), alpha * 800.0 / 10.0, budget::SAME_SUMS);
+    near(
+        "use",
+        found.best_use.unwrap(),
+        alpha * 800.0 / 10.0,
+        budget::SAME_SUMS,
+    );
     assert!(found.sentence(1.0).contains("no value helps"));
     assert_eq!(found.change(), None);
 }
@@ -158,7 +183,11 @@ fn a_change_written_into_the_machine_file_does_what_was_said() {
                     Lever::CycleTime => {
                         let move_time = format!("duration = \"{} s\"", 0.4 * value);
                         let text = edited(&text, "duration = \"0.4 s\"", &move_time);
-                        edited(&text, "dwell = \"0.1 s\"", &format!("dwell = \"{} s\"", 0.1 * value))
+                        edited(
+                            &text,
+                            "dwell = \"0.1 s\"",
+                            &format!("dwell = \"{} s\"", 0.1 * value),
+                        )
                     }
                     Lever::ProcessLoad => {
                         edited(&text, "\"-60 kN\"", &format!("\"{} kN\"", -60.0 * value))
@@ -182,7 +211,10 @@ fn a_change_written_into_the_machine_file_does_what_was_said() {
                 if holds {
                     assert!(broken.is_empty(), "{what}: {broken:?}");
                 } else {
-                    assert!(broken.contains(&rule), "{what}: {broken:?} and not {rule:?}");
+                    assert!(
+                        broken.contains(&rule),
+                        "{what}: {broken:?} and not {rule:?}"
+                    );
                 }
                 checked += 1;
             }

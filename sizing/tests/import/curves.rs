@@ -61,15 +61,32 @@ fn a_cosine_has_the_error_of_a_cubic_spline() {
     for closing in [false, true] {
         let h = TAU / 60.0;
         let [value, slope, bend, weight, process] = errors(60, closing);
-        println!("J {value:.2e}, J' {slope:.2e}, J'' {bend:.2e}, weight {weight:.2e}, process {process:.2e}");
-        assert!(value < 5.0 / 384.0 * h.powi(4) && value > h.powi(4) / 1000.0, "{value:e}");
-        assert!(slope < h.powi(3) / 24.0 && slope > h.powi(3) / 2000.0, "{slope:e}");
-        assert!(bend < h.powi(2) / 8.0 && bend > h.powi(2) / 100.0, "{bend:e}");
+        println!(
+            "J {value:.2e}, J' {slope:.2e}, J'' {bend:.2e}, weight {weight:.2e}, process {process:.2e}"
+        );
+        assert!(
+            value < 5.0 / 384.0 * h.powi(4) && value > h.powi(4) / 1000.0,
+            "{value:e}"
+        );
+        assert!(
+            slope < h.powi(3) / 24.0 && slope > h.powi(3) / 2000.0,
+            "{slope:e}"
+        );
+        assert!(
+            bend < h.powi(2) / 8.0 && bend > h.powi(2) / 100.0,
+            "{bend:e}"
+        );
         // 0.5·cos 2φ beside 3·sin φ: 16 times the fourth derivative of a sixth of the amplitude.
-        assert!(weight < 5.0 / 384.0 * h.powi(4) * (1.0 + 16.0 / 6.0), "{weight:e}");
+        assert!(
+            weight < 5.0 / 384.0 * h.powi(4) * (1.0 + 16.0 / 6.0),
+            "{weight:e}"
+        );
         assert!(process < 5.0 / 384.0 * h.powi(4), "{process:e}");
         let finer = errors(120, closing);
-        for (order, (coarse, fine)) in [4, 3, 2, 4].into_iter().zip([value, slope, bend, weight].iter().zip(finer)) {
+        for (order, (coarse, fine)) in [4, 3, 2, 4]
+            .into_iter()
+            .zip([value, slope, bend, weight].iter().zip(finer))
+        {
             let ratio = coarse / fine / f64::from(1 << order);
             assert!((0.7..1.4).contains(&ratio), "order {order}: {ratio}");
         }
@@ -84,7 +101,13 @@ fn rows_may_be_uneven_and_begin_anywhere() {
     for k in 0..70 {
         let j = 0.02 + 0.005 * f64::to_radians(phi).sin();
         let (phi_text, j_text) = (format!("{phi}"), format!("{j:.12}"));
-        writeln!(csv, "{};{}", phi_text.replace('.', ","), j_text.replace('.', ",")).unwrap();
+        writeln!(
+            csv,
+            "{};{}",
+            phi_text.replace('.', ","),
+            j_text.replace('.', ",")
+        )
+        .unwrap();
         phi += 360.0 / 70.0 * (1.0 + 0.5 * (f64::from(k) * 1.3).sin());
         if phi > 226.0 {
             break;
@@ -118,7 +141,10 @@ fn a_cubic_over_a_stroke_is_exact() {
         let r = file.machine.reduction(s).unwrap();
         let expected = [mass(s), 2.0 - 6.0 * s + 30.0 * s * s, -6.0 + 60.0 * s];
         for (found, expected) in r.inertia.into_iter().zip(expected) {
-            assert!((found - expected).abs() < budget::SPLINE_EXACT * 1e2, "{s}: {found} {expected}");
+            assert!(
+                (found - expected).abs() < budget::SPLINE_EXACT * 1e2,
+                "{s}: {found} {expected}"
+            );
         }
         assert!((r.potential_energy[1] - 400.0 * (s - 0.2)).abs() < 1e-9);
         let stored = 200.0 * ((s - 0.2) * (s - 0.2) - 0.01);
@@ -143,14 +169,19 @@ fn an_exported_machine_comes_back() {
     };
     let mut before: Option<[f64; 2]> = None;
     for rows in [360, 720] {
-        let csv = reduce(&file, &request(rows)).unwrap().write(Format::Csv, "");
+        let csv = reduce(&file, &request(rows))
+            .unwrap()
+            .write(Format::Csv, "");
         let back = of_curves(&csv, "turn").unwrap();
         let original = file.with_drive_train().unwrap();
         let (mut j_error, mut slope_error, mut weight_error) = (0.0f64, 0.0f64, 0.0f64);
         let (mut j_most, mut slope_most, mut weight_most) = (0.0f64, 0.0f64, 0.0f64);
         for k in 0..1999 {
             let phi = TAU * (f64::from(k) + 0.5) / 1999.0;
-            let [a, b] = [original.reduction(phi).unwrap(), back.machine.reduction(phi).unwrap()];
+            let [a, b] = [
+                original.reduction(phi).unwrap(),
+                back.machine.reduction(phi).unwrap(),
+            ];
             j_error = j_error.max((a.inertia[0] - b.inertia[0]).abs());
             slope_error = slope_error.max((a.inertia[1] - b.inertia[1]).abs());
             weight_error = weight_error.max((a.potential_energy[1] - b.potential_energy[1]).abs());
@@ -158,19 +189,41 @@ fn an_exported_machine_comes_back() {
             slope_most = slope_most.max(a.inertia[1].abs());
             weight_most = weight_most.max(a.potential_energy[1].abs());
             // Coulomb friction has bends at the dead centres, which a smooth curve rounds off.
-            assert!((a.coulomb - b.coulomb).abs() <= 0.02 * (1.0 + a.coulomb), "{phi}");
+            assert!(
+                (a.coulomb - b.coulomb).abs() <= 0.02 * (1.0 + a.coulomb),
+                "{phi}"
+            );
         }
         let found = [j_error / j_most, slope_error / slope_most];
-        println!("{rows} rows: J {:.1e}, J' {:.1e}, weight {:.1e}", found[0], found[1], weight_error / weight_most);
-        assert!(found[0] < budget::IMPORTED[0] && found[1] < budget::IMPORTED[1], "{found:?}");
+        println!(
+            "{rows} rows: J {:.1e}, J' {:.1e}, weight {:.1e}",
+            found[0],
+            found[1],
+            weight_error / weight_most
+        );
+        assert!(
+            found[0] < budget::IMPORTED[0] && found[1] < budget::IMPORTED[1],
+            "{found:?}"
+        );
         assert!(weight_error < budget::IMPORTED[0] * weight_most);
         if let Some([j, slope]) = before {
             assert!((10.0..25.0).contains(&(j / found[0])), "order 4");
             assert!((5.0..12.0).contains(&(slope / found[1])), "order 3");
         }
         before = Some(found);
-        let facts: Vec<String> = back.machine.mechanism().facts().iter().map(|f| f.text.clone()).collect();
-        assert!(facts.iter().any(|text| text.contains("of the largest slope that the file gives")), "{facts:?}");
+        let facts: Vec<String> = back
+            .machine
+            .mechanism()
+            .facts()
+            .iter()
+            .map(|f| f.text.clone())
+            .collect();
+        assert!(
+            facts
+                .iter()
+                .any(|text| text.contains("of the largest slope that the file gives")),
+            "{facts:?}"
+        );
     }
 }
 
@@ -181,7 +234,16 @@ fn dalembert_finds_the_torque_of_the_curves() {
     for k in 0..200 {
         let (phi, omega, alpha) = (f64::from(k) * 0.1 * PI, 12.0 - f64::from(k % 25), 300.0);
         let forces = file.machine.forces(phi, omega, alpha).unwrap();
-        let expected = file.machine.reduction(phi).unwrap().torque(omega, alpha).total();
-        assert!((forces.drive - expected).abs() < 1e-11, "{} {expected}", forces.drive);
+        let expected = file
+            .machine
+            .reduction(phi)
+            .unwrap()
+            .torque(omega, alpha)
+            .total();
+        assert!(
+            (forces.drive - expected).abs() < 1e-11,
+            "{} {expected}",
+            forces.drive
+        );
     }
 }

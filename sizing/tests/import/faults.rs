@@ -26,32 +26,90 @@ fn refused<T>(result: Result<T, String>, words: &[&str]) {
 fn curves_that_cannot_be_meant_are_refused() {
     let header = "phi [deg],J [kg m^2]";
     let plain = |k: i32| format!("{},{}", 30 * k, 0.5 + 0.01 * f64::from(k % 2));
-    let but = |row: i32, line: &'static str| move |k: i32| if k == row { line.to_owned() } else { plain(k) };
+    let but = |row: i32, line: &'static str| {
+        move |k: i32| if k == row { line.to_owned() } else { plain(k) }
+    };
     let turn = |csv: String| of_curves(&csv, "turn").map(|_| ());
     assert!(turn(curves(header, plain)).is_ok());
-    refused(turn(curves(header, but(4, "120,-0.5"))), &["row 5", "J = -0.5 kg m^2", "greater than zero", "curves.csv"]);
-    refused(turn(curves(header, but(4, "80,0.5"))), &["position does not rise", "row 5 has 80 deg after 90 deg"]);
-    refused(turn(curves(header, but(4, "90.00001,0.5"))), &["row 5", "too close", "leave one out"]);
-    refused(turn(curves(header, but(4, "120,nan"))), &["row 5", "\"nan\"", "J [kg m^2]", "not a finite number"]);
-    refused(turn(curves(header, but(4, "120,"))), &["row 5", "leave no cell empty"]);
-    refused(turn(curves(header, but(4, "120,0,5"))), &["row 5 has 3 values", "decimals have a point"]);
-    refused(turn(curves(header, but(4, "120,1e12"))), &["row 5", "too large for a moment of inertia"]);
-    refused(turn(curves(header, |k| format!("{},0.5", 20 * k))), &["cover 220 deg of a turn", "range = \"stroke\""]);
-    refused(turn(curves(header, |k| format!("{},0.5", 40 * k))), &["cover 440 deg of a turn"]);
+    refused(
+        turn(curves(header, but(4, "120,-0.5"))),
+        &[
+            "row 5",
+            "J = -0.5 kg m^2",
+            "greater than zero",
+            "curves.csv",
+        ],
+    );
+    refused(
+        turn(curves(header, but(4, "80,0.5"))),
+        &["position does not rise", "row 5 has 80 deg after 90 deg"],
+    );
+    refused(
+        turn(curves(header, but(4, "90.00001,0.5"))),
+        &["row 5", "too close", "leave one out"],
+    );
+    refused(
+        turn(curves(header, but(4, "120,nan"))),
+        &["row 5", "\"nan\"", "J [kg m^2]", "not a finite number"],
+    );
+    refused(
+        turn(curves(header, but(4, "120,"))),
+        &["row 5", "leave no cell empty"],
+    );
+    refused(
+        turn(curves(header, but(4, "120,0,5"))),
+        &["row 5 has 3 values", "decimals have a point"],
+    );
+    refused(
+        turn(curves(header, but(4, "120,1e12"))),
+        &["row 5", "too large for a moment of inertia"],
+    );
+    refused(
+        turn(curves(header, |k| format!("{},0.5", 20 * k))),
+        &["cover 220 deg of a turn", "range = \"stroke\""],
+    );
+    refused(
+        turn(curves(header, |k| format!("{},0.5", 40 * k))),
+        &["cover 440 deg of a turn"],
+    );
     refused(
         turn(curves(header, plain) + "360,0.7\n"),
         &["row 13", "J = 0.7 kg m^2", "row 1, which has 0.5 kg m^2"],
     );
-    refused(turn(curves("phi [deg],J [kg]", plain)), &["\"J [kg]\" is a mass", "must be a moment of inertia"]);
-    refused(turn(curves("phi [deg],J", plain)), &["\"J\" has no unit", "J [kg m^2]"]);
-    refused(turn(curves("phi [deg],Jot [kg m^2]", plain)), &["\"Jot [kg m^2]\" is not known"]);
-    refused(turn(curves("phi [deg],phi [rad]", plain)), &["\"phi\" is there twice"]);
-    refused(turn(curves("phi [deg],T [N m]", plain)), &["no column for the reduced inertia"]);
-    refused(turn("phi [deg],J [kg m^2]\n0,1\n90,1\n".to_owned()), &["has 2 rows", "at least 5"]);
-    refused(turn(curves("s [mm],m [kg]", plain)), &["drive link slides", "range = \"stroke\""]);
+    refused(
+        turn(curves("phi [deg],J [kg]", plain)),
+        &["\"J [kg]\" is a mass", "must be a moment of inertia"],
+    );
+    refused(
+        turn(curves("phi [deg],J", plain)),
+        &["\"J\" has no unit", "J [kg m^2]"],
+    );
+    refused(
+        turn(curves("phi [deg],Jot [kg m^2]", plain)),
+        &["\"Jot [kg m^2]\" is not known"],
+    );
+    refused(
+        turn(curves("phi [deg],phi [rad]", plain)),
+        &["\"phi\" is there twice"],
+    );
+    refused(
+        turn(curves("phi [deg],T [N m]", plain)),
+        &["no column for the reduced inertia"],
+    );
+    refused(
+        turn("phi [deg],J [kg m^2]\n0,1\n90,1\n".to_owned()),
+        &["has 2 rows", "at least 5"],
+    );
+    refused(
+        turn(curves("s [mm],m [kg]", plain)),
+        &["drive link slides", "range = \"stroke\""],
+    );
     // Steep rows between which the curve would fall below zero.
     let steep = |k: i32| format!("{},{}", 30 * k, if k == 5 { 50.0 } else { 0.01 });
-    refused(turn(curves(header, steep)), &["falls to", "between rows", "more rows"]);
+    refused(
+        turn(curves(header, steep)),
+        &["falls to", "between rows", "more rows"],
+    );
     // A weight that lifts for nothing.
     let work = |k: i32| format!("{},0.5,3", 30 * k);
     refused(
@@ -59,7 +117,10 @@ fn curves_that_cannot_be_meant_are_refused() {
         &["does work over a turn", "belongs in the column T"],
     );
     let drag = |k: i32| format!("{},0.5,{}", 30 * k, if k == 3 { -1 } else { 1 });
-    refused(turn(curves("phi [deg],J [kg m^2],c [N m]", drag)), &["row 4", "c = -1 N m", "must not be negative"]);
+    refused(
+        turn(curves("phi [deg],J [kg m^2],c [N m]", drag)),
+        &["row 4", "c = -1 N m", "must not be negative"],
+    );
 }
 
 #[test]
@@ -73,18 +134,33 @@ fn tables_of_loads_that_cannot_be_meant_are_refused() {
         )
     };
     let read = |csv: &str, more: &str| parse(&machine(more), &[("loads.csv", csv)]).map(|_| ());
-    let rows = |value: &str| (0..12).fold(String::new(), |text, k| text + &format!("{},{value}\n", k * 30));
+    let rows = |value: &str| {
+        (0..12).fold(String::new(), |text, k| {
+            text + &format!("{},{value}\n", k * 30)
+        })
+    };
     assert!(read(&format!("Position [deg],Thrust [N m]\n{}", rows("2")), "").is_ok());
     refused(
         read(&format!("Position [deg],Thrust [N m]\n{}", rows("-2")), ""),
-        &["row 1", "Thrust = -2 N m", "opposes the motion", "column Torque"],
+        &[
+            "row 1",
+            "Thrust = -2 N m",
+            "opposes the motion",
+            "column Torque",
+        ],
     );
     refused(
         read(&format!("Position [deg],Thrust [N]\n{}", rows("2")), ""),
         &["is a force", "must be a torque"],
     );
-    refused(read("Position [deg]\n0\n90\n180\n270\n300\n", ""), &["no column beside the position"]);
-    refused(read("", "moment = \"3 N m\""), &["`moment` in [[load]]", "of its own"]);
+    refused(
+        read("Position [deg]\n0\n90\n180\n270\n300\n", ""),
+        &["no column beside the position"],
+    );
+    refused(
+        read("", "moment = \"3 N m\""),
+        &["`moment` in [[load]]", "of its own"],
+    );
     let missing = parse(&machine(""), &[]).map(|_| ());
     refused(missing, &["`table` in [[load]]", "no such file"]);
 }
@@ -103,17 +179,41 @@ fn recordings_that_cannot_be_meant_are_refused() {
     let steady = "t [s],omega [rpm]\n0,60\n0.25,60\n0.5,60\n0.75,60\n1,60\n";
     assert!(read(steady, "").is_ok());
     refused(
-        read("t [s],omega [rpm]\n0,60\n0.25,60\n0.5,60\n0.75,60\n1,80\n", ""),
+        read(
+            "t [s],omega [rpm]\n0,60\n0.25,60\n0.5,60\n0.75,60\n1,80\n",
+            "",
+        ),
         &["begins with 60 rpm and ends with 80 rpm", "cyclic = false"],
     );
-    refused(read("t [s],omega [rpm],phi [deg]\n0,1,1\n", ""), &["position or for the speed, and not both"]);
-    refused(read(&steady.replace("t [s],", "phi [deg],"), ""), &["and not both"]);
-    refused(read("omega [rpm]\n60\n60\n60\n60\n60\n", ""), &["no column for the time", "step = \"1 ms\""]);
-    refused(read(steady, "step = \"1 ms\""), &["`step` in [motion]", "has a column for the time"]);
-    refused(read(steady, "smoothing = \"40 Hz\""), &["is 40 Hz", "2 Hz to 1 Hz"]);
-    refused(read(&steady.replace("0.75,", "0.5,"), ""), &["time does not rise", "row 4 has 0.5 s after 0.5 s"]);
     refused(
-        read("t [s],phi [deg]\n0,0\n1,90\n2,180\n3,270\n4,360\n", "start = \"5 deg\""),
+        read("t [s],omega [rpm],phi [deg]\n0,1,1\n", ""),
+        &["position or for the speed, and not both"],
+    );
+    refused(
+        read(&steady.replace("t [s],", "phi [deg],"), ""),
+        &["and not both"],
+    );
+    refused(
+        read("omega [rpm]\n60\n60\n60\n60\n60\n", ""),
+        &["no column for the time", "step = \"1 ms\""],
+    );
+    refused(
+        read(steady, "step = \"1 ms\""),
+        &["`step` in [motion]", "has a column for the time"],
+    );
+    refused(
+        read(steady, "smoothing = \"40 Hz\""),
+        &["is 40 Hz", "too few to be smoothed"],
+    );
+    refused(
+        read(&steady.replace("0.75,", "0.5,"), ""),
+        &["time does not rise", "row 4 has 0.5 s after 0.5 s"],
+    );
+    refused(
+        read(
+            "t [s],phi [deg]\n0,0\n1,90\n2,180\n3,270\n4,360\n",
+            "start = \"5 deg\"",
+        ),
         &["`start` in [motion]", "starts at its first position"],
     );
 }

@@ -31,7 +31,11 @@ fn constant_rows_are_the_plain_loads() {
     for k in 0..=36 {
         writeln!(csv, "{},2.5,80,-3", k * 10).unwrap();
     }
-    let table = crank("4 kg", "[[load]]\ntable = \"loads.csv\"\non = \"slider\"\n", &csv);
+    let table = crank(
+        "4 kg",
+        "[[load]]\ntable = \"loads.csv\"\non = \"slider\"\n",
+        &csv,
+    );
     let plain = crank(
         "6.5 kg",
         "[[load]]\non = \"slider\"\nopposing_force = \"80 N\"\n[[load]]\non = \"crank\"\nmoment = \"-3 N m\"\n",
@@ -44,7 +48,8 @@ fn constant_rows_are_the_plain_loads() {
         }
         assert!((a.load_torque() - b.load_torque()).abs() < 1e-12);
         assert!((a.coulomb - b.coulomb).abs() < 1e-12);
-        let [a, b] = [&table, &plain].map(|file| file.machine.forces(phi, -7.0, 30.0).unwrap().drive);
+        let [a, b] =
+            [&table, &plain].map(|file| file.machine.forces(phi, -7.0, 30.0).unwrap().drive);
         assert!((a - b).abs() < 1e-10, "d'Alembert at {phi}: {a} {b}");
     }
 }
@@ -58,7 +63,11 @@ fn a_varying_payload_keeps_the_energy() {
         let payload = if (5..=17).contains(&k) { 3.0 } else { 0.0 };
         writeln!(csv, "{}\t{payload}", k * 10).unwrap();
     }
-    let with = crank("4 kg", "[[load]]\ntable = \"loads.csv\"\non = \"slider\"\n", &csv);
+    let with = crank(
+        "4 kg",
+        "[[load]]\ntable = \"loads.csv\"\non = \"slider\"\n",
+        &csv,
+    );
     let empty = crank("4 kg", "", "");
     let omega = 9.0;
     let inertia = |phi: f64| with.machine.reduction(phi).unwrap().inertia[0];
@@ -77,7 +86,10 @@ fn a_varying_payload_keeps_the_energy() {
         };
         let work = integral(work, [from, to], 72, 1e-12).unwrap();
         let gained = 0.5 * omega * omega * (inertia(to) - inertia(from));
-        assert!((work - gained).abs() < 1e-9, "{from} to {to}: {work} {gained}");
+        assert!(
+            (work - gained).abs() < 1e-9,
+            "{from} to {to}: {work} {gained}"
+        );
     }
     assert!(inertia(1.5) > empty.machine.reduction(1.5).unwrap().inertia[0] + 0.01);
 }
@@ -89,7 +101,11 @@ fn on_the_drive_link_a_payload_is_an_inertia() {
     for k in 0..12 {
         writeln!(csv, "{},0.03,1.5", k * 30).unwrap();
     }
-    let table = crank("4 kg", "[[load]]\nname = \"table\"\ntable = \"loads.csv\"\n", &csv);
+    let table = crank(
+        "4 kg",
+        "[[load]]\nname = \"table\"\ntable = \"loads.csv\"\n",
+        &csv,
+    );
     let plain = crank("4 kg", "", "");
     for phi in places() {
         let [a, b] = [&table, &plain].map(|file| file.machine.reduction(phi).unwrap());

@@ -371,3 +371,37 @@ fn the_command_line() {
         .ends(2)
         .says(&["there is no rule set \"nothing\""]);
 }
+
+/// The examples of the documentation: changes to a set, and a set of one's own.
+#[test]
+fn the_documented_rules_are_read() {
+    let documents = [
+        include_str!("../../../docs/sizing-rules.md"),
+        include_str!("../../../docs/machine-file.md"),
+    ];
+    let blocks = documents
+        .iter()
+        .flat_map(|text| text.split("```toml\n").skip(1));
+    let blocks: Vec<&str> = blocks
+        .map(|block| block.split("```").next().unwrap())
+        .collect();
+    let folder = Folder::new();
+    let (mut changes, mut sets) = (0, 0);
+    for block in blocks {
+        if block.contains("title = \"Rules of our house\"") {
+            let path = folder.file("house.toml", block);
+            assert_eq!(
+                set(path.to_str().unwrap()).limit(Rule::RmsTorque).fail,
+                Some(0.6)
+            );
+            sets += 1;
+        } else if ["[rules]", "[stiffness]", "[tool]"]
+            .iter()
+            .any(|table| block.starts_with(table))
+        {
+            read(&format!("{}\n{block}", press_text()));
+            changes += 1;
+        }
+    }
+    assert_eq!((changes, sets), (4, 1));
+}

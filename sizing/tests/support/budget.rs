@@ -214,7 +214,14 @@ pub(crate) const PHASES: f64 = 1e-6;
 pub(crate) const COARSE_PHASES: f64 = 0.05;
 
 /// The press exported with 360 rows and read back: J and J′ as shares of their largest values; orders h⁴ and h³.
-pub(crate) const IMPORTED: [f64; 2] = [1e-7, 1e-5];
+pub(crate) const IMPORTED: [f64; 2] = [2e-9, 1e-6];
 
 /// Acceleration from a speed log of 1 kHz with noise of 0.02 rad/s, smoothed at 20 Hz, as a share of the largest one.
 pub(crate) const SMOOTHED_LOG: f64 = 0.02;
+
+/// A housing whose temperature is taken as constant, against one of 2400 s in a cycle of 0.5 s.
+pub(crate) const SLOW_HOUSING: f64 = 1e-3;
+
+/// The duty meter in the middle of 2000 and 20 000 ticks of a press's cycle against sizing's instants: extremes between ticks, and
+/// the edges of the pressing force, which a tick's middle misses by up to half a tick.
+pub(crate) const METERED: [f64; 2] = [5e-3, 5e-4];

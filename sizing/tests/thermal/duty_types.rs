@@ -57,7 +57,8 @@ const DWELL: &str = "dwell = \"0.1 s\"";
 
 #[test]
 fn each_type() {
-    let window = "opposing_moment = \"2 N m\"\nbetween = [\"20 deg\", \"90 deg\"]\nramp = \"10 deg\"";
+    let window =
+        "opposing_moment = \"2 N m\"\nbetween = [\"20 deg\", \"90 deg\"]\nramp = \"10 deg\"";
     for (number, load, motion) in [
         (1, FRICTION, STEADY.to_owned()),
         (4, MUCH_FRICTION, moves(&[TURN, DWELL])),

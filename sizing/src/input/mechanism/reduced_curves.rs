@@ -60,23 +60,35 @@ const LENGTHS: [Known; 7] = [
 
 /// What `jred reduce` writes beside: derived from the columns that are read, or parts of them, or those of a motion.
 fn of_reduce(name: &str) -> bool {
-    let prefixes = ["J_red ", "m_red ", "T_drive", "F_drive", "T_input", "F_input"];
-    ["J''", "J_red''", "m''", "m_red''", "U", "omega", "alpha", "v", "a"].contains(&name)
+    let prefixes = [
+        "J_red ", "m_red ", "T_drive", "F_drive", "T_input", "F_input",
+    ];
+    [
+        "J''", "J_red''", "m''", "m_red''", "U", "omega", "alpha", "v", "a",
+    ]
+    .contains(&name)
         || prefixes.iter().any(|prefix| name.starts_with(prefix))
 }
 
 pub(super) fn read(section: &Section, folder: &Path) -> Result<AnyMechanism> {
     let item = section.require("file", "file = \"curves.csv\"")?;
     let turn = section
-        .require("range", "range = \"turn\", or \"stroke\" for a part of a turn and for a drive link that slides")?
+        .require(
+            "range",
+            "range = \"turn\", or \"stroke\" for a part of a turn and for a drive link that slides",
+        )?
         .choice(&["turn", "stroke"])?
         == 0;
     let file = CsvFile::open(&item, "curves.csv", folder)?;
     let curves = Curves::read(&file.text, turn).map_err(|problem| file.shows(problem))?;
     let slides = curves.drive.slides();
-    let alone = DriveLinkAlone::new(curves.drive.domain, slides)
-        .map_err(|error| core(section, &error))?;
-    let joint = if slides { "drive guide" } else { "drive bearing" };
+    let alone =
+        DriveLinkAlone::new(curves.drive.domain, slides).map_err(|error| core(section, &error))?;
+    let joint = if slides {
+        "drive guide"
+    } else {
+        "drive bearing"
+    };
     let mut mechanism = AnyMechanism::new(super::REDUCED_CURVES, alone, ["drive link"], [joint])
         .with_stand_ins(&curves.stand_ins)
         .map_err(|error| core(section, &error))?;
@@ -109,7 +121,12 @@ impl Curves {
         let positions = Positions::of(&columns, drive)?;
         let mut facts = vec![(
             "rows of the file",
-            format!("{} from {} to {}", columns.rows(), columns.shown(0, x[0]), columns.shown(0, x[x.len() - 1])),
+            format!(
+                "{} from {} to {}",
+                columns.rows(),
+                columns.shown(0, x[0]),
+                columns.shown(0, x[x.len() - 1])
+            ),
         )];
         let mut stand_ins = Vec::new();
         let mut add = |name: &str, course: Course| {
@@ -140,19 +157,29 @@ impl Curves {
         add("inertia", Course::Inertia(curve));
 
         if let Some(torque) = positions.values(PROCESS)? {
-            add("process", Course::Torque(positions.curve(&torque, Way::Interpolating)?));
+            add(
+                "process",
+                Course::Torque(positions.curve(&torque, Way::Interpolating)?),
+            );
         }
         if let Some(torque) = positions.values(POTENTIAL)? {
             let (torque, fact) = conserved(&positions, &columns, torque, turn)?;
             facts.extend(fact);
             add("weight", Course::potential(torque));
         }
-        let why = "friction takes power whichever way the machine moves, so its size is never negative";
+        let why =
+            "friction takes power whichever way the machine moves, so its size is never negative";
         if let Some(viscous) = positions.magnitudes(VISCOUS, true, why)? {
-            add("viscous", Course::Viscous(positions.curve(&viscous, Way::Monotone)?));
+            add(
+                "viscous",
+                Course::Viscous(positions.curve(&viscous, Way::Monotone)?),
+            );
         }
         if let Some(coulomb) = positions.magnitudes(COULOMB, true, why)? {
-            add("coulomb", Course::Opposing(positions.curve(&coulomb, Way::Monotone)?));
+            add(
+                "coulomb",
+                Course::Opposing(positions.curve(&coulomb, Way::Monotone)?),
+            );
         }
         facts.push((
             "weight",
@@ -174,12 +201,20 @@ fn read_columns(text: &str, turn: bool) -> Result<(Columns, Coordinate)> {
         example,
         min_rows: MIN_POINTS,
     };
-    let angles = format(&ANGLES, "\"phi [deg],J [kg m^2]\", and T, T_potential [N m], b [N m s/rad], c [N m] if there are any");
-    let lengths = format(&LENGTHS, "\"s [mm],m [kg]\", and F, F_potential [N], b [N s/m], c [N] if there are any");
-    let first = text.trim_start_matches('\u{feff}').lines().find(|line| !line.starts_with('#'));
-    let slides = first.is_some_and(|line| {
-        let mut names = line.split([',', ';', '\t']).map(|n| n.trim().trim_matches('"'));
-        names.any(|name| name.starts_with("s [") || name.starts_with("S ["))
+    let angles = format(
+        &ANGLES,
+        "\"phi [deg],J [kg m^2]\", and T, T_potential [N m], b [N m s/rad], c [N m] if there are any",
+    );
+    let lengths = format(
+        &LENGTHS,
+        "\"s [mm],m [kg]\", and F, F_potential [N], b [N s/m], c [N] if there are any",
+    );
+    let mut names = columns::header_of(text).split([',', ';', '\t']);
+    let slides = names.any(|name| {
+        name.trim()
+            .trim_matches('"')
+            .to_lowercase()
+            .starts_with("s [")
     });
     let (format, coordinate) = if slides {
         (lengths, Coordinate::Length)
@@ -190,14 +225,19 @@ fn read_columns(text: &str, turn: bool) -> Result<(Columns, Coordinate)> {
     for (index, what) in [(POSITION, "position"), (INERTIA_COLUMN, "reduced inertia")] {
         if columns.get(index).is_none() {
             return Err(Problem::new(format!("there is no column for the {what}"))
-                .at(columns::line_at(text, 0), "header")
-                .help(format!("the first line names columns with their units: {}", format.example)));
+                .at(columns::header_place(text), "header")
+                .help(format!(
+                    "the first line names columns with their units: {}",
+                    format.example
+                )));
         }
     }
     if slides && turn {
-        return Err(Problem::new("the drive link slides, so its range is no turn")
-            .at(columns::line_at(text, 0), "s is a displacement")
-            .help("write range = \"stroke\" in [mechanism]"));
+        return Err(
+            Problem::new("the drive link slides, so its range is no turn")
+                .at(columns::header_place(text), "s is a displacement")
+                .help("write range = \"stroke\" in [mechanism]"),
+        );
     }
     Ok((columns, coordinate))
 }
@@ -222,12 +262,17 @@ fn agreement(
     }
     if let Some(slopes) = columns.get(SLOPE) {
         let rows = positions.x().iter().zip(slopes);
-        let off = rows.map(|(x, slope)| (curve.at(*x)[1] - slope).abs()).fold(0.0, f64::max);
+        let off = rows
+            .map(|(x, slope)| (curve.at(*x)[1] - slope).abs())
+            .fold(0.0, f64::max);
         let most = slopes.iter().fold(0.0f64, |most, s| most.max(s.abs()));
         if most > 0.0 {
             facts.push((
                 "slope of the curve",
-                format!("within {} % of the largest slope that the file gives", figure(off / most * 100.0)),
+                format!(
+                    "within {} % of the largest slope that the file gives",
+                    figure(off / most * 100.0)
+                ),
             ));
         }
     }
@@ -262,8 +307,14 @@ fn conserved(
     for value in &mut torque {
         *value -= mean;
     }
-    let fact = format!("{} N m were taken off its torque, so that it does no work over a turn", figure(mean));
+    let fact = format!(
+        "{} N m were taken off its torque, so that it does no work over a turn",
+        figure(mean)
+    );
     // The curve is linear in its values: without the mean its integral is nothing but rounding.
     let curve = positions.curve(&torque, Way::Interpolating)?;
-    Ok((curve, (work.abs() > ROUNDING * size).then_some(("weight over a turn", fact))))
+    Ok((
+        curve,
+        (work.abs() > ROUNDING * size).then_some(("weight over a turn", fact)),
+    ))
 }
