@@ -58,39 +58,38 @@ fn near(found: f64, expected: f64, relative: f64, what: &str) {
     );
 }
 
-fn list(figures: &Figures<f64>) -> [(&'static str, f64); 12] {
-    [
-        ("rms torque", figures.rms_torque),
-        ("mean speed", figures.mean_speed),
-        ("output mean", figures.output_mean),
-        ("motoring power", figures.motoring_power),
-        ("regenerative power", figures.regenerative_power),
-        ("motoring energy", figures.motoring_energy),
-        ("regenerative energy", figures.regenerative_energy),
-        ("duration", figures.duration),
-        ("peak torque", figures.peak_torque),
-        ("peak speed", figures.peak_speed),
-        ("output peak", figures.output_peak),
-        ("share of peak", figures.peak_share.unwrap()),
-    ]
-}
+/// The names of the figures that [`list`] gives.
+const NAMES: [&str; 12] = [
+    "rms torque",
+    "mean speed",
+    "output mean",
+    "motoring power",
+    "regenerative power",
+    "motoring energy",
+    "regenerative energy",
+    "duration",
+    "peak torque",
+    "peak speed",
+    "output peak",
+    "share of peak",
+];
 
-fn widened(figures: &Figures<f32>) -> [(&'static str, f64); 12] {
-    let f = |x: f32| f64::from(x);
+fn list<R: Real>(figures: &Figures<R>) -> [f64; 12] {
     [
-        ("rms torque", f(figures.rms_torque)),
-        ("mean speed", f(figures.mean_speed)),
-        ("output mean", f(figures.output_mean)),
-        ("motoring power", f(figures.motoring_power)),
-        ("regenerative power", f(figures.regenerative_power)),
-        ("motoring energy", f(figures.motoring_energy)),
-        ("regenerative energy", f(figures.regenerative_energy)),
-        ("duration", f(figures.duration)),
-        ("peak torque", f(figures.peak_torque)),
-        ("peak speed", f(figures.peak_speed)),
-        ("output peak", f(figures.output_peak)),
-        ("share of peak", f(figures.peak_share.unwrap())),
+        figures.rms_torque,
+        figures.mean_speed,
+        figures.output_mean,
+        figures.motoring_power,
+        figures.regenerative_power,
+        figures.motoring_energy,
+        figures.regenerative_energy,
+        figures.duration,
+        figures.peak_torque,
+        figures.peak_speed,
+        figures.output_peak,
+        figures.peak_share.unwrap(),
     ]
+    .map(Real::to_f64)
 }
 
 /// Root mean square 10/√2; mean |100·cos + 30| in closed form; the energies differ by the mean power, which is zero here.
@@ -242,8 +241,8 @@ fn single_precision_keeps_its_digits_over_a_million_ticks() {
             double.tick(torque.into(), speed.into(), output.into());
             plain += speed.abs() * output.powi(3);
         }
-        let (found, expected) = (widened(&meter.figures()), list(&double.figures()));
-        for ((what, found), (_, expected)) in found.into_iter().zip(expected) {
+        let (found, expected) = (list(&meter.figures()), list(&double.figures()));
+        for (what, (found, expected)) in NAMES.iter().zip(found.into_iter().zip(expected)) {
             near(found, expected, budget::METER_F32, what);
             worst = worst.max((found / expected - 1.0).abs());
         }

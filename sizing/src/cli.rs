@@ -116,7 +116,7 @@ pub struct Size {
     /// What drives are made of.
     #[command(flatten)]
     pub catalogue: CatalogueFiles,
-    /// Rule set instead of the machine file's: a name from `jred rules`, or a file; what [rules] says beside stays.
+    /// Rule set instead of the machine file's: a name from `jred rules`, or a file; what `[rules]` says beside stays.
     #[arg(long, value_name = "SET")]
     pub rules: Option<String>,
     /// Time steps of the cycle.

@@ -2,7 +2,7 @@
 //!
 //! Each family of rules is a file of [`judge`](self): it measures ([`Findings::set`]) and says what the rating is made of
 //! (`note`). A rule that does not apply to a drive, such as those of a gearbox to a direct drive, is left out of the
-//! findings; one that applies but lacks a figure of the catalogue or of the machine file is set with [`Finding::unknown`].
+//! findings; one that applies but lacks a figure of the catalogue or of the machine file is set with [`Finding::UNKNOWN`].
 
 use crate::catalogue::Prepared;
 use crate::check::{Check, Verdict};
@@ -202,8 +202,14 @@ impl<'a> Context<'a> {
             NaturalFrequency | Backlash => stiffness::words(self, rule, finding),
             _ => electric::words(self, rule, finding),
         };
+        let units = Units::of(self.drive.motor.kind);
+        let words = Words {
+            rating: units.words(&words.rating),
+            place: units.words(&words.place),
+            ..words
+        };
         let mut check = Check::new(rules, rule, finding, words);
-        check.rule = Units::of(self.drive.motor.kind).rule(rule);
+        check.rule = units.rule(rule);
         check
     }
 

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use crate::judge::Findings;
 use crate::rule::Rule;
-use crate::rules::RuleSet;
+use crate::rules::{Limit, RuleSet};
 use crate::vary::edit::Edit;
 use crate::vary::one::{One, broken};
 use crate::vary::study::{Study, sentence};
@@ -91,10 +91,12 @@ pub struct Reach {
     pub most: f64,
 }
 
-/// Share of the limit of every rule that can be judged. A share without bound (the limit is zero) is left out.
+/// Share of the limit (of the warning, where there is no other) of every rule that can be judged and has one. A share without bound (the limit is zero) is left out.
 pub fn shares(rules: &RuleSet, findings: &Findings) -> Vec<(Rule, f64)> {
-    let known = findings.iter().filter(|(_, finding)| finding.is_known());
-    let used = known.map(|(rule, finding)| (rule, rules.use_of_limit(rule, finding)));
+    let known = findings
+        .iter()
+        .filter(|(rule, finding)| finding.is_known() && rules.limit(*rule) != Limit::default());
+    let used = known.map(|(rule, finding)| (rule, rules.use_shown(rule, finding)));
     used.filter(|(_, used)| used.is_finite()).collect()
 }
 

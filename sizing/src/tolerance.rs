@@ -175,7 +175,7 @@ impl Task for Samples<'_> {
                 cells.push(broken.map_or(Cell::Empty, |rule| rule.name().into()));
                 cells.extend(self.rules.iter().map(|rule| {
                     let finding = findings.get(*rule).filter(crate::judge::Finding::is_known);
-                    match finding.map(|finding| rules.use_of_limit(*rule, finding)) {
+                    match finding.map(|finding| rules.use_shown(*rule, finding)) {
                         Some(used) if used.is_infinite() => "inf".into(),
                         used => used.into(),
                     }

@@ -97,7 +97,8 @@ impl Units {
             MotorKind::Rotary => text.to_owned(),
             MotorKind::Linear => text
                 .replace("torque", "force")
-                .replace("rotor", "moving part"),
+                .replace("rotor", "moving part")
+                .replace("inertia", "mass"),
         }
     }
 

@@ -24,20 +24,6 @@ fn machine_path(name: &str) -> PathBuf {
         .join(name)
 }
 
-fn both() -> String {
-    let mut lines = LINEAR.lines();
-    let header = lines.next().unwrap();
-    let linear: Vec<&str> = lines.collect();
-    // One row of the other kind: the columns that it has none of stay empty.
-    let header = format!("{header},rated_torque [N m],peak_torque [N m],rotor_inertia [kg cm^2]");
-    let mut text = header + "\n";
-    for row in linear {
-        text += row;
-        text += ",,,\n";
-    }
-    text + "turns,rotary,Own,R,,,,,,,,,,maker,invented,3,9,2\n"
-}
-
 fn check<'v>(drive: &'v Value, rule: &str) -> &'v Value {
     let checks = drive["checks"].as_array().unwrap();
     let found = checks.iter().find(|c| c["rule"] == rule);
@@ -47,13 +33,16 @@ fn check<'v>(drive: &'v Value, rule: &str) -> &'v Value {
 #[test]
 fn a_link_that_slides_takes_a_linear_motor() {
     let folder = Folder::new();
-    let motors = folder.file("motors.csv", both());
+    let linear = folder.file("linear_motors.csv", LINEAR);
+    let rotary = folder.file("rotary_motors.csv", ROTARY);
     let machine = machine_path("linear-gripper.toml");
     let run = jred([
         &"size",
         &machine,
-        &"--motors",
-        &motors,
+        &"--catalogue",
+        &linear,
+        &"--catalogue",
+        &rotary,
         &"--refused",
         &"--format",
         &"json",
@@ -81,7 +70,7 @@ fn a_link_that_slides_takes_a_linear_motor() {
     assert_eq!(peak["unit"], "N");
     assert!(peak["value"].as_f64().unwrap() > input);
     assert_eq!(check(medium, "speed")["unit"], "m/s");
-    let text = jred([&"size", &machine, &"--motors", &motors]);
+    let text = jred([&"size", &machine, &"--motors", &linear]);
     for word in [
         "force [N]",
         "speed [m/s]",

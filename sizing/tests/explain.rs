@@ -114,7 +114,7 @@ fn the_cells_of_every_instant_add_up_to_the_motor_torque() {
                     duty.figures(|i| i.input_inertia).max,
                 ),
             ] {
-                let expected = drive.inertia_ratio(load) * rotor + rotor + brake;
+                let expected = (drive.inertia_ratio(load) + 1.0) * (rotor + brake);
                 near("inertia", found, expected, budget::SAME_SUMS);
             }
         }

@@ -213,7 +213,7 @@ fn points_that_cannot_be_meant_are_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, rng_seed: proptest::test_runner::RngSeed::Fixed(7), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 200, rng_seed: proptest::test_runner::RngSeed::Fixed(7), failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Between two rows the monotone curve stays between their values, whatever they are; it passes through them.
     #[test]

@@ -60,9 +60,13 @@ fn a_step_from_cold() {
 /// rest is part of the cycle or of the operation.
 #[test]
 fn a_rectangular_load() {
-    for (on, off, tau) in [(1.0, 3.0, 60.0), (200.0, 100.0, 60.0), (0.1, 0.2, 3000.0)] {
+    for (on, off, tau) in [
+        (1.0, 3.0, 60.0f64),
+        (200.0, 100.0, 60.0),
+        (0.1, 0.2, 3000.0),
+    ] {
         let network = Network::one(1.5, tau, 0.0);
-        let expected = 80.0 * 1.5 * (-on / tau as f64).exp_m1() / (-(on + off) / tau).exp_m1();
+        let expected = 80.0 * 1.5 * (-on / tau).exp_m1() / (-(on + off) / tau).exp_m1();
         let cycle = steps(&[(0.0, 80.0, 0.0), (on, 0.0, 0.0)], on + off);
         let found = rise(&cycle, &network, &Operation::Continuous)[0];
         near("in the cycle", found, expected, budget::THERMAL);

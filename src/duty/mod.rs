@@ -25,7 +25,8 @@
 //!
 //! # Cost
 //!
-//! A tick has no division, no root, no double precision in `f32`, and no way to panic. What a control loop does not feed back
+//! A tick has no division, no root, no double precision in `f32`, and no way to panic: 165 instructions on a Cortex-M4F with a
+//! peak curve of three points, 171 with an exponential window (`scripts/test counts`). What a control loop does not feed back
 //! in real time, [`Meter::figures`] and [`Meter::verdicts`], takes two roots and a few divisions.
 //!
 //! ```

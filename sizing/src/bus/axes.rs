@@ -119,7 +119,7 @@ impl Axes {
         let free = self.curves.len() - 1;
         let periods: Vec<f64> = self.curves.iter().map(PowerCurve::period).collect();
         let mut best = (vec![0.0; self.curves.len()], f64::NEG_INFINITY);
-        let mut tried = |phases: &[f64], best: &mut (Vec<f64>, f64)| {
+        let tried = |phases: &[f64], best: &mut (Vec<f64>, f64)| {
             let found = value(phases);
             if found > best.1 {
                 *best = (phases.to_vec(), found);

@@ -7,7 +7,7 @@ use miette::{IntoDiagnostic as _, Result, miette};
 use super::axes::{Axes, Bounds, Goal, Worst};
 use super::curve::PowerCurve;
 use super::store::BusFigures;
-use super::supply::BusData;
+use super::supply::{BusData, Supply};
 use super::{Need, power};
 use crate::catalogue::Catalogue;
 use crate::cli::bus::Bus as Options;
@@ -48,7 +48,7 @@ pub(super) struct Answer {
 /// # Errors
 /// Bad input.
 pub fn run(options: &Options) -> Result<Done> {
-    let mut catalogue = options.catalogue.open()?;
+    let catalogue = options.catalogue.open()?;
     let files = options.files.iter().map(|path| input::read(path));
     let files = files.collect::<Result<Vec<MachineFile>>>()?;
     same_supply(options, &files)?;
@@ -59,9 +59,9 @@ pub fn run(options: &Options) -> Result<Done> {
             .iter()
             .find(|(axis, _)| *axis == k)
             .map(|(_, n)| n.as_str());
-        axes.push(axis(path, file, &mut catalogue, name, options.steps)?);
+        axes.push(axis(path, file, &catalogue, name, options.steps)?);
     }
-    let answer = Answer::new(options, axes, &catalogue)?;
+    let answer = Answer::new(options, axes, &files[0].site.supply, &catalogue)?;
     match options.format {
         Format::Table => print(&answer.text(options))?,
         Format::Csv => print(&answer.csv()?)?,
@@ -127,7 +127,7 @@ fn named(options: &Options) -> Result<Vec<(usize, String)>> {
 fn axis(
     path: &Path,
     file: &MachineFile,
-    catalogue: &mut Catalogue,
+    catalogue: &Catalogue,
     name: Option<&str>,
     steps: u32,
 ) -> Result<Axis> {
@@ -175,14 +175,15 @@ fn axis(
 }
 
 impl Answer {
-    fn new(options: &Options, axes: Vec<Axis>, catalogue: &Catalogue) -> Result<Self> {
+    fn new(
+        options: &Options,
+        axes: Vec<Axis>,
+        supply: &Supply,
+        catalogue: &Catalogue,
+    ) -> Result<Self> {
         let mut data = axes[0].data;
         // Without a capacitance in [supply] those of the amplifiers on the bus add up.
-        let given = axes
-            .windows(2)
-            .all(|pair| pair[0].data.capacitance == pair[1].data.capacitance);
-        let supply = input::read(&options.files[0])?.site.supply;
-        if supply.capacitance.is_none() && (axes.len() > 1 || !given) {
+        if supply.capacitance.is_none() {
             data.capacitance = axes.iter().map(|axis| axis.data.capacitance).sum();
         }
         let bus = data.bus().map_err(|missing| {

@@ -211,10 +211,10 @@ impl<'b> Walk<'b> {
                 self.burns_at_once(area, a, b);
                 h
             } else if resistor
-                && (self.excess > self.full || overloaded && self.excess == self.full)
+                && (self.excess > self.full || overloaded && self.excess >= self.full)
             {
                 self.burns_at_most(h, [a, b], overloaded)
-            } else if resistor && !draws && self.excess == self.full {
+            } else if resistor && !draws && self.excess >= self.full {
                 self.burn(-area, a.min(b).abs());
                 h
             } else if draws && self.excess == 0.0 {

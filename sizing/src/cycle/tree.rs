@@ -4,7 +4,7 @@ use super::Sample;
 use crate::drive::LOADS;
 
 /// Most samples of a stretch that is not cut further.
-const LEAF: usize = 24;
+const LEAF: usize = 16;
 
 /// A sample stands apart from the one before where the step is so many times the steps beside it: an acceleration jumps, a
 /// motion stops. A stretch is cut there, for no chord follows a jump.

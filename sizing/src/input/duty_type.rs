@@ -59,7 +59,7 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
             }
         }
         _ => {
-            for value in [&operating, &rest].into_iter().flatten() {
+            if let Some(value) = operating.as_ref().or(rest.as_ref()) {
                 return Err(unused(value, "the motion repeats without end"));
             }
             Operation::Continuous

@@ -81,11 +81,13 @@ pub(super) fn built_in(name: &str) -> Option<Result<RuleSet>> {
     Some(parse(name, text))
 }
 
+fn is_file(word: &str) -> bool {
+    word.contains(['/', '\\']) || Path::new(word).extension().is_some_and(|e| e == "toml")
+}
+
 /// The set of a name, or of a file: what ends in ".toml" or holds a "/" is a file.
 pub(super) fn named_or_file(word: &str, folder: &Path) -> Result<RuleSet> {
-    let is_file =
-        word.contains(['/', '\\']) || Path::new(word).extension().is_some_and(|e| e == "toml");
-    if !is_file {
+    if !is_file(word) {
         return named(word);
     }
     let path = folder.join(word);
@@ -118,8 +120,7 @@ fn unknown(name: &str) -> Problem {
 fn chosen(word: &Item, folder: &Path) -> Result<RuleSet> {
     let name = word.text(GENERAL)?;
     let is_known = BUILT_IN.iter().any(|(known, _)| *known == name);
-    let is_file = name.contains(['/', '\\', '.']);
-    if is_known || is_file {
+    if is_known || is_file(name) {
         return named_or_file(name, folder);
     }
     Err(unknown(name).at(word.span(), "unknown"))

@@ -36,13 +36,13 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
     let chopper = section.optional("chopper_voltage", &VOLTAGE)?;
     let max = section.optional("max_voltage", &VOLTAGE)?;
     above(
-        &chopper,
+        chopper.as_ref(),
         "chopper_voltage",
         voltage.as_ref(),
         "the brake resistor would always be on",
     )?;
     above(
-        &max,
+        max.as_ref(),
         "max_voltage",
         voltage.as_ref(),
         "the bus has that voltage already",
@@ -83,7 +83,7 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
 
 /// Checks that a voltage is greater than that of the supply.
 fn above(
-    value: &Option<Value>,
+    value: Option<&Value>,
     key: &str,
     supply: Option<&(String, f64)>,
     otherwise: &str,

@@ -4,6 +4,7 @@
 //! angles from plain numbers (rad, deg), revolutions from radians (rpm), and text that is not a unit at all.
 
 use std::f64::consts::TAU;
+use std::fmt::Write as _;
 use std::str::FromStr;
 
 use dyn_quantity::DynQuantity;
@@ -85,7 +86,7 @@ const WORDS: [(&str, i8); 48] = [
 
 /// Units that `dyn_quantity` does not know: their size and what they are made of. A degree Celsius is as large as a kelvin;
 /// where it begins to count is the affair of who asks for a temperature.
-const COMPOSED: [(&str, f64, [(&str, i8); 4]); 8] = [
+const COMPOSED: [(&str, f64, Parts); 8] = [
     (
         "arcmin",
         std::f64::consts::PI / 10_800.0,
@@ -99,8 +100,10 @@ const COMPOSED: [(&str, f64, [(&str, i8); 4]); 8] = [
     ("uH", 1e-6, HENRY),
     ("degC", 1.0, [("K", 1), ("m", 0), ("kg", 0), ("s", 0)]),
 ];
-const FARAD: [(&str, i8); 4] = [("A", 2), ("s", 4), ("kg", -1), ("m", -2)];
-const HENRY: [(&str, i8); 4] = [("kg", 1), ("m", 2), ("s", -2), ("A", -2)];
+/// Units with their powers.
+type Parts = [(&'static str, i8); 4];
+const FARAD: Parts = [("A", 2), ("s", 4), ("kg", -1), ("m", -2)];
+const HENRY: Parts = [("kg", 1), ("m", 2), ("s", -2), ("A", -2)];
 
 /// Words that are units elsewhere, and what to write instead.
 const FOREIGN: [(&[&str], &str); 18] = [
@@ -140,7 +143,7 @@ pub(super) fn read(text: &str) -> Result<Unit, Fault> {
         if let Some((_, one, parts)) = COMPOSED.iter().find(|(w, ..)| w == word) {
             size *= f64::powi(*one, i32::from(*power));
             for (part, times) in parts.iter().filter(|(_, times)| *times != 0) {
-                canonical.push_str(&format!(" {part}^{}", times * power));
+                let _ = write!(canonical, " {part}^{}", times * power);
             }
         } else {
             canonical.push_str(&format!(" {word}^{power}").replace("%^1", "%"));

@@ -63,8 +63,7 @@ pub(super) fn follow(context: &Context, findings: &mut Findings) {
     if data.regenerative {
         return;
     }
-    let [_, back] = context.cycle.energies(&context.coefficients, context.ratio);
-    if back == 0.0 {
+    if !context.cycle.regenerates(&context.coefficients) {
         if let (Some(voltage), Some(max)) = (data.voltage, data.max_voltage) {
             findings.set(Rule::BusVoltage, Finding::new(voltage, max));
         }

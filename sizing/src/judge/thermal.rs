@@ -73,7 +73,7 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
             "rise from {} °C to the housing's highest temperature",
             surroundings.ambient
         ),
-        (None, _) if relative => "rise that the S1 torque brings".to_owned(),
+        (None, _) if relative => "times the rise that the S1 torque brings".to_owned(),
         (None, _) => {
             let thin = if surroundings.altitude_factor() < 1.0 {
                 format!(

@@ -186,7 +186,7 @@ fn rules_table(judged: &Judged) -> String {
     }
     for assumed in &judged.assumptions {
         text += "\nmind: ";
-        text += assumed;
+        text += &Units::of(judged.drive.motor.kind).words(assumed);
     }
     text
 }

@@ -68,6 +68,7 @@ pub(super) fn notes(best: &Judged, duty: &Duty) -> Vec<String> {
     if let Some(amplifier) = drive.amplifier {
         source(&amplifier.model, &amplifier.source);
     }
-    notes.extend(best.assumptions.iter().map(|a| format!("Mind: {a}.")));
+    let units = crate::units::Units::of(best.drive.motor.kind);
+    notes.extend(best.assumptions.iter().map(|a| format!("Mind: {}.", units.words(a))));
     notes
 }

@@ -19,6 +19,10 @@ use crate::drive::Coefficients;
 
 /// What the motor does in the cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a feature of its own"
+)]
 pub struct Features {
     /// Share of the time at standstill.
     pub rest: f64,

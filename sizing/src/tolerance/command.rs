@@ -8,7 +8,7 @@ use crate::cli::search::Tolerance as Options;
 use crate::commands::{Done, print};
 use crate::input::Tolerance;
 use crate::output::Format;
-use crate::rules::RuleSet;
+use crate::rules::{Limit, RuleSet};
 use crate::vary::command::{catalogue, stopped};
 use crate::vary::one::One;
 use crate::vary::rows::{Cell, Form};
@@ -38,7 +38,10 @@ pub fn tolerance(options: &Options) -> Result<Done> {
     )?;
     let machine = study.machine(&[])?;
     let findings = one.findings(&machine);
-    let known = findings.iter().filter(|(_, finding)| finding.is_known());
+    let limits = &machine.file.rules;
+    let known = findings
+        .iter()
+        .filter(|(rule, finding)| finding.is_known() && limits.limit(*rule) != Limit::default());
     let samples = Samples {
         study: &study,
         one: &one,

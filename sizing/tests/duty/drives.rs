@@ -3,7 +3,7 @@
 use jred_sizing::catalogue::{Catalogue, Gearbox, Motor, Prepared};
 use jred_sizing::check::Verdict;
 use jred_sizing::cycle::Cycle;
-use jred_sizing::drive::Drive;
+use jred_sizing::drive::{Drive, Judged};
 use jred_sizing::duty::Duty;
 use jred_sizing::rule::Rule;
 use jred_sizing::rules::RuleSet;
@@ -140,31 +140,36 @@ fn every_drive_by_brute_force() {
         // A loss is never a gain: what the motor gives net is at least what the machine takes at its input.
         let taken = duty.integral(|i| i.input_torque * i.input_speed);
         assert!(forth - back >= taken * (1.0 - 1e-6), "{name}");
-        // What the catalogue always has figures for.
-        let of_motor = [
-            Rule::RmsTorque,
-            Rule::PeakTorque,
-            Rule::Speed,
-            Rule::HoldingTorque,
-            Rule::InertiaRatio,
-        ];
-        // With two cycles a second, the warning about T2B is among those of a gearbox.
-        let of_gearbox = [
-            Rule::GearboxPeak,
-            Rule::GearboxCubicMean,
-            Rule::GearboxMeanSpeed,
-            Rule::GearboxSpeed,
-            Rule::GearboxCycles,
-        ];
-        let value = |rule: Rule| {
-            let check = judged.checks.iter().find(|c| c.id == rule);
-            check.and_then(|c| c.value)
-        };
-        assert!(of_motor.iter().all(|rule| value(*rule).is_some()), "{name}");
-        for rule in of_gearbox {
-            let applies = judged.drive.gearbox.is_some();
-            assert_eq!(value(rule).is_some(), applies, "{name}: {rule:?}");
-        }
+        check_rules(&judged);
+    }
+}
+
+/// The rules that the catalogue always has figures for.
+fn check_rules(judged: &Judged) {
+    let name = judged.drive.name();
+    let of_motor = [
+        Rule::RmsTorque,
+        Rule::PeakTorque,
+        Rule::Speed,
+        Rule::HoldingTorque,
+        Rule::InertiaRatio,
+    ];
+    // With two cycles a second, the warning about T2B is among those of a gearbox.
+    let of_gearbox = [
+        Rule::GearboxPeak,
+        Rule::GearboxCubicMean,
+        Rule::GearboxMeanSpeed,
+        Rule::GearboxSpeed,
+        Rule::GearboxCycles,
+    ];
+    let value = |rule: Rule| {
+        let check = judged.checks.iter().find(|c| c.id == rule);
+        check.and_then(|c| c.value)
+    };
+    assert!(of_motor.iter().all(|rule| value(*rule).is_some()), "{name}");
+    for rule in of_gearbox {
+        let applies = judged.drive.gearbox.is_some();
+        assert_eq!(value(rule).is_some(), applies, "{name}: {rule:?}");
     }
 }
 
@@ -288,7 +293,7 @@ fn ranking() {
             key(&pair[1])
         );
     }
-    for pair in refused.windows(2) {
+    for pair in selection.refused_in_order().windows(2) {
         let key = |c: &Candidate| (c.outcome.beyond_all_limits, c.outcome.worst_use);
         assert!(key(&pair[0]) <= key(&pair[1]));
     }

@@ -186,7 +186,10 @@ fn recordings_that_cannot_be_meant_are_refused() {
         &["begins with 60 rpm and ends with 80 rpm", "cyclic = false"],
     );
     refused(
-        read("t [s],omega [rpm],phi [deg]\n0,1,1\n", ""),
+        read(
+            "t [s],omega [rpm],phi [deg]\n0,1,1\n1,1,1\n2,1,1\n3,1,1\n4,1,1\n",
+            "",
+        ),
         &["position or for the speed, and not both"],
     );
     refused(

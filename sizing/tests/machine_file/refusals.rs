@@ -309,7 +309,7 @@ fn motions_and_simulations_that_make_no_sense_are_refused() {
         (
             "type = \"cycle\"",
             "type = \"profile\"\nfile = \"turn.csv\"",
-            &["`start`", "first position"],
+            &["`segment`", "segments belong to the types"],
         ),
         (
             "at = \"motor\"",

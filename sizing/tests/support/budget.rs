@@ -222,6 +222,6 @@ pub(crate) const SMOOTHED_LOG: f64 = 0.02;
 /// A housing whose temperature is taken as constant, against one of 2400 s in a cycle of 0.5 s.
 pub(crate) const SLOW_HOUSING: f64 = 1e-3;
 
-/// The duty meter in the middle of 2000 and 20 000 ticks of a press's cycle against sizing's instants: extremes between ticks, and
-/// the edges of the pressing force, which a tick's middle misses by up to half a tick.
-pub(crate) const METERED: [f64; 2] = [5e-3, 5e-4];
+/// The duty meter in the middle of 2000 and 20 000 ticks of a press's cycle against sizing's instants: an extreme lies up to half
+/// a tick away, which counts with the square of the tick, down to what f32 can tell.
+pub(crate) const METERED: [f64; 2] = [1e-3, 5e-7];

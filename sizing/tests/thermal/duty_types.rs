@@ -44,11 +44,9 @@ const MUCH_FRICTION: &str = "opposing_moment = \"900 N m\"";
 const STEADY: &str = "type = \"constant-speed\"\nspeed = \"300 rpm\"";
 
 fn moves(segments: &[&str]) -> String {
-    let mut text = "type = \"cycle\"\nstart = \"0 deg\"\n".to_owned();
-    for segment in segments {
-        text += &format!("[[motion.segment]]\n{segment}\n");
-    }
-    text
+    let head = "type = \"cycle\"\nstart = \"0 deg\"";
+    let segments = segments.join("\n[[motion.segment]]\n");
+    format!("{head}\n[[motion.segment]]\n{segments}\n")
 }
 
 const TURN: &str = "law = \"polynomial-345\"\nmove = \"360 deg\"\nduration = \"0.3 s\"";
