@@ -372,10 +372,8 @@ fn limits_that_cannot_be_meant_are_refused() {
         meter(none(), 1.0, forgets(f64::INFINITY)),
         Err(Error::NotFinite(_))
     ));
-    let negative = Limits {
-        speed: Some(-1.0),
-        ..none()
-    };
+    let mut negative = none();
+    negative.speed = Some(-1.0);
     assert!(matches!(
         meter(negative, 1.0, Window::SinceStart),
         Err(Error::Negative(_))

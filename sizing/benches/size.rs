@@ -35,6 +35,9 @@ use jred_sizing::size::Selection;
 /// Instants of the cycle that the figures of the catalogue are for.
 const INSTANTS: usize = 1000;
 
+/// Argument for a run under a profiler: the catalogue is judged and nothing else.
+const PROFILE: &str = "--profile";
+
 /// What a selection borrows.
 pub(crate) struct Ready {
     catalogue: Catalogue,
@@ -46,7 +49,13 @@ pub(crate) struct Ready {
 
 impl Ready {
     fn one_core(&self) -> Selection<'_> {
-        Selection::new(&self.catalogue, &self.motors, &self.cycle, &self.site, &self.rules)
+        Selection::new(
+            &self.catalogue,
+            &self.motors,
+            &self.cycle,
+            &self.site,
+            &self.rules,
+        )
     }
 
     fn among<'c>(&'c self, drives: &[(usize, Drive<'c>)]) -> Selection<'c> {
@@ -55,7 +64,13 @@ impl Ready {
     }
 
     fn all_cores(&self) -> Selection<'_> {
-        Selection::parallel(&self.catalogue, &self.motors, &self.cycle, &self.site, &self.rules)
+        Selection::parallel(
+            &self.catalogue,
+            &self.motors,
+            &self.cycle,
+            &self.site,
+            &self.rules,
+        )
     }
 }
 
@@ -76,29 +91,59 @@ fn main() -> ExitCode {
         rules: file.rules.clone(),
         catalogue,
     };
-    println!("{name}: {} motors, {} gearboxes, {count} drives", ready.catalogue.motors.len(), ready.catalogue.gearboxes.len());
+    println!(
+        "{name}: {} motors, {} gearboxes, {count} drives",
+        ready.catalogue.motors.len(),
+        ready.catalogue.gearboxes.len()
+    );
     println!("envelopes of all motors    {:9.3} ms", 1e3 * preparation);
 
+    if std::env::args().any(|argument| argument == PROFILE) {
+        let time = best(|| ready.one_core());
+        println!("one core                   {:9.3} ms", 1e3 * time);
+        return ExitCode::SUCCESS;
+    }
     compare::every_drive(&ready);
     let selection = ready.one_core();
     println!(
         "{} fit, {} are refused, {} of them for a speed beyond every torque",
         selection.fit.len(),
         selection.refused.len(),
-        selection.refused.iter().filter(|c| c.outcome.beyond_all_limits > 0).count()
+        selection
+            .refused
+            .iter()
+            .filter(|c| c.outcome.beyond_all_limits > 0)
+            .count()
     );
     drop(selection);
 
-    println!("\n{count} drives against {} instants", ready.cycle.samples().len());
+    println!(
+        "\n{count} drives against {} instants",
+        ready.cycle.samples().len()
+    );
     let one = best(|| ready.one_core());
     let two = best(|| ready.all_cores());
     let plain = once(|| compare::plain(&ready));
-    let each = |time: f64| format!("{:9.3} ms {:9.1} ns a drive", 1e3 * time, 1e9 * time / count as f64);
+    let each = |time: f64| {
+        format!(
+            "{:9.3} ms {:9.1} ns a drive",
+            1e3 * time,
+            1e9 * time / count as f64
+        )
+    };
     println!("one core                   {}", each(one));
-    println!("all cores ({})              {}", rayon::current_num_threads(), each(two));
+    println!(
+        "all cores ({})              {}",
+        rayon::current_num_threads(),
+        each(two)
+    );
     println!("plain loops, one core      {}", each(plain));
     numpy::compare(&ready);
-    report.ratio("size-catalogue", 1e3 * one / plain, "thousandths of the plain loops");
+    report.ratio(
+        "size-catalogue",
+        1e3 * one / plain,
+        "thousandths of the plain loops",
+    );
 
     println!("\ninstants      pass over them     all drives, one core");
     let mut flat = [f64::INFINITY, 0.0f64];
@@ -108,14 +153,27 @@ fn main() -> ExitCode {
         ready.cycle = Cycle::new(&duty);
         let time = best(|| ready.one_core());
         flat = [flat[0].min(time), flat[1].max(time)];
-        println!("{:8} {:15.3} ms {:21.3} ms", duty.instants.len(), 1e3 * pass, 1e3 * time);
+        println!(
+            "{:8} {:15.3} ms {:21.3} ms",
+            duty.instants.len(),
+            1e3 * pass,
+            1e3 * time
+        );
         if instants == 1_000_000 {
             // A pass is linear in the instants: in times of reading them once.
             let sweep = best(|| brute::rms_torque(&ready.cycle, &figures::unit_coefficients()));
-            report.ratio("size-pass", pass / sweep, "times one plain loop for the RMS");
+            report.ratio(
+                "size-pass",
+                pass / sweep,
+                "times one plain loop for the RMS",
+            );
         }
     }
-    report.ratio("size-flat", flat[1] / flat[0], "largest over smallest time of these");
+    report.ratio(
+        "size-flat",
+        flat[1] / flat[0],
+        "largest over smallest time of these",
+    );
 
     println!("\ndrives       one core");
     ready.cycle = Cycle::new(&machine::duty(&file, INSTANTS));
@@ -125,9 +183,17 @@ fn main() -> ExitCode {
         let time = best(|| black_box(ready.among(&drives)));
         let each = time / wanted as f64;
         per_drive = [per_drive[0].min(each), per_drive[1].max(each)];
-        println!("{wanted:6} {:12.3} ms {:9.1} ns a drive", 1e3 * time, 1e9 * each);
+        println!(
+            "{wanted:6} {:12.3} ms {:9.1} ns a drive",
+            1e3 * time,
+            1e9 * each
+        );
     }
-    report.ratio("size-linear", per_drive[1] / per_drive[0], "largest over smallest time of a drive");
+    report.ratio(
+        "size-linear",
+        per_drive[1] / per_drive[0],
+        "largest over smallest time of a drive",
+    );
     figures::measure_memory();
     report.code()
 }

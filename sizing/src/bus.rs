@@ -4,10 +4,12 @@
 //! copper loss and the losses of the amplifier:
 //!
 //! ```text
-//! P = T·ω + R·I² + p₀ + p₁·I        R at 20 °C
+//! P = T·ω + R·I² + p₀ + p₁·I        R at 20 °C; of a three-phase winding 3/2 of that between two terminals
 //! ```
 //!
-//! The copper loss is taken cold, and left out where the winding's resistance is not stated: most comes back then.
+//! Most comes back with the least losses: the copper is taken cold, and left out where the winding's resistance is not
+//! stated. While the motor brakes, I is the current of the torque alone: how far the bus has risen, and how much the
+//! amplifier still weakens the field, is not known. While it drives, the field-weakening current is in I.
 
 pub mod axes;
 pub mod command;
@@ -20,7 +22,8 @@ use crate::catalogue::{Amplifier, Motor, Resistor};
 use crate::cycle::Cycle;
 use crate::drive::Coefficients;
 use crate::output::short;
-use crate::winding::{CurrentCurve, REFERENCE_TEMPERATURE};
+use crate::envelope::Prepared;
+use crate::winding::REFERENCE_TEMPERATURE;
 
 use curve::PowerCurve;
 use supply::{BrakeResistor, BusData};
@@ -31,16 +34,21 @@ pub fn power(
     coefficients: &Coefficients,
     ratio: f64,
     motor: &Motor,
+    prepared: &Prepared,
     amplifier: Option<&Amplifier>,
 ) -> PowerCurve {
-    let current = CurrentCurve::of(motor);
     let resistance = motor.winding.loss_resistance(REFERENCE_TEMPERATURE);
     let [constant, per_ampere] = amplifier.map_or([0.0; 2], |a| a.losses);
     let points = cycle.samples().iter().map(|sample| {
         let torque = coefficients.torque(&sample.loads);
-        let mut power = torque * sample.speed() * ratio + constant;
-        if let Some(curve) = current {
-            let current = curve.current(torque);
+        let speed = sample.speed() * ratio;
+        let mut power = torque * speed + constant;
+        let current = if torque * speed < 0.0 {
+            prepared.torques.map(|curve| curve.current(torque))
+        } else {
+            prepared.current(torque, speed)
+        };
+        if let Some(current) = current {
             power += per_ampere * current + resistance.unwrap_or(0.0) * current * current;
         }
         [sample.t, power]

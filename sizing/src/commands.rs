@@ -363,9 +363,16 @@ fn run_size(options: &cli::Size) -> Result<Done> {
     let selection = selection;
     if let Some(objectives) = &options.pareto {
         let front = Front::new(&selection, &objectives.0);
-        let title = format!("{}: the Pareto front of the drives that hold every rule", file.title);
+        let title = format!(
+            "{}: the Pareto front of the drives that break no rule",
+            file.title
+        );
         print(&front.write(options.format, &title))?;
-        return Ok(if front.points.is_empty() { Done::Violated } else { Done::Holds });
+        return Ok(if front.points.is_empty() {
+            Done::Violated
+        } else {
+            Done::Holds
+        });
     }
     if let Some(path) = &options.report {
         let name = options.file.display().to_string();

@@ -19,6 +19,7 @@ use crate::mechanics::Mechanics;
 
 mod factor;
 mod front;
+mod power;
 mod search;
 mod tree;
 
@@ -26,6 +27,9 @@ use factor::Factor;
 use front::Front;
 use search::Stretches;
 use tree::Tree;
+
+/// Exponent of the mean torque that counts for roller bearings.
+const BEARING: f64 = 10.0 / 3.0;
 
 /// One instant of the cycle, as drives see it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,7 +61,6 @@ impl Sample {
 pub struct Cycle {
     duration: f64,
     hold_torque: f64,
-    has_starts: bool,
     mechanics: Mechanics,
     samples: Vec<Sample>,
     inertia: Figures,
@@ -112,7 +115,6 @@ impl Cycle {
         Self {
             duration: duty.duration,
             hold_torque: duty.hold_torque,
-            has_starts: duty.has_starts(),
             mechanics: duty.mechanics.clone(),
             inertia: duty.figures(|i| i.input_inertia),
             speed: duty.figures(|i| i.input_speed),
@@ -145,11 +147,6 @@ impl Cycle {
         &self.mechanics
     }
 
-    /// Whether the machine ever accelerates.
-    pub const fn has_starts(&self) -> bool {
-        self.has_starts
-    }
-
     /// The instants in order of time.
     pub fn samples(&self) -> &[Sample] {
         &self.samples
@@ -166,6 +163,7 @@ impl Cycle {
     }
 
     /// Largest speed at the gearbox output (rad/s).
+    #[inline]
     pub fn peak_speed(&self) -> f64 {
         self.speed.peak()
     }
@@ -179,13 +177,12 @@ impl Cycle {
     /// revolution counts. p = 3 is the root-mean-cube torque of gears, 10/3 that of roller bearings; these two are worked
     /// out once, any other at every call.
     pub fn mean_output_torque(&self, power: f64) -> f64 {
-        if power == 3.0 {
-            *self.cubic_mean.get_or_init(|| self.power_mean(power))
-        } else if power == 10.0 / 3.0 {
-            *self.bearing_mean.get_or_init(|| self.power_mean(power))
-        } else {
-            self.power_mean(power)
-        }
+        let once = match power {
+            3.0 => &self.cubic_mean,
+            BEARING => &self.bearing_mean,
+            _ => return self.power_mean(power),
+        };
+        *once.get_or_init(|| self.power_mean(power))
     }
 
     fn power_mean(&self, power: f64) -> f64 {

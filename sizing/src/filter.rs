@@ -92,7 +92,9 @@ impl Filter {
     pub fn sift(&self, selection: &mut Selection) -> Unknown {
         let mut unknown = Unknown::default();
         let mut sifted = [Vec::new(), Vec::new()];
-        for (kept, from) in sifted.iter_mut().zip([&selection.fit, &selection.refused]) {
+        // Of those refused only the nearest stand in order so far: which of them are left is not known before.
+        let refused = selection.refused_in_order();
+        for (kept, from) in sifted.iter_mut().zip([&selection.fit, &refused]) {
             for candidate in from {
                 if self.passes(selection, candidate, &mut unknown) {
                     kept.push(*candidate);
@@ -108,12 +110,10 @@ impl Filter {
             return false;
         }
         let below = |most: Option<f64>, objective: Objective, unknown: &mut usize| {
-            most.is_none_or(|most| match objective.value(selection, candidate) {
-                Some(value) => value <= most,
-                None => {
-                    *unknown += 1;
-                    false
-                }
+            most.is_none_or(|most| {
+                let value = objective.value(selection, candidate);
+                *unknown += usize::from(value.is_none());
+                value.is_some_and(|value| value <= most)
             })
         };
         below(self.max_mass, Objective::Mass, &mut unknown.mass)

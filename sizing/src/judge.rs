@@ -189,9 +189,10 @@ impl<'a> Context<'a> {
 
     fn check(&self, rules: &RuleSet, rule: Rule, finding: Finding) -> Check {
         use Rule::{
-            Backlash, BrakeTorque, ConstantTorque, GearboxCubicMean, GearboxCycles, GearboxEmergency,
-            GearboxMeanSpeed, GearboxPeak, GearboxSpeed, HoldingTorque, HousingTemperature,
-            InertiaRatio, NaturalFrequency, PeakTorque, RmsTorque, Speed, WindingTemperature,
+            Backlash, BrakeTorque, ConstantTorque, GearboxCubicMean, GearboxCycles,
+            GearboxEmergency, GearboxMeanSpeed, GearboxPeak, GearboxSpeed, HoldingTorque,
+            HousingTemperature, InertiaRatio, NaturalFrequency, PeakTorque, RmsTorque, Speed,
+            WindingTemperature,
         };
         let words = match rule {
             RmsTorque | PeakTorque | Speed | HoldingTorque | ConstantTorque | BrakeTorque
@@ -216,14 +217,21 @@ impl<'a> Context<'a> {
     /// The worst verdict and the largest share of a limit used. The rules that follow time are judged only if the others
     /// hold: a drive that is refused already is not followed.
     pub fn outcome(&self, rules: &RuleSet) -> Outcome {
+        self.ranked(rules).1
+    }
+
+    /// The findings that the ranking goes by, and how they come out: without the rules that follow time, if another is
+    /// violated.
+    pub fn ranked(&self, rules: &RuleSet) -> (Findings, Outcome) {
         let mut findings = Findings::default();
         self.measure_directly(rules, &mut findings);
         let outcome = Outcome::of(rules, &findings);
         if outcome.verdict == Verdict::Fail {
-            return outcome;
+            return (findings, outcome);
         }
         self.follow_time(&mut findings);
-        Outcome::of(rules, &findings)
+        let outcome = Outcome::of(rules, &findings);
+        (findings, outcome)
     }
 }
 

@@ -21,9 +21,9 @@ pub struct Mechanics {
     /// Highest frequency with which the motion excites the machine (Hz): that of a turning drive link at its largest speed, or
     /// one over the time of the shortest move, whichever is higher.
     pub drive_frequency: f64,
-    /// Torque at rest (N·m), between the least, at which the machine would begin to drive back, and the most, at which it would
-    /// begin to move: the friction of the drive train may point either way.
-    pub holding: [f64; 2],
+    /// Largest torque at rest (N·m), at which the machine would begin to move on: the friction of the drive train may point
+    /// either way.
+    pub holding: f64,
     /// Largest torque of weight, springs and friction over the motion (N·m), where they resist it and where they drive it:
     /// without acceleration and process loads.
     pub constant: [f64; 2],
@@ -66,7 +66,7 @@ impl Mechanics {
             moves: count,
             move_rate: f64::from(count) / duration,
             drive_frequency: turning.max(shortest),
-            holding: [hold_torque * efficiency, hold_torque / efficiency],
+            holding: hold_torque / efficiency,
             constant,
             stop: Stop::of(instants, ratio),
             train_ratio: ratio,

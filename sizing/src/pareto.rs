@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use crate::output::{Format, rounded, text_table};
 use crate::rank::Objective;
 use crate::size::{Candidate, Selection};
+use crate::vary::rows::{Cell, csv_line};
 
 /// A drive of the front with its values, one for each objective.
 #[derive(Clone, Debug)]
@@ -88,7 +89,7 @@ impl<'c> Front<'c> {
         pairs
             .map(|(objective, n)| {
                 format!(
-                    "{n} drives that fit are left out: their {} is not known",
+                    "{n} drives that fit are left out: the catalogue does not say their {}; fill in the column, or take another objective",
                     objective.name()
                 )
             })
@@ -97,33 +98,35 @@ impl<'c> Front<'c> {
 
     /// The front in one of the formats.
     pub fn write(&self, format: Format, title: &str) -> String {
-        let row = |point: &Point| -> [String; 2] {
+        let row = |point: &Point| -> [String; 3] {
             let drive = &point.candidate.drive;
             [
                 drive.motor.key.clone(),
                 drive.gearbox.map_or_else(String::new, |g| g.key.clone()),
+                drive.amplifier.map_or_else(String::new, |a| a.key.clone()),
             ]
         };
         let columns = self.objectives.iter().map(|o| o.column().to_owned());
         match format {
             Format::Table => {
-                let names = ["motor", "gearbox"].map(str::to_owned);
+                let names = ["motor", "gearbox", "amplifier"].map(str::to_owned);
                 let mut table = text_table(&names.into_iter().chain(columns).collect::<Vec<_>>());
                 for point in &self.points {
-                    let [motor, gearbox] = row(point);
+                    let [motor, gearbox, amplifier] = row(point);
                     let gearbox = if gearbox.is_empty() {
                         "direct".to_owned()
                     } else {
                         gearbox
                     };
                     let values = point.values.iter().map(|x| rounded(*x));
-                    table.add_row([motor, gearbox].into_iter().chain(values));
+                    table.add_row([motor, gearbox, amplifier].into_iter().chain(values));
                 }
-                let gaps: String = self
+                let gaps: Vec<String> = self
                     .gaps()
                     .iter()
                     .map(|gap| format!("mind: {gap}\n"))
                     .collect();
+                let gaps = gaps.concat();
                 format!(
                     "{title}\n{table}\n{} of {} drives: no other that fits is as good in all of these and better in one\n{gaps}",
                     self.points.len(),
@@ -131,29 +134,21 @@ impl<'c> Front<'c> {
                 )
             }
             Format::Csv => {
-                let names = ["motor", "gearbox"].map(str::to_owned);
-                let mut text = names
-                    .into_iter()
-                    .chain(columns)
-                    .collect::<Vec<_>>()
-                    .join(",")
-                    + "\n";
+                let names = ["motor", "gearbox", "amplifier"].map(str::to_owned);
+                let mut text = csv_line(names.into_iter().chain(columns).map(Cell::Text));
                 for point in &self.points {
-                    let values = point.values.iter().map(|x| format!("{x:?}"));
-                    text += &(row(point)
-                        .into_iter()
-                        .chain(values)
-                        .collect::<Vec<_>>()
-                        .join(",")
-                        + "\n");
+                    let values = point.values.iter().map(|x| Cell::Number(*x));
+                    text += &csv_line(row(point).into_iter().map(Cell::Text).chain(values));
                 }
                 text
             }
             Format::Json => {
                 let points = self.points.iter().map(|point| {
-                    let [motor, gearbox] = row(point);
-                    let gearbox = (!gearbox.is_empty()).then_some(gearbox);
-                    json!({ "motor": motor, "gearbox": gearbox, "values": point.values })
+                    let [motor, gearbox, amplifier] = row(point);
+                    let named = |key: String| (!key.is_empty()).then_some(key);
+                    json!({
+                        "motor": motor, "gearbox": named(gearbox), "amplifier": named(amplifier), "values": point.values
+                    })
                 });
                 let names: Vec<String> = columns.collect();
                 let value = json!({

@@ -1,6 +1,6 @@
 //! Objectives by which drives are ranked and weighed against each other.
 
-use crate::judge::Context;
+use crate::judge::{Context, Finding};
 use crate::rule::Rule;
 use crate::size::{Candidate, Selection};
 
@@ -42,7 +42,7 @@ impl Objective {
             Self::Price => "price",
             Self::Energy => "energy [J]",
             Self::Margin => "margin",
-            Self::Temperature => "winding rise [K]",
+            Self::Temperature => "share of the winding's allowed rise",
         }
     }
 
@@ -75,16 +75,16 @@ impl Objective {
         let drive = &candidate.drive;
         let known = match self {
             Self::Power => drive.motor.rated_power(),
-            Self::Mass => sum(
+            Self::Mass => sum([
                 drive.motor.mass,
-                drive.gearbox.map(|g| g.mass),
-                drive.amplifier.map(|a| a.mass),
-            ),
-            Self::Price => sum(
+                part(drive.gearbox, |g| g.mass),
+                part(drive.amplifier, |a| a.mass),
+            ]),
+            Self::Price => sum([
                 drive.motor.price,
-                drive.gearbox.map(|g| g.price),
-                drive.amplifier.map(|a| a.price),
-            ),
+                part(drive.gearbox, |g| g.price),
+                part(drive.amplifier, |a| a.price),
+            ]),
             Self::Energy => Some(selection.cycle.motor_duty(drive).motoring_energy),
             Self::Margin if candidate.outcome.beyond_all_limits > 0 => Some(f64::NEG_INFINITY),
             Self::Margin => Some(1.0 - candidate.outcome.worst_use),
@@ -94,7 +94,7 @@ impl Objective {
                 let finding = context
                     .findings(selection.rules)
                     .get(Rule::WindingTemperature);
-                finding.filter(|f| f.is_known()).map(|f| f.value)
+                finding.filter(Finding::is_known).map(|f| f.value / f.rating)
             }
         };
         known.filter(|value| !value.is_nan())
@@ -109,13 +109,14 @@ impl Objective {
     }
 }
 
-/// The sum of what the parts have; `None` as soon as one does not say.
-fn sum(
-    motor: Option<f64>,
-    gearbox: Option<Option<f64>>,
-    amplifier: Option<Option<f64>>,
-) -> Option<f64> {
-    Some(motor? + gearbox.unwrap_or(Some(0.0))? + amplifier.unwrap_or(Some(0.0))?)
+/// What a part has, nothing at all where the drive is without it; `None` if it does not say.
+fn part<T>(part: Option<&T>, of: impl Fn(&T) -> Option<f64>) -> Option<f64> {
+    part.map_or(Some(0.0), of)
+}
+
+/// The sum; `None` as soon as one part does not say.
+fn sum(parts: [Option<f64>; 3]) -> Option<f64> {
+    parts.into_iter().sum()
 }
 
 /// Ranks the drives that fit by an objective. Those of which it is not known come last, in their order; equal ones keep

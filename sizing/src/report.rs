@@ -6,6 +6,7 @@
 use askama::Template;
 use jred::Error;
 
+use crate::catalogue::MotorKind;
 use crate::duty::Duty;
 use crate::explain::{Breakdown, Cells, Lever, Remedies};
 use crate::judge::Context;
@@ -40,7 +41,14 @@ const CHANGED: usize = 3;
 
 struct Figure {
     chart: Chart,
-    caption: &'static str,
+    caption: String,
+}
+
+impl Figure {
+    fn new(chart: Chart, units: Units, caption: &str) -> Self {
+        let caption = units.words(caption);
+        Self { chart, caption }
+    }
 }
 
 #[derive(Template)]
@@ -59,6 +67,7 @@ struct Page {
     over_time: Vec<Figure>,
     drawing: String,
     machine: Vec<Figure>,
+    torque_word: &'static str,
     torque_unit: &'static str,
     effects: Vec<ShareRow>,
     parts: Vec<ShareRow>,
@@ -140,23 +149,26 @@ impl Page {
             drive: best.drive.name(),
             checks: checked,
             open,
-            plane: vec![Figure {
-                chart: subject.plane(),
-                caption: "Torque and speed of the motor over the cycle in all four quadrants; where their signs differ, it brakes. Dashed: what the rules allow.",
-            }],
-            over_time: over_time(&subject),
+            plane: vec![Figure::new(
+                subject.plane(),
+                units,
+                "Torque and speed of the motor over the cycle in all four quadrants; where their signs differ, it brakes. Dashed: what the rules allow.",
+            )],
+            over_time: over_time(&subject, units),
             drawing: crate::drawing::still(file.machine.mechanism())?,
             machine: machine(&subject, file, mean_speed)?,
+            torque_word: units.torque_word,
             torque_unit: units.torque,
             effects: rows::share_rows(&breakdown.effects, &breakdown),
             parts: rows::share_rows(&breakdown.parts, &breakdown),
             inertia_unit: units.shown_inertia().0,
             inertias: rows::inertia_rows(&breakdown),
             peak_time: short(breakdown.peak_time),
-            effects_chart: vec![Figure {
-                chart: subject.effects(&cells),
-                caption: "Motor torque over the cycle, effect by effect; at every instant they add up to the motor torque.",
-            }],
+            effects_chart: vec![Figure::new(
+                subject.effects(&cells),
+                units,
+                "Motor torque over the cycle, effect by effect; at every instant they add up to the motor torque.",
+            )],
             ratio: ratio(&subject, explanation.change.as_ref()),
             change: explanation
                 .change
@@ -249,51 +261,64 @@ fn cards(best: &crate::drive::Judged, duty: &Duty, units: Units) -> Vec<(String,
     ]
 }
 
-fn over_time(subject: &Subject) -> Vec<Figure> {
+fn over_time(subject: &Subject, units: Units) -> Vec<Figure> {
     let mut figures = vec![
-        Figure {
-            chart: subject.torque(),
-            caption: "Motor torque, and what the rotor itself takes of it.",
-        },
-        Figure {
-            chart: subject.speed(),
-            caption: "Motor speed.",
-        },
-        Figure {
-            chart: subject.power(),
-            caption: "Mechanical power at the motor shaft; below zero it flows back.",
-        },
+        Figure::new(
+            subject.torque(),
+            units,
+            "Motor torque, and what the rotor itself takes of it.",
+        ),
+        Figure::new(subject.speed(), units, "Motor speed."),
+        Figure::new(
+            subject.power(),
+            units,
+            "Mechanical power at the motor shaft; below zero it flows back.",
+        ),
     ];
-    figures.extend(subject.rises().map(|chart| Figure {
-        chart,
-        caption: "Temperature rise once the cycle repeats without end.",
+    figures.extend(subject.rises().map(|chart| {
+        Figure::new(
+            chart,
+            units,
+            "Temperature rise once the cycle repeats without end.",
+        )
     }));
-    figures.extend(subject.bus_voltage().map(|chart| Figure {
-        chart,
-        caption: "Voltage of the DC bus once the cycle repeats without end.",
+    figures.extend(subject.bus_voltage().map(|chart| {
+        Figure::new(
+            chart,
+            units,
+            "Voltage of the DC bus once the cycle repeats without end.",
+        )
     }));
     figures
 }
 
 fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec<Figure>, Error> {
+    let units = subject.units();
     Ok(vec![
-        Figure {
-            chart: figures::reduced_inertia(file)?,
-            caption: "Reduced inertia with flywheel and drive train, and its derivative. Where J_red varies, a drive that knows only a mean value is wrong by ½·J′·ω² at every speed.",
-        },
-        Figure {
-            chart: figures::reduced_torque(file, mean_speed)?,
-            caption: "Parts of the reduced torque that do not depend on the motion: weight, process loads, and the sizes of the viscous and motion-opposing loads at the mean speed.",
-        },
-        Figure {
-            chart: subject.inertia_ratio(file)?,
-            caption: "Inertia ratio λ of this drive over the range of the drive link, with the value that is judged.",
-        },
+        Figure::new(
+            figures::reduced_inertia(file)?,
+            units,
+            "Reduced inertia with flywheel and drive train, and its derivative. Where J_red varies, a drive that knows only a mean value is wrong by ½·J′·ω² at every speed.",
+        ),
+        Figure::new(
+            figures::reduced_torque(file, mean_speed)?,
+            units,
+            "Parts of the reduced torque that do not depend on the motion: weight, process loads, and the sizes of the viscous and motion-opposing loads at the mean speed.",
+        ),
+        Figure::new(
+            subject.inertia_ratio(file)?,
+            units,
+            "Inertia ratio λ of this drive over the range of the drive link, with the value that is judged.",
+        ),
     ])
 }
 
 /// Every rule over the gear ratio, wide enough for the range in which all hold.
 fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
+    let units = subject.units();
+    if subject.judged.drive.motor.kind == MotorKind::Linear {
+        return Vec::new();
+    }
     let now = subject.context.ratio;
     let remedies = change.map_or(&[][..], |c| &c.remedies);
     let found = remedies
@@ -303,10 +328,11 @@ fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
     if let Some([low, high]) = found.and_then(|r| r.range) {
         (from, to) = (from.min(low.value / 1.3), to.max(high.value * 1.3));
     }
-    vec![Figure {
-        chart: subject.ratios(from, to),
-        caption: "What each rule uses of its limit over the gear ratio, the other data of motor and gearbox kept. Where all are below 100 %, the drive holds.",
-    }]
+    vec![Figure::new(
+        subject.ratios(from, to),
+        units,
+        "What each rule uses of its limit over the gear ratio, the other data of motor and gearbox kept. Where all are below 100 %, the drive holds.",
+    )]
 }
 
 #[derive(Template)]

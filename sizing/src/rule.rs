@@ -79,6 +79,8 @@ rules! {
     Overload, "amplifier overload", "overload";
     /// Highest voltage of the DC bus.
     BusVoltage, "bus voltage", "bus_voltage";
+    /// Resistance of the brake resistor against the smallest that the chopper may switch.
+    BrakeResistance, "brake resistance", "brake_resistance";
     /// Mean power of the brake resistor.
     ResistorPower, "brake resistor mean power", "resistor_power";
     /// Largest power of the brake resistor.
@@ -107,7 +109,7 @@ impl Rule {
     /// On which side of its limit the figure must be.
     pub const fn sense(self) -> Sense {
         match self {
-            Self::NaturalFrequency => Sense::AtLeast,
+            Self::NaturalFrequency | Self::BrakeResistance => Sense::AtLeast,
             _ => Sense::AtMost,
         }
     }
@@ -126,6 +128,7 @@ impl Rule {
                 | Self::HousingTemperature
                 | Self::Overload
                 | Self::BusVoltage
+                | Self::BrakeResistance
                 | Self::ResistorPower
                 | Self::ResistorPeak
                 | Self::ResistorPulse

@@ -205,7 +205,11 @@ impl Sensitivity {
         let findings = one.findings(&machine);
         let rules = &machine.file.rules;
         let holds = broken(rules, &findings).is_none();
-        let quantities: Vec<_> = study.document.quantities().iter().enumerate().collect();
+        // The free motion of `[simulation]` has no bearing on sizing.
+        let quantities = study.document.quantities().iter().enumerate();
+        let quantities: Vec<_> = quantities
+            .filter(|(_, quantity)| !quantity.path.starts_with("simulation."))
+            .collect();
         let found: Vec<(usize, Result<Dependence, String>)> = quantities
             .into_par_iter()
             .map(|(index, quantity)| {
@@ -220,9 +224,12 @@ impl Sensitivity {
                     Err("zero has no relative change".to_owned())
                 } else {
                     mover.slopes(reach.change).map(|slopes| {
-                        let room = |sign| match holds {
-                            true => mover.room(sign, reach),
-                            false => Room::Broken,
+                        let room = |sign| {
+                            if holds {
+                                mover.room(sign, reach)
+                            } else {
+                                Room::Broken
+                            }
                         };
                         Dependence {
                             quantity: index,

@@ -140,7 +140,13 @@ impl<'c> Selection<'c> {
     /// does not depend on how the work was shared out.
     fn in_order(mut self) -> Self {
         let power = |c: &Candidate| c.drive.motor.rated_power().unwrap_or(f64::INFINITY);
-        let of_fit = |c: &Candidate| (power(c), u8::from(c.outcome.warnings > 0), c.outcome.worst_use);
+        let of_fit = |c: &Candidate| {
+            (
+                power(c),
+                u8::from(c.outcome.warnings > 0),
+                c.outcome.worst_use,
+            )
+        };
         let fit = Places::of(&self.fit, of_fit);
         self.fit = fit.sorted().map(|k| self.fit[k]).collect();
         let mut refused = Places::of(&self.refused, missed);

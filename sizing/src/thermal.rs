@@ -64,13 +64,19 @@ pub enum Model {
     },
 }
 
-/// The losses while the machine runs.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Running {
-    /// Over the cycle.
-    Course(Course),
-    /// Their means alone.
-    Mean(Losses),
+/// What heats a motor: a drive on its way through a cycle.
+#[derive(Clone, Copy, Debug)]
+pub struct Load<'a> {
+    /// The cycle.
+    pub cycle: &'a Cycle,
+    /// The drive's torque as a linear form.
+    pub coefficients: &'a Coefficients,
+    /// Its ratio.
+    pub ratio: f64,
+    /// Its motor.
+    pub motor: &'a Motor,
+    /// What is known of the motor's limits.
+    pub prepared: &'a Prepared,
 }
 
 /// What a model found.
@@ -154,14 +160,14 @@ impl Model {
 
     /// The losses over a cycle: at every instant the torque's copper loss and the motor's friction, or shares of the rated
     /// losses.
-    pub fn course(
-        &self,
-        cycle: &Cycle,
-        coefficients: &Coefficients,
-        ratio: f64,
-        motor: &Motor,
-        prepared: &Prepared,
-    ) -> Course {
+    pub fn course(&self, load: &Load) -> Course {
+        let Load {
+            cycle,
+            coefficients,
+            ratio,
+            motor,
+            prepared,
+        } = *load;
         let [coulomb, viscous] = motor.friction;
         let points = cycle.samples().iter().map(|sample| {
             let torque = coefficients.torque(&sample.loads);
@@ -203,26 +209,24 @@ impl Model {
         }
     }
 
-    /// Whether nothing but mean losses counts, and those follow from the RMS torque and the speeds alone: see
-    /// [`mean_losses`](Self::mean_losses).
-    pub fn needs_no_course(&self, prepared: &Prepared) -> bool {
+    /// The mean losses. With thermal resistances alone and a current that is proportional to the torque they need no course:
+    /// R·(T_rms/k_t)², and c·|n|‾ + b·n_rms².
+    fn mean_losses(&self, load: &Load) -> Losses {
+        let Load {
+            cycle,
+            coefficients,
+            ratio,
+            motor,
+            prepared,
+        } = *load;
         let straight = prepared.torques.is_some_and(|curve| !curve.saturates())
             && !prepared
                 .circuit
                 .as_ref()
                 .is_some_and(|circuit| circuit.weakens);
-        matches!(self, Self::Steady { .. }) && straight
-    }
-
-    /// The mean losses where [`needs_no_course`](Self::needs_no_course): R·(T_rms/k_t)², and c·|n|‾ + b·n_rms².
-    pub fn mean_losses(
-        &self,
-        cycle: &Cycle,
-        coefficients: &Coefficients,
-        ratio: f64,
-        motor: &Motor,
-        prepared: &Prepared,
-    ) -> Losses {
+        if !(matches!(self, Self::Steady { .. }) && straight) {
+            return self.course(load).mean();
+        }
         let [coulomb, viscous] = motor.friction;
         let root = self.root(prepared, cycle.rms_torque(coefficients), 0.0);
         let speed = cycle.rms_torque(&Coefficients([0.0, 0.0, 0.0, ratio, 0.0]));
@@ -232,25 +236,26 @@ impl Model {
         }
     }
 
-    /// The hottest rises in an operation; `rest` are the losses at rest.
+    /// The hottest rises in an operation of a cycle; `rest` are the losses at rest.
     ///
     /// # Errors
     /// What is missing, in words.
     pub fn heating(
         &self,
-        losses: &Running,
+        load: &Load,
         operation: &Operation,
         rest: Losses,
     ) -> Result<Heating, &'static str> {
         let from_cold = matches!(operation, Operation::Short { .. });
         let mean = || {
             let running = operation.running().unwrap_or(1.0);
-            let mean = losses.mean();
+            let mean = self.mean_losses(load);
             Losses {
                 copper: running * mean.copper + (1.0 - running) * rest.copper,
                 other: running * mean.other,
             }
         };
+        let hottest = |network: &Network| self.course(load).hottest(network, operation, rest);
         let steady = |resistances, growth| match network::steady(resistances, mean(), growth) {
             Some(rise) => Hottest::Rise(rise),
             None => Hottest::Runaway,
@@ -264,7 +269,7 @@ impl Model {
                     "thermal time constant of the housing, to follow an operation from cold",
                 );
             }
-            Self::Bodies { network, .. } => (losses.hottest(&network, operation, rest), true),
+            Self::Bodies { network, .. } => (hottest(&network), true),
             Self::Steady { .. } | Self::Relative { time: None, .. } if from_cold => {
                 return Err("thermal time constants, to follow an operation from cold");
             }
@@ -275,10 +280,7 @@ impl Model {
             } => (steady(resistances, growth), false),
             Self::Relative {
                 time: Some(time), ..
-            } => {
-                let network = Network::one(1.0, time, 0.0);
-                (losses.hottest(&network, operation, rest), true)
-            }
+            } => (hottest(&Network::one(1.0, time, 0.0)), true),
             Self::Relative { time: None, .. } => (steady([0.0, 1.0], 0.0), false),
         };
         let relative = matches!(self, Self::Relative { .. });
@@ -293,32 +295,6 @@ impl Model {
             housing,
             ripple,
         })
-    }
-}
-
-impl Running {
-    fn mean(&self) -> Losses {
-        match self {
-            Self::Course(course) => course.mean(),
-            Self::Mean(losses) => *losses,
-        }
-    }
-
-    fn hottest(&self, network: &Network, operation: &Operation, rest: Losses) -> Hottest {
-        match self {
-            Self::Course(course) => course.hottest(network, operation, rest),
-            // Constant losses are a course of two points; what they copper is, its root squared.
-            Self::Mean(losses) => {
-                let point = |t| Point {
-                    t,
-                    root: losses.copper.sqrt(),
-                    other: losses.other,
-                };
-                let time = network.fastest();
-                let course = Course::new(vec![point(0.0), point(time)], time);
-                course.hottest(network, operation, rest)
-            }
-        }
     }
 }
 

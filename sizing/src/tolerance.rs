@@ -171,7 +171,13 @@ impl Task for Samples<'_> {
                 let rules = &machine.file.rules;
                 let findings = self.one.findings(&machine);
                 let broken = broken(rules, &findings);
-                cells.push(if broken.is_none() { "holds" } else { "broken" }.into());
+                let known = |rule: &Rule| findings.get(*rule).is_some_and(|f| f.is_known());
+                let verdict = match broken {
+                    Some(_) => "broken",
+                    None if self.rules.iter().all(known) => "holds",
+                    None => "not checked",
+                };
+                cells.push(verdict.into());
                 cells.push(broken.map_or(Cell::Empty, |rule| rule.name().into()));
                 cells.extend(self.rules.iter().map(|rule| {
                     let finding = findings.get(*rule).filter(crate::judge::Finding::is_known);

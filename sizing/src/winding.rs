@@ -119,6 +119,8 @@ impl CurrentCurve {
     /// From the torque constant (N·m/A, positive), a point \[current, torque\] of saturation (A, N·m), and the torque up to
     /// which the constant holds. A point that does not lie beyond k_t's line and beyond the knee is left out.
     pub fn new(torque_constant: f64, saturated: Option<[f64; 2]>, knee: f64) -> Self {
+        // A rounding of the data sheet is no saturation.
+        const ROUNDING: f64 = 1.001;
         let slope = 1.0 / torque_constant;
         let straight = Self {
             slope,
@@ -128,8 +130,6 @@ impl CurrentCurve {
         let Some([current, torque]) = saturated else {
             return straight;
         };
-        // A rounding of the data sheet is no saturation.
-        const ROUNDING: f64 = 1.001;
         let usable = current.is_finite() && torque.is_finite() && knee > 0.0 && torque > knee;
         if !usable || current <= ROUNDING * torque * slope {
             return straight;

@@ -4,6 +4,8 @@
 
 #[path = "bus/command.rs"]
 mod command;
+#[path = "bus/drive.rs"]
+mod drive;
 #[path = "bus/supply.rs"]
 mod supply;
 mod support;

@@ -115,7 +115,12 @@ fn the_built_in_brake_resistors() {
         .collect();
     let expected = [10.0, 18.0, 23.0, 33.0, 47.0].map(|ohm| [ohm, 450.0]);
     assert_eq!(found, expected);
-    assert!(catalogue.resistors.iter().all(|r| r.from_maker && r.source.len() > 20));
+    assert!(
+        catalogue
+            .resistors
+            .iter()
+            .all(|r| r.from_maker && r.source.len() > 20)
+    );
 }
 
 const HEADER: &str = "key,maker,model,rated_torque [N m],rated_speed [rpm],peak_torque [N m],rotor_inertia [kg cm^2],source";
@@ -194,7 +199,11 @@ fn wrong_columns() {
         refuses(
             &table.replace(',', separator),
             Some((1, 1)),
-            &[&format!("the columns are separated by {name}"), "commas", "\"3.2\""],
+            &[
+                &format!("the columns are separated by {name}"),
+                "commas",
+                "\"3.2\"",
+            ],
         );
     }
     refuses(
@@ -256,7 +265,10 @@ fn wrong_cells() {
     refuses(
         &format!("{HEADER}\n{FIRST}\nm2,Maker,Model,9,2000\n"),
         Some((3, 1)),
-        &["this row has 5 cells, but the header has 8", "every row needs as many cells"],
+        &[
+            "this row has 5 cells, but the header has 8",
+            "every row needs as many cells",
+        ],
     );
     refuses(
         &format!("{HEADER}\n{FIRST}\n{SECOND},extra\n"),

@@ -405,7 +405,10 @@ fn top_lists_that_many() {
     let fit = jred([&"size", &press, &"--format", &"json"]).json();
     assert_eq!(fit["fit"].as_array().unwrap().len(), 10);
     assert_eq!(fit["refused"].as_array().unwrap().len(), 3);
-    assert_eq!(ranks("1000000"), fit["counts"]["fit"].as_u64().unwrap() as usize);
+    assert_eq!(
+        ranks("1000000"),
+        fit["counts"]["fit"].as_u64().unwrap() as usize
+    );
 }
 
 #[test]

@@ -39,13 +39,28 @@ fn figures_are_those_of_the_samples() {
     let check = |(duty, c, ratio): (_, Coefficients, f64)| {
         let cycle = Cycle::new(&duty);
         let scale = brute::scale(&cycle, &c);
-        near("RMS", cycle.rms_torque(&c), brute::rms_torque(&cycle, &c), scale);
-        near("mean", cycle.mean_torque(&c), brute::mean_torque(&cycle, &c), scale);
+        near(
+            "RMS",
+            cycle.rms_torque(&c),
+            brute::rms_torque(&cycle, &c),
+            scale,
+        );
+        near(
+            "mean",
+            cycle.mean_torque(&c),
+            brute::mean_torque(&cycle, &c),
+            scale,
+        );
         let found = cycle.torque_extremes(&c);
         for (found, expected) in found.into_iter().zip(brute::extremes(&cycle, &c)) {
             near("extreme", found, expected, scale);
         }
-        near("peak", cycle.peak_torque(&c), found[1].max(-found[0]), scale);
+        near(
+            "peak",
+            cycle.peak_torque(&c),
+            found[1].max(-found[0]),
+            scale,
+        );
         let power = scale * cycle.peak_speed() * ratio;
         let energies = cycle.energies(&c, ratio);
         let expected = brute::energies(&cycle, &c, ratio);
@@ -65,7 +80,8 @@ fn the_peak_is_that_of_the_samples() {
     let check = |(duty, c, ratio, envelope): (_, Coefficients, f64, _)| {
         let cycle = Cycle::new(&duty);
         // Ratios that keep within the envelope's speed, reach its end or pass it.
-        let ratio = ratio / 100.0 * f64::min(envelope_end(&envelope), 1e4) / cycle.peak_speed().max(1e-3);
+        let ratio =
+            ratio / 100.0 * f64::min(envelope_end(&envelope), 1e4) / cycle.peak_speed().max(1e-3);
         let found = cycle.peak(&c, ratio, &envelope);
         let expected = brute::peak(&cycle, &c, ratio, &envelope);
         if expected.used.is_infinite() {
@@ -79,7 +95,8 @@ fn the_peak_is_that_of_the_samples() {
             1.0
         };
         near("share", found.used, expected.used, scale);
-        assert_eq!(found.used, envelope.peak_used(found.torque, found.speed));
+        let own = envelope.peak_used(found.torque, found.speed);
+        assert!(found.used.total_cmp(&own).is_eq());
         Ok(())
     };
     runner(12_000).run(&every, check).unwrap();

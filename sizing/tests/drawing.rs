@@ -183,8 +183,8 @@ fn machines() -> impl Iterator<Item = PathBuf> {
         .unwrap()
         .map(|entry| entry.unwrap().path());
     let reducible = |file: &PathBuf| {
-        let text = std::fs::read_to_string(file).unwrap();
-        file.extension().is_some_and(|e| e == "toml") && !text.contains("[variator")
+        file.extension().is_some_and(|e| e == "toml")
+            && !std::fs::read_to_string(file).unwrap().contains("[variator")
     };
     files.filter(move |file| reducible(file))
 }

@@ -1,5 +1,7 @@
 //! The torque-speed envelope of a motor: from its winding, from its data sheet, at another voltage, on an amplifier. What it
 //! is compared with is searched for on grids or written down in closed form, without the tool's formulas.
+// What is given as such must come out as such, to the last digit.
+#![allow(clippy::float_cmp)]
 
 #[path = "support/budget.rs"]
 #[allow(dead_code)]

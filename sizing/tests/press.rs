@@ -213,7 +213,15 @@ fn size(steps: &str, motors: Option<&str>, gearboxes: Option<&str>) -> Value {
             &"--gearboxes",
             &folder.file("gearboxes.csv", gearboxes),
         ]),
-        _ => jred([&"size", &file, &"--format", &"json", &"--all", &"--steps", &steps]),
+        _ => jred([
+            &"size",
+            &file,
+            &"--format",
+            &"json",
+            &"--all",
+            &"--steps",
+            &steps,
+        ]),
     };
     run.ends(0).json()
 }

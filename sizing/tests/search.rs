@@ -257,7 +257,7 @@ fn options_of_size() {
     .ends(0);
     assert!(
         run.out
-            .starts_with("motor,gearbox,rated power [W],energy [J]\n"),
+            .starts_with("motor,gearbox,amplifier,rated power [W],energy [J]\n"),
         "{}",
         run.out
     );
@@ -265,7 +265,7 @@ fn options_of_size() {
         .out
         .lines()
         .skip(1)
-        .map(|l| l.split(',').skip(2).map(|x| x.parse().unwrap()).collect())
+        .map(|l| l.split(',').skip(3).map(|x| x.parse().unwrap()).collect())
         .collect();
     assert!(
         !rows.is_empty()
@@ -299,4 +299,40 @@ fn options_of_size() {
     jred([&"size", &press, &"--max-mass", &"5 mm"])
         .ends(2)
         .says(&["must be a mass"]);
+}
+
+/// Temperatures of motors whose data differ are compared as shares of what is allowed, not as kelvins: of two equal motors that
+/// of which the thermal resistances are known is not the warmer one for it.
+#[test]
+fn temperatures_are_compared_as_shares() {
+    let case = case(&press_text(), 200);
+    let catalogue = catalogue();
+    let motors = catalogue.prepare(&case.file.site);
+    let selection = Selection::new(
+        &catalogue,
+        &motors,
+        &case.cycle,
+        &case.file.site,
+        &case.file.rules,
+    );
+    let mut compared = 0;
+    for candidate in &selection.fit {
+        let Some(value) = Objective::Temperature.value(&selection, candidate) else {
+            continue;
+        };
+        let judged = selection.judged(candidate);
+        let check = judged
+            .checks
+            .iter()
+            .find(|check| check.id == Rule::WindingTemperature)
+            .unwrap();
+        near(
+            "share",
+            value,
+            check.value.unwrap() / check.limit.unwrap(),
+            1e-12,
+        );
+        compared += 1;
+    }
+    assert!(compared > 0);
 }

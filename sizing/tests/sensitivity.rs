@@ -23,7 +23,7 @@ use support::{Folder, budget, jred, near, press_text, within};
 fn strong() -> Catalogue {
     let mut catalogue = Catalogue::load(None, None).unwrap();
     let mut motor = catalogue.motors[0].clone();
-    motor.key = "strong".to_owned();
+    "strong".clone_into(&mut motor.key);
     motor.rated_torque = Some(500.0);
     motor.standstill_torque = Some(500.0);
     motor.peak_torque = Some(2000.0);
@@ -97,7 +97,10 @@ fn slope_of_the_rms_torque_by_the_duty_itself() {
     let (duty, torque) = torques(RACK, STEPS);
     let figures = duty.figures_of(torque.iter().copied());
     let by_mass = |i: &Instant| 0.03 * 0.03 * i.input_alpha / 5.0;
-    let products = torque.iter().zip(&duty.instants).map(|(t, i)| t * by_mass(i));
+    let products = torque
+        .iter()
+        .zip(&duty.instants)
+        .map(|(t, i)| t * by_mass(i));
     let mean = duty.integral_of(products) / duty.duration;
     let share = found
         .shares

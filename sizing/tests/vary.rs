@@ -18,12 +18,8 @@ fn document() -> Document {
 
 /// The rows of a CSV file by column.
 fn rows(text: &str) -> Vec<HashMap<String, String>> {
-    let body: String = text
-        .lines()
-        .filter(|l| !l.starts_with("# "))
-        .map(|l| format!("{l}\n"))
-        .collect();
-    let mut reader = csv_reader(&body);
+    let body: Vec<&str> = text.lines().filter(|l| !l.starts_with("# ")).collect();
+    let mut reader = csv_reader(&body.join("\n"));
     let names: Vec<String> = reader.remove(0);
     let row = |cells: Vec<String>| names.iter().cloned().zip(cells).collect();
     reader.into_iter().map(row).collect()
@@ -278,7 +274,7 @@ fn what_cannot_be_varied_is_said() {
     let says = |vary: &str, words: &[&str]| {
         jred([&"vary", &press, &"--vary", &vary])
             .ends(2)
-            .says(words)
+            .says(words);
     };
     says(
         "slider.mas=30..60kg:8",

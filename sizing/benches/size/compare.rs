@@ -50,7 +50,10 @@ pub(crate) fn every_drive(ready: &Ready) {
         assert_eq!(outcome.verdict, expected.verdict, "{name}");
         assert_eq!(outcome.worst_rule, expected.worst_rule, "{name}");
         assert_eq!(outcome.warnings, expected.warnings, "{name}");
-        assert_eq!(outcome.beyond_all_limits, expected.beyond_all_limits, "{name}");
+        assert_eq!(
+            outcome.beyond_all_limits, expected.beyond_all_limits,
+            "{name}"
+        );
         for ((rule, found), (_, expected)) in findings.iter().zip(plain.iter()) {
             let off = match rule {
                 // Two instants may come equally close with different torques: the share is what counts.
@@ -61,12 +64,17 @@ pub(crate) fn every_drive(ready: &Ready) {
             };
             if off.is_finite() {
                 largest = largest.max(off.abs());
-                assert!(off.abs() <= TOLERANCE, "{name}, {rule:?}: {found:?} {expected:?}");
+                assert!(
+                    off.abs() <= TOLERANCE,
+                    "{name}, {rule:?}: {found:?} {expected:?}"
+                );
             }
         }
         count += 1;
     }
-    println!("{count} drives compared with plain loops: the same verdicts, figures within {largest:.1e}");
+    println!(
+        "{count} drives compared with plain loops: the same verdicts, figures within {largest:.1e}"
+    );
 }
 
 /// All drives by plain loops: what depends on the samples in one loop for each, all else as ever.
@@ -79,7 +87,11 @@ pub(crate) fn plain(ready: &Ready) {
         for sample in samples {
             let torque = context.coefficients.torque(&sample.loads);
             squares += sample.weight * torque * torque;
-            used = used.max(motor.envelope.peak_used(torque, sample.speed() * context.ratio));
+            used = used.max(
+                motor
+                    .envelope
+                    .peak_used(torque, sample.speed() * context.ratio),
+            );
         }
         black_box((squares, used));
     }

@@ -22,7 +22,9 @@ const RUNS: u32 = 7;
 
 /// The shortest time of several runs (s).
 pub(crate) fn best<T>(mut run: impl FnMut() -> T) -> f64 {
-    (0..RUNS).map(|_| once(&mut run)).fold(f64::INFINITY, f64::min)
+    (0..RUNS)
+        .map(|_| once(&mut run))
+        .fold(f64::INFINITY, f64::min)
 }
 
 /// The time of one run (s), without dropping the result.
@@ -44,20 +46,25 @@ impl Report {
     /// Prints a ratio and holds it against its ceiling in `benches/ceilings.txt`: not above it, nor below half of it.
     pub(crate) fn ratio(&mut self, name: &str, found: f64, what: &str) {
         let lines = include_str!("../../../benches/ceilings.txt").lines();
-        let ceiling = lines.filter(|line| !line.starts_with('#')).find_map(|line| {
-            let words: Vec<&str> = line.split_whitespace().collect();
-            match words[..] {
-                ["host", this, ceiling] if this == name => ceiling.parse::<f64>().ok(),
-                _ => None,
-            }
-        });
+        let ceiling = lines
+            .filter(|line| !line.starts_with('#'))
+            .find_map(|line| {
+                let words: Vec<&str> = line.split_whitespace().collect();
+                match words[..] {
+                    ["host", this, ceiling] if this == name => ceiling.parse::<f64>().ok(),
+                    _ => None,
+                }
+            });
         let verdict = match ceiling {
             Some(ceiling) if found <= ceiling && found >= 0.5 * ceiling => "within its ceiling",
             Some(_) => "FAILED: not between its ceiling and half of it",
             None => "FAILED: has no ceiling",
         };
         self.failures += u32::from(verdict.starts_with("FAILED"));
-        println!("{name}: {found:.2} {what}; {verdict} {}", ceiling.unwrap_or(f64::NAN));
+        println!(
+            "{name}: {found:.2} {what}; {verdict} {}",
+            ceiling.unwrap_or(f64::NAN)
+        );
     }
 
     pub(crate) fn code(&self) -> ExitCode {
@@ -73,7 +80,10 @@ impl Report {
 /// The database of the variable `JRED_MGDB`, or a synthetic one of its size; and what it is.
 pub(crate) fn catalogue() -> (Catalogue, String) {
     let Some(folder) = std::env::var_os("JRED_MGDB").map(PathBuf::from) else {
-        return (synthetic::catalogue(), "synthetic catalogue (JRED_MGDB not set)".to_owned());
+        return (
+            synthetic::catalogue(),
+            "synthetic catalogue (JRED_MGDB not set)".to_owned(),
+        );
     };
     let sources = Sources {
         catalogues: vec![folder.clone()],
@@ -85,14 +95,22 @@ pub(crate) fn catalogue() -> (Catalogue, String) {
     };
     let time = best(load);
     println!("loading                    {:9.3} ms", 1e3 * time);
-    (load(), format!("Motor-Gearbox Database in {}", folder.display()))
+    (
+        load(),
+        format!("Motor-Gearbox Database in {}", folder.display()),
+    )
 }
 
 /// So many drives, spread over the whole catalogue; where there are fewer, the catalogue begins anew.
 pub(crate) fn drives(catalogue: &Catalogue, wanted: usize) -> Vec<(usize, Drive<'_>)> {
     let all: Vec<(usize, Drive)> = catalogue.drives().collect();
     let step = (all.len() / wanted).max(1);
-    all.iter().copied().step_by(step).cycle().take(wanted).collect()
+    all.iter()
+        .copied()
+        .step_by(step)
+        .cycle()
+        .take(wanted)
+        .collect()
 }
 
 /// Motor torque that is the torque at the gearbox output.
@@ -134,6 +152,12 @@ pub(crate) fn memory() -> ExitCode {
 fn resident() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-    let kilobytes = line.and_then(|line| line.trim().trim_end_matches("kB").trim().parse::<f64>().ok());
+    let kilobytes = line.and_then(|line| {
+        line.trim()
+            .trim_end_matches("kB")
+            .trim()
+            .parse::<f64>()
+            .ok()
+    });
     kilobytes.unwrap_or(f64::NAN) / 1e3
 }

@@ -22,7 +22,9 @@ pub(crate) fn compare(ready: &Ready) {
 
 fn run(ready: &Ready) -> io::Result<String> {
     let folder = tempfile::tempdir()?;
-    let write = |name: &str, values: &[f64]| std::fs::write(folder.path().join(name), cast_slice::<f64, u8>(values));
+    let write = |name: &str, values: &[f64]| {
+        std::fs::write(folder.path().join(name), cast_slice::<f64, u8>(values))
+    };
     let samples = ready.cycle.samples();
     let loads: Vec<f64> = samples.iter().flat_map(|s| s.loads).collect();
     let weights: Vec<f64> = samples.iter().map(|s| s.weight).collect();
@@ -44,7 +46,11 @@ fn run(ready: &Ready) -> io::Result<String> {
     let mut envelopes = Vec::new();
     for motor in &ready.motors {
         let limit = motor.envelope.limit(false);
-        let end = if limit.end().is_finite() { limit.end() } else { 1e9 };
+        let end = if limit.end().is_finite() {
+            limit.end()
+        } else {
+            1e9
+        };
         for k in 0..=POINTS {
             let speed = end * k as f64 / POINTS as f64;
             let torque = limit.torque(speed);
@@ -53,15 +59,23 @@ fn run(ready: &Ready) -> io::Result<String> {
     }
     write("envelopes", &envelopes)?;
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../benches/size.py");
-    let output = Command::new("python3").arg(script).arg(folder.path()).output()?;
+    let output = Command::new("python3")
+        .arg(script)
+        .arg(folder.path())
+        .output()?;
     if !output.status.success() {
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         let last = said.lines().last().unwrap_or("no message").to_owned();
         return Err(io::Error::other(last));
     }
     let rms = std::fs::read(folder.path().join("rms"))?;
-    let rms: Vec<f64> = rms.chunks_exact(8).map(bytemuck::pod_read_unaligned).collect();
-    let off = expected.iter().map(|&(k, rms_here)| (rms[k] / rms_here - 1.0).abs());
+    let rms: Vec<f64> = rms
+        .chunks_exact(8)
+        .map(bytemuck::pod_read_unaligned)
+        .collect();
+    let off = expected
+        .iter()
+        .map(|&(k, rms_here)| (rms[k] / rms_here - 1.0).abs());
     let off = off.fold(0.0, f64::max);
     let said = String::from_utf8_lossy(&output.stdout);
     Ok(format!("{} (RMS within {off:.0e})", said.trim_end()))

@@ -22,7 +22,9 @@ pub(crate) fn catalogue() -> Catalogue {
     let mut rng = ChaCha8Rng::seed_from_u64(85_828);
     Catalogue {
         motors: (0..MOTORS).map(|k| of_motor(motor, k, &mut rng)).collect(),
-        gearboxes: (0..GEARBOXES).map(|k| of_gearbox(gearbox, k, &mut rng)).collect(),
+        gearboxes: (0..GEARBOXES)
+            .map(|k| of_gearbox(gearbox, k, &mut rng))
+            .collect(),
         ..Catalogue::default()
     }
 }

@@ -11,6 +11,7 @@ use super::curve::PowerCurve;
 use super::store::BusFigures;
 use crate::cli::bus::Bus as Options;
 use crate::output::{Columns, Format, short};
+use crate::rule::Sense;
 
 impl Answer {
     pub(super) fn text(&self, options: &Options) -> String {
@@ -93,25 +94,34 @@ impl Answer {
             let _ = writeln!(text, "The bus {words}{proposal}");
         }
         if self.data.capacitance.is_none() {
-            text += "Capacitance of the DC bus not known: all that comes back goes into the brake resistor\n";
+            text += match self.data.resistor {
+                Some(_) => {
+                    "Capacitance of the DC bus not known: all that comes back goes into the brake resistor\n"
+                }
+                None => "Capacitance of the DC bus not known\n",
+            };
         }
         text.push('\n');
         let checks = self.checks(options);
-        for (name, figure, limit, unit) in &checks {
-            let verdict = match figure {
-                f if f.is_nan() => "not checked",
-                f if f <= limit => "ok",
-                _ => "FAIL",
+        for check in &checks {
+            let verdict = match check.holds() {
+                None => continue,
+                Some(true) => "ok",
+                Some(false) => "FAIL",
             };
+            let limit = check.limit.map_or_else(
+                || "any limit".to_owned(),
+                |limit| format!("{} {}", short(limit), check.unit),
+            );
             let _ = writeln!(
                 text,
-                "{name} {} against {} {unit}: {verdict}",
-                volts(*figure),
-                short(*limit)
+                "{} {} against {limit}: {verdict}",
+                check.name,
+                volts(check.figure)
             );
         }
-        if !checks.iter().any(|check| check.0 == "bus voltage") {
-            text += "bus voltage: not checked, the highest voltage of the DC bus is not known\n";
+        for words in self.not_checked(options) {
+            let _ = writeln!(text, "NOT CHECKED: {words}");
         }
         text
     }
@@ -152,18 +162,16 @@ impl Answer {
                 "peak fed back [W]": (-least).max(0.0),
             })
         });
-        let checks = self
-            .checks(options)
-            .into_iter()
-            .map(|(name, figure, limit, unit)| {
-                json!({
-                    "check": name,
-                    "value": finite(figure),
-                    "limit": limit,
-                    "unit": unit,
-                    "holds": (!figure.is_nan()).then_some(figure <= limit),
-                })
-            });
+        let checks = self.checks(options).into_iter().map(|check| {
+            json!({
+                "check": check.name,
+                "value": finite(check.figure),
+                "limit": check.limit,
+                "at least": check.sense == Sense::AtLeast,
+                "unit": check.unit,
+                "holds": check.holds(),
+            })
+        });
         json!({
             "schema": "jred-bus/1",
             "axes": axes.collect::<Vec<_>>(),
@@ -184,6 +192,7 @@ impl Answer {
             "brake resistor needed": self.need,
             "proposal": self.proposal,
             "checks": checks.collect::<Vec<_>>(),
+            "not checked": self.not_checked(options),
             "holds": self.holds(options),
         })
     }

@@ -119,8 +119,23 @@ pub struct Brake {
 }
 
 impl Motor {
-    /// Rated torque times rated speed (W), where the catalogue says both.
+    /// Rated torque times rated speed (W). Where no rated speed is stated, it is that of the nominal point of a motor fed with
+    /// direct current: n = (V − R·I)/k_e at the rated current.
     pub fn rated_power(&self) -> Option<f64> {
-        Some(self.rated_torque? * self.rated_speed?)
+        let torque = self.rated_torque?;
+        let speed = self.rated_speed.or_else(|| self.nominal_speed(torque))?;
+        Some(torque * speed)
+    }
+
+    fn nominal_speed(&self, torque: f64) -> Option<f64> {
+        let winding = &self.winding;
+        if winding.commutation != Commutation::Block {
+            return None;
+        }
+        let constant = winding.torque_constant?;
+        let current = winding.rated_current.unwrap_or(torque / constant);
+        let voltage = self.bus_voltage? - winding.resistance? * current;
+        let speed = voltage / winding.voltage_constant.unwrap_or(constant);
+        (speed.is_finite() && speed > 0.0).then_some(speed)
     }
 }

@@ -26,7 +26,11 @@ impl Factor {
 
     /// The factor of the loads times the speed: power is a linear form in these.
     pub(super) fn of_powers(samples: &[Sample]) -> Self {
-        Self::new(samples.iter().map(|s| (s.weight, s.loads.map(|x| x * s.speed()))))
+        Self::new(
+            samples
+                .iter()
+                .map(|s| (s.weight, s.loads.map(|x| x * s.speed()))),
+        )
     }
 
     fn new(rows: impl Iterator<Item = (f64, [f64; LOADS])>) -> Self {
@@ -35,13 +39,11 @@ impl Factor {
         let mut add = |block: &SMatrix<f64, BLOCK, LOADS>| {
             let mut sum = block.qr().r();
             for place in &mut joined {
-                match place.take() {
-                    Some(other) => sum = join(&other, &sum),
-                    None => {
-                        *place = Some(sum);
-                        return;
-                    }
-                }
+                let Some(other) = place.take() else {
+                    *place = Some(sum);
+                    return;
+                };
+                sum = join(&other, &sum);
             }
             joined.push(Some(sum));
         };

@@ -35,7 +35,9 @@ impl Front {
         let mut chosen = Vec::from_iter((!tree.nodes.is_empty()).then_some(0));
         let stray = |node: &Node| -> f64 {
             let shares = node.reach.iter().zip(largest);
-            shares.map(|(r, x)| if *x > 0.0 { r / x } else { 0.0 }).sum()
+            shares
+                .map(|(r, x)| if *x > 0.0 { r / x } else { 0.0 })
+                .sum()
         };
         // The stretch whose loads stray most from its chord is cut, again and again.
         while chosen.len() < WIDTH {

@@ -87,7 +87,7 @@ impl Floor for Falling<'_> {
     }
 }
 
-impl<'c> Stretches<'c> {
+impl Stretches<'_> {
     /// The sample that comes closest to the envelope, or is beyond it by most; the first that has no limit at all, if there is one.
     pub(super) fn peak(self, c: &Coefficients, ratio: f64, envelope: &Envelope) -> Option<Peak> {
         let top = self.tree.nodes.first()?.speed[1] * ratio;
@@ -164,76 +164,13 @@ impl<'c> Stretches<'c> {
         best
     }
 
-    /// Work that the motor puts in and work that it takes back (J): ∫max(P, 0) and ∫max(−P, 0). Where the power keeps its sign
-    /// over a stretch its work is a linear form; samples are looked at only around its zeros.
-    pub(super) fn energies(self, c: &Coefficients, ratio: f64) -> [f64; 2] {
-        let mut sums = [0.0; 2];
-        if !self.tree.nodes.is_empty() {
-            self.add_energy(c, self.slack(c), 0, &mut sums);
-        }
-        sums.map(|sum| sum * ratio)
-    }
-
-    fn add_energy(self, c: &Coefficients, slack: f64, index: usize, sums: &mut [f64; 2]) {
-        let node = &self.tree.nodes[index];
-        if node.speed[1] == 0.0 {
-            return;
-        }
-        let mut add = |work: f64| {
-            let [motoring, regenerative] = sums;
-            *motoring += work.max(0.0);
-            *regenerative += (-work).max(0.0);
-        };
-        let ends = self.ends(node, c);
-        let reach: f64 = (0..LOADS).map(|k| c.0[k].abs() * node.reach[k]).sum();
-        let one_sign = ends[0].min(ends[1]) - reach >= -slack || ends[0].max(ends[1]) + reach <= slack;
-        if one_sign && node.direction != Direction::Any {
-            add(c.torque(&node.energy));
-        } else if node.second == 0 {
-            for sample in &self.samples[node.first as usize..=node.last as usize] {
-                add(sample.weight * sample.speed() * c.torque(&sample.loads));
-            }
-        } else {
-            self.add_energy(c, slack, index + 1, sums);
-            self.add_energy(c, slack, node.second as usize, sums);
-        }
-    }
-
-    /// Whether any sample's power is negative, by more than rounding.
-    pub(super) fn regenerates(self, c: &Coefficients) -> bool {
-        fn visit(stretches: Stretches, c: &Coefficients, slack: f64, index: usize) -> bool {
-            let node = &stretches.tree.nodes[index];
-            let back = |s: &Sample| s.speed() * c.torque(&s.loads) < -slack * s.speed().abs();
-            if [node.first, node.last].iter().any(|k| back(&stretches.samples[*k as usize])) {
-                return true;
-            }
-            let [a, b] = stretches.ends(node, c);
-            let reach: f64 = (0..LOADS).map(|k| c.0[k].abs() * node.reach[k]).sum();
-            let only_driving = match node.direction {
-                Direction::One(true) => a.min(b) - reach >= -slack,
-                Direction::One(false) => a.max(b) + reach <= slack,
-                Direction::Any => node.speed[1] == 0.0,
-            };
-            if only_driving {
-                false
-            } else if node.second == 0 {
-                let samples = &stretches.samples[node.first as usize..=node.last as usize];
-                samples.iter().any(back)
-            } else {
-                visit(stretches, c, slack, index + 1)
-                    || visit(stretches, c, slack, node.second as usize)
-            }
-        }
-        !self.tree.nodes.is_empty() && visit(self, c, self.slack(c), 0)
-    }
-
-    fn slack(self, c: &Coefficients) -> f64 {
+    pub(super) fn slack(self, c: &Coefficients) -> f64 {
         let terms = c.0.iter().zip(self.largest).map(|(c, x)| c.abs() * x);
         ROUNDING * terms.sum::<f64>()
     }
 
     /// The linear form at both ends of a stretch.
-    fn ends(self, node: &Node, c: &Coefficients) -> [f64; 2] {
+    pub(super) fn ends(self, node: &Node, c: &Coefficients) -> [f64; 2] {
         [node.first, node.last].map(|k| c.torque(&self.samples[k as usize].loads))
     }
 }
@@ -349,8 +286,8 @@ impl<'s, F: Floor> Search<'s, F> {
         }
     }
 
-    /// An upper bound of |T| − u·M over a stretch, u being the best share so far and M the limit; the stretch holds nothing better where that is
-    /// not positive. On one side of the torque, and with M replaced by a chord below it, that is a linear form of the loads.
+    /// An upper bound of |T| − u·M over a stretch, u being the best share so far and M the limit; the stretch holds nothing
+    /// better where that is not positive. On one side of the torque, and with M replaced by a chord below it, that is a linear form of the loads.
     fn excess(&self, node: &Node) -> f64 {
         let u = self.best.used;
         if u < 0.0 {
@@ -383,18 +320,17 @@ impl<'s, F: Floor> Search<'s, F> {
                 low = low.min(high).min(other_low).min(other_high);
                 high = low;
             }
-            if low.is_infinite() || high.is_infinite() {
-                low = low.min(high);
-                high = low;
-                if low.is_infinite() {
-                    return f64::NEG_INFINITY;
-                }
-            }
-            if low == high {
-                return a.max(b) + reach - u * low;
-            }
             // M = low + slope·(|n| − least), and |n| is n itself or −n.
             let slope = (high - low) / (largest - least);
+            if slope == 0.0 || !slope.is_finite() {
+                let limit = low.min(high);
+                // One that is not known is infinite, and nothing is beyond it.
+                return if limit.is_infinite() {
+                    f64::NEG_INFINITY
+                } else {
+                    a.max(b) + reach - u * limit
+                };
+            }
             let limit = |k: u32| {
                 let speed = self.stretches.samples[k as usize].speed().abs();
                 u * (low + slope * (speed - least))

@@ -145,9 +145,11 @@ impl Node {
         for sample in &samples[first..=last] {
             let astray = astray(from, to, sample);
             let speed = sample.speed();
-            for k in 0..LOADS {
-                node.reach[k] = node.reach[k].max(astray[k]);
-                node.energy[k] += sample.weight * speed * sample.loads[k];
+            for (reach, astray) in node.reach.iter_mut().zip(astray) {
+                *reach = reach.max(astray);
+            }
+            for (energy, load) in node.energy.iter_mut().zip(sample.loads) {
+                *energy += sample.weight * speed * load;
             }
             let [least, largest] = &mut node.speed;
             (*least, *largest) = (least.min(speed.abs()), largest.max(speed.abs()));

@@ -11,7 +11,9 @@ impl Envelope {
 
     /// A speed (rad/s) below which there is some torque in all four quadrants.
     pub(crate) fn positive_below(&self) -> f64 {
-        self.limit(false).positive_below().min(self.limit(true).positive_below())
+        self.limit(false)
+            .positive_below()
+            .min(self.limit(true).positive_below())
     }
 
     /// The limit, if it is the same in all four quadrants at every speed up to this one, and not zero.
@@ -19,7 +21,7 @@ impl Envelope {
         let level = |limit: &Limit| limit.pieces().first().and_then(|p| p.level_up_to(speed));
         let driving = level(self.limit(false))?;
         let braking = level(self.limit(true))?;
-        (driving == braking && driving > 0.0).then_some(driving)
+        (driving.total_cmp(&braking).is_eq() && driving > 0.0).then_some(driving)
     }
 }
 

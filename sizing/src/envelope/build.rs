@@ -127,15 +127,15 @@ impl<'a> Builder<'a> {
 
     pub(super) fn build(mut self) -> Envelope {
         let motor = self.motor;
-        let [driving, braking] = match (self.circuit(), self.torques) {
-            (Some(circuit), Some(torques)) => self.from_winding(&circuit, &torques),
-            _ => {
-                let mut limit = self.from_figures();
-                if self.cap.is_finite() {
-                    limit = limit.min(&Limit::level(self.cap, f64::INFINITY));
-                }
-                [limit.clone(), limit]
+        let winding = self.circuit().zip(self.torques);
+        let [driving, braking] = if let Some((circuit, torques)) = winding {
+            self.by_winding(&circuit, &torques)
+        } else {
+            let mut limit = self.by_figures();
+            if self.cap.is_finite() {
+                limit = limit.min(&Limit::level(self.cap, f64::INFINITY));
             }
+            [limit.clone(), limit]
         };
         let rated = known(motor.rated_torque);
         let points = falling(&motor.continuous_curve);
@@ -152,7 +152,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn from_winding(&mut self, circuit: &Circuit, torques: &CurrentCurve) -> [Limit; 2] {
+    fn by_winding(&mut self, circuit: &Circuit, torques: &CurrentCurve) -> [Limit; 2] {
         let motor = self.motor;
         if motor.max_speed.is_none() {
             self.assumptions
@@ -182,7 +182,7 @@ impl<'a> Builder<'a> {
     }
 
     /// From points, or from corner and torque at the largest speed; the same in all four quadrants.
-    fn from_figures(&mut self) -> Limit {
+    fn by_figures(&mut self) -> Limit {
         let motor = self.motor;
         let rated_torque = known(motor.rated_torque);
         let rated_speed = known(motor.rated_speed);
@@ -222,7 +222,7 @@ impl<'a> Builder<'a> {
         };
         let top = stated.min(vertices.last().map_or(stated, |p| p[0]));
         let share = self.share(is_assumed);
-        let limit = if share == 1.0 {
+        let limit = if is_one(share) {
             through(&vertices)
         } else {
             through(&self.moved(&vertices, share, top))
@@ -236,7 +236,7 @@ impl<'a> Builder<'a> {
 
     /// By how much the voltage moves the speeds; says so.
     fn share(&mut self, is_assumed: bool) -> f64 {
-        if self.share == 1.0 {
+        if is_one(self.share) {
             return 1.0;
         }
         if self.share > 1.0 && is_assumed {
@@ -284,6 +284,11 @@ impl<'a> Builder<'a> {
     }
 }
 
+/// Whether the voltage is that of the data sheet, but for rounding.
+fn is_one(share: f64) -> bool {
+    (share - 1.0).abs() <= f64::EPSILON
+}
+
 /// Straight lines through vertices, level before the first.
 fn through(vertices: &[[f64; 2]]) -> Limit {
     let Some(&first) = vertices.first() else {
@@ -293,11 +298,7 @@ fn through(vertices: &[[f64; 2]]) -> Limit {
     let mut last = first;
     for &vertex in vertices.get(1..).unwrap_or_default() {
         if vertex[0] > last[0] {
-            pieces.push(if last[1] == vertex[1] || !last[1].is_finite() {
-                Piece::level(last[0], vertex[0], last[1])
-            } else {
-                Piece::line(last, vertex)
-            });
+            pieces.push(Piece::line(last, vertex));
             last = vertex;
         } else {
             last = [last[0], vertex[1].min(last[1])];

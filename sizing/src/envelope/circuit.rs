@@ -44,7 +44,7 @@ impl Circuit {
         } = *self;
         let back = self.flux * speed;
         let left = (v - back) * (v + back);
-        if !(left > 0.0) {
+        if left.is_nan() || left <= 0.0 {
             return 0.0;
         }
         let x = self.reactance * speed;
@@ -81,7 +81,7 @@ impl Circuit {
         let radius = v / impedance;
         let along = (limit * limit + (distance - radius) * (distance + radius)) / (2.0 * distance);
         let half = (limit - along) * (limit + along);
-        if !(half >= 0.0) {
+        if half.is_nan() || half < 0.0 {
             return 0.0;
         }
         ((x * half.sqrt() - sign * r * along) / impedance).clamp(0.0, limit)
@@ -110,7 +110,7 @@ impl Circuit {
         } = *self;
         let resistive = r * current;
         let left = (v - resistive) * (v + resistive);
-        if !(left > 0.0) {
+        if left.is_nan() || left <= 0.0 {
             return 0.0;
         }
         let inductive = l * current;

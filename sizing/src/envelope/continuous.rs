@@ -14,7 +14,11 @@ pub(super) struct Continuous {
 
 impl Continuous {
     /// Infinite figures say that no limit is known.
-    pub(super) fn of(motor: &Motor, known: impl Fn(Option<f64>) -> f64, points: Vec<[f64; 2]>) -> Self {
+    pub(super) fn of(
+        motor: &Motor,
+        known: impl Fn(Option<f64>) -> f64,
+        points: Vec<[f64; 2]>,
+    ) -> Self {
         let rated_torque = known(motor.rated_torque);
         let first = points.first().map(|p| p[1]);
         let stated = known(motor.standstill_torque);
@@ -34,7 +38,7 @@ impl Continuous {
     /// S1 torque (N·m) at a speed's magnitude (rad/s).
     pub(super) fn torque(&self, speed: f64) -> f64 {
         let heat = match &*self.points {
-            [] => self.from_figures(speed),
+            [] => self.by_figures(speed),
             points => between(points, speed),
         };
         let power = if speed > 0.0 {
@@ -45,7 +49,7 @@ impl Continuous {
         heat.min(power)
     }
 
-    fn from_figures(&self, speed: f64) -> f64 {
+    fn by_figures(&self, speed: f64) -> f64 {
         let Self {
             standstill,
             rated_torque: torque,

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::altered::{Alteration, Altered};
 use super::seek::State;
-use crate::catalogue::{Gearbox, Prepared};
+use crate::catalogue::{Gearbox, MotorKind, Prepared};
 use crate::check::Verdict;
 use crate::cycle::Cycle;
 use crate::drive::Drive;
@@ -21,6 +21,7 @@ use crate::rule::Rule;
 use crate::rules::RuleSet;
 use crate::site::Site;
 use crate::size::Selection;
+use crate::units::Units;
 
 /// What is changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -117,6 +118,9 @@ pub struct Miss {
 pub struct Remedies {
     /// The drive.
     pub drive: String,
+    /// Units and words of its figures.
+    #[serde(skip)]
+    pub units: Units,
     /// Whether it holds as it is: then the ranges say how far each quantity may go.
     pub holds: bool,
     /// The rules that it breaks.
@@ -139,7 +143,7 @@ impl Remedies {
         let misses = misses(&context, rules);
         let free = |lever: &Lever| match lever {
             Lever::GearRatio => drive.gearbox.is_some(),
-            Lever::IdealGearbox => drive.gearbox.is_none(),
+            Lever::IdealGearbox => drive.gearbox.is_none() && drive.motor.kind == MotorKind::Rotary,
             Lever::ProcessLoad => {
                 let mut instants = altered.original().instants.iter();
                 instants.any(|i| i.terms.process != 0.0)
@@ -168,6 +172,7 @@ impl Remedies {
         });
         Self {
             drive: drive.name(),
+            units: Units::of(drive.motor.kind),
             holds: misses.is_empty(),
             remedies: remedies.collect(),
             misses,
@@ -204,9 +209,10 @@ impl Lever {
     }
 }
 
-/// The rules that a drive breaks, those that it misses furthest first.
+/// The rules that a drive breaks, those that it misses furthest first. As in the ranking, temperatures and the like are not
+/// followed where another rule is violated: they would say nothing more.
 fn misses(context: &Context, rules: &RuleSet) -> Vec<Miss> {
-    let findings = context.findings(rules);
+    let (findings, _) = context.ranked(rules);
     let broken = findings
         .iter()
         .filter(|(rule, finding)| rules.verdict(*rule, *finding) == Verdict::Fail);

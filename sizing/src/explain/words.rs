@@ -50,7 +50,7 @@ impl Remedy {
         };
         let rule = best.rule.map_or("a rule", Rule::name);
         let used = self.best_use.map_or(String::new(), |used| {
-            format!(" with {:.1} % of its limit", used * 100.0)
+            format!(" with {} of its limit", percent(used))
         });
         format!(
             "{name} {now}: no value helps; at {}, the best, {rule} fails{used}",
@@ -65,12 +65,21 @@ impl Miss {
         let name = self.rule.name();
         match (self.used, self.needed) {
             (Some(used), Some(needed)) => format!(
-                "{name} uses {:.1} % of its limit (it would hold with {} instead of {})",
-                used * 100.0,
+                "{name} uses {} of its limit (it would hold with {} instead of {})",
+                percent(used),
                 short(needed),
                 short(self.limit)
             ),
             _ => format!("{name} is asked for where there is none"),
         }
+    }
+}
+
+/// A share that is used; beyond ten times the limit its digits say nothing, as in [`Check::used`](crate::check::Check::used).
+fn percent(used: f64) -> String {
+    if used < 10.0 {
+        format!("{:.1} %", used * 100.0)
+    } else {
+        "> 1000 %".to_owned()
     }
 }

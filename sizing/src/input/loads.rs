@@ -8,8 +8,8 @@ use crate::machine::{AnyMechanism, NamedLoad};
 
 use super::drive_link::DriveLink;
 use super::item::Item;
-use super::load_table;
 use super::kind::{ANGLE, FORCE, Kind, LENGTH, TORQUE, VISCOUS_FORCE, VISCOUS_MOMENT};
+use super::load_table;
 use super::problem::{Problem, Result};
 use super::section::Section;
 

@@ -63,6 +63,12 @@ pub(super) fn follow(context: &Context, findings: &mut Findings) {
     if data.regenerative {
         return;
     }
+    if let (Some(resistor), Some(least)) = (data.resistor, data.min_resistance) {
+        findings.set(
+            Rule::BrakeResistance,
+            Finding::new(resistor.resistance, least),
+        );
+    }
     if !context.cycle.regenerates(&context.coefficients) {
         if let (Some(voltage), Some(max)) = (data.voltage, data.max_voltage) {
             findings.set(Rule::BusVoltage, Finding::new(voltage, max));
@@ -80,6 +86,10 @@ pub(super) fn follow(context: &Context, findings: &mut Findings) {
     let voltage = Finding::against(figures.highest, data.max_voltage);
     findings.set(Rule::BusVoltage, voltage);
     if let Some(resistor) = data.resistor {
+        if figures.burnt > 0.0 && data.min_resistance.is_none() {
+            let finding = Finding::against(resistor.resistance, None);
+            findings.set(Rule::BrakeResistance, finding);
+        }
         let mean = figures.burnt / context.cycle.duration();
         let peak = figures.burnt_peak;
         findings.set(Rule::ResistorPower, Finding::new(mean, resistor.power));
@@ -153,6 +163,7 @@ fn power(context: &Context) -> bus::curve::PowerCurve {
         &context.coefficients,
         context.ratio,
         drive.motor,
+        context.motor,
         drive.amplifier,
     )
 }
@@ -196,6 +207,10 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
                 known(missing.unwrap_or("highest voltage of the DC bus")),
             )
         }
+        Rule::BrakeResistance => (
+            "Ohm",
+            known("smallest resistance that the chopper may switch"),
+        ),
         Rule::ResistorPower => ("W", known("continuous power of the brake resistor")),
         Rule::ResistorPeak => ("W", known("peak power of the brake resistor")),
         _ => ("W s", known("pulse energy of the brake resistor")),

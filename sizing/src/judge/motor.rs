@@ -67,7 +67,7 @@ fn holding(context: &Context) -> f64 {
     if locks(context) {
         return 0.0;
     }
-    let [_, most] = context.cycle.mechanics().holding;
+    let most = context.cycle.mechanics().holding;
     let efficiency = context.drive.gearbox.map_or(1.0, |g| g.efficiency);
     most / (context.ratio * efficiency)
 }

@@ -5,7 +5,7 @@ use crate::rule::Rule;
 use crate::thermal::classify::Features;
 use crate::thermal::course::Hottest;
 use crate::thermal::operation::Operation;
-use crate::thermal::{Heating, Model, Running, allowed_rise};
+use crate::thermal::{Heating, Load, Model, allowed_rise};
 
 pub(super) fn follow(context: &Context, findings: &mut Findings) {
     let Ok(heating) = heating(context) else {
@@ -31,28 +31,26 @@ pub(super) fn follow(context: &Context, findings: &mut Findings) {
 
 /// What the motor's data allow to say of its temperature.
 fn heating(context: &Context) -> Result<Heating, &'static str> {
-    let Context {
-        cycle,
-        site,
-        drive,
-        motor: prepared,
-        ratio,
-        coefficients,
-    } = context;
-    let motor = drive.motor;
-    let model = Model::of(motor, prepared, &site.surroundings, cycle.duration())?;
-    let losses = if model.needs_no_course(prepared) {
-        let mean = model.mean_losses(cycle, coefficients, *ratio, motor, prepared);
-        Running::Mean(mean)
-    } else {
-        Running::Course(model.course(cycle, coefficients, *ratio, motor, prepared))
-    };
+    let (site, prepared) = (context.site, context.motor);
+    let load = load(context);
+    let surroundings = &site.surroundings;
+    let model = Model::of(load.motor, prepared, surroundings, load.cycle.duration())?;
     let operation = &site.duty.operation;
     let held = match operation {
-        Operation::Intermittent { holding: true, .. } => cycle.hold_torque() / ratio,
+        Operation::Intermittent { holding: true, .. } => load.cycle.hold_torque() / load.ratio,
         _ => 0.0,
     };
-    model.heating(&losses, operation, model.at_rest(prepared, held))
+    model.heating(&load, operation, model.at_rest(prepared, held))
+}
+
+const fn load<'a>(context: &'a Context) -> Load<'a> {
+    Load {
+        cycle: context.cycle,
+        coefficients: &context.coefficients,
+        ratio: context.ratio,
+        motor: context.drive.motor,
+        prepared: context.motor,
+    }
 }
 
 pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
@@ -147,20 +145,19 @@ fn place(context: &Context, found: Heating) -> String {
 /// Time (s) and rises of winding and housing (K) over a cycle that repeats without pause; `None` where the motor's data do not
 /// allow to follow them, or where the machine pauses.
 pub(super) fn course(context: &Context) -> Option<Vec<(f64, [f64; 2])>> {
-    let (cycle, motor) = (context.cycle, context.motor);
+    let load = load(context);
     let surroundings = &context.site.surroundings;
-    let model = Model::of(context.drive.motor, motor, surroundings, cycle.duration()).ok()?;
+    let model = Model::of(
+        load.motor,
+        load.prepared,
+        surroundings,
+        load.cycle.duration(),
+    )
+    .ok()?;
     let (Model::Bodies { network, .. }, Operation::Continuous) =
         (model, context.site.duty.operation)
     else {
         return None;
     };
-    let losses = model.course(
-        cycle,
-        &context.coefficients,
-        context.ratio,
-        context.drive.motor,
-        motor,
-    );
-    losses.periodic(&network)
+    model.course(&load).periodic(&network)
 }

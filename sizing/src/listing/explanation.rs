@@ -108,7 +108,7 @@ fn contributions_text(breakdown: &Breakdown) -> String {
         ]);
         for share in shares.iter().chain([&breakdown.total]) {
             table.add_row([
-                share.name.clone(),
+                breakdown.units.words(&share.name),
                 short(share.torque.rms),
                 short(share.torque.peak()),
                 shown(share.at_peak, breakdown.total.at_peak),
@@ -127,7 +127,7 @@ fn contributions_text(breakdown: &Breakdown) -> String {
         let [min, mean, max] = [figures.min, figures.mean, figures.max];
         let [min, mean, max] = [min, mean, max].map(|x| shown(x / scale, figures.max / scale));
         let part = format!("{:.1} %", share.of_mean * 100.0);
-        [share.name.clone(), min, mean, max, part]
+        [units.words(&share.name), min, mean, max, part]
     };
     for share in breakdown.inertia.iter().chain([&breakdown.total_inertia]) {
         inertias.add_row(row(share));
@@ -149,14 +149,18 @@ fn remedies_text(remedies: &Remedies, duration: f64) -> String {
     let misses: Vec<String> = remedies
         .misses
         .iter()
-        .map(crate::explain::Miss::sentence)
+        .map(|miss| remedies.units.words(&miss.sentence()))
         .collect();
     if !misses.is_empty() {
         let _ = write!(text, ": {}", misses.join("; "));
     }
     text += "\n";
     for remedy in &remedies.remedies {
-        let _ = writeln!(text, "    {}", remedy.sentence(duration));
+        let _ = writeln!(
+            text,
+            "    {}",
+            remedies.units.words(&remedy.sentence(duration))
+        );
     }
     text
 }

@@ -56,10 +56,10 @@ pub fn text(
         ));
         let open = match selection.partly_checked() {
             0 => String::new(),
-            open => format!("; {open} of them have rules that the catalogue is too thin to check"),
+            open => format!("; {open} of them have rules that could not be checked for want of figures"),
         };
         parts.push(format!(
-            "\n{} of {all} drives hold every rule{open}",
+            "\n{} of {all} drives break no rule{open}",
             selection.fit.len()
         ));
         parts.push(ranking(list, selection));
@@ -115,7 +115,11 @@ fn ranking(list: List, selection: &Selection) -> String {
 fn figures_table(rows: &[(String, Figures, f64)]) -> String {
     let mut table = text_table(&["", "min", "mean", "max", "RMS"]);
     for (name, figures, unit) in rows {
-        let cells = figures.values().map(|x| rounded(x / unit));
+        // What is nothing but rounding beside the largest reads as zero.
+        let noise = 1e-12 * figures.peak();
+        let cells = figures
+            .values()
+            .map(|x| rounded(if x.abs() <= noise { 0.0 } else { x / unit }));
         table.add_row(std::iter::once(name.clone()).chain(cells));
     }
     table.to_string()

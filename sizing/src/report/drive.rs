@@ -28,7 +28,7 @@ pub(super) struct Subject<'a> {
 }
 
 impl Subject<'_> {
-    fn units(&self) -> Units {
+    pub(super) fn units(&self) -> Units {
         Units::of(self.judged.drive.motor.kind)
     }
 

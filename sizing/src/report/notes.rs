@@ -1,5 +1,6 @@
 //! What the report says beside its figures: the answer, self-check, assumptions, sources.
 
+use crate::check::Verdict;
 use crate::drive::Judged;
 use crate::duty::Duty;
 use crate::output::{rounded, short};
@@ -18,7 +19,23 @@ pub(super) fn answer(best: &Judged, found: bool) -> String {
     let drive = format!("{} {} {gearbox}{amplifier}", motor.maker, motor.model);
     let drive = escape(&drive);
     if found {
-        format!("<b>{drive}</b><br>is the smallest drive of the catalogue that holds every rule.")
+        let named = |verdict: Verdict| {
+            let checks = best.checks.iter().filter(|c| c.verdict == verdict);
+            let names: Vec<&str> = checks.map(|c| c.rule).collect();
+            names.join(", ")
+        };
+        let mut answer = format!(
+            "<b>{drive}</b><br>comes first of the drives of the catalogue that break no rule."
+        );
+        for (what, names) in [
+            ("Warning", named(Verdict::Warn)),
+            ("Not checked for want of figures", named(Verdict::NotChecked)),
+        ] {
+            if !names.is_empty() {
+                answer += &format!("<br>{what}: {names}.");
+            }
+        }
+        answer
     } else {
         let reasons = escape(&best.reasons());
         format!(
@@ -69,6 +86,10 @@ pub(super) fn notes(best: &Judged, duty: &Duty) -> Vec<String> {
         source(&amplifier.model, &amplifier.source);
     }
     let units = crate::units::Units::of(best.drive.motor.kind);
-    notes.extend(best.assumptions.iter().map(|a| format!("Mind: {}.", units.words(a))));
+    notes.extend(
+        best.assumptions
+            .iter()
+            .map(|a| format!("Mind: {}.", units.words(a))),
+    );
     notes
 }

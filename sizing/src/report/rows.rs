@@ -113,7 +113,7 @@ pub(super) struct ShareRow {
 pub(super) fn share_rows(shares: &[Share], breakdown: &Breakdown) -> Vec<ShareRow> {
     let total = &breakdown.total;
     let rows = shares.iter().chain([total]).map(|share| ShareRow {
-        name: share.name.clone(),
+        name: breakdown.units.words(&share.name),
         rms: short(share.torque.rms),
         peak: short(share.torque.peak()),
         at_peak: shown(share.at_peak, total.at_peak),
@@ -136,7 +136,7 @@ pub(super) struct InertiaRow {
 pub(super) fn inertia_rows(breakdown: &Breakdown) -> Vec<InertiaRow> {
     let (_, scale) = breakdown.units.shown_inertia();
     let row = |share: &InertiaShare| InertiaRow {
-        name: share.name.clone(),
+        name: breakdown.units.words(&share.name),
         figures: [share.inertia.min, share.inertia.mean, share.inertia.max]
             .map(|x| shown(x / scale, share.inertia.max / scale)),
         share: format!("{:.1} %", share.of_mean * 100.0),
@@ -160,8 +160,12 @@ impl ChangeRow {
         let changes = remedies.remedies.iter();
         Self {
             drive: remedies.drive.clone(),
-            misses: misses.map(crate::explain::Miss::sentence).collect(),
-            changes: changes.map(|r| r.sentence(duration)).collect(),
+            misses: misses
+                .map(|m| remedies.units.words(&m.sentence()))
+                .collect(),
+            changes: changes
+                .map(|r| remedies.units.words(&r.sentence(duration)))
+                .collect(),
         }
     }
 }

@@ -213,6 +213,7 @@ fn example(rule: Rule) -> String {
     match rule {
         Rule::InertiaRatio => format!("10 and {warning} = 5"),
         Rule::NaturalFrequency => format!("5 and {warning} = 10"),
+        Rule::BrakeResistance => format!("\"100 %\" and {warning} = \"110 %\""),
         _ => format!("\"90 %\" and {warning} = \"80 %\""),
     }
 }

@@ -147,15 +147,6 @@ impl Network {
         }
         hottest
     }
-
-    /// Steady rises at constant losses; `None`: the copper loss grows faster with the temperature than the heat that flows
-    /// off, and there is no steady state.
-    pub fn steady(&self, losses: Losses) -> Option<Rise> {
-        match self.bodies {
-            Bodies::One([r, _]) => steady([0.0, r], losses, self.growth).map(|[w, _]| [w, 0.0]),
-            Bodies::Two([rw, rh, ..]) => steady([rw, rh], losses, self.growth),
-        }
-    }
 }
 
 /// Steady rises \[winding, housing\] at constant losses behind the thermal resistances \[winding to housing, housing to

@@ -196,6 +196,12 @@ fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
             summary.refused
         ));
     }
+    if summary.unchecked > 0 {
+        notes.push(format!(
+            "in {} machines a rule cannot be judged: they count as not holding",
+            summary.unchecked
+        ));
+    }
     Sheet {
         schema: "jred-tolerance/1",
         title: format!(

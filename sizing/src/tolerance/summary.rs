@@ -38,7 +38,8 @@ pub fn quantile(sorted: &[f64], part: f64) -> Option<f64> {
     let low = *sorted.get(below)?;
     let high = sorted.get(below + 1).copied().unwrap_or(low);
     let rest = place - place.floor();
-    Some(if rest == 0.0 {
+    // Two infinite shares have no difference.
+    Some(if rest == 0.0 || low.total_cmp(&high).is_eq() {
         low
     } else {
         low + (high - low) * rest
@@ -54,6 +55,8 @@ pub struct Summary {
     pub machines: u64,
     /// Machines in which every rule holds.
     pub hold: u64,
+    /// Machines in which no rule is broken, but one cannot be judged that the machine as the file says can be.
+    pub unchecked: u64,
     /// Machines that the reader refused.
     pub refused: u64,
     /// For every rule the shares of its limit.
@@ -67,6 +70,7 @@ impl Summary {
             verdict,
             machines: 0,
             hold: 0,
+            unchecked: 0,
             refused: 0,
             shares: vec![Vec::new(); rules],
         }
@@ -78,6 +82,7 @@ impl Summary {
         match cells.get(self.verdict).and_then(Cell::text) {
             Some("holds") => self.hold += 1,
             Some("broken") => {}
+            Some("not checked") => self.unchecked += 1,
             _ => self.refused += 1,
         }
         for (shares, cell) in self

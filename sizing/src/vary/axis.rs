@@ -121,12 +121,13 @@ fn spread(from: f64, to: f64, steps: &str) -> Result<Vec<f64>, String> {
     if !(1..=MOST_STEPS).contains(&steps) {
         return Err(format!("{steps} values: it must be 1 to {MOST_STEPS}"));
     }
-    if from == to && steps > 1 {
+    let empty = from.total_cmp(&to).is_eq();
+    if empty && steps > 1 {
         return Err(format!(
             "its range is empty, from {from} to {to}, but {steps} values are asked for"
         ));
     }
-    if from != to && steps == 1 {
+    if !empty && steps == 1 {
         return Err("one value of a range: write that value alone".to_owned());
     }
     if log && !(from > 0.0 && to > 0.0) {

@@ -100,15 +100,12 @@ impl Counts {
     }
 
     fn words(&self) -> String {
-        let mut words = format!(
-            "{} of {} machines have a drive",
-            self.fit,
-            self.fit + self.none + self.refused
-        );
-        if self.refused > 0 {
-            words += &format!(", {} cannot be built as described", self.refused);
-        }
-        words
+        let all = self.fit + self.none + self.refused;
+        let refused = match self.refused {
+            0 => String::new(),
+            n => format!(", {n} cannot be built as described"),
+        };
+        format!("{} of {all} machines have a drive{refused}", self.fit)
     }
 }
 

@@ -2,8 +2,8 @@
 
 use miette::{Result, miette};
 
-use super::study::{Prepared, Study};
-use crate::catalogue::{Amplifier, Catalogue, Gearbox};
+use super::study::{Prepared as Machine, Study};
+use crate::catalogue::{Amplifier, Gearbox, Motor, Prepared};
 use crate::check::Verdict;
 use crate::drive::Drive;
 use crate::filter::Filter;
@@ -16,8 +16,7 @@ use crate::size::Selection;
 /// A drive of the catalogue.
 #[derive(Clone, Debug)]
 pub struct One {
-    /// Its motor, as a catalogue of its own.
-    alone: Catalogue,
+    motor: Motor,
     gearbox: Option<Gearbox>,
     amplifier: Option<Amplifier>,
 }
@@ -51,37 +50,31 @@ impl One {
 
     fn of(drive: &Drive) -> Self {
         Self {
-            alone: Catalogue {
-                motors: vec![drive.motor.clone()],
-                ..Catalogue::default()
-            },
+            motor: drive.motor.clone(),
             gearbox: drive.gearbox.cloned(),
             amplifier: drive.amplifier.cloned(),
         }
     }
 
     /// The drive.
-    pub fn drive(&self) -> Option<Drive<'_>> {
-        Some(Drive {
-            motor: self.alone.motors.first()?,
+    pub fn drive(&self) -> Drive<'_> {
+        Drive {
+            motor: &self.motor,
             gearbox: self.gearbox.as_ref(),
             amplifier: self.amplifier.as_ref(),
-        })
+        }
     }
 
     /// Its name.
     pub fn name(&self) -> String {
-        self.drive().map_or_else(String::new, |drive| drive.name())
+        self.drive().name()
     }
 
     /// What every rule finds in a machine.
-    pub fn findings(&self, machine: &Prepared) -> Findings {
+    pub fn findings(&self, machine: &Machine) -> Findings {
         let site = &machine.file.site;
-        let limits = self.alone.prepare(site);
-        let Some((drive, motor)) = self.drive().zip(limits.first()) else {
-            return Findings::default();
-        };
-        Context::new(&machine.cycle, site, drive, motor).findings(&machine.file.rules)
+        let limits = Prepared::new(&self.motor, self.amplifier.as_ref(), site);
+        Context::new(&machine.cycle, site, self.drive(), &limits).findings(&machine.file.rules)
     }
 }
 

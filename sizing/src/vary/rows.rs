@@ -156,7 +156,7 @@ impl Form {
 }
 
 /// Cells as a line of CSV.
-pub(super) fn csv_line(cells: impl Iterator<Item = Cell>) -> String {
+pub(crate) fn csv_line(cells: impl Iterator<Item = Cell>) -> String {
     let texts = cells.map(|cell| match cell {
         Cell::Empty => String::new(),
         Cell::Number(x) => format!("{x:?}"),

@@ -33,7 +33,9 @@ impl Sheet {
                         Cell::Text(text) => text.clone(),
                     }));
                 }
-                let notes: String = self.notes.iter().map(|note| format!("{note}\n")).collect();
+                let notes: Vec<String> =
+                    self.notes.iter().map(|note| format!("{note}\n")).collect();
+                let notes = notes.concat();
                 format!("{}\n{table}\n{notes}", self.title)
             }
             Format::Csv => {

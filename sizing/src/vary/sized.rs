@@ -24,11 +24,12 @@ pub struct Sized<'s> {
 }
 
 /// Columns behind those of the axes.
-const COLUMNS: [&str; 10] = [
+const COLUMNS: [&str; 11] = [
     "verdict",
     "drives that fit",
     "motor",
     "gearbox",
+    "amplifier",
     "ratio",
     "rated power [W]",
     "margin",
@@ -42,7 +43,15 @@ impl Task for Sized<'_> {
         let axes = self.grid.axes.iter();
         let own = axes.clone().map(super::axis::Axis::column);
         let mut options: Vec<String> = axes
-            .map(|axis| format!("{} = {:?} {}", axis.path, axis.values, axis.unit))
+            .map(|axis| {
+                let ends = [axis.values.first(), axis.values.last()]
+                    .map(|x| x.copied().unwrap_or(f64::NAN));
+                let [n, digest] = [axis.values.len().to_string(), digest(&axis.values)];
+                format!(
+                    "{}: {n} values from {} to {} {} ({digest})",
+                    axis.path, ends[0], ends[1], axis.unit
+                )
+            })
             .collect();
         options.push(format!("steps = {}", self.study.steps));
         options.push(format!("filter = {}", digest(&self.filter)));
@@ -136,6 +145,9 @@ fn drive_cells(selection: &Selection, candidate: &Candidate) -> Vec<Cell> {
     vec![
         drive.motor.key.as_str().into(),
         drive.gearbox.map_or("direct", |g| g.key.as_str()).into(),
+        drive
+            .amplifier
+            .map_or(Cell::Empty, |a| a.key.as_str().into()),
         drive.ratio().into(),
         drive.motor.rated_power().into(),
         (1.0 - outcome.worst_use).into(),

@@ -79,17 +79,24 @@ impl Study {
         super::store::digest(&(self.document.text(), &self.nominal))
     }
 
-    /// The drive that a text names, MOTOR+GEARBOX or MOTOR alone: the index of its motor, and the drive.
+    /// The drive that a text names, MOTOR+GEARBOX or MOTOR alone, with " on AMPLIFIER" behind where the catalogue has amplifiers (else
+    /// the first that goes with the motor): the index of its motor, and the drive.
     ///
     /// # Errors
     /// A drive that the catalogue does not have.
     pub fn drive(&self, text: &str) -> Result<(usize, Drive<'_>)> {
-        let (motor, gearbox) = match text.split_once('+') {
+        let (rest, amplifier) = match text.split_once(" on ") {
+            Some((rest, amplifier)) => (rest, Some(amplifier.trim())),
+            None => (text, None),
+        };
+        let (motor, gearbox) = match rest.split_once('+') {
             Some((motor, gearbox)) => (motor.trim(), Some(gearbox.trim())),
-            None => (text.trim(), None),
+            None => (rest.trim(), None),
         };
         let wanted = |drive: &Drive| {
-            drive.motor.key == motor && drive.gearbox.map(|g| g.key.as_str()) == gearbox
+            drive.motor.key == motor
+                && drive.gearbox.map(|g| g.key.as_str()) == gearbox
+                && amplifier.is_none_or(|key| drive.amplifier.is_some_and(|a| a.key == key))
         };
         if let Some(found) = self.catalogue.drives().find(|(_, drive)| wanted(drive)) {
             return Ok(found);
@@ -106,9 +113,18 @@ impl Study {
             .iter()
             .map(|g| g.key.as_str())
             .collect();
-        let (word, keys) = match gearbox {
-            Some(gearbox) if motors.contains(&motor) => (gearbox, gearboxes),
-            _ => (motor, motors),
+        let amplifiers: Vec<&str> = self
+            .catalogue
+            .amplifiers
+            .iter()
+            .map(|a| a.key.as_str())
+            .collect();
+        let (word, keys) = match (gearbox, amplifier) {
+            _ if !motors.contains(&motor) => (motor, motors),
+            (Some(gearbox), _) if !gearboxes.contains(&gearbox) => (gearbox, gearboxes),
+            (_, Some(amplifier)) => (amplifier, amplifiers),
+            (Some(gearbox), None) => (gearbox, gearboxes),
+            (None, None) => (motor, motors),
         };
         let near = closest(word, &keys).map_or_else(
             || "`jred size FILE --refused` lists every drive".to_owned(),

@@ -119,3 +119,125 @@ fn one_where_a_limit_is_passed_and_two_for_bad_input() {
     let still = folder.file("still.toml", still);
     jred([&"bus", &still]).ends(2);
 }
+
+/// A bus of which little is known: what is not checked is said, with what is missing, and nothing passes in silence.
+#[test]
+fn what_is_not_checked_is_said() {
+    let folder = Folder::new();
+    let run = |name: &str, machine: String, supply: &str| {
+        let file = folder.file(
+            name,
+            machine + "\n[supply]\nmains_voltage = \"400 V\"\n" + supply,
+        );
+        let steps = ["--steps", "200"];
+        let text = jred([&"bus", &file, &steps[0], &steps[1]]);
+        let json = jred([&"bus", &file, &steps[0], &steps[1], &"--format", &"json"]).json();
+        (text, json)
+    };
+    let named = |json: &Value| json["not checked"].as_array().unwrap().len();
+    let (text, json) = run("high.toml", press_text(), "capacitance = \"2 uF\"\n");
+    let highest = figure(
+        &json,
+        &["worst", "voltage", "figures", "highest voltage [V]"],
+    );
+    assert!(highest > 1000.0, "{highest}");
+    let text = text.ends(0);
+    says(
+        &text,
+        &[
+            "NOT CHECKED: bus voltage: the highest voltage of the DC bus is not known, and it rises from 565.7 V to",
+            "without a brake resistor: give max_voltage in [supply]",
+        ],
+    );
+    assert_eq!((named(&json), &json["holds"]), (1, &Value::Bool(true)));
+    let (text, json) = run("bare.toml", press_text(), "max_voltage = \"820 V\"\n");
+    let text = text.ends(0);
+    says(
+        &text,
+        &["NOT CHECKED: bus voltage: the capacitance of the DC bus is not known"],
+    );
+    assert_eq!(named(&json), 1);
+    assert_eq!(json["checks"][0]["holds"], Value::Null);
+    // A load that drives the machine feeds back more than is drawn.
+    let driven = edited_press("\"-10 kN\"", "\"10 kN\"");
+    let (text, json) = run("driven.toml", driven, "capacitance = \"470 uF\"\n");
+    let text = text.ends(1);
+    says(
+        &text,
+        &["bus voltage without bound against any limit: FAIL"],
+    );
+    assert_eq!(json["checks"][0]["check"], "bus voltage");
+    assert_eq!(json["checks"][0]["holds"], Value::Bool(false));
+    // Periods that never meet: bounds, but none for a pulse.
+    let other = folder.file(
+        "other.toml",
+        edited_press("duration = \"0.4 s\"", "duration = \"0.41234567 s\""),
+    );
+    let file = folder.file("press.toml", press_text() + SUPPLY);
+    let both = jred([
+        &"bus",
+        &file,
+        &other,
+        &"--steps",
+        &"200",
+        &"--format",
+        &"json",
+    ])
+    .json();
+    let words = both["not checked"].to_string();
+    assert!(
+        words.contains("the cycles have no common period"),
+        "{words}"
+    );
+    assert!(words.contains("smallest resistance"), "{words}");
+}
+
+/// The amplifier says what its chopper may switch.
+#[test]
+fn the_amplifier_bounds_the_resistance() {
+    let folder = Folder::new();
+    let catalogue = |least: &str| {
+        let text = format!(
+            r#"
+[[motor]]
+key = "m"
+maker = "Maker"
+model = "Model"
+rated_torque = "300 N m"
+rated_speed = "1000 rpm"
+max_speed = "2000 rpm"
+peak_torque = "3000 N m"
+rotor_inertia = "500 kg cm^2"
+torque_constant = "2 N m/A"
+source = "Sheet"
+
+[[amplifier]]
+key = "a"
+maker = "Maker"
+model = "Model"
+rated_current = "600 A"
+peak_current = "2000 A"
+min_resistance = "{least}"
+source = "Sheet"
+"#
+        );
+        folder.file("catalogue.toml", text)
+    };
+    let file = folder.file("press.toml", press_text() + SUPPLY);
+    let run = |least: &str| {
+        let catalogue = catalogue(least);
+        jred([
+            &"bus",
+            &file,
+            &"--catalogue",
+            &catalogue,
+            &"--drive",
+            &"1=m on a",
+            &"--steps",
+            &"200",
+        ])
+    };
+    let low = run("60 Ohm").ends(1);
+    says(&low, &["brake resistance 47 against 60 Ohm: FAIL"]);
+    says(&run("40 Ohm"), &["brake resistance 47 against 40 Ohm: ok"]);
+}

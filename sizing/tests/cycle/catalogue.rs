@@ -49,7 +49,13 @@ fn ready() -> Ready {
 
 impl Ready {
     fn selection(&self) -> Selection<'_> {
-        Selection::new(&self.catalogue, &self.motors, &self.cycle, &self.site, &self.rules)
+        Selection::new(
+            &self.catalogue,
+            &self.motors,
+            &self.cycle,
+            &self.site,
+            &self.rules,
+        )
     }
 
     /// The outcome of a drive with the figures over the samples by plain loops.
@@ -66,10 +72,22 @@ impl Ready {
             }
         };
         replace(Rule::PeakTorque, peak.torque.abs(), Some(limit));
-        replace(Rule::RmsTorque, brute::rms_torque(&self.cycle, &context.coefficients), None);
-        replace(Rule::GearboxPeak, brute::peak_output_torque(&self.cycle), None);
+        replace(
+            Rule::RmsTorque,
+            brute::rms_torque(&self.cycle, &context.coefficients),
+            None,
+        );
+        replace(
+            Rule::GearboxPeak,
+            brute::peak_output_torque(&self.cycle),
+            None,
+        );
         let exponent = self.rules.choices.gearbox_mean_exponent.exponent();
-        replace(Rule::GearboxCubicMean, brute::mean_output_torque(&self.cycle, exponent), None);
+        replace(
+            Rule::GearboxCubicMean,
+            brute::mean_output_torque(&self.cycle, exponent),
+            None,
+        );
         let mut outcome = Outcome::of(&self.rules, &findings);
         if outcome.verdict == Verdict::Fail {
             // Rules that follow time are not judged for a drive that is refused.
@@ -94,7 +112,10 @@ fn every_verdict_is_that_of_plain_loops() {
             continue;
         }
         assert_eq!(found.worst_rule, expected.worst_rule, "{name}");
-        assert_eq!(found.beyond_all_limits, expected.beyond_all_limits, "{name}");
+        assert_eq!(
+            found.beyond_all_limits, expected.beyond_all_limits,
+            "{name}"
+        );
         let off = (found.worst_use / expected.worst_use - 1.0).abs();
         assert!(off <= budget::PREPARED_CYCLE, "{name}: off by {off:e}");
     }
@@ -110,7 +131,13 @@ fn rows(candidates: &[Candidate]) -> Vec<(String, Outcome)> {
 fn all_cores_give_the_same_in_the_same_order() {
     let ready = ready();
     let one = ready.selection();
-    let all = Selection::parallel(&ready.catalogue, &ready.motors, &ready.cycle, &ready.site, &ready.rules);
+    let all = Selection::parallel(
+        &ready.catalogue,
+        &ready.motors,
+        &ready.cycle,
+        &ready.site,
+        &ready.rules,
+    );
     assert_eq!(rows(&one.fit), rows(&all.fit));
     assert_eq!(rows(&one.refused), rows(&all.refused));
 }
@@ -123,12 +150,22 @@ fn the_nearest_of_those_refused_are_in_order_and_the_rest_in_the_catalogues() {
     let in_order = selection.refused_in_order();
     assert_eq!(in_order.len(), selection.refused.len());
     assert!(in_order.is_sorted_by(|a, b| missed(a) <= missed(b)));
-    assert_eq!(rows(&in_order[..NEAREST]), rows(&selection.refused[..NEAREST]));
-    let places: Vec<String> = ready.catalogue.drives().map(|(_, drive)| drive.name()).collect();
+    assert_eq!(
+        rows(&in_order[..NEAREST]),
+        rows(&selection.refused[..NEAREST])
+    );
+    let places: Vec<String> = ready
+        .catalogue
+        .drives()
+        .map(|(_, drive)| drive.name())
+        .collect();
     let place = |c: &Candidate| places.iter().position(|name| *name == c.drive.name());
     assert!(selection.refused[NEAREST..].is_sorted_by_key(place));
     // Few drives are all in order.
-    let few = ready.catalogue.drives().step_by(ready.catalogue.count() / 40);
+    let few = ready
+        .catalogue
+        .drives()
+        .step_by(ready.catalogue.count() / 40);
     let few = Selection::among(few, &ready.motors, &ready.cycle, &ready.site, &ready.rules);
     assert!(few.refused.len() <= NEAREST);
     assert!(few.refused.is_sorted_by(|a, b| missed(a) <= missed(b)));

@@ -51,7 +51,10 @@ fn wave(a: &[f64; 4], s: f64) -> f64 {
 impl Stretch {
     fn len(&self) -> usize {
         match self {
-            Self::Smooth(_, n) | Self::Rest(_, n) | Self::Steady(_, n) | Self::Cancelling(_, _, n) => *n,
+            Self::Smooth(_, n)
+            | Self::Rest(_, n)
+            | Self::Steady(_, n)
+            | Self::Cancelling(_, _, n) => *n,
             Self::Noise(values) => values.len(),
         }
     }
@@ -66,7 +69,11 @@ impl Stretch {
             Self::Noise(values) => values[k],
             Self::Cancelling(a, inertia, _) => {
                 let alpha = wave(a, s);
-                [alpha, -inertia * alpha + 1e-9 * (40.0 * s).sin(), wave(a, s + 0.25)]
+                [
+                    alpha,
+                    -inertia * alpha + 1e-9 * (40.0 * s).sin(),
+                    wave(a, s + 0.25),
+                ]
             }
         }
     }
@@ -87,7 +94,11 @@ pub(crate) fn duty() -> impl Strategy<Value = Duty> {
                     let weight = weights[instants.len() % weights.len()];
                     // Some instants have no weight, and some share their time with the one before.
                     t += if k % 7 == 3 { 0.0 } else { weight + 1e-4 };
-                    instants.push(instant(t, weight, [alpha * of_alpha, torque * of_torque, speed * of_speed]));
+                    instants.push(instant(
+                        t,
+                        weight,
+                        [alpha * of_alpha, torque * of_torque, speed * of_speed],
+                    ));
                 }
             }
             let duration = t + 1e-3;
@@ -121,11 +132,16 @@ fn instant(t: f64, weight: f64, [alpha, torque, speed]: [f64; 3]) -> Instant {
 pub(crate) fn coefficients() -> impl Strategy<Value = Coefficients> {
     let size = || prop_oneof![1 => Just(0.0), 4 => (-4.0..2.0f64).prop_map(|x| 10f64.powf(x))];
     let back = -1.0..1.0f64;
-    (size(), (-3.0..1.0f64).prop_map(|x| 10f64.powf(x)), back, size(), size()).prop_map(
-        |(inertia, driving, back, viscous, coulomb)| {
-            Coefficients([inertia, driving, back * driving, viscous, coulomb])
-        },
+    (
+        size(),
+        (-3.0..1.0f64).prop_map(|x| 10f64.powf(x)),
+        back,
+        size(),
+        size(),
     )
+        .prop_map(|(inertia, driving, back, viscous, coulomb)| {
+            Coefficients([inertia, driving, back * driving, viscous, coulomb])
+        })
 }
 
 /// An envelope from the data sheet's corner, from points (falling, and bent either way) or from a winding.
@@ -165,7 +181,11 @@ pub(crate) fn envelope() -> impl Strategy<Value = Envelope> {
                 inductance: Some(inductance),
                 pole_pairs: Some(4.0),
                 peak_current: Some(20.0 * current),
-                commutation: if block { Commutation::Block } else { Commutation::Sine },
+                commutation: if block {
+                    Commutation::Block
+                } else {
+                    Commutation::Sine
+                },
                 ..Winding::default()
             };
             motor

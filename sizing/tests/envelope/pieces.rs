@@ -114,7 +114,7 @@ fn promises(limit: &Limit, scale: f64, driving: bool) -> Result<(), TestCaseErro
 proptest! {
     #![proptest_config(ProptestConfig {
         cases: 400,
-        rng_seed: proptest::test_runner::RngSeed::Fixed(0x5eed_0b),
+        rng_seed: proptest::test_runner::RngSeed::Fixed(0x5eed_000b),
         failure_persistence: None,
         ..ProptestConfig::default()
     })]

@@ -131,9 +131,9 @@ fn with_the_winding_known_the_corner_moves_along_its_voltage_line() {
             let along = 1.9 * i + 0.85 / 3.0 * n;
             let across = 4.0 * n * 7e-3 * i;
             if along.hypot(across) <= bus / 6f64.sqrt() {
-                low = n
+                low = n;
             } else {
-                high = n
+                high = n;
             }
         }
         low

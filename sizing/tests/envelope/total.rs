@@ -76,7 +76,7 @@ fn motors() -> impl Strategy<Value = Motor> {
 proptest! {
     #![proptest_config(ProptestConfig {
         cases: 4000,
-        rng_seed: proptest::test_runner::RngSeed::Fixed(0x5eed_0b2),
+        rng_seed: proptest::test_runner::RngSeed::Fixed(0x5eed_00b2),
         failure_persistence: None,
         ..ProptestConfig::default()
     })]

@@ -148,6 +148,48 @@ fn no_value_helps_where_the_rotor_alone_is_too_heavy() {
     );
     assert!(found.sentence(1.0).contains("no value helps"));
     assert_eq!(found.change(), None);
+    // As in the table of checks, digits beyond ten times the limit say nothing.
+    let words = remedies.misses[0].sentence();
+    assert!(
+        words.contains("RMS torque uses > 1000 % of its limit"),
+        "{words}"
+    );
+    assert!(found.sentence(1.0).contains("> 1000 % of its limit"));
+}
+
+/// The temperature of a motor that is far too small is beyond all measure, but it is not what the drive is refused for: the
+/// explanation begins with the rule that the ranking goes by.
+#[test]
+fn what_is_missed_is_what_the_ranking_goes_by() {
+    let folder = Folder::new();
+    let motors = folder.file("m.csv", MOTOR.replace("1000,80,", "40,800,"));
+    let catalogue = Catalogue::load(Some(&motors), None).unwrap();
+    let file = parse(WHEEL);
+    let duty = duty_of(&file);
+    let altered = Altered::new(&file, &duty).unwrap();
+    let prepared = catalogue.prepare(&file.site);
+    let drive = Drive {
+        motor: &catalogue.motors[0],
+        gearbox: None,
+        amplifier: None,
+    };
+    let rules = RuleSet::default();
+    let cycle = Cycle::new(&duty);
+    let context = Context::new(&cycle, &file.site, drive, &prepared[0]);
+    let hot = context.findings(&rules).get(Rule::WindingTemperature);
+    let hot = rules.use_of_limit(Rule::WindingTemperature, hot.unwrap());
+    let outcome = context.outcome(&rules);
+    assert!(hot > outcome.worst_use, "{hot} {outcome:?}");
+    let remedies = Remedies::new(&altered, &file.site, &rules, drive, &prepared[0]);
+    let first = remedies.misses[0];
+    assert_eq!(Some(first.rule), outcome.worst_rule);
+    near(
+        "use",
+        first.used.unwrap(),
+        outcome.worst_use,
+        budget::SAME_SUMS,
+    );
+    assert!(remedies.misses.iter().all(|m| !m.rule.follows_time()));
 }
 
 /// The press under 25 kN: what the tool says about the best refused drives, written into the machine file.

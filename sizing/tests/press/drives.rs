@@ -222,7 +222,8 @@ fn motor_rules(
     });
     // Friction of belt and gearbox against it.
     let efficiency = gearbox.map_or(1.0, |g| number(g, "efficiency").unwrap() / 100.0);
-    let hold = weight.fold(0.0, f64::max) / (press::RATIO * ratio * press::BELT_EFFICIENCY * efficiency);
+    let hold =
+        weight.fold(0.0, f64::max) / (press::RATIO * ratio * press::BELT_EFFICIENCY * efficiency);
     let rms = figures(&seen.torque).rms;
     let fastest = largest(&seen.speed);
     let continuous = 0.8 * limits.continuous(seen.mean_speed);

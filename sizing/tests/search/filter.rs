@@ -1,51 +1,43 @@
 //! Filters, against the words that describe them.
 
 use glob::Pattern;
+use jred_sizing::catalogue::Catalogue;
 use jred_sizing::drive::Drive;
 use jred_sizing::filter::Filter;
 use jred_sizing::size::Selection;
 
 use super::support::press_text;
-use super::{case, priced};
+use super::{case, catalogue, priced};
 
 fn pattern(text: &str) -> Vec<Pattern> {
     vec![Pattern::new(text).unwrap()]
 }
 
+/// How many drives a filter leaves: exactly those of the whole catalogue for which `expected` holds.
+fn count(all: &Catalogue, filter: &Filter, expected: &dyn Fn(&Drive) -> bool) -> usize {
+    let case = case(&press_text(), 64);
+    let mut thinned = all.clone();
+    filter.thin(&mut thinned).unwrap();
+    let prepared = thinned.prepare(&case.file.site);
+    let (site, rules) = (&case.file.site, &case.file.rules);
+    let mut selection = Selection::new(&thinned, &prepared, &case.cycle, site, rules);
+    filter.sift(&mut selection);
+    let left = selection.fit.iter().chain(&selection.refused);
+    let mut found: Vec<String> = left.map(|c| c.drive.name()).collect();
+    let wanted = all.drives().filter(|(_, drive)| expected(drive));
+    let mut wanted: Vec<String> = wanted.map(|(_, drive)| drive.name()).collect();
+    found.sort();
+    wanted.sort();
+    assert_eq!(found, wanted, "{filter:?}");
+    found.len()
+}
+
 /// A filter leaves exactly the drives that its words describe, counted over the whole catalogue by hand.
 #[test]
 fn filters_leave_what_they_say() {
-    let case = case(&press_text(), 64);
     let all = priced();
     let motors = all.motors.len();
-    let count = |filter: &Filter, expected: &dyn Fn(&Drive) -> bool| {
-        let mut thinned = all.clone();
-        filter.thin(&mut thinned).unwrap();
-        let prepared = thinned.prepare(&case.file.site);
-        let mut selection = Selection::new(
-            &thinned,
-            &prepared,
-            &case.cycle,
-            &case.file.site,
-            &case.file.rules,
-        );
-        filter.sift(&mut selection);
-        let mut found: Vec<String> = selection
-            .fit
-            .iter()
-            .chain(&selection.refused)
-            .map(|c| c.drive.name())
-            .collect();
-        let mut wanted: Vec<String> = all
-            .drives()
-            .filter(|(_, drive)| expected(drive))
-            .map(|(_, drive)| drive.name())
-            .collect();
-        found.sort();
-        wanted.sort();
-        assert_eq!(found, wanted, "{filter:?}");
-        found.len()
-    };
+    let count = |filter: &Filter, expected: &dyn Fn(&Drive) -> bool| count(&all, filter, expected);
     let everything = count(&Filter::default(), &|_| true);
     assert_eq!(everything, all.count());
     assert_eq!(
@@ -125,4 +117,45 @@ fn filters_leave_what_they_say() {
         message.contains(&format!("none of the {motors} motors")),
         "{message}"
     );
+}
+
+/// A filter leaves those refused in order, however many were refused before it: of 200 motors that are all too weak the
+/// strongest misses by least.
+#[test]
+fn the_nearest_of_what_a_filter_leaves() {
+    let case = case(&press_text(), 100);
+    let mut catalogue = catalogue();
+    let pattern = catalogue.motors[0].clone();
+    catalogue.gearboxes.clear();
+    catalogue.motors = (0..200)
+        .map(|k| {
+            let torque = 0.01 + 1e-4 * f64::from((k * 37) % 200);
+            jred_sizing::catalogue::Motor {
+                key: format!("m{k}"),
+                rated_torque: Some(torque),
+                standstill_torque: Some(torque),
+                mass: Some(if k % 2 == 0 { 1.0 } else { 3.0 }),
+                ..pattern.clone()
+            }
+        })
+        .collect();
+    let motors = catalogue.prepare(&case.file.site);
+    let mut selection = Selection::new(
+        &catalogue,
+        &motors,
+        &case.cycle,
+        &case.file.site,
+        &case.file.rules,
+    );
+    assert!(selection.fit.is_empty());
+    let filter = Filter {
+        max_mass: Some(2.0),
+        ..Filter::default()
+    };
+    filter.sift(&mut selection);
+    assert_eq!(selection.refused.len(), 100);
+    let torques: Vec<f64> = (selection.refused.iter())
+        .map(|candidate| candidate.drive.motor.rated_torque.unwrap())
+        .collect();
+    assert!(torques.is_sorted_by(|a, b| a > b), "{torques:?}");
 }

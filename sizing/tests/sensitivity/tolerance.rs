@@ -57,9 +57,9 @@ fn samples<'s>(
 /// Draws have the mean and the spread that the file says, and do not depend on each other's order.
 #[test]
 fn draws_have_their_moments() {
+    const N: u64 = 40_000;
     let (_folder, study) = study(RACK, 64);
     let one = One::choose(&study, Some("strong+five"), &Filter::default(), None).unwrap();
-    const N: u64 = 40_000;
     let samples = samples(
         &study,
         &one,
@@ -104,13 +104,13 @@ fn draws_have_their_moments() {
 /// (1/0.89 − 1 + 0.2)/0.4 of all machines.
 #[test]
 fn a_probability_in_closed_form() {
+    const N: u64 = 2000;
     let conveyor = include_str!("../../../machines/conveyor.toml");
     let text = format!(
         "{conveyor}\n[rules]\nspeed = \"50 %\"\ninertia_ratio = 900\ninertia_ratio_warning = 900\n"
     );
     let (_folder, study) = study(&text, 16);
     let one = One::choose(&study, Some("strong+five"), &Filter::default(), None).unwrap();
-    const N: u64 = 2000;
     let samples = samples(&study, &one, &[("motion.speed", "20 %")], N);
     let mut hold = 0;
     for k in 0..N {

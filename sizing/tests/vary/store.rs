@@ -244,10 +244,10 @@ fn scripts_for_clusters() {
     let job = std::fs::read_to_string(scripts.join("vary.job.yaml")).unwrap();
     assert!(job.contains("completionMode: Indexed"));
     assert!(job.contains("command: [\"/bin/sh\", \"-euc\"]"));
-    let script: String = (job.lines().skip_while(|line| line.trim() != "- |").skip(1))
-        .take_while(|line| line.starts_with(&" ".repeat(14)))
-        .map(|line| format!("{}\n", &line[14..]))
+    let script: Vec<&str> = (job.lines().skip_while(|line| line.trim() != "- |").skip(1))
+        .map_while(|line| line.strip_prefix(&" ".repeat(14)))
         .collect();
+    let script = script.join("\n");
     assert!(script.contains("jred vary"), "{job}");
     for index in 0..2 {
         let mut command = Command::new("/bin/sh");
