@@ -5,8 +5,8 @@
 //! JRED_MGDB=FOLDER cargo bench -p jred-sizing --bench size     # the public Motor-Gearbox Database instead
 //! ```
 //!
-//! Every drive is judged by both ways first: verdicts and figures must agree. Times depend on the machine, so they are judged against the
-//! plain loops of the same run, by `benches/ceilings.txt`. docs/performance.md has the results.
+//! Every drive is judged by both ways first: verdicts and figures must agree. Times depend on the machine, so they are judged
+//! against the plain loops of the same run, by `benches/ceilings.txt`. docs/performance.md has the results.
 
 #[path = "../tests/support/brute.rs"]
 mod brute;
@@ -35,7 +35,7 @@ use jred_sizing::size::Selection;
 /// Instants of the cycle that the figures of the catalogue are for.
 const INSTANTS: usize = 1000;
 
-/// Argument for a run under a profiler: the catalogue is judged and nothing else.
+/// Argument for a run under a profiler, with the number of instants: the catalogue is judged and nothing else.
 const PROFILE: &str = "--profile";
 
 /// What a selection borrows.
@@ -79,6 +79,7 @@ fn main() -> ExitCode {
         return figures::memory();
     }
     let mut report = Report::default();
+    report.judges = std::env::var_os("JRED_MGDB").is_none();
     let file = machine::machine();
     let (catalogue, name) = figures::catalogue();
     let site = Site::default();
@@ -98,7 +99,10 @@ fn main() -> ExitCode {
     );
     println!("envelopes of all motors    {:9.3} ms", 1e3 * preparation);
 
-    if std::env::args().any(|argument| argument == PROFILE) {
+    let mut arguments = std::env::args().skip_while(|argument| argument != PROFILE);
+    if arguments.next().is_some() {
+        let instants = arguments.next().and_then(|n| n.parse().ok());
+        ready.cycle = Cycle::new(&machine::duty(&file, instants.unwrap_or(INSTANTS)));
         let time = best(|| ready.one_core());
         println!("one core                   {:9.3} ms", 1e3 * time);
         return ExitCode::SUCCESS;
@@ -169,7 +173,7 @@ fn main() -> ExitCode {
             );
         }
     }
-    report.ratio(
+    report.growth(
         "size-flat",
         flat[1] / flat[0],
         "largest over smallest time of these",
@@ -189,7 +193,7 @@ fn main() -> ExitCode {
             1e9 * each
         );
     }
-    report.ratio(
+    report.growth(
         "size-linear",
         per_drive[1] / per_drive[0],
         "largest over smallest time of a drive",

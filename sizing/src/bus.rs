@@ -17,12 +17,13 @@ pub mod curve;
 mod report;
 pub mod store;
 pub mod supply;
+mod verdict;
 
 use crate::catalogue::{Amplifier, Motor, Resistor};
 use crate::cycle::Cycle;
 use crate::drive::Coefficients;
-use crate::output::short;
 use crate::envelope::Prepared;
+use crate::output::short;
 use crate::winding::REFERENCE_TEMPERATURE;
 
 use curve::PowerCurve;

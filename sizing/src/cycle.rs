@@ -7,8 +7,8 @@
 //!   samples ([`Cycle::peak`], [`Cycle::torque_extremes`], [`Cycle::energies`]).
 //!
 //! Each equals what a loop over all samples gives, to rounding (1e-12 of the sum of the form's terms; `tests/cycle.rs`).
-//! [`Cycle::new`] is one pass over the samples; after it a drive costs the same at a thousand samples and at a million, but for the
-//! search's few levels more (docs/performance.md).
+//! [`Cycle::new`] is one pass over the samples; after it a drive costs the same at a thousand samples and at a million, but for
+//! the search's few levels more (docs/performance.md).
 
 use std::sync::OnceLock;
 
@@ -18,6 +18,7 @@ use crate::envelope::Envelope;
 use crate::mechanics::Mechanics;
 
 mod factor;
+mod floor;
 mod front;
 mod power;
 mod search;
@@ -224,8 +225,8 @@ impl Cycle {
         self.stretches().regenerates(coefficients)
     }
 
-    /// The instant that comes closest to the peak-torque envelope, or passes it furthest; the first beyond the envelope's largest
-    /// speed, if there is one. Where the envelope knows no limit it is the instant of the largest torque.
+    /// The instant that comes closest to the peak-torque envelope, or passes it furthest; the first beyond the envelope's
+    /// largest speed, if there is one. Where the envelope knows no limit it is the instant of the largest torque.
     pub fn peak(&self, coefficients: &Coefficients, ratio: f64, envelope: &Envelope) -> Peak {
         let peak = self.stretches().peak(coefficients, ratio, envelope);
         peak.unwrap_or(Peak {

@@ -94,7 +94,9 @@ impl Objective {
                 let finding = context
                     .findings(selection.rules)
                     .get(Rule::WindingTemperature);
-                finding.filter(Finding::is_known).map(|f| f.value / f.rating)
+                finding
+                    .filter(Finding::is_known)
+                    .map(|f| f.value / f.rating)
             }
         };
         known.filter(|value| !value.is_nan())

@@ -136,8 +136,8 @@ impl<'c> Selection<'c> {
         }
     }
 
-    /// Puts those that fit and the nearest of those refused in order. Equal ones stay in the order of the catalogue, so that the result
-    /// does not depend on how the work was shared out.
+    /// Puts those that fit and the nearest of those refused in order. Equal ones stay in the order of the catalogue, so that the
+    /// result does not depend on how the work was shared out.
     fn in_order(mut self) -> Self {
         let power = |c: &Candidate| c.drive.motor.rated_power().unwrap_or(f64::INFINITY);
         let of_fit = |c: &Candidate| {

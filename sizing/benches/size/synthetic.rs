@@ -11,9 +11,9 @@ use rand_distr::{Distribution as _, LogNormal, Uniform};
 const GEARBOXES: usize = 171;
 const MOTORS: usize = 499;
 
-/// The catalogue, the same on every run. What medians and spreads are those of the database:
-/// continuous torque k_t·I 14 mN·m, rotor inertia 9.2e-5·T^1.36, motor constant k_t/√R 0.20·T^0.76, no-load speed 1070 rad/s,
-/// friction stated for every fifth; gearboxes of one to five stages of 3 to 5.3, each with an efficiency of 0.9, output torque 1 N·m.
+/// The catalogue, the same on every run. Medians are those of the database, spreads about: continuous torque k_t·I 14 mN·m,
+/// rotor inertia 9.2e-5·T^1.36, motor constant k_t/√R 0.20·T^0.76, no-load speed 1070 rad/s, friction stated for every fifth;
+/// gearboxes of one to five stages of 3 to 5.3, each with an efficiency of 0.9, output torque 1 N·m.
 pub(crate) fn catalogue() -> Catalogue {
     let built_in = Catalogue::load(None, None).unwrap_or_default();
     let (Some(motor), Some(gearbox)) = (built_in.motors.first(), built_in.gearboxes.first()) else {

@@ -102,6 +102,12 @@ impl Answer {
             };
         }
         text.push('\n');
+        text + &self.verdicts(options)
+    }
+
+    /// A line for every check, and for every one that could not be done.
+    fn verdicts(&self, options: &Options) -> String {
+        let mut text = String::new();
         let checks = self.checks(options);
         for check in &checks {
             let verdict = match check.holds() {

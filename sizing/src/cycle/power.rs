@@ -6,8 +6,8 @@ use super::tree::Direction;
 use crate::drive::{Coefficients, LOADS};
 
 impl Stretches<'_> {
-    /// Work that the motor puts in and work that it takes back (J): ∫max(P, 0) and ∫max(−P, 0). Where the power keeps its sign
-    /// over a stretch its work is a linear form; samples are looked at only around its zeros.
+    /// Work that the motor puts in and work that it takes back (J): ∫max(P, 0) and ∫max(−P, 0). Where the power keeps its
+    /// sign over a stretch its work is a linear form; samples are looked at only around its zeros.
     pub(super) fn energies(self, c: &Coefficients, ratio: f64) -> [f64; 2] {
         let mut sums = [0.0; 2];
         if !self.tree.nodes.is_empty() {

@@ -1,13 +1,14 @@
 //! Extremes over a cycle without looking at every sample: branch and bound over the [tree](super::tree) of stretches.
 //!
-//! A stretch is looked into only if its bound exceeds the best sample found so far. Where loads are smooth the bound's excess over
-//! the true largest value falls with the square of a stretch's length, so around a peak the stretches that must be looked into are a few at
-//! each size: their number grows with the logarithm of the number of samples, times the number of peaks of nearly
-//! the same height. Bounds hold for any course; jumps, noise and corners only cost time.
+//! A stretch is looked into only if its bound exceeds the best sample found so far. Where loads are smooth the bound's excess
+//! over the true largest value falls with the square of a stretch's length, so around a peak the stretches that must be looked
+//! into are a few at each size: their number grows with the logarithm of the number of samples, times the number of peaks of
+//! nearly the same height. Bounds hold for any course; jumps, noise and corners only cost time.
 //!
-//! A sample that exceeds the best by less than rounding, 64 units of the last place of the terms of the torque, may be passed over: else a
-//! constant torque would be looked at sample by sample.
+//! A sample that exceeds the best by less than rounding, 64 units of the last place of the terms of the torque, may be passed
+//! over: else a constant torque would be looked at sample by sample.
 
+use super::floor::{Falling, Floor, Level, Straight};
 use super::front::Front;
 use super::tree::{Direction, Node, Tree};
 use super::{Peak, Sample};
@@ -26,69 +27,9 @@ pub(super) struct Stretches<'c> {
     pub(super) largest: &'c [f64; LOADS],
 }
 
-/// A lower bound of the torque limit.
-trait Floor: Copy {
-    /// A chord that the limit does not fall below at any speed of the cycle, whatever the direction of power: its torque at rest
-    /// and its slope over the magnitude of the speed at the gearbox output.
-    fn line(&self) -> [f64; 2];
-    /// Its least value at all speeds of the cycle, in both directions of power.
-    fn least(&self) -> f64;
-    /// The values at both ends of a chord that the limit does not fall below between the two speeds of the motor.
-    fn chord(&self, driving: bool, speeds: [f64; 2]) -> [f64; 2];
-    /// The torque's share of its limit.
-    fn used(&self, torque: f64, speed: f64) -> f64;
-}
-
-/// The same limit at every speed of the cycle.
-#[derive(Clone, Copy)]
-struct Level(f64);
-
-impl Floor for Level {
-    fn line(&self) -> [f64; 2] {
-        [self.0, 0.0]
-    }
-
-    fn least(&self) -> f64 {
-        self.0
-    }
-
-    fn chord(&self, _driving: bool, _speeds: [f64; 2]) -> [f64; 2] {
-        [self.0; 2]
-    }
-
-    fn used(&self, torque: f64, _speed: f64) -> f64 {
-        torque.abs() / self.0
-    }
-}
-
-/// A limit that falls with speed.
-#[derive(Clone, Copy)]
-struct Falling<'e> {
-    envelope: &'e Envelope,
-    line: [f64; 2],
-    least: f64,
-}
-
-impl Floor for Falling<'_> {
-    fn line(&self) -> [f64; 2] {
-        self.line
-    }
-
-    fn least(&self) -> f64 {
-        self.least
-    }
-
-    fn chord(&self, driving: bool, speeds: [f64; 2]) -> [f64; 2] {
-        self.envelope.floor(driving, speeds)
-    }
-
-    fn used(&self, torque: f64, speed: f64) -> f64 {
-        self.envelope.peak_used(torque, speed)
-    }
-}
-
 impl Stretches<'_> {
-    /// The sample that comes closest to the envelope, or is beyond it by most; the first that has no limit at all, if there is one.
+    /// The sample that comes closest to the envelope, or is beyond it by most; the first that has no limit at all, if there is
+    /// one.
     pub(super) fn peak(self, c: &Coefficients, ratio: f64, envelope: &Envelope) -> Option<Peak> {
         let top = self.tree.nodes.first()?.speed[1] * ratio;
         if let Some(limit) = envelope.level_up_to(top) {
@@ -107,19 +48,29 @@ impl Stretches<'_> {
         } else {
             [least, 0.0]
         };
+        if least <= 0.0 {
+            let positive_below = envelope.positive_below() / ratio;
+            let beyond = First {
+                stretches: self,
+                c,
+                ratio,
+                envelope,
+                positive_below,
+            };
+            if let Some(beyond) = beyond.visit(0) {
+                return Some(beyond);
+            }
+        }
+        if let Some(lines) = envelope.straight_up_to(top) {
+            let floor = Straight { lines, line, least };
+            return Some(Search::new(self, c, ratio, floor).run());
+        }
         let floor = Falling {
             envelope,
             line,
             least,
         };
-        let search = Search::new(self, c, ratio, floor);
-        if least <= 0.0 {
-            let positive_below = envelope.positive_below() / ratio;
-            if let Some(beyond) = search.first_without_limit(positive_below, 0) {
-                return Some(beyond);
-            }
-        }
-        Some(search.run())
+        Some(Search::new(self, c, ratio, floor).run())
     }
 
     /// Largest value of |c·x|.
@@ -253,7 +204,7 @@ impl<'s, F: Floor> Search<'s, F> {
         }
         let second = node.second as usize;
         let [one, two] = [index + 1, second].map(|k| self.excess(&nodes[k]));
-        // The more promising half first: what it holds may spare the other. Its own bound is worked out anew, the best having risen.
+        // The more promising half first: what it holds may spare the other, whose bound is worked out anew.
         if one >= two {
             self.look_into(index + 1, one);
             self.look(second);
@@ -276,18 +227,27 @@ impl<'s, F: Floor> Search<'s, F> {
             return;
         }
         let speed = sample.speed() * self.ratio;
-        let used = self.floor.used(torque, speed);
-        if used > self.best.used {
-            self.best = Peak {
-                used,
-                torque,
-                speed,
+        let limit = self.floor.limit(torque, speed);
+        // Most samples are told apart without a division.
+        if torque.abs() > self.best.used * limit {
+            let used = if limit > 0.0 {
+                torque.abs() / limit
+            } else {
+                0.0
             };
+            if used > self.best.used {
+                self.best = Peak {
+                    used,
+                    torque,
+                    speed,
+                };
+            }
         }
     }
 
     /// An upper bound of |T| − u·M over a stretch, u being the best share so far and M the limit; the stretch holds nothing
-    /// better where that is not positive. On one side of the torque, and with M replaced by a chord below it, that is a linear form of the loads.
+    /// better where that is not positive. On one side of the torque, and with M replaced by a chord below it, that is a linear
+    /// form of the loads.
     fn excess(&self, node: &Node) -> f64 {
         let u = self.best.used;
         if u < 0.0 {
@@ -343,26 +303,36 @@ impl<'s, F: Floor> Search<'s, F> {
         };
         side(true).max(side(false))
     }
+}
 
-    /// The first sample in a stretch at whose speed there is no torque at all; there is some in all directions below the speed
-    /// `positive_below` at the gearbox output.
-    fn first_without_limit(&self, positive_below: f64, index: usize) -> Option<Peak> {
+/// The search for the first sample that has no limit at all.
+struct First<'s> {
+    stretches: Stretches<'s>,
+    c: &'s Coefficients,
+    ratio: f64,
+    envelope: &'s Envelope,
+    /// Speed at the gearbox output below which there is some torque in all directions.
+    positive_below: f64,
+}
+
+impl First<'_> {
+    /// The first sample in a stretch at whose speed there is no torque.
+    fn visit(&self, index: usize) -> Option<Peak> {
         let node = &self.stretches.tree.nodes[index];
-        if node.speed[1] < positive_below {
+        if node.speed[1] < self.positive_below {
             return None;
         }
         if node.second > 0 {
-            return (self.first_without_limit(positive_below, index + 1))
-                .or_else(|| self.first_without_limit(positive_below, node.second as usize));
+            return (self.visit(index + 1)).or_else(|| self.visit(node.second as usize));
         }
         let samples = &self.stretches.samples[node.first as usize..=node.last as usize];
         samples.iter().find_map(|sample| {
-            if sample.speed().abs() < positive_below {
+            if sample.speed().abs() < self.positive_below {
                 return None;
             }
             let torque = self.c.torque(&sample.loads);
             let speed = sample.speed() * self.ratio;
-            let used = self.floor.used(torque, speed);
+            let used = self.envelope.peak_used(torque, speed);
             used.is_infinite().then_some(Peak {
                 used,
                 torque,

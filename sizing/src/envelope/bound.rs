@@ -3,8 +3,8 @@
 use super::{Curve, Envelope, Limit, Piece, Shape};
 
 impl Envelope {
-    /// A chord that the limit of the short-time torque does not fall below between two speeds (rad/s, not negative, rising): its torques at
-    /// both (N·m). Exact where the limit is straight or bends downwards; elsewhere its least value between them.
+    /// A chord that the limit of the short-time torque does not fall below between two speeds (rad/s, not negative, rising):
+    /// its torques at both (N·m). Exact where the limit is straight or bends downwards; elsewhere its least value between them.
     pub(crate) fn floor(&self, driving: bool, speeds: [f64; 2]) -> [f64; 2] {
         self.limit(!driving).floor(speeds)
     }
@@ -22,6 +22,23 @@ impl Envelope {
         let driving = level(self.limit(false))?;
         let braking = level(self.limit(true))?;
         (driving.total_cmp(&braking).is_eq() && driving > 0.0).then_some(driving)
+    }
+}
+
+impl Envelope {
+    /// Torque at rest (N·m) and slope (N·m·s/rad) of the limits where the motor drives and where it brakes, if both are
+    /// straight up to this speed (rad/s).
+    pub(crate) fn straight_up_to(&self, speed: f64) -> Option<[[f64; 2]; 2]> {
+        let line = |limit: &Limit| match limit.pieces().first()? {
+            Piece {
+                from: 0.0,
+                to,
+                curve: Curve::Line { start, slope },
+                ..
+            } if speed <= *to && start.is_finite() => Some([*start, *slope]),
+            _ => None,
+        };
+        Some([line(self.limit(false))?, line(self.limit(true))?])
     }
 }
 

@@ -56,7 +56,9 @@ pub fn text(
         ));
         let open = match selection.partly_checked() {
             0 => String::new(),
-            open => format!("; {open} of them have rules that could not be checked for want of figures"),
+            open => {
+                format!("; {open} of them have rules that could not be checked for want of figures")
+            }
         };
         parts.push(format!(
             "\n{} of {all} drives break no rule{open}",

@@ -29,10 +29,13 @@ pub(super) fn answer(best: &Judged, found: bool) -> String {
         );
         for (what, names) in [
             ("Warning", named(Verdict::Warn)),
-            ("Not checked for want of figures", named(Verdict::NotChecked)),
+            (
+                "Not checked for want of figures",
+                named(Verdict::NotChecked),
+            ),
         ] {
             if !names.is_empty() {
-                answer += &format!("<br>{what}: {names}.");
+                answer = format!("{answer}<br>{what}: {names}.");
             }
         }
         answer

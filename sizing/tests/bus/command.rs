@@ -159,7 +159,7 @@ fn what_is_not_checked_is_said() {
     assert_eq!(named(&json), 1);
     assert_eq!(json["checks"][0]["holds"], Value::Null);
     // A load that drives the machine feeds back more than is drawn.
-    let driven = edited_press("\"-10 kN\"", "\"10 kN\"");
+    let driven = edited_press("\"-10 kN\"", "\"60 kN\"");
     let (text, json) = run("driven.toml", driven, "capacitance = \"470 uF\"\n");
     let text = text.ends(1);
     says(
@@ -232,7 +232,7 @@ source = "Sheet"
             &"--catalogue",
             &catalogue,
             &"--drive",
-            &"1=m on a",
+            &"1=m",
             &"--steps",
             &"200",
         ])
