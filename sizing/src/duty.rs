@@ -181,7 +181,7 @@ impl Instant {
         let train = &file.drive_train;
         let ratio = train.ratio();
         let state = motion.at(t);
-        let reduction = file.machine.bare_reduction(state.phi)?;
+        let reduction = file.bare_reduction(state.phi)?;
         let inertia = reduction.inertia[0];
         let terms = reduction.torque(state.omega, state.alpha);
         let input = train.input(terms.total(), inertia, state.omega, state.alpha);
@@ -233,7 +233,7 @@ impl Duty {
         let ratio = file.drive_train.ratio();
         let mut hold_torque = 0.0f64;
         for phi in coordinate::positions(file.machine.domain(), 720) {
-            let slope = file.machine.bare_reduction(phi)?.potential_energy[1];
+            let slope = file.bare_reduction(phi)?.potential_energy[1];
             hold_torque = hold_torque.max((slope / ratio).abs());
         }
         let at_rest = instants.iter().filter(|i| i.omega == 0.0);

@@ -5,14 +5,14 @@ use std::sync::Arc;
 
 use jred::joint::Joints;
 use jred::mechanism::{Frames, Train};
-use jred::{Domain, Element, Error, Jointed, Link, Load, Machine, Mechanism};
+use jred::{Domain, Element, Error, Jointed, Link, Load, Machine, Mechanism, Reduction};
 
 use crate::coordinate::Coordinate;
 use crate::input::Tolerance;
 use crate::motion::Motion;
 use crate::rules::RuleSet;
 use crate::site::Site;
-use crate::tabulated::{StandIn, Tabulated};
+use crate::tabulated::{Course, StandIn, Tabulated};
 use crate::variator::Variator;
 
 /// A mechanism that knows its joints and can be kept in a machine.
@@ -62,6 +62,8 @@ pub struct AnyMechanism {
     elements: Vec<NamedElement>,
     loads: Vec<NamedLoad>,
     stand_ins: usize,
+    /// The stand-ins, as links, on which the weight of a payload acts.
+    weights: Vec<usize>,
     contacts: Vec<Contact>,
     ropes: Vec<usize>,
     facts: Vec<Fact>,
@@ -87,6 +89,7 @@ impl AnyMechanism {
             elements: Vec::new(),
             loads: Vec::new(),
             stand_ins: 0,
+            weights: Vec::new(),
             contacts: Vec::new(),
             ropes: Vec::new(),
             facts: Vec::new(),
@@ -139,6 +142,9 @@ impl AnyMechanism {
                 let name = name.clone();
                 self.elements.push(NamedElement { name, element });
             }
+            if matches!(course, Course::Weight { .. }) {
+                self.weights.push(own + k);
+            }
             self.links.push(name.clone());
             self.joints.push(format!("bearing of {name}"));
             self.joints.push(format!("gearing of {name}"));
@@ -150,6 +156,11 @@ impl AnyMechanism {
     /// Number of links that are parts of the mechanism; those after them stand in for curves.
     pub fn own_links(&self) -> usize {
         self.links.len() - self.stand_ins
+    }
+
+    /// Whether a load is the weight of a payload: a part of the machine, not of its process.
+    pub fn is_weight(&self, load: &Load) -> bool {
+        self.weights.contains(&load.link())
     }
 
     /// The mechanism's own loads.
@@ -339,6 +350,39 @@ impl Simulation {
 }
 
 impl MachineFile {
+    /// The reduced link at `phi` without the drive train, as [`Machine::bare_reduction`] gives it, but with the weight of
+    /// payloads from tables in U′ and not among the process loads. U itself stays without it: a payload that varies with the
+    /// position has none.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed at `phi`.
+    pub fn bare_reduction(&self, phi: f64) -> Result<Reduction, Error> {
+        let mut reduction = self.machine.bare_reduction(phi)?;
+        let weight = self.payload_weight(phi)?;
+        reduction.potential_energy[1] += weight;
+        reduction.process += weight;
+        Ok(reduction)
+    }
+
+    /// Torque (N·m) of the drive link against the weight of payloads from tables, −m·g·r′; zero without such.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed at `phi`.
+    pub fn payload_weight(&self, phi: f64) -> Result<f64, Error> {
+        let mechanism = self.machine.mechanism();
+        if mechanism.weights.is_empty() {
+            return Ok(0.0);
+        }
+        let frames = mechanism.frames(phi)?;
+        let loads = self.machine.loads().iter();
+        let weights = loads.filter(|load| mechanism.is_weight(load));
+        let torques = weights.filter_map(|load| {
+            let frame = frames.get(load.link())?;
+            Some(-load.reduce(frame, phi).process)
+        });
+        Ok(torques.sum())
+    }
+
     /// The machine with its drive train reduced to the drive link: what the motor's gearbox has to move.
     ///
     /// # Errors

@@ -145,6 +145,9 @@ impl Model {
                 }
             });
         }
+        if motor.rated_torque.is_none() && motor.continuous_curve.is_empty() {
+            return Err("S1 torque over speed, for want of thermal resistances and winding data");
+        }
         let standstill = prepared.envelope.standstill();
         if !(standstill.is_finite() && standstill > 0.0) {
             return Err(

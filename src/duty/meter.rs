@@ -24,7 +24,7 @@ pub enum Window<R> {
 /// Means that a meter keeps, as weighted sums.
 const MEANS: usize = 5;
 
-/// Sums and extremes of what a drive does. See the [module](self).
+/// Sums and extremes of what a drive does. See the [module](crate::duty).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Meter<R> {

@@ -143,6 +143,11 @@ impl<'a> Builder<'a> {
             self.assumptions
                 .push("standstill torque not stated: the rated torque is taken");
         }
+        if motor.rated_speed.is_none() && rated.is_finite() && points.is_empty() {
+            self.assumptions.push(
+                "rated speed not stated: the rated torque is taken as S1 torque at every speed",
+            );
+        }
         Envelope {
             max_speed: driving.end(),
             driving,

@@ -61,10 +61,13 @@ impl<'a> Altered<'a> {
         let machine = &file.machine;
         let bare: Machine<AnyMechanism> =
             Machine::new(machine.mechanism().clone()).with_gravity(machine.gravity())?;
-        let weight = |phi: f64| Ok(bare.bare_reduction(phi)?.potential_energy[1]);
+        let weight = |phi: f64| {
+            let links = bare.bare_reduction(phi)?.potential_energy[1];
+            Ok(links + file.payload_weight(phi)?)
+        };
         let range = positions(machine.mechanism().domain(), POSITIONS).map(|phi| {
             let weight = weight(phi)?;
-            let all = machine.bare_reduction(phi)?.potential_energy[1];
+            let all = file.bare_reduction(phi)?.potential_energy[1];
             Ok([weight, all - weight])
         });
         Ok(Self {

@@ -316,7 +316,12 @@ fn machine(
         let curves = curves.map(|frame| load.reduce(frame, instant.phi));
         let curves = curves.unwrap_or_default();
         let part = (Kind::Load, named.name.as_str());
-        cells.add(part, PROCESS, -curves.process / total);
+        let effect = if mechanism.is_weight(load) {
+            WEIGHT
+        } else {
+            PROCESS
+        };
+        cells.add(part, effect, -curves.process / total);
         cells.add(part, VISCOUS, curves.viscous * omega / total);
         cells.add(part, COULOMB, curves.coulomb * sign / total);
     }

@@ -63,7 +63,7 @@ fn locks(context: &Context) -> bool {
 /// Torque at rest that the motor may have to hold (N·m). Friction lets it lie anywhere from τ·η_back/i, where the machine would
 /// begin to drive back, to τ/(i·η), where it would begin to move on: the larger end is taken, as the time course does. A
 /// gearbox that locks holds by itself.
-fn holding(context: &Context) -> f64 {
+pub(super) fn holding(context: &Context) -> f64 {
     if locks(context) {
         return 0.0;
     }
@@ -87,7 +87,8 @@ fn constant(context: &Context) -> f64 {
     let [resisting, driving] = context.cycle.mechanics().constant;
     let [_, forth, back, viscous, coulomb] = context.coefficients.0;
     let own = coulomb + viscous * context.cycle.peak_speed();
-    (resisting * forth + own).max(driving * back - own)
+    // Where the load drives, friction helps: no more of it is relied on than there is at any speed.
+    (resisting * forth + own).max(driving * back - coulomb)
 }
 
 pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Finding) -> Words {

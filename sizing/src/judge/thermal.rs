@@ -37,7 +37,7 @@ fn heating(context: &Context) -> Result<Heating, &'static str> {
     let model = Model::of(load.motor, prepared, surroundings, load.cycle.duration())?;
     let operation = &site.duty.operation;
     let held = match operation {
-        Operation::Intermittent { holding: true, .. } => load.cycle.hold_torque() / load.ratio,
+        Operation::Intermittent { holding: true, .. } => super::motor::holding(context),
         _ => 0.0,
     };
     model.heating(&load, operation, model.at_rest(prepared, held))

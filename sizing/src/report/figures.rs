@@ -59,7 +59,7 @@ pub(super) fn reduced_torque(file: &MachineFile, speed: f64) -> Result<Chart, Er
     let coordinate = Coordinate::of(file.machine.mechanism())?;
     let mut parts = [const { Vec::new() }; 4];
     for phi in whole_range(file.machine.domain(), POSITIONS) {
-        let point = file.machine.bare_reduction(phi)?;
+        let point = file.bare_reduction(phi)?;
         let values = [
             -point.potential_energy[1],
             point.process,

@@ -61,7 +61,7 @@ pub(super) fn notes(best: &Judged, duty: &Duty) -> Vec<String> {
     let mut notes = vec![
         format!(
             "Self-check over the cycle: work at the drive link {} J; of it into kinetic energy {} J and potential \
-             energy {} J (zero for a cycle that closes).",
+             energy {} J (zero for a cycle that closes, but for a payload that varies with the position).",
             rounded(work),
             short(kinetic),
             short(potential)

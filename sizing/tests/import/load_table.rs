@@ -4,10 +4,12 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use jred::Reducible;
+use jred_sizing::duty::Duty;
 use jred_sizing::machine::MachineFile;
 use jred_sizing::numerics::integral;
 
 use super::parse;
+use super::support::{near, within};
 
 fn crank(mass: &str, loads: &str, csv: &str) -> MachineFile {
     let machine = format!(
@@ -116,4 +118,74 @@ fn on_the_drive_link_a_payload_is_an_inertia() {
     }
     let names: Vec<&str> = table.loads.iter().map(|load| load.name.as_str()).collect();
     assert_eq!(names, ["table: thrust"]);
+}
+
+/// A payload that rides on the slider of a vertical slider-crank weighs as much as the same mass of the slider: torque, holding
+/// torque and the torque of weight and friction agree, and so does what a change of the moving masses does.
+#[test]
+fn a_payload_weighs_what_a_link_of_its_mass_weighs() {
+    let machine = |slider: &str, load: &str| {
+        format!(
+            r#"
+gravity = ["-9.81 m/s^2", "0 m/s^2"]
+[mechanism]
+type = "slider-crank"
+[mechanism.crank]
+length = "90 mm"
+mass = "0.01 kg"
+inertia = "0.00001 kg m^2"
+[mechanism.rod]
+length = "340 mm"
+mass = "0.01 kg"
+inertia = "0.00001 kg m^2"
+[mechanism.slider]
+mass = "{slider}"
+{load}
+[motion]
+type = "cycle"
+[[motion.segment]]
+move = "360 deg"
+duration = "1.5 s"
+law = "polynomial-345"
+"#
+        )
+    };
+    let rows: String = (0..=36).map(|k| format!("{},60\n", 10 * k)).collect();
+    let table = format!("Position [deg],Payload [kg]\n{rows}");
+    let load = "[[load]]\nname = \"payload\"\ntable = \"payload.csv\"\non = \"slider\"\n";
+    let whole = parse(&machine("60.01 kg", ""), &[]).unwrap();
+    let laden = parse(&machine("0.01 kg", load), &[("payload.csv", &table)]).unwrap();
+    let [whole, laden] =
+        [whole, laden].map(|file| Duty::new(&file, file.motion.as_ref().unwrap(), 400).unwrap());
+    near("hold", laden.hold_torque, whole.hold_torque, 1e-9);
+    assert!(whole.hold_torque > 50.0);
+    for (laden, whole) in laden
+        .mechanics
+        .constant
+        .iter()
+        .zip(whole.mechanics.constant)
+    {
+        near("constant", *laden, whole, 1e-9);
+    }
+    let most = whole.figures(|i| i.input_torque).peak();
+    for (laden, whole) in laden.instants.iter().zip(&whole.instants) {
+        within(
+            "torque",
+            laden.input_torque,
+            whole.input_torque,
+            1e-9 * most,
+        );
+        within(
+            "weight",
+            laden.terms.potential,
+            whole.terms.potential,
+            1e-9 * most,
+        );
+        within(
+            "process",
+            laden.terms.process,
+            whole.terms.process,
+            1e-9 * most,
+        );
+    }
 }
