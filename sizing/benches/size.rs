@@ -74,6 +74,10 @@ impl Ready {
     }
 }
 
+#[expect(
+    clippy::too_many_lines,
+    reason = "one report, written from top to bottom"
+)]
 fn main() -> ExitCode {
     if std::env::args().any(|argument| argument == figures::MEMORY) {
         return figures::memory();

@@ -50,14 +50,14 @@ fn of_motor(like: &Motor, k: usize, rng: &mut ChaCha8Rng) -> Motor {
     motor.rated_speed = None;
     motor.standstill_torque = None;
     motor.peak_torque = None;
-    motor.max_speed = (k % 7 != 0).then(|| voltage / constant * within(0.6, 1.6, rng));
+    motor.max_speed = (!k.is_multiple_of(7)).then(|| voltage / constant * within(0.6, 1.6, rng));
     motor.max_power = None;
     motor.rotor_inertia = about(9.2e-5 * torque.powf(1.362), 0.79, rng);
     motor.corner_speed = None;
     motor.torque_at_max_speed = None;
     motor.peak_curve = Vec::new();
     motor.continuous_curve = Vec::new();
-    motor.friction = if k % 5 == 0 {
+    motor.friction = if k.is_multiple_of(5) {
         [0.01 * torque, 1e-5 * torque]
     } else {
         [0.0; 2]

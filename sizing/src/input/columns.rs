@@ -124,7 +124,7 @@ impl Columns {
     }
 }
 
-/// "name [unit]"
+/// `name [unit]`
 fn split_header(header: &str) -> Option<(&str, &str)> {
     let (name, unit) = header.strip_suffix(']')?.rsplit_once('[')?;
     Some((name.trim_end(), unit.trim()))

@@ -137,7 +137,7 @@ fn jump(before: f64, after: f64) -> [f64; 3] {
     [1.0 / before, -1.0 / before - 1.0 / after, 1.0 / after]
 }
 
-/// Row of R + λ·Qᵀ·W⁻¹·Q and the two columns of Q for the knot between the steps h[1] and h[2]; h[0] and h[3] are those
+/// Row of R + λ·Qᵀ·W⁻¹·Q and the two columns of Q for the knot between the steps `h[1]` and `h[2]`; `h[0]` and `h[3]` are those
 /// further out, weights those of the three knots.
 fn reinsch(h: [f64; 4], weights: [f64; 3], stiffness: f64) -> [f64; 5] {
     let [before, this, after] = [[h[0], h[1]], [h[1], h[2]], [h[2], h[3]]].map(|[a, b]| jump(a, b));

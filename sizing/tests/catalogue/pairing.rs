@@ -1,6 +1,7 @@
 //! Which motor goes with which gearbox and amplifier, against lists worked out naively.
 
 use std::collections::BTreeSet;
+use std::fmt::Write as _;
 
 use jred_sizing::catalogue::{
     Amplifier, Catalogue, Gearbox, Motor, MotorKind, Pairing, Sources, Winding,
@@ -28,7 +29,7 @@ fn motors(rows: &[&str]) -> String {
     let mut text = format!("{HEADER},built_in_gearbox\n");
     for row in rows {
         let (key, gearbox) = row.split_once(' ').unwrap_or((row, ""));
-        text += &format!("{key},Maker,Model,8,2000,36,8.5,Sheet,{gearbox}\n");
+        writeln!(text, "{key},Maker,Model,8,2000,36,8.5,Sheet,{gearbox}").unwrap();
     }
     text
 }
@@ -286,7 +287,7 @@ fn random_lists_against_looking_at_every_pair() {
         let motors = motors(&motor_keys.iter().map(String::as_str).collect::<Vec<_>>());
         let mut gearboxes = GEARBOXES.lines().next().unwrap().to_owned() + "\n";
         for key in &gearbox_keys {
-            gearboxes += &format!("{key},M,P,3,50,6000,1,97,S\n");
+            writeln!(gearboxes, "{key},M,P,3,50,6000,1,97,S").unwrap();
         }
         let mut lists = Vec::new();
         let mut table = "motor,gearboxes\n".to_owned();
@@ -300,7 +301,7 @@ fn random_lists_against_looking_at_every_pair() {
                         cut => format!("{}*", &near[..cut]),
                     });
                 }
-                table += &format!("{key},{}\n", patterns.join(";"));
+                writeln!(table, "{key},{}", patterns.join(";")).unwrap();
                 lists.push((key.clone(), patterns));
             }
         }

@@ -150,8 +150,10 @@ law = "polynomial-345"
 "#
         )
     };
-    let rows: String = (0..=36).map(|k| format!("{},60\n", 10 * k)).collect();
-    let table = format!("Position [deg],Payload [kg]\n{rows}");
+    let mut table = String::from("Position [deg],Payload [kg]\n");
+    for k in 0..=36 {
+        writeln!(table, "{},60", 10 * k).unwrap();
+    }
     let load = "[[load]]\nname = \"payload\"\ntable = \"payload.csv\"\non = \"slider\"\n";
     let whole = parse(&machine("60.01 kg", ""), &[]).unwrap();
     let laden = parse(&machine("0.01 kg", load), &[("payload.csv", &table)]).unwrap();
