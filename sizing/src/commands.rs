@@ -356,7 +356,7 @@ fn run_size(options: &cli::Size) -> Result<Done> {
     let duty = Duty::new(&file, motion, options.steps as usize).into_diagnostic()?;
     let cycle = Cycle::new(&duty);
     let motors = catalogue.prepare(&file.site);
-    let mut selection = Selection::new(&catalogue, &motors, &cycle, &file.site, &file.rules);
+    let mut selection = Selection::parallel(&catalogue, &motors, &cycle, &file.site, &file.rules);
     for gap in options.search.apply(&filter, &mut selection) {
         eprintln!("mind: {gap}");
     }

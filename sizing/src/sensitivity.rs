@@ -23,6 +23,8 @@ use crate::vary::study::{Study, sentence};
 pub struct Slope {
     /// The rule.
     pub rule: Rule,
+    /// Whether it can refuse a drive, or only warns.
+    pub refuses: bool,
     /// Change of its share of the limit for a relative change of the quantity: du/dε.
     pub slope: f64,
     /// By how much the two estimates of the slope differ.
@@ -64,10 +66,14 @@ pub struct Dependence {
 }
 
 impl Dependence {
-    /// The rule that it moves most.
+    /// The rule that it moves most: of those that can refuse the drive, or else of those that only warn.
     pub fn steepest(&self) -> Option<Slope> {
         let slopes = self.slopes.iter().copied();
-        slopes.max_by(|a, b| a.slope.abs().total_cmp(&b.slope.abs()))
+        let key = |slope: &Slope| (slope.refuses && slope.slope != 0.0, slope.slope.abs());
+        slopes.max_by(|a, b| {
+            let (a, b) = (key(a), key(b));
+            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+        })
     }
 }
 
@@ -150,6 +156,7 @@ impl Mover<'_> {
             let (first, second) = (extrapolated(coarse, middle), extrapolated(middle, *fine));
             Some(Slope {
                 rule: *rule,
+                refuses: self.study.nominal.rules.limit(*rule).fail.is_some(),
                 slope: second,
                 uncertainty: (second - first).abs(),
             })
