@@ -45,11 +45,6 @@ fn matches(patterns: &[Pattern], text: &str) -> bool {
 }
 
 impl Filter {
-    /// Whether every drive passes.
-    pub fn is_open(&self) -> bool {
-        *self == Self::default()
-    }
-
     /// Leaves only those motors and gearboxes of a catalogue that a drive may have.
     ///
     /// # Errors
@@ -91,6 +86,9 @@ impl Filter {
     /// price is asked for but not known.
     pub fn sift(&self, selection: &mut Selection) -> Unknown {
         let mut unknown = Unknown::default();
+        if self.allows_direct() && self.max_mass.is_none() && self.max_price.is_none() {
+            return unknown;
+        }
         let mut sifted = [Vec::new(), Vec::new()];
         // Of those refused only the nearest stand in order so far: which of them are left is not known before.
         let refused = selection.refused_in_order();

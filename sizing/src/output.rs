@@ -122,7 +122,7 @@ impl Columns {
 }
 
 /// A name for CSV: in quotes where it holds a comma, a quote or a line break.
-fn quoted(name: &str) -> String {
+pub(crate) fn quoted(name: &str) -> String {
     if name.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", name.replace('"', "\"\""))
     } else {

@@ -24,6 +24,11 @@ pub(super) struct Known {
     pub(super) kind: &'static Kind,
 }
 
+/// A column of these names that measures this.
+pub(super) const fn known(names: &'static [&'static str], kind: &'static Kind) -> Known {
+    Known { names, kind }
+}
+
 /// What a kind of file may hold.
 pub(super) struct Format<'f> {
     /// Its columns.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use jred::MAX_LOADS;
 
-use super::columns::{self, CsvFile, Format, Known};
+use super::columns::{self, CsvFile, Format, Known, known};
 use super::curve_file::Positions;
 use super::drive_link::DriveLink;
 use super::kind::{ANGLE, FORCE, INERTIA, LENGTH, MASS, TORQUE};
@@ -58,10 +58,6 @@ const fn on_link(coordinate: Coordinate) -> ([Known; 4], &'static str) {
         }
     };
     (columns, example)
-}
-
-const fn known(names: &'static [&'static str], kind: &'static super::kind::Kind) -> Known {
-    Known { names, kind }
 }
 
 /// Whether a `[[load]]` is a table.

@@ -9,10 +9,10 @@ use crate::coordinate::Coordinate;
 use crate::motion::{Closing, Motion, Recording};
 use crate::spline::MIN_POINTS;
 
-use super::columns::{self, Columns, CsvFile, Format, Known};
+use super::columns::{self, Columns, CsvFile, Format, Known, known};
 use super::drive_link::DriveLink;
 use super::item::Value;
-use super::kind::{ANGLE, ANGULAR_SPEED, CUTOFF, Kind, LENGTH, TIME, VELOCITY};
+use super::kind::{ANGLE, ANGULAR_SPEED, CUTOFF, LENGTH, TIME, VELOCITY};
 use super::motion;
 use super::problem::{Problem, Result, figure};
 use super::section::Section;
@@ -34,10 +34,6 @@ const CUTOFFS: f64 = 2.0;
 const TIME_COLUMN: usize = 0;
 const POSITION: usize = 1;
 const SPEED: usize = 2;
-
-const fn known(names: &'static [&'static str], kind: &'static Kind) -> Known {
-    Known { names, kind }
-}
 
 /// The columns of a drive link that turns or swings.
 const ANGLES: [Known; 3] = [

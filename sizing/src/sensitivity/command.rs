@@ -7,7 +7,7 @@ use super::{Dependence, Reach, Room, Sensitivity};
 use crate::cli::search::Sensitivity as Options;
 use crate::commands::{Done, print};
 use crate::output::{Format, short};
-use crate::vary::command::catalogue;
+use crate::vary::command::study;
 use crate::vary::one::One;
 use crate::vary::rows::Cell;
 use crate::vary::sheet::Sheet;
@@ -19,13 +19,7 @@ use crate::vary::study::Study;
 /// Bad input.
 pub fn sensitivity(options: &Options) -> Result<Done> {
     let filter = options.search.filter();
-    let catalogue = catalogue(&options.supply, &filter)?;
-    let study = Study::new(
-        &options.file,
-        catalogue,
-        options.supply.rules.as_deref(),
-        options.supply.steps as usize,
-    )?;
+    let study = study(&options.file, &options.supply, &filter)?;
     let one = One::choose(
         &study,
         options.drive.as_deref(),

@@ -9,7 +9,7 @@ use crate::commands::{Done, print};
 use crate::input::Tolerance;
 use crate::output::Format;
 use crate::rules::{Limit, RuleSet};
-use crate::vary::command::{catalogue, stopped};
+use crate::vary::command::{stopped, study};
 use crate::vary::one::One;
 use crate::vary::rows::{Cell, Form};
 use crate::vary::run::run;
@@ -22,13 +22,7 @@ use crate::vary::study::Study;
 /// Bad input, or a file that cannot be written.
 pub fn tolerance(options: &Options) -> Result<Done> {
     let filter = options.search.filter();
-    let catalogue = catalogue(&options.supply, &filter)?;
-    let study = Study::new(
-        &options.file,
-        catalogue,
-        options.supply.rules.as_deref(),
-        options.supply.steps as usize,
-    )?;
+    let study = study(&options.file, &options.supply, &filter)?;
     let scatters = scatters(&study, &options.tolerance)?;
     let one = One::choose(
         &study,

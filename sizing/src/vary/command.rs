@@ -1,5 +1,7 @@
 //! `jred vary` and `jred merge`.
 
+use std::path::Path;
+
 use miette::{Result, miette};
 
 use super::axis::{Axis, Grid};
@@ -23,6 +25,20 @@ pub fn catalogue(supply: &Supply, filter: &Filter) -> Result<Catalogue> {
     Ok(catalogue)
 }
 
+/// The machines that a command line is about: those of a machine file, over the catalogue, thinned by a filter.
+///
+/// # Errors
+/// Files that cannot be used; a machine that cannot be sized; nothing left.
+pub fn study(file: &Path, supply: &Supply, filter: &Filter) -> Result<Study> {
+    let catalogue = catalogue(supply, filter)?;
+    Study::new(
+        file,
+        catalogue,
+        supply.rules.as_deref(),
+        supply.steps as usize,
+    )
+}
+
 impl Rows {
     /// The plan that the options make.
     pub fn plan(&self) -> Plan {
@@ -41,13 +57,7 @@ impl Rows {
 /// Bad input, or a file that cannot be written.
 pub fn vary(options: &Vary) -> Result<Done> {
     let filter = options.search.filter();
-    let catalogue = catalogue(&options.supply, &filter)?;
-    let study = Study::new(
-        &options.file,
-        catalogue,
-        options.supply.rules.as_deref(),
-        options.supply.steps as usize,
-    )?;
+    let study = study(&options.file, &options.supply, &filter)?;
     let axes = options
         .vary
         .iter()

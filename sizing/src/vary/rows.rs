@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value};
 
-use crate::output::{rounded, text_table};
+use crate::output::{quoted, rounded, text_table};
 
 /// A cell of a row.
 #[derive(Clone, Debug, PartialEq)]
@@ -160,13 +160,8 @@ pub(crate) fn csv_line(cells: impl Iterator<Item = Cell>) -> String {
     let texts = cells.map(|cell| match cell {
         Cell::Empty => String::new(),
         Cell::Number(x) => format!("{x:?}"),
-        Cell::Text(text) if text.contains([',', '"', '\n', '\r']) => {
-            format!(
-                "\"{}\"",
-                text.replace('"', "\"\"").replace(['\n', '\r'], " ")
-            )
-        }
-        Cell::Text(text) => text,
+        // A row stays on its line.
+        Cell::Text(text) => quoted(&text).replace(['\n', '\r'], " "),
     });
     texts.collect::<Vec<_>>().join(",") + "\n"
 }

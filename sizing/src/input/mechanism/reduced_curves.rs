@@ -6,11 +6,11 @@ use jred::Domain;
 
 use super::core;
 use crate::coordinate::Coordinate;
-use crate::input::columns::{self, Columns, CsvFile, Format, Known};
+use crate::input::columns::{self, Columns, CsvFile, Format, Known, known};
 use crate::input::curve_file::Positions;
 use crate::input::drive_link::DriveLink;
 use crate::input::kind::{
-    ANGLE, FORCE, INERTIA, INERTIA_SLOPE, Kind, LENGTH, MASS, MASS_SLOPE, TORQUE, VISCOUS_FORCE,
+    ANGLE, FORCE, INERTIA, INERTIA_SLOPE, LENGTH, MASS, MASS_SLOPE, TORQUE, VISCOUS_FORCE,
     VISCOUS_MOMENT,
 };
 use crate::input::problem::{Problem, Result, figure};
@@ -33,10 +33,6 @@ const CONSERVED: f64 = 1e-3;
 
 /// Less is rounding of the file's digits, and not worth a word.
 const ROUNDING: f64 = 1e-6;
-
-const fn known(names: &'static [&'static str], kind: &'static Kind) -> Known {
-    Known { names, kind }
-}
 
 const ANGLES: [Known; 7] = [
     known(&["phi", "φ", "angle", "position"], &ANGLE),
