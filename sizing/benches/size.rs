@@ -60,7 +60,14 @@ impl Ready {
 
     fn among<'c>(&'c self, drives: &[(usize, Drive<'c>)]) -> Selection<'c> {
         let drives = drives.iter().copied();
-        Selection::among(drives, &self.motors, &self.cycle, &self.site, &self.rules)
+        Selection::among(
+            drives,
+            &self.catalogue,
+            &self.motors,
+            &self.cycle,
+            &self.site,
+            &self.rules,
+        )
     }
 
     fn all_cores(&self) -> Selection<'_> {
@@ -114,14 +121,9 @@ fn main() -> ExitCode {
     compare::every_drive(&ready);
     let selection = ready.one_core();
     println!(
-        "{} fit, {} are refused, {} of them for a speed beyond every torque",
+        "{} fit, {} are refused",
         selection.fit.len(),
         selection.refused.len(),
-        selection
-            .refused
-            .iter()
-            .filter(|c| c.outcome.beyond_all_limits > 0)
-            .count()
     );
     drop(selection);
 
@@ -131,6 +133,11 @@ fn main() -> ExitCode {
     );
     let one = best(|| ready.one_core());
     let two = best(|| ready.all_cores());
+    let full = best(|| {
+        let mut selection = ready.one_core();
+        selection.complete();
+        selection
+    });
     let plain = once(|| compare::plain(&ready));
     let each = |time: f64| {
         format!(
@@ -145,6 +152,7 @@ fn main() -> ExitCode {
         rayon::current_num_threads(),
         each(two)
     );
+    println!("with every drive's figures {}", each(full));
     println!("plain loops, one core      {}", each(plain));
     numpy::compare(&ready);
     report.ratio(

@@ -13,21 +13,27 @@
 
 pub mod axes;
 pub mod command;
+mod cure;
 pub mod curve;
+mod json;
+mod need;
+pub mod period;
+mod phases;
 mod report;
 pub mod store;
 pub mod supply;
 mod verdict;
 
-use crate::catalogue::{Amplifier, Motor, Resistor};
+pub use need::Need;
+pub use phases::Watch;
+
+use crate::catalogue::{Amplifier, Motor};
 use crate::cycle::Cycle;
 use crate::drive::Coefficients;
 use crate::envelope::Prepared;
-use crate::output::short;
 use crate::winding::REFERENCE_TEMPERATURE;
 
 use curve::PowerCurve;
-use supply::{BrakeResistor, BusData};
 
 /// Power that a drive draws from the DC bus over the cycle.
 pub fn power(
@@ -55,90 +61,4 @@ pub fn power(
         [sample.t, power]
     });
     PowerCurve::new(points, cycle.duration())
-}
-
-/// What a brake resistor must bear that the chopper's voltage alone bounds.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct Need {
-    /// Mean power (W).
-    #[serde(rename = "mean [W]")]
-    pub mean: f64,
-    /// Largest power (W).
-    #[serde(rename = "peak [W]")]
-    pub peak: f64,
-    /// Largest energy without a pause (J).
-    #[serde(rename = "pulse [J]")]
-    pub pulse: f64,
-    /// Largest resistance that takes that power at the chopper's voltage (Ω).
-    #[serde(rename = "largest resistance [Ohm]")]
-    pub largest_resistance: f64,
-    /// Smallest resistance that the chopper may switch (Ω).
-    #[serde(rename = "smallest resistance [Ohm]")]
-    pub smallest_resistance: Option<f64>,
-}
-
-impl Need {
-    /// The need of a power. `None`: the chopper's voltage is not known, or the capacitor takes all that comes back.
-    pub fn of(data: &BusData, curve: &PowerCurve) -> Option<Self> {
-        let on = data.chopper_voltage?;
-        let [least, _] = curve.extremes();
-        let back = -least;
-        if data.regenerative || back <= 0.0 {
-            return None;
-        }
-        // A resistor that takes the largest power which ever comes back never lets the voltage rise above the chopper's.
-        let resistor = BrakeResistor {
-            resistance: on * on / back,
-            power: f64::INFINITY,
-            peak_power: None,
-            pulse_energy: None,
-        };
-        let with = BusData {
-            resistor: Some(resistor),
-            ..*data
-        };
-        let figures = with.bus().ok()?.run(curve);
-        (figures.burnt > 0.0).then(|| Self {
-            mean: figures.burnt / curve.period(),
-            peak: figures.burnt_peak,
-            pulse: figures.pulse,
-            largest_resistance: on * on / figures.burnt_peak,
-            smallest_resistance: data.min_resistance,
-        })
-    }
-
-    /// Whether a resistor bears it.
-    pub fn is_met(&self, resistor: &Resistor) -> bool {
-        let least = self.smallest_resistance.unwrap_or(0.0);
-        (least..=self.largest_resistance).contains(&resistor.resistance)
-            && resistor.rated_power >= self.mean
-            && resistor.peak_power.is_some_and(|peak| peak >= self.peak)
-            && resistor
-                .pulse_energy
-                .is_none_or(|energy| energy >= self.pulse)
-    }
-
-    /// The smallest resistor (rated power, then price) of a catalogue that bears it.
-    pub fn proposal<'c>(&self, resistors: &'c [Resistor]) -> Option<&'c Resistor> {
-        let price = |r: &Resistor| r.price.unwrap_or(f64::INFINITY);
-        let met = resistors.iter().filter(|resistor| self.is_met(resistor));
-        met.min_by(|a, b| {
-            (a.rated_power.total_cmp(&b.rated_power)).then(price(a).total_cmp(&price(b)))
-        })
-    }
-
-    /// In words.
-    pub fn words(&self) -> String {
-        let from = match self.smallest_resistance {
-            Some(least) => format!("{} to ", short(least)),
-            None => "at most ".to_owned(),
-        };
-        format!(
-            "needs a brake resistor of {from}{} Ω for {} W mean, {} W peak and {} W s a pulse",
-            short(self.largest_resistance),
-            short(self.mean),
-            short(self.peak),
-            short(self.pulse)
-        )
-    }
 }

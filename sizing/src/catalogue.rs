@@ -47,6 +47,8 @@ pub struct Catalogue {
     pub resistors: Vec<Resistor>,
     /// What goes with what.
     pub pairing: Pairing,
+    /// The currencies of its prices, as their columns name them ("" where none is named), each with the first file that has it.
+    pub currencies: Vec<(String, String)>,
     /// What can hardly be right in the rows used, in sentences that name file and line.
     pub warnings: Vec<String>,
     /// How many broken rows were left out.
@@ -61,6 +63,24 @@ impl Catalogue {
             Prepared::new(motor, None, site).with(motor, amplifiers, site)
         };
         self.motors.iter().enumerate().map(prepare).collect()
+    }
+
+    /// Prices must be in one currency to be compared.
+    ///
+    /// # Errors
+    /// Two currencies, or prices with a currency and others without.
+    pub fn one_currency(&self) -> Result<(), CatalogueError> {
+        let [first, second, ..] = self.currencies.as_slice() else {
+            return Ok(());
+        };
+        let words = |(currency, file): &(String, String)| match currency.as_str() {
+            "" => format!("no named currency ({file})"),
+            currency => format!("{currency} ({file})"),
+        };
+        Err(CatalogueError::Currencies {
+            first: words(first),
+            second: words(second),
+        })
     }
 
     /// Leaves the motors of one kind.

@@ -8,7 +8,6 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-use self::catalogue::CatalogueFiles;
 use self::search::Objectives;
 use crate::export::{Choice, Form, LayoutChoice, Number};
 use crate::inspect::Format as CheckFormat;
@@ -110,18 +109,13 @@ pub struct Check {
 
 /// `jred size`
 #[derive(Debug, Args)]
+#[command(after_help = "Exit codes: 0 a drive holds every rule; 1 none of the catalogue does; 2 bad input.")]
 pub struct Size {
     /// Machine file, with a `[motion]`.
     pub file: PathBuf,
-    /// What drives are made of.
+    /// What drives are made of, rules and time steps.
     #[command(flatten)]
-    pub catalogue: CatalogueFiles,
-    /// Rule set instead of the machine file's: a name from `jred rules`, or a file; what `[rules]` says beside stays.
-    #[arg(long, value_name = "SET")]
-    pub rules: Option<String>,
-    /// Time steps of the cycle.
-    #[arg(long, default_value_t = crate::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=10_000_000))]
-    pub steps: u32,
+    pub supply: search::Supply,
     /// Instead of the ranking: the drives that no other beats in everything, over two or three of power, mass, price, energy,
     /// margin and temperature, e.g. "mass,energy".
     #[arg(long, value_name = "OBJECTIVES", value_parser = Objectives::read, conflicts_with = "rank")]
@@ -145,9 +139,14 @@ pub struct Size {
     /// process loads may go, and what would have to change for the nearest refused drives to hold.
     #[arg(long)]
     pub explain: bool,
-    /// Explain this drive instead, MOTOR+GEARBOX (or MOTOR for a direct drive) with the keys of the catalogue.
+    /// Show and explain this drive instead of the best, and why it stands where it does: MOTOR+GEARBOX, or MOTOR for a direct
+    /// drive, with " on AMPLIFIER" behind where there are several, or the name as printed.
     #[arg(long, value_name = "DRIVE")]
     pub why: Option<String>,
+    /// Write the limits of the best drive, or of the one of --why, for the firmware's duty meter: Rust source to include
+    /// (docs/duty-meter.md).
+    #[arg(long, value_name = "RS", conflicts_with = "pareto")]
+    pub meter: Option<PathBuf>,
     /// Write a report: one self-contained HTML page. As PDF: print it from a browser, or
     /// `chromium --headless --no-pdf-header-footer --print-to-pdf=report.pdf report.html`.
     #[arg(long, value_name = "HTML")]

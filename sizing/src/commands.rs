@@ -9,17 +9,14 @@ use crate::catalogue::{Catalogue, MotorKind};
 use crate::cli;
 use crate::contact::OneWay;
 use crate::coordinate::Coordinate;
-use crate::cycle::Cycle;
 use crate::duty::Duty;
 use crate::export::{Choice, Export, Failure, Form, Number, Task};
 use crate::inspect::{self, Findings};
 use crate::machine::MachineFile;
 use crate::motion::Motion;
 use crate::output::Format;
-use crate::pareto::Front;
 use crate::reduce::{self, Over, Sets, reduce};
-use crate::size::Selection;
-use crate::{input, listing, report, simulate, variator, vary};
+use crate::{input, report, simulate, variator, vary};
 
 /// How a command ended, short of an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +37,7 @@ pub fn run(command: &cli::Command) -> Result<Done> {
     match command {
         cli::Command::Reduce(options) => run_reduce(options),
         cli::Command::Check(options) => run_check(options),
-        cli::Command::Size(options) => run_size(options),
+        cli::Command::Size(options) => crate::size::command::size(options),
         cli::Command::Vary(options) => vary::command::vary(options),
         cli::Command::Ratio(options) => crate::ratio::command::ratio(options),
         cli::Command::Sensitivity(options) => crate::sensitivity::command::sensitivity(options),
@@ -342,97 +339,11 @@ pub(crate) fn fit_input(catalogue: &mut Catalogue, file: &MachineFile) -> Result
     })
 }
 
-fn run_size(options: &cli::Size) -> Result<Done> {
-    let mut file = input::read(&options.file)?;
-    if let Some(word) = &options.rules {
-        file.rules = crate::rules::command::chosen(&file.rules, word)?;
-    }
-    variator::refuse(&file, "size")?;
-    let motion = motion(&file, &options.file)?;
-    let mut catalogue = options.catalogue.open()?;
-    fit_input(&mut catalogue, &file)?;
-    let filter = options.search.filter();
-    filter.thin(&mut catalogue)?;
-    let duty = Duty::new(&file, motion, options.steps as usize).into_diagnostic()?;
-    let cycle = Cycle::new(&duty);
-    let motors = catalogue.prepare(&file.site);
-    let mut selection = Selection::parallel(&catalogue, &motors, &cycle, &file.site, &file.rules);
-    for gap in options.search.apply(&filter, &mut selection) {
-        eprintln!("mind: {gap}");
-    }
-    let selection = selection;
-    if let Some(objectives) = &options.pareto {
-        let front = Front::new(&selection, &objectives.0);
-        let title = format!(
-            "{}: the Pareto front of the drives that break no rule",
-            file.title
-        );
-        print(&front.write(options.format, &title))?;
-        return Ok(if front.points.is_empty() {
-            Done::Violated
-        } else {
-            Done::Holds
-        });
-    }
-    if let Some(path) = &options.report {
-        let name = options.file.display().to_string();
-        let page = report::page(&name, &file, &duty, &selection).into_diagnostic()?;
-        write(path, page.unwrap_or_default().as_bytes(), &options.file)?;
-    }
-    let list = listing::List {
-        top: options.top,
-        nearest: options.nearest,
-        refused: options.refused,
-        all: options.all,
-    };
-    let explanation = explanation(options, &file, &duty, &selection)?;
-    let explanation = explanation.as_ref();
-    match options.format {
-        Format::Table => {
-            print(&listing::text(list, &file, &duty, &selection, explanation))?;
-            if let Some(path) = &options.report {
-                print(&format!("report written to {}\n", path.display()))?;
-            }
-        }
-        Format::Csv => {
-            print(&listing::csv(list, &selection)?)?;
-        }
-        Format::Json => {
-            let answer = listing::json(list, &file, &duty, &selection, explanation);
-            print(&format!("{answer:#}\n"))?;
-        }
-    }
-    Ok(if selection.fit.is_empty() {
-        Done::Violated
-    } else {
-        Done::Holds
-    })
-}
-
-/// What was asked to be explained; in words, the nearest refused drives also where none holds.
-fn explanation(
-    options: &cli::Size,
-    file: &MachineFile,
-    duty: &Duty,
-    selection: &Selection,
-) -> Result<Option<listing::Explanation>> {
-    use listing::Explanation;
-    if options.explain || options.why.is_some() {
-        let Some(drive) = listing::explained(selection, options.why.as_deref())? else {
-            return Ok(None);
-        };
-        let nearest = options.nearest;
-        let explanation = Explanation::new(file, duty, selection, drive, nearest);
-        return explanation.map(Some).into_diagnostic();
-    }
-    if options.format == Format::Table && selection.fit.is_empty() {
-        let nearest = Explanation::of_refused(file, duty, selection, options.nearest);
-        return nearest.map(Some).into_diagnostic();
-    }
-    Ok(None)
-}
-
-fn motion<'f>(file: &'f MachineFile, path: &Path) -> Result<&'f Motion> {
+/// The motion of a machine file.
+///
+/// # Errors
+/// It has none.
+pub(crate) fn motion<'f>(file: &'f MachineFile, path: &Path) -> Result<&'f Motion> {
     file.motion.as_ref().ok_or_else(|| {
         miette!(
             help = "add a [motion], for example type = \"constant-speed\", speed = \"60 rpm\"",
@@ -453,7 +364,10 @@ pub(crate) fn print(text: &str) -> Result<Done> {
 }
 
 /// Writes a file, but never over the machine file that it was made from.
-fn write(path: &Path, bytes: &[u8], machine: &Path) -> Result<()> {
+///
+/// # Errors
+/// A file that cannot be written.
+pub(crate) fn write(path: &Path, bytes: &[u8], machine: &Path) -> Result<()> {
     let same = |a: &Path, b: &Path| Some(a.canonicalize().ok()? == b.canonicalize().ok()?);
     if same(path, machine) == Some(true) {
         return Err(miette!(

@@ -17,16 +17,21 @@ use crate::duty::{Duty, Figures};
 use crate::envelope::Envelope;
 use crate::mechanics::Mechanics;
 
+mod against;
+mod beyond;
 mod factor;
 mod floor;
 mod front;
 mod power;
 mod search;
+pub(crate) mod speeds;
 mod tree;
 
+pub(crate) use against::Against;
 use factor::Factor;
 use front::Front;
 use search::Stretches;
+use speeds::Speeds;
 use tree::Tree;
 
 /// Exponent of the mean torque that counts for roller bearings.
@@ -76,6 +81,8 @@ pub struct Cycle {
     tree: Tree,
     front: Front,
     cubic_mean: OnceLock<f64>,
+    /// Sorted only when a motor's heat asks for it.
+    speeds: OnceLock<Speeds>,
     bearing_mean: OnceLock<f64>,
 }
 
@@ -128,6 +135,7 @@ impl Cycle {
             tree,
             largest,
             cubic_mean: OnceLock::new(),
+            speeds: OnceLock::new(),
             bearing_mean: OnceLock::new(),
             samples,
         }
@@ -195,9 +203,25 @@ impl Cycle {
         (self.samples.iter().map(share).sum::<f64>() / turning).powf(1.0 / power)
     }
 
+    /// The samples by speed.
+    pub(crate) fn speeds(&self) -> &Speeds {
+        self.speeds.get_or_init(|| Speeds::new(&self.samples))
+    }
+
     /// RMS of the motor torque (N·m).
     pub fn rms_torque(&self, coefficients: &Coefficients) -> f64 {
         self.torque.norm(&coefficients.0) / self.duration.sqrt()
+    }
+
+    /// Calls `take` with every sample at which the motor torque (N·m), given too, is larger in magnitude than `bound`: the cost
+    /// is that of these samples.
+    pub(crate) fn beyond(
+        &self,
+        coefficients: &Coefficients,
+        bound: f64,
+        take: impl FnMut(&Sample, f64),
+    ) {
+        self.stretches().beyond(coefficients, bound, take);
     }
 
     /// Mean of the motor torque (N·m).
@@ -213,6 +237,12 @@ impl Cycle {
     /// Largest magnitude of the motor torque (N·m).
     pub fn peak_torque(&self, coefficients: &Coefficients) -> f64 {
         self.stretches().largest_magnitude(coefficients)
+    }
+
+    /// What the magnitude of the motor torque does not exceed (N·m), no more than some parts in a thousand above
+    /// [`Cycle::peak_torque`] where loads are smooth, and much cheaper.
+    pub fn torque_bound(&self, coefficients: &Coefficients) -> f64 {
+        self.stretches().magnitude_bound(coefficients)
     }
 
     /// Energy that the motor puts in over a cycle and energy that comes back to it (J), neither negative.
@@ -234,6 +264,18 @@ impl Cycle {
             torque: 0.0,
             speed: 0.0,
         })
+    }
+
+    /// Whether the peak keeps within shares of the envelope, as far as bounds tell: much cheaper than [`Cycle::peak`], which
+    /// settles what they leave open.
+    pub(crate) fn peak_against(
+        &self,
+        coefficients: &Coefficients,
+        ratio: f64,
+        envelope: &Envelope,
+        shares: [f64; 2],
+    ) -> Against {
+        (self.stretches()).against(coefficients, ratio, envelope, shares)
     }
 
     fn stretches(&self) -> Stretches<'_> {

@@ -5,7 +5,7 @@ use miette::{Result, miette};
 
 use crate::catalogue::Catalogue;
 use crate::rank::Objective;
-use crate::size::{Candidate, Selection};
+use crate::size::{Candidate, Group, Selection};
 
 /// What a drive must be to be considered; nothing set: every drive is.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -90,16 +90,16 @@ impl Filter {
             return unknown;
         }
         let mut sifted = [Vec::new(), Vec::new()];
-        // Of those refused only the nearest stand in order so far: which of them are left is not known before.
-        let refused = selection.refused_in_order();
-        for (kept, from) in sifted.iter_mut().zip([&selection.fit, &refused]) {
-            for candidate in from {
+        // Only the first stand in order so far: which of them are left is not known before.
+        selection.complete();
+        for (kept, from) in sifted.iter_mut().zip([&selection.fit, &selection.refused]) {
+            for candidate in from.known() {
                 if self.passes(selection, candidate, &mut unknown) {
                     kept.push(*candidate);
                 }
             }
         }
-        [selection.fit, selection.refused] = sifted;
+        [selection.fit, selection.refused] = sifted.map(Group::of);
         unknown
     }
 

@@ -16,8 +16,13 @@ use crate::units::Units;
 mod electric;
 mod gearbox;
 mod motor;
+mod outcome;
+mod screen;
 mod stiffness;
 mod thermal;
+
+pub use outcome::Outcome;
+pub(crate) use screen::Screen;
 
 /// A figure and the rating that it is compared with, in the same unit (SI).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,6 +69,18 @@ impl Default for Findings {
             found: [Finding::new(0.0, 0.0); Rule::COUNT],
             apply: 0,
         }
+    }
+}
+
+/// What takes findings as they are measured: [`Findings`] keeps them, an outcome weighs them and forgets them.
+trait Take {
+    /// Takes the finding of a rule, which thereby applies. Each rule is found once.
+    fn set(&mut self, rule: Rule, finding: Finding);
+}
+
+impl Take for Findings {
+    fn set(&mut self, rule: Rule, finding: Finding) {
+        Self::set(self, rule, finding);
     }
 }
 
@@ -155,16 +172,21 @@ impl<'a> Context<'a> {
     /// The rules that need no time course: see [`Rule::follows_time`]. The rule set says by which figure a rule is judged,
     /// where there is more than one.
     pub fn measure_directly(&self, rules: &RuleSet, findings: &mut Findings) {
-        motor::measure(self, rules, findings);
-        gearbox::measure(self, rules, findings);
-        electric::measure(self, findings);
+        gearbox::measure_alone(self, rules, findings);
         stiffness::measure(self, findings);
+        motor::measure_speed(self.cycle, self.motor, self.ratio, findings);
+        motor::measure_inertia(self, rules, findings);
+        motor::measure_torques(self, findings);
+        motor::measure_peak(self, findings);
+        gearbox::measure_stop(self, findings);
+        electric::measure(self, findings);
     }
 
     /// The rules that follow a state over time.
     pub fn follow_time(&self, findings: &mut Findings) {
+        let peak_current = findings.get(Rule::PeakCurrent).map(|found| found.value);
         thermal::follow(self, findings);
-        electric::follow(self, findings);
+        electric::follow(self, peak_current, findings);
     }
 
     /// Time (s) and rises of winding and housing (K) over the cycle; `None` where they cannot be followed.
@@ -232,52 +254,6 @@ impl<'a> Context<'a> {
         self.follow_time(&mut findings);
         let outcome = Outcome::of(rules, &findings);
         (findings, outcome)
-    }
-}
-
-/// How a drive comes out, in numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outcome {
-    /// The worst verdict.
-    pub verdict: Verdict,
-    /// The largest finite share of a limit that is used. Where a limit is zero (no torque beyond the maximum speed) the
-    /// rule for the speed says by how much.
-    pub worst_use: f64,
-    /// The rule of which that share is used.
-    pub worst_rule: Option<Rule>,
-    /// How many rules give a warning.
-    pub warnings: u8,
-    /// How many rules could not be judged for want of a figure.
-    pub not_checked: u8,
-    /// How many rules ask for something where the limit is zero: by how much they are missed cannot be said.
-    pub beyond_all_limits: u8,
-}
-
-impl Outcome {
-    /// How these findings come out under a rule set.
-    pub fn of(rules: &RuleSet, findings: &Findings) -> Self {
-        let mut outcome = Self {
-            verdict: Verdict::Pass,
-            worst_use: 0.0,
-            worst_rule: None,
-            warnings: 0,
-            not_checked: 0,
-            beyond_all_limits: 0,
-        };
-        for (rule, finding) in findings.iter() {
-            let verdict = rules.verdict(rule, finding);
-            outcome.verdict = outcome.verdict.max(verdict);
-            outcome.warnings += u8::from(verdict == Verdict::Warn);
-            outcome.not_checked += u8::from(verdict == Verdict::NotChecked);
-            let used = rules.use_of_limit(rule, finding);
-            if used.is_infinite() {
-                outcome.beyond_all_limits += 1;
-            } else if used > outcome.worst_use {
-                outcome.worst_use = used;
-                outcome.worst_rule = Some(rule);
-            }
-        }
-        outcome
     }
 }
 

@@ -1,12 +1,13 @@
 //! How a selection of drives is listed: as text, CSV or JSON.
 
+mod asked;
 mod choice;
 mod comma;
 mod explanation;
 mod json;
 mod text;
 
-pub(crate) use choice::nearest;
+pub use asked::Asked;
 pub use choice::{List, explained};
 pub use comma::csv;
 pub use explanation::Explanation;

@@ -1,9 +1,9 @@
 //! Columns of numbers as an aligned table, CSV or JSON.
 
-use std::fmt::Write as _;
-
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, TableStyle};
 use serde_json::{Map, Value, json};
+
+use crate::comma;
 
 /// How a result is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -105,28 +105,11 @@ impl Columns {
     }
 
     fn csv(&self) -> String {
-        let names: Vec<String> = self.names.iter().map(|name| quoted(name)).collect();
-        let mut text = names.join(",") + "\n";
-        for row in &self.rows {
-            for (k, value) in row.iter().enumerate() {
-                let comma = if k > 0 { "," } else { "" };
-                // `{:?}` writes the shortest digits that read back to the same number, tiny ones with an exponent;
-                // adding zero makes 0 of −0.
-                let cell = value.map_or(String::new(), |x| format!("{:?}", x + 0.0));
-                let _ = write!(text, "{comma}{cell}");
-            }
-            text.push('\n');
-        }
-        text
-    }
-}
-
-/// A name for CSV: in quotes where it holds a comma, a quote or a line break.
-pub(crate) fn quoted(name: &str) -> String {
-    if name.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", name.replace('"', "\"\""))
-    } else {
-        name.to_owned()
+        let rows = self
+            .rows
+            .iter()
+            .map(|row| row.iter().copied().map(comma::known));
+        comma::row(&self.names) + &comma::rows(rows)
     }
 }
 
@@ -156,11 +139,21 @@ pub fn text_table(header: &[impl ToString]) -> comfy_table::Table {
 
 /// A number with four significant digits.
 pub fn short(x: f64) -> String {
+    significant(x, 4)
+}
+
+/// A number with so many significant digits, six at most; plain between 1e-4 and 1e6, else with an exponent.
+pub fn significant(x: f64, digits: i32) -> String {
     if x == 0.0 || !x.is_finite() {
         return rounded(x);
     }
-    let scale = 10f64.powi(3 - x.abs().log10().floor() as i32);
-    rounded((x * scale).round() / scale)
+    let scale = 10f64.powi(digits - 1 - x.abs().log10().floor() as i32);
+    let cut = (x * scale).round() / scale;
+    if (1e-4..1e6).contains(&cut.abs()) {
+        return rounded(cut);
+    }
+    let places = (digits - 1).max(0) as usize;
+    format!("{x:.places$e}")
 }
 
 /// A number with four significant digits; zero where it is nothing but rounding beside `largest`.

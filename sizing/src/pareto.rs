@@ -35,7 +35,7 @@ impl<'c> Front<'c> {
     pub fn new(selection: &Selection<'c>, objectives: &[Objective]) -> Self {
         let mut unknown = vec![0; objectives.len()];
         let mut points = Vec::new();
-        for candidate in &selection.fit {
+        for candidate in &selection.first_fit(usize::MAX) {
             let values: Vec<Option<f64>> = objectives
                 .iter()
                 .map(|o| o.value(selection, candidate))

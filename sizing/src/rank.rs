@@ -2,7 +2,7 @@
 
 use crate::judge::{Context, Finding};
 use crate::rule::Rule;
-use crate::size::{Candidate, Selection};
+use crate::size::{Candidate, Group, Selection};
 
 /// What a drive is to have little of, or of its margin much.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -124,13 +124,9 @@ fn sum(parts: [Option<f64>; 3]) -> Option<f64> {
 /// Ranks the drives that fit by an objective. Those of which it is not known come last, in their order; equal ones keep
 /// theirs; if it is known of none, the ranking stays. Returns of how many it is not known.
 pub fn rank(selection: &mut Selection, objective: Objective) -> usize {
-    let values = |candidates: &[Candidate]| -> Vec<Option<f64>> {
-        candidates
-            .iter()
-            .map(|c| objective.value(selection, c))
-            .collect()
-    };
-    let costs = values(&selection.fit);
+    selection.complete();
+    let fit = selection.fit.known().iter();
+    let costs: Vec<Option<f64>> = fit.map(|c| objective.value(selection, c)).collect();
     let unknown = costs.iter().filter(|cost| cost.is_none()).count();
     if unknown == costs.len() {
         return unknown;
@@ -148,9 +144,7 @@ pub fn rank(selection: &mut Selection, objective: Objective) -> usize {
             .then_with(|| cost(a).total_cmp(&cost(b)))
     });
     selection.ranking = objective.words();
-    selection.fit = order
-        .iter()
-        .filter_map(|k| selection.fit.get(*k).copied())
-        .collect();
+    let ranked = order.iter().filter_map(|k| selection.fit.known().get(*k).copied());
+    selection.fit = Group::of(ranked.collect());
     unknown
 }

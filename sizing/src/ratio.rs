@@ -22,6 +22,7 @@
 //! numerically, and β stands for T_rms²(i*)/J.
 
 pub mod command;
+pub mod obstacle;
 pub mod ranges;
 
 use crate::catalogue::Motor;

@@ -7,10 +7,11 @@ use askama::Template;
 use jred::Error;
 
 use crate::catalogue::MotorKind;
+use crate::coordinate::Coordinate;
 use crate::duty::Duty;
 use crate::explain::{Breakdown, Cells, Lever, Remedies};
 use crate::judge::Context;
-use crate::listing::{Explanation, nearest};
+use crate::listing::Explanation;
 use crate::machine::MachineFile;
 use crate::output::{Columns, rounded, short};
 use crate::size::{Candidate, Selection};
@@ -25,7 +26,7 @@ mod notes;
 mod rows;
 
 use chart::Chart;
-use drive::Subject;
+use drive::{Subject, TOP};
 use rows::{ChangeRow, CheckRow, FitRow, InertiaRow, ShareRow};
 
 pub use mechanism::mechanism_page;
@@ -71,6 +72,7 @@ struct Page {
     torque_unit: &'static str,
     effects: Vec<ShareRow>,
     parts: Vec<ShareRow>,
+    inertia_word: &'static str,
     inertia_unit: &'static str,
     inertias: Vec<InertiaRow>,
     peak_time: String,
@@ -85,7 +87,7 @@ struct Page {
     partly: usize,
     fit: Vec<FitRow>,
     fit_more: usize,
-    ranking: &'static str,
+    ranking: String,
     refused_count: usize,
     refused: Vec<(String, String)>,
     rule_set: String,
@@ -161,6 +163,7 @@ impl Page {
             torque_unit: units.torque,
             effects: rows::share_rows(&breakdown.effects, &breakdown),
             parts: rows::share_rows(&breakdown.parts, &breakdown),
+            inertia_word: units.inertia_word,
             inertia_unit: units.shown_inertia().0,
             inertias: rows::inertia_rows(&breakdown),
             peak_time: short(breakdown.peak_time),
@@ -191,23 +194,23 @@ impl Page {
             partly: selection.partly_checked(),
             fit: ranked(selection),
             fit_more: selection.fit.len().saturating_sub(LISTED),
-            ranking: selection.ranking,
+            ranking: units.words(selection.ranking),
             refused_count: selection.refused.len(),
-            refused: nearest(selection, REFUSED)
+            refused: (selection.first_refused(REFUSED))
                 .iter()
                 .map(|c| (c.drive.name(), selection.judged(c).reasons()))
                 .collect(),
             rule_set: format!("{}: {}", selection.rules.name, selection.rules.title),
-            rules: rows::rule_rows(selection.rules),
+            rules: rows::rule_rows(selection.rules, units),
             notes: notes::notes(best, duty),
         })
     }
 }
 
 fn ranked(selection: &Selection) -> Vec<FitRow> {
-    let listed = selection.fit.iter().take(LISTED).enumerate();
+    let listed = selection.first_fit(LISTED).into_iter().enumerate();
     listed
-        .map(|(k, candidate)| FitRow::of(k + 1, &selection.judged(candidate)))
+        .map(|(k, candidate)| FitRow::of(k + 1, &selection.judged(&candidate)))
         .collect()
 }
 
@@ -247,7 +250,7 @@ fn cards(best: &crate::drive::Judged, duty: &Duty, units: Units) -> Vec<(String,
             ),
         ),
         card(
-            "inertia ratio λ".to_owned(),
+            format!("{} ratio λ", units.inertia_word),
             format!(
                 "{} to {}",
                 short(motor.inertia_ratio.min),
@@ -294,12 +297,21 @@ fn over_time(subject: &Subject, units: Units) -> Vec<Figure> {
 
 fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec<Figure>, Error> {
     let units = subject.units();
-    Ok(vec![
-        Figure::new(
-            figures::reduced_inertia(file)?,
-            units,
-            "Reduced inertia with flywheel and drive train, and its derivative. Where J_red varies, a drive that knows only a mean value is wrong by ½·J′·ω² at every speed.",
+    let (what, term) = match Coordinate::of(file.machine.mechanism())? {
+        Coordinate::Angle => (
+            "Reduced inertia",
+            "J_red varies, a drive that knows only a mean value is wrong by ½·J′·ω²",
         ),
+        Coordinate::Length => (
+            "Reduced mass",
+            "m_red varies, a drive that knows only a mean value is wrong by ½·m′·v²",
+        ),
+    };
+    let reduced = format!(
+        "{what} with flywheel and drive train, and its derivative. Where {term} at every speed."
+    );
+    Ok(vec![
+        Figure::new(figures::reduced_inertia(file)?, units, &reduced),
         Figure::new(
             figures::reduced_torque(file, mean_speed)?,
             units,
@@ -331,7 +343,9 @@ fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
     vec![Figure::new(
         subject.ratios(from, to),
         units,
-        "What each rule uses of its limit over the gear ratio, the other data of motor and gearbox kept. Where all are below 100 %, the drive holds.",
+        &format!(
+            "What each rule uses of its limit over the gear ratio, the other data of motor and gearbox kept. Where all are below 100 %, the drive holds. A curve ends where it passes {TOP} %, or where the motor has no torque left: the limit is zero beyond its largest speed. Rules that follow time are not drawn."
+        ),
     )]
 }
 

@@ -66,6 +66,16 @@ pub struct Dependence {
 }
 
 impl Dependence {
+    /// Whether it moves no rule at all, and no rule ends its room.
+    pub fn is_idle(&self) -> bool {
+        let still = self.slopes.iter().all(|slope| slope.slope == 0.0);
+        still
+            && self
+                .room
+                .iter()
+                .all(|room| matches!(room, Room::AtLeast(_) | Room::Broken))
+    }
+
     /// The rule that it moves most: of those that can refuse the drive, or else of those that only warn.
     pub fn steepest(&self) -> Option<Slope> {
         let slopes = self.slopes.iter().copied();
@@ -86,6 +96,8 @@ pub struct Sensitivity {
     pub dependences: Vec<Dependence>,
     /// Quantities that were not moved, and why.
     pub fixed: Vec<(usize, String)>,
+    /// How many quantities of `[simulation]` and `[tolerance]` were left out: no rule can depend on them.
+    pub left_out: usize,
 }
 
 /// How a sensitivity is looked for.
@@ -212,11 +224,15 @@ impl Sensitivity {
         let findings = one.findings(&machine);
         let rules = &machine.file.rules;
         let holds = broken(rules, &findings).is_none();
-        // The free motion of `[simulation]` has no bearing on sizing.
+        // The free motion of `[simulation]` and the scatter of `[tolerance]` have no bearing on sizing.
+        let apart = |path: &str| {
+            ["simulation.", "tolerance."]
+                .iter()
+                .any(|at| path.starts_with(at))
+        };
         let quantities = study.document.quantities().iter().enumerate();
-        let quantities: Vec<_> = quantities
-            .filter(|(_, quantity)| !quantity.path.starts_with("simulation."))
-            .collect();
+        let quantities: Vec<_> = quantities.filter(|(_, q)| !apart(&q.path)).collect();
+        let left_out = study.document.quantities().len() - quantities.len();
         let found: Vec<(usize, Result<Dependence, String>)> = quantities
             .into_par_iter()
             .map(|(index, quantity)| {
@@ -262,6 +278,7 @@ impl Sensitivity {
             shares: shares(rules, &findings),
             dependences,
             fixed,
+            left_out,
         })
     }
 

@@ -1,28 +1,30 @@
 //! Sizing: every drive of a catalogue, judged and ranked.
 
-use std::cmp::Ordering;
-
 use rayon::prelude::*;
 
 use crate::catalogue::{Catalogue, Prepared};
-use crate::check::Verdict;
 use crate::cycle::Cycle;
 use crate::drive::{Drive, Judged};
-use crate::judge::{Context, Outcome};
+use crate::judge::{Context, Outcome, Screen};
 use crate::rules::RuleSet;
 use crate::site::Site;
+
+pub mod command;
+mod group;
+mod order;
+
+use group::{Placed, Unranked};
+pub use group::{FIRST, Group};
+use order::{Order, Place};
 
 /// How drives are ranked, in words for reports.
 pub const RANKING: &str = "drives that break no rule, the smallest motor first (rated torque times rated speed), \
      among equal motors without warnings first, then by the largest share of a limit used";
 
-/// How many of the refused drives are put in order, those that miss by least: [`Selection::refused`].
-pub const NEAREST: usize = 64;
-
-/// Motors whose drives a thread takes at a time.
+/// Motors whose drives a thread takes at a time, at least.
 const SHARE: usize = 16;
 
-/// A drive and how it came out, in numbers: small enough (48 bytes) to keep every one of a large catalogue.
+/// A drive and how it came out, in numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Candidate<'c> {
     /// The drive.
@@ -31,9 +33,15 @@ pub struct Candidate<'c> {
     pub motor: &'c Prepared,
     /// How it came out.
     pub outcome: Outcome,
+    /// Its place in the catalogue: equal drives stand in this order.
+    place: Place,
 }
 
 /// All drives, judged.
+///
+/// Which of them fit is known of every one, by every rule. The figures by which drives are ordered are worked out for those
+/// only that stand among the first [`FIRST`] of those that fit, or of those refused: of a large catalogue that is a small part
+/// of the work. [`Selection::complete`] works them out for all.
 #[derive(Clone, Debug)]
 pub struct Selection<'c> {
     /// The prepared duty.
@@ -44,12 +52,16 @@ pub struct Selection<'c> {
     pub rules: &'c RuleSet,
     /// How the drives that fit are ranked, in words; [`RANKING`] unless something else was asked for.
     pub ranking: &'static str,
-    /// Drives that hold every rule, best first; see [`RANKING`].
-    pub fit: Vec<Candidate<'c>>,
-    /// Drives that break a rule. The first [`NEAREST`] are those that miss by least, in this order; the others follow in the
-    /// order of the catalogue: of a large one nearly all are refused, and sorting them would take as long as judging them.
-    /// [`Selection::refused_in_order`] has them all in order.
-    pub refused: Vec<Candidate<'c>>,
+    /// Drives that break no rule, best first; see [`RANKING`].
+    pub fit: Group<'c>,
+    /// Drives that break a rule, those that miss by least first.
+    pub refused: Group<'c>,
+    motors: &'c [Prepared],
+}
+
+/// Whether a drive fits as far as was checked, but not every rule could be.
+const fn is_open(outcome: &Outcome) -> bool {
+    !outcome.fails() && outcome.not_checked > 0
 }
 
 impl<'c> Selection<'c> {
@@ -62,18 +74,23 @@ impl<'c> Selection<'c> {
         site: &'c Site,
         rules: &'c RuleSet,
     ) -> Self {
-        Self::among(catalogue.drives(), motors, cycle, site, rules)
+        let all = catalogue.drives();
+        Self::among(all, catalogue, motors, cycle, site, rules)
     }
 
-    /// Judges these drives only, each with the index of its motor's limits in `motors`.
+    /// Judges these drives of the catalogue only, each with the index of its motor, motor by motor.
     pub fn among(
         drives: impl Iterator<Item = (usize, Drive<'c>)>,
+        catalogue: &'c Catalogue,
         motors: &'c [Prepared],
         cycle: &'c Cycle,
         site: &'c Site,
         rules: &'c RuleSet,
     ) -> Self {
-        Self::judge(drives, motors, cycle, site, rules).in_order()
+        let mut selection = Self::empty(motors, cycle, site, rules);
+        let screen = selection.screen(catalogue);
+        selection.judge(&screen, drives);
+        selection.in_order(&screen)
     }
 
     /// The same as [`Selection::new`] on all cores: the same drives in the same order.
@@ -84,141 +101,149 @@ impl<'c> Selection<'c> {
         site: &'c Site,
         rules: &'c RuleSet,
     ) -> Self {
-        let count = catalogue.motors.len();
-        let parts: Vec<Self> = (0..count.div_ceil(SHARE))
-            .into_par_iter()
-            .map(|part| {
-                let drives = catalogue.drives_of(part * SHARE..((part + 1) * SHARE).min(count));
-                Self::judge(drives, motors, cycle, site, rules)
-            })
-            .collect();
-        let mut selection = Self::empty(cycle, site, rules);
-        for part in parts {
-            selection.fit.extend(part.fit);
-            selection.refused.extend(part.refused);
-        }
-        selection.in_order()
+        let empty = || Self::empty(motors, cycle, site, rules);
+        let screen = empty().screen(catalogue);
+        let all = (0..catalogue.motors.len()).into_par_iter();
+        let judged = all.with_min_len(SHARE).fold(empty, |mut part, index| {
+            part.judge(&screen, catalogue.drives_of(index..index + 1));
+            part
+        });
+        judged.reduce(empty, Self::join).in_order(&screen)
     }
 
-    fn judge(
-        drives: impl Iterator<Item = (usize, Drive<'c>)>,
+    const fn empty(
         motors: &'c [Prepared],
         cycle: &'c Cycle,
         site: &'c Site,
         rules: &'c RuleSet,
     ) -> Self {
-        let mut selection = Self::empty(cycle, site, rules);
-        for (index, drive) in drives {
-            let motor = &motors[index];
-            let outcome = Context::new(cycle, site, drive, motor).outcome(rules);
-            let candidate = Candidate {
-                drive,
-                motor,
-                outcome,
-            };
-            if outcome.verdict == Verdict::Fail {
-                selection.refused.push(candidate);
-            } else {
-                selection.fit.push(candidate);
-            }
-        }
-        selection
-    }
-
-    const fn empty(cycle: &'c Cycle, site: &'c Site, rules: &'c RuleSet) -> Self {
         Self {
             cycle,
             site,
             rules,
             ranking: RANKING,
-            fit: Vec::new(),
-            refused: Vec::new(),
+            fit: Group::none(),
+            refused: Group::none(),
+            motors,
         }
     }
 
-    /// Puts those that fit and the nearest of those refused in order. Equal ones stay in the order of the catalogue, so that the
-    /// result does not depend on how the work was shared out.
-    fn in_order(mut self) -> Self {
-        let power = |c: &Candidate| c.drive.motor.rated_power().unwrap_or(f64::INFINITY);
-        let of_fit = |c: &Candidate| {
-            (
-                power(c),
-                u8::from(c.outcome.warnings > 0),
-                c.outcome.worst_use,
-            )
-        };
-        let fit = Places::of(&self.fit, of_fit);
-        self.fit = fit.sorted().map(|k| self.fit[k]).collect();
-        let mut refused = Places::of(&self.refused, missed);
-        if refused.0.len() > NEAREST {
-            refused.0.select_nth_unstable_by(NEAREST, Place::order);
-            refused.0[..NEAREST].sort_unstable_by(Place::order);
-            // The rest as they were.
-            refused.0[NEAREST..].sort_unstable_by_key(|place| place.index);
-            self.refused = refused.indices().map(|k| self.refused[k]).collect();
-        } else {
-            self.refused = refused.sorted().map(|k| self.refused[k]).collect();
+    fn screen(&self, catalogue: &'c Catalogue) -> Screen<'c> {
+        let any = catalogue.motors.first().zip(self.motors.first());
+        Screen::new(
+            self.cycle,
+            self.site,
+            self.rules,
+            &catalogue.gearboxes,
+            any,
+        )
+    }
+
+    fn judge(&mut self, screen: &Screen<'c>, drives: impl Iterator<Item = (usize, Drive<'c>)>) {
+        let (mut before, mut number) = (usize::MAX, 0);
+        for (index, drive) in drives {
+            number = if index == before { number + 1 } else { 0 };
+            before = index;
+            let place = Place::new(index, number);
+            let (unranked, outcome) = self.bound(screen, &Placed { drive, place });
+            let group = if outcome.fails() {
+                &mut self.refused
+            } else {
+                &mut self.fit
+            };
+            group.add(unranked, is_open(&outcome));
         }
+    }
+
+    /// A drive with what it does not stand before.
+    fn bound(&self, screen: &Screen<'c>, drive: &Placed<'c>) -> (Unranked<'c>, Outcome) {
+        let Placed { drive, place } = *drive;
+        let outcome = screen.judge(drive, &self.motors[place.motor()]);
+        let bound = Order::from(&drive, &outcome, place);
+        (Unranked { drive, bound }, outcome)
+    }
+
+    fn join(mut self, other: Self) -> Self {
+        self.fit.join(other.fit);
+        self.refused.join(other.refused);
         self
     }
 
-    /// All drives that break a rule, those that miss by least first.
-    pub fn refused_in_order(&self) -> Vec<Candidate<'c>> {
-        let sorted = Places::of(&self.refused, missed).sorted();
-        sorted.map(|k| self.refused[k]).collect()
+    fn in_order(mut self, screen: &Screen<'c>) -> Self {
+        let mut groups = [&mut self.fit, &mut self.refused].map(std::mem::take);
+        for group in &mut groups {
+            group.rank(
+                |drive| self.in_full(drive),
+                |drive| self.bound(screen, drive).0,
+            );
+        }
+        [self.fit, self.refused] = groups;
+        self
+    }
+
+    /// Judges every drive in full and puts all in order.
+    pub fn complete(&mut self) {
+        self.fit = self.completed(&self.fit);
+        self.refused = self.completed(&self.refused);
+    }
+
+    fn completed(&self, group: &Group<'c>) -> Group<'c> {
+        let mut all = group.known().to_vec();
+        all.par_extend(group.rest.par_iter().map(|drive| self.in_full(drive)));
+        all.par_sort_unstable_by_key(Order::of);
+        Group::of(all)
+    }
+
+    fn in_full(&self, drive: &Placed<'c>) -> Candidate<'c> {
+        let Placed { drive, place } = *drive;
+        let motor = &self.motors[place.motor()];
+        let context = Context::new(self.cycle, self.site, drive, motor);
+        Candidate {
+            drive,
+            motor,
+            outcome: context.outcome(self.rules),
+            place,
+        }
+    }
+
+    /// The first `count` drives that fit, best first.
+    pub fn first_fit(&self, count: usize) -> Vec<Candidate<'c>> {
+        self.first(&self.fit, count)
+    }
+
+    /// The first `count` refused drives, those that miss by least first.
+    pub fn first_refused(&self, count: usize) -> Vec<Candidate<'c>> {
+        self.first(&self.refused, count)
+    }
+
+    fn first(&self, group: &Group<'c>, count: usize) -> Vec<Candidate<'c>> {
+        let count = count.min(group.len());
+        let known = group.known();
+        match known.get(..count) {
+            Some(first) => first.to_vec(),
+            None => self.completed(group).known()[..count].to_vec(),
+        }
+    }
+
+    /// A drive of the selection by the key of its motor, gearbox and amplifier; judged in full.
+    pub fn find(&self, wanted: impl Fn(&Drive<'c>) -> bool) -> Option<Candidate<'c>> {
+        [&self.fit, &self.refused].into_iter().find_map(|group| {
+            let known = group.known().iter().find(|c| wanted(&c.drive)).copied();
+            known.or_else(|| {
+                let found = group.rest.iter().find(|u| wanted(&u.drive))?;
+                Some(self.in_full(found))
+            })
+        })
+    }
+
+    /// How many of the drives that fit have a rule that could not be checked.
+    pub fn partly_checked(&self) -> usize {
+        self.fit.partly_checked()
     }
 
     /// A candidate by every rule, in words.
     pub fn judged(&self, candidate: &Candidate<'c>) -> Judged<'c> {
         let context = Context::new(self.cycle, self.site, candidate.drive, candidate.motor);
         Judged::new(&context, self.rules)
-    }
-
-    /// How many of the drives that fit have a rule that could not be checked.
-    pub fn partly_checked(&self) -> usize {
-        let open = |c: &&Candidate| c.outcome.not_checked > 0;
-        self.fit.iter().filter(open).count()
-    }
-}
-
-/// By how much a drive misses: rules whose limit is zero first, then the largest share.
-fn missed(candidate: &Candidate) -> (f64, u8, f64) {
-    let outcome = &candidate.outcome;
-    (f64::from(outcome.beyond_all_limits), 0, outcome.worst_use)
-}
-
-/// Where a candidate is, and what it is sorted by: smaller than the candidate itself.
-struct Place {
-    key: (f64, u8, f64),
-    index: usize,
-}
-
-impl Place {
-    fn order(a: &Self, b: &Self) -> Ordering {
-        (a.key.0.total_cmp(&b.key.0))
-            .then_with(|| a.key.1.cmp(&b.key.1))
-            .then_with(|| a.key.2.total_cmp(&b.key.2))
-            .then_with(|| a.index.cmp(&b.index))
-    }
-}
-
-struct Places(Vec<Place>);
-
-impl Places {
-    fn of(candidates: &[Candidate], key: impl Fn(&Candidate) -> (f64, u8, f64)) -> Self {
-        let place = |(index, candidate)| Place {
-            key: key(candidate),
-            index,
-        };
-        Self(candidates.iter().enumerate().map(place).collect())
-    }
-
-    fn sorted(mut self) -> impl Iterator<Item = usize> {
-        self.0.sort_unstable_by(Place::order);
-        self.indices()
-    }
-
-    fn indices(self) -> impl Iterator<Item = usize> {
-        self.0.into_iter().map(|place| place.index)
     }
 }

@@ -10,12 +10,13 @@
 //! | the same without a time constant | [`Model::Steady`]: mean losses; the ripple over the cycle is not followed |
 //! | S1 torques | [`Model::Relative`]: shares of the rated rise, from the squared torque |
 //!
-//! The relative model: at each speed the S1 torque brings the rated rise, so that p(T, n) = (T² + M₀² − T_S1(n)²)/M₀² are
+//! The relative model: at each speed the S1 torque brings the rated rise, so that p(T, n) = T²/M₀² + max(0, 1 − T_S1(n)²/M₀²) are
 //! the losses as a share of the rated ones, and τ·ϑ′ = p − ϑ. What the S1 curve loses from standstill to a speed stands for
-//! friction and iron losses there.
+//! friction and iron losses there. Mean losses, all that counts without time constants: [`mean`].
 
 pub mod classify;
 pub mod course;
+pub mod mean;
 pub mod network;
 pub mod operation;
 pub mod surroundings;
@@ -209,33 +210,6 @@ impl Model {
         Losses {
             copper: root * root,
             other: 0.0,
-        }
-    }
-
-    /// The mean losses. With thermal resistances alone and a current that is proportional to the torque they need no course:
-    /// R·(T_rms/k_t)², and c·|n|‾ + b·n_rms².
-    fn mean_losses(&self, load: &Load) -> Losses {
-        let Load {
-            cycle,
-            coefficients,
-            ratio,
-            motor,
-            prepared,
-        } = *load;
-        let straight = prepared.torques.is_some_and(|curve| !curve.saturates())
-            && !prepared
-                .circuit
-                .as_ref()
-                .is_some_and(|circuit| circuit.weakens);
-        if !(matches!(self, Self::Steady { .. }) && straight) {
-            return self.course(load).mean();
-        }
-        let [coulomb, viscous] = motor.friction;
-        let root = self.root(prepared, cycle.rms_torque(coefficients), 0.0);
-        let speed = cycle.rms_torque(&Coefficients([0.0, 0.0, 0.0, ratio, 0.0]));
-        Losses {
-            copper: root * root,
-            other: coulomb * cycle.mean_speed() * ratio + viscous * speed * speed,
         }
     }
 

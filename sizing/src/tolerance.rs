@@ -1,8 +1,8 @@
 //! How likely a drive holds its rules when quantities of the machine file scatter: Monte Carlo.
 //!
 //! Sample k draws the deviation of every quantity that has a tolerance, in the order of their list, from stream k of ChaCha8
-//! with the seed: a sample is the same whichever thread, share or run computes it. A machine that the reader refuses counts as
-//! one that does not hold. Of n machines, k hold: Wilson's interval is stated for the probability,
+//! with the seed: a sample is the same whichever thread, share or run computes it. A machine that the reader refuses is
+//! counted apart and for no rule. Of n others, k hold: Wilson's interval is stated for the probability,
 //!
 //! ```text
 //! (k + z²/2 ± z·√(k(n − k)/n + z²/4)) / (n + z²),   z = 1.96 for 95 %

@@ -95,10 +95,18 @@ impl Units {
     pub fn words(&self, text: &str) -> String {
         match self.kind {
             MotorKind::Rotary => text.to_owned(),
-            MotorKind::Linear => text
-                .replace("torque", "force")
-                .replace("rotor", "moving part")
-                .replace("inertia", "mass"),
+            MotorKind::Linear => {
+                let words = [
+                    ("torque", "force"),
+                    ("Torque", "Force"),
+                    ("rotor", "moving part"),
+                    ("Rotor", "Moving part"),
+                    ("inertia", "mass"),
+                    ("Inertia", "Mass"),
+                ];
+                let replace = |text: String, (from, to): (&str, &str)| text.replace(from, to);
+                words.into_iter().fold(text.to_owned(), replace)
+            }
         }
     }
 
@@ -122,6 +130,10 @@ mod tests {
         assert_eq!(linear.rule(Rule::PeakTorque), "peak force");
         assert_eq!(linear.rule(Rule::Speed), Rule::Speed.name());
         assert_eq!(linear.words("peak torque"), "peak force");
+        assert_eq!(
+            linear.words("Inertia of the rotor"),
+            "Mass of the moving part"
+        );
         assert_eq!(linear.speed(1.25), "1.250 m/s");
         let rotary = Units::of(MotorKind::Rotary);
         assert_eq!(rotary.rule(Rule::PeakTorque), Rule::PeakTorque.name());

@@ -173,6 +173,12 @@ impl CurrentCurve {
         self.knee * self.slope
     }
 
+    /// Torque from which on the iron saturates (N·m); infinite: no saturation known. Up to there the current is proportional to
+    /// the torque.
+    pub const fn knee(&self) -> f64 {
+        self.knee
+    }
+
     /// Whether saturation is known of.
     pub const fn saturates(&self) -> bool {
         self.knee.is_finite()

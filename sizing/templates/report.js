@@ -1,8 +1,7 @@
 (() => {
-  const palette = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#444444"];
   const height = 330, timeKey = "time", planes = [], plots = [];
   const digits = x => x == null ? "–" : Number(x.toPrecision(4)).toString();
-  const dash = s => s.style === "dashed" ? [6, 5] : undefined;
+  const dash = s => s.dash.length ? s.dash : undefined;
 
   // Values of each series over the union of all x; a series has none where it is not given, and lines pass over that.
   const joined = series => uPlot.join(series.map(s => {
@@ -20,8 +19,8 @@
       axes: [{ label: chart.x }, { label: chart.y, size: 70 }],
       cursor: { drag: { x: true, y: false }, sync: chart.form === "time" ? { key: timeKey } : undefined },
       legend: { live: true },
-      series: [{ label: chart.x, value: (u, v) => digits(v) }].concat(chart.series.map((s, k) => ({
-        label: s.name, scale: s.right ? "r" : "y", stroke: palette[k % palette.length], width: 1.7, dash: dash(s),
+      series: [{ label: chart.x, value: (u, v) => digits(v) }].concat(chart.series.map(s => ({
+        label: s.name, scale: s.right ? "r" : "y", stroke: s.colour, width: 1.7, dash: dash(s),
         spanGaps: true, points: { show: false }, value: (u, v) => digits(v),
       }))),
       hooks: {},
@@ -75,8 +74,8 @@
       axes: [{ label: chart.x }, { label: chart.y, size: 70 }],
       cursor: { drag: { x: true, y: true, setScale: false }, points: { show: false } },
       legend: { live: false },
-      series: [{}].concat(chart.series.map((s, k) => ({
-        label: s.name, stroke: palette[k % palette.length], paths: draw(s), _stroke: palette[k % palette.length],
+      series: [{}].concat(chart.series.map(s => ({
+        label: s.name, stroke: s.colour, paths: draw(s), _stroke: s.colour,
         facets: [{ scale: "x", auto: true }, { scale: "y", auto: true }],
       }))),
       hooks: {

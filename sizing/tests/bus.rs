@@ -4,14 +4,19 @@
 
 #[path = "bus/command.rs"]
 mod command;
+#[path = "bus/cures.rs"]
+mod cures;
 #[path = "bus/drive.rs"]
 mod drive;
+#[path = "bus/phases.rs"]
+mod phases;
+#[path = "bus/several.rs"]
+mod several;
 #[path = "bus/supply.rs"]
 mod supply;
 mod support;
 
 use jred_sizing::bus::Need;
-use jred_sizing::bus::axes::{Axes, Goal};
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::store::{Bus, BusFigures};
 use jred_sizing::bus::supply::{BrakeResistor, BusData};
@@ -161,6 +166,7 @@ fn random_curve(random: &mut ChaCha8Rng, period: f64, level: f64) -> PowerCurve 
 #[test]
 fn energy_balances() {
     let mut random = ChaCha8Rng::seed_from_u64(11);
+    let mut started_full = 0;
     for case in 0..400 {
         let level = 10f64.powf(random.random_range(1.0..4.8));
         let period = 10f64.powf(random.random_range(-2.0..1.0));
@@ -186,7 +192,20 @@ fn energy_balances() {
         near("net", curve.energy(), drawn - back, 1e-9);
         assert!(figures.burnt <= back * (1.0 + 1e-9), "{figures:?}");
         assert!(figures.highest >= bus.voltage);
+        // A period ends where it began, wherever the walk over it did.
+        let trace = bus.trace(&curve);
+        let [first, last] = [trace.first().unwrap()[1], trace.last().unwrap()[1]];
+        near("voltage", last, first, budget::BUS_BALANCE);
+        let stored = 0.5 * bus.capacitance * (first * first - bus.voltage * bus.voltage);
+        within(
+            "stored",
+            figures.stored,
+            stored,
+            budget::BUS_BALANCE * (back + bus.capacitance * first * first),
+        );
+        started_full += u32::from(first > bus.voltage * (1.0 + 1e-6));
     }
+    assert!(started_full > 30, "{started_full}");
 }
 
 /// The same bus in small steps: E += (P_supply − P − P_R)·dt.
@@ -287,89 +306,6 @@ fn curves_move_and_add() {
         }
         near("energy", sum.energy(), a.energy() + 2.0 * b.energy(), 1e-9);
     }
-}
-
-/// Two equal axes that brake while the other drives: half a period apart the one takes what the other gives back. Together
-/// they burn it.
-#[test]
-fn two_axes_in_closed_form() {
-    let push = PowerCurve::new(
-        [[0.0, 900.0], [1.0, 900.0], [1.0, -700.0], [2.0, -700.0]],
-        2.0,
-    );
-    let bus = Bus {
-        capacitance: 0.0,
-        ..BUS
-    };
-    let axes = Axes::new(bus, vec![push.clone(), push]);
-    let apart = axes.at(&[0.0, 1.0]).unwrap();
-    assert_eq!([apart.burnt, apart.highest], [0.0, 560.0]);
-    near("supplied", apart.supplied, 400.0, budget::BUS);
-    let worst = axes.worst(Goal::Resistor).unwrap();
-    assert_eq!(worst.phases, [0.0, 0.0]);
-    near("burnt", worst.figures.burnt, 1400.0, budget::BUS);
-    near("separate", axes.apart(), 700.0, budget::BUS);
-    let bounds = axes.bounds();
-    assert_eq!(
-        [bounds.drawn, bounds.back, bounds.resistor],
-        [1800.0, 1400.0, 700.0]
-    );
-}
-
-/// The search against brute force over a grid that it does not share, and the bounds above both.
-#[test]
-fn phases_by_brute_force() {
-    let mut random = ChaCha8Rng::seed_from_u64(14);
-    for (periods, grid) in [
-        (vec![1.0, 1.0], 1009),
-        (vec![1.0, 0.5], 1009),
-        (vec![0.9, 0.6, 0.9], 37),
-    ] {
-        let curves: Vec<PowerCurve> = periods
-            .iter()
-            .map(|period| random_curve(&mut random, *period, 2000.0))
-            .collect();
-        let axes = Axes::new(BUS, curves);
-        let mut most = [0.0f64; 2];
-        let second = if periods.len() == 3 { grid } else { 1 };
-        for i in 0..grid {
-            for k in 0..second {
-                let part = |n: i32, axis: usize| f64::from(n) / f64::from(grid) * periods[axis];
-                let mut phases = vec![0.0, part(i, 1)];
-                if periods.len() == 3 {
-                    phases.push(part(k, 2));
-                }
-                let figures = axes.at(&phases).unwrap();
-                most = [most[0].max(figures.highest), most[1].max(figures.burnt)];
-            }
-        }
-        let bounds = axes.bounds();
-        for (k, goal) in [Goal::Voltage, Goal::Resistor].into_iter().enumerate() {
-            let worst = axes.worst(goal).unwrap();
-            let found = [worst.figures.highest, worst.figures.burnt][k];
-            let again = axes.at(&worst.phases).unwrap();
-            assert_eq!(worst.figures, again);
-            assert!(
-                found >= most[k] * (1.0 - budget::PHASES),
-                "{goal:?}: {found}, by brute force {}",
-                most[k]
-            );
-            assert!(
-                found <= most[k] * (1.0 + budget::COARSE_PHASES) + 1e-9,
-                "{goal:?}: {found}, by brute force {}",
-                most[k]
-            );
-            assert!(worst.figures.highest <= bounds.highest * (1.0 + 1e-12));
-            let period = axes.power(&[0.0]).unwrap().period();
-            assert!(worst.figures.burnt / period <= bounds.resistor * (1.0 + 1e-12));
-        }
-    }
-    // Periods without a common multiple have bounds only.
-    let curves =
-        [1.0, std::f64::consts::SQRT_2].map(|period| random_curve(&mut random, period, 1000.0));
-    let axes = Axes::new(BUS, curves.to_vec());
-    assert!(!axes.repeats() && axes.worst(Goal::Voltage).is_none() && axes.at(&[0.0; 2]).is_none());
-    assert!(axes.bounds().highest > 560.0);
 }
 
 /// The resistor that is asked for is just enough, and what is smaller is not.

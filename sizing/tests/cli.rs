@@ -2,16 +2,19 @@
 // Copied figures, counts and zeros are exact.
 #![allow(clippy::float_cmp)]
 
+#[path = "cli/forms.rs"]
+mod forms;
 #[path = "cli/mistakes.rs"]
 mod mistakes;
+#[path = "cli/why.rs"]
+mod why;
 mod support;
 
 use std::io::Read as _;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use support::json::row_numbers;
-use support::{Columns, Folder, Run, edited, edited_press, jred, press_file, press_text};
+use support::{Folder, Run, edited, edited_press, jred, press_file, press_text};
 
 fn export(file: &Path, more: &[&str], out: &Path) -> Run {
     let mut arguments: Vec<&str> = vec!["export", file.to_str().unwrap()];
@@ -203,144 +206,6 @@ fn help_names_the_exit_codes() {
         done_says(&help, &["Usage: jred", "--format"]);
     }
     done_says(&run(&["--version"]).ends(0), &["jred 0."]);
-}
-
-/// CSV and JSON carry every digit: both read back to the same numbers, bit for bit.
-#[test]
-fn csv_and_json_carry_every_digit() {
-    let press = press_file();
-    for arguments in [
-        vec!["reduce", "--positions", "97", "--links"],
-        vec!["reduce", "--positions", "97", "--over", "time"],
-        vec!["simulate"],
-    ] {
-        let text = |format: &'static str| {
-            let mut arguments = arguments.clone();
-            arguments.extend([press.to_str().unwrap(), "--format", format]);
-            run(&arguments).ends(0).out
-        };
-        let csv = Columns::of_csv(&text("csv"));
-        let json = text("json");
-        let numbers = row_numbers(&json);
-        let cells: Vec<Option<f64>> = csv.rows.concat();
-        assert_eq!(cells.len(), numbers.len());
-        assert!(cells.len() > 97 * 10);
-        for (a, b) in cells.iter().zip(&numbers) {
-            assert_eq!(a.map(f64::to_bits), b.map(f64::to_bits), "{a:?} and {b:?}");
-        }
-        // Numbers of full precision, not rounded ones: most need sixteen or seventeen digits.
-        let long = text("csv")
-            .split([',', '\n'])
-            .filter(|cell| cell.chars().filter(char::is_ascii_digit).count() >= 15)
-            .count();
-        assert!(long > cells.len() / 4, "{long} of {}", cells.len());
-        let parsed = Columns::of_json(&serde_json::from_str(&json).unwrap());
-        assert_eq!(parsed.names, csv.names);
-    }
-}
-
-/// The verdicts in CSV are those in JSON.
-#[test]
-fn sizes_agree_between_csv_and_json() {
-    let press = press_file();
-    let csv = jred([&"size", &press, &"--all", &"--format", &"csv"]);
-    let csv = csv.ends(0).out;
-    let json = jred([&"size", &press, &"--all", &"--format", &"json"]);
-    let json = json.ends(0).json();
-    let drives = json["fit"].as_array().unwrap().iter();
-    let drives = drives.chain(json["refused"].as_array().unwrap());
-    let mut rows = csv::Reader::from_reader(csv.as_bytes());
-    let names = rows.headers().unwrap().clone();
-    assert_eq!(
-        names.iter().collect::<Vec<_>>().join(","),
-        "rank,motor,gearbox,ratio,verdict,rule,figure,limit,unit,note"
-    );
-    let mut records = rows.records();
-    for (k, drive) in drives.enumerate() {
-        for check in drive["checks"].as_array().unwrap() {
-            let row = records.next().unwrap().unwrap();
-            let fits = k < json["fit"].as_array().unwrap().len();
-            assert_eq!(
-                row[0],
-                if fits {
-                    (k + 1).to_string()
-                } else {
-                    String::new()
-                }
-            );
-            assert_eq!(&row[1], drive["motor"].as_str().unwrap());
-            assert_eq!(&row[2], drive["gearbox"].as_str().unwrap_or(""));
-            assert_eq!(&row[5], check["rule"].as_str().unwrap());
-            let near = |cell: &str, value: &serde_json::Value| {
-                let (a, b): (f64, f64) = (cell.parse().unwrap(), value.as_f64().unwrap());
-                assert!((a - b).abs() <= 1e-15 * b.abs(), "{a} and {b}");
-            };
-            match check["value"].as_f64() {
-                Some(_) => near(&row[6], &check["value"]),
-                None => assert_eq!(&row[6], ""),
-            }
-            match check["limit"].as_f64() {
-                Some(_) => near(&row[7], &check["limit"]),
-                None => assert_eq!(&row[7], ""),
-            }
-        }
-    }
-    assert!(records.next().is_none());
-}
-
-#[test]
-fn every_column_has_a_unit() {
-    let press = press_file();
-    for columns in [
-        jred([&"reduce", &press, &"--format", &"csv", &"--links"]),
-        jred([&"reduce", &press, &"--format", &"csv", &"--over", &"time"]),
-        jred([&"simulate", &press, &"--format", &"csv"]),
-    ] {
-        let columns = columns.ends(0).columns();
-        for name in &columns.names {
-            assert!(name.ends_with(']') && name.contains(" ["), "{name}");
-        }
-        let mut names = columns.names.clone();
-        names.sort();
-        names.dedup();
-        assert_eq!(names.len(), columns.names.len(), "a name is there twice");
-    }
-}
-
-#[test]
-fn positions_and_times() {
-    let press = press_file();
-    for positions in [2usize, 7, 36] {
-        let run = jred([
-            &"reduce",
-            &press,
-            &"--format",
-            &"csv",
-            &"--positions",
-            &positions.to_string(),
-        ]);
-        let phi = run.ends(0).columns().get("phi [deg]");
-        assert_eq!(phi.len(), positions);
-        for (k, phi) in phi.iter().enumerate() {
-            let expected = 360.0 * k as f64 / positions as f64;
-            assert!((phi - expected).abs() < 1e-12, "{phi} and {expected}");
-        }
-    }
-    let run = jred([
-        &"reduce",
-        &press,
-        &"--over",
-        &"time",
-        &"--positions",
-        &"6",
-        &"--format",
-        &"csv",
-    ]);
-    let times = run.ends(0).columns().get("t [s]");
-    assert_eq!(times.len(), 6);
-    for (k, t) in times.iter().enumerate() {
-        assert!((t - 0.1 * k as f64).abs() < 1e-15);
-    }
 }
 
 #[test]

@@ -4,6 +4,8 @@
 mod catalogue;
 #[path = "cycle/random.rs"]
 mod random;
+#[path = "cycle/screen.rs"]
+mod screen;
 mod support;
 
 use jred_sizing::cycle::Cycle;

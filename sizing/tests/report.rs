@@ -3,6 +3,8 @@
 #![allow(clippy::float_cmp)]
 
 mod support;
+#[path = "report/words.rs"]
+mod words;
 
 use std::path::Path;
 

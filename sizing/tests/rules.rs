@@ -4,6 +4,8 @@
 
 #[path = "rules/backlash.rs"]
 mod backlash;
+#[path = "rules/chosen.rs"]
+mod chosen;
 #[path = "rules/emergency.rs"]
 mod emergency;
 #[path = "rules/gearbox.rs"]

@@ -4,6 +4,8 @@
 
 #[path = "search/filter.rs"]
 mod filter;
+#[path = "search/obstacle.rs"]
+mod obstacle;
 #[path = "search/ratio.rs"]
 mod ratio;
 mod support;
@@ -83,6 +85,7 @@ fn ranked_by_what_was_asked_for() {
         assert_eq!(selection.fit.len(), before);
         let values: Vec<Option<f64>> = selection
             .fit
+            .known()
             .iter()
             .map(|c| objective.value(&selection, c))
             .collect();
@@ -100,7 +103,7 @@ fn ranked_by_what_was_asked_for() {
             values[..known].is_sorted_by(|a, b| sign * a.unwrap() <= sign * b.unwrap()),
             "{objective:?}: {values:?}"
         );
-        let missing = selection.fit.iter().filter(|c| match objective {
+        let missing = selection.fit.known().iter().filter(|c| match objective {
             Objective::Mass => c.drive.motor.mass.is_none(),
             Objective::Price => c.drive.motor.price.is_none(),
             _ => false,
@@ -111,6 +114,7 @@ fn ranked_by_what_was_asked_for() {
     let selection = select();
     let candidate = selection
         .fit
+        .known()
         .iter()
         .find(|c| c.drive.motor.mass.is_some() && c.drive.gearbox.is_some())
         .unwrap();
@@ -141,9 +145,8 @@ fn ranked_by_what_was_asked_for() {
         &case.file.rules,
     );
     let names = |selection: &Selection| {
-        selection
-            .fit
-            .iter()
+        let fit = selection.first_fit(usize::MAX);
+        fit.iter()
             .map(|c| c.drive.name())
             .collect::<Vec<_>>()
     };
@@ -175,7 +178,7 @@ fn the_front_is_what_nothing_beats() {
         &[Objective::Power, Objective::Energy, Objective::Price],
     ] {
         let front = Front::new(&selection, objectives);
-        let values: Vec<(String, Vec<f64>)> = (selection.fit.iter())
+        let values: Vec<(String, Vec<f64>)> = (selection.first_fit(usize::MAX).iter())
             .filter_map(|c| {
                 let values: Option<Vec<f64>> =
                     objectives.iter().map(|o| o.value(&selection, c)).collect();
@@ -316,7 +319,7 @@ fn temperatures_are_compared_as_shares() {
         &case.file.rules,
     );
     let mut compared = 0;
-    for candidate in &selection.fit {
+    for candidate in &selection.first_fit(usize::MAX) {
         let Some(value) = Objective::Temperature.value(&selection, candidate) else {
             continue;
         };

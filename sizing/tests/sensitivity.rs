@@ -296,6 +296,70 @@ fn the_command_lists_quantities() {
     );
 }
 
+/// What moves no rule is counted, not listed; three digits, and no rounding noise, no line wider than a page.
+#[test]
+fn the_table_leaves_out_what_moves_nothing() {
+    let folder = Folder::new();
+    let text = RACK.to_owned()
+        + "\n[simulation]\nstart_angle = \"0 deg\"\nduration = \"1 s\"\nstart_speed = \"0 rpm\"\noutput_step = \"0.1 s\"\ntorque = \"1 N m\"\n"
+        + "\n[tolerance]\n\"rack.mass\" = \"2 kg\"\n";
+    let rack = folder.file("rack.toml", text);
+    let out = |format: &str| {
+        let run = jred([
+            &"sensitivity",
+            &rack,
+            &"--steps",
+            &"64",
+            &"--most",
+            &"5",
+            &"--format",
+            &format,
+        ]);
+        run.ends(0).out
+    };
+    let (table, csv) = (out("table"), out("csv"));
+    assert!(
+        table.contains("5 quantities of [simulation] and [tolerance] left out"),
+        "{table}"
+    );
+    assert!(
+        !table.contains("simulation.")
+            && !csv.contains("simulation.")
+            && !csv.contains("tolerance.")
+    );
+    let rows = table
+        .lines()
+        .skip(3)
+        .take_while(|line| !line.starts_with("first to break") && !line.starts_with("no quantity"));
+    let rows: Vec<&str> = rows.collect();
+    assert!(rows.len() > 3);
+    for row in rows {
+        assert!(row.chars().count() <= 120, "{row}");
+        assert!(!row.contains("nothing") && !row.contains("e-"), "{row}");
+        for cell in row
+            .split_whitespace()
+            .filter(|cell| cell.parse::<f64>().is_ok())
+        {
+            let digits = cell
+                .trim_start_matches(['-', '0', '.'])
+                .chars()
+                .filter(char::is_ascii_digit);
+            assert!(digits.count() <= 3, "{cell} in {row}");
+        }
+    }
+    // Gravity is across the axis: in CSV with a slope of zero, in the table by name only.
+    assert!(
+        csv.lines()
+            .any(|line| line.starts_with("gravity.1,") && line.contains(",nothing,")),
+        "{csv}"
+    );
+    let idle = table
+        .lines()
+        .find(|line| line.contains("move no rule"))
+        .unwrap();
+    assert!(idle.contains("gravity.1"), "{idle}");
+}
+
 /// A context of the study's drive: the same findings as those of `One`.
 #[test]
 fn one_drive_is_judged_as_in_the_catalogue() {

@@ -74,12 +74,28 @@ fn an_answer_without_a_drive_follows_it_as_well() {
 /// The schema can be violated: it is no schema that takes everything.
 #[test]
 fn the_schema_refuses_what_is_wrong() {
-    let run = jred([&"size", &press_file(), &"--top", &"1", &"--format", &"json"]);
+    let best = jred([&"size", &press_file(), &"--top", &"1", &"--format", &"json"]).json();
+    let mut name = best["fit"][0]["motor"].as_str().unwrap().to_owned();
+    if let Some(gearbox) = best["fit"][0]["gearbox"].as_str() {
+        name = format!("{name}+{gearbox}");
+    }
+    let run = jred([
+        &"size",
+        &press_file(),
+        &"--top",
+        &"1",
+        &"--why",
+        &name,
+        &"--format",
+        &"json",
+    ]);
     let answer = run.ends(0).json();
     check(&answer);
+    assert_eq!(answer["asked"]["rank"], 1);
     let schema = schema();
-    let spoilt: [(&str, Value); 5] = [
+    let spoilt: [(&str, Value); 6] = [
         ("/schema", json!("jred-size/1")),
+        ("/asked/rank", json!(0)),
         ("/cycle [s]", json!("0.5 s")),
         ("/counts/fit", json!(-1)),
         ("/fit/0/checks/0/verdict", json!("good")),
@@ -116,12 +132,15 @@ fn a_drive_can_be_named() {
         None => motor.to_owned(),
     };
     let why = named(&name, 0).json();
+    check(&why);
+    assert!(why["asked"]["rank"].is_null());
+    assert_eq!(why["asked"]["motor"], motor);
     let change = &why["explanation"]["change"];
     assert_eq!(change["holds"], false);
     assert!(change["drive"].as_str().unwrap().contains(motor));
     assert!(!change["misses"].as_array().unwrap().is_empty());
     named("fxm33-30a+npt025mf-33", 2).says(&[
         "the catalogue has no drive \"fxm33-30a+npt025mf-33\"",
-        "did you mean fxm33-30a+npt025mf-3?",
+        "did you mean \"fxm33-30a + npt025mf-3\"?",
     ]);
 }

@@ -6,13 +6,18 @@
 mod drives;
 #[path = "thermal/duty_types.rs"]
 mod duty_types;
+#[path = "thermal/mean.rs"]
+mod mean;
+#[path = "cycle/random.rs"]
+#[allow(dead_code, reason = "envelopes are those of the cycle's own tests")]
+mod random;
 mod support;
 
 use jred_sizing::overload;
 use jred_sizing::thermal::course::{Course, Hottest, Point};
 use jred_sizing::thermal::network::{Losses, Network, steady};
 use jred_sizing::thermal::operation::Operation;
-use support::{budget, near, within};
+use support::{brute, budget, near, within};
 
 const COLD: Losses = Losses {
     copper: 0.0,

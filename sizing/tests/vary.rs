@@ -267,6 +267,36 @@ fn a_machine_that_is_refused_is_a_row() {
     assert_eq!(rows[1]["verdict"], "fits");
 }
 
+/// No machine with a drive is an answer of its own: the exit code of `jred size` that finds none. A share leaves the answer to
+/// the whole.
+#[test]
+fn one_when_no_machine_has_a_drive() {
+    let (press, out) = (press_file(), Folder::new());
+    let vary = |values: &str, code: i32| {
+        let run = jred([&"vary", &press, &"--vary", &values, &"--steps", &"64"]);
+        run.ends(code).out
+    };
+    let none = vary("load.pressing force.force.0=-900,-800kN", 1);
+    assert!(none.contains("0 of 2 machines have a drive"), "{none}");
+    let one = vary("load.pressing force.force.0=-900,-10kN", 0);
+    assert!(one.contains("1 of 2 machines have a drive"), "{one}");
+    jred([
+        &"vary",
+        &press,
+        &"--vary",
+        &"load.pressing force.force.0=-900,-800kN",
+        &"--steps",
+        &"64",
+        &"--shard",
+        &"0/2",
+        &"--out",
+        &out.path("share.csv"),
+    ])
+    .ends(0);
+    let help = jred([&"vary", &"--help"]).ends(0).out;
+    assert!(help.contains("1 none of the machines has"), "{help}");
+}
+
 #[test]
 fn what_cannot_be_varied_is_said() {
     let press = press_file();

@@ -8,6 +8,8 @@
 use serde::Serialize;
 
 use super::curve::PowerCurve;
+use super::period::Common;
+use super::phases::{Found, Phases, Watch};
 use super::store::{Bus, BusFigures};
 
 /// Axes on a bus.
@@ -15,20 +17,40 @@ use super::store::{Bus, BusFigures};
 pub struct Axes {
     bus: Bus,
     curves: Vec<PowerCurve>,
-    /// Common period (s) and how often each axis's own fits into it; `None`: there is none.
-    common: Option<(f64, Vec<u32>)>,
+    common: Common,
+    /// The curves over the common period; empty where that is not searched.
+    whole: Vec<PowerCurve>,
 }
 
-/// What a search over the phases looks for.
+/// What a search over the phases looks for: the phases at which it is largest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Goal {
     /// Highest voltage of the bus.
     Voltage,
     /// Energy of the brake resistor.
     Resistor,
+    /// Its largest power.
+    Peak,
+    /// Its largest energy without a pause.
+    Pulse,
 }
 
-/// The worst phases found.
+impl Goal {
+    /// All of them, in the order of [`Goal::of`].
+    pub const ALL: [Self; 4] = [Self::Voltage, Self::Resistor, Self::Peak, Self::Pulse];
+
+    /// The figure that it looks at.
+    pub const fn of(self, figures: &BusFigures) -> f64 {
+        match self {
+            Self::Voltage => figures.highest,
+            Self::Resistor => figures.burnt,
+            Self::Peak => figures.burnt_peak,
+            Self::Pulse => figures.pulse,
+        }
+    }
+}
+
+/// Phases that were found.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Worst {
     /// How much later each axis starts than the first (s).
@@ -50,32 +72,27 @@ pub struct Bounds {
     /// Highest voltage (V).
     #[serde(rename = "highest voltage [V]")]
     pub highest: f64,
-    /// Mean power of the brake resistor (W): all that comes back.
+    /// Mean power of a brake resistor (W): all that comes back.
     #[serde(rename = "resistor mean [W]")]
     pub resistor: f64,
 }
 
-/// The largest number of cycles of an axis in a common period.
-const MOST_CYCLES: u32 = 64;
-
-/// How well the periods must fit into each other, as a share.
-const FIT: f64 = 1e-9;
-
-/// Phases of a grid for two axes, for three, and for one phase of many.
-const GRID: [u32; 3] = [720, 48, 48];
-
-/// Rounds of closing in on a worst phase, and parts of each.
-const ROUNDS: u32 = 4;
-const PARTS: u32 = 16;
-
 impl Axes {
     /// Axes with these powers on a bus.
     pub fn new(bus: Bus, curves: Vec<PowerCurve>) -> Self {
-        let common = common(&curves);
+        let common = Common::of(&curves);
+        let whole = match &common {
+            Common::Searched { cycles, .. } => {
+                let each = curves.iter().zip(cycles);
+                each.map(|(curve, count)| curve.repeated(*count)).collect()
+            }
+            Common::TooLong { .. } | Common::None => Vec::new(),
+        };
         Self {
             bus,
             curves,
             common,
+            whole,
         }
     }
 
@@ -84,21 +101,26 @@ impl Axes {
         &self.bus
     }
 
-    /// Whether the cycles repeat together.
-    pub const fn repeats(&self) -> bool {
-        self.common.is_some()
+    /// The same axes on another bus.
+    #[must_use]
+    pub fn on(&self, bus: Bus) -> Self {
+        Self {
+            bus,
+            ..self.clone()
+        }
     }
 
-    /// The power of all axes over the common period, each started later by its phase (s). `None`: no common period.
+    /// Whether the cycles repeat together.
+    pub const fn common(&self) -> &Common {
+        &self.common
+    }
+
+    /// The power of all axes over the common period, each started later by its phase (s). `None`: that is not searched.
     pub fn power(&self, phases: &[f64]) -> Option<PowerCurve> {
-        let (_, counts) = self.common.as_ref()?;
-        let moved = self.curves.iter().zip(counts).enumerate();
-        let mut moved = moved.map(|(k, (curve, count))| {
-            let phase = phases.get(k).copied().unwrap_or(0.0);
-            curve.shifted(phase).repeated(*count)
-        });
-        let first = moved.next()?;
-        Some(moved.fold(first, |sum, next| sum.plus(&next)))
+        let all = phases.iter().copied().chain(std::iter::repeat(0.0));
+        let phases: Vec<f64> = all.take(self.whole.len()).collect();
+        let reach = [];
+        (!self.whole.is_empty()).then(|| self.phases(&reach).all(&phases))
     }
 
     /// What the bus does at these phases.
@@ -106,93 +128,55 @@ impl Axes {
         Some(self.bus.run(&self.power(phases)?))
     }
 
-    /// The worst phases. `None`: no common period.
-    pub fn worst(&self, goal: Goal) -> Option<Worst> {
-        self.common.as_ref()?;
-        let value = |phases: &[f64]| {
-            let figures = self.at(phases).unwrap_or_default();
-            match goal {
-                Goal::Voltage => figures.highest,
-                Goal::Resistor => figures.burnt,
-            }
-        };
-        let free = self.curves.len() - 1;
-        let periods: Vec<f64> = self.curves.iter().map(PowerCurve::period).collect();
-        let mut best = (vec![0.0; self.curves.len()], f64::NEG_INFINITY);
-        let tried = |phases: &[f64], best: &mut (Vec<f64>, f64)| {
-            let found = value(phases);
-            if found > best.1 {
-                *best = (phases.to_vec(), found);
-            }
-        };
-        tried(&best.0.clone(), &mut best);
-        let step = |axis: usize, grid: u32| periods[axis] / f64::from(grid);
-        let grid = match free {
-            0 | 1 => GRID[0],
-            2 => GRID[1],
-            _ => GRID[2],
-        };
-        match free {
-            0 => {}
-            1 | 2 => {
-                let second = if free == 2 { grid } else { 1 };
-                for i in 0..grid {
-                    for k in 0..second {
-                        let mut phases = vec![0.0, f64::from(i) * step(1, grid)];
-                        if free == 2 {
-                            phases.push(f64::from(k) * step(2, grid));
-                        }
-                        tried(&phases, &mut best);
-                    }
-                }
-            }
-            _ => {
-                // Starts that spread evenly: multiples of the golden section, one for each axis.
-                const SECTION: f64 = 0.618_033_988_749_894_9;
-                for start in 0..4 {
-                    let spread = |axis: usize| {
-                        let part = (start * axis) as f64 * SECTION;
-                        part.fract() * periods[axis]
-                    };
-                    let mut local: (Vec<f64>, f64) =
-                        ((0..=free).map(spread).collect(), f64::NEG_INFINITY);
-                    tried(&local.0.clone(), &mut local);
-                    loop {
-                        let before = local.1;
-                        for axis in 1..=free {
-                            let mut phases = local.0.clone();
-                            for i in 0..grid {
-                                phases[axis] = f64::from(i) * step(axis, grid);
-                                tried(&phases, &mut local);
-                            }
-                        }
-                        if local.1 <= before {
-                            break;
-                        }
-                    }
-                    if local.1 > best.1 {
-                        best = local;
-                    }
-                }
-            }
+    fn phases<'a>(&'a self, reach: &'a [f64]) -> Phases<'a> {
+        Phases {
+            whole: &self.whole,
+            reach,
+            periods: self.curves.iter().map(PowerCurve::period).collect(),
         }
-        let mut width = 1.0;
-        for _ in 0..ROUNDS {
-            for axis in 1..=free {
-                let centre = best.0.clone();
-                for i in 0..=2 * PARTS {
-                    let mut phases = centre.clone();
-                    let off = (f64::from(i) / f64::from(PARTS) - 1.0) * width * step(axis, grid);
-                    phases[axis] = (centre[axis] + off).rem_euclid(periods[axis]);
-                    tried(&phases, &mut best);
-                }
-            }
-            width /= f64::from(PARTS);
+    }
+
+    /// The worst phases for each [`Goal`], in the order of [`Goal::ALL`]. `None`: the common period is not searched.
+    pub fn worst(&self, watch: &dyn Watch) -> Option<[Worst; 4]> {
+        let figures = |figures: &BusFigures| Goal::ALL.map(|goal| goal.of(figures));
+        self.largest(figures, watch)
+    }
+
+    /// The phases at which each of these figures is largest. `None`: the common period is not searched.
+    pub fn largest<const N: usize>(
+        &self,
+        of: impl Fn(&BusFigures) -> [f64; N] + Sync,
+        watch: &dyn Watch,
+    ) -> Option<[Worst; N]> {
+        if self.whole.is_empty() {
+            return None;
         }
-        let figures = self.at(&best.0)?;
-        Some(Worst {
-            phases: best.0,
-            figures,
+        let reach = self.common.reach();
+        let phases = self.phases(&reach);
+        let found = phases.search(
+            self.depends_on_phases(),
+            |power| of(&self.bus.run(power)),
+            watch,
+        );
+        Some(found.map(|Found { phases, .. }| Worst {
+            figures: self.at(&phases).unwrap_or(BusFigures::UNBOUNDED),
+            phases,
+        }))
+    }
+
+    /// Whether the phases matter beyond whether anything comes back at all.
+    fn depends_on_phases(&self) -> bool {
+        let [drawn, back] = self.mean();
+        let bare = self.bus.resistor.is_none();
+        let unbounded = bare && (self.bus.capacitance <= 0.0 || back > drawn);
+        !(self.bus.regenerative || back == 0.0 || unbounded)
+    }
+
+    /// Mean power drawn, and fed back, by all axes, each for itself (W).
+    pub fn mean(&self) -> [f64; 2] {
+        self.curves.iter().fold([0.0; 2], |[drawn, back], curve| {
+            let [d, b] = curve.energies();
+            [drawn + d / curve.period(), back + b / curve.period()]
         })
     }
 
@@ -214,24 +198,19 @@ impl Axes {
             let [least, most] = curve.extremes();
             bounds.drawn += most.max(0.0);
             bounds.back += (-least).max(0.0);
-            let [_, back] = curve.energies();
-            bounds.resistor += back / curve.period();
             let highest = alone.run(curve).highest;
             stored += highest * highest - self.bus.voltage * self.bus.voltage;
         }
         if self.bus.regenerative || bounds.back == 0.0 {
-            bounds.resistor = 0.0;
             return bounds;
         }
+        [_, bounds.resistor] = self.mean();
         let voltage = (self.bus.voltage * self.bus.voltage + stored).sqrt();
         bounds.highest = match self.bus.resistor {
             // The resistor lets the voltage rise to where it comes on, or to where it takes the largest power.
             Some([on, resistance]) => voltage.min(on.max((bounds.back * resistance).sqrt())),
             None => voltage,
         };
-        if self.bus.resistor.is_none() {
-            bounds.resistor = 0.0;
-        }
         bounds
     }
 
@@ -246,20 +225,4 @@ impl Axes {
         let mean = |curve: &PowerCurve| alone.run(curve).burnt / curve.period();
         self.curves.iter().map(mean).sum()
     }
-}
-
-/// The shortest common period, and how often each period fits into it.
-fn common(curves: &[PowerCurve]) -> Option<(f64, Vec<u32>)> {
-    let first = curves.first()?.period();
-    (1..=MOST_CYCLES).find_map(|count| {
-        let whole = first * f64::from(count);
-        let counts = curves.iter().map(|curve| {
-            let times = whole / curve.period();
-            let near = times.round();
-            let fits = (1.0..=f64::from(MOST_CYCLES)).contains(&near)
-                && (times - near).abs() <= FIT * near;
-            fits.then_some(near as u32)
-        });
-        Some((whole, counts.collect::<Option<Vec<u32>>>()?))
-    })
 }

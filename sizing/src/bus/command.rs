@@ -4,11 +4,14 @@ use std::path::Path;
 
 use miette::{IntoDiagnostic as _, Result, miette};
 
-use super::axes::{Axes, Bounds, Goal, Worst};
+use indicatif::ProgressBar;
+
+use super::axes::{Axes, Bounds, Worst};
+use super::cure::{Cure, share};
 use super::curve::PowerCurve;
 use super::store::BusFigures;
 use super::supply::{BusData, Supply};
-use super::{Need, power};
+use super::{Need, Watch, power};
 use crate::catalogue::Catalogue;
 use crate::cli::bus::Bus as Options;
 use crate::commands::{Done, fit_input, print};
@@ -17,6 +20,7 @@ use crate::duty::Duty;
 use crate::listing;
 use crate::machine::MachineFile;
 use crate::output::Format;
+use crate::site::Site;
 use crate::size::Selection;
 use crate::{input, variator};
 
@@ -25,7 +29,7 @@ pub(super) struct Axis {
     pub(super) title: String,
     pub(super) drive: String,
     pub(super) curve: PowerCurve,
-    pub(super) data: BusData,
+    data: BusData,
     pub(super) holds: bool,
 }
 
@@ -36,11 +40,25 @@ pub(super) struct Answer {
     pub(super) shared: Axes,
     pub(super) in_step: Option<BusFigures>,
     pub(super) power: Option<PowerCurve>,
-    /// Worst phases for the voltage and for the brake resistor.
-    pub(super) worst: Option<[Worst; 2]>,
+    /// Worst phases, in the order of [`Goal::ALL`](super::axes::Goal::ALL).
+    pub(super) worst: Option<[Worst; 4]>,
+    /// The phases that take the smallest share of the limits.
+    pub(super) calmest: Option<Worst>,
     pub(super) bounds: Bounds,
+    /// The brake resistor that is needed where there is none, or none that does.
     pub(super) need: Option<Need>,
     pub(super) proposal: Option<String>,
+    pub(super) cures: Vec<Cure>,
+}
+
+impl Watch for ProgressBar {
+    fn planned(&self, count: u64) {
+        self.inc_length(count);
+    }
+
+    fn done(&self, count: u64) {
+        self.inc(count);
+    }
 }
 
 /// Runs the command.
@@ -50,18 +68,23 @@ pub(super) struct Answer {
 pub fn run(options: &Options) -> Result<Done> {
     let catalogue = options.catalogue.open()?;
     let files = options.files.iter().map(|path| input::read(path));
-    let files = files.collect::<Result<Vec<MachineFile>>>()?;
-    same_supply(options, &files)?;
+    let mut files = files.collect::<Result<Vec<MachineFile>>>()?;
+    let [own, common] = supply(options, &files)?;
     let named = named(options)?;
     let mut axes = Vec::new();
-    for (k, (path, file)) in options.files.iter().zip(&files).enumerate() {
+    for (k, (path, file)) in options.files.iter().zip(&mut files).enumerate() {
         let name = named
             .iter()
             .find(|(axis, _)| *axis == k)
             .map(|(_, n)| n.as_str());
-        axes.push(axis(path, file, &catalogue, name, options.steps)?);
+        file.site.bus_voltage = own.bus_voltage;
+        file.site.supply = common.supply;
+        axes.push(axis(path, file, &own, &catalogue, name, options.steps)?);
     }
-    let answer = Answer::new(options, axes, &files[0].site.supply, &catalogue)?;
+    // Drawn on standard error, and only where that is a terminal.
+    let bar = ProgressBar::new(0);
+    let answer = Answer::new(options, axes, &own.supply, &catalogue, &bar)?;
+    bar.finish_and_clear();
     match options.format {
         Format::Table => print(&answer.text(options))?,
         Format::Csv => print(&answer.csv()?)?,
@@ -74,23 +97,35 @@ pub fn run(options: &Options) -> Result<Done> {
     })
 }
 
-/// All axes hang on the bus of the first file: another file may leave its supply out, or say the same.
-fn same_supply(options: &Options, files: &[MachineFile]) -> Result<()> {
-    let supply = |file: &MachineFile| (file.site.supply, file.site.bus_voltage);
-    let Some(first) = files.first().map(supply) else {
-        return Ok(());
-    };
-    for (path, file) in options.files.iter().zip(files).skip(1) {
-        if file.site.supply.given && supply(file) != first {
-            return Err(miette!(
-                help = "axes on one bus have one supply: leave [supply] out of all files but the first, or make them equal",
-                "{} has another [supply] than {}",
-                path.display(),
-                options.files[0].display()
-            ));
-        }
+/// The supply of the bus, and with what an axis is judged: all axes hang on the bus that one of the files states; the others
+/// leave their supply out, or say the same. What comes back is judged on the bus of all, and not for each axis alone.
+fn supply(options: &Options, files: &[MachineFile]) -> Result<[Site; 2]> {
+    let stated = |file: &MachineFile| (file.site.supply, file.site.bus_voltage);
+    let mut given = (options.files.iter().zip(files))
+        .filter(|(_, file)| file.site.supply.given)
+        .map(|(path, file)| (path, stated(file)));
+    let first = given.next();
+    if let Some((path, stated)) = &first
+        && let Some((other, _)) = given.find(|(_, other)| other != stated)
+    {
+        return Err(miette!(
+            help = "axes on one bus have one supply: leave [supply] out of one of the files, or make them equal",
+            "{} has another [supply] than {}",
+            other.display(),
+            path.display()
+        ));
     }
-    Ok(())
+    let (supply, bus_voltage) = first.map_or((Supply::default(), None), |(_, stated)| stated);
+    let site = |supply| Site {
+        bus_voltage,
+        supply,
+        ..Site::default()
+    };
+    let elsewhere = Supply {
+        regenerative: true,
+        ..Supply::default()
+    };
+    Ok([site(supply), site(elsewhere)])
 }
 
 /// The drives named with --drive: index of the axis, name.
@@ -107,7 +142,7 @@ fn named(options: &Options) -> Result<Vec<(usize, String)>> {
         let Some((axis, name)) = read else {
             return Err(miette!(
                 help = format!(
-                    "write N=MOTOR+GEARBOX with N from 1 to {count}, the place of the machine file on the command line"
+                    "write N=MOTOR+GEARBOX, or N=MOTOR+GEARBOX on AMPLIFIER, with N from 1 to {count}, the place of the machine file on the command line"
                 ),
                 "--drive {text:?} cannot be used"
             ));
@@ -127,6 +162,7 @@ fn named(options: &Options) -> Result<Vec<(usize, String)>> {
 fn axis(
     path: &Path,
     file: &MachineFile,
+    bus: &Site,
     catalogue: &Catalogue,
     name: Option<&str>,
     steps: u32,
@@ -144,7 +180,7 @@ fn axis(
     let duty = Duty::new(file, motion, steps as usize).into_diagnostic()?;
     let cycle = Cycle::new(&duty);
     let motors = own.prepare(&file.site);
-    let selection = Selection::new(&own, &motors, &cycle, &file.site, &file.rules);
+    let selection = Selection::parallel(&own, &motors, &cycle, &file.site, &file.rules);
     let candidate = listing::explained(&selection, name)?.ok_or_else(|| {
         miette!(
             help = "give a catalogue with at least one motor",
@@ -165,13 +201,8 @@ fn axis(
         title: file.title.clone(),
         drive: drive.name(),
         curve,
-        data: BusData::new(
-            &file.site.supply,
-            file.site.bus_voltage,
-            drive.amplifier,
-            drive.motor,
-        ),
-        holds: selection.judged(candidate).holds(),
+        data: BusData::new(&bus.supply, bus.bus_voltage, drive.amplifier, drive.motor),
+        holds: selection.judged(&candidate).holds(),
     })
 }
 
@@ -181,15 +212,13 @@ impl Answer {
         axes: Vec<Axis>,
         supply: &Supply,
         catalogue: &Catalogue,
+        watch: &dyn Watch,
     ) -> Result<Self> {
-        let mut data = axes[0].data;
-        // Without a capacitance in [supply] those of the amplifiers on the bus add up.
-        if supply.capacitance.is_none() {
-            data.capacitance = axes.iter().map(|axis| axis.data.capacitance).sum();
-        }
+        let each: Vec<BusData> = axes.iter().map(|axis| axis.data).collect();
+        let data = BusData::shared(supply, &each);
         let bus = data.bus().map_err(|missing| {
             miette!(
-                help = "add a [supply] to the first machine file, for example mains_voltage = \"400 V\", capacitance = \"470 uF\", \
+                help = "add a [supply] to one of the machine files, for example mains_voltage = \"400 V\", capacitance = \"470 uF\", \
                         chopper_voltage = \"780 V\", max_voltage = \"820 V\"; docs/thermal-and-bus.md has all keys",
                 "the DC bus is not known: {missing} is missing"
             )
@@ -197,35 +226,70 @@ impl Answer {
         let curves: Vec<PowerCurve> = axes.iter().map(|axis| axis.curve.clone()).collect();
         let shared = Axes::new(bus, curves);
         let together = vec![0.0; axes.len()];
-        let worst = if options.in_step {
-            None
-        } else {
-            let of = |goal| shared.worst(goal);
-            of(Goal::Voltage)
-                .zip(of(Goal::Resistor))
-                .map(|(v, r)| [v, r])
-        };
-        // What a resistor must bear is asked at the phases that burn most.
-        let phases = worst
-            .as_ref()
-            .map_or(&together, |[_, resistor]| &resistor.phases);
-        let need = shared
-            .power(phases)
-            .and_then(|power| Need::of(&data, &power));
-        let proposal = need
-            .as_ref()
-            .and_then(|need| need.proposal(&catalogue.resistors));
-        Ok(Self {
+        let mut answer = Self {
             in_step: shared.at(&together),
             power: shared.power(&together),
-            worst,
+            worst: None,
+            calmest: None,
             bounds: shared.bounds(),
-            need,
-            proposal: proposal.map(|resistor| resistor.key.clone()),
+            need: None,
+            proposal: None,
+            cures: Vec::new(),
             axes,
             data,
             shared,
-        })
+        };
+        if !options.in_step {
+            answer.search(watch);
+        }
+        if answer.asks_for_a_resistor(options) {
+            answer.need = match &answer.power {
+                Some(power) if options.in_step => Need::of(&data, power),
+                _ => Need::over(&data, &answer.shared, watch),
+            };
+            let proposal = answer
+                .need
+                .and_then(|need| need.proposal(&catalogue.resistors));
+            answer.proposal = proposal.map(|resistor| resistor.key.clone());
+        }
+        if options.in_step && !answer.failed(options).is_empty() {
+            answer.search(watch);
+            answer.worst = None;
+        }
+        answer.cures = answer.cures(options, watch);
+        Ok(answer)
+    }
+
+    /// The worst phases, and those with the most room.
+    fn search(&mut self, watch: &dyn Watch) {
+        let Some(period) = self.power.as_ref().map(PowerCurve::period) else {
+            return;
+        };
+        let limits = self.limits();
+        let goals = |figures: &BusFigures| {
+            [
+                figures.highest,
+                figures.burnt,
+                figures.burnt_peak,
+                figures.pulse,
+                -share(limits, figures, period),
+            ]
+        };
+        if let Some([voltage, resistor, peak, pulse, calmest]) = self.shared.largest(goals, watch) {
+            self.worst = Some([voltage, resistor, peak, pulse]);
+            self.calmest = Some(calmest);
+        }
+    }
+
+    /// Whether what comes back goes beyond what the bus, with the resistor that it has, may do.
+    fn asks_for_a_resistor(&self, options: &Options) -> bool {
+        if self.data.resistor.is_some() {
+            return !self.failed(options).is_empty();
+        }
+        let voltage = self.judged(options)[0];
+        // Not known: more than the capacitor of which nothing is known can be said to take.
+        let top = self.data.max_voltage.or(self.data.chopper_voltage);
+        top.is_some_and(|top| voltage.is_nan() || voltage > top)
     }
 
     /// Mean power of separate resistors less that of a common one (W), all axes in step; the common one only where it is known.

@@ -73,9 +73,22 @@ impl PowerCurve {
         })
     }
 
+    /// When the smallest power is reached first (s).
+    pub(super) fn least_at(&self) -> f64 {
+        let least = self.points.iter().min_by(|a, b| a[1].total_cmp(&b[1]));
+        least.map_or(0.0, |[t, _]| *t)
+    }
+
     /// The curve moved later by `shift` (s).
     #[must_use]
     pub fn shifted(&self, shift: f64) -> Self {
+        let mut moved = Self::empty();
+        self.shift_into(shift, &mut moved);
+        moved
+    }
+
+    /// The same into a curve that is there already: a search over phases moves one many times.
+    pub(super) fn shift_into(&self, shift: f64, moved: &mut Self) {
         let cut = (self.period - shift).rem_euclid(self.period);
         // What begins at `cut` comes first.
         let split = self.points.partition_point(|[t, _]| *t < cut);
@@ -86,15 +99,21 @@ impl PowerCurve {
             (Some([_, a]), None) => *a,
             (None, None) => 0.0,
         };
-        let mut points = Vec::with_capacity(self.points.len() + 2);
+        let rest = self.period - cut;
+        moved.period = self.period;
+        let points = &mut moved.points;
+        points.clear();
         points.push([0.0, at_cut]);
         points.extend(tail.iter().map(|[t, p]| [t - cut, *p]));
-        let rest = self.period - cut;
         points.extend(head.iter().map(|[t, p]| [t + rest, *p]));
         points.push([self.period, at_cut]);
+    }
+
+    /// A place for a curve.
+    pub(super) const fn empty() -> Self {
         Self {
-            points,
-            period: self.period,
+            points: Vec::new(),
+            period: 0.0,
         }
     }
 
@@ -114,8 +133,17 @@ impl PowerCurve {
     /// The sum with a curve of the same period.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
+        let mut sum = Self::empty();
+        self.sum_into(other, &mut sum);
+        sum
+    }
+
+    /// The same into a curve that is there already.
+    pub(super) fn sum_into(&self, other: &Self, sum: &mut Self) {
         let (a, b) = (&self.points, &other.points);
-        let mut points = Vec::with_capacity(a.len() + b.len());
+        sum.period = self.period;
+        let points = &mut sum.points;
+        points.clear();
         let (mut i, mut k) = (0, 0);
         // The value of a curve at `t` between its points number n − 1 and n.
         let value = |points: &[[f64; 2]], n: usize, t: f64| match (
@@ -156,10 +184,6 @@ impl PowerCurve {
         }
         for [t, p] in b.iter().skip(k) {
             points.push([*t, p + last_of(a)]);
-        }
-        Self {
-            points,
-            period: self.period,
         }
     }
 }

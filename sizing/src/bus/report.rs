@@ -1,20 +1,73 @@
-//! The answer of `jred bus` as text, CSV and JSON.
+//! The answer of `jred bus` as text and CSV.
 
 use std::fmt::Write as _;
 
 use miette::{Result, miette};
-use serde_json::json;
 
 use super::axes::Bounds;
 use super::command::Answer;
 use super::curve::PowerCurve;
 use super::store::BusFigures;
+use super::verdict::Judged;
 use crate::cli::bus::Bus as Options;
 use crate::output::{Columns, Format, short};
-use crate::rule::Sense;
 
 impl Answer {
     pub(super) fn text(&self, options: &Options) -> String {
+        let mut text = self.axes_text();
+        text.push('\n');
+        if let (Some(figures), Some(power)) = (&self.in_step, &self.power) {
+            let [least, most] = power.extremes();
+            let _ = writeln!(
+                text,
+                "All axes in step, period {} s: peak drawn {} W, peak fed back {} W",
+                short(power.period()),
+                short(most.max(0.0)),
+                short((-least).max(0.0)),
+            );
+            text += &self.line(figures, power);
+        } else {
+            let _ = writeln!(
+                text,
+                "Judged by what holds at any phases: {}.",
+                self.no_search()
+            );
+        }
+        text += &self.worst_text();
+        let Bounds {
+            drawn,
+            back,
+            highest,
+            resistor,
+        } = self.bounds;
+        let voltage = if highest.is_infinite() && self.data.capacitance.is_none() {
+            "bus voltage not known".to_owned()
+        } else {
+            format!("bus at most {} V", volts(highest))
+        };
+        let _ = writeln!(
+            text,
+            "At any phases: peak drawn at most {} W, peak fed back at most {} W, {voltage}, a brake resistor at most {} W mean",
+            short(drawn),
+            short(back),
+            short(resistor),
+        );
+        if let Some(saved) = self.saved() {
+            let _ = writeln!(
+                text,
+                "One bus instead of one for each axis saves {} W",
+                short(saved)
+            );
+        }
+        text += &self.resistor_text(options);
+        if self.data.capacitance.is_none() && self.data.resistor.is_some() {
+            text += "Capacitance of the DC bus not known (capacitance in [supply]): all that comes back goes into the brake resistor\n";
+        }
+        text.push('\n');
+        text + &self.verdicts(options) + &self.cures_text()
+    }
+
+    fn axes_text(&self) -> String {
         let mut text = String::new();
         for (k, axis) in self.axes.iter().enumerate() {
             let [drawn, back] = axis.curve.energies();
@@ -26,7 +79,7 @@ impl Answer {
             };
             let _ = writeln!(
                 text,
-                "{}. {}: {}{broken}\n   cycle {} s, draws {} W s (peak {} W), feeds back {} W s (peak {} W)",
+                "{}. {}: {}{broken}\n   cycle {} s, draws {} J (peak {} W), feeds back {} J (peak {} W)",
                 k + 1,
                 axis.title,
                 axis.drive,
@@ -37,79 +90,92 @@ impl Answer {
                 short((-least).max(0.0)),
             );
         }
-        text.push('\n');
-        if let (Some(figures), Some(power)) = (&self.in_step, &self.power) {
-            let [least, most] = power.extremes();
-            let _ = writeln!(
-                text,
-                "All axes in step, period {} s: peak drawn {} W, peak fed back {} W",
-                short(power.period()),
-                short(most.max(0.0)),
-                short((-least).max(0.0)),
-            );
-            text += &line(figures, power.period());
-        } else {
-            text += "The cycles have no common period: only bounds can be given.\n";
+        text
+    }
+
+    fn worst_text(&self) -> String {
+        let mut text = String::new();
+        let (Some(worst), Some(power)) = (&self.worst, &self.power) else {
+            return text;
+        };
+        if self.axes.len() < 2 {
+            return text;
         }
-        if let (Some([voltage, resistor]), Some(power)) = (&self.worst, &self.power) {
-            let _ = write!(
-                text,
-                "Phases with the highest voltage, {}: ",
-                shown(&voltage.phases)
-            );
-            text += &line(&voltage.figures, power.period());
-            let _ = write!(text, "Phases that burn most, {}: ", shown(&resistor.phases));
-            text += &line(&resistor.figures, power.period());
-            if self.axes.len() > 3 {
-                text += "More than three axes: searched from several starts, a worse phase may exist; the bounds hold.\n";
+        let names = [
+            "Phases with the highest voltage",
+            "Phases that burn most",
+            "Phases with the largest power burnt",
+            "Phases with the largest pulse",
+        ];
+        let count = if self.data.resistor.is_some() { 4 } else { 1 };
+        for (k, (name, phases)) in names.into_iter().zip(worst).enumerate().take(count) {
+            // Phases that are the worst in several ways are printed once.
+            let same = |other: &&super::axes::Worst| other.phases == phases.phases;
+            if worst[..k].iter().any(|other| same(&other)) {
+                continue;
             }
+            text += name;
+            for (other, also) in names.iter().zip(worst).take(count).skip(k + 1) {
+                if same(&also) {
+                    let rest = other.trim_start_matches("Phases ");
+                    let _ = write!(text, " and {}", rest.trim_start_matches("with "));
+                }
+            }
+            let _ = write!(text, ", {}: ", shown(&phases.phases));
+            text += &self.line(&phases.figures, power);
         }
-        let Bounds {
-            drawn,
-            back,
-            highest,
-            resistor,
-        } = self.bounds;
-        let _ = writeln!(
-            text,
-            "At any phases: peak drawn at most {} W, peak fed back at most {} W, bus at most {} V, brake resistor at most {} W mean",
-            short(drawn),
-            short(back),
-            volts(highest),
-            short(resistor),
-        );
-        if let Some(saved) = self.saved() {
-            let _ = writeln!(
-                text,
-                "One bus instead of one for each axis saves {} W",
-                short(saved)
-            );
+        if self.axes.len() > 3 {
+            text += "More than three axes: searched from several starts, a worse phase may exist; the bounds hold.\n";
+        }
+        text
+    }
+
+    /// What the brake resistor lacks, or which one is needed.
+    fn resistor_text(&self, options: &Options) -> String {
+        let mut text = String::new();
+        let lacks = self.lacks(options);
+        if !lacks.is_empty() {
+            let each: Vec<String> = lacks
+                .iter()
+                .map(|(what, by)| {
+                    let (unit, of) = match what {
+                        Judged::Mean => ("W", "mean power"),
+                        Judged::Peak => ("W", "peak power"),
+                        Judged::Pulse => ("J", "energy of a pulse"),
+                        _ => ("Ohm", "resistance"),
+                    };
+                    format!("{} {unit} {of}", short(*by))
+                })
+                .collect();
+            let _ = writeln!(text, "The brake resistor lacks {}", each.join(", "));
         }
         if let Some(need) = &self.need {
             let proposal = match &self.proposal {
                 Some(key) => format!("; {key} of the catalogue does"),
                 None => "; the catalogue has none of which it is known".to_owned(),
             };
-            let words = need.words();
-            let _ = writeln!(text, "The bus {words}{proposal}");
-        }
-        if self.data.capacitance.is_none() {
-            text += match self.data.resistor {
-                Some(_) => {
-                    "Capacitance of the DC bus not known: all that comes back goes into the brake resistor\n"
-                }
-                None => "Capacitance of the DC bus not known\n",
+            let needs = if self.data.resistor.is_some() {
+                "A brake resistor that does: "
+            } else {
+                "The bus needs a brake resistor of "
             };
+            let _ = writeln!(text, "{needs}{}{proposal}", need.figures());
         }
-        text.push('\n');
-        text + &self.verdicts(options)
+        text
+    }
+
+    /// By how much the brake resistor misses what is asked of it.
+    pub(super) fn lacks(&self, options: &Options) -> Vec<(Judged, f64)> {
+        let failed = self.failed(options).into_iter();
+        let own = failed.filter(|check| check.what != Judged::Voltage);
+        own.filter_map(|check| Some((check.what, (check.figure - check.limit?).abs())))
+            .collect()
     }
 
     /// A line for every check, and for every one that could not be done.
     fn verdicts(&self, options: &Options) -> String {
         let mut text = String::new();
-        let checks = self.checks(options);
-        for check in &checks {
+        for check in &self.checks(options) {
             let verdict = match check.holds() {
                 None => continue,
                 Some(true) => "ok",
@@ -117,17 +183,28 @@ impl Answer {
             };
             let limit = check.limit.map_or_else(
                 || "any limit".to_owned(),
-                |limit| format!("{} {}", short(limit), check.unit),
+                |limit| format!("{} {}", short(limit), check.unit()),
             );
             let _ = writeln!(
                 text,
                 "{} {} against {limit}: {verdict}",
-                check.name,
+                check.name(),
                 volts(check.figure)
             );
         }
-        for words in self.not_checked(options) {
-            let _ = writeln!(text, "NOT CHECKED: {words}");
+        for open in self.open(options) {
+            let _ = writeln!(text, "NOT CHECKED: {}: {}", open.figure, open.words);
+        }
+        text
+    }
+
+    fn cures_text(&self) -> String {
+        let mut text = String::new();
+        if !self.cures.is_empty() {
+            text += "\nAny one of these would do:\n";
+        }
+        for cure in &self.cures {
+            let _ = writeln!(text, "- {}", cure.words);
         }
         text
     }
@@ -136,7 +213,8 @@ impl Answer {
         let power = self.power.as_ref().ok_or_else(|| {
             miette!(
                 help = "use --format table or json, which give bounds",
-                "the cycles have no common period"
+                "power and voltage over a common period cannot be written: {}",
+                self.no_search()
             )
         })?;
         let mut columns = Columns::new(["t [s]", "power [W]", "voltage [V]"]);
@@ -152,68 +230,43 @@ impl Answer {
         Ok(columns.write(Format::Csv, ""))
     }
 
-    pub(super) fn json(&self, options: &Options) -> serde_json::Value {
-        let finite = |x: f64| x.is_finite().then_some(x);
-        let axes = self.axes.iter().map(|axis| {
-            let [drawn, back] = axis.curve.energies();
-            let [least, most] = axis.curve.extremes();
-            json!({
-                "title": axis.title,
-                "drive": axis.drive,
-                "holds": axis.holds,
-                "period [s]": axis.curve.period(),
-                "drawn [J]": drawn,
-                "fed back [J]": back,
-                "peak drawn [W]": most.max(0.0),
-                "peak fed back [W]": (-least).max(0.0),
-            })
-        });
-        let checks = self.checks(options).into_iter().map(|check| {
-            json!({
-                "check": check.name,
-                "value": finite(check.figure),
-                "limit": check.limit,
-                "at least": check.sense == Sense::AtLeast,
-                "unit": check.unit,
-                "holds": check.holds(),
-            })
-        });
-        json!({
-            "schema": "jred-bus/1",
-            "axes": axes.collect::<Vec<_>>(),
-            "period [s]": self.power.as_ref().map(PowerCurve::period),
-            "in step": self.in_step,
-            "worst": self.worst.as_ref().map(|[voltage, resistor]| json!({
-                "voltage": voltage,
-                "resistor": resistor,
-                "exhaustive": self.axes.len() <= 3,
-            })),
-            "bounds": {
-                "peak drawn [W]": self.bounds.drawn,
-                "peak fed back [W]": self.bounds.back,
-                "highest voltage [V]": finite(self.bounds.highest),
-                "resistor mean [W]": self.bounds.resistor,
-            },
-            "saved by sharing [W]": self.saved(),
-            "brake resistor needed": self.need,
-            "proposal": self.proposal,
-            "checks": checks.collect::<Vec<_>>(),
-            "not checked": self.not_checked(options),
-            "holds": self.holds(options),
-        })
+    /// Voltage, supply and resistor in words.
+    fn line(&self, figures: &BusFigures, power: &PowerCurve) -> String {
+        let period = power.period();
+        let bounded = figures.highest.is_finite();
+        let voltage = if !bounded && self.data.capacitance.is_none() {
+            "bus voltage not known".to_owned()
+        } else {
+            format!("bus up to {} V", volts(figures.highest))
+        };
+        let supply = if bounded {
+            format!(
+                "{} W mean",
+                short((figures.supplied - figures.returned) / period)
+            )
+        } else {
+            // All that comes back is drawn again, or nothing of it.
+            let [drawn, back] = power.energies();
+            format!(
+                "{} to {} W mean",
+                short((drawn - back).max(0.0) / period),
+                short(drawn / period)
+            )
+        };
+        let resistor = if self.data.resistor.is_some() {
+            format!(
+                ", brake resistor {} W mean, {} W peak, {} J a pulse",
+                short(figures.burnt / period),
+                short(figures.burnt_peak),
+                short(figures.pulse),
+            )
+        } else if self.data.regenerative {
+            format!(", {} W mean fed back", short(figures.returned / period))
+        } else {
+            ", no brake resistor".to_owned()
+        };
+        format!("{voltage}, supply {supply}{resistor}\n")
     }
-}
-
-/// Voltage and resistor in words.
-fn line(figures: &BusFigures, period: f64) -> String {
-    format!(
-        "bus up to {} V, supply {} W mean, brake resistor {} W mean, {} W peak, {} W s a pulse\n",
-        volts(figures.highest),
-        short((figures.supplied - figures.returned) / period),
-        short(figures.burnt / period),
-        short(figures.burnt_peak),
-        short(figures.pulse),
-    )
 }
 
 /// A figure that may have no bound.

@@ -27,7 +27,7 @@ pub struct Bus {
 /// What happens on the bus in one period, once it repeats.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct BusFigures {
-    /// Energy from the supply (J).
+    /// Energy from the supply (J); NaN where nothing bounds the voltage.
     #[serde(rename = "supplied [J]")]
     pub supplied: f64,
     /// Energy that the supply takes back (J).
@@ -50,6 +50,19 @@ pub struct BusFigures {
     pub stored: f64,
 }
 
+impl BusFigures {
+    /// Of a bus that nothing bounds: no period is like the one before. What the supply gives depends on what was stored.
+    pub const UNBOUNDED: Self = Self {
+        supplied: f64::NAN,
+        returned: 0.0,
+        burnt: 0.0,
+        burnt_peak: 0.0,
+        pulse: 0.0,
+        highest: f64::INFINITY,
+        stored: f64::NAN,
+    };
+}
+
 /// How close the start of the next period must come, as a share of the energy at U₀ and that fed back.
 const PERIODIC: f64 = 1e-13;
 
@@ -59,37 +72,52 @@ const MOST_PERIODS: u32 = 10_000;
 impl Bus {
     /// What a power does to the bus when it repeats without end.
     pub fn run(&self, curve: &PowerCurve) -> BusFigures {
-        let [drawn, back] = curve.energies();
+        let pieces: Vec<Piece> = curve
+            .pieces()
+            .flat_map(|(h, ends)| split(h, ends, 0.0))
+            .collect();
+        let [mut drawn, mut back] = [0.0; 2];
+        // Where most has been drawn so far the capacitor is empty, if more is drawn than comes back: what was stored before
+        // is less than what was drawn since. A period from there needs no other one to begin with.
+        let (mut from, mut most) = (0, 0.0);
+        for (k, (h, [a, b])) in pieces.iter().enumerate() {
+            let area = 0.5 * h * (a + b);
+            drawn += area.max(0.0);
+            back += (-area).max(0.0);
+            if drawn - back > most {
+                (from, most) = (k + 1, drawn - back);
+            }
+        }
         if self.regenerative || back == 0.0 {
             let mut walk = Walk::new(self, 0.0, 0.0);
-            walk.period(curve);
+            walk.period(&pieces, 0);
             return walk.finish(0.0);
         }
         let nothing_bounds_it =
             self.resistor.is_none() && (back > drawn || self.capacitance <= 0.0);
+        if nothing_bounds_it {
+            return BusFigures::UNBOUNDED;
+        }
         let scale = 0.5 * self.capacitance * self.voltage * self.voltage + back;
         // The course nears its period from where it must end up: full if more comes back than is drawn, else empty.
-        let mut start = match self.resistor {
-            Some(_) if back > drawn => Walk::new(self, 0.0, 0.0).full,
-            _ => 0.0,
+        let (from, mut start) = match self.resistor {
+            Some(_) if back > drawn => (0, Walk::new(self, 0.0, 0.0).full),
+            _ => (from, 0.0),
         };
         let mut pulse = 0.0;
         for period in 0..MOST_PERIODS {
-            if nothing_bounds_it {
-                break;
-            }
             let mut walk = Walk::new(self, start, pulse);
-            walk.period(curve);
-            if (walk.excess - start).abs() <= PERIODIC * scale && period > 0 {
-                return walk.finish(start);
+            let stored = walk.period(&pieces, from);
+            let carried = if walk.paused { walk.pulse } else { 0.0 };
+            // The first period is the same as the next where no pulse runs on into that.
+            let settled = period > 0 || carried <= 0.0;
+            if (walk.excess - start).abs() <= PERIODIC * scale && settled {
+                return walk.finish(stored);
             }
             start = walk.excess;
-            pulse = if walk.paused { walk.pulse } else { 0.0 };
+            pulse = carried;
         }
-        BusFigures {
-            highest: f64::INFINITY,
-            ..BusFigures::default()
-        }
+        BusFigures::UNBOUNDED
     }
 
     /// Voltage over a period: \[time (s), voltage (V)\]; nothing where nothing bounds it.
@@ -109,6 +137,9 @@ impl Bus {
         trace
     }
 }
+
+/// A straight piece of power: length (s), power at both ends (W).
+type Piece = (f64, [f64; 2]);
 
 /// The bus on its way through a period.
 struct Walk<'b> {
@@ -162,9 +193,18 @@ impl<'b> Walk<'b> {
         self.figures
     }
 
-    fn period(&mut self, curve: &PowerCurve) {
+    /// A period from the piece `from` on, round to it again; returns the energy stored at the first piece (J).
+    fn period(&mut self, pieces: &[Piece], from: usize) -> f64 {
         self.seen(self.excess);
-        curve.pieces().for_each(|(h, ends)| self.piece(h, ends));
+        let (first, last) = pieces.split_at(from);
+        for (h, ends) in last {
+            self.one_way(*h, *ends);
+        }
+        let stored = self.excess;
+        for (h, ends) in first {
+            self.one_way(*h, *ends);
+        }
+        stored
     }
 
     fn voltage(&self, excess: f64) -> f64 {
@@ -182,9 +222,14 @@ impl<'b> Walk<'b> {
     /// A straight piece of power.
     fn piece(&mut self, h: f64, ends: [f64; 2]) {
         for (h, ends) in split(h, ends, 0.0) {
-            for (h, ends) in split(h, ends, -self.most) {
-                self.events(h, ends);
-            }
+            self.one_way(h, ends);
+        }
+    }
+
+    /// A piece in which the power does not change its sign.
+    fn one_way(&mut self, h: f64, ends: [f64; 2]) {
+        for (h, ends) in split(h, ends, -self.most) {
+            self.events(h, ends);
         }
     }
 

@@ -75,6 +75,25 @@ impl BusData {
         }
     }
 
+    /// The bus of several drives, each with what its own amplifier adds to `supply`: the strictest of what they say, and the
+    /// sum of their capacitances, if each is known.
+    pub fn shared(supply: &Supply, each: &[Self]) -> Self {
+        let of = |figure: fn(&Self) -> Option<f64>, stricter: fn(f64, f64) -> f64| {
+            each.iter().filter_map(figure).reduce(stricter)
+        };
+        Self {
+            voltage: each.iter().find_map(|data| data.voltage),
+            capacitance: supply
+                .capacitance
+                .or_else(|| each.iter().map(|data| data.capacitance).sum()),
+            chopper_voltage: of(|data| data.chopper_voltage, f64::min),
+            max_voltage: of(|data| data.max_voltage, f64::min),
+            min_resistance: of(|data| data.min_resistance, f64::max),
+            regenerative: supply.regenerative,
+            resistor: supply.brake_resistor,
+        }
+    }
+
     /// The bus with its resistor, if it has both that and a voltage at which it comes on. A missing capacitance stores
     /// nothing: all that comes back goes into the resistor.
     ///

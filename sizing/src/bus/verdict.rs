@@ -2,27 +2,63 @@
 
 use super::command::Answer;
 use super::curve::PowerCurve;
+use super::period::{Common, LOOKED_AT, MOST_CYCLES};
 use super::store::BusFigures;
 use crate::cli::bus::Bus as Options;
 use crate::output::short;
 use crate::rule::Sense;
 
+/// What is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Judged {
+    Voltage,
+    Resistance,
+    Mean,
+    Peak,
+    Pulse,
+}
+
 /// A figure of the bus beside its limit.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct BusCheck {
-    pub(super) name: &'static str,
-    pub(super) unit: &'static str,
+    pub(super) what: Judged,
     /// NaN: not known.
     pub(super) figure: f64,
     /// `None`: none is stated, but the figure is beyond any.
     pub(super) limit: Option<f64>,
-    pub(super) sense: Sense,
 }
 
 impl BusCheck {
+    pub(super) const fn name(&self) -> &'static str {
+        match self.what {
+            Judged::Voltage => "bus voltage",
+            Judged::Resistance => "brake resistance",
+            Judged::Mean => "brake resistor mean power",
+            Judged::Peak => "brake resistor peak power",
+            Judged::Pulse => "brake resistor pulse energy",
+        }
+    }
+
+    pub(super) const fn unit(&self) -> &'static str {
+        match self.what {
+            Judged::Voltage => "V",
+            Judged::Resistance => "Ohm",
+            Judged::Mean | Judged::Peak => "W",
+            Judged::Pulse => "J",
+        }
+    }
+
+    pub(super) const fn sense(&self) -> Sense {
+        match self.what {
+            Judged::Resistance => Sense::AtLeast,
+            _ => Sense::AtMost,
+        }
+    }
+
     /// Whether the figure keeps its limit; `None`: it is not known.
     pub(super) fn holds(&self) -> Option<bool> {
         (!self.figure.is_nan()).then(|| {
-            self.limit.is_some_and(|limit| match self.sense {
+            self.limit.is_some_and(|limit| match self.sense() {
                 Sense::AtMost => self.figure <= limit,
                 Sense::AtLeast => self.figure >= limit,
             })
@@ -30,10 +66,17 @@ impl BusCheck {
     }
 }
 
+/// What is not known, and which keys of `[supply]` would say it: all of one of these lists.
+pub(super) struct Open {
+    pub(super) figure: &'static str,
+    pub(super) keys: &'static [&'static [&'static str]],
+    pub(super) words: String,
+}
+
 impl Answer {
-    /// The figures that are judged: highest voltage, mean power, largest power and pulse of the resistor; NaN where one is not
-    /// known.
-    fn judged(&self, options: &Options) -> [f64; 4] {
+    /// The figures that are judged, each at the phases where it is worst: highest voltage, mean power, largest power and pulse of
+    /// the resistor; NaN where one is not known.
+    pub(super) fn judged(&self, options: &Options) -> [f64; 4] {
         let mut judged = self.found(options);
         // Nothing takes up what comes back, or nobody said what does.
         if judged[0].is_infinite() && self.data.capacitance.is_none() {
@@ -54,20 +97,17 @@ impl Answer {
         let period = self.power.as_ref().map_or(1.0, PowerCurve::period);
         match (&self.in_step, &self.worst) {
             (Some(figures), _) if options.in_step => of(figures, period),
-            (Some(_), Some([voltage, resistor])) => {
-                let (a, b) = (of(&voltage.figures, period), of(&resistor.figures, period));
-                std::array::from_fn(|k| a[k].max(b[k]))
+            (Some(_), Some(worst)) => {
+                let each = worst.each_ref().map(|worst| of(&worst.figures, period));
+                std::array::from_fn(|k| each.iter().map(|figures| figures[k]).fold(0.0, f64::max))
             }
-            _ => [
+            _ if self.data.resistor.is_some() => [
                 self.bounds.highest,
                 self.bounds.resistor,
-                if self.data.resistor.is_some() {
-                    self.bounds.back
-                } else {
-                    0.0
-                },
+                self.bounds.back,
                 f64::NAN,
             ],
+            _ => [self.bounds.highest, 0.0, 0.0, 0.0],
         }
     }
 
@@ -76,59 +116,54 @@ impl Answer {
         let [voltage, mean, peak, pulse] = self.judged(options);
         let resistor = self.data.resistor.as_ref();
         let least = self.data.min_resistance;
-        let at_most = |name, unit, figure, limit| (name, unit, figure, limit, Sense::AtMost);
-        [
-            at_most("bus voltage", "V", voltage, self.data.max_voltage),
-            (
-                "brake resistance",
-                "Ohm",
-                resistor.map_or(f64::NAN, |r| r.resistance),
-                least.filter(|_| resistor.is_some()),
-                Sense::AtLeast,
-            ),
-            at_most(
-                "brake resistor mean power",
-                "W",
-                mean,
-                resistor.map(|r| r.power),
-            ),
-            at_most(
-                "brake resistor peak power",
-                "W",
-                peak,
-                resistor.and_then(|r| r.peak_power),
-            ),
-            at_most(
-                "brake resistor pulse energy",
-                "W s",
-                pulse,
-                resistor.and_then(|r| r.pulse_energy),
-            ),
-        ]
-        .into_iter()
-        .map(|(name, unit, figure, limit, sense)| BusCheck {
-            name,
-            unit,
+        let check = |what, figure, limit| BusCheck {
+            what,
             figure,
             limit,
-            sense,
-        })
+        };
+        [
+            check(Judged::Voltage, voltage, self.data.max_voltage),
+            check(
+                Judged::Resistance,
+                resistor.map_or(f64::NAN, |r| r.resistance),
+                least.filter(|_| resistor.is_some()),
+            ),
+            check(Judged::Mean, mean, resistor.map(|r| r.power)),
+            check(Judged::Peak, peak, resistor.and_then(|r| r.peak_power)),
+            check(Judged::Pulse, pulse, resistor.and_then(|r| r.pulse_energy)),
+        ]
+        .into_iter()
         // A voltage without bound is beyond any limit.
         .filter(|check| check.limit.is_some() || check.figure.is_infinite())
         .collect()
     }
 
-    /// What could not be checked, and what is missing for it.
-    pub(super) fn not_checked(&self, options: &Options) -> Vec<String> {
+    /// The checks that do not hold.
+    pub(super) fn failed(&self, options: &Options) -> Vec<BusCheck> {
+        let mut checks = self.checks(options);
+        checks.retain(|check| check.holds() == Some(false));
+        checks
+    }
+
+    /// What could not be checked, what is missing for it, and where it would be said.
+    pub(super) fn open(&self, options: &Options) -> Vec<Open> {
         let [voltage, _, peak, pulse] = self.judged(options);
         let data = &self.data;
-        let mut missing = Vec::new();
+        let mut open = Vec::new();
         if voltage.is_nan() {
-            missing.push(
-                "bus voltage: the capacitance of the DC bus is not known, and there is no brake resistor for what comes back"
+            open.push(Open {
+                figure: "bus voltage",
+                keys: &[
+                    &["capacitance"],
+                    &["chopper_voltage", "brake_resistor"],
+                    &["regenerative"],
+                ],
+                words: "the capacitance of the DC bus is not known, and there is no brake resistor for what comes back: give in [supply] \
+                        capacitance, or chopper_voltage and brake_resistor, or regenerative = true"
                     .to_owned(),
-            );
-        } else if data.max_voltage.is_none() && voltage.is_finite() {
+            });
+        }
+        if data.max_voltage.is_none() && !voltage.is_infinite() {
             let rise = data.voltage.filter(|volts| voltage > *volts);
             let rise = rise.map_or(String::new(), |volts| {
                 let bare = if data.resistor.is_none() && !data.regenerative {
@@ -137,45 +172,93 @@ impl Answer {
                     ""
                 };
                 format!(
-                    ", and it rises from {} V to {} V{bare}: give max_voltage in [supply]",
+                    ", and it rises from {} V to {} V{bare}",
                     short(volts),
                     short(voltage)
                 )
             });
-            missing.push(format!(
-                "bus voltage: the highest voltage of the DC bus is not known{rise}"
-            ));
+            open.push(Open {
+                figure: "bus voltage",
+                keys: &[&["max_voltage"]],
+                words: format!(
+                    "the highest voltage of the DC bus is not known{rise}: give max_voltage in [supply]"
+                ),
+            });
+        }
+        if voltage.is_nan() && data.chopper_voltage.is_none() {
+            open.push(Open {
+                figure: "brake resistor",
+                keys: &[&["chopper_voltage"]],
+                words: format!(
+                    "what one would have to bear is known only as at most {} W mean and {} W peak: give chopper_voltage in [supply]",
+                    short(self.bounds.resistor),
+                    short(self.bounds.back)
+                ),
+            });
         }
         let Some(resistor) = data.resistor.as_ref().filter(|_| peak > 0.0) else {
-            return missing;
+            return open;
         };
-        let mut without = |known: bool, words: &str| {
+        let mut without = |known: bool, figure, keys, words: String| {
             if !known {
-                missing.push(words.to_owned());
+                open.push(Open {
+                    figure,
+                    keys,
+                    words,
+                });
             }
         };
         without(
             data.min_resistance.is_some(),
-            "brake resistance: the smallest resistance that the chopper may switch is not known",
+            "brake resistance",
+            &[&["min_resistance"]],
+            "the smallest resistance that the chopper may switch is not known: give min_resistance in [supply]".to_owned(),
         );
         without(
             resistor.peak_power.is_some(),
-            "brake resistor peak power: that of the resistor is not known",
+            "brake resistor peak power",
+            &[&["brake_resistor.peak_power"]],
+            "that of the resistor is not known: give brake_resistor.peak_power in [supply]"
+                .to_owned(),
         );
         without(
             resistor.pulse_energy.is_some(),
-            "brake resistor pulse energy: that of the resistor is not known",
+            "brake resistor pulse energy",
+            &[&["brake_resistor.pulse_energy"]],
+            "that of the resistor is not known: give brake_resistor.pulse_energy in [supply]"
+                .to_owned(),
         );
         without(
             !pulse.is_nan() || resistor.pulse_energy.is_none(),
-            "brake resistor pulse energy: the cycles have no common period",
+            "brake resistor pulse energy",
+            &[],
+            format!("no bound holds for it, and {}", self.no_search()),
         );
-        missing
+        open
     }
 
-    /// Whether nothing that was checked is violated; what was not is [named](Self::not_checked).
+    /// Why the phases are not searched, in words.
+    pub(super) fn no_search(&self) -> String {
+        match self.shared.common() {
+            Common::Searched { .. } => "the phases are searched".to_owned(),
+            Common::TooLong { period, cycles } => {
+                let each: Vec<String> = cycles.iter().map(u32::to_string).collect();
+                let axes: Vec<String> = (1..=each.len()).map(|k| k.to_string()).collect();
+                format!(
+                    "the common period of the cycles is {} s ({} cycles of axes {}), longer than the {MOST_CYCLES} cycles that are searched",
+                    short(*period),
+                    each.join(", "),
+                    axes.join(", "),
+                )
+            }
+            Common::None => {
+                format!("the cycles have no common period of up to {LOOKED_AT} cycles")
+            }
+        }
+    }
+
+    /// Whether nothing that was checked is violated; what was not is [named](Self::open).
     pub(super) fn holds(&self, options: &Options) -> bool {
-        let checks = self.checks(options);
-        self.axes.iter().all(|axis| axis.holds) && checks.iter().all(|c| c.holds() != Some(false))
+        self.axes.iter().all(|axis| axis.holds) && self.failed(options).is_empty()
     }
 }

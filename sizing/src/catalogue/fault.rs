@@ -1,5 +1,6 @@
 //! What can be wrong with a catalogue, and how it is shown: all broken rows in one pass, the first few with their places.
 
+use std::fmt::Write as _;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -31,6 +32,27 @@ pub enum CatalogueError {
     #[error("{0}")]
     #[diagnostic(transparent)]
     Several(Box<Several>),
+    /// The same file twice.
+    #[error("the catalogue {path} is given twice{}", if path == before { String::new() } else { format!(", the first time as {before}") })]
+    #[diagnostic(help("name every folder and every file once"))]
+    Twice {
+        /// Path of the file or folder.
+        path: String,
+        /// What it was called before.
+        before: String,
+    },
+    /// Prices that cannot be compared.
+    #[error("prices in {first} cannot be compared with prices in {second}")]
+    #[diagnostic(help(
+        "state all prices in one currency, written into the header as price [EUR]; without --rank price, --max-price and \
+         the objective price the catalogue can be used as it is"
+    ))]
+    Currencies {
+        /// A currency and the file that has it.
+        first: String,
+        /// Another one.
+        second: String,
+    },
     /// No row at all.
     #[error("the catalogue {0} is empty: it holds no {1}")]
     #[diagnostic(help(
@@ -41,14 +63,32 @@ pub enum CatalogueError {
 
 /// Several broken rows.
 #[derive(Debug, Error, Diagnostic)]
-#[error("{count} rows of the catalogue cannot be used{}", if *.count > .shown.len() { format!("; the first {} are shown", .shown.len()) } else { String::new() })]
+#[error("{}", self.words())]
 #[diagnostic(help("correct them, or use the other rows with --skip-broken-rows"))]
 pub struct Several {
-    /// How many there are.
-    pub count: usize,
-    /// The first of them.
+    /// How many rows are broken.
+    pub rows: usize,
+    /// How many faults they have.
+    pub faults: usize,
+    /// The first of the faults.
     #[related]
     pub shown: Vec<Misplaced>,
+}
+
+impl Several {
+    fn words(&self) -> String {
+        let mut words = match self.rows {
+            1 => "1 row of the catalogue cannot be used".to_owned(),
+            rows => format!("{rows} rows of the catalogue cannot be used"),
+        };
+        if self.faults > self.rows {
+            let _ = write!(words, ", for {} faults", self.faults);
+        }
+        if self.faults > self.shown.len() {
+            let _ = write!(words, "; the first {} are shown", self.shown.len());
+        }
+        words
+    }
 }
 
 /// What is wrong at a place of a catalogue file.
@@ -129,20 +169,31 @@ impl Fault {
 /// The faults of rows: the first of them in full, the rest counted.
 #[derive(Debug, Default)]
 pub(super) struct Faults {
+    rows: usize,
     count: usize,
     shown: Vec<Misplaced>,
 }
 
 impl Faults {
+    /// A row with one fault.
     pub(super) fn add(&mut self, text: &Text, fault: Fault) {
-        self.count += 1;
-        if self.shown.len() < SHOWN {
-            self.shown.push(text.misplaced(fault));
+        self.add_row(text, [fault]);
+    }
+
+    /// A row with all its faults.
+    pub(super) fn add_row(&mut self, text: &Text, faults: impl IntoIterator<Item = Fault>) {
+        self.rows += 1;
+        for fault in faults {
+            self.count += 1;
+            if self.shown.len() < SHOWN {
+                self.shown.push(text.misplaced(fault));
+            }
         }
     }
 
-    pub(super) const fn count(&self) -> usize {
-        self.count
+    /// How many rows are broken.
+    pub(super) const fn rows(&self) -> usize {
+        self.rows
     }
 
     /// Fine if there are none.
@@ -153,7 +204,8 @@ impl Faults {
             Some(last) => {
                 self.shown.push(last);
                 Err(CatalogueError::Several(Box::new(Several {
-                    count: self.count,
+                    rows: self.rows,
+                    faults: self.count,
                     shown: self.shown,
                 })))
             }

@@ -1,7 +1,9 @@
 //! Which files make a catalogue, and what each of them holds.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use super::cell::nearest;
 use super::column::{Column, Kind};
 use super::fault::{CatalogueError, Remarks, Text};
 use super::mgdb;
@@ -44,9 +46,47 @@ fn unreadable(path: &Path, reason: impl Into<String>, cure: &str) -> CatalogueEr
     }
 }
 
+/// What the system says, in words of the task, and what to do about it.
+fn cannot_read(path: &Path, error: &std::io::Error) -> CatalogueError {
+    const CURE: &str = "check the path given with --catalogue, --motors or --gearboxes";
+    match error.kind() {
+        ErrorKind::NotFound => {
+            let near = beside(path).map_or_else(String::new, |near| {
+                format!("; did you mean {}?", near.display())
+            });
+            let cure = format!("{CURE}{near}");
+            unreadable(path, "there is no such file or folder", &cure)
+        }
+        ErrorKind::PermissionDenied => unreadable(
+            path,
+            "it may not be read",
+            "let this user read it, or name another one",
+        ),
+        ErrorKind::IsADirectory => unreadable(
+            path,
+            "it is a folder",
+            "name folders with --catalogue, one CSV file with --motors or --gearboxes",
+        ),
+        _ => unreadable(path, error.to_string(), CURE),
+    }
+}
+
+/// The file or folder at the same place whose name is most alike, if any is.
+fn beside(path: &Path) -> Option<PathBuf> {
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    let entries = std::fs::read_dir(folder.unwrap_or_else(|| Path::new("."))).ok()?;
+    let names: Vec<String> = entries
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let near = nearest(path.file_name()?.to_str()?, &names)?;
+    Some(path.with_file_name(near))
+}
+
 pub(super) fn read(path: &Path) -> Result<Text, CatalogueError> {
-    let cure = "check the path given with --catalogue, --motors or --gearboxes";
-    let bytes = std::fs::read(path).map_err(|error| unreadable(path, error.to_string(), cure))?;
+    let bytes = std::fs::read(path).map_err(|error| cannot_read(path, &error))?;
     let text = String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let before = error.as_bytes().iter().take(valid);
@@ -71,7 +111,7 @@ pub(super) fn format_of(kind: Kind, text: &Text) -> Format {
         let mut titles = titles.filter(|l| !(l.starts_with('#') || l.trim().is_empty()));
         let first = titles.next().unwrap_or_default();
         first
-            .split(',')
+            .split([',', ';', '\t'])
             .any(|title| title.trim() == Column::ListedMotor.name())
     };
     let foreign = match kind {
@@ -137,8 +177,7 @@ fn search(
     found: &mut Vec<PathBuf>,
     remarks: &mut Remarks,
 ) -> Result<(), CatalogueError> {
-    let cure = "check the path given with --catalogue";
-    let failed = |error: std::io::Error| unreadable(folder, error.to_string(), cure);
+    let failed = |error: std::io::Error| cannot_read(folder, &error);
     let mut paths = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(failed)? {
         paths.push(entry.map_err(failed)?.path());

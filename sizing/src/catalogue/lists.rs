@@ -153,11 +153,13 @@ pub(super) fn listing(row: &Row) -> Read<Listing> {
         let keys: Vec<String> = keys.map(ToOwned::to_owned).collect();
         row.given(column).then_some(keys)
     };
-    Ok(Listing {
+    let listing = Listing {
         at: row.place(Column::ListedMotor),
-        motor: row.text(Column::ListedMotor)?,
+        motor: row.text(Column::ListedMotor),
         gearboxes: keys(Column::ListedGearboxes),
-        direct: row.yes_or_no(Column::Direct)?.unwrap_or(true),
+        direct: row.yes_or_no(Column::Direct).unwrap_or(true),
         amplifiers: keys(Column::ListedAmplifiers),
-    })
+    };
+    row.checked()?;
+    Ok(listing)
 }

@@ -3,16 +3,17 @@
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::column::{Column, Kind};
+use super::entry::Entry;
 use super::fault::{CatalogueError, Fault, Faults, Remarks, Text};
 use super::files::{Format, built_in, file, folder, format_of, read};
-use super::lists::{Listing, listing};
+use super::lists::Listing;
 use super::pairing::Partners;
 use super::row::{Read, Row};
 use super::table::Table;
-use super::{Catalogue, Pairing, entry, mgdb, plausible, toml_table};
+use super::{Catalogue, Pairing, mgdb, plausible, toml_table};
 
 /// What to load.
 #[derive(Clone, Debug, Default)]
@@ -43,6 +44,10 @@ pub(super) struct Loader {
     remarks: Remarks,
     /// Kind and key of each entry, with the file that holds it.
     keys: HashMap<(Kind, String), usize>,
+    /// The files read: where they really are, and as what.
+    read: HashMap<PathBuf, PathBuf>,
+    /// Whether broken rows are left out.
+    skip: bool,
     /// What is wrong with every row of the present file.
     whole_file: Option<Fault>,
     /// Keys of broken rows, which lists may go on naming.
@@ -54,7 +59,11 @@ pub(super) struct Loader {
 impl Sources {
     /// Reads everything.
     pub(super) fn load(&self) -> Result<Catalogue, CatalogueError> {
-        let mut loader = Loader::default();
+        self.given_once()?;
+        let mut loader = Loader {
+            skip: self.skip_broken_rows,
+            ..Loader::default()
+        };
         let mut groups = Vec::new();
         let single = |path: &PathBuf, kind| {
             let text = read(path)?;
@@ -88,7 +97,19 @@ impl Sources {
         for files in groups {
             read_groups.push(loader.group(files)?);
         }
-        loader.finish(read_groups, self.skip_broken_rows)
+        loader.finish(read_groups)
+    }
+
+    /// No folder and no file twice: all its keys would clash.
+    fn given_once(&self) -> Result<(), CatalogueError> {
+        let files = self.motors.iter().chain(&self.gearboxes);
+        let mut seen: HashMap<PathBuf, &PathBuf> = HashMap::new();
+        for path in self.catalogues.iter().chain(files) {
+            if let Some(before) = seen.insert(real(path), path) {
+                return Err(twice(path, before));
+            }
+        }
+        Ok(())
     }
 }
 
@@ -98,6 +119,11 @@ impl Loader {
         let first = self.catalogue.motors.len();
         let mut group = Group::default();
         for (format, text) in files {
+            // A file of a folder that is named beside the folder, or a folder within a folder.
+            let path = PathBuf::from(&text.name);
+            if let Some(before) = self.read.insert(real(&path), path.clone()) {
+                return Err(twice(&path, &before));
+            }
             self.texts.push(text.clone());
             let index = self.texts.len() - 1;
             let count = match format {
@@ -195,24 +221,37 @@ impl Loader {
         group: &mut Group,
         row: Result<(Row, usize), Fault>,
     ) {
-        let taken = match row {
-            Err(fault) => Err(fault),
+        let faults = match row {
+            Err(fault) => vec![fault],
             Ok((mut row, line)) => {
-                let taken = self.entry(index, text, group, &mut row, line);
-                if taken.is_err() {
-                    self.broken.insert(row.name().to_owned());
-                }
-                taken
+                let Err(faults) = self.entry(index, text, group, &mut row, line) else {
+                    return;
+                };
+                self.broken.insert(row.name().to_owned());
+                faults
             }
         };
-        match taken {
-            // A missing column is missing in every row: that is one fault, not many.
-            Err(fault) if fault.whole_file => {
-                self.whole_file = self.whole_file.take().or(Some(fault));
-            }
-            Err(fault) => self.faults.add(text, fault),
-            Ok(()) => {}
+        // A missing column is missing in every row: that is one fault, not many.
+        let (of_file, of_row): (Vec<Fault>, Vec<Fault>) =
+            faults.into_iter().partition(|fault| fault.whole_file);
+        if let Some(fault) = of_file.into_iter().next() {
+            self.whole_file = self.whole_file.take().or(Some(fault));
         }
+        if !of_row.is_empty() {
+            self.faults.add_row(text, of_row);
+        }
+    }
+
+    /// The key of a row must be new, be the row broken or not; broken rows that are left out anyway hold no key.
+    fn key(&mut self, index: usize, row: &Row, broken: bool) -> Option<Fault> {
+        let key = row
+            .words(Column::Key)
+            .filter(|_| row.kind != Kind::Compatibility)?;
+        if broken && self.skip {
+            return None;
+        }
+        let before = self.keys.insert((row.kind, key.to_owned()), index)?;
+        Some(self.clash(key, before, index, row.place(Column::Key)))
     }
 
     fn entry(
@@ -223,41 +262,52 @@ impl Loader {
         row: &mut Row,
         line: usize,
     ) -> Read<()> {
+        let read = Entry::read(row);
+        let clash = self.key(index, row, read.is_err());
+        let entry = match (read, clash) {
+            (Ok(entry), None) => entry,
+            (Ok(_), Some(clash)) => return Err(vec![clash]),
+            (Err(mut faults), clash) => {
+                faults.extend(clash);
+                return Err(faults);
+            }
+        };
+        if entry.has_price() {
+            self.price(row, text);
+        }
         let place = || format!("{}:{line}", text.name);
-        match row.kind {
-            Kind::Motors => {
-                let (motor, gearbox) = entry::motor(row)?;
-                self.new_key(row, &motor.key, index)?;
+        match entry {
+            Entry::Motor(motor, gearbox) => {
                 plausible::motor(&mut self.remarks, &place, &motor);
                 if let Some(gearbox) = gearbox {
                     let motor = self.catalogue.motors.len() as u32;
                     let at = row.place(Column::BuiltInGearbox);
                     self.gear_motors.push((motor, gearbox, index, at));
                 }
-                self.catalogue.motors.push(motor);
+                self.catalogue.motors.push(*motor);
             }
-            Kind::Gearboxes => {
-                let gearbox = entry::gearbox(row)?;
-                self.new_key(row, &gearbox.key, index)?;
+            Entry::Gearbox(gearbox) => {
                 plausible::gearbox(&mut self.remarks, &place, &gearbox);
-                self.catalogue.gearboxes.push(gearbox);
+                self.catalogue.gearboxes.push(*gearbox);
             }
-            Kind::Amplifiers => {
-                let amplifier = entry::amplifier(row)?;
-                self.new_key(row, &amplifier.key, index)?;
-                self.catalogue.amplifiers.push(amplifier);
-            }
-            Kind::Resistors => {
-                let resistor = entry::resistor(row)?;
-                self.new_key(row, &resistor.key, index)?;
-                self.catalogue.resistors.push(resistor);
-            }
-            Kind::Compatibility => {
-                let listing = listing(row)?;
-                group.listings.push((index, listing));
-            }
+            Entry::Amplifier(amplifier) => self.catalogue.amplifiers.push(amplifier),
+            Entry::Resistor(resistor) => self.catalogue.resistors.push(resistor),
+            Entry::Listing(listing) => group.listings.push((index, listing)),
         }
         Ok(())
+    }
+
+    /// Notes the currency of a price with the file that has it; the first file of each.
+    fn price(&mut self, row: &Row, text: &Text) {
+        let currency = row.currency();
+        let known = self.catalogue.currencies.iter();
+        if !known
+            .clone()
+            .any(|(word, _)| word.eq_ignore_ascii_case(currency))
+        {
+            let found = (currency.to_owned(), text.name.clone());
+            self.catalogue.currencies.push(found);
+        }
     }
 
     /// Whether a key is new; if not, that is a fault.
@@ -270,13 +320,6 @@ impl Loader {
             self.faults.add(text, fault);
         }
         false
-    }
-
-    fn new_key(&mut self, row: &Row, key: &str, index: usize) -> Read<()> {
-        match self.keys.insert((row.kind, key.to_owned()), index) {
-            None => Ok(()),
-            Some(before) => Err(self.clash(key, before, index, row.place(Column::Key))),
-        }
     }
 
     fn clash(&self, key: &str, before: usize, index: usize, at: Range<usize>) -> Fault {
@@ -293,7 +336,7 @@ impl Loader {
         Fault::new(message, at, "again here", "give every row a key of its own")
     }
 
-    fn finish(mut self, groups: Vec<Group>, skip: bool) -> Result<Catalogue, CatalogueError> {
+    fn finish(mut self, groups: Vec<Group>) -> Result<Catalogue, CatalogueError> {
         let mut pairing = Pairing {
             motors: vec![Partners::default(); self.catalogue.motors.len()],
             built_in: vec![false; self.catalogue.gearboxes.len()],
@@ -302,8 +345,8 @@ impl Loader {
         for group in groups {
             self.pair(&group, &mut pairing);
         }
-        let broken = self.faults.count();
-        if !skip {
+        let broken = self.faults.rows();
+        if !self.skip {
             self.faults.into_result()?;
         } else if broken > 0 {
             self.remarks.add("rows left out", || {
@@ -319,6 +362,18 @@ impl Loader {
             return Err(CatalogueError::Empty(names.join(", "), "motors"));
         }
         Ok(catalogue)
+    }
+}
+
+/// Where a path leads, by whatever way it is written.
+fn real(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| path.to_owned())
+}
+
+fn twice(path: &Path, before: &Path) -> CatalogueError {
+    CatalogueError::Twice {
+        path: path.display().to_string(),
+        before: before.display().to_string(),
     }
 }
 

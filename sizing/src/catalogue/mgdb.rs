@@ -43,7 +43,7 @@ impl Sheet<'_> {
 
     fn place(&self, title: &str) -> Range<usize> {
         let row = self.record.position().map_or(0, |p| p.byte() as usize);
-        let start = cell_start(&self.text.text, row, self.index(title).unwrap_or(0));
+        let start = cell_start(&self.text.text, row, self.index(title).unwrap_or(0), ',');
         start..start + self.word(title).len()
     }
 
@@ -130,7 +130,7 @@ fn each<T>(
         .from_reader(text.text.as_bytes());
     let header = reader
         .headers()
-        .map_err(|e| csv_fault(&text.text, &e))?
+        .map_err(|e| csv_fault(&text.text, &e, ','))?
         .clone();
     let mut sheet = Sheet {
         text,
@@ -148,7 +148,7 @@ fn each<T>(
             }
             Err(error) => {
                 count += 1;
-                take(Err(csv_fault(&text.text, &error)));
+                take(Err(csv_fault(&text.text, &error, ',')));
             }
         }
     }
@@ -299,7 +299,7 @@ pub(super) fn listings(text: &Text, mut take: impl FnMut(Result<Listing, Fault>)
                     amplifiers: None,
                 }));
             }
-            Err(error) => take(Err(csv_fault(&text.text, &error))),
+            Err(error) => take(Err(csv_fault(&text.text, &error, ','))),
         }
     }
 }

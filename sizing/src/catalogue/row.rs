@@ -1,5 +1,6 @@
 //! One row of a catalogue table, from whatever kind of file: its cells by column, as quantities in SI or as words.
 
+use std::cell::RefCell;
 use std::ops::Range;
 
 use super::cell::{self, Cell, NUMBER_CURE};
@@ -18,17 +19,21 @@ pub(super) trait Cells {
     fn given(&self, column: Column) -> bool;
     /// The place of the header, for columns that are missing.
     fn header(&self) -> Range<usize>;
+    /// The currency of its price, if the file says.
+    fn currency(&self) -> &str;
 }
 
-/// The result of reading a cell.
-pub(super) type Read<T> = Result<T, Fault>;
+/// The result of reading a row: all that is wrong with it.
+pub(super) type Read<T> = Result<T, Vec<Fault>>;
 
-/// One row.
+/// One row. What is wrong with a cell is kept, and a stand-in read instead, so that all faults of a row are known at once;
+/// [`Row::checked`] hands them over.
 pub(super) struct Row<'t> {
     pub(super) kind: Kind,
     cells: &'t dyn Cells,
     /// Which motors its units must be for.
     motors: For,
+    faults: RefCell<Vec<Fault>>,
 }
 
 impl<'t> Row<'t> {
@@ -37,6 +42,30 @@ impl<'t> Row<'t> {
             kind,
             cells,
             motors: For::Any,
+            faults: RefCell::default(),
+        }
+    }
+
+    /// Keeps a fault.
+    pub(super) fn add(&self, fault: Fault) {
+        self.faults.borrow_mut().push(fault);
+    }
+
+    /// Keeps the fault, if any, and reads a stand-in for it.
+    fn keep<T>(&self, read: Result<T, Fault>, stand_in: T) -> T {
+        read.unwrap_or_else(|fault| {
+            self.add(fault);
+            stand_in
+        })
+    }
+
+    /// An error with the faults kept so far, if there are any.
+    pub(super) fn checked(&self) -> Read<()> {
+        let faults = self.faults.take();
+        if faults.is_empty() {
+            Ok(())
+        } else {
+            Err(faults)
         }
     }
 
@@ -81,11 +110,18 @@ impl<'t> Row<'t> {
         self.cells.cell(column).map(|cell| cell.text)
     }
 
+    /// The currency of its price, if the file says.
+    pub(super) fn currency(&self) -> &'t str {
+        self.cells.currency()
+    }
+
     /// Words that must be there.
-    pub(super) fn text(&self, column: Column) -> Read<String> {
-        self.words(column)
-            .map(ToOwned::to_owned)
-            .ok_or_else(|| self.missing(column, &[]))
+    pub(super) fn text(&self, column: Column) -> String {
+        let words = self.words(column).map(ToOwned::to_owned);
+        self.keep(
+            words.ok_or_else(|| self.missing(column, &[])),
+            String::new(),
+        )
     }
 
     /// The fault of a cell that is needed; one of `instead` would do as well.
@@ -120,7 +156,12 @@ impl<'t> Row<'t> {
     }
 
     /// A number that may be left out, in SI.
-    fn number(&self, column: Column, least: f64, label: &'static str) -> Read<Option<f64>> {
+    fn number(
+        &self,
+        column: Column,
+        least: f64,
+        label: &'static str,
+    ) -> Result<Option<f64>, Fault> {
         let Some(Cell { text, unit }) = self.cells.cell(column) else {
             return Ok(None);
         };
@@ -155,66 +196,71 @@ impl<'t> Row<'t> {
     }
 
     /// A figure greater than zero that may be left out, in SI.
-    pub(super) fn optional(&self, column: Column) -> Read<Option<f64>> {
-        self.number(column, 0.0, "not a number greater than zero")
+    pub(super) fn optional(&self, column: Column) -> Option<f64> {
+        self.keep(self.number(column, 0.0, ABOVE_ZERO), None)
     }
 
     /// A figure greater than zero that must be there, in SI.
-    pub(super) fn positive(&self, column: Column) -> Read<f64> {
-        self.optional(column)?
-            .ok_or_else(|| self.missing(column, &[]))
+    pub(super) fn positive(&self, column: Column) -> f64 {
+        let number = self.number(column, 0.0, ABOVE_ZERO);
+        self.keep(number.and_then(|x| self.needed(column, x)), 1.0)
     }
 
     /// A figure that may be zero and may be left out, in SI.
-    pub(super) fn not_negative(&self, column: Column) -> Read<Option<f64>> {
-        self.number(column, -f64::MIN_POSITIVE, "not a number from zero up")
+    pub(super) fn not_negative(&self, column: Column) -> Option<f64> {
+        self.keep(self.number(column, -f64::MIN_POSITIVE, FROM_ZERO), None)
+    }
+
+    /// A figure that may be zero and must be there, in SI.
+    pub(super) fn zero_or_more(&self, column: Column) -> f64 {
+        let number = self.number(column, -f64::MIN_POSITIVE, FROM_ZERO);
+        self.keep(number.and_then(|x| self.needed(column, x)), 0.0)
+    }
+
+    fn needed(&self, column: Column, number: Option<f64>) -> Result<f64, Fault> {
+        number.ok_or_else(|| self.missing(column, &[]))
     }
 
     /// A whole number from 1 to 1000 that may be left out.
-    pub(super) fn count(&self, column: Column) -> Read<Option<u32>> {
-        let Some(value) = self.optional(column)? else {
-            return Ok(None);
-        };
+    pub(super) fn count(&self, column: Column) -> Option<u32> {
+        let value = self.optional(column)?;
         if value.fract() == 0.0 && value <= 1000.0 {
-            return Ok(Some(value as u32));
+            return Some(value as u32);
         }
-        Err(self.fault(
+        self.add(self.fault(
             column,
             &format!("is {value}"),
             "not a whole number from 1 to 1000",
             "write how many there are",
-        ))
+        ));
+        None
     }
 
     /// Points "x: y; x: y", in SI; none if the cell is empty.
-    pub(super) fn points(
-        &self,
-        column: Column,
-        units: [&'static [Unit]; 2],
-    ) -> Read<Vec<[f64; 2]>> {
+    pub(super) fn points(&self, column: Column, units: [&'static [Unit]; 2]) -> Vec<[f64; 2]> {
         let Some(text) = self.words(column) else {
-            return Ok(Vec::new());
+            return Vec::new();
         };
-        cell::points(text, units, self.motors)
-            .map_err(|[message, cure]| self.fault(column, &message, "here", cure))
+        let points = cell::points(text, units, self.motors)
+            .map_err(|[message, cure]| self.fault(column, &message, "here", cure));
+        self.keep(points, Vec::new())
     }
 
     /// One of some words; nothing if the cell is empty.
-    pub(super) fn choice<T: Copy>(&self, column: Column, words: &[(&str, T)]) -> Read<Option<T>> {
-        let Some(word) = self.words(column) else {
-            return Ok(None);
-        };
+    pub(super) fn choice<T: Copy>(&self, column: Column, words: &[(&str, T)]) -> Option<T> {
+        let word = self.words(column)?;
         let lower = word.to_lowercase();
         if let Some((_, value)) = words.iter().find(|known| known.0 == lower) {
-            return Ok(Some(*value));
+            return Some(*value);
         }
         let names: Vec<String> = words.iter().map(|w| format!("\"{}\"", w.0)).collect();
         let help = format!("write {}", names.join(" or "));
-        Err(self.fault(column, &format!("is \"{word}\""), "not known", help))
+        self.add(self.fault(column, &format!("is \"{word}\""), "not known", help));
+        None
     }
 
     /// Yes or no; nothing if the cell is empty.
-    pub(super) fn yes_or_no(&self, column: Column) -> Read<Option<bool>> {
+    pub(super) fn yes_or_no(&self, column: Column) -> Option<bool> {
         self.choice(
             column,
             &[
@@ -231,21 +277,25 @@ impl<'t> Row<'t> {
         &self,
         (column, value): (Column, Option<f64>),
         (other, least): (Column, Option<f64>),
-    ) -> Read<()> {
-        match (value, least) {
-            (Some(value), Some(least)) if value < least => {
-                let (name, other) = (column.name(), other.name());
-                Err(self.fault(
-                    column,
-                    &format!("is below its {other}"),
-                    "too small",
-                    format!("check {name} and {other} against the data sheet, and the units in the header"),
-                ))
-            }
-            _ => Ok(()),
+    ) {
+        if let (Some(value), Some(least)) = (value, least)
+            && value < least
+        {
+            let (name, other) = (column.name(), other.name());
+            self.add(self.fault(
+                column,
+                &format!("is below its {other}"),
+                "too small",
+                format!(
+                    "check {name} and {other} against the data sheet, and the units in the header"
+                ),
+            ));
         }
     }
 }
+
+const ABOVE_ZERO: &str = "not a number greater than zero";
+const FROM_ZERO: &str = "not a number from zero up";
 
 /// The unit of a plain number.
 const PLAIN: Unit = Unit {

@@ -12,6 +12,9 @@ pub(super) struct Table<'t> {
     text: &'t str,
     kind: Kind,
     columns: [Option<(usize, &'static Unit)>; Column::COUNT],
+    /// What stands between the cells.
+    separator: char,
+    currency: String,
     header: csv::StringRecord,
     reader: csv::Reader<&'t [u8]>,
 }
@@ -20,14 +23,21 @@ impl<'t> Table<'t> {
     /// Reads the header; `None` if there is none.
     pub(super) fn read(text: &'t Text, kind: Kind) -> Result<Option<Self>, Fault> {
         let text = text.text.as_str();
+        let separator = separator(text);
         let mut reader = csv::ReaderBuilder::new()
             .trim(csv::Trim::All)
             .comment(Some(b'#'))
+            .delimiter(separator as u8)
             .from_reader(text.as_bytes());
-        let header = reader.headers().map_err(|e| csv_fault(text, &e))?.clone();
+        let header = reader
+            .headers()
+            .map_err(|e| csv_fault(text, &e, separator))?
+            .clone();
         let mut table = Self {
             text,
             kind,
+            separator,
+            currency: String::new(),
             columns: [None; Column::COUNT],
             header,
             reader,
@@ -36,27 +46,10 @@ impl<'t> Table<'t> {
         if header.iter().all(str::is_empty) {
             return Ok(None);
         }
-        table.separators()?;
         for (index, title) in header.iter().enumerate() {
             table.column(index, title)?;
         }
         Ok(Some(table))
-    }
-
-    /// A sheet saved with other separators has one column only.
-    fn separators(&self) -> Result<(), Fault> {
-        let title = self.header.get(0).unwrap_or_default();
-        let separator = [(';', "semicolons"), ('\t', "tabs")];
-        let found = separator.into_iter().find(|(c, _)| title.contains(*c));
-        match found {
-            Some((_, name)) if self.header.len() == 1 => Err(Fault::new(
-                format!("the columns are separated by {name}"),
-                self.place_of(0, title),
-                "no comma in this header",
-                "save the sheet with commas between the columns and points in the numbers (\"3.2\", not \"3,2\")",
-            )),
-            _ => Ok(()),
-        }
     }
 
     fn column(&mut self, index: usize, title: &str) -> Result<(), Fault> {
@@ -69,6 +62,7 @@ impl<'t> Table<'t> {
             return Err(unknown(name, self.kind, at));
         };
         let unit = if column == Column::Price {
+            unit.clone_into(&mut self.currency);
             column.units().first()
         } else {
             find_unit(unit, column.units())
@@ -103,7 +97,7 @@ impl<'t> Table<'t> {
 
     /// Where a title of the header stands.
     fn place_of(&self, index: usize, title: &str) -> Range<usize> {
-        let from = cell_start(self.text, 0, index);
+        let from = cell_start(self.text, 0, index, self.separator);
         find(self.text, from, title)
     }
 
@@ -116,7 +110,7 @@ impl<'t> Table<'t> {
                 Ok(false) => return count,
                 Err(error) => {
                     count += 1;
-                    take(Err(csv_fault(self.text, &error)));
+                    take(Err(csv_fault(self.text, &error, self.separator)));
                     // Only a row of the wrong length leaves the reader where it can go on.
                     if !matches!(error.kind(), csv::ErrorKind::UnequalLengths { .. }) {
                         return count;
@@ -170,9 +164,14 @@ pub(super) fn unknown(name: &str, kind: Kind, at: Range<usize>) -> Fault {
 }
 
 /// What the CSV reader does not like.
-pub(super) fn csv_fault(text: &str, error: &csv::Error) -> Fault {
+pub(super) fn csv_fault(text: &str, error: &csv::Error, separator: char) -> Fault {
     let from = error.position().map_or(0, |p| p.byte() as usize);
-    let at = cell_start(text, from, 0);
+    let at = cell_start(text, from, 0, separator);
+    let name = match separator {
+        ';' => "semicolon",
+        '\t' => "tab",
+        _ => "comma",
+    };
     let message = match error.kind() {
         csv::ErrorKind::UnequalLengths {
             expected_len, len, ..
@@ -185,7 +184,7 @@ pub(super) fn csv_fault(text: &str, error: &csv::Error) -> Fault {
         message,
         at..at,
         "in this row",
-        "every row needs as many cells as the header; quote cells that hold a comma",
+        format!("every row needs as many cells as the header; quote cells that hold a {name}"),
     )
 }
 
@@ -197,7 +196,7 @@ struct CsvRow<'r> {
 impl CsvRow<'_> {
     fn place_at(&self, index: usize) -> Range<usize> {
         let row = self.record.position().map_or(0, |p| p.byte() as usize);
-        let from = cell_start(self.table.text, row, index);
+        let from = cell_start(self.table.text, row, index, self.table.separator);
         find(self.table.text, from, self.record.get(index).unwrap_or(""))
     }
 }
@@ -225,9 +224,28 @@ impl Cells for CsvRow<'_> {
     }
 
     fn header(&self) -> Range<usize> {
-        let at = cell_start(self.table.text, 0, 0);
+        let at = cell_start(self.table.text, 0, 0, self.table.separator);
         at..at
     }
+
+    fn currency(&self) -> &str {
+        &self.table.currency
+    }
+}
+
+/// What separates the cells: tabs or semicolons where the header has them, else commas.
+pub(super) fn separator(text: &str) -> char {
+    let start = cell_start(text, 0, 0, ',');
+    let header = text
+        .get(start..)
+        .unwrap_or_default()
+        .lines()
+        .next()
+        .unwrap_or_default();
+    ['\t', ';']
+        .into_iter()
+        .find(|c| header.contains(*c))
+        .unwrap_or(',')
 }
 
 /// The first occurrence of `cell` from byte `from` on.
@@ -243,8 +261,8 @@ fn find(text: &str, from: usize, cell: &str) -> Range<usize> {
 }
 
 /// Where cell number `index` of the row begins that follows byte `from`: past comments and blank lines, and past as
-/// many commas outside quotes.
-pub(super) fn cell_start(text: &str, from: usize, index: usize) -> usize {
+/// many separators outside quotes.
+pub(super) fn cell_start(text: &str, from: usize, index: usize, separator: char) -> usize {
     let mut start = from.min(text.len());
     if start == 0 && text.starts_with('\u{feff}') {
         start = '\u{feff}'.len_utf8();
@@ -262,7 +280,7 @@ pub(super) fn cell_start(text: &str, from: usize, index: usize) -> usize {
         .char_indices()
         .filter(|(_, c)| {
             quoted ^= *c == '"';
-            *c == ',' && !quoted
+            *c == separator && !quoted
         });
     match index.checked_sub(1).map(|n| commas.nth(n)) {
         Some(Some((comma, _))) => start + comma + 1,

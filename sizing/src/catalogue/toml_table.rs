@@ -16,6 +16,9 @@ use super::table::unknown;
 struct TomlRow {
     at: Range<usize>,
     cells: Vec<TomlCell>,
+    currency: String,
+    /// What is wrong with keys and units.
+    faults: Vec<Fault>,
 }
 
 struct TomlCell {
@@ -51,6 +54,10 @@ impl Cells for TomlRow {
     fn header(&self) -> Range<usize> {
         self.at.clone()
     }
+
+    fn currency(&self) -> &str {
+        &self.currency
+    }
 }
 
 /// Calls `take` with every row of every table, or with what makes it unreadable.
@@ -67,6 +74,19 @@ pub(super) fn each(
              rated_torque = \"3.2 N m\"",
         )
     })?;
+    if let Some((name, _)) = tree
+        .get_ref()
+        .iter()
+        .find(|(name, _)| name.get_ref() == "mechanism")
+    {
+        return Err(Fault::new(
+            "this is a machine file, not a catalogue",
+            name.span(),
+            "a machine has a [mechanism]",
+            "name the machine file without --catalogue, as `jred size MACHINE --catalogue FOLDER`, and a folder of motors and \
+             gearboxes behind it",
+        ));
+    }
     let mut tables: Vec<(Kind, &Spanned<DeValue>)> = Vec::new();
     for (name, value) in tree.get_ref() {
         let kind = Kind::ALL
@@ -101,7 +121,13 @@ pub(super) fn each(
     for (kind, row) in tables {
         let line = lines.of(row.span().start);
         match read_row(kind, row) {
-            Ok(cells) => take(Ok((Row::new(kind, &cells), line))),
+            Ok(cells) => {
+                let row = Row::new(kind, &cells);
+                for fault in &cells.faults {
+                    row.add(fault.clone());
+                }
+                take(Ok((row, line)));
+            }
             Err(fault) => take(Err(fault)),
         }
     }
@@ -118,14 +144,28 @@ fn read_row(kind: Kind, row: &Spanned<DeValue>) -> Result<TomlRow, Fault> {
         ));
     };
     let mut cells = Vec::with_capacity(table.len());
+    let (mut currency, mut faults) = (String::new(), Vec::new());
     for (name, value) in table {
         let column = Column::of(kind).find(|c| c.name() == name.get_ref());
-        let column = column.ok_or_else(|| unknown(name.get_ref(), kind, name.span()))?;
-        cells.push(read_cell(column, value)?);
+        let column = column.ok_or_else(|| unknown(name.get_ref(), kind, name.span()));
+        match column.and_then(|column| read_cell(column, value)) {
+            Ok(mut cell) => {
+                if cell.column == Column::Price {
+                    let (number, word) = cell::split(&cell.text);
+                    word.clone_into(&mut currency);
+                    let length = number.len();
+                    cell.text.truncate(length);
+                }
+                cells.push(cell);
+            }
+            Err(fault) => faults.push(fault),
+        }
     }
     Ok(TomlRow {
         at: row.span(),
         cells,
+        currency,
+        faults,
     })
 }
 

@@ -4,20 +4,20 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::CatalogueFiles;
+use super::catalogue::CatalogueFiles;
 use crate::output::Format;
 
 /// `jred bus`
 #[derive(Debug, Args)]
 pub struct Bus {
-    /// Machine files, one for each axis; the bus is that of the first file's `[supply]`.
+    /// Machine files, one for each axis; the bus is that of the `[supply]` that any one of them states.
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
     /// What drives are made of.
     #[command(flatten)]
     pub catalogue: CatalogueFiles,
     /// Drive of an axis instead of the best that fits: its number from 1 and MOTOR+GEARBOX (or MOTOR), as in
-    /// "2=motor-a+gearbox-b"; once for each axis.
+    /// "2=motor-a+gearbox-b", with " on AMPLIFIER" behind where there are several, or the name as printed; once for each axis.
     #[arg(long, value_name = "N=DRIVE")]
     pub drive: Vec<String>,
     /// All axes start their cycles together, as in the files: only that is judged.

@@ -6,6 +6,7 @@ use clap::Args;
 use glob::Pattern;
 
 use super::catalogue::CatalogueFiles;
+use crate::catalogue::{Catalogue, CatalogueError};
 use crate::filter::Filter;
 use crate::output::Format;
 use crate::rank::{Objective, rank};
@@ -86,6 +87,26 @@ impl Search {
             }
         }
         gaps
+    }
+
+    /// Prices that are to be compared must be in one currency.
+    ///
+    /// # Errors
+    /// They are not.
+    pub fn check(
+        &self,
+        catalogue: &Catalogue,
+        objectives: &[Objective],
+    ) -> Result<(), CatalogueError> {
+        let ranked = self
+            .rank
+            .iter()
+            .chain(objectives)
+            .any(|o| *o == Objective::Price);
+        if ranked || self.max_price.is_some() {
+            catalogue.one_currency()?;
+        }
+        Ok(())
     }
 
     /// What is considered.
@@ -175,6 +196,10 @@ pub struct Rows {
 
 /// `jred vary`
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Exit codes: 0 at least one machine has a drive that holds every rule; 1 none of the machines has (a \
+                  share, --shard, ends with 0 all the same); 2 bad input; 130 stopped before the last row."
+)]
 pub struct Vary {
     /// Machine file, with a `[motion]`.
     pub file: PathBuf,
@@ -210,6 +235,9 @@ pub struct Merge {
 
 /// `jred ratio`
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Exit codes: 0 at least one motor holds every rule with some ratio; 1 none does; 2 bad input."
+)]
 pub struct Ratio {
     /// Machine file, with a `[motion]`.
     pub file: PathBuf,
@@ -222,6 +250,13 @@ pub struct Ratio {
     /// Its inertia at the input, e.g. "0.5 kg cm^2"; nothing if not given.
     #[arg(long, value_parser = crate::input::inertia_argument)]
     pub gearbox_inertia: Option<f64>,
+    /// Only motors whose key is like this, e.g. "sgmsh-*"; may be repeated.
+    #[arg(long, value_name = "GLOB")]
+    pub motor: Vec<Pattern>,
+    /// List only the first so many of the motors that hold every rule with some ratio, the smallest first; the others are
+    /// counted.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub top: Option<u32>,
     /// How to write the result.
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
@@ -242,6 +277,9 @@ fn efficiency(text: &str) -> Result<f64, String> {
 
 /// `jred sensitivity`
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Exit codes: 0 the drive holds every rule as it is; 1 it breaks one; 2 bad input."
+)]
 pub struct Sensitivity {
     /// Machine file, with a `[motion]`.
     pub file: PathBuf,
@@ -277,6 +315,10 @@ fn percent(text: &str) -> Result<f64, String> {
 
 /// `jred tolerance`
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Exit codes: 0 every machine drawn holds every rule; 1 one does not, or cannot be built as drawn; 2 bad \
+                  input; 130 stopped before the last machine."
+)]
 pub struct Tolerance {
     /// Machine file, with a `[motion]`.
     pub file: PathBuf,

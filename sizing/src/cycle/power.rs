@@ -70,6 +70,15 @@ impl Stretches<'_> {
                     || visit(stretches, c, slack, node.second as usize)
             }
         }
-        !self.tree.nodes.is_empty() && visit(self, c, self.slack(c), 0)
+        if self.tree.nodes.is_empty() {
+            return false;
+        }
+        let slack = self.slack(c);
+        match self.front.against_speed(&c.0, slack) {
+            Ok(known) => known,
+            Err(open) => (0..self.front.len)
+                .filter(|k| open >> k & 1 == 1)
+                .any(|k| visit(self, c, slack, self.front.nodes[k] as usize)),
+        }
     }
 }

@@ -6,10 +6,10 @@ use crate::catalogue::Motor;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Continuous {
     pub(super) standstill: f64,
-    rated_torque: f64,
-    rated_speed: f64,
-    max_power: f64,
-    points: Box<[[f64; 2]]>,
+    pub(super) rated_torque: f64,
+    pub(super) rated_speed: f64,
+    pub(super) max_power: f64,
+    pub(super) points: Box<[[f64; 2]]>,
 }
 
 impl Continuous {
@@ -49,7 +49,7 @@ impl Continuous {
         heat.min(power)
     }
 
-    fn by_figures(&self, speed: f64) -> f64 {
+    pub(super) fn by_figures(&self, speed: f64) -> f64 {
         let Self {
             standstill,
             rated_torque: torque,
@@ -69,7 +69,7 @@ impl Continuous {
 }
 
 /// On the straight lines between points; level before the first, with constant power beyond the last.
-fn between(points: &[[f64; 2]], speed: f64) -> f64 {
+pub(super) fn between(points: &[[f64; 2]], speed: f64) -> f64 {
     let after = points.partition_point(|p| p[0] < speed);
     match (after.checked_sub(1).map(|k| points[k]), points.get(after)) {
         (None, Some([_, torque])) => *torque,

@@ -19,11 +19,14 @@ mod bound;
 mod build;
 mod circuit;
 mod continuous;
+mod floor;
 mod limit;
+mod segment;
 mod voltage;
 
 pub use circuit::Circuit;
 pub use limit::{Curve, Limit, Piece, Shape};
+pub(crate) use segment::Segment;
 
 use build::Builder;
 use continuous::Continuous;

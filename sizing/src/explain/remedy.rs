@@ -16,7 +16,6 @@ use crate::check::Verdict;
 use crate::cycle::Cycle;
 use crate::drive::Drive;
 use crate::judge::Context;
-use crate::listing::nearest;
 use crate::rule::Rule;
 use crate::rules::RuleSet;
 use crate::site::Site;
@@ -188,7 +187,7 @@ impl Remedies {
         altered: &Altered,
         count: usize,
     ) -> Result<Vec<Self>, Error> {
-        let nearest = nearest(selection, count);
+        let nearest = selection.first_refused(count);
         Ok(nearest
             .iter()
             .map(|c| Self::new(altered, selection.site, selection.rules, c.drive, c.motor))

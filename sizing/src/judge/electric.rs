@@ -1,33 +1,44 @@
 //! Current of the amplifier, energy of the DC bus, brake resistor.
 
-use super::{Context, Finding, Findings, Words};
+use super::{Context, Finding, Take, Words};
 use crate::bus::store::BusFigures;
 use crate::bus::supply::BusData;
 use crate::bus::{self, Need};
 use crate::output::short;
 use crate::overload;
 use crate::rule::Rule;
+use crate::thermal::mean::rms_current;
 
-pub(super) fn measure(context: &Context, findings: &mut Findings) {
+/// Currents; returns the largest (A), if the rules need it; NaN where the motor's data do not say which current makes a torque.
+pub(super) fn measure(context: &Context, findings: &mut impl Take) -> Option<f64> {
     let motor_peak = context.drive.motor.winding.peak_current;
     let Some(amplifier) = context.drive.amplifier else {
         findings.set(Rule::RmsCurrent, Finding::UNKNOWN);
-        if motor_peak.is_some() {
-            let [_, peak] = currents(context);
-            findings.set(Rule::PeakCurrent, Finding::against(peak, motor_peak));
-        }
-        return;
+        let limit = motor_peak?;
+        let peak = peak_current(context);
+        findings.set(Rule::PeakCurrent, Finding::new(peak, limit));
+        return Some(peak);
     };
-    let [rms, peak] = currents(context);
+    let Context {
+        cycle,
+        coefficients,
+        ratio,
+        motor,
+        ..
+    } = context;
+    let rms = rms_current(cycle, coefficients, *ratio, motor).unwrap_or(f64::NAN);
+    let peak = peak_current(context);
     findings.set(Rule::RmsCurrent, Finding::new(rms, amplifier.rated_current));
     let limit = motor_peak.map_or(amplifier.peak_current, |motor| {
         motor.min(amplifier.peak_current)
     });
     findings.set(Rule::PeakCurrent, Finding::new(peak, limit));
+    Some(peak)
 }
 
-/// RMS and largest current (A); NaN where the motor's data do not say which current makes a torque.
-fn currents(context: &Context) -> [f64; 2] {
+/// Largest current (A); NaN where the motor's data do not say which current makes a torque. It is that of the largest torque,
+/// unless the field is weakened.
+fn peak_current(context: &Context) -> f64 {
     let Context {
         cycle,
         coefficients,
@@ -36,29 +47,22 @@ fn currents(context: &Context) -> [f64; 2] {
         ..
     } = context;
     let Some(curve) = motor.torques else {
-        return [f64::NAN; 2];
+        return f64::NAN;
     };
-    let torque = cycle.peak_torque(coefficients);
-    let weakens = motor.circuit.as_ref().is_some_and(|c| c.weakens);
-    let straight = !weakens && curve.current(torque) <= torque / curve.torque_constant();
-    if straight {
-        let rms = cycle.rms_torque(coefficients) / curve.torque_constant();
-        return [rms, curve.current(torque)];
+    if !motor.circuit.as_ref().is_some_and(|c| c.weakens) {
+        return curve.current(cycle.peak_torque(coefficients));
     }
-    let (mut squares, mut peak) = (0.0, 0.0f64);
-    for sample in cycle.samples() {
+    let currents = cycle.samples().iter().map(|sample| {
         let torque = coefficients.torque(&sample.loads);
-        let current = motor
-            .current(torque, sample.speed() * ratio)
-            .unwrap_or(f64::NAN);
-        squares += sample.weight * current * current;
-        peak = peak.max(current);
-    }
-    [(squares / cycle.duration()).sqrt(), peak]
+        let current = motor.current(torque, sample.speed() * ratio);
+        current.unwrap_or(f64::NAN)
+    });
+    currents.fold(0.0, f64::max)
 }
 
-pub(super) fn follow(context: &Context, findings: &mut Findings) {
-    overload(context, findings);
+/// Overload, bus and brake resistor; the largest current (A) is known from [`measure`].
+pub(super) fn follow(context: &Context, peak_current: Option<f64>, findings: &mut impl Take) {
+    overload(context, peak_current.unwrap_or(f64::NAN), findings);
     let data = data(context);
     if data.regenerative {
         return;
@@ -107,14 +111,19 @@ pub(super) fn follow(context: &Context, findings: &mut Findings) {
     }
 }
 
-fn overload(context: &Context, findings: &mut Findings) {
+/// Whether nothing that [`follow`] finds can be worse than a figure that is missing: without an amplifier, and without the
+/// highest voltage of the bus, none of its rules has both figure and rating.
+pub(super) fn only_misses_figures(context: &Context) -> bool {
+    let data = data(context);
+    let resistance = data.resistor.is_some() && data.min_resistance.is_some();
+    context.drive.amplifier.is_none() && data.max_voltage.is_none() && !resistance
+}
+
+fn overload(context: &Context, peak: f64, findings: &mut impl Take) {
     let Some(amplifier) = context.drive.amplifier else {
         return;
     };
     let rated = amplifier.rated_current;
-    let peak = findings
-        .get(Rule::PeakCurrent)
-        .map_or(f64::NAN, |f| f.value);
     if peak <= rated {
         findings.set(Rule::Overload, Finding::new(0.0, f64::INFINITY));
         return;

@@ -1,6 +1,6 @@
 //! The gearbox's torques, speeds and cycles.
 
-use super::{Context, Finding, Findings, Words};
+use super::{Context, Finding, Take, Words};
 use crate::catalogue::Gearbox;
 use crate::drive::RPM;
 use crate::mechanics::Braking;
@@ -14,7 +14,8 @@ const CYCLES: f64 = 1000.0;
 /// Seconds of an hour.
 const HOUR: f64 = 3600.0;
 
-pub(super) fn measure(context: &Context, rules: &RuleSet, findings: &mut Findings) {
+/// The rules that depend on gearbox and cycle alone, whatever the motor.
+pub(super) fn measure_alone(context: &Context, rules: &RuleSet, findings: &mut impl Take) {
     let Some(gearbox) = context.drive.gearbox else {
         return;
     };
@@ -32,11 +33,6 @@ pub(super) fn measure(context: &Context, rules: &RuleSet, findings: &mut Finding
         Rule::GearboxCubicMean,
         Finding::against(cycle.mean_output_torque(exponent), gearbox.rated_torque),
     );
-    let stop = gearbox.emergency_torque.and_then(|rating| {
-        let [torque, _] = emergency(context, gearbox)?;
-        Some(Finding::new(torque, rating))
-    });
-    findings.set(Rule::GearboxEmergency, stop.unwrap_or(Finding::UNKNOWN));
     findings.set(
         Rule::GearboxMeanSpeed,
         Finding::against(cycle.mean_speed() * context.ratio, gearbox.rated_speed),
@@ -52,6 +48,18 @@ pub(super) fn measure(context: &Context, rules: &RuleSet, findings: &mut Finding
             .map_or(CYCLES, |[most, _]| *most);
         findings.set(Rule::GearboxCycles, Finding::new(cycles, most));
     }
+}
+
+/// The emergency stop, in which the motor brakes.
+pub(super) fn measure_stop(context: &Context, findings: &mut impl Take) {
+    let Some(gearbox) = context.drive.gearbox else {
+        return;
+    };
+    let stop = gearbox.emergency_torque.and_then(|rating| {
+        let [torque, _] = emergency(context, gearbox)?;
+        Some(Finding::new(torque, rating))
+    });
+    findings.set(Rule::GearboxEmergency, stop.unwrap_or(Finding::UNKNOWN));
 }
 
 /// Moves of the drive link in an hour: each loads the teeth with an acceleration torque.

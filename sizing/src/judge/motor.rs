@@ -1,6 +1,8 @@
 //! The motor's torque, speed, holding torque and inertia ratio.
 
-use super::{Context, Finding, Findings, Words};
+use super::{Context, Finding, Take, Words};
+use crate::catalogue::Prepared;
+use crate::cycle::Cycle;
 use crate::output::short;
 use crate::rule::Rule;
 use crate::rules::RuleSet;
@@ -9,29 +11,41 @@ use crate::units::Units;
 /// Seconds of a minute.
 const MINUTE: f64 = 60.0;
 
-pub(super) fn measure(context: &Context, rules: &RuleSet, findings: &mut Findings) {
-    let Context {
-        cycle,
-        ratio,
-        coefficients,
-        ..
-    } = context;
-    let envelope = &context.motor.envelope;
-    let s1 = envelope.continuous_torque(cycle.mean_speed() * ratio);
-    let known = |rating: f64| if rating.is_finite() { rating } else { f64::NAN };
-    findings.set(
-        Rule::RmsTorque,
-        Finding::new(cycle.rms_torque(coefficients), known(s1)),
-    );
-    let peak = cycle.peak(coefficients, *ratio, envelope);
-    let limit = envelope.peak_torque(peak.torque, peak.speed);
-    findings.set(
-        Rule::PeakTorque,
-        Finding::new(peak.torque.abs(), known(limit)),
-    );
+/// A rating that is known if it is finite.
+fn known(rating: f64) -> f64 {
+    if rating.is_finite() { rating } else { f64::NAN }
+}
+
+/// The largest speed; nothing but the ratio is needed of the drive.
+pub(super) fn measure_speed(
+    cycle: &Cycle,
+    motor: &Prepared,
+    ratio: f64,
+    findings: &mut impl Take,
+) {
+    let rating = known(motor.envelope.max_speed());
     findings.set(
         Rule::Speed,
-        Finding::new(cycle.peak_speed() * ratio, known(envelope.max_speed())),
+        Finding::new(cycle.peak_speed() * ratio, rating),
+    );
+}
+
+/// The inertia ratio.
+pub(super) fn measure_inertia(context: &Context, rules: &RuleSet, findings: &mut impl Take) {
+    let inertia = rules.choices.inertia_ratio_of.pick(&context.cycle.inertia());
+    let lambda = context.drive.inertia_ratio(inertia);
+    let rating = rules.choices.inertia_rating(moves_per_minute(context));
+    findings.set(Rule::InertiaRatio, Finding::new(lambda, rating));
+}
+
+/// Torques that need no search over the cycle.
+pub(super) fn measure_torques(context: &Context, findings: &mut impl Take) {
+    let cycle = context.cycle;
+    let envelope = &context.motor.envelope;
+    let s1 = envelope.continuous_torque(cycle.mean_speed() * context.ratio);
+    findings.set(
+        Rule::RmsTorque,
+        Finding::new(cycle.rms_torque(&context.coefficients), known(s1)),
     );
     let standstill = known(envelope.standstill());
     let held = holding(context);
@@ -42,10 +56,24 @@ pub(super) fn measure(context: &Context, rules: &RuleSet, findings: &mut Finding
         let against = Finding::new(braked(context), brake.torque);
         findings.set(Rule::BrakeTorque, against);
     }
-    let inertia = rules.choices.inertia_ratio_of.pick(&cycle.inertia());
-    let lambda = context.drive.inertia_ratio(inertia);
-    let rating = rules.choices.inertia_rating(moves_per_minute(context));
-    findings.set(Rule::InertiaRatio, Finding::new(lambda, rating));
+}
+
+/// The torque where the cycle comes closest to the envelope.
+pub(super) fn measure_peak(context: &Context, findings: &mut impl Take) {
+    let envelope = &context.motor.envelope;
+    let peak = context
+        .cycle
+        .peak(&context.coefficients, context.ratio, envelope);
+    let limit = envelope.peak_torque(peak.torque, peak.speed);
+    findings.set(
+        Rule::PeakTorque,
+        Finding::new(peak.torque.abs(), known(limit)),
+    );
+}
+
+/// A peak torque of which it is only known that it uses at least this share of the envelope.
+pub(super) fn set_peak_use(used: f64, findings: &mut impl Take) {
+    findings.set(Rule::PeakTorque, Finding::new(used, 1.0));
 }
 
 fn moves_per_minute(context: &Context) -> f64 {

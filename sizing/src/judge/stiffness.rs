@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{Context, Finding, Findings, Words};
+use super::{Context, Finding, Take, Words};
 use crate::output::short;
 use crate::rule::Rule;
 use crate::site::ToolPlace;
@@ -14,8 +14,10 @@ use crate::site::ToolPlace;
 /// rad of a degree.
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
-pub(super) fn measure(context: &Context, findings: &mut Findings) {
-    let frequency = frequencies(context).map_or(Finding::UNKNOWN, |[fixed, _]| {
+/// Both depend on gearbox, machine and cycle alone, whatever the motor.
+pub(super) fn measure(context: &Context, findings: &mut impl Take) {
+    let frequency = stiffness(context).map_or(Finding::UNKNOWN, |stiffness| {
+        let fixed = frequency(stiffness, 1.0 / context.cycle.inertia().max);
         Finding::new(fixed, context.cycle.mechanics().drive_frequency)
     });
     findings.set(Rule::NaturalFrequency, frequency);
@@ -45,8 +47,15 @@ fn frequencies(context: &Context) -> Option<[f64; 2]> {
     let stiffness = stiffness(context)?;
     let inertia = context.cycle.inertia().max;
     let rotor = context.coefficients.0[0] * context.ratio;
-    let of = |per_inertia: f64| (stiffness * per_inertia).sqrt() / TAU;
-    Some([of(1.0 / inertia), of(1.0 / inertia + 1.0 / rotor)])
+    Some([
+        frequency(stiffness, 1.0 / inertia),
+        frequency(stiffness, 1.0 / inertia + 1.0 / rotor),
+    ])
+}
+
+/// f = √(c/J)/2π (Hz), of a stiffness (N·m/rad) and one over an inertia (kg·m²).
+fn frequency(stiffness: f64, per_inertia: f64) -> f64 {
+    (stiffness * per_inertia).sqrt() / TAU
 }
 
 /// Play at the tool (m or rad): that of the gearbox through the drive train, and the drive train's own, by the largest

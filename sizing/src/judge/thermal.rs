@@ -1,13 +1,13 @@
 //! Temperature of winding and housing.
 
-use super::{Context, Finding, Findings, Words};
+use super::{Context, Finding, Take, Words};
 use crate::rule::Rule;
 use crate::thermal::classify::Features;
 use crate::thermal::course::Hottest;
 use crate::thermal::operation::Operation;
 use crate::thermal::{Heating, Load, Model, allowed_rise};
 
-pub(super) fn follow(context: &Context, findings: &mut Findings) {
+pub(super) fn follow(context: &Context, findings: &mut impl Take) {
     let Ok(heating) = heating(context) else {
         findings.set(Rule::WindingTemperature, Finding::UNKNOWN);
         return;

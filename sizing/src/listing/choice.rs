@@ -2,7 +2,8 @@
 
 use miette::{Result, miette};
 
-use crate::size::{Candidate, NEAREST, Selection};
+use crate::drive::Drive;
+use crate::size::{Candidate, Selection};
 
 /// How much of a selection is listed.
 #[derive(Clone, Copy, Debug)]
@@ -19,64 +20,68 @@ pub struct List {
 
 impl List {
     /// The ranked drives to list.
-    pub fn fit<'s, 'c>(&self, selection: &'s Selection<'c>) -> &'s [Candidate<'c>] {
+    pub fn fit<'c>(&self, selection: &Selection<'c>) -> Vec<Candidate<'c>> {
         let count = if self.all { usize::MAX } else { self.top };
-        &selection.fit[..count.min(selection.fit.len())]
+        selection.first_fit(count)
     }
 
     /// The refused drives to list, those that miss by least first.
     pub fn refused<'c>(&self, selection: &Selection<'c>) -> Vec<Candidate<'c>> {
         if self.all || self.refused {
-            return selection.refused_in_order();
+            return selection.first_refused(usize::MAX);
         }
-        nearest(selection, self.nearest)
+        selection.first_refused(self.nearest)
     }
 }
 
-/// The refused drives that miss by least, `count` of them.
-pub(crate) fn nearest<'c>(selection: &Selection<'c>, count: usize) -> Vec<Candidate<'c>> {
-    let mut refused = if count > NEAREST {
-        selection.refused_in_order()
-    } else {
-        let count = count.min(selection.refused.len());
-        selection.refused[..count].to_vec()
-    };
-    refused.truncate(count);
-    refused
-}
-
-/// The drive that is to be explained: the one that `name` says, as MOTOR or MOTOR+GEARBOX with the keys of the catalogue; without
-/// a name the best, or, if none holds, the one that misses by least. `None` if there is no drive at all.
+/// The drive that is to be explained: the one that `name` says; without a name the best, or, if none holds, the one that misses by
+/// least. `None` if there is no drive at all.
+///
+/// A name has the keys of the catalogue: MOTOR+GEARBOX, MOTOR or MOTOR+direct, or as tables have it, "MOTOR, direct" and
+/// "MOTOR + GEARBOX on AMPLIFIER". Without amplifier it is the first of the drives that differ in nothing else.
 ///
 /// # Errors
 /// No drive of that name.
-pub fn explained<'s, 'c>(
-    selection: &'s Selection<'c>,
+pub fn explained<'c>(
+    selection: &Selection<'c>,
     name: Option<&str>,
-) -> Result<Option<&'s Candidate<'c>>> {
-    let mut all = selection.fit.iter().chain(&selection.refused);
+) -> Result<Option<Candidate<'c>>> {
     let Some(name) = name else {
-        return Ok(all.next());
+        let best = selection.fit.first().or(selection.refused.first());
+        return Ok(best.copied());
     };
-    let key = |candidate: &Candidate| {
-        let drive = &candidate.drive;
-        let gearbox = drive
-            .gearbox
-            .map_or(String::new(), |g| format!("+{}", g.key));
-        format!("{}{gearbox}", drive.motor.key)
+    let asked = plain(name);
+    let is_asked = |drive: &Drive| {
+        let own = plain(&drive.name());
+        let alone = plain(
+            &Drive {
+                amplifier: None,
+                ..*drive
+            }
+            .name(),
+        );
+        asked == own || asked == alone || drive.gearbox.is_none() && asked == drive.motor.key
     };
-    let asked: String = name.split('+').map(str::trim).collect::<Vec<_>>().join("+");
-    if let Some(found) = all.find(|candidate| key(candidate) == asked) {
+    if let Some(found) = selection.find(is_asked) {
         return Ok(Some(found));
     }
-    let keys = selection.fit.iter().chain(&selection.refused).map(key);
-    let closest = keys
-        .max_by(|a, b| strsim::jaro_winkler(a, &asked).total_cmp(&strsim::jaro_winkler(b, &asked)));
-    let closest = closest.map_or(String::new(), |key| format!("; did you mean {key}?"));
+    let names = selection.fit.drives().chain(selection.refused.drives());
+    let closest = names
+        .map(|drive| (strsim::jaro_winkler(&plain(&drive.name()), &asked), drive))
+        .max_by(|a, b| a.0.total_cmp(&b.0));
+    let closest = closest.map_or(String::new(), |(_, drive)| {
+        format!("; did you mean \"{}\"?", drive.name())
+    });
     Err(miette!(
         help = format!(
-            "write MOTOR+GEARBOX, or MOTOR alone for a direct drive, with the keys that `jred size --refused` lists{closest}"
+            "write MOTOR+GEARBOX, or MOTOR alone for a direct drive, with the keys that `jred size --all` lists{closest}"
         ),
         "the catalogue has no drive \"{name}\""
     ))
+}
+
+/// A drive's name with one way of joining its parts: "M+G on A", "M+direct".
+fn plain(name: &str) -> String {
+    let name = name.replacen(", direct", "+direct", 1);
+    name.split('+').map(str::trim).collect::<Vec<_>>().join("+")
 }

@@ -120,7 +120,7 @@ fn contributions_text(breakdown: &Breakdown) -> String {
     };
     let units = breakdown.units;
     let (unit, scale) = units.shown_inertia();
-    let heading = format!("inertia at the motor [{unit}]");
+    let heading = format!("{} at the motor [{unit}]", units.inertia_word);
     let mut inertias = text_table(&[heading.as_str(), "min", "mean", "max", "share"]);
     let row = |share: &InertiaShare| {
         let figures = share.inertia;

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json as object};
 
-use super::{Explanation, List};
+use super::{Asked, Explanation, List};
 use crate::duty::Duty;
 use crate::machine::MachineFile;
 use crate::rule::Rule;
@@ -11,12 +11,13 @@ use crate::size::{Candidate, Selection};
 /// Name and version of the form. The number is raised whenever a key is removed or changes its meaning.
 pub const SCHEMA: &str = "jred-size/2";
 
-/// The listed drives with every digit, and how many there are in all.
+/// The listed drives and the one asked for with every digit, and how many there are in all.
 pub fn json(
     list: List,
     file: &MachineFile,
     duty: &Duty,
     selection: &Selection,
+    asked: Option<&Asked>,
     explanation: Option<&Explanation>,
 ) -> Value {
     let drives = |candidates: &[Candidate]| -> Vec<Value> {
@@ -51,9 +52,14 @@ pub fn json(
             "fit, not all rules checked": selection.partly_checked(),
             "refused": selection.refused.len(),
         },
-        "fit": drives(list.fit(selection)),
+        "fit": drives(&list.fit(selection)),
         "refused": drives(&list.refused(selection)),
     });
+    if let (Some(asked), Some(map)) = (asked, value.as_object_mut()) {
+        let mut found = drive(selection, &asked.candidate);
+        found["rank"] = asked.rank.into();
+        map.insert("asked".to_owned(), found);
+    }
     if let (Some(explanation), Some(map)) = (explanation, value.as_object_mut()) {
         map.insert("explanation".to_owned(), object!(explanation));
     }

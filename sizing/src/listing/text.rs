@@ -2,13 +2,13 @@
 
 use comfy_table::{ColumnConstraint, ContentArrangement, Width};
 
-use super::{Explanation, List};
+use super::{Asked, Explanation, List};
 use crate::catalogue::MotorKind;
 use crate::check::{Check, Verdict};
 use crate::drive::Judged;
 use crate::duty::{Duty, Figures, Instant};
 use crate::machine::MachineFile;
-use crate::output::{rounded, short, text_table};
+use crate::output::{rounded, short, significant, text_table};
 use crate::rule::Rule;
 use crate::size::Selection;
 use crate::units::Units;
@@ -16,16 +16,19 @@ use crate::units::Units;
 /// Widest line of what a limit is.
 const NOTE_WIDTH: u16 = 72;
 
-/// Duty, best drive with every rule, ranking, and the refused ones if asked for.
+/// Duty, best drive with every rule, ranking, and the refused ones if asked for; a drive that was asked for by name instead of the
+/// best, with why it stands where it does.
 pub fn text(
     list: List,
     file: &MachineFile,
     duty: &Duty,
     selection: &Selection,
+    asked: Option<&Asked>,
     explanation: Option<&Explanation>,
 ) -> String {
     let input_power = |i: &Instant| i.input_torque * i.input_speed;
-    let shown = selection.fit.first().or(selection.refused.first());
+    let first = selection.fit.first().or(selection.refused.first());
+    let shown = asked.map(|asked| &asked.candidate).or(first);
     let units = Units::of(shown.map_or(MotorKind::Rotary, |c| c.drive.motor.kind));
     let input = figures_table(&[
         (units.torque_label(), duty.figures(|i| i.input_torque), 1.0),
@@ -47,7 +50,9 @@ pub fn text(
         rounded(duty.duration)
     )];
     let all = selection.fit.len() + selection.refused.len();
-    if let Some(best) = selection.fit.first() {
+    if let Some(asked) = asked {
+        parts.push(asked_text(asked, selection));
+    } else if let Some(best) = selection.fit.first() {
         let best = &selection.judged(best);
         parts.push(format!(
             "Best drive: {}\n{}",
@@ -64,7 +69,7 @@ pub fn text(
             "\n{} of {all} drives break no rule{open}",
             selection.fit.len()
         ));
-        parts.push(ranking(list, selection));
+        parts.push(ranking(list, selection, units));
     } else if let Some(nearest) = selection.refused.first() {
         let nearest = &selection.judged(nearest);
         parts.push(format!(
@@ -96,7 +101,22 @@ pub fn text(
     parts.join("\n") + "\n"
 }
 
-fn ranking(list: List, selection: &Selection) -> String {
+/// The drive that was asked for, every rule, and the best one's name.
+fn asked_text(asked: &Asked, selection: &Selection) -> String {
+    let judged = &selection.judged(&asked.candidate);
+    let (name, place) = (judged.drive.name(), asked.place(selection));
+    let best = match selection.fit.first() {
+        Some(best) if asked.rank != Some(1) => format!("\nThe best drive is {}", best.drive.name()),
+        Some(_) => String::new(),
+        None => "\nNo drive holds every rule".to_owned(),
+    };
+    format!(
+        "Drive asked for: {name}\n{place}\n\n{}\n{best}",
+        drive_text(judged)
+    )
+}
+
+fn ranking(list: List, selection: &Selection, units: Units) -> String {
     let mut table = text_table(&[
         "rank",
         "motor",
@@ -110,7 +130,7 @@ fn ranking(list: List, selection: &Selection) -> String {
     for (k, candidate) in list.fit(selection).iter().enumerate() {
         table.add_row(rank_row(k + 1, &selection.judged(candidate)));
     }
-    format!("{table}\nranked: {}", selection.ranking)
+    format!("{table}\nranked: {}", units.words(selection.ranking))
 }
 
 /// Rows of min, mean, max and RMS, each in its unit.
@@ -213,7 +233,7 @@ fn rank_row(rank: usize, judged: &Judged) -> [String; 8] {
         rank.to_string(),
         drive.motor.key.clone(),
         drive.gearbox.map_or("direct".to_owned(), |g| g.key.clone()),
-        power.map_or("–".to_owned(), |power| format!("{:.2}", power / 1000.0)),
+        power.map_or("–".to_owned(), |power| significant(power / 1000.0, 3)),
         judged.used(Rule::RmsTorque),
         judged.used(Rule::PeakTorque),
         judged.used(Rule::Speed),

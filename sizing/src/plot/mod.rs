@@ -16,10 +16,13 @@ pub(crate) const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 340.0;
 /// Blank band the library leaves under a legend; it is drawn and then cropped away.
 const LEGEND_SLACK: f64 = 22.0;
-/// Okabe-Ito without its yellow, which is too faint on white paper.
-pub(crate) const PALETTE: [&str; 7] = [
-    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#444444",
+/// Okabe-Ito without its yellow, which is too faint on white paper, and five more that differ most from these.
+pub(crate) const PALETTE: [&str; 12] = [
+    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#444444", "#7B3FF2",
+    "#4B8B00", "#332288", "#7F4F24", "#B00020",
 ];
+/// Where the colours come round again, lines have dashes and dots: neither those of a limit nor none.
+const SECOND_ROUND: &str = "9 3 2 3";
 /// With more bars than this, the numbers at the bars would run into each other.
 const MAX_LABELLED_BARS: usize = 14;
 
@@ -170,15 +173,22 @@ fn text(raw: &str) -> String {
     clean.replace('$', "\\$")
 }
 
-fn colour(index: usize) -> &'static str {
+/// Colour of curve number `index`.
+pub(crate) fn colour(index: usize) -> &'static str {
     PALETTE[index % PALETTE.len()]
 }
 
-fn line_style(style: Style) -> LineStyle {
+/// Dashes of curve number `index`; `None`: a solid line.
+pub(crate) fn dashes(index: usize, style: Style) -> Option<&'static str> {
     match style {
-        Style::Dashed => LineStyle::Custom("5 5".into()),
-        Style::Line | Style::Dots => LineStyle::Solid,
+        Style::Dashed => Some("5 5"),
+        Style::Line if index >= PALETTE.len() => Some(SECOND_ROUND),
+        Style::Line | Style::Dots => None,
     }
+}
+
+fn line_style(index: usize, style: Style) -> LineStyle {
+    dashes(index, style).map_or(LineStyle::Solid, |dashes| LineStyle::Custom(dashes.into()))
 }
 
 fn entry(name: &str, index: usize, shape: LegendShape, dashes: Option<String>) -> LegendEntry {
@@ -200,7 +210,7 @@ fn legend(series: &[Series], first: usize, suffix: &str) -> Vec<LegendEntry> {
         } else {
             LegendShape::Line
         };
-        let dashes = line_style(s.style).dasharray();
+        let dashes = line_style(i, s.style).dasharray();
         entry(&format!("{}{suffix}", s.name), i, shape, dashes)
     };
     named.map(make).collect()
@@ -219,7 +229,7 @@ fn plots(series: &[Series], first: usize) -> Vec<Plot> {
                 dots.with_color(colour(i)).into()
             } else {
                 let line = LinePlot::new().with_data(run_points).with_color(colour(i));
-                let line = line.with_line_style(line_style(s.style));
+                let line = line.with_line_style(line_style(i, s.style));
                 line.with_stroke_width(1.8).into()
             });
         }

@@ -217,3 +217,72 @@ fn both_vertical_axes_share_the_grid() {
         );
     }
 }
+
+/// Twelve curves differ by colour; further ones have a colour again, but dashes of their own.
+#[test]
+fn many_curves_are_told_apart() {
+    let names: Vec<String> = (0..17).map(|k| format!("curve {k}")).collect();
+    let series: Vec<Series> = names
+        .iter()
+        .zip(1..)
+        .map(|(name, k)| Series {
+            name,
+            points: vec![(0.0, 0.0), (1.0, f64::from(k))],
+            style: Style::Line,
+        })
+        .collect();
+    let svg = lines(&AXES, &series);
+    let document = sound(&svg);
+    let looks: Vec<(String, String)> = document
+        .descendants()
+        .filter(|n| n.has_tag_name("path"))
+        .filter_map(|n| {
+            let dashes = n.attribute("stroke-dasharray").unwrap_or_default();
+            Some((n.attribute("stroke")?.to_lowercase(), dashes.to_owned()))
+        })
+        .collect();
+    assert_eq!(looks.len(), 17);
+    assert_eq!(looks.iter().collect::<HashSet<_>>().len(), 17, "{looks:?}");
+    let colours: HashSet<&String> = looks.iter().map(|look| &look.0).collect();
+    assert_eq!(colours.len(), 12);
+    assert!(
+        looks.iter().take(12).all(|look| look.1.is_empty()),
+        "{looks:?}"
+    );
+    // None of them looks like a limit.
+    assert!(looks.iter().all(|look| look.1 != "5 5"), "{looks:?}");
+}
+
+/// Colours by the distance in CIE L*a*b*: 2.3 is what can just be seen (Mahy and others, 1994).
+#[test]
+fn colours_are_far_apart() {
+    let lab = |hex: &str| -> [f64; 3] {
+        let channel = |k: usize| {
+            let c = f64::from(u8::from_str_radix(&hex[k..k + 2], 16).unwrap()) / 255.0;
+            if c <= 0.04045 {
+                c / 12.92
+            } else {
+                ((c + 0.055) / 1.055).powf(2.4)
+            }
+        };
+        let [r, g, b] = [channel(1), channel(3), channel(5)];
+        let f = |t: f64| {
+            if t > 0.008_856 {
+                t.cbrt()
+            } else {
+                7.787 * t + 16.0 / 116.0
+            }
+        };
+        let x = f((0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.950_47);
+        let y = f(0.2126 * r + 0.7152 * g + 0.0722 * b);
+        let z = f((0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.088_83);
+        [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+    };
+    for (k, a) in PALETTE.iter().enumerate() {
+        for b in PALETTE.iter().take(k) {
+            let (p, q) = (lab(a), lab(b));
+            let squares: f64 = p.iter().zip(q).map(|(p, q)| (p - q).powi(2)).sum();
+            assert!(squares.sqrt() > 25.0, "{a} and {b}: {}", squares.sqrt());
+        }
+    }
+}

@@ -19,6 +19,16 @@ const LOOKED_AT: Range = [0.01, 10_000.0];
 /// narrower than that is found if i* lies in it.
 const TRIED: u32 = 600;
 
+/// The ratios that are tried, rising; `best` among them.
+pub(super) fn tried(best: Option<f64>) -> Vec<f64> {
+    let [from, to] = LOOKED_AT;
+    let step = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(TRIED));
+    let mut ratios: Vec<f64> = (0..=TRIED).map(step).collect();
+    ratios.extend(best.filter(|best| (from..to).contains(best)));
+    ratios.sort_by(f64::total_cmp);
+    ratios
+}
+
 /// A range of ratios, and what ends it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
@@ -69,15 +79,10 @@ impl Trial<'_> {
 
     /// The ranges in which no rule is broken; `best` is a ratio that is tried beside the others.
     pub fn ranges(&self, best: Option<f64>) -> Vec<Found> {
-        let [from, to] = LOOKED_AT;
-        let step = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(TRIED));
-        let mut ratios: Vec<f64> = (0..=TRIED).map(step).collect();
-        ratios.extend(best.filter(|best| (from..to).contains(best)));
-        ratios.sort_by(f64::total_cmp);
         let mut found: Vec<Found> = Vec::new();
         let mut open: Option<Found> = None;
         let mut before: Option<(f64, Option<Rule>)> = None;
-        for ratio in ratios {
+        for ratio in tried(best) {
             let broken = self.broken(ratio);
             match (&mut open, broken) {
                 (None, None) => {

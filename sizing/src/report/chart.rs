@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::plot::{Axes, Series, Style, lines, lines_two_axes};
+use crate::plot::{Axes, Series, Style, colour, dashes, lines, lines_two_axes};
 
 /// A chart.
 pub(super) struct Chart {
@@ -67,7 +67,7 @@ impl Chart {
 }
 
 fn data(form: Form, axes: &Axes, right_label: &str, left: &[Series], right: &[Series]) -> Value {
-    let one = |series: &Series, right: bool| {
+    let one = |index: usize, series: &Series, right: bool| {
         let style = match series.style {
             Style::Line => "line",
             Style::Dashed => "dashed",
@@ -83,13 +83,16 @@ fn data(form: Form, axes: &Axes, right_label: &str, left: &[Series], right: &[Se
         json!({
             "name": series.name,
             "style": style,
+            "colour": colour(index),
+            "dash": dash(index, series.style),
             "right": right,
             "x": numbers(|p| p.0),
             "y": numbers(|p| p.1),
         })
     };
-    let all = left.iter().map(|s| one(s, false));
-    let all = all.chain(right.iter().map(|s| one(s, true)));
+    let all = left.iter().map(|s| (s, false));
+    let all = all.chain(right.iter().map(|s| (s, true))).enumerate();
+    let all = all.map(|(index, (series, right))| one(index, series, right));
     json!({
         "form": form.name(),
         "x": axes.x,
@@ -97,6 +100,12 @@ fn data(form: Form, axes: &Axes, right_label: &str, left: &[Series], right: &[Se
         "right": right_label,
         "series": all.collect::<Vec<_>>(),
     })
+}
+
+/// The lengths of the dashes, none of a solid line.
+fn dash(index: usize, style: Style) -> Vec<u32> {
+    let lengths = dashes(index, style).unwrap_or_default().split(' ');
+    lengths.filter_map(|length| length.parse().ok()).collect()
 }
 
 /// Six digits; nothing where the curve has a gap.

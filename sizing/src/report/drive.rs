@@ -16,6 +16,9 @@ use crate::rule::Rule;
 use crate::rules::RuleSet;
 use crate::units::Units;
 
+/// Use of a limit beyond which the curves over the gear ratio are not drawn (%).
+pub(super) const TOP: f64 = 200.0;
+
 /// Intervals of a curve.
 const INTERVALS: u32 = 200;
 
@@ -243,15 +246,13 @@ impl Subject<'_> {
         let axes = Axes {
             title: "",
             x: coordinate.axis(),
-            y: "inertia ratio λ []",
+            y: &format!("{} ratio λ", self.units().inertia_word),
         };
         Ok(Chart::new(Form::Course, &axes, &series))
     }
 
     /// How much of its limit every rule uses over the gear ratio, all else kept; time courses are not followed.
     pub(super) fn ratios(&self, from: f64, to: f64) -> Chart {
-        /// Beyond this the curves leave the chart (%).
-        const TOP: f64 = 200.0;
         let step = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(INTERVALS));
         let ratios: Vec<f64> = (0..=INTERVALS).map(step).collect();
         let courses = ratio_course(&self.context, self.rules, &ratios);
@@ -269,10 +270,12 @@ impl Subject<'_> {
             .collect();
         series.push(dashed("limit", vec![(from, 100.0), (to, 100.0)]));
         let now = self.context.ratio;
-        series.push(dashed("this drive", vec![(now, 0.0), (now, TOP)]));
+        // Not quite upright: the page's script draws curves over rising abscissae.
+        let upright = vec![(now * (1.0 - 1e-4), 0.0), (now * (1.0 + 1e-4), TOP)];
+        series.push(dashed("this drive", upright));
         let axes = Axes {
             title: "",
-            x: "gear ratio i []",
+            x: "gear ratio i",
             y: "share of the limit [%]",
         };
         Chart::new(Form::Course, &axes, &series)

@@ -4,7 +4,7 @@ use crate::check::{Check, Verdict};
 use crate::drive::Judged;
 use crate::duty::{Duty, Figures};
 use crate::explain::{Breakdown, InertiaShare, Remedies, Share};
-use crate::output::{rounded, short, shown};
+use crate::output::{rounded, short, shown, significant};
 use crate::rule::Rule;
 use crate::rules::RuleSet;
 use crate::units::Units;
@@ -86,7 +86,9 @@ impl FitRow {
                 .gearbox
                 .map_or("direct".into(), |g| format!("{} {}", g.maker, g.model)),
             ratio: rounded(drive.ratio()),
-            power: power.map_or("–".to_owned(), |p| format!("{:.2} kW", p / 1000.0)),
+            power: power.map_or("–".to_owned(), |p| {
+                format!("{} kW", significant(p / 1000.0, 3))
+            }),
             rms: judged.used(Rule::RmsTorque),
             peak: judged.used(Rule::PeakTorque),
             lambda: short(judged.duty.inertia_ratio.max),
@@ -171,7 +173,7 @@ impl ChangeRow {
 }
 
 /// A rule of the set: name, limit, warning, source.
-pub(super) fn rule_rows(rules: &RuleSet) -> Vec<[String; 4]> {
+pub(super) fn rule_rows(rules: &RuleSet, units: Units) -> Vec<[String; 4]> {
     let limit_of = |share: Option<f64>| share.map_or(String::new(), short);
     Rule::ALL
         .into_iter()
@@ -184,7 +186,12 @@ pub(super) fn rule_rows(rules: &RuleSet) -> Vec<[String; 4]> {
                 limit_of(limit.fail)
             };
             let source = rules.source(rule).to_owned();
-            [rule.name().to_owned(), fail, limit_of(limit.warn), source]
+            [
+                units.rule(rule).to_owned(),
+                fail,
+                limit_of(limit.warn),
+                source,
+            ]
         })
         .collect()
 }
@@ -216,6 +223,10 @@ pub(super) fn duty_rows(best: &Judged, duty: &Duty, units: Units) -> Vec<(String
         row(format!("motor {word} [{torque}]"), best.duty.torque, 1.0),
         row(format!("motor speed [{speed}]"), best.duty.speed, scale),
         row("motor power [W]".to_owned(), best.duty.power, 1.0),
-        row("inertia ratio λ".to_owned(), best.duty.inertia_ratio, 1.0),
+        row(
+            format!("{} ratio λ", units.inertia_word),
+            best.duty.inertia_ratio,
+            1.0,
+        ),
     ]
 }

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use super::change::shown;
 use super::{Moves, RuleSet};
+use crate::comma;
 use crate::input;
 use crate::output::{Format, text_table};
 use crate::rule::{Rule, Sense};
@@ -69,8 +70,8 @@ fn list(sets: &[RuleSet], format: Format) -> String {
         Format::Csv => {
             let rows = sets
                 .iter()
-                .map(|set| format!("{},{}\n", set.name, quoted(&set.title)));
-            format!("set,title\n{}", rows.collect::<String>())
+                .map(|set| [set.name.as_str(), set.title.as_str()]);
+            comma::row(["set", "title"]) + &comma::rows(rows)
         }
         Format::Table => {
             let rows = sets
@@ -85,22 +86,8 @@ fn list(sets: &[RuleSet], format: Format) -> String {
 }
 
 fn csv(set: &RuleSet) -> String {
-    let rows = set
-        .lines()
-        .into_iter()
-        .map(|line| line.cells().map(|cell| quoted(&cell)).join(",") + "\n");
-    format!(
-        "rule,key,limit,warning,source\n{}",
-        rows.collect::<String>()
-    )
-}
-
-fn quoted(cell: &str) -> String {
-    if cell.contains([',', '"', '\n']) {
-        format!("\"{}\"", cell.replace('"', "\"\""))
-    } else {
-        cell.to_owned()
-    }
+    let rows = set.lines().into_iter().map(|line| line.cells());
+    comma::row(["rule", "key", "limit", "warning", "source"]) + &comma::rows(rows)
 }
 
 /// One rule of a set, in words.

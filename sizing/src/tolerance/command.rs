@@ -9,6 +9,7 @@ use crate::commands::{Done, print};
 use crate::input::Tolerance;
 use crate::output::Format;
 use crate::rules::{Limit, RuleSet};
+use crate::units::Units;
 use crate::vary::command::{stopped, study};
 use crate::vary::one::One;
 use crate::vary::rows::{Cell, Form};
@@ -23,6 +24,7 @@ use crate::vary::study::Study;
 pub fn tolerance(options: &Options) -> Result<Done> {
     let filter = options.search.filter();
     let study = study(&options.file, &options.supply, &filter)?;
+    options.search.check(&study.catalogue, &[])?;
     let scatters = scatters(&study, &options.tolerance)?;
     let one = One::choose(
         &study,
@@ -44,10 +46,11 @@ pub fn tolerance(options: &Options) -> Result<Done> {
         count: options.samples,
         seed: options.seed,
     };
+    let units = Units::of(one.drive().motor.kind);
     let unknown: Vec<&str> = findings
         .iter()
         .filter(|(_, f)| !f.is_known())
-        .map(|(rule, _)| rule.name())
+        .map(|(rule, _)| units.rule(rule))
         .collect();
     let mut plan = options.rows.plan();
     // Without a file the summary is what is printed; rows go to a file.
@@ -125,17 +128,19 @@ fn scatters(study: &Study, arguments: &[String]) -> Result<Vec<Scatter>> {
 fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
     let columns = [
         "rule",
-        "holds [%]",
-        "95 % from",
-        "to",
-        "used at 5 %",
-        "median",
-        "95 %",
-        "99 %",
-        "most",
+        "machines that hold it [%]",
+        "surely above [%]",
+        "surely below [%]",
+        "5 % of machines use at most",
+        "50 % of machines use at most",
+        "95 % of machines use at most",
+        "99 % of machines use at most",
+        "largest use",
     ];
+    let built = summary.built();
+    let units = Units::of(samples.one.drive().motor.kind);
     let probability = |k: u64| -> Vec<Cell> {
-        let p = Probability::new(k, summary.machines);
+        let p = Probability::new(k, built);
         let percent = |x: Option<f64>| Cell::from(x.map(|x| x * 100.0));
         vec![
             percent(p.map(|p| p.share)),
@@ -155,9 +160,9 @@ fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
         let within = sorted.iter().filter(|used| **used <= 1.0).count() as u64;
         let warns = rules.limit(*rule).fail.is_none();
         let name = if warns {
-            format!("{} (warning)", rule.name())
+            format!("{} (warning)", units.rule(*rule))
         } else {
-            rule.name().to_owned()
+            units.rule(*rule).to_owned()
         };
         let mut cells = vec![name.into()];
         cells.extend(probability(within));
@@ -182,12 +187,15 @@ fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
         .collect();
     let mut notes = vec![
         format!("scattering: {}", scattering.join("; ")),
-        "used: share of the limit; 95 %: Wilson's interval of the probability".to_owned(),
+        format!(
+            "use: share of the limit, 1 is the limit; surely: the interval that holds the probability with 95 % \
+             confidence (Wilson); shares are of {built} machines"
+        ),
     ];
     if summary.refused > 0 {
         notes.push(format!(
-            "{} machines cannot be built as drawn: they count as not holding",
-            summary.refused
+            "{} of {} machines drawn cannot be built: they count for no rule; --out FILE has the reason of each",
+            summary.refused, summary.machines
         ));
     }
     if summary.unchecked > 0 {
@@ -207,6 +215,7 @@ fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
         ),
         columns: columns.map(str::to_owned).to_vec(),
         rows,
+        reading: None,
         notes,
     }
 }

@@ -76,6 +76,11 @@ impl Summary {
         }
     }
 
+    /// Machines that could be built as drawn.
+    pub const fn built(&self) -> u64 {
+        self.machines - self.refused
+    }
+
     /// Adds a row.
     pub fn add(&mut self, cells: &[Cell]) {
         self.machines += 1;

@@ -58,6 +58,7 @@ impl Rows {
 pub fn vary(options: &Vary) -> Result<Done> {
     let filter = options.search.filter();
     let study = study(&options.file, &options.supply, &filter)?;
+    options.search.check(&study.catalogue, &[])?;
     let axes = options
         .vary
         .iter()
@@ -89,7 +90,15 @@ pub fn vary(options: &Vary) -> Result<Done> {
             path.display()
         ))?;
     }
-    stopped(ended, &plan)
+    let done = stopped(ended, &plan)?;
+    // What a share alone holds is no answer, and a scheduler would run a job again that ends with 1.
+    Ok(
+        if done == Done::Holds && counts.fit == 0 && plan.shard.is_none() {
+            Done::Violated
+        } else {
+            done
+        },
+    )
 }
 
 /// How the machines of a study came out.

@@ -2,7 +2,8 @@
 
 use serde_json::{Map, Value};
 
-use crate::output::{quoted, rounded, text_table};
+use crate::comma;
+use crate::output::{rounded, text_table};
 
 /// A cell of a row.
 #[derive(Clone, Debug, PartialEq)]
@@ -157,13 +158,12 @@ impl Form {
 
 /// Cells as a line of CSV.
 pub(crate) fn csv_line(cells: impl Iterator<Item = Cell>) -> String {
-    let texts = cells.map(|cell| match cell {
+    comma::row(cells.map(|cell| match cell {
         Cell::Empty => String::new(),
-        Cell::Number(x) => format!("{x:?}"),
+        Cell::Number(x) => comma::number(x),
         // A row stays on its line.
-        Cell::Text(text) => quoted(&text).replace(['\n', '\r'], " "),
-    });
-    texts.collect::<Vec<_>>().join(",") + "\n"
+        Cell::Text(text) => text.replace(['\n', '\r'], " "),
+    }))
 }
 
 /// Rows as a table for reading.

@@ -1,9 +1,13 @@
 //! A result of mixed cells, numbers and words, as a table, CSV or JSON.
 
+use comfy_table::{ColumnConstraint, ContentArrangement};
 use serde_json::{Map, Value, json};
 
 use super::rows::{Cell, csv_line};
-use crate::output::{Format, short, text_table};
+use crate::output::{Format, significant, text_table};
+
+/// Widest table: more is broken into lines within the cells.
+pub const WIDEST: u16 = 120;
 
 /// Named columns of cells under a title.
 #[derive(Clone, Debug, Default)]
@@ -16,8 +20,49 @@ pub struct Sheet {
     pub columns: Vec<String>,
     /// The rows.
     pub rows: Vec<Vec<Cell>>,
+    /// What a table for reading has instead; `None`: the same columns and rows.
+    pub reading: Option<Reading>,
     /// What is to be minded: below a table, and in JSON.
     pub notes: Vec<String>,
+}
+
+/// A table for reading.
+#[derive(Clone, Debug, Default)]
+pub struct Reading {
+    /// Its columns.
+    pub columns: Vec<String>,
+    /// Its rows.
+    pub rows: Vec<Vec<Cell>>,
+    /// How many of the first columns are not broken into lines.
+    pub whole: usize,
+}
+
+/// Digits of a number in a table.
+const DIGITS: i32 = 3;
+
+impl Reading {
+    /// As a table no wider than [`WIDEST`].
+    pub fn table(columns: &[String], rows: &[Vec<Cell>], whole: usize) -> String {
+        let mut table = text_table(columns);
+        for row in rows {
+            table.add_row(row.iter().map(|cell| match cell {
+                Cell::Empty => String::new(),
+                Cell::Number(x) => significant(*x, DIGITS),
+                Cell::Text(text) => text.clone(),
+            }));
+        }
+        table
+            .set_content_arrangement(ContentArrangement::Dynamic)
+            .set_width(WIDEST);
+        for column in table.column_iter_mut().take(whole) {
+            column.set_constraint(ColumnConstraint::ContentWidth);
+        }
+        let lines: Vec<String> = table
+            .lines()
+            .map(|line| line.trim_end().to_owned() + "\n")
+            .collect();
+        lines.concat()
+    }
 }
 
 impl Sheet {
@@ -25,18 +70,14 @@ impl Sheet {
     pub fn write(&self, format: Format) -> String {
         match format {
             Format::Table => {
-                let mut table = text_table(&self.columns);
-                for row in &self.rows {
-                    table.add_row(row.iter().map(|cell| match cell {
-                        Cell::Empty => String::new(),
-                        Cell::Number(x) => short(*x),
-                        Cell::Text(text) => text.clone(),
-                    }));
-                }
+                let table = match &self.reading {
+                    Some(reading) => Reading::table(&reading.columns, &reading.rows, reading.whole),
+                    None => Reading::table(&self.columns, &self.rows, 1),
+                };
                 let notes: Vec<String> =
                     self.notes.iter().map(|note| format!("{note}\n")).collect();
                 let notes = notes.concat();
-                format!("{}\n{table}\n{notes}", self.title)
+                format!("{}\n{table}{notes}", self.title)
             }
             Format::Csv => {
                 let header = self.columns.iter().map(|name| Cell::from(name.as_str()));

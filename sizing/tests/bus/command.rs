@@ -2,9 +2,11 @@
 
 use serde_json::Value;
 
+use super::budget;
+use super::near;
 use super::support::{Folder, Run, edited_press, jred, press_file, press_text};
 
-const SUPPLY: &str = r#"
+pub(super) const SUPPLY: &str = r#"
 [supply]
 mains_voltage = "400 V"
 capacitance = "470 uF"
@@ -13,14 +15,14 @@ max_voltage = "820 V"
 brake_resistor = { resistance = "47 Ohm", power = "200 W", peak_power = "13 kW", pulse_energy = "4 kW s" }
 "#;
 
-fn figure(answer: &Value, path: &[&str]) -> f64 {
+pub(super) fn figure(answer: &Value, path: &[&str]) -> f64 {
     let value = path.iter().fold(answer, |value, key| &value[*key]);
     value
         .as_f64()
         .unwrap_or_else(|| panic!("no {path:?} in {answer:#}"))
 }
 
-fn says(run: &Run, words: &[&str]) {
+pub(super) fn says(run: &Run, words: &[&str]) {
     for word in words {
         assert!(run.out.contains(word), "{word:?} is not in\n{}", run.out);
     }
@@ -135,6 +137,7 @@ fn what_is_not_checked_is_said() {
         (text, json)
     };
     let named = |json: &Value| json["not checked"].as_array().unwrap().len();
+    let keys = |json: &Value, n: usize| json["not known"][n]["any of"].clone();
     let (text, json) = run("high.toml", press_text(), "capacitance = \"2 uF\"\n");
     let highest = figure(
         &json,
@@ -150,13 +153,45 @@ fn what_is_not_checked_is_said() {
         ],
     );
     assert_eq!((named(&json), &json["holds"]), (1, &Value::Bool(true)));
-    let (text, json) = run("bare.toml", press_text(), "max_voltage = \"820 V\"\n");
+    assert_eq!(keys(&json, 0), serde_json::json!([["max_voltage"]]));
+    // Of the mains alone: what is not known, and which key says it; nothing is printed as zero.
+    let (text, json) = run("bare.toml", press_text(), "");
     let text = text.ends(0);
     says(
         &text,
-        &["NOT CHECKED: bus voltage: the capacitance of the DC bus is not known"],
+        &[
+            "bus voltage not known, supply ",
+            "W mean, no brake resistor",
+            "NOT CHECKED: bus voltage: the capacitance of the DC bus is not known",
+            "give in [supply] capacitance, or chopper_voltage and brake_resistor, or regenerative = true",
+            "NOT CHECKED: bus voltage: the highest voltage of the DC bus is not known: give max_voltage in [supply]",
+            "NOT CHECKED: brake resistor: what one would have to bear is known only as at most",
+            "give chopper_voltage in [supply]",
+        ],
     );
-    assert_eq!(named(&json), 1);
+    assert!(!text.out.contains(" 0 W"), "{}", text.out);
+    assert_eq!(named(&json), 3);
+    let expected = serde_json::json!([
+        ["capacitance"],
+        ["chopper_voltage", "brake_resistor"],
+        ["regenerative"]
+    ]);
+    assert_eq!(keys(&json, 0), expected);
+    assert_eq!(keys(&json, 1), serde_json::json!([["max_voltage"]]));
+    assert_eq!(keys(&json, 2), serde_json::json!([["chopper_voltage"]]));
+    assert_eq!(json["in step"]["supplied [J]"], Value::Null);
+    // The supply gives what is drawn, less at most what comes back.
+    let [drawn, back] = ["drawn [J]", "fed back [J]"].map(|key| figure(&json["axes"][0], &[key]));
+    let period = figure(&json, &["period [s]"]);
+    let words = text.out.split("supply ").nth(1).unwrap();
+    let words: Vec<f64> = words
+        .split(' ')
+        .take(3)
+        .filter_map(|word| word.parse().ok())
+        .collect();
+    near("least", words[0], (drawn - back) / period, budget::SHORT);
+    near("most", words[1], drawn / period, budget::SHORT);
+    let (_, json) = run("top.toml", press_text(), "max_voltage = \"820 V\"\n");
     assert_eq!(json["checks"][0]["holds"], Value::Null);
     // A load that drives the machine feeds back more than is drawn.
     let driven = edited_press("\"-10 kN\"", "\"60 kN\"");
@@ -168,28 +203,15 @@ fn what_is_not_checked_is_said() {
     );
     assert_eq!(json["checks"][0]["check"], "bus voltage");
     assert_eq!(json["checks"][0]["holds"], Value::Bool(false));
-    // Periods that never meet: bounds, but none for a pulse.
-    let other = folder.file(
-        "other.toml",
-        edited_press("duration = \"0.4 s\"", "duration = \"0.41234567 s\""),
-    );
-    let file = folder.file("press.toml", press_text() + SUPPLY);
-    let both = jred([
-        &"bus",
-        &file,
-        &other,
-        &"--steps",
-        &"200",
-        &"--format",
-        &"json",
-    ])
-    .json();
-    let words = both["not checked"].to_string();
-    assert!(
-        words.contains("the cycles have no common period"),
-        "{words}"
-    );
-    assert!(words.contains("smallest resistance"), "{words}");
+    let words = json["cures"].to_string();
+    for part in [
+        "brake_resistor.power",
+        "its square over the peak_power",
+        "regenerative = true",
+    ] {
+        assert!(words.contains(part), "{part}: {words}");
+    }
+    assert!(!words.contains("capacitance"), "{words}");
 }
 
 /// The amplifier says what its chopper may switch.

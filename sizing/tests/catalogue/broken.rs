@@ -46,7 +46,7 @@ fn a_large_catalogue_with_broken_rows() {
         panic!("several faults were expected");
     };
     println!("refused after {:?}", start.elapsed());
-    assert_eq!(several.count, broken);
+    assert_eq!(several.rows, broken);
     assert_eq!(several.shown.len(), SHOWN);
     sources.skip_broken_rows = true;
     let start = std::time::Instant::now();
@@ -167,7 +167,11 @@ fn files_and_folders_that_hold_nothing() {
     };
     refused(
         &folder.path("none"),
-        &["cannot read the catalogue", "--catalogue"],
+        &[
+            "cannot read the catalogue",
+            "there is no such file or folder",
+            "--catalogue",
+        ],
     );
     refused(
         &folder.path(""),

@@ -10,7 +10,7 @@ use super::support::{Folder, near};
 /// Ratios of units are worked out here in another order of operations than in the reader.
 const UNIT: f64 = super::support::budget::UNIT_CONVERSION;
 
-const MOTORS: &str = "\
+pub(super) const MOTORS: &str = "\
 key,maker,model,rated_torque [N m],rated_speed [rpm],standstill_torque [mN m],peak_torque [N m],max_speed [rad/s],max_power [kW],\
 no_load_speed [rpm],rotor_inertia [kg cm^2],peak_corner_speed [rpm],peak_torque_at_max_speed [N m],peak_curve,continuous_curve,\
 coulomb_friction [mN m],viscous_friction [N m/krpm],commutation,torque_constant [N m/A peak],voltage_constant [V/krpm],\
@@ -22,7 +22,7 @@ m1,Maker,Model,8,3000,9000,36,500,3,6000,8.5,2500,10,0 rpm: 36 N m; 2500 rpm: 36
 50,2,sine,1.2,98.5,0.9,6.5,4,5.2,8.4,25,300,0.4,0.6,60,35,155,12,0.6,560,8.1,750.5,other,Sheet
 ";
 
-const MOTORS_TOML: &str = r#"
+pub(super) const MOTORS_TOML: &str = r#"
 [[motor]]
 key = "m1"
 maker = "Maker"
@@ -65,7 +65,7 @@ figures_from = "other"
 source = "Sheet"
 "#;
 
-const GEARBOXES: &str = "\
+pub(super) const GEARBOXES: &str = "\
 key,maker,model,ratio,reverses,stages,rated_output_torque [N m],peak_output_torque [N m],emergency_output_torque [N m],\
 rated_input_speed [rpm],max_input_speed [rpm],input_inertia [kg cm^2],efficiency [%],back_driving [%],no_load_torque [mN m],\
 stiffness [N m/arcmin],backlash [arcmin],shock_factors,mass [kg],price,figures_from,source
@@ -121,7 +121,7 @@ peak_curve = "0 m/s: 600 N; 5 m/s: 100 N"
 source = "Sheet"
 "#;
 
-fn open(files: &[(&str, &str)]) -> Result<Catalogue, String> {
+pub(super) fn open(files: &[(&str, &str)]) -> Result<Catalogue, String> {
     let folder = Folder::new();
     for (name, text) in files {
         folder.file(name, text);
@@ -313,117 +313,4 @@ fn amplifiers_resistors_and_linear_motors() {
     assert_eq!((l.rotor_inertia, l.friction), (2.4, [4.0, 3.0]));
     assert_eq!(l.peak_curve, [[0.0, 600.0], [5.0, 100.0]]);
     assert!(l.from_maker);
-}
-
-/// What a row may not say: the key changed, and words of the message.
-#[test]
-#[expect(clippy::too_many_lines, reason = "one table of mistakes")]
-fn rows_that_contradict_themselves() {
-    let motor = |from: &str, to: &str| {
-        assert!(MOTORS_TOML.contains(from), "{from}");
-        open(&[("own.toml", &MOTORS_TOML.replace(from, to))])
-    };
-    let curve = "peak_curve = [\"0 rpm: 36 N m\", \"2500 rpm: 36 N m\", \"500 rad/s: 10 N m\"]";
-    for (from, to, words) in [
-        ("\"8 N m\"", "\"-8 N m\"", "not a number greater than zero"),
-        ("\"8 N m\"", "8", "rated_torque has no unit"),
-        ("\"8 N m\"", "\"8\"", "possible units"),
-        ("\"8 N m\"", "\"8 kg\"", "has the unit \"kg\""),
-        ("\"8 N m\"", "\"8,5 N m\"", "\"8.5\""),
-        ("\"8 N m\"", "\"40 N m\"", "below its rated_torque"),
-        (
-            "\"8.5 kg·cm²\"",
-            "\"0 kg cm^2\"",
-            "not a number greater than zero",
-        ),
-        (
-            "\"500 rad/s\"\n",
-            "\"100 rad/s\"\n",
-            "below its rated_speed",
-        ),
-        ("\"25 A\"", "\"5 A\"", "below its rated_current"),
-        (
-            curve,
-            "peak_curve = \"0 rpm: 36 N m\"",
-            "at least two points",
-        ),
-        (
-            curve,
-            "peak_curve = \"1 rpm: 36 N m; 2 rpm: 3 N m\"",
-            "standstill",
-        ),
-        (
-            curve,
-            "peak_curve = \"0 rpm: 3 N m; 2 rpm: 36 N m\"",
-            "may not rise",
-        ),
-        (
-            curve,
-            "peak_curve = \"0 rpm: 36 N m; 0 rpm: 3 N m\"",
-            "rising order",
-        ),
-        (
-            curve,
-            "peak_curve = \"0 rpm: 36 N m; 9 m/s: 3 N m\"",
-            "sliding motor",
-        ),
-        (
-            curve,
-            "peak_curve = \"0 rpm: 36; 9 rpm: 3 N m\"",
-            "has no unit",
-        ),
-        (curve, "peak_curve = \"0 rpm 36 N m\"", "no colon"),
-        ("pole_pairs = 4", "pole_pairs = 4.5", "whole number"),
-        ("\"sine\"", "\"square\"", "\"sine\" or \"block\""),
-        ("brake_torque = \"12 N m\"", "", "brake_torque"),
-        (
-            "peak_torque = \"0.036 kN m\"",
-            "rated_force = \"3 N\"",
-            "its kind is rotary",
-        ),
-        (
-            "model = \"Model\"",
-            "kind = \"linear\"\nmodel = \"Model\"",
-            "its kind is linear",
-        ),
-        (
-            "rated_speed = ",
-            "ratd_speed = ",
-            "did you mean \"rated_speed\"?",
-        ),
-        ("[[motor]]", "[[motr]]", "unknown table"),
-        ("[[motor]]", "[motor]", "two pairs of brackets"),
-        (
-            "key = \"m1\"",
-            "key = \"m1\"\nkey = \"m2\"",
-            "not readable as TOML",
-        ),
-    ] {
-        let error = motor(from, to).unwrap_err();
-        let flat = error
-            .split_whitespace()
-            .filter(|w| *w != "│")
-            .collect::<Vec<_>>()
-            .join(" ");
-        assert!(flat.contains(words), "{to}: {words:?} is not in\n{error}");
-    }
-    let gearbox = |from: &str, to: &str| {
-        assert!(GEARBOXES.contains(from), "{from}");
-        let table = GEARBOXES.replacen(from, to, 1);
-        open(&[("motors.csv", MOTORS), ("gearboxes.csv", &table)]).unwrap_err()
-    };
-    for (from, to, words) in [
-        (",97,", ",101,", "above 1"),
-        (",50,100,", ",50,40,", "below its rated_output_torque"),
-        (",100,190,", ",100,90,", "below its peak_output_torque"),
-        (",3400,7000,", ",3400,3000,", "below its rated_input_speed"),
-        (",0.67,", ",-0.67,", "not a number from zero up"),
-        (",0.67,", ",,", "input_inertia of \"g1\" is empty"),
-        ("97,same,", "97,both,", "\"friction\""),
-        ("5000/h: 2,", "5000/h: 1.1,", "rises with the cycles"),
-        (",yes,", ",perhaps,", "\"yes\" or \"no\""),
-    ] {
-        let error = gearbox(from, to);
-        assert!(error.contains(words), "{to}: {words:?} is not in\n{error}");
-    }
 }

@@ -61,8 +61,9 @@ fn every_drive_by_brute_force() {
     let duty = duty_of(&file, 400);
     let cycle = 0.5;
     let ready = Ready::new(&duty);
-    let selection = ready.selection();
-    for candidate in selection.fit.iter().chain(&selection.refused) {
+    let mut selection = ready.selection();
+    selection.complete();
+    for candidate in selection.fit.known().iter().chain(selection.refused.known()) {
         let judged = selection.judged(candidate);
         let motor = judged.drive.motor;
         let (mut squares, mut mean, mut back, mut forth, mut turns) = (0.0, 0.0, 0.0, 0.0, 0.0);
@@ -240,8 +241,9 @@ fn ranking() {
     let file = read(&press_text());
     let duty = duty_of(&file, 400);
     let ready = Ready::new(&duty);
-    let selection = ready.selection();
-    let (fit, refused) = (&selection.fit, &selection.refused);
+    let mut selection = ready.selection();
+    selection.complete();
+    let (fit, refused) = (selection.fit.known(), selection.refused.known());
     assert!(fit.len() > 10 && refused.len() > 100);
     let catalogue = &ready.catalogue;
     assert_eq!(
@@ -293,7 +295,7 @@ fn ranking() {
             key(&pair[1])
         );
     }
-    for pair in selection.refused_in_order().windows(2) {
+    for pair in refused.windows(2) {
         let key = |c: &Candidate| (c.outcome.beyond_all_limits, c.outcome.worst_use);
         assert!(key(&pair[0]) <= key(&pair[1]));
     }
@@ -305,7 +307,7 @@ fn reasons_read_well() {
     let file = read(&press_text());
     let ready = Ready::new(&duty_of(&file, 100));
     let selection = ready.selection();
-    for candidate in &selection.refused {
+    for candidate in &selection.first_refused(usize::MAX) {
         let reasons = selection.judged(candidate).reasons();
         for blemish in ["  ", " )", "inf", "NaN"] {
             assert!(!reasons.contains(blemish), "{blemish:?} in: {reasons}");

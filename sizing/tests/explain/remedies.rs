@@ -206,7 +206,7 @@ fn a_change_written_into_the_machine_file_does_what_was_said() {
     let all = Remedies::of_nearest(&selection, &altered, 3).unwrap();
     assert_eq!(all.len(), 3);
     let mut checked = 0;
-    for (remedies, candidate) in all.iter().zip(&selection.refused) {
+    for (remedies, candidate) in all.iter().zip(selection.refused.known()) {
         assert!(!remedies.holds && !remedies.misses.is_empty());
         for remedy in &remedies.remedies {
             let Some(edge) = remedy.change() else {

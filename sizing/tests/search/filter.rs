@@ -22,8 +22,8 @@ fn count(all: &Catalogue, filter: &Filter, expected: &dyn Fn(&Drive) -> bool) ->
     let (site, rules) = (&case.file.site, &case.file.rules);
     let mut selection = Selection::new(&thinned, &prepared, &case.cycle, site, rules);
     filter.sift(&mut selection);
-    let left = selection.fit.iter().chain(&selection.refused);
-    let mut found: Vec<String> = left.map(|c| c.drive.name()).collect();
+    let left = selection.fit.drives().chain(selection.refused.drives());
+    let mut found: Vec<String> = left.map(|drive| drive.name()).collect();
     let wanted = all.drives().filter(|(_, drive)| expected(drive));
     let mut wanted: Vec<String> = wanted.map(|(_, drive)| drive.name()).collect();
     found.sort();
@@ -154,7 +154,7 @@ fn the_nearest_of_what_a_filter_leaves() {
     };
     filter.sift(&mut selection);
     assert_eq!(selection.refused.len(), 100);
-    let torques: Vec<f64> = (selection.refused.iter())
+    let torques: Vec<f64> = (selection.refused.known().iter())
         .map(|candidate| candidate.drive.motor.rated_torque.unwrap())
         .collect();
     assert!(torques.is_sorted_by(|a, b| a > b), "{torques:?}");

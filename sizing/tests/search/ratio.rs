@@ -44,7 +44,7 @@ fn golden(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     a.midpoint(b).exp()
 }
 
-const GEARS: [Gear; 2] = [
+pub(super) const GEARS: [Gear; 2] = [
     Gear::IDEAL,
     Gear {
         inertia: 4e-5,

@@ -189,6 +189,77 @@ fn the_command_sums_up_shares_as_one_run() {
     assert!(other.is_empty(), "{other}");
 }
 
+/// Draws that cannot be built are counted apart: of the others the share that holds a rule is that of the rows.
+#[test]
+fn draws_that_cannot_be_built_are_counted_apart() {
+    let folder = Folder::new();
+    let press = folder.file("press.toml", press_text());
+    let out = folder.path("rows.csv");
+    // A crank longer than the rod cannot turn.
+    let run = jred([
+        &"tolerance",
+        &press,
+        &"--steps",
+        &"64",
+        &"--samples",
+        &"80",
+        &"--seed",
+        &"3",
+        &"--tolerance",
+        &"crank.length=normal:100mm",
+        &"--out",
+        &out,
+    ])
+    .ends(1);
+    let text = std::fs::read_to_string(&out).unwrap();
+    let refused = text
+        .lines()
+        .filter(|line| line.contains("machine refused"))
+        .count();
+    assert!((5..75).contains(&refused), "{refused}");
+    let built = 80 - refused;
+    let words = format!("{refused} of 80 machines drawn cannot be built");
+    assert!(run.out.contains(&words), "{words}: {}", run.out);
+    assert!(
+        run.out.contains(&format!("shares are of {built} machines")),
+        "{}",
+        run.out
+    );
+    // The speed does not depend on the crank: it holds in all that could be built.
+    let speed = run
+        .out
+        .lines()
+        .find(|line| line.starts_with(" speed"))
+        .unwrap();
+    assert_eq!(speed.split_whitespace().nth(1), Some("100"), "{speed}");
+    let header: Vec<&str> = run
+        .out
+        .lines()
+        .skip(1)
+        .take_while(|line| !line.contains('─'))
+        .collect();
+    let header = header.join(" ");
+    for word in ["95 %", "use at", "machines", "surely"] {
+        assert!(header.contains(word), "{word}: {header}");
+    }
+    let csv = jred([
+        &"tolerance",
+        &press,
+        &"--steps",
+        &"16",
+        &"--samples",
+        &"2",
+        &"--tolerance",
+        &"slider.mass=5%",
+        &"--format",
+        &"csv",
+    ]);
+    assert!(csv.out.starts_with("rule,machines that hold it [%],surely above [%],surely below [%],5 % of machines use at most,"), "{}", csv.out);
+    for line in run.out.lines().skip(1).take(16) {
+        assert!(line.chars().count() <= 120, "{line}");
+    }
+}
+
 #[test]
 fn wrong_tolerances_are_said() {
     let folder = Folder::new();

@@ -188,6 +188,9 @@ pub(crate) const MOMENTS: f64 = 1e-10;
 
 /// Ends of a range of ratios, in closed form and by halving.
 pub(crate) const RATIO_END: f64 = 1e-9;
+
+/// The least share of a limit over the gear ratios, closed in by steps of 0.01 %, against steps of 0.23 %.
+pub(crate) const LEAST_USE: f64 = 5e-3;
 /// Stall torque and torque at the no-load speed of a data sheet, of the stall torque: figures of three digits [2e-3].
 pub(crate) const DATA_SHEET: f64 = 4e-3;
 /// Torque and current at its nominal point, the same [1.7e-2].
@@ -208,8 +211,13 @@ pub(crate) const SMALL_STEPS: f64 = 1e-3;
 /// Sums of straight lines, of the largest power.
 pub(crate) const CURVES: f64 = 1e-9;
 
+/// A figure read from text with four digits: half a unit of the fourth.
+pub(crate) const SHORT: f64 = 5e-4;
+
 /// Worst phases against brute force on another grid: no smaller, but for the grids' own distance …
 pub(crate) const PHASES: f64 = 1e-6;
+/// Those of three axes, searched over a coarser grid, may lie beside the worst by as much [2e-3].
+pub(crate) const THREE_PHASES: f64 = 5e-3;
 /// … and larger by no more than what such a grid misses.
 pub(crate) const COARSE_PHASES: f64 = 0.05;
 
@@ -225,3 +233,13 @@ pub(crate) const SLOW_HOUSING: f64 = 1e-3;
 /// The duty meter in the middle of 2000 and 20 000 ticks of a press's cycle against sizing's instants: an extreme lies up to half
 /// a tick away, which counts with the square of the tick, down to what f32 can tell.
 pub(crate) const METERED: [f64; 2] = [1e-3, 5e-7];
+
+/// The duty meter in the middle of 20 000 ticks against the figures written beside its limits: as [`METERED`], and the error of
+/// sizing's own 2000 steps.
+pub(crate) const METER_SIZED: f64 = 1e-4;
+
+/// By how much a curve of eight points lies below the limit of a motor at most, of the limit's largest torque.
+pub(crate) const METER_SHORTFALL: f64 = 0.05;
+
+/// By how much more between the 2000 speeds that were looked at.
+pub(crate) const METER_BETWEEN: f64 = 1e-3;

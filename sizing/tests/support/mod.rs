@@ -63,15 +63,19 @@ pub(crate) struct Run {
 
 /// Runs `jred`; each argument may be a text or a path.
 pub(crate) fn jred<const N: usize>(arguments: [&dyn AsRef<std::ffi::OsStr>; N]) -> Run {
+    let arguments: Vec<&std::ffi::OsStr> = arguments.iter().map(|a| (*a).as_ref()).collect();
+    jred_with(&arguments)
+}
+
+/// The same with any number of arguments.
+pub(crate) fn jred_with(arguments: &[impl AsRef<std::ffi::OsStr>]) -> Run {
     let mut command = assert_cmd::Command::new(env!("CARGO_BIN_EXE_jred"));
     // A wide page: messages are compared word by word and must not be broken into lines.
     command
         .env("NO_COLOR", "1")
         .env_remove("CLICOLOR_FORCE")
         .env_remove("FORCE_COLOR");
-    for argument in arguments {
-        command.arg(argument.as_ref());
-    }
+    command.args(arguments);
     let Output {
         status,
         stdout,

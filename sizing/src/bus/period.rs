@@ -1,0 +1,97 @@
+//! The common period of cycles.
+//!
+//! Periods are decimal numbers of data, or quotients of them, as floating-point numbers. Two of them fit when so many of the
+//! one are as long as so many of the other, to within what the search over phases tolerates; for long common periods to within
+//! rounding, as any two numbers are nearly in the ratio of large enough integers.
+
+use super::curve::PowerCurve;
+
+/// The largest number of cycles of an axis in a common period that is searched for the worst phases.
+pub const MOST_CYCLES: u32 = 256;
+
+/// The largest number that a common period is looked for in.
+pub const LOOKED_AT: u32 = 100_000;
+
+/// How well the periods must fit into each other, as a share.
+const FIT: f64 = 1e-9;
+
+/// The same of long common periods: some roundings. Of 100 000 numbers of cycles one fits by chance once in a thousand pairs.
+const LONG_FIT: f64 = 1e-13;
+
+/// Whether cycles repeat together.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Common {
+    /// They do, and soon enough for a search.
+    Searched {
+        /// The shortest common period (s).
+        period: f64,
+        /// Cycles of each axis in it.
+        cycles: Vec<u32>,
+    },
+    /// They do, but not within [`MOST_CYCLES`].
+    TooLong {
+        /// The shortest common period (s).
+        period: f64,
+        /// Cycles of each axis in it.
+        cycles: Vec<u32>,
+    },
+    /// Not within [`LOOKED_AT`] cycles.
+    None,
+}
+
+impl Common {
+    /// Of these curves.
+    pub(super) fn of(curves: &[PowerCurve]) -> Self {
+        let periods: Vec<f64> = curves.iter().map(PowerCurve::period).collect();
+        if let Some((period, cycles)) = shortest(&periods, MOST_CYCLES, FIT) {
+            return Self::Searched { period, cycles };
+        }
+        match shortest(&periods, LOOKED_AT, LONG_FIT) {
+            Some((period, cycles)) => Self::TooLong { period, cycles },
+            None => Self::None,
+        }
+    }
+
+    /// Up to which phase (s) of each axis the bus has anything new to do.
+    ///
+    /// Only the phases between the axes matter, and time may start at any cycle of any axis: the phase of an axis counts but
+    /// to the greatest common divisor of its own period with the common period of the axes before it. With n₁ and n₂ cycles of
+    /// two axes in the common period T that is T/(n₁·n₂).
+    pub(super) fn reach(&self) -> Vec<f64> {
+        let Self::Searched { period, cycles } = self else {
+            return Vec::new();
+        };
+        let mut before = 0;
+        let reach = cycles.iter().map(|own| {
+            // lcm(own, before); before is zero only for the first axis, whose phase is the reference.
+            let parts = f64::from(*own) * f64::from(before / divisor(*own, before));
+            before = divisor(*own, before);
+            if parts > 0.0 { period / parts } else { 0.0 }
+        });
+        reach.collect()
+    }
+}
+
+/// The greatest common divisor; that of zero and a number is the number.
+const fn divisor(a: u32, b: u32) -> u32 {
+    let (mut a, mut b) = (a, b);
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a
+}
+
+fn shortest(periods: &[f64], most: u32, fit: f64) -> Option<(f64, Vec<u32>)> {
+    let first = *periods.first()?;
+    (1..=most).find_map(|count| {
+        let whole = first * f64::from(count);
+        let cycles = periods.iter().map(|period| {
+            let times = whole / period;
+            let near = times.round();
+            let fits =
+                (1.0..=f64::from(most)).contains(&near) && (times - near).abs() <= fit * near;
+            fits.then_some(near as u32)
+        });
+        Some((whole, cycles.collect::<Option<Vec<u32>>>()?))
+    })
+}

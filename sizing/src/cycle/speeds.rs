@@ -1,0 +1,233 @@
+//! At which speeds the cycle runs, and for how long: sums of a function of the speed without going through the samples.
+//!
+//! The samples in order of |n|, halved again and again. Of each part are known its weight W = ∑w, its mean speed c = ∑w·|n|/W, and
+//! ∑w·(|n| − c)² and ∑w/n². The square of a straight line l then sums up to W·l(c)² + l′²·∑w·(|n| − c)², in which nothing
+//! cancels; parts are joined by the rule of Chan, Golub and LeVeque (1983, "Algorithms for computing the sample variance",
+//! American Statistician 37). A function of a few such pieces costs, for each end of a piece, a part of each size:
+//! the logarithm of the number of samples.
+
+use super::Sample;
+
+/// Most samples of a part that is not halved.
+const LEAF: usize = 16;
+
+/// What a function of the speed is between two speeds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Form {
+    /// Nothing.
+    Zero,
+    /// 1 − l², l being the straight line with these values at both ends.
+    LessLine([f64; 2]),
+    /// 1 − (k/|n|)².
+    LessInverse(f64),
+}
+
+/// A sample with some weight.
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    /// |n| at the gearbox output (rad/s).
+    speed: f64,
+    weight: f64,
+}
+
+/// Samples next to each other in the order of speed.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    first: u32,
+    last: u32,
+    /// Index of the second half, the first being the next part; zero: not halved.
+    second: u32,
+    sums: Sums,
+}
+
+/// What is known of samples together.
+#[derive(Clone, Copy, Debug)]
+struct Sums {
+    weight: f64,
+    mean: f64,
+    /// ∑w·(|n| − mean)².
+    spread: f64,
+    /// ∑w/n²; infinite with rest.
+    inverse: f64,
+}
+
+impl Sums {
+    fn of(entry: &Entry) -> Self {
+        Self {
+            weight: entry.weight,
+            mean: entry.speed,
+            spread: 0.0,
+            inverse: entry.weight / (entry.speed * entry.speed),
+        }
+    }
+
+    fn with(&self, other: &Self) -> Self {
+        let weight = self.weight + other.weight;
+        let apart = other.mean - self.mean;
+        let share = other.weight / weight;
+        Self {
+            weight,
+            mean: self.mean + apart * share,
+            spread: self.spread + other.spread + apart * apart * (self.weight * share),
+            inverse: self.inverse + other.inverse,
+        }
+    }
+}
+
+/// The samples of a cycle by speed.
+#[derive(Clone, Debug)]
+pub(crate) struct Speeds {
+    entries: Vec<Entry>,
+    parts: Vec<Part>,
+}
+
+impl Speeds {
+    pub(super) fn new(samples: &[Sample]) -> Self {
+        let weighty = samples.iter().filter(|s| s.weight > 0.0);
+        let entry = |s: &Sample| Entry {
+            speed: s.speed().abs(),
+            weight: s.weight,
+        };
+        let mut entries: Vec<Entry> = weighty.map(entry).collect();
+        entries.sort_unstable_by(|a, b| a.speed.total_cmp(&b.speed));
+        let mut speeds = Self {
+            parts: Vec::with_capacity(4 * entries.len() / LEAF + 1),
+            entries,
+        };
+        if !speeds.entries.is_empty() {
+            speeds.build(0, speeds.entries.len() - 1);
+        }
+        speeds.parts.shrink_to_fit();
+        speeds
+    }
+
+    /// Adds the samples from `first` to `last`, both included; what is known of them.
+    fn build(&mut self, first: usize, last: usize) -> Sums {
+        let own = self.parts.len();
+        let known = Sums::of(&self.entries[first]);
+        let part = |second: usize, sums| Part {
+            first: first as u32,
+            last: last as u32,
+            second: second as u32,
+            sums,
+        };
+        self.parts.push(part(0, known));
+        if last - first < LEAF {
+            let rest = &self.entries[first + 1..=last];
+            let sums = rest.iter().map(Sums::of).fold(known, |a, b| a.with(&b));
+            self.parts[own] = part(0, sums);
+            return sums;
+        }
+        let middle = usize::midpoint(first, last);
+        let one = self.build(first, middle);
+        let second = self.parts.len();
+        let two = self.build(middle + 1, last);
+        let sums = one.with(&two);
+        self.parts[own] = part(second, sums);
+        sums
+    }
+
+    /// ∑w·g(|n|) (s). `on` says what g is between two speeds (rad/s, at the gearbox output), `None` if that is none of the
+    /// [`Form`]s; `at` is g at one speed. Where `on` never says anything every sample is looked at.
+    pub(crate) fn sum(
+        &self,
+        on: impl Fn([f64; 2]) -> Option<Form>,
+        at: impl Fn(f64) -> f64,
+    ) -> f64 {
+        if self.parts.is_empty() {
+            0.0
+        } else {
+            self.sum_of(0, &on, &at)
+        }
+    }
+
+    fn sum_of(
+        &self,
+        index: usize,
+        on: &impl Fn([f64; 2]) -> Option<Form>,
+        at: &impl Fn(f64) -> f64,
+    ) -> f64 {
+        let part = &self.parts[index];
+        let entries = &self.entries[part.first as usize..=part.last as usize];
+        let (Some(low), Some(high)) = (entries.first(), entries.last()) else {
+            return 0.0;
+        };
+        let ends = [low.speed, high.speed];
+        if let Some(form) = on(ends) {
+            return part.sums.sum(form, ends);
+        }
+        if part.second == 0 {
+            entries.iter().map(|e| e.weight * at(e.speed)).sum()
+        } else {
+            self.sum_of(index + 1, on, at) + self.sum_of(part.second as usize, on, at)
+        }
+    }
+}
+
+impl Sums {
+    fn sum(&self, form: Form, [low, high]: [f64; 2]) -> f64 {
+        match form {
+            Form::Zero => 0.0,
+            Form::LessLine([start, end]) => {
+                let slope = if high > low {
+                    (end - start) / (high - low)
+                } else {
+                    0.0
+                };
+                let middle = start + slope * (self.mean - low);
+                self.weight * (1.0 - middle * middle) - slope * slope * self.spread
+            }
+            Form::LessInverse(scale) => self.weight - scale * scale * self.inverse,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use super::{Form, LEAF, Sample, Speeds};
+
+    /// Lines and a hyperbola over a million samples: a few dozen of them are looked at, and the sum is theirs.
+    #[test]
+    fn few_samples_are_looked_at() {
+        let count = 1_000_000;
+        let samples: Vec<Sample> = (0..count)
+            .map(|k| {
+                let t = f64::from(k) / f64::from(count);
+                let speed = 100.0 * (std::f64::consts::TAU * t).sin();
+                Sample {
+                    t,
+                    weight: 1.0 / f64::from(count),
+                    loads: [0.0, 0.0, 0.0, speed, speed.signum()],
+                }
+            })
+            .collect();
+        let at = |speed: f64| match speed {
+            _ if speed <= 20.0 => 0.0,
+            _ if speed <= 50.0 => 1.0 - (1.2 - 0.01 * speed).powi(2),
+            _ => 1.0 - (35.0 / speed).powi(2),
+        };
+        let (asked, looked) = (Cell::new(0), Cell::new(0));
+        let on = |[from, to]: [f64; 2]| {
+            asked.set(asked.get() + 1);
+            match [from, to] {
+                [_, to] if to <= 20.0 => Some(Form::Zero),
+                [from, to] if from > 20.0 && to <= 50.0 => {
+                    Some(Form::LessLine([from, to].map(|speed| 1.2 - 0.01 * speed)))
+                }
+                [from, _] if from > 50.0 => Some(Form::LessInverse(35.0)),
+                _ => None,
+            }
+        };
+        let one = |speed: f64| {
+            looked.set(looked.get() + 1);
+            at(speed)
+        };
+        let found = Speeds::new(&samples).sum(on, one);
+        let expected: f64 = samples.iter().map(|s| s.weight * at(s.speed().abs())).sum();
+        assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+        assert!((1..=2 * LEAF).contains(&looked.get()), "{}", looked.get());
+        assert!((20..=120).contains(&asked.get()), "{}", asked.get());
+    }
+}

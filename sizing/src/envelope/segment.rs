@@ -1,0 +1,139 @@
+//! The S1 torque between two speeds, where it is one line or one hyperbola all along.
+
+use super::continuous::Continuous;
+use super::{Envelope, Limit, Shape};
+
+/// A torque over speed between two speeds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Segment {
+    /// No limit is known.
+    Unknown,
+    /// A straight line with these torques at both ends (N·m).
+    Line([f64; 2]),
+    /// Constant power (W).
+    Power(f64),
+}
+
+impl Envelope {
+    /// The S1 torque between two speeds (rad/s, not negative, not falling). `None`: more than one line or hyperbola, or the
+    /// voltage line of a winding, or not to be said without looking closer.
+    pub(crate) fn continuous_segment(&self, speeds: [f64; 2]) -> Option<Segment> {
+        let [from, to] = speeds;
+        if from > self.max_speed {
+            return Some(Segment::Line([0.0; 2]));
+        }
+        if to > self.max_speed {
+            return None;
+        }
+        match self.continuous.segment(speeds)? {
+            // What is not known is not capped: see `Envelope::continuous_torque`.
+            Segment::Unknown => Some(Segment::Unknown),
+            heat => self.driving.caps(heat, speeds),
+        }
+    }
+}
+
+impl Continuous {
+    fn segment(&self, speeds: [f64; 2]) -> Option<Segment> {
+        let heat = match &*self.points {
+            [] => self.figures_segment(speeds)?,
+            points => points_segment(points, speeds)?,
+        };
+        let power = if self.max_power.is_finite() {
+            Segment::Power(self.max_power)
+        } else {
+            Segment::Unknown
+        };
+        lower(heat, power, speeds)
+    }
+
+    fn figures_segment(&self, [from, to]: [f64; 2]) -> Option<Segment> {
+        let (torque, rated) = (self.rated_torque, self.rated_speed);
+        if torque.is_finite() && from > rated {
+            return Some(Segment::Power(torque * rated));
+        }
+        let straight = torque.is_finite() && self.standstill.is_finite() && rated.is_finite();
+        let together = straight || from > 0.0 || to == 0.0;
+        (to <= rated && together)
+            .then(|| level_or_line([from, to].map(|speed| self.by_figures(speed))))
+    }
+}
+
+/// Between points, level before the first, with constant power beyond the last.
+fn points_segment(points: &[[f64; 2]], speeds: [f64; 2]) -> Option<Segment> {
+    let [after, same] = speeds.map(|speed| points.partition_point(|p| p[0] < speed));
+    if after != same {
+        return None;
+    }
+    match points.last() {
+        Some([speed, torque]) if after == points.len() && *speed > 0.0 => {
+            Some(Segment::Power(torque * speed))
+        }
+        _ => Some(level_or_line(
+            speeds.map(|speed| super::continuous::between(points, speed)),
+        )),
+    }
+}
+
+fn level_or_line(torques: [f64; 2]) -> Segment {
+    if torques.iter().all(|torque| torque.is_finite()) {
+        Segment::Line(torques)
+    } else {
+        Segment::Unknown
+    }
+}
+
+/// The lower of two, if it is the same one all along.
+fn lower(one: Segment, other: Segment, speeds: [f64; 2]) -> Option<Segment> {
+    match (one, other) {
+        (Segment::Unknown, known) | (known, Segment::Unknown) => Some(known),
+        (Segment::Line(a), Segment::Line(b)) if below(a, b) => Some(one),
+        (Segment::Line(a), Segment::Line(b)) if below(b, a) => Some(other),
+        (Segment::Line(_), Segment::Line(_)) => None,
+        (Segment::Power(a), Segment::Power(b)) => Some(Segment::Power(a.min(b))),
+        (Segment::Line(line), Segment::Power(power))
+        | (Segment::Power(power), Segment::Line(line)) => lower_of_both(line, power, speeds),
+    }
+}
+
+/// Whether a line lies nowhere above another.
+fn below(line: [f64; 2], other: [f64; 2]) -> bool {
+    line[0] <= other[0] && line[1] <= other[1]
+}
+
+fn lower_of_both(line: [f64; 2], power: f64, speeds: [f64; 2]) -> Option<Segment> {
+    // The hyperbola is convex: below its chord, and above its tangents.
+    if speeds[0] > 0.0 && below(speeds.map(|speed| power / speed), line) {
+        return Some(Segment::Power(power));
+    }
+    let middle = 0.5 * (speeds[0] + speeds[1]);
+    let tangent = |at: f64| speeds.map(|speed| power / at * (2.0 - speed / at));
+    let above = |at: f64| at > 0.0 && below(line, tangent(at));
+    let level = [line[0].max(line[1]); 2];
+    let least = speeds[1] == 0.0 || below(level, [power / speeds[1]; 2]);
+    (least || above(middle) || above(speeds[1])).then_some(Segment::Line(line))
+}
+
+impl Limit {
+    /// The lower of this limit and of a torque, if it is the same line or hyperbola between two speeds that the limit reaches.
+    fn caps(&self, torque: Segment, speeds: [f64; 2]) -> Option<Segment> {
+        let reached = self.pieces().iter().find(|piece| speeds[0] <= piece.to);
+        let Some(piece) = reached else {
+            return Some(Segment::Line([0.0; 2]));
+        };
+        if speeds[1] > piece.to {
+            return None;
+        }
+        let ends = speeds.map(|speed| piece.torque(speed));
+        match piece.shape {
+            Shape::Straight => lower(torque, level_or_line(ends), speeds),
+            Shape::Concave => under(torque, ends, speeds),
+            Shape::Monotone => under(torque, [ends[0].min(ends[1]); 2], speeds),
+        }
+    }
+}
+
+/// A torque that lies nowhere above a chord below the limit; where it may, the limit itself is no line.
+fn under(torque: Segment, chord: [f64; 2], speeds: [f64; 2]) -> Option<Segment> {
+    lower(torque, Segment::Line(chord), speeds).filter(|lower| *lower == torque)
+}

@@ -1,0 +1,164 @@
+//! Drives of one kind, those that fit or those that are refused, of which the first stand in order.
+
+use super::{Candidate, is_open};
+use super::order::{Order, Place};
+use crate::drive::Drive;
+
+/// So many drives are judged in full and put in order, of those that fit and of those refused; see
+/// [`Selection`](super::Selection).
+pub const FIRST: usize = 64;
+
+/// So many of the smallest bounds are kept apart while drives are judged: mostly they contain the first.
+const NEAR: usize = 2 * FIRST;
+
+/// Drives of one kind.
+#[derive(Clone, Debug, Default)]
+pub struct Group<'c> {
+    first: Vec<Candidate<'c>>,
+    /// Those that may be among the first, while drives are judged.
+    near: Vec<Unranked<'c>>,
+    /// What no bound of the rest is below; none: there is no rest.
+    limit: Option<Order>,
+    pub(super) rest: Vec<Placed<'c>>,
+    /// How many of the rest fit, but have a rule that could not be checked.
+    partly_checked: usize,
+}
+
+/// A drive and its place in the catalogue: small, for of a large catalogue nearly all are no more than this.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placed<'c> {
+    pub(super) drive: Drive<'c>,
+    pub(super) place: Place,
+}
+
+/// A drive that is not judged in full, and what it does not stand before.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Unranked<'c> {
+    pub(super) drive: Drive<'c>,
+    pub(super) bound: Order,
+}
+
+impl<'c> Unranked<'c> {
+    pub(super) const fn placed(&self) -> Placed<'c> {
+        Placed {
+            drive: self.drive,
+            place: self.bound.place,
+        }
+    }
+}
+
+impl<'c> Group<'c> {
+    /// All of a kind, in order.
+    pub(crate) const fn of(all: Vec<Candidate<'c>>) -> Self {
+        Self {
+            first: all,
+            near: Vec::new(),
+            limit: None,
+            rest: Vec::new(),
+            partly_checked: 0,
+        }
+    }
+
+    /// None so far; without allocation.
+    pub(super) const fn none() -> Self {
+        Self::of(Vec::new())
+    }
+
+    /// Adds a drive that is not judged in full, and whether it fits with a rule that could not be checked.
+    pub(super) fn add(&mut self, drive: Unranked<'c>, partly_checked: bool) {
+        self.partly_checked += usize::from(partly_checked);
+        self.put(drive);
+    }
+
+    fn put(&mut self, drive: Unranked<'c>) {
+        if self.limit.is_some_and(|limit| drive.bound >= limit) {
+            self.rest.push(drive.placed());
+            return;
+        }
+        self.near.push(drive);
+        if self.near.len() == 4 * NEAR {
+            let (_, next, _) = self.near.select_nth_unstable_by_key(NEAR, |d| d.bound);
+            self.limit = Some(next.bound);
+            self.rest.extend(self.near.drain(NEAR..).map(|d| d.placed()));
+        }
+    }
+
+    /// Two groups as one, of which none is in order yet.
+    pub(super) fn join(&mut self, other: Self) {
+        self.partly_checked += other.partly_checked;
+        for drive in other.near {
+            self.put(drive);
+        }
+        self.limit = [self.limit, other.limit].into_iter().flatten().min();
+        self.rest.extend(other.rest);
+    }
+
+    /// Puts the first in order, judging only those in full whose bounds do not keep them from being among the first. Bounds of the
+    /// rest are worked out once more if need be.
+    pub(super) fn rank(
+        &mut self,
+        judge: impl Fn(&Placed<'c>) -> Candidate<'c>,
+        bound: impl Fn(&Placed<'c>) -> Unranked<'c>,
+    ) {
+        loop {
+            let near = self.near.drain(..).map(|drive| judge(&drive.placed()));
+            self.first.extend(near);
+            self.first.sort_unstable_by_key(Order::of);
+            let last = self.first.get(FIRST - 1).map(Order::of);
+            if (self.limit).is_none_or(|limit| last.is_some_and(|last| last <= limit)) {
+                break;
+            }
+            // The bounds were not near enough: on to many more.
+            self.near = self.rest.drain(..).map(|drive| bound(&drive)).collect();
+            let more = 4 * self.first.len();
+            self.limit = None;
+            if more < self.near.len() {
+                let (_, next, _) = self.near.select_nth_unstable_by_key(more, |d| d.bound);
+                self.limit = Some(next.bound);
+                self.rest.extend(self.near.drain(more..).map(|d| d.placed()));
+            }
+        }
+        // Beyond the limit others may stand between those that happen to be judged.
+        if let Some(limit) = self.limit {
+            let known = self.first.partition_point(|c| Order::of(c) <= limit);
+            self.rest.extend(self.first.drain(known..).map(|c| Placed {
+                drive: c.drive,
+                place: c.place,
+            }));
+        }
+        let first = self.first.iter().filter(|c| is_open(&c.outcome));
+        self.partly_checked -= first.count();
+    }
+
+    /// How many there are.
+    pub const fn len(&self) -> usize {
+        self.first.len() + self.rest.len()
+    }
+
+    /// Whether there is none.
+    pub const fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The very first.
+    pub fn first(&self) -> Option<&Candidate<'c>> {
+        self.first.first()
+    }
+
+    /// The first of them in order, at least [`FIRST`] or all; after [`Selection::complete`](super::Selection::complete) all.
+    pub fn known(&self) -> &[Candidate<'c>] {
+        &self.first
+    }
+
+    /// All drives, those beyond [`Group::known`] in no order.
+    pub fn drives(&self) -> impl Iterator<Item = Drive<'c>> {
+        let first = self.first.iter().map(|c| c.drive);
+        first.chain(self.rest.iter().map(|u| u.drive))
+    }
+
+    /// How many fit, but have a rule that could not be checked for want of a figure.
+    pub fn partly_checked(&self) -> usize {
+        let first = self.first.iter().filter(|c| is_open(&c.outcome));
+        self.partly_checked + first.count()
+    }
+}

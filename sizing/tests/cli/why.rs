@@ -1,0 +1,161 @@
+//! `jred size --why`: the drive that was asked for, its rules, and its place.
+
+use serde_json::Value;
+
+use super::forms::AMPLIFIERS;
+use super::support::{Folder, Run, edited_press, jred, press_file};
+
+fn why(name: &str) -> Run {
+    jred([&"size", &press_file(), &"--steps", &"200", &"--why", &name])
+}
+
+fn name(drive: &Value, between: &str, direct: &str) -> String {
+    let motor = drive["motor"].as_str().unwrap();
+    match drive["gearbox"].as_str() {
+        Some(gearbox) => format!("{motor}{between}{gearbox}"),
+        None => format!("{motor}{direct}"),
+    }
+}
+
+fn all() -> Value {
+    let run = jred([
+        &"size",
+        &press_file(),
+        &"--steps",
+        &"200",
+        &"--all",
+        &"--format",
+        &"json",
+    ]);
+    run.ends(0).json()
+}
+
+/// A drive that fits is shown with its own rules and its rank, one that is refused with the rules that it breaks.
+#[test]
+fn the_drive_asked_for_is_shown_and_placed() {
+    let all = all();
+    let (fit, refused) = (&all["fit"], &all["refused"]);
+    let count = fit.as_array().unwrap().len();
+    assert!(count > 3);
+    for k in [0, 2, count - 1] {
+        let own = name(&fit[k], " + ", ", direct");
+        let text = why(&own).ends(0).out;
+        assert!(
+            text.contains(&format!("Drive asked for: {own}\n")),
+            "{text}"
+        );
+        assert!(
+            text.contains(&format!(
+                "breaks no rule: rank {} of {count} that fit",
+                k + 1
+            )),
+            "{text}"
+        );
+        let best = name(&fit[0], " + ", ", direct");
+        assert_eq!(
+            text.contains(&format!("The best drive is {best}")),
+            k > 0,
+            "{text}"
+        );
+        assert!(!text.contains("Best drive:"), "{text}");
+        // Its rules, not those of the best.
+        let check = &fit[k]["checks"][0];
+        let note = check["note"].as_str().unwrap();
+        let unbroken = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        let first = note.split(',').next().unwrap();
+        assert!(unbroken.contains(first), "{first}: {text}");
+        assert!(text.contains("limit is"), "{text}");
+    }
+    let own = name(&refused[7], " + ", ", direct");
+    let text = why(&own).ends(0).out;
+    assert!(
+        text.contains(&format!(
+            "Drive asked for: {own}\nrefused; used of the limits that it breaks: "
+        )),
+        "{text}"
+    );
+    let broken = refused[7]["checks"].as_array().unwrap().iter();
+    let broken: Vec<&str> = broken
+        .filter(|check| check["verdict"] == "fail")
+        .map(|check| check["rule"].as_str().unwrap())
+        .collect();
+    let place = text
+        .lines()
+        .find(|line| line.starts_with("refused; used of the limits"))
+        .unwrap();
+    assert!(
+        !broken.is_empty() && broken.iter().all(|rule| place.contains(rule)),
+        "{place}"
+    );
+    assert!(text.contains("FAIL"), "{text}");
+}
+
+/// Every way in which a name is printed or documented is understood.
+#[test]
+fn names_as_printed_are_understood() {
+    let all = all();
+    let drives = || {
+        all["fit"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .chain(all["refused"].as_array().unwrap())
+    };
+    let geared = drives().find(|d| !d["gearbox"].is_null()).unwrap();
+    let direct = drives().find(|d| d["gearbox"].is_null()).unwrap();
+    for (drive, ways) in [
+        (geared, [["+", ""], [" + ", ""], ["+ ", ""]]),
+        (direct, [["", ""], ["", "+direct"], ["", ", direct"]]),
+    ] {
+        for [between, end] in ways {
+            let text = why(&name(drive, between, end)).ends(0).out;
+            let own = name(drive, " + ", ", direct");
+            assert!(
+                text.contains(&format!("Drive asked for: {own}\n")),
+                "{between:?} {end:?}: {text}"
+            );
+        }
+    }
+    let folder = Folder::new();
+    folder.file("amplifiers.csv", AMPLIFIERS);
+    for amplifier in ["small", "large"] {
+        let own = format!("{} on {amplifier}", name(geared, " + ", ""));
+        let run = jred([
+            &"size",
+            &press_file(),
+            &"--catalogue",
+            &"built-in",
+            &"--catalogue",
+            &folder.path(""),
+            &"--steps",
+            &"200",
+            &"--why",
+            &own,
+            &"--format",
+            &"json",
+        ]);
+        let asked = &run.json()["asked"];
+        assert_eq!(asked["amplifier"], amplifier);
+        assert_eq!(asked["rank"].is_null(), asked["verdict"] == "fail");
+    }
+}
+
+/// Where no drive holds there is no best one, and the exit code says so.
+#[test]
+fn asked_for_among_drives_of_which_none_holds() {
+    let folder = Folder::new();
+    let file = folder.file("heavy.toml", edited_press("\"-10 kN\"", "\"-900 kN\""));
+    let run = jred([&"size", &file, &"--why", &"fxm33-30a+direct"]).ends(1);
+    for words in [
+        "Drive asked for: fxm33-30a, direct",
+        "refused; used of the limits",
+        "No drive holds every rule",
+    ] {
+        assert!(run.out.contains(words), "{words:?} is not in {}", run.out);
+    }
+    let unknown = why("fxm33-31a+direct").ends(2);
+    unknown.says(&[
+        "the catalogue has no drive \"fxm33-31a+direct\"",
+        "did you mean",
+    ]);
+}

@@ -1,0 +1,86 @@
+// Limits of sgmsh-30a + npt025mf-3 for the duty meter `jred::duty`.
+// Written by `jred size --meter`; size anew instead of editing.
+//
+// machine: press.toml, Servo press, 60 mm stroke, 10 kN
+// motor: Yaskawa SGMSH-30A
+// gearbox: Beckhoff AG3400 NPT025 MF i=3
+// rules: general (General practice)
+// assumed: corner of the peak torque not stated: peak torque up to rated speed
+// assumed: peak torque at maximum speed not stated: straight line to the rated torque
+// assumed: standstill torque not stated: the rated torque is taken
+// not seen by the meter: holding torque, inertia ratio, winding temperature, gearbox emergency torque, RMS current, peak current, bus voltage, natural frequency
+//
+// SI units. Speed and torque are those of the motor; output is that of the gearbox.
+
+/// 80 % of the S1 torque, up to 0.15 % of its largest value below it (N m over rad/s).
+pub const CONTINUOUS: [[f32; 2]; 8] = [
+    [314.159_24, 7.831_117_6],
+    [335.430_45, 7.333_092],
+    [359.974_15, 6.832_947_7],
+    [384.517_82, 6.393_94],
+    [417.242_74, 5.892_096],
+    [449.967_68, 5.463_227],
+    [490.873_84, 5.006_421_6],
+    [523.598_75, 4.700_420_4],
+];
+
+/// 80 % of the peak torque (N m over rad/s).
+pub const PEAK: [[f32; 2]; 2] = [[314.159_24, 23.519_976], [523.598_75, 7.839_993_5]];
+
+/// 90 % of the motor's maximum speed (rad/s).
+pub const SPEED: f32 = 471.238_9;
+
+/// 100 % of the gearbox's rated input speed n1N (rad/s).
+pub const MEAN_SPEED: f32 = 324.631_23;
+
+/// 100 % of the gearbox's acceleration torque T2B (N m).
+pub const OUTPUT_PEAK: f32 = 80.0;
+
+/// 100 % of the gearbox's rated torque T2N (N m).
+pub const OUTPUT_MEAN: f32 = 40.0;
+
+// No limit `regenerative_power`: nothing to judge at this drive.
+
+/// 100 % of the moves an hour up to which T2B holds, beyond which sizing gives a warning (1/h).
+pub const CYCLES_PER_HOUR: f32 = 1_000.0;
+
+/// The cycle (s).
+pub const CYCLE_TIME: f32 = 0.5;
+
+/// What the cycle was sized with: the meter's figures after one cycle, if each move of the drive link is counted as a
+/// cycle of the gearbox.
+pub const SIZED: jred::duty::Figures<f32> = jred::duty::Figures {
+    rms_torque: 4.197_992,
+    mean_speed: 113.097_336,
+    output_mean: 20.047_039,
+    motoring_power: 387.682_2,
+    regenerative_power: 80.092_9,
+    motoring_energy: 193.841_1,
+    regenerative_energy: 40.046_45,
+    duration: 0.5,
+    peak_torque: 20.728_342,
+    peak_speed: 265.071_87,
+    output_peak: 59.155_228,
+    peak_share: Some(0.881_307_96),
+    cycles_per_hour: 7_200.0,
+    cycles: 1,
+    ticks: 0,
+    invalid: 0,
+};
+
+/// The limits, for `jred::duty::Meter::new`.
+///
+/// # Errors
+/// None: the curves are in order.
+pub fn limits() -> Result<jred::duty::Limits<f32>, jred::duty::LimitError> {
+    Ok(jred::duty::Limits {
+        continuous: Some(jred::duty::Curve::new(&CONTINUOUS)?),
+        peak: Some(jred::duty::Curve::new(&PEAK)?),
+        speed: Some(SPEED),
+        mean_speed: Some(MEAN_SPEED),
+        output_peak: Some(OUTPUT_PEAK),
+        output_mean: Some(OUTPUT_MEAN),
+        regenerative_power: None,
+        cycles_per_hour: Some(CYCLES_PER_HOUR),
+    })
+}

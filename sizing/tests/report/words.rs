@@ -1,0 +1,113 @@
+//! Words and looks of a report: units of the motor's kind, axes, curves that end, colours.
+
+use std::collections::HashSet;
+
+use super::support::{Folder, jred, press_file};
+use super::{charts, plain};
+
+const LINEAR: &str = "\
+key,kind,maker,model,rated_force [N],rated_speed [m/s],standstill_force [N],peak_force [N],max_speed [m/s],moving_mass [kg],source
+own-m,linear,Own,M,140,3,150,450,4,1.8,invented
+";
+
+/// A linear motor has forces and masses; the words of a turning one are nowhere on its page.
+#[test]
+fn a_page_of_a_linear_motor_speaks_of_masses() {
+    let folder = Folder::new();
+    let motors = folder.file("motors.csv", LINEAR);
+    let machine = press_file().with_file_name("linear-gripper.toml");
+    let path = folder.path("report.html");
+    let run = jred([
+        &"size",
+        &machine,
+        &"--motors",
+        &motors,
+        &"--report",
+        &path,
+        &"--explain",
+    ]);
+    assert!(run.code < 2, "{}", run.err);
+    let page = std::fs::read_to_string(&path).unwrap();
+    for chart in charts(&page) {
+        for key in ["x", "y"] {
+            let label = chart[key].as_str().unwrap();
+            assert!(
+                !label.contains("inertia") && !label.contains("torque"),
+                "{label}"
+            );
+        }
+    }
+    let shown = page.split("<script").next().unwrap();
+    // Names of the machine file and sources of rules stay as they are.
+    let shown = shown.split("Rules and their sources").next().unwrap();
+    for line in plain(shown).lines().chain(run.out.lines()) {
+        for word in ["nertia", "orque", "rotor"] {
+            assert!(!line.contains(word), "{word} in {line}");
+        }
+    }
+    assert!(page.contains("mass ratio λ") && page.contains("mass at the motor"));
+    assert!(run.out.contains("mass ratio λ") && run.out.contains("mass at the motor"));
+    assert!(page.contains("m_red varies") && !page.contains("J_red varies"));
+}
+
+/// A plain number's axis has no empty brackets; a curve that leaves the chart is explained below it; no two curves of a chart
+/// look alike.
+#[test]
+fn charts_explain_themselves() {
+    let folder = Folder::new();
+    let path = folder.path("report.html");
+    jred([&"size", &press_file(), &"--report", &path]).ends(0);
+    let page = std::fs::read_to_string(&path).unwrap();
+    let charts = charts(&page);
+    for chart in &charts {
+        let mut looks = HashSet::new();
+        for key in ["x", "y", "right"] {
+            assert!(
+                !chart[key].as_str().unwrap().contains("[]"),
+                "{}",
+                chart[key]
+            );
+        }
+        for series in chart["series"].as_array().unwrap() {
+            let look = format!(
+                "{} {} {}",
+                series["colour"], series["dash"], series["style"]
+            );
+            assert!(looks.insert(look.clone()), "{look} twice in {}", chart["y"]);
+            assert_eq!(
+                series["style"] == "dashed",
+                series["dash"] == serde_json::json!([5, 5])
+            );
+        }
+    }
+    // The script passes over points that do not lie to the right of the one before.
+    for chart in charts.iter().filter(|c| c["form"] != "plane") {
+        for series in chart["series"].as_array().unwrap() {
+            let x: Vec<f64> = series["x"]
+                .as_array()
+                .unwrap()
+                .iter()
+                .filter_map(serde_json::Value::as_f64)
+                .collect();
+            let drawn = x.windows(2).filter(|two| two[0] < two[1]).count();
+            assert!(
+                drawn > 0,
+                "{} of {} is not drawn",
+                series["name"],
+                chart["y"]
+            );
+        }
+    }
+    let ratios = charts.iter().find(|c| c["x"] == "gear ratio i").unwrap();
+    let series = ratios["series"].as_array().unwrap();
+    assert!(series.len() > 7, "{} curves", series.len());
+    let cut = series.iter().any(|s| {
+        s["y"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .any(serde_json::Value::is_null)
+    });
+    assert!(cut, "no curve leaves the chart");
+    assert!(page.contains("A curve ends where it passes 200 %"));
+}
