@@ -86,6 +86,9 @@ impl Check {
             Some(share) if unit.is_empty() => {
                 format!("{} {rating}", short(share * shown(finding.rating)))
             }
+            Some(share) if unit == "%" => {
+                format!("{} % of the {rating}", short(share * shown(finding.rating)))
+            }
             Some(share) => {
                 let share = if rule.is_ratio() {
                     format!("{} times", short(share))

@@ -109,7 +109,9 @@ pub struct Check {
 
 /// `jred size`
 #[derive(Debug, Args)]
-#[command(after_help = "Exit codes: 0 a drive holds every rule; 1 none of the catalogue does; 2 bad input.")]
+#[command(
+    after_help = "Exit codes: 0 a drive holds every rule; 1 none of the catalogue does; 2 bad input."
+)]
 pub struct Size {
     /// Machine file, with a `[motion]`.
     pub file: PathBuf,

@@ -22,6 +22,7 @@ mod beyond;
 mod factor;
 mod floor;
 mod front;
+mod kernels;
 mod power;
 mod search;
 pub(crate) mod speeds;

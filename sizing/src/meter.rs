@@ -152,7 +152,7 @@ fn curve(
                 let mut words = share.words(rating);
                 if curve.shortfall > EXACT {
                     let shortfall = significant(100.0 * curve.shortfall, 2);
-                    words += &format!(", up to {shortfall} % of its largest value below it");
+                    words = format!("{words}, up to {shortfall} % of its largest value below it");
                 }
                 (Bound::Curve(curve), words)
             }

@@ -144,7 +144,9 @@ pub fn rank(selection: &mut Selection, objective: Objective) -> usize {
             .then_with(|| cost(a).total_cmp(&cost(b)))
     });
     selection.ranking = objective.words();
-    let ranked = order.iter().filter_map(|k| selection.fit.known().get(*k).copied());
+    let ranked = order
+        .iter()
+        .filter_map(|k| selection.fit.known().get(*k).copied());
     selection.fit = Group::of(ranked.collect());
     unknown
 }

@@ -13,8 +13,8 @@ pub mod command;
 mod group;
 mod order;
 
-use group::{Placed, Unranked};
 pub use group::{FIRST, Group};
+use group::{Placed, Unranked};
 use order::{Order, Place};
 
 /// How drives are ranked, in words for reports.
@@ -130,13 +130,7 @@ impl<'c> Selection<'c> {
 
     fn screen(&self, catalogue: &'c Catalogue) -> Screen<'c> {
         let any = catalogue.motors.first().zip(self.motors.first());
-        Screen::new(
-            self.cycle,
-            self.site,
-            self.rules,
-            &catalogue.gearboxes,
-            any,
-        )
+        Screen::new(self.cycle, self.site, self.rules, &catalogue.gearboxes, any)
     }
 
     fn judge(&mut self, screen: &Screen<'c>, drives: impl Iterator<Item = (usize, Drive<'c>)>) {

@@ -6,9 +6,9 @@
 mod forms;
 #[path = "cli/mistakes.rs"]
 mod mistakes;
+mod support;
 #[path = "cli/why.rs"]
 mod why;
-mod support;
 
 use std::io::Read as _;
 use std::path::Path;

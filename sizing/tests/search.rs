@@ -146,9 +146,7 @@ fn ranked_by_what_was_asked_for() {
     );
     let names = |selection: &Selection| {
         let fit = selection.first_fit(usize::MAX);
-        fit.iter()
-            .map(|c| c.drive.name())
-            .collect::<Vec<_>>()
+        fit.iter().map(|c| c.drive.name()).collect::<Vec<_>>()
     };
     let (before, words) = (names(&selection), selection.ranking);
     assert_eq!(rank(&mut selection, Objective::Price), before.len());

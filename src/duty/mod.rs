@@ -11,7 +11,8 @@
 //!
 //! with the rectangle rule: every reading stands for one tick. [`Verdicts`] say whether they keep the [`Limits`] of the sizing, so
 //! a machine can tell that it is loaded as it was meant to be. T_rms is judged by the continuous torque at the mean speed n̄,
-//! as sizing does; T_m is the root-mean-cube torque of gears.
+//! as sizing does; T_m is the root-mean-cube torque of gears. `jred size --meter` writes the limits of a drive as Rust source
+//! (docs/duty-meter.md).
 //!
 //! Means are taken since the start, or over a [`Window::Exponential`] that forgets; then t above is the window's effective
 //! length. Extremes and counts are always those since the start.

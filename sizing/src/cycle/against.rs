@@ -1,7 +1,6 @@
 //! Whether the peak of a cycle keeps within a share of an envelope, where bounds tell: without a search for the peak itself.
 
 use super::Sample;
-use super::front::WIDTH;
 use super::search::Stretches;
 use crate::drive::Coefficients;
 use crate::envelope::Envelope;
@@ -11,9 +10,9 @@ use crate::envelope::Envelope;
 pub(crate) enum Against {
     /// It keeps within the lower share at every instant.
     Below,
-    /// It passes the upper share: an instant uses this much.
+    /// It passes the upper share: an instant uses at least this much.
     Beyond {
-        /// |T| as a share of the envelope's torque there.
+        /// |T| as a share of the envelope's torque there, rounding allowed for.
         used: f64,
     },
     /// Bounds do not tell.
@@ -36,17 +35,13 @@ impl Stretches<'_> {
             return Against::Open;
         };
         let front = self.front;
-        let bounds = front.bounds(&c.0);
-        let floors = front.floors(line);
-        let slack = self.slack(c);
+        let [start, slope] = line;
         let least = low * (1.0 - NEAR);
-        let mut within = true;
-        for k in 0..WIDTH {
-            within &= bounds[k] + slack <= least * floors[k];
-        }
-        if within {
+        if front.most_above(&c.0, [least * start, least * slope]) + self.slack(c) <= 0.0 {
             return Against::Below;
         }
+        let bounds = front.bounds(&c.0);
+        let floors = front.floors(line);
         let (mut worst, mut most) = (0, f64::NEG_INFINITY);
         for k in 0..front.len {
             let share = bounds[k] / floors[k];
@@ -55,15 +50,16 @@ impl Stretches<'_> {
             }
         }
         let node = &self.tree.nodes[front.nodes[worst] as usize];
-        let used = |sample: &Sample| {
-            envelope.peak_used(c.torque(&sample.loads), sample.speed() * ratio)
-        };
+        let used =
+            |sample: &Sample| envelope.peak_used(c.torque(&sample.loads), sample.speed() * ratio);
         let used = [node.first, node.last]
             .map(|end| used(&self.samples[end as usize]))
             .into_iter()
             .fold(0.0, f64::max);
-        if used > high * (1.0 + NEAR) && used.is_finite() {
-            Against::Beyond { used }
+        if used > high * (1.0 + 4.0 * NEAR) && used.is_finite() {
+            Against::Beyond {
+                used: used * (1.0 - NEAR),
+            }
         } else {
             Against::Open
         }

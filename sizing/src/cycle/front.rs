@@ -1,8 +1,9 @@
 //! A few stretches that cover the cycle, side by side in memory: one look tells which of them can hold a peak.
 
-use pulp::{Arch, NullaryFnOnce};
+use pulp::Arch;
 
 use super::Sample;
+use super::kernels::{Above, Bounds, Signs};
 use super::tree::{Direction, Node, Tree};
 use crate::drive::LOADS;
 
@@ -20,15 +21,15 @@ pub(super) struct Front {
     pub(super) nodes: [u32; WIDTH],
     /// How many there are.
     pub(super) len: usize,
-    middle: [[f64; WIDTH]; LOADS],
-    half: [[f64; WIDTH]; LOADS],
-    reach: [[f64; WIDTH]; LOADS],
+    pub(super) middle: [[f64; WIDTH]; LOADS],
+    pub(super) half: [[f64; WIDTH]; LOADS],
+    pub(super) reach: [[f64; WIDTH]; LOADS],
     /// Direction of speed: 1 or −1; 0 for both or rest.
-    direction: [f64; WIDTH],
+    pub(super) direction: [f64; WIDTH],
     /// Those at the first and at the last sample.
-    directions: [[f64; WIDTH]; 2],
+    pub(super) directions: [[f64; WIDTH]; 2],
     /// Least and largest magnitude of the speed at the gearbox output.
-    speeds: [[f64; WIDTH]; 2],
+    pub(super) speeds: [[f64; WIDTH]; 2],
 }
 
 impl Front {
@@ -94,7 +95,7 @@ impl Front {
         self.vectors.dispatch(Bounds {
             front: self,
             c,
-            bounds: &mut bounds,
+            found: &mut bounds,
         });
         bounds
     }
@@ -121,67 +122,28 @@ impl Front {
         if open == 0 { Ok(false) } else { Err(open) }
     }
 
+    /// What |c·x| less a line over the speed, its value at rest and its slope, does not exceed on any stretch.
+    pub(super) fn most_above(&self, c: &[f64; LOADS], line: [f64; 2]) -> f64 {
+        self.vectors.dispatch(Above {
+            front: self,
+            c,
+            line,
+        })
+    }
+
+    /// Where a line of this slope has its least on each stretch: one end of the speeds has it, the same one on every stretch.
+    pub(super) const fn speeds_of_least(&self, slope: f64) -> &[f64; WIDTH] {
+        let [least, most] = &self.speeds;
+        if slope < 0.0 { most } else { least }
+    }
+
     /// The least of a line over the speed, its value at rest and its slope, on each stretch.
     pub(super) fn floors(&self, [start, slope]: [f64; 2]) -> [f64; WIDTH] {
-        // One end of the speeds has it, the same one on every stretch.
-        let speeds = &self.speeds[usize::from(slope < 0.0)];
+        let speeds = self.speeds_of_least(slope);
         let mut floors = [0.0; WIDTH];
         for (floor, speed) in floors.iter_mut().zip(speeds) {
             *floor = start + slope * speed;
         }
         floors
     }
-}
-
-/// The kernel of [`Front::bounds`].
-struct Bounds<'a> {
-    front: &'a Front,
-    c: &'a [f64; LOADS],
-    bounds: &'a mut [f64; WIDTH],
-}
-
-impl NullaryFnOnce for Bounds<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let Self { front, c, bounds } = self;
-        let magnitude = c.map(f64::abs);
-        for (k, bound) in bounds.iter_mut().enumerate() {
-            // The larger magnitude of middle ± half is the sum of theirs.
-            *bound = form(c, &front.middle, k).abs()
-                + form(c, &front.half, k).abs()
-                + form(&magnitude, &front.reach, k);
-        }
-    }
-}
-
-/// The kernel of [`Front::against_speed`]: the least T·sgn n at an end of a stretch, and what it does not fall below on each.
-struct Signs<'a> {
-    front: &'a Front,
-    c: &'a [f64; LOADS],
-    least: &'a mut [f64; WIDTH],
-}
-
-impl NullaryFnOnce for Signs<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn call(self) -> f64 {
-        let Self { front, c, least } = self;
-        let magnitude = c.map(f64::abs);
-        let [first, last] = &front.directions;
-        let mut ends = [0.0f64; WIDTH];
-        for (k, (least, end)) in least.iter_mut().zip(&mut ends).enumerate() {
-            let (middle, half) = (form(c, &front.middle, k), form(c, &front.half, k));
-            *end = (first[k] * (middle - half)).min(last[k] * (middle + half));
-            *least = front.direction[k] * middle - half.abs() - form(&magnitude, &front.reach, k);
-        }
-        ends.iter().fold(0.0, |lowest, end| lowest.min(*end))
-    }
-}
-
-#[inline(always)]
-fn form(c: &[f64; LOADS], x: &[[f64; WIDTH]; LOADS], k: usize) -> f64 {
-    c[0] * x[0][k] + (c[1] * x[1][k] + c[2] * x[2][k]) + (c[3] * x[3][k] + c[4] * x[4][k])
 }

@@ -84,7 +84,10 @@ impl Stretches<'_> {
     /// What |c·x| does not exceed.
     pub(super) fn magnitude_bound(self, c: &Coefficients) -> f64 {
         let bounds = self.front.bounds(&c.0);
-        bounds.iter().fold(0.0, |most, bound| f64::max(most, *bound)) + self.slack(c)
+        bounds
+            .iter()
+            .fold(0.0, |most, bound| f64::max(most, *bound))
+            + self.slack(c)
     }
 
     /// Least and largest value of c·x.

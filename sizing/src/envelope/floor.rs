@@ -1,7 +1,7 @@
 //! Lower bounds of all limits together between two speeds, for those who must not promise more than the motor gives.
 
 use super::continuous::Continuous;
-use super::{Envelope, Segment};
+use super::{Envelope, Limit, Segment};
 
 impl Envelope {
     /// A chord that the short-time torque falls below in no quadrant between two speeds (rad/s, not negative, rising): its
@@ -59,7 +59,7 @@ impl Envelope {
     /// Speeds at which any limit bends or jumps (rad/s), in no order.
     pub(crate) fn corners(&self) -> Vec<f64> {
         let limits = [&self.driving, &self.braking];
-        let pieces = limits.into_iter().flat_map(|limit| limit.pieces());
+        let pieces = limits.into_iter().flat_map(Limit::pieces);
         let ends = pieces.flat_map(|piece| [piece.from, piece.to]);
         let corners = ends.chain(self.continuous.corners());
         corners.filter(|speed| speed.is_finite()).collect()

@@ -222,7 +222,7 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
         ),
         Rule::ResistorPower => ("W", known("continuous power of the brake resistor")),
         Rule::ResistorPeak => ("W", known("peak power of the brake resistor")),
-        _ => ("W s", known("pulse energy of the brake resistor")),
+        _ => ("J", known("pulse energy of the brake resistor")),
     };
     Words {
         unit,
@@ -243,7 +243,7 @@ fn bus_place(context: &Context, finding: Finding) -> String {
     if back == 0.0 {
         return "nothing comes back".to_owned();
     }
-    let mut words = format!("{} W s come back in a cycle", short(back));
+    let mut words = format!("{} J come back in a cycle", short(back));
     if finding.is_known() && finding.value.is_infinite() {
         words += ", more than is drawn: without a brake resistor nothing bounds the voltage";
     }

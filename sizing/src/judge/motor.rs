@@ -17,12 +17,7 @@ fn known(rating: f64) -> f64 {
 }
 
 /// The largest speed; nothing but the ratio is needed of the drive.
-pub(super) fn measure_speed(
-    cycle: &Cycle,
-    motor: &Prepared,
-    ratio: f64,
-    findings: &mut impl Take,
-) {
+pub(super) fn measure_speed(cycle: &Cycle, motor: &Prepared, ratio: f64, findings: &mut impl Take) {
     let rating = known(motor.envelope.max_speed());
     findings.set(
         Rule::Speed,
@@ -32,7 +27,10 @@ pub(super) fn measure_speed(
 
 /// The inertia ratio.
 pub(super) fn measure_inertia(context: &Context, rules: &RuleSet, findings: &mut impl Take) {
-    let inertia = rules.choices.inertia_ratio_of.pick(&context.cycle.inertia());
+    let inertia = rules
+        .choices
+        .inertia_ratio_of
+        .pick(&context.cycle.inertia());
     let lambda = context.drive.inertia_ratio(inertia);
     let rating = rules.choices.inertia_rating(moves_per_minute(context));
     findings.set(Rule::InertiaRatio, Finding::new(lambda, rating));

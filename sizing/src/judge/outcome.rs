@@ -49,7 +49,7 @@ impl Outcome {
     }
 
     fn uses(&mut self, rule: Rule, used: f64) {
-        let first = |other: Rule| used == self.worst_use && rule < other;
+        let first = |other: Rule| used >= self.worst_use && rule < other;
         if used > self.worst_use || self.worst_rule.is_some_and(first) {
             self.worst_use = used;
             self.worst_rule = Some(rule);

@@ -71,7 +71,7 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
             "rise from {} °C to the housing's highest temperature",
             surroundings.ambient
         ),
-        (None, _) if relative => "times the rise that the S1 torque brings".to_owned(),
+        (None, _) if relative => "rise at the S1 torque".to_owned(),
         (None, _) => {
             let thin = if surroundings.altitude_factor() < 1.0 {
                 format!(
@@ -88,8 +88,8 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
         }
     };
     Words {
-        unit: if relative { "" } else { "K" },
-        scale: 1.0,
+        unit: if relative { "%" } else { "K" },
+        scale: if relative { 0.01 } else { 1.0 },
         rating,
         place: found.map_or_else(|_| String::new(), |found| place(context, found)),
     }

@@ -52,15 +52,14 @@ pub fn explained<'c>(
     };
     let asked = plain(name);
     let is_asked = |drive: &Drive| {
-        let own = plain(&drive.name());
-        let alone = plain(
-            &Drive {
-                amplifier: None,
-                ..*drive
-            }
-            .name(),
-        );
-        asked == own || asked == alone || drive.gearbox.is_none() && asked == drive.motor.key
+        let alone = Drive {
+            amplifier: None,
+            ..*drive
+        };
+        let names = [drive, &alone].map(|drive| plain(&drive.name()));
+        names
+            .iter()
+            .any(|name| *name == asked || name.replacen("+direct", "", 1) == asked)
     };
     if let Some(found) = selection.find(is_asked) {
         return Ok(Some(found));

@@ -44,6 +44,9 @@ struct Interval {
     loose: f64,
 }
 
+/// Fewest points up to a place and step, and the place and step before.
+type Reached = (usize, Option<(usize, usize)>);
+
 /// The limit at the speeds where points may lie.
 struct Tunnel {
     speeds: Vec<f32>,
@@ -194,10 +197,8 @@ impl Tunnel {
             let (most, least) = (self.most[place], self.least(place, shortfall));
             most - (most - least) * (step as f64 / STEPS as f64)
         };
-        // Fewest points up to a place and step, and the place and step before.
-        let unreached = (usize::MAX, None);
-        let mut best: Vec<[(usize, Option<(usize, usize)>); STEPS + 1]> =
-            vec![[unreached; STEPS + 1]; count];
+        let unreached: Reached = (usize::MAX, None);
+        let mut best = vec![[unreached; STEPS + 1]; count];
         let floor = self.least(0, shortfall);
         for place in 0..count {
             for step in 0..=STEPS {
@@ -288,7 +289,7 @@ impl Interval {
     }
 
     fn new([from, to]: [f32; 2], floor: &impl Fn([f64; 2]) -> [f64; 2]) -> Self {
-        let next = from.next_up() == to;
+        let next = from.next_up() >= to;
         let [from, to] = [from, to].map(f64::from);
         if next {
             // No speed of single precision lies between.

@@ -1,7 +1,7 @@
 //! Drives of one kind, those that fit or those that are refused, of which the first stand in order.
 
-use super::{Candidate, is_open};
 use super::order::{Order, Place};
+use super::{Candidate, is_open};
 use crate::drive::Drive;
 
 /// So many drives are judged in full and put in order, of those that fit and of those refused; see
@@ -79,7 +79,8 @@ impl<'c> Group<'c> {
         if self.near.len() == 4 * NEAR {
             let (_, next, _) = self.near.select_nth_unstable_by_key(NEAR, |d| d.bound);
             self.limit = Some(next.bound);
-            self.rest.extend(self.near.drain(NEAR..).map(|d| d.placed()));
+            self.rest
+                .extend(self.near.drain(NEAR..).map(|d| d.placed()));
         }
     }
 
@@ -115,7 +116,8 @@ impl<'c> Group<'c> {
             if more < self.near.len() {
                 let (_, next, _) = self.near.select_nth_unstable_by_key(more, |d| d.bound);
                 self.limit = Some(next.bound);
-                self.rest.extend(self.near.drain(more..).map(|d| d.placed()));
+                self.rest
+                    .extend(self.near.drain(more..).map(|d| d.placed()));
             }
         }
         // Beyond the limit others may stand between those that happen to be judged.

@@ -83,7 +83,9 @@ fn compare(catalogue: &Catalogue, cycle: &Cycle, site: &Site, rules: &RuleSet) -
             wanted.sort();
             assert!(names(group) == wanted);
         }
-        let partly = expected[0].iter().filter(|(_, found)| found.not_checked > 0);
+        let partly = expected[0]
+            .iter()
+            .filter(|(_, found)| found.not_checked > 0);
         assert_eq!(selection.partly_checked(), partly.count());
     }
     // More than stand in order, and all.
@@ -119,7 +121,11 @@ fn with_more_ratios() -> Catalogue {
 /// The same duty with its largest torque and speed at these (N·m, rad/s).
 fn scaled(mut duty: Duty, [torque, speed]: [f64; 2]) -> Duty {
     let most = |of: fn(&jred_sizing::duty::Instant) -> f64| {
-        let largest = duty.instants.iter().map(|i| of(i).abs()).fold(0.0, f64::max);
+        let largest = duty
+            .instants
+            .iter()
+            .map(|i| of(i).abs())
+            .fold(0.0, f64::max);
         if largest > 0.0 { largest } else { 1.0 }
     };
     let factors = [
@@ -159,7 +165,10 @@ fn random_cycles_are_screened_as_in_full() {
     };
     runner(48).run(&cases, check).unwrap();
     let [many_fit, many_refused] = seen.get();
-    assert!(many_fit >= 5 && many_refused >= 20, "{many_fit} {many_refused}");
+    assert!(
+        many_fit >= 5 && many_refused >= 20,
+        "{many_fit} {many_refused}"
+    );
 }
 
 /// Three sets of rules: the general one, one with warnings, one that judges little.
@@ -185,14 +194,15 @@ fn drives_on_amplifiers_are_screened_as_in_full() {
     let cycle = Cycle::new(&duty);
     let mut catalogue = with_more_ratios();
     let currents = [2.0, 6.0, 12.0, 25.0];
-    catalogue.amplifiers = currents.map(|current| Amplifier {
-        key: format!("amplifier-{current}"),
-        rated_current: current,
-        peak_current: 2.0 * current,
-        peak_time: (current != 12.0).then_some(2.0),
-        ..Amplifier::default()
-    })
-    .to_vec();
+    catalogue.amplifiers = currents
+        .map(|current| Amplifier {
+            key: format!("amplifier-{current}"),
+            rated_current: current,
+            peak_current: 2.0 * current,
+            peak_time: (current < 12.0).then_some(2.0),
+            ..Amplifier::default()
+        })
+        .to_vec();
     let [fit, refused] = compare(&catalogue, &cycle, &Site::default(), &RuleSet::default());
     assert!(fit > FIRST && refused > FIRST, "{fit} {refused}");
 }

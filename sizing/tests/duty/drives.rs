@@ -63,7 +63,12 @@ fn every_drive_by_brute_force() {
     let ready = Ready::new(&duty);
     let mut selection = ready.selection();
     selection.complete();
-    for candidate in selection.fit.known().iter().chain(selection.refused.known()) {
+    for candidate in selection
+        .fit
+        .known()
+        .iter()
+        .chain(selection.refused.known())
+    {
         let judged = selection.judged(candidate);
         let motor = judged.drive.motor;
         let (mut squares, mut mean, mut back, mut forth, mut turns) = (0.0, 0.0, 0.0, 0.0, 0.0);

@@ -12,6 +12,7 @@ use super::support::{budget, near, press_file};
 use super::with_limits;
 
 /// The source as firmware includes it.
+#[allow(unreachable_pub, reason = "a test has nobody to export to")]
 mod limits {
     include!("../data/meter_press.rs");
 }

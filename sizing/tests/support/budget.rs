@@ -235,8 +235,8 @@ pub(crate) const SLOW_HOUSING: f64 = 1e-3;
 pub(crate) const METERED: [f64; 2] = [1e-3, 5e-7];
 
 /// The duty meter in the middle of 20 000 ticks against the figures written beside its limits: as [`METERED`], and the error of
-/// sizing's own 2000 steps.
-pub(crate) const METER_SIZED: f64 = 1e-4;
+/// sizing's own 2000 steps [1.4e-6, the energy that comes back; 1e-6 the output's peak].
+pub(crate) const METER_SIZED: f64 = 5e-6;
 
 /// By how much a curve of eight points lies below the limit of a motor at most, of the limit's largest torque.
 pub(crate) const METER_SHORTFALL: f64 = 0.05;
