@@ -47,7 +47,7 @@ pub fn power(
     let resistance = motor.winding.loss_resistance(REFERENCE_TEMPERATURE);
     let [constant, per_ampere] = amplifier.map_or([0.0; 2], |a| a.losses);
     let points = cycle.samples().iter().map(|sample| {
-        let torque = coefficients.torque(&sample.loads);
+        let torque = coefficients.torque(&sample.loads());
         let speed = sample.speed() * ratio;
         let mut power = torque * speed + constant;
         let current = if torque * speed < 0.0 {

@@ -12,7 +12,7 @@
 
 use std::sync::OnceLock;
 
-use crate::drive::{Coefficients, Drive, LOADS, MotorDuty, loads};
+use crate::drive::{Coefficients, Drive, LOADS, MotorDuty, loads_of};
 use crate::duty::{Duty, Figures};
 use crate::envelope::Envelope;
 use crate::mechanics::Mechanics;
@@ -45,21 +45,28 @@ pub struct Sample {
     pub t: f64,
     /// Weight in the integral over the cycle (s).
     pub weight: f64,
-    /// The five loads: see [`loads`].
-    pub loads: [f64; LOADS],
+    alpha: f64,
+    output_torque: f64,
+    speed: f64,
 }
 
 impl Sample {
+    /// The five loads: see [`loads_of`]. They are not kept: of a million instants that would be another 16 MB.
+    #[inline]
+    pub fn loads(&self) -> [f64; LOADS] {
+        loads_of(self.alpha, self.output_torque, self.speed)
+    }
+
     /// Speed at the gearbox output (rad/s).
     #[inline]
     pub const fn speed(&self) -> f64 {
-        self.loads[3]
+        self.speed
     }
 
     /// Torque at the gearbox output (N·m).
     #[inline]
-    pub fn output_torque(&self) -> f64 {
-        self.loads[1] + self.loads[2]
+    pub const fn output_torque(&self) -> f64 {
+        self.output_torque
     }
 }
 
@@ -107,16 +114,18 @@ impl Cycle {
             .map(|instant| Sample {
                 t: instant.t,
                 weight: instant.weight,
-                loads: loads(instant),
+                alpha: instant.input_alpha,
+                output_torque: instant.input_torque,
+                speed: instant.input_speed,
             })
             .collect();
         let mut largest = [0.0f64; LOADS];
         let mut mean_loads = [0.0; LOADS];
         let mut peak_output_torque = 0.0f64;
         for sample in &samples {
-            for k in 0..LOADS {
-                largest[k] = largest[k].max(sample.loads[k].abs());
-                mean_loads[k] += sample.weight * sample.loads[k];
+            for (k, load) in sample.loads().into_iter().enumerate() {
+                largest[k] = largest[k].max(load.abs());
+                mean_loads[k] += sample.weight * load;
             }
             peak_output_torque = peak_output_torque.max(sample.output_torque().abs());
         }
@@ -295,7 +304,7 @@ impl Cycle {
         let [motoring_energy, regenerative_energy] = self.energies(&coefficients, ratio);
         let (mut least_power, mut largest_power) = (f64::INFINITY, f64::NEG_INFINITY);
         for sample in &self.samples {
-            let power = coefficients.torque(&sample.loads) * (sample.speed() * ratio);
+            let power = coefficients.torque(&sample.loads()) * (sample.speed() * ratio);
             least_power = least_power.min(power);
             largest_power = largest_power.max(power);
         }

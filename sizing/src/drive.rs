@@ -40,14 +40,23 @@ pub const LOADS: usize = 5;
 
 /// The five loads of an instant: α, τ₊, τ₋, n, sgn n.
 pub fn loads(instant: &Instant) -> [f64; LOADS] {
-    let (torque, speed) = (instant.input_torque, instant.input_speed);
+    loads_of(
+        instant.input_alpha,
+        instant.input_torque,
+        instant.input_speed,
+    )
+}
+
+/// The five loads of acceleration (rad/s²), torque (N·m) and speed (rad/s) at the gearbox output.
+#[inline]
+pub fn loads_of(alpha: f64, torque: f64, speed: f64) -> [f64; LOADS] {
     let [driving, back] = if torque * speed < 0.0 {
         [0.0, torque]
     } else {
         [torque, 0.0]
     };
     let sign = if speed == 0.0 { 0.0 } else { speed.signum() };
-    [instant.input_alpha, driving, back, speed, sign]
+    [alpha, driving, back, speed, sign]
 }
 
 impl Coefficients {

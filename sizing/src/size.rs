@@ -135,7 +135,7 @@ impl<'c> Selection<'c> {
 
     fn judge(&mut self, screen: &Screen<'c>, drives: impl Iterator<Item = (usize, Drive<'c>)>) {
         let (mut before, mut number) = (usize::MAX, 0);
-        for (index, drive) in drives {
+        drives.for_each(|(index, drive)| {
             number = if index == before { number + 1 } else { 0 };
             before = index;
             let place = Place::new(index, number);
@@ -146,7 +146,7 @@ impl<'c> Selection<'c> {
                 &mut self.fit
             };
             group.add(unranked, is_open(&outcome));
-        }
+        });
     }
 
     /// A drive with what it does not stand before.

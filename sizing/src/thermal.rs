@@ -174,7 +174,7 @@ impl Model {
         } = *load;
         let [coulomb, viscous] = motor.friction;
         let points = cycle.samples().iter().map(|sample| {
-            let torque = coefficients.torque(&sample.loads);
+            let torque = coefficients.torque(&sample.loads());
             let signed = sample.speed() * ratio;
             let speed = signed.abs();
             let other = match self {

@@ -85,7 +85,7 @@ pub(crate) fn plain(ready: &Ready) {
         let context = Context::new(&ready.cycle, &ready.site, drive, motor);
         let (mut squares, mut used) = (0.0, 0.0f64);
         for sample in samples {
-            let torque = context.coefficients.torque(&sample.loads);
+            let torque = context.coefficients.torque(&sample.loads());
             squares += sample.weight * torque * torque;
             used = used.max(
                 motor

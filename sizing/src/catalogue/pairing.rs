@@ -182,6 +182,35 @@ impl<'c> Iterator for Drives<'c> {
         self.next += 1;
         Some((index, drive))
     }
+
+    /// The same drives in plain loops: what is the same for all drives of a motor is not asked for at each.
+    fn fold<B, F: FnMut(B, Self::Item) -> B>(mut self, start: B, mut take: F) -> B {
+        let mut folded = start;
+        // Those of a motor that is begun.
+        loop {
+            let Some((index, motor)) = self.motor else {
+                if self.advance_motor().is_none() {
+                    return folded;
+                }
+                continue;
+            };
+            loop {
+                let ways = self.amplifiers.len().max(1);
+                for way in self.next..ways {
+                    let drive = Drive {
+                        motor,
+                        gearbox: self.gearbox,
+                        amplifier: self.amplifiers.get(way).copied(),
+                    };
+                    folded = take(folded, (index, drive));
+                }
+                if !self.advance_gearbox() {
+                    break;
+                }
+            }
+            self.motor = None;
+        }
+    }
 }
 
 impl Catalogue {

@@ -51,7 +51,7 @@ impl Stretches<'_> {
         }
         let node = &self.tree.nodes[front.nodes[worst] as usize];
         let used =
-            |sample: &Sample| envelope.peak_used(c.torque(&sample.loads), sample.speed() * ratio);
+            |sample: &Sample| envelope.peak_used(c.torque(&sample.loads()), sample.speed() * ratio);
         let used = [node.first, node.last]
             .map(|end| used(&self.samples[end as usize]))
             .into_iter()

@@ -31,7 +31,7 @@ impl Stretches<'_> {
             return;
         }
         for sample in &self.samples[node.first as usize..=node.last as usize] {
-            let torque = c.torque(&sample.loads);
+            let torque = c.torque(&sample.loads());
             if torque.abs() > bound {
                 take(sample, torque);
             }

@@ -21,7 +21,7 @@ pub(super) struct Factor(Matrix5<f64>);
 impl Factor {
     /// The factor of the samples' loads.
     pub(super) fn of_loads(samples: &[Sample]) -> Self {
-        Self::new(samples.iter().map(|s| (s.weight, s.loads)))
+        Self::new(samples.iter().map(|s| (s.weight, s.loads())))
     }
 
     /// The factor of the loads times the speed: power is a linear form in these.
@@ -29,7 +29,7 @@ impl Factor {
         Self::new(
             samples
                 .iter()
-                .map(|s| (s.weight, s.loads.map(|x| x * s.speed()))),
+                .map(|s| (s.weight, s.loads().map(|x| x * s.speed()))),
         )
     }
 

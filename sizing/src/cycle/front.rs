@@ -80,9 +80,10 @@ impl Front {
                 let speed = sample.speed();
                 front.directions[end][place] = if speed == 0.0 { 0.0 } else { speed.signum() };
             }
+            let (from, to) = (from.loads(), to.loads());
             for k in 0..LOADS {
-                front.middle[k][place] = 0.5 * (from.loads[k] + to.loads[k]);
-                front.half[k][place] = 0.5 * (to.loads[k] - from.loads[k]);
+                front.middle[k][place] = 0.5 * (from[k] + to[k]);
+                front.half[k][place] = 0.5 * (to[k] - from[k]);
                 front.reach[k][place] = node.reach[k];
             }
         }

@@ -34,7 +34,7 @@ impl Stretches<'_> {
             add(c.torque(&node.energy));
         } else if node.second == 0 {
             for sample in &self.samples[node.first as usize..=node.last as usize] {
-                add(sample.weight * sample.speed() * c.torque(&sample.loads));
+                add(sample.weight * sample.speed() * c.torque(&sample.loads()));
             }
         } else {
             self.add_energy(c, slack, index + 1, sums);
@@ -46,7 +46,7 @@ impl Stretches<'_> {
     pub(super) fn regenerates(self, c: &Coefficients) -> bool {
         fn visit(stretches: Stretches, c: &Coefficients, slack: f64, index: usize) -> bool {
             let node = &stretches.tree.nodes[index];
-            let back = |s: &Sample| s.speed() * c.torque(&s.loads) < -slack * s.speed().abs();
+            let back = |s: &Sample| s.speed() * c.torque(&s.loads()) < -slack * s.speed().abs();
             if [node.first, node.last]
                 .iter()
                 .any(|k| back(&stretches.samples[*k as usize]))

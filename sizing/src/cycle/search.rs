@@ -110,7 +110,7 @@ impl Stretches<'_> {
                 let samples = &stretches.samples[node.first as usize..=node.last as usize];
                 *best = samples
                     .iter()
-                    .map(|s| c.torque(&s.loads))
+                    .map(|s| c.torque(&s.loads()))
                     .fold(*best, f64::max);
             } else {
                 visit(stretches, c, slack, node_index + 1, best);
@@ -131,7 +131,7 @@ impl Stretches<'_> {
 
     /// The linear form at both ends of a stretch.
     pub(super) fn ends(self, node: &Node, c: &Coefficients) -> [f64; 2] {
-        [node.first, node.last].map(|k| c.torque(&self.samples[k as usize].loads))
+        [node.first, node.last].map(|k| c.torque(&self.samples[k as usize].loads()))
     }
 }
 
@@ -231,7 +231,7 @@ impl<'s, F: Floor> Search<'s, F> {
 
     /// Takes a sample for the best if it is; `least`: what its limit does not fall below.
     fn weigh(&mut self, sample: &Sample, least: f64) {
-        let torque = self.c.torque(&sample.loads);
+        let torque = self.c.torque(&sample.loads());
         if torque.abs() <= self.best.used * least {
             return;
         }
@@ -339,7 +339,7 @@ impl First<'_> {
             if sample.speed().abs() < self.positive_below {
                 return None;
             }
-            let torque = self.c.torque(&sample.loads);
+            let torque = self.c.torque(&sample.loads());
             let speed = sample.speed() * self.ratio;
             let used = self.envelope.peak_used(torque, speed);
             used.is_infinite().then_some(Peak {

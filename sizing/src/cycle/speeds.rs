@@ -199,7 +199,9 @@ mod tests {
                 Sample {
                     t,
                     weight: 1.0 / f64::from(count),
-                    loads: [0.0, 0.0, 0.0, speed, speed.signum()],
+                    alpha: 0.0,
+                    output_torque: 0.0,
+                    speed,
                 }
             })
             .collect();

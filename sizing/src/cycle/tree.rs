@@ -97,7 +97,8 @@ impl Tree {
 fn jumps(samples: &[Sample], largest: &[f64; LOADS]) -> Vec<u32> {
     let scale = largest.map(|x| if x > 0.0 { 1.0 / x } else { 0.0 });
     let step = |a: &Sample, b: &Sample| -> f64 {
-        let steps = (0..LOADS).map(|k| (b.loads[k] - a.loads[k]).abs() * scale[k]);
+        let (a, b) = (a.loads(), b.loads());
+        let steps = (0..LOADS).map(|k| (b[k] - a[k]).abs() * scale[k]);
         steps.fold(0.0, f64::max)
     };
     let mut cuts = Vec::new();
@@ -123,9 +124,10 @@ fn astray(from: &Sample, to: &Sample, sample: &Sample) -> [f64; LOADS] {
     } else {
         0.0
     };
+    let [from, to, sample] = [from, to, sample].map(Sample::loads);
     std::array::from_fn(|k| {
-        let chord = from.loads[k] + part * (to.loads[k] - from.loads[k]);
-        (sample.loads[k] - chord).abs()
+        let chord = from[k] + part * (to[k] - from[k]);
+        (sample[k] - chord).abs()
     })
 }
 
@@ -148,7 +150,7 @@ impl Node {
             for (reach, astray) in node.reach.iter_mut().zip(astray) {
                 *reach = reach.max(astray);
             }
-            for (energy, load) in node.energy.iter_mut().zip(sample.loads) {
+            for (energy, load) in node.energy.iter_mut().zip(sample.loads()) {
                 *energy += sample.weight * speed * load;
             }
             let [least, largest] = &mut node.speed;

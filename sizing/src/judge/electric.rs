@@ -53,7 +53,7 @@ fn peak_current(context: &Context) -> f64 {
         return curve.current(cycle.peak_torque(coefficients));
     }
     let currents = cycle.samples().iter().map(|sample| {
-        let torque = coefficients.torque(&sample.loads);
+        let torque = coefficients.torque(&sample.loads());
         let current = motor.current(torque, sample.speed() * ratio);
         current.unwrap_or(f64::NAN)
     });
@@ -137,7 +137,7 @@ fn overload(context: &Context, peak: f64, findings: &mut impl Take) {
     }
     let cycle = context.cycle;
     let points = cycle.samples().iter().map(|sample| {
-        let torque = context.coefficients.torque(&sample.loads);
+        let torque = context.coefficients.torque(&sample.loads());
         let speed = sample.speed() * context.ratio;
         let current = context.motor.current(torque, speed).unwrap_or(0.0);
         [sample.t, current.copysign(torque)]

@@ -167,7 +167,7 @@ impl MeterLimits<'_> {
         };
         let context = self.context;
         let shares = context.cycle.samples().iter().map(|sample| {
-            let torque = context.coefficients.torque(&sample.loads).abs();
+            let torque = context.coefficients.torque(&sample.loads()).abs();
             let limit = below::at(&curve.points, sample.speed().abs() * context.ratio);
             if torque == 0.0 { 0.0 } else { torque / limit }
         });

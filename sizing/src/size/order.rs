@@ -1,7 +1,5 @@
 //! What drives are ordered by.
 
-use std::cmp::Ordering;
-
 use super::Candidate;
 use crate::drive::Drive;
 use crate::judge::Outcome;
@@ -24,11 +22,12 @@ impl Place {
 /// What drives are ordered by: those that fit by power, warnings and the largest share of a limit used; those refused by the
 /// number of limits of zero that they pass, then by that share. Equal ones stay in the order of the catalogue, so that the
 /// result does not depend on how the work was shared out.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Order {
-    first: f64,
-    second: u8,
-    third: f64,
+    /// Of those that fit the bits of the power, then one for a warning; of those refused the number of limits.
+    first: u64,
+    /// The bits of the share: of figures that are not negative they are in the order of the figures.
+    share: u64,
     pub(super) place: Place,
 }
 
@@ -40,34 +39,17 @@ impl Order {
     /// The order of a drive with this outcome. It does not fall when shares of limits or their number grow: what is known of an
     /// outcome so far bounds it from below.
     pub(super) fn from(drive: &Drive, outcome: &Outcome, place: Place) -> Self {
-        let (first, second) = if outcome.fails() {
-            (f64::from(outcome.beyond_all_limits), 0)
+        let first = if outcome.fails() {
+            u64::from(outcome.beyond_all_limits)
         } else {
             let power = drive.motor.rated_power().unwrap_or(f64::INFINITY);
-            (power, u8::from(outcome.warnings > 0))
+            // The sign's bit is free.
+            power.abs().to_bits() << 1 | u64::from(outcome.warnings > 0)
         };
         Self {
             first,
-            second,
-            third: outcome.worst_use,
+            share: outcome.worst_use.to_bits(),
             place,
         }
-    }
-}
-
-impl Eq for Order {}
-
-impl Ord for Order {
-    fn cmp(&self, other: &Self) -> Ordering {
-        (self.first.total_cmp(&other.first))
-            .then_with(|| self.second.cmp(&other.second))
-            .then_with(|| self.third.total_cmp(&other.third))
-            .then_with(|| self.place.cmp(&other.place))
-    }
-}
-
-impl PartialOrd for Order {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
     }
 }

@@ -73,7 +73,7 @@ impl Features {
         // Whether the cycle ends at rest: then its first move is a start.
         let mut resting = samples.last().is_some_and(|s| s.speed() == 0.0);
         for sample in samples {
-            let torque = coefficients.torque(&sample.loads);
+            let torque = coefficients.torque(&sample.loads());
             let speed = sample.speed() * ratio;
             slowest = slowest.min(speed);
             fastest = fastest.max(speed);
@@ -88,7 +88,7 @@ impl Features {
             back += weight * (-power).max(0.0);
             turned += weight * power.abs();
             squares += weight * torque * torque;
-            if sample.loads[0] != 0.0 {
+            if sample.loads()[0] != 0.0 {
                 accelerating += weight * torque * torque;
             }
         }

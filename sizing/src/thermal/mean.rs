@@ -58,7 +58,7 @@ pub fn rms_current(
     let curve = prepared.torques?;
     if prepared.circuit.as_ref().is_some_and(|c| c.weakens) {
         let squares = cycle.samples().iter().map(|sample| {
-            let torque = coefficients.torque(&sample.loads);
+            let torque = coefficients.torque(&sample.loads());
             let current = prepared.current(torque, sample.speed() * ratio);
             sample.weight * current.unwrap_or(f64::NAN).powi(2)
         });

@@ -75,7 +75,7 @@ fn field_weakening_is_drawn_and_not_fed_back() {
     );
     let (mut weakened, mut braked) = (0, 0);
     for sample in cycle.samples() {
-        let torque = coefficients.torque(&sample.loads);
+        let torque = coefficients.torque(&sample.loads());
         let speed = sample.speed();
         let along = torque.abs() / 2.0;
         let total = prepared.current(torque, speed).unwrap();

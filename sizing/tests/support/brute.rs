@@ -8,19 +8,22 @@ use jred_sizing::envelope::Envelope;
 /// RMS of the motor torque.
 pub(crate) fn rms_torque(cycle: &Cycle, c: &Coefficients) -> f64 {
     let samples = cycle.samples().iter();
-    let squares = samples.map(|s| s.weight * c.torque(&s.loads).powi(2));
+    let squares = samples.map(|s| s.weight * c.torque(&s.loads()).powi(2));
     (squares.sum::<f64>() / cycle.duration()).sqrt()
 }
 
 /// Mean of the motor torque.
 pub(crate) fn mean_torque(cycle: &Cycle, c: &Coefficients) -> f64 {
     let samples = cycle.samples().iter();
-    samples.map(|s| s.weight * c.torque(&s.loads)).sum::<f64>() / cycle.duration()
+    samples
+        .map(|s| s.weight * c.torque(&s.loads()))
+        .sum::<f64>()
+        / cycle.duration()
 }
 
 /// Least and largest motor torque.
 pub(crate) fn extremes(cycle: &Cycle, c: &Coefficients) -> [f64; 2] {
-    let torques = cycle.samples().iter().map(|s| c.torque(&s.loads));
+    let torques = cycle.samples().iter().map(|s| c.torque(&s.loads()));
     torques.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], torque| {
         [low.min(torque), high.max(torque)]
     })
@@ -30,7 +33,7 @@ pub(crate) fn extremes(cycle: &Cycle, c: &Coefficients) -> [f64; 2] {
 pub(crate) fn power(cycle: &Cycle, c: &Coefficients, ratio: f64) -> [f64; 3] {
     let (mut low, mut high, mut squares) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
     for sample in cycle.samples() {
-        let power = c.torque(&sample.loads) * (sample.speed() * ratio);
+        let power = c.torque(&sample.loads()) * (sample.speed() * ratio);
         (low, high) = (low.min(power), high.max(power));
         squares += sample.weight * power * power;
     }
@@ -41,7 +44,7 @@ pub(crate) fn power(cycle: &Cycle, c: &Coefficients, ratio: f64) -> [f64; 3] {
 pub(crate) fn energies(cycle: &Cycle, c: &Coefficients, ratio: f64) -> [f64; 2] {
     let mut sums = [0.0; 2];
     for sample in cycle.samples() {
-        let power = c.torque(&sample.loads) * (sample.speed() * ratio);
+        let power = c.torque(&sample.loads()) * (sample.speed() * ratio);
         sums[0] += sample.weight * power.max(0.0);
         sums[1] += sample.weight * (-power).max(0.0);
     }
@@ -56,7 +59,7 @@ pub(crate) fn peak(cycle: &Cycle, c: &Coefficients, ratio: f64, envelope: &Envel
         speed: 0.0,
     };
     for sample in cycle.samples() {
-        let torque = c.torque(&sample.loads);
+        let torque = c.torque(&sample.loads());
         let speed = sample.speed() * ratio;
         let used = envelope.peak_used(torque, speed);
         if used > peak.used {
@@ -94,7 +97,7 @@ pub(crate) fn mean_output_torque(cycle: &Cycle, power: f64) -> f64 {
 /// The sum of the magnitudes of a torque's terms, each at its largest: rounding is counted in shares of it.
 pub(crate) fn scale(cycle: &Cycle, c: &Coefficients) -> f64 {
     let largest = |k: usize| {
-        let loads = cycle.samples().iter().map(|s| s.loads[k].abs());
+        let loads = cycle.samples().iter().map(|s| s.loads()[k].abs());
         loads.fold(0.0, f64::max)
     };
     (0..c.0.len()).map(|k| c.0[k].abs() * largest(k)).sum()

@@ -91,7 +91,7 @@ fn sums(motor: &Motor) -> (f64, f64) {
         amplifier: None,
     };
     for sample in cycle.samples() {
-        let current = drive.coefficients().torque(&sample.loads) / 2.0;
+        let current = drive.coefficients().torque(&sample.loads()) / 2.0;
         let speed = sample.speed().abs();
         squares += sample.weight * current * current;
         friction += sample.weight * (coulomb + viscous * speed) * speed;

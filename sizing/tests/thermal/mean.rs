@@ -127,7 +127,7 @@ fn relative_losses_are_those_of_a_plain_loop() {
         });
         let (mut copper, mut other, mut weight) = (0.0, 0.0, 0.0);
         for sample in cycle.samples() {
-            let root = c.torque(&sample.loads) / standstill;
+            let root = c.torque(&sample.loads()) / standstill;
             let s1 = envelope.continuous_torque(sample.speed() * ratio) / standstill;
             copper += sample.weight * root * root;
             other += sample.weight * (1.0 - s1 * s1).max(0.0);
@@ -203,7 +203,7 @@ fn rms_currents_are_those_of_a_plain_loop() {
         let found = rms_current(&cycle, &c, ratio, &prepared).unwrap();
         let (mut squares, mut largest) = (0.0, 0.0f64);
         for sample in cycle.samples() {
-            let torque = c.torque(&sample.loads);
+            let torque = c.torque(&sample.loads());
             let current = prepared.current(torque, sample.speed() * ratio).unwrap();
             squares += sample.weight * current * current;
             largest = largest.max(current);
