@@ -125,7 +125,7 @@ fn main() -> ExitCode {
         selection.fit.len(),
         selection.refused.len(),
     );
-    drop(selection);
+    compare::selection(&ready, selection);
 
     println!(
         "\n{count} drives against {} instants",

@@ -1,10 +1,12 @@
 //! Every drive by plain loops over the samples: for comparison of the figures, and of the time.
 
+use std::collections::HashSet;
 use std::hint::black_box;
 
 use jred_sizing::drive::Drive;
 use jred_sizing::judge::{Context, Finding, Findings, Outcome};
 use jred_sizing::rule::Rule;
+use jred_sizing::size::{Group, Selection};
 
 use crate::{Ready, brute};
 
@@ -74,6 +76,33 @@ pub(crate) fn every_drive(ready: &Ready) {
     }
     println!(
         "{count} drives compared with plain loops: the same verdicts, figures within {largest:.1e}"
+    );
+}
+
+/// Compares what a selection says of all drives with judging each in full; panics at the first that differs.
+pub(crate) fn selection(ready: &Ready, mut selection: Selection) {
+    let fit: HashSet<String> = selection.fit.drives().map(|drive| drive.name()).collect();
+    let mut count = 0;
+    for (index, drive) in ready.catalogue.drives() {
+        let context = Context::new(&ready.cycle, &ready.site, drive, &ready.motors[index]);
+        let fails = context.outcome(&ready.rules).fails();
+        let name = drive.name();
+        assert_eq!(fit.contains(&name), !fails, "{name}");
+        count += 1;
+    }
+    let known = |group: &Group| -> Vec<(String, Outcome)> {
+        let rows = group.known().iter().map(|c| (c.drive.name(), c.outcome));
+        rows.collect()
+    };
+    let first = [known(&selection.fit), known(&selection.refused)];
+    assert_eq!(count, selection.fit.len() + selection.refused.len());
+    selection.complete();
+    let all = [known(&selection.fit), known(&selection.refused)];
+    for (first, all) in first.iter().zip(&all) {
+        assert_eq!(first[..], all[..first.len()]);
+    }
+    println!(
+        "{count} drives screened: the verdicts and the first of both lists are those of judging every drive in full"
     );
 }
 
