@@ -182,6 +182,10 @@ impl<'c> Selection<'c> {
     }
 
     fn completed(&self, group: &Group<'c>) -> Group<'c> {
+        if group.rest.is_empty() {
+            // Perhaps in another order than this one.
+            return group.clone();
+        }
         let mut all = group.known().to_vec();
         all.par_extend(group.rest.par_iter().map(|drive| self.in_full(drive)));
         all.par_sort_unstable_by_key(Order::of);
@@ -219,13 +223,14 @@ impl<'c> Selection<'c> {
         }
     }
 
-    /// A drive of the selection by the key of its motor, gearbox and amplifier; judged in full.
+    /// A drive of the selection, judged in full: of several the one that stands first, or beyond [`Group::known`] the first of the
+    /// catalogue.
     pub fn find(&self, wanted: impl Fn(&Drive<'c>) -> bool) -> Option<Candidate<'c>> {
         [&self.fit, &self.refused].into_iter().find_map(|group| {
             let known = group.known().iter().find(|c| wanted(&c.drive)).copied();
             known.or_else(|| {
-                let found = group.rest.iter().find(|u| wanted(&u.drive))?;
-                Some(self.in_full(found))
+                let found = group.rest.iter().filter(|placed| wanted(&placed.drive));
+                Some(self.in_full(found.min_by_key(|placed| placed.place)?))
             })
         })
     }

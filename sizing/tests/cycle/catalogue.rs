@@ -23,10 +23,8 @@ struct Ready {
     rules: RuleSet,
 }
 
-/// The press and the built-in catalogue, its gearboxes at many more ratios: enough drives that fit and that do not.
-fn ready() -> Ready {
-    let file = input::parse("press.toml", &press_text(), Path::new("")).unwrap();
-    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 400).unwrap();
+/// The built-in catalogue with its gearboxes at six times as many ratios.
+pub(crate) fn with_more_ratios() -> Catalogue {
     let mut catalogue = Catalogue::load(None, None).unwrap();
     let gearboxes = catalogue.gearboxes.clone();
     for factor in [0.5, 0.7, 1.3, 1.7, 2.3] {
@@ -37,6 +35,14 @@ fn ready() -> Ready {
             other
         }));
     }
+    catalogue
+}
+
+/// The press and the built-in catalogue, its gearboxes at many more ratios: enough drives that fit and that do not.
+fn ready() -> Ready {
+    let file = input::parse("press.toml", &press_text(), Path::new("")).unwrap();
+    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 400).unwrap();
+    let catalogue = with_more_ratios();
     let site = Site::default();
     Ready {
         motors: catalogue.prepare(&site),

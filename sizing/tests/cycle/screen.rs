@@ -13,6 +13,7 @@ use jred_sizing::rules::RuleSet;
 use jred_sizing::site::Site;
 use jred_sizing::size::{Candidate, FIRST, Group, Selection};
 
+use super::catalogue::with_more_ratios;
 use super::random::duty;
 use super::runner;
 use super::support::press_text;
@@ -101,21 +102,6 @@ fn compare(catalogue: &Catalogue, cycle: &Cycle, site: &Site, rules: &RuleSet) -
     same(&named(one.fit.known()), &expected[0]);
     same(&named(one.refused.known()), &expected[1]);
     expected.map(|list| list.len())
-}
-
-/// The built-in catalogue with its gearboxes at six times as many ratios.
-fn with_more_ratios() -> Catalogue {
-    let mut catalogue = Catalogue::load(None, None).unwrap();
-    let gearboxes = catalogue.gearboxes.clone();
-    for factor in [0.5, 0.7, 1.3, 1.7, 2.3] {
-        catalogue.gearboxes.extend(gearboxes.iter().map(|gearbox| {
-            let mut other = gearbox.clone();
-            other.key = format!("{}-{factor}", gearbox.key);
-            other.ratio *= factor;
-            other
-        }));
-    }
-    catalogue
 }
 
 /// The same duty with its largest torque and speed at these (N·m, rad/s).

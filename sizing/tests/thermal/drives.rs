@@ -160,7 +160,12 @@ fn every_model_that_data_allow() {
     bare.winding = Winding::default();
     bare.thermal = Thermal::default();
     let found = winding(&bare, &site);
-    assert_eq!(found.limit, Some(1.0));
+    assert_eq!((found.unit, found.limit), ("%", Some(100.0)));
+    assert!(
+        found.note.starts_with("100 % of the rise at the S1 torque"),
+        "{}",
+        found.note
+    );
     assert!(
         found.note.contains("from the squared torque"),
         "{}",
@@ -168,7 +173,7 @@ fn every_model_that_data_allow() {
     );
     // Every loss is at least that of the torque, and less than with the friction of the largest speed.
     let least = (rms * 2.0 / 50.0).powi(2);
-    let value = found.value.unwrap();
+    let value = 0.01 * found.value.unwrap();
     assert!(
         value > least && value < least + 1.0 - 0.8f64.powi(2),
         "{value} {least}"
