@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::judge::{Finding, Words};
 use crate::output::short;
-use crate::rule::Rule;
+use crate::rule::{Rule, Sense};
 use crate::rules::RuleSet;
 
 /// How a rule came out.
@@ -99,6 +99,16 @@ impl Check {
                 format!("{share} {shown} {unit}, the {rating}")
             }
         };
+        if verdict == Verdict::Warn
+            && let Some(warn) = limit.warn.filter(|_| limit.fail.is_some())
+        {
+            let beyond = match rule.sense() {
+                Sense::AtMost => "above",
+                Sense::AtLeast => "below",
+            };
+            let warn = short(shown(warn * finding.rating));
+            note += format!("; a warning {beyond} {warn} {unit}").trim_end();
+        }
         if !place.is_empty() {
             note += ", ";
             note += &place;

@@ -6,6 +6,7 @@ pub mod search;
 
 use std::path::PathBuf;
 
+use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 
 use self::search::Objectives;
@@ -58,6 +59,18 @@ pub enum Command {
     Split(Split),
 }
 
+/// A file to write. "-" would be taken for stdout, which has the result.
+pub fn output_file() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(|path| {
+        if path.as_os_str() == "-" {
+            return Err(
+                "stdout has the result itself: name a file (./- if it is to be called so)",
+            );
+        }
+        Ok(path)
+    })
+}
+
 /// `jred reduce`
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own")]
@@ -90,7 +103,7 @@ pub struct Reduce {
     #[arg(long, allow_hyphen_values = true, requires = "speed")]
     pub accel: Option<String>,
     /// Write a report about the mechanism: drawing, animation, curves; one self-contained HTML page.
-    #[arg(long, value_name = "HTML")]
+    #[arg(long, value_name = "HTML", value_parser = output_file())]
     pub report: Option<PathBuf>,
     /// How to write the result.
     #[arg(long, value_enum, default_value_t)]
@@ -120,7 +133,9 @@ pub struct Size {
     pub supply: search::Supply,
     /// Instead of the ranking: the drives that no other beats in everything, over two or three of power, mass, price, energy,
     /// margin and temperature, e.g. "mass,energy".
-    #[arg(long, value_name = "OBJECTIVES", value_parser = Objectives::read, conflicts_with = "rank")]
+    #[arg(long, value_name = "OBJECTIVES", value_parser = Objectives::read, conflicts_with_all = [
+        "rank", "top", "nearest", "refused", "all", "explain", "why", "meter", "report"
+    ])]
     pub pareto: Option<Objectives>,
     /// Which drives are considered, and which comes first.
     #[command(flatten)]
@@ -142,16 +157,16 @@ pub struct Size {
     #[arg(long)]
     pub explain: bool,
     /// Show and explain this drive instead of the best, and why it stands where it does: MOTOR+GEARBOX, or MOTOR for a direct
-    /// drive, with " on AMPLIFIER" behind where there are several, or the name as printed.
+    /// drive, with " on AMPLIFIER" behind where there are several, or the name as printed. In CSV its rows come first, and not again.
     #[arg(long, value_name = "DRIVE")]
     pub why: Option<String>,
     /// Write the limits of the best drive, or of the one of --why, for the firmware's duty meter: Rust source to include
     /// (docs/duty-meter.md).
-    #[arg(long, value_name = "RS", conflicts_with = "pareto")]
+    #[arg(long, value_name = "RS", value_parser = output_file())]
     pub meter: Option<PathBuf>,
     /// Write a report: one self-contained HTML page. As PDF: print it from a browser, or
     /// `chromium --headless --no-pdf-header-footer --print-to-pdf=report.pdf report.html`.
-    #[arg(long, value_name = "HTML")]
+    #[arg(long, value_name = "HTML", value_parser = output_file())]
     pub report: Option<PathBuf>,
     /// How to write the result.
     #[arg(long, value_enum, default_value_t)]
@@ -177,7 +192,7 @@ pub struct Simulate {
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
     /// Write plots of speed, torque and energy: one self-contained HTML page.
-    #[arg(long, value_name = "HTML")]
+    #[arg(long, value_name = "HTML", value_parser = output_file())]
     pub plot: Option<PathBuf>,
 }
 
@@ -223,7 +238,7 @@ pub struct Export {
     #[arg(long)]
     pub max_bytes: Option<u32>,
     /// File to write; without one only what was found is printed (as JSON with --format json).
-    #[arg(long, short)]
+    #[arg(long, short, value_parser = output_file())]
     pub out: Option<PathBuf>,
 }
 

@@ -1,7 +1,7 @@
 //! The commands: read, compute, write.
 
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use miette::{IntoDiagnostic as _, Result, WrapErr as _, miette};
 
@@ -361,6 +361,34 @@ pub(crate) fn print(text: &str) -> Result<Done> {
             .wrap_err("cannot write the result"),
         _ => Ok(Done::Holds),
     }
+}
+
+/// Two files to write must not be one.
+///
+/// # Errors
+/// They are.
+pub(crate) fn distinct(options: [&str; 2], paths: [&Path; 2]) -> Result<()> {
+    let [a, b] = paths.map(place);
+    if a != b {
+        return Ok(());
+    }
+    let [first, second] = options;
+    Err(miette!(
+        help = "name two files",
+        "{first} and {second} both name {}: the one would overwrite the other",
+        paths[1].display()
+    ))
+}
+
+/// Where a file lies, whether it exists or only its folder does.
+fn place(path: &Path) -> PathBuf {
+    let of_folder = || {
+        let folder = path.parent().filter(|folder| *folder != Path::new(""));
+        let folder = folder.unwrap_or(Path::new(".")).canonicalize().ok()?;
+        Some(folder.join(path.file_name()?))
+    };
+    let own = path.canonicalize().ok();
+    own.or_else(of_folder).unwrap_or_else(|| path.to_owned())
 }
 
 /// Writes a file, but never over the machine file that it was made from.

@@ -1,6 +1,6 @@
 //! One cycle of the duty, prepared so that any number of drives can be judged against it.
 //!
-//! The torque of a motor is a linear form c·x of the five [loads] x of an instant, its five coefficients c being all that a
+//! The torque of a motor is a linear form c·x of the five [loads](loads_of) x of an instant, its five coefficients c being all that a
 //! drive contributes. What a form does over the cycle is worked out from c without going through the samples:
 //! - its RMS is ‖R·c‖, R being the triangular factor of the samples ([`Cycle::rms_torque`]);
 //! - its extremes, its peak against an envelope and the signs of its power are found by branch and bound over stretches of

@@ -10,12 +10,14 @@ mod source;
 
 pub use below::{Below, below};
 
-use crate::drive::Drive;
+use crate::check::Verdict;
+use crate::drive::{Drive, Judged};
 use crate::envelope::Envelope;
 use crate::judge::{Context, Findings};
 use crate::output::{short, significant};
 use crate::rule::Rule;
 use crate::rules::{MeanTorque, RuleSet};
+use crate::units::Units;
 
 /// A shortfall that needs no mention: the margin for roundings.
 const EXACT: f64 = 1e-5;
@@ -233,6 +235,27 @@ impl<'a> MeterLimits<'a> {
         judged
             .filter(|rule| self.rules.limit(*rule).is_set() && !seen(*rule))
             .collect()
+    }
+
+    /// The rules that the drive breaks, each with its figure, its limit and the share of it that is used.
+    pub fn broken(&self) -> Vec<String> {
+        let units = Units::of(self.context.drive.motor.kind);
+        let judged = Judged::new(self.context, self.rules);
+        let broken = judged.checks.iter();
+        let broken = broken.filter(|check| check.verdict == Verdict::Fail);
+        let words = broken.map(|check| {
+            let rule = units.rule(check.id);
+            match check.limit {
+                Some(limit) => format!(
+                    "{rule} {} of {}, {}",
+                    check.figure(),
+                    check.with_unit(limit),
+                    check.used()
+                ),
+                None => format!("{rule} {}: {}", check.figure(), check.note),
+            }
+        });
+        words.collect()
     }
 
     /// The drive.

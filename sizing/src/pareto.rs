@@ -1,5 +1,6 @@
 //! The drives that no other beats in everything: the Pareto front over two or three objectives.
 
+use miette::{Report, miette};
 use serde_json::{Value, json};
 
 use crate::output::{Format, rounded, text_table};
@@ -23,7 +24,9 @@ pub struct Front<'c> {
     pub objectives: Vec<Objective>,
     /// Its drives, by the first objective.
     pub points: Vec<Point<'c>>,
-    /// How many drives that fit were compared.
+    /// How many drives fit.
+    pub fit: usize,
+    /// How many of them were compared.
     pub compared: usize,
     /// For each objective, of how many drives it is not known; they are not compared.
     pub unknown: Vec<usize>,
@@ -35,7 +38,8 @@ impl<'c> Front<'c> {
     pub fn new(selection: &Selection<'c>, objectives: &[Objective]) -> Self {
         let mut unknown = vec![0; objectives.len()];
         let mut points = Vec::new();
-        for candidate in &selection.first_fit(usize::MAX) {
+        let fit = selection.first_fit(usize::MAX);
+        for candidate in &fit {
             let values: Vec<Option<f64>> = objectives
                 .iter()
                 .map(|o| o.value(selection, candidate))
@@ -74,6 +78,7 @@ impl<'c> Front<'c> {
         Self {
             objectives: objectives.to_vec(),
             points: front.into_iter().map(|(_, point)| point).collect(),
+            fit: fit.len(),
             compared,
             unknown,
         }
@@ -94,6 +99,27 @@ impl<'c> Front<'c> {
                 )
             })
             .collect()
+    }
+
+    /// Why drives fit and yet none of them could be compared; nothing where one was, or none fits.
+    pub fn obstacle(&self) -> Option<Report> {
+        if self.compared > 0 || self.fit == 0 {
+            return None;
+        }
+        let missing = self.objectives.iter().zip(&self.unknown);
+        let missing: Vec<String> = missing
+            .filter(|(_, n)| **n > 0)
+            .map(|(objective, n)| match *n {
+                n if n == self.fit => format!("of none the {} is known", objective.name()),
+                n => format!("of {n} the {} is not known", objective.name()),
+            })
+            .collect();
+        Some(miette!(
+            help = "fill in the column of the catalogue (docs/catalogue.md), or take another objective",
+            "{} drives fit, but {}: there is nothing to compare",
+            self.fit,
+            missing.join(", ")
+        ))
     }
 
     /// The front in one of the formats.
@@ -127,6 +153,9 @@ impl<'c> Front<'c> {
                     .map(|gap| format!("mind: {gap}\n"))
                     .collect();
                 let gaps = gaps.concat();
+                if self.compared == 0 && gaps.is_empty() {
+                    return format!("{title}\nno drive breaks no rule: there is none to compare\n");
+                }
                 format!(
                     "{title}\n{table}\n{} of {} drives: no other that fits is as good in all of these and better in one\n{gaps}",
                     self.points.len(),

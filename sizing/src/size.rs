@@ -223,14 +223,14 @@ impl<'c> Selection<'c> {
         }
     }
 
-    /// A drive of the selection, judged in full: of several the one that stands first, or beyond [`Group::known`] the first of the
-    /// catalogue.
+    /// A drive of the selection, judged in full; of several the one that stands first.
     pub fn find(&self, wanted: impl Fn(&Drive<'c>) -> bool) -> Option<Candidate<'c>> {
         [&self.fit, &self.refused].into_iter().find_map(|group| {
             let known = group.known().iter().find(|c| wanted(&c.drive)).copied();
             known.or_else(|| {
                 let found = group.rest.iter().filter(|placed| wanted(&placed.drive));
-                Some(self.in_full(found.min_by_key(|placed| placed.place)?))
+                let found = found.map(|placed| self.in_full(placed));
+                found.min_by_key(Order::of)
             })
         })
     }

@@ -109,6 +109,22 @@ impl Search {
         Ok(())
     }
 
+    /// The options that leave drives out, as they are written.
+    pub fn given(&self) -> String {
+        let given = [
+            ("--maker", !self.maker.is_empty()),
+            ("--motor", !self.motor.is_empty()),
+            ("--gearbox", !self.gearbox.is_empty()),
+            ("--ratio", self.ratio.is_some()),
+            ("--direct-only", self.direct_only),
+            ("--max-mass", self.max_mass.is_some()),
+            ("--max-price", self.max_price.is_some()),
+        ];
+        let given = given.into_iter().filter(|(_, is_given)| *is_given);
+        let names: Vec<&str> = given.map(|(name, _)| name).collect();
+        names.join(", ")
+    }
+
     /// What is considered.
     pub fn filter(&self) -> Filter {
         Filter {
@@ -184,7 +200,7 @@ pub struct Rows {
     #[arg(long, value_enum, default_value_t)]
     pub format: Form,
     /// File for the rows, written as they come.
-    #[arg(long, short)]
+    #[arg(long, short, value_parser = super::output_file())]
     pub out: Option<PathBuf>,
     /// Continue the file.
     #[arg(long, requires = "out")]
@@ -227,6 +243,7 @@ pub struct Vary {
 #[derive(Debug, Args)]
 pub struct Merge {
     /// File to write.
+    #[arg(value_parser = super::output_file())]
     pub out: PathBuf,
     /// The shares.
     #[arg(required = true)]

@@ -24,6 +24,9 @@ pub(super) struct Builder<'a> {
     assumptions: Vec<&'static str>,
 }
 
+/// A supply is of the same class as the voltage of a motor's figures up to this share: 325 V for 282 V, 680 V for 540 V.
+const VOLTAGE_CLASS: f64 = 4.0 / 3.0;
+
 /// A figure that can be reckoned with: what no motor has would overflow.
 fn finite(figure: Option<f64>) -> Option<f64> {
     figure.filter(|x| PLAUSIBLE.contains(x))
@@ -81,6 +84,12 @@ impl<'a> Builder<'a> {
         if actual.is_some() && sheet.is_none() && line.is_none() {
             assumptions.push(
                 "bus voltage of the motor's figures not stated: they are taken at any supply",
+            );
+        }
+        if share > VOLTAGE_CLASS {
+            assumptions.push(
+                "the supply has more than 4/3 of the voltage that the motor's figures hold for: whether its insulation and its \
+                 bearings stand that is not checked",
             );
         }
         Self {

@@ -37,7 +37,7 @@ impl List {
 /// The drive that is to be explained: the one that `name` says; without a name the best, or, if none holds, the one that misses by
 /// least. `None` if there is no drive at all.
 ///
-/// A name has the keys of the catalogue: MOTOR+GEARBOX, MOTOR or MOTOR+direct, or as tables have it, "MOTOR, direct" and
+/// A name has the keys of the catalogue, in capitals or not: MOTOR+GEARBOX, MOTOR or MOTOR+direct, or as tables have it, "MOTOR, direct" and
 /// "MOTOR + GEARBOX on AMPLIFIER". Without amplifier it is the first of the drives that differ in nothing else.
 ///
 /// # Errors
@@ -79,8 +79,8 @@ pub fn explained<'c>(
     ))
 }
 
-/// A drive's name with one way of joining its parts: "M+G on A", "M+direct".
+/// A drive's name with one way of joining its parts, in small letters: "m+g on a", "m+direct".
 fn plain(name: &str) -> String {
-    let name = name.replacen(", direct", "+direct", 1);
+    let name = name.to_lowercase().replacen(", direct", "+direct", 1);
     name.split('+').map(str::trim).collect::<Vec<_>>().join("+")
 }

@@ -27,9 +27,18 @@ impl MeterLimits<'_> {
             ),
             "Written by `jred size --meter`; size anew instead of editing.".to_owned(),
             String::new(),
-            format!("machine: {machine}"),
-            format!("motor: {} {}", drive.motor.maker, drive.motor.model),
         ];
+        let broken = self.broken();
+        if !broken.is_empty() {
+            lines.push("THIS DRIVE BREAKS RULES at this machine: it is not approved by these limits.".to_owned());
+            lines.extend(broken.iter().map(|rule| format!("broken: {rule}")));
+            lines.push(String::new());
+        }
+        lines.push(format!("machine: {machine}"));
+        lines.push(format!(
+            "motor: {} {}",
+            drive.motor.maker, drive.motor.model
+        ));
         if let Some(gearbox) = drive.gearbox {
             lines.push(format!("gearbox: {} {}", gearbox.maker, gearbox.model));
         }

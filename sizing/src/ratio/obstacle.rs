@@ -100,6 +100,8 @@ impl Trial<'_> {
         }
         let never = courses.iter().filter(|c| c.points.iter().all(|p| !p.0));
         let never = never.map(|c| (c.rule, minimum(&ratios, |ratio| self.one(c.rule, ratio).1)));
+        // Between the tried ratios it may hold after all.
+        let never = never.filter(|(_, (_, used))| *used > 1.0);
         if let Some((rule, (ratio, used))) = never.max_by(|a, b| a.1.1.total_cmp(&b.1.1)) {
             return Some(Obstacle::Always { rule, used, ratio });
         }

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use miette::{IntoDiagnostic as _, Result};
+use miette::{IntoDiagnostic as _, Report, Result, miette};
 
 use super::Selection;
 use crate::cli::Size;
-use crate::commands::{Done, fit_input, motion, print, write};
+use crate::commands::{Done, distinct, fit_input, motion, print, write};
 use crate::cycle::Cycle;
 use crate::duty::Duty;
 use crate::judge::Context;
@@ -22,6 +22,9 @@ use crate::{input, listing, report, variator};
 /// # Errors
 /// Bad input, or a file that cannot be written.
 pub fn size(options: &Size) -> Result<Done> {
+    if let (Some(report), Some(meter)) = (&options.report, &options.meter) {
+        distinct(["--report", "--meter"], [report, meter])?;
+    }
     let mut file = input::read(&options.file)?;
     if let Some(word) = &options.supply.rules {
         file.rules = crate::rules::command::chosen(&file.rules, word)?;
@@ -37,12 +40,19 @@ pub fn size(options: &Size) -> Result<Done> {
     let cycle = Cycle::new(&duty);
     let motors = catalogue.prepare(&file.site);
     let mut selection = Selection::parallel(&catalogue, &motors, &cycle, &file.site, &file.rules);
-    for gap in options.search.apply(&filter, &mut selection) {
+    let gaps = options.search.apply(&filter, &mut selection);
+    let selection = selection;
+    if selection.fit.is_empty() && selection.refused.is_empty() {
+        return Err(none_left(options, catalogue.count(), &gaps));
+    }
+    for gap in gaps {
         eprintln!("mind: {gap}");
     }
-    let selection = selection;
     if let Some(objectives) = &options.pareto {
         let front = Front::new(&selection, &objectives.0);
+        if let Some(obstacle) = front.obstacle() {
+            return Err(obstacle);
+        }
         let title = format!(
             "{}: the Pareto front of the drives that break no rule",
             file.title
@@ -57,7 +67,8 @@ pub fn size(options: &Size) -> Result<Done> {
     if let Some(path) = &options.report {
         let name = options.file.display().to_string();
         let page = report::page(&name, &file, &duty, &selection).into_diagnostic()?;
-        write(path, page.unwrap_or_default().as_bytes(), &options.file)?;
+        let page = page.ok_or_else(|| none_left(options, catalogue.count(), &[]))?;
+        write(path, page.as_bytes(), &options.file)?;
     }
     let list = listing::List {
         top: options.top,
@@ -66,7 +77,7 @@ pub fn size(options: &Size) -> Result<Done> {
         all: options.all,
     };
     let asked = match &options.why {
-        Some(name) => listing::Asked::named(&selection, name)?,
+        Some(name) => asked_for(name, options, &selection)?,
         None => None,
     };
     let asked = asked.as_ref();
@@ -97,7 +108,7 @@ pub fn size(options: &Size) -> Result<Done> {
             }
         }
         Format::Csv => {
-            print(&listing::csv(list, &selection))?;
+            print(&listing::csv(list, &selection, asked))?;
         }
         Format::Json => {
             let answer = listing::json(list, &file, &duty, &selection, asked, explanation);
@@ -108,6 +119,50 @@ pub fn size(options: &Size) -> Result<Done> {
         Done::Violated
     } else {
         Done::Holds
+    })
+}
+
+/// Why there is no drive at all.
+fn none_left(options: &Size, all: usize, gaps: &[String]) -> Report {
+    let given = options.search.given();
+    if given.is_empty() {
+        return miette!(
+            help = "the catalogue says which motor goes with which gearbox and amplifier: docs/catalogue.md",
+            "no motor of the catalogue makes a drive"
+        );
+    }
+    let unknown: String = gaps.iter().map(|gap| format!("; {gap}")).collect();
+    let cure = if gaps.is_empty() {
+        String::new()
+    } else {
+        "fill in the column of the catalogue (docs/catalogue.md), or ".to_owned()
+    };
+    miette!(
+        help = format!("{cure}widen or leave out {given}"),
+        "no drive passes the filter, of {all} that can be put together{unknown}"
+    )
+}
+
+/// The drive of this name; where the catalogue was thinned, the error says so.
+fn asked_for<'c>(
+    name: &str,
+    options: &Size,
+    selection: &Selection<'c>,
+) -> Result<Option<listing::Asked<'c>>> {
+    let given = options.search.given();
+    listing::Asked::named(selection, name).map_err(|error| {
+        if given.is_empty() {
+            return error;
+        }
+        let help = error.help().map(|help| help.to_string());
+        miette!(
+            help = format!(
+                "without {given} every drive is considered; {}",
+                help.unwrap_or_default()
+            ),
+            "{error} among the {} that pass the filter",
+            selection.fit.len() + selection.refused.len()
+        )
     })
 }
 
@@ -137,6 +192,15 @@ fn write_meter(
     let name = options.file.file_name().unwrap_or_default();
     let machine = format!("{}, {}", name.display(), file.title);
     write(path, limits.source(&machine).as_bytes(), &options.file)?;
+    let broken = limits.broken();
+    if !broken.is_empty() {
+        eprintln!(
+            "mind: {} breaks rules ({}): keeping the limits in {} does not make it hold",
+            candidate.drive.name(),
+            broken.join("; "),
+            path.display()
+        );
+    }
     Ok(true)
 }
 

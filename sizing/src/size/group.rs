@@ -78,6 +78,7 @@ impl<'c> Group<'c> {
         self.near.push(drive);
         if self.near.len() == 4 * NEAR {
             let (_, next, _) = self.near.select_nth_unstable_by_key(NEAR, |d| d.bound);
+            // No higher than before: all that is near lies below the former limit.
             self.limit = Some(next.bound);
             self.rest
                 .extend(self.near.drain(NEAR..).map(|d| d.placed()));

@@ -189,8 +189,24 @@ fn drives_on_amplifiers_are_screened_as_in_full() {
             ..Amplifier::default()
         })
         .to_vec();
-    let [fit, refused] = compare(&catalogue, &cycle, &Site::default(), &RuleSet::default());
+    let (site, rules) = (Site::default(), RuleSet::default());
+    let [fit, refused] = compare(&catalogue, &cycle, &site, &rules);
     assert!(fit > FIRST && refused > FIRST, "{fit} {refused}");
+    // A drive asked for without its amplifier: the first of them in the lists, wherever they stand.
+    let motors = catalogue.prepare(&site);
+    let selection = Selection::parallel(&catalogue, &motors, &cycle, &site, &rules);
+    let expected = plainly(&catalogue, &cycle, &site, &rules).concat();
+    for (_, asked) in catalogue.drives().step_by(97) {
+        let alone = Drive {
+            amplifier: None,
+            ..asked
+        };
+        let alone = alone.name();
+        let is_asked = |name: &str| name == alone || name.starts_with(&format!("{alone} on "));
+        let found = selection.find(|drive| is_asked(&drive.name()));
+        let first = expected.iter().find(|(name, _)| is_asked(name));
+        assert_eq!(found.unwrap().drive.name(), first.unwrap().0);
+    }
 }
 
 /// A catalogue of which every drive is equal: they stand in the order of the catalogue.

@@ -233,6 +233,28 @@ fn an_amplifier_caps_the_torque_and_brings_its_voltage() {
     );
 }
 
+/// A motor at a supply far above the voltage of its figures is not refused, but not passed without a word either.
+#[test]
+fn a_supply_of_another_class_is_remarked_upon() {
+    let mut motor = figures();
+    motor.bus_voltage = Some(48.0);
+    let remarks = |voltage: f64| {
+        let site = Site {
+            bus_voltage: Some(voltage),
+            ..Site::default()
+        };
+        let envelope = Envelope::at(&motor, None, &site);
+        let remarks = envelope.assumptions().iter();
+        remarks
+            .filter(|a| a.contains("more than 4/3 of the voltage"))
+            .count()
+    };
+    assert_eq!(
+        [24.0, 48.0, 63.0, 65.0, 566.0].map(remarks),
+        [0, 0, 0, 1, 1]
+    );
+}
+
 #[test]
 fn nothing_known_is_no_limit() {
     let envelope = Envelope::of(&bare());

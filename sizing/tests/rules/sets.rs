@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use jred_sizing::check::Verdict;
+use jred_sizing::check::{Check, Verdict};
 use jred_sizing::input;
-use jred_sizing::judge::Finding;
+use jred_sizing::judge::{Finding, Words};
 use jred_sizing::rule::{Rule, Sense};
 use jred_sizing::rules::{Limit, RuleSet};
 
@@ -148,6 +148,23 @@ fn every_key_can_be_set() {
             assert_eq!(rules.use_of_limit(rule, finding), 0.0);
         }
     }
+}
+
+/// The limit that a warning is about is said beside the one that refuses.
+#[test]
+fn a_warning_names_its_limit() {
+    let note = |value: f64| {
+        let words = Words {
+            unit: "",
+            scale: 1.0,
+            rating: "times the rotor's inertia".to_owned(),
+            place: String::new(),
+        };
+        let finding = Finding::new(value, 1.0);
+        Check::new(&RuleSet::default(), Rule::InertiaRatio, finding, words).note
+    };
+    assert_eq!(note(6.0), "10 times the rotor's inertia; a warning above 5");
+    assert_eq!(note(4.0), "10 times the rotor's inertia");
 }
 
 /// Limits are held at the limit, and violated just beyond; nothing known is never passed.
