@@ -13,6 +13,7 @@
 
 pub mod axes;
 pub mod command;
+pub mod conflict;
 mod cure;
 pub mod curve;
 mod json;

@@ -63,9 +63,7 @@ pub enum Command {
 pub fn output_file() -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().try_map(|path| {
         if path.as_os_str() == "-" {
-            return Err(
-                "stdout has the result itself: name a file (./- if it is to be called so)",
-            );
+            return Err("stdout has the result itself: name a file (./- if it is to be called so)");
         }
         Ok(path)
     })

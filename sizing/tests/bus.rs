@@ -4,6 +4,8 @@
 
 #[path = "bus/command.rs"]
 mod command;
+#[path = "bus/conflict.rs"]
+mod conflict;
 #[path = "bus/cures.rs"]
 mod cures;
 #[path = "bus/drive.rs"]

@@ -6,6 +6,8 @@
 mod forms;
 #[path = "cli/mistakes.rs"]
 mod mistakes;
+#[path = "cli/outputs.rs"]
+mod outputs;
 mod support;
 #[path = "cli/why.rs"]
 mod why;

@@ -66,8 +66,25 @@ fn without_a_drive_that_holds_nothing_is_written() {
     run.says(&["no drive holds", "is not written", "--why"]);
     assert!(!out.exists());
     // That of a drive that does not hold is written when it is named.
-    jred([&"size", &file, &"--why", &DRIVE, &"--meter", &out]).ends(1);
-    assert!(out.exists());
+    let run = jred([&"size", &file, &"--why", &DRIVE, &"--meter", &out]).ends(1);
+    // Not as one that is approved: file and stderr say what it breaks, and by how much.
+    run.says(&["breaks rules (RMS torque", "does not make it hold"]);
+    let source = std::fs::read_to_string(&out).unwrap();
+    let header: Vec<&str> = source
+        .lines()
+        .take_while(|line| line.starts_with("//"))
+        .collect();
+    assert!(
+        header.iter().any(|l| l.contains("THIS DRIVE BREAKS RULES")),
+        "{source}"
+    );
+    let broken: Vec<&&str> = header.iter().filter(|l| l.contains("broken:")).collect();
+    assert!(
+        broken.len() == 1
+            && broken[0].starts_with("// broken: RMS torque ")
+            && broken[0].ends_with(", > 1000 %"),
+        "{broken:?}"
+    );
     // Never over the machine file.
     let run = jred([&"size", &file, &"--why", &DRIVE, &"--meter", &file]).ends(2);
     run.says(&["is the machine file itself"]);

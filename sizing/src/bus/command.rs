@@ -292,9 +292,10 @@ impl Answer {
         top.is_some_and(|top| voltage.is_nan() || voltage > top)
     }
 
-    /// Mean power of separate resistors less that of a common one (W), all axes in step; the common one only where it is known.
+    /// Mean power of separate resistors less that of a common one (W), all axes in step; of several axes, where the resistor is
+    /// known.
     pub(super) fn saved(&self) -> Option<f64> {
-        self.data.resistor?;
+        self.data.resistor.filter(|_| self.axes.len() > 1)?;
         let period = self.power.as_ref()?.period();
         Some(self.shared.apart() - self.in_step?.burnt / period)
     }

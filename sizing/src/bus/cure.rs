@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::axes::Worst;
 use super::command::Answer;
+use super::conflict::Conflict;
 use super::store::{Bus, BusFigures};
 use super::verdict::Judged;
 use super::{Need, Watch};
@@ -145,10 +146,16 @@ impl Answer {
             });
             return Some(Cure::of(changes.collect()));
         }
+        if self.data.resistor.is_some() && mean == 0.0 {
+            // It never comes on, whatever its resistance is.
+            let least = self.data.min_resistance?;
+            let change = Change::at_least("brake_resistor.resistance", least, "Ohm");
+            return (!self.fails(options, Judged::Voltage)).then(|| Cure::of(vec![change]));
+        }
         if let Some(need) = self.need {
             return need.is_possible().then(|| Cure::resistor(&need));
         }
-        if self.data.regenerative {
+        if self.data.regenerative || self.data.conflict().is_some() {
             return None;
         }
         // Without a search: what is enough whatever comes back when.
@@ -183,9 +190,12 @@ impl Answer {
     }
 
     /// A capacitor that takes all that comes back: ½·C·(U² − U₀²) is the most that is ever stored, whatever C is. With a brake
-    /// resistor U is the voltage at which that would come on.
+    /// resistor U is the voltage at which that would come on, if that is not above the highest.
     fn capacitance_cure(&self, options: &Options, watch: &dyn Watch) -> Option<Cure> {
         let u0 = self.data.voltage?;
+        let chopper = self.data.resistor.and(self.data.chopper_voltage);
+        let top = [chopper, self.data.max_voltage].into_iter().flatten();
+        let top = top.reduce(f64::min).filter(|top| *top > u0)?;
         let known = self.data.capacitance.filter(|c| *c > 0.0)?;
         let bare = Bus {
             resistor: None,
@@ -204,10 +214,6 @@ impl Answer {
         if !highest.is_finite() {
             return None;
         }
-        let top = match self.data.resistor {
-            Some(_) => self.data.chopper_voltage?,
-            None => self.data.max_voltage?,
-        };
         let needed = known * (highest * highest - u0 * u0) / (top * top - u0 * u0);
         let change = Change {
             key: "capacitance",
@@ -264,7 +270,12 @@ impl Answer {
     }
 
     fn supply_cure(&self, options: &Options) -> Option<Cure> {
-        (!self.data.regenerative).then(|| Cure {
+        let already = matches!(
+            self.data.conflict(),
+            Some(Conflict::Supply { supply, highest }) if supply > highest
+        );
+        let helps = !self.data.regenerative && !already && self.back(options) > 0.0;
+        helps.then(|| Cure {
             changes: Vec::new(),
             phases: None,
             words: format!(

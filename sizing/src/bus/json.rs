@@ -48,6 +48,9 @@ impl Answer {
                 (name.to_owned(), json!(by))
             })
             .collect();
+        let conflict = self
+            .conflict(options)
+            .map(|conflict| json!({ "any of": conflict.keys(), "words": conflict.words() }));
         json!({
             "schema": "jred-bus/1",
             "axes": self.axes_json(),
@@ -66,6 +69,7 @@ impl Answer {
             "brake resistor lacks": lacks,
             "brake resistor needed": self.need,
             "proposal": self.proposal,
+            "conflict": conflict,
             "checks": checks.collect::<Vec<_>>(),
             "not checked": not_checked.collect::<Vec<_>>(),
             "not known": not_known.collect::<Vec<_>>(),

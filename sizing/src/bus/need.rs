@@ -29,7 +29,8 @@ pub struct Need {
 }
 
 impl Need {
-    /// The need of a power. `None`: the chopper's voltage is not known, or the capacitor takes all that comes back.
+    /// The need of a power. `None`: the chopper's voltage is not known, or not between those of the supply and of the limit
+    /// ([`BusData::conflict`]), or the capacitor takes all that comes back.
     pub fn of(data: &BusData, curve: &PowerCurve) -> Option<Self> {
         let [least, _] = curve.extremes();
         let figures = Self::bus(data, -least)?.run(curve);
@@ -51,7 +52,7 @@ impl Need {
     /// above the chopper's.
     fn bus(data: &BusData, back: f64) -> Option<Bus> {
         let on = data.chopper_voltage?;
-        if data.regenerative || back <= 0.0 {
+        if data.regenerative || back <= 0.0 || data.conflict().is_some() {
             return None;
         }
         let resistor = BrakeResistor {

@@ -142,7 +142,12 @@ impl Phases<'_> {
             .collect()
     }
 
+    /// Places of the grid for the phase of an axis, and how far apart they are (s).
     fn step(&self, axis: usize, grid: f64) -> (u32, f64) {
+        if self.whole.len() > 3 {
+            // One phase is moved at a time: with the others held, all of the axis's own count.
+            return (grid as u32, self.periods[axis] / grid);
+        }
         let count = (grid * self.reach[axis] / self.periods[axis])
             .ceil()
             .max(LEAST[usize::from(self.whole.len() > 2)]);
@@ -291,9 +296,7 @@ impl Phases<'_> {
                 for axis in 1..self.whole.len() {
                     let mut phases = best[goal].phases.clone();
                     let rest = self.rest(&phases, axis);
-                    // With the other phases held, all of the axis's own count.
-                    let count = grid as u32;
-                    let step = self.periods[axis] / grid;
+                    let (count, step) = self.step(axis, grid);
                     if expected == 0 {
                         watch.planned(u64::from(count));
                     }

@@ -1,6 +1,7 @@
 //! What `jred bus` judges, and what it cannot.
 
 use super::command::Answer;
+use super::conflict::Conflict;
 use super::curve::PowerCurve;
 use super::period::{Common, LOOKED_AT, MOST_CYCLES};
 use super::store::BusFigures;
@@ -143,6 +144,13 @@ impl Answer {
         let mut checks = self.checks(options);
         checks.retain(|check| check.holds() == Some(false));
         checks
+    }
+
+    /// Voltages in an order in which no brake resistor does what is needed; where nothing is needed they are not looked at.
+    pub(super) fn conflict(&self, options: &Options) -> Option<Conflict> {
+        let asked = |check: &BusCheck| matches!(check.what, Judged::Voltage | Judged::Resistance);
+        let needed = self.judged(options)[0].is_nan() || self.failed(options).iter().any(asked);
+        self.data.conflict().filter(|_| needed)
     }
 
     /// What could not be checked, what is missing for it, and where it would be said.

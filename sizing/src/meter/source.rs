@@ -30,7 +30,10 @@ impl MeterLimits<'_> {
         ];
         let broken = self.broken();
         if !broken.is_empty() {
-            lines.push("THIS DRIVE BREAKS RULES at this machine: it is not approved by these limits.".to_owned());
+            lines.push(
+                "THIS DRIVE BREAKS RULES at this machine: it is not approved by these limits."
+                    .to_owned(),
+            );
             lines.extend(broken.iter().map(|rule| format!("broken: {rule}")));
             lines.push(String::new());
         }

@@ -131,7 +131,7 @@ fn none_left(options: &Size, all: usize, gaps: &[String]) -> Report {
             "no motor of the catalogue makes a drive"
         );
     }
-    let unknown: String = gaps.iter().map(|gap| format!("; {gap}")).collect();
+    let unknown = [&[String::new()], gaps].concat().join("; ");
     let cure = if gaps.is_empty() {
         String::new()
     } else {

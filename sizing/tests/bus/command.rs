@@ -71,8 +71,14 @@ fn two_presses_on_one_bus() {
             "At any phases",
             "bus voltage",
             "against 820 V: ok",
+            "\nAgainst a bus for each axis, with 1/2 of the capacitance and a brake resistor like this, one bus saves ",
         ],
     );
+    // There is nothing to share with one axis.
+    assert!(figure(&two, &["saved by sharing [W]"]) >= 0.0);
+    assert_eq!(one["saved by sharing [W]"], Value::Null);
+    let alone = jred([&"bus", &file, &steps[0], &steps[1]]).ends(0);
+    assert!(!alone.out.contains("one bus saves"), "{}", alone.out);
     let rows = jred([
         &"bus",
         &file,

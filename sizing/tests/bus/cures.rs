@@ -11,9 +11,9 @@ fn lift() -> String {
 }
 
 /// Keys of `[supply]` and their values.
-type Keys<'a> = Vec<(&'a str, String)>;
+pub(super) type Keys<'a> = Vec<(&'a str, String)>;
 
-fn keys(pairs: &[(&'static str, &str)]) -> Keys<'static> {
+pub(super) fn keys(pairs: &[(&'static str, &str)]) -> Keys<'static> {
     let pairs = pairs.iter();
     pairs
         .map(|(key, value)| (*key, (*value).to_owned()))
@@ -62,13 +62,24 @@ fn run_as(
     jred_with(&arguments).ends(ends)
 }
 
-fn run(folder: &Folder, keys: &Keys, others: &[&str], more: &[&str], ends: i32) -> (String, Value) {
+pub(super) fn run(
+    folder: &Folder,
+    keys: &Keys,
+    others: &[&str],
+    more: &[&str],
+    ends: i32,
+) -> (String, Value) {
     let of = |format| run_as(folder, keys, others, more, ends, format);
     (of("table").out, of("json").json())
 }
 
 /// Makes every change of every cure in turn, and wants the bus to hold. Returns the first words of each.
-fn mend(folder: &Folder, before: &Keys<'static>, others: &[&str], more: &[&str]) -> Vec<String> {
+pub(super) fn mend(
+    folder: &Folder,
+    before: &Keys<'static>,
+    others: &[&str],
+    more: &[&str],
+) -> Vec<String> {
     let (text, answer) = run(folder, before, others, more, 1);
     assert!(text.contains("\nAny one of these would do:\n- "), "{text}");
     let mut kinds = Vec::new();
@@ -77,14 +88,17 @@ fn mend(folder: &Folder, before: &Keys<'static>, others: &[&str], more: &[&str])
         assert!(text.contains(&format!("\n- {words}\n")), "{words}\n{text}");
         kinds.push(words.split([' ', '=', ',']).next().unwrap().to_owned());
         let mut after = before.clone();
-        for change in cure["changes"].as_array().unwrap() {
+        let changes = cure["changes"].as_array().unwrap();
+        for change in changes {
             let key = change["key"].as_str().unwrap();
             let least = change["at least"].as_f64();
             let value = least.or(change["at most"].as_f64()).unwrap();
             // Of a range the upper end: the smallest resistance is given in the file.
             if key == "brake_resistor.resistance"
                 && least.is_some()
-                && after.iter().any(|(k, _)| *k == key)
+                && changes
+                    .iter()
+                    .any(|c| c["key"] == key && !c["at most"].is_null())
             {
                 continue;
             }

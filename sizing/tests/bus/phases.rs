@@ -140,6 +140,55 @@ fn four_axes_at_once() {
     near("bound", axes.bounds().highest, expected, budget::PHASES);
 }
 
+/// Four axes of which the second repeats with the first only after twelve of its cycles: the worst lies between two places of the
+/// grid of its own period, 7/16 of a step beside the better one, and the search closes in on it.
+#[test]
+fn four_axes_between_the_places_of_the_grid() {
+    let (short, block, back, begin) = (1.0 / 12.0, 0.02, 600.0, 0.3);
+    let phase = (3.0 - 7.0 / 16.0) / 48.0;
+    let at = begin + phase - 4.0 * short;
+    let first = PowerCurve::new(
+        [
+            [0.0, 3000.0],
+            [at, 3000.0],
+            [at, -back],
+            [at + block, -back],
+            [at + block, 3000.0],
+            [short, 3000.0],
+        ],
+        short,
+    );
+    // The spike, which aligned phases put together with the block, stores less than both blocks at once.
+    let second = PowerCurve::new(
+        [
+            [0.0, 3000.0],
+            [begin, 3000.0],
+            [begin, -back],
+            [begin + block, -back],
+            [begin + block, 3000.0],
+            [0.7, 3000.0],
+            [0.7, -5000.0],
+            [0.7005, -5000.0],
+            [0.7005, 3000.0],
+            [1.0, 3000.0],
+        ],
+        1.0,
+    );
+    let drawn = 10.0;
+    let steady = PowerCurve::new([[0.0, drawn], [1.0, drawn]], 1.0);
+    let bus = Bus {
+        resistor: None,
+        ..BUS
+    };
+    let axes = Axes::new(bus, vec![first, second, steady.clone(), steady]);
+    let [voltage, ..] = axes.worst(&()).unwrap();
+    let stored = 2.0 * (back - drawn) * block;
+    let expected = (560.0f64.powi(2) + 2.0 * stored / BUS.capacitance).sqrt();
+    near("voltage", voltage.figures.highest, expected, budget::PHASES);
+    let found = voltage.phases[1].rem_euclid(short);
+    near("phase", found, phase, budget::COARSE_PHASES);
+}
+
 /// The three cases of cycles that are to repeat together, and their numbers.
 #[test]
 fn common_periods() {

@@ -1,0 +1,237 @@
+//! Voltages of a bus that come from several places and stand in the wrong order: nothing is said to mend what it does not.
+
+use std::path::PathBuf;
+
+use jred_sizing::bus::Need;
+use jred_sizing::bus::conflict::Conflict;
+use jred_sizing::bus::curve::PowerCurve;
+use jred_sizing::bus::supply::BusData;
+use serde_json::Value;
+
+use super::cures::{Keys, keys, mend, run};
+use super::support::{Folder, jred};
+
+const DATA: BusData = BusData {
+    voltage: Some(560.0),
+    capacitance: Some(2e-6),
+    chopper_voltage: Some(780.0),
+    max_voltage: Some(820.0),
+    min_resistance: None,
+    regenerative: false,
+    resistor: None,
+};
+
+/// A motor that states the voltage of its bus, and an amplifier that states the rest, if it does.
+fn catalogue(folder: &Folder, amplifier: &str) -> PathBuf {
+    let text = format!(
+        r#"
+[[motor]]
+key = "m"
+maker = "Maker"
+model = "Model"
+rated_torque = "300 N m"
+rated_speed = "1000 rpm"
+max_speed = "2000 rpm"
+peak_torque = "3000 N m"
+rotor_inertia = "500 kg cm^2"
+torque_constant = "2 N m/A"
+bus_voltage = "560 V"
+source = "Sheet"
+
+[[amplifier]]
+key = "a"
+maker = "Maker"
+model = "Model"
+rated_current = "600 A"
+peak_current = "2000 A"
+constant_loss = "20 W"
+{amplifier}
+source = "Sheet"
+"#
+    );
+    folder.file("catalogue.toml", text)
+}
+
+fn of(path: &PathBuf) -> [&str; 4] {
+    ["--catalogue", path.to_str().unwrap(), "--drive", "1=m"]
+}
+
+fn speaks_of_resistors(answer: &Value) -> bool {
+    !answer["brake resistor needed"].is_null()
+        || answer["cures"].to_string().contains("brake_resistor.")
+}
+
+/// Every order of the three voltages; a resistor is asked for in the right one alone.
+#[test]
+fn three_voltages_in_order() {
+    let curve = PowerCurve::new(
+        [[0.0, 900.0], [1.0, 900.0], [1.0, -700.0], [2.0, -700.0]],
+        2.0,
+    );
+    let [low, middle, high] = [500.0, 600.0, 700.0];
+    for (supply, chopper, highest, right) in [
+        (low, middle, high, true),
+        (low, high, middle, false),
+        (low, middle, middle, false),
+        (middle, low, high, false),
+        (middle, middle, high, false),
+        (middle, high, low, false),
+        (middle, high, middle, false),
+        (high, low, middle, false),
+        (high, middle, low, false),
+    ] {
+        let data = BusData {
+            voltage: Some(supply),
+            chopper_voltage: Some(chopper),
+            max_voltage: Some(highest),
+            ..DATA
+        };
+        let case = format!("{supply} {chopper} {highest}: {:?}", data.conflict());
+        let expected = match () {
+            () if supply >= highest => Some(Conflict::Supply { supply, highest }),
+            () if chopper >= highest => Some(Conflict::LateChopper { chopper, highest }),
+            () if chopper <= supply => Some(Conflict::EarlyChopper { chopper, supply }),
+            () => None,
+        };
+        assert_eq!(data.conflict(), expected, "{case}");
+        assert_eq!(expected.is_none(), right, "{case}");
+        assert_eq!(Need::of(&data, &curve).is_some(), right, "{case}");
+        // A supply that takes energy back has no use for a chopper.
+        let back = BusData {
+            regenerative: true,
+            ..data
+        };
+        assert_eq!(back.conflict().is_some(), supply >= highest, "{case}");
+    }
+    let unknown = BusData {
+        max_voltage: None,
+        ..DATA
+    };
+    assert_eq!(unknown.conflict(), None);
+}
+
+/// The chopper's voltage is that of the file, the highest that of the amplifier, and below it.
+#[test]
+fn a_chopper_above_the_highest_voltage() {
+    let folder = Folder::new();
+    let path = catalogue(&folder, "max_voltage = \"750 V\"");
+    let more = of(&path);
+    let mut before = keys(&[
+        ("bus_voltage", "560 V"),
+        ("chopper_voltage", "780 V"),
+        ("capacitance", "2 uF"),
+    ]);
+    let late = "comes on only at 780 V, not below the highest voltage of the bus, 750 V";
+    let check = |before: &Keys<'static>| {
+        let (text, answer) = run(&folder, before, &[], &more, 1);
+        assert!(text.contains(late), "{text}");
+        assert!(
+            text.contains("lower chopper_voltage or raise max_voltage"),
+            "{text}"
+        );
+        assert!(!text.contains("needs a brake resistor"), "{text}");
+        assert!(!text.contains("A brake resistor that does"), "{text}");
+        assert!(!speaks_of_resistors(&answer), "{answer:#}");
+        let expected = serde_json::json!(["chopper_voltage", "max_voltage"]);
+        assert_eq!(answer["conflict"]["any of"], expected);
+        // What is said to do does.
+        assert_eq!(
+            mend(&folder, before, &[], &more),
+            ["capacitance", "regenerative"]
+        );
+    };
+    check(&before);
+    // With a resistor the bus rises to 780 V; the capacitor must keep it below 750 V.
+    let mut with = before.clone();
+    with.extend(keys(&[
+        ("brake_resistor.resistance", "10 Ohm"),
+        ("brake_resistor.power", "5 kW"),
+    ]));
+    check(&with);
+    // What is advised mends it.
+    before[1].1 = "740 V".to_owned();
+    let (text, answer) = run(&folder, &before, &[], &more, 1);
+    assert!(text.contains("The bus needs a brake resistor"), "{text}");
+    assert!(!text.contains("NO BRAKE RESISTOR DOES"), "{text}");
+    assert!(answer["conflict"].is_null() && speaks_of_resistors(&answer));
+    let kinds = mend(&folder, &before, &[], &more);
+    assert_eq!(kinds[0], "brake_resistor.resistance", "{kinds:?}");
+}
+
+/// The bus of the motor's data sheet stands above the highest voltage of the file: nothing mends that but another voltage.
+#[test]
+fn a_supply_above_the_highest_voltage() {
+    let folder = Folder::new();
+    let path = catalogue(&folder, "");
+    let before = keys(&[("max_voltage", "300 V"), ("capacitance", "100 uF")]);
+    for more in [&of(&path)[..], &[&of(&path)[..], &["--in-step"]].concat()] {
+        let (text, answer) = run(&folder, &before, &[], more, 1);
+        assert!(
+            text.contains(
+                "the bus already stands above its highest voltage, 300 V: its supply holds 560 V"
+            ),
+            "{text}"
+        );
+        assert!(!text.contains("Any one of these would do"), "{text}");
+        assert_eq!(answer["cures"], serde_json::json!([]));
+        assert!(!speaks_of_resistors(&answer), "{answer:#}");
+    }
+}
+
+const BUS: [(&str, &str); 5] = [
+    ("bus_voltage", "560 V"),
+    ("chopper_voltage", "780 V"),
+    ("max_voltage", "820 V"),
+    ("brake_resistor.resistance", "20 Ohm"),
+    ("brake_resistor.power", "1 kW"),
+];
+
+/// A resistor that never comes on only must be one that the chopper may switch: because nothing comes back, or because the
+/// capacitor takes all of it.
+#[test]
+fn a_resistance_too_small_that_is_never_used() {
+    const ONLY: &str = "- brake_resistor.resistance at least 40 Ohm\n";
+    let folder = Folder::new();
+    let path = catalogue(&folder, "min_resistance = \"40 Ohm\"");
+    let mut before = keys(&BUS);
+    before.push(("capacitance", "100 mF".to_owned()));
+    let (text, _) = run(&folder, &before, &[], &of(&path), 1);
+    assert!(text.contains(ONLY), "{text}");
+    let kinds = mend(&folder, &before, &[], &of(&path));
+    assert_eq!(kinds, ["brake_resistor.resistance", "regenerative"]);
+
+    let conveyor = |resistance: &str| {
+        let text = format!(
+            r#"
+gravity = ["0 m/s^2", "0 m/s^2"]
+[mechanism]
+type = "gear-train"
+stage = [{{ driver = {{ teeth = 20, inertia = "2 kg cm^2" }}, driven = {{ teeth = 60, inertia = "1 kg m^2" }} }}]
+[motion]
+type = "constant-speed"
+speed = "60 rpm"
+[supply]
+bus_voltage = "560 V"
+chopper_voltage = "780 V"
+max_voltage = "820 V"
+capacitance = "470 uF"
+brake_resistor = {{ resistance = "{resistance}", power = "1 kW" }}
+"#
+        );
+        let file = folder.file("conveyor.toml", text);
+        jred([
+            &"bus",
+            &file,
+            &"--catalogue",
+            &path,
+            &"--drive",
+            &"1=m",
+            &"--steps",
+            &"100",
+        ])
+    };
+    let text = conveyor("20 Ohm").ends(1).out;
+    let (_, cures) = text.split_once("Any one of these would do:\n").unwrap();
+    assert_eq!(cures, ONLY);
+    conveyor("40 Ohm").ends(0);
+}

@@ -1,0 +1,170 @@
+//! `jred size`: options that have nothing to show, or that get in each other's way, are refused before anything is written.
+
+use serde_json::Value;
+
+use super::support::{Folder, jred, jred_with, press_file};
+
+/// The built-in catalogue has no masses of motors: a filter by mass leaves nothing, and no page is written about nothing.
+#[test]
+fn a_filter_that_leaves_nothing_is_an_error() {
+    let folder = Folder::new();
+    let page = folder.path("r.html");
+    let run = jred([
+        &"size",
+        &press_file(),
+        &"--steps",
+        &"64",
+        &"--max-mass",
+        &"3kg",
+        &"--report",
+        &page,
+    ])
+    .ends(2);
+    run.says(&[
+        "no drive passes the filter",
+        "drives are left out: their mass is not known",
+        "widen or leave out --max-mass",
+    ]);
+    assert!(run.out.is_empty() && !page.exists(), "{}", run.out);
+}
+
+/// The front has neither a list nor one drive to explain.
+#[test]
+fn the_front_refuses_what_it_does_not_do() {
+    let folder = Folder::new();
+    let page = folder.path("r.html");
+    let page = page.to_str().unwrap();
+    for more in [
+        &["--report", page][..],
+        &["--meter", page],
+        &["--why", "fxm33-30a"],
+        &["--explain"],
+        &["--refused"],
+        &["--all"],
+        &["--top", "3"],
+        &["--nearest", "3"],
+        &["--rank", "energy"],
+    ] {
+        let press = press_file();
+        let press = press.to_str().unwrap();
+        let front = ["size", press, "--pareto", "power,energy"];
+        let run = jred_with(&[&front, more].concat()).ends(2);
+        run.says(&["--pareto", more[0], "cannot be used with"]);
+    }
+    assert!(!folder.path("r.html").exists());
+}
+
+/// Where drives fit but a figure of none of them is known, the answer is not an empty front.
+#[test]
+fn the_front_names_what_is_known_of_none() {
+    let press = press_file();
+    let run = jred([
+        &"size",
+        &press,
+        &"--steps",
+        &"64",
+        &"--pareto",
+        &"mass,energy",
+    ])
+    .ends(2);
+    let json = jred([&"size", &press, &"--steps", &"64", &"--format", &"json"])
+        .ends(0)
+        .json();
+    let fit = &json["counts"]["fit"];
+    run.says(&[
+        &format!("{fit} drives fit, but of none the mass is known"),
+        "take another objective",
+    ]);
+    assert!(run.out.is_empty(), "{}", run.out);
+    assert!(!run.message().contains("energy is"), "{}", run.err);
+}
+
+/// In CSV the drive asked for comes first, with its rank, whether the list has it or not, and only once.
+#[test]
+fn csv_begins_with_the_drive_asked_for() {
+    let press = press_file();
+    let json = jred([
+        &"size",
+        &press,
+        &"--steps",
+        &"64",
+        &"--all",
+        &"--format",
+        &"json",
+    ])
+    .ends(0)
+    .json();
+    let asked = |drive: &Value, rank: &str| {
+        let [motor, gearbox] = ["motor", "gearbox"].map(|key| drive[key].as_str().unwrap_or(""));
+        let name = format!("{motor}+{gearbox}");
+        let name = name.trim_end_matches('+').to_owned();
+        let run = jred([
+            &"size",
+            &press,
+            &"--steps",
+            &"64",
+            &"--top",
+            &"3",
+            &"--format",
+            &"csv",
+            &"--why",
+            &name,
+        ])
+        .ends(0);
+        let start = format!("{rank},{motor},{gearbox},");
+        let rows: Vec<&str> = run.out.lines().skip(1).collect();
+        let own = format!(",{motor},{gearbox},");
+        let count = drive["checks"].as_array().unwrap().len();
+        let (first, rest) = rows.split_at(count);
+        assert!(first.iter().all(|row| row.starts_with(&start)), "{first:?}");
+        assert!(!rest.iter().any(|row| row.contains(&own)), "{rest:?}");
+        let mut ranks: Vec<&str> = rest.iter().map(|r| r.split(',').next().unwrap()).collect();
+        ranks.dedup();
+        ranks.into_iter().map(str::to_owned).collect::<Vec<_>>()
+    };
+    // In the list, behind it, and refused: the others keep their ranks.
+    assert_eq!(asked(&json["fit"][1], "2"), ["1", "3", ""]);
+    assert_eq!(asked(&json["fit"][4], "5"), ["1", "2", "3", ""]);
+    assert_eq!(asked(&json["refused"][9], ""), ["1", "2", "3", ""]);
+}
+
+/// Two outputs are two files, and stdout is none.
+#[test]
+fn outputs_are_files_of_their_own() {
+    let folder = Folder::new();
+    let press = press_file();
+    let one = folder.path("one");
+    let again = folder.path(".").join("one");
+    let run = jred([&"size", &press, &"--report", &one, &"--meter", &again]).ends(2);
+    run.says(&["--report and --meter both name", "name two files"]);
+    assert!(!one.exists());
+    for option in ["--report", "--meter"] {
+        let run = jred([&"size", &press, &option, &"-"]).ends(2);
+        run.says(&[option, "stdout has the result itself", "name a file"]);
+    }
+    let run = jred([
+        &"export",
+        &press,
+        &"--torque-error",
+        &"1 N m",
+        &"--out",
+        &"-",
+    ])
+    .ends(2);
+    run.says(&["stdout has the result itself"]);
+}
+
+/// A drive that a filter took out is not said to be missing from the catalogue.
+#[test]
+fn a_drive_that_the_filter_took_out() {
+    let press = press_file();
+    let press = press.to_str().unwrap();
+    let why = ["size", press, "--steps", "64", "--why", "fxm33-30a"];
+    let run = jred_with(&[&why[..], &["--motor", "sgm*"]].concat()).ends(2);
+    run.says(&[
+        "no drive \"fxm33-30a\" among the",
+        "that pass the filter",
+        "without --motor every drive is considered",
+    ]);
+    assert!(jred_with(&why).ends(0).err.is_empty());
+}
