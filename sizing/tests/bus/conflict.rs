@@ -1,6 +1,6 @@
 //! Voltages of a bus that come from several places and stand in the wrong order: nothing is said to mend what it does not.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use jred_sizing::bus::Need;
 use jred_sizing::bus::conflict::Conflict;
@@ -52,7 +52,7 @@ source = "Sheet"
     folder.file("catalogue.toml", text)
 }
 
-fn of(path: &PathBuf) -> [&str; 4] {
+fn of(path: &Path) -> [&str; 4] {
     ["--catalogue", path.to_str().unwrap(), "--drive", "1=m"]
 }
 
