@@ -249,12 +249,6 @@ impl Cycle {
         self.stretches().largest_magnitude(coefficients)
     }
 
-    /// What the magnitude of the motor torque does not exceed (N·m), no more than some parts in a thousand above
-    /// [`Cycle::peak_torque`] where loads are smooth, and much cheaper.
-    pub fn torque_bound(&self, coefficients: &Coefficients) -> f64 {
-        self.stretches().magnitude_bound(coefficients)
-    }
-
     /// Energy that the motor puts in over a cycle and energy that comes back to it (J), neither negative.
     pub fn energies(&self, coefficients: &Coefficients, ratio: f64) -> [f64; 2] {
         self.stretches().energies(coefficients, ratio)

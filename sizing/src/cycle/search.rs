@@ -81,15 +81,6 @@ impl Stretches<'_> {
         Search::new(self, c, 1.0, Level(1.0)).run().torque.abs()
     }
 
-    /// What |c·x| does not exceed.
-    pub(super) fn magnitude_bound(self, c: &Coefficients) -> f64 {
-        let bounds = self.front.bounds(&c.0);
-        bounds
-            .iter()
-            .fold(0.0, |most, bound| f64::max(most, *bound))
-            + self.slack(c)
-    }
-
     /// Least and largest value of c·x.
     pub(super) fn extremes(self, c: &Coefficients) -> [f64; 2] {
         let opposite = Coefficients(c.0.map(|c| -c));
