@@ -1,13 +1,11 @@
 //! The screw drive: formula, joints, thrust.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::{assert_near, budget, config, jointed};
 use jred::mechanism::{BallScrew, Misfit};
 use jred::{Action, Error, Link, Load, Machine, Mechanism, Reducible};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, jointed};
 
 const NUT: usize = BallScrew::NUT;
 

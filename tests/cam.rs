@@ -1,14 +1,12 @@
 //! Cam programs: segments that make one turn, their transfer functions, and what is wrong with others.
 
-mod support;
-
 use std::f64::consts::{PI, TAU};
 
+use crate::support::{assert_near, budget, config, derivative};
 use jred::cam::{CamError, Program, Segment};
 use jred::motion::Law;
 use jred::{Error, Transfer};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, derivative};
 
 const LAWS: [Law; 6] = [
     Law::Polynomial345,

@@ -1,14 +1,12 @@
 //! Kinematics and reduction against textbook formulas, symmetry, and differences of their own values.
 
-mod support;
-
 use std::f64::consts::{PI, TAU};
 
+use crate::support::machines::{Spec, spec};
+use crate::support::{assert_near, budget, config, derivative, largest};
 use jred::mechanism::{Branch, SliderCrank};
 use jred::{Action, Link, Load, Machine, Mechanism, Reducible, Transfer, Window};
 use proptest::prelude::*;
-use support::machines::{Spec, spec};
-use support::{assert_near, budget, config, derivative, largest};
 
 /// Step of the differences (rad).
 const STEP: f64 = 1.0 / 64.0;

@@ -1,9 +1,9 @@
 //! Disc cams: the general properties of a mechanism, the profile as an envelope, the rolling, the spring.
 
-mod support;
-
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use crate::support::cams::{build, cam, eccentric, follower, four, links};
+use crate::support::{assert_near, budget, config, derivative, jointed};
 use jred::cam::{CamError, Program, Segment};
 use jred::mechanism::{DiscCam, Follower, Roller, Swing};
 use jred::motion::Law;
@@ -11,8 +11,6 @@ use jred::{
     Action, Error, Joint, Jointed as _, Link, Load, Machine, Mechanism as _, Reducible as _,
 };
 use proptest::prelude::*;
-use support::cams::{build, cam, eccentric, follower, four, links};
-use support::{assert_near, budget, config, derivative, jointed};
 
 fn loaded(mechanism: DiscCam) -> Machine<DiscCam> {
     let spring = mechanism.closing_spring(8e3, 120.0).unwrap();

@@ -1,12 +1,10 @@
 //! Disc cams against closed forms: the eccentric circle, textbook formulas, arcs in the dwells.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::cams::{eccentric, follower, four, links};
+use crate::support::{assert_near, budget};
 use jred::mechanism::{DiscCam, Follower, Roller};
-use support::cams::{eccentric, follower, four, links};
-use support::{assert_near, budget};
 
 /// A flat face on an eccentric circle moves exactly as e·(1 − cos φ): the profile of that motion is the circle.
 #[test]

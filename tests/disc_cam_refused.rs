@@ -1,15 +1,13 @@
 //! Cams that cannot be made: what is wrong with them, and what cures it.
 
-mod support;
-
 use std::f64::consts::{PI, TAU};
 
+use crate::support::assert_near;
+use crate::support::cams::{follower, four, links};
 use jred::Error;
 use jred::cam::{CamError, Program, Segment};
 use jred::mechanism::{DiscCam, Follower, Roller, Swing};
 use jred::motion::Law;
-use support::assert_near;
-use support::cams::{follower, four, links};
 
 /// Undercut names the place, the radius and the base radius that cures it: a flat face needs r_b > −min(s + s″).
 #[test]

@@ -1,12 +1,10 @@
 //! The duty meter: against closed forms, against double precision, against bad readings.
 
-mod support;
-
+use crate::support::budget;
 use jred::Real;
 use jred::duty::{
     Curve, Figures, LimitError as Error, Limits, MOST_TORQUE, Meter, Verdict, Window,
 };
-use support::budget;
 
 const STEP: f64 = 1e-3;
 

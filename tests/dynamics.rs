@@ -1,16 +1,14 @@
 //! The equation of motion: both ways, its energy, its power, and a sliding drive link.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::machines::{Spec, spec};
+use crate::support::rows::Rows;
+use crate::support::{assert_near, budget, config, derivative, largest, rk4};
 use jred::mechanism::{Mesh, SliderCrank, Stage, Train};
 use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
 use jred::{Domain, Error, Machine, Mechanism, Phase, Reducible, Reduction, Scale, Table};
 use proptest::prelude::*;
-use support::machines::{Spec, spec};
-use support::rows::Rows;
-use support::{assert_near, budget, config, derivative, largest, rk4};
 
 proptest! {
     #![proptest_config(config(64, 0x0003))]

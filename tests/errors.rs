@@ -1,9 +1,10 @@
 //! Every error of the core: some input produces it, and its text names quantity, value and cure.
 
-mod support;
-
 use std::f64::consts::PI;
 
+use crate::support::machines::Wave;
+use crate::support::rows::Rows;
+use crate::support::{assert_near, budget};
 use jred::mechanism::{Branch, Geneva, Mesh, RackAndPinion, SliderCrank, Stage, Train};
 use jred::motion::{Law, Move};
 use jred::table::{CubicSpline, MAX_CELLS, Spline, curves, fit_bounded, fit_periodic};
@@ -12,9 +13,6 @@ use jred::{
     Action, Domain, Element, Error, Link, Load, Machine, Marker, Mechanism, Q31, Reducible, Scalar,
     Scale, Window,
 };
-use support::machines::Wave;
-use support::rows::Rows;
-use support::{assert_near, budget};
 
 /// The error, after checking that its text holds every part.
 #[track_caller]
@@ -413,7 +411,7 @@ fn loads_are_judged_where_they_do_not_act() {
         &["not the same a turn of the drive link later"],
     );
 
-    let press = support::samples(1, 3, &support::machines::spec())
+    let press = crate::support::samples(1, 3, &crate::support::machines::spec())
         .remove(0)
         .machine();
     let slider = press.mechanism().frames(0.3).unwrap()[2];

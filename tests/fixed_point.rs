@@ -1,15 +1,13 @@
 //! Fixed point against exact numbers: every rounding of a tick, and where an acceleration saturates.
 
-mod support;
-
+use crate::support::budget::Q31_UNIT;
+use crate::support::exact::place_bits;
+use crate::support::machines::Wave;
+use crate::support::rows::Rows;
+use crate::support::{assert_near, budget, config, number, samples};
 use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
 use jred::{Domain, Model, Outcome, Phase, Q31, Scale};
 use proptest::prelude::*;
-use support::budget::Q31_UNIT;
-use support::exact::place_bits;
-use support::machines::Wave;
-use support::rows::Rows;
-use support::{assert_near, budget, config, number, samples};
 
 const ALL: u8 = curves::ALL;
 

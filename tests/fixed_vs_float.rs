@@ -1,15 +1,13 @@
 //! Tabulation: the smallest table, as exact as it says, in every number type and layout.
 
-mod support;
-
+use crate::support::budget::Q31_UNIT;
+use crate::support::machines::{Wave, spec};
+use crate::support::rows::{Rows, zero};
+use crate::support::{assert_near, budget, largest, samples};
 use jred::table::{Cubic, Layout, MIN_CELLS, Quadratic, Spline, Table, curves};
 use jred::tabulate::{Request, Tabulated, measure, scratch_len, tabulate, words_len};
 use jred::{Phase, Q31, Reducible, Scalar, Scale};
 use proptest::prelude::any;
-use support::budget::Q31_UNIT;
-use support::machines::{Wave, spec};
-use support::rows::{Rows, zero};
-use support::{assert_near, budget, largest, samples};
 
 const ALL: u8 = curves::ALL;
 

@@ -1,13 +1,11 @@
 //! The four-bar linkage: geometry, forces, and what it refuses.
 
-mod support;
-
 use std::f64::consts::{PI, TAU};
 
+use crate::support::{assert_near, budget, config, derivative, jointed, largest};
 use jred::mechanism::{FourBar, Grashof, Side};
 use jred::{Action, Domain, Error, Jointed, Link, Load, Machine, Mechanism, Reducible};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, derivative, jointed, largest};
 
 /// A random four-bar with a crank that turns.
 #[derive(Clone, Debug)]

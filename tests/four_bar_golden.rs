@@ -1,11 +1,9 @@
 //! The four-bar linkage against golden data: positions, reduction, motion, and the forces in its joints.
 
-mod support;
-
+use crate::support::golden::Case;
+use crate::support::{budget, jointed};
 use jred::mechanism::{FourBar, Side};
 use jred::{Action, Link, Load, Machine, Mechanism, Reducible};
-use support::golden::Case;
-use support::{budget, jointed};
 
 fn golden() -> (Case, Machine<FourBar>) {
     let case = Case::new(include_str!("data/02_four_bar_A.json"));

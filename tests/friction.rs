@@ -1,22 +1,12 @@
 //! Friction drives: their equation of motion, slip, and what a time-varying ratio does.
 
-mod support;
-
-#[path = "friction/bad_input.rs"]
 mod bad_input;
-#[path = "friction/constant.rs"]
 mod constant;
-#[path = "friction/courses.rs"]
 mod courses;
-#[path = "friction/creep.rs"]
 mod creep;
-#[path = "friction/integrability.rs"]
 mod integrability;
-#[path = "friction/motion.rs"]
 mod motion;
-#[path = "friction/newton.rs"]
 mod newton;
-#[path = "friction/rheonomic.rs"]
 mod rheonomic;
 
 /// One step of the classical Runge-Kutta method for several states.

@@ -1,13 +1,11 @@
 //! The Geneva drive: the sourcebook's formulas and figures, dwell and engagement, joints and forces.
 
-mod support;
-
 use std::f64::consts::{PI, TAU};
 
+use crate::support::{assert_near, budget, config, derivative, jointed, largest};
 use jred::mechanism::{Geneva, Misfit};
 use jred::{Action, Error, Joint, Jointed, Link, Load, Machine, Mechanism, Reducible};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, derivative, jointed, largest};
 
 const WHEEL: usize = Geneva::WHEEL;
 

@@ -1,12 +1,10 @@
 //! Golden data: 50-digit references and exact rationals, see `tests/data`.
 
-mod support;
-
+use crate::support::golden::Case;
+use crate::support::machines::golden_slider_crank;
+use crate::support::{assert_near, budget};
 use jred::mechanism::{Mesh, SliderCrank, Stage, Train};
 use jred::{Action, Load, Machine, Mechanism, Reducible};
-use support::golden::Case;
-use support::machines::golden_slider_crank;
-use support::{assert_near, budget};
 
 #[test]
 fn slider_crank_golden() {

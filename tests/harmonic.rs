@@ -1,15 +1,13 @@
 //! Harmonics: their evaluation, and the equation of motion with them.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::harmonics::{Waves, fitted, phases, press, request, series, waves, words_of};
+use crate::support::{assert_near, budget, config, largest};
 use jred::harmonic::{Circular, HarmonicModel, terms};
 use jred::table::curves;
 use jred::{Phase, Reducible};
 use proptest::prelude::*;
-use support::harmonics::{Waves, fitted, phases, press, request, series, waves, words_of};
-use support::{assert_near, budget, config, largest};
 
 #[test]
 fn sine_and_cosine_keep_their_bounds() {
@@ -84,7 +82,7 @@ fn rounding<T: Circular>(waves: &Waves) -> f64 {
 
 #[test]
 fn evaluation_rounds_as_stated() {
-    let cases = support::samples(60, 0x4a01, &waves());
+    let cases = crate::support::samples(60, 0x4a01, &waves());
     let single = largest(cases.iter().map(rounding::<f32>));
     let double = largest(cases.iter().map(rounding::<f64>));
     println!("evaluation: f32 {single:e}, f64 {double:e}");
@@ -163,7 +161,7 @@ fn free_machine_keeps_its_energy() {
     // dω/dφ = α/ω
     let slope = |phi: f64, w: f64| model.acceleration(Phase::from_radians(phi), w, 0.0).value / w;
     for k in 0..2 * 4096 {
-        omega = support::rk4(slope, f64::from(k) * step, omega, step);
+        omega = crate::support::rk4(slope, f64::from(k) * step, omega, step);
         let phi = f64::from(k + 1) * step;
         assert_near(
             "energy",

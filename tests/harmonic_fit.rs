@@ -1,19 +1,17 @@
 //! From a machine to its harmonics.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::harmonics::{
+    ALPHA, OMEGA, Waves, fitted, peak, phases, press, request, rubbing, terms_of, waves, words_of,
+};
+use crate::support::machines::{Wave, spec};
+use crate::support::{assert_near, budget, config};
 use jred::harmonic::{HarmonicError, HarmonicModel, Request, measure, terms};
 use jred::mechanism::SliderCrank;
 use jred::table::curves;
 use jred::{Action, Domain, Error, Load, Phase, Reducible, Reduction};
 use proptest::prelude::*;
-use support::harmonics::{
-    ALPHA, OMEGA, Waves, fitted, peak, phases, press, request, rubbing, terms_of, waves, words_of,
-};
-use support::machines::{Wave, spec};
-use support::{assert_near, budget, config};
 
 proptest! {
     #![proptest_config(config(48, 0x4a02))]

@@ -1,9 +1,8 @@
 //! Harmonics from measurements.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::{assert_near, budget, config, largest};
 use jred::harmonic::{
     Coefficient, CoefficientError, Curve, HarmonicError, HarmonicModel, Identification, Identified,
     Kind, Request, Sample, fit, identify, scratch_len, terms,
@@ -12,7 +11,6 @@ use jred::mechanism::{Branch, SliderCrank};
 use jred::table::curves;
 use jred::{Error, Link, Machine, Phase, Reducible};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, largest};
 
 const SET: u8 = curves::ALL;
 /// Ten harmonics of J and load, a viscous and a Coulomb constant.
@@ -153,7 +151,7 @@ fn with_noise_it_is_within_its_standard_error() {
     let clean = from_truth(1000);
     // Irwin-Hall: the sum of twelve uniform numbers has variance one.
     let uniform = prop::array::uniform12(-0.5f64..0.5);
-    let noise = support::samples(40 * 1000, 0x4b01, &uniform);
+    let noise = crate::support::samples(40 * 1000, 0x4b01, &uniform);
     let sigma = 0.5;
     let mut ratios = Vec::new();
     for noise in noise.chunks(1000) {

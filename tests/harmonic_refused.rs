@@ -1,18 +1,16 @@
 //! Harmonics that are refused, and why.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::assert_near;
+use crate::support::harmonics::{Waves, fitted, press, request, rubbing, terms_of};
+use crate::support::machines::Wave;
 use jred::harmonic::{
     CoefficientError, HarmonicError, HarmonicModel, Request, fit, scratch_len, terms,
 };
 use jred::mechanism::SliderCrank;
 use jred::table::curves;
 use jred::{Action, Domain, Error, Load, Phase, Window};
-use support::assert_near;
-use support::harmonics::{Waves, fitted, press, request, rubbing, terms_of};
-use support::machines::Wave;
 
 #[test]
 fn kinks_and_hidden_harmonics_are_refused() {

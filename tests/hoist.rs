@@ -1,13 +1,11 @@
 //! The hoist: drum, load on falls, counterweight.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::{assert_near, budget, config, jointed};
 use jred::mechanism::{Hoist, Rope};
 use jred::{Action, Error, Link, Load, Machine, Mechanism, Reducible};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, jointed};
 
 const G: f64 = 9.81;
 

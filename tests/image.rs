@@ -1,7 +1,9 @@
 //! The table image: its words, bit-exact round trips, and what cannot be written.
 
-mod support;
-
+use crate::support::images::{VALIDITY, crc32, small, stroke, stroke_in};
+use crate::support::machines::{Spec, Wave, spec};
+use crate::support::rows::Rows;
+use crate::support::{config, number, samples};
 use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
 use jred::tabulate::{Request, Tabulated};
 use jred::{
@@ -9,10 +11,6 @@ use jred::{
     image_words,
 };
 use proptest::prelude::*;
-use support::images::{VALIDITY, crc32, small, stroke, stroke_in};
-use support::machines::{Spec, Wave, spec};
-use support::rows::Rows;
-use support::{config, number, samples};
 
 /// Words of the smallest image: header, seven points, CRC.
 const SMALL: u32 = 24 + 7 + 1;

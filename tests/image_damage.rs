@@ -1,12 +1,10 @@
 //! Damaged images and garbage: every flipped bit refused, nothing panics.
 
-mod support;
-
+use crate::support::images::{refused, sealed, small, stroke, stroke_in};
+use crate::support::{config, samples};
 use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
 use jred::{HEADER_WORDS, Image, ImageError, Phase, Q31, Scalar, VERSION};
 use proptest::prelude::*;
-use support::images::{refused, sealed, small, stroke, stroke_in};
-use support::{config, samples};
 
 #[test]
 fn every_flipped_bit_is_refused() {

@@ -1,10 +1,8 @@
 //! Table images that are whole, but of another kind, without meaning or without a sound table.
 
-mod support;
-
+use crate::support::images::{refused, sealed, small, stroke, stroke_in};
 use jred::table::{Cubic, Layout, Quadratic, Spline, TableError, curves};
 use jred::{HEADER_WORDS, Image, ImageError, Q31, Scalar, VERSION};
-use support::images::{refused, sealed, small, stroke, stroke_in};
 
 /// Words of the smallest image: header, seven points, CRC.
 const SMALL: u32 = HEADER_WORDS as u32 + 7 + 1;

@@ -1,13 +1,11 @@
 //! The inverted slider-crank: textbook formulas of both motions, joints, forces, time ratio.
 
-mod support;
-
 use std::f64::consts::{PI, TAU};
 
+use crate::support::{assert_near, budget, config, jointed};
 use jred::mechanism::{InvertedSliderCrank, LeverMotion, Misfit};
 use jred::{Action, Error, Link, Load, Machine, Mechanism};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, jointed};
 
 const LEVER: usize = InvertedSliderCrank::LEVER;
 

@@ -1,15 +1,13 @@
 //! The three layouts against the exact machine, against each other, at knots, at the turn and at the ends of a stroke.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::machines::spec;
+use crate::support::rows::Rows;
+use crate::support::{assert_near, budget, config, largest};
 use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
 use jred::{Domain, Error, Phase, Q31, Reducible, Reduction, Scalar, Scale};
 use proptest::prelude::*;
-use support::machines::spec;
-use support::rows::Rows;
-use support::{assert_near, budget, config, largest};
 
 const ALL: u8 = curves::ALL;
 

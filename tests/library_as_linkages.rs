@@ -1,8 +1,7 @@
 //! Library mechanisms against the general linkage: the closed form, and the joints alone solved by continuation, are the
 //! same motion.
 
-mod support;
-
+use crate::support::{assert_near, budget, config, jointed};
 use jred::mechanism::{
     Assembly, Branch, FourBar, Geneva, Hoist, InvertedSliderCrank, Linkage, Member, Pair,
     ParallelShafts, Planetary, PlanetaryGears, Pose, RackAndPinion, Rope, ScotchYoke, Side,
@@ -10,7 +9,6 @@ use jred::mechanism::{
 };
 use jred::{Body, Domain, Frame, Joint, Jointed, Link, Machine, Marker, Mechanism, Reducible};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, jointed};
 
 const O: [f64; 2] = [0.0, 0.0];
 

@@ -1,15 +1,13 @@
 //! The contact force of a cam, and the speed at which it vanishes.
 
-mod support;
-
 use std::f64::consts::{PI, TAU};
 
+use crate::support::cams::{cam, eccentric};
+use crate::support::{assert_near, budget, config};
 use jred::cam::{LiftOff, Piece, contact_force, lift_off};
 use jred::mechanism::{DiscCam, Follower};
 use jred::{Action, Element, Error, Link, Load, Machine, Marker, Window};
 use proptest::prelude::*;
-use support::cams::{cam, eccentric};
-use support::{assert_near, budget, config};
 
 const MASS: f64 = 0.8;
 const E: f64 = 0.01;

@@ -1,13 +1,11 @@
 //! The general linkage: golden data, library mechanisms by their joints alone, and what it refuses.
 
-mod support;
-
+use crate::support::golden::Case;
+use crate::support::machines::spec;
+use crate::support::{budget, config, jointed};
 use jred::mechanism::{Assembly, Linkage, Pair, Pose};
 use jred::{Action, Body, Domain, Error, Joint, Link, Load, Machine, Marker, Mechanism, Reducible};
 use proptest::prelude::*;
-use support::golden::Case;
-use support::machines::spec;
-use support::{budget, config, jointed};
 
 const O: [f64; 2] = [0.0, 0.0];
 
@@ -168,7 +166,7 @@ fn gears_a_rack_and_a_belt_roll_without_slip() {
     for phi in [-1.0, 0.4, 2.0] {
         let frames = assembly.frames(phi).unwrap();
         let close = |what: &str, found: f64, expected: f64| {
-            support::assert_near(what, found, expected, budget::JOINT_CLOSURE);
+            crate::support::assert_near(what, found, expected, budget::JOINT_CLOSURE);
         };
         close("gear", frames[1].psi.value, i * phi);
         // The pinion turns clockwise, its lowest point moves to the left: the rack goes along.
@@ -186,7 +184,7 @@ fn gears_a_rack_and_a_belt_roll_without_slip() {
         let forces = machine.forces(phi, 0.0, 100.0).unwrap();
         let tooth = forces.reactions[4].force;
         let size = (tooth[0].powi(2) + tooth[1].powi(2)).sqrt();
-        support::assert_near("tooth force", size, (expected - 0.01) * 100.0 / r0, 1e-9);
+        crate::support::assert_near("tooth force", size, (expected - 0.01) * 100.0 / r0, 1e-9);
         close(
             "along the tangent",
             tooth[0] * centre[0] + tooth[1] * centre[1],
@@ -237,13 +235,13 @@ fn a_planetary_gear_obeys_willis() {
     let spin = -speed * (ring - planet) / planet;
     for phi in [0.0, 1.3, 3.0] {
         let frames = assembly.frames(phi).unwrap();
-        support::assert_near(
+        crate::support::assert_near(
             "carrier",
             frames[1].psi.value,
             speed * phi,
             budget::JOINT_CLOSURE,
         );
-        support::assert_near(
+        crate::support::assert_near(
             "planet",
             frames[2].psi.value,
             spin * phi,
@@ -257,7 +255,7 @@ fn a_planetary_gear_obeys_willis() {
 /// A linkage driven at its guide: a slider-crank pushed at the slider, away from its dead centres.
 #[test]
 fn a_guide_can_be_driven() {
-    let spec = support::samples(1, 5, &spec()).remove(0);
+    let spec = crate::support::samples(1, 5, &spec()).remove(0);
     let machine = spec.machine();
     let crank_driven = machine.mechanism();
     let frames = crank_driven.frames(1.0).unwrap();
@@ -279,12 +277,12 @@ fn a_guide_can_be_driven() {
     for phi in [0.95, 1.4, 2.1] {
         let forward = crank_driven.frames(phi).unwrap();
         let back = pushed.frames(at(phi)).unwrap();
-        support::assert_near("crank angle", back[0].psi.value, phi, budget::LINKAGE);
+        crate::support::assert_near("crank angle", back[0].psi.value, phi, budget::LINKAGE);
         // dφ/dx = 1/x′, d²φ/dx² = −x″/x′³.
         let x = forward[2].x;
-        support::assert_near("dφ/dx", back[0].psi.d1 * x.d1, 1.0, budget::LINKAGE);
+        crate::support::assert_near("dφ/dx", back[0].psi.d1 * x.d1, 1.0, budget::LINKAGE);
         let second = -x.d2 / x.d1.powi(3);
-        support::assert_near(
+        crate::support::assert_near(
             "d²φ/dx²",
             back[0].psi.d2,
             second,
@@ -298,7 +296,7 @@ fn a_guide_can_be_driven() {
             .reduction(phi)
             .unwrap()
             .inertia[0];
-        support::assert_near(
+        crate::support::assert_near(
             "m_red = J/x′²",
             reduced * x.d1 * x.d1,
             heavy,
@@ -314,6 +312,6 @@ fn a_guide_can_be_driven() {
     let (Error::DeadPoint { phi, .. } | Error::BranchChange { phi, .. }) = refused else {
         panic!("{refused}")
     };
-    let end = support::largest((0..2000).map(|k| at(f64::from(k) * 1e-3 - 1.0)));
-    support::assert_near("dead centre", phi, end, 1e-6);
+    let end = crate::support::largest((0..2000).map(|k| at(f64::from(k) * 1e-3 - 1.0)));
+    crate::support::assert_near("dead centre", phi, end, 1e-6);
 }

@@ -1,9 +1,8 @@
 //! A cam as a pair of a linkage: against the disc cam in closed form, and as the first of a chain of links.
 
-mod support;
-
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use crate::support::{assert_near, budget, cams, config, jointed};
 use jred::cam::contact_force;
 use jred::mechanism::{
     Assembly, CamProfile, DiscCam, Follower, Frames, Linkage, Pair, PlacedCam, Pose, Roller, Swing,
@@ -12,7 +11,6 @@ use jred::{
     Body, Domain, Error, Frame, Joint, Link, Machine, Marker, Mechanism, Reducible, Transfer,
 };
 use proptest::prelude::*;
-use support::{assert_near, budget, cams, config, jointed};
 
 const O: [f64; 2] = [0.0, 0.0];
 

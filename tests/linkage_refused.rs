@@ -1,10 +1,8 @@
 //! What is not a linkage: refused with its place, and never taken for one that closes.
 
-mod support;
-
+use crate::support::budget;
 use jred::mechanism::{Assembly, Linkage, Pair, Pose};
 use jred::{Body, Domain, Error, Joint, Link, Marker, Mechanism};
-use support::budget;
 
 const O: [f64; 2] = [0.0, 0.0];
 
@@ -45,7 +43,7 @@ fn what_cannot_be_a_mechanism_is_refused_with_its_place() {
     let Error::CannotAssemble { phi, gap, .. } = refused else {
         panic!("{refused}")
     };
-    support::assert_near("φ", phi, 1.5, 0.0);
+    crate::support::assert_near("φ", phi, 1.5, 0.0);
     assert!(gap > 0.1 && gap < 0.3, "{gap}");
     let text = refused.to_string();
     assert!(text.contains("cannot be assembled at φ = 85.94°"), "{text}");
@@ -162,6 +160,6 @@ fn what_repeats_after_two_turns_does_not_close_after_one() {
         let two = Domain::stroke(0.0, 4.0 * std::f64::consts::PI).unwrap();
         let whole: Assembly<3, 5, 256> = linkage.assemble(two, 0.0, &drawing).unwrap();
         let [a, b] = [0.0, 4.0 * std::f64::consts::PI].map(|phi| whole.frames(phi).unwrap()[2].psi);
-        support::assert_near("after two turns", b.value, a.value, budget::LINKAGE);
+        crate::support::assert_near("after two turns", b.value, a.value, budget::LINKAGE);
     }
 }

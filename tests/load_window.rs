@@ -1,11 +1,9 @@
 //! Where a load acts: the part of a turn comes again with every turn, the part of a stroke does not.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::budget;
 use jred::Window;
-use support::budget;
 
 #[track_caller]
 fn near(found: f64, expected: f64) {

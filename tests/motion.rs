@@ -1,10 +1,8 @@
 //! Motion laws and moves: ends, continuity, derivatives, and the coefficients of VDI 2143.
 
-mod support;
-
+use crate::support::{assert_near, budget, config, derivative, largest};
 use jred::motion::{Law, Move};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, derivative, largest};
 
 const TRAPEZOID: Law = Law::Trapezoid {
     accelerate: 0.25,

@@ -1,13 +1,11 @@
 //! Nothing that is not a finite number gets into the core.
 
-mod support;
-
+use crate::support::machines::Wave;
 use jred::mechanism::{Branch, Mesh, SliderCrank, Stage, Train};
 use jred::motion::{Law, Move};
 use jred::table::{CubicSpline, Spline, curves};
 use jred::tabulate::{Request, tabulate};
 use jred::{Action, Domain, Error, Link, Load, Machine, Mechanism, Reducible, Scale, Window};
-use support::machines::Wave;
 
 fn slider_crank(r: f64, l: f64, e: f64) -> Result<SliderCrank, Error> {
     let link = Link::new(0.1, 0.001, [0.0, 0.0])?;

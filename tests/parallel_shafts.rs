@@ -1,11 +1,9 @@
 //! Several driven shafts on one drive shaft.
 
-mod support;
-
+use crate::support::{assert_near, budget, config, jointed};
 use jred::mechanism::{Misfit, ParallelShafts, Stage, Train};
 use jred::{Action, Error, Link, Load, Machine, Mechanism, Reducible};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, jointed};
 
 fn rotor(inertia: f64) -> Link {
     Link::rotor(inertia).unwrap()

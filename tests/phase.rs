@@ -1,13 +1,11 @@
 //! Phases and ranges: exact from counts, within half a unit from radians, wrapped or clamped.
 
-mod support;
-
 use std::f64::consts::TAU;
 use std::num::NonZeroU32;
 
+use crate::support::{assert_near, budget, config, largest};
 use jred::{Domain, Phase};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, largest};
 
 const TURN: f64 = 4_294_967_296.0;
 

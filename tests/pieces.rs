@@ -1,9 +1,9 @@
 //! A turn in pieces: curves with jumps.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::rows::{Rows, zero};
+use crate::support::{assert_near, budget, largest, number};
 use jred::cam::{Program, Segment};
 use jred::mechanism::{Branch, DiscCam, Follower, Roller, SliderCrank};
 use jred::motion::Law;
@@ -13,8 +13,6 @@ use jred::{
     Domain, Error, Link, Machine, Number, Part, Phase, Pieces, Q31, Reducible, Reduction, Scalar,
     Scale,
 };
-use support::rows::{Rows, zero};
-use support::{assert_near, budget, largest, number};
 
 const SET: u8 = curves::LOAD;
 /// Speed and acceleration at which tables are compared.
@@ -74,7 +72,7 @@ fn cam() -> (Machine<DiscCam>, Vec<f64>) {
         offset: 0.0,
         roller,
     };
-    let cam = DiscCam::new(program, 0.06, follower, support::cams::links()).unwrap();
+    let cam = DiscCam::new(program, 0.06, follower, crate::support::cams::links()).unwrap();
     (
         Machine::new(cam).with_gravity([0.0, -9.81]).unwrap(),
         breaks,

@@ -1,15 +1,13 @@
 //! Pieces of a turn: how phases are mapped into them, and what is refused.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::machines::Wave;
+use crate::support::rows::Rows;
+use crate::support::{budget, config};
 use jred::table::curves;
 use jred::{Domain, Error, Part, Phase, Pieces, Reducible, Reduction, Scale, TableError};
 use proptest::prelude::*;
-use support::machines::Wave;
-use support::rows::Rows;
-use support::{budget, config};
 
 const SET: u8 = curves::LOAD;
 

@@ -1,13 +1,11 @@
 //! The planetary gear: Willis' equation by another route, energy planet by planet, forces.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::{assert_near, budget, config, jointed};
 use jred::mechanism::{Member, Misfit, Planetary, PlanetaryGears};
 use jred::{Action, Error, Link, Load, Machine, Mechanism, Reducible};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, jointed};
 
 const MEMBERS: [Member; 3] = [Member::Sun, Member::Carrier, Member::Ring];
 
@@ -47,7 +45,7 @@ fn speeds_by_the_tabular_method() {
         for (input, fixed) in uses() {
             let gear = Planetary::new(gears, input, fixed, rotors([0.0; 4])).unwrap();
             let expected = tabular(teeth.map(f64::from), input, fixed);
-            let size = budget::CLOSED_FORM * support::largest(expected);
+            let size = budget::CLOSED_FORM * crate::support::largest(expected);
             for (found, expected) in gear.speeds().into_iter().zip(expected) {
                 assert_near("speed", found, expected, size);
             }

@@ -1,13 +1,11 @@
 //! Rack and pinion: formula, joints, forces.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::{assert_near, budget, config, jointed};
 use jred::mechanism::RackAndPinion;
 use jred::{Action, Error, Link, Load, Machine, Mechanism, Reducible};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, jointed};
 
 const RACK: usize = RackAndPinion::RACK;
 

@@ -1,17 +1,15 @@
 //! What is proven when a fixed-point model is built: terms that fit, and then no state that wraps.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::budget::{self, Q31_UNIT};
+use crate::support::config;
+use crate::support::exact::place_bits;
+use crate::support::machines::Wave;
+use crate::support::rows::Rows;
 use jred::table::{Cubic, Layout, Quadratic, Spline, TableError, curves};
 use jred::{Domain, Phase, Q31, Scalar, Scale};
 use proptest::prelude::*;
-use support::budget::{self, Q31_UNIT};
-use support::config;
-use support::exact::place_bits;
-use support::machines::Wave;
-use support::rows::Rows;
 
 const ALL: u8 = curves::ALL;
 const CONSTANT: u8 = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
@@ -306,6 +304,6 @@ fn a_model_may_use_the_range_up_to_its_end() {
     for (end, expected) in [(Q31::MAX, 0.999_98), (Q31::MIN, -0.999_98)] {
         let found = f64::from(model.torque(Phase::default(), end, end).to_bits()) * Q31_UNIT;
         let units = budget::Q31_TICK_UNITS + budget::Q31_POINTS_UNITS;
-        support::assert_near("T", found, expected, units * Q31_UNIT);
+        crate::support::assert_near("T", found, expected, units * Q31_UNIT);
     }
 }

@@ -1,16 +1,14 @@
 //! Forward dynamics without a division: the curve of 1/J, what is left of its error, and where it is refused.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::budget::{self, Q31_UNIT};
+use crate::support::machines::{Spec, Wave, spec};
+use crate::support::rows::Rows;
+use crate::support::{assert_near, config, largest, rk4};
 use jred::table::{Cubic, Layout, Quadratic, Role, Spline, TableError, curves};
 use jred::{Model, Phase, Q31, Scalar, Scale};
 use proptest::prelude::*;
-use support::budget::{self, Q31_UNIT};
-use support::machines::{Spec, Wave, spec};
-use support::rows::Rows;
-use support::{assert_near, config, largest, rk4};
 
 const SET: u8 = curves::ALL | curves::RECIPROCAL;
 
@@ -46,7 +44,7 @@ fn there_and_back<L: Layout>(
     let back = model.acceleration(phase, omega, torque);
     assert!(!back.saturated, "{back:?}");
     let unit = unit(&rows);
-    let read = rows.exact(phase, support::exact::place_bits::<L>());
+    let read = rows.exact(phase, crate::support::exact::place_bits::<L>());
     let relative = 1.0 - read.inertia * read.reciprocal / unit;
     let left = if L::NAME == "quadratic" {
         relative
@@ -210,7 +208,7 @@ fn energy_drift<const S: u8, L: Layout>(spec: &Spec) -> f64 {
     let exact = |x: f64| rows.exact(phase(x), !0);
     let width = TAU / f64::from(STEPS);
     let slope = |x: f64, w: f64| {
-        let omega = support::number::<Q31>(w / speed);
+        let omega = crate::support::number::<Q31>(w / speed);
         let found = model.acceleration(phase(x), omega, Q31::default());
         assert!(!found.saturated);
         of(found.value) * torque / inertia / w * width

@@ -1,15 +1,13 @@
 //! Per-unit scales: what they cover, and whole velocity factors.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::machines::{Wave, spec};
+use crate::support::rows::Rows;
+use crate::support::{assert_near, budget, config, largest};
 use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
 use jred::{Outcome, Phase, Q31, Reducible, Scale};
 use proptest::prelude::*;
-use support::machines::{Wave, spec};
-use support::rows::Rows;
-use support::{assert_near, budget, config, largest};
 
 const ALL: u8 = curves::ALL;
 

@@ -1,13 +1,11 @@
 //! The Scotch yoke: its formula, its joints, its forces.
 
-mod support;
-
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use crate::support::{assert_near, budget, config, jointed};
 use jred::mechanism::ScotchYoke;
 use jred::{Action, Error, Link, Load, Machine, Mechanism, Reducible};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, jointed};
 
 fn massless() -> [Link; 2] {
     [0.0, 0.0].map(|inertia| Link::rotor(inertia).unwrap())

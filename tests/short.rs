@@ -1,20 +1,11 @@
 //! Tables and ticks in 16 bits.
 
-mod support;
-
-#[path = "short/curves.rs"]
 mod curves;
-#[path = "short/image.rs"]
 mod image;
-#[path = "short/integer.rs"]
 mod integer;
-#[path = "short/number.rs"]
 mod number;
-#[path = "short/press.rs"]
 mod press;
-#[path = "short/refused.rs"]
 mod refused;
-#[path = "short/tick.rs"]
 mod tick;
 
 use jred::short::{Constants, Model, Table, fill, scratch_len, words_len};

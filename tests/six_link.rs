@@ -1,13 +1,11 @@
 //! The six-link quick-return mechanism: the printed equations, geometry, forces, and what it refuses.
 
-mod support;
-
 use std::f64::consts::{PI, TAU};
 
+use crate::support::{assert_near, budget, config, derivative, jointed, largest};
 use jred::mechanism::{Branch, SixLink};
 use jred::{Action, Jointed, Link, Load, Machine, Mechanism, Reducible, Transfer};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, derivative, jointed, largest};
 
 /// A random six-link mechanism.
 #[derive(Clone, Debug)]

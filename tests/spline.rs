@@ -1,12 +1,10 @@
 //! The cubic spline: exact at knots, closed or with not-a-knot ends, of the stated order.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::{assert_near, budget, config, largest};
 use jred::table::{CubicSpline, control_points, fit_bounded, fit_periodic};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, largest};
 
 fn periodic(samples: &[f64]) -> CubicSpline<Vec<f64>> {
     let mut control = vec![0.0; control_points(samples.len())];

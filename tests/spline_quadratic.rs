@@ -1,13 +1,11 @@
 //! The quadratic spline: through its samples, smooth at the knots, closed, of the stated order.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::{assert_near, budget, config, largest};
 use jred::Error;
 use jred::table::{control_points, fit_quadratic_bounded, fit_quadratic_periodic};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, largest};
 
 /// Control points h₀, h₁, h₂ (in halves) of every cell.
 struct Quadratic(Vec<f64>);

@@ -1,12 +1,10 @@
 //! Gear ratio synthesis: the optimum against textbook conditions, its derivatives, a grid, and the train of (6.9).
 
-mod support;
-
+use crate::support::{assert_near, budget, config, derivative, largest};
 use jred::Error;
 use jred::mechanism::{Stage, Train};
 use jred::synthesis::{Driven, OpenStage, RatioSplit};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, derivative, largest};
 
 const WIDE: [f64; 2] = [0.01, 1e4];
 

@@ -1,9 +1,10 @@
 //! Tables: read as what was put in, and refused when they are not sound.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::machines::{Wave, spec};
+use crate::support::rows::{Rows, zero};
+use crate::support::{assert_near, budget, config, largest};
 use jred::table::{
     Constants, Cubic, CubicSpline, Layout, MAX_CELLS, MIN_CELLS, Quadratic, Role, Spline,
     control_points, curves, fit_periodic,
@@ -11,9 +12,6 @@ use jred::table::{
 use jred::tabulate::words_len;
 use jred::{Domain, Phase, Q31, Reducible, Reduction, Scalar, Scale, Table, TableError};
 use proptest::prelude::*;
-use support::machines::{Wave, spec};
-use support::rows::{Rows, zero};
-use support::{assert_near, budget, config, largest};
 
 fn a_constant_stays_constant<L: Layout>(value: f64, cells: u32) {
     let machine = Wave::bare(value, 0.0);

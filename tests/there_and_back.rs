@@ -1,16 +1,14 @@
 //! Inverse and forward dynamics of one table are inverse to each other: every number type, every layout, with and without
 //! division.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::machines::{Spec, spec};
+use crate::support::rows::Rows;
+use crate::support::{assert_near, budget, config};
 use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
 use jred::{Phase, Q31, Scalar, Scale};
 use proptest::prelude::*;
-use support::machines::{Spec, spec};
-use support::rows::Rows;
-use support::{assert_near, budget, config};
 
 const ALL: u8 = curves::ALL;
 const CELLS: u32 = 64;

@@ -1,13 +1,11 @@
 //! The toggle press: geometry against four-bar and slider-crank, dead centres, forces, and what it refuses.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::{assert_near, budget, config, derivative, jointed};
 use jred::mechanism::{Blocked, Branch, Side, SliderCrank, Standstill, TogglePress};
 use jred::{Action, Error, Link, Load, Machine, Mechanism, Reducible};
 use proptest::prelude::*;
-use support::{assert_near, budget, config, derivative, jointed};
 
 /// A random press: its four-bar is a crank-rocker or a drag link, by Grashof's condition.
 #[derive(Clone, Debug)]

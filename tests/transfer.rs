@@ -1,12 +1,10 @@
 //! Identities of the arithmetic on transfer functions.
 
-mod support;
-
 use std::f64::consts::{PI, TAU};
 
+use crate::support::{assert_near, budget, config, largest};
 use jred::Transfer;
 use proptest::prelude::*;
-use support::{assert_near, budget, config, largest};
 
 fn parts(t: Transfer) -> [f64; 4] {
     [t.value, t.d1, t.d2, t.d3]

@@ -1,9 +1,9 @@
 //! Friction in tables: magnitudes with kinks become smooth curves with a sign, and constants are numbers, not curves.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::rows::Rows;
+use crate::support::{assert_near, budget, config, largest};
 use jred::mechanism::{Branch, SliderCrank};
 use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
 use jred::tabulate::curves_in_use;
@@ -11,8 +11,6 @@ use jred::{
     Action, Domain, Error, Link, Load, Machine, Phase, Q31, Reducible, Reduction, Scalar, Scale,
 };
 use proptest::prelude::*;
-use support::rows::Rows;
-use support::{assert_near, budget, config, largest};
 
 /// J = 1 and c = |v|, of any v.
 struct Friction<V> {
@@ -211,7 +209,7 @@ fn constants_are_curves<S: Scalar, L: Layout>(units: f64) {
         assert_near("b", b.viscous.to_f64(), a.viscous.to_f64(), units);
         assert_near("c", b.coulomb.to_f64(), a.coulomb.to_f64(), units);
         for omega in [-0.8, 0.0, 0.8] {
-            let [omega, alpha] = [omega, 0.1].map(support::number::<S>);
+            let [omega, alpha] = [omega, 0.1].map(crate::support::number::<S>);
             let [a, b] = [
                 model_a.torque(phase, omega, alpha),
                 model_b.torque(phase, omega, alpha),

@@ -2,29 +2,21 @@
 // Zeros and copied figures are exact.
 #![allow(clippy::float_cmp)]
 
-#[path = "bus/command.rs"]
 mod command;
-#[path = "bus/conflict.rs"]
 mod conflict;
-#[path = "bus/cures.rs"]
 mod cures;
-#[path = "bus/drive.rs"]
 mod drive;
-#[path = "bus/phases.rs"]
 mod phases;
-#[path = "bus/several.rs"]
 mod several;
-#[path = "bus/supply.rs"]
 mod supply;
-mod support;
 
+use crate::support::{budget, near, within};
 use jred_sizing::bus::Need;
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::store::{Bus, BusFigures};
 use jred_sizing::bus::supply::{BrakeResistor, BusData};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
-use support::{budget, near, within};
 
 const BUS: Bus = Bus {
     voltage: 560.0,

@@ -2,31 +2,21 @@
 // Copied figures, counts and zeros are exact.
 #![allow(clippy::float_cmp)]
 
-#[path = "catalogue/broken.rs"]
 mod broken;
-#[path = "catalogue/contradictions.rs"]
 mod contradictions;
-#[path = "catalogue/currency.rs"]
 mod currency;
-#[path = "catalogue/database.rs"]
 mod database;
-#[path = "catalogue/format.rs"]
 mod format;
-#[path = "catalogue/pairing.rs"]
 mod pairing;
-#[path = "catalogue/plausible.rs"]
 mod plausible;
-#[path = "catalogue/spreadsheet.rs"]
 mod spreadsheet;
-mod support;
-#[path = "catalogue/together.rs"]
 mod together;
 
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use crate::support::{Folder, Run, jred, press_file};
 use jred_sizing::catalogue::Catalogue;
-use support::{Folder, Run, jred, press_file};
 
 const RPM: f64 = std::f64::consts::PI / 30.0;
 

@@ -1,12 +1,10 @@
 //! `jred check`: freedoms, dead centres, distance from a dead point, and what a bad mechanism is told.
 
-mod support;
-
 use std::f64::consts::PI;
 use std::path::Path;
 
+use crate::support::{Folder, edited_press, jred, near, press_file, within};
 use serde_json::Value;
-use support::{Folder, edited_press, jred, near, press_file, within};
 
 fn check(file: &Path, code: i32) -> Value {
     jred([&"check", &file, &"--format", &"json"])

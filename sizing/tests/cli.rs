@@ -2,21 +2,16 @@
 // Copied figures, counts and zeros are exact.
 #![allow(clippy::float_cmp)]
 
-#[path = "cli/forms.rs"]
 mod forms;
-#[path = "cli/mistakes.rs"]
 mod mistakes;
-#[path = "cli/outputs.rs"]
 mod outputs;
-mod support;
-#[path = "cli/why.rs"]
 mod why;
 
 use std::io::Read as _;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use support::{Folder, Run, edited, edited_press, jred, press_file, press_text};
+use crate::support::{Folder, Run, edited, edited_press, jred, press_file, press_text};
 
 fn export(file: &Path, more: &[&str], out: &Path) -> Run {
     let mut arguments: Vec<&str> = vec!["export", file.to_str().unwrap()];

@@ -1,19 +1,15 @@
 //! A cycle prepared once against plain loops over its samples: every figure, for random cycles, drives and envelopes.
 
-#[path = "cycle/catalogue.rs"]
 mod catalogue;
-#[path = "cycle/random.rs"]
-mod random;
-#[path = "cycle/screen.rs"]
+pub(crate) mod random;
 mod screen;
-mod support;
 
+use crate::support::{brute, budget};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::drive::Coefficients;
 use proptest::prelude::*;
 use proptest::test_runner::{RngAlgorithm, TestRng, TestRunner};
 use random::{coefficients, duty, envelope};
-use support::{brute, budget};
 
 /// A runner whose cases are the same on every run.
 fn runner(cases: u32) -> TestRunner {

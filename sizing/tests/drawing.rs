@@ -1,12 +1,10 @@
 //! Drawings and the page about a mechanism: sound SVG that shows what the mechanism does.
 
-mod support;
-
 use std::path::{Path, PathBuf};
 
+use crate::support::{Folder, edited_press, jred, near, press_file, within};
 use roxmltree::{Document, Node};
 use serde_json::Value;
-use support::{Folder, edited_press, jred, near, press_file, within};
 
 fn page(file: &Path, folder: &Folder) -> String {
     let report = folder.path("page.html");

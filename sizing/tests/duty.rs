@@ -2,15 +2,13 @@
 // Zeros and copied figures are exact.
 #![allow(clippy::float_cmp)]
 
-#[path = "duty/drives.rs"]
 mod drives;
-#[path = "duty/limits.rs"]
 mod limits;
-mod support;
 
 use std::fmt::Write as _;
 use std::path::Path;
 
+use crate::support::{Folder, budget, near, press_text, within};
 use jred::motion::Law;
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::cycle::Cycle;
@@ -18,7 +16,6 @@ use jred_sizing::duty::Duty;
 use jred_sizing::input;
 use jred_sizing::machine::MachineFile;
 use jred_sizing::motion::{Motion, Segment};
-use support::{Folder, budget, near, press_text, within};
 
 const RPM: f64 = std::f64::consts::PI / 30.0;
 

@@ -1,13 +1,11 @@
 //! The firmware's duty meter against the figures of sizing: the same machine, the same cycle, two ways of summing.
 
-mod support;
-
+use crate::support::{budget, press_file};
 use jred::Reducible as _;
 use jred::duty::{Curve, Figures, Limits, Meter, Verdict, Window};
 use jred_sizing::duty::{Duty, STEPS};
 use jred_sizing::input;
 use jred_sizing::machine::MachineFile;
-use support::{budget, press_file};
 
 /// Inertia of the rotor at the input (kg·m²).
 const ROTOR: f64 = 0.02;

@@ -3,24 +3,17 @@
 // What is given as such must come out as such, to the last digit.
 #![allow(clippy::float_cmp)]
 
-#[path = "support/budget.rs"]
-#[allow(dead_code)]
-mod budget;
-#[path = "envelope/circuit.rs"]
 mod circuit;
-#[path = "envelope/current.rs"]
 mod current;
-#[path = "envelope/golden.rs"]
 mod golden;
-#[path = "envelope/pieces.rs"]
 mod pieces;
-#[path = "envelope/sheet.rs"]
 mod sheet;
-#[path = "envelope/total.rs"]
 mod total;
 
 use jred_sizing::catalogue::{Amplifier, Motor, Winding};
 use jred_sizing::site::Site;
+
+use crate::support::budget;
 
 /// rad/s of a revolution per minute.
 const RPM: f64 = std::f64::consts::PI / 30.0;

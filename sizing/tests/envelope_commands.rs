@@ -1,11 +1,9 @@
 //! What users see of a motor's limits: linear motors on a machine that slides, and the voltage of the supply.
 
-mod support;
-
 use std::path::{Path, PathBuf};
 
+use crate::support::{Folder, budget, jred, near};
 use serde_json::Value;
-use support::{Folder, budget, jred, near};
 
 const LINEAR: &str = "\
 key,kind,maker,model,rated_force [N],rated_speed [m/s],standstill_force [N],peak_force [N],max_speed [m/s],moving_mass [kg],torque_constant [N/A],winding_resistance [Ohm],bus_voltage [V],figures_from,source
@@ -117,7 +115,7 @@ fn the_supply_of_the_machine_file_moves_the_limits() {
     let folder = Folder::new();
     let motors = folder.file("motors.csv", ROTARY);
     let limits = |supply: &str| {
-        let text = support::press_text() + supply;
+        let text = crate::support::press_text() + supply;
         let machine = folder.file("press.toml", text);
         let run = jred([
             &"size",

@@ -1,8 +1,6 @@
 //! What a drive's torque is made of, and what would have to change for it to hold.
 
-#[path = "explain/remedies.rs"]
 mod remedies;
-mod support;
 
 use std::path::Path;
 
@@ -13,7 +11,7 @@ use jred_sizing::explain::{Alteration, Altered, Breakdown, Cells, Share};
 use jred_sizing::input;
 use jred_sizing::machine::MachineFile;
 
-use support::{budget, edited, near, press_text, within};
+use crate::support::{budget, edited, near, press_text, within};
 
 fn parse(text: &str) -> MachineFile {
     input::parse("machine.toml", text, Path::new("")).unwrap()
@@ -87,7 +85,7 @@ fn the_cells_of_every_instant_add_up_to_the_motor_torque() {
                 .iter()
                 .map(|i| drive.motor_point(i).torque)
                 .collect();
-            let largest = support::largest(&torques);
+            let largest = crate::support::largest(&torques);
             let cells = Cells::new(&file, &duty, &drive).unwrap();
             for (k, torque) in torques.iter().enumerate() {
                 let sum = cells.cells.iter().map(|cell| cell.torque[k]);

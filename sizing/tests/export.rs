@@ -2,23 +2,16 @@
 // Copied figures, counts and zeros are exact.
 #![allow(clippy::float_cmp)]
 
-#[path = "export/bytes.rs"]
 mod bytes;
-#[path = "export/document.rs"]
 mod document;
-#[path = "export/forms.rs"]
 mod forms;
-#[path = "export/images.rs"]
 mod images;
-#[path = "export/reader.rs"]
 mod reader;
-#[path = "export/refusals.rs"]
 mod refusals;
-mod support;
 
 use std::path::{Path, PathBuf};
 
-use support::{Folder, Run, press_file};
+use crate::support::{Folder, Run, press_file};
 
 /// Every type with its layouts.
 const KINDS: [(&str, &str); 8] = [

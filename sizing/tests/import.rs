@@ -1,14 +1,8 @@
 //! Data of other programs: reduced curves, tables of loads, recorded motions.
 
-mod support;
-
-#[path = "import/curves.rs"]
 mod curves;
-#[path = "import/faults.rs"]
 mod faults;
-#[path = "import/load_table.rs"]
 mod load_table;
-#[path = "import/recordings.rs"]
 mod recordings;
 
 use jred_sizing::input;

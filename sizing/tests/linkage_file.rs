@@ -1,21 +1,12 @@
 //! Linkages, springs, dampers and bounded drives in machine files: what they say in SI units, against independent
 //! results, and what a user is told about a wrong one.
 
-mod support;
-
-#[path = "linkage_file/cams.rs"]
 mod cams;
-#[path = "linkage_file/elements.rs"]
 mod elements;
-#[path = "linkage_file/refusals.rs"]
 mod refusals;
-#[path = "linkage_file/strokes.rs"]
 mod strokes;
-#[path = "linkage_file/trains.rs"]
 mod trains;
-#[path = "linkage_file/values.rs"]
 mod values;
-#[path = "linkage_file/wheels.rs"]
 mod wheels;
 
 use std::path::Path;
@@ -121,7 +112,7 @@ fn refuses(text: &str, words: &[&str]) {
 /// Reads `base` with the first `from` replaced by `to`, and checks that the report contains every one of `words`.
 #[track_caller]
 fn refuses_edit(base: &str, from: &str, to: &str, words: &[&str]) {
-    refuses(&support::edited(base, from, to), words);
+    refuses(&crate::support::edited(base, from, to), words);
 }
 
 #[track_caller]

@@ -1,14 +1,9 @@
 //! Machine files: what they say in SI units, and what a user is told about a wrong one.
 
-#[path = "machine_file/documented.rs"]
 mod documented;
-#[path = "machine_file/files.rs"]
 mod files;
-#[path = "machine_file/profiles.rs"]
 mod profiles;
-#[path = "machine_file/refusals.rs"]
 mod refusals;
-#[path = "machine_file/values.rs"]
 mod values;
 
 use std::path::{Path, PathBuf};

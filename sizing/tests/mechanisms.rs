@@ -1,30 +1,16 @@
 //! Machine files of the library mechanisms: what they say in SI units, and what a user is told about a wrong one.
 
-mod support;
-
-#[path = "mechanisms/ball_screw.rs"]
 mod ball_screw;
-#[path = "mechanisms/disc_cam.rs"]
 mod disc_cam;
-#[path = "mechanisms/four_bar.rs"]
 mod four_bar;
-#[path = "mechanisms/geneva.rs"]
 mod geneva;
-#[path = "mechanisms/hoist.rs"]
 mod hoist;
-#[path = "mechanisms/inverted_slider_crank.rs"]
 mod inverted_slider_crank;
-#[path = "mechanisms/parallel_shafts.rs"]
 mod parallel_shafts;
-#[path = "mechanisms/planetary.rs"]
 mod planetary;
-#[path = "mechanisms/rack.rs"]
 mod rack;
-#[path = "mechanisms/scotch_yoke.rs"]
 mod scotch_yoke;
-#[path = "mechanisms/six_link.rs"]
 mod six_link;
-#[path = "mechanisms/toggle_press.rs"]
 mod toggle_press;
 
 use std::path::{Path, PathBuf};
@@ -95,6 +81,6 @@ fn close(found: f64, expected: f64) {
 /// The machine file can be reduced and sized, and a drive is found that keeps every rule.
 fn a_drive_is_found(name: &str) {
     let path = machine_path(name);
-    support::jred([&"reduce", &path]).ends(0);
-    support::jred([&"size", &path]).ends(0);
+    crate::support::jred([&"reduce", &path]).ends(0);
+    crate::support::jred([&"size", &path]).ends(0);
 }

@@ -1,12 +1,9 @@
 //! `jred size --meter`: limits for the firmware's duty meter that keep below those of sizing, compile, and read its figures.
 
-mod support;
-
-#[path = "meter/curves.rs"]
 mod curves;
-#[path = "meter/firmware.rs"]
 mod firmware;
 
+use crate::support::{Folder, budget, edited_press, jred, press_file};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::drive::Drive;
@@ -15,7 +12,6 @@ use jred_sizing::input;
 use jred_sizing::judge::Context;
 use jred_sizing::machine::MachineFile;
 use jred_sizing::meter::{Bound, MeterLimits};
-use support::{Folder, budget, edited_press, jred, press_file};
 
 /// The drive of the source in `tests/data`.
 const DRIVE: &str = "sgmsh-30a+npt025mf-3";

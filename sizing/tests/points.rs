@@ -1,9 +1,8 @@
 //! `jred reduce --points`: golden transfer functions, closed forms of velocity and acceleration, a sliding drive link.
 
-mod support;
-
 use std::path::Path;
 
+use crate::support::{Folder, budget, jred, near, near_column, press_file};
 use jred::joint::Joints;
 use jred::mechanism::Frames;
 use jred::{Domain, Error, Frame, Joint, Jointed, Link, Machine, Marker, Mechanism, Transfer};
@@ -12,7 +11,6 @@ use jred_sizing::inspect::Findings;
 use jred_sizing::machine::{AnyMechanism, MachineFile};
 use jred_sizing::reduce::{Over, Request, Sets, reduce};
 use serde_json::Value;
-use support::{Folder, budget, jred, near, near_column, press_file};
 
 /// The slider-crank of the golden data as a machine file.
 const GOLDEN: &str = r#"
@@ -95,7 +93,7 @@ fn transfer_functions_are_the_golden_ones() {
     );
     // JSON holds the same numbers.
     let json = jred([&"reduce", &file, &"--points", &"--format", &"json"]).json();
-    let again = support::Columns::of_json(&json);
+    let again = crate::support::Columns::of_json(&json);
     assert_eq!(again.names, found.names);
     for name in &found.names {
         // The JSON reader of the test rounds the last digit.
@@ -196,12 +194,12 @@ fn over_time_velocities_are_those_of_the_motion() {
         found.get("rod com a_x [m/s^2]"),
     );
     let step = t[1] - t[0];
-    let largest = support::largest(&v);
+    let largest = crate::support::largest(&v);
     for k in (4..1990).step_by(97) {
         let slope = (8.0 * (x[k + 1] - x[k - 1]) - (x[k + 2] - x[k - 2])) / (12.0 * step);
-        support::within("v_x", v[k], slope, 1e-6 * largest);
+        crate::support::within("v_x", v[k], slope, 1e-6 * largest);
         let slope = (8.0 * (v[k + 1] - v[k - 1]) - (v[k + 2] - v[k - 2])) / (12.0 * step);
-        support::within("a_x", a[k], slope, 1e-5 * support::largest(&a));
+        crate::support::within("a_x", a[k], slope, 1e-5 * crate::support::largest(&a));
     }
 }
 

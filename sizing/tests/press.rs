@@ -1,20 +1,18 @@
 //! The numbers of the press example, derived independently: textbook formulas in `support/press.rs`, other numerical
 //! methods, none of the tool's code. What is compared is what the command prints.
 
-#[path = "press/drives.rs"]
 mod drives;
-mod support;
 
 use std::f64::consts::{PI, TAU};
 use std::sync::OnceLock;
 
-use drives::{ONE_GEARBOX, ONE_MOTOR};
-use serde_json::Value;
-use support::numerics::{derivative, trapezoid};
-use support::press::{self, Input, figures};
-use support::{
+use crate::support::numerics::{derivative, trapezoid};
+use crate::support::press::{self, Input, figures};
+use crate::support::{
     Columns, Folder, budget, edited_press, jred, largest, near, near_column, press_file, within,
 };
+use drives::{ONE_GEARBOX, ONE_MOTOR};
+use serde_json::Value;
 
 const RPM: f64 = PI / 30.0;
 
@@ -37,7 +35,7 @@ fn meaningful(text: &str) -> Vec<String> {
 
 #[test]
 fn the_example_is_the_machine_written_down_here() {
-    let text = support::press_text();
+    let text = crate::support::press_text();
     let (machine, _) = text.split_once("[simulation]").unwrap();
     let machine: Vec<String> = meaningful(machine)
         .into_iter()
@@ -311,9 +309,9 @@ fn rms(text: &str, steps: u32) -> f64 {
 #[test]
 fn the_rms_converges_with_order_four() {
     let smooth = edited_press("efficiency = \"97 %\"", "efficiency = \"100 %\"");
-    let smooth = support::edited(&smooth, "[\"-10 kN\", \"0 N\"]", "[\"0 N\", \"0 N\"]");
-    let smooth = support::edited(&smooth, "\"150 N\"", "\"0 N\"");
-    let smooth = support::edited(
+    let smooth = crate::support::edited(&smooth, "[\"-10 kN\", \"0 N\"]", "[\"0 N\", \"0 N\"]");
+    let smooth = crate::support::edited(&smooth, "\"150 N\"", "\"0 N\"");
+    let smooth = crate::support::edited(
         &smooth,
         "\"polynomial-345\"",
         "\"trapezoid\"\naccelerate = 0.25\ndecelerate = 0.25",
@@ -334,7 +332,7 @@ fn the_rms_converges_with_order_four() {
 /// With ramps and efficiency, the default of 2000 steps still leaves less than the budget, and more steps leave less.
 #[test]
 fn the_default_steps_are_enough() {
-    let press = support::press_text();
+    let press = crate::support::press_text();
     let limit = figures(&reference().iter().map(|i| i.torque).collect::<Vec<_>>()).rms;
     let errors = [250, 2000, 16_000].map(|steps| (rms(&press, steps) / limit - 1.0).abs());
     println!("relative errors of the RMS: {errors:?}");

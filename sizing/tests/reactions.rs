@@ -1,9 +1,7 @@
 //! `jred reduce --reactions` and `--energy`: every force of a slider-crank by hand, link after link, without a linear
 //! system; energies and generalised forces against the reduced curves.
 
-mod support;
-
-use support::{Columns, budget, jred, near_column, press_file, within};
+use crate::support::{Columns, budget, jred, near_column, press_file, within};
 
 /// The press of `machines/press.toml`: lengths, masses, inertias, centres of mass, gravity along +x.
 const R: f64 = 0.03;
@@ -147,7 +145,7 @@ fn every_force_of_the_press_by_hand() {
     }
 }
 
-fn press(set: &str, over: &str, format: &str) -> support::Run {
+fn press(set: &str, over: &str, format: &str) -> crate::support::Run {
     jred([
         &"reduce",
         &press_file(),
@@ -215,7 +213,7 @@ fn the_largest_values_are_found_between_the_rows() {
     {
         assert_eq!(found, again);
         let name = found["quantity"].as_str().unwrap();
-        let most = support::largest(&rows.get(name));
+        let most = crate::support::largest(&rows.get(name));
         let value = found["value"].as_f64().unwrap().abs();
         assert!(
             value >= most && value < 1.05 * most,

@@ -2,13 +2,11 @@
 // Copied figures, counts and zeros are exact.
 #![allow(clippy::float_cmp)]
 
-mod support;
-#[path = "report/words.rs"]
 mod words;
 
 use std::path::Path;
 
-use support::{Folder, edited_press, jred, press_file, press_text};
+use crate::support::{Folder, edited_press, jred, press_file, press_text};
 
 /// The elements `<svg …>…</svg>`, parsed.
 fn plots(page: &str) -> Vec<&str> {

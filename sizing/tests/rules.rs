@@ -2,28 +2,19 @@
 // Zeros and copied figures are exact.
 #![allow(clippy::float_cmp)]
 
-#[path = "rules/backlash.rs"]
 mod backlash;
-#[path = "rules/chosen.rs"]
 mod chosen;
-#[path = "rules/emergency.rs"]
 mod emergency;
-#[path = "rules/gearbox.rs"]
 mod gearbox;
-#[path = "rules/holding.rs"]
 mod holding;
-#[path = "rules/inertia.rs"]
 mod inertia;
-#[path = "rules/moves.rs"]
 mod moves;
-#[path = "rules/rigidity.rs"]
 mod rigidity;
-#[path = "rules/sets.rs"]
 mod sets;
-mod support;
 
 use std::path::Path;
 
+use crate::support::{Folder, budget, edited, near, press_text, within};
 use jred_sizing::catalogue::{Brake, Catalogue, Gearbox, Motor, Prepared};
 use jred_sizing::check::Check;
 use jred_sizing::cycle::Cycle;
@@ -34,7 +25,6 @@ use jred_sizing::judge::{Context, Finding};
 use jred_sizing::machine::MachineFile;
 use jred_sizing::rule::Rule;
 use jred_sizing::rules::RuleSet;
-use support::{Folder, budget, edited, near, press_text, within};
 
 fn read(text: &str) -> MachineFile {
     input::parse("machine.toml", text, Path::new("")).unwrap()

@@ -2,16 +2,13 @@
 // Copied figures are exact.
 #![allow(clippy::float_cmp)]
 
-#[path = "search/filter.rs"]
 mod filter;
-#[path = "search/obstacle.rs"]
 mod obstacle;
-#[path = "search/ratio.rs"]
 mod ratio;
-mod support;
 
 use std::path::Path;
 
+use crate::support::{budget, jred, near, press_file, press_text};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::duty::Duty;
@@ -22,7 +19,6 @@ use jred_sizing::rank::{Objective, rank};
 use jred_sizing::rule::Rule;
 use jred_sizing::rules::Limit;
 use jred_sizing::size::Selection;
-use support::{budget, jred, near, press_file, press_text};
 
 const RACK: &str = include_str!("../../machines/rack.toml");
 

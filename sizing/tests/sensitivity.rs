@@ -1,11 +1,10 @@
 //! Sensitivities and Monte Carlo: slopes by exact derivatives of the duty, room in closed form, probabilities in closed form.
 
-mod support;
-#[path = "sensitivity/tolerance.rs"]
 mod tolerance;
 
 use std::path::Path;
 
+use crate::support::{Folder, budget, jred, near, press_text, within};
 use jred_sizing::catalogue::{Catalogue, Gearbox};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::drive::Drive;
@@ -17,7 +16,6 @@ use jred_sizing::rule::Rule;
 use jred_sizing::sensitivity::{Reach, Room, Sensitivity};
 use jred_sizing::vary::one::One;
 use jred_sizing::vary::study::Study;
-use support::{Folder, budget, jred, near, press_text, within};
 
 /// A motor that limits nothing by its speed, and no gearbox.
 fn strong() -> Catalogue {

@@ -2,18 +2,15 @@
 // Copied figures, counts and zeros are exact.
 #![allow(clippy::float_cmp)]
 
-#[path = "simulate/parting.rs"]
 mod parting;
-#[path = "simulate/pendulum.rs"]
 mod pendulum;
-mod support;
 
 use std::f64::consts::{PI, TAU};
 
-use serde_json::Value;
-use support::{
+use crate::support::{
     Columns, Folder, budget, edited, jred, largest, near, near_column, press, press_text, within,
 };
+use serde_json::Value;
 
 const RPM: f64 = PI / 30.0;
 
@@ -176,7 +173,10 @@ fn energy_of_the_press() {
         let n = 90_000;
         let (from, width) = (315f64.to_radians(), 45f64.to_radians());
         let force = (0..=n).map(|k| press::process(from + width * f64::from(k) / f64::from(n)));
-        support::numerics::trapezoid(width / f64::from(n), force.collect::<Vec<_>>().into_iter())
+        crate::support::numerics::trapezoid(
+            width / f64::from(n),
+            force.collect::<Vec<_>>().into_iter(),
+        )
     };
     // The last angle is not in the window of the pressing force.
     let into = phi.last().unwrap().to_degrees().rem_euclid(360.0);

@@ -1,11 +1,9 @@
 //! The JSON of `jred size` against its schema, `docs/size.schema.json`.
 
-mod support;
-
 use std::path::{Path, PathBuf};
 
+use crate::support::{Folder, edited_press, jred, press_file};
 use serde_json::{Value, json};
-use support::{Folder, edited_press, jred, press_file};
 
 fn docs(name: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -45,7 +43,7 @@ fn answers_follow_the_schema() {
     let shares = effects
         .iter()
         .map(|e| e["share of mean square"].as_f64().unwrap());
-    support::within("shares", shares.sum(), 1.0, support::budget::CELLS);
+    crate::support::within("shares", shares.sum(), 1.0, crate::support::budget::CELLS);
     assert_eq!(answer["fit"].as_array().unwrap().len(), 10);
     assert_eq!(answer["refused"].as_array().unwrap().len(), 3);
     for name in ["hoist.toml", "ball-screw.toml", "geneva.toml"] {

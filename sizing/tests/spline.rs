@@ -1,12 +1,10 @@
 //! Curves through points: orders of convergence, closed forms, no overshoot, the frequency response of smoothing.
 
-mod support;
-
 use std::f64::consts::TAU;
 
+use crate::support::budget;
 use jred_sizing::spline::{Fault, Spline, Way};
 use proptest::prelude::*;
-use support::budget;
 
 /// Uneven steps: those of the golden ratio's fractions, between 0.4 and 1.6 of the mean.
 fn uneven(count: usize, from: f64, to: f64) -> Vec<f64> {

@@ -1,8 +1,6 @@
 //! `jred split`: the optimum, the curve and what is refused.
 
-mod support;
-
-use support::{Columns, jred, near, near_column, within};
+use crate::support::{Columns, jred, near, near_column, within};
 
 const PINION: &str = "0.2 kg cm^2";
 

@@ -2,22 +2,15 @@
 // Zeros and copied figures are exact.
 #![allow(clippy::float_cmp)]
 
-#[path = "thermal/drives.rs"]
 mod drives;
-#[path = "thermal/duty_types.rs"]
 mod duty_types;
-#[path = "thermal/mean.rs"]
 mod mean;
-#[path = "cycle/random.rs"]
-#[allow(dead_code, reason = "envelopes are those of the cycle's own tests")]
-mod random;
-mod support;
 
+use crate::support::{brute, budget, near, within};
 use jred_sizing::overload;
 use jred_sizing::thermal::course::{Course, Hottest, Point};
 use jred_sizing::thermal::network::{Losses, Network, steady};
 use jred_sizing::thermal::operation::Operation;
-use support::{brute, budget, near, within};
 
 const COLD: Losses = Losses {
     copper: 0.0,

@@ -1,16 +1,14 @@
 //! `[variator]` and `type = "friction-drive"`: what is read, what is refused, and the motion against closed forms.
 
-#[path = "variator/refusals.rs"]
 mod refusals;
-mod support;
 
 use std::path::Path;
 
+use crate::support::{Columns, Folder, budget, edited, jred, largest, near, near_column, within};
 use jred::Mechanism as _;
 use jred_sizing::input;
 use jred_sizing::machine::MachineFile;
 use jred_sizing::variator::integrability_text;
-use support::{Columns, Folder, budget, edited, jred, largest, near, near_column, within};
 
 const DOC: &str = include_str!("../../docs/friction-drives.md");
 const PRESS: &str = include_str!("../../machines/variator-press.toml");

@@ -2,15 +2,13 @@
 // Rows are compared digit by digit.
 #![allow(clippy::float_cmp)]
 
-#[path = "vary/store.rs"]
 mod store;
-mod support;
 
 use std::collections::HashMap;
 
+use crate::support::{Folder, jred, press_file, press_text};
 use jred_sizing::vary::axis::{Axis, Grid};
 use jred_sizing::vary::edit::{Document, Edit};
-use support::{Folder, jred, press_file, press_text};
 
 fn document() -> Document {
     Document::parse(press_text()).unwrap()
@@ -216,21 +214,21 @@ fn a_row_is_what_sizing_the_changed_file_gives() {
         assert_eq!(row["motor"], best["motor"].as_str().unwrap());
         assert_eq!(row["gearbox"], best["gearbox"].as_str().unwrap_or("direct"));
         let energy = best["duty"]["motoring energy [J]"].as_f64().unwrap();
-        support::near(
+        crate::support::near(
             "energy",
             row["energy [J]"].parse().unwrap(),
             energy,
-            support::budget::ROW,
+            crate::support::budget::ROW,
         );
         let checks = best["checks"].as_array().unwrap();
         let judged = checks.iter().filter(|c| c["verdict"] != "warn");
         let margins = judged.filter_map(|c| c["margin"].as_f64());
         let margin = margins.fold(f64::INFINITY, f64::min);
-        support::within(
+        crate::support::within(
             "margin",
             row["margin"].parse().unwrap(),
             margin,
-            support::budget::ROW,
+            crate::support::budget::ROW,
         );
     }
 }

@@ -4,7 +4,7 @@ use jred::short::{CurveValues, row_words, usage};
 use jred::table::curves;
 use jred::{Domain, Error, Phase, Reducible, Reduction, Scale};
 
-use crate::Short;
+use crate::short::Short;
 use crate::support::{budget, largest};
 
 /// Curves that are not polynomials, with sizes far below 1.

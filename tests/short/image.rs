@@ -4,9 +4,9 @@ use jred::short::{encode, image_words};
 use jred::table::{Spline, curves};
 use jred::{Domain, Error, HEADER_WORDS, Image, ImageError, Phase, Q15, Scale, TableError};
 
+use super::{Short, q15};
 use crate::support::images::{VALIDITY, sealed, small};
 use crate::support::machines::Wave;
-use crate::{Short, q15};
 
 const SET: u8 = curves::EVERY;
 

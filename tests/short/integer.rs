@@ -5,7 +5,7 @@ use jred::table::curves;
 use jred::{Phase, Q15, Scale};
 use proptest::prelude::*;
 
-use crate::q15;
+use crate::short::q15;
 use crate::support::config;
 
 const ALL: u8 = curves::ALL;

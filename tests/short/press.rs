@@ -8,9 +8,9 @@ use jred::tabulate::Request;
 use jred::{Error, Number, Phase, Q15, Reducible, Scale};
 use proptest::prelude::*;
 
+use super::{Short, q15};
 use crate::support::harmonics::press;
 use crate::support::{budget, largest, samples};
-use crate::{Short, q15};
 
 const OMEGA: f64 = 40.0;
 const ALPHA: f64 = 800.0;

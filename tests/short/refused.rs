@@ -5,7 +5,7 @@ use jred::table::{MAX_CELLS, curves};
 use jred::tabulate::Request;
 use jred::{Domain, Error, Scale, TableError};
 
-use crate::Short;
+use crate::short::Short;
 use crate::support::machines::Wave;
 
 const SET: u8 = curves::EVERY;

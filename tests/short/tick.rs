@@ -5,9 +5,9 @@ use jred::table::curves;
 use jred::{Number, Phase, Q15, Scale};
 use proptest::prelude::*;
 
+use super::{Short, q15, units};
 use crate::support::machines::{Spec, spec};
 use crate::support::{budget, config, largest, samples};
-use crate::{Short, q15, units};
 
 const ALL: u8 = curves::ALL;
 const CONSTANTS: u8 = curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;

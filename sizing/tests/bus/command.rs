@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::budget;
 use super::near;
-use super::support::{Folder, Run, edited_press, jred, press_file, press_text};
+use crate::support::{Folder, Run, edited_press, jred, press_file, press_text};
 
 pub(super) const SUPPLY: &str = r#"
 [supply]

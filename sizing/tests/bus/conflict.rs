@@ -9,7 +9,7 @@ use jred_sizing::bus::supply::BusData;
 use serde_json::Value;
 
 use super::cures::{Keys, keys, mend, run};
-use super::support::{Folder, jred};
+use crate::support::{Folder, jred};
 
 const DATA: BusData = BusData {
     voltage: Some(560.0),

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::command::figure;
-use super::support::{Folder, Run, jred_with, press_file, press_text};
+use crate::support::{Folder, Run, jred_with, press_file, press_text};
 
 /// A vertical axis that feeds back more than half of what it draws.
 fn lift() -> String {

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use serde_json::Value;
 
 use super::command::{SUPPLY, figure, says};
-use super::support::{Folder, Run, edited_press, press_file, press_text};
 use super::{budget, near};
+use crate::support::{Folder, Run, edited_press, press_file, press_text};
 
 fn lift() -> PathBuf {
     press_file().with_file_name("ball-screw.toml")
@@ -17,7 +17,7 @@ fn lift() -> PathBuf {
 fn bus(files: &[&PathBuf], more: &[&str]) -> Run {
     let files: Vec<&str> = files.iter().map(|file| file.to_str().unwrap()).collect();
     let all = [&["bus", "--steps", "100"], files.as_slice(), more].concat();
-    super::support::jred_with(&all)
+    crate::support::jred_with(&all)
 }
 
 fn json(files: &[&PathBuf], more: &[&str]) -> Value {

@@ -9,7 +9,7 @@ use miette::{GraphicalReportHandler, GraphicalTheme};
 
 use super::budget;
 use super::near;
-use super::support::press_text;
+use crate::support::press_text;
 
 fn read(more: &str) -> Result<Site, String> {
     let text = format!("{}\n{more}", press_text());

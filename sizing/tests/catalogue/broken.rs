@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use jred_sizing::catalogue::{Catalogue, CatalogueError, SHOWN, Sources};
 
-use super::support::{Folder, jred, press_file};
 use super::{FIRST, HEADER, refuses, size_with};
+use crate::support::{Folder, jred, press_file};
 
 const ROWS: usize = 100_000;
 

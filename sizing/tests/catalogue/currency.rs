@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::support::{Folder, Run, jred, press_file};
 use super::{FIRST, HEADER, SECOND};
+use crate::support::{Folder, Run, jred, press_file};
 
 fn size(folder: &Path, more: [&str; 2]) -> Run {
     let [option, value] = more;

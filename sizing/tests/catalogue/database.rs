@@ -4,9 +4,9 @@
 use jred_sizing::catalogue::{Catalogue, Motor, Sources};
 use jred_sizing::winding::Commutation;
 
-use super::support::{Folder, near};
+use crate::support::{Folder, near};
 
-const UNIT: f64 = super::support::budget::UNIT_CONVERSION;
+const UNIT: f64 = crate::support::budget::UNIT_CONVERSION;
 
 const MOTORS: &str = "\
 key,manufacturer,ID,type,V,k_t,R,L,mass,inertia,omega_nl,I_nl,I_nom,max_int_torque,max_int_speed,max_cont_speed,max_cont_power,coulomb_friction,viscous_friction,Rth1,Rth2

@@ -5,10 +5,10 @@ use std::f64::consts::{PI, SQRT_2};
 use jred_sizing::catalogue::{Brake, Catalogue, MotorKind, Sources};
 use jred_sizing::winding::Commutation;
 
-use super::support::{Folder, near};
+use crate::support::{Folder, near};
 
 /// Ratios of units are worked out here in another order of operations than in the reader.
-const UNIT: f64 = super::support::budget::UNIT_CONVERSION;
+const UNIT: f64 = crate::support::budget::UNIT_CONVERSION;
 
 pub(super) const MOTORS: &str = "\
 key,maker,model,rated_torque [N m],rated_speed [rpm],standstill_torque [mN m],peak_torque [N m],max_speed [rad/s],max_power [kW],\
@@ -182,9 +182,9 @@ fn every_column_of_a_motor() {
     assert!(!motor.from_maker);
     let flat = |points: &[[f64; 2]]| points.iter().flatten().copied().collect::<Vec<f64>>();
     let peak = [0.0, 36.0, 2500.0 * rpm, 36.0, 500.0, 10.0];
-    super::support::near_column("peak curve", &flat(&motor.peak_curve), &peak, UNIT);
+    crate::support::near_column("peak curve", &flat(&motor.peak_curve), &peak, UNIT);
     let s1 = [0.0, 9.0, 3000.0 * rpm, 8.0];
-    super::support::near_column("S1 curve", &flat(&motor.continuous_curve), &s1, UNIT);
+    crate::support::near_column("S1 curve", &flat(&motor.continuous_curve), &s1, UNIT);
 }
 
 /// The same motor in TOML, its units written in other ways.

@@ -10,7 +10,7 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
 use super::HEADER;
-use super::support::{Folder, jred, press_file};
+use crate::support::{Folder, jred, press_file};
 
 const GEARBOXES: &str = "\
 key,maker,model,ratio,rated_output_torque [N m],max_input_speed [rpm],input_inertia [kg cm^2],efficiency [%],source

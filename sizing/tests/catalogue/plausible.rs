@@ -2,7 +2,7 @@
 
 use jred_sizing::catalogue::{Catalogue, Sources};
 
-use super::support::{Folder, jred, press_file};
+use crate::support::{Folder, jred, press_file};
 
 /// Figures typical of a servo motor of 1 kW and its gearbox.
 const MOTOR: &[(&str, &str)] = &[

@@ -2,8 +2,8 @@
 
 use jred_sizing::catalogue::Catalogue;
 
-use super::support::Folder;
 use super::{FIRST, HEADER};
+use crate::support::Folder;
 
 /// A table with semicolons between its cells.
 fn semicolons(table: &str) -> String {

@@ -1,8 +1,8 @@
 //! What is wrong is said at once: all faults of a row, keys that clash beside rows that are broken; and what was named twice, or
 //! is no catalogue.
 
-use super::support::{Folder, jred, press_file};
 use super::{FIRST, HEADER, SECOND, refuses, size_with};
+use crate::support::{Folder, jred, press_file};
 
 const GEARBOX: &str = "key,maker,model,ratio,rated_output_torque [N m],peak_output_torque [N m],max_input_speed [rpm],\
                        input_inertia [kg cm^2],efficiency [%],source\n";

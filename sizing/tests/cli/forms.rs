@@ -3,8 +3,8 @@
 use std::collections::HashSet;
 
 use super::run;
-use super::support::json::row_numbers;
-use super::support::{Columns, Folder, jred, press_file};
+use crate::support::json::row_numbers;
+use crate::support::{Columns, Folder, jred, press_file};
 
 /// Two servo amplifiers.
 pub(super) const AMPLIFIERS: &str = "\

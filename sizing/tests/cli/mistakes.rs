@@ -1,7 +1,7 @@
 //! What a user is told who made a mistake.
 
-use super::support::{Folder, jred, press_file, press_text};
 use super::{export, run};
+use crate::support::{Folder, jred, press_file, press_text};
 
 #[test]
 fn two_for_bad_input() {

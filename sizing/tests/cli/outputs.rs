@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::support::{Folder, jred, jred_with, press_file};
+use crate::support::{Folder, jred, jred_with, press_file};
 
 /// The built-in catalogue has no masses of motors: a filter by mass leaves nothing, and no page is written about nothing.
 #[test]

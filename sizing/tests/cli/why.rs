@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::forms::AMPLIFIERS;
-use super::support::{Folder, Run, edited_press, jred, press_file};
+use crate::support::{Folder, Run, edited_press, jred, press_file};
 
 fn why(name: &str) -> Run {
     jred([&"size", &press_file(), &"--steps", &"200", &"--why", &name])

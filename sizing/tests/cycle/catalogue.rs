@@ -13,7 +13,7 @@ use jred_sizing::rules::RuleSet;
 use jred_sizing::site::Site;
 use jred_sizing::size::{Candidate, FIRST, Group, Selection};
 
-use super::support::{brute, budget, press_text};
+use crate::support::{brute, budget, press_text};
 
 struct Ready {
     catalogue: Catalogue,

@@ -16,7 +16,7 @@ use jred_sizing::size::{Candidate, FIRST, Group, Selection};
 use super::catalogue::with_more_ratios;
 use super::random::duty;
 use super::runner;
-use super::support::press_text;
+use crate::support::press_text;
 
 /// Every drive in full, in the order that docs/search.md states: those that fit, those that are refused.
 fn plainly(

@@ -10,8 +10,8 @@ use jred_sizing::rules::RuleSet;
 use jred_sizing::site::Site;
 use jred_sizing::size::{Candidate, Selection};
 
-use super::support::{budget, near, press_text, within};
 use super::{catalogue, duty_of, read};
+use crate::support::{budget, near, press_text, within};
 
 /// What a selection borrows.
 struct Ready {

@@ -8,8 +8,8 @@ use jred_sizing::judge::Context;
 use jred_sizing::site::Site;
 
 use super::drives::drive;
-use super::support::{Folder, near, press_text};
 use super::{RPM, catalogue, duty_of, read};
+use crate::support::{Folder, near, press_text};
 
 /// A motor with every figure of the envelope.
 const MOTOR: &str = "\

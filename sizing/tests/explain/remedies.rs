@@ -10,8 +10,8 @@ use jred_sizing::rule::Rule;
 use jred_sizing::rules::{Limit, RuleSet};
 use jred_sizing::size::Selection;
 
-use super::support::{Folder, budget, edited, near, press_text};
 use super::{duty_of, parse};
+use crate::support::{Folder, budget, edited, near, press_text};
 
 /// A wheel that is moved by half a turn and back, nothing else: T = α·(J_M·i + J/i).
 const WHEEL: &str = r#"

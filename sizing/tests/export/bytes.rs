@@ -2,8 +2,8 @@
 
 use jred::Image;
 
-use super::support::{Folder, press_file};
 use super::{KINDS, export, export_of, words_of};
+use crate::support::{Folder, press_file};
 
 #[test]
 fn the_best_table_of_so_many_bytes() {

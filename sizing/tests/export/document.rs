@@ -4,8 +4,8 @@ use jred::table::{Cubic, Layout, Quadratic, Spline, Spline16};
 use jred::{Image, Phase, Q31, Scalar};
 
 use super::reader::{Read, Reader};
-use super::support::{Folder, budget};
 use super::{KINDS, export_of, image, words_of};
+use crate::support::{Folder, budget};
 
 /// The library's reading of the same image.
 fn library(words: &[u32], kind: (&str, &str), phase: Phase) -> Read {
@@ -151,7 +151,7 @@ fn the_document_gives_the_curves_of_other_machines() {
         ("excavator-bucket.toml", ["--max-cells", "4096"]),
         ("geneva.toml", ["--omega", "60 rpm"]),
     ] {
-        let file = super::support::press_file().with_file_name(machine);
+        let file = crate::support::press_file().with_file_name(machine);
         for (number, layout) in KINDS {
             let out = folder.path("other.jred");
             let run = export_of(

@@ -1,7 +1,7 @@
 //! What an export is written as: image, source text, JSON, and the words on the terminal.
 
-use super::support::{Folder, edited_press, press_file};
 use super::{KINDS, export, export_of, image, words_of};
+use crate::support::{Folder, edited_press, press_file};
 
 /// The hexadecimal words of a source text.
 fn words_in(source: &str) -> Vec<u32> {

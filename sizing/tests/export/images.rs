@@ -4,8 +4,8 @@ use jred::table::{Cubic, Layout, Quadratic, Spline, Spline16, curves};
 use jred::{Image, ImageError, Number, Phase, Q15, Q31, Reducible as _, Scalar, Scale};
 use jred_sizing::machine::{AnyMechanism, MachineFile};
 
-use super::support::{Folder, budget, press_file};
 use super::{KINDS, export, export_of, image, number_after, words_of};
+use crate::support::{Folder, budget, press_file};
 
 /// The curves of the press.
 const SET: u8 = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;

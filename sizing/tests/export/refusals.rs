@@ -1,7 +1,7 @@
 //! What `jred export` says when there is no table, word by word.
 
 use super::export_of;
-use super::support::{Folder, edited_press, press_file};
+use crate::support::{Folder, edited_press, press_file};
 
 #[test]
 fn too_few_cells_name_the_load_and_the_cures() {

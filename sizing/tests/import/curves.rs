@@ -10,7 +10,7 @@ use jred_sizing::output::Format;
 use jred_sizing::reduce::{Over, Request, Sets, reduce};
 
 use super::of_curves;
-use super::support::{budget, press_file};
+use crate::support::{budget, press_file};
 
 /// J = 2 + 0.7·cos φ in kg cm², T_potential = −3·sin φ + 0.5·cos 2φ, T = 1.2 + 0.4·sin φ, b = 0.05 + 0.02·cos φ.
 fn closed_form(rows: usize, closing: bool) -> String {

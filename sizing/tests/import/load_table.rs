@@ -9,7 +9,7 @@ use jred_sizing::machine::MachineFile;
 use jred_sizing::numerics::integral;
 
 use super::parse;
-use super::support::{near, within};
+use crate::support::{near, within};
 
 fn crank(mass: &str, loads: &str, csv: &str) -> MachineFile {
     let machine = format!(

@@ -8,7 +8,7 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
 use super::parse;
-use super::support::budget;
+use crate::support::budget;
 
 fn machine(more: &str) -> String {
     format!(

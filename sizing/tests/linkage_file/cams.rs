@@ -3,7 +3,7 @@
 use jred::cam::contact_force;
 use jred::{Jointed as _, Mechanism as _};
 
-use crate::{machine_path, refuses_edit, rendered, within};
+use super::{machine_path, refuses_edit, rendered, within};
 
 const JAW: &str = include_str!("../../../machines/linkage-cam-lever.toml");
 
@@ -74,7 +74,7 @@ joint = [
   ] },
 ]
 "#;
-    let file = crate::read(text);
+    let file = crate::linkage_file::read(text);
     let cam = file.machine.mechanism();
     let rest = (0.05_f64.powi(2) - 0.005_f64.powi(2)).sqrt();
     // θ = φ − 30° − 90°.

@@ -4,8 +4,8 @@ use jred::{Mechanism as _, Reducible as _};
 use jred_sizing::machine::Shaft;
 use jred_sizing::simulate::simulate;
 
+use super::{FOUR_BAR, read, refuses, refuses_edit, within};
 use crate::support::{budget, press_text};
-use crate::{FOUR_BAR, read, refuses, refuses_edit, within};
 
 /// The four-bar with a spring from its rocker to the ground, one in torsion and two dampers.
 fn with_elements() -> String {

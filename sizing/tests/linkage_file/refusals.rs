@@ -1,6 +1,6 @@
 //! Linkages that cannot work, and the words that tell the user which part and what to do.
 
-use crate::{FOUR_BAR, refuses, refuses_edit};
+use super::{FOUR_BAR, refuses, refuses_edit};
 
 /// Edits of the four-bar: text, its replacement, and what the report must say.
 type Edits<'a> = &'a [(&'a str, &'a str, &'a [&'a str])];
@@ -283,7 +283,7 @@ fn what_cannot_be_assembled_or_driven_round() {
             "drive = \"crank bearing\"",
             "drive = \"crank bearing\"\nstroke = [\"-94 deg\", \"94 deg\"]",
         );
-    assert!(crate::parse(&driven).is_ok());
+    assert!(crate::linkage_file::parse(&driven).is_ok());
 }
 
 #[test]
@@ -294,8 +294,8 @@ fn a_parallelogram_changes_its_branch() {
         .replace("angle = \"50 deg\"", "angle = \"2 deg\"")
         .replace("angle = \"0 deg\"", "angle = \"90 deg\"")
         .replace("angle = \"100 deg\"", "angle = \"88 deg\"");
-    let report = match crate::parse(&text) {
-        Err(report) => crate::rendered(&report),
+    let report = match crate::linkage_file::parse(&text) {
+        Err(report) => crate::linkage_file::rendered(&report),
         Ok(_) => panic!("accepted"),
     };
     let named = report.contains("another branch") || report.contains("dead point");

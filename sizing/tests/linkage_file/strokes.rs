@@ -5,9 +5,9 @@ use jred_sizing::coordinate::Coordinate;
 use jred_sizing::duty::Duty;
 use jred_sizing::simulate::simulate;
 
+use super::{FOUR_BAR, parse, read, refuses, refuses_edit, within};
+use crate::linkage_file::trains::SCREW;
 use crate::support::{Folder, budget, jred};
-use crate::trains::SCREW;
-use crate::{FOUR_BAR, parse, read, refuses, refuses_edit, within};
 
 /// A boom on a bearing, lifted by a cylinder: s² = a² + b² − 2·a·b·cos θ with a = 500 mm, b = 600 mm.
 pub(crate) const LIFT: &str = r#"gravity = ["0 m/s^2", "-9.81 m/s^2"]

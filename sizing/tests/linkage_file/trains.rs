@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use jred::Reducible as _;
 
-use crate::strokes::{LIFT, MOTION, boom};
+use super::{machine_path, read, within};
+use crate::linkage_file::strokes::{LIFT, MOTION, boom};
 use crate::support::{Folder, jred};
-use crate::{machine_path, read, within};
 
 pub(crate) const SCREW: &str = r#"
 [[drive_train]]

@@ -6,8 +6,8 @@ use jred::mechanism::{Branch, SixLink, SliderCrank};
 use jred::{Domain, Jointed as _, Link, Machine, Mechanism as _, Reducible as _};
 use serde_json::Value;
 
+use super::{FOUR_BAR, machine_path, read, rendered, within};
 use crate::support::budget;
-use crate::{FOUR_BAR, machine_path, read, rendered, within};
 
 /// A table of the golden four-bar: its columns and its rows.
 fn golden(table: &str) -> (Vec<String>, Vec<Vec<f64>>) {

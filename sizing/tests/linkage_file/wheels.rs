@@ -1,6 +1,6 @@
 //! Gears, racks and belts that do not fit their bearings, and places that do not follow.
 
-use crate::{refuses, refuses_edit};
+use super::{refuses, refuses_edit};
 
 #[test]
 fn wheels_that_do_not_fit() {

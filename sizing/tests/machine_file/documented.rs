@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use jred_sizing::input;
 
-use crate::{PRESS, parse, parse_as, rendered_in};
+use super::{PRESS, parse, parse_as, rendered_in};
 
 const DOC: &str = include_str!("../../../docs/machine-file.md");
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use jred_sizing::input;
 
-use crate::{refuses, rendered};
+use super::{refuses, rendered};
 
 fn refuses_file(path: &Path, words: &[&str]) {
     let report = rendered(&input::read(path).unwrap_err());

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use jred_sizing::input;
 
-use crate::{data, parse, rendered};
+use super::{data, parse, rendered};
 
 fn machine(file: &str, more: &str) -> String {
     format!(

@@ -1,6 +1,6 @@
 //! Wrong entries, and the words that tell the user what to do.
 
-use crate::{GEARS, PRESS, refuses, refuses_edit};
+use super::{GEARS, PRESS, refuses, refuses_edit};
 
 #[test]
 fn wrong_quantities_are_shown_with_their_cure() {

@@ -10,7 +10,7 @@ use jred_sizing::machine::Shaft;
 use jred_sizing::rule::Rule;
 use jred_sizing::rules::RuleSet;
 
-use crate::{GEARS, PRESS, close, data, parse, rendered};
+use super::{GEARS, PRESS, close, data, parse, rendered};
 
 /// Beyond this share a rule is violated.
 fn limit(rules: &RuleSet, rule: Rule) -> f64 {

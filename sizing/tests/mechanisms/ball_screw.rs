@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use jred::{Mechanism as _, Reducible as _};
 
+use super::{a_drive_is_found, close, example, machine, machine_path, parse, refuses_edit};
 use crate::support::{jred, largest};
-use crate::{a_drive_is_found, close, example, machine, machine_path, parse, refuses_edit};
 
 const DOC: &str = include_str!("../../../docs/mechanisms/ball-screw.md");
 

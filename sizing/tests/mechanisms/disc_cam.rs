@@ -4,7 +4,7 @@ use jred::Mechanism as _;
 use jred::cam::contact_force;
 use jred::motion::Law;
 
-use crate::{a_drive_is_found, close, example, machine, parse, refuses_edit, rendered};
+use super::{a_drive_is_found, close, example, machine, parse, refuses_edit, rendered};
 
 const DOC: &str = include_str!("../../../docs/mechanisms/disc-cam.md");
 

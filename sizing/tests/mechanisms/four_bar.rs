@@ -2,7 +2,7 @@
 
 use jred::{Domain, Mechanism as _};
 
-use crate::{a_drive_is_found, close, example, machine, parse, refuses_edit, rendered};
+use super::{a_drive_is_found, close, example, machine, parse, refuses_edit, rendered};
 
 const DOC: &str = include_str!("../../../docs/mechanisms/four-bar.md");
 

@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use jred::Mechanism as _;
 
+use super::{a_drive_is_found, close, example, machine, machine_path, parse, refuses_edit};
 use crate::support::{Folder, jred};
-use crate::{a_drive_is_found, close, example, machine, machine_path, parse, refuses_edit};
 
 const DOC: &str = include_str!("../../../docs/mechanisms/geneva.md");
 

@@ -2,8 +2,8 @@
 
 use jred::{Mechanism as _, Reducible as _};
 
+use super::{a_drive_is_found, close, example, machine, machine_path, parse, refuses_edit};
 use crate::support::{jred, largest};
-use crate::{a_drive_is_found, close, example, machine, machine_path, parse, refuses_edit};
 
 const DOC: &str = include_str!("../../../docs/mechanisms/hoist.md");
 

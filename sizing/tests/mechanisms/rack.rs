@@ -2,7 +2,7 @@
 
 use jred::{Mechanism as _, Reducible as _};
 
-use crate::{a_drive_is_found, close, example, machine, parse, refuses_edit};
+use super::{a_drive_is_found, close, example, machine, parse, refuses_edit};
 
 const DOC: &str = include_str!("../../../docs/mechanisms/rack-and-pinion.md");
 

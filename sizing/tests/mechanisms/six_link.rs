@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use jred::Mechanism as _;
 
-use crate::{a_drive_is_found, close, example, machine, parse, refuses_edit};
+use super::{a_drive_is_found, close, example, machine, parse, refuses_edit};
 
 const DOC: &str = include_str!("../../../docs/mechanisms/six-link.md");
 

@@ -7,7 +7,7 @@ use jred_sizing::meter::{Below, continuous, peak};
 use jred_sizing::winding::Commutation;
 use proptest::prelude::*;
 
-use super::support::budget;
+use crate::support::budget;
 
 const SPEEDS: u32 = 10_000;
 

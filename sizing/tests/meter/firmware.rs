@@ -8,8 +8,8 @@ use jred_sizing::input;
 use jred_sizing::machine::MachineFile;
 use jred_sizing::rule::Rule;
 
-use super::support::{budget, near, press_file};
 use super::with_limits;
+use crate::support::{budget, near, press_file};
 
 /// The source as firmware includes it.
 #[allow(unreachable_pub, reason = "a test has nobody to export to")]

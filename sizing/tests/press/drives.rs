@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::support::numerics::{derivative, trapezoid};
-use super::support::press::{self, Geared, figures};
-use super::support::{budget, largest, near, within};
 use super::{FINE, RPM, check_figures, reference, size};
+use crate::support::numerics::{derivative, trapezoid};
+use crate::support::press::{self, Geared, figures};
+use crate::support::{budget, largest, near, within};
 
 /// Rows of the built-in catalogue, by key: name of the column without unit to text.
 fn catalogue(name: &str) -> BTreeMap<String, BTreeMap<String, String>> {

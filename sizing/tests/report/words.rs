@@ -2,8 +2,8 @@
 
 use std::collections::HashSet;
 
-use super::support::{Folder, jred, press_file};
 use super::{charts, plain};
+use crate::support::{Folder, jred, press_file};
 
 const LINEAR: &str = "\
 key,kind,maker,model,rated_force [N],rated_speed [m/s],standstill_force [N],peak_force [N],max_speed [m/s],moving_mass [kg],source

@@ -4,8 +4,8 @@ use jred_sizing::input;
 use jred_sizing::rule::Rule;
 
 use super::sets::{set, with_rules};
-use super::support::{Folder, jred, press_file};
 use super::{press_text, read, refuses};
+use crate::support::{Folder, jred, press_file};
 
 #[test]
 fn a_set_is_chosen_in_the_file() {

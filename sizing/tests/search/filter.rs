@@ -6,8 +6,8 @@ use jred_sizing::drive::Drive;
 use jred_sizing::filter::Filter;
 use jred_sizing::size::Selection;
 
-use super::support::press_text;
 use super::{case, catalogue, priced};
+use crate::support::press_text;
 
 fn pattern(text: &str) -> Vec<Pattern> {
     vec![Pattern::new(text).unwrap()]

@@ -8,8 +8,8 @@ use jred_sizing::rule::Rule;
 use jred_sizing::rules::Limit;
 
 use super::ratio::GEARS;
-use super::support::{budget, jred, near, press_file, press_text};
 use super::{case, catalogue};
+use crate::support::{budget, jred, near, press_file, press_text};
 
 /// Where no ratio holds every rule, the reason is the true one: over a grid ten times as fine the named rule is broken
 /// everywhere and by as much as said, or the two rules hold on their sides of a gap only.

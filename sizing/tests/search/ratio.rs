@@ -1,7 +1,7 @@
 //! Gear ratios in closed form, against golden section, by hand, and against the catalogue search.
 
-use super::support::{budget, jred, near, press_file, press_text, within};
 use super::{RACK, case, catalogue};
+use crate::support::{budget, jred, near, press_file, press_text, within};
 use jred_sizing::catalogue::{Catalogue, Gearbox, Motor};
 use jred_sizing::check::Verdict;
 use jred_sizing::drive::{Coefficients, Drive};

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::support::{Folder, jred, near, press_text, within};
 use super::{RACK, study};
+use crate::support::{Folder, jred, near, press_text, within};
 use jred_sizing::filter::Filter;
 use jred_sizing::input::Tolerance;
 use jred_sizing::rule::Rule;

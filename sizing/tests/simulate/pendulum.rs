@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::support::numerics::{bisect, elliptic_k};
-use super::support::{budget, largest, within};
 use super::{imbalance, simulate};
+use crate::support::numerics::{bisect, elliptic_k};
+use crate::support::{budget, largest, within};
 
 /// A crank with its centre of mass off the pivot and nothing but hair-light parts behind it: a pendulum with
 /// J = 0.02 + 2·0.1² = 0.04 kg m², m·g·a = 2·9.81·0.1 = 1.962 N m, hanging at −90°.

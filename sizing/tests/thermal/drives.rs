@@ -15,8 +15,8 @@ use jred_sizing::site::Site;
 use jred_sizing::thermal::operation::Operation;
 use jred_sizing::winding::COPPER;
 
-use super::support::press_text;
 use super::{budget, near};
+use crate::support::press_text;
 
 fn cycle() -> Cycle {
     let file = input::parse("press.toml", &press_text(), Path::new("")).unwrap();

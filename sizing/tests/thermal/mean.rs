@@ -12,7 +12,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{RngAlgorithm, TestRng, TestRunner};
 
 use super::budget;
-use super::random::{coefficients, duty};
+use crate::cycle::random::{coefficients, duty};
 
 fn runner(cases: u32) -> TestRunner {
     let config = ProptestConfig {

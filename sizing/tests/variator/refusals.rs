@@ -1,7 +1,7 @@
 //! What is wrong with a variator or a friction drive, and what to do.
 
-use super::support::edited;
 use super::{FAN, PRESS, SHAFTS, refuses};
+use crate::support::edited;
 
 #[test]
 fn wrong_variators_are_refused_with_their_cure() {

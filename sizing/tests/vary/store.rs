@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::support::{Folder, jred, press_file};
+use crate::support::{Folder, jred, press_file};
 
 const STUDY: [&str; 4] = [
     "--vary",

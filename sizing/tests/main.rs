@@ -1,0 +1,35 @@
+//! The one test program of the tool.
+
+mod bus;
+mod catalogue;
+mod check;
+mod cli;
+mod cycle;
+mod drawing;
+mod duty;
+mod duty_meter;
+mod envelope;
+mod envelope_commands;
+mod every_machine;
+mod explain;
+mod export;
+mod import;
+mod linkage_file;
+mod machine_file;
+mod mechanisms;
+mod meter;
+mod points;
+mod press;
+mod reactions;
+mod report;
+mod rules;
+mod search;
+mod sensitivity;
+mod simulate;
+mod size_json;
+mod spline;
+mod split;
+mod support;
+mod thermal;
+mod variator;
+mod vary;
