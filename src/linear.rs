@@ -1,32 +1,38 @@
-//! Small dense linear systems on borrowed memory: LU factors with row pivoting, by `nalgebra`'s elimination steps.
-
-use nalgebra::linalg::{gauss_step, gauss_step_swap};
-use nalgebra::{DMatrixView, DMatrixViewMut, DVectorViewMut};
+//! Small dense linear systems on borrowed memory: Gaussian elimination with row pivoting.
+//!
+//! Written here and not taken from a library: a linkage solves systems of one to a dozen equations in slices of its own
+//! memory, whose size only the mechanism knows, and a matrix library would be most of what firmware compiles for it.
+//! Elimination with the largest pivot of the column gives the exact solution of a system whose coefficients differ from
+//! those given by a few units of the last place (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 9.3).
 
 /// Factors the n × n matrix `a` (column-major) in place; n is the length of `pivots`. Returns its determinant: zero where
 /// a pivot vanishes, and then the factors are of no use.
 pub(crate) fn factor(a: &mut [f64], pivots: &mut [usize]) -> f64 {
-    // Most groups of a linkage are a single equation.
-    if let ([a], [pivot]) = (&*a, &mut *pivots) {
-        *pivot = 0;
-        return *a;
-    }
     let n = pivots.len();
-    let mut a = DMatrixViewMut::from_slice(a, n, n);
     let mut determinant = 1.0;
-    for (k, pivot) in pivots.iter_mut().enumerate() {
-        *pivot = a.view_range(k.., k).icamax() + k;
-        let diagonal = a[(*pivot, k)];
-        if diagonal == 0.0 {
+    for (k, place) in pivots.iter_mut().enumerate() {
+        let pivot = k + largest(&a[n * k + k..n * (k + 1)]);
+        *place = pivot;
+        if pivot != k {
+            determinant = -determinant;
+            for column in a.chunks_exact_mut(n) {
+                column.swap(k, pivot);
+            }
+        }
+        let (before, after) = a.split_at_mut(n * (k + 1));
+        let Some((diagonal, below)) = before[n * k + k..].split_first_mut() else {
+            return 0.0;
+        };
+        if *diagonal == 0.0 {
             return 0.0;
         }
-        determinant *= diagonal;
-        if *pivot == k {
-            gauss_step(&mut a, diagonal, k);
-        } else {
-            determinant = -determinant;
-            a.columns_range_mut(..k).swap_rows(k, *pivot);
-            gauss_step_swap(&mut a, diagonal, k, *pivot);
+        determinant *= *diagonal;
+        let inverse = 1.0 / *diagonal;
+        for share in &mut *below {
+            *share *= inverse;
+        }
+        for column in after.chunks_exact_mut(n) {
+            eliminate(&mut column[k..], below);
         }
     }
     determinant
@@ -34,17 +40,40 @@ pub(crate) fn factor(a: &mut [f64], pivots: &mut [usize]) -> f64 {
 
 /// Solves for the right-hand side `b`, in place, with the factors that [`factor`] left.
 pub(crate) fn solve(factors: &[f64], pivots: &[usize], b: &mut [f64]) {
-    if let ([a], [b]) = (factors, &mut *b) {
-        *b /= a;
-        return;
-    }
     let n = pivots.len();
-    let factors = DMatrixView::from_slice(factors, n, n);
-    let mut b = DVectorViewMut::from_slice(b, n);
     for (k, &pivot) in pivots.iter().enumerate() {
-        b.swap_rows(k, pivot);
+        b.swap(k, pivot);
     }
-    // Cannot fail: the diagonal of the lower factor is one, and no pivot was zero.
-    let _ = factors.solve_lower_triangular_with_diag_mut(&mut b, 1.0);
-    let _ = factors.solve_upper_triangular_mut(&mut b);
+    for (k, column) in factors.chunks_exact(n.max(1)).enumerate() {
+        eliminate(&mut b[k..], &column[k + 1..]);
+    }
+    for (k, column) in factors.chunks_exact(n.max(1)).enumerate().rev() {
+        b[k] /= column[k];
+        let (above, found) = b.split_at_mut(k);
+        subtract(above, found[0], column);
+    }
+}
+
+/// Takes the first element's row, in the given shares, from the rows below it.
+fn eliminate(column: &mut [f64], shares: &[f64]) {
+    if let Some((&mut first, rest)) = column.split_first_mut() {
+        subtract(rest, first, shares);
+    }
+}
+
+fn subtract(from: &mut [f64], factor: f64, shares: &[f64]) {
+    for (x, share) in from.iter_mut().zip(shares) {
+        *x -= factor * share;
+    }
+}
+
+/// Index of the element of largest size.
+fn largest(column: &[f64]) -> usize {
+    let mut found = (0, 0.0);
+    for (index, x) in column.iter().enumerate() {
+        if x.abs() > found.1 {
+            found = (index, x.abs());
+        }
+    }
+    found.0
 }

@@ -13,8 +13,6 @@
 //! that of the measurements' condition, not of its square as with normal equations (Å. Björck, *Numerical Methods for
 //! Least Squares Problems*, SIAM 1996, 2.4 and 3.2).
 
-use nalgebra::{SMatrix, SVector, Vector2, linalg::givens::GivensRotation};
-
 use super::word::{Coefficient, Curve, Kind, means, row, words_len};
 use super::{Circular, HarmonicError, MAX_HARMONICS};
 use crate::error::finite;
@@ -63,8 +61,9 @@ pub struct Identified<const WORDS: usize> {
 /// **Cost** of a sample: 3·WORDS² multiplications in `f64`; 8·WORDS² bytes.
 #[derive(Clone, Debug)]
 pub struct Identification<const WORDS: usize, const CURVES: u8, const TERMS: u8> {
-    triangle: SMatrix<f64, WORDS, WORDS>,
-    right: SVector<f64, WORDS>,
+    /// R, row by row.
+    triangle: [[f64; WORDS]; WORDS],
+    right: [f64; WORDS],
     residual_square: f64,
     samples: u32,
 }
@@ -86,8 +85,8 @@ impl<const WORDS: usize, const CURVES: u8, const TERMS: u8> Identification<WORDS
             return Err(HarmonicError::Coefficients(error).into());
         }
         Ok(Self {
-            triangle: SMatrix::zeros(),
-            right: SVector::zeros(),
+            triangle: [[0.0; WORDS]; WORDS],
+            right: [0.0; WORDS],
             residual_square: 0.0,
             samples: 0,
         })
@@ -102,18 +101,19 @@ impl<const WORDS: usize, const CURVES: u8, const TERMS: u8> Identification<WORDS
         finite("measured acceleration", sample.alpha)?;
         let mut right = finite("measured torque", sample.torque)?;
         let mut effects = Self::effects(sample);
-        for j in 0..WORDS {
-            let pair = Vector2::new(self.triangle[(j, j)], effects[j]);
-            let Some((rotation, size)) = GivensRotation::cancel_y(&pair) else {
+        for (j, row) in self.triangle.iter_mut().enumerate() {
+            if effects[j] == 0.0 {
                 continue;
-            };
-            let (c, s) = (rotation.c(), rotation.s());
-            self.triangle[(j, j)] = size;
+            }
+            // The rotation that turns (row[j], effects[j]) into (size, 0).
+            let size = math::sqrt(row[j] * row[j] + effects[j] * effects[j]);
+            let (c, s) = (row[j] / size, effects[j] / size);
             let turn = |kept: &mut f64, new: &mut f64| {
-                (*kept, *new) = (c * *kept - s * *new, s * *kept + c * *new);
+                (*kept, *new) = (c * *kept + s * *new, c * *new - s * *kept);
             };
-            for i in j + 1..WORDS {
-                turn(&mut self.triangle[(j, i)], &mut effects[i]);
+            row[j] = size;
+            for (kept, new) in row.iter_mut().zip(&mut effects).skip(j + 1) {
+                turn(kept, new);
             }
             turn(&mut self.right[j], &mut right);
         }
@@ -123,11 +123,11 @@ impl<const WORDS: usize, const CURVES: u8, const TERMS: u8> Identification<WORDS
     }
 
     /// ∂T/∂(coefficient) of each.
-    fn effects(sample: &Sample) -> SVector<f64, WORDS> {
+    fn effects(sample: &Sample) -> [f64; WORDS] {
         let (sin, cos) = f64::sin_cos_of(sample.phase);
         let (omega, alpha) = (sample.omega, sample.alpha);
         let (mut order, mut c, mut s) = (0, 1.0, 0.0);
-        SVector::from_fn(|word, _| {
+        core::array::from_fn(|word| {
             let Some(Coefficient { curve, kind }) = Coefficient::of_word(word, CURVES, TERMS)
             else {
                 return 0.0;
@@ -168,38 +168,37 @@ impl<const WORDS: usize, const CURVES: u8, const TERMS: u8> Identification<WORDS
             given: self.samples,
         })?;
         let mut scaled = self.triangle;
-        let mut sizes = [0.0; WORDS];
-        for (word, size) in sizes.iter_mut().enumerate() {
-            *size = scaled.column(word).norm();
-            if finite("sum of the squares of the samples", *size)? <= 0.0 {
+        let sizes: [f64; WORDS] =
+            core::array::from_fn(|word| norm(self.triangle.iter().map(|row| row[word])));
+        for (word, size) in sizes.into_iter().enumerate() {
+            if finite("sum of the squares of the samples", size)? <= 0.0 {
                 return Err(Self::not_excited(word, None));
             }
-            scaled.column_mut(word).unscale_mut(*size);
+            for row in &mut scaled {
+                row[word] /= size;
+            }
             // A coefficient that depends on the ones before it, so that its fellow can be named.
-            if math::abs(scaled[(word, word)]) < f64::EPSILON {
-                scaled[(word, word)] = f64::EPSILON;
+            if math::abs(scaled[word][word]) < f64::EPSILON {
+                scaled[word][word] = f64::EPSILON;
             }
         }
-        let inverse = scaled
-            .solve_upper_triangular(&SMatrix::identity())
-            .unwrap_or_else(SMatrix::zeros);
-        let gain: [f64; WORDS] = core::array::from_fn(|word| inverse.row(word).norm());
+        let inverse = inverse_of_triangle(&scaled);
+        let gain: [f64; WORDS] = inverse.map(norm);
         let worst = (0..WORDS).max_by(|a, b| gain[*a].total_cmp(&gain[*b]));
         if let Some(word) = worst.filter(|word| gain[*word] * EXCITED >= 1.0) {
             let alike =
-                |other: usize| math::abs(inverse.row(word).dot(&inverse.row(other))) / gain[other];
+                |other: usize| math::abs(dot(&inverse[word], &inverse[other])) / gain[other];
             let others = (0..WORDS).filter(|other| *other != word);
             let like = others.max_by(|a, b| alike(*a).total_cmp(&alike(*b)));
             return Err(Self::not_excited(word, like));
         }
         let residual = math::sqrt(self.residual_square / free as f64);
-        let solution = inverse * self.right;
         Ok(Identified {
-            words: core::array::from_fn(|word| solution[word] / sizes[word]),
+            words: core::array::from_fn(|word| dot(&inverse[word], &self.right) / sizes[word]),
             standard_error: core::array::from_fn(|word| residual * gain[word] / sizes[word]),
             excitation: gain.map(|gain| 1.0 / gain),
             residual,
-            condition: scaled.norm() * inverse.norm() / WORDS as f64,
+            condition: norm(scaled.into_iter().flatten()) * norm(gain) / WORDS as f64,
             samples: self.samples,
         })
     }
@@ -218,6 +217,29 @@ impl<const WORDS: usize, const CURVES: u8, const TERMS: u8> Identification<WORDS
         }
         .into()
     }
+}
+
+/// The inverse of an upper triangle without zeros on its diagonal, column by column from below.
+fn inverse_of_triangle<const N: usize>(triangle: &[[f64; N]; N]) -> [[f64; N]; N] {
+    let mut inverse = [[0.0; N]; N];
+    for column in 0..N {
+        for row in (0..=column).rev() {
+            let one = if row == column { 1.0 } else { 0.0 };
+            let known: f64 = (row + 1..=column)
+                .map(|k| triangle[row][k] * inverse[k][column])
+                .sum();
+            inverse[row][column] = (one - known) / triangle[row][row];
+        }
+    }
+    inverse
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn norm(values: impl IntoIterator<Item = f64>) -> f64 {
+    math::sqrt(values.into_iter().map(|x| x * x).sum())
 }
 
 /// The coefficients of a machine from samples of its motion: [`Identification`] in one call.

@@ -1,12 +1,15 @@
 //! The triangular factor of a cycle: root mean squares of linear forms, without the samples.
 
-use nalgebra::{Matrix5, SMatrix, Vector5};
-
 use super::Sample;
 use crate::drive::LOADS;
 
 /// Rows of a block.
 const BLOCK: usize = 64;
+
+/// A row of loads, weighed.
+type Row = [f64; LOADS];
+/// An upper triangle, row by row.
+type Triangle = [Row; LOADS];
 
 /// R of the QR factorization of the rows √w·x: ∑ w·(c·x)² = ‖R·c‖² for every c.
 ///
@@ -16,7 +19,7 @@ const BLOCK: usize = 64;
 /// logarithm of their number only (Demmel, Grigori, Hoemmen, Langou 2012, "Communication-optimal parallel and sequential
 /// QR and LU factorizations").
 #[derive(Clone, Debug)]
-pub(super) struct Factor(Matrix5<f64>);
+pub(super) struct Factor(Triangle);
 
 impl Factor {
     /// The factor of the samples' loads.
@@ -33,11 +36,11 @@ impl Factor {
         )
     }
 
-    fn new(rows: impl Iterator<Item = (f64, [f64; LOADS])>) -> Self {
+    fn new(rows: impl Iterator<Item = (f64, Row)>) -> Self {
         // At place k of the row: the factor of 2^k blocks, or none.
-        let mut joined: Vec<Option<Matrix5<f64>>> = Vec::new();
-        let mut add = |block: &SMatrix<f64, BLOCK, LOADS>| {
-            let mut sum = block.qr().r();
+        let mut joined: Vec<Option<Triangle>> = Vec::new();
+        let mut add = |block: &mut [Row]| {
+            let mut sum = triangle(block);
             for place in &mut joined {
                 let Some(other) = place.take() else {
                     *place = Some(sum);
@@ -47,46 +50,66 @@ impl Factor {
             }
             joined.push(Some(sum));
         };
-        let mut block = SMatrix::<f64, BLOCK, LOADS>::zeros();
-        let mut filled = 0;
+        let mut block = Vec::with_capacity(BLOCK);
         for (weight, loads) in rows.filter(|(weight, _)| *weight > 0.0) {
-            block
-                .row_mut(filled)
-                .copy_from(&(Vector5::from(loads) * weight.sqrt()).transpose());
-            filled += 1;
-            if filled == BLOCK {
-                add(&block);
-                block.fill(0.0);
-                filled = 0;
+            let root = weight.sqrt();
+            block.push(loads.map(|x| root * x));
+            if block.len() == BLOCK {
+                add(&mut block);
+                block.clear();
             }
         }
-        if filled > 0 {
-            add(&block);
+        if !block.is_empty() {
+            add(&mut block);
         }
         let mut all = joined.into_iter().flatten();
-        let first = all.next().unwrap_or_else(Matrix5::zeros);
+        let first = all.next().unwrap_or_default();
         Self(all.fold(first, |sum, factor| join(&factor, &sum)))
     }
 
     /// √(∑ w·(c·x)²).
     pub(super) fn norm(&self, c: &[f64; LOADS]) -> f64 {
-        let r = &self.0;
-        let [a, b, c, d, e] = *c;
-        let rows = [
-            r[(0, 0)] * a + r[(0, 1)] * b + r[(0, 2)] * c + r[(0, 3)] * d + r[(0, 4)] * e,
-            r[(1, 1)] * b + r[(1, 2)] * c + r[(1, 3)] * d + r[(1, 4)] * e,
-            r[(2, 2)] * c + r[(2, 3)] * d + r[(2, 4)] * e,
-            r[(3, 3)] * d + r[(3, 4)] * e,
-            r[(4, 4)] * e,
-        ];
-        rows.iter().map(|x| x * x).sum::<f64>().sqrt()
+        let row = |(k, row): (usize, &Row)| -> f64 {
+            let terms = row.iter().zip(c).skip(k);
+            terms.map(|(r, c)| r * c).sum()
+        };
+        let rows = self.0.iter().enumerate().map(row);
+        rows.map(|x| x * x).sum::<f64>().sqrt()
     }
 }
 
-fn join(above: &Matrix5<f64>, below: &Matrix5<f64>) -> Matrix5<f64> {
-    let mut both = SMatrix::<f64, { 2 * LOADS }, LOADS>::zeros();
-    both.fixed_view_mut::<LOADS, LOADS>(0, 0).copy_from(above);
-    both.fixed_view_mut::<LOADS, LOADS>(LOADS, 0)
-        .copy_from(below);
-    both.qr().r()
+fn join(above: &Triangle, below: &Triangle) -> Triangle {
+    let mut both = [[0.0; LOADS]; 2 * LOADS];
+    both[..LOADS].copy_from_slice(above);
+    both[LOADS..].copy_from_slice(below);
+    triangle(&mut both)
+}
+
+/// R of the QR factorization of the rows by Householder's reflections, which are made in place.
+fn triangle(rows: &mut [Row]) -> Triangle {
+    let mut triangle = Triangle::default();
+    for k in 0..LOADS.min(rows.len()) {
+        let rest = &mut rows[k..];
+        let length = rest.iter().map(|row| row[k] * row[k]).sum::<f64>().sqrt();
+        if length > 0.0 {
+            // The mirror takes column k to (diagonal, 0, …); of the two signs the one that cancels nothing.
+            let diagonal = -length.copysign(rest[0][k]);
+            let normal = rest[0][k] - diagonal;
+            for column in k + 1..LOADS {
+                let across: f64 = normal * rest[0][column]
+                    + rest[1..]
+                        .iter()
+                        .map(|row| row[k] * row[column])
+                        .sum::<f64>();
+                let twice = across / (diagonal * normal);
+                rest[0][column] += twice * normal;
+                for row in &mut rest[1..] {
+                    row[column] += twice * row[k];
+                }
+            }
+            rest[0][k] = diagonal;
+        }
+        triangle[k][k..].copy_from_slice(&rest[0][k..]);
+    }
+    triangle
 }

@@ -4,14 +4,13 @@ use std::f64::consts::TAU;
 
 use jred_sizing::check::Verdict;
 use jred_sizing::rule::Rule;
-use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::{Stand, budget, near, press_text, refuses};
 
 /// Natural frequencies (Hz), rising, of a chain of masses with springs between neighbours; the first mass may be held.
 fn chain(held: bool, masses: &[f64], springs: &[f64]) -> Vec<f64> {
     let n = masses.len();
-    let mut matrix = DMatrix::<f64>::zeros(n, n);
+    let mut matrix = vec![vec![0.0; n]; n];
     for (k, spring) in springs.iter().enumerate() {
         for (a, b, sign) in [
             (k, k, 1.0),
@@ -19,21 +18,41 @@ fn chain(held: bool, masses: &[f64], springs: &[f64]) -> Vec<f64> {
             (k, k + 1, -1.0),
             (k + 1, k, -1.0),
         ] {
-            matrix[(a, b)] += sign * spring / (masses[a] * masses[b]).sqrt();
+            matrix[a][b] += sign * spring / (masses[a] * masses[b]).sqrt();
         }
     }
-    let matrix = if held {
-        matrix.remove_row(0).remove_column(0)
-    } else {
-        matrix
-    };
-    let mut values: Vec<f64> = SymmetricEigen::new(matrix)
-        .eigenvalues
+    if held {
+        matrix.remove(0);
+        for row in &mut matrix {
+            row.remove(0);
+        }
+    }
+    let mut values: Vec<f64> = eigenvalues(matrix)
         .iter()
-        .map(|x: &f64| x.max(0.0).sqrt() / TAU)
+        .map(|x| x.max(0.0).sqrt() / TAU)
         .collect();
     values.sort_by(f64::total_cmp);
     values
+}
+
+/// Eigenvalues of a symmetric matrix, by Jacobi's rotations.
+fn eigenvalues(mut a: Vec<Vec<f64>>) -> Vec<f64> {
+    let n = a.len();
+    for _ in 0..20 {
+        for p in 0..n {
+            for q in p + 1..n {
+                let (sin, cos) = (0.5 * (2.0 * a[p][q]).atan2(a[q][q] - a[p][p])).sin_cos();
+                for row in &mut a {
+                    (row[p], row[q]) = (cos * row[p] - sin * row[q], sin * row[p] + cos * row[q]);
+                }
+                for k in 0..n {
+                    let (x, y) = (a[p][k], a[q][k]);
+                    (a[p][k], a[q][k]) = (cos * x - sin * y, sin * x + cos * y);
+                }
+            }
+        }
+    }
+    (0..n).map(|k| a[k][k]).collect()
 }
 
 fn stand(stiffness: &str) -> Stand {
