@@ -145,7 +145,7 @@ pub enum Error {
     /// Dimensions of a library mechanism that do not fit together.
     Misfit(crate::mechanism::Misfit),
     /// A cam program or a cam that is not possible.
-    Cam(crate::cam::CamError),
+    Cam(crate::mechanism::cam::CamError),
     /// A machine without harmonics, or harmonics that cannot be identified.
     Harmonic(crate::harmonic::HarmonicError),
     /// The drive link of a library mechanism cannot turn fully.

@@ -94,50 +94,39 @@
 //!
 //! Neither is on by default.
 
-pub mod cam;
 pub mod duty;
-mod element;
 mod error;
 mod fixed;
 pub mod friction;
 pub mod harmonic;
 mod image;
-pub mod joint;
-mod kinetostatics;
-mod linear;
-mod link;
-mod load;
+mod machine;
 mod math;
 pub mod mechanism;
 mod model;
-pub mod motion;
+mod number;
 mod phase;
-mod quadrature;
-mod reduction;
 mod scalar;
 mod scale;
 pub mod short;
-pub mod synthesis;
 pub mod table;
 pub mod tabulate;
-mod transfer;
 
-pub use element::{Element, MAX_ELEMENTS};
 pub use error::Error;
 pub use image::{Aligned, HEADER_WORDS, Image, ImageError, VERSION, Validity, encode, image_words};
-pub use joint::{Body, Joint, Marker, Wrench};
-pub use kinetostatics::{Forces, Reaction};
-pub use link::{Frame, Link};
-pub use load::{Action, Load, LoadCurves, Window};
+pub use machine::{
+    Action, Body, Element, Forces, Frame, Joint, Jointed, Link, Load, LoadCurves, MAX_ELEMENTS,
+    MAX_LOADS, Machine, Marker, Mechanism, Reaction, Reducible, Reduction, TorqueTerms, Window,
+    Wrench, joint, motion,
+};
 pub use math::Real;
-pub use mechanism::{Jointed, Mechanism};
+pub use mechanism::{cam, synthesis};
 pub use model::{AccelerationRange, Model, Part, Pieces, Usage};
+pub use number::Transfer;
 pub use phase::{Domain, Phase};
-pub use reduction::{MAX_LOADS, Machine, Reducible, Reduction, TorqueTerms};
 pub use scalar::{Number, Outcome, Q15, Q31, Scalar};
 pub use scale::Scale;
 pub use table::{Table, TableError};
-pub use transfer::Transfer;
 
 mod sealed {
     /// Keeps the number traits closed: their contracts are tested type by type.

@@ -5,7 +5,7 @@ use core::fmt;
 
 use super::Dual;
 use crate::error::{finite, positive};
-use crate::motion::Law;
+use crate::machine::motion::Law;
 use crate::table::CubicSpline;
 use crate::{Error, math};
 

@@ -128,7 +128,7 @@ impl<'a> Stage<'a> {
     /// # Errors
     /// Those of [`at`](Self::at).
     pub fn angle(&self, t: f64, from: f64, to: f64) -> Result<f64, Error> {
-        crate::quadrature::integrate(from, to, 64, |phi| {
+        crate::number::quadrature::integrate(from, to, 64, |phi| {
             Ok(self.at(Place::new(t, phi, 0.0))?.speed.value)
         })
     }

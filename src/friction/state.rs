@@ -1,8 +1,8 @@
 //! What goes into a friction drive's equation of motion, and what comes out.
 
 use super::drive::{MAX_SHAFTS, MAX_STAGES};
+use crate::machine::reduction::Reduction;
 use crate::math;
-use crate::reduction::Reduction;
 
 /// What turns with a shaft, and what acts on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -12,7 +12,7 @@ use super::spectrum::Spectrum;
 use super::word::{Coefficient, Curve, Kind, in_use, words_len};
 use super::{Circular, HarmonicError, HarmonicModel, MAX_HARMONICS};
 use crate::error::positive;
-use crate::reduction::Reducible;
+use crate::machine::reduction::Reducible;
 use crate::{Domain, Error, Phase, math};
 
 /// What the harmonics are for.

@@ -12,7 +12,7 @@ use core::f64::consts::TAU;
 
 use super::word::Curve;
 use crate::error::finite;
-use crate::reduction::Reducible;
+use crate::machine::reduction::Reducible;
 use crate::tabulate::unfold;
 use crate::{Error, math};
 

@@ -1,8 +1,8 @@
 //! Pairs of links that close a chain (dyads, Assur groups of the second class): the position of two links from the
 //! places of their outer joints.
 
-use crate::link::Frame;
-use crate::transfer::Transfer;
+use crate::machine::link::Frame;
+use crate::number::transfer::Transfer;
 
 /// On which side of a directed line the pin between two links lies: a pair of links can be put together in two ways.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -3,9 +3,9 @@
 use super::{Frames, Jointed, Mechanism};
 use crate::error::finite;
 use crate::friction::{Arrangement, MAX_SHAFTS, MAX_STAGES, Stage};
-use crate::joint::{Body, Joint, Joints, Marker, Wrench};
-use crate::link::{Frame, Link};
-use crate::transfer::Transfer;
+use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
+use crate::machine::link::{Frame, Link};
+use crate::number::transfer::Transfer;
 use crate::{Domain, Error};
 
 /// A chain or a fan of friction stages as a mechanism: its links are the shafts, shaft 1 is the drive link.

@@ -22,9 +22,9 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::misfit::centred;
 use super::{Frames, Jointed, Mechanism};
 use crate::error::{finite, positive};
-use crate::joint::{Body, Joint, Joints, Marker, Wrench};
-use crate::link::{Frame, Link};
-use crate::transfer::Transfer;
+use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
+use crate::machine::link::{Frame, Link};
+use crate::number::transfer::Transfer;
 use crate::{Domain, Error, math};
 
 /// An external Geneva drive, driven at the crank, which turns fully.

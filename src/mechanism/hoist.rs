@@ -18,9 +18,9 @@
 
 use super::{Frames, Jointed, Mechanism};
 use crate::error::{finite, positive};
-use crate::joint::{Body, Joint, Joints, Marker, Wrench};
-use crate::link::{Frame, Link};
-use crate::transfer::Transfer;
+use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
+use crate::machine::link::{Frame, Link};
+use crate::number::transfer::Transfer;
 use crate::{Domain, Error};
 
 /// One rope of a hoist: where it runs on the drum, and by how many falls it carries its load.

@@ -19,9 +19,9 @@ use core::f64::consts::PI;
 
 use super::{Frames, Jointed, Mechanism, Misfit};
 use crate::error::{finite, positive};
-use crate::joint::{Joint, Joints, Marker};
-use crate::link::{Frame, Link};
-use crate::transfer::Transfer;
+use crate::machine::joint::{Joint, Joints, Marker};
+use crate::machine::link::{Frame, Link};
+use crate::number::transfer::Transfer;
 use crate::{Domain, Error, math};
 
 /// How the slotted lever moves.

@@ -10,9 +10,9 @@
 use super::misfit::centred;
 use super::{Frames, Jointed, MAX_LINKS, Mechanism};
 use crate::error::{finite, positive};
-use crate::joint::{Body, Joint, Joints, Marker, Wrench};
-use crate::link::{Frame, Link};
-use crate::transfer::Transfer;
+use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
+use crate::machine::link::{Frame, Link};
+use crate::number::transfer::Transfer;
 use crate::{Domain, Error, math};
 
 /// A drive shaft with driven shafts: a line shaft, the rollers of a table, a timing belt round several pulleys.

@@ -17,9 +17,9 @@ use core::f64::consts::PI;
 use super::misfit::centred;
 use super::{Frames, Jointed, Mechanism, Misfit};
 use crate::error::{finite, positive};
-use crate::joint::{Body, Joint, Joints, Marker, Wrench};
-use crate::link::{Frame, Link};
-use crate::transfer::Transfer;
+use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
+use crate::machine::link::{Frame, Link};
+use crate::number::transfer::Transfer;
 use crate::{Domain, Error, math};
 
 /// A central member of a planetary gear.

@@ -14,9 +14,9 @@ use core::f64::consts::TAU;
 
 use super::{Frames, Jointed, Mechanism};
 use crate::error::{finite, positive};
-use crate::joint::{Body, Joint, Joints, Marker};
-use crate::link::{Frame, Link};
-use crate::transfer::Transfer;
+use crate::machine::joint::{Body, Joint, Joints, Marker};
+use crate::machine::link::{Frame, Link};
+use crate::number::transfer::Transfer;
 use crate::{Domain, Error};
 
 /// A rack driven by a pinion.

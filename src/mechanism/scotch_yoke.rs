@@ -12,9 +12,9 @@
 
 use super::{Frames, Jointed, Mechanism};
 use crate::error::{finite, positive};
-use crate::joint::{Joint, Joints, Marker};
-use crate::link::{Frame, Link};
-use crate::transfer::Transfer;
+use crate::machine::joint::{Joint, Joints, Marker};
+use crate::machine::link::{Frame, Link};
+use crate::number::transfer::Transfer;
 use crate::{Domain, Error, math};
 
 /// A Scotch yoke, driven at the crank, which turns fully.

@@ -23,9 +23,9 @@ use core::f64::consts::PI;
 use super::four_bar::beyond;
 use super::{Blocked, Branch, Frames, Jointed, Mechanism, dyad};
 use crate::error::{finite, positive};
-use crate::joint::{Joint, Joints, Marker};
-use crate::link::{Frame, Link};
-use crate::transfer::Transfer;
+use crate::machine::joint::{Joint, Joints, Marker};
+use crate::machine::link::{Frame, Link};
+use crate::number::transfer::Transfer;
 use crate::{Domain, Error, math};
 
 /// The six-link mechanism, driven at the crank, which turns fully.

@@ -23,8 +23,8 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::four_bar::beyond;
 use super::{Blocked, Branch, FourBar, Frames, Jointed, Mechanism, Side, dyad};
 use crate::error::{finite, positive};
-use crate::joint::{Joint, Joints, Marker};
-use crate::link::Link;
+use crate::machine::joint::{Joint, Joints, Marker};
+use crate::machine::link::Link;
 use crate::{Domain, Error, math};
 
 /// Why the ram stands still at a dead centre.

@@ -2,9 +2,9 @@
 
 use super::{Frames, Jointed, Mechanism};
 use crate::error::{not_negative, positive};
-use crate::joint::{Body, Joint, Joints, Marker, Wrench};
-use crate::link::{Frame, Link};
-use crate::transfer::Transfer;
+use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
+use crate::machine::link::{Frame, Link};
+use crate::number::transfer::Transfer;
 use crate::{Domain, Error};
 
 /// How two gears mesh.

@@ -3,7 +3,7 @@
 use super::row::{self, has, word};
 use super::table::words_len;
 use super::{Constants, Table, fit};
-use crate::reduction::{Reducible, Reduction};
+use crate::machine::reduction::{Reducible, Reduction};
 use crate::table::{
     MAX_CELLS, MIN_CELLS, TableError, control_points, curves, fit_quadratic_bounded,
     fit_quadratic_periodic,

@@ -1,7 +1,7 @@
 //! How exact a table of 16-bit rows is.
 
 use super::Table;
-use crate::reduction::{Reducible, Reduction};
+use crate::machine::reduction::{Reducible, Reduction};
 use crate::tabulate::{CHECKS_PER_CELL, Request, Tabulated, scan, torque_between};
 use crate::{Error, Phase, Scale};
 

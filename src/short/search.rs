@@ -2,7 +2,7 @@
 
 use super::fill::fill;
 use super::measure::{measure, measure_until};
-use crate::reduction::Reducible;
+use crate::machine::reduction::Reducible;
 use crate::tabulate::{self, Request, Tabulated};
 use crate::{Error, Scale};
 

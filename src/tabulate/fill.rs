@@ -3,7 +3,7 @@
 use super::rounding::Points;
 use super::unfold::unfold;
 use super::{scratch_len, words_len};
-use crate::reduction::{Reducible, Reduction};
+use crate::machine::reduction::{Reducible, Reduction};
 use crate::scalar::Scalar;
 use crate::table::{
     Constants, Layout, MAX_CELLS, MIN_CELLS, Role, Table, TableError, control_points, curves,

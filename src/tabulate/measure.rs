@@ -1,7 +1,7 @@
 //! How exact a table is.
 
 use super::{CHECKS_PER_CELL, Request, Tabulated};
-use crate::reduction::{Reducible, Reduction};
+use crate::machine::reduction::{Reducible, Reduction};
 use crate::scalar::Scalar;
 use crate::table::{Layout, Table};
 use crate::{Domain, Error, Phase, Scale, math};

@@ -25,7 +25,7 @@ use measure::measure_until;
 use near::{Look, meets_near, search_near};
 
 use crate::error::positive;
-use crate::reduction::Reducible;
+use crate::machine::reduction::Reducible;
 use crate::scalar::Scalar;
 use crate::table::{Layout, MAX_CELLS, Table, control_points, curves};
 use crate::{Error, Scale, Validity, math};

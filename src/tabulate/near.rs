@@ -7,7 +7,7 @@
 
 use super::measure::{Places, measure_until, scan_places, torque_error};
 use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, Tabulated, search};
-use crate::reduction::Reducible;
+use crate::machine::reduction::Reducible;
 use crate::scalar::Scalar;
 use crate::table::{Layout, Table};
 use crate::{Error, Scale};

@@ -1,7 +1,7 @@
 //! The relation between positions that a holonomic constraint is.
 
 use super::{Dual, coefficients};
-use crate::quadrature;
+use crate::number::quadrature;
 use crate::{Error, math};
 
 /// Φ(to) − Φ(from) of a total differential θ = dΦ (III.10), along the straight line: ∫ Σ C_i·Δx_i ds.

@@ -2,8 +2,8 @@
 
 use super::follower::Follower;
 use super::geometry::{Geometry, Touch};
-use crate::cam::{CamError, Extreme, Program, smallest};
 use crate::math;
+use crate::mechanism::cam::{CamError, Extreme, Program, smallest};
 
 /// The geometry with this base radius, checked over the whole turn.
 pub(super) fn checked(

@@ -1,7 +1,7 @@
 //! What runs on the cam.
 
 use crate::error::{finite, positive};
-use crate::link::Link;
+use crate::machine::link::Link;
 use crate::{Error, math};
 
 /// Which way an oscillating follower turns when it rises.

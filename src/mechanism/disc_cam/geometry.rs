@@ -22,10 +22,10 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use super::follower::{Follower, distance};
-use crate::cam::{CamError, Extreme};
-use crate::link::Frame;
+use crate::machine::link::Frame;
 use crate::math;
-use crate::transfer::Transfer;
+use crate::mechanism::cam::{CamError, Extreme};
+use crate::number::transfer::Transfer;
 
 /// Cam and follower in the position s = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -23,12 +23,12 @@ pub use profile::{CamContact, CamProfile};
 use core::f64::consts::FRAC_PI_2;
 
 use super::{Frames, Jointed, Mechanism};
-use crate::cam::{Extreme, Program};
-use crate::element::Element;
 use crate::error::{finite, not_negative, positive};
-use crate::joint::{Body, Joint, Joints, Marker};
-use crate::link::{Frame, Link};
-use crate::transfer::Transfer;
+use crate::machine::element::Element;
+use crate::machine::joint::{Body, Joint, Joints, Marker};
+use crate::machine::link::{Frame, Link};
+use crate::mechanism::cam::{Extreme, Program};
+use crate::number::transfer::Transfer;
 use crate::{Domain, Error};
 use spin::Spin;
 
@@ -57,7 +57,7 @@ impl DiscCam {
     /// Index of the roller, if the follower has one.
     pub const ROLLER: usize = 2;
     /// Index of the joint in which cam and follower press on each other, for
-    /// [`contact_force`](crate::cam::contact_force) and [`lift_off`](crate::cam::lift_off).
+    /// [`contact_force`](crate::mechanism::cam::contact_force) and [`lift_off`](crate::mechanism::cam::lift_off).
     pub const CONTACT: usize = 2;
 
     /// A cam with the base radius r_b (m) that moves the follower by the program; `links` are cam and follower, without

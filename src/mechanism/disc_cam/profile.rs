@@ -3,9 +3,9 @@
 use super::check;
 use super::follower::Follower;
 use super::geometry::{Geometry, Touch};
-use crate::cam::{Extreme, Program};
 use crate::error::positive;
-use crate::transfer::Transfer;
+use crate::mechanism::cam::{Extreme, Program};
+use crate::number::transfer::Transfer;
 use crate::{Error, math};
 
 /// Where and how cam and follower touch.

@@ -14,10 +14,10 @@ use core::convert::Infallible;
 use core::f64::consts::TAU;
 
 use super::geometry::Geometry;
-use crate::cam::{MAX_SEGMENTS, Program};
 use crate::math;
-use crate::quadrature::integrate;
-use crate::transfer::Transfer;
+use crate::mechanism::cam::{MAX_SEGMENTS, Program};
+use crate::number::quadrature::integrate;
+use crate::number::transfer::Transfer;
 
 /// A segment has at most five pieces.
 const MAX_PIECES: usize = 5 * MAX_SEGMENTS;

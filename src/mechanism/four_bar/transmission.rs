@@ -3,7 +3,7 @@
 use core::f64::consts::{PI, TAU};
 
 use super::{FourBar, beyond};
-use crate::transfer::Transfer;
+use crate::number::transfer::Transfer;
 use crate::{Domain, Error, math};
 
 impl FourBar {

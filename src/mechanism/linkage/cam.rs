@@ -1,9 +1,9 @@
 //! A cam and its follower as a pair of a linkage: one equation, and the force along the normal of contact.
 
-use crate::joint::{Joint, Marker};
-use crate::link::Frame;
+use crate::machine::joint::{Joint, Marker};
+use crate::machine::link::Frame;
 use crate::mechanism::CamProfile;
-use crate::transfer::Transfer;
+use crate::number::transfer::Transfer;
 
 /// The cams of a linkage.
 pub(super) type Cams<const CAMS: usize> = heapless::Vec<PlacedCam, CAMS>;

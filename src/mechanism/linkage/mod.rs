@@ -19,9 +19,9 @@ pub use pair::Pair;
 pub use walk::Assembly;
 
 use crate::error::finite;
-use crate::joint::{Body, Joint};
-use crate::link::{Frame, Link};
-use crate::transfer::Transfer;
+use crate::machine::joint::{Body, Joint};
+use crate::machine::link::{Frame, Link};
+use crate::number::transfer::Transfer;
 use crate::{Error, math};
 
 use cam::Cams;
@@ -86,7 +86,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
     ///
     /// A cam's bearings are pairs of their own: the cam turns about the point of its base, and the follower is guided as its
     /// [`CamProfile`](super::CamProfile) has it, seen from there. The force of the pair acts along the common normal at the
-    /// point of contact; a negative one, for [`contact_force`](crate::cam::contact_force), would need a groove.
+    /// point of contact; a negative one, for [`contact_force`](crate::mechanism::cam::contact_force), would need a groove.
     ///
     /// # Errors
     /// Those of [`new`](Linkage::new); too many cams; a pair of a cam that does not exist, or one with its base on the cam
@@ -97,7 +97,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         cams: &[PlacedCam],
         drive: usize,
     ) -> Result<Self, Error> {
-        const { assert!(LINKS <= super::MAX_LINKS && PAIRS <= crate::joint::MAX_JOINTS) }
+        const { assert!(LINKS <= super::MAX_LINKS && PAIRS <= crate::machine::joint::MAX_JOINTS) }
         let too_many = |what, capacity| Error::TooMany { what, capacity };
         let links = heapless::Vec::from_slice(links).map_err(|_| too_many("links", LINKS))?;
         let pairs: heapless::Vec<Pair, PAIRS> =

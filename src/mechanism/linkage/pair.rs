@@ -10,9 +10,9 @@
 )]
 
 use crate::error::{finite, positive};
-use crate::joint::{Body, Joint, Marker, Wrench};
-use crate::link::Frame;
-use crate::transfer::Transfer;
+use crate::machine::joint::{Body, Joint, Marker, Wrench};
+use crate::machine::link::Frame;
+use crate::number::transfer::Transfer;
 use crate::{Error, math};
 
 use super::cam::{Cams, PlacedCam};

@@ -1,8 +1,8 @@
 //! Positions and transfer functions of a linkage at one φ: Newton's method for (76), then the linear systems (77), (78).
 
-use crate::linear;
-use crate::link::Frame;
-use crate::transfer::Transfer;
+use crate::machine::link::Frame;
+use crate::number::linear;
+use crate::number::transfer::Transfer;
 
 use super::cam::Cams;
 use super::structure::{Coordinate, Equation, Group, Method, PSI};

@@ -5,8 +5,8 @@
 //! group of k coordinates costs about k³ operations, a chain of groups no more than their sum.
 
 use crate::Error;
-use crate::link::Frame;
-use crate::transfer::Transfer;
+use crate::machine::link::Frame;
+use crate::number::transfer::Transfer;
 
 use super::pair::Pair;
 

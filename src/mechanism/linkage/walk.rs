@@ -3,10 +3,10 @@
 use core::f64::consts::TAU;
 
 use crate::error::finite;
-use crate::joint::Joints;
-use crate::link::{Frame, Link};
+use crate::machine::joint::Joints;
+use crate::machine::link::{Frame, Link};
 use crate::mechanism::{Frames, Jointed, Mechanism};
-use crate::transfer::Transfer;
+use crate::number::transfer::Transfer;
 use crate::{Domain, Error, math};
 
 use super::solver::{Solved, Unsolved};

@@ -21,9 +21,9 @@ use super::dyad;
 use super::grashof::NAMES;
 use super::{Blocked, Frames, Grashof, Jointed, Mechanism, Side};
 use crate::error::{finite, positive};
-use crate::joint::{Joint, Joints, Marker};
-use crate::link::{Frame, Link};
-use crate::transfer::Transfer;
+use crate::machine::joint::{Joint, Joints, Marker};
+use crate::machine::link::{Frame, Link};
+use crate::number::transfer::Transfer;
 use crate::{Domain, Error, math};
 
 /// Distance kept from a dead point, as a share of b + c, so that no position within the range fails by a rounding.

@@ -4,9 +4,9 @@
 //! freedoms it takes is the number of its unknown reactions: two forces in a pin, a force and a moment in a guide.
 
 use crate::error::finite;
-use crate::link::Frame;
-use crate::mechanism::MAX_LINKS;
-use crate::transfer::Transfer;
+use crate::machine::link::Frame;
+use crate::machine::mechanism::MAX_LINKS;
+use crate::number::transfer::Transfer;
 use crate::{Error, math};
 
 /// The most joints of a mechanism: every one of the links' freedoms but the drive's may be taken by a joint of its own.

@@ -13,10 +13,11 @@
 //! V. G. Nazarenko, *Dynamics of mechanisms*, Minsk 2002, chapters 1 and 2.
 
 use crate::error::finite;
-use crate::joint::{Body, Joint, MAX_JOINTS, Wrench};
-use crate::link::{Frame, Link};
-use crate::mechanism::{Frames, Jointed, MAX_LINKS};
-use crate::{Error, Machine, linear};
+use crate::machine::joint::{Body, Joint, MAX_JOINTS, Wrench};
+use crate::machine::link::{Frame, Link};
+use crate::machine::mechanism::{Frames, Jointed, MAX_LINKS};
+use crate::number::linear;
+use crate::{Error, Machine};
 
 /// Most unknowns: three equations a link.
 const MOST: usize = 3 * MAX_LINKS;

@@ -1,7 +1,7 @@
 //! One rigid link: its mass, and how it moves.
 
 use crate::error::{finite, not_negative};
-use crate::transfer::Transfer;
+use crate::number::transfer::Transfer;
 use crate::{Error, math};
 
 /// Mass properties of a rigid link.

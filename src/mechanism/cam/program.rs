@@ -4,8 +4,8 @@ use core::f64::consts::TAU;
 
 use super::extreme::{Extreme, smallest};
 use super::segment::{Segment, Shape};
-use crate::cam::CamError;
-use crate::transfer::Transfer;
+use crate::mechanism::cam::CamError;
+use crate::number::transfer::Transfer;
 use crate::{Error, math};
 
 /// The most segments of a program.

@@ -14,8 +14,8 @@ use core::fmt;
 
 use super::extreme::smallest;
 use super::program::{Piece, within_turn};
+use crate::machine::reduction::MAX_LOADS;
 use crate::mechanism::Jointed;
-use crate::reduction::MAX_LOADS;
 use crate::{Error, Joint, Machine, math};
 
 /// Speeds above this (rad/s) are no machine's; where roundings alone would end the contact there, it does not end.

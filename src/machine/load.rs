@@ -1,9 +1,9 @@
 //! Forces and moments that act on the links, other than gravity.
 
 use crate::error::{finite, not_negative, positive};
-use crate::joint::{Body, Wrench};
-use crate::link::Frame;
-use crate::motion::Law;
+use crate::machine::joint::{Body, Wrench};
+use crate::machine::link::Frame;
+use crate::machine::motion::Law;
 use crate::{Error, math};
 
 /// What a load does to its link.

@@ -11,10 +11,10 @@
 
 use core::f64::consts::TAU;
 
-use crate::element::{Element, MAX_ELEMENTS};
 use crate::error::{finite, not_negative};
-use crate::load::Load;
-use crate::mechanism::{Frames, MAX_LINKS, Mechanism};
+use crate::machine::element::{Element, MAX_ELEMENTS};
+use crate::machine::load::Load;
+use crate::machine::mechanism::{Frames, MAX_LINKS, Mechanism};
 use crate::{Domain, Error, math};
 
 /// The most loads of a machine.

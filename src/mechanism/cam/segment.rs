@@ -1,8 +1,8 @@
 //! One segment of a cam program.
 
-use crate::cam::CamError;
-use crate::motion::Law;
-use crate::transfer::Transfer;
+use crate::machine::motion::Law;
+use crate::mechanism::cam::CamError;
+use crate::number::transfer::Transfer;
 
 /// How the follower gets from one end of a segment to the other.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,9 +7,9 @@
 //! ```
 
 use crate::error::{finite, not_negative, positive};
-use crate::joint::{Marker, Wrench};
-use crate::link::Frame;
-use crate::transfer::Transfer;
+use crate::machine::joint::{Marker, Wrench};
+use crate::machine::link::Frame;
+use crate::number::transfer::Transfer;
 use crate::{Error, math};
 
 /// The most force elements of a machine.

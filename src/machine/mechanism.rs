@@ -1,0 +1,65 @@
+//! What a mechanism is to a machine: links, a range of the drive link, and positions with their transfer functions.
+
+use super::joint::Joints;
+use super::link::{Frame, Link};
+use crate::{Domain, Error};
+
+/// The most links that a mechanism may have.
+pub const MAX_LINKS: usize = 16;
+
+/// The frames of all links at one angle, in the order of [`Mechanism::links`].
+pub type Frames = heapless::Vec<Frame, MAX_LINKS>;
+
+/// A planar mechanism with one degree of freedom.
+///
+/// Implement it for a mechanism of your own: everything after it (reduction, tables, model) works unchanged.
+pub trait Mechanism {
+    /// Mass properties of the moving links.
+    fn links(&self) -> &[Link];
+
+    /// Range of the drive link.
+    fn domain(&self) -> Domain;
+
+    /// Position of every link, with transfer functions, at the drive link's angle `phi` (rad).
+    ///
+    /// # Errors
+    /// A dead point or a position that cannot be assembled; a mechanism checked when built returns none within its domain.
+    fn frames(&self, phi: f64) -> Result<Frames, Error>;
+}
+
+/// A mechanism that knows what holds its links together, and so the forces in every joint
+/// ([`Machine::forces`](crate::Machine::forces)).
+pub trait Jointed: Mechanism {
+    /// The joints at the drive link's angle `phi` (rad), where the links are at `frames`. Their number and order do not
+    /// depend on `phi`. Together they leave the links one freedom.
+    ///
+    /// # Errors
+    /// Those of [`frames`](Mechanism::frames).
+    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, Error>;
+
+    /// Index of the joint that the drive moves: its coordinate is φ up to a constant.
+    fn drive(&self) -> usize {
+        0
+    }
+}
+
+impl<M: Jointed + ?Sized> Jointed for &M {
+    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, Error> {
+        (**self).joints(phi, frames)
+    }
+    fn drive(&self) -> usize {
+        (**self).drive()
+    }
+}
+
+impl<M: Mechanism + ?Sized> Mechanism for &M {
+    fn links(&self) -> &[Link] {
+        (**self).links()
+    }
+    fn domain(&self) -> Domain {
+        (**self).domain()
+    }
+    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+        (**self).frames(phi)
+    }
+}
