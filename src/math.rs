@@ -1,4 +1,6 @@
-//! The only door to `libm`. Called by path, so that `std`'s methods never stand in for them in tests.
+//! The only door to `libm`: one library, so the same bits on every processor. `clippy.toml` refuses its functions everywhere
+//! else in the package. They are called by path, so that `std`'s methods never replace them in tests.
+#![allow(clippy::disallowed_methods, reason = "the door itself")]
 
 /// A binary floating-point number: `f32` or `f64`. Sealed.
 ///
@@ -119,8 +121,30 @@ pub(crate) fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 
+pub(crate) fn log2(x: f64) -> f64 {
+    libm::log2(x)
+}
+
+pub(crate) fn exp2(x: f64) -> f64 {
+    libm::exp2(x)
+}
+
+pub(crate) fn pow(x: f64, y: f64) -> f64 {
+    libm::pow(x, y)
+}
+
 pub(crate) fn floor(x: f64) -> f64 {
     libm::floor(x)
+}
+
+/// To the nearest integer, halves away from zero.
+pub(crate) fn round(x: f64) -> f64 {
+    libm::round(x)
+}
+
+/// To the nearest integer, halves to even.
+pub(crate) fn rint(x: f64) -> f64 {
+    libm::rint(x)
 }
 
 pub(crate) fn abs(x: f64) -> f64 {

@@ -5,6 +5,7 @@
 //! ```
 //!
 //! The data: r, λ, m, J₀, m·g, b, c.
+#![allow(clippy::disallowed_methods, reason = "libm itself is what is measured")]
 
 use core::hint::black_box;
 

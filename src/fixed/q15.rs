@@ -1,5 +1,6 @@
 //! Fixed point with 16-bit tables.
 
+use crate::math;
 use crate::scalar::{Number, Outcome};
 
 /// A per-unit number in [−1, 1): an `i16` in units of 2⁻¹⁵, for the tables of [`short`](crate::short).
@@ -36,7 +37,7 @@ impl Q15 {
 
 impl Number for Q15 {
     fn from_f64(value: f64) -> Option<Self> {
-        let nearest = libm::round(value * f64::from(UNIT));
+        let nearest = math::round(value * f64::from(UNIT));
         let fits = (f64::from(i16::MIN)..=f64::from(i16::MAX)).contains(&nearest);
         fits.then_some(Self(nearest as i16))
     }

@@ -5,7 +5,7 @@ use core::num::{NonZeroU64, Wrapping};
 use super::product::{high, high_short};
 use crate::scalar::{Kernel, Number, Outcome, Ring, Scalar};
 use crate::table::Role;
-use crate::{Domain, Scale};
+use crate::{Domain, Scale, math};
 
 /// A per-unit number in [−1, 1): an `i32` in units of 2⁻³¹.
 ///
@@ -125,7 +125,7 @@ impl Kernel for Q31 {
         Wrapping(word)
     }
     fn word(role: Role, coefficient: f64) -> Option<i32> {
-        let scaled = libm::rint(coefficient * unit(role));
+        let scaled = math::rint(coefficient * unit(role));
         (-2_147_483_648.0..2_147_483_648.0)
             .contains(&scaled)
             .then_some(scaled as i32)

@@ -103,7 +103,7 @@ impl Parts {
     /// As they are stored.
     fn rounded(self, shift: u32) -> Result<Constants, Error> {
         let rounded = |value: f64, unit: f64| {
-            let scaled = libm::rint(value * unit);
+            let scaled = math::rint(value * unit);
             (math::abs(scaled) < 2_147_483_648.0)
                 .then_some(scaled as i32)
                 .ok_or(Error::Overflow {
@@ -264,7 +264,7 @@ impl<'s> Curves<'s> {
             }
         }
         // A unit below the end of the range, for the rounding.
-        let shift = math::floor(libm::log2(32_766.0 / most));
+        let shift = math::floor(math::log2(32_766.0 / most));
         if (0.0..=15.0).contains(&shift) {
             return Ok(shift as u32);
         }

@@ -222,7 +222,7 @@ fn check_lengths(samples: usize, cells: usize, control: usize) -> Result<(), Err
 }
 
 fn power(base: f64, exponent: usize) -> f64 {
-    libm::pow(base, exponent as f64)
+    math::pow(base, exponent as f64)
 }
 
 /// A curve in double precision over the range 0 to 1: the reference for tables, and for recorded motions.

@@ -165,7 +165,7 @@ fn sample<L: Layout>(
         let inertia = samples.get(..count as usize).unwrap_or_default();
         let least = inertia.iter().copied().fold(f64::INFINITY, f64::min);
         // A tenth below, for what a coarse curve overshoots.
-        let unit = libm::exp2(math::floor(libm::log2(0.9 * least)));
+        let unit = math::exp2(math::floor(math::log2(0.9 * least)));
         for k in 0..count as usize {
             let inertia = samples.get(k).copied().unwrap_or(1.0);
             if let Some(slot) = samples.get_mut(column * rows + k) {
