@@ -94,26 +94,17 @@
 //!
 //! Neither is on by default.
 
-pub mod duty;
+pub mod curve;
 mod error;
-mod fixed;
 pub mod friction;
-pub mod harmonic;
-mod image;
 mod machine;
 mod math;
 pub mod mechanism;
-mod model;
 mod number;
-mod phase;
-mod scalar;
-mod scale;
-pub mod short;
-pub mod table;
 pub mod tabulate;
+mod tick;
 
 pub use error::Error;
-pub use image::{Aligned, HEADER_WORDS, Image, ImageError, VERSION, Validity, encode, image_words};
 pub use machine::{
     Action, Body, Element, Forces, Frame, Joint, Jointed, Link, Load, LoadCurves, MAX_ELEMENTS,
     MAX_LOADS, Machine, Marker, Mechanism, Reaction, Reducible, Reduction, TorqueTerms, Window,
@@ -121,12 +112,16 @@ pub use machine::{
 };
 pub use math::Real;
 pub use mechanism::{cam, synthesis};
-pub use model::{AccelerationRange, Model, Part, Pieces, Usage};
-pub use number::Transfer;
-pub use phase::{Domain, Phase};
-pub use scalar::{Number, Outcome, Q15, Q31, Scalar};
-pub use scale::Scale;
-pub use table::{Table, TableError};
+
+// Numbers, curves and the tick.
+pub use curve as table;
+pub use curve::{Table, TableError};
+pub use number::{Domain, Number, Outcome, Phase, Q15, Q31, Scalar, Scale, Transfer};
+pub use tick::{
+    AccelerationRange, Aligned, HEADER_WORDS, Image, ImageError, Model, Part, Pieces, Usage,
+    VERSION, Validity,
+};
+pub use tick::{duty, encode, harmonic, image_words, short};
 
 mod sealed {
     /// Keeps the number traits closed: their contracts are tested type by type.
@@ -135,10 +130,10 @@ mod sealed {
     impl Sealed for f64 {}
     impl Sealed for crate::Q15 {}
     impl Sealed for crate::Q31 {}
-    impl Sealed for crate::table::Spline {}
-    impl Sealed for crate::table::Spline16 {}
-    impl Sealed for crate::table::Cubic {}
-    impl Sealed for crate::table::Quadratic {}
+    impl Sealed for crate::curve::Spline {}
+    impl Sealed for crate::curve::Spline16 {}
+    impl Sealed for crate::curve::Cubic {}
+    impl Sealed for crate::curve::Quadratic {}
 }
 
 /// The README's program is compiled and run with the documentation tests.

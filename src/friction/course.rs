@@ -4,9 +4,9 @@ use core::f64::consts::TAU;
 use core::fmt;
 
 use super::Dual;
+use crate::curve::CubicSpline;
 use crate::error::{finite, positive};
 use crate::machine::motion::Law;
-use crate::table::CubicSpline;
 use crate::{Error, math};
 
 /// What a course may depend on: time, angle and load of one friction stage, with derivatives by these three.
@@ -241,7 +241,7 @@ pub struct Curve<C> {
 
 impl<C: AsRef<[f64]>> Curve<C> {
     /// A curve over x from `start` to `start + length`, with the end values outside. The control points are made by
-    /// [`fit_bounded`](crate::table::fit_bounded).
+    /// [`fit_bounded`](crate::curve::fit_bounded).
     ///
     /// # Errors
     /// A start that is not finite, or a length that is not positive.
@@ -261,7 +261,7 @@ impl<C: AsRef<[f64]>> Curve<C> {
     }
 
     /// A curve over one turn of the stage's first shaft, repeated. The control points are made by
-    /// [`fit_periodic`](crate::table::fit_periodic).
+    /// [`fit_periodic`](crate::curve::fit_periodic).
     #[must_use]
     pub const fn turn(spline: CubicSpline<C>) -> Self {
         Self {

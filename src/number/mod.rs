@@ -1,7 +1,32 @@
 //! Numbers: what everything else computes with.
+//!
+//! Fixed point numbers are per-unit, in [−1, 1). What 1 stands for is said by the [`Scale`](crate::Scale) of the model. Formats are chosen so that every product of a
+//! tick is the upper half of a 32 × 32-bit product (one instruction on a Cortex-M4 and up) and nothing can wrap:
+//!
+//! | | [`Q31`] | 1 is |
+//! |---|---|---|
+//! | J, b | Q30 | 2³⁰ |
+//! | load, c, sums of torques | Q29 | 2²⁹ |
+//! | seed of 1/J | Q31 | 2³¹ |
+//! | ω, α, T: arguments and results | Q31 | 2³¹ |
+//!
+//! Products round towards −∞. What could overflow inside a cell, or in a sum of torques at full speed and
+//! acceleration, is refused when table and model are built; so inverse dynamics cannot saturate. Forward dynamics can, and says so.
 
 pub(crate) mod linear;
+pub(crate) mod phase;
+mod product;
+mod q15;
+mod q31;
 pub(crate) mod quadrature;
+mod scalar;
+mod scale;
 pub(crate) mod transfer;
 
+pub use phase::{Domain, Phase};
+pub use q15::Q15;
+pub use q31::Q31;
+pub(crate) use scalar::{Kernel, Ring};
+pub use scalar::{Number, Outcome, Scalar};
+pub use scale::Scale;
 pub use transfer::Transfer;

@@ -3,12 +3,12 @@
 use super::rounding::Points;
 use super::unfold::unfold;
 use super::{scratch_len, words_len};
-use crate::machine::reduction::{Reducible, Reduction};
-use crate::scalar::Scalar;
-use crate::table::{
+use crate::curve::{
     Constants, Layout, MAX_CELLS, MIN_CELLS, Role, Table, TableError, control_points, curves,
     fit_bounded, fit_periodic, fit_quadratic_bounded, fit_quadratic_periodic,
 };
+use crate::machine::reduction::{Reducible, Reduction};
+use crate::number::Scalar;
 use crate::{Domain, Error, Scale, math};
 
 /// Fills `words` with the table of exactly `cells` cells and of this set of curves, and returns it.

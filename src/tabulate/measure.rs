@@ -1,9 +1,9 @@
 //! How exact a table is.
 
 use super::{CHECKS_PER_CELL, Request, Tabulated};
+use crate::curve::{Layout, Table};
 use crate::machine::reduction::{Reducible, Reduction};
-use crate::scalar::Scalar;
-use crate::table::{Layout, Table};
+use crate::number::Scalar;
 use crate::{Domain, Error, Phase, Scale, math};
 
 /// The largest torque error of a table within the range of the request.

@@ -24,10 +24,10 @@ pub(crate) use unfold::unfold;
 use measure::measure_until;
 use near::{Look, meets_near, search_near};
 
+use crate::curve::{Layout, MAX_CELLS, Table, control_points, curves};
 use crate::error::positive;
 use crate::machine::reduction::Reducible;
-use crate::scalar::Scalar;
-use crate::table::{Layout, MAX_CELLS, Table, control_points, curves};
+use crate::number::Scalar;
 use crate::{Error, Scale, Validity, math};
 
 /// Places in each cell at which a table is compared with the exact curves.
@@ -206,13 +206,13 @@ fn candidate<'w, S: Scalar, L: Layout>(
     let domain = machine.domain();
     let scale = scale.suiting::<S>(cells, domain.span());
     let table = fill::<S, L>(machine, set, cells, &scale, scratch, words)?;
-    crate::model::check(&table, S::span(domain), &scale).map_err(Error::Table)?;
+    crate::tick::check(&table, S::span(domain), &scale).map_err(Error::Table)?;
     Ok((table, scale))
 }
 
 /// The sizes of a table from few cells to `request.max_cells`, growing by a quarter.
 fn sizes(request: &Request) -> impl Iterator<Item = u32> {
-    let least = crate::table::MIN_CELLS as u32;
+    let least = crate::curve::MIN_CELLS as u32;
     let most = request.max_cells.clamp(least, MAX_CELLS);
     core::iter::successors(Some(least), move |cells| {
         (*cells < most).then(|| (cells + cells.div_ceil(4)).min(most))
@@ -236,7 +236,7 @@ pub(crate) fn search(
     let Some(mut best) = best else {
         return Ok(None);
     };
-    for cells in crate::table::MIN_CELLS as u32..best.cells.min(EXHAUSTIVE) {
+    for cells in crate::curve::MIN_CELLS as u32..best.cells.min(EXHAUSTIVE) {
         if let Some(found) = meets(cells)? {
             return Ok(Some(found));
         }

@@ -7,9 +7,9 @@
 
 use super::measure::{Places, measure_until, scan_places, torque_error};
 use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, Tabulated, search};
+use crate::curve::{Layout, Table};
 use crate::machine::reduction::Reducible;
-use crate::scalar::Scalar;
-use crate::table::{Layout, Table};
+use crate::number::Scalar;
 use crate::{Error, Scale};
 
 /// Cells on each side of the worst place that are looked at.

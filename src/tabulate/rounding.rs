@@ -11,8 +11,8 @@
 //! with the errors e and the slopes B′ of the cubic B-spline. Sweeps over the points take each to the unit that is nearest to
 //! the minimum for its neighbours as they are.
 
-use crate::scalar::Scalar;
-use crate::table::Role;
+use crate::curve::Role;
+use crate::number::Scalar;
 
 /// The products of slopes beside the diagonal.
 const BESIDE: [f64; 3] = [-1.0 / 8.0, -1.0 / 5.0, -1.0 / 120.0];

@@ -8,8 +8,8 @@ mod error;
 
 pub use error::ImageError;
 
-use crate::scalar::Scalar;
-use crate::table::{Constants, Layout, Table, curves};
+use crate::curve::{Constants, Layout, Table, curves};
+use crate::number::Scalar;
 use crate::{Domain, Error, Model, Scale};
 
 /// "JRED" in the file's first four bytes.

@@ -8,9 +8,9 @@
 use super::kernel;
 use super::row::{self, has};
 use super::{Table, check};
-use crate::model::AccelerationRange;
-use crate::scalar::Outcome;
-use crate::table::{TableError, curves};
+use crate::curve::{TableError, curves};
+use crate::number::Outcome;
+use crate::tick::AccelerationRange;
 use crate::{Domain, Phase, Q15, Scale};
 
 /// A reduced machine ready for the tick, over a table of 16-bit rows in RAM or in flash.

@@ -20,7 +20,7 @@ pub use spline::{
 use core::marker::PhantomData;
 
 use crate::Phase;
-use crate::scalar::{Kernel, Scalar};
+use crate::number::{Kernel, Scalar};
 
 /// Most cells of a table: an index has 16 bits.
 pub const MAX_CELLS: u32 = 65_535;

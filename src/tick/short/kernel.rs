@@ -17,7 +17,7 @@
     reason = "inlined later, each function has been optimised for itself: loads move out of branches and past fences"
 )]
 
-use crate::scalar::Outcome;
+use crate::number::Outcome;
 use crate::{Phase, Q15};
 
 /// A compiler fence where the processor has no long multiplication, nothing elsewhere. No instruction; no value depends on it.
@@ -33,7 +33,7 @@ pub(super) fn fence() {
 /// The cell, and the place in it in units of 2⁻¹⁶ of a cell.
 #[inline(always)]
 pub(super) fn locate(phase: Phase, cells: u32) -> (usize, i32) {
-    let (cell, fraction) = crate::phase::cell_short(phase.to_bits(), cells);
+    let (cell, fraction) = crate::number::phase::cell_short(phase.to_bits(), cells);
     (cell as usize, (fraction >> 16) as i32)
 }
 

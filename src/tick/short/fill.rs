@@ -3,11 +3,11 @@
 use super::row::{self, has, word};
 use super::table::words_len;
 use super::{Constants, Table, fit};
-use crate::machine::reduction::{Reducible, Reduction};
-use crate::table::{
+use crate::curve::{
     MAX_CELLS, MIN_CELLS, TableError, control_points, curves, fit_quadratic_bounded,
     fit_quadratic_periodic,
 };
+use crate::machine::reduction::{Reducible, Reduction};
 use crate::tabulate::unfold;
 use crate::{Domain, Error, Scale, math};
 

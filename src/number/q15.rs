@@ -1,7 +1,7 @@
 //! Fixed point with 16-bit tables.
 
 use crate::math;
-use crate::scalar::{Number, Outcome};
+use crate::number::{Number, Outcome};
 
 /// A per-unit number in [−1, 1): an `i16` in units of 2⁻¹⁵, for the tables of [`short`](crate::short).
 ///

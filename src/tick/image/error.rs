@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::table::TableError;
+use crate::curve::TableError;
 
 /// Why an image is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,15 +10,9 @@
 //! i²·J_M (`Machine::with_flywheel`). sgn 0 = 0: at standstill the model states no friction, because friction there is whatever holds the
 //! machine.
 
-mod pieces;
-mod range;
-
-pub use pieces::{Part, Pieces};
-pub use range::Usage;
-pub(crate) use range::check;
-
-use crate::scalar::{Outcome, Scalar};
-use crate::table::{Cell, Layout, Spline, Table, TableError, curves};
+use super::range::{self, check};
+use crate::curve::{Cell, Layout, Spline, Table, TableError, curves};
+use crate::number::{Outcome, Scalar};
 use crate::{Domain, Phase, Scale};
 
 /// A reduced machine ready for the tick, over a table in RAM or in flash.

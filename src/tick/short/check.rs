@@ -6,9 +6,9 @@
 use super::Table;
 use super::row::{self, has};
 use crate::Scale;
-use crate::model::Usage;
-use crate::scalar::Kernel;
-use crate::table::{TableError, curves};
+use crate::curve::{TableError, curves};
+use crate::number::Kernel;
+use crate::tick::Usage;
 
 /// One unit of the upper half of a word.
 const UNIT: i64 = 1 << 16;

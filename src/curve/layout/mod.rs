@@ -19,7 +19,7 @@
 mod rows;
 mod spline;
 
-use crate::scalar::{Kernel, Ring};
+use crate::number::{Kernel, Ring};
 
 /// A way to store curves. Sealed: [`Spline`], [`Spline16`], [`Cubic`], [`Quadratic`].
 pub trait Layout: Store {
@@ -27,12 +27,12 @@ pub trait Layout: Store {
     const NAME: &'static str;
 }
 
-/// Control points of a uniform cubic B-spline, one a knot and curve: see [`CubicSpline`](crate::table::CubicSpline).
+/// Control points of a uniform cubic B-spline, one a knot and curve: see [`CubicSpline`](crate::curve::CubicSpline).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Spline;
 
 /// As [`Spline`], with 16 bits a control point, two of them in a word; fixed point only. The arithmetic stays that of 32 bits:
-/// a curve's points are multiplied by a whole number of its own ([`Constants::gains`](crate::table::Constants::gains)), so that they
+/// a curve's points are multiplied by a whole number of its own ([`Constants::gains`](crate::curve::Constants::gains)), so that they
 /// use all of their bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Spline16;

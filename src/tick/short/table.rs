@@ -4,7 +4,7 @@ use super::check;
 use super::kernel;
 use super::row::{self, Rows, row_words};
 use crate::Phase;
-use crate::table::{MAX_CELLS, MIN_CELLS, TableError, curves};
+use crate::curve::{MAX_CELLS, MIN_CELLS, TableError, curves};
 
 /// Words of a table: one row a cell, for a turn as for a stroke.
 #[must_use]

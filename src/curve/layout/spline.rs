@@ -3,8 +3,8 @@
 use super::{
     Layout, More, Spline, Spline16, Store, cubic, cubic_value, cubic_value_and_slope, word,
 };
-use crate::scalar::{Kernel, Ring};
-use crate::table::curves::width;
+use crate::curve::curves::width;
+use crate::number::{Kernel, Ring};
 
 /// Four rows of W words each, from the index-th on.
 #[inline]

@@ -1,13 +1,12 @@
-//! The numbers a table and a tick are made of: `f32`, `f64`, [`Q31`] and [`Q15`].
+//! The numbers a table and a tick are made of: `f32`, `f64`, [`Q31`](crate::Q31) and [`Q15`](crate::Q15).
 
 use core::fmt;
 use core::ops::{Add, Mul, Sub};
 
-pub use crate::fixed::{Q15, Q31};
-use crate::table::Role;
+use crate::curve::Role;
 use crate::{Domain, Scale};
 
-/// A number type for tables and ticks. Sealed: `f32`, `f64`, [`Q31`]; [`Q15`] has ticks of its own, [`short`](crate::short).
+/// A number type for tables and ticks. Sealed: `f32`, `f64`, [`Q31`](crate::Q31); [`Q15`](crate::Q15) has ticks of its own, [`short`](crate::short).
 ///
 /// Floating point works in SI units or in per-unit, as its [`Scale`] says; fixed point always in per-unit.
 pub trait Scalar: Kernel + Number {
@@ -15,7 +14,7 @@ pub trait Scalar: Kernel + Number {
     const NAME: &'static str;
 }
 
-/// A number that a [`Scale`] converts: those of [`Scalar`] and [`Q15`], whose tables have rows of their own
+/// A number that a [`Scale`] converts: those of [`Scalar`] and [`Q15`](crate::Q15), whose tables have rows of their own
 /// ([`short`](crate::short)). Sealed.
 pub trait Number:
     Copy + Default + PartialEq + PartialOrd + fmt::Debug + crate::sealed::Sealed + 'static
@@ -267,7 +266,7 @@ macro_rules! float {
             }
             #[inline]
             fn locate(phase: u32, cells: u32) -> (u32, $float) {
-                let (cell, fraction) = crate::phase::cell(phase, cells);
+                let (cell, fraction) = crate::number::phase::cell(phase, cells);
                 (cell, fraction as $float * (1.0 / 4_294_967_296.0))
             }
             #[inline]

@@ -2,7 +2,7 @@
 
 use super::table::words_len;
 use super::{Constants, Model, Table};
-use crate::image::{CONSTANTS, HEADER_WORDS, Header, Image, ImageError, Validity, seal};
+use crate::tick::image::{CONSTANTS, HEADER_WORDS, Header, Image, ImageError, Validity, seal};
 use crate::{Domain, Error, Scale};
 
 /// Number type in the header: i16.

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::table::curves;
+use crate::curve::curves;
 
 /// The cosines and sines that curves consist of beside their means, as a bit set.
 ///

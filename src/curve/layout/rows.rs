@@ -4,8 +4,8 @@ use super::{
     Cubic, Layout, More, Quadratic, Store, about, cubic, cubic_value, cubic_value_and_slope,
     quadratic, run, word,
 };
-use crate::scalar::{Kernel, Ring};
-use crate::table::curves::width;
+use crate::curve::curves::width;
+use crate::number::{Kernel, Ring};
 
 impl Layout for Cubic {
     const NAME: &'static str = "cubic";

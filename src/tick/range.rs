@@ -2,8 +2,8 @@
 //!
 //! Every polynomial stays within its Bézier points, so the bounds hold everywhere in a cell, not only at the knots.
 
-use crate::scalar::{Kernel, Scalar};
-use crate::table::{Layout, Role, Table, TableError, bezier, curves};
+use crate::curve::{Layout, Role, Table, TableError, bezier, curves};
+use crate::number::{Kernel, Scalar};
 use crate::{Phase, Scale};
 
 /// How much of the number range each quantity uses at most, over all phases and at full speed and acceleration: 1 is all of it

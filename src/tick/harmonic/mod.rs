@@ -59,7 +59,7 @@ pub use identify::{EXCITED, Identification, Identified, Sample, identify};
 pub use sine::Circular;
 pub use word::{Coefficient, Curve, Kind, terms, words_len};
 
-use crate::model::AccelerationRange;
+use crate::tick::AccelerationRange;
 use crate::{Outcome, Phase};
 
 /// Most harmonics of a series.
@@ -71,7 +71,7 @@ const PLACES: [u32; 2] = [64, 4096];
 /// A reduced machine ready for the tick, as harmonics in RAM or in flash. The counterpart of [`Model`](crate::Model),
 /// in SI units.
 ///
-/// `CURVES` are the curves that the machine has beside J ([`curves`](crate::table::curves)); `TERMS` are the cosines
+/// `CURVES` are the curves that the machine has beside J ([`curves`](crate::curve::curves)); `TERMS` are the cosines
 /// and sines that they consist of ([`terms`]; those of curves that are not in `CURVES` do not count). What is in
 /// neither costs no memory and no instruction.
 ///

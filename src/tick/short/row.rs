@@ -16,7 +16,7 @@
 //! u is the place in the cell, 0 to 1. Every lower half also adds to the upper half beside it as the fraction of a unit that
 //! it is when it is read as an unsigned number.
 
-use crate::table::curves;
+use crate::curve::curves;
 
 /// Words of a row.
 #[must_use]

@@ -3,8 +3,8 @@
 use core::num::{NonZeroU64, Wrapping};
 
 use super::product::{high, high_short};
-use crate::scalar::{Kernel, Number, Outcome, Ring, Scalar};
-use crate::table::Role;
+use crate::curve::Role;
+use crate::number::{Kernel, Number, Outcome, Ring, Scalar};
 use crate::{Domain, Scale, math};
 
 /// A per-unit number in [−1, 1): an `i32` in units of 2⁻³¹.
@@ -175,17 +175,17 @@ impl Kernel for Q31 {
     }
     #[inline]
     fn locate(phase: u32, cells: u32) -> (u32, i32) {
-        let (cell, fraction) = crate::phase::cell(phase, cells);
+        let (cell, fraction) = crate::number::phase::cell(phase, cells);
         (cell, (fraction >> 1) as i32)
     }
     #[inline]
     fn locate_row(phase: u32, cells: u32) -> (u32, i32) {
-        let (cell, fraction) = crate::phase::cell(phase, cells);
+        let (cell, fraction) = crate::number::phase::cell(phase, cells);
         (cell, (fraction ^ 0x8000_0000) as i32)
     }
     #[inline]
     fn locate_row_short(phase: u32, cells: u32) -> (u32, i32) {
-        let (cell, fraction) = crate::phase::cell_short(phase, cells);
+        let (cell, fraction) = crate::number::phase::cell_short(phase, cells);
         (cell, (fraction ^ 0x8000_0000) as i32)
     }
     #[inline]

@@ -6,9 +6,9 @@
 //! `one_table_cannot_follow_a_jump`). A table for each piece between the jumps has no such cells. [`Part`] is a piece of a
 //! machine, to be tabulated as a stroke; [`Pieces`] puts their models together again.
 
+use crate::curve::{Layout, Spline, TableError};
 use crate::error::finite;
-use crate::scalar::{Outcome, Scalar};
-use crate::table::{Layout, Spline, TableError};
+use crate::number::{Outcome, Scalar};
 use crate::{AccelerationRange, Domain, Error, Model, Phase, Reducible, Reduction};
 
 /// A part of a machine's range, as a stroke.

@@ -1,7 +1,7 @@
 //! SI units to machine units and back.
 
 use crate::error::positive;
-use crate::scalar::{Number, Outcome};
+use crate::number::{Number, Outcome};
 use crate::{Error, Reducible, math};
 
 /// The bases of the per-unit system: what the number 1 stands for.
