@@ -1,13 +1,8 @@
 //! Units: which ones a machine file may use, and what one of them is in SI.
 //!
-//! The size and the SI dimension of a unit come from `dyn_quantity`. What it cannot tell apart is decided here:
-//! angles from plain numbers (rad, deg), revolutions from radians (rpm), and text that is not a unit at all.
+//! An angle has a dimension of its own here, so that "rad" is told from a plain number and "rpm" from "Hz".
 
-use std::f64::consts::TAU;
-use std::fmt::Write as _;
-use std::str::FromStr;
-
-use dyn_quantity::DynQuantity;
+use std::f64::consts::PI;
 
 use super::problem::{Fault, closest};
 
@@ -22,6 +17,23 @@ pub(super) struct Dimension {
     pub(super) temperature: i8,
 }
 
+impl Dimension {
+    /// Multiplied by a power of another one.
+    const fn times(self, other: Self, power: i8) -> Self {
+        const fn sum(one: i8, other: i8, power: i8) -> i8 {
+            one.saturating_add(other.saturating_mul(power))
+        }
+        Self {
+            length: sum(self.length, other.length, power),
+            mass: sum(self.mass, other.mass, power),
+            time: sum(self.time, other.time, power),
+            angle: sum(self.angle, other.angle, power),
+            current: sum(self.current, other.current, power),
+            temperature: sum(self.temperature, other.temperature, power),
+        }
+    }
+}
+
 /// A unit as read.
 #[derive(Clone, Debug)]
 pub(super) struct Unit {
@@ -32,78 +44,115 @@ pub(super) struct Unit {
     pub(super) dimension: Dimension,
 }
 
-/// Every unit word, with the power of an angle that it contains.
-const WORDS: [(&str, i8); 48] = [
-    ("mm", 0),
-    ("m", 0),
-    ("km", 0),
-    ("dm", 0),
-    ("cm", 0),
-    ("um", 0),
-    ("kg", 0),
-    ("g", 0),
-    ("mg", 0),
-    ("t", 0),
-    ("s", 0),
-    ("ms", 0),
-    ("us", 0),
-    ("N", 0),
-    ("kN", 0),
-    ("MN", 0),
-    ("mN", 0),
-    ("Nm", 0),
-    ("kNm", 0),
-    ("MNm", 0),
-    ("mNm", 0),
-    ("rad", 1),
-    ("mrad", 1),
-    ("deg", 1),
-    ("degree", 1),
-    ("arcmin", 1),
-    ("rpm", 1),
-    ("Hz", 0),
-    ("kHz", 0),
-    ("W", 0),
-    ("kW", 0),
-    ("%", 0),
-    ("V", 0),
-    ("mV", 0),
-    ("kV", 0),
-    ("A", 0),
-    ("mA", 0),
-    ("Ohm", 0),
-    ("mOhm", 0),
-    ("kOhm", 0),
-    ("F", 0),
-    ("mF", 0),
-    ("uF", 0),
-    ("H", 0),
-    ("mH", 0),
-    ("uH", 0),
-    ("K", 0),
-    ("degC", 0),
-];
+/// A unit word: one of it is 10^`tens` · `size` in SI.
+struct Word {
+    text: &'static str,
+    tens: i32,
+    size: f64,
+    dimension: Dimension,
+}
 
-/// Units that `dyn_quantity` does not know: their size and what they are made of. A degree Celsius is as large as a kelvin;
-/// where it begins to count is the affair of who asks for a temperature.
-const COMPOSED: [(&str, f64, Parts); 8] = [
-    (
-        "arcmin",
-        std::f64::consts::PI / 10_800.0,
-        [("rad", 1), ("m", 0), ("kg", 0), ("s", 0)],
-    ),
-    ("F", 1.0, FARAD),
-    ("mF", 1e-3, FARAD),
-    ("uF", 1e-6, FARAD),
-    ("H", 1.0, HENRY),
-    ("mH", 1e-3, HENRY),
-    ("uH", 1e-6, HENRY),
-    ("degC", 1.0, [("K", 1), ("m", 0), ("kg", 0), ("s", 0)]),
+/// A word whose size is a power of ten.
+const fn ten(text: &'static str, tens: i32, dimension: Dimension) -> Word {
+    Word {
+        text,
+        tens,
+        size: 1.0,
+        dimension,
+    }
+}
+
+/// A word of another size.
+const fn sized(text: &'static str, size: f64, dimension: Dimension) -> Word {
+    Word {
+        text,
+        tens: 0,
+        size,
+        dimension,
+    }
+}
+
+/// Powers of m, kg, s, of the angle, of A and K.
+const fn powers([length, mass, time, angle, current, temperature]: [i8; 6]) -> Dimension {
+    Dimension {
+        length,
+        mass,
+        time,
+        angle,
+        current,
+        temperature,
+    }
+}
+
+const LENGTH: Dimension = powers([1, 0, 0, 0, 0, 0]);
+const MASS: Dimension = powers([0, 1, 0, 0, 0, 0]);
+const TIME: Dimension = powers([0, 0, 1, 0, 0, 0]);
+const FORCE: Dimension = powers([1, 1, -2, 0, 0, 0]);
+const TORQUE: Dimension = powers([2, 1, -2, 0, 0, 0]);
+const ANGLE: Dimension = powers([0, 0, 0, 1, 0, 0]);
+const ANGULAR_SPEED: Dimension = powers([0, 0, -1, 1, 0, 0]);
+const FREQUENCY: Dimension = powers([0, 0, -1, 0, 0, 0]);
+const POWER: Dimension = powers([2, 1, -3, 0, 0, 0]);
+const NUMBER: Dimension = powers([0; 6]);
+const VOLTAGE: Dimension = powers([2, 1, -3, 0, -1, 0]);
+const CURRENT: Dimension = powers([0, 0, 0, 0, 1, 0]);
+const RESISTANCE: Dimension = powers([2, 1, -3, 0, -2, 0]);
+const CAPACITANCE: Dimension = powers([-2, -1, 4, 0, 2, 0]);
+const INDUCTANCE: Dimension = powers([2, 1, -2, 0, -2, 0]);
+const TEMPERATURE: Dimension = powers([0, 0, 0, 0, 0, 1]);
+
+/// Every unit word. A degree Celsius is as large as a kelvin; where it begins to count is the affair of who asks for a
+/// temperature.
+const WORDS: [Word; 48] = [
+    ten("mm", -3, LENGTH),
+    ten("m", 0, LENGTH),
+    ten("km", 3, LENGTH),
+    ten("dm", -1, LENGTH),
+    ten("cm", -2, LENGTH),
+    ten("um", -6, LENGTH),
+    ten("kg", 0, MASS),
+    ten("g", -3, MASS),
+    ten("mg", -6, MASS),
+    ten("t", 3, MASS),
+    ten("s", 0, TIME),
+    ten("ms", -3, TIME),
+    ten("us", -6, TIME),
+    ten("N", 0, FORCE),
+    ten("kN", 3, FORCE),
+    ten("MN", 6, FORCE),
+    ten("mN", -3, FORCE),
+    ten("Nm", 0, TORQUE),
+    ten("kNm", 3, TORQUE),
+    ten("MNm", 6, TORQUE),
+    ten("mNm", -3, TORQUE),
+    ten("rad", 0, ANGLE),
+    ten("mrad", -3, ANGLE),
+    sized("deg", PI / 180.0, ANGLE),
+    sized("degree", PI / 180.0, ANGLE),
+    sized("arcmin", PI / 10_800.0, ANGLE),
+    sized("rpm", PI / 30.0, ANGULAR_SPEED),
+    ten("Hz", 0, FREQUENCY),
+    ten("kHz", 3, FREQUENCY),
+    ten("W", 0, POWER),
+    ten("kW", 3, POWER),
+    ten("%", -2, NUMBER),
+    ten("V", 0, VOLTAGE),
+    ten("mV", -3, VOLTAGE),
+    ten("kV", 3, VOLTAGE),
+    ten("A", 0, CURRENT),
+    ten("mA", -3, CURRENT),
+    ten("Ohm", 0, RESISTANCE),
+    ten("mOhm", -3, RESISTANCE),
+    ten("kOhm", 3, RESISTANCE),
+    ten("F", 0, CAPACITANCE),
+    ten("mF", -3, CAPACITANCE),
+    ten("uF", -6, CAPACITANCE),
+    ten("H", 0, INDUCTANCE),
+    ten("mH", -3, INDUCTANCE),
+    ten("uH", -6, INDUCTANCE),
+    ten("K", 0, TEMPERATURE),
+    ten("degC", 0, TEMPERATURE),
 ];
-/// Units with their powers.
-type Parts = [(&'static str, i8); 4];
-const FARAD: Parts = [("A", 2), ("s", 4), ("kg", -1), ("m", -2)];
-const HENRY: Parts = [("kg", 1), ("m", 2), ("s", -2), ("A", -2)];
 
 /// Words that are units elsewhere, and what to write instead.
 const FOREIGN: [(&[&str], &str); 18] = [
@@ -135,42 +184,16 @@ const FOREIGN: [(&[&str], &str); 18] = [
 
 /// Reads a unit such as "mm", "kg cm^2", "N m s/rad" or "N/(m s)"; the text must be [`tidy`].
 pub(super) fn read(text: &str) -> Result<Unit, Fault> {
-    let factors = factors(text)?;
-    let mut canonical = String::from("1");
-    let (mut angle, mut turns) = (0, 0);
-    let mut size = 1.0;
-    for (word, power) in &factors {
-        if let Some((_, one, parts)) = COMPOSED.iter().find(|(w, ..)| w == word) {
-            size *= f64::powi(*one, i32::from(*power));
-            for (part, times) in parts.iter().filter(|(_, times)| *times != 0) {
-                let _ = write!(canonical, " {part}^{}", times * power);
-            }
-        } else {
-            canonical.push_str(&format!(" {word}^{power}").replace("%^1", "%"));
-        }
-        angle += power * WORDS.iter().find(|(w, _)| w == word).map_or(0, |w| w.1);
-        if *word == "rpm" {
-            turns += i32::from(*power);
-        }
+    let (mut tens, mut size, mut dimension) = (0, 1.0, NUMBER);
+    for (word, power) in factors(text)? {
+        tens += word.tens * i32::from(power);
+        size *= word.size.powi(i32::from(power));
+        dimension = dimension.times(word.dimension, power);
     }
-    let unreadable = |_| {
-        Fault::new(
-            format!("has the unit \"{text}\", which cannot be read"),
-            SHAPE,
-        )
-    };
-    let quantity = DynQuantity::<f64>::from_str(&canonical).map_err(unreadable)?;
     Ok(Unit {
         text: text.to_owned(),
-        scale: quantity.value * size * TAU.powi(turns),
-        dimension: Dimension {
-            length: quantity.unit.meter,
-            mass: quantity.unit.kilogram,
-            time: quantity.unit.second,
-            angle,
-            current: quantity.unit.ampere,
-            temperature: quantity.unit.kelvin,
-        },
+        scale: 10_f64.powi(tens) * size,
+        dimension,
     })
 }
 
@@ -179,7 +202,7 @@ const SHAPE: &str = "write units one after another with blanks between, powers w
                      \"N m\", \"kg cm^2\", \"m/s^2\", \"N m s/rad\"";
 
 /// The words of a unit with their powers.
-fn factors(text: &str) -> Result<Vec<(&str, i8)>, Fault> {
+fn factors(text: &str) -> Result<Vec<(&'static Word, i8)>, Fault> {
     let (above, below) = match text.split_once('/') {
         None => (text, ""),
         Some((_, below)) if below.trim().is_empty() || below.contains('/') => {
@@ -213,6 +236,12 @@ fn factors(text: &str) -> Result<Vec<(&str, i8)>, Fault> {
     }
     for token in divisors {
         let (word, power) = factor(token)?;
+        if word.text == "%" {
+            return Err(Fault::new(
+                format!("has the unit \"{text}\", which is divided by \"%\""),
+                "write the number without \"%\"",
+            ));
+        }
         factors.push((word, -power));
     }
     if factors.len() > 8 {
@@ -226,7 +255,7 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
 }
 
 /// One word with its power: "cm^2".
-fn factor(token: &str) -> Result<(&str, i8), Fault> {
+fn factor(token: &str) -> Result<(&'static Word, i8), Fault> {
     if token.starts_with(|c: char| c.is_ascii_digit() || ".+-".contains(c)) {
         return Err(Fault::new(
             format!("contains more than one number (\"{token}\" is the second)"),
@@ -251,8 +280,9 @@ fn factor(token: &str) -> Result<(&str, i8), Fault> {
             }
         },
     };
-    if WORDS.iter().any(|(known, _)| *known == word) && (word != "%" || power == 1) {
-        return Ok((word, power));
+    let known = WORDS.iter().find(|known| known.text == word);
+    if let Some(known) = known.filter(|_| word != "%" || power == 1) {
+        return Ok((known, power));
     }
     let cure = cure(word, token.get(word.len()..).unwrap_or_default());
     Err(Fault::new(format!("has the unknown unit \"{word}\""), cure).label("unknown unit"))
@@ -273,7 +303,7 @@ fn cure(word: &str, exponent: &str) -> String {
         };
         return format!("write it as \"{}{power}\"", words.join(" "));
     }
-    let known: Vec<&str> = WORDS.iter().map(|(word, _)| *word).collect();
+    let known: Vec<&str> = WORDS.iter().map(|word| word.text).collect();
     closest(word, &known).map_or_else(
         || format!("units are made of {}", known.join(", ")),
         |near| format!("did you mean \"{near}\"?"),
@@ -288,7 +318,7 @@ fn split(letters: &str, most: usize) -> Option<Vec<&'static str>> {
     if most == 0 {
         return None;
     }
-    let mut known: Vec<&'static str> = WORDS.iter().map(|(word, _)| *word).collect();
+    let mut known: Vec<&'static str> = WORDS.iter().map(|word| word.text).collect();
     known.sort_by_key(|word| std::cmp::Reverse(word.len()));
     known.into_iter().find_map(|word| {
         let rest = split(letters.strip_prefix(word)?, most - 1)?;
@@ -329,3 +359,6 @@ pub(super) fn tidy(text: &str) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,57 @@
+//! Every word, and the compound units in use, against a table of their sizes and dimensions.
+
+use super::{WORDS, read};
+
+/// Unit, size in SI, powers of m, kg, s, rad, A, K.
+const GOLDEN: &str = include_str!("golden.tsv");
+
+#[test]
+fn sizes_and_dimensions_are_those_of_the_table() {
+    for line in GOLDEN.lines() {
+        let [text, scale, powers] = line.split('\t').collect::<Vec<_>>()[..] else {
+            panic!("{line}");
+        };
+        let unit = read(text).unwrap_or_else(|fault| panic!("{text}: {fault:?}"));
+        let scale: f64 = scale.parse().unwrap();
+        assert_eq!(unit.scale.to_bits(), scale.to_bits(), "{text}");
+        let d = unit.dimension;
+        let found = [d.length, d.mass, d.time, d.angle, d.current, d.temperature];
+        assert_eq!(
+            found.map(|power| power.to_string()).join(" "),
+            powers,
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn every_word_is_in_the_table_and_has_powers() {
+    for word in &WORDS {
+        let listed = |line: &str| line.split('\t').next() == Some(word.text);
+        assert!(GOLDEN.lines().any(listed), "{}", word.text);
+        for power in [-4, -3, -2, -1, 2, 3, 4] {
+            let text = format!("{}^{power}", word.text);
+            if word.text == "%" {
+                assert!(read(&text).is_err());
+                continue;
+            }
+            let (unit, one) = (read(&text).unwrap(), read(word.text).unwrap());
+            let product = one.scale.powi(power.into());
+            assert!((unit.scale / product - 1.0).abs() < 1e-14, "{text}");
+            let (raised, one) = (unit.dimension, one.dimension);
+            assert_eq!(raised.length, one.length * power, "{text}");
+            assert_eq!(raised.mass, one.mass * power, "{text}");
+            assert_eq!(raised.time, one.time * power, "{text}");
+            assert_eq!(raised.angle, one.angle * power, "{text}");
+            assert_eq!(raised.current, one.current * power, "{text}");
+            assert_eq!(raised.temperature, one.temperature * power, "{text}");
+        }
+    }
+}
+
+#[test]
+fn a_unit_is_not_divided_by_per_cent() {
+    for text in ["m/%", "1/%", "N/(m %)"] {
+        assert!(read(text).unwrap_err().message.contains("divided by \"%\""));
+    }
+}
