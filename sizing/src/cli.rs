@@ -3,6 +3,7 @@
 pub mod bus;
 pub mod catalogue;
 pub mod search;
+mod word;
 
 use std::path::PathBuf;
 
@@ -10,6 +11,7 @@ use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 
 use self::search::Objectives;
+use self::word::word;
 use crate::export::{Choice, Form, LayoutChoice, Number};
 use crate::inspect::Format as CheckFormat;
 use crate::output::Format;
@@ -79,7 +81,7 @@ pub struct Reduce {
     #[arg(long, default_value_t = 36, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     pub positions: u32,
     /// What the rows run over.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = word::<Over>(), default_value_t)]
     pub over: Over,
     /// Each link's share of the reduced inertia as well.
     #[arg(long, conflicts_with_all = ["points", "reactions", "energy"])]
@@ -104,7 +106,7 @@ pub struct Reduce {
     #[arg(long, value_name = "HTML", value_parser = output_file())]
     pub report: Option<PathBuf>,
     /// How to write the result.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
 }
 
@@ -114,7 +116,7 @@ pub struct Check {
     /// Machine file.
     pub file: PathBuf,
     /// How to write the result.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = word::<CheckFormat>(), default_value_t)]
     pub format: CheckFormat,
 }
 
@@ -167,7 +169,7 @@ pub struct Size {
     #[arg(long, value_name = "HTML", value_parser = output_file())]
     pub report: Option<PathBuf>,
     /// How to write the result.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
 }
 
@@ -177,7 +179,7 @@ pub struct Rules {
     /// Name of a set, or a file; without one all sets are listed.
     pub set: Option<String>,
     /// How to write the result.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
 }
 
@@ -187,7 +189,7 @@ pub struct Simulate {
     /// Machine file, with a `[simulation]`.
     pub file: PathBuf,
     /// How to write the result.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
     /// Write plots of speed, torque and energy: one self-contained HTML page.
     #[arg(long, value_name = "HTML", value_parser = output_file())]
@@ -200,16 +202,16 @@ pub struct Export {
     /// Machine file.
     pub file: PathBuf,
     /// What to write.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = word::<Form>(), default_value_t)]
     pub format: Form,
     /// Number type of the table.
-    #[arg(long = "type", value_enum, default_value_t)]
+    #[arg(long = "type", value_parser = word::<Number>(), default_value_t)]
     pub number: Number,
     /// How the curves lie in memory.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = word::<LayoutChoice>(), default_value_t)]
     pub layout: LayoutChoice,
     /// A curve of 1/J as well, with which fixed-point forward dynamics does without a division.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = word::<Choice>(), default_value_t)]
     pub reciprocal: Choice,
     /// Largest error of the drive torque, which acts at the drive link, e.g. "0.5 N m" ("5 N" of a sliding link); may be left
     /// out with --max-bytes.
@@ -269,6 +271,6 @@ pub struct Split {
     #[arg(long, default_value_t = 25, value_parser = clap::value_parser!(u32).range(2..=10_000))]
     pub points: u32,
     /// How to write the result.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
 }

@@ -26,14 +26,14 @@ pub use agreement::{Agreement, Inertia};
 pub use centres::Travel;
 use transmission::{Index, Structure};
 
-/// How findings are written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum Format {
-    /// For reading.
-    #[default]
-    Table,
-    /// JSON, every digit.
-    Json,
+crate::words! {
+    /// How findings are written.
+    pub enum Format default Table {
+        /// For reading.
+        Table = "table",
+        /// JSON, every digit.
+        Json = "json",
+    }
 }
 
 /// Below this index a mechanism is near a dead point.

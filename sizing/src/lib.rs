@@ -51,3 +51,4 @@ pub mod units;
 pub mod variator;
 pub mod vary;
 pub mod winding;
+pub mod words;

@@ -5,16 +5,16 @@ use serde_json::{Map, Value, json};
 
 use crate::comma;
 
-/// How a result is written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum Format {
-    /// An aligned table for reading, rounded to six digits.
-    #[default]
-    Table,
-    /// Comma-separated, every digit: reading it back gives the same numbers.
-    Csv,
-    /// JSON, every digit.
-    Json,
+crate::words! {
+    /// How a result is written.
+    pub enum Format default Table {
+        /// An aligned table for reading, rounded to six digits.
+        Table = "table",
+        /// Comma-separated, every digit: reading it back gives the same numbers.
+        Csv = "csv",
+        /// JSON, every digit.
+        Json = "json",
+    }
 }
 
 /// Named columns of numbers; `None` is an empty cell.

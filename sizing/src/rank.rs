@@ -4,21 +4,22 @@ use crate::judge::{Context, Finding};
 use crate::rule::Rule;
 use crate::size::{Candidate, Group, Selection};
 
-/// What a drive is to have little of, or of its margin much.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum Objective {
-    /// Rated torque times rated speed of the motor.
-    Power,
-    /// Mass of motor, gearbox and amplifier.
-    Mass,
-    /// Price of motor, gearbox and amplifier, in the currency of the catalogue.
-    Price,
-    /// Energy that the motor puts in over a cycle; what comes back is not deducted.
-    Energy,
-    /// What is left of the limit that is used most.
-    Margin,
-    /// Rise of the winding's temperature at its hottest.
-    Temperature,
+crate::words! {
+    /// What a drive is to have little of, or of its margin much.
+    pub enum Objective {
+        /// Rated torque times rated speed of the motor.
+        Power = "power",
+        /// Mass of motor, gearbox and amplifier.
+        Mass = "mass",
+        /// Price of motor, gearbox and amplifier, in the currency of the catalogue.
+        Price = "price",
+        /// Energy that the motor puts in over a cycle; what comes back is not deducted.
+        Energy = "energy",
+        /// What is left of the limit that is used most.
+        Margin = "margin",
+        /// Rise of the winding's temperature at its hottest.
+        Temperature = "temperature",
+    }
 }
 
 impl Objective {

@@ -18,14 +18,14 @@ mod reactions;
 
 pub use largest::{Largest, largest};
 
-/// What the rows run over.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum Over {
-    /// Equal steps of the drive link's angle over one turn, or of its position over its stroke.
-    #[default]
-    Angle,
-    /// Equal steps of time over the motion.
-    Time,
+crate::words! {
+    /// What the rows run over.
+    pub enum Over default Angle {
+        /// Equal steps of the drive link's angle over one turn, or of its position over its stroke.
+        Angle = "angle",
+        /// Equal steps of time over the motion.
+        Time = "time",
+    }
 }
 
 /// Which columns there are beside the position.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::catalogue::CatalogueFiles;
+use super::word::word;
 use crate::output::Format;
 
 /// `jred bus`
@@ -27,6 +28,6 @@ pub struct Bus {
     #[arg(long, default_value_t = crate::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=1_000_000))]
     pub steps: u32,
     /// How to write the result; CSV is power and voltage over time with all axes in step.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
 }

@@ -6,6 +6,7 @@ use clap::Args;
 use glob::Pattern;
 
 use super::catalogue::CatalogueFiles;
+use super::word::word;
 use crate::catalogue::{Catalogue, CatalogueError};
 use crate::filter::Filter;
 use crate::output::Format;
@@ -13,6 +14,7 @@ use crate::rank::{Objective, rank};
 use crate::size::Selection;
 use crate::vary::rows::Form;
 use crate::vary::shard::Shard;
+use crate::words::Word as _;
 
 /// Which catalogue.
 #[derive(Clone, Debug, Args)]
@@ -33,7 +35,7 @@ pub struct Supply {
 #[command(next_help_heading = "Which drives")]
 pub struct Search {
     /// Rank by this instead of power, margin and warnings.
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = word::<Objective>())]
     pub rank: Option<Objective>,
     /// Only motors and gearboxes of makers like this; may be repeated.
     #[arg(long, value_name = "GLOB")]
@@ -178,8 +180,8 @@ fn objectives(text: &str) -> Result<Vec<Objective>, String> {
     let words: Vec<&str> = text.split(',').map(str::trim).collect();
     let read = words
         .iter()
-        .map(|word| <Objective as clap::ValueEnum>::from_str(word, true));
-    let found = read.collect::<Result<Vec<_>, _>>().map_err(|_| {
+        .map(|word| Objective::of_word(&word.to_lowercase()));
+    let found = read.collect::<Option<Vec<_>>>().ok_or_else(|| {
         "an objective is one of power, mass, price, energy, margin, temperature".to_owned()
     })?;
     let twice = found
@@ -197,7 +199,7 @@ fn objectives(text: &str) -> Result<Vec<Objective>, String> {
 #[command(next_help_heading = "Rows")]
 pub struct Rows {
     /// How rows are written; a file has CSV or JSON lines.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = word::<Form>(), default_value_t)]
     pub format: Form,
     /// File for the rows, written as they come.
     #[arg(long, short, value_parser = super::output_file())]
@@ -275,7 +277,7 @@ pub struct Ratio {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub top: Option<u32>,
     /// How to write the result.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
 }
 
@@ -316,7 +318,7 @@ pub struct Sensitivity {
     #[command(flatten)]
     pub search: Search,
     /// How to write the result.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
 }
 

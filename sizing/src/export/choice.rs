@@ -9,16 +9,16 @@ use super::search::{Answer, Search};
 /// Places at which a machine is sampled for its scale and its set of curves.
 pub(super) const PLACES: u32 = 1440;
 
-/// Number type of a table.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum Number {
-    /// Single precision, SI units.
-    #[default]
-    F32,
-    /// Fixed point with 32 bits, per-unit.
-    I32,
-    /// Fixed point with 16 bits, per-unit: for processors without a long multiplication.
-    I16,
+crate::words! {
+    /// Number type of a table.
+    pub enum Number default F32 {
+        /// Single precision, SI units.
+        F32 = "f32",
+        /// Fixed point with 32 bits, per-unit.
+        I32 = "i32",
+        /// Fixed point with 16 bits, per-unit: for processors without a long multiplication.
+        I16 = "i16",
+    }
 }
 
 /// How the curves lie in memory.
@@ -36,32 +36,32 @@ pub enum LayoutName {
     Rows,
 }
 
-/// Which layout is asked for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum LayoutChoice {
-    /// The one that takes the fewest bytes.
-    #[default]
-    Auto,
-    /// Control points of a cubic B-spline: the smallest table.
-    Spline,
-    /// The same in 16 bits, of i32: half of that.
-    Spline16,
-    /// The coefficients of each cell's cubic: a faster tick.
-    Cubic,
-    /// The coefficients of each cell's quadratic: the fastest tick without a long multiplication.
-    Quadratic,
-    /// The packed rows of i16.
-    Rows,
+crate::words! {
+    /// Which layout is asked for.
+    pub enum LayoutChoice default Auto {
+        /// The one that takes the fewest bytes.
+        Auto = "auto",
+        /// Control points of a cubic B-spline: the smallest table.
+        Spline = "spline",
+        /// The same in 16 bits, of i32: half of that.
+        Spline16 = "spline16",
+        /// The coefficients of each cell's cubic: a faster tick.
+        Cubic = "cubic",
+        /// The coefficients of each cell's quadratic: the fastest tick without a long multiplication.
+        Quadratic = "quadratic",
+        /// The packed rows of i16.
+        Rows = "rows",
+    }
 }
 
-/// Yes or no.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum Choice {
-    /// With it.
-    Yes,
-    /// Without it.
-    #[default]
-    No,
+crate::words! {
+    /// Yes or no.
+    pub enum Choice default No {
+        /// With it.
+        Yes = "yes",
+        /// Without it.
+        No = "no",
+    }
 }
 
 impl Number {

@@ -4,18 +4,18 @@ use std::fmt::Write as _;
 
 use super::Export;
 
-/// What an export is written as.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum Form {
-    /// The binary image, for `include_image!` or a flash region.
-    #[default]
-    Image,
-    /// A Rust source file with the image as a `static` array of words.
-    Rust,
-    /// A C source file with the image as a `const` array of words.
-    C,
-    /// JSON: the words, everything that is known of the table, and its alternatives.
-    Json,
+crate::words! {
+    /// What an export is written as.
+    pub enum Form default Image {
+        /// The binary image, for `include_image!` or a flash region.
+        Image = "image",
+        /// A Rust source file with the image as a `static` array of words.
+        Rust = "rust",
+        /// A C source file with the image as a `const` array of words.
+        C = "c",
+        /// JSON: the words, everything that is known of the table, and its alternatives.
+        Json = "json",
+    }
 }
 
 impl Export {

@@ -69,16 +69,16 @@ impl From<String> for Cell {
     }
 }
 
-/// How rows are written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum Form {
-    /// An aligned table for reading, when all rows are there.
-    #[default]
-    Table,
-    /// Comma-separated, every digit.
-    Csv,
-    /// JSON lines: an object a row, every digit.
-    Json,
+crate::words! {
+    /// How rows are written.
+    pub enum Form default Table {
+        /// An aligned table for reading, when all rows are there.
+        Table = "table",
+        /// Comma-separated, every digit.
+        Csv = "csv",
+        /// JSON lines: an object a row, every digit.
+        Json = "json",
+    }
 }
 
 impl Form {
