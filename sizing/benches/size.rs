@@ -25,9 +25,10 @@ use std::hint::black_box;
 use std::process::ExitCode;
 
 use figures::{Report, best, once};
-use jred_sizing::catalogue::{Catalogue, Prepared};
+use jred_sizing::catalogue::Catalogue;
+use jred_sizing::catalogue::Drive;
 use jred_sizing::cycle::Cycle;
-use jred_sizing::drive::Drive;
+use jred_sizing::envelope::Prepared;
 use jred_sizing::rules::RuleSet;
 use jred_sizing::site::Site;
 use jred_sizing::size::Selection;

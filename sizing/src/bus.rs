@@ -30,8 +30,8 @@ pub use phases::Watch;
 
 use crate::catalogue::{Amplifier, Motor};
 use crate::cycle::Cycle;
-use crate::drive::Coefficients;
 use crate::envelope::Prepared;
+use crate::form::Coefficients;
 use crate::winding::REFERENCE_TEMPERATURE;
 
 use curve::PowerCurve;

@@ -9,6 +9,7 @@ use std::path::Path;
 mod amplifier;
 mod cell;
 mod column;
+mod drive;
 mod entry;
 mod fault;
 mod files;
@@ -25,14 +26,12 @@ mod table;
 mod toml_table;
 
 pub use amplifier::{Amplifier, Resistor};
+pub use drive::Drive;
 pub use fault::{CatalogueError, Misplaced, SHOWN, Several};
 pub use gearbox::Gearbox;
 pub use load::Sources;
 pub use motor::{Brake, Motor, MotorKind, Thermal, Winding};
 pub use pairing::{Drives, Pairing};
-
-pub use crate::envelope::Prepared;
-use crate::site::Site;
 
 /// What a drive is chosen from.
 #[derive(Clone, Debug, Default)]
@@ -56,15 +55,6 @@ pub struct Catalogue {
 }
 
 impl Catalogue {
-    /// Every motor's limits at the supply of the site, with each amplifier that it goes with, in the order of the motors.
-    pub fn prepare(&self, site: &Site) -> Vec<Prepared> {
-        let prepare = |(index, motor)| {
-            let amplifiers = self.amplifiers_of(index).into_iter();
-            Prepared::new(motor, None, site).with(motor, amplifiers, site)
-        };
-        self.motors.iter().enumerate().map(prepare).collect()
-    }
-
     /// Prices must be in one currency to be compared.
     ///
     /// # Errors

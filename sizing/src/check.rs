@@ -2,39 +2,10 @@
 
 use serde::Serialize;
 
-use crate::judge::{Finding, Words};
-use crate::output::short;
+use crate::judge::Words;
+use crate::rounding::short;
 use crate::rule::{Rule, Sense};
-use crate::rules::RuleSet;
-
-/// How a rule came out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Verdict {
-    /// The rule set does not judge it.
-    Off,
-    /// The rule holds.
-    Pass,
-    /// The rule holds, but its warning limit is passed.
-    Warn,
-    /// The catalogue does not hold the figure that the rule needs.
-    NotChecked,
-    /// The rule is violated.
-    Fail,
-}
-
-impl Verdict {
-    /// One word for tables.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Off => "off",
-            Self::Pass => "ok",
-            Self::Warn => "warning",
-            Self::NotChecked => "not checked",
-            Self::Fail => "FAIL",
-        }
-    }
-}
+use crate::rules::{Finding, RuleSet, Verdict};
 
 /// A rule, what it judged, and how it came out.
 #[derive(Clone, Debug, Serialize)]

@@ -7,8 +7,8 @@ use jred::cam::{contact_force, lift_off};
 use jred::{Error, Machine, Mechanism as _};
 
 use crate::coordinate::{Coordinate, positions};
-use crate::input::problem::figure;
 use crate::machine::AnyMechanism;
+use crate::rounding::figure;
 
 /// A rope that is pushed with less than this (N) is slack: nothing but rounding.
 const ROUNDING: f64 = 1e-6;

@@ -12,9 +12,11 @@
 
 use std::sync::OnceLock;
 
-use crate::drive::{Coefficients, Drive, LOADS, MotorDuty, loads_of};
-use crate::duty::{Duty, Figures};
+use crate::catalogue::Drive;
+use crate::duty::Duty;
 use crate::envelope::Envelope;
+use crate::figures::Figures;
+use crate::form::{Coefficients, LOADS, MotorDuty, loads_of};
 use crate::mechanics::Mechanics;
 
 mod against;

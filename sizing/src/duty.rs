@@ -3,6 +3,7 @@
 use jred::{Domain, Error, Reducible as _, TorqueTerms};
 
 use crate::coordinate;
+use crate::figures::Figures;
 use crate::machine::MachineFile;
 use crate::mechanics::Mechanics;
 use crate::motion::Motion;
@@ -47,31 +48,6 @@ pub struct Duty {
     pub hold_torque: f64,
     /// What the mechanical rules need to know.
     pub mechanics: Mechanics,
-}
-
-/// Root mean square, extremes and the rest of a quantity over the cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
-pub struct Figures {
-    /// Smallest value.
-    pub min: f64,
-    /// Mean over time.
-    pub mean: f64,
-    /// Largest value.
-    pub max: f64,
-    /// Root mean square over time.
-    pub rms: f64,
-}
-
-impl Figures {
-    /// Smallest, mean, largest, RMS.
-    pub const fn values(&self) -> [f64; 4] {
-        [self.min, self.mean, self.max, self.rms]
-    }
-
-    /// Largest magnitude.
-    pub fn peak(&self) -> f64 {
-        self.max.max(-self.min)
-    }
 }
 
 /// Default number of time steps of a cycle.

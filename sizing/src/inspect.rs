@@ -15,7 +15,7 @@ use serde::Serialize;
 use crate::coordinate::{Coordinate, whole_range};
 use crate::machine::{AnyMechanism, Fact, MachineFile};
 use crate::numerics;
-use crate::output::short;
+use crate::rounding::short;
 
 mod agreement;
 mod centres;

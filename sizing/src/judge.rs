@@ -4,54 +4,28 @@
 //! (`note`). A rule that does not apply to a drive, such as those of a gearbox to a direct drive, is left out of the
 //! findings; one that applies but lacks a figure of the catalogue or of the machine file is set with [`Finding::UNKNOWN`].
 
-use crate::catalogue::Prepared;
-use crate::check::{Check, Verdict};
+use crate::catalogue::Drive;
+use crate::check::Check;
 use crate::cycle::Cycle;
-use crate::drive::{Coefficients, Drive};
+use crate::envelope::Prepared;
+use crate::form::Coefficients;
 use crate::rule::Rule;
-use crate::rules::RuleSet;
+use crate::rules::{Finding, RuleSet, Verdict};
 use crate::site::Site;
 use crate::units::Units;
 
 mod electric;
 mod gearbox;
+mod judged;
 mod motor;
 mod outcome;
 mod screen;
 mod stiffness;
 mod thermal;
 
+pub use judged::Judged;
 pub use outcome::Outcome;
 pub(crate) use screen::Screen;
-
-/// A figure and the rating that it is compared with, in the same unit (SI).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Finding {
-    /// The figure.
-    pub value: f64,
-    /// The rating; NaN where it is not known.
-    pub rating: f64,
-}
-
-impl Finding {
-    /// A figure and its rating.
-    pub const fn new(value: f64, rating: f64) -> Self {
-        Self { value, rating }
-    }
-
-    /// A figure whose rating, if any, may be missing.
-    pub fn against(value: f64, rating: Option<f64>) -> Self {
-        Self::new(value, rating.unwrap_or(f64::NAN))
-    }
-
-    /// Nothing known: neither figure nor rating.
-    pub const UNKNOWN: Self = Self::new(f64::NAN, f64::NAN);
-
-    /// Whether both figure and rating are known. An infinite rating, no limit at all, is known.
-    pub const fn is_known(&self) -> bool {
-        !(self.value.is_nan() || self.rating.is_nan())
-    }
-}
 
 /// The findings of all rules that apply to a drive.
 #[derive(Clone, Copy, Debug, PartialEq)]

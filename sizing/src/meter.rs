@@ -10,12 +10,13 @@ mod source;
 
 pub use below::{Below, below};
 
-use crate::check::Verdict;
-use crate::drive::{Drive, Judged};
+use crate::catalogue::Drive;
 use crate::envelope::Envelope;
+use crate::judge::Judged;
 use crate::judge::{Context, Findings};
-use crate::output::{short, significant};
+use crate::rounding::{short, significant};
 use crate::rule::Rule;
+use crate::rules::Verdict;
 use crate::rules::{MeanTorque, RuleSet};
 use crate::units::Units;
 

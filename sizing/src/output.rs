@@ -3,7 +3,9 @@
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, TableStyle};
 use serde_json::{Map, Value, json};
 
+use crate::columns::Columns;
 use crate::comma;
+use crate::rounding::rounded;
 
 crate::words! {
     /// How a result is written.
@@ -17,44 +19,7 @@ crate::words! {
     }
 }
 
-/// Named columns of numbers; `None` is an empty cell.
-#[derive(Clone, Debug, Default)]
-pub struct Columns {
-    names: Vec<String>,
-    rows: Vec<Vec<Option<f64>>>,
-}
-
 impl Columns {
-    /// Columns with these names; each name carries its unit, as "omega [rad/s]".
-    pub fn new(names: impl IntoIterator<Item = impl Into<String>>) -> Self {
-        Self {
-            names: names.into_iter().map(Into::into).collect(),
-            rows: Vec::new(),
-        }
-    }
-
-    /// Adds a row with one value for each column.
-    pub fn push(&mut self, row: impl IntoIterator<Item = impl Into<Option<f64>>>) {
-        let row: Vec<Option<f64>> = row.into_iter().map(Into::into).collect();
-        debug_assert_eq!(row.len(), self.names.len());
-        self.rows.push(row);
-    }
-
-    /// The names.
-    pub fn names(&self) -> &[String] {
-        &self.names
-    }
-
-    /// Whether a value is missing anywhere.
-    pub fn has_empty_cells(&self) -> bool {
-        self.rows.iter().flatten().any(Option::is_none)
-    }
-
-    /// The rows.
-    pub fn rows(&self) -> &[Vec<Option<f64>>] {
-        &self.rows
-    }
-
     /// The columns in one of the formats, under a title for tables and JSON.
     pub fn write(&self, format: Format, title: &str) -> String {
         match format {
@@ -72,25 +37,25 @@ impl Columns {
     /// `columns` and `rows` for JSON.
     pub fn json(&self) -> Map<String, Value> {
         let mut map = Map::new();
-        map.insert("columns".into(), json!(self.names));
+        map.insert("columns".into(), json!(self.names()));
         let tidy = |row: &Vec<Option<f64>>| -> Vec<Option<f64>> {
             row.iter().map(|x| x.map(|x| x + 0.0)).collect() // no −0
         };
-        let rows: Vec<_> = self.rows.iter().map(tidy).collect();
+        let rows: Vec<_> = self.rows().iter().map(tidy).collect();
         map.insert("rows".into(), json!(rows));
         map
     }
 
     fn table(&self) -> String {
-        let mut table = text_table(&self.names.iter().map(|n| narrow(n)).collect::<Vec<_>>());
+        let mut table = text_table(&self.names().iter().map(|n| narrow(n)).collect::<Vec<_>>());
         // What is nothing but rounding beside the column's largest number reads as zero.
-        let mut largest = vec![0.0f64; self.names.len()];
-        for row in &self.rows {
+        let mut largest = vec![0.0f64; self.names().len()];
+        for row in self.rows() {
             for (most, value) in largest.iter_mut().zip(row) {
                 *most = most.max(value.map_or(0.0, f64::abs));
             }
         }
-        for row in &self.rows {
+        for row in self.rows() {
             let cells = row.iter().zip(&largest).map(|(value, most)| match value {
                 Some(x) if x.abs() < 1e-12 * most => "0".to_owned(),
                 Some(x) => rounded(*x),
@@ -106,10 +71,10 @@ impl Columns {
 
     fn csv(&self) -> String {
         let rows = self
-            .rows
+            .rows()
             .iter()
             .map(|row| row.iter().copied().map(comma::known));
-        comma::row(&self.names) + &comma::rows(rows)
+        comma::row(self.names()) + &comma::rows(rows)
     }
 }
 
@@ -135,49 +100,4 @@ pub fn text_table(header: &[impl ToString]) -> comfy_table::Table {
         .set_content_arrangement(ContentArrangement::Disabled)
         .set_header(header.iter().map(ToString::to_string));
     table
-}
-
-/// A number with four significant digits.
-pub fn short(x: f64) -> String {
-    significant(x, 4)
-}
-
-/// A number with so many significant digits, six at most; plain between 1e-4 and 1e6, else with an exponent.
-pub fn significant(x: f64, digits: i32) -> String {
-    if x == 0.0 || !x.is_finite() {
-        return rounded(x);
-    }
-    let scale = 10f64.powi(digits - 1 - x.abs().log10().floor() as i32);
-    let cut = (x * scale).round() / scale;
-    if (1e-4..1e6).contains(&cut.abs()) {
-        return rounded(cut);
-    }
-    let places = (digits - 1).max(0) as usize;
-    format!("{x:.places$e}")
-}
-
-/// A number with four significant digits; zero where it is nothing but rounding beside `largest`.
-pub fn shown(x: f64, largest: f64) -> String {
-    if x.abs() <= 1e-9 * largest.abs() {
-        return "0".to_owned();
-    }
-    short(x)
-}
-
-/// A number with six significant digits, plain between 1e-4 and 1e6, else with an exponent.
-pub fn rounded(x: f64) -> String {
-    if x == 0.0 {
-        return "0".into();
-    }
-    let magnitude = x.abs();
-    if !(1e-4..1e6).contains(&magnitude) {
-        return format!("{x:.5e}");
-    }
-    let digits = (5 - magnitude.log10().floor() as i32).max(0) as usize;
-    let text = format!("{x:.digits$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
 }

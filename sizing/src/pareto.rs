@@ -3,10 +3,12 @@
 use miette::{Report, miette};
 use serde_json::{Value, json};
 
-use crate::output::{Format, rounded, text_table};
+use crate::output::{Format, text_table};
 use crate::rank::Objective;
+use crate::rounding::rounded;
 use crate::size::{Candidate, Selection};
-use crate::vary::rows::{Cell, csv_line};
+use crate::vary::cell::Cell;
+use crate::vary::rows::csv_line;
 
 /// A drive of the front with its values, one for each objective.
 #[derive(Clone, Debug)]

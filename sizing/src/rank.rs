@@ -1,7 +1,8 @@
 //! Objectives by which drives are ranked and weighed against each other.
 
-use crate::judge::{Context, Finding};
+use crate::judge::Context;
 use crate::rule::Rule;
+use crate::rules::Finding;
 use crate::size::{Candidate, Group, Selection};
 
 crate::words! {

@@ -26,8 +26,8 @@ pub mod obstacle;
 pub mod ranges;
 
 use crate::catalogue::Motor;
-use crate::drive::loads;
 use crate::duty::Duty;
+use crate::form::loads;
 use crate::numerics::edge;
 
 /// What is known of the gearbox that is looked for, beside its ratio.

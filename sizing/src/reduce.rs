@@ -5,10 +5,10 @@ use jred::mechanism::Frames;
 use jred::motion::State;
 use jred::{Domain, Error, Machine, Mechanism as _, Reducible as _};
 
+use crate::columns::Columns;
 use crate::coordinate::{Coordinate, positions};
 use crate::machine::{AnyMechanism, MachineFile};
 use crate::motion::Motion;
-use crate::output::Columns;
 
 mod curves;
 mod energy;

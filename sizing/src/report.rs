@@ -7,13 +7,14 @@ use askama::Template;
 use jred::Error;
 
 use crate::catalogue::MotorKind;
+use crate::columns::Columns;
 use crate::coordinate::Coordinate;
 use crate::duty::Duty;
 use crate::explain::{Breakdown, Cells, Lever, Remedies};
 use crate::judge::Context;
 use crate::listing::Explanation;
 use crate::machine::MachineFile;
-use crate::output::{Columns, rounded, short};
+use crate::rounding::{rounded, short};
 use crate::size::{Candidate, Selection};
 use crate::units::Units;
 
@@ -215,11 +216,11 @@ fn ranked(selection: &Selection) -> Vec<FitRow> {
 }
 
 /// The rules that were checked, and those that were not with what is missing.
-fn split_checks(best: &crate::drive::Judged) -> (Vec<CheckRow>, Vec<(&'static str, String)>) {
+fn split_checks(best: &crate::judge::Judged) -> (Vec<CheckRow>, Vec<(&'static str, String)>) {
     let (open, checked): (Vec<_>, Vec<_>) = best
         .checks
         .iter()
-        .partition(|check| check.verdict == crate::check::Verdict::NotChecked);
+        .partition(|check| check.verdict == crate::rules::Verdict::NotChecked);
     let checked = checked.into_iter().map(CheckRow::of).collect();
     let open = open
         .into_iter()
@@ -227,7 +228,7 @@ fn split_checks(best: &crate::drive::Judged) -> (Vec<CheckRow>, Vec<(&'static st
     (checked, open.collect())
 }
 
-fn cards(best: &crate::drive::Judged, duty: &Duty, units: Units) -> Vec<(String, String)> {
+fn cards(best: &crate::judge::Judged, duty: &Duty, units: Units) -> Vec<(String, String)> {
     let motor = &best.duty;
     let (word, unit) = (units.torque_word, units.torque);
     let card = |name: String, value: String| (name, value);

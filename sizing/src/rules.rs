@@ -4,16 +4,16 @@
 
 use serde::Serialize;
 
-use crate::check::Verdict;
-use crate::judge::Finding;
 use crate::rule::{Rule, Sense};
 
 mod change;
 mod choice;
 pub mod command;
+mod verdict;
 
 pub use change::{Change, Changes, Contradiction, What};
 pub use choice::{Choices, InertiaOf, MeanTorque, Moves};
+pub use verdict::{Finding, Verdict};
 
 /// The limits of one rule, as shares of its rating. `None`: no such limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]

@@ -10,9 +10,9 @@ use jred::{Domain, Error, Reducible as _};
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, SVector, System};
 
+use crate::columns::Columns;
 use crate::coordinate::Coordinate;
 use crate::machine::{MachineFile, Shaft, Simulation};
-use crate::output::Columns;
 use crate::variator;
 
 mod error;

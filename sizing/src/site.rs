@@ -1,7 +1,7 @@
 //! Where the drive is to stand: supply, surroundings, and what the machine says about its stiffness and its tool. All of it
 //! comes from the machine file.
 
-use crate::bus::supply::Supply;
+use crate::supply::Supply;
 use crate::thermal::operation::Duty;
 use crate::thermal::surroundings::Surroundings;
 

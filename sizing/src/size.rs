@@ -2,9 +2,11 @@
 
 use rayon::prelude::*;
 
-use crate::catalogue::{Catalogue, Prepared};
+use crate::catalogue::Catalogue;
+use crate::catalogue::Drive;
 use crate::cycle::Cycle;
-use crate::drive::{Drive, Judged};
+use crate::envelope::Prepared;
+use crate::judge::Judged;
 use crate::judge::{Context, Outcome, Screen};
 use crate::rules::RuleSet;
 use crate::site::Site;

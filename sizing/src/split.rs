@@ -6,7 +6,9 @@ use miette::{Result, miette};
 use serde_json::{Map, Value, json};
 
 use crate::cli;
-use crate::output::{Columns, Format, rounded};
+use crate::columns::Columns;
+use crate::output::Format;
+use crate::rounding::rounded;
 
 /// The result of `jred split`, written as asked for.
 ///

@@ -23,8 +23,8 @@ pub mod surroundings;
 
 use crate::catalogue::Motor;
 use crate::cycle::Cycle;
-use crate::drive::Coefficients;
 use crate::envelope::Prepared;
+use crate::form::Coefficients;
 use crate::winding::{COPPER, REFERENCE_TEMPERATURE};
 
 use course::{Course, Hottest, Point};

@@ -18,12 +18,12 @@ use rand_distr::{Distribution as _, StandardNormal};
 
 use crate::input::{Shape, Tolerance};
 use crate::rule::Rule;
+use crate::vary::cell::Cell;
 use crate::vary::edit::Edit;
+use crate::vary::header::{Header, digest};
 use crate::vary::one::{One, broken};
-use crate::vary::rows::Cell;
-use crate::vary::run::Task;
-use crate::vary::store::{Header, digest};
 use crate::vary::study::{Study, sentence};
+use crate::vary::task::Task;
 
 /// One quantity that scatters.
 #[derive(Clone, Debug)]
@@ -180,7 +180,7 @@ impl Task for Samples<'_> {
                 cells.push(verdict.into());
                 cells.push(broken.map_or(Cell::Empty, |rule| rule.name().into()));
                 cells.extend(self.rules.iter().map(|rule| {
-                    let finding = findings.get(*rule).filter(crate::judge::Finding::is_known);
+                    let finding = findings.get(*rule).filter(crate::rules::Finding::is_known);
                     match finding.map(|finding| rules.use_shown(*rule, finding)) {
                         Some(used) if used.is_infinite() => "inf".into(),
                         used => used.into(),

@@ -6,8 +6,10 @@
 //! continued ([`store`]): the file is always that of an undisturbed run, byte by byte.
 
 pub mod axis;
+pub mod cell;
 pub mod command;
 pub mod edit;
+pub mod header;
 pub mod merge;
 pub mod one;
 pub mod rows;
@@ -17,3 +19,4 @@ pub mod sheet;
 pub mod sized;
 pub mod store;
 pub mod study;
+pub mod task;

@@ -14,7 +14,8 @@ use crate::support::{budget, near, within};
 use jred_sizing::bus::Need;
 use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::store::{Bus, BusFigures};
-use jred_sizing::bus::supply::{BrakeResistor, BusData};
+use jred_sizing::bus::supply::BusData;
+use jred_sizing::supply::BrakeResistor;
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 

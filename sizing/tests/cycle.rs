@@ -6,7 +6,7 @@ mod screen;
 
 use crate::support::{brute, budget};
 use jred_sizing::cycle::Cycle;
-use jred_sizing::drive::Coefficients;
+use jred_sizing::form::Coefficients;
 use proptest::prelude::*;
 use proptest::test_runner::{RngAlgorithm, TestRng, TestRunner};
 use random::{coefficients, duty, envelope};

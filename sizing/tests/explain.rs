@@ -5,7 +5,7 @@ mod remedies;
 use std::path::Path;
 
 use jred_sizing::catalogue::Catalogue;
-use jred_sizing::drive::Drive;
+use jred_sizing::catalogue::Drive;
 use jred_sizing::duty::Duty;
 use jred_sizing::explain::{Alteration, Altered, Breakdown, Cells, Share};
 use jred_sizing::input;

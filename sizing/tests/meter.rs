@@ -5,8 +5,8 @@ mod firmware;
 
 use crate::support::{Folder, budget, edited_press, jred, press_file};
 use jred_sizing::catalogue::Catalogue;
+use jred_sizing::catalogue::Drive;
 use jred_sizing::cycle::Cycle;
-use jred_sizing::drive::Drive;
 use jred_sizing::duty::{Duty, STEPS};
 use jred_sizing::input;
 use jred_sizing::judge::Context;

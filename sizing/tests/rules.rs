@@ -15,15 +15,17 @@ mod sets;
 use std::path::Path;
 
 use crate::support::{Folder, budget, edited, near, press_text, within};
-use jred_sizing::catalogue::{Brake, Catalogue, Gearbox, Motor, Prepared};
+use jred_sizing::catalogue::Drive;
+use jred_sizing::catalogue::{Brake, Catalogue, Gearbox, Motor};
 use jred_sizing::check::Check;
 use jred_sizing::cycle::Cycle;
-use jred_sizing::drive::Drive;
 use jred_sizing::duty::Duty;
+use jred_sizing::envelope::Prepared;
 use jred_sizing::input;
-use jred_sizing::judge::{Context, Finding};
+use jred_sizing::judge::Context;
 use jred_sizing::machine::MachineFile;
 use jred_sizing::rule::Rule;
+use jred_sizing::rules::Finding;
 use jred_sizing::rules::RuleSet;
 
 fn read(text: &str) -> MachineFile {

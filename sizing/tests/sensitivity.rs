@@ -5,9 +5,9 @@ mod tolerance;
 use std::path::Path;
 
 use crate::support::{Folder, budget, jred, near, press_text, within};
+use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Catalogue, Gearbox};
 use jred_sizing::cycle::Cycle;
-use jred_sizing::drive::Drive;
 use jred_sizing::duty::{Duty, Instant};
 use jred_sizing::filter::Filter;
 use jred_sizing::input;

@@ -3,9 +3,10 @@
 use std::collections::HashSet;
 use std::hint::black_box;
 
-use jred_sizing::drive::Drive;
-use jred_sizing::judge::{Context, Finding, Findings, Outcome};
+use jred_sizing::catalogue::Drive;
+use jred_sizing::judge::{Context, Findings, Outcome};
 use jred_sizing::rule::Rule;
+use jred_sizing::rules::Finding;
 use jred_sizing::size::{Group, Selection};
 
 use crate::{Ready, brute};

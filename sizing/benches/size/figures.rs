@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 use std::time::Instant;
 
+use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Catalogue, Sources};
 use jred_sizing::cycle::Cycle;
-use jred_sizing::drive::{Coefficients, Drive};
+use jred_sizing::form::Coefficients;
 use jred_sizing::rules::RuleSet;
 use jred_sizing::site::Site;
 use jred_sizing::size::Selection;

@@ -10,7 +10,7 @@ use super::axes::{Axes, Bounds, Worst};
 use super::cure::{Cure, share};
 use super::curve::PowerCurve;
 use super::store::BusFigures;
-use super::supply::{BusData, Supply};
+use super::supply::BusData;
 use super::{Need, Watch, power};
 use crate::catalogue::Catalogue;
 use crate::cli::bus::Bus as Options;
@@ -22,6 +22,7 @@ use crate::machine::MachineFile;
 use crate::output::Format;
 use crate::site::Site;
 use crate::size::Selection;
+use crate::supply::Supply;
 use crate::{input, variator};
 
 /// One axis: its drive, and what it draws.

@@ -4,7 +4,7 @@
 //! the machine file, the amplifier, the motor's data sheet.
 
 use super::supply::BusData;
-use crate::output::short;
+use crate::rounding::short;
 
 /// What no brake resistor mends: the supply must hold less than the chopper's voltage, and that must be less than the highest.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,7 +9,7 @@ use super::store::{Bus, BusFigures};
 use super::verdict::Judged;
 use super::{Need, Watch};
 use crate::cli::bus::Bus as Options;
-use crate::output::short;
+use crate::rounding::short;
 
 /// Something that does alone.
 pub(super) struct Cure {

@@ -4,9 +4,10 @@ use super::axes::Axes;
 use super::curve::PowerCurve;
 use super::phases::Watch;
 use super::store::Bus;
-use super::supply::{BrakeResistor, BusData};
+use super::supply::BusData;
 use crate::catalogue::Resistor;
-use crate::output::short;
+use crate::rounding::short;
+use crate::supply::BrakeResistor;
 
 /// What a brake resistor must bear that the chopper's voltage alone bounds.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]

@@ -10,7 +10,9 @@ use super::curve::PowerCurve;
 use super::store::BusFigures;
 use super::verdict::Judged;
 use crate::cli::bus::Bus as Options;
-use crate::output::{Columns, Format, short};
+use crate::columns::Columns;
+use crate::output::Format;
+use crate::rounding::short;
 
 impl Answer {
     pub(super) fn text(&self, options: &Options) -> String {

@@ -1,40 +1,9 @@
-//! What feeds the DC bus, and what takes up the energy that comes back.
+//! The bus of one drive or of several, as far as it is known.
 
 use crate::catalogue::{Amplifier, Motor};
+use crate::supply::{BrakeResistor, Supply};
 
 use super::store::Bus;
-
-/// The supply of the machine file. What is not given is taken from the amplifier.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Supply {
-    /// Whether the file has a `[supply]`.
-    pub given: bool,
-    /// Capacitance of the DC bus (F).
-    pub capacitance: Option<f64>,
-    /// Voltage at which the brake resistor comes on (V).
-    pub chopper_voltage: Option<f64>,
-    /// Highest voltage of the DC bus (V).
-    pub max_voltage: Option<f64>,
-    /// Smallest resistance that the chopper may switch (Ω).
-    pub min_resistance: Option<f64>,
-    /// Whether energy is fed back into the mains.
-    pub regenerative: bool,
-    /// The brake resistor.
-    pub brake_resistor: Option<BrakeResistor>,
-}
-
-/// A brake resistor.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BrakeResistor {
-    /// Resistance (Ω).
-    pub resistance: f64,
-    /// Continuous power (W).
-    pub power: f64,
-    /// Largest short-time power (W).
-    pub peak_power: Option<f64>,
-    /// Largest energy without a pause (J).
-    pub pulse_energy: Option<f64>,
-}
 
 /// The bus of one drive, as far as it is known.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,7 +6,7 @@ use super::curve::PowerCurve;
 use super::period::{Common, LOOKED_AT, MOST_CYCLES};
 use super::store::BusFigures;
 use crate::cli::bus::Bus as Options;
-use crate::output::short;
+use crate::rounding::short;
 use crate::rule::Sense;
 
 /// What is judged.

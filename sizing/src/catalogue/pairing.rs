@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::amplifier::Amplifier;
 use super::motor::{Motor, MotorKind};
 use super::{Catalogue, Gearbox};
-use crate::drive::Drive;
+use crate::catalogue::Drive;
 
 /// Which gearboxes and amplifiers go with each motor, as indices into the lists of the catalogue.
 ///

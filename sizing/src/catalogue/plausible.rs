@@ -7,7 +7,7 @@
 use super::fault::Remarks;
 use super::gearbox::Gearbox;
 use super::motor::{Motor, MotorKind};
-use crate::input::problem::figure;
+use crate::rounding::figure;
 
 /// Rotor inertia over rated torque to the power 5/3, (kg·m²)/(N·m)^(5/3): equal for similar shapes at equal shear stress.
 const SLIMNESS: [f64; 2] = [5e-7, 3e-2];
@@ -127,7 +127,7 @@ pub(super) fn motor(remarks: &mut Remarks, place: &dyn Fn() -> String, motor: &M
                 format!(
                     "{}: the speed of \"{key}\" is {} rpm: rpm and rad/s mixed up?",
                     place(),
-                    figure(speed.unwrap_or(0.0) / crate::drive::RPM)
+                    figure(speed.unwrap_or(0.0) / crate::numerics::RPM)
                 )
             });
         }

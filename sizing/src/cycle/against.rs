@@ -2,8 +2,8 @@
 
 use super::Sample;
 use super::search::Stretches;
-use crate::drive::Coefficients;
 use crate::envelope::Envelope;
+use crate::form::Coefficients;
 
 /// How the peak of a cycle stands against shares of an envelope.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::Sample;
 use super::search::Stretches;
-use crate::drive::{Coefficients, LOADS};
+use crate::form::{Coefficients, LOADS};
 
 impl Stretches<'_> {
     /// Every sample at which |c·x| exceeds a bound, with c·x. Stretches that cannot hold one are passed over.

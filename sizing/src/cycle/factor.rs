@@ -1,7 +1,7 @@
 //! The triangular factor of a cycle: root mean squares of linear forms, without the samples.
 
 use super::Sample;
-use crate::drive::LOADS;
+use crate::form::LOADS;
 
 /// Rows of a block.
 const BLOCK: usize = 64;

@@ -5,7 +5,7 @@ use pulp::Arch;
 use super::Sample;
 use super::kernels::{Above, Bounds, Signs};
 use super::tree::{Direction, Node, Tree};
-use crate::drive::LOADS;
+use crate::form::LOADS;
 
 /// Number of stretches. At this number the chords of a smooth cycle are some parts in a thousand from its loads.
 pub(super) const WIDTH: usize = 32;

@@ -8,7 +8,7 @@
 use pulp::NullaryFnOnce;
 
 use super::front::{Front, WIDTH};
-use crate::drive::LOADS;
+use crate::form::LOADS;
 
 /// The kernel of [`Front::bounds`].
 pub(super) struct Bounds<'a> {

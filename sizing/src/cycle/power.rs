@@ -3,7 +3,7 @@
 use super::Sample;
 use super::search::Stretches;
 use super::tree::Direction;
-use crate::drive::{Coefficients, LOADS};
+use crate::form::{Coefficients, LOADS};
 
 impl Stretches<'_> {
     /// Work that the motor puts in and work that it takes back (J): ∫max(P, 0) and ∫max(−P, 0). Where the power keeps its

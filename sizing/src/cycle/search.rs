@@ -12,8 +12,8 @@ use super::floor::{Falling, Floor, Level, Straight};
 use super::front::Front;
 use super::tree::{Direction, Node, Tree};
 use super::{Peak, Sample};
-use crate::drive::{Coefficients, LOADS};
 use crate::envelope::Envelope;
+use crate::form::{Coefficients, LOADS};
 
 /// Rounding of a torque and of its bound, as a share of the sum of its terms' largest magnitudes.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;

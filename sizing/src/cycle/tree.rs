@@ -1,7 +1,7 @@
 //! The samples of a cycle in stretches of stretches: what is known of a stretch without looking at its samples.
 
 use super::Sample;
-use crate::drive::LOADS;
+use crate::form::LOADS;
 
 /// Most samples of a stretch that is not cut further.
 const LEAF: usize = 16;

@@ -1,9 +1,9 @@
 //! From metres to pixels.
 
 use super::sketch::{Part, Sketch};
-use crate::output::rounded;
 use crate::plot::WIDTH;
 use crate::plot::canvas::{Anchor, Canvas, Ink};
+use crate::rounding::rounded;
 
 /// Room around the drawing (px): bearings, blocks and labels reach beyond what they stand for.
 const MARGIN: f64 = 48.0;

@@ -11,7 +11,7 @@
 //!
 //! Equations, units and sources: `docs/motor-limits.md`.
 
-use crate::catalogue::{Amplifier, Motor};
+use crate::catalogue::{Amplifier, Catalogue, Motor};
 use crate::site::Site;
 use crate::winding::CurrentCurve;
 
@@ -171,5 +171,16 @@ impl Prepared {
             }
             _ => along,
         })
+    }
+}
+
+impl Catalogue {
+    /// Every motor's limits at the supply of the site, with each amplifier that it goes with, in the order of the motors.
+    pub fn prepare(&self, site: &Site) -> Vec<Prepared> {
+        let prepare = |(index, motor)| {
+            let amplifiers = self.amplifiers_of(index).into_iter();
+            Prepared::new(motor, None, site).with(motor, amplifiers, site)
+        };
+        self.motors.iter().enumerate().map(prepare).collect()
     }
 }

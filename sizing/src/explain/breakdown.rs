@@ -18,8 +18,10 @@
 use jred::{Error, Link, Mechanism as _};
 use serde::Serialize;
 
-use crate::drive::{Drive, loads};
-use crate::duty::{Duty, Figures};
+use crate::catalogue::Drive;
+use crate::duty::Duty;
+use crate::figures::Figures;
+use crate::form::loads;
 use crate::machine::MachineFile;
 use crate::units::Units;
 

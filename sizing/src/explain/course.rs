@@ -1,7 +1,7 @@
 //! Every rule's share of its limit over the gear ratio.
 
 use super::remedy::with_ratio;
-use crate::drive::Drive;
+use crate::catalogue::Drive;
 use crate::judge::{Context, Findings};
 use crate::rule::Rule;
 use crate::rules::RuleSet;

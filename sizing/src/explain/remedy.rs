@@ -11,13 +11,14 @@ use serde::Serialize;
 
 use super::altered::{Alteration, Altered};
 use super::seek::State;
-use crate::catalogue::{Gearbox, MotorKind, Prepared};
-use crate::check::Verdict;
+use crate::catalogue::Drive;
+use crate::catalogue::{Gearbox, MotorKind};
 use crate::cycle::Cycle;
-use crate::drive::Drive;
+use crate::envelope::Prepared;
 use crate::judge::Context;
 use crate::rule::Rule;
 use crate::rules::RuleSet;
+use crate::rules::Verdict;
 use crate::site::Site;
 use crate::size::Selection;
 use crate::units::Units;

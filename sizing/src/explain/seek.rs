@@ -1,10 +1,10 @@
 //! Where the rules hold: the search over the values of one quantity.
 
 use super::remedy::{Edge, Lever, Remedy};
-use crate::check::Verdict;
 use crate::judge::{Context, Findings};
 use crate::rule::Rule;
 use crate::rules::RuleSet;
+use crate::rules::Verdict;
 
 /// How a drive comes out at one value.
 #[derive(Clone, Copy, Debug)]

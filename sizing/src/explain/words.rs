@@ -1,7 +1,7 @@
 //! Remedies in words.
 
 use super::remedy::{Edge, Lever, Miss, Remedy};
-use crate::output::short;
+use crate::rounding::short;
 use crate::rule::Rule;
 
 impl Remedy {

@@ -11,7 +11,7 @@ use super::search::{Answer, Candidate, Search};
 use super::{Failure, Task};
 use crate::coordinate::Coordinate;
 use crate::machine::MachineFile;
-use crate::output::{rounded, short};
+use crate::rounding::{rounded, short};
 
 /// A search that found nothing.
 pub(super) struct NotReached<'f> {

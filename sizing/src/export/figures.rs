@@ -10,7 +10,8 @@ use serde_json::{Value, json};
 use super::search::{Answer, Candidate};
 use super::{Export, LayoutName, Number};
 use crate::coordinate::Coordinate;
-use crate::output::{rounded, short, text_table};
+use crate::output::text_table;
+use crate::rounding::{rounded, short};
 
 /// Bit of the set, its word for a reader, its name in Rust.
 const CURVES: [(u8, &str, &str); 6] = [

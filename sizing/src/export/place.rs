@@ -6,7 +6,7 @@ use jred::{Domain, Error, Mechanism as _, Reducible, Reduction};
 
 use crate::coordinate::Coordinate;
 use crate::machine::MachineFile;
-use crate::output::rounded;
+use crate::rounding::rounded;
 
 /// What is found, and what would help if anything in the machine file does.
 pub(super) struct Feature {

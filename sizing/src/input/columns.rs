@@ -9,8 +9,9 @@ use std::path::Path;
 use super::file;
 use super::item::Item;
 use super::kind::Kind;
-use super::problem::{Problem, Result, closest, figure};
+use super::problem::{Problem, Result, closest};
 use super::unit;
+use crate::rounding::figure;
 
 /// The largest CSV file (bytes).
 const MAX_SIZE: u64 = 64 << 20;

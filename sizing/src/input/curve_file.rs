@@ -6,7 +6,8 @@ use jred::Domain;
 
 use super::columns::Columns;
 use super::drive_link::DriveLink;
-use super::problem::{Problem, Result, figure};
+use super::problem::{Problem, Result};
+use crate::rounding::figure;
 use crate::spline::{MIN_POINTS, Spline, Way};
 
 /// Rows nearer than this share of the range are one row too many.

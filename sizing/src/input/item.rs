@@ -6,9 +6,10 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::kind::Kind;
-use super::problem::{Fault, Problem, Result, closest, figure, quoted};
+use super::problem::{Fault, Problem, Result, closest, quoted};
 use super::quantity::{self, Quantity};
 use super::section::Section;
+use crate::rounding::figure;
 
 /// A value with the words that messages call it by.
 #[derive(Clone, Debug)]

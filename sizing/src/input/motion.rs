@@ -10,9 +10,10 @@ use crate::motion::{Motion, Segment};
 
 use super::drive_link::DriveLink;
 use super::kind::{SHARE, TIME};
-use super::problem::{Problem, Result, figure};
+use super::problem::{Problem, Result};
 use super::profile;
 use super::section::Section;
+use crate::rounding::figure;
 
 /// The most segments of a motion.
 const MAX_SEGMENTS: usize = 1000;

@@ -141,22 +141,3 @@ pub(crate) fn closest<S: AsRef<str>>(wrong: &str, words: &[S]) -> Option<String>
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, word)| word.to_owned())
 }
-
-/// A figure for a message: at most six significant digits, no trailing zeros.
-pub(crate) fn figure(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return value.to_string();
-    }
-    let exponent = value.abs().log10().floor();
-    if !(-4.0..9.0).contains(&exponent) {
-        let rounded = format!("{value:.3e}").parse().unwrap_or(value);
-        return format!("{rounded:e}");
-    }
-    let decimals = (5.0 - exponent).max(0.0) as usize;
-    let text = format!("{value:.decimals$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
-}

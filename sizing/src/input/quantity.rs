@@ -1,8 +1,9 @@
 //! Quantities: a number and its unit, of a kind that the key asks for.
 
 use super::kind::{ANGULAR_SPEED, FREQUENCY, Kind, SHARE, describe};
-use super::problem::{Fault, figure};
+use super::problem::Fault;
 use super::unit::{self, Dimension, Unit};
+use crate::rounding::figure;
 
 /// A quantity as read.
 #[derive(Debug)]

@@ -2,8 +2,8 @@
 
 use std::f64::consts::SQRT_2;
 
-use crate::bus::supply::{BrakeResistor, Supply};
 use crate::site::Site;
+use crate::supply::{BrakeResistor, Supply};
 
 use super::item::Value;
 use super::kind::{CAPACITANCE, ENERGY, POWER, RESISTANCE, VOLTAGE};

@@ -319,7 +319,7 @@ impl Travel {
         } else {
             Coordinate::Angle
         };
-        let number = |x: f64| crate::output::rounded((x * 1e6).round() / 1e6 + 0.0);
+        let number = |x: f64| crate::rounding::rounded((x * 1e6).round() / 1e6 + 0.0);
         let at = |phi: f64| format!("{} {}", number(drive.shown(phi)), drive.unit());
         let centres: Vec<String> = self.dead_centres.iter().map(|c| at(c[0])).collect();
         let centres = match centres.len() {

@@ -7,7 +7,8 @@ use serde_json::{Value, json};
 
 use super::{Findings, NEAR_DEAD_POINT, RECOMMENDED};
 use crate::coordinate::Coordinate;
-use crate::output::{short, text_table};
+use crate::output::text_table;
+use crate::rounding::short;
 
 impl Findings {
     /// For reading.

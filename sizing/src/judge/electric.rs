@@ -1,12 +1,13 @@
 //! Current of the amplifier, energy of the DC bus, brake resistor.
 
-use super::{Context, Finding, Take, Words};
+use super::{Context, Take, Words};
 use crate::bus::store::BusFigures;
 use crate::bus::supply::BusData;
 use crate::bus::{self, Need};
-use crate::output::short;
 use crate::overload;
+use crate::rounding::short;
 use crate::rule::Rule;
+use crate::rules::Finding;
 use crate::thermal::mean::rms_current;
 
 /// Currents; returns the largest (A), if the rules need it; NaN where the motor's data do not say which current makes a torque.

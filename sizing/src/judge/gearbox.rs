@@ -1,11 +1,12 @@
 //! The gearbox's torques, speeds and cycles.
 
-use super::{Context, Finding, Take, Words};
+use super::{Context, Take, Words};
 use crate::catalogue::Gearbox;
-use crate::drive::RPM;
 use crate::mechanics::Braking;
-use crate::output::short;
+use crate::numerics::RPM;
+use crate::rounding::short;
 use crate::rule::Rule;
+use crate::rules::Finding;
 use crate::rules::{MeanTorque, RuleSet};
 
 /// Acceleration torques T2B hold for up to 1000 cycles per hour (WITTENSTEIN, engineering glossary).

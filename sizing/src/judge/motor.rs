@@ -1,10 +1,11 @@
 //! The motor's torque, speed, holding torque and inertia ratio.
 
-use super::{Context, Finding, Take, Words};
-use crate::catalogue::Prepared;
+use super::{Context, Take, Words};
 use crate::cycle::Cycle;
-use crate::output::short;
+use crate::envelope::Prepared;
+use crate::rounding::short;
 use crate::rule::Rule;
+use crate::rules::Finding;
 use crate::rules::RuleSet;
 use crate::units::Units;
 

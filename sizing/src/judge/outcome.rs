@@ -1,9 +1,10 @@
 //! How a drive comes out, in numbers.
 
-use super::{Finding, Findings, Take};
-use crate::check::Verdict;
+use super::{Findings, Take};
 use crate::rule::Rule;
+use crate::rules::Finding;
 use crate::rules::RuleSet;
+use crate::rules::Verdict;
 
 /// How a drive comes out, in numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]

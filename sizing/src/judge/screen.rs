@@ -11,9 +11,10 @@ use std::ptr;
 
 use super::outcome::Tally;
 use super::{Context, Outcome, electric, gearbox, motor, stiffness, thermal};
-use crate::catalogue::{Gearbox, Motor, Prepared};
+use crate::catalogue::Drive;
+use crate::catalogue::{Gearbox, Motor};
 use crate::cycle::{Against, Cycle};
-use crate::drive::Drive;
+use crate::envelope::Prepared;
 use crate::rule::Rule;
 use crate::rules::RuleSet;
 use crate::site::Site;

@@ -6,9 +6,10 @@
 
 use std::f64::consts::TAU;
 
-use super::{Context, Finding, Take, Words};
-use crate::output::short;
+use super::{Context, Take, Words};
+use crate::rounding::short;
 use crate::rule::Rule;
+use crate::rules::Finding;
 use crate::site::ToolPlace;
 
 /// rad of a degree.

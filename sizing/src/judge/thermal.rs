@@ -1,7 +1,8 @@
 //! Temperature of winding and housing.
 
-use super::{Context, Finding, Take, Words};
+use super::{Context, Take, Words};
 use crate::rule::Rule;
+use crate::rules::Finding;
 use crate::thermal::classify::Features;
 use crate::thermal::course::Hottest;
 use crate::thermal::operation::Operation;

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use miette::Result;
 
 use super::explained;
-use crate::check::Verdict;
-use crate::output::significant;
+use crate::rounding::significant;
+use crate::rules::Verdict;
 use crate::size::{Candidate, RANKING, Selection};
 use crate::units::Units;
 

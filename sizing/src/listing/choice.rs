@@ -2,7 +2,7 @@
 
 use miette::{Result, miette};
 
-use crate::drive::Drive;
+use crate::catalogue::Drive;
 use crate::size::{Candidate, Selection};
 
 /// How much of a selection is listed.

@@ -8,7 +8,8 @@ use serde::Serialize;
 use crate::duty::Duty;
 use crate::explain::{Altered, Breakdown, InertiaShare, Remedies, Share};
 use crate::machine::MachineFile;
-use crate::output::{short, shown, text_table};
+use crate::output::text_table;
+use crate::rounding::{short, shown};
 use crate::size::{Candidate, Selection};
 
 /// The explanation of one drive, and the refused drives that miss by least.

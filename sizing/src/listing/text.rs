@@ -4,12 +4,15 @@ use comfy_table::{ColumnConstraint, ContentArrangement, Width};
 
 use super::{Asked, Explanation, List};
 use crate::catalogue::MotorKind;
-use crate::check::{Check, Verdict};
-use crate::drive::Judged;
-use crate::duty::{Duty, Figures, Instant};
+use crate::check::Check;
+use crate::duty::{Duty, Instant};
+use crate::figures::Figures;
+use crate::judge::Judged;
 use crate::machine::MachineFile;
-use crate::output::{rounded, short, significant, text_table};
+use crate::output::text_table;
+use crate::rounding::{rounded, short, significant};
 use crate::rule::Rule;
+use crate::rules::Verdict;
 use crate::size::Selection;
 use crate::units::Units;
 

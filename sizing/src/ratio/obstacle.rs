@@ -4,11 +4,11 @@ use std::convert::Infallible;
 
 use super::Range;
 use super::ranges::{Trial, tried};
-use crate::check::Verdict;
 use crate::judge::Findings;
 use crate::numerics::edge;
-use crate::output::significant;
+use crate::rounding::significant;
 use crate::rule::Rule;
+use crate::rules::Verdict;
 
 /// Parts into which a step of the tried ratios is cut where a use of a limit is least.
 const FINER: u32 = 200;

@@ -2,9 +2,10 @@
 //! in front of the motor, and the places where a rule begins or ceases to hold are closed in.
 
 use super::{Gear, Range};
-use crate::catalogue::{Gearbox, Motor, Prepared};
+use crate::catalogue::Drive;
+use crate::catalogue::{Gearbox, Motor};
 use crate::cycle::Cycle;
-use crate::drive::Drive;
+use crate::envelope::Prepared;
 use crate::judge::{Context, Findings};
 use crate::numerics::edge;
 use crate::rule::Rule;

@@ -4,8 +4,9 @@ use jred::Error;
 use serde::Serialize;
 
 use super::{Over, Request, Sets, reduce};
+use crate::columns::Columns;
 use crate::machine::MachineFile;
-use crate::output::{Columns, short};
+use crate::rounding::short;
 
 /// Positions that are searched at least.
 const SEARCHED: usize = 1441;

@@ -3,8 +3,9 @@
 use jred::Error;
 
 use super::mechanism::{POINTS, Source};
-use crate::output::{Columns, rounded, short};
+use crate::columns::Columns;
 use crate::reduce::{Request, Sets, largest};
+use crate::rounding::{rounded, short};
 
 /// Rows of each table.
 const ROWS: usize = 13;

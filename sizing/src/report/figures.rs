@@ -3,9 +3,9 @@
 use jred::{Error, Reducible as _};
 
 use super::chart::{Chart, Form};
+use crate::columns::Columns;
 use crate::coordinate::{Coordinate, whole_range};
 use crate::machine::MachineFile;
-use crate::output::Columns;
 use crate::plot::{Axes, Series, Style, lines};
 
 /// Intervals of the figures over the range.

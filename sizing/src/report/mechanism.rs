@@ -5,13 +5,14 @@ use jred::Error;
 
 use super::extract::{Table, largest_forces, tables};
 use super::figures::{self, line};
+use crate::columns::Columns;
 use crate::coordinate::Coordinate;
 use crate::drawing;
 use crate::inspect::Findings;
 use crate::machine::MachineFile;
-use crate::output::{Columns, short};
 use crate::plot::{Axes, Series, lines};
 use crate::reduce::{Over, Request, Sets, reduce};
+use crate::rounding::short;
 
 /// Points of each curve.
 pub(super) const POINTS: usize = 361;

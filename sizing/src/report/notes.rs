@@ -1,9 +1,9 @@
 //! What the report says beside its figures: the answer, self-check, assumptions, sources.
 
-use crate::check::Verdict;
-use crate::drive::Judged;
 use crate::duty::Duty;
-use crate::output::{rounded, short};
+use crate::judge::Judged;
+use crate::rounding::{rounded, short};
+use crate::rules::Verdict;
 
 /// The answer in HTML: the one piece of the page that is put together by hand.
 pub(super) fn answer(best: &Judged, found: bool) -> String {

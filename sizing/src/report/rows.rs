@@ -1,12 +1,14 @@
 //! The tables of the report.
 
-use crate::check::{Check, Verdict};
-use crate::drive::Judged;
-use crate::duty::{Duty, Figures};
+use crate::check::Check;
+use crate::duty::Duty;
 use crate::explain::{Breakdown, InertiaShare, Remedies, Share};
-use crate::output::{rounded, short, shown, significant};
+use crate::figures::Figures;
+use crate::judge::Judged;
+use crate::rounding::{rounded, short, shown, significant};
 use crate::rule::Rule;
 use crate::rules::RuleSet;
+use crate::rules::Verdict;
 use crate::units::Units;
 
 /// A rule, how it came out, and a bar for what it uses of its limit.

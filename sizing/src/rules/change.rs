@@ -202,9 +202,9 @@ impl RuleSet {
 /// A limit as machine files write it.
 pub(crate) fn shown(rule: Rule, share: f64) -> String {
     if rule.is_ratio() {
-        crate::input::problem::figure(share)
+        crate::rounding::figure(share)
     } else {
-        format!("{} %", crate::input::problem::figure(share * 100.0))
+        format!("{} %", crate::rounding::figure(share * 100.0))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::duty::Figures;
+use crate::figures::Figures;
 
 /// Which λ of the cycle is judged. With J(φ) the inertia ratio is a curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]

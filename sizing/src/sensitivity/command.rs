@@ -6,11 +6,11 @@ use miette::Result;
 use super::{Dependence, Reach, Room, Sensitivity};
 use crate::cli::search::Sensitivity as Options;
 use crate::commands::{Done, print};
-use crate::output::{short, significant};
+use crate::rounding::{short, significant};
 use crate::units::Units;
+use crate::vary::cell::Cell;
 use crate::vary::command::study;
 use crate::vary::one::One;
-use crate::vary::rows::Cell;
 use crate::vary::sheet::{Reading, Sheet};
 use crate::vary::study::Study;
 

@@ -2,7 +2,7 @@
 
 use super::order::{Order, Place};
 use super::{Candidate, is_open};
-use crate::drive::Drive;
+use crate::catalogue::Drive;
 
 /// So many drives are judged in full and put in order, of those that fit and of those refused; see
 /// [`Selection`](super::Selection).

@@ -1,7 +1,7 @@
 //! What drives are ordered by.
 
 use super::Candidate;
-use crate::drive::Drive;
+use crate::catalogue::Drive;
 use crate::judge::Outcome;
 
 /// Place in the catalogue: by the index of the motor, then in the order of its drives.

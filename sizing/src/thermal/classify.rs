@@ -15,7 +15,7 @@
 use std::fmt;
 
 use crate::cycle::Cycle;
-use crate::drive::Coefficients;
+use crate::form::Coefficients;
 
 /// What the motor does in the cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]

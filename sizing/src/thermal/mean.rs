@@ -11,8 +11,8 @@ use super::network::Losses;
 use super::{Load, Model};
 use crate::cycle::Cycle;
 use crate::cycle::speeds::Form;
-use crate::drive::Coefficients;
 use crate::envelope::{Envelope, Prepared, Segment};
+use crate::form::Coefficients;
 
 impl Model {
     /// The mean losses (W; of the relative model as shares of the rated ones). Cost: that of a few square roots, and of the

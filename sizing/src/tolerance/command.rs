@@ -10,9 +10,10 @@ use crate::input::Tolerance;
 use crate::output::Format;
 use crate::rules::{Limit, RuleSet};
 use crate::units::Units;
+use crate::vary::cell::Cell;
 use crate::vary::command::{stopped, study};
 use crate::vary::one::One;
-use crate::vary::rows::{Cell, Form};
+use crate::vary::rows::Form;
 use crate::vary::run::run;
 use crate::vary::sheet::Sheet;
 use crate::vary::study::Study;
@@ -180,7 +181,7 @@ fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
                 "{} {} ± {} {}",
                 s.path,
                 s.shape.name(),
-                crate::output::short(s.amount),
+                crate::rounding::short(s.amount),
                 s.unit
             )
         })

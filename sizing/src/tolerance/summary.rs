@@ -1,6 +1,6 @@
 //! What the machines of a Monte Carlo study say together.
 
-use crate::vary::rows::Cell;
+use crate::vary::cell::Cell;
 
 /// Two-sided 95 % of the normal distribution.
 const Z: f64 = 1.959_963_984_540_054;

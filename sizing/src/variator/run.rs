@@ -11,8 +11,8 @@ use ode_solvers::{Dop853, System};
 
 use super::Variator;
 use super::plant::{Plant, State, TIME};
+use crate::columns::Columns;
 use crate::machine::{MachineFile, Simulation};
-use crate::output::Columns;
 use crate::simulate::{At, SimulationError, Watch, stopped};
 
 /// Losses may be negative by this share of the power through the contact: rounding.

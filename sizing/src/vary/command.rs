@@ -6,14 +6,16 @@ use miette::{Result, miette};
 
 use super::axis::{Axis, Grid};
 use super::merge::merge;
-use super::rows::{Cell, Form, table};
-use super::run::{Ended, Plan, Task as _, run};
+use super::rows::{Form, table};
+use super::run::{Ended, Plan, run};
 use super::sized::Sized;
 use super::study::Study;
 use crate::catalogue::Catalogue;
 use crate::cli::search::{Merge, Rows, Supply, Vary};
 use crate::commands::{Done, print};
 use crate::filter::Filter;
+use crate::vary::cell::Cell;
+use crate::vary::task::Task as _;
 
 /// The catalogue that the options name, thinned by a filter.
 ///

@@ -9,7 +9,8 @@ use std::path::{Path, PathBuf};
 use miette::{IntoDiagnostic as _, Report, Result, WrapErr as _, miette};
 
 use super::rows::Form;
-use super::store::{self, Header};
+use super::store;
+use crate::vary::header::Header;
 
 /// A share, read line by line.
 struct Part {

@@ -3,14 +3,15 @@
 use miette::{Result, miette};
 
 use super::study::{Prepared as Machine, Study};
-use crate::catalogue::{Amplifier, Gearbox, Motor, Prepared};
-use crate::check::Verdict;
-use crate::drive::Drive;
+use crate::catalogue::Drive;
+use crate::catalogue::{Amplifier, Gearbox, Motor};
+use crate::envelope::Prepared;
 use crate::filter::Filter;
 use crate::judge::{Context, Findings};
 use crate::rank::{Objective, rank};
 use crate::rule::Rule;
 use crate::rules::RuleSet;
+use crate::rules::Verdict;
 use crate::size::Selection;
 
 /// A drive of the catalogue.

@@ -9,18 +9,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 use miette::{IntoDiagnostic as _, Result, WrapErr as _};
 use rayon::prelude::*;
 
-use super::rows::{Cell, Form};
+use super::rows::Form;
 use super::shard::Shard;
-use super::store::{self, Header};
-
-/// A study: rows that are computed one by one, in any order.
-pub trait Task: Sync {
-    /// What the rows are rows of.
-    fn header(&self) -> Header;
-
-    /// One row.
-    fn row(&self, index: u64) -> Vec<Cell>;
-}
+use super::store;
+use crate::vary::cell::Cell;
+use crate::vary::task::Task;
 
 /// Where the rows go, and which.
 #[derive(Clone, Debug)]

@@ -3,8 +3,10 @@
 use comfy_table::{ColumnConstraint, ContentArrangement};
 use serde_json::{Map, Value, json};
 
-use super::rows::{Cell, csv_line};
-use crate::output::{Format, significant, text_table};
+use super::rows::csv_line;
+use crate::output::{Format, text_table};
+use crate::rounding::significant;
+use crate::vary::cell::Cell;
 
 /// Widest table: more is broken into lines within the cells.
 pub const WIDEST: u16 = 120;

@@ -2,13 +2,13 @@
 
 use super::axis::Grid;
 use super::edit::Edit;
-use super::rows::Cell;
-use super::run::Task;
-use super::store::{Header, digest};
 use super::study::{Study, sentence};
 use crate::filter::Filter;
 use crate::rank::{Objective, rank};
 use crate::size::{Candidate, Selection};
+use crate::vary::cell::Cell;
+use crate::vary::header::{Header, digest};
+use crate::vary::task::Task;
 
 /// Machines of a grid, to be sized.
 #[derive(Debug)]

@@ -3,40 +3,14 @@
 //! The header is a JSON object on the first line (in CSV behind `# `). It holds digests of machine and catalogue, so that
 //! rows of different studies never come together. A file that was cut off while it was written is one of fewer rows.
 
-use std::fmt::Write as _;
 use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Seek as _, SeekFrom};
 use std::path::Path;
 
 use miette::{IntoDiagnostic as _, Report, Result, WrapErr as _, miette};
-use serde::{Deserialize, Serialize};
-use sha2::{Digest as _, Sha256};
 
+use super::header::Header;
 use super::rows::Form;
-use super::shard::Shard;
-
-/// What the rows of a file are rows of.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Header {
-    /// Kind of study and version of the form, such as "vary/1".
-    pub jred: String,
-    /// Version of the tool.
-    pub version: String,
-    /// The machine file as it was named.
-    pub machine: String,
-    /// Digest of the machine file and of what it refers to.
-    pub machine_digest: String,
-    /// Digest of the catalogue.
-    pub catalogue_digest: String,
-    /// Everything else that the rows depend on.
-    pub options: Vec<String>,
-    /// Number of rows of the whole study.
-    pub rows: u64,
-    /// Names of the columns after `row`.
-    pub columns: Vec<String>,
-    /// The share that this file holds; `null`: all rows.
-    pub shard: Option<Shard>,
-}
 
 fn no_rows(path: &Path) -> Report {
     miette!(
@@ -44,24 +18,6 @@ fn no_rows(path: &Path) -> Report {
         "{} is not a file of rows: its first line is no header",
         path.display()
     )
-}
-
-/// A digest of what a value's `Debug` form says, which is every digit of it.
-pub fn digest(value: &dyn std::fmt::Debug) -> String {
-    struct Sink(Sha256);
-    impl std::fmt::Write for Sink {
-        fn write_str(&mut self, text: &str) -> std::fmt::Result {
-            self.0.update(text.as_bytes());
-            Ok(())
-        }
-    }
-    let mut sink = Sink(Sha256::new());
-    let _ = write!(sink, "{value:?}");
-    let bytes = sink.0.finalize();
-    bytes.iter().take(16).fold(String::new(), |mut text, byte| {
-        let _ = write!(text, "{byte:02x}");
-        text
-    })
 }
 
 impl Header {
@@ -91,35 +47,6 @@ impl Header {
         let json = line.strip_prefix(form.mark()).unwrap_or(line);
         let header = serde_json::from_str(json).map_err(|_| no_rows(path))?;
         Ok((header, form))
-    }
-
-    /// How another header differs, in words; `None`: it does not, the share apart.
-    pub fn difference(&self, other: &Self) -> Option<String> {
-        let parts = [
-            (self.jred != other.jred, "the kind of study"),
-            (self.version != other.version, "the version of jred"),
-            (self.machine_digest != other.machine_digest, "the machine"),
-            (
-                self.catalogue_digest != other.catalogue_digest,
-                "the catalogue",
-            ),
-            (self.options != other.options, "the options"),
-            (self.rows != other.rows, "the number of rows"),
-            (self.columns != other.columns, "the columns"),
-            // Written into the header, so that merged files are what one run would have written.
-            (
-                self.machine != other.machine,
-                "the name of the machine file",
-            ),
-        ];
-        let different = parts.iter().filter(|(differs, _)| *differs);
-        let words: Vec<&str> = different.map(|(_, words)| *words).collect();
-        (!words.is_empty()).then(|| words.join(", "))
-    }
-
-    /// The share of the file.
-    pub fn share(&self) -> Shard {
-        self.shard.unwrap_or(Shard::WHOLE)
     }
 }
 

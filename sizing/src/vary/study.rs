@@ -6,9 +6,9 @@ use miette::{IntoDiagnostic as _, Report, Result, miette};
 
 use super::edit::{Document, Edit};
 use crate::catalogue::Catalogue;
+use crate::catalogue::Drive;
 use crate::coordinate::Coordinate;
 use crate::cycle::Cycle;
-use crate::drive::Drive;
 use crate::duty::Duty;
 use crate::input;
 use crate::input::problem::closest;
@@ -76,7 +76,7 @@ impl Study {
 
     /// Digest of the machine file and of all that was read with it.
     pub fn machine_digest(&self) -> String {
-        super::store::digest(&(self.document.text(), &self.nominal))
+        crate::vary::header::digest(&(self.document.text(), &self.nominal))
     }
 
     /// The drive that a text names, MOTOR+GEARBOX or MOTOR alone, with " on AMPLIFIER" behind where the catalogue has amplifiers (else

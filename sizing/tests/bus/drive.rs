@@ -3,17 +3,19 @@
 use std::path::Path;
 
 use jred_sizing::bus;
-use jred_sizing::bus::supply::{BrakeResistor, Supply};
-use jred_sizing::catalogue::{Amplifier, Motor, Prepared, Winding};
-use jred_sizing::check::{Check, Verdict};
+use jred_sizing::catalogue::Drive;
+use jred_sizing::catalogue::{Amplifier, Motor, Winding};
+use jred_sizing::check::Check;
 use jred_sizing::cycle::Cycle;
-use jred_sizing::drive::Drive;
 use jred_sizing::duty::Duty;
+use jred_sizing::envelope::Prepared;
 use jred_sizing::input;
 use jred_sizing::judge::Context;
 use jred_sizing::rule::Rule;
 use jred_sizing::rules::RuleSet;
+use jred_sizing::rules::Verdict;
 use jred_sizing::site::Site;
+use jred_sizing::supply::{BrakeResistor, Supply};
 
 use super::{budget, near};
 use crate::support::press_text;

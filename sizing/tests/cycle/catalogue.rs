@@ -2,14 +2,16 @@
 
 use std::path::Path;
 
-use jred_sizing::catalogue::{Catalogue, Prepared};
-use jred_sizing::check::Verdict;
+use jred_sizing::catalogue::Catalogue;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::duty::Duty;
+use jred_sizing::envelope::Prepared;
 use jred_sizing::input;
-use jred_sizing::judge::{Context, Finding, Outcome};
+use jred_sizing::judge::{Context, Outcome};
 use jred_sizing::rule::Rule;
+use jred_sizing::rules::Finding;
 use jred_sizing::rules::RuleSet;
+use jred_sizing::rules::Verdict;
 use jred_sizing::site::Site;
 use jred_sizing::size::{Candidate, FIRST, Group, Selection};
 

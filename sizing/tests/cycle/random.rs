@@ -4,9 +4,9 @@ use std::sync::LazyLock;
 
 use jred::TorqueTerms;
 use jred_sizing::catalogue::{Catalogue, Motor, Winding};
-use jred_sizing::drive::Coefficients;
 use jred_sizing::duty::{Duty, Instant};
 use jred_sizing::envelope::Envelope;
+use jred_sizing::form::Coefficients;
 use jred_sizing::mechanics::Mechanics;
 use jred_sizing::winding::Commutation;
 use proptest::prelude::*;

@@ -2,14 +2,14 @@
 
 use std::cell::Cell;
 
+use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Amplifier, Catalogue};
-use jred_sizing::check::Verdict;
 use jred_sizing::cycle::Cycle;
-use jred_sizing::drive::Drive;
 use jred_sizing::duty::Duty;
 use jred_sizing::input;
 use jred_sizing::judge::{Context, Outcome};
 use jred_sizing::rules::RuleSet;
+use jred_sizing::rules::Verdict;
 use jred_sizing::site::Site;
 use jred_sizing::size::{Candidate, FIRST, Group, Selection};
 

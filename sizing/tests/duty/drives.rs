@@ -1,12 +1,14 @@
 //! Drives against the duty: brute force, limits of the motor, ranking.
 
-use jred_sizing::catalogue::{Catalogue, Gearbox, Motor, Prepared};
-use jred_sizing::check::Verdict;
+use jred_sizing::catalogue::Drive;
+use jred_sizing::catalogue::{Catalogue, Gearbox, Motor};
 use jred_sizing::cycle::Cycle;
-use jred_sizing::drive::{Drive, Judged};
 use jred_sizing::duty::Duty;
+use jred_sizing::envelope::Prepared;
+use jred_sizing::judge::Judged;
 use jred_sizing::rule::Rule;
 use jred_sizing::rules::RuleSet;
+use jred_sizing::rules::Verdict;
 use jred_sizing::site::Site;
 use jred_sizing::size::{Candidate, Selection};
 

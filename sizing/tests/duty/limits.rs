@@ -2,9 +2,9 @@
 
 use jred_sizing::catalogue::{Catalogue, Motor};
 use jred_sizing::cycle::Cycle;
-use jred_sizing::drive::Judged;
 use jred_sizing::envelope::Envelope;
 use jred_sizing::judge::Context;
+use jred_sizing::judge::Judged;
 use jred_sizing::site::Site;
 
 use super::drives::drive;

@@ -1,12 +1,12 @@
 //! The values at which a drive begins to hold: closed forms, and the machine file with that value written into it.
 
 use jred_sizing::catalogue::Catalogue;
-use jred_sizing::check::Verdict;
+use jred_sizing::catalogue::Drive;
 use jred_sizing::cycle::Cycle;
-use jred_sizing::drive::Drive;
 use jred_sizing::explain::{Altered, Lever, Remedies, Remedy};
 use jred_sizing::judge::Context;
 use jred_sizing::rule::Rule;
+use jred_sizing::rules::Verdict;
 use jred_sizing::rules::{Limit, RuleSet};
 use jred_sizing::size::Selection;
 

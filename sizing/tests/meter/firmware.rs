@@ -2,11 +2,12 @@
 
 use jred::Reducible as _;
 use jred::duty::{Meter, Verdict, Window};
-use jred_sizing::check::{Check, Verdict as Sized};
-use jred_sizing::drive::Coefficients;
+use jred_sizing::check::Check;
+use jred_sizing::form::Coefficients;
 use jred_sizing::input;
 use jred_sizing::machine::MachineFile;
 use jred_sizing::rule::Rule;
+use jred_sizing::rules::Verdict as Sized;
 
 use super::with_limits;
 use crate::support::{budget, near, press_file};

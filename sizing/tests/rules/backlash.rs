@@ -1,7 +1,7 @@
 //! Play at the tool: the tool moved by hand through the play.
 
-use jred_sizing::check::Verdict;
 use jred_sizing::rule::Rule;
+use jred_sizing::rules::Verdict;
 
 use super::{Stand, near, press_text, refuses};
 

@@ -1,7 +1,7 @@
 //! T2B with shock factors, the mean torque, the speeds.
 
-use jred_sizing::check::Verdict;
 use jred_sizing::rule::Rule;
+use jred_sizing::rules::Verdict;
 
 use super::{Stand, budget, edited, near, press_text};
 

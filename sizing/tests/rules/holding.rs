@@ -1,6 +1,7 @@
 //! Torque at rest, and what a gearbox does with torque that flows back.
 
-use jred_sizing::drive::{Coefficients, Drive};
+use jred_sizing::catalogue::Drive;
+use jred_sizing::form::Coefficients;
 use jred_sizing::rule::Rule;
 use jred_sizing::rules::RuleSet;
 use proptest::prelude::*;

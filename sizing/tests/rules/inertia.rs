@@ -1,7 +1,7 @@
 //! The inertia ratio: which figure of the curve λ(φ) is judged, and limits by moves per minute.
 
-use jred_sizing::check::Verdict;
 use jred_sizing::rule::Rule;
+use jred_sizing::rules::Verdict;
 
 use super::{Stand, budget, edited, near, press_text};
 

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use jred_sizing::check::Verdict;
 use jred_sizing::rule::Rule;
+use jred_sizing::rules::Verdict;
 
 use super::{Stand, budget, near, press_text, refuses};
 

@@ -3,10 +3,12 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use jred_sizing::check::{Check, Verdict};
+use jred_sizing::check::Check;
 use jred_sizing::input;
-use jred_sizing::judge::{Finding, Words};
+use jred_sizing::judge::Words;
 use jred_sizing::rule::{Rule, Sense};
+use jred_sizing::rules::Finding;
+use jred_sizing::rules::Verdict;
 use jred_sizing::rules::{Limit, RuleSet};
 
 use super::{near, press_text, read};

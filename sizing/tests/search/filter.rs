@@ -2,7 +2,7 @@
 
 use glob::Pattern;
 use jred_sizing::catalogue::Catalogue;
-use jred_sizing::drive::Drive;
+use jred_sizing::catalogue::Drive;
 use jred_sizing::filter::Filter;
 use jred_sizing::size::Selection;
 

@@ -1,11 +1,11 @@
 //! Why no ratio holds every rule, and the table that says so.
 
-use jred_sizing::check::Verdict;
 use jred_sizing::ratio::Moments;
 use jred_sizing::ratio::obstacle::Obstacle;
 use jred_sizing::ratio::ranges::Trial;
 use jred_sizing::rule::Rule;
 use jred_sizing::rules::Limit;
+use jred_sizing::rules::Verdict;
 
 use super::ratio::GEARS;
 use super::{case, catalogue};

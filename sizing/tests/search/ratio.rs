@@ -2,13 +2,14 @@
 
 use super::{RACK, case, catalogue};
 use crate::support::{budget, jred, near, press_file, press_text, within};
+use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Catalogue, Gearbox, Motor};
-use jred_sizing::check::Verdict;
-use jred_sizing::drive::{Coefficients, Drive};
+use jred_sizing::form::Coefficients;
 use jred_sizing::judge::Context;
 use jred_sizing::ratio::ranges::Trial;
 use jred_sizing::ratio::{Gear, Moments, accelerating_factor};
 use jred_sizing::rule::Rule;
+use jred_sizing::rules::Verdict;
 
 const SCREW: &str = include_str!("../../../machines/ball-screw.toml");
 
@@ -75,7 +76,7 @@ fn best_ratio_by_golden_section() {
                         .duty
                         .instants
                         .iter()
-                        .map(|i| coefficients.torque(&jred_sizing::drive::loads(i)));
+                        .map(|i| coefficients.torque(&jred_sizing::form::loads(i)));
                     case.duty.figures_of(torques).rms
                 };
                 let best = moments.best_ratio().unwrap();

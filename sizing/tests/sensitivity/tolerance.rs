@@ -9,10 +9,10 @@ use jred_sizing::input::Tolerance;
 use jred_sizing::rule::Rule;
 use jred_sizing::tolerance::summary::{Probability, quantile};
 use jred_sizing::tolerance::{Samples, Scatter};
+use jred_sizing::vary::cell::Cell;
 use jred_sizing::vary::one::One;
-use jred_sizing::vary::rows::Cell;
-use jred_sizing::vary::run::Task as _;
 use jred_sizing::vary::study::Study;
+use jred_sizing::vary::task::Task as _;
 
 /// Newcombe, Two-sided confidence intervals for the single proportion, Statistics in Medicine 17 (1998), table I, method 3.
 #[test]

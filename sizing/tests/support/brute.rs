@@ -2,8 +2,8 @@
 #![allow(dead_code)]
 
 use jred_sizing::cycle::{Cycle, Peak};
-use jred_sizing::drive::Coefficients;
 use jred_sizing::envelope::Envelope;
+use jred_sizing::form::Coefficients;
 
 /// RMS of the motor torque.
 pub(crate) fn rms_torque(cycle: &Cycle, c: &Coefficients) -> f64 {

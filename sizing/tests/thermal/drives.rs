@@ -2,15 +2,17 @@
 
 use std::path::Path;
 
-use jred_sizing::catalogue::{Amplifier, Motor, Prepared, Thermal, Winding};
-use jred_sizing::check::{Check, Verdict};
+use jred_sizing::catalogue::Drive;
+use jred_sizing::catalogue::{Amplifier, Motor, Thermal, Winding};
+use jred_sizing::check::Check;
 use jred_sizing::cycle::Cycle;
-use jred_sizing::drive::Drive;
 use jred_sizing::duty::Duty;
+use jred_sizing::envelope::Prepared;
 use jred_sizing::input;
 use jred_sizing::judge::Context;
 use jred_sizing::rule::Rule;
 use jred_sizing::rules::RuleSet;
+use jred_sizing::rules::Verdict;
 use jred_sizing::site::Site;
 use jred_sizing::thermal::operation::Operation;
 use jred_sizing::winding::COPPER;

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use jred_sizing::cycle::Cycle;
-use jred_sizing::drive::Coefficients;
 use jred_sizing::duty::Duty;
+use jred_sizing::form::Coefficients;
 use jred_sizing::input;
 use jred_sizing::thermal::classify::{DutyType, Features};
 

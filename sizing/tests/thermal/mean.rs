@@ -1,8 +1,9 @@
 //! Mean losses against plain loops over the samples: random cycles, S1 curves of every kind, saturating iron.
 
-use jred_sizing::catalogue::{Motor, Prepared, Winding};
+use jred_sizing::catalogue::{Motor, Winding};
 use jred_sizing::cycle::Cycle;
-use jred_sizing::drive::Coefficients;
+use jred_sizing::envelope::Prepared;
+use jred_sizing::form::Coefficients;
 use jred_sizing::site::Site;
 use jred_sizing::thermal::mean::rms_current;
 use jred_sizing::thermal::surroundings::Surroundings;

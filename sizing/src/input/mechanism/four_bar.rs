@@ -9,7 +9,7 @@ use crate::input::kind::{ANGLE, LENGTH};
 use crate::input::problem::{Problem, Result};
 use crate::input::section::Section;
 use crate::machine::AnyMechanism;
-use crate::output::short;
+use crate::rounding::short;
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let item = section.require("pivot", "pivot = [\"300 mm\", \"0 mm\"]")?;

@@ -13,9 +13,10 @@ use crate::input::kind::{
     ANGLE, FORCE, INERTIA, INERTIA_SLOPE, LENGTH, MASS, MASS_SLOPE, TORQUE, VISCOUS_FORCE,
     VISCOUS_MOMENT,
 };
-use crate::input::problem::{Problem, Result, figure};
+use crate::input::problem::{Problem, Result};
 use crate::input::section::Section;
 use crate::machine::AnyMechanism;
+use crate::rounding::figure;
 use crate::spline::{MIN_POINTS, Spline, Way};
 use crate::tabulated::{Course, DriveLinkAlone, StandIn};
 

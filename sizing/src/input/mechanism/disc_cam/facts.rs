@@ -4,7 +4,7 @@ use jred::cam::Extreme;
 use jred::mechanism::DiscCam;
 
 use crate::coordinate::Coordinate;
-use crate::output::short;
+use crate::rounding::short;
 
 /// Labels and figures.
 pub(super) fn of(cam: &DiscCam) -> Vec<[String; 2]> {

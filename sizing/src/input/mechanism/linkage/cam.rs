@@ -9,9 +9,10 @@ use jred::{Body, Domain, Mechanism};
 
 use crate::input::kind::{ANGLE, LENGTH};
 use crate::input::mechanism::{core, disc_cam};
-use crate::input::problem::{Problem, Result, figure};
+use crate::input::problem::{Problem, Result};
 use crate::input::section::Section;
 use crate::machine::{AnyMechanism, Contact};
+use crate::rounding::figure;
 
 use super::bodies::{Bodies, End};
 use super::joints::Held;

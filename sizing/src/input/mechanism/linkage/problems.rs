@@ -5,8 +5,9 @@ use jred::{Body, Domain, Error, Frame, Joint, mechanism::Pose};
 
 use crate::coordinate::Coordinate;
 use crate::input::mechanism::core;
-use crate::input::problem::{Problem, Result, figure};
+use crate::input::problem::{Problem, Result};
 use crate::input::section::Section;
+use crate::rounding::figure;
 
 use super::bodies::{self, Bodies};
 use super::cam;

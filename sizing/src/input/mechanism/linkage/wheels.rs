@@ -3,7 +3,8 @@
 use jred::mechanism::Pair;
 use jred::{Body, Domain, Frame, Marker, Mechanism};
 
-use crate::input::problem::{Problem, Result, figure};
+use crate::input::problem::{Problem, Result};
+use crate::rounding::figure;
 
 use super::bodies::Bodies;
 use super::joints::Held;

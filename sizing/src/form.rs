@@ -1,27 +1,10 @@
-//! A drive: a motor, alone or with a gearbox, at the input of the machine's drive train.
+//! What the motor of a drive does: its torque as a linear form in the loads of an instant.
 
 use serde::Serialize;
 
-use crate::catalogue::{Amplifier, Gearbox, Motor};
-use crate::check::{Check, Verdict};
-use crate::duty::{Figures, Instant};
-use crate::judge::Context;
-use crate::rule::Rule;
-use crate::rules::RuleSet;
-
-/// rad/s of one revolution per minute.
-pub const RPM: f64 = std::f64::consts::PI / 30.0;
-
-/// A candidate: motor and, unless it is coupled directly, gearbox.
-#[derive(Clone, Copy, Debug)]
-pub struct Drive<'c> {
-    /// The motor.
-    pub motor: &'c Motor,
-    /// The gearbox; `None`: coupled directly.
-    pub gearbox: Option<&'c Gearbox>,
-    /// The servo amplifier; `None`: not chosen.
-    pub amplifier: Option<&'c Amplifier>,
-}
+use crate::catalogue::Drive;
+use crate::duty::Instant;
+use crate::figures::Figures;
 
 /// The motor torque as a linear form in the five loads of an instant: see [`loads`].
 ///
@@ -104,43 +87,7 @@ pub struct MotorDuty {
     pub inertia_ratio: Figures,
 }
 
-/// A drive judged.
-#[derive(Clone, Debug)]
-pub struct Judged<'c> {
-    /// The drive.
-    pub drive: Drive<'c>,
-    /// Its duty.
-    pub duty: MotorDuty,
-    /// Every rule.
-    pub checks: Vec<Check>,
-    /// What was assumed about motor and gearbox, and whose figures are second-hand.
-    pub assumptions: Vec<&'static str>,
-}
-
 impl Drive<'_> {
-    /// Gear ratio between motor and drive train.
-    pub fn ratio(&self) -> f64 {
-        self.gearbox.map_or(1.0, |g| g.ratio)
-    }
-
-    /// Name for tables.
-    pub fn name(&self) -> String {
-        let mut name = match self.gearbox {
-            Some(gearbox) => format!("{} + {}", self.motor.key, gearbox.key),
-            None => format!("{}, direct", self.motor.key),
-        };
-        if let Some(amplifier) = self.amplifier {
-            name += " on ";
-            name += &amplifier.key;
-        }
-        name
-    }
-
-    /// Inertia of the rotor with its brake (kg·m²).
-    pub fn rotor(&self) -> f64 {
-        self.motor.rotor_inertia + self.motor.brake.map_or(0.0, |brake| brake.inertia)
-    }
-
     /// The motor torque as a linear form in the loads.
     pub fn coefficients(&self) -> Coefficients {
         let motor = self.motor;
@@ -171,45 +118,5 @@ impl Drive<'_> {
         let ratio = self.ratio();
         let gearbox = self.gearbox.map_or(0.0, |g| g.inertia);
         (inertia / (ratio * ratio) + gearbox) / self.rotor()
-    }
-}
-
-impl<'c> Judged<'c> {
-    /// Judges a drive by every rule, in words.
-    pub fn new(context: &Context<'c>, rules: &RuleSet) -> Self {
-        Self {
-            drive: context.drive,
-            duty: context.cycle.motor_duty(&context.drive),
-            checks: context.checks(rules),
-            assumptions: context.assumptions(),
-        }
-    }
-
-    /// The worst verdict.
-    pub fn verdict(&self) -> Verdict {
-        let worst = self.checks.iter().map(|c| c.verdict).max();
-        worst.unwrap_or(Verdict::Pass)
-    }
-
-    /// Whether no rule is violated.
-    pub fn holds(&self) -> bool {
-        self.verdict() != Verdict::Fail
-    }
-
-    /// The rules that are broken, in one sentence each.
-    pub fn reasons(&self) -> String {
-        let broken = self.checks.iter().filter(|c| c.verdict == Verdict::Fail);
-        broken.map(Check::sentence).collect::<Vec<_>>().join("; ")
-    }
-
-    /// How much of a rule's limit is used, in words; nothing if the rule was not applied.
-    pub fn used(&self, rule: Rule) -> String {
-        let check = self.checks.iter().find(|c| c.id == rule);
-        check.map_or(String::new(), Check::used)
-    }
-
-    /// Installed power (W); nothing where the catalogue does not say.
-    pub fn rated_power(&self) -> Option<f64> {
-        self.drive.motor.rated_power()
     }
 }

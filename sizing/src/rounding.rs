@@ -1,0 +1,65 @@
+//! Numbers in words: rounded for reading.
+
+/// A number with four significant digits.
+pub fn short(x: f64) -> String {
+    significant(x, 4)
+}
+
+/// A number with so many significant digits, six at most; plain between 1e-4 and 1e6, else with an exponent.
+pub fn significant(x: f64, digits: i32) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return rounded(x);
+    }
+    let scale = 10f64.powi(digits - 1 - x.abs().log10().floor() as i32);
+    let cut = (x * scale).round() / scale;
+    if (1e-4..1e6).contains(&cut.abs()) {
+        return rounded(cut);
+    }
+    let places = (digits - 1).max(0) as usize;
+    format!("{x:.places$e}")
+}
+
+/// A number with four significant digits; zero where it is nothing but rounding beside `largest`.
+pub fn shown(x: f64, largest: f64) -> String {
+    if x.abs() <= 1e-9 * largest.abs() {
+        return "0".to_owned();
+    }
+    short(x)
+}
+
+/// A number with six significant digits, plain between 1e-4 and 1e6, else with an exponent.
+pub fn rounded(x: f64) -> String {
+    if x == 0.0 {
+        return "0".into();
+    }
+    let magnitude = x.abs();
+    if !(1e-4..1e6).contains(&magnitude) {
+        return format!("{x:.5e}");
+    }
+    let digits = (5 - magnitude.log10().floor() as i32).max(0) as usize;
+    let text = format!("{x:.digits$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+/// A figure for a message: at most six significant digits, no trailing zeros.
+pub fn figure(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let exponent = value.abs().log10().floor();
+    if !(-4.0..9.0).contains(&exponent) {
+        let rounded = format!("{value:.3e}").parse().unwrap_or(value);
+        return format!("{rounded:e}");
+    }
+    let decimals = (5.0 - exponent).max(0.0) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}

@@ -1,0 +1,61 @@
+//! What a rule finds, and how it comes out.
+
+use serde::Serialize;
+
+/// A figure and the rating that it is compared with, in the same unit (SI).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Finding {
+    /// The figure.
+    pub value: f64,
+    /// The rating; NaN where it is not known.
+    pub rating: f64,
+}
+
+impl Finding {
+    /// A figure and its rating.
+    pub const fn new(value: f64, rating: f64) -> Self {
+        Self { value, rating }
+    }
+
+    /// A figure whose rating, if any, may be missing.
+    pub fn against(value: f64, rating: Option<f64>) -> Self {
+        Self::new(value, rating.unwrap_or(f64::NAN))
+    }
+
+    /// Nothing known: neither figure nor rating.
+    pub const UNKNOWN: Self = Self::new(f64::NAN, f64::NAN);
+
+    /// Whether both figure and rating are known. An infinite rating, no limit at all, is known.
+    pub const fn is_known(&self) -> bool {
+        !(self.value.is_nan() || self.rating.is_nan())
+    }
+}
+
+/// How a rule came out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// The rule set does not judge it.
+    Off,
+    /// The rule holds.
+    Pass,
+    /// The rule holds, but its warning limit is passed.
+    Warn,
+    /// The catalogue does not hold the figure that the rule needs.
+    NotChecked,
+    /// The rule is violated.
+    Fail,
+}
+
+impl Verdict {
+    /// One word for tables.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Off => "off",
+            Self::Pass => "ok",
+            Self::Warn => "warning",
+            Self::NotChecked => "not checked",
+            Self::Fail => "FAIL",
+        }
+    }
+}

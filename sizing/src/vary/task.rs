@@ -1,0 +1,13 @@
+//! A study, row by row.
+
+use super::cell::Cell;
+use super::header::Header;
+
+/// A study: rows that are computed one by one, in any order.
+pub trait Task: Sync {
+    /// What the rows are rows of.
+    fn header(&self) -> Header;
+
+    /// One row.
+    fn row(&self, index: u64) -> Vec<Cell>;
+}
