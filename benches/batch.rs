@@ -1,28 +1,28 @@
 //! Inverse dynamics of a million samples, beside NumPy on the same table, and the time that a table takes to make.
 //!
 //! ```text
-//! cargo bench -p jred --bench batch --profile firmware
+//! cargo bench -p jred --bench batch
 //! ```
 //!
-//! Times depend on the machine, so they are judged in times of one sine with cosine in the same run, by `ceilings.txt`; the search for
-//! a table, too long to be timed undisturbed, by its number of reductions. NumPy is
+//! Instructions are counted by Valgrind and judged by `ceilings.txt`, the search for a table by its number of reductions; times depend
+//! on the machine and are printed. NumPy is
 //! run by `python3 benches/batch.py` where there is one; its torques are compared with these. docs/performance.md has the results.
 #![cfg(not(target_os = "none"))]
 
-#[path = "support/clock.rs"]
-mod clock;
-mod support;
+#[path = "support/bench.rs"]
+mod bench;
+#[path = "support/ceilings.rs"]
+mod ceilings;
 
 use std::cell::Cell;
 use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::path::Path;
 use std::process::{Command, ExitCode};
-use std::time::Instant;
 use std::{fs, io};
 
+use bench::{Bench, best, once};
 use bytemuck::Zeroable;
-use clock::Report;
 use jred::harmonic::{self, terms};
 use jred::mechanism::{Branch, SliderCrank};
 use jred::table::{Constants, Cubic, Layout, Quadratic, Spline, Spline16, curves};
@@ -32,8 +32,9 @@ use jred::{
     Scale, Table,
 };
 
-/// Samples of a batch.
+/// Samples of a batch that is timed, and of one whose instructions are counted.
 const SAMPLES: usize = 1_000_000;
+const COUNTED: u32 = 10_000;
 /// Cells of the batch's table.
 const CELLS: u32 = 128;
 /// Its curves: inertia and load, constant friction.
@@ -85,34 +86,36 @@ struct Batch<S> {
 
 impl<S: Scalar> Batch<S> {
     /// Phases of a turn in order, or one after another far away: 2³²/φ apart, φ the golden ratio.
-    fn new(ordered: bool) -> Self {
+    fn new(ordered: bool, samples: usize) -> Self {
         let step = if ordered { 4295 } else { 0x9e37_79b9 };
         let wave = |k: u32, step: f64, size: f64| {
             S::from_f64((f64::from(k) * step).sin() * size).unwrap_or_default()
         };
-        let each = || 0..SAMPLES as u32;
+        let each = || 0..samples as u32;
         Self {
             phases: each()
                 .map(|k| Phase::from_bits(k.wrapping_mul(step)))
                 .collect(),
             omegas: each().map(|k| wave(k, 0.010, OMEGA)).collect(),
             alphas: each().map(|k| wave(k, 0.013, ALPHA)).collect(),
-            torques: vec![S::default(); SAMPLES],
+            torques: vec![S::default(); samples],
         }
     }
 
-    /// Time of all samples (s), of one run.
-    fn run<L: Layout>(&mut self, model: &Model<'_, S, SET, L>) -> f64 {
-        let start = Instant::now();
+    fn run<L: Layout>(&mut self, model: &Model<'_, S, SET, L>) {
         let count = model.torques(
             black_box(&self.phases),
             black_box(&self.omegas),
             black_box(&self.alphas),
             black_box(&mut self.torques),
         );
-        let time = start.elapsed().as_secs_f64();
-        assert_eq!(count, SAMPLES);
-        time
+        assert_eq!(count, self.phases.len());
+    }
+
+    /// The shortest time of all samples (s), of many runs.
+    fn time<L: Layout>(&mut self, model: &Model<'_, S, SET, L>) -> f64 {
+        let runs = (0..BATCHES).map(|_| once(|| self.run(model)));
+        runs.fold(f64::INFINITY, f64::min)
     }
 }
 
@@ -131,45 +134,39 @@ fn words<S: Scalar, L: Layout>(machine: &impl Reducible) -> Result<Filled<S::Wor
 /// Runs of a batch: 3 ms each, so that some of them are not interrupted.
 const BATCHES: u32 = 31;
 
-/// Both orders of phases with one number type and layout.
-fn batch<S: Scalar, L: Layout>(report: &mut Report, machine: &impl Reducible) -> Result<(), Error> {
+/// Both orders of phases with one number type and layout: a hundred samples.
+fn batch<S: Scalar, L: Layout>(bench: &mut Bench, machine: &impl Reducible) -> Result<(), Error> {
     let (words, constants) = words::<S, L>(machine)?;
     let table = Table::with_constants(&words, constants, SET, CELLS, true).map_err(Error::Table)?;
     let model = Model::<S, SET, L>::for_domain(table, machine.domain(), &Scale::SI)
         .map_err(Error::Table)?;
     for (order, ordered) in [("ordered", true), ("random", false)] {
-        let mut batch = Batch::<S>::new(ordered);
-        let first = batch.run(&model);
         let name = format!("batch-{}-{}-{order}", S::NAME, L::NAME);
-        let hundred = 100.0 / SAMPLES as f64;
-        report.cost(
+        let mut counted = Batch::<S>::new(ordered, COUNTED as usize);
+        let count = bench.count(&name, || counted.run(&model));
+        bench.cost_of(
             &name,
+            COUNTED / 100,
+            count,
             || {
-                let runs = (0..BATCHES).map(|_| batch.run(&model));
-                runs.fold(f64::INFINITY, f64::min) * hundred
+                let mut batch = Batch::<S>::new(ordered, SAMPLES);
+                batch.time(&model) * 100.0 / SAMPLES as f64
             },
-            |time| {
-                let rate = 1e-6 * 100.0 / time;
-                let first = 1e-6 * SAMPLES as f64 / first;
-                format!("{:9.2} {rate:9.0} {first:9.0}", time * 1e7)
-            },
+            |time| format!("{:9.2} {:9.0}", time * 1e7, 1e-6 * 100.0 / time),
         );
     }
     Ok(())
 }
 
 /// NumPy with the same cubic table and samples.
-fn numpy(machine: &impl Reducible, peak: f64) -> Result<u32, Error> {
+fn numpy(bench: &mut Bench, machine: &impl Reducible, peak: f64) -> Result<(), Error> {
     let (words, constants) = words::<f32, Cubic>(machine)?;
     let table = Table::with_constants(&words, constants, SET, CELLS, true).map_err(Error::Table)?;
     let model = Model::<f32, SET, Cubic>::for_domain(table, machine.domain(), &Scale::SI)
         .map_err(Error::Table)?;
-    let mut failures = 0;
     for (order, ordered) in [("ordered", true), ("random", false)] {
-        let mut batch = Batch::<f32>::new(ordered);
-        let mut own = (0..BATCHES)
-            .map(|_| batch.run(&model))
-            .fold(f64::INFINITY, f64::min);
+        let mut batch = Batch::<f32>::new(ordered, SAMPLES);
+        let mut own = batch.time(&model);
         let [viscous, coulomb] = [constants.viscous, constants.coulomb];
         let torques = match numpy_torques(&words, [viscous, coulomb], &batch) {
             Ok(Some(answer)) => answer,
@@ -177,19 +174,15 @@ fn numpy(machine: &impl Reducible, peak: f64) -> Result<u32, Error> {
                 println!(
                     "NUMPY IS MISSING (python3 -c 'import numpy' fails): not compared with it"
                 );
-                return Ok(failures);
+                return Ok(());
             }
             Err(error) => {
-                println!("FAILED: benches/batch.py: {error}");
-                return Ok(failures + 1);
+                bench.fail(&format!("benches/batch.py: {error}"));
+                return Ok(());
             }
         };
         // The other half of the runs after it: both see the same machine.
-        own = own.min(
-            (0..BATCHES)
-                .map(|_| batch.run(&model))
-                .fold(f64::INFINITY, f64::min),
-        );
+        own = own.min(batch.time(&model));
         let (version, time, torques) = torques;
         let pairs = batch.torques.iter().zip(&torques);
         let difference = pairs.map(|(a, b)| f64::from((a - b).abs())).fold(
@@ -210,11 +203,12 @@ fn numpy(machine: &impl Reducible, peak: f64) -> Result<u32, Error> {
         // NaN fails too.
         let agrees = difference <= DIFFERENCE * peak;
         if !agrees {
-            println!("FAILED: NumPy and jred differ by more than {DIFFERENCE:e}");
-            failures += 1;
+            bench.fail(&format!(
+                "NumPy and jred differ by more than {DIFFERENCE:e}"
+            ));
         }
     }
-    Ok(failures)
+    Ok(())
 }
 
 type Numpy = (String, f64, Vec<f32>);
@@ -282,7 +276,7 @@ const MOST: u32 = 16_384;
 
 /// The smallest table for an error, as a share of the peak torque.
 fn table<S: Scalar, L: Layout>(
-    report: &mut Report,
+    bench: &mut Bench,
     machine: &impl Reducible,
     peak: f64,
     share: f64,
@@ -299,13 +293,13 @@ fn table<S: Scalar, L: Layout>(
     let mut words = vec![S::Word::zeroed(); words_len::<L>(MOST, set)];
     let counted = Counted(machine, Cell::new(0));
     let found = tabulate::<S, L>(&counted, set, &request, scale, &mut scratch, &mut words)?;
-    let time = clock::best(|| {
-        let found = tabulate::<S, L>(machine, set, &request, scale, &mut scratch, &mut words);
-        black_box(found).ok();
-    });
-    report.count(
+    if bench.counts() {
+        return Ok(());
+    }
+    let time = best(|| tabulate::<S, L>(machine, set, &request, scale, &mut scratch, &mut words));
+    bench.judge(
         &format!("table-{}-{}-{share:e}", S::NAME, L::NAME),
-        counted.1.get(),
+        u64::from(counted.1.get()),
         &format!("{:9.3} {:9} cells", time * 1e3, found.cells),
     );
     Ok(())
@@ -313,7 +307,7 @@ fn table<S: Scalar, L: Layout>(
 
 /// The fewest harmonics for an error.
 fn harmonics<T: harmonic::Circular>(
-    report: &mut Report,
+    bench: &mut Bench,
     name: &str,
     machine: &impl Reducible,
     peak: f64,
@@ -331,65 +325,50 @@ fn harmonics<T: harmonic::Circular>(
     let mut scratch = [0.0; harmonic::scratch_len(MOST)];
     let mut words = vec![T::from_f64(0.0); harmonic::words_len(MOST, SET, TERMS)];
     let mut run = || harmonic::fit::<T, SET, TERMS>(machine, &request, &mut scratch, &mut words);
-    let found = run()?;
-    report.cost(
+    let found = run()?.harmonics;
+    bench.cost(
         &format!("harmonics-{name}-{share:e}"),
+        1,
         || {
-            clock::best(|| {
-                black_box(run()).ok();
-            })
+            black_box(run()).ok();
         },
-        |time| format!("{:9.3} {:9} harmonics", time * 1e3, found.harmonics),
+        |time| format!("{:9.3} {found:9} harmonics", time * 1e3),
     );
     Ok(())
 }
 
-fn run() -> Result<u32, Error> {
-    let mut report = Report::default();
-    println!(
-        "reference: one sine with cosine, {:.1} ns",
-        clock::sin_cos() * 1e9
-    );
-
+fn run(bench: &mut Bench) -> Result<(), Error> {
     let machine = with_friction()?;
     println!(
-        "\n{SAMPLES} torques     ns a sample, million/s, the same at the first touch, sines a hundred samples"
+        "torques                              ns a sample, million/s, instructions a hundred samples"
     );
-    batch::<f32, Cubic>(&mut report, &machine)?;
-    batch::<f32, Spline>(&mut report, &machine)?;
-    batch::<f64, Cubic>(&mut report, &machine)?;
-    batch::<f64, Spline>(&mut report, &machine)?;
-    println!();
-    let failures = numpy(&machine, peak(&machine)?)?;
+    batch::<f32, Cubic>(bench, &machine)?;
+    batch::<f32, Spline>(bench, &machine)?;
+    batch::<f64, Cubic>(bench, &machine)?;
+    batch::<f64, Spline>(bench, &machine)?;
+    if !bench.counts() {
+        println!();
+        numpy(bench, &machine, peak(&machine)?)?;
+    }
 
     let machine = slider_crank()?;
     let peak = peak(&machine)?;
     let covering = Scale::covering(&machine, OMEGA, ALPHA, 1440)?;
-    println!("\ntable for an error                ms, size, reductions; harmonics: sines");
-    let report = &mut report;
-    table::<Q31, Spline16>(report, &machine, peak, 1e-3, &covering)?;
-    table::<Q31, Quadratic>(report, &machine, peak, 1e-4, &covering)?;
-    table::<Q31, Spline>(report, &machine, peak, 1e-6, &covering)?;
-    table::<f32, Cubic>(report, &machine, peak, 1e-6, &Scale::SI)?;
-    table::<f64, Cubic>(report, &machine, peak, 1e-6, &Scale::SI)?;
-    table::<f64, Spline>(report, &machine, peak, 1e-6, &Scale::SI)?;
-    table::<f64, Spline>(report, &machine, peak, 1e-9, &Scale::SI)?;
-    harmonics::<f32>(report, "f32", &machine, peak, 1e-6)?;
-    harmonics::<f64>(report, "f64", &machine, peak, 1e-6)?;
-    harmonics::<f64>(report, "f64", &machine, peak, 1e-9)?;
-    Ok(report.failures() + failures)
+    println!(
+        "\ntable for an error                   ms, size, reductions; harmonics: instructions"
+    );
+    table::<Q31, Spline16>(bench, &machine, peak, 1e-3, &covering)?;
+    table::<Q31, Quadratic>(bench, &machine, peak, 1e-4, &covering)?;
+    table::<Q31, Spline>(bench, &machine, peak, 1e-6, &covering)?;
+    table::<f32, Cubic>(bench, &machine, peak, 1e-6, &Scale::SI)?;
+    table::<f64, Cubic>(bench, &machine, peak, 1e-6, &Scale::SI)?;
+    table::<f64, Spline>(bench, &machine, peak, 1e-6, &Scale::SI)?;
+    table::<f64, Spline>(bench, &machine, peak, 1e-9, &Scale::SI)?;
+    harmonics::<f32>(bench, "f32", &machine, peak, 1e-6)?;
+    harmonics::<f64>(bench, "f64", &machine, peak, 1e-6)?;
+    harmonics::<f64>(bench, "f64", &machine, peak, 1e-9)
 }
 
 fn main() -> ExitCode {
-    match run() {
-        Ok(0) => ExitCode::SUCCESS,
-        Ok(failures) => {
-            println!("{failures} out of bounds");
-            ExitCode::FAILURE
-        }
-        Err(error) => {
-            println!("FAILED: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    Bench::main(run)
 }

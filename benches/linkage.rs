@@ -1,80 +1,75 @@
-//! What the general linkage costs on the host: time a position, against the time of one sine with cosine in the same run.
+//! What the general linkage costs on the host: instructions a position, and how they grow; time, for people; no memory.
 //!
 //! ```text
 //! cargo bench -p jred --bench linkage
 //! ```
 //!
-//! Times depend on the machine, so nothing is asserted about them. Ratios are: to the reference, by `ceilings.txt`; from
-//! one number of positions or links to another; and no position allocates memory. A ratio out of bounds is measured again,
-//! at most twice: another program on the machine may have disturbed it. docs/performance.md has the results.
+//! Instructions are counted by Valgrind and judged by `ceilings.txt`; so is their growth from one number of positions or links
+//! to another. Times depend on the machine and are printed. docs/performance.md has the results.
 #![cfg(not(target_os = "none"))]
 
-#[path = "support/clock.rs"]
-mod clock;
+#[path = "support/bench.rs"]
+mod bench;
+#[path = "support/ceilings.rs"]
+mod ceilings;
+#[path = "support/memory.rs"]
+mod memory;
 #[path = "support/shapes.rs"]
 mod shapes;
 mod support;
 
-use std::alloc::{GlobalAlloc, Layout, System};
 use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
-use clock::{RUNS, Report, best, sin_cos};
+use bench::{Bench, best};
 use jred::mechanism::{Branch, Mechanism, SixLink};
 use jred::{Error, Machine, Reducible};
-
-/// Counts what is allocated.
-struct Counting;
-
-static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
-
-// SAFETY: every call goes on to the system's allocator, unchanged.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
-        unsafe { System.alloc(layout) }
-    }
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
+use memory::{Counting, Memory};
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
 /// Positions of a run.
 const POSITIONS: u32 = 4096;
-/// Positions that are timed together.
+/// Positions that are timed together, shorter than a time slice: on a busy machine every longer run is interrupted.
 const PIECE: u32 = 64;
 
-/// Time of one reduction (s), over a turn of so many positions. Timed in pieces shorter than a time slice: on a busy machine
-/// every longer run is interrupted.
-fn position(machine: &impl Reducible, positions: u32) -> f64 {
+/// Reductions at the positions from `first` of a turn of so many.
+fn reduce(machine: &impl Reducible, first: u32, count: u32, positions: u32) {
     let step = TAU / f64::from(positions);
-    let pieces = (0..positions).step_by(PIECE as usize).map(|first| {
-        best(|| {
-            let mut sum = 0.0;
-            for k in first..first + PIECE {
-                let reduction = machine.reduction(f64::from(k) * step);
-                // What fails would be seen in the sum.
-                sum += reduction.map_or(f64::NAN, |r| r.inertia[0]);
-            }
-            assert!(sum > 0.0, "a position failed");
-            black_box(sum);
-        })
-    });
+    let mut sum = 0.0;
+    for k in first..first + count {
+        let reduction = machine.reduction(f64::from(k) * step);
+        // What fails would be seen in the sum.
+        sum += reduction.map_or(f64::NAN, |r| r.inertia[0]);
+    }
+    assert!(sum > 0.0, "a position failed");
+    black_box(sum);
+}
+
+/// Time of one reduction (s), over a turn of so many positions.
+fn time(machine: &impl Reducible, positions: u32) -> f64 {
+    let pieces = (0..positions).step_by(PIECE as usize);
+    let pieces = pieces.map(|first| best(|| reduce(machine, first, PIECE, positions)));
     pieces.sum::<f64>() / f64::from(positions)
 }
 
-/// Judges the cost of a position in sines, and prints its time for a turn.
-fn cost(report: &mut Report, name: &str, machine: &impl Reducible) {
+/// Instructions of a reduction, over a turn of so many positions.
+fn count(bench: &mut Bench, name: &str, machine: &impl Reducible, positions: u32) -> Option<f64> {
+    let count = bench.count(name, || reduce(machine, 0, positions, positions))?;
+    Some(count as f64 / f64::from(positions))
+}
+
+/// Judges the instructions of a position, and prints its time.
+fn cost(bench: &mut Bench, name: &str, machine: &impl Reducible) {
     let line = |time: f64| {
         let turn = time * 1e3 * f64::from(POSITIONS);
         format!("{:8.0} {turn:9.2}", time * 1e9)
     };
-    report.cost(name, || position(machine, POSITIONS), line);
+    let count = bench.count(name, || reduce(machine, 0, POSITIONS, POSITIONS));
+    let time = || time(machine, POSITIONS);
+    bench.cost_of(name, POSITIONS, count, time, line);
 }
 
 /// The exponent p of time ~ nᵖ between the least squares of the points (n, time).
@@ -90,31 +85,45 @@ fn exponent(points: &[(f64, f64)]) -> f64 {
     top / bottom
 }
 
-/// A linkage that grows: number of links, size of the largest group, time a position (s).
-type Sample = (usize, usize, f64);
+/// A linkage that grows: number of links, size of the largest group, instructions and time (s) of a position.
+type Sample = (usize, usize, Option<f64>, f64);
 
 macro_rules! grow {
-    ($make:ident, $($links:literal $pairs:literal $size:expr),*) => {
-        || -> Result<Vec<Sample>, Error> {
-            Ok(vec![$({
-                let assembly = shapes::$make::<$links, $pairs>($size)?;
-                let largest = assembly.linkage().group_sizes().max().unwrap_or(0);
-                let links = assembly.links().len();
-                (links, largest, position(&Machine::new(assembly), POSITIONS / 8))
-            }),*])
-        }
+    ($bench:ident, $make:ident, $($links:literal $pairs:literal $size:expr),*) => {
+        vec![$({
+            let assembly = shapes::$make::<$links, $pairs>($size)?;
+            let largest = assembly.linkage().group_sizes().max().unwrap_or(0);
+            let links = assembly.links().len();
+            let machine = Machine::new(assembly);
+            let name = format!("{}-{links}", stringify!($make));
+            let count = count($bench, &name, &machine, POSITIONS / 8);
+            let time = if $bench.counts() { 0.0 } else { time(&machine, POSITIONS / 8) };
+            (links, largest, count, time)
+        }),*]
     };
 }
 
-fn print(samples: &[Sample]) {
-    println!("links  largest group  ns a position");
-    for (links, largest, time) in samples {
-        println!("{links:5} {largest:14} {:14.0}", time * 1e9);
+/// Prints how the cost of a position grows, and judges the exponent of what `size` says.
+fn growth(
+    bench: &mut Bench,
+    what: &str,
+    band: [f64; 2],
+    samples: &[Sample],
+    size: fn(&Sample) -> usize,
+) {
+    println!("links  largest group  instructions a position       ns");
+    for (links, largest, count, time) in samples {
+        let count = count.unwrap_or(f64::NAN);
+        println!("{links:5} {largest:14} {count:24.0} {:8.0}", time * 1e9);
     }
+    let points: Option<Vec<_>> = samples
+        .iter()
+        .map(|s| Some((size(s) as f64, s.2?)))
+        .collect();
+    bench.band(what, band, points.map(|points| exponent(&points)));
 }
 
-fn run() -> Result<u32, Error> {
-    let mut report = Report::default();
+fn run(bench: &mut Bench) -> Result<(), Error> {
     let gravity = [0.0, -9.81];
     let six_link = Machine::new(shapes::six_link()?).with_gravity(gravity)?;
     let [crank, rocker, rod, centres, guide] = shapes::SIX_LINK;
@@ -125,68 +134,67 @@ fn run() -> Result<u32, Error> {
     let four_bar_linkage =
         Machine::new(support::four_bar_linkage::<256>()?).with_gravity(gravity)?;
 
-    println!("reference: one sine with cosine, {:.1} ns", sin_cos() * 1e9);
-    println!("reduction                        ns   ms/4096     sines");
-    cost(&mut report, "six-link-closed", &closed);
-    cost(&mut report, "six-link-linkage", &six_link);
-    cost(&mut report, "four-bar-closed", &four_bar);
-    cost(&mut report, "four-bar-linkage", &four_bar_linkage);
+    println!("reduction                            ns   ms/4096  instructions");
+    cost(bench, "six-link-closed", &closed);
+    cost(bench, "six-link-linkage", &six_link);
+    cost(bench, "four-bar-closed", &four_bar);
+    cost(bench, "four-bar-linkage", &four_bar_linkage);
+    bench.control("six-link-linkage", POSITIONS, |positions| {
+        reduce(&six_link, 0, positions, positions);
+    });
 
     println!("\nnumber of positions, six-link as a linkage");
+    let middle = count(bench, "positions-4096", &six_link, 4096);
     for positions in [1024, 16384] {
-        let what = format!("time a position, {positions} to 4096 positions");
-        report.band(&what, [0.8, 1.25], || {
-            position(&six_link, positions) / position(&six_link, 4096)
-        });
+        let name = format!("positions-{positions}");
+        let count = count(bench, &name, &six_link, positions);
+        let what = format!("instructions a position, {positions} to 4096 positions");
+        bench.band(&what, [0.9, 1.1], count.zip(middle).map(|(a, b)| a / b));
     }
 
     println!("\na chain of two-link groups");
-    let grown = grow!(
-        chain, 3 4 1, 5 7 2, 7 10 3, 9 13 4, 11 16 5, 13 19 6, 15 22 7
+    let samples = grow!(
+        bench, chain, 3 4 1, 5 7 2, 7 10 3, 9 13 4, 11 16 5, 13 19 6, 15 22 7
     );
-    print(&grown()?);
-    report.band("exponent of the number of links", [0.8, 1.3], || {
-        let samples = grown().unwrap_or_default();
-        let points: Vec<_> = samples.iter().map(|s| (s.0 as f64, s.2)).collect();
-        exponent(&points)
-    });
+    growth(
+        bench,
+        "exponent of the number of links",
+        [0.8, 1.3],
+        &samples,
+        |s| s.0,
+    );
 
     println!("\none group that cannot be divided");
-    let grown = grow!(
-        group, 5 7 1, 7 10 2, 9 13 3, 11 16 4, 13 19 5, 15 22 6
+    let samples = grow!(
+        bench, group, 5 7 1, 7 10 2, 9 13 3, 11 16 4, 13 19 5, 15 22 6
     );
-    print(&grown()?);
-    report.band("exponent of the size of the group", [0.8, 2.0], || {
-        let samples = grown().unwrap_or_default();
-        let points: Vec<_> = samples.iter().map(|s| (s.1 as f64, s.2)).collect();
-        exponent(&points)
-    });
+    growth(
+        bench,
+        "exponent of the size of the group",
+        [0.8, 2.0],
+        &samples,
+        |s| s.1,
+    );
 
-    let before = ALLOCATIONS.load(Ordering::Relaxed);
-    position(&six_link, POSITIONS);
-    position(&closed, POSITIONS);
-    let forces = six_link.forces(1.0, 10.0, 0.0)?;
-    black_box(forces);
-    let allocated = ALLOCATIONS.load(Ordering::Relaxed) - before;
-    println!(
-        "\nallocations in {} positions: {allocated}",
-        2 * RUNS * POSITIONS
-    );
-    assert_eq!(allocated, 0, "a position must not allocate");
-    assert!(before > 0, "allocations are counted");
-    Ok(report.failures())
+    if bench.counts() {
+        return Ok(());
+    }
+    let nothing = Memory::default();
+    let turn = memory::of(|| {
+        reduce(&six_link, 0, POSITIONS, POSITIONS);
+        reduce(&closed, 0, POSITIONS, POSITIONS);
+        black_box(six_link.forces(1.0, 10.0, 0.0))
+    });
+    println!("\n{} positions: {turn:?}", 2 * POSITIONS);
+    if turn != nothing {
+        bench.fail("a position must not allocate");
+    }
+    if memory::of(|| black_box(vec![0u8; 64])) == nothing {
+        bench.fail("allocations are not counted");
+    }
+    Ok(())
 }
 
 fn main() -> ExitCode {
-    match run() {
-        Ok(0) => ExitCode::SUCCESS,
-        Ok(failures) => {
-            println!("{failures} out of bounds");
-            ExitCode::FAILURE
-        }
-        Err(error) => {
-            println!("FAILED: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    Bench::main(run)
 }

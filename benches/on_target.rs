@@ -11,6 +11,9 @@
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 #[cfg(target_os = "none")]
+#[path = "support/ceilings.rs"]
+mod ceilings;
+#[cfg(target_os = "none")]
 mod support;
 
 #[cfg(not(target_os = "none"))]
@@ -32,7 +35,8 @@ mod target {
     use jred::{Error, Machine, Mechanism, Reducible, Scale};
     use panic_semihosting as _;
 
-    use crate::support::{self, Verdict};
+    use crate::ceilings::judge;
+    use crate::support;
 
     /// Instructions in a tick of SysTick: 1 ns each, at 25 MHz.
     const PER_TICK: u32 = 40;
@@ -102,22 +106,9 @@ mod target {
 
         let mut failures = 0;
         let mut report = |name: &str, count: u32| {
-            let verdict = support::judge(core(), name, f64::from(count));
-            let (word, ceiling) = match verdict {
-                Verdict::Within(ceiling) => ("", ceiling),
-                Verdict::Above(ceiling) => ("above the ceiling", ceiling),
-                Verdict::Slack(ceiling) => ("less than half: lower the ceiling", ceiling),
-                Verdict::Missing => ("no ceiling", 0.0),
-            };
-            failures += u32::from(!matches!(verdict, Verdict::Within(_)));
-            hprintln!(
-                "{:10} {:20} {:8} {:8} {}",
-                core(),
-                name,
-                count,
-                ceiling as u32,
-                word
-            );
+            let verdict = judge(core(), name, u64::from(count));
+            failures += u32::from(!verdict.holds());
+            hprintln!("{:10} {:20} {:8}  {}", core(), name, count, verdict);
         };
         let mut each = |run: &mut dyn FnMut(f64) -> bool| {
             let count = counter.count(|| {

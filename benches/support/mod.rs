@@ -1,4 +1,4 @@
-//! What the benchmarks share: the four-bar linkage in two descriptions, and the file of ceilings.
+//! What the benchmarks share: the four-bar linkage in two descriptions.
 #![allow(dead_code, reason = "every benchmark uses its own part")]
 
 use jred::mechanism::{Assembly, FourBar, Linkage, Pair, Pose, Side};
@@ -40,35 +40,4 @@ pub(crate) fn four_bar_linkage<const STATIONS: usize>() -> Result<Assembly<3, 4,
     let drawing = [[0.0, 0.0, 0.0], [0.08, 0.0, 0.8], [0.3, 0.05, 1.7]];
     let drawing = drawing.map(|[x, y, psi]| Pose { x, y, psi });
     Linkage::new(&links()?, &pairs, 0)?.assemble(Domain::Turn, 0.0, &drawing)
-}
-
-/// What `ceilings.txt` says about a figure.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Verdict {
-    /// Not above the ceiling, and not far below.
-    Within(f64),
-    /// Above the ceiling.
-    Above(f64),
-    /// Below half of the ceiling, which is of no use any more.
-    Slack(f64),
-    /// There is no ceiling for it.
-    Missing,
-}
-
-/// Judges a figure by the ceiling that the file gives for this `core` and `name`.
-pub(crate) fn judge(core: &str, name: &str, found: f64) -> Verdict {
-    let lines = include_str!("../ceilings.txt").lines();
-    let ceiling = lines
-        .filter(|line| !line.starts_with('#'))
-        .find_map(|line| {
-            let mut words = line.split_whitespace();
-            let matches = words.next() == Some(core) && words.next() == Some(name);
-            matches.then(|| words.next()?.parse::<u32>().ok())?
-        });
-    match ceiling.map(f64::from) {
-        None => Verdict::Missing,
-        Some(ceiling) if found > ceiling => Verdict::Above(ceiling),
-        Some(ceiling) if found < 0.5 * ceiling => Verdict::Slack(ceiling),
-        Some(ceiling) => Verdict::Within(ceiling),
-    }
 }
