@@ -16,6 +16,8 @@ pub trait Real:
     + core::fmt::Debug
     + crate::sealed::Sealed
 {
+    /// Distance of 1 to the next larger number.
+    const EPSILON: Self;
     /// The nearest value to a constant.
     fn from_f64(value: f64) -> Self;
     /// The same number in double precision.
@@ -36,6 +38,7 @@ pub trait Real:
 }
 
 impl Real for f32 {
+    const EPSILON: Self = Self::EPSILON;
     fn to_f64(self) -> f64 {
         f64::from(self)
     }
@@ -70,6 +73,7 @@ impl Real for f32 {
 }
 
 impl Real for f64 {
+    const EPSILON: Self = Self::EPSILON;
     fn to_f64(self) -> f64 {
         self
     }

@@ -93,6 +93,36 @@ fn laws_are_symmetric() {
     }
 }
 
+/// The trapezoid of thirds in closed form: the top speed is 3/2, the acceleration 9/2; nothing is rounded to f32 on the way.
+#[test]
+fn trapezoid_of_thirds() {
+    let third = 1.0 / 3.0;
+    let law = Law::Trapezoid {
+        accelerate: third,
+        decelerate: third,
+    };
+    for (z, s, v) in [
+        (third / 2.0, 0.0625, 0.75),
+        (third, 0.25, 1.5),
+        (0.5, 0.5, 1.5),
+        (1.0 - third, 0.75, 1.5),
+        (1.0 - third / 2.0, 0.9375, 0.75),
+    ] {
+        let [found, speed, _] = law.at(z);
+        assert_near("S", found, s, 1e-15);
+        assert_near("S'", speed, v, 2e-15);
+    }
+    for (z, a) in [
+        (third.next_down(), 4.5),
+        (third, 0.0),
+        ((1.0 - third).next_down(), 0.0),
+        (1.0 - third, -4.5),
+    ] {
+        assert_near("S''", law.at(z)[2], a, 4e-15);
+    }
+    assert_near("C_v", law.characteristic().velocity, 1.5, 1e-15);
+}
+
 #[test]
 fn speed_and_acceleration_are_derivatives() {
     for law in LAWS {
@@ -182,18 +212,18 @@ proptest! {
     #[test]
     fn single_precision_follows_double(z in 0f32..=1.0, which in 0usize..7) {
         let law = LAWS[which];
-        let [single, double] = [law.at(z).map(f64::from), law.at(f64::from(z))];
+        let [single, double] = [law.cast::<f32>().at(z).map(f64::from), law.at(f64::from(z))];
         for (s, d) in single.iter().zip(double) {
             assert_near("law in f32", *s, d, budget::LAW_F32);
         }
     }
 
     #[test]
-    fn trapezoids_of_any_shares(accelerate in 0.01f32..0.99, rest in 0.01f32..1.0, z in 0f64..1.0) {
+    fn trapezoids_of_any_shares(accelerate in 0.01f64..0.99, rest in 0.01f64..1.0, z in 0f64..1.0) {
         let decelerate = (1.0 - accelerate) * rest;
         let law = Law::Trapezoid { accelerate, decelerate };
         law.check().unwrap();
-        let [a, d] = [accelerate, decelerate].map(f64::from);
+        let [a, d] = [accelerate, decelerate];
         let top = 1.0 / (1.0 - f64::midpoint(a, d));
         // Area under the speed's trapezoid up to z.
         let left = z.min(a);
@@ -201,6 +231,15 @@ proptest! {
         let right = (z - (1.0 - d)).max(0.0);
         let area = left * left / (2.0 * a) + middle + right - right * right / (2.0 * d);
         assert_near("S", law.at(z)[0], top * area, 1e3 * budget::LAW_END);
+        // Corners: the acceleration is that after them, and one place before them that before.
+        let [Some(first), Some(last), ..] = law.breaks() else { unreachable!() };
+        prop_assert!((first, last) == (a, 1.0 - d) && first <= last);
+        let between = if first < last { 0.0 } else { -top / d };
+        assert_near("S'' after the first corner", law.at(first)[2], between, budget::LAW_END * top / d);
+        assert_near("S'' before it", law.at(first.next_down())[2], top / a, budget::LAW_END * top / a);
+        assert_near("S'' after the last corner", law.at(last)[2], -top / d, budget::LAW_END * top / d);
+        let before = if first < last { 0.0 } else { top / a };
+        assert_near("S'' before it", law.at(last.next_down())[2], before, budget::LAW_END * top / a);
     }
 
     #[test]

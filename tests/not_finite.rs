@@ -106,7 +106,7 @@ fn nothing_that_is_not_finite_gets_into_motions_scales_and_requests() {
         }),
         ("law", |x| {
             Law::Trapezoid {
-                accelerate: x as f32,
+                accelerate: x,
                 decelerate: 0.1,
             }
             .check()
@@ -114,7 +114,7 @@ fn nothing_that_is_not_finite_gets_into_motions_scales_and_requests() {
         ("law", |x| {
             Law::Trapezoid {
                 accelerate: 0.1,
-                decelerate: x as f32,
+                decelerate: x,
             }
             .check()
         }),

@@ -22,15 +22,25 @@ use crate::{Error, Machine};
 /// Most unknowns: three equations a link.
 const MOST: usize = 3 * MAX_LINKS;
 
-/// The force in one joint: what its first body does to its second.
+/// The force in one joint: what its first body does to its second, as a force at a point and the moment about that point.
+///
+/// | joint | point |
+/// |---|---|
+/// | pin | the pin |
+/// | guide | the second marker, the slider's own point; the moment holds the slider upright on the guide |
+/// | rigid joint | the second marker |
+/// | pin in a slot | the pin |
+/// | transmission | where its effort acts on the second body: teeth in mesh, the end of a rope; of a moment alone the origin |
+///
+/// The test `forces_balance` holds the balance of every link about each of these points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Reaction {
-    /// Where it acts, global (m).
+    /// Where the force acts, global (m).
     pub point: [f64; 2],
     /// Force, global components (N).
     pub force: [f64; 2],
-    /// Moment (N·m), counter-clockwise positive.
+    /// Moment about the point (N·m), counter-clockwise positive.
     pub moment: f64,
 }
 
@@ -125,10 +135,14 @@ impl<M: Jointed> Machine<M> {
         let mut values = solution.iter().copied();
         let mut reactions = heapless::Vec::new();
         for joint in &joints {
-            let mut sum = Reaction::default();
-            for [_, on_second] in &joint.unit_reactions(&frames) {
+            let units = joint.unit_reactions(&frames);
+            let mut sum = Reaction {
+                // The force comes first; the moment about its point has none.
+                point: units.first().map_or([0.0; 2], |[_, unit]| unit.point),
+                ..Reaction::default()
+            };
+            for [_, on_second] in &units {
                 let part = on_second.times(values.next().unwrap_or_default());
-                sum.point = part.point;
                 sum.force[0] += part.force[0];
                 sum.force[1] += part.force[1];
                 sum.moment += part.moment;

@@ -2,7 +2,7 @@
 
 use jred::mechanism::{Assembly, Frames, Linkage, Pair, Pose};
 use jred::{
-    Domain, Error, Forces, Joint, Jointed, Machine, Mechanism, Reducible, Transfer, Wrench,
+    Body, Domain, Error, Forces, Joint, Jointed, Machine, Mechanism, Reducible, Transfer, Wrench,
 };
 
 use super::golden::Table;
@@ -157,6 +157,98 @@ pub(crate) fn dalembert<M: Jointed>(machine: &Machine<M>, phi: f64, omega: f64, 
     );
 }
 
+/// Every link is in equilibrium: forces, and moments about the point of each reaction on it.
+#[track_caller]
+pub(crate) fn forces_balance<M: Jointed>(machine: &Machine<M>, phi: f64, omega: f64, alpha: f64) {
+    let mechanism = machine.mechanism();
+    let frames = mechanism.frames(phi).unwrap();
+    let joints = mechanism.joints(phi, &frames).unwrap();
+    let forces = machine.forces(phi, omega, alpha).unwrap();
+    let mut wrenches = Vec::new();
+    for (joint, reaction) in joints.iter().zip(&forces.reactions) {
+        let [first, second] = joint.bodies();
+        let on_second = Wrench {
+            body: second,
+            point: reaction.point,
+            force: reaction.force,
+            moment: reaction.moment,
+        };
+        let on_first = match joint {
+            Joint::Transmission([a, b]) => {
+                let [[x, y], [u, v]] = [reaction.force, b.force];
+                let of = x * u + y * v + reaction.moment * b.moment;
+                a.times(of / (u * u + v * v + b.moment * b.moment))
+            }
+            _ => on_second.times(-1.0).acting_on(first),
+        };
+        wrenches.extend([on_first, on_second]);
+        // Pins, sliders and teeth are where the joint is.
+        if let Joint::Revolute([_, at]) | Joint::Fixed([_, at]) | Joint::Prismatic([_, at]) = joint
+        {
+            assert_eq!(reaction.point, at.position(&frames).map(|c| c.value));
+        }
+    }
+    let driven = joints[mechanism.drive()];
+    let flywheel = machine.flywheel() * driven.coordinate(&frames).acceleration(omega, alpha);
+    let [on_first, on_second] = driven.unit_drive(&frames);
+    wrenches.extend([
+        on_first.times(forces.drive),
+        on_second.times(forces.drive - flywheel),
+    ]);
+    for (k, (link, frame)) in mechanism.links().iter().zip(&frames).enumerate() {
+        let centre = frame.point(link.com());
+        let [a_x, a_y] = centre.map(|c| c.acceleration(omega, alpha));
+        let [g_x, g_y] = machine.gravity();
+        wrenches.push(Wrench {
+            body: Body::Link(k),
+            point: centre.map(|c| c.value),
+            force: [link.mass() * (g_x - a_x), link.mass() * (g_y - a_y)],
+            moment: -link.inertia() * frame.psi.acceleration(omega, alpha),
+        });
+    }
+    let loads = machine.loads().iter();
+    wrenches.extend(loads.map(|load| load.wrench(&frames[load.link()], phi, omega)));
+    let elements = machine.elements().iter();
+    wrenches.extend(elements.flat_map(|element| element.wrenches(&frames, omega).unwrap()));
+
+    let length = size(mechanism, phi, &frames);
+    for link in 0..frames.len() {
+        let on: Vec<&Wrench> = wrenches
+            .iter()
+            .filter(|w| w.body == Body::Link(link))
+            .collect();
+        let largest_force = largest(on.iter().flat_map(|w| w.force));
+        for axis in 0..2 {
+            let sum: f64 = on.iter().map(|w| w.force[axis]).sum();
+            let scale = largest(
+                wrenches
+                    .iter()
+                    .flat_map(|w| w.force.into_iter().chain([w.moment / length])),
+            );
+            assert_near(
+                "force on a link",
+                sum,
+                0.0,
+                budget::DALEMBERT * scale.max(largest_force),
+            );
+        }
+        for about in on.iter().map(|w| w.point) {
+            let moments: Vec<f64> = on.iter().map(|w| w.moment_about(about)).collect();
+            let sizes = wrenches.iter().flat_map(|w| {
+                let reach = length.max(w.point[0].abs()).max(w.point[1].abs());
+                [w.force[0] * reach, w.force[1] * reach, w.moment]
+            });
+            let name = format!("moment on link {link} about {about:?} at φ = {phi}");
+            assert_near(
+                &name,
+                moments.iter().sum(),
+                0.0,
+                budget::DALEMBERT * largest(sizes),
+            );
+        }
+    }
+}
+
 /// Every link moves continuously over the drive's range, and a turn ends where it began (angles but for whole turns of a
 /// link whose motion repeats).
 #[track_caller]
@@ -296,6 +388,7 @@ pub(crate) fn same_frames(one: &impl Mechanism, other: &impl Mechanism, phi: f64
 pub(crate) fn holds<M: Jointed>(machine: &Machine<M>, phi: f64, omega: f64, alpha: f64) {
     joints_close(machine.mechanism(), phi);
     dalembert(machine, phi, omega, alpha);
+    forces_balance(machine, phi, omega, alpha);
     energy(machine, phi, omega);
 }
 

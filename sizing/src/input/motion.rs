@@ -218,12 +218,15 @@ pub(super) fn law(section: &Section) -> Result<Law> {
                 }
             }
             let [accelerate, decelerate] = shares;
-            let sum = accelerate + decelerate;
-            if sum > 1.0 + 1e-6 {
+            let law = Law::Trapezoid {
+                accelerate,
+                decelerate,
+            };
+            if law.check().is_err() {
                 return Err(Problem::new(format!(
                     "`accelerate` and `decelerate` in {} are together {} % of the duration",
                     section.title(),
-                    figure(sum * 100.0)
+                    figure((accelerate + decelerate) * 100.0)
                 ))
                 .at(place, "too large")
                 .help(format!(
@@ -232,10 +235,7 @@ pub(super) fn law(section: &Section) -> Result<Law> {
                     figure(decelerate * 100.0)
                 )));
             }
-            Law::Trapezoid {
-                accelerate: accelerate as f32,
-                decelerate: decelerate as f32,
-            }
+            law
         }
         1 => Law::Polynomial345,
         2 => Law::Cycloidal,

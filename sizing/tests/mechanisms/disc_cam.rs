@@ -87,7 +87,7 @@ fn the_documented_example_is_read() {
     );
     // The table of laws is that of the library.
     for (name, law) in [
-        ("polynomial-345", Law::Polynomial345),
+        ("polynomial-345", Law::<f64>::Polynomial345),
         ("polynomial-4567", Law::Polynomial4567),
         ("cycloidal", Law::Cycloidal),
         ("modified-sine", Law::ModifiedSine),

@@ -5,17 +5,19 @@ use crate::Error;
 use crate::math::Real;
 
 /// A motion law between two dwells: S(z) with S(0) = 0, S(1) = 1 and zero speed at both ends.
+///
+/// `R` is the number type that it is evaluated in; [`cast`](Self::cast) makes one of the other.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Law {
+pub enum Law<R = f64> {
     /// Constant acceleration, constant speed, constant deceleration. The fields are the shares of the time spent
     /// accelerating and decelerating, in (0, 1] and together at most 1. Largest speed 1/(1 − (a + d)/2).
-    /// The acceleration jumps at the breaks (its value there is the one after the break).
+    /// The acceleration jumps at [`breaks`](Self::breaks) (its value there is the one after the break).
     Trapezoid {
         /// Share of the time spent accelerating.
-        accelerate: f32,
+        accelerate: R,
         /// Share of the time spent decelerating.
-        decelerate: f32,
+        decelerate: R,
     },
     /// 10z³ − 15z⁴ + 6z⁵: largest speed 1.875, largest acceleration 5.774. No sine: the law for small processors.
     #[default]
@@ -47,7 +49,27 @@ pub struct Characteristic {
     pub jerk: Option<f64>,
 }
 
-impl Law {
+impl<R: Real> Law<R> {
+    /// The same law in another number type; the shares of a trapezoid are rounded to it.
+    #[must_use]
+    pub fn cast<S: Real>(self) -> Law<S> {
+        match self {
+            Self::Trapezoid {
+                accelerate,
+                decelerate,
+            } => Law::Trapezoid {
+                accelerate: S::from_f64(accelerate.to_f64()),
+                decelerate: S::from_f64(decelerate.to_f64()),
+            },
+            Self::Polynomial345 => Law::Polynomial345,
+            Self::Cycloidal => Law::Cycloidal,
+            Self::ModifiedSine => Law::ModifiedSine,
+            Self::SimpleSine => Law::SimpleSine,
+            Self::Polynomial4567 => Law::Polynomial4567,
+            Self::ModifiedTrapezoid => Law::ModifiedTrapezoid,
+        }
+    }
+
     /// Checks the shares of a trapezoid.
     ///
     /// # Errors
@@ -62,13 +84,14 @@ impl Law {
             return Ok(());
         };
         for (what, share) in [("accelerate", accelerate), ("decelerate", decelerate)] {
-            crate::error::positive(what, f64::from(share))?;
+            crate::error::positive(what, share.to_f64())?;
         }
-        let sum = f64::from(accelerate) + f64::from(decelerate);
-        if sum > 1.0 + 1e-6 {
+        // Shares that are one together may be rounded up.
+        let sum = accelerate + decelerate;
+        if sum > R::from_f64(1.0) + R::from_f64(4.0) * R::EPSILON {
             return Err(Error::OutOfRange {
                 what: "accelerate + decelerate",
-                value: sum,
+                value: sum.to_f64(),
                 min: 0.0,
                 max: 1.0,
             });
@@ -83,12 +106,10 @@ impl Law {
             Self::Trapezoid {
                 accelerate,
                 decelerate,
-            } => [
-                Some(f64::from(accelerate)),
-                Some(1.0 - f64::from(decelerate)),
-                None,
-                None,
-            ],
+            } => {
+                let end = R::from_f64(1.0) - decelerate;
+                [Some(accelerate.to_f64()), Some(end.to_f64()), None, None]
+            }
             Self::ModifiedSine => [Some(0.125), Some(0.875), None, None],
             Self::ModifiedTrapezoid => [Some(0.125), Some(0.375), Some(0.625), Some(0.875)],
             Self::Polynomial345 | Self::Polynomial4567 | Self::Cycloidal | Self::SimpleSine => {
@@ -106,7 +127,7 @@ impl Law {
                 accelerate,
                 decelerate,
             } => {
-                let (a, d) = (f64::from(accelerate), f64::from(decelerate));
+                let (a, d) = (accelerate.to_f64(), decelerate.to_f64());
                 let speed = 1.0 / (1.0 - f64::midpoint(a, d));
                 (speed, speed / a.min(d), None)
             }
@@ -132,7 +153,7 @@ impl Law {
 
     /// [S, S′, S″] at the time `z`; before 0 and after 1 the ends, at rest.
     #[must_use]
-    pub fn at<R: Real>(self, z: R) -> [R; 3] {
+    pub fn at(self, z: R) -> [R; 3] {
         let c = R::from_f64;
         if z < c(0.0) {
             return [c(0.0); 3];
@@ -144,7 +165,7 @@ impl Law {
             Self::Trapezoid {
                 accelerate,
                 decelerate,
-            } => trapezoid(z, c(f64::from(accelerate)), c(f64::from(decelerate))),
+            } => trapezoid(z, accelerate, decelerate),
             Self::Polynomial345 => [
                 z * z * z * (c(10.0) + z * (c(6.0) * z - c(15.0))),
                 c(30.0) * z * z * (z - c(1.0)) * (z - c(1.0)),
@@ -173,7 +194,7 @@ impl Law {
     /// S‴ at the time `z`, without the pulses of a jumping acceleration; before 0 and after 1 zero, at a break the value
     /// after it.
     #[must_use]
-    pub fn jerk<R: Real>(self, z: R) -> R {
+    pub fn jerk(self, z: R) -> R {
         use core::f64::consts::PI;
         let c = R::from_f64;
         if z < c(0.0) || z > c(1.0) {
@@ -272,14 +293,13 @@ fn modified_trapezoid<R: Real>(z: R) -> [R; 3] {
 fn trapezoid<R: Real>(z: R, accelerate: R, decelerate: R) -> [R; 3] {
     let c = R::from_f64;
     let speed = c(1.0) / (c(1.0) - (accelerate + decelerate) / c(2.0));
-    let left = c(1.0) - z;
     if z < accelerate {
         let a = speed / accelerate;
         [a * z * z / c(2.0), a * z, a]
-    } else if left > decelerate {
+    } else if z < c(1.0) - decelerate {
         [speed * (z - accelerate / c(2.0)), speed, c(0.0)]
     } else {
-        let a = speed / decelerate;
+        let (a, left) = (speed / decelerate, c(1.0) - z);
         [c(1.0) - a * left * left / c(2.0), a * left, -a]
     }
 }

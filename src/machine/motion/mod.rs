@@ -23,7 +23,7 @@ pub struct State<R> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Move<R> {
-    law: Law,
+    law: Law<R>,
     start: R,
     distance: R,
     duration: R,
@@ -35,7 +35,7 @@ impl<R: Real> Move<R> {
     /// # Errors
     /// A duration that is not positive, a value that is not finite, or a law that is not valid.
     #[inline] // see `Law::check`
-    pub fn new(law: Law, start: R, distance: R, duration: R) -> Result<Self, Error> {
+    pub fn new(law: Law<R>, start: R, distance: R, duration: R) -> Result<Self, Error> {
         let zero = R::from_f64(0.0);
         for (what, value) in [
             ("start of the move", start),
@@ -72,7 +72,7 @@ impl<R: Real> Move<R> {
     }
 
     /// The law.
-    pub const fn law(&self) -> Law {
+    pub const fn law(&self) -> Law<R> {
         self.law
     }
 
