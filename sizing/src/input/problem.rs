@@ -59,6 +59,12 @@ impl Problem {
 /// The longest line that is shown; longer ones are named by number.
 const MAX_LINE: usize = 400;
 
+/// The last character boundary up to `at`.
+fn boundary(text: &str, at: usize) -> usize {
+    let mut upto = (0..=at).rev();
+    upto.find(|&at| text.is_char_boundary(at)).unwrap_or(0)
+}
+
 /// Moves the diagnostic's labels to where they can be seen in `text`.
 fn point(diagnostic: &mut MietteDiagnostic, text: &str) {
     let Some(labels) = diagnostic.labels.take() else {
@@ -72,8 +78,8 @@ fn point(diagnostic: &mut MietteDiagnostic, text: &str) {
         .map_or(0, |(at, _)| at);
     let mut shown = Vec::new();
     for label in labels {
-        let start = text.floor_char_boundary(label.offset().min(last));
-        let end = text.floor_char_boundary((label.offset() + label.len()).min(text.len()));
+        let start = boundary(text, label.offset().min(last));
+        let end = boundary(text, (label.offset() + label.len()).min(text.len()));
         let before = text.get(..start).unwrap_or_default();
         let line_start = before.rfind('\n').map_or(0, |at| at + 1);
         let line = text.get(line_start..).and_then(|rest| rest.lines().next());
