@@ -11,19 +11,20 @@
 //! stated. While the motor brakes, I is the current of the torque alone: how far the bus has risen, and how much the
 //! amplifier still weakens the field, is not known. While it drives, the field-weakening current is in I.
 
+pub mod answer;
 pub mod axes;
 pub mod command;
 pub mod conflict;
-mod cure;
+pub mod cure;
 pub mod curve;
-mod json;
+pub mod json;
 mod need;
 pub mod period;
 mod phases;
-mod report;
+pub mod report;
 pub mod store;
 pub mod supply;
-mod verdict;
+pub mod verdict;
 
 pub use need::Need;
 pub use phases::Watch;

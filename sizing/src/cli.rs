@@ -13,7 +13,7 @@ use clap::{Args, Parser, Subcommand};
 use self::search::Objectives;
 use self::word::word;
 use crate::export::{Choice, Form, LayoutChoice, Number};
-use crate::inspect::Format as CheckFormat;
+use crate::inspection::Format as CheckFormat;
 use crate::output::Format;
 use crate::reduce::Over;
 

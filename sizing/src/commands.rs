@@ -5,16 +5,17 @@ use std::path::{Path, PathBuf};
 
 use miette::{IntoDiagnostic as _, Result, WrapErr as _, miette};
 
-use crate::catalogue::{Catalogue, MotorKind};
+use crate::alternatives;
 use crate::cli;
 use crate::contact::OneWay;
 use crate::coordinate::Coordinate;
 use crate::duty::Duty;
 use crate::export::{Choice, Export, Failure, Form, Number, Task};
-use crate::inspect::{self, Findings};
+use crate::inspect::Findings;
+use crate::inspection;
 use crate::machine::MachineFile;
 use crate::motion::Motion;
-use crate::output::Format;
+use crate::output::{self, Format};
 use crate::reduce::{self, Over, Sets, reduce};
 use crate::{input, report, simulate, variator, vary};
 
@@ -46,7 +47,7 @@ pub fn run(command: &cli::Command) -> Result<Done> {
         cli::Command::Bus(options) => crate::bus::command::run(options),
         cli::Command::Simulate(options) => run_simulate(options),
         cli::Command::Export(options) => run_export(options),
-        cli::Command::Rules(options) => print(&crate::rules::command::show(
+        cli::Command::Rules(options) => print(&crate::rule_list::show(
             options.set.as_deref(),
             options.format,
         )?),
@@ -119,7 +120,7 @@ fn run_reduce(options: &cli::Reduce) -> Result<Done> {
     };
     match options.format {
         Format::Table => {
-            let mut text = columns.write(Format::Table, &title);
+            let mut text = output::write(&columns, Format::Table, &title);
             if !largest.is_empty() {
                 let sentences: Vec<String> =
                     largest.iter().map(reduce::Largest::sentence).collect();
@@ -135,12 +136,12 @@ fn run_reduce(options: &cli::Reduce) -> Result<Done> {
             print(&text)
         }
         Format::Json if sets.reactions => {
-            let mut map = columns.json();
+            let mut map = output::json(&columns);
             map.insert("title".into(), title.into());
             map.insert("largest".into(), serde_json::json!(largest));
             print(&format!("{:#}\n", serde_json::Value::Object(map)))
         }
-        Format::Csv | Format::Json => print(&columns.write(options.format, &title)),
+        Format::Csv | Format::Json => print(&output::write(&columns, options.format, &title)),
     }
 }
 
@@ -174,8 +175,8 @@ fn run_check(options: &cli::Check) -> Result<Done> {
     let file = input::read(&options.file)?;
     let findings = Findings::of(&file).into_diagnostic()?;
     match options.format {
-        inspect::Format::Table => print(&findings.text())?,
-        inspect::Format::Json => print(&format!("{:#}\n", findings.json()))?,
+        inspection::Format::Table => print(&inspection::text(&findings))?,
+        inspection::Format::Json => print(&format!("{:#}\n", inspection::json(&findings)))?,
     };
     Ok(if findings.holds() {
         Done::Holds
@@ -205,7 +206,7 @@ fn run_simulate(options: &cli::Simulate) -> Result<Done> {
         "{}: free motion, Dormand-Prince 8(5,3), tolerance {:e}",
         file.title, simulation.tolerance
     );
-    print(&columns.write(options.format, &title))
+    print(&output::write(&columns, options.format, &title))
 }
 
 fn run_export(options: &cli::Export) -> Result<Done> {
@@ -268,12 +269,12 @@ fn run_export(options: &cli::Export) -> Result<Done> {
         (None, _) => print(&format!(
             "{}\n{}nothing written: --out names a file\n",
             export.summary(),
-            export.alternatives()
+            alternatives::alternatives(&export)
         )),
         (Some(out), _) => print(&format!(
             "{}\n{}written to {}\n",
             export.summary(),
-            export.alternatives(),
+            alternatives::alternatives(&export),
             out.display()
         )),
     }
@@ -300,43 +301,6 @@ fn range(given: [Option<f64>; 2], file: &MachineFile, path: &Path) -> Result<(f6
     let moved = duty.figures(|i| i.alpha).peak();
     let own = if moved > 0.0 { moved } else { omega * omega };
     Ok((omega, alpha.unwrap_or(own)))
-}
-
-/// What the machine is driven by at its input: a drive link that slides, without a drive train, takes a linear motor.
-///
-/// # Errors
-/// The mechanism cannot be placed.
-pub(crate) fn input_kind(file: &MachineFile) -> Result<MotorKind> {
-    let coordinate = Coordinate::of(file.machine.mechanism()).into_diagnostic()?;
-    if coordinate == Coordinate::Angle || !file.drive_train.stages().is_empty() {
-        Ok(MotorKind::Rotary)
-    } else {
-        Ok(MotorKind::Linear)
-    }
-}
-
-/// Leaves the motors that fit the machine's input: turning ones, or linear ones.
-///
-/// # Errors
-/// There are none.
-pub(crate) fn fit_input(catalogue: &mut Catalogue, file: &MachineFile) -> Result<()> {
-    let kind = input_kind(file)?;
-    catalogue.keep_kind(kind);
-    if !catalogue.motors.is_empty() {
-        return Ok(());
-    }
-    Err(match kind {
-        MotorKind::Linear => miette!(
-            help = "give a catalogue with linear motors (docs/catalogue.md: kind = linear), or add what turns the rotation \
-                    into a displacement: [[drive_train]] with type = \"ball-screw\" and lead = \"10 mm\", or type = \"rack\" \
-                    and the radius of its pinion; `jred reduce --over time` gives the force itself",
-            "the drive link slides, and the motors of the catalogue turn: it holds no linear motor"
-        ),
-        MotorKind::Rotary => miette!(
-            help = "give a catalogue with motors that turn",
-            "the input of the machine turns, and the catalogue holds linear motors only"
-        ),
-    })
 }
 
 /// The motion of a machine file.

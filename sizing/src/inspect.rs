@@ -19,22 +19,11 @@ use crate::rounding::short;
 
 mod agreement;
 mod centres;
-mod text;
 mod transmission;
 
 pub use agreement::{Agreement, Inertia};
 pub use centres::Travel;
 use transmission::{Index, Structure};
-
-crate::words! {
-    /// How findings are written.
-    pub enum Format default Table {
-        /// For reading.
-        Table = "table",
-        /// JSON, every digit.
-        Json = "json",
-    }
-}
 
 /// Below this index a mechanism is near a dead point.
 pub const NEAR_DEAD_POINT: f64 = 0.3;
@@ -87,7 +76,7 @@ pub struct Transmission {
 
 impl Transmission {
     /// Where the index is smallest, in words.
-    fn place(&self, coordinate: Coordinate) -> String {
+    pub fn place(&self, coordinate: Coordinate) -> String {
         self.at.map_or_else(
             || "everywhere".to_owned(),
             |at| format!("at {}", coordinate.place(at)),
@@ -98,19 +87,32 @@ impl Transmission {
 /// What the check found.
 #[derive(Clone, Debug)]
 pub struct Findings {
-    title: String,
-    kind: &'static str,
-    coordinate: Coordinate,
-    domain: Domain,
-    links: usize,
-    joints: Vec<JointFinding>,
-    closure: Option<f64>,
-    travels: Vec<Travel>,
-    transmission: Option<Transmission>,
-    inertia: Inertia,
-    agreement: Agreement,
-    facts: Vec<Fact>,
-    notes: Vec<String>,
+    /// Title of the machine file.
+    pub title: String,
+    /// Type of the mechanism.
+    pub kind: &'static str,
+    /// Whether the drive link turns or slides.
+    pub coordinate: Coordinate,
+    /// Range of the drive link.
+    pub domain: Domain,
+    /// Number of its links.
+    pub links: usize,
+    /// Its joints.
+    pub joints: Vec<JointFinding>,
+    /// How far the links' speeds are off after a turn; `None` of a stroke.
+    pub closure: Option<f64>,
+    /// Where its links travel.
+    pub travels: Vec<Travel>,
+    /// The smallest transmission index; `None` without a group of links.
+    pub transmission: Option<Transmission>,
+    /// Its inertia.
+    pub inertia: Inertia,
+    /// How far the methods agree.
+    pub agreement: Agreement,
+    /// Figures of its kind.
+    pub facts: Vec<Fact>,
+    /// Remarks.
+    pub notes: Vec<String>,
 }
 
 impl Findings {
@@ -144,11 +146,12 @@ impl Findings {
     }
 
     /// Degrees of freedom: 3·n − constraints.
-    fn freedoms(&self) -> i64 {
+    pub fn freedoms(&self) -> i64 {
         3 * self.links as i64 - self.constraints() as i64
     }
 
-    fn constraints(&self) -> usize {
+    /// Freedoms that the joints take.
+    pub fn constraints(&self) -> usize {
         self.joints.iter().map(|joint| joint.constraints).sum()
     }
 

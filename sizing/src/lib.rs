@@ -3,6 +3,7 @@
 //! The way of the data: [`input`] reads a machine file into a [`machine::MachineFile`]; [`duty`] samples one cycle of
 //! its motion; [`size`] judges every drive of a [`catalogue`] against it; the rest are the commands and their output.
 
+pub mod alternatives;
 pub mod bus;
 pub mod catalogue;
 pub mod check;
@@ -20,9 +21,12 @@ pub mod explain;
 pub mod export;
 pub mod figures;
 pub mod filter;
+pub mod fit;
 pub mod form;
+pub mod front;
 pub mod input;
 pub mod inspect;
+pub mod inspection;
 pub mod judge;
 pub mod listing;
 pub mod machine;
@@ -40,6 +44,7 @@ pub mod reduce;
 pub mod report;
 pub mod rounding;
 pub mod rule;
+pub mod rule_list;
 pub mod rules;
 pub mod sensitivity;
 pub mod simulate;

@@ -19,63 +19,67 @@ crate::words! {
     }
 }
 
-impl Columns {
-    /// The columns in one of the formats, under a title for tables and JSON.
-    pub fn write(&self, format: Format, title: &str) -> String {
-        match format {
-            Format::Table => format!("{title}\n{}\n", self.table()),
-            Format::Csv => self.csv(),
-            Format::Json => {
-                let mut map = Map::new();
-                map.insert("title".into(), title.into());
-                map.extend(self.json());
-                format!("{:#}\n", Value::Object(map))
-            }
+/// The columns in one of the formats, under a title for tables and JSON.
+pub fn write(columns: &Columns, format: Format, title: &str) -> String {
+    match format {
+        Format::Table => format!("{title}\n{}\n", table(columns)),
+        Format::Csv => csv(columns),
+        Format::Json => {
+            let mut map = Map::new();
+            map.insert("title".into(), title.into());
+            map.extend(json(columns));
+            format!("{:#}\n", Value::Object(map))
         }
     }
+}
 
-    /// `columns` and `rows` for JSON.
-    pub fn json(&self) -> Map<String, Value> {
-        let mut map = Map::new();
-        map.insert("columns".into(), json!(self.names()));
-        let tidy = |row: &Vec<Option<f64>>| -> Vec<Option<f64>> {
-            row.iter().map(|x| x.map(|x| x + 0.0)).collect() // no −0
-        };
-        let rows: Vec<_> = self.rows().iter().map(tidy).collect();
-        map.insert("rows".into(), json!(rows));
-        map
-    }
+/// `columns` and `rows` for JSON.
+pub fn json(columns: &Columns) -> Map<String, Value> {
+    let mut map = Map::new();
+    map.insert("columns".into(), json!(columns.names()));
+    let tidy = |row: &Vec<Option<f64>>| -> Vec<Option<f64>> {
+        row.iter().map(|x| x.map(|x| x + 0.0)).collect() // no −0
+    };
+    let rows: Vec<_> = columns.rows().iter().map(tidy).collect();
+    map.insert("rows".into(), json!(rows));
+    map
+}
 
-    fn table(&self) -> String {
-        let mut table = text_table(&self.names().iter().map(|n| narrow(n)).collect::<Vec<_>>());
-        // What is nothing but rounding beside the column's largest number reads as zero.
-        let mut largest = vec![0.0f64; self.names().len()];
-        for row in self.rows() {
-            for (most, value) in largest.iter_mut().zip(row) {
-                *most = most.max(value.map_or(0.0, f64::abs));
-            }
-        }
-        for row in self.rows() {
-            let cells = row.iter().zip(&largest).map(|(value, most)| match value {
-                Some(x) if x.abs() < 1e-12 * most => "0".to_owned(),
-                Some(x) => rounded(*x),
-                None => String::new(),
-            });
-            table.add_row(cells);
-        }
-        for column in table.column_iter_mut() {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-        table.to_string()
-    }
-
-    fn csv(&self) -> String {
-        let rows = self
-            .rows()
+fn table(columns: &Columns) -> String {
+    let mut table = text_table(
+        &columns
+            .names()
             .iter()
-            .map(|row| row.iter().copied().map(comma::known));
-        comma::row(self.names()) + &comma::rows(rows)
+            .map(|n| narrow(n))
+            .collect::<Vec<_>>(),
+    );
+    // What is nothing but rounding beside the column's largest number reads as zero.
+    let mut largest = vec![0.0f64; columns.names().len()];
+    for row in columns.rows() {
+        for (most, value) in largest.iter_mut().zip(row) {
+            *most = most.max(value.map_or(0.0, f64::abs));
+        }
     }
+    for row in columns.rows() {
+        let cells = row.iter().zip(&largest).map(|(value, most)| match value {
+            Some(x) if x.abs() < 1e-12 * most => "0".to_owned(),
+            Some(x) => rounded(*x),
+            None => String::new(),
+        });
+        table.add_row(cells);
+    }
+    for column in table.column_iter_mut() {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table.to_string()
+}
+
+fn csv(columns: &Columns) -> String {
+    let rows = columns
+        .rows()
+        .iter()
+        .map(|row| row.iter().copied().map(comma::known));
+    comma::row(columns.names()) + &comma::rows(rows)
 }
 
 /// A column's name over several lines: one word a line, the unit whole.

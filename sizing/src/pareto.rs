@@ -1,14 +1,9 @@
 //! The drives that no other beats in everything: the Pareto front over two or three objectives.
 
 use miette::{Report, miette};
-use serde_json::{Value, json};
 
-use crate::output::{Format, text_table};
 use crate::rank::Objective;
-use crate::rounding::rounded;
 use crate::size::{Candidate, Selection};
-use crate::vary::cell::Cell;
-use crate::vary::rows::csv_line;
 
 /// A drive of the front with its values, one for each objective.
 #[derive(Clone, Debug)]
@@ -122,77 +117,6 @@ impl<'c> Front<'c> {
             self.fit,
             missing.join(", ")
         ))
-    }
-
-    /// The front in one of the formats.
-    pub fn write(&self, format: Format, title: &str) -> String {
-        let row = |point: &Point| -> [String; 3] {
-            let drive = &point.candidate.drive;
-            [
-                drive.motor.key.clone(),
-                drive.gearbox.map_or_else(String::new, |g| g.key.clone()),
-                drive.amplifier.map_or_else(String::new, |a| a.key.clone()),
-            ]
-        };
-        let columns = self.objectives.iter().map(|o| o.column().to_owned());
-        match format {
-            Format::Table => {
-                let names = ["motor", "gearbox", "amplifier"].map(str::to_owned);
-                let mut table = text_table(&names.into_iter().chain(columns).collect::<Vec<_>>());
-                for point in &self.points {
-                    let [motor, gearbox, amplifier] = row(point);
-                    let gearbox = if gearbox.is_empty() {
-                        "direct".to_owned()
-                    } else {
-                        gearbox
-                    };
-                    let values = point.values.iter().map(|x| rounded(*x));
-                    table.add_row([motor, gearbox, amplifier].into_iter().chain(values));
-                }
-                let gaps: Vec<String> = self
-                    .gaps()
-                    .iter()
-                    .map(|gap| format!("mind: {gap}\n"))
-                    .collect();
-                let gaps = gaps.concat();
-                if self.compared == 0 && gaps.is_empty() {
-                    return format!("{title}\nno drive breaks no rule: there is none to compare\n");
-                }
-                format!(
-                    "{title}\n{table}\n{} of {} drives: no other that fits is as good in all of these and better in one\n{gaps}",
-                    self.points.len(),
-                    self.compared
-                )
-            }
-            Format::Csv => {
-                let names = ["motor", "gearbox", "amplifier"].map(str::to_owned);
-                let mut text = csv_line(names.into_iter().chain(columns).map(Cell::Text));
-                for point in &self.points {
-                    let values = point.values.iter().map(|x| Cell::Number(*x));
-                    text += &csv_line(row(point).into_iter().map(Cell::Text).chain(values));
-                }
-                text
-            }
-            Format::Json => {
-                let points = self.points.iter().map(|point| {
-                    let [motor, gearbox, amplifier] = row(point);
-                    let named = |key: String| (!key.is_empty()).then_some(key);
-                    json!({
-                        "motor": motor, "gearbox": named(gearbox), "amplifier": named(amplifier), "values": point.values
-                    })
-                });
-                let names: Vec<String> = columns.collect();
-                let value = json!({
-                    "schema": "jred-pareto/1",
-                    "title": title,
-                    "columns": names,
-                    "compared": self.compared,
-                    "unknown": self.unknown,
-                    "front": points.collect::<Vec<Value>>(),
-                });
-                format!("{value:#}\n")
-            }
-        }
     }
 }
 

@@ -8,10 +8,9 @@ use crate::rule::{Rule, Sense};
 
 mod change;
 mod choice;
-pub mod command;
 mod verdict;
 
-pub use change::{Change, Changes, Contradiction, What};
+pub use change::{Change, Changes, Contradiction, What, shown};
 pub use choice::{Choices, InertiaOf, MeanTorque, Moves};
 pub use verdict::{Finding, Verdict};
 

@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 
 use crate::cli;
 use crate::columns::Columns;
-use crate::output::Format;
+use crate::output::{self, Format};
 use crate::rounding::rounded;
 
 /// The result of `jred split`, written as asked for.
@@ -19,15 +19,19 @@ pub fn run(options: &cli::Split) -> Result<String> {
     let (best, equal) = (train.optimum(), train.equal());
     let columns = curve(&train, &best, options.points)?;
     Ok(match options.format {
-        Format::Csv => columns.write(Format::Csv, ""),
-        Format::Table => columns.write(Format::Table, &summary(&train, options, &best, &equal)),
+        Format::Csv => output::write(&columns, Format::Csv, ""),
+        Format::Table => output::write(
+            &columns,
+            Format::Table,
+            &summary(&train, options, &best, &equal),
+        ),
         Format::Json => {
             let mut map = Map::new();
             map.insert("ratio".into(), json!(train.ratio()));
             map.insert("optimum".into(), split(&best));
             map.insert("equal".into(), split(&equal));
             map.insert("equal_within_bounds".into(), within(&equal, options).into());
-            map.extend(columns.json());
+            map.extend(output::json(&columns));
             format!("{:#}\n", Value::Object(map))
         }
     })

@@ -336,7 +336,7 @@ fn a_sliding_drive_link() {
         ..Sets::default()
     };
     let columns = reduce(&file, &request(points)).unwrap();
-    let csv = columns.write(jred_sizing::output::Format::Csv, "");
+    let csv = jred_sizing::output::write(&columns, jred_sizing::output::Format::Csv, "");
     let header = csv.lines().next().unwrap();
     assert!(header.contains("\"tip, \"\"end\"\" x' [m/m]\""), "{header}");
     assert!(header.contains("lever psi' [rad/m]") && header.contains("\"pin, in the slot F [N]\""));
@@ -364,7 +364,7 @@ fn a_sliding_drive_link() {
 fn the_check_of_a_stroke() {
     let findings = Findings::of(&lever()).unwrap();
     assert!(findings.holds(), "{:?}", findings.violations());
-    let json = findings.json();
+    let json = jred_sizing::inspection::json(&findings);
     assert_eq!(json["degrees of freedom"], 1);
     assert_eq!(json["range"], serde_json::json!([FROM, TO]));
     assert_eq!(json["closure"], Value::Null);
@@ -378,7 +378,7 @@ fn the_check_of_a_stroke() {
         1.0,
         1e-12,
     );
-    let text = findings.text();
+    let text = jred_sizing::inspection::text(&findings);
     for words in [
         "s = -100 to 150 mm",
         "no dead centre",

@@ -6,17 +6,15 @@ use miette::{IntoDiagnostic as _, Result, miette};
 
 use indicatif::ProgressBar;
 
-use super::axes::{Axes, Bounds, Worst};
-use super::cure::{Cure, share};
-use super::curve::PowerCurve;
-use super::store::BusFigures;
+use super::answer::{Answer, Axis};
 use super::supply::BusData;
-use super::{Need, Watch, power};
+use super::{Watch, power};
 use crate::catalogue::Catalogue;
 use crate::cli::bus::Bus as Options;
-use crate::commands::{Done, fit_input, print};
+use crate::commands::{Done, print};
 use crate::cycle::Cycle;
 use crate::duty::Duty;
+use crate::fit::fit_input;
 use crate::listing;
 use crate::machine::MachineFile;
 use crate::output::Format;
@@ -25,40 +23,16 @@ use crate::size::Selection;
 use crate::supply::Supply;
 use crate::{input, variator};
 
-/// One axis: its drive, and what it draws.
-pub(super) struct Axis {
-    pub(super) title: String,
-    pub(super) drive: String,
-    pub(super) curve: PowerCurve,
-    data: BusData,
-    pub(super) holds: bool,
-}
+/// Shows how far a search is.
+struct Bar<'a>(&'a ProgressBar);
 
-/// What the axes do on their bus.
-pub(super) struct Answer {
-    pub(super) axes: Vec<Axis>,
-    pub(super) data: BusData,
-    pub(super) shared: Axes,
-    pub(super) in_step: Option<BusFigures>,
-    pub(super) power: Option<PowerCurve>,
-    /// Worst phases, in the order of [`Goal::ALL`](super::axes::Goal::ALL).
-    pub(super) worst: Option<[Worst; 4]>,
-    /// The phases that take the smallest share of the limits.
-    pub(super) calmest: Option<Worst>,
-    pub(super) bounds: Bounds,
-    /// The brake resistor that is needed where there is none, or none that does.
-    pub(super) need: Option<Need>,
-    pub(super) proposal: Option<String>,
-    pub(super) cures: Vec<Cure>,
-}
-
-impl Watch for ProgressBar {
+impl Watch for Bar<'_> {
     fn planned(&self, count: u64) {
-        self.inc_length(count);
+        self.0.inc_length(count);
     }
 
     fn done(&self, count: u64) {
-        self.inc(count);
+        self.0.inc(count);
     }
 }
 
@@ -84,14 +58,14 @@ pub fn run(options: &Options) -> Result<Done> {
     }
     // Drawn on standard error, and only where that is a terminal.
     let bar = ProgressBar::new(0);
-    let answer = Answer::new(options, axes, &own.supply, &catalogue, &bar)?;
+    let answer = Answer::new(axes, options.in_step, &own.supply, &catalogue, &Bar(&bar))?;
     bar.finish_and_clear();
     match options.format {
-        Format::Table => print(&answer.text(options))?,
-        Format::Csv => print(&answer.csv()?)?,
-        Format::Json => print(&format!("{:#}\n", answer.json(options)))?,
+        Format::Table => print(&super::report::text(&answer))?,
+        Format::Csv => print(&super::report::csv(&answer)?)?,
+        Format::Json => print(&format!("{:#}\n", super::json::json(&answer)))?,
     };
-    Ok(if answer.holds(options) {
+    Ok(if answer.holds() {
         Done::Holds
     } else {
         Done::Violated
@@ -205,99 +179,4 @@ fn axis(
         data: BusData::new(&bus.supply, bus.bus_voltage, drive.amplifier, drive.motor),
         holds: selection.judged(&candidate).holds(),
     })
-}
-
-impl Answer {
-    fn new(
-        options: &Options,
-        axes: Vec<Axis>,
-        supply: &Supply,
-        catalogue: &Catalogue,
-        watch: &dyn Watch,
-    ) -> Result<Self> {
-        let each: Vec<BusData> = axes.iter().map(|axis| axis.data).collect();
-        let data = BusData::shared(supply, &each);
-        let bus = data.bus().map_err(|missing| {
-            miette!(
-                help = "add a [supply] to one of the machine files, for example mains_voltage = \"400 V\", capacitance = \"470 uF\", \
-                        chopper_voltage = \"780 V\", max_voltage = \"820 V\"; docs/thermal-and-bus.md has all keys",
-                "the DC bus is not known: {missing} is missing"
-            )
-        })?;
-        let curves: Vec<PowerCurve> = axes.iter().map(|axis| axis.curve.clone()).collect();
-        let shared = Axes::new(bus, curves);
-        let together = vec![0.0; axes.len()];
-        let mut answer = Self {
-            in_step: shared.at(&together),
-            power: shared.power(&together),
-            worst: None,
-            calmest: None,
-            bounds: shared.bounds(),
-            need: None,
-            proposal: None,
-            cures: Vec::new(),
-            axes,
-            data,
-            shared,
-        };
-        if !options.in_step {
-            answer.search(watch);
-        }
-        if answer.asks_for_a_resistor(options) {
-            answer.need = match &answer.power {
-                Some(power) if options.in_step => Need::of(&data, power),
-                _ => Need::over(&data, &answer.shared, watch),
-            };
-            let proposal = answer
-                .need
-                .and_then(|need| need.proposal(&catalogue.resistors));
-            answer.proposal = proposal.map(|resistor| resistor.key.clone());
-        }
-        if options.in_step && !answer.failed(options).is_empty() {
-            answer.search(watch);
-            answer.worst = None;
-        }
-        answer.cures = answer.cures(options, watch);
-        Ok(answer)
-    }
-
-    /// The worst phases, and those with the most room.
-    fn search(&mut self, watch: &dyn Watch) {
-        let Some(period) = self.power.as_ref().map(PowerCurve::period) else {
-            return;
-        };
-        let limits = self.limits();
-        let goals = |figures: &BusFigures| {
-            [
-                figures.highest,
-                figures.burnt,
-                figures.burnt_peak,
-                figures.pulse,
-                -share(limits, figures, period),
-            ]
-        };
-        if let Some([voltage, resistor, peak, pulse, calmest]) = self.shared.largest(goals, watch) {
-            self.worst = Some([voltage, resistor, peak, pulse]);
-            self.calmest = Some(calmest);
-        }
-    }
-
-    /// Whether what comes back goes beyond what the bus, with the resistor that it has, may do.
-    fn asks_for_a_resistor(&self, options: &Options) -> bool {
-        if self.data.resistor.is_some() {
-            return !self.failed(options).is_empty();
-        }
-        let voltage = self.judged(options)[0];
-        // Not known: more than the capacitor of which nothing is known can be said to take.
-        let top = self.data.max_voltage.or(self.data.chopper_voltage);
-        top.is_some_and(|top| voltage.is_nan() || voltage > top)
-    }
-
-    /// Mean power of separate resistors less that of a common one (W), all axes in step; of several axes, where the resistor is
-    /// known.
-    pub(super) fn saved(&self) -> Option<f64> {
-        self.data.resistor.filter(|_| self.axes.len() > 1)?;
-        let period = self.power.as_ref()?.period();
-        Some(self.shared.apart() - self.in_step?.burnt / period)
-    }
 }

@@ -2,36 +2,42 @@
 
 use std::fmt::Write as _;
 
+use super::answer::Answer;
 use super::axes::Worst;
-use super::command::Answer;
 use super::conflict::Conflict;
 use super::store::{Bus, BusFigures};
 use super::verdict::Judged;
 use super::{Need, Watch};
-use crate::cli::bus::Bus as Options;
 use crate::rounding::short;
 
 /// Something that does alone.
-pub(super) struct Cure {
+#[derive(Clone, Debug)]
+pub struct Cure {
     /// What is to be changed.
-    pub(super) changes: Vec<Change>,
+    pub changes: Vec<Change>,
     /// How much later each axis is to start than the first (s), if it is that which is to be changed.
-    pub(super) phases: Option<Vec<f64>>,
+    pub phases: Option<Vec<f64>>,
     /// In words.
-    pub(super) words: String,
+    pub words: String,
 }
 
 /// A key and what it must be.
-pub(super) struct Change {
-    pub(super) key: &'static str,
-    pub(super) bound: Bound,
-    pub(super) unit: &'static str,
+#[derive(Clone, Debug)]
+pub struct Change {
+    /// The key of `[supply]`.
+    pub key: &'static str,
+    /// How far it must go.
+    pub bound: Bound,
+    /// Unit of the bound.
+    pub unit: &'static str,
 }
 
 /// How far a figure must go.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Bound {
+pub enum Bound {
+    /// Not below.
     AtLeast(f64),
+    /// Not above.
     AtMost(f64),
 }
 
@@ -79,7 +85,7 @@ fn rounded(value: f64, towards: fn(f64) -> f64) -> f64 {
 }
 
 /// How much of its limits a bus takes: the largest share of voltage, mean power, largest power and pulse.
-pub(super) fn share(limits: [Option<f64>; 4], figures: &BusFigures, period: f64) -> f64 {
+pub fn share(limits: [Option<f64>; 4], figures: &BusFigures, period: f64) -> f64 {
     let figures = [
         figures.highest,
         figures.burnt / period,
@@ -94,7 +100,7 @@ pub(super) fn share(limits: [Option<f64>; 4], figures: &BusFigures, period: f64)
 
 impl Answer {
     /// The limits of [`share`].
-    pub(super) fn limits(&self) -> [Option<f64>; 4] {
+    pub fn limits(&self) -> [Option<f64>; 4] {
         let resistor = self.data.resistor;
         [
             self.data.max_voltage,
@@ -105,34 +111,34 @@ impl Answer {
     }
 
     /// Each of these alone makes a bus hold that does not. Nothing where it holds.
-    pub(super) fn cures(&self, options: &Options, watch: &dyn Watch) -> Vec<Cure> {
-        if self.failed(options).is_empty() {
+    pub fn cures(&self, watch: &dyn Watch) -> Vec<Cure> {
+        if self.failed().is_empty() {
             return Vec::new();
         }
         let each = [
-            self.resistor_cure(options),
-            self.capacitance_cure(options, watch),
+            self.resistor_cure(),
+            self.capacitance_cure(watch),
             self.phase_cure(),
-            self.supply_cure(options),
+            self.supply_cure(),
         ];
         each.into_iter().flatten().collect()
     }
 
-    fn fails(&self, options: &Options, what: Judged) -> bool {
-        self.failed(options).iter().any(|check| check.what == what)
+    fn fails(&self, what: Judged) -> bool {
+        self.failed().iter().any(|check| check.what == what)
     }
 
     /// Largest power that comes back (W).
-    fn back(&self, options: &Options) -> f64 {
+    fn back(&self) -> f64 {
         match &self.power {
-            Some(power) if options.in_step => (-power.extremes()[0]).max(0.0),
+            Some(power) if self.only_in_step => (-power.extremes()[0]).max(0.0),
             _ => self.bounds.back,
         }
     }
 
-    fn resistor_cure(&self, options: &Options) -> Option<Cure> {
-        let [_, mean, peak, pulse] = self.judged(options);
-        let other = self.fails(options, Judged::Voltage) || self.fails(options, Judged::Resistance);
+    fn resistor_cure(&self) -> Option<Cure> {
+        let [_, mean, peak, pulse] = self.judged();
+        let other = self.fails(Judged::Voltage) || self.fails(Judged::Resistance);
         if self.data.resistor.is_some() && !other {
             let figures = [
                 (Judged::Mean, "brake_resistor.power", mean, "W"),
@@ -141,7 +147,7 @@ impl Answer {
                 (Judged::Pulse, "brake_resistor.pulse_energy", pulse, "W s"),
             ];
             let changes = figures.into_iter().filter_map(|(what, key, value, unit)| {
-                let fails = self.fails(options, what);
+                let fails = self.fails(what);
                 fails.then(|| Change::at_least(key, value, unit))
             });
             return Some(Cure::of(changes.collect()));
@@ -150,7 +156,7 @@ impl Answer {
             // It never comes on, whatever its resistance is.
             let least = self.data.min_resistance?;
             let change = Change::at_least("brake_resistor.resistance", least, "Ohm");
-            return (!self.fails(options, Judged::Voltage)).then(|| Cure::of(vec![change]));
+            return (!self.fails(Judged::Voltage)).then(|| Cure::of(vec![change]));
         }
         if let Some(need) = self.need {
             return need.is_possible().then(|| Cure::resistor(&need));
@@ -159,7 +165,7 @@ impl Answer {
             return None;
         }
         // Without a search: what is enough whatever comes back when.
-        let back = self.back(options);
+        let back = self.back();
         let mut changes = Vec::new();
         let top = self.data.max_voltage.or(self.data.chopper_voltage);
         if let Some(top) = top {
@@ -191,7 +197,7 @@ impl Answer {
 
     /// A capacitor that takes all that comes back: ½·C·(U² − U₀²) is the most that is ever stored, whatever C is. With a brake
     /// resistor U is the voltage at which that would come on, if that is not above the highest.
-    fn capacitance_cure(&self, options: &Options, watch: &dyn Watch) -> Option<Cure> {
+    fn capacitance_cure(&self, watch: &dyn Watch) -> Option<Cure> {
         let u0 = self.data.voltage?;
         let chopper = self.data.resistor.and(self.data.chopper_voltage);
         let top = [chopper, self.data.max_voltage].into_iter().flatten();
@@ -203,8 +209,8 @@ impl Answer {
             ..*self.shared.bus()
         };
         let highest = match (&self.power, self.data.resistor) {
-            (Some(power), _) if options.in_step => bare.run(power).highest,
-            (_, None) => self.judged(options)[0],
+            (Some(power), _) if self.only_in_step => bare.run(power).highest,
+            (_, None) => self.judged()[0],
             (Some(_), Some(_)) => {
                 let [worst] = self.shared.on(bare).largest(|f| [f.highest], watch)?;
                 worst.figures.highest
@@ -225,7 +231,7 @@ impl Answer {
             cure.words += ", which takes all that comes back: the brake resistor never comes on";
         }
         // What is too small for the chopper stays so.
-        (!self.fails(options, Judged::Resistance)).then_some(cure)
+        (!self.fails(Judged::Resistance)).then_some(cure)
     }
 
     fn phase_cure(&self) -> Option<Cure> {
@@ -269,18 +275,18 @@ impl Answer {
         self.data.resistor.is_some_and(|r| r.resistance < least)
     }
 
-    fn supply_cure(&self, options: &Options) -> Option<Cure> {
+    fn supply_cure(&self) -> Option<Cure> {
         let already = matches!(
             self.data.conflict(),
             Some(Conflict::Supply { supply, highest }) if supply > highest
         );
-        let helps = !self.data.regenerative && !already && self.back(options) > 0.0;
+        let helps = !self.data.regenerative && !already && self.back() > 0.0;
         helps.then(|| Cure {
             changes: Vec::new(),
             phases: None,
             words: format!(
                 "regenerative = true without a brake resistor: a supply that takes back {} W, at most {} W mean",
-                short(rounded(self.back(options), f64::ceil)),
+                short(rounded(self.back(), f64::ceil)),
                 short(rounded(self.bounds.resistor, f64::ceil))
             ),
         })

@@ -1,36 +1,42 @@
 //! What `jred bus` judges, and what it cannot.
 
-use super::command::Answer;
+use super::answer::Answer;
 use super::conflict::Conflict;
 use super::curve::PowerCurve;
 use super::period::{Common, LOOKED_AT, MOST_CYCLES};
 use super::store::BusFigures;
-use crate::cli::bus::Bus as Options;
 use crate::rounding::short;
 use crate::rule::Sense;
 
 /// What is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Judged {
+pub enum Judged {
+    /// Highest voltage of the bus.
     Voltage,
+    /// Resistance of the brake resistor.
     Resistance,
+    /// Its mean power.
     Mean,
+    /// Its largest power.
     Peak,
+    /// Its largest energy without a pause.
     Pulse,
 }
 
 /// A figure of the bus beside its limit.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct BusCheck {
-    pub(super) what: Judged,
+pub struct BusCheck {
+    /// What is judged.
+    pub what: Judged,
     /// NaN: not known.
-    pub(super) figure: f64,
+    pub figure: f64,
     /// `None`: none is stated, but the figure is beyond any.
-    pub(super) limit: Option<f64>,
+    pub limit: Option<f64>,
 }
 
 impl BusCheck {
-    pub(super) const fn name(&self) -> &'static str {
+    /// Its name in reports.
+    pub const fn name(&self) -> &'static str {
         match self.what {
             Judged::Voltage => "bus voltage",
             Judged::Resistance => "brake resistance",
@@ -40,7 +46,8 @@ impl BusCheck {
         }
     }
 
-    pub(super) const fn unit(&self) -> &'static str {
+    /// Unit of figure and limit.
+    pub const fn unit(&self) -> &'static str {
         match self.what {
             Judged::Voltage => "V",
             Judged::Resistance => "Ohm",
@@ -49,7 +56,8 @@ impl BusCheck {
         }
     }
 
-    pub(super) const fn sense(&self) -> Sense {
+    /// On which side of its limit the figure must be.
+    pub const fn sense(&self) -> Sense {
         match self.what {
             Judged::Resistance => Sense::AtLeast,
             _ => Sense::AtMost,
@@ -57,7 +65,7 @@ impl BusCheck {
     }
 
     /// Whether the figure keeps its limit; `None`: it is not known.
-    pub(super) fn holds(&self) -> Option<bool> {
+    pub fn holds(&self) -> Option<bool> {
         (!self.figure.is_nan()).then(|| {
             self.limit.is_some_and(|limit| match self.sense() {
                 Sense::AtMost => self.figure <= limit,
@@ -68,17 +76,20 @@ impl BusCheck {
 }
 
 /// What is not known, and which keys of `[supply]` would say it: all of one of these lists.
-pub(super) struct Open {
-    pub(super) figure: &'static str,
-    pub(super) keys: &'static [&'static [&'static str]],
-    pub(super) words: String,
+pub struct Open {
+    /// Name of the figure.
+    pub figure: &'static str,
+    /// Lists of keys; all of one list say it.
+    pub keys: &'static [&'static [&'static str]],
+    /// What is missing, in words.
+    pub words: String,
 }
 
 impl Answer {
     /// The figures that are judged, each at the phases where it is worst: highest voltage, mean power, largest power and pulse of
     /// the resistor; NaN where one is not known.
-    pub(super) fn judged(&self, options: &Options) -> [f64; 4] {
-        let mut judged = self.found(options);
+    pub fn judged(&self) -> [f64; 4] {
+        let mut judged = self.found();
         // Nothing takes up what comes back, or nobody said what does.
         if judged[0].is_infinite() && self.data.capacitance.is_none() {
             judged[0] = f64::NAN;
@@ -86,7 +97,7 @@ impl Answer {
         judged
     }
 
-    fn found(&self, options: &Options) -> [f64; 4] {
+    fn found(&self) -> [f64; 4] {
         let of = |figures: &BusFigures, period: f64| {
             [
                 figures.highest,
@@ -97,7 +108,7 @@ impl Answer {
         };
         let period = self.power.as_ref().map_or(1.0, PowerCurve::period);
         match (&self.in_step, &self.worst) {
-            (Some(figures), _) if options.in_step => of(figures, period),
+            (Some(figures), _) if self.only_in_step => of(figures, period),
             (Some(_), Some(worst)) => {
                 let each = worst.each_ref().map(|worst| of(&worst.figures, period));
                 std::array::from_fn(|k| each.iter().map(|figures| figures[k]).fold(0.0, f64::max))
@@ -113,8 +124,8 @@ impl Answer {
     }
 
     /// What is judged; only where there is a limit.
-    pub(super) fn checks(&self, options: &Options) -> Vec<BusCheck> {
-        let [voltage, mean, peak, pulse] = self.judged(options);
+    pub fn checks(&self) -> Vec<BusCheck> {
+        let [voltage, mean, peak, pulse] = self.judged();
         let resistor = self.data.resistor.as_ref();
         let least = self.data.min_resistance;
         let check = |what, figure, limit| BusCheck {
@@ -140,22 +151,22 @@ impl Answer {
     }
 
     /// The checks that do not hold.
-    pub(super) fn failed(&self, options: &Options) -> Vec<BusCheck> {
-        let mut checks = self.checks(options);
+    pub fn failed(&self) -> Vec<BusCheck> {
+        let mut checks = self.checks();
         checks.retain(|check| check.holds() == Some(false));
         checks
     }
 
     /// Voltages in an order in which no brake resistor does what is needed; where nothing is needed they are not looked at.
-    pub(super) fn conflict(&self, options: &Options) -> Option<Conflict> {
+    pub fn conflict(&self) -> Option<Conflict> {
         let asked = |check: &BusCheck| matches!(check.what, Judged::Voltage | Judged::Resistance);
-        let needed = self.judged(options)[0].is_nan() || self.failed(options).iter().any(asked);
+        let needed = self.judged()[0].is_nan() || self.failed().iter().any(asked);
         self.data.conflict().filter(|_| needed)
     }
 
     /// What could not be checked, what is missing for it, and where it would be said.
-    pub(super) fn open(&self, options: &Options) -> Vec<Open> {
-        let [voltage, _, peak, pulse] = self.judged(options);
+    pub fn open(&self) -> Vec<Open> {
+        let [voltage, _, peak, pulse] = self.judged();
         let data = &self.data;
         let mut open = Vec::new();
         if voltage.is_nan() {
@@ -246,7 +257,7 @@ impl Answer {
     }
 
     /// Why the phases are not searched, in words.
-    pub(super) fn no_search(&self) -> String {
+    pub fn no_search(&self) -> String {
         match self.shared.common() {
             Common::Searched { .. } => "the phases are searched".to_owned(),
             Common::TooLong { period, cycles } => {
@@ -266,7 +277,15 @@ impl Answer {
     }
 
     /// Whether nothing that was checked is violated; what was not is [named](Self::open).
-    pub(super) fn holds(&self, options: &Options) -> bool {
-        self.axes.iter().all(|axis| axis.holds) && self.failed(options).is_empty()
+    pub fn holds(&self) -> bool {
+        self.axes.iter().all(|axis| axis.holds) && self.failed().is_empty()
+    }
+
+    /// By how much the brake resistor misses what is asked of it.
+    pub fn lacks(&self) -> Vec<(Judged, f64)> {
+        let failed = self.failed().into_iter();
+        let own = failed.filter(|check| check.what != Judged::Voltage);
+        own.filter_map(|check| Some((check.what, (check.figure - check.limit?).abs())))
+            .collect()
     }
 }

@@ -2,7 +2,6 @@
 
 use std::fmt::Write as _;
 
-use comfy_table::CellAlignment;
 use jred::Usage;
 use jred::table::curves;
 use serde_json::{Value, json};
@@ -10,7 +9,6 @@ use serde_json::{Value, json};
 use super::search::{Answer, Candidate};
 use super::{Export, LayoutName, Number};
 use crate::coordinate::Coordinate;
-use crate::output::text_table;
 use crate::rounding::{rounded, short};
 
 /// Bit of the set, its word for a reader, its name in Rust.
@@ -152,53 +150,6 @@ impl Export {
         text
     }
 
-    /// What every number type and layout takes; the one chosen has a star.
-    pub fn alternatives(&self) -> String {
-        let effort = self.coordinate.effort_unit();
-        let mut table = text_table(&[
-            String::new(),
-            "type".into(),
-            "layout".into(),
-            "cells".into(),
-            "bytes\nof rows".into(),
-            "bytes\nof image".into(),
-            format!("error\n[{effort}]"),
-            format!("in ticks\n[{effort}]"),
-            String::new(),
-        ]);
-        for (k, (number, layout, answer)) in self.answers.iter().enumerate() {
-            let star = if k == self.chosen { "*" } else { "" };
-            let mut row = vec![
-                star.to_owned(),
-                number.name().to_owned(),
-                layout.name().to_owned(),
-            ];
-            match answer {
-                Answer::Meets(c) | Answer::Misses(c) => {
-                    row.extend([
-                        c.found.cells.to_string(),
-                        c.row_bytes.to_string(),
-                        c.bytes().to_string(),
-                        short(c.error),
-                        short(c.ticks.torque),
-                        remark(answer).to_owned(),
-                    ]);
-                }
-                Answer::Refused(_) | Answer::TooLarge(_) => {
-                    row.extend(std::iter::repeat_n(String::new(), 5));
-                    row.push(remark(answer).to_owned());
-                }
-            }
-            table.add_row(row);
-        }
-        for (k, column) in table.column_iter_mut().enumerate() {
-            if (3..8).contains(&k) {
-                column.set_cell_alignment(CellAlignment::Right);
-            }
-        }
-        format!("{table}\n")
-    }
-
     /// Everything, with every digit, in SI units.
     pub fn json(&self) -> Value {
         let chosen = self.chosen();
@@ -214,7 +165,7 @@ impl Export {
             {
                 map.extend(figures(c));
             } else if let Some(map) = object.as_object_mut() {
-                map.insert("why".into(), remark(answer).into());
+                map.insert("why".into(), answer.remark().into());
             }
             object
         });
@@ -262,15 +213,6 @@ impl Export {
             map.insert("words".into(), json!(chosen.words));
         }
         object
-    }
-}
-
-fn remark(answer: &Answer) -> &'static str {
-    match answer {
-        Answer::Meets(_) => "",
-        Answer::Misses(_) => "misses",
-        Answer::Refused(_) => "no size is sound",
-        Answer::TooLarge(_) => "does not fit",
     }
 }
 

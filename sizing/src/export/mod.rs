@@ -50,10 +50,13 @@ pub struct Task {
 #[derive(Clone, Debug)]
 pub struct Export {
     title: String,
-    coordinate: Coordinate,
+    /// Whether the drive link turns or slides.
+    pub coordinate: Coordinate,
     task: Task,
-    answers: Vec<(Number, LayoutName, Answer)>,
-    chosen: usize,
+    /// What every number type and layout takes.
+    pub answers: Vec<(Number, LayoutName, Answer)>,
+    /// Which of them was chosen.
+    pub chosen: usize,
 }
 
 /// Why there is no table.

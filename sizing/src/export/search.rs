@@ -63,6 +63,18 @@ pub enum Answer {
     TooLarge(usize),
 }
 
+impl Answer {
+    /// Why it is not taken, in a few words; nothing where it meets what is asked for.
+    pub const fn remark(&self) -> &'static str {
+        match self {
+            Self::Meets(_) => "",
+            Self::Misses(_) => "misses",
+            Self::Refused(_) => "no size is sound",
+            Self::TooLarge(_) => "does not fit",
+        }
+    }
+}
+
 /// What is looked for.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Goal {

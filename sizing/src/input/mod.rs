@@ -45,7 +45,7 @@ pub use tolerance::{Shape, Tolerance};
 use std::path::Path;
 
 use jred::Machine;
-use miette::Report;
+use miette::{Report, miette};
 use toml::de::DeTable;
 
 use crate::machine::MachineFile;
@@ -75,6 +75,21 @@ pub fn rule_set_names() -> impl Iterator<Item = &'static str> {
 /// A name that does not exist, a file that cannot be read, or whatever is wrong in it, with its place.
 pub fn rule_set(word: &str) -> std::result::Result<RuleSet, Report> {
     rules::named_or_file(word, Path::new("")).map_err(|problem| problem.into_report(word, ""))
+}
+
+/// What a machine file says, on top of another set: `word` is its name or a file.
+///
+/// # Errors
+/// There is no such set, its file is wrong, or what the machine file says contradicts it.
+pub fn rules_based_on(rules: &RuleSet, word: &str) -> std::result::Result<RuleSet, Report> {
+    let set = rule_set(word)?;
+    rules.based_on(set).map_err(|contradiction| {
+        miette!(
+            help = contradiction.help,
+            "[rules] of the machine file does not go with the set \"{word}\": {}",
+            contradiction.message
+        )
+    })
 }
 
 /// Reads the machine file at `path`.

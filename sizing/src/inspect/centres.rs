@@ -313,7 +313,7 @@ fn travel(
 
 impl Travel {
     /// In one sentence.
-    pub(super) fn sentence(&self, drive: Coordinate) -> String {
+    pub fn sentence(&self, drive: Coordinate) -> String {
         let own = if ["slides", "advances"].contains(&self.way) {
             Coordinate::Length
         } else {

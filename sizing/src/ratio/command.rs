@@ -32,7 +32,7 @@ use crate::vary::study::sizeable;
 pub fn ratio(options: &Ratio) -> Result<Done> {
     let mut file = input::read(&options.file)?;
     if let Some(word) = &options.supply.rules {
-        file.rules = crate::rules::command::chosen(&file.rules, word)?;
+        file.rules = input::rules_based_on(&file.rules, word)?;
     }
     sizeable(&file)?;
     let motion = file
@@ -44,13 +44,13 @@ pub fn ratio(options: &Ratio) -> Result<Done> {
         ..Filter::default()
     };
     let mut catalogue = catalogue(&options.supply, &named)?;
-    if crate::commands::input_kind(&file)? == MotorKind::Linear {
+    if crate::fit::input_kind(&file)? == MotorKind::Linear {
         return Err(miette!(
             help = "`jred size` takes linear motors; a [[drive_train]] makes the input turn",
             "the drive link slides: a linear motor has no ratio to choose"
         ));
     }
-    crate::commands::fit_input(&mut catalogue, &file)?;
+    crate::fit::fit_input(&mut catalogue, &file)?;
     let duty = Duty::new(&file, motion, options.supply.steps as usize).into_diagnostic()?;
     let gear = Gear {
         inertia: options.gearbox_inertia.unwrap_or(0.0),

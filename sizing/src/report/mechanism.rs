@@ -136,7 +136,7 @@ pub fn mechanism_page(
     let moving = drawing::moving(mechanism)?;
     let findings = Findings::of(file)?;
     // The title stands above already.
-    let check = findings.text();
+    let check = crate::inspection::text(&findings);
     let check = check.split_once("\n\n").map_or("", |(_, rest)| rest);
     let page = Page {
         title: &file.title,

@@ -200,7 +200,7 @@ impl RuleSet {
 }
 
 /// A limit as machine files write it.
-pub(crate) fn shown(rule: Rule, share: f64) -> String {
+pub fn shown(rule: Rule, share: f64) -> String {
     if rule.is_ratio() {
         crate::rounding::figure(share)
     } else {

@@ -6,9 +6,10 @@ use miette::{IntoDiagnostic as _, Report, Result, miette};
 
 use super::Selection;
 use crate::cli::Size;
-use crate::commands::{Done, distinct, fit_input, motion, print, write};
+use crate::commands::{Done, distinct, motion, print, write};
 use crate::cycle::Cycle;
 use crate::duty::Duty;
+use crate::fit::fit_input;
 use crate::judge::Context;
 use crate::machine::MachineFile;
 use crate::meter::MeterLimits;
@@ -27,7 +28,7 @@ pub fn size(options: &Size) -> Result<Done> {
     }
     let mut file = input::read(&options.file)?;
     if let Some(word) = &options.supply.rules {
-        file.rules = crate::rules::command::chosen(&file.rules, word)?;
+        file.rules = input::rules_based_on(&file.rules, word)?;
     }
     variator::refuse(&file, "size")?;
     let motion = motion(&file, &options.file)?;
@@ -57,7 +58,7 @@ pub fn size(options: &Size) -> Result<Done> {
             "{}: the Pareto front of the drives that break no rule",
             file.title
         );
-        print(&front.write(options.format, &title))?;
+        print(&crate::front::write(&front, options.format, &title))?;
         return Ok(if front.points.is_empty() {
             Done::Violated
         } else {

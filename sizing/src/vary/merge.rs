@@ -28,7 +28,7 @@ impl Part {
         let mut reader = BufReader::new(file);
         let mut line = String::new();
         reader.read_line(&mut line).into_diagnostic()?;
-        let (header, form) = Header::parse(line.trim_end(), path)?;
+        let (header, form) = store::parse(line.trim_end(), path)?;
         if form == Form::Csv {
             reader.read_line(&mut line).into_diagnostic()?;
         }
@@ -93,7 +93,7 @@ pub fn merge(out: &Path, paths: &[PathBuf]) -> Result<u64> {
         shard: None,
         ..first.header.clone()
     };
-    let front = header.lines(first.form)?;
+    let front = store::lines(&header, first.form)?;
     // What is not complete does not get the name.
     let mut unfinished = out.as_os_str().to_owned();
     unfinished.push(".part");

@@ -89,11 +89,11 @@ pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) ->
             done = rows;
             Some(Box::new(file))
         }
-        Some(path) => Some(Box::new(store::begin(path, &header.lines(form)?)?)),
+        Some(path) => Some(Box::new(store::begin(path, &store::lines(&header, form)?)?)),
         None if form == Form::Table => None,
         None => {
             let mut out = std::io::stdout();
-            let _ = out.write_all(header.lines(form)?.as_bytes());
+            let _ = out.write_all(store::lines(&header, form)?.as_bytes());
             Some(Box::new(out))
         }
     };

@@ -20,34 +20,32 @@ fn no_rows(path: &Path) -> Report {
     )
 }
 
-impl Header {
-    /// The lines in front of the rows.
-    ///
-    /// # Errors
-    /// None that can be provoked.
-    pub fn lines(&self, form: Form) -> Result<String> {
-        let json = serde_json::to_string(self).into_diagnostic()?;
-        Ok(format!(
-            "{}{json}\n{}",
-            form.mark(),
-            form.names(&self.columns)
-        ))
-    }
+/// The lines in front of the rows.
+///
+/// # Errors
+/// None that can be provoked.
+pub fn lines(header: &Header, form: Form) -> Result<String> {
+    let json = serde_json::to_string(header).into_diagnostic()?;
+    Ok(format!(
+        "{}{json}\n{}",
+        form.mark(),
+        form.names(&header.columns)
+    ))
+}
 
-    /// Reads a header from the first line of a file.
-    ///
-    /// # Errors
-    /// A line that is none.
-    pub fn parse(line: &str, path: &Path) -> Result<(Self, Form)> {
-        let form = if line.starts_with("# ") {
-            Form::Csv
-        } else {
-            Form::Json
-        };
-        let json = line.strip_prefix(form.mark()).unwrap_or(line);
-        let header = serde_json::from_str(json).map_err(|_| no_rows(path))?;
-        Ok((header, form))
-    }
+/// Reads a header from the first line of a file.
+///
+/// # Errors
+/// A line that is none.
+pub fn parse(line: &str, path: &Path) -> Result<(Header, Form)> {
+    let form = if line.starts_with("# ") {
+        Form::Csv
+    } else {
+        Form::Json
+    };
+    let json = line.strip_prefix(form.mark()).unwrap_or(line);
+    let header = serde_json::from_str(json).map_err(|_| no_rows(path))?;
+    Ok((header, form))
 }
 
 /// Begins a file of rows, which must not exist yet.
@@ -86,7 +84,7 @@ pub fn resume(
 ) -> Result<(File, u64)> {
     let shown = path.display();
     let unreadable = || format!("cannot read {shown}");
-    let lines = header.lines(form)?;
+    let lines = lines(header, form)?;
     let mut file = OpenOptions::new()
         .read(true)
         .write(true)
@@ -108,7 +106,7 @@ pub fn resume(
         }
         let text = line.trim_end_matches('\n');
         if number == 0 {
-            let (found, found_form) = Header::parse(text, path)?;
+            let (found, found_form) = parse(text, path)?;
             if let Some(words) = header.difference(&found) {
                 return Err(miette!(
                     help = "repeat the command that began the file, or write into another one",

@@ -10,10 +10,10 @@ use crate::catalogue::Drive;
 use crate::coordinate::Coordinate;
 use crate::cycle::Cycle;
 use crate::duty::Duty;
+use crate::fit::fit_input;
 use crate::input;
 use crate::input::problem::closest;
 use crate::machine::MachineFile;
-use crate::rules::command::chosen;
 
 /// The common part of a study.
 #[derive(Debug)]
@@ -59,10 +59,10 @@ impl Study {
         let mut nominal = input::parse(&name, &text, &folder)?;
         let rules = rules.map(ToOwned::to_owned);
         if let Some(word) = &rules {
-            nominal.rules = chosen(&nominal.rules, word)?;
+            nominal.rules = input::rules_based_on(&nominal.rules, word)?;
         }
         sizeable(&nominal)?;
-        crate::commands::fit_input(&mut catalogue, &nominal)?;
+        fit_input(&mut catalogue, &nominal)?;
         Ok(Self {
             name,
             folder,
@@ -144,7 +144,7 @@ impl Study {
         let text = self.document.with(edits);
         let mut file = input::parse(&self.name, &text, &self.folder)?;
         if let Some(word) = &self.rules {
-            file.rules = chosen(&file.rules, word)?;
+            file.rules = input::rules_based_on(&file.rules, word)?;
         }
         sizeable(&file)?;
         let cycle = cycle(&file, self.steps)?;

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use jred::{Domain, Reducible};
 use jred_sizing::coordinate::Coordinate;
 use jred_sizing::input;
-use jred_sizing::output::Format;
+use jred_sizing::output::{self, Format};
 use jred_sizing::reduce::{Over, Request, Sets, reduce};
 
 use super::of_curves;
@@ -169,9 +169,7 @@ fn an_exported_machine_comes_back() {
     };
     let mut before: Option<[f64; 2]> = None;
     for rows in [360, 720] {
-        let csv = reduce(&file, &request(rows))
-            .unwrap()
-            .write(Format::Csv, "");
+        let csv = output::write(&reduce(&file, &request(rows)).unwrap(), Format::Csv, "");
         let back = of_curves(&csv, "turn").unwrap();
         let original = file.with_drive_train().unwrap();
         let (mut j_error, mut slope_error, mut weight_error) = (0.0f64, 0.0f64, 0.0f64);
