@@ -2,9 +2,6 @@
 
 use std::cell::Cell;
 
-/// rad/s of one revolution per minute.
-pub const RPM: f64 = std::f64::consts::PI / 30.0;
-
 /// Thirds after which the bracket is down to rounding.
 const THIRDS: u32 = 80;
 

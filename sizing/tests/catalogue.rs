@@ -17,8 +17,7 @@ use std::path::Path;
 
 use crate::support::{Folder, Run, jred, press_file};
 use jred_sizing::catalogue::Catalogue;
-
-const RPM: f64 = std::f64::consts::PI / 30.0;
+use jred_sizing::units::RPM;
 
 fn built_in() -> Catalogue {
     Catalogue::load(None, None).unwrap()

@@ -16,8 +16,7 @@ use jred_sizing::duty::Duty;
 use jred_sizing::input;
 use jred_sizing::machine::MachineFile;
 use jred_sizing::motion::{Motion, Segment};
-
-const RPM: f64 = std::f64::consts::PI / 30.0;
+use jred_sizing::units::RPM;
 
 fn read(text: &str) -> MachineFile {
     input::parse("machine.toml", text, Path::new("")).unwrap()

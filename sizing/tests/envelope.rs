@@ -12,12 +12,11 @@ mod total;
 
 use jred_sizing::catalogue::{Amplifier, Motor, Winding};
 use jred_sizing::site::Site;
+use jred_sizing::units::RPM;
 
 use crate::support::budget;
 
 /// rad/s of a revolution per minute.
-const RPM: f64 = std::f64::consts::PI / 30.0;
-
 /// A motor of which nothing is stated but its rotor.
 fn bare() -> Motor {
     Motor {

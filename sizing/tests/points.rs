@@ -10,6 +10,7 @@ use jred_sizing::coordinate::Coordinate;
 use jred_sizing::inspect::Findings;
 use jred_sizing::machine::{AnyMechanism, MachineFile};
 use jred_sizing::reduce::{Over, Request, Sets, reduce};
+use jred_sizing::units::RPM;
 use serde_json::Value;
 
 /// The slider-crank of the golden data as a machine file.
@@ -123,7 +124,7 @@ fn velocities_and_accelerations_in_time() {
     .ends(0)
     .columns();
     let (r, l) = (0.03f64, 0.18f64);
-    let (omega, alpha) = (-90.0 * std::f64::consts::PI / 30.0, 35.0);
+    let (omega, alpha) = (-90.0 * RPM, 35.0);
     let phi: Vec<f64> = found
         .get("phi [deg]")
         .iter()

@@ -3,7 +3,7 @@
 
 mod drives;
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 use std::sync::OnceLock;
 
 use crate::support::numerics::{derivative, trapezoid};
@@ -12,9 +12,8 @@ use crate::support::{
     Columns, Folder, budget, edited_press, jred, largest, near, near_column, press_file, within,
 };
 use drives::{ONE_GEARBOX, ONE_MOTOR};
+use jred_sizing::units::RPM;
 use serde_json::Value;
-
-const RPM: f64 = PI / 30.0;
 
 /// Instants of the reference: 2.5 µs apart, a hundred times closer than the tool's.
 const FINE: usize = 200_000;

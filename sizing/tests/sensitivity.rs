@@ -14,6 +14,7 @@ use jred_sizing::input;
 use jred_sizing::judge::Context;
 use jred_sizing::rule::Rule;
 use jred_sizing::sensitivity::{Reach, Room, Sensitivity};
+use jred_sizing::units::RPM;
 use jred_sizing::vary::one::One;
 use jred_sizing::vary::study::Study;
 
@@ -164,7 +165,7 @@ fn room_in_closed_form() {
             .find(|d| d.quantity == quantity)
             .unwrap()
     };
-    let share = 850.0 * std::f64::consts::PI / 30.0 * 5.0 / 500.0;
+    let share = 850.0 * RPM * 5.0 / 500.0;
     let speed = of("motion.speed");
     assert!(
         matches!(speed.room[1], Room::UpTo(_, Rule::Speed)),

@@ -10,9 +10,8 @@ use std::f64::consts::{PI, TAU};
 use crate::support::{
     Columns, Folder, budget, edited, jred, largest, near, near_column, press, press_text, within,
 };
+use jred_sizing::units::RPM;
 use serde_json::Value;
-
-const RPM: f64 = PI / 30.0;
 
 /// Runs a machine file and gives its columns.
 fn simulate(text: &str) -> Columns {

@@ -1,6 +1,8 @@
 //! The columns of jred's own catalogue format: name, units, and the tables that have them.
 
-use std::f64::consts::{PI, SQRT_2};
+use std::f64::consts::SQRT_2;
+
+use crate::units::{ARCMIN, DEGREE, RPM};
 
 /// A table of the catalogue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -85,9 +87,6 @@ const fn linear(text: &'static str, si: f64) -> Unit {
     }
 }
 
-const RPM: f64 = PI / 30.0;
-const ARCMIN: f64 = PI / 10_800.0;
-
 /// Cells are words, or quantities that carry their units themselves.
 const WORDS: &[Unit] = &[unit("", 1.0)];
 const NUMBER: &[Unit] = &[unit("", 1.0)];
@@ -171,14 +170,14 @@ const VISCOUS: &[Unit] = &[
 const SHARE: &[Unit] = &[unit("%", 0.01), unit("", 1.0)];
 const PLAY: &[Unit] = &[
     unit("arcmin", ARCMIN),
-    unit("deg", PI / 180.0),
+    unit("deg", DEGREE),
     unit("rad", 1.0),
 ];
 const STIFFNESS: &[Unit] = &[
     unit("N m/arcmin", 1.0 / ARCMIN),
     unit("N m/rad", 1.0),
     unit("kN m/rad", 1e3),
-    unit("N m/deg", 180.0 / PI),
+    unit("N m/deg", 1.0 / DEGREE),
 ];
 const LOSS: &[Unit] = &[unit("W/A", 1.0), unit("V", 1.0)];
 /// The currency is a word of the user's; it is only compared.

@@ -127,7 +127,7 @@ pub(super) fn motor(remarks: &mut Remarks, place: &dyn Fn() -> String, motor: &M
                 format!(
                     "{}: the speed of \"{key}\" is {} rpm: rpm and rad/s mixed up?",
                     place(),
-                    figure(speed.unwrap_or(0.0) / crate::numerics::RPM)
+                    figure(speed.unwrap_or(0.0) / crate::units::RPM)
                 )
             });
         }

@@ -1,10 +1,10 @@
 //! Quantities on the command line, read as in machine files.
 
-use super::kind::{
+use crate::coordinate::Coordinate;
+use crate::units::kind::{
     ACCELERATION, ANGULAR_ACCELERATION, ANGULAR_SPEED, FORCE, INERTIA, Kind, MASS, TORQUE, VELOCITY,
 };
-use super::quantity;
-use crate::coordinate::Coordinate;
+use crate::units::quantity;
 
 /// What reads a quantity of the drive link, which turns or slides.
 pub type Reader = fn(&str, Coordinate) -> Result<f64, String>;

@@ -8,10 +8,11 @@ use std::path::Path;
 
 use super::file;
 use super::item::Item;
-use super::kind::Kind;
-use super::problem::{Problem, Result, closest};
-use super::unit;
+use super::problem::{Problem, Result};
 use crate::rounding::figure;
+use crate::units::closest;
+use crate::units::kind::Kind;
+use crate::units::unit;
 
 /// The largest CSV file (bytes).
 const MAX_SIZE: u64 = 64 << 20;
@@ -319,7 +320,7 @@ fn header_columns(
             return Err(fault(
                 format!(
                     "the column \"{whole}\" is {}, but must be {}",
-                    super::kind::describe(read.dimension),
+                    crate::units::kind::describe(read.dimension),
                     kind.name
                 ),
                 format!("possible units: {}", kind.units),

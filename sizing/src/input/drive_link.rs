@@ -7,7 +7,7 @@ use jred::{Domain, Error, Mechanism as _};
 use crate::coordinate::Coordinate;
 use crate::machine::AnyMechanism;
 
-use super::kind::{ANGLE, ANGULAR_SPEED, FORCE, Kind, LENGTH, TORQUE, VELOCITY};
+use crate::units::kind::{ANGLE, ANGULAR_SPEED, FORCE, Kind, LENGTH, TORQUE, VELOCITY};
 
 /// Share of a stroke by which a motion may pass its ends: rounding.
 const ROUNDING: f64 = 1e-9;

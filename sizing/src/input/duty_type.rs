@@ -4,9 +4,9 @@ use crate::site::Site;
 use crate::thermal::operation::{Duty, Operation};
 
 use super::item::Value;
-use super::kind::TIME;
 use super::problem::Result;
 use super::section::Section;
+use crate::units::kind::TIME;
 
 /// The duty types that can be named.
 const TYPES: [&str; 9] = ["S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9"];

@@ -9,9 +9,12 @@ use crate::machine::{AnyMechanism, NamedElement};
 use crate::numerics;
 
 use super::item::Item;
-use super::kind::{ANGLE, LENGTH, STIFFNESS, TORSION_STIFFNESS, VISCOUS_FORCE, VISCOUS_MOMENT};
-use super::problem::{Problem, Result, closest, quoted};
+use super::problem::{Problem, Result, quoted};
 use super::section::Section;
+use crate::units::closest;
+use crate::units::kind::{
+    ANGLE, LENGTH, STIFFNESS, TORSION_STIFFNESS, VISCOUS_FORCE, VISCOUS_MOMENT,
+};
 
 /// What joints and elements call the fixed frame.
 const GROUND: &str = "ground";

@@ -4,8 +4,8 @@ use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
-use super::problem::Fault;
 use crate::rounding::figure;
+use crate::units::Fault;
 
 /// The text of the file at `path`, which may have up to `limit` bytes.
 pub(super) fn read(path: &Path, limit: u64) -> Result<String, Fault> {

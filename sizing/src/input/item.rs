@@ -5,11 +5,12 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::kind::Kind;
-use super::problem::{Fault, Problem, Result, closest, quoted};
-use super::quantity::{self, Quantity};
+use super::problem::{Problem, Result, quoted};
 use super::section::Section;
 use crate::rounding::figure;
+use crate::units::kind::Kind;
+use crate::units::quantity::{self, Quantity};
+use crate::units::{Fault, closest};
 
 /// A value with the words that messages call it by.
 #[derive(Clone, Debug)]

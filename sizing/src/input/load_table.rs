@@ -7,13 +7,13 @@ use jred::MAX_LOADS;
 use super::columns::{self, CsvFile, Format, Known, known};
 use super::curve_file::Positions;
 use super::drive_link::DriveLink;
-use super::kind::{ANGLE, FORCE, INERTIA, LENGTH, MASS, TORQUE};
 use super::problem::{Problem, Result};
 use super::section::Section;
 use crate::coordinate::Coordinate;
 use crate::machine::AnyMechanism;
 use crate::spline::{MIN_POINTS, Way};
 use crate::tabulated::{Course, StandIn};
+use crate::units::kind::{ANGLE, FORCE, INERTIA, LENGTH, MASS, TORQUE};
 
 const POSITION: usize = 0;
 const PAYLOAD: usize = 1;

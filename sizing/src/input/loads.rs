@@ -8,10 +8,10 @@ use crate::machine::{AnyMechanism, NamedLoad};
 
 use super::drive_link::DriveLink;
 use super::item::Item;
-use super::kind::{ANGLE, FORCE, Kind, LENGTH, TORQUE, VISCOUS_FORCE, VISCOUS_MOMENT};
 use super::load_table;
 use super::problem::{Problem, Result};
 use super::section::Section;
+use crate::units::kind::{ANGLE, FORCE, Kind, LENGTH, TORQUE, VISCOUS_FORCE, VISCOUS_MOMENT};
 
 /// What a load can do, as keys.
 const ACTIONS: [&str; 6] = [

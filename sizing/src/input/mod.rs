@@ -14,15 +14,12 @@ mod duty_type;
 mod elements;
 mod file;
 mod item;
-mod kind;
-pub(crate) mod literal;
 mod load_table;
 mod loads;
 mod mechanism;
 mod motion;
 pub(crate) mod problem;
 mod profile;
-mod quantity;
 mod rules;
 mod section;
 mod simulation;
@@ -32,7 +29,6 @@ mod supply;
 mod surroundings;
 mod tolerance;
 mod tool;
-mod unit;
 mod variator;
 
 pub use argument::{
@@ -50,9 +46,9 @@ use toml::de::DeTable;
 
 use crate::machine::MachineFile;
 use crate::rules::RuleSet;
+use crate::units::kind::ACCELERATION;
 
 use drive_link::DriveLink;
-use kind::ACCELERATION;
 use problem::{Problem, Result};
 use section::Section;
 

@@ -9,11 +9,11 @@ use jred::motion::Law;
 use crate::motion::{Motion, Segment};
 
 use super::drive_link::DriveLink;
-use super::kind::{SHARE, TIME};
 use super::problem::{Problem, Result};
 use super::profile;
 use super::section::Section;
 use crate::rounding::figure;
+use crate::units::kind::{SHARE, TIME};
 
 /// The most segments of a motion.
 const MAX_SEGMENTS: usize = 1000;

@@ -99,33 +99,6 @@ fn point(diagnostic: &mut MietteDiagnostic, text: &str) {
     diagnostic.labels = Some(shown);
 }
 
-/// What is wrong with a value, before it is known which key it belongs to.
-#[derive(Debug)]
-pub(super) struct Fault {
-    /// Continues "`length` in [mechanism.crank] …".
-    pub(super) message: String,
-    /// What to do.
-    pub(super) help: String,
-    /// What stands at the place of the fault.
-    pub(super) label: String,
-}
-
-impl Fault {
-    pub(super) fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
-        Self {
-            message: message.into(),
-            help: help.into(),
-            label: "here".to_owned(),
-        }
-    }
-
-    /// The same fault with a label for its place.
-    pub(super) fn label(mut self, label: impl Into<String>) -> Self {
-        self.label = label.into();
-        self
-    }
-}
-
 /// `"a", "b", "c"`
 pub(super) fn quoted<S: AsRef<str>>(words: &[S]) -> String {
     let quoted: Vec<String> = words
@@ -133,17 +106,4 @@ pub(super) fn quoted<S: AsRef<str>>(words: &[S]) -> String {
         .map(|w| format!("\"{}\"", w.as_ref()))
         .collect();
     quoted.join(", ")
-}
-
-/// The word that `wrong` was most likely meant to be.
-pub(crate) fn closest<S: AsRef<str>>(wrong: &str, words: &[S]) -> Option<String> {
-    let lower = wrong.to_lowercase();
-    let allowed = (lower.chars().count() / 3).clamp(1, 3);
-    let distance = |word: &str| strsim::damerau_levenshtein(&lower, &word.to_lowercase());
-    words
-        .iter()
-        .map(|w| (distance(w.as_ref()), w.as_ref()))
-        .filter(|(distance, _)| *distance <= allowed)
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, word)| word.to_owned())
 }

@@ -12,11 +12,11 @@ use crate::spline::MIN_POINTS;
 use super::columns::{self, Columns, CsvFile, Format, Known, known};
 use super::drive_link::DriveLink;
 use super::item::Value;
-use super::kind::{ANGLE, ANGULAR_SPEED, CUTOFF, LENGTH, TIME, VELOCITY};
 use super::motion;
 use super::problem::{Problem, Result};
 use super::section::Section;
 use crate::rounding::figure;
+use crate::units::kind::{ANGLE, ANGULAR_SPEED, CUTOFF, LENGTH, TIME, VELOCITY};
 
 /// A cyclic profile closes if it misses a whole number of turns, or its start on a stroke, by less than this share of a turn
 /// or of the stroke, unless the file says how much it may miss.

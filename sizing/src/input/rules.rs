@@ -12,9 +12,10 @@ use crate::rules::{
 
 use super::file;
 use super::item::Item;
-use super::kind::SHARE;
-use super::problem::{Problem, Result, closest, quoted};
+use super::problem::{Problem, Result, quoted};
 use super::section::Section;
+use crate::units::closest;
+use crate::units::kind::SHARE;
 
 /// The rule sets that come with the tool, by name; each is a file.
 pub(super) const BUILT_IN: [(&str, &str); 9] = [

@@ -6,8 +6,9 @@ use std::ops::Range;
 use toml::de::DeTable;
 
 use super::item::{Item, Value};
-use super::kind::Kind;
-use super::problem::{Problem, Result, closest};
+use super::problem::{Problem, Result};
+use crate::units::closest;
+use crate::units::kind::Kind;
 
 /// A table with the words that messages call it by.
 #[derive(Debug)]

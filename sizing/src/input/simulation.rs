@@ -7,10 +7,10 @@ use crate::machine::{Shaft, Simulation};
 
 use super::drive_link::DriveLink;
 use super::item::Item;
-use super::kind::{INERTIA, MASS, TIME};
 use super::problem::{Problem, Result};
 use super::section::Section;
 use crate::rounding::figure;
+use crate::units::kind::{INERTIA, MASS, TIME};
 
 /// The most output points of a simulation.
 const MAX_STEPS: f64 = 100_000.0;

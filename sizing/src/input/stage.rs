@@ -5,9 +5,9 @@ use std::ops::Range;
 use jred::Error;
 use jred::mechanism::{Mesh, Stage, Train};
 
-use super::kind::{INERTIA, LENGTH, MASS, SHARE};
 use super::problem::{Problem, Result};
 use super::section::Section;
+use crate::units::kind::{INERTIA, LENGTH, MASS, SHARE};
 
 /// Whether a stage may have an efficiency.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,9 +4,9 @@ use jred::mechanism::Train;
 
 use super::drive_link::DriveLink;
 use super::item::Value;
-use super::kind::{ANGLE, Kind, LENGTH, STIFFNESS, TORSION_STIFFNESS};
 use super::problem::Result;
 use super::section::Section;
+use crate::units::kind::{ANGLE, Kind, LENGTH, STIFFNESS, TORSION_STIFFNESS};
 
 /// Where the figures hold.
 const PLACES: [&str; 2] = ["input", "drive-link"];

@@ -6,9 +6,9 @@ use crate::site::Site;
 use crate::supply::{BrakeResistor, Supply};
 
 use super::item::Value;
-use super::kind::{CAPACITANCE, ENERGY, POWER, RESISTANCE, VOLTAGE};
 use super::problem::{Problem, Result};
 use super::section::Section;
+use crate::units::kind::{CAPACITANCE, ENERGY, POWER, RESISTANCE, VOLTAGE};
 
 /// Reads the supply into the site.
 pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {

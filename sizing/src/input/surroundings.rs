@@ -4,9 +4,9 @@ use crate::site::Site;
 use crate::thermal::surroundings::Surroundings;
 
 use super::item::Item;
-use super::kind::{ALTITUDE, TEMPERATURE};
 use super::problem::Result;
 use super::section::Section;
+use crate::units::kind::{ALTITUDE, TEMPERATURE};
 
 /// Temperatures that motors are built for (°C).
 const TEMPERATURES: [f64; 2] = [-60.0, 300.0];

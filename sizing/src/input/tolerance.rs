@@ -1,8 +1,8 @@
 //! `[tolerance]`: how far quantities of the file may lie from what it says.
 
-use super::literal::{self, Literal};
 use super::problem::Result;
 use super::section::Section;
+use crate::units::literal::{self, Literal};
 
 /// How deviations are distributed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,9 +7,9 @@ use crate::machine::AnyMechanism;
 use crate::site::{Tool, ToolPlace};
 
 use super::item::Item;
-use super::kind::{ANGLE, LENGTH};
 use super::problem::Result;
 use super::section::Section;
+use crate::units::kind::{ANGLE, LENGTH};
 
 /// Slower than this (m or rad, per rad or m of the drive link) a tool does not move at all.
 const STANDS: f64 = 1e-9;

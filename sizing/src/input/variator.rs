@@ -7,9 +7,9 @@ use crate::variator::{Ratio, Slip, Variator};
 
 use super::drive_link::DriveLink;
 use super::item::Item;
-use super::kind::{INERTIA, SHARE, TIME, TORQUE};
 use super::problem::{Problem, Result};
 use super::section::Section;
+use crate::units::kind::{INERTIA, SHARE, TIME, TORQUE};
 
 /// Ratios outside can only be a slip of the pen.
 const RATIOS: [f64; 2] = [1e-3, 1e3];

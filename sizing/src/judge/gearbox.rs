@@ -3,11 +3,11 @@
 use super::{Context, Take, Words};
 use crate::catalogue::Gearbox;
 use crate::mechanics::Braking;
-use crate::numerics::RPM;
 use crate::rounding::short;
 use crate::rule::Rule;
 use crate::rules::Finding;
 use crate::rules::{MeanTorque, RuleSet};
+use crate::units::RPM;
 
 /// Acceleration torques T2B hold for up to 1000 cycles per hour (WITTENSTEIN, engineering glossary).
 const CYCLES: f64 = 1000.0;

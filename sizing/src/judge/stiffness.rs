@@ -11,9 +11,7 @@ use crate::rounding::short;
 use crate::rule::Rule;
 use crate::rules::Finding;
 use crate::site::ToolPlace;
-
-/// rad of a degree.
-const DEGREE: f64 = std::f64::consts::PI / 180.0;
+use crate::units::DEGREE;
 
 /// Both depend on gearbox, machine and cycle alone, whatever the motor.
 pub(super) fn measure(context: &Context, findings: &mut impl Take) {

@@ -9,7 +9,7 @@
 use miette::{Result, miette};
 
 use super::edit::Document;
-use crate::input::literal;
+use crate::units::literal;
 
 /// Most values of one axis.
 const MOST_STEPS: u32 = 1_000_000;

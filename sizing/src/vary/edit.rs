@@ -12,8 +12,8 @@ use std::path::Path;
 use miette::{Result, miette};
 use toml_edit::{Document as Toml, Item, Table, TableLike, Value};
 
-use crate::input::literal::{self, Literal};
-use crate::input::problem::closest;
+use crate::units::closest;
+use crate::units::literal::{self, Literal};
 
 /// Tables and keys whose texts are never quantities of the machine.
 const NOT_VARIED: [&str; 3] = ["title", "name", "tolerance"];

@@ -12,8 +12,8 @@ use crate::cycle::Cycle;
 use crate::duty::Duty;
 use crate::fit::fit_input;
 use crate::input;
-use crate::input::problem::closest;
 use crate::machine::MachineFile;
+use crate::units::closest;
 
 /// The common part of a study.
 #[derive(Debug)]

@@ -112,7 +112,7 @@ fn the_meter_judges_as_sizing_does() {
             let found = checks.iter().find(|check| check.id == rule);
             found.unwrap_or_else(|| panic!("no {rule:?}"))
         };
-        let rpm = std::f64::consts::PI / 30.0;
+        let rpm = jred_sizing::units::RPM;
         let pairs = [
             (
                 Rule::RmsTorque,

@@ -2,6 +2,7 @@
 
 use jred_sizing::rule::Rule;
 use jred_sizing::rules::Verdict;
+use jred_sizing::units::RPM;
 
 use super::{Stand, budget, edited, near, press_text};
 
@@ -88,12 +89,7 @@ fn without_starts_there_are_no_cycles() {
             .is_none()
     );
     let found = stand.found(true, Rule::GearboxMeanSpeed);
-    near(
-        "mean speed",
-        found.value,
-        60.0 * std::f64::consts::PI / 30.0 * 15.0,
-        1e-9,
-    );
+    near("mean speed", found.value, 60.0 * RPM * 15.0, 1e-9);
 }
 
 /// A rule of a gearbox without the figure is not checked, and says what is missing.

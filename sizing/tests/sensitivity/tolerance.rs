@@ -9,6 +9,7 @@ use jred_sizing::input::Tolerance;
 use jred_sizing::rule::Rule;
 use jred_sizing::tolerance::summary::{Probability, quantile};
 use jred_sizing::tolerance::{Samples, Scatter};
+use jred_sizing::units::RPM;
 use jred_sizing::vary::cell::Cell;
 use jred_sizing::vary::one::One;
 use jred_sizing::vary::study::Study;
@@ -116,12 +117,12 @@ fn a_probability_in_closed_form() {
     for k in 0..N {
         let row = samples.row(k);
         let speed = row[0].number().unwrap();
-        let share = speed * std::f64::consts::PI / 30.0 * 5.0 / 500.0;
+        let share = speed * RPM * 5.0 / 500.0;
         near("share", row[3].number().unwrap(), share, 1e-12);
         assert_eq!(row[1] == Cell::from("holds"), share <= 1.0);
         hold += u64::from(share <= 1.0);
     }
-    let share = 850.0 * std::f64::consts::PI / 30.0 * 5.0 / 500.0;
+    let share = 850.0 * RPM * 5.0 / 500.0;
     let expected = (1.0 / share - 1.0 + 0.2) / 0.4;
     let found = Probability::new(hold, N).unwrap();
     let deviation = (expected * (1.0 - expected) / N as f64).sqrt();

@@ -3,10 +3,10 @@
 use jred::mechanism::BallScrew;
 
 use super::{core, parts};
-use crate::input::kind::LENGTH;
 use crate::input::problem::Result;
 use crate::input::section::Section;
 use crate::machine::AnyMechanism;
+use crate::units::kind::LENGTH;
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let lead = section.quantity("lead", &LENGTH)?;

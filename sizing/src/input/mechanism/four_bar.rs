@@ -5,11 +5,11 @@ use jred::mechanism::{Blocked, FourBar, Grashof, Side};
 
 use super::{core, link};
 use crate::input::item::{Item, Value};
-use crate::input::kind::{ANGLE, LENGTH};
 use crate::input::problem::{Problem, Result};
 use crate::input::section::Section;
 use crate::machine::AnyMechanism;
 use crate::rounding::short;
+use crate::units::kind::{ANGLE, LENGTH};
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let item = section.require("pivot", "pivot = [\"300 mm\", \"0 mm\"]")?;

@@ -3,11 +3,11 @@
 use jred::friction::{Arrangement, Flow, Stage};
 use jred::mechanism::FrictionDrive;
 
-use crate::input::kind::INERTIA;
 use crate::input::problem::{Problem, Result};
 use crate::input::section::Section;
 use crate::input::variator::{flow, share};
 use crate::machine::AnyMechanism;
+use crate::units::kind::INERTIA;
 
 /// Ratios outside can only be a slip of the pen.
 const RATIOS: [f64; 2] = [-1e3, 1e3];

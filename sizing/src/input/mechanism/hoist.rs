@@ -4,10 +4,10 @@ use jred::Link;
 use jred::mechanism::{Hoist, Rope};
 
 use super::{core, link, parts};
-use crate::input::kind::LENGTH;
 use crate::input::problem::Result;
 use crate::input::section::Section;
 use crate::machine::AnyMechanism;
+use crate::units::kind::LENGTH;
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let drum = link(&section.section("drum")?)?;

@@ -4,10 +4,10 @@ use jred::Error;
 use jred::mechanism::{InvertedSliderCrank, Misfit};
 
 use super::{core, link};
-use crate::input::kind::LENGTH;
 use crate::input::problem::Result;
 use crate::input::section::Section;
 use crate::machine::AnyMechanism;
+use crate::units::kind::LENGTH;
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let (crank, block, lever) = (

@@ -13,10 +13,10 @@ use jred::{Domain, Error, Frame, Joint, Jointed, Link, Mechanism};
 
 use crate::coordinate::Coordinate;
 use crate::input::item::Item;
-use crate::input::kind::{ANGLE, LENGTH};
 use crate::input::problem::Result;
 use crate::input::section::Section;
 use crate::machine::AnyMechanism;
+use crate::units::kind::{ANGLE, LENGTH};
 
 use bodies::Bodies;
 use joints::Held;

@@ -25,9 +25,9 @@ use jred::{Error, Link};
 
 use crate::machine::AnyMechanism;
 
-use super::kind::{INERTIA, LENGTH, MASS};
 use super::problem::{Problem, Result};
 use super::section::Section;
+use crate::units::kind::{INERTIA, LENGTH, MASS};
 
 /// The types of mechanism, as machine files write them.
 const SLIDER_CRANK: &str = "slider-crank";

@@ -4,9 +4,9 @@ use jred::Link;
 
 use super::core;
 use crate::input::item::Value;
-use crate::input::kind::{INERTIA, LENGTH, MASS};
 use crate::input::problem::Result;
 use crate::input::section::Section;
+use crate::units::kind::{INERTIA, LENGTH, MASS};
 
 /// Mass and centre of mass of a link that slides without turning. The section may hold other keys that are known by now.
 pub(super) fn slide(section: &Section) -> Result<Link> {

@@ -4,10 +4,10 @@ use jred::mechanism::{Member, Misfit, Planetary, PlanetaryGears};
 use jred::{Error, Link};
 
 use super::{core, parts};
-use crate::input::kind::LENGTH;
 use crate::input::problem::{Problem, Result};
 use crate::input::section::Section;
 use crate::machine::AnyMechanism;
+use crate::units::kind::LENGTH;
 
 const MEMBERS: [(&str, Member); 3] = [
     ("sun", Member::Sun),

@@ -9,16 +9,16 @@ use crate::coordinate::Coordinate;
 use crate::input::columns::{self, Columns, CsvFile, Format, Known, known};
 use crate::input::curve_file::Positions;
 use crate::input::drive_link::DriveLink;
-use crate::input::kind::{
-    ANGLE, FORCE, INERTIA, INERTIA_SLOPE, LENGTH, MASS, MASS_SLOPE, TORQUE, VISCOUS_FORCE,
-    VISCOUS_MOMENT,
-};
 use crate::input::problem::{Problem, Result};
 use crate::input::section::Section;
 use crate::machine::AnyMechanism;
 use crate::rounding::figure;
 use crate::spline::{MIN_POINTS, Spline, Way};
 use crate::tabulated::{Course, DriveLinkAlone, StandIn};
+use crate::units::kind::{
+    ANGLE, FORCE, INERTIA, INERTIA_SLOPE, LENGTH, MASS, MASS_SLOPE, TORQUE, VISCOUS_FORCE,
+    VISCOUS_MOMENT,
+};
 
 const POSITION: usize = 0;
 const INERTIA_COLUMN: usize = 1;

@@ -6,10 +6,10 @@ use jred::Error;
 use jred::mechanism::ScotchYoke;
 
 use super::{core, link, parts};
-use crate::input::kind::{ANGLE, LENGTH};
 use crate::input::problem::Result;
 use crate::input::section::Section;
 use crate::machine::AnyMechanism;
+use crate::units::kind::{ANGLE, LENGTH};
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let slot_angle = section.optional("slot_angle", &ANGLE)?;

@@ -5,10 +5,10 @@ use jred::mechanism::{Branch, SixLink};
 use super::four_bar::{blocked, length};
 use super::link;
 use super::parts::slide;
-use crate::input::kind::LENGTH;
 use crate::input::problem::Result;
 use crate::input::section::Section;
 use crate::machine::AnyMechanism;
+use crate::units::kind::LENGTH;
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let centres = section.quantity("centres", &LENGTH)?.positive()?;

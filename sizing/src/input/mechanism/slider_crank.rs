@@ -6,9 +6,9 @@ use jred::{Error, Link};
 use crate::machine::AnyMechanism;
 
 use super::{core, link};
-use crate::input::kind::{LENGTH, MASS};
 use crate::input::problem::Result;
 use crate::input::section::Section;
+use crate::units::kind::{LENGTH, MASS};
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let branches = ["right", "left"];

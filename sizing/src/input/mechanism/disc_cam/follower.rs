@@ -2,9 +2,9 @@
 
 use jred::mechanism::{Follower, Roller, Swing};
 
-use crate::input::kind::LENGTH;
 use crate::input::problem::Result;
 use crate::input::section::Section;
+use crate::units::kind::LENGTH;
 
 /// The kinds of follower.
 const FOLLOWERS: [&str; 4] = [

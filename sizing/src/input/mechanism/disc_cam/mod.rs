@@ -10,10 +10,10 @@ use std::f64::consts::TAU;
 use jred::mechanism::{DiscCam, Follower, Roller};
 
 use super::{core, link, parts};
-use crate::input::kind::{FORCE, INERTIA, LENGTH, MASS, STIFFNESS, TORQUE, TORSION_STIFFNESS};
 use crate::input::problem::Result;
 use crate::input::section::Section;
 use crate::machine::{AnyMechanism, Contact, NamedElement};
+use crate::units::kind::{FORCE, INERTIA, LENGTH, MASS, STIFFNESS, TORQUE, TORSION_STIFFNESS};
 
 pub(super) use follower::follower;
 pub(super) use program::read as program;

@@ -6,11 +6,11 @@ use jred::Error;
 use jred::cam::{CamError, MAX_SEGMENTS, Program, Segment, Shape};
 
 use crate::input::item::{Item, Value};
-use crate::input::kind::{ANGLE, CAM_ACCELERATION, CAM_TURNING, CAM_VELOCITY, Kind, LENGTH, SHARE};
 use crate::input::motion;
 use crate::input::problem::{Problem, Result};
 use crate::input::section::Section;
 use crate::rounding::figure;
+use crate::units::kind::{ANGLE, CAM_ACCELERATION, CAM_TURNING, CAM_VELOCITY, Kind, LENGTH, SHARE};
 
 /// The laws beyond those of a motion of the drive link.
 const CONSTANT_VELOCITY: &str = "constant-velocity";

@@ -5,10 +5,11 @@ use std::ops::Range;
 use jred::{Body, Link, Marker};
 
 use crate::input::item::{Item, Value};
-use crate::input::kind::{ANGLE, INERTIA, LENGTH, MASS};
 use crate::input::mechanism::core;
-use crate::input::problem::{Problem, Result, closest, quoted};
+use crate::input::problem::{Problem, Result, quoted};
 use crate::input::section::Section;
+use crate::units::closest;
+use crate::units::kind::{ANGLE, INERTIA, LENGTH, MASS};
 
 /// What joints call the fixed frame.
 pub(super) const GROUND: &str = "ground";

@@ -7,12 +7,12 @@ use jred::cam::Piece;
 use jred::mechanism::{CamProfile, Follower, Pair, PlacedCam, Roller};
 use jred::{Body, Domain, Mechanism};
 
-use crate::input::kind::{ANGLE, LENGTH};
 use crate::input::mechanism::{core, disc_cam};
 use crate::input::problem::{Problem, Result};
 use crate::input::section::Section;
 use crate::machine::{AnyMechanism, Contact};
 use crate::rounding::figure;
+use crate::units::kind::{ANGLE, LENGTH};
 
 use super::bodies::{Bodies, End};
 use super::joints::Held;

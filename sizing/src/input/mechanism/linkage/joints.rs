@@ -6,9 +6,9 @@ use jred::mechanism::Pair;
 use jred::{Body, Frame, Joint};
 
 use crate::input::item::Item;
-use crate::input::kind::{ANGLE, LENGTH};
 use crate::input::problem::{Problem, Result};
 use crate::input::section::Section;
+use crate::units::kind::{ANGLE, LENGTH};
 
 use super::bodies::{Bodies, End};
 use super::cam::{self, Cam};

@@ -1,28 +1,28 @@
 //! Quantities: a number and its unit, of a kind that the key asks for.
 
+use super::fault::Fault;
 use super::kind::{ANGULAR_SPEED, FREQUENCY, Kind, SHARE, describe};
-use super::problem::Fault;
 use super::unit::{self, Dimension, Unit};
 use crate::rounding::figure;
 
 /// A quantity as read.
 #[derive(Debug)]
-pub(super) struct Quantity {
+pub struct Quantity {
     /// The value in SI.
-    pub(super) si: f64,
+    pub si: f64,
     /// The unit it was written in.
-    pub(super) unit: Unit,
+    pub unit: Unit,
 }
 
 impl Quantity {
     /// `si` in the unit that the quantity was written in, for messages.
-    pub(super) fn in_its_unit(&self, si: f64) -> String {
+    pub fn in_its_unit(&self, si: f64) -> String {
         format!("{} {}", figure(si / self.unit.scale), self.unit.text)
     }
 }
 
 /// Reads `text` as a quantity of the `kind`.
-pub(super) fn read(text: &str, kind: &Kind) -> Result<Quantity, Fault> {
+pub fn read(text: &str, kind: &Kind) -> Result<Quantity, Fault> {
     let tidy = unit::tidy(text);
     if tidy.is_empty() {
         return Err(Fault::new(
@@ -43,7 +43,7 @@ pub(super) fn read(text: &str, kind: &Kind) -> Result<Quantity, Fault> {
 }
 
 /// The fault of a number without a unit.
-pub(super) fn no_unit(number: &str, kind: &Kind) -> Fault {
+pub fn no_unit(number: &str, kind: &Kind) -> Fault {
     Fault::new(
         format!("has no unit: {number}"),
         format!(
@@ -65,7 +65,7 @@ fn plain() -> Unit {
 }
 
 /// A share written as a plain number.
-pub(super) fn share(number: String) -> Result<Quantity, Fault> {
+pub fn share(number: String) -> Result<Quantity, Fault> {
     finish(number, plain(), &SHARE)
 }
 
@@ -93,7 +93,7 @@ fn finish(number: String, unit: Unit, kind: &Kind) -> Result<Quantity, Fault> {
 }
 
 /// The fault of infinity and not-a-number.
-pub(super) fn not_finite(kind: &Kind) -> Fault {
+pub fn not_finite(kind: &Kind) -> Fault {
     Fault::new(
         "is not a finite number",
         format!(
@@ -120,7 +120,7 @@ fn scaled(number: &str, scale: f64) -> f64 {
 }
 
 /// Splits "1.2e-3 kg m^2" into its number and its unit.
-pub(super) fn split_number<'t>(text: &'t str, kind: &Kind) -> Result<(String, &'t str), Fault> {
+pub fn split_number<'t>(text: &'t str, kind: &Kind) -> Result<(String, &'t str), Fault> {
     let bytes = text.as_bytes();
     let is = |index: usize, set: &[u8]| bytes.get(index).is_some_and(|b| set.contains(b));
     let digits = |from: usize| {

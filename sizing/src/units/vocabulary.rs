@@ -1,7 +1,7 @@
 //! How the figures of a motor are shown: a linear motor has force for torque, m/s for speed and a mass for the inertia.
 
+use super::RPM;
 use crate::catalogue::MotorKind;
-use crate::numerics::RPM;
 use crate::rule::Rule;
 
 /// Units and words of a motor's figures.

@@ -1,10 +1,10 @@
 //! Quantities as people write them, right and wrong.
 
-use super::super::kind::{
+use super::read;
+use crate::units::kind::{
     ACCELERATION, ANGLE, ANGULAR_SPEED, FORCE, INERTIA, Kind, LENGTH, MASS, SHARE, TIME, TORQUE,
     VISCOUS_FORCE, VISCOUS_MOMENT,
 };
-use super::read;
 
 use std::f64::consts::{PI, TAU};
 

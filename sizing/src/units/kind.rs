@@ -4,22 +4,23 @@ use super::unit::Dimension;
 
 /// What a quantity measures, and which units and sizes it may have.
 #[derive(Debug)]
-pub(super) struct Kind {
+pub struct Kind {
     /// With its article: "a length".
-    pub(super) name: &'static str,
+    pub name: &'static str,
     /// A typical value with its unit.
-    pub(super) example: &'static str,
+    pub example: &'static str,
     /// The unit to suggest.
-    pub(super) unit: &'static str,
+    pub unit: &'static str,
     /// Units to choose from, for messages.
-    pub(super) units: &'static str,
-    pub(super) dimension: Dimension,
+    pub units: &'static str,
+    /// What its units must measure.
+    pub dimension: Dimension,
     /// Whether the angle may be left out of the unit ("N m s" for "N m s/rad").
-    pub(super) angle_optional: bool,
+    pub angle_optional: bool,
     /// Larger values (SI) can only be a slip.
-    pub(super) largest: f64,
+    pub largest: f64,
     /// Where zero makes no sense, smaller values (SI) do not either.
-    pub(super) smallest: f64,
+    pub smallest: f64,
 }
 
 const fn kind(
@@ -59,22 +60,26 @@ const fn electric(
     kind
 }
 
-pub(super) const LENGTH: Kind = kind(
+/// A length.
+pub const LENGTH: Kind = kind(
     ["a length", "120 mm", "mm", "m, cm, mm, µm"],
     [1, 0, 0, 0],
     [1e-6, 1e3],
 );
-pub(super) const ALTITUDE: Kind = kind(
+/// An altitude.
+pub const ALTITUDE: Kind = kind(
     ["an altitude", "1400 m", "m", "m, km"],
     [1, 0, 0, 0],
     [1e-6, 1e5],
 );
-pub(super) const MASS: Kind = kind(
+/// A mass.
+pub const MASS: Kind = kind(
     ["a mass", "3.5 kg", "kg", "kg, g, t"],
     [0, 1, 0, 0],
     [1e-9, 1e6],
 );
-pub(super) const INERTIA: Kind = kind(
+/// A moment of inertia.
+pub const INERTIA: Kind = kind(
     [
         "a moment of inertia",
         "2.4 kg cm^2",
@@ -84,17 +89,20 @@ pub(super) const INERTIA: Kind = kind(
     [2, 1, 0, 0],
     [1e-12, 1e8],
 );
-pub(super) const ANGLE: Kind = kind(
+/// An angle.
+pub const ANGLE: Kind = kind(
     ["an angle", "90 deg", "deg", "deg, rad"],
     [0, 0, 0, 1],
     [1e-9, 1e7],
 );
-pub(super) const ANGULAR_SPEED: Kind = kind(
+/// An angular speed.
+pub const ANGULAR_SPEED: Kind = kind(
     ["an angular speed", "1450 rpm", "rpm", "rpm, rad/s, deg/s"],
     [0, 0, -1, 1],
     [1e-6, 1e6],
 );
-pub(super) const ANGULAR_ACCELERATION: Kind = kind(
+/// An angular acceleration.
+pub const ANGULAR_ACCELERATION: Kind = kind(
     [
         "an angular acceleration",
         "120 rad/s^2",
@@ -104,32 +112,38 @@ pub(super) const ANGULAR_ACCELERATION: Kind = kind(
     [0, 0, -2, 1],
     [1e-9, 1e9],
 );
-pub(super) const VELOCITY: Kind = kind(
+/// A speed.
+pub const VELOCITY: Kind = kind(
     ["a speed", "0.2 m/s", "m/s", "m/s, mm/s"],
     [1, 0, -1, 0],
     [1e-9, 1e6],
 );
-pub(super) const TIME: Kind = kind(
+/// A time.
+pub const TIME: Kind = kind(
     ["a time", "0.25 s", "s", "s, ms"],
     [0, 0, 1, 0],
     [1e-6, 1e7],
 );
-pub(super) const FORCE: Kind = kind(
+/// A force.
+pub const FORCE: Kind = kind(
     ["a force", "150 N", "N", "N, kN"],
     [1, 1, -2, 0],
     [1e-9, 1e10],
 );
-pub(super) const TORQUE: Kind = kind(
+/// A torque.
+pub const TORQUE: Kind = kind(
     ["a torque", "12 N m", "N m", "N m, kN m, mN m"],
     [2, 1, -2, 0],
     [1e-9, 1e10],
 );
-pub(super) const ACCELERATION: Kind = kind(
+/// An acceleration.
+pub const ACCELERATION: Kind = kind(
     ["an acceleration", "9.81 m/s^2", "m/s^2", "m/s^2, mm/s^2"],
     [1, 0, -2, 0],
     [1e-9, 1e6],
 );
-pub(super) const VISCOUS_FORCE: Kind = kind(
+/// A viscous coefficient (force per speed).
+pub const VISCOUS_FORCE: Kind = kind(
     [
         "a viscous coefficient (force per speed)",
         "30 N s/m",
@@ -139,7 +153,8 @@ pub(super) const VISCOUS_FORCE: Kind = kind(
     [0, 1, -1, 0],
     [1e-9, 1e10],
 );
-pub(super) const VISCOUS_MOMENT: Kind = kind(
+/// A viscous coefficient (moment per angular speed).
+pub const VISCOUS_MOMENT: Kind = kind(
     [
         "a viscous coefficient (moment per angular speed)",
         "0.4 N m s/rad",
@@ -149,7 +164,8 @@ pub(super) const VISCOUS_MOMENT: Kind = kind(
     [2, 1, -1, -1],
     [1e-9, 1e10],
 );
-pub(super) const STIFFNESS: Kind = kind(
+/// A stiffness (force per length).
+pub const STIFFNESS: Kind = kind(
     [
         "a stiffness (force per length)",
         "12 N/mm",
@@ -159,7 +175,8 @@ pub(super) const STIFFNESS: Kind = kind(
     [0, 1, -2, 0],
     [1e-9, 1e12],
 );
-pub(super) const TORSION_STIFFNESS: Kind = kind(
+/// A torsional stiffness (moment per angle).
+pub const TORSION_STIFFNESS: Kind = kind(
     [
         "a torsional stiffness (moment per angle)",
         "15 N m/rad",
@@ -169,41 +186,48 @@ pub(super) const TORSION_STIFFNESS: Kind = kind(
     [2, 1, -2, -1],
     [1e-9, 1e12],
 );
-pub(super) const SHARE: Kind = kind(
+/// A share.
+pub const SHARE: Kind = kind(
     ["a share", "97 %", "%", "%, or a plain number such as 0.97"],
     [0, 0, 0, 0],
     [1e-6, 1e3],
 );
 
-pub(super) const VOLTAGE: Kind = electric(
+/// A voltage.
+pub const VOLTAGE: Kind = electric(
     ["a voltage", "560 V", "V", "V, kV, mV"],
     [2, 1, -3, 0],
     [-1, 0],
     [1e-6, 1e5],
 );
-pub(super) const RESISTANCE: Kind = electric(
+/// A resistance.
+pub const RESISTANCE: Kind = electric(
     ["a resistance", "47 Ohm", "Ohm", "Ohm, mOhm, kOhm"],
     [2, 1, -3, 0],
     [-2, 0],
     [1e-6, 1e6],
 );
-pub(super) const CAPACITANCE: Kind = electric(
+/// A capacitance.
+pub const CAPACITANCE: Kind = electric(
     ["a capacitance", "470 uF", "uF", "F, mF, uF"],
     [-2, -1, 4, 0],
     [2, 0],
     [1e-9, 1e3],
 );
-pub(super) const POWER: Kind = kind(
+/// A power.
+pub const POWER: Kind = kind(
     ["a power", "200 W", "W", "W, kW"],
     [2, 1, -3, 0],
     [1e-6, 1e9],
 );
-pub(super) const ENERGY: Kind = kind(
+/// An energy.
+pub const ENERGY: Kind = kind(
     ["an energy", "2 kW s", "W s", "W s, kW s"],
     [2, 1, -2, 0],
     [1e-9, 1e12],
 );
-pub(super) const TEMPERATURE: Kind = electric(
+/// A temperature.
+pub const TEMPERATURE: Kind = electric(
     ["a temperature", "40 degC", "degC", "degC"],
     [0, 0, 0, 0],
     [0, 1],
@@ -211,7 +235,7 @@ pub(super) const TEMPERATURE: Kind = electric(
 );
 
 /// s′ of a follower that slides.
-pub(super) const CAM_VELOCITY: Kind = kind(
+pub const CAM_VELOCITY: Kind = kind(
     [
         "a velocity per angular speed of the cam",
         "12 mm/rad",
@@ -222,7 +246,7 @@ pub(super) const CAM_VELOCITY: Kind = kind(
     [1e-9, 1e3],
 );
 /// s″ of a follower that slides.
-pub(super) const CAM_ACCELERATION: Kind = kind(
+pub const CAM_ACCELERATION: Kind = kind(
     [
         "an acceleration per squared angular speed of the cam",
         "-30 mm/rad^2",
@@ -233,7 +257,7 @@ pub(super) const CAM_ACCELERATION: Kind = kind(
     [1e-9, 1e6],
 );
 /// s″ of a follower that swings.
-pub(super) const CAM_TURNING: Kind = kind(
+pub const CAM_TURNING: Kind = kind(
     [
         "an angular acceleration per squared angular speed of the cam",
         "-0.5 1/rad",
@@ -245,7 +269,7 @@ pub(super) const CAM_TURNING: Kind = kind(
 );
 
 /// J′ of a drive link that turns.
-pub(super) const INERTIA_SLOPE: Kind = kind(
+pub const INERTIA_SLOPE: Kind = kind(
     [
         "a moment of inertia per angle",
         "0.01 kg m^2/rad",
@@ -256,13 +280,13 @@ pub(super) const INERTIA_SLOPE: Kind = kind(
     [1e-12, 1e10],
 );
 /// m′ of one that slides.
-pub(super) const MASS_SLOPE: Kind = kind(
+pub const MASS_SLOPE: Kind = kind(
     ["a mass per length", "2 kg/m", "kg/m", "kg/m, kg/mm"],
     [-1, 1, 0, 0],
     [1e-12, 1e10],
 );
 /// Frequency at which smoothing halves an amplitude.
-pub(super) const CUTOFF: Kind = kind(
+pub const CUTOFF: Kind = kind(
     ["a frequency", "40 Hz", "Hz", "Hz, kHz"],
     [0, 0, -1, 0],
     [1e-6, 1e6],
@@ -278,7 +302,7 @@ const OTHERS: [(&str, [i8; 4]); 5] = [
 ];
 
 /// 1/s, which is not an angular speed.
-pub(super) const FREQUENCY: Dimension = dimension_of([0, 0, -1, 0]);
+pub const FREQUENCY: Dimension = dimension_of([0, 0, -1, 0]);
 
 const fn dimension_of([length, mass, time, angle]: [i8; 4]) -> Dimension {
     Dimension {
@@ -292,7 +316,7 @@ const fn dimension_of([length, mass, time, angle]: [i8; 4]) -> Dimension {
 }
 
 /// What a quantity of this dimension is called.
-pub(super) fn describe(found: Dimension) -> String {
+pub fn describe(found: Dimension) -> String {
     let kinds = [
         &LENGTH,
         &MASS,

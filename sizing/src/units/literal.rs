@@ -7,20 +7,20 @@ use super::unit;
 
 /// A number and its unit.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Literal {
+pub struct Literal {
     /// The number as written.
-    pub(crate) number: f64,
+    pub number: f64,
     /// The unit, tidied up; empty: a plain number.
-    pub(crate) unit: String,
+    pub unit: String,
     /// One of the unit in SI.
-    pub(crate) scale: f64,
+    pub scale: f64,
     /// Powers of m, kg, s and of the angle.
-    pub(crate) dimension: [i8; 4],
+    pub dimension: [i8; 4],
 }
 
 impl Literal {
     /// A plain number.
-    pub(crate) const fn plain(number: f64) -> Self {
+    pub const fn plain(number: f64) -> Self {
         Self {
             number,
             unit: String::new(),
@@ -30,7 +30,7 @@ impl Literal {
     }
 
     /// Whether the two measure the same; whether an angle belongs to the unit is left open ("N m s" for "N m s/rad").
-    pub(crate) fn is_like(&self, other: &Self) -> bool {
+    pub fn is_like(&self, other: &Self) -> bool {
         self.dimension
             .iter()
             .zip(&other.dimension)
@@ -39,7 +39,7 @@ impl Literal {
     }
 
     /// Number and unit.
-    pub(crate) fn shown(&self) -> String {
+    pub fn shown(&self) -> String {
         format!("{} {}", self.number, self.unit)
             .trim_end()
             .to_owned()
@@ -50,9 +50,9 @@ impl Literal {
 ///
 /// # Errors
 /// In words that continue "\"…\" ".
-pub(crate) fn read(text: &str) -> Result<Literal, String> {
+pub fn read(text: &str) -> Result<Literal, String> {
     let tidy = unit::tidy(text);
-    let words = |fault: super::problem::Fault| format!("{}; {}", fault.message, fault.help);
+    let words = |fault: super::fault::Fault| format!("{}; {}", fault.message, fault.help);
     let (number, rest) = split_number(&tidy, &SHARE).map_err(words)?;
     let number = number
         .parse::<f64>()

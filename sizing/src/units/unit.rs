@@ -1,20 +1,25 @@
-//! Units: which ones a machine file may use, and what one of them is in SI.
+//! Units: which words they are made of, and what one of each is in SI.
 //!
 //! An angle has a dimension of its own here, so that "rad" is told from a plain number and "rpm" from "Hz".
 
-use std::f64::consts::PI;
-
-use super::problem::{Fault, closest};
+use super::fault::{Fault, closest};
+use super::{ARCMIN, DEGREE, RPM};
 
 /// Powers of m, kg, s, of the angle, of A and K.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Dimension {
-    pub(super) length: i8,
-    pub(super) mass: i8,
-    pub(super) time: i8,
-    pub(super) angle: i8,
-    pub(super) current: i8,
-    pub(super) temperature: i8,
+pub struct Dimension {
+    /// Power of m.
+    pub length: i8,
+    /// Power of kg.
+    pub mass: i8,
+    /// Power of s.
+    pub time: i8,
+    /// Power of an angle.
+    pub angle: i8,
+    /// Power of A.
+    pub current: i8,
+    /// Power of K.
+    pub temperature: i8,
 }
 
 impl Dimension {
@@ -36,12 +41,13 @@ impl Dimension {
 
 /// A unit as read.
 #[derive(Clone, Debug)]
-pub(super) struct Unit {
+pub struct Unit {
     /// How it was written, tidied up.
-    pub(super) text: String,
+    pub text: String,
     /// One of it in SI.
-    pub(super) scale: f64,
-    pub(super) dimension: Dimension,
+    pub scale: f64,
+    /// What it measures.
+    pub dimension: Dimension,
 }
 
 /// A unit word: one of it is 10^`tens` · `size` in SI.
@@ -127,10 +133,10 @@ const WORDS: [Word; 48] = [
     ten("mNm", -3, TORQUE),
     ten("rad", 0, ANGLE),
     ten("mrad", -3, ANGLE),
-    sized("deg", PI / 180.0, ANGLE),
-    sized("degree", PI / 180.0, ANGLE),
-    sized("arcmin", PI / 10_800.0, ANGLE),
-    sized("rpm", PI / 30.0, ANGULAR_SPEED),
+    sized("deg", DEGREE, ANGLE),
+    sized("degree", DEGREE, ANGLE),
+    sized("arcmin", ARCMIN, ANGLE),
+    sized("rpm", RPM, ANGULAR_SPEED),
     ten("Hz", 0, FREQUENCY),
     ten("kHz", 3, FREQUENCY),
     ten("W", 0, POWER),
@@ -183,7 +189,10 @@ const FOREIGN: [(&[&str], &str); 18] = [
 ];
 
 /// Reads a unit such as "mm", "kg cm^2", "N m s/rad" or "N/(m s)"; the text must be [`tidy`].
-pub(super) fn read(text: &str) -> Result<Unit, Fault> {
+///
+/// # Errors
+/// An unknown word, or powers and divisions that can be read in more than one way.
+pub fn read(text: &str) -> Result<Unit, Fault> {
     let (mut tens, mut size, mut dimension) = (0, 1.0, NUMBER);
     for (word, power) in factors(text)? {
         tens += word.tens * i32::from(power);
@@ -327,7 +336,7 @@ fn split(letters: &str, most: usize) -> Option<Vec<&'static str>> {
 }
 
 /// Brings signs that mean the same to one form: · and × to *, superscripts to ^, − to -, µ to u, ° to deg.
-pub(super) fn tidy(text: &str) -> String {
+pub fn tidy(text: &str) -> String {
     const SUPERSCRIPTS: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
     let mut tidy = String::with_capacity(text.len());
     let mut raised = false;
