@@ -1,5 +1,7 @@
 //! Numerical methods that several commands use.
 
+pub mod dormand_prince;
+
 use std::cell::Cell;
 
 /// Thirds after which the bracket is down to rounding.

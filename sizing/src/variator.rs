@@ -4,11 +4,6 @@
 //! a function of the motor's angle, and there is no one table J_red(φ) of the motor shaft. What remains is the equation of
 //! motion, [`simulate`](crate::simulate).
 
-mod plant;
-mod run;
-
-pub(crate) use run::simulate;
-
 use jred::Error;
 use jred::friction::{
     Arrangement, Contact, Course, CreepContact, Drive, Dual, Flow, Place, Ramp, Stage, Variable,

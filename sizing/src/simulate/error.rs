@@ -1,7 +1,8 @@
 //! Why a simulation did not come to its end.
 
 use jred::Error;
-use ode_solvers::dop_shared::IntegrationError;
+
+use crate::numerics::dormand_prince::Stopped;
 
 /// Why a simulation did not come to its end.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
@@ -34,7 +35,7 @@ pub enum SimulationError {
         /// Time reached (s).
         t: f64,
         /// What the integrator says.
-        reason: String,
+        reason: &'static str,
     },
     /// A constant slip in a contact whose power has turned round.
     #[error(
@@ -67,16 +68,11 @@ pub enum SimulationError {
 }
 
 /// Why the integrator stopped, for times counted from `t`.
-pub(crate) fn stopped(t: f64, error: &IntegrationError) -> SimulationError {
+pub(super) fn stopped(t: f64, error: Stopped<Error>) -> SimulationError {
     let (x, reason) = match error {
-        IntegrationError::MaxNumStepReached { x, n_step } => {
-            (x, format!("more than {n_step} steps would be needed"))
-        }
-        IntegrationError::StepSizeUnderflow { x } => (
-            x,
-            "the step has become too small for the numbers".to_owned(),
-        ),
-        IntegrationError::StiffnessDetected { x } => (x, "the problem is stiff".to_owned()),
+        Stopped::Function(error) => return error.into(),
+        Stopped::TooManySteps { x } => (x, "too many steps would be needed"),
+        Stopped::StepTooSmall { x } => (x, "the step has become too small for the numbers"),
     };
     SimulationError::Integrator { t: t + x, reason }
 }
