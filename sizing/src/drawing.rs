@@ -11,7 +11,7 @@ use jred::{Error, Mechanism as _};
 use crate::coordinate::{Coordinate, positions};
 use crate::machine::AnyMechanism;
 use crate::plot::PALETTE;
-use crate::plot::canvas::{Anchor, Canvas, Ink};
+use crate::plot::svg::{Anchor, Ink, Svg};
 
 mod glyphs;
 mod sketch;
@@ -103,17 +103,16 @@ pub fn moving(mechanism: &AnyMechanism) -> Result<Moving, Error> {
 
 fn draw(mechanism: &AnyMechanism, sketch: &Sketch, pose: &Pose, place: &str) -> String {
     let view = View::of(sketch);
-    let mut canvas = Canvas::new(view.width, view.height);
+    let mut svg = Svg::new(view.width, view.height);
     let mut pen = Pen {
-        canvas: &mut canvas,
+        svg: &mut svg,
         scale: view.scale,
     };
-    pen.canvas
-        .open("translate(0 0)", "class=\"ground\"".to_owned(), "");
+    pen.svg.open("class=\"ground\"", "");
     for part in &sketch.ground {
         pen.ground(part, &|at| view.page(at));
     }
-    pen.canvas.close();
+    pen.svg.close();
 
     let step = (sketch.poses.len() / GHOSTS).max(1);
     for ghost in sketch.poses.iter().step_by(step) {
@@ -122,21 +121,20 @@ fn draw(mechanism: &AnyMechanism, sketch: &Sketch, pose: &Pose, place: &str) -> 
                 continue;
             };
             let [x, y] = view.page([x, y]);
-            let transform = format!("translate({x:.2} {y:.2}) rotate({:.3})", -psi.to_degrees());
+            let turn = -psi.to_degrees();
             if parts.iter().any(sketch::Part::leaves_ghosts) {
-                pen.canvas
-                    .open(&transform, "class=\"ghost\"".to_owned(), "");
+                pen.svg.open(&placed([x, y], turn, "class=\"ghost\""), "");
                 for part in parts {
                     pen.ghost(part);
                 }
-                pen.canvas.close();
+                pen.svg.close();
             }
         }
     }
     for (k, path) in sketch.paths.iter().enumerate() {
         let path: Vec<[f64; 2]> = path.iter().map(|&at| view.page(at)).collect();
         let ink = Ink::line(colour(sketch.points[k].link), 1.4).dashed("5 3");
-        pen.canvas.path(&path, false, &ink);
+        pen.svg.path(&path, false, &ink);
     }
 
     // Bodies first, pins above all of them.
@@ -147,32 +145,47 @@ fn draw(mechanism: &AnyMechanism, sketch: &Sketch, pose: &Pose, place: &str) -> 
                 continue;
             };
             let [x, y] = view.page([x, y]);
-            let transform = format!("translate({x:.2} {y:.2}) rotate({:.3})", -psi.to_degrees());
+            let turn = -psi.to_degrees();
             let name = names.get(link).map_or("", String::as_str);
-            pen.canvas
-                .open(&transform, format!("data-link=\"{link}\""), name);
+            pen.svg.open(
+                &placed([x, y], turn, &format!("data-link=\"{link}\"")),
+                name,
+            );
             for part in parts.iter().filter(|part| part.is_pin() == layer) {
                 pen.part(part, colour(link));
             }
-            pen.canvas.close();
+            pen.svg.close();
         }
     }
     for (k, point) in sketch.points.iter().enumerate() {
         let [x, y] = view.page(pose.point(point.link, point.at));
-        let transform = format!("translate({x:.2} {y:.2})");
-        pen.canvas
-            .open(&transform, format!("data-point=\"{k}\""), "");
-        pen.canvas.circle(
+        pen.svg
+            .open(&placed([x, y], 0.0, &format!("data-point=\"{k}\"")), "");
+        pen.svg.circle(
             [0.0, 0.0],
             2.2,
             &Ink::line("#1d2733", 0.0).filled("#1d2733"),
         );
-        pen.canvas
-            .text([9.0, -9.0], Anchor::Start, &point.name, "#1d2733");
-        pen.canvas.close();
+        pen.svg.text(
+            [9.0, -9.0],
+            Anchor::Start,
+            &lettering("#1d2733"),
+            &point.name,
+        );
+        pen.svg.close();
     }
-    view.legend(&mut canvas, sketch.schematic, place);
-    canvas.finish()
+    view.legend(&mut svg, sketch.schematic, place);
+    svg.finish()
+}
+
+/// Attributes of a group that is moved and turned (deg).
+fn placed([x, y]: [f64; 2], turn: f64, mark: &str) -> String {
+    format!("transform=\"translate({x:.2} {y:.2}) rotate({turn:.3})\" {mark}")
+}
+
+/// Attributes of a text.
+fn lettering(colour: &str) -> String {
+    format!("font-size=\"13\" fill=\"{colour}\"")
 }
 
 fn colour(link: usize) -> &'static str {

@@ -11,8 +11,8 @@ mod watch;
 
 pub use error::SimulationError;
 
-use crate::machine::{MachineFile, Simulation};
 use crate::columns::Columns;
+use crate::machine::{MachineFile, Simulation};
 
 /// Runs the simulation of the file: t, φ, ω, α, J, energies, and the balance
 /// (E + U) − (E + U)₀ − W_motor − W_process + losses, which is zero up to the tolerance.

@@ -137,6 +137,7 @@
     figure.classList.add("drawn");
     figure.prepend(holder);
     const chart = JSON.parse(source.textContent);
+    for (const s of chart.series) s.x = chart.places[s.at];
     if (chart.form === "plane") plane(holder, chart); else course(holder, chart);
   }
   addEventListener("resize", () => {

@@ -20,12 +20,24 @@ fn plots(page: &str) -> Vec<&str> {
     plots
 }
 
-/// The charts' data, for the page's script.
+/// The charts' data as the page's script sees it: each series with its places `x`.
 fn charts(page: &str) -> Vec<serde_json::Value> {
     let parts = page.split("<script type=\"application/json\" class=\"chart\">");
     parts
         .skip(1)
-        .map(|part| serde_json::from_str(part.split("</script>").next().unwrap()).unwrap())
+        .map(|part| {
+            let text = part.split("</script>").next().unwrap();
+            let mut chart: serde_json::Value = serde_json::from_str(text).unwrap();
+            let places = chart["places"].as_array().unwrap().clone();
+            let mut once = places.iter().map(ToString::to_string).collect::<Vec<_>>();
+            once.sort();
+            once.dedup();
+            assert_eq!(once.len(), places.len(), "a list of places twice");
+            for series in chart["series"].as_array_mut().unwrap() {
+                series["x"] = places[series["at"].as_u64().unwrap() as usize].clone();
+            }
+            chart
+        })
         .collect()
 }
 

@@ -2,7 +2,7 @@
 
 use super::QUIET;
 use super::sketch::Part;
-use crate::plot::canvas::{Canvas, Ink};
+use crate::plot::svg::{Ink, Svg};
 
 /// Radius of a pin (px).
 const PIN: f64 = 4.5;
@@ -17,7 +17,7 @@ const GHOST: &str = "#cdd4da";
 
 /// Draws parts in a link's frame, scaled, with v up.
 pub(super) struct Pen<'c> {
-    pub(super) canvas: &'c mut Canvas,
+    pub(super) svg: &'c mut Svg,
     /// Pixels of a metre.
     pub(super) scale: f64,
 }
@@ -32,37 +32,36 @@ impl Pen<'_> {
         match part {
             Part::Bar(ends) => {
                 let ends = ends.map(|at| self.local(at));
-                self.canvas.path(&ends, false, &Ink::line(colour, BAR));
+                self.svg.path(&ends, false, &Ink::line(colour, BAR));
             }
             Part::Plate(points) | Part::Outline(points) => {
                 let points: Vec<[f64; 2]> = points.iter().map(|&at| self.local(at)).collect();
                 let ink = Ink::line(colour, 2.5).filled(colour);
-                self.canvas.path(&points, true, &ink.faint(0.3));
-                self.canvas.path(&points, true, &Ink::line(colour, 2.0));
+                self.svg.path(&points, true, &ink.faint(0.3));
+                self.svg.path(&points, true, &Ink::line(colour, 2.0));
             }
             Part::Wheel(at, radius) => {
                 let (at, radius) = (self.local(*at), radius * self.scale);
                 let ink = Ink::line(colour, 2.0).filled(colour);
-                self.canvas.circle(at, radius, &ink.faint(0.15));
+                self.svg.circle(at, radius, &ink.faint(0.15));
                 let rim = [at[0] + radius, at[1]];
-                self.canvas.path(&[at, rim], false, &Ink::line(colour, 2.0));
+                self.svg.path(&[at, rim], false, &Ink::line(colour, 2.0));
             }
             Part::Block(at, angle) => {
                 let corners = block(self.local(*at), *angle);
                 let ink = Ink::line(colour, 2.0).filled(PAPER);
-                self.canvas.path(&corners, true, &ink);
+                self.svg.path(&corners, true, &ink);
                 let ink = Ink::line(colour, 2.0).filled(colour);
-                self.canvas.path(&corners, true, &ink.faint(0.3));
+                self.svg.path(&corners, true, &ink.faint(0.3));
             }
             Part::Slot(ends) => {
                 let ends = overrun(ends.map(|at| self.local(at)), 8.0);
-                self.canvas.path(&ends, false, &Ink::line(colour, 14.0));
-                self.canvas.path(&ends, false, &Ink::line(PAPER, 10.0));
+                self.svg.path(&ends, false, &Ink::line(colour, 14.0));
+                self.svg.path(&ends, false, &Ink::line(PAPER, 10.0));
             }
             Part::Pin(at) => {
                 let at = self.local(*at);
-                self.canvas
-                    .circle(at, PIN, &Ink::line(INK, 1.6).filled(PAPER));
+                self.svg.circle(at, PIN, &Ink::line(INK, 1.6).filled(PAPER));
             }
         }
     }
@@ -73,15 +72,15 @@ impl Pen<'_> {
         match part {
             Part::Bar(ends) => {
                 let ends = ends.map(|at| self.local(at));
-                self.canvas.path(&ends, false, &ink);
+                self.svg.path(&ends, false, &ink);
             }
             Part::Plate(points) => {
                 let points: Vec<[f64; 2]> = points.iter().map(|&at| self.local(at)).collect();
-                self.canvas.path(&points, true, &ink);
+                self.svg.path(&points, true, &ink);
             }
             Part::Block(at, angle) => {
                 let corners = block(self.local(*at), *angle);
-                self.canvas.path(&corners, true, &ink);
+                self.svg.path(&corners, true, &ink);
             }
             _ => {}
         }
@@ -95,7 +94,7 @@ impl Pen<'_> {
                 let [x, y] = page(*at);
                 let base = y + 20.0;
                 let triangle = [[x, y], [x - 12.0, base], [x + 12.0, base]];
-                self.canvas.path(&triangle, true, &ink.filled("#eef1f4"));
+                self.svg.path(&triangle, true, &ink.filled("#eef1f4"));
                 self.hatch([x - 18.0, base], [x + 18.0, base]);
             }
             Part::Slot(ends) => {
@@ -109,13 +108,13 @@ impl Pen<'_> {
                 if length > 0.0 {
                     let (from, to) = if down > 0.0 { (a, b) } else { (b, a) };
                     self.hatch(shift(from, 1.0), shift(to, 1.0));
-                    self.canvas
+                    self.svg
                         .path(&[shift(a, -1.0), shift(b, -1.0)], false, &ink);
                 }
             }
             Part::Block(at, angle) => {
                 let corners = block(page(*at), *angle);
-                self.canvas.path(&corners, true, &ink.filled("#eef1f4"));
+                self.svg.path(&corners, true, &ink.filled("#eef1f4"));
             }
             _ => {}
         }
@@ -123,14 +122,14 @@ impl Pen<'_> {
 
     /// A line with hatching on its right-hand side, seen from `a` to `b` on the page: below a line to the right.
     fn hatch(&mut self, a: [f64; 2], b: [f64; 2]) {
-        self.canvas.path(&[a, b], false, &Ink::line(QUIET, 1.5));
+        self.svg.path(&[a, b], false, &Ink::line(QUIET, 1.5));
         let ([x, y], length) = unit(a, b);
         let count = (length / 6.0).floor().max(1.0) as usize;
         for k in 0..=count {
             let way = length * k as f64 / count as f64;
             let at = [a[0] + way * x, a[1] + way * y];
             let foot = [at[0] - 5.0 * (x + y), at[1] - 5.0 * (y - x)];
-            self.canvas.path(&[at, foot], false, &Ink::line(QUIET, 1.0));
+            self.svg.path(&[at, foot], false, &Ink::line(QUIET, 1.0));
         }
     }
 }

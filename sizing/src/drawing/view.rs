@@ -2,7 +2,7 @@
 
 use super::sketch::{Part, Sketch};
 use crate::plot::WIDTH;
-use crate::plot::canvas::{Anchor, Canvas, Ink};
+use crate::plot::svg::{Anchor, Ink, Svg};
 use crate::rounding::rounded;
 
 /// Room around the drawing (px): bearings, blocks and labels reach beyond what they stand for.
@@ -84,16 +84,21 @@ impl View {
     }
 
     /// Scale bar and position.
-    pub(super) fn legend(&self, canvas: &mut Canvas, schematic: bool, place: &str) {
+    pub(super) fn legend(&self, svg: &mut Svg, schematic: bool, place: &str) {
         let base = self.height - 14.0;
         if schematic {
             let words = "schematic: radii by the ratios, not to scale";
-            canvas.text([14.0, base], Anchor::Start, words, super::QUIET);
+            svg.text(
+                [14.0, base],
+                Anchor::Start,
+                &super::lettering(super::QUIET),
+                words,
+            );
         } else {
             let length = nice(0.2 * self.width / self.scale);
             let end = 14.0 + length * self.scale;
             let ink = Ink::line(super::QUIET, 1.5);
-            canvas.path(
+            svg.path(
                 &[
                     [14.0, base - 5.0],
                     [14.0, base],
@@ -105,10 +110,20 @@ impl View {
             );
             let words = format!("{} mm", rounded(length * 1e3));
             let middle = [0.5 * (14.0 + end), base - 7.0];
-            canvas.text(middle, Anchor::Middle, &words, super::QUIET);
+            svg.text(
+                middle,
+                Anchor::Middle,
+                &super::lettering(super::QUIET),
+                &words,
+            );
         }
         if !place.is_empty() {
-            canvas.text([14.0, 22.0], Anchor::Start, place, super::QUIET);
+            svg.text(
+                [14.0, 22.0],
+                Anchor::Start,
+                &super::lettering(super::QUIET),
+                place,
+            );
         }
     }
 }

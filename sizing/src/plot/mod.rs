@@ -1,21 +1,27 @@
-//! The only door to the plotting library (with its parts in `plot/`): data in, inline SVG out.
+//! Charts as inline SVG: curves and clouds of dots over one or two vertical axes, with a legend.
 
-use kuva::prelude::*;
-use kuva::render::layout::AxisLabelOverlap;
-use scale::{Span, nice_step, number, range, to_f64, usable};
-use std::sync::Arc;
-use svg::finish;
+use legend::Legend;
+use scale::{Span, nice_step, range, usable};
+use svg::{Anchor, Ink, Svg};
 
-pub(crate) mod canvas;
+mod legend;
 mod scale;
-mod svg;
+pub(crate) mod svg;
 #[cfg(test)]
 mod tests;
 
 pub(crate) const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 340.0;
-/// Blank band the library leaves under a legend; it is drawn and then cropped away.
-const LEGEND_SLACK: f64 = 22.0;
+/// Sizes of letters (px): title, names of axes, numbers and legend.
+const TITLE: f64 = 15.0;
+const NAME: f64 = 13.0;
+const NUMBER: f64 = 12.0;
+/// Length of a tick (px).
+const TICK: f64 = 5.0;
+/// Distance of lines of text, as a multiple of the letters.
+const LEADING: f64 = 1.3;
+/// A curve passes its points by this at most (px): a thirtieth of its width.
+const THINNING: f64 = 0.06;
 /// Okabe-Ito without its yellow, which is too faint on white paper, and five more that differ most from these.
 pub(crate) const PALETTE: [&str; 12] = [
     "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#444444", "#7B3FF2",
@@ -23,8 +29,6 @@ pub(crate) const PALETTE: [&str; 12] = [
 ];
 /// Where the colours come round again, lines have dashes and dots: neither those of a limit nor none.
 const SECOND_ROUND: &str = "9 3 2 3";
-/// With more bars than this, the numbers at the bars would run into each other.
-const MAX_LABELLED_BARS: usize = 14;
 
 /// One curve. It is broken at points that are not finite; those are not drawn.
 pub struct Series<'a> {
@@ -60,89 +64,206 @@ pub struct Axes<'a> {
 /// Draws curves and clouds of dots over one pair of axes.
 #[must_use]
 pub fn lines(axes: &Axes, series: &[Series]) -> String {
-    let y = Span::of(range(valid(series).map(|p| p.1)));
-    let layout = frame(axes, &x_span(axes, series, &[]), &y, legend(series, 0, ""));
-    finish(render_multiple(plots(series, 0), layout))
+    draw(axes, series, None)
 }
 
 /// Draws `left` and `right` against a vertical axis each. Both axes have the same number of
 /// intervals, so that the grid serves both.
 #[must_use]
 pub fn lines_two_axes(axes: &Axes, left: &[Series], right_label: &str, right: &[Series]) -> String {
-    let y = Span::of(range(valid(left).map(|p| p.1)));
-    let y2 = Span::with_intervals(range(valid(right).map(|p| p.1)), y.intervals);
-    let mut entries = legend(left, 0, "");
-    entries.extend(legend(right, left.len(), " (right axis)"));
-    let layout = frame(axes, &x_span(axes, left, right), &y, entries)
-        .with_y2_range(y2.lo, y2.hi)
-        .with_y2_axis_min(y2.lo)
-        .with_y2_axis_max(y2.hi)
-        .with_y2_label(text(right_label))
-        .with_y2_label_wrap(36)
-        .with_y2_tick_format(tick_format(&y2));
-    let (left, right) = (plots(left, 0), plots(right, left.len()));
-    finish(render_twin_y(left, right, layout))
+    draw(axes, left, Some((right_label, right)))
 }
 
-/// Draws groups of named bars, e.g. `inertia J·α` with `peak` and `RMS`; equal names have equal
-/// colours. Values may be negative; one that is not finite leaves a gap.
-#[must_use]
-pub fn bars(axes: &Axes, groups: &[(&str, Vec<(&str, f64)>)]) -> String {
-    let mut names: Vec<&str> = Vec::new();
-    for (name, _) in groups.iter().flat_map(|group| &group.1) {
-        if !names.contains(name) {
-            names.push(name);
+/// A vertical axis with its name, broken into lines, and its numbers.
+struct Upright {
+    span: Span,
+    name: Vec<String>,
+    ticks: Vec<(f64, String)>,
+}
+
+impl Upright {
+    fn new(span: Span, name: &str) -> Self {
+        Self {
+            ticks: span.ticks(),
+            span,
+            name: wrapped(name, 36),
         }
     }
-    let slots = groups.iter().map(|g| g.1.len()).max().unwrap_or(0).max(1);
-    let labelled = slots * groups.len() <= MAX_LABELLED_BARS;
-    let values = groups.iter().flat_map(|g| &g.1).map(|bar| bar.1);
-    let (lo, hi) = range(values.chain([0.0]));
-    let room = |end: f64| {
-        if labelled && end != 0.0 {
-            0.1 * (hi - lo)
-        } else {
-            0.0
-        }
+
+    /// Room beside the plot (px).
+    fn room(&self) -> f64 {
+        let numbers = self.ticks.iter().map(|(_, text)| width(text, NUMBER));
+        let lines = self.name.len() as f64 * LEADING * NAME;
+        TICK + 3.0 + numbers.fold(0.0, f64::max) + 8.0 + lines
+    }
+}
+
+/// The rectangle between the axes, and what it shows.
+struct Frame<'a> {
+    left: f64,
+    right: f64,
+    top: f64,
+    bottom: f64,
+    x: &'a Span,
+}
+
+impl Frame<'_> {
+    fn x(&self, x: f64) -> f64 {
+        self.left + self.x.share(x) * (self.right - self.left)
+    }
+
+    fn y(&self, span: &Span, y: f64) -> f64 {
+        self.bottom - span.share(y) * (self.bottom - self.top)
+    }
+
+    fn middle(&self) -> [f64; 2] {
+        [
+            self.left.midpoint(self.right),
+            self.top.midpoint(self.bottom),
+        ]
+    }
+}
+
+fn draw(axes: &Axes, left: &[Series], second: Option<(&str, &[Series])>) -> String {
+    let right = second.map_or(&[][..], |(_, right)| right);
+    let x = x_span(axes, left, right);
+    let y = Upright::new(Span::of(range(valid(left).map(|p| p.1))), axes.y);
+    let y2 = second.map(|(name, right)| {
+        let values = range(valid(right).map(|p| p.1));
+        Upright::new(Span::with_intervals(values, y.span.intervals), name)
+    });
+    let title = wrapped(axes.title, 85);
+    let ends = WIDTH - y2.as_ref().map_or(24.0, Upright::room);
+    let legend = Legend::new(left, right, [y.room(), ends]);
+    let name = wrapped(axes.x, 85);
+    let frame = Frame {
+        left: y.room(),
+        right: ends,
+        top: 12.0 + title.len() as f64 * LEADING * TITLE,
+        bottom: HEIGHT - TICK - 22.0 - name.len() as f64 * LEADING * NAME - legend.height(),
+        x: &x,
     };
-    let y = Span::of((lo - room(lo), hi + room(hi)));
-    let entries = (0..).zip(&names).filter(|(_, name)| !name.is_empty());
-    let entries = entries.map(|(i, name)| entry(name, i, LegendShape::Rect, None));
-    let labels: Vec<String> = groups.iter().map(|g| text(g.0)).collect();
-    let crowded = labels.iter().any(|s| s.chars().count() * labels.len() > 95);
-    let x = Span::new(0.5, 1.0, groups.len().max(1));
-    let mut layout = frame(axes, &x, &y, entries.collect()).with_x_categories(labels);
-    if crowded {
-        layout = layout.with_x_label_overlap(AxisLabelOverlap::Stagger);
+    let mut svg = Svg::new(WIDTH, HEIGHT);
+    grid(&mut svg, &frame, &y, y2.as_ref());
+    for (k, line) in (1..).map(f64::from).zip(&title) {
+        let at = [frame.middle()[0], 4.0 + k * LEADING * TITLE];
+        svg.text(at, Anchor::Middle, &format!("font-size=\"{TITLE}\""), line);
     }
-    let mut plot = BarPlot::new().with_width(0.7);
-    for (middle, (group, members)) in (1..).map(f64::from).zip(groups) {
-        let mut drawn = Vec::new();
-        for (place, &(name, value)) in (0..).map(f64::from).zip(members) {
-            let index = names.iter().position(|n| *n == name).unwrap_or(0);
-            drawn.push((if usable(value) { value } else { 0.0 }, colour(index)));
-            if labelled && usable(value) {
-                let at = middle - 0.35 + 0.7 * (place + 0.5) / to_f64(slots);
-                let drop = 0.09 * (y.hi - y.lo) * f64::from(u8::from(value < 0.0));
-                let step = 10f64.powf(value.abs().log10().floor() - 2.0);
-                let note = number(value, value.abs(), step);
-                layout = layout.with_annotation(TextAnnotation::new(note, at, value - drop));
+    for (k, line) in (1..).map(f64::from).zip(&name) {
+        let at = [
+            frame.middle()[0],
+            frame.bottom + TICK + 14.0 + k * LEADING * NAME,
+        ];
+        svg.text(at, Anchor::Middle, &format!("font-size=\"{NAME}\""), line);
+    }
+    // Dots below lines.
+    let numbered = || {
+        let left = left.iter().map(|series| (series, &y.span));
+        let second = y2.as_ref().map_or(&y.span, |y2| &y2.span);
+        left.chain(right.iter().map(move |series| (series, second)))
+            .enumerate()
+    };
+    for dots in [true, false] {
+        for (index, (series, span)) in numbered() {
+            let place = |p: &(f64, f64)| [frame.x(p.0), frame.y(span, p.1)];
+            for run in series.points.split(|p| !usable(p.0) || !usable(p.1)) {
+                // A lone point becomes a dot whatever its style.
+                let as_dots = series.style == Style::Dots || run.len() == 1;
+                if run.is_empty() || as_dots != dots {
+                    continue;
+                }
+                let points: Vec<[f64; 2]> = run.iter().map(place).collect();
+                if dots {
+                    svg.dots(&points, colour(index), 3.4);
+                } else {
+                    let mut ink = Ink::line(colour(index), 1.8);
+                    ink.dashes = dashes(index, series.style);
+                    svg.path(&thinned(&points), false, &ink);
+                }
             }
         }
-        drawn.resize(slots, (0.0, ""));
-        plot = plot.with_group(text(group), drawn);
     }
-    finish(render_multiple(vec![plot.into()], layout))
+    legend.draw(&mut svg);
+    svg.finish()
+}
+
+/// Grid, axes, ticks with their numbers, and the names of the vertical axes.
+fn grid(svg: &mut Svg, frame: &Frame, y: &Upright, y2: Option<&Upright>) {
+    let Frame {
+        left,
+        right,
+        top,
+        bottom,
+        ..
+    } = *frame;
+    let look = format!("font-size=\"{NUMBER}\"");
+    let below = frame.x.ticks();
+    svg.open("stroke=\"#E2E2E2\"", "");
+    for (x, _) in &below {
+        svg.rule([frame.x(*x), top], [frame.x(*x), bottom]);
+    }
+    for (at, _) in &y.ticks {
+        let at = frame.y(&y.span, *at);
+        svg.rule([left, at], [right, at]);
+    }
+    svg.close();
+    let (lo, hi, step) = (y.span.lo, y.span.hi, y.span.step);
+    svg.open("stroke=\"#777777\"", "");
+    if lo < -0.5 * step && hi > 0.5 * step {
+        let zero = frame.y(&y.span, 0.0);
+        svg.rule([left, zero], [right, zero]);
+    }
+    svg.close();
+    svg.open("stroke=\"black\"", "");
+    svg.rule([left, bottom], [right, bottom]);
+    for (x, _) in &below {
+        svg.rule([frame.x(*x), bottom], [frame.x(*x), bottom + TICK]);
+    }
+    for (axis, x, way) in [(Some(y), left, -1.0), (y2, right, 1.0)] {
+        let Some(axis) = axis else { continue };
+        svg.rule([x, top], [x, bottom]);
+        for (at, _) in &axis.ticks {
+            let at = frame.y(&axis.span, *at);
+            svg.rule([x, at], [x + way * TICK, at]);
+        }
+    }
+    svg.close();
+    for (x, text) in &below {
+        svg.text(
+            [frame.x(*x), bottom + TICK + 12.0],
+            Anchor::Middle,
+            &look,
+            text,
+        );
+    }
+    let [_, middle] = frame.middle();
+    for (axis, x, way, anchor) in [
+        (Some(y), left, -1.0, Anchor::End),
+        (y2, right, 1.0, Anchor::Start),
+    ] {
+        let Some(axis) = axis else { continue };
+        for (at, text) in &axis.ticks {
+            // Letters hang from their line: half the height of a digit brings them to its middle.
+            let at = [
+                x + way * (TICK + 3.0),
+                frame.y(&axis.span, *at) + 0.36 * NUMBER,
+            ];
+            svg.text(at, anchor, &look, text);
+        }
+        for (k, line) in (0..).map(f64::from).zip(&axis.name) {
+            // The first line is the outermost: on the left it reads upwards, on the right downwards.
+            let x = x + way * (axis.room() - (k + 0.5) * LEADING * NAME - 2.0);
+            let turn = way * 90.0;
+            let look =
+                format!("font-size=\"{NAME}\" transform=\"rotate({turn},{x:.2},{middle:.2})\"");
+            svg.text([x, middle + 0.36 * NAME], Anchor::Middle, &look, line);
+        }
+    }
 }
 
 fn valid<'a>(series: &'a [Series]) -> impl Iterator<Item = (f64, f64)> + 'a {
     let points = series.iter().flat_map(|s| &s.points).copied();
     points.filter(|p| usable(p.0) && usable(p.1))
-}
-
-fn tick_format(span: &Span) -> TickFormat {
-    let (size, step) = (span.lo.abs().max(span.hi.abs()), span.step);
-    TickFormat::Custom(Arc::new(move |value| number(value, size, step)))
 }
 
 /// Lines fill the width, dots get some room.
@@ -154,23 +275,33 @@ fn x_span(axes: &Axes, left: &[Series], right: &[Series]) -> Span {
     let angle = axes.x.contains("[deg]") || axes.x.contains('°');
     let mut angles = [15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0].into_iter();
     let nice = angles.find(|step| angle && (60.0..=9.0 * step).contains(&(hi - lo)));
-    let step = nice.unwrap_or_else(|| nice_step((hi - lo) / 8.0));
-    let slack = 1e-9 * step;
-    Span {
-        lo: lo - slack,
-        hi: hi + slack,
-        step,
-        intervals: 8,
-    }
+    Span::tight(lo, hi, nice.unwrap_or_else(|| nice_step((hi - lo) / 8.0)))
 }
 
-/// User text without math markup (`$`) and without what XML cannot hold; the library escapes it.
-fn text(raw: &str) -> String {
-    let clean = raw.replace(
-        |c: char| c.is_control() || c > '\u{FFFD}' && c < '\u{10000}',
-        " ",
-    );
-    clean.replace('$', "\\$")
+/// The points that a curve needs: one that lies on the line between its neighbours is left out.
+fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    /// Points that are tried together, at most.
+    const REACH: usize = 40;
+    let mut kept: Vec<[f64; 2]> = points.first().copied().into_iter().collect();
+    let mut from = 0;
+    while from + 1 < points.len() {
+        let fits = |to: &usize| {
+            let (a, b) = (points[from], points[*to]);
+            let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+            let length = dx.hypot(dy);
+            points[from + 1..*to].iter().all(|p| {
+                let (px, py) = (p[0] - a[0], p[1] - a[1]);
+                let along = px * dx + py * dy;
+                (px * dy - py * dx).abs() <= THINNING * length
+                    && (0.0..=length * length).contains(&along)
+            })
+        };
+        let last = points.len().min(from + REACH);
+        let to = (from + 2..last).take_while(fits).last();
+        from = to.unwrap_or(from + 1);
+        kept.push(points[from]);
+    }
+    kept
 }
 
 /// Colour of curve number `index`.
@@ -187,93 +318,29 @@ pub(crate) fn dashes(index: usize, style: Style) -> Option<&'static str> {
     }
 }
 
-fn line_style(index: usize, style: Style) -> LineStyle {
-    dashes(index, style).map_or(LineStyle::Solid, |dashes| LineStyle::Custom(dashes.into()))
-}
-
-fn entry(name: &str, index: usize, shape: LegendShape, dashes: Option<String>) -> LegendEntry {
-    let (label, color) = (text(name), colour(index).into());
-    LegendEntry {
-        label,
-        color,
-        shape,
-        dasharray: dashes,
-    }
-}
-
-fn legend(series: &[Series], first: usize, suffix: &str) -> Vec<LegendEntry> {
-    let named = (first..).zip(series).filter(|(_, s)| !s.name.is_empty());
-    let make = |(i, s): (usize, &Series)| {
-        let dots = s.style == Style::Dots;
-        let shape = if dots {
-            LegendShape::CircleSize(3.0)
-        } else {
-            LegendShape::Line
-        };
-        let dashes = line_style(i, s.style).dasharray();
-        entry(&format!("{}{suffix}", s.name), i, shape, dashes)
-    };
-    named.map(make).collect()
-}
-
-/// The library's plots, dots below lines. A lone point becomes a dot whatever its style.
-fn plots(series: &[Series], first: usize) -> Vec<Plot> {
-    // Without any plot, the library draws no axes either.
-    let mut drawn: Vec<Plot> = vec![LinePlot::new().into()];
-    for (i, s) in (first..).zip(series) {
-        let runs = s.points.split(|p| !usable(p.0) || !usable(p.1));
-        for run in runs.filter(|run| !run.is_empty()) {
-            let run_points = run.iter().copied();
-            drawn.push(if s.style == Style::Dots || run.len() == 1 {
-                let dots = ScatterPlot::new().with_data(run_points).with_size(1.7);
-                dots.with_color(colour(i)).into()
-            } else {
-                let line = LinePlot::new().with_data(run_points).with_color(colour(i));
-                let line = line.with_line_style(line_style(i, s.style));
-                line.with_stroke_width(1.8).into()
-            });
+/// Lines of at most `length` letters, broken at blanks; none of an empty text.
+fn wrapped(text: &str, length: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split(' ').filter(|_| !text.is_empty()) {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= length => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
         }
     }
-    drawn.sort_by_key(|plot| matches!(plot, Plot::Line(_)));
-    drawn
+    lines
 }
 
-/// What all plots have in common: size, fonts, thin grid, legend below.
-fn frame(axes: &Axes, x: &Span, y: &Span, entries: Vec<LegendEntry>) -> Layout {
-    let mut theme = Theme::light();
-    theme.grid_color = "#E2E2E2".into();
-    let mut layout = Layout::new((x.lo, x.hi), (y.lo, y.hi))
-        .with_width(WIDTH)
-        .with_height(HEIGHT)
-        .with_theme(theme)
-        .with_font_family("Helvetica, Arial, Liberation Sans, DejaVu Sans, sans-serif")
-        .with_title_size(15)
-        .with_label_size(13)
-        .with_ticks(y.intervals)
-        .with_x_axis_min(x.lo)
-        .with_x_axis_max(x.hi)
-        .with_x_tick_step(x.step)
-        .with_x_tick_format(tick_format(x))
-        .with_y_axis_min(y.lo)
-        .with_y_axis_max(y.hi)
-        .with_y_tick_step(y.step)
-        .with_y_tick_format(tick_format(y))
-        .with_x_label(text(axes.x))
-        .with_y_label(text(axes.y))
-        .with_y_label_wrap(36);
-    if !axes.title.is_empty() {
-        layout = layout.with_title(text(axes.title)).with_title_wrap(85);
-    }
-    if y.lo < -0.5 * y.step && y.hi > 0.5 * y.step {
-        let zero = ReferenceLine::horizontal(0.0).with_color("#777777");
-        layout = layout.with_reference_line(zero.with_dasharray("none"));
-    }
-    if !entries.is_empty() {
-        layout = layout
-            .with_height(HEIGHT + LEGEND_SLACK)
-            .with_legend_entries(entries)
-            .with_legend_position(LegendPosition::OutsideBottomColumns)
-            .with_legend_box(false);
-    }
-    layout
+/// About how wide a text is in letters of a size (px): no font is asked, whichever the reader has.
+fn width(text: &str, size: f64) -> f64 {
+    let share = |c: char| match c {
+        'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '|' | '!' | '\'' | '′' => 0.26,
+        ' ' | 'f' | 't' | 'r' | 'I' | '(' | ')' | '[' | ']' | '/' | '·' | '-' => 0.33,
+        'm' | 'w' | 'M' | 'W' | '%' | '@' => 0.86,
+        c if c.is_uppercase() => 0.7,
+        _ => 0.56,
+    };
+    text.chars().map(share).sum::<f64>() * size
 }

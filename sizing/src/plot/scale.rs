@@ -27,6 +27,37 @@ impl Span {
         narrowest.unwrap_or_else(|| Self::with_intervals(range, 5))
     }
 
+    /// An axis from end to end of a range, up to the next tick where that is near.
+    pub(super) fn tight(lo: f64, hi: f64, step: f64) -> Self {
+        let near = 0.02 * (hi - lo);
+        let (first, last) = ((lo / step).floor() * step, (hi / step).ceil() * step);
+        let slack = 1e-9 * step;
+        Self {
+            lo: if lo - first <= near { first } else { lo } - slack,
+            hi: if last - hi <= near { last } else { hi } + slack,
+            step,
+            intervals: ((hi - lo) / step) as usize,
+        }
+    }
+
+    /// Where a value lies between the ends, 0 to 1.
+    pub(super) fn share(&self, value: f64) -> f64 {
+        (value - self.lo) / (self.hi - self.lo)
+    }
+
+    /// The ticks with their numbers.
+    pub(super) fn ticks(&self) -> Vec<(f64, String)> {
+        let size = self.lo.abs().max(self.hi.abs());
+        let first = (self.lo / self.step).ceil();
+        let count = ((self.hi - first * self.step) / self.step).floor() as usize;
+        (0..=count)
+            .map(|k| {
+                let value = (first + to_f64(k)) * self.step;
+                (value, number(value, size, self.step))
+            })
+            .collect()
+    }
+
     /// Adds some air, but does not cross zero for it; includes zero if it is near.
     pub(super) fn with_intervals((lo, hi): (f64, f64), intervals: usize) -> Self {
         let air = 0.02 * (hi - lo);
@@ -52,8 +83,7 @@ impl Span {
     }
 }
 
-/// The multiple of a power of ten from 1, 2, 2.5 and 5 that is nearest to a positive distance; the
-/// same choice as the library makes for the right axis, which takes no step.
+/// The multiple of a power of ten from 1, 2, 2.5 and 5 that is nearest to a positive distance.
 pub(super) fn nice_step(distance: f64) -> f64 {
     let magnitude = 10f64.powf(distance.log10().floor());
     let limits = [(1.5, 1.0), (2.25, 2.0), (3.5, 2.5), (7.5, 5.0)];
@@ -91,7 +121,7 @@ pub(super) fn to_f64(n: usize) -> f64 {
     n as f64
 }
 
-/// Values beyond 1e100 would overflow inside the library.
+/// Values beyond 1e100 would overflow where they are scaled.
 pub(super) fn usable(value: f64) -> bool {
     value.abs() < 1e100
 }

@@ -45,7 +45,11 @@ fn drawn_paths(svg: &str) -> usize {
 #[test]
 fn user_text_is_escaped_and_shown_as_given() {
     let points = vec![(0.0, 1.0), (1.0, 2.0)];
-    let group = [("<g&\">", vec![("<b&\">\u{1}", 1.0)])];
+    let odd = Series {
+        name: "<b&\">\u{1}",
+        points: points.clone(),
+        style: Style::Line,
+    };
     let all = [
         lines(&AXES, &one(points.clone(), Style::Line)),
         lines_two_axes(
@@ -54,13 +58,9 @@ fn user_text_is_escaped_and_shown_as_given() {
             "<r&\">",
             &one(points, Style::Dashed),
         ),
-        bars(&AXES, &group),
+        lines(&AXES, &[odd]),
     ];
-    let shown = [
-        vec!["J′·ω² <&\">"],
-        vec!["<r&\">"],
-        vec!["<g&\">", "<b&\"> "],
-    ];
+    let shown = [vec!["J′·ω² <&\">"], vec!["<r&\">"], vec!["<b&\"> "]];
     for (svg, shown) in all.iter().zip(shown) {
         let document = sound(svg);
         let texts: HashSet<&str> = document.descendants().filter_map(|n| n.text()).collect();
@@ -81,28 +81,85 @@ fn size_is_left_to_the_page() {
     }
 }
 
+/// Many charts stand on a page: none has an id that another one could have too.
 #[test]
 fn ids_are_unique_on_a_page() {
     let data = || one(vec![(0.0, 1.0), (1.0, 2.0)], Style::Line);
-    let group = [("g", vec![("b", 1.0)])];
     let plots = [
         lines(&AXES, &data()),
-        lines(&AXES, &data()),
-        bars(&AXES, &group),
         lines_two_axes(&AXES, &data(), "", &data()),
     ];
     let page = format!("<div>{}</div>", plots.concat());
     let document = sound(&page);
-    let ids: Vec<&str> = document
-        .descendants()
-        .filter_map(|n| n.attribute("id"))
+    assert!(document.descendants().all(|n| n.attribute("id").is_none()));
+}
+
+/// Curves, and the numbers and names about them, are on the sheet: nothing needs to be cut off.
+#[test]
+fn everything_is_on_the_sheet() {
+    let far = vec![(-3.0, 1e9), (40.0, -7e8), (41.0, 1e9)];
+    let svg = lines_two_axes(
+        &AXES,
+        &one(far.clone(), Style::Line),
+        "right",
+        &one(far, Style::Dashed),
+    );
+    let document = sound(&svg);
+    let on = |x: f64, y: f64| {
+        assert!(
+            (0.0..=WIDTH).contains(&x) && (0.0..=HEIGHT).contains(&y),
+            "{x} {y}"
+        )
+    };
+    for node in document.descendants() {
+        if let Some(d) = node.attribute("d") {
+            for point in d.trim_start_matches('M').split('L') {
+                let (x, y) = point.split_once(' ').unwrap();
+                on(x.parse().unwrap(), y.parse().unwrap());
+            }
+        }
+        for (x, y) in [("x", "y"), ("x1", "y1"), ("x2", "y2")] {
+            if let (Some(x), Some(y)) = (node.attribute(x), node.attribute(y)) {
+                on(x.parse().unwrap(), y.parse().unwrap());
+            }
+        }
+    }
+}
+
+/// What a curve leaves out is not seen: no point is off by a tenth of its width.
+#[test]
+fn a_thinned_curve_is_the_same_curve() {
+    let wave: Vec<[f64; 2]> = (0..2000)
+        .map(|k| {
+            let x = f64::from(k) * 0.3;
+            [
+                x,
+                100.0 * (x / 40.0).sin() + if k == 777 { 9.0 } else { 0.0 },
+            ]
+        })
         .collect();
-    assert_eq!(ids.iter().collect::<HashSet<_>>().len(), ids.len());
-    let used: HashSet<&str> = document
-        .descendants()
-        .filter_map(|n| n.attribute("clip-path"))
-        .collect();
-    assert_eq!(used.len(), plots.len());
+    let kept = thinned(&wave);
+    assert!(kept.len() < 500, "{}", kept.len());
+    assert!(kept.contains(&wave[0]) && kept.contains(&wave[777]) && kept.contains(&wave[1999]));
+    for p in &wave {
+        let nearest = kept.windows(2).map(|pair| {
+            let [a, b] = pair else { unreachable!() };
+            let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+            let along = ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / (dx * dx + dy * dy);
+            let along = along.clamp(0.0, 1.0);
+            (p[0] - a[0] - along * dx).hypot(p[1] - a[1] - along * dy)
+        });
+        assert!(nearest.fold(f64::INFINITY, f64::min) < 0.1);
+    }
+    let back = [[0.0, 0.0], [5.0, 0.0], [-1.0, 0.0], [2.0, 0.0]];
+    assert_eq!(thinned(&back), back, "turning points stay");
+}
+
+#[test]
+fn long_names_are_broken_into_lines() {
+    assert_eq!(wrapped("", 9), Vec::<String>::new());
+    assert_eq!(wrapped("a bc def", 4), ["a bc", "def"]);
+    assert_eq!(wrapped("longer than that", 4), ["longer", "than", "that"]);
 }
 
 #[test]
@@ -143,19 +200,8 @@ fn degenerate_input_is_drawn_without_nonsense() {
                 &one(points.clone(), style),
             ));
         }
-        sound(&bars(
-            &AXES,
-            &[
-                ("g", points.iter().map(|p| ("b", p.1)).collect()),
-                ("none", vec![]),
-            ],
-        ));
     }
-    for empty in [
-        lines(&AXES, &[]),
-        lines_two_axes(&AXES, &[], "r", &[]),
-        bars(&AXES, &[]),
-    ] {
+    for empty in [lines(&AXES, &[]), lines_two_axes(&AXES, &[], "r", &[])] {
         let ticks = sound(&empty)
             .descendants()
             .filter(|n| n.attribute("text-anchor") == Some("end"))

@@ -66,39 +66,44 @@ impl Chart {
     }
 }
 
+/// Series that share their places name one list of them.
 fn data(form: Form, axes: &Axes, right_label: &str, left: &[Series], right: &[Series]) -> Value {
-    let one = |index: usize, series: &Series, right: bool| {
+    let mut places: Vec<Value> = Vec::new();
+    let mut one = |index: usize, series: &Series, right: bool| {
         let style = match series.style {
             Style::Line => "line",
             Style::Dashed => "dashed",
             Style::Dots => "dots",
         };
-        let numbers = |of: fn(&(f64, f64)) -> f64| -> Vec<Value> {
-            series
-                .points
-                .iter()
-                .map(|point| number(of(point)))
-                .collect()
-        };
+        let x: Value = series.points.iter().map(|p| number(p.0)).collect();
+        let y: Value = series.points.iter().map(|p| number(p.1)).collect();
+        let known = places.iter().position(|other| *other == x);
+        let at = known.unwrap_or_else(|| {
+            places.push(x);
+            places.len() - 1
+        });
         json!({
             "name": series.name,
             "style": style,
             "colour": colour(index),
             "dash": dash(index, series.style),
             "right": right,
-            "x": numbers(|p| p.0),
-            "y": numbers(|p| p.1),
+            "at": at,
+            "y": y,
         })
     };
     let all = left.iter().map(|s| (s, false));
     let all = all.chain(right.iter().map(|s| (s, true))).enumerate();
-    let all = all.map(|(index, (series, right))| one(index, series, right));
+    let series: Vec<Value> = all
+        .map(|(index, (series, right))| one(index, series, right))
+        .collect();
     json!({
         "form": form.name(),
         "x": axes.x,
         "y": axes.y,
         "right": right_label,
-        "series": all.collect::<Vec<_>>(),
+        "places": places,
+        "series": series,
     })
 }
 

@@ -5,10 +5,10 @@ use jred::{Domain, Error, Reducible as _};
 use super::SimulationError;
 use super::error::stopped;
 use super::watch::{At, Watch};
+use crate::columns::Columns;
 use crate::coordinate::Coordinate;
 use crate::machine::{MachineFile, Simulation};
 use crate::numerics::dormand_prince::{Accuracy, Point};
-use crate::columns::Columns;
 
 /// The most steps within one output step.
 const MOST_STEPS: u32 = 1_000_000;
