@@ -140,7 +140,7 @@ fn draw(axes: &Axes, left: &[Series], second: Option<(&str, &[Series])>) -> Stri
         left: y.room(),
         right: ends,
         top: 12.0 + title.len() as f64 * LEADING * TITLE,
-        bottom: HEIGHT - TICK - 22.0 - name.len() as f64 * LEADING * NAME - legend.height(),
+        bottom: HEIGHT - TICK - 26.0 - name.len() as f64 * LEADING * NAME - legend.height(),
         x: &x,
     };
     let mut svg = Svg::new(WIDTH, HEIGHT);
