@@ -6,6 +6,7 @@ mod closed_form;
 mod disc_cam;
 mod disc_cam_closed_form;
 mod disc_cam_refused;
+mod documents;
 mod duty;
 mod dynamics;
 mod errors;

@@ -1,0 +1,121 @@
+//! Links and paths in the documents lead somewhere.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The repository, or nothing where the tests run from the published package, which has no documents.
+fn repository() -> Option<&'static Path> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    root.join("docs").is_dir().then_some(root)
+}
+
+/// All files `*.md` in the folder, and in those below it, without hidden ones and compiler output.
+fn documents(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy();
+        if path.is_dir() && !name.starts_with('.') && name != "target" {
+            documents(&path, found);
+        } else if name.ends_with(".md") {
+            found.push(path);
+        }
+    }
+}
+
+/// The text without its blocks of code.
+fn prose(text: &str) -> String {
+    let parts = text.split("\n```").enumerate();
+    parts
+        .filter(|(k, _)| k % 2 == 0)
+        .map(|(_, part)| part)
+        .collect()
+}
+
+/// What follows each `start`, up to the next `end`.
+fn between<'a>(text: &'a str, start: &'a str, end: char) -> impl Iterator<Item = &'a str> {
+    let after = text.split(start).skip(1);
+    after
+        .filter_map(move |rest| rest.split_once(end))
+        .map(|(inner, _)| inner)
+}
+
+/// The anchors of a document: `id="…"`, and those that its headings get.
+fn anchors(text: &str) -> BTreeSet<String> {
+    let ids = between(text, "id=\"", '"').map(ToOwned::to_owned);
+    let prose = prose(text);
+    let headings = prose.lines().filter_map(|line| {
+        let heading = line.trim_start_matches('#').strip_prefix(' ')?;
+        let heading = heading.split('<').next()?.trim().to_lowercase();
+        let kept = heading
+            .chars()
+            .filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+        line.starts_with('#')
+            .then(|| kept.collect::<String>().replace(' ', "-"))
+    });
+    ids.chain(headings).collect()
+}
+
+#[test]
+fn links_lead_somewhere() {
+    let Some(root) = repository() else { return };
+    let mut all = Vec::new();
+    documents(root, &mut all);
+    let mut broken = Vec::new();
+    for document in &all {
+        let text = fs::read_to_string(document).unwrap();
+        for link in between(&prose(&text), "](", ')') {
+            if link.contains("://") {
+                continue;
+            }
+            let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
+            let target = match file {
+                "" => document.clone(),
+                file => document.parent().unwrap().join(file),
+            };
+            let known = match fs::read_to_string(&target) {
+                Ok(text) => anchor.is_empty() || anchors(&text).contains(anchor),
+                Err(_) => anchor.is_empty() && target.exists(),
+            };
+            if !known {
+                broken.push(format!("{}: {link}", document.display()));
+            }
+        }
+    }
+    assert!(all.len() > 30, "documents are found");
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+}
+
+/// `tests/golden.rs` in backquotes is a file of the repository.
+#[test]
+fn paths_exist() {
+    const FOLDERS: [&str; 10] = [
+        "benches/",
+        "docs/",
+        "examples/",
+        "machines/",
+        "scripts/",
+        "sizing/",
+        "src/",
+        "tests/",
+        "tool/",
+        "xtask/",
+    ];
+    let Some(root) = repository() else { return };
+    let mut all = Vec::new();
+    documents(root, &mut all);
+    let mut missing = Vec::new();
+    for document in &all {
+        let text = prose(&fs::read_to_string(document).unwrap());
+        for quoted in text.split('`').skip(1).step_by(2) {
+            let path = FOLDERS.iter().any(|folder| quoted.starts_with(folder))
+                && quoted
+                    .chars()
+                    .all(|c| c.is_alphanumeric() || "._/-".contains(c));
+            if path && !quoted.contains("NN_") && !root.join(quoted).exists() {
+                missing.push(format!("{}: {quoted}", document.display()));
+            }
+        }
+    }
+    assert!(missing.is_empty(), "{}", missing.join("\n"));
+}
