@@ -2,7 +2,7 @@
 #
 #  - a rustup toolchain that has the targets: nothing is changed;
 #  - Debian's rustc, cargo and rust-src (packages rustc-web, cargo-web, rust-web-src, lld) where there is no rustup, or
-#    where it cannot fetch the targets: their core and alloc are compiled once, half a minute for each target, into
+#    where it cannot fetch the targets: core and alloc are compiled once, half a minute for each target, into
 #    target/debian-toolchain, and its bin/ is put first in PATH.
 #
 # Without either it says what to install and returns 1. THUMB_TARGETS names the targets. scripts/test does this itself.
@@ -27,7 +27,7 @@ debian_toolchain() {
     mkdir -p "${CARGO_TARGET_DIR:-target}" || return
     dir=$(cd "${CARGO_TARGET_DIR:-target}" && pwd)/debian-toolchain
     host=$(/usr/bin/rustc -vV | sed -n 's/^host: //p')
-    # A library fits only the compiler that made it.
+    # A library works only with the compiler that made it.
     version=$(/usr/bin/rustc -vV)
     [ "$(cat "$dir/version" 2>/dev/null)" = "$version" ] || rm -rf "$dir"
     mkdir -p "$dir/bin" "$dir/sysroot/src" "$dir/lib/rustlib/$host/bin" || return
