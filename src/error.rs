@@ -80,7 +80,7 @@ pub enum Error {
         /// Number of freedoms that the joints take.
         constraints: usize,
     },
-    /// The joint holds links that other joints hold already, while other links are free.
+    /// The joint constrains links that other joints constrain already, while other links are free.
     OverConstrained {
         /// Index of the joint.
         joint: usize,
@@ -120,7 +120,7 @@ pub enum Error {
         /// How many links there are.
         links: usize,
     },
-    /// More elements than the fixed capacity holds.
+    /// More elements than the fixed capacity.
     TooMany {
         /// What was being added.
         what: &'static str,

@@ -1,4 +1,4 @@
-//! The creeping contact: two shafts that are coupled by nothing but the force that slip makes.
+//! The creeping contact: two shafts coupled only by the force that slip causes.
 
 use super::stage::slip_share;
 use crate::error::positive;

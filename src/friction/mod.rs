@@ -1,4 +1,4 @@
-//! Friction drives and variators: ratios and slips that may vary, and what the constraint then is.
+//! Friction drives and variators: ratios and slips that may vary, and the constraint that follows.
 //!
 //! A stage couples two shafts by a geometric ratio i and a slip ε, each a number or a [`Course`] over time, angle or load.
 //! Its velocity coefficient is j = i/(1 − ε) as (III.12), (III.19) are printed, or i·(1 − ε) where the first shaft drives
@@ -7,7 +7,7 @@
 //! | question | answer |
 //! |---|---|
 //! | how does it move? | [`Drive::forward`], [`Drive::inverse`]: factor ½ on dJ/dt·ω |
-//! | slip that grows with the load, as a freedom of its own | [`CreepContact`] |
+//! | slip that grows with the load, as a separate degree of freedom | [`CreepContact`] |
 //! | a *position*, not a ratio, prescribed in time | [`Rheonomic`]: factor 1, and the actuator's power |
 //! | can the constraint be written between angles? | [`Drive::integrability`], and [`integrability`] for any constraint |
 //!

@@ -7,7 +7,7 @@ use crate::{Error, math};
 
 /// Which way power flows through the contact, and so which shaft slip makes slower.
 ///
-/// The same ε does not mean the same: a belt that slips by 2 % turns the driven shaft 2 % slower, whichever that is.
+/// The same ε has two meanings: a belt that slips by 2 % turns the driven shaft 2 % slower, and either shaft may be the driven one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Flow {
@@ -32,7 +32,7 @@ pub struct Ratios {
 
 /// A friction stage: geometric ratio i = ω₂/ω₁ without slip (negative where the direction reverses), and slip ε.
 ///
-/// Mind that the notes' i of friction drives is second over first, while [`mechanism::Stage`](crate::mechanism::Stage)
+/// Note that for friction drives i is second over first, as in the lecture notes, while [`mechanism::Stage`](crate::mechanism::Stage)
 /// has first over second.
 #[derive(Clone, Copy, Debug)]
 pub struct Stage<'a> {

@@ -1,4 +1,4 @@
-//! What goes into a friction drive's equation of motion, and what comes out.
+//! Inputs and results of a friction drive's equation of motion.
 
 use super::drive::{MAX_SHAFTS, MAX_STAGES};
 use crate::machine::reduction::Reduction;
@@ -100,7 +100,7 @@ pub struct ContactMotion {
 pub struct Motion {
     /// Acceleration of shaft 1 (rad/s²).
     pub alpha: f64,
-    /// Torque of the drive on shaft 1, beside the one in its [`Shaft`] (N·m).
+    /// Torque of the drive on shaft 1, in addition to the one in its [`Shaft`] (N·m).
     pub drive: f64,
     /// J = Σ J_k·j_k² (kg·m²) and dJ/dt (kg·m²/s).
     pub inertia: [f64; 2],

@@ -1,7 +1,7 @@
-//! Joints: what holds the links together, and the forces that they can carry.
+//! Joints: how links are connected, and the forces that a joint can carry.
 //!
-//! A joint connects two *markers*, each a point with a direction on a link or on the ground. How many of a link's three
-//! freedoms it takes is the number of its unknown reactions: two forces in a pin, a force and a moment in a guide.
+//! A joint connects two *markers*, each a point with a direction on a link or on the ground. The number of a link's three
+//! freedoms that it takes is the number of its unknown reactions: two forces in a pin, a force and a moment in a guide.
 
 use crate::error::finite;
 use crate::machine::link::Frame;
@@ -15,7 +15,7 @@ pub const MAX_JOINTS: usize = 2 * MAX_LINKS;
 /// The joints of a mechanism.
 pub type Joints = heapless::Vec<Joint, MAX_JOINTS>;
 
-/// What a joint holds: the ground (frame), or a link.
+/// A body that a joint connects: the ground (frame), or a link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Body {
@@ -141,7 +141,7 @@ pub struct Wrench {
     pub point: [f64; 2],
     /// Force, global components (N).
     pub force: [f64; 2],
-    /// Moment beside that of the force (N·m), counter-clockwise positive.
+    /// Moment in addition to that of the force (N·m), counter-clockwise positive.
     pub moment: f64,
 }
 

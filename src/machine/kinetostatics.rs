@@ -22,17 +22,17 @@ use crate::{Error, Machine};
 /// Most unknowns: three equations a link.
 const MOST: usize = 3 * MAX_LINKS;
 
-/// The force in one joint: what its first body does to its second, as a force at a point and the moment about that point.
+/// The force in one joint, from its first body on its second: a force at a point and the moment about that point.
 ///
 /// | joint | point |
 /// |---|---|
 /// | pin | the pin |
-/// | guide | the second marker, the slider's own point; the moment holds the slider upright on the guide |
+/// | guide | the second marker, the slider's own point; the moment keeps the slider parallel to the guide |
 /// | rigid joint | the second marker |
 /// | pin in a slot | the pin |
 /// | transmission | where its effort acts on the second body: teeth in mesh, the end of a rope; of a moment alone the origin |
 ///
-/// The test `forces_balance` holds the balance of every link about each of these points.
+/// The test `forces_balance` checks the balance of every link about each of these points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Reaction {

@@ -10,9 +10,9 @@ use crate::{Error, math};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Action {
-    /// A force with the global components [x, y] (N), whatever the direction of motion.
+    /// A force with the global components [x, y] (N), independent of the direction of motion.
     Force([f64; 2]),
-    /// A moment (N·m), counter-clockwise positive, whatever the direction of motion.
+    /// A moment (N·m), counter-clockwise positive, independent of the direction of motion.
     Moment(f64),
     /// A force of this size (N) against the velocity of its point: friction, a blank holder, cutting both ways.
     OpposingForce(f64),
@@ -198,8 +198,8 @@ impl Load {
         self.link
     }
 
-    /// What the load does to its link at `phi` (rad) and speed `omega` (rad/s), for its link's `frame`. A load that
-    /// opposes the motion does nothing where its point or its link stands still.
+    /// Force and moment of the load on its link at `phi` (rad) and speed `omega` (rad/s), for its link's `frame`. A load that
+    /// opposes the motion is zero where its point or its link is at rest.
     #[must_use]
     pub fn wrench(&self, frame: &Frame, phi: f64, omega: f64) -> Wrench {
         let part = self.window.map_or(1.0, |w| w.factor(phi));

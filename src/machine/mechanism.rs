@@ -1,4 +1,4 @@
-//! What a mechanism is to a machine: links, a range of the drive link, and positions with their transfer functions.
+//! A mechanism as a machine sees it: links, a range of the drive link, and positions with their transfer functions.
 
 use super::joint::Joints;
 use super::link::{Frame, Link};
@@ -27,7 +27,7 @@ pub trait Mechanism {
     fn frames(&self, phi: f64) -> Result<Frames, Error>;
 }
 
-/// A mechanism that knows what holds its links together, and so the forces in every joint
+/// A mechanism that knows its joints, so that the force in every joint can be calculated
 /// ([`Machine::forces`](crate::Machine::forces)).
 pub trait Jointed: Mechanism {
     /// The joints at the drive link's angle `phi` (rad), where the links are at `frames`. Their number and order do not

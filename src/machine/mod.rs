@@ -1,4 +1,4 @@
-//! Machines: links and joints, what acts on them, and their reduction to the drive link.
+//! Machines: links and joints, loads on them, and their reduction to the drive link.
 
 pub(crate) mod element;
 pub mod joint;

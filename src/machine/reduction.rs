@@ -31,11 +31,11 @@ pub trait Reducible {
     /// The mechanism cannot be placed there, or the reduced inertia is not positive.
     fn reduction(&self, phi: f64) -> Result<Reduction, Error>;
 
-    /// Whether a table of one turn stands for every turn: inertia and loads are the same a turn later. Asked of a drive link
-    /// that turns fully, before a table is made. This default looks at three places.
+    /// Whether a table of one turn represents every turn: inertia and loads are the same a turn later. Used for a drive link
+    /// that turns fully, before a table is made. This default checks three places.
     ///
     /// # Errors
-    /// [`Error::NotPeriodic`], with a place where it is not so; those of [`reduction`](Self::reduction).
+    /// [`Error::NotPeriodic`], with a place where they differ; those of [`reduction`](Self::reduction).
     fn check_repeats(&self) -> Result<(), Error> {
         for phi in SAMPLES {
             let [now, later] = [self.reduction(phi)?, self.reduction(phi + TAU)?];
@@ -161,7 +161,7 @@ impl TorqueTerms {
     }
 }
 
-/// A mechanism with gravity, loads and whatever else turns with its drive link.
+/// A mechanism with gravity, loads and the inertia that turns with its drive link.
 #[derive(Clone, Debug)]
 pub struct Machine<M> {
     mechanism: M,
@@ -261,7 +261,7 @@ impl<M: Mechanism> Machine<M> {
         self.gravity
     }
 
-    /// Inertia that turns with the drive link beside the mechanism's own (kg·m²).
+    /// Inertia that turns with the drive link, in addition to the mechanism's own (kg·m²).
     pub const fn flywheel(&self) -> f64 {
         self.flywheel
     }
@@ -275,8 +275,7 @@ impl<M: Mechanism> Machine<M> {
         Ok(self.each_link(&frames).collect())
     }
 
-    /// The reduced link at `phi` (rad), whatever its inertia: of a machine with a mass at the slider alone it is zero at
-    /// the dead centres.
+    /// The reduced link at `phi` (rad), with any inertia: if only the slider has mass, it is zero at the dead centres.
     ///
     /// # Errors
     /// The mechanism cannot be placed at `phi`.

@@ -8,8 +8,8 @@
 //!
 //! The screw's axis lies *in* the plane, along x; its link turns by φ in the reduction's sense, as the shafts of a train do.
 //! The nut does not come back after a turn, but J and every force of a constant load repeat, so the drive link's range is a
-//! turn. U grows with every turn when gravity has a component along the screw. A spring on the nut does not repeat: with one,
-//! the reduction holds at every φ, but must not be tabulated over a turn.
+//! turn. U grows with every turn when gravity has a component along the screw. A spring on the nut does not repeat: with a
+//! spring, the reduction is right at every φ, but must not be tabulated over a turn.
 
 use core::f64::consts::TAU;
 

@@ -67,7 +67,7 @@ pub(super) fn pinned(
 /// slider) and of the slider. `sign` is that of the link's cosine: +1 with the slider on the right of B. The link's
 /// angle stays within a quarter turn of 0 or π.
 ///
-/// `None` where the link stands across the guide, or does not reach it.
+/// `None` if the link is perpendicular to the guide, or does not reach it.
 pub(super) fn sliding(b: [Transfer; 2], length: f64, guide: f64, sign: f64) -> Option<[Frame; 2]> {
     let guide = Transfer::constant(guide);
     let one = Transfer::constant(1.0);

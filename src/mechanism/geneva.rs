@@ -1,7 +1,7 @@
 //! The external Geneva drive in closed form.
 //!
 //! Crank axis O = (0, 0), wheel axis C = (a, 0), crank pin A = r·(cos φ, sin φ). The pin enters and leaves the slots
-//! without shock, along them, if the crank is square to the slot there: r = a·sin(π/n). With m = r/a:
+//! without shock, along them, if the crank is perpendicular to the slot there: r = a·sin(π/n). With m = r/a:
 //!
 //! ```text
 //! engaged, |φ| < π/2 − π/n:        tan δ = m·sin φ/(1 − m·cos φ)        wheel: ψ = π − δ
@@ -15,7 +15,7 @@
 //!
 //! **How smooth it is.** At entry and exit ψ′ = 0, and |ψ″| jumps between 0 and tan(π/n). J = J₁ + J₂·ψ′² and
 //! J′ = 2·J₂·ψ′·ψ″ are continuous, J″ = 2·J₂·(ψ″² + ψ′·ψ‴) jumps by 2·J₂·tan²(π/n). The torque on the crank has no
-//! step, the force on the pin has: its lever arm about C is not zero.
+//! step, the force on the pin has one: its lever arm about C is not zero.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -136,7 +136,7 @@ impl Geneva {
 }
 
 impl Jointed for Geneva {
-    /// O: ground and crank; C: ground and wheel; and what holds the wheel: the pin in the engaged slot, or in the dwell the
+    /// O: ground and crank; C: ground and wheel; and the lock of the wheel: the pin in the engaged slot, or in the dwell the
     /// crank's locking arc, with a moment. The arc is round O, so it takes no moment from the crank; the pair of bearing
     /// forces that belongs to the wheel's moment depends on where in its play the arc touches, and is left out.
     fn joints(&self, phi: f64, _frames: &Frames) -> Result<Joints, Error> {

@@ -1,4 +1,4 @@
-//! The hoist in closed form: a drum (or traction sheave) with a load and, if wanted, a counterweight on ropes.
+//! The hoist in closed form: a drum (or traction sheave) with a load and, optionally, a counterweight on ropes.
 //!
 //! Drum axis O = (0, 0). The load's rope leaves the drum at (R₁, 0), the counterweight's at (−R₂, 0), and both are vertical, along
 //! y. A load that hangs from n falls of a rope (a tackle) rises by R·φ/n:
@@ -9,8 +9,8 @@
 //! ```
 //!
 //! The load does not come back after a turn, but J, U′ and every force repeat, so the drive link's range is a turn; U itself
-//! grows with every turn. A spring on the load does not repeat: with one, the reduction holds at every φ, but must not be
-//! tabulated over a turn. The ropes are taken as light, inextensible and taut, always on the same radius: the weight of
+//! grows with every turn. A spring on the load does not repeat: with a spring, the reduction is right at every φ, but must not
+//! be tabulated over a turn. The ropes are light, inextensible, taut, and always on the same radius: the weight of
 //! long ropes, and the layers of a drum that winds in a spiral, change with the height and are not in this mechanism.
 //!
 //! Lifting drums with and without a counterweight are worked examples of reduction in any course of machine dynamics,

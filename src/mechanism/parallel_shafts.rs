@@ -65,8 +65,8 @@ impl ParallelShafts {
 }
 
 impl Jointed for ParallelShafts {
-    /// The bearing of every shaft, then the transmission to every driven shaft: a moment on either, of which the ground takes
-    /// the difference.
+    /// The bearing of every shaft, then the transmission to every driven shaft: a moment on either; the ground takes the
+    /// difference.
     fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
         let bearing =
             |shaft| Joint::Revolute([Marker::ground([0.0, 0.0]), Marker::on(shaft, [0.0, 0.0])]);

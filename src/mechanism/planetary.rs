@@ -152,11 +152,11 @@ impl PlanetaryGears {
 ///
 /// Links: [`SUN`](Self::SUN), [`CARRIER`](Self::CARRIER), [`RING`](Self::RING) (frames at the origin),
 /// [`PLANETS`](Self::PLANETS) (frame at the first planet's axis, turning with it). The fixed member is a link at rest, so that
-/// the moment which holds it is among the reactions.
+/// the moment which fixes it is among the reactions.
 ///
-/// The N planets are alike and balance one another. One link stands for all of them in place of the first: it has
+/// The N planets are alike and balance one another. One link represents all of them, at the place of the first: it has
 /// N·J_p; their mass N·m_p, whose common centre is on the axis, belongs to the carrier, with N·m_p·a² in its inertia.
-/// In [`link_inertias`](crate::Machine::link_inertias) the carrier's share holds the planets' orbital motion.
+/// In [`link_inertias`](crate::Machine::link_inertias) the carrier's share includes the planets' orbital motion.
 ///
 /// Accuracy: 1e-13 against Willis' equation by the tabular method and the energy of N planets one by one (tests
 /// `speeds_by_the_tabular_method`, `inertia_of_planets_one_by_one`).
@@ -267,14 +267,14 @@ impl Planetary {
 }
 
 impl Jointed for Planetary {
-    /// The bearings of sun, carrier and ring, of which that of the fixed member holds its moment as well; the planets' pins
+    /// The bearings of sun, carrier and ring; the bearing of the fixed member carries its moment as well; the planets' pins
     /// along the carrier's motion and towards the axis; the meshes of sun and ring, on the planets.
     ///
     /// Pins and meshes give the sum over all planets, as forces on the first planet in its place: 1/N of it acts on each,
     /// turned to its place, if the load is shared evenly. On the central members these forces are a pure moment. Mesh
-    /// forces are tangential; the pressure angle's radial forces of a planet's two meshes balance but for profile shift. A
-    /// planet's own inertia forces, m_p·a·ω_c² outwards and m_p·a·α_c, and its weight act on its pin beside these: its mass
-    /// is the carrier's here.
+    /// forces are tangential; the pressure angle's radial forces of a planet's two meshes balance except for profile shift. A
+    /// planet's own inertia forces, m_p·a·ω_c² outwards and m_p·a·α_c, and its weight act on its pin in addition: its mass
+    /// belongs to the carrier here.
     fn joints(&self, _phi: f64, frames: &Frames) -> Result<Joints, Error> {
         let origin = [0.0, 0.0];
         let bearing = |member: Member| {

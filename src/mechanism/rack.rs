@@ -8,7 +8,7 @@
 //!
 //! The rack does not come back after a turn, but J, J′ and every force of a constant or position-free load repeat, so the
 //! drive link's range is a turn. U grows with every turn when gravity has a component along the rack. A spring on the rack does
-//! not repeat: with one, the reduction holds at every φ, but must not be tabulated over a turn.
+//! not repeat: with a spring, the reduction is right at every φ, but must not be tabulated over a turn.
 
 use core::f64::consts::TAU;
 
@@ -63,8 +63,8 @@ impl RackAndPinion {
 
 impl Jointed for RackAndPinion {
     /// O: ground and pinion; guide: ground and rack, its moment about the origin of the rack's frame; mesh: the tangential
-    /// tooth force on the rack, at the pitch point. The force that the pressure angle adds across the rack pushes it away
-    /// from the pinion whatever the direction of the load; it does no work, and is left to the design of the bearings.
+    /// tooth force on the rack, at the pitch point. The force that the pressure angle adds across the rack pushes it away from
+    /// the pinion for both directions of the load; it does no work, and is left to the design of the bearings.
     fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
         let pitch_point = [0.0, -self.radius];
         let bodies = [Body::Link(Self::PINION), Body::Link(Self::RACK)];

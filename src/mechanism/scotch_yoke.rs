@@ -7,7 +7,7 @@
 //! x = r·cos φ − r·sin φ·cot β = r·sin(β − φ)/sin β         β = 90°: x = r·cos φ
 //! ```
 //!
-//! which is a harmonic motion of amplitude r/sin β in any case. For β = 90° it is the limit of the slider-crank (4.1) of
+//! which is a harmonic motion of amplitude r/sin β for every β. For β = 90° it is the limit of the slider-crank (4.1) of
 //! Nazarenko, *Dynamics of mechanisms* (2002), for an infinitely long rod.
 
 use super::{Frames, Jointed, Mechanism};

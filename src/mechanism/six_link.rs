@@ -34,7 +34,7 @@ use crate::{Domain, Error, math};
 /// [`ROCKER`](Self::ROCKER) (frame at O₂ along O₂B, its angle is φ₂), [`ROD`](Self::ROD) (frame at B along BC, its angle is
 /// φ₃ turned by half a turn), [`SLIDER`](Self::SLIDER) (frame at C, parallel to the global axes).
 ///
-/// Accuracy: (81) and its derivatives (82), (84) hold to 1e-12 of their largest term (test `printed_equations_hold`).
+/// Accuracy: (81) and its derivatives (82), (84) are satisfied to 1e-12 of their largest term (test `printed_equations_hold`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct SixLink {
     crank: f64,
@@ -126,7 +126,7 @@ impl SixLink {
         }
     }
 
-    /// The smallest φ ≥ 0 (rad) at which the rod stands across the guide: |l₂·sin φ₂ + a| = l₃.
+    /// The smallest φ ≥ 0 (rad) at which the rod is perpendicular to the guide: |l₂·sin φ₂ + a| = l₃.
     fn first_unreachable(&self) -> f64 {
         let (l1, b) = (self.crank, self.centres);
         // At φ = 0 the rocker lies along x.

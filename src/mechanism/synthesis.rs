@@ -42,7 +42,7 @@ const HALVINGS: usize = 56;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Driven {
-    /// Whatever the ratio.
+    /// Independent of the ratio.
     Constant(f64),
     /// P·i⁴, module and width those of a pinion with the inertia P.
     LikePinion(f64),
@@ -188,7 +188,7 @@ impl RatioSplit {
         sum + self.output / (before * before)
     }
 
-    /// ∂J/∂(ln i_k) of every stage (kg·m²): equal for all stages that no bound holds, where J is smallest.
+    /// ∂J/∂(ln i_k) of every stage (kg·m²): equal, at the smallest J, for all stages that are not at a bound.
     #[must_use]
     pub fn slopes(&self, ratios: &[f64]) -> PerStage {
         // From the output back: the inertia at each driver, and what of it lies behind the stage.

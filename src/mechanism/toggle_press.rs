@@ -13,7 +13,7 @@
 //! directed line from A to P.
 //!
 //! The ram stands still where the upper link reverses, ψ′ = 0, and where both links are in line, χ = ψ: stretched at the
-//! bottom. Near there a small torque holds a large force. This is no dead point of the drive: the crank moves the links
+//! bottom. Near it a small torque produces a large force. This is no dead point of the drive: the crank moves the links
 //! through it, and every transfer function stays finite.
 //!
 //! K. Luck, K.-H. Modler, *Getriebetechnik*; the closed forms are those of the four-bar and of the slider-crank in series.
@@ -150,7 +150,7 @@ impl TogglePress {
         let [a, b] = [self.upper_angle(dead[0])?, self.upper_angle(dead[1])?];
         let (least, most) = (a.min(b), a.max(b));
         let ends = height(math::sin_cos(a).0).max(height(math::sin_cos(b).0));
-        // The upper link stands across the guide within its swing.
+        // The upper link is perpendicular to the guide within its swing.
         let across = [FRAC_PI_2, -FRAC_PI_2]
             .into_iter()
             .filter(|angle| least + beyond(angle - least) <= most);
@@ -172,7 +172,7 @@ impl TogglePress {
             .map_or(0.0, |frame| frame.psi.value))
     }
 
-    /// The smallest φ ≥ 0 (rad) at which the lower link stands across the guide.
+    /// The smallest φ ≥ 0 (rad) at which the lower link is perpendicular to the guide.
     fn first_unreachable(&self) -> Result<f64, Error> {
         let [_, _, upper, lower] = self.lengths();
         let off = |phi: f64| -> Result<f64, Error> {

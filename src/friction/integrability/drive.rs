@@ -144,5 +144,5 @@ fn constraint(stage: &Stage, times: [f64; 2], angles: [f64; 2]) -> Result<StageC
     })
 }
 
-/// A load at which a slip that depends on it shows that it does, beside none (N·m).
+/// A load (N·m) that, compared with none, reveals a slip that depends on the load.
 const LOAD: f64 = 1e-3;

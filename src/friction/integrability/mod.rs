@@ -8,8 +8,8 @@
 //! θ ∧ dθ = 0: θ is one after multiplication by an integrating factor      Frobenius, necessary and sufficient
 //! ```
 //!
-//! Coefficients are written as functions of [`Dual`] numbers, so their derivatives are exact. A violation at one place
-//! proves the constraint non-holonomic; that it is holonomic is said for the places tested.
+//! Coefficients are written as functions of [`Dual`] numbers, so their derivatives are exact. A violation at one place proves
+//! the constraint non-holonomic; a verdict of holonomic refers to the places tested.
 //!
 //! (III.6) as printed speaks of sufficient conditions and leaves the integrating factor open; Frobenius' theorem closes
 //! that gap (H. Flanders, *Differential Forms*, chapter VII).

@@ -1,4 +1,4 @@
-//! The relation between positions that a holonomic constraint is.
+//! The relation between positions that belongs to a holonomic constraint.
 
 use super::{Dual, coefficients};
 use crate::number::quadrature;

@@ -4,7 +4,7 @@
 //! dθ_β ∧ θ₁ ∧ … ∧ θ_s = 0 for every β                                      Frobenius
 //! ```
 //!
-//! The same is said by: dθ_β(u, v) = 0 for all displacements u, v that satisfy the constraints. Constraints that each alone
+//! An equivalent condition: dθ_β(u, v) = 0 for all displacements u, v that satisfy the constraints. Constraints that each alone
 //! are non-holonomic may be holonomic together, and the other way round.
 
 use core::fmt;
@@ -28,7 +28,7 @@ pub enum SystemIntegrability<const N: usize> {
         value: f64,
         /// Where.
         place: [f64; N],
-        /// At most so many relations between the positions are contained in the system.
+        /// Most relations between the positions that the system may contain.
         relations: usize,
     },
 }

@@ -118,7 +118,7 @@ impl<R: Real> Law<R> {
         }
     }
 
-    /// C_v, C_a, C_j in closed form. The test `coefficients_of_vdi_2143` holds them against the law's own extremes.
+    /// C_v, C_a, C_j in closed form. The test `coefficients_of_vdi_2143` compares them with the law's own extremes.
     #[must_use]
     pub fn characteristic(self) -> Characteristic {
         use core::f64::consts::PI;

@@ -1,4 +1,4 @@
-//! Motion laws and moves: how the drive link is to go.
+//! Motion laws and moves of the drive link.
 
 mod law;
 
@@ -76,7 +76,7 @@ impl<R: Real> Move<R> {
         self.law
     }
 
-    /// The state at `t` (s) after the start; before and after the move it stands at the ends.
+    /// The state at `t` (s) after the start; before and after the move it is at rest at the ends.
     #[must_use]
     pub fn at(&self, t: R) -> State<R> {
         let [s, v, a] = self.law.at(t / self.duration);

@@ -75,7 +75,8 @@ pub fn contact_force<M: Jointed>(
     Ok(reaction[0] * unit.force[0] + reaction[1] * unit.force[1])
 }
 
-/// The slowest constant speed, and where, at which joint number `contact` lets go; `None` if it holds at any speed up to
+/// The slowest constant speed, and its place, at which joint number `contact` loses contact; `None` if it keeps contact at any
+/// speed up to
 /// 1e6 rad/s. `pieces` are the smooth pieces of the turn, [`Program::pieces`](super::Program::pieces); the edges of loads
 /// that act over a part of the turn are added here. `direction` is that of the cam, +1 counter-clockwise.
 ///

@@ -12,7 +12,7 @@ pub struct Extreme {
     pub value: f64,
 }
 
-/// Samples of a piece. A dip narrower than a hundredth of a piece, of which laws and geometry have none, is not seen.
+/// Samples of a piece. A dip narrower than a hundredth of a piece is not seen; laws and geometry have none.
 const SAMPLES: u32 = 96;
 
 /// Steps of the golden section, each 0.618 of the one before: two sample distances become 1e-12 of a piece.

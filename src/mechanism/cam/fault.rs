@@ -67,7 +67,7 @@ pub enum CamError {
         /// The base radius must be larger than this (m).
         base_radius: f64,
     },
-    /// The arm cannot hold the roller on the base circle.
+    /// The arm cannot keep the roller on the base circle.
     Arm {
         /// Distance of the arm's pivot from the cam's (m).
         pivot_distance: f64,

@@ -63,7 +63,7 @@ pub struct AccelerationJump {
 }
 
 impl Program {
-    /// The program of these segments, the first of which begins at φ = 0, where s = 0: the position in which the roller or
+    /// The program of these segments. The first begins at φ = 0, where s = 0: the position in which the roller or
     /// the face touches the base circle.
     ///
     /// # Errors
@@ -177,7 +177,7 @@ impl Program {
 
     /// Where s″ jumps, as laws such as the trapezoid or the simple sine let it.
     pub fn acceleration_jumps(&self) -> impl Iterator<Item = AccelerationJump> + '_ {
-        // Of the size of the accelerations: what is smaller is the rounding of a place a hair beside the jump.
+        // Of the size of the accelerations: anything smaller is the rounding of a place next to the jump.
         let size = self.segments().fold(0.0_f64, |most, segment| {
             most.max(math::abs(segment.rise) / (segment.angle * segment.angle))
         });

@@ -1,4 +1,4 @@
-//! Whether a cam can be made that moves the follower as the program says.
+//! Whether a cam with this program can be made.
 
 use super::follower::Follower;
 use super::geometry::{Geometry, Touch};

@@ -1,4 +1,4 @@
-//! What runs on the cam.
+//! The part that runs on the cam.
 
 use crate::error::{finite, positive};
 use crate::machine::link::Link;

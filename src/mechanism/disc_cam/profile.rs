@@ -1,4 +1,4 @@
-//! The cam itself: its program, its base circle and what runs on it, from which its shape follows.
+//! The cam itself: its program, its base circle and its follower determine its shape.
 
 use super::check;
 use super::follower::Follower;

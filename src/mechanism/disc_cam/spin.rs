@@ -7,8 +7,8 @@
 //! ψ_r = φ − L(φ)/r_r        ψ_r′ = 1 − |w|/r_r        L: length of the pitch curve from φ = 0
 //! ```
 //!
-//! The transfer functions are exact. The angle itself, which nothing depends on as the roller is round and balanced, is
-//! integrated by Gauss's formula piece by piece.
+//! The transfer functions are exact. The angle itself is integrated by Gauss's formula piece by piece; nothing depends on it,
+//! because the roller is round and balanced.
 
 use core::convert::Infallible;
 use core::f64::consts::TAU;

@@ -211,7 +211,7 @@ impl FourBar {
         Some([beyond(stretched), beyond(folded)])
     }
 
-    /// The crank angles (rad, 0 to 2π) at which the rocker stands at the angle `psi` (rad): none, one or two.
+    /// The crank angles (rad, 0 to 2π) at which the rocker has the angle `psi` (rad): none, one or two.
     #[must_use]
     pub fn crank_angles(&self, psi: f64) -> heapless::Vec<f64, 2> {
         let (sin, cos) = math::sin_cos(psi);
@@ -277,7 +277,7 @@ impl FourBar {
     fn crank_angle_of(&self, span: f64) -> Option<[f64; 2]> {
         let (a, d) = (self.crank, self.ground);
         let cos = (a * a + d * d - span * span) / (2.0 * a * d);
-        // A linkage that flattens is there at cos = ±1, give or take a rounding.
+        // A linkage that flattens does so at cos = ±1, up to rounding.
         (math::abs(cos) <= 1.0 + HAIR).then(|| {
             let (gamma, theta) = (self.ground_angle(), math::acos(cos.clamp(-1.0, 1.0)));
             [gamma - theta, gamma + theta]

@@ -8,7 +8,7 @@ use crate::number::transfer::Transfer;
 /// The cams of a linkage.
 pub(super) type Cams<const CAMS: usize> = heapless::Vec<PlacedCam, CAMS>;
 
-/// A cam and its follower where they stand in a linkage: what [`Pair::Cam`](super::Pair::Cam) refers to.
+/// A cam and its follower, placed in a linkage: [`Pair::Cam`](super::Pair::Cam) refers to it.
 ///
 /// The base is a marker on the body that carries the bearings of both, mostly the ground: its point is the cam's axis, the
 /// origin of the [`CamProfile`], and its direction the profile's +x.
@@ -63,7 +63,7 @@ impl PlacedCam {
             .after(theta)
     }
 
-    /// The point and the normal of contact, where they stand.
+    /// The point and the normal of contact.
     pub(super) fn joint(&self, [cam, follower]: [&Marker; 2], frames: &[Frame]) -> Joint {
         let contact = self.profile.contact(self.angle(cam, frames).value);
         let [x, y] = self.base.position(frames).map(|c| c.value);

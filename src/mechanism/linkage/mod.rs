@@ -53,10 +53,10 @@ impl Pose {
     }
 }
 
-/// Links and the pairs that hold them together, with the drive in one of them: the topology, checked. At most `LINKS` ≤ 16
+/// Links and the pairs that connect them, one of them driven: the topology, checked. At most `LINKS` ≤ 16
 /// links, `PAIRS` pairs and `CAMS` cams.
 ///
-/// [`assemble`](Self::assemble) makes a [`Mechanism`](crate::Mechanism) of it.
+/// [`assemble`](Self::assemble) turns it into a [`Mechanism`](crate::Mechanism).
 #[derive(Clone, Debug)]
 pub struct Linkage<const LINKS: usize, const PAIRS: usize, const CAMS: usize = 0> {
     links: heapless::Vec<Link, LINKS>,

@@ -17,7 +17,7 @@ use crate::{Error, math};
 
 use super::cam::{Cams, PlacedCam};
 
-/// What holds two links of a linkage together.
+/// A connection of two links of a linkage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Pair {

@@ -8,7 +8,7 @@ use super::cam::Cams;
 use super::structure::{Coordinate, Equation, Group, Method, PSI};
 use super::{Linkage, Pair};
 
-/// Newton's method: at most so many steps.
+/// Most steps of Newton's method.
 const MOST_STEPS: usize = 30;
 /// A step smaller than this (rad, or of the linkage's size) is the last: the error after it is its square, below rounding.
 const LAST_STEP: f64 = 1e-9;

@@ -1,7 +1,7 @@
 //! Structure of a linkage: which equations determine which coordinates, and in what order.
 //!
 //! The links' coordinates x, y, ψ and as many equations, the drive's among them, fall apart into groups that can be solved
-//! one after the other: the Assur groups of the theory of mechanisms, and smaller ones where a coordinate stands alone. A
+//! one after the other: the Assur groups of the theory of mechanisms, and smaller ones for single coordinates. A
 //! group of k coordinates costs about k³ operations, a chain of groups no more than their sum.
 
 use crate::Error;
@@ -20,7 +20,7 @@ pub(super) struct Equation {
 }
 
 impl Equation {
-    /// The component that stands for the drive's equation.
+    /// The component that represents the drive's equation.
     pub(super) const DRIVE: u8 = u8::MAX;
 }
 

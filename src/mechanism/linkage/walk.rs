@@ -104,8 +104,8 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         })
     }
 
-    /// How far a link's angle has advanced in a turn, if it stands where it stood and moves on as it began: the same place,
-    /// the same angle but for whole turns, the same first transfer functions. A balanced wheel that only rolls with other
+    /// How far a link's angle has advanced in a turn, if the link has returned: the same place, the same angle except for whole
+    /// turns, the same first transfer functions. A balanced wheel that only rolls with other
     /// wheels may stop at any angle.
     fn closes(&self, link: usize, start: &Frame, end: &Frame) -> Result<f64, Error> {
         let advance = end.psi.value - start.psi.value;
@@ -221,7 +221,7 @@ impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: 
         Ok((solved.quality, solved.weakest))
     }
 
-    /// The links at `phi`, less the whole turns that are returned beside.
+    /// The links at `phi`, without the whole turns, which are returned separately.
     fn solved(&self, phi: f64) -> Result<(Solved<LINKS>, f64), Error> {
         let phi = finite("drive position", phi)?;
         let (turns, phi) = match self.domain {

@@ -1,9 +1,9 @@
-//! What the figures may be, and whether they are.
+//! Limits of the figures, and verdicts.
 
 use super::{Curve, Figures, LimitError};
 use crate::math::Real;
 
-/// Limits of a drive; one that is `None` is not checked, and the verdict says so.
+/// Limits of a drive. A limit that is `None` is not checked, and the verdict says so.
 ///
 /// Rules of sizing that allow a share of a rating (80 % of the S1 torque, say) are written as limits that contain the share.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,9 +21,9 @@ pub struct Limits<R> {
     pub output_peak: Option<R>,
     /// Root-mean-cube torque at the gearbox output, T2N (N·m).
     pub output_mean: Option<R>,
-    /// Mean of the power that comes back, as of a brake resistor (W).
+    /// Mean regenerative power, as for a brake resistor (W).
     pub regenerative_power: Option<R>,
-    /// Cycles an hour up to which T2B holds.
+    /// Cycles per hour up to which T2B applies.
     pub cycles_per_hour: Option<R>,
 }
 

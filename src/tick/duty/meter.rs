@@ -241,7 +241,7 @@ impl<R: Real> Meter<R> {
             }
         };
         let [square, mean_speed, cube, motoring_power, regenerative_power] = state.means.map(mean);
-        // The weights of an exponential window grow to 1, which stands for its time constant.
+        // The weights of an exponential window grow to 1, which means its time constant.
         let duration = weight * (config.step / config.gain);
         let [torque, limit] = state.closest;
         let share = if limit > zero {

@@ -5,7 +5,7 @@ use core::fmt;
 use super::Coefficient;
 use crate::{Error, Phase};
 
-/// Why numbers are not the coefficients of a usable machine. Holds no floating-point number, so that firmware in single
+/// Why numbers are not the coefficients of a usable machine. Contains no floating-point number, so that firmware in single
 /// precision can check coefficients without double precision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

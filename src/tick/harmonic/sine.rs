@@ -64,7 +64,7 @@ const fn octant(phase: Phase) -> (u32, i32) {
     (quarter, bits.wrapping_sub(quarter << 30) as i32)
 }
 
-/// Sine and cosine of an angle so many quarter turns further on.
+/// Sine and cosine of an angle this many quarter turns further on.
 #[inline]
 fn turn<T: Real>((sin, cos): (T, T), quarter: u32) -> (T, T) {
     let (sin, cos) = if quarter & 1 == 0 {
