@@ -89,7 +89,7 @@ fn links_lead_somewhere() {
 /// `tests/golden.rs` in backquotes is a file of the repository.
 #[test]
 fn paths_exist() {
-    const FOLDERS: [&str; 10] = [
+    const FOLDERS: [&str; 9] = [
         "benches/",
         "docs/",
         "examples/",
@@ -98,7 +98,6 @@ fn paths_exist() {
         "sizing/",
         "src/",
         "tests/",
-        "tool/",
         "xtask/",
     ];
     let Some(root) = repository() else { return };
