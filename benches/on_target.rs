@@ -9,6 +9,10 @@
 //! instruction take 1 ns, so that SysTick, at 25 MHz, counts 40 of them. The counts are the same on every run; they are not
 //! cycles. `ceilings.txt` bounds them from above and, by half of that, from below. docs/performance.md has the results.
 #![cfg_attr(target_os = "none", no_std, no_main)]
+#![allow(
+    unsafe_code,
+    reason = "reads a register of the core, runs a loop of known length"
+)]
 
 #[cfg(target_os = "none")]
 #[path = "support/ceilings.rs"]

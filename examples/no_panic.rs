@@ -6,6 +6,13 @@
 //! `scripts/test gates` builds it three times: as it is; with `GATE_PANIC=1`, which must not link; and with
 //! `GATE_DOUBLE=1`, in which double-precision routines must be found by the search that must not find any otherwise.
 #![cfg_attr(target_os = "none", no_std, no_main)]
+#![cfg_attr(
+    target_os = "none",
+    allow(
+        unsafe_code,
+        reason = "a symbol that does not exist, for the linker to miss"
+    )
+)]
 
 use core::hint::black_box;
 use core::num::NonZeroU32;

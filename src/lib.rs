@@ -1,5 +1,16 @@
 #![no_std]
 #![forbid(unsafe_code)]
+// An answer or an error, never a panic. The linker shows it of a tick (examples/no_panic.rs); these read the rest.
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::unwrap_used,
+        clippy::expect_used,
+        clippy::panic,
+        clippy::unimplemented,
+        clippy::todo
+    )
+)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 //! Reduced inertia and torque of machines with one degree of freedom: presses, slider-cranks, linkages, gear trains.
 //!
@@ -94,14 +105,18 @@
 //!
 //! Neither is on by default.
 
+// What a tick reads takes elements by `get`, never by an index that could be out of bounds.
+#[deny(clippy::indexing_slicing)]
 pub mod curve;
 mod error;
 pub mod friction;
 mod machine;
 mod math;
 pub mod mechanism;
+#[deny(clippy::indexing_slicing)]
 mod number;
 pub mod tabulate;
+#[deny(clippy::indexing_slicing)]
 mod tick;
 
 pub use error::Error;

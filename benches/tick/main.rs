@@ -8,6 +8,10 @@
 //! To add a kernel: a function and a line in `KERNELS` of one of the modules here, and a line in
 //! `xtask/src/kernels.rs`.
 #![cfg_attr(target_os = "none", no_std, no_main)]
+#![allow(
+    unsafe_code,
+    reason = "kernels by their names for the linker, C beside them, files of the host"
+)]
 
 #[cfg(target_os = "none")]
 mod analytic;

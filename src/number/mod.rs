@@ -13,8 +13,13 @@
 //! Products round towards −∞. What could overflow inside a cell, or in a sum of torques at full speed and
 //! acceleration, is refused when table and model are built; so inverse dynamics cannot saturate. Forward dynamics can, and says so.
 
+#[allow(
+    clippy::indexing_slicing,
+    reason = "mechanisms solve systems, ticks do not"
+)]
 pub(crate) mod linear;
 pub(crate) mod phase;
+#[deny(clippy::float_arithmetic)]
 mod product;
 mod q15;
 mod q31;

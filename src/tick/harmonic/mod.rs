@@ -47,10 +47,23 @@
 //! ```
 
 mod error;
+#[allow(
+    clippy::indexing_slicing,
+    reason = "runs before a machine does, not in a tick"
+)]
 mod fit;
+#[allow(
+    clippy::indexing_slicing,
+    reason = "runs before a machine does, not in a tick"
+)]
 mod identify;
 mod sine;
+#[allow(
+    clippy::indexing_slicing,
+    reason = "runs before a machine does, not in a tick"
+)]
 mod spectrum;
+#[allow(clippy::indexing_slicing, reason = "lengths known at compile time")]
 mod word;
 
 pub use error::{CoefficientError, HarmonicError};

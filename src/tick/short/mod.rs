@@ -18,9 +18,12 @@ mod check;
 mod fill;
 mod fit;
 mod image;
+#[deny(clippy::float_arithmetic)]
 mod kernel;
 mod measure;
+#[deny(clippy::float_arithmetic)]
 mod model;
+#[deny(clippy::float_arithmetic)]
 mod row;
 mod search;
 mod table;
