@@ -12,8 +12,8 @@ pub mod command;
 pub mod summary;
 
 use miette::{Result, miette};
+use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
-use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution as _, StandardNormal};
 
 use crate::input::{Shape, Tolerance};

@@ -16,8 +16,8 @@ use jred_sizing::bus::curve::PowerCurve;
 use jred_sizing::bus::store::{Bus, BusFigures};
 use jred_sizing::bus::supply::BusData;
 use jred_sizing::supply::BrakeResistor;
+use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
-use rand_chacha::ChaCha8Rng;
 
 const BUS: Bus = Bus {
     voltage: 560.0,

@@ -3,7 +3,7 @@
 use jred_sizing::catalogue::{Catalogue, Gearbox, Motor, Thermal, Winding};
 use jred_sizing::winding::Commutation;
 use rand::SeedableRng as _;
-use rand_chacha::ChaCha8Rng;
+use rand::rngs::ChaCha8Rng;
 use rand_distr::{Distribution as _, LogNormal, Uniform};
 
 /// Motors and gearboxes: every motor with every gearbox and without makes 499·(171 + 1) = 85,828 drives, as many as the

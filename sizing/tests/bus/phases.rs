@@ -8,7 +8,7 @@ use jred_sizing::bus::supply::BusData;
 use jred_sizing::bus::{Need, Watch};
 use jred_sizing::supply::Supply;
 use rand::SeedableRng as _;
-use rand_chacha::ChaCha8Rng;
+use rand::rngs::ChaCha8Rng;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::{BUS, budget, near, random_curve};

@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 use jred_sizing::catalogue::{
     Amplifier, Catalogue, Gearbox, Motor, MotorKind, Pairing, Sources, Winding,
 };
+use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
-use rand_chacha::ChaCha8Rng;
 
 use super::HEADER;
 use crate::support::{Folder, jred, press_file};

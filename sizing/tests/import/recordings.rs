@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use jred_sizing::motion::Motion;
+use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
-use rand_chacha::ChaCha8Rng;
 
 use super::parse;
 use crate::support::budget;
