@@ -20,8 +20,8 @@ const PRESS: u8 = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 const ENCODER: NonZeroU32 = NonZeroU32::new(4096).unwrap();
 
 fn run() -> Result<(), Failure> {
-    // Once, at start-up. The image stays where it is, in flash; nothing is copied. Whatever may be wrong with it shows
-    // here, and after this line a tick can neither fail nor panic.
+    // Once, at start-up. The image stays where it is, in flash; nothing is copied. Any fault of it shows here; after this line
+    // a tick can neither fail nor panic.
     let image = Image::from_bytes(include_image!("data/press_f32.jred"))?;
     let press: Model<'_, f32, PRESS> = image.model()?;
 

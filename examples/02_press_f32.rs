@@ -1,4 +1,4 @@
-//! One cycle of the press at 1 kHz in single precision: feed-forward torque, and the way back.
+//! One cycle of the press at 1 kHz in single precision: feed-forward torque, and the inverse.
 //!
 //! Each tick takes the motion's φ, ω, α, computes the torque that it needs (inverse dynamics) and the acceleration that
 //! this torque gives (forward dynamics), which must be the α it started from.
@@ -30,7 +30,7 @@ const BOUND: f32 = 0.001;
 fn run() -> Result<(), Failure> {
     let image = Image::from_bytes(include_image!("data/press_f32.jred"))?;
     let press: Model<'_, f32, PRESS> = image.model()?;
-    // From top dead centre (180 deg) to top dead centre; before and after, the move stands still. The 3-4-5 polynomial
+    // From top dead centre (180 deg) to top dead centre; before and after, the crank is at rest. The 3-4-5 polynomial
     // needs no sine, and in f32 no double precision.
     let stroke =
         Move::new(Law::Polynomial345, PI, TAU, 0.4).map_err(|_| "the move is not valid")?;

@@ -1,7 +1,7 @@
 //! The same cycle in fixed point, for cores without a floating-point unit, and what that costs in accuracy.
 //!
-//! Numbers are per unit: a `Q31` of 1 stands for the base that the image's `Scale` names. Results that do not fit are
-//! limited and say so; nothing wraps.
+//! Numbers are per unit: a `Q31` of 1 is the base in the image's `Scale`. Results that do not fit are limited and have a flag;
+//! nothing wraps.
 //!
 //! ```text
 //! cargo run -p jred --example 03_press_q31 --profile firmware --target thumbv6m-none-eabi

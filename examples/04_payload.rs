@@ -1,4 +1,4 @@
-//! A new payload: firmware makes its table anew, from the mechanism itself.
+//! A new payload: firmware makes a new table, from the mechanism itself.
 //!
 //! A crank swings an arm through a four-bar linkage. The arm takes up 2.5 kg, so masses change and the table with them. The
 //! linkage is described twice: by its links and pins alone, from which the new table is filled, and in closed form, against
@@ -129,7 +129,7 @@ fn run() -> Result<(), Failure> {
     println!("empty gripper");
     check(&in_use, [crank, coupler, arm])?;
 
-    // The gripper closes. The linkage's positions stay; only a mass is another.
+    // The gripper closes. The linkage's positions do not change, only a mass does.
     let arm = loaded(&arm)?;
     linkage.set_link(2, arm)?;
     let spare = tabulate(&linkage, &mut spare)?;

@@ -3,8 +3,8 @@
 //! Built, not run on a board: QEMU has no cycle counter. There, and on the host, the program says so and ends.
 //!
 //! Cortex-M3, M4, M7 and M33 count cycles in CYCCNT of the DWT, the Cortex-M0 and M0+ have SysTick only; both run at the
-//! core's clock. A loop of 64 calls is timed, and one of the same calls twice; the difference is that of 64 calls, without what loop
-//! and counter take. The shortest of several runs is the one that no wait for flash or cache made longer.
+//! core's clock. A loop of 64 calls is timed, and one of the same calls twice; the difference is the time of 64 calls, without
+//! loop and counter. The shortest of several runs is the one without waits for flash or cache.
 //!
 //! ```text
 //! cargo run -p jred --example 05_board_cycles --profile firmware --target thumbv7em-none-eabihf

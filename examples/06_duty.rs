@@ -1,7 +1,7 @@
 //! The duty meter: a press that checks its own sizing.
 //!
-//! Each tick the press table gives the torque that the motion needs; a real drive would feed the measured torque. After a
-//! cycle the meter has the figures of `jred size`, and says whether they keep the motor's limits.
+//! Each tick the press table gives the torque that the motion needs; a real drive would feed the measured torque. After a cycle
+//! the meter has the figures of `jred size`, and says whether they are within the motor's limits.
 //!
 //! ```text
 //! cargo run -p jred --example 06_duty                                               on the host
@@ -76,7 +76,7 @@ fn run() -> Result<(), Failure> {
         }
         meter.count_cycle();
     }
-    // A sensor that fails shows, and spoils nothing.
+    // A failed sensor is reported, and does not spoil the figures.
     meter.tick(f32::NAN, 0.0, 0.0);
 
     let figures = meter.figures();

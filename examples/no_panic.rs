@@ -4,7 +4,7 @@
 //! is thrown away; one forgotten index, and the linker says `undefined symbol: a_panic_is_reachable`.
 //!
 //! `scripts/test gates` builds it three times: as it is; with `GATE_PANIC=1`, which must not link; and with
-//! `GATE_DOUBLE=1`, in which double-precision routines must be found by the search that must not find any otherwise.
+//! `GATE_DOUBLE=1`, where the search for double-precision routines must find some; otherwise it must find none.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 #![cfg_attr(
     target_os = "none",
@@ -25,7 +25,7 @@ use jred::{Image, ImageError, Model, Outcome, Phase, Pieces, Q15, Q31, Scalar, i
 /// The curves of the press, as `jred export` prints them.
 const PRESS: u8 = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
-/// Everything that firmware calls, with arguments that the optimiser knows nothing about.
+/// Everything that firmware calls, with arguments unknown to the optimiser.
 fn calls() -> Result<(), ImageError> {
     let (float, fixed) = (
         include_image!("data/press_f32.jred"),
@@ -33,7 +33,7 @@ fn calls() -> Result<(), ImageError> {
     );
     every_tick::<f32, PRESS, Spline>(float)?;
     every_tick::<Q31, PRESS, Spline>(fixed)?;
-    // Refused, because the images are not of these layouts and sets; the linker does not know.
+    // Refused, because the images have other layouts and sets; the linker does not know.
     let other = [
         every_tick::<f32, { curves::ALL }, Cubic>(float),
         every_tick::<f32, { curves::EVERY & !curves::RECIPROCAL }, Quadratic>(float),
