@@ -1,0 +1,128 @@
+//! The folders of `src/` are layers: each uses those before it only, as DESIGN.md draws them.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::Path;
+
+/// Names of no layer: `Error` is the sum of the layers' errors, `math` the door to libm.
+const OUTSIDE: [&str; 5] = ["Error", "Real", "error", "math", "sealed"];
+
+/// Each layer, and those that it may use.
+const LAYERS: [(&str, &[&str]); 7] = [
+    ("number", &[]),
+    ("curve", &["number"]),
+    ("machine", &["number"]),
+    ("friction", &["number", "curve", "machine"]),
+    ("mechanism", &["number", "machine", "friction"]),
+    ("tick", &["number", "curve", "machine"]),
+    ("tabulate", &["number", "curve", "machine", "tick"]),
+];
+
+/// The text of all files of a folder, without comments.
+fn sources(folder: &Path, into: &mut String) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            sources(&path, into);
+        } else {
+            for line in fs::read_to_string(&path).unwrap().lines() {
+                into.push_str(line.split("//").next().unwrap_or_default());
+                into.push('\n');
+            }
+        }
+    }
+}
+
+/// The names in `{A, b::C, d::{E}}` or in `A::…`, those of the first level only.
+fn names(text: &str) -> BTreeSet<&str> {
+    let mut found = BTreeSet::new();
+    let (mut depth, mut expected) = (0, true);
+    let mut rest = text;
+    while let Some(first) = rest.chars().next() {
+        let word = rest
+            .find(|c: char| !c.is_alphanumeric() && c != '_')
+            .unwrap_or(rest.len());
+        match first {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            ',' => expected = depth == 1,
+            _ if word > 0 => {
+                if expected {
+                    found.insert(&rest[..word]);
+                }
+                expected = false;
+            }
+            _ => {}
+        }
+        if depth == 0 && word == 0 && first != ':' || depth == 0 && word > 0 {
+            break;
+        }
+        rest = &rest[word.max(first.len_utf8())..];
+    }
+    found
+}
+
+#[test]
+fn names_of_imports() {
+    assert_eq!(
+        names("{a::B, C, d::{E, F}, g};"),
+        ["C", "a", "d", "g"].into()
+    );
+    assert_eq!(names("a::b(c)"), ["a"].into());
+}
+
+#[test]
+fn a_layer_uses_those_before_it_only() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let folders = fs::read_dir(&root)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    let folders = folders.filter(|path| path.is_dir());
+    let folders: BTreeSet<_> = folders
+        .map(|path| path.file_name().unwrap().to_string_lossy().into_owned())
+        .collect();
+    let layers: BTreeSet<_> = LAYERS
+        .iter()
+        .map(|(layer, _)| (*layer).to_owned())
+        .collect();
+    assert_eq!(folders, layers, "a folder without a place among the layers");
+
+    // `crate::Name` is of the layer that src/lib.rs re-exports it from.
+    let library = fs::read_to_string(root.join("lib.rs")).unwrap();
+    let mut owner = BTreeMap::new();
+    for (layer, _) in LAYERS {
+        owner.insert(layer, layer);
+        for exports in library.split(&format!("use {layer}::")).skip(1) {
+            owner.extend(names(exports).into_iter().map(|name| (name, layer)));
+        }
+    }
+    let mut upward = Vec::new();
+    let mut used_layers = BTreeSet::new();
+    for (layer, below) in LAYERS {
+        let mut text = String::new();
+        sources(&root.join(layer), &mut text);
+        for used in text.split("crate::").skip(1).flat_map(names) {
+            let Some(other) = owner.get(used) else {
+                assert!(
+                    OUTSIDE.contains(&used),
+                    "{layer} uses {used}, which is of no layer"
+                );
+                continue;
+            };
+            used_layers.insert((layer, *other));
+            if *other != layer && !below.contains(other) {
+                upward.push(format!("{layer} uses {used} of {other}"));
+            }
+        }
+    }
+    assert!(upward.is_empty(), "{}", upward.join("\n"));
+    // What is allowed is used: so imports are really found, and the list is no longer than it must be.
+    for (layer, below) in LAYERS {
+        for other in below {
+            assert!(
+                used_layers.contains(&(layer, other)),
+                "{layer} does not use {other}"
+            );
+        }
+    }
+}
