@@ -7,6 +7,7 @@ pub(crate) mod json;
 pub(crate) mod machines;
 pub(crate) mod numerics;
 pub(crate) mod press;
+pub(crate) mod schema;
 
 use std::path::{Path, PathBuf};
 use std::process::Output;
