@@ -1,4 +1,4 @@
-"""A catalogue of drives against a cycle in NumPy, from what sizing/benches/size.rs writes: python3 size.py FOLDER.
+"""A catalogue of drives against a cycle in NumPy, from what tool/sizing/benches/size.rs writes: python3 size.py FOLDER.
 
 As an engineer would write it: for each motor all its drives at once, torque and speed of every sample, RMS, largest share of the
 envelope by linear interpolation. Prints the best time of several runs (s), and writes the RMS torques to FOLDER/rms.

@@ -95,9 +95,9 @@ fn paths_exist() {
         "examples/",
         "machines/",
         "scripts/",
-        "sizing/",
         "src/",
         "tests/",
+        "tool/",
         "xtask/",
     ];
     let Some(root) = repository() else { return };

@@ -1,0 +1,387 @@
+//! The commands: read, compute, write.
+
+pub mod bus;
+pub mod ratio;
+pub mod sensitivity;
+pub mod size;
+pub mod split;
+pub mod tolerance;
+pub mod vary;
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use miette::{IntoDiagnostic as _, Result, WrapErr as _, miette};
+
+use crate::options;
+use jred_machine::analysis::contact::OneWay;
+use jred_machine::analysis::duty::Duty;
+use jred_machine::analysis::inspect::Findings;
+use jred_machine::analysis::reduce;
+use jred_machine::analysis::reduce::{Over, Sets, reduce};
+use jred_machine::analysis::simulate;
+use jred_machine::export::{Choice, Export, Failure, Form, Number, Task};
+use jred_machine::model::coordinate::Coordinate;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::motion::Motion;
+use jred_machine::model::variator;
+use jred_machine::read;
+use jred_report::list::alternatives;
+use jred_report::list::inspection;
+use jred_report::page;
+use jred_report::table::output;
+use jred_report::table::output::Format;
+
+/// How a command ended, short of an error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Done {
+    /// Everything asked for holds.
+    Holds,
+    /// The answer is no: a rule is violated by every drive, or a torque error is not reached.
+    Violated,
+    /// Somebody stopped it before it was done.
+    Stopped,
+}
+
+/// Runs a command.
+///
+/// # Errors
+/// Bad input, or a file that cannot be written.
+pub fn run(command: &options::Command) -> Result<Done> {
+    match command {
+        options::Command::Reduce(options) => run_reduce(options),
+        options::Command::Check(options) => run_check(options),
+        options::Command::Size(options) => size::size(options),
+        options::Command::Vary(options) => vary::vary(options),
+        options::Command::Ratio(options) => ratio::ratio(options),
+        options::Command::Sensitivity(options) => sensitivity::sensitivity(options),
+        options::Command::Tolerance(options) => tolerance::tolerance(options),
+        options::Command::Merge(options) => vary::run_merge(options),
+        options::Command::Bus(options) => bus::run(options),
+        options::Command::Simulate(options) => run_simulate(options),
+        options::Command::Export(options) => run_export(options),
+        options::Command::Rules(options) => print(&jred_report::list::rule_list::show(
+            options.set.as_deref(),
+            options.format,
+        )?),
+        options::Command::Split(options) => print(&split::run(options)?),
+    }
+}
+
+fn run_reduce(options: &options::Reduce) -> Result<Done> {
+    let file = read::read(&options.file)?;
+    variator::refuse(&file, "reduce")?;
+    if options.over == Over::Time {
+        if options.speed.is_some() {
+            return Err(miette!(
+                help = "leave out --over time, or leave out --speed",
+                "over time the motion of the machine file gives the speed"
+            ));
+        }
+        motion(&file, &options.file)?;
+    }
+    let state = state(options, &file)?;
+    let moves = file.motion.is_some() || state.is_some();
+    if (options.reactions || options.energy) && !moves {
+        return Err(miette!(
+            help = "give --speed, for example --speed \"60 rpm\" (\"0 rpm\" for a machine at rest), or add a [motion]",
+            "forces and energies need a speed: {} has no [motion]",
+            options.file.display()
+        ));
+    }
+    let sets = Sets {
+        curves: !(options.points || options.reactions || options.energy),
+        links: options.links,
+        points: options.points,
+        reactions: options.reactions,
+        energy: options.energy,
+    };
+    let request = reduce::Request {
+        over: options.over,
+        positions: options.positions as usize,
+        sets,
+        state,
+    };
+    let columns = reduce(&file, &request).into_diagnostic()?;
+    if let Some(state) = state {
+        mind(&file, state)?;
+    }
+    if let Some(path) = &options.report {
+        let name = options.file.display().to_string();
+        let page = page::mechanism_page(&name, &file, state).into_diagnostic()?;
+        write(path, page.as_bytes(), &options.file)?;
+    }
+    let mut title = if sets.curves {
+        format!(
+            "{}: reduced to the drive link, flywheel and drive train included",
+            file.title
+        )
+    } else {
+        file.title.clone()
+    };
+    if sets.reactions {
+        title += "\nforce of a joint: what the body named first in `jred check` does to the second; \
+                  flywheel and drive train turn with the drive link";
+    }
+    if moves && columns.has_empty_cells() {
+        title += "\nthe motion does not pass every position exactly once: --over time shows what it does there";
+    }
+    let largest = if sets.reactions {
+        reduce::largest(&file, &request).into_diagnostic()?
+    } else {
+        Vec::new()
+    };
+    match options.format {
+        Format::Table => {
+            let mut text = output::write(&columns, Format::Table, &title);
+            if !largest.is_empty() {
+                let sentences: Vec<String> =
+                    largest.iter().map(reduce::Largest::sentence).collect();
+                text += "largest: ";
+                text += &sentences.join("; ");
+                text += "\n";
+            }
+            if let Some(path) = &options.report {
+                text += "report written to ";
+                text += &path.display().to_string();
+                text += "\n";
+            }
+            print(&text)
+        }
+        Format::Json if sets.reactions => {
+            let mut map = output::json(&columns);
+            map.insert("title".into(), title.into());
+            map.insert("largest".into(), serde_json::json!(largest));
+            print(&format!("{:#}\n", serde_json::Value::Object(map)))
+        }
+        Format::Csv | Format::Json => print(&output::write(&columns, options.format, &title)),
+    }
+}
+
+/// Says on the standard error what comes apart at this speed and acceleration, though the result is computed all the same.
+fn mind(file: &MachineFile, state: [f64; 2]) -> Result<()> {
+    if let Some(words) = OneWay::mind(&file.machine, state).into_diagnostic()? {
+        eprintln!("{words}");
+    }
+    Ok(())
+}
+
+/// Speed and acceleration of the command line.
+fn state(options: &options::Reduce, file: &MachineFile) -> Result<Option<[f64; 2]>> {
+    let Some(speed) = &options.speed else {
+        return Ok(None);
+    };
+    let coordinate = Coordinate::of(file.machine.mechanism()).into_diagnostic()?;
+    let refused =
+        |name: &str, text: &str, why: &str| miette!("--{name} {text:?} cannot be used: {why}");
+    let omega =
+        read::drive_speed(speed, coordinate).map_err(|why| refused("speed", speed, &why))?;
+    let alpha = match &options.accel {
+        Some(accel) => read::drive_acceleration(accel, coordinate)
+            .map_err(|why| refused("accel", accel, &why))?,
+        None => 0.0,
+    };
+    Ok(Some([omega, alpha]))
+}
+
+fn run_check(options: &options::Check) -> Result<Done> {
+    let file = read::read(&options.file)?;
+    let findings = Findings::of(&file).into_diagnostic()?;
+    match options.format {
+        inspection::Format::Table => print(&inspection::text(&findings))?,
+        inspection::Format::Json => print(&format!("{:#}\n", inspection::json(&findings)))?,
+    };
+    Ok(if findings.holds() {
+        Done::Holds
+    } else {
+        Done::Violated
+    })
+}
+
+fn run_simulate(options: &options::Simulate) -> Result<Done> {
+    let file = read::read(&options.file)?;
+    let simulation = file.simulation.as_ref().ok_or_else(|| {
+        miette!(
+            help = "add a [simulation] with start_angle, duration, output_step and torque; docs/machine-file.md shows how",
+            "{} has no [simulation]",
+            options.file.display()
+        )
+    })?;
+    let columns = simulate::simulate(&file, simulation)?;
+    if let Some(path) = &options.plot {
+        write(
+            path,
+            page::simulation_page(&file.title, &columns).as_bytes(),
+            &options.file,
+        )?;
+    }
+    let title = format!(
+        "{}: free motion, Dormand-Prince 8(5,3), tolerance {:e}",
+        file.title, simulation.tolerance
+    );
+    print(&output::write(&columns, options.format, &title))
+}
+
+fn run_export(options: &options::Export) -> Result<Done> {
+    let file = read::read(&options.file)?;
+    variator::refuse(&file, "export")?;
+    let reciprocal = options.reciprocal == Choice::Yes;
+    if reciprocal && options.number == Number::F32 {
+        return Err(miette!(
+            help = "leave out --reciprocal, or take --type i32",
+            "f32 tables have no curve of 1/J: floating point divides"
+        ));
+    }
+    let layouts = options.number.layouts();
+    if !layouts.iter().any(|layout| options.layout.allows(*layout)) {
+        let names: Vec<&str> = layouts.iter().map(|layout| layout.name()).collect();
+        return Err(miette!(
+            help = format!("leave out --layout, or take one of: {}", names.join(", ")),
+            "{} tables have no layout {}",
+            options.number.name(),
+            options.layout.name()
+        ));
+    }
+    let coordinate = Coordinate::of(file.machine.mechanism()).into_diagnostic()?;
+    let quantity = |name: &str, text: &Option<String>, read: read::Reader| {
+        let value = text.as_deref().map(|text| {
+            read(text, coordinate).map_err(|why| miette!("--{name} {text:?} cannot be used: {why}"))
+        });
+        value.transpose()
+    };
+    let torque_error = quantity("torque-error", &options.torque_error, read::drive_effort)?;
+    let omega = quantity("omega", &options.omega, read::largest_speed)?;
+    let alpha = quantity("alpha", &options.alpha, read::largest_acceleration)?;
+    let (omega, alpha) = range([omega, alpha], &file, &options.file)?;
+    let task = Task {
+        number: options.number,
+        layout: options.layout,
+        reciprocal,
+        torque_error,
+        max_bytes: options.max_bytes,
+        max_cells: options.max_cells,
+        omega,
+        alpha,
+        rotor: options.rotor_inertia.unwrap_or(0.0),
+    };
+    let export = match Export::new(&file, task) {
+        Ok(export) => export,
+        Err(Failure::NotReached(why)) => {
+            eprintln!("{why}");
+            return Ok(Done::Violated);
+        }
+        Err(Failure::NoneFits { message, help }) => return Err(miette!(help = help, "{message}")),
+        Err(Failure::Machine(error)) => return Err(error).into_diagnostic(),
+    };
+    if let Some(out) = &options.out {
+        write(out, &export.write(options.format), &options.file)?;
+    }
+    mind(&file, [omega, 0.0])?;
+    match (&options.out, options.format) {
+        (None, Form::Json) => print(&format!("{:#}\n", export.json())),
+        (None, _) => print(&format!(
+            "{}\n{}nothing written: --out names a file\n",
+            export.summary(),
+            alternatives::alternatives(&export)
+        )),
+        (Some(out), _) => print(&format!(
+            "{}\n{}written to {}\n",
+            export.summary(),
+            alternatives::alternatives(&export),
+            out.display()
+        )),
+    }
+}
+
+/// Largest speed and acceleration: as given, else those of the motion. Where there is no acceleration, at constant speed or
+/// without a motion, the speed reached within a radian stands in.
+fn range(given: [Option<f64>; 2], file: &MachineFile, path: &Path) -> Result<(f64, f64)> {
+    match (given, &file.motion) {
+        ([Some(omega), Some(alpha)], _) => return Ok((omega, alpha)),
+        ([Some(omega), None], None) => return Ok((omega, omega * omega)),
+        _ => {}
+    }
+    let motion = file.motion.as_ref().ok_or_else(|| {
+        miette!(
+            help = "give --omega, or add a [motion] to the machine file",
+            "the largest speed is not known: {} has no [motion]",
+            path.display()
+        )
+    })?;
+    let duty = Duty::new(file, motion, jred_machine::analysis::duty::STEPS).into_diagnostic()?;
+    let [omega, alpha] = given;
+    let omega = omega.unwrap_or(duty.figures(|i| i.omega).peak());
+    let moved = duty.figures(|i| i.alpha).peak();
+    let own = if moved > 0.0 { moved } else { omega * omega };
+    Ok((omega, alpha.unwrap_or(own)))
+}
+
+/// The motion of a machine file.
+///
+/// # Errors
+/// It has none.
+pub(crate) fn motion<'f>(file: &'f MachineFile, path: &Path) -> Result<&'f Motion> {
+    file.motion.as_ref().ok_or_else(|| {
+        miette!(
+            help = "add a [motion], for example type = \"constant-speed\", speed = \"60 rpm\"",
+            "{} has no [motion]",
+            path.display()
+        )
+    })
+}
+
+/// Prints to stdout; a closed pipe (`jred … | head`) is no error.
+pub(crate) fn print(text: &str) -> Result<Done> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error)
+            .into_diagnostic()
+            .wrap_err("cannot write the result"),
+        _ => Ok(Done::Holds),
+    }
+}
+
+/// Two files to write must not be one.
+///
+/// # Errors
+/// They are.
+pub(crate) fn distinct(options: [&str; 2], paths: [&Path; 2]) -> Result<()> {
+    let [a, b] = paths.map(place);
+    if a != b {
+        return Ok(());
+    }
+    let [first, second] = options;
+    Err(miette!(
+        help = "name two files",
+        "{first} and {second} both name {}: the one would overwrite the other",
+        paths[1].display()
+    ))
+}
+
+/// Where a file lies, whether it exists or only its folder does.
+fn place(path: &Path) -> PathBuf {
+    let of_folder = || {
+        let folder = path.parent().filter(|folder| *folder != Path::new(""));
+        let folder = folder.unwrap_or(Path::new(".")).canonicalize().ok()?;
+        Some(folder.join(path.file_name()?))
+    };
+    let own = path.canonicalize().ok();
+    own.or_else(of_folder).unwrap_or_else(|| path.to_owned())
+}
+
+/// Writes a file, but never over the machine file that it was made from.
+///
+/// # Errors
+/// A file that cannot be written.
+pub(crate) fn write(path: &Path, bytes: &[u8], machine: &Path) -> Result<()> {
+    let same = |a: &Path, b: &Path| Some(a.canonicalize().ok()? == b.canonicalize().ok()?);
+    if same(path, machine) == Some(true) {
+        return Err(miette!(
+            help = "name another file",
+            "{} is the machine file itself: it is not overwritten",
+            path.display()
+        ));
+    }
+    std::fs::write(path, bytes)
+        .into_diagnostic()
+        .wrap_err_with(|| format!("cannot write {}", path.display()))
+}

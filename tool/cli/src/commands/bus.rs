@@ -1,0 +1,186 @@
+//! `jred bus`: axes on one DC bus.
+
+use std::path::Path;
+
+use miette::{IntoDiagnostic as _, Result, miette};
+
+use indicatif::ProgressBar;
+
+use crate::commands::{Done, print};
+use crate::options::bus::Bus as Options;
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::site::Site;
+use jred_machine::model::supply::Supply;
+use jred_machine::model::variator;
+use jred_machine::read;
+use jred_report::list::listing;
+use jred_report::table::output::Format;
+use jred_sizing::bus::answer::{Answer, Axis};
+use jred_sizing::bus::supply::BusData;
+use jred_sizing::bus::{Watch, power};
+use jred_sizing::catalogue::Catalogue;
+use jred_sizing::cycle::Cycle;
+use jred_sizing::select::fit::fit_input;
+use jred_sizing::select::size::Selection;
+
+/// Shows how far a search is.
+struct Bar<'a>(&'a ProgressBar);
+
+impl Watch for Bar<'_> {
+    fn planned(&self, count: u64) {
+        self.0.inc_length(count);
+    }
+
+    fn done(&self, count: u64) {
+        self.0.inc(count);
+    }
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Bad input.
+pub fn run(options: &Options) -> Result<Done> {
+    let catalogue = options.catalogue.open()?;
+    let files = options.files.iter().map(|path| read::read(path));
+    let mut files = files.collect::<Result<Vec<MachineFile>>>()?;
+    let [own, common] = supply(options, &files)?;
+    let named = named(options)?;
+    let mut axes = Vec::new();
+    for (k, (path, file)) in options.files.iter().zip(&mut files).enumerate() {
+        let name = named
+            .iter()
+            .find(|(axis, _)| *axis == k)
+            .map(|(_, n)| n.as_str());
+        file.site.bus_voltage = own.bus_voltage;
+        file.site.supply = common.supply;
+        axes.push(axis(path, file, &own, &catalogue, name, options.steps)?);
+    }
+    // Drawn on standard error, and only where that is a terminal.
+    let bar = ProgressBar::new(0);
+    let answer = Answer::new(axes, options.in_step, &own.supply, &catalogue, &Bar(&bar))?;
+    bar.finish_and_clear();
+    match options.format {
+        Format::Table => print(&jred_report::list::bus_text::text(&answer))?,
+        Format::Csv => print(&jred_report::list::bus_text::csv(&answer)?)?,
+        Format::Json => print(&format!(
+            "{:#}\n",
+            jred_report::list::bus_json::json(&answer)
+        ))?,
+    };
+    Ok(if answer.holds() {
+        Done::Holds
+    } else {
+        Done::Violated
+    })
+}
+
+/// The supply of the bus, and with what an axis is judged: all axes hang on the bus that one of the files states; the others
+/// leave their supply out, or say the same. What comes back is judged on the bus of all, and not for each axis alone.
+fn supply(options: &Options, files: &[MachineFile]) -> Result<[Site; 2]> {
+    let stated = |file: &MachineFile| (file.site.supply, file.site.bus_voltage);
+    let mut given = (options.files.iter().zip(files))
+        .filter(|(_, file)| file.site.supply.given)
+        .map(|(path, file)| (path, stated(file)));
+    let first = given.next();
+    if let Some((path, stated)) = &first
+        && let Some((other, _)) = given.find(|(_, other)| other != stated)
+    {
+        return Err(miette!(
+            help = "axes on one bus have one supply: leave [supply] out of one of the files, or make them equal",
+            "{} has another [supply] than {}",
+            other.display(),
+            path.display()
+        ));
+    }
+    let (supply, bus_voltage) = first.map_or((Supply::default(), None), |(_, stated)| stated);
+    let site = |supply| Site {
+        bus_voltage,
+        supply,
+        ..Site::default()
+    };
+    let elsewhere = Supply {
+        regenerative: true,
+        ..Supply::default()
+    };
+    Ok([site(supply), site(elsewhere)])
+}
+
+/// The drives named with --drive: index of the axis, name.
+fn named(options: &Options) -> Result<Vec<(usize, String)>> {
+    let count = options.files.len();
+    let mut named: Vec<(usize, String)> = Vec::new();
+    for text in &options.drive {
+        let read = text.split_once('=').and_then(|(axis, name)| {
+            let axis = axis.trim().parse::<usize>().ok()?;
+            (1..=count)
+                .contains(&axis)
+                .then(|| (axis - 1, name.trim().to_owned()))
+        });
+        let Some((axis, name)) = read else {
+            return Err(miette!(
+                help = format!(
+                    "write N=MOTOR+GEARBOX, or N=MOTOR+GEARBOX on AMPLIFIER, with N from 1 to {count}, the place of the machine file on the command line"
+                ),
+                "--drive {text:?} cannot be used"
+            ));
+        };
+        if named.iter().any(|(known, _)| *known == axis) {
+            return Err(miette!(
+                help = "leave one of them out",
+                "--drive names axis {} twice",
+                axis + 1
+            ));
+        }
+        named.push((axis, name));
+    }
+    Ok(named)
+}
+
+fn axis(
+    path: &Path,
+    file: &MachineFile,
+    bus: &Site,
+    catalogue: &Catalogue,
+    name: Option<&str>,
+    steps: u32,
+) -> Result<Axis> {
+    variator::refuse(file, "bus")?;
+    let motion = file.motion.as_ref().ok_or_else(|| {
+        miette!(
+            help = "add a [motion], for example type = \"constant-speed\", speed = \"60 rpm\"",
+            "{} has no [motion]",
+            path.display()
+        )
+    })?;
+    let mut own = catalogue.clone();
+    fit_input(&mut own, file)?;
+    let duty = Duty::new(file, motion, steps as usize).into_diagnostic()?;
+    let cycle = Cycle::new(&duty);
+    let motors = own.prepare(&file.site);
+    let selection = Selection::parallel(&own, &motors, &cycle, &file.site, &file.rules);
+    let candidate = listing::explained(&selection, name)?.ok_or_else(|| {
+        miette!(
+            help = "give a catalogue with at least one motor",
+            "there is no drive for {}",
+            path.display()
+        )
+    })?;
+    let drive = &candidate.drive;
+    let curve = power(
+        &cycle,
+        &drive.coefficients(),
+        drive.ratio(),
+        drive.motor,
+        candidate.motor.on(drive.amplifier),
+        drive.amplifier,
+    );
+    Ok(Axis {
+        title: file.title.clone(),
+        drive: drive.name(),
+        curve,
+        data: BusData::new(&bus.supply, bus.bus_voltage, drive.amplifier, drive.motor),
+        holds: selection.judged(&candidate).holds(),
+    })
+}

@@ -1,0 +1,224 @@
+//! `jred sensitivity`.
+
+use indicatif::ProgressBar;
+use miette::Result;
+
+use crate::commands::vary::study;
+use crate::commands::{Done, print};
+use crate::options::search::Sensitivity as Options;
+use jred_machine::number::rounding::{short, significant};
+use jred_report::table::sheet::{Reading, Sheet};
+use jred_sizing::judge::vocabulary::Units;
+use jred_sizing::study::cell::Cell;
+use jred_sizing::study::common::Study;
+use jred_sizing::study::one::One;
+use jred_sizing::study::sensitivity::{Dependence, Reach, Room, Sensitivity};
+
+/// An uncertainty below this share of a slope does not show in three digits.
+const LAST_DIGIT: f64 = 0.005;
+
+/// Runs `jred sensitivity`.
+///
+/// # Errors
+/// Bad input.
+pub fn sensitivity(options: &Options) -> Result<Done> {
+    let filter = options.search.filter();
+    let study = study(&options.file, &options.supply, &filter)?;
+    options.search.check(&study.catalogue, &[])?;
+    let one = One::choose(
+        &study,
+        options.drive.as_deref(),
+        &filter,
+        options.search.rank,
+    )?;
+    let reach = Reach {
+        change: options.change / 100.0,
+        most: options.most.max(options.change) / 100.0,
+    };
+    let bar = ProgressBar::new(study.document.quantities().len() as u64);
+    let sensitivity = Sensitivity::new(&study, &one, reach, || bar.inc(1))?;
+    bar.finish_and_clear();
+    let sheet = sheet(&study, &one, &sensitivity, reach);
+    print(&sheet.write(options.format))?;
+    let broken = sensitivity
+        .dependences
+        .iter()
+        .any(|d| d.room.contains(&Room::Broken));
+    Ok(if broken { Done::Violated } else { Done::Holds })
+}
+
+fn sheet(study: &Study, one: &One, found: &Sensitivity, reach: Reach) -> Sheet {
+    let units = Units::of(one.drive().motor.kind);
+    let mut columns: Vec<String> = [
+        "quantity",
+        "value",
+        "moves most",
+        "% of limit per +1 %",
+        "+-",
+        "down to [%]",
+        "then",
+        "up to [%]",
+        "then (up)",
+    ]
+    .map(str::to_owned)
+    .to_vec();
+    columns.extend(
+        found
+            .shares
+            .iter()
+            .map(|(rule, _)| format!("{} [% of limit per +1 %]", units.rule(*rule))),
+    );
+    let row = |dependence: &Dependence| -> Vec<Cell> {
+        let quantity = study.document.quantities().get(dependence.quantity);
+        let steepest = dependence.steepest().filter(|slope| slope.slope != 0.0);
+        let [down, up] = dependence.room.each_ref().map(|r| room(r, units));
+        let mut cells: Vec<Cell> = vec![
+            quantity.map_or(Cell::Empty, |q| q.path.as_str().into()),
+            quantity.map_or(Cell::Empty, |q| q.shown().into()),
+            steepest.map_or("nothing".into(), |slope| units.rule(slope.rule).into()),
+            steepest.map(|slope| slope.slope).into(),
+            steepest.map(|slope| slope.uncertainty).into(),
+        ];
+        cells.extend(down);
+        cells.extend(up);
+        cells.extend(found.shares.iter().map(|(rule, _)| {
+            let slope = dependence.slopes.iter().find(|slope| slope.rule == *rule);
+            Cell::from(slope.map(|slope| slope.slope))
+        }));
+        cells
+    };
+    let shares: Vec<String> = (found.shares.iter())
+        .map(|(rule, used)| format!("{} {:.1} %", units.rule(*rule), used * 100.0))
+        .collect();
+    Sheet {
+        schema: "jred-sensitivity/1",
+        title: format!(
+            "{}: {}; of the limits: {}",
+            study.nominal.title,
+            one.name(),
+            shares.join(", ")
+        ),
+        columns,
+        rows: found.dependences.iter().map(row).collect(),
+        reading: Some(reading(study, found, units)),
+        notes: notes(study, found, reach, units),
+    }
+}
+
+/// What breaks first, what is left out of the table, and why quantities were not moved.
+fn notes(study: &Study, found: &Sensitivity, reach: Reach, units: Units) -> Vec<String> {
+    let path = |index: usize| {
+        let quantity = study.document.quantities().get(index);
+        quantity.map_or("", |q| q.path.as_str())
+    };
+    let mut notes = Vec::new();
+    notes.push(match found.first_to_break() {
+        Some((quantity, Room::UpTo(change, rule))) => format!(
+            "first to break: {} by {:+.2} % of {}",
+            units.rule(*rule),
+            change * 100.0,
+            path(quantity)
+        ),
+        _ if found
+            .dependences
+            .iter()
+            .any(|d| d.room.contains(&Room::Broken)) =>
+        {
+            "the drive breaks a rule as it is: how far quantities may move is not looked for"
+                .to_owned()
+        }
+        _ => format!(
+            "no quantity alone breaks a rule within ±{} %",
+            short(reach.most * 100.0)
+        ),
+    });
+    let idle = found.dependences.iter().filter(|d| d.is_idle());
+    let idle: Vec<&str> = idle.map(|d| path(d.quantity)).collect();
+    if !idle.is_empty() {
+        notes.push(format!(
+            "{} quantities move no rule: {}",
+            idle.len(),
+            idle.join(", ")
+        ));
+    }
+    if found.left_out > 0 {
+        notes.push(format!(
+            "{} quantities of [simulation] and [tolerance] left out: no rule depends on them",
+            found.left_out
+        ));
+    }
+    for dependence in &found.dependences {
+        for room in &dependence.room {
+            if let Room::Refused(change, why) = room {
+                let change = significant(change * 100.0, 3);
+                let path = path(dependence.quantity);
+                notes.push(format!("refused beyond {change} % of {path}: {why}"));
+            }
+        }
+    }
+    notes.extend(
+        (found.fixed.iter()).map(|(index, why)| format!("not moved: {}: {why}", path(*index))),
+    );
+    notes
+}
+
+/// What moves a rule, for reading: how sure a slope is only where its digits leave that open.
+fn reading(study: &Study, found: &Sensitivity, units: Units) -> Reading {
+    let columns = [
+        "quantity",
+        "value",
+        "moves most",
+        "% of limit per +1 %",
+        "room down",
+        "room up",
+    ];
+    let row = |dependence: &Dependence| -> Vec<Cell> {
+        let quantity = study.document.quantities().get(dependence.quantity);
+        let steepest = dependence.steepest().filter(|slope| slope.slope != 0.0);
+        let slope = steepest.map(|slope| {
+            let sure = slope.uncertainty <= LAST_DIGIT * slope.slope.abs();
+            let own = significant(slope.slope, 3);
+            if sure {
+                own
+            } else {
+                format!("{own} ± {}", significant(slope.uncertainty, 1))
+            }
+        });
+        let mut cells: Vec<Cell> = vec![
+            quantity.map_or(Cell::Empty, |q| q.path.as_str().into()),
+            quantity.map_or(Cell::Empty, |q| q.shown().into()),
+            steepest.map_or("nothing".into(), |slope| units.rule(slope.rule).into()),
+            slope.map_or(Cell::Empty, Cell::from),
+        ];
+        cells.extend(dependence.room.iter().map(|room| room_words(room, units)));
+        cells
+    };
+    let moving = found.dependences.iter().filter(|d| !d.is_idle());
+    Reading {
+        columns: columns.map(str::to_owned).to_vec(),
+        rows: moving.map(row).collect(),
+        whole: 2,
+    }
+}
+
+/// The same as words; why a machine file is refused stands in a note.
+fn room_words(room: &Room, units: Units) -> Cell {
+    let change = significant(room.change() * 100.0, 3);
+    match room {
+        Room::AtLeast(_) => format!("holds at {change} %").into(),
+        Room::UpTo(_, rule) => format!("{change} %, then {}", units.rule(*rule)).into(),
+        Room::Refused(..) => format!("{change} %, then refused").into(),
+        Room::Broken => Cell::Empty,
+    }
+}
+
+/// How far, in per cent, and what comes then.
+fn room(room: &Room, units: Units) -> [Cell; 2] {
+    let percent = Cell::from(room.change() * 100.0);
+    match room {
+        Room::AtLeast(_) => [percent, "holds still".into()],
+        Room::UpTo(_, rule) => [percent, units.rule(*rule).into()],
+        Room::Refused(_, why) => [percent, format!("refused: {why}").into()],
+        Room::Broken => [Cell::Empty, Cell::Empty],
+    }
+}

@@ -1,0 +1,241 @@
+//! `jred size`.
+
+use std::path::Path;
+
+use miette::{IntoDiagnostic as _, Report, Result, miette};
+
+use crate::commands::vary::catalogue;
+use crate::commands::{Done, distinct, motion, print, write};
+use crate::options::Size;
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::variator;
+use jred_machine::read;
+use jred_report::list::listing;
+use jred_report::page;
+use jred_report::table::output::Format;
+use jred_sizing::cycle::Cycle;
+use jred_sizing::judge::Context;
+use jred_sizing::meter::MeterLimits;
+use jred_sizing::select::fit::fit_input;
+use jred_sizing::select::pareto::Front;
+use jred_sizing::select::size::Selection;
+
+/// Runs `jred size`.
+///
+/// # Errors
+/// Bad input, or a file that cannot be written.
+pub fn size(options: &Size) -> Result<Done> {
+    if let (Some(report), Some(meter)) = (&options.report, &options.meter) {
+        distinct(["--report", "--meter"], [report, meter])?;
+    }
+    let mut file = read::read(&options.file)?;
+    if let Some(word) = &options.supply.rules {
+        file.rules = read::rules_based_on(&file.rules, word)?;
+    }
+    variator::refuse(&file, "size")?;
+    let motion = motion(&file, &options.file)?;
+    let filter = options.search.filter();
+    let mut catalogue = catalogue(&options.supply, &filter)?;
+    let objectives = options.pareto.as_ref().map_or(&[][..], |o| &o.0);
+    options.search.check(&catalogue, objectives)?;
+    fit_input(&mut catalogue, &file)?;
+    let duty = Duty::new(&file, motion, options.supply.steps as usize).into_diagnostic()?;
+    let cycle = Cycle::new(&duty);
+    let motors = catalogue.prepare(&file.site);
+    let mut selection = Selection::parallel(&catalogue, &motors, &cycle, &file.site, &file.rules);
+    let gaps = options.search.apply(&filter, &mut selection);
+    let selection = selection;
+    if selection.fit.is_empty() && selection.refused.is_empty() {
+        return Err(none_left(options, catalogue.count(), &gaps));
+    }
+    for gap in gaps {
+        eprintln!("mind: {gap}");
+    }
+    if let Some(objectives) = &options.pareto {
+        let front = Front::new(&selection, &objectives.0);
+        if let Some(obstacle) = front.obstacle() {
+            return Err(obstacle);
+        }
+        let title = format!(
+            "{}: the Pareto front of the drives that break no rule",
+            file.title
+        );
+        print(&jred_report::list::front::write(
+            &front,
+            options.format,
+            &title,
+        ))?;
+        return Ok(if front.points.is_empty() {
+            Done::Violated
+        } else {
+            Done::Holds
+        });
+    }
+    if let Some(path) = &options.report {
+        let name = options.file.display().to_string();
+        let page = page::page(&name, &file, &duty, &selection).into_diagnostic()?;
+        let page = page.ok_or_else(|| none_left(options, catalogue.count(), &[]))?;
+        write(path, page.as_bytes(), &options.file)?;
+    }
+    let list = listing::List {
+        top: options.top,
+        nearest: options.nearest,
+        refused: options.refused,
+        all: options.all,
+    };
+    let asked = match &options.why {
+        Some(name) => asked_for(name, options, &selection)?,
+        None => None,
+    };
+    let asked = asked.as_ref();
+    let meter = match &options.meter {
+        Some(path) => write_meter(path, options, asked, &file, &selection)?,
+        None => false,
+    };
+    let explanation = explanation(options, asked, &file, &duty, &selection)?;
+    let explanation = explanation.as_ref();
+    match options.format {
+        Format::Table => {
+            print(&listing::text(
+                list,
+                &file,
+                &duty,
+                &selection,
+                asked,
+                explanation,
+            ))?;
+            if let Some(path) = &options.report {
+                print(&format!("report written to {}\n", path.display()))?;
+            }
+            if let Some(path) = options.meter.as_ref().filter(|_| meter) {
+                print(&format!(
+                    "limits for the duty meter written to {}\n",
+                    path.display()
+                ))?;
+            }
+        }
+        Format::Csv => {
+            print(&listing::csv(list, &selection, asked))?;
+        }
+        Format::Json => {
+            let answer = listing::json(list, &file, &duty, &selection, asked, explanation);
+            print(&format!("{answer:#}\n"))?;
+        }
+    }
+    Ok(if selection.fit.is_empty() {
+        Done::Violated
+    } else {
+        Done::Holds
+    })
+}
+
+/// Why there is no drive at all.
+fn none_left(options: &Size, all: usize, gaps: &[String]) -> Report {
+    let given = options.search.given();
+    if given.is_empty() {
+        return miette!(
+            help = "the catalogue says which motor goes with which gearbox and amplifier: docs/catalogue.md",
+            "no motor of the catalogue makes a drive"
+        );
+    }
+    let unknown = [&[String::new()], gaps].concat().join("; ");
+    let cure = if gaps.is_empty() {
+        String::new()
+    } else {
+        "fill in the column of the catalogue (docs/catalogue.md), or ".to_owned()
+    };
+    miette!(
+        help = format!("{cure}widen or leave out {given}"),
+        "no drive passes the filter, of {all} that can be put together{unknown}"
+    )
+}
+
+/// The drive of this name; where the catalogue was thinned, the error says so.
+fn asked_for<'c>(
+    name: &str,
+    options: &Size,
+    selection: &Selection<'c>,
+) -> Result<Option<listing::Asked<'c>>> {
+    let given = options.search.given();
+    listing::Asked::named(selection, name).map_err(|error| {
+        if given.is_empty() {
+            return error;
+        }
+        let help = error.help().map(|help| help.to_string());
+        miette!(
+            help = format!(
+                "without {given} every drive is considered; {}",
+                help.unwrap_or_default()
+            ),
+            "{error} among the {} that pass the filter",
+            selection.fit.len() + selection.refused.len()
+        )
+    })
+}
+
+/// Writes the limits of the drive that was asked for, else of the best that holds; whether there was one.
+fn write_meter(
+    path: &Path,
+    options: &Size,
+    asked: Option<&listing::Asked>,
+    file: &MachineFile,
+    selection: &Selection,
+) -> Result<bool> {
+    let best = || selection.first_fit(1).first().copied();
+    let Some(candidate) = asked.map(|asked| asked.candidate).or_else(best) else {
+        eprintln!(
+            "no drive holds: {} is not written (--why DRIVE writes the limits of one that does not)",
+            path.display()
+        );
+        return Ok(false);
+    };
+    let context = Context::new(
+        selection.cycle,
+        selection.site,
+        candidate.drive,
+        candidate.motor,
+    );
+    let limits = MeterLimits::new(&context, selection.rules);
+    let name = options.file.file_name().unwrap_or_default();
+    let machine = format!("{}, {}", name.display(), file.title);
+    write(path, limits.source(&machine).as_bytes(), &options.file)?;
+    let broken = limits.broken();
+    if !broken.is_empty() {
+        eprintln!(
+            "mind: {} breaks rules ({}): keeping the limits in {} does not make it hold",
+            candidate.drive.name(),
+            broken.join("; "),
+            path.display()
+        );
+    }
+    Ok(true)
+}
+
+/// What was asked to be explained; in words, the nearest refused drives also where none holds.
+fn explanation(
+    options: &Size,
+    asked: Option<&listing::Asked>,
+    file: &MachineFile,
+    duty: &Duty,
+    selection: &Selection,
+) -> Result<Option<listing::Explanation>> {
+    use listing::Explanation;
+    if options.explain || options.why.is_some() {
+        let drive = match asked {
+            Some(asked) => Some(asked.candidate),
+            None => listing::explained(selection, None)?,
+        };
+        let Some(drive) = drive else {
+            return Ok(None);
+        };
+        let nearest = options.nearest;
+        let explanation = Explanation::new(file, duty, selection, &drive, nearest);
+        return explanation.map(Some).into_diagnostic();
+    }
+    if options.format == Format::Table && selection.fit.is_empty() {
+        let nearest = Explanation::of_refused(file, duty, selection, options.nearest);
+        return nearest.map(Some).into_diagnostic();
+    }
+    Ok(None)
+}

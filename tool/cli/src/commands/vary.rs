@@ -1,0 +1,169 @@
+//! `jred vary` and `jred merge`.
+
+use std::path::Path;
+
+use miette::{Result, miette};
+
+use crate::commands::{Done, print};
+use crate::options::search::{Merge, Rows, Supply, Vary};
+use crate::rows::merge::merge;
+use crate::rows::run::{Ended, Plan, run};
+use jred_report::table::rows::{Form, table};
+use jred_sizing::catalogue::Catalogue;
+use jred_sizing::select::filter::Filter;
+use jred_sizing::study::axis::{Axis, Grid};
+use jred_sizing::study::cell::Cell;
+use jred_sizing::study::common::Study;
+use jred_sizing::study::sized::Sized;
+use jred_sizing::study::task::Task as _;
+
+/// The catalogue that the options name, thinned by a filter.
+///
+/// # Errors
+/// Files that cannot be used; nothing left.
+pub fn catalogue(supply: &Supply, filter: &Filter) -> Result<Catalogue> {
+    let mut catalogue = supply.catalogue.open()?;
+    filter.thin(&mut catalogue)?;
+    Ok(catalogue)
+}
+
+/// The machines that a command line is about: those of a machine file, over the catalogue, thinned by a filter.
+///
+/// # Errors
+/// Files that cannot be used; a machine that cannot be sized; nothing left.
+pub fn study(file: &Path, supply: &Supply, filter: &Filter) -> Result<Study> {
+    let catalogue = catalogue(supply, filter)?;
+    Study::new(
+        file,
+        catalogue,
+        supply.rules.as_deref(),
+        supply.steps as usize,
+    )
+}
+
+impl Rows {
+    /// The plan that the options make.
+    pub fn plan(&self) -> Plan {
+        Plan {
+            out: self.out.clone(),
+            form: self.format,
+            resume: self.resume,
+            shard: self.shard.filter(|shard| shard.count > 1),
+        }
+    }
+}
+
+/// Runs `jred vary`.
+///
+/// # Errors
+/// Bad input, or a file that cannot be written.
+pub fn vary(options: &Vary) -> Result<Done> {
+    let filter = options.search.filter();
+    let study = study(&options.file, &options.supply, &filter)?;
+    options.search.check(&study.catalogue, &[])?;
+    let axes = options
+        .vary
+        .iter()
+        .map(|text| Axis::parse(&study.document, text));
+    let grid = Grid::new(axes.collect::<Result<_>>()?)?;
+    let task = Sized {
+        study: &study,
+        grid,
+        filter,
+        rank: options.search.rank,
+    };
+    let plan = options.rows.plan();
+    let columns = task.header().columns;
+    let verdict = task.grid.axes.len();
+    let (mut shown, mut counts) = (Vec::new(), Counts::default());
+    let ended = run(&task, &plan, &mut |index, cells| {
+        counts.add(cells.get(verdict));
+        if plan.out.is_none() && plan.form == Form::Table {
+            shown.push((index, cells.to_vec()));
+        }
+    })?;
+    if plan.out.is_none() && plan.form == Form::Table {
+        let title = format!("{}: {}", study.nominal.title, counts.words());
+        print(&format!("{title}\n{}", table(&columns, &shown)))?;
+    } else if let Some(path) = &plan.out {
+        print(&format!(
+            "{}; rows written to {}\n",
+            counts.words(),
+            path.display()
+        ))?;
+    }
+    let done = stopped(ended, &plan)?;
+    // What a share alone holds is no answer, and a scheduler would run a job again that ends with 1.
+    Ok(
+        if done == Done::Holds && counts.fit == 0 && plan.shard.is_none() {
+            Done::Violated
+        } else {
+            done
+        },
+    )
+}
+
+/// How the machines of a study came out.
+#[derive(Default)]
+struct Counts {
+    fit: u64,
+    none: u64,
+    refused: u64,
+}
+
+impl Counts {
+    fn add(&mut self, verdict: Option<&Cell>) {
+        match verdict.and_then(Cell::text) {
+            Some("fits") => self.fit += 1,
+            Some("none fits") => self.none += 1,
+            _ => self.refused += 1,
+        }
+    }
+
+    fn words(&self) -> String {
+        let all = self.fit + self.none + self.refused;
+        let refused = match self.refused {
+            0 => String::new(),
+            n => format!(", {n} cannot be built as described"),
+        };
+        format!("{} of {all} machines have a drive{refused}", self.fit)
+    }
+}
+
+/// What a run that ended means for the command.
+///
+/// # Errors
+/// None.
+pub fn stopped(ended: Ended, plan: &Plan) -> Result<Done> {
+    if ended.is_complete() {
+        return Ok(Done::Holds);
+    }
+    let cure = match &plan.out {
+        Some(path) => format!(
+            "the same command with --resume continues {}",
+            path.display()
+        ),
+        None => "with --out FILE a run can be continued".to_owned(),
+    };
+    eprintln!("stopped after {} of {} rows; {cure}", ended.rows, ended.of);
+    Ok(Done::Stopped)
+}
+
+/// Runs `jred merge`.
+///
+/// # Errors
+/// Shares that do not make one study.
+pub fn run_merge(options: &Merge) -> Result<Done> {
+    if options.parts.contains(&options.out) {
+        return Err(miette!(
+            help = "the first name is the file to write, the shares follow",
+            "{} is both written and read",
+            options.out.display()
+        ));
+    }
+    let rows = merge(&options.out, &options.parts)?;
+    print(&format!(
+        "{rows} rows written to {}\n",
+        options.out.display()
+    ))
+}

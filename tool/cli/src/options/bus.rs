@@ -1,0 +1,33 @@
+//! `jred bus`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::catalogue::CatalogueFiles;
+use super::word::word;
+use jred_report::table::output::Format;
+
+/// `jred bus`
+#[derive(Debug, Args)]
+pub struct Bus {
+    /// Machine files, one for each axis; the bus is that of the `[supply]` that any one of them states.
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// What drives are made of.
+    #[command(flatten)]
+    pub catalogue: CatalogueFiles,
+    /// Drive of an axis instead of the best that fits: its number from 1 and MOTOR+GEARBOX (or MOTOR), as in
+    /// "2=motor-a+gearbox-b", with " on AMPLIFIER" behind where there are several, or the name as printed; once for each axis.
+    #[arg(long, value_name = "N=DRIVE")]
+    pub drive: Vec<String>,
+    /// All axes start their cycles together, as in the files: only that is judged.
+    #[arg(long)]
+    pub in_step: bool,
+    /// Time steps of a cycle.
+    #[arg(long, default_value_t = jred_machine::analysis::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=1_000_000))]
+    pub steps: u32,
+    /// How to write the result; CSV is power and voltage over time with all axes in step.
+    #[arg(long, value_parser = word::<Format>(), default_value_t)]
+    pub format: Format,
+}

@@ -1,0 +1,365 @@
+//! The options of searching: what is considered, what comes first, and studies of many machines.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use glob::Pattern;
+
+use super::catalogue::CatalogueFiles;
+use super::word::word;
+use jred_machine::number::words::Word as _;
+use jred_report::table::output::Format;
+use jred_report::table::rows::Form;
+use jred_sizing::catalogue::{Catalogue, CatalogueError};
+use jred_sizing::select::filter::Filter;
+use jred_sizing::select::rank::{Objective, rank};
+use jred_sizing::select::size::Selection;
+use jred_sizing::study::shard::Shard;
+
+/// Which catalogue.
+#[derive(Clone, Debug, Args)]
+pub struct Supply {
+    /// What drives are made of.
+    #[command(flatten)]
+    pub catalogue: CatalogueFiles,
+    /// Rule set instead of the machine file's: a name from `jred rules`, or a file; what `[rules]` says beside stays.
+    #[arg(long, value_name = "SET")]
+    pub rules: Option<String>,
+    /// Time steps of the cycle.
+    #[arg(long, default_value_t = jred_machine::analysis::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=10_000_000))]
+    pub steps: u32,
+}
+
+/// Which drives are considered, and which comes first.
+#[derive(Clone, Debug, Default, Args)]
+#[command(next_help_heading = "Which drives")]
+pub struct Search {
+    /// Rank by this instead of power, margin and warnings.
+    #[arg(long, value_parser = word::<Objective>())]
+    pub rank: Option<Objective>,
+    /// Only motors and gearboxes of makers like this; may be repeated.
+    #[arg(long, value_name = "GLOB")]
+    pub maker: Vec<Pattern>,
+    /// Only motors whose key is like this, e.g. "sgmsh-*"; may be repeated.
+    #[arg(long, value_name = "GLOB")]
+    pub motor: Vec<Pattern>,
+    /// Only gearboxes whose key is like this; may be repeated.
+    #[arg(long, value_name = "GLOB")]
+    pub gearbox: Vec<Pattern>,
+    /// Only ratios in this range, e.g. "3..10"; a direct drive has 1.
+    #[arg(long, value_name = "FROM..TO", value_parser = ratio)]
+    pub ratio: Option<[f64; 2]>,
+    /// Only motors without gearbox.
+    #[arg(long, conflicts_with = "gearbox")]
+    pub direct_only: bool,
+    /// Only drives up to this mass, e.g. "12 kg".
+    #[arg(long, value_name = "MASS", value_parser = jred_machine::read::mass_argument)]
+    pub max_mass: Option<f64>,
+    /// Only drives up to this price, in the currency of the catalogue.
+    #[arg(long, value_name = "PRICE", value_parser = price)]
+    pub max_price: Option<f64>,
+}
+
+impl Search {
+    /// Takes out what does not pass the filter as a whole, and ranks the rest; what could not be told for want of figures, in
+    /// words.
+    pub fn apply(&self, filter: &Filter, selection: &mut Selection) -> Vec<String> {
+        let unknown = filter.sift(selection);
+        let mut gaps = Vec::new();
+        for (n, what) in [(unknown.mass, "mass"), (unknown.price, "price")] {
+            if n > 0 {
+                gaps.push(format!(
+                    "{n} drives are left out: their {what} is not known"
+                ));
+            }
+        }
+        if let Some(objective) = self.rank {
+            match rank(selection, objective) {
+                0 => {}
+                n if n == selection.fit.len() => {
+                    gaps.push(format!(
+                        "the {} of no drive that fits is known: not ranked by it",
+                        objective.name()
+                    ));
+                }
+                n => gaps.push(format!(
+                    "{n} drives that fit are ranked last: their {} is not known",
+                    objective.name()
+                )),
+            }
+        }
+        gaps
+    }
+
+    /// Prices that are to be compared must be in one currency.
+    ///
+    /// # Errors
+    /// They are not.
+    pub fn check(
+        &self,
+        catalogue: &Catalogue,
+        objectives: &[Objective],
+    ) -> Result<(), CatalogueError> {
+        let ranked = self
+            .rank
+            .iter()
+            .chain(objectives)
+            .any(|o| *o == Objective::Price);
+        if ranked || self.max_price.is_some() {
+            catalogue.one_currency()?;
+        }
+        Ok(())
+    }
+
+    /// The options that leave drives out, as they are written.
+    pub fn given(&self) -> String {
+        let given = [
+            ("--maker", !self.maker.is_empty()),
+            ("--motor", !self.motor.is_empty()),
+            ("--gearbox", !self.gearbox.is_empty()),
+            ("--ratio", self.ratio.is_some()),
+            ("--direct-only", self.direct_only),
+            ("--max-mass", self.max_mass.is_some()),
+            ("--max-price", self.max_price.is_some()),
+        ];
+        let given = given.into_iter().filter(|(_, is_given)| *is_given);
+        let names: Vec<&str> = given.map(|(name, _)| name).collect();
+        names.join(", ")
+    }
+
+    /// What is considered.
+    pub fn filter(&self) -> Filter {
+        Filter {
+            makers: self.maker.clone(),
+            motors: self.motor.clone(),
+            gearboxes: self.gearbox.clone(),
+            ratio: self.ratio,
+            direct_only: self.direct_only,
+            max_mass: self.max_mass,
+            max_price: self.max_price,
+        }
+    }
+}
+
+fn ratio(text: &str) -> Result<[f64; 2], String> {
+    let shape = "write FROM..TO, such as 3..10";
+    let parts = text.split_once("..");
+    let parsed = parts.and_then(|(a, b)| Some([a.trim().parse().ok()?, b.trim().parse().ok()?]));
+    let [from, to]: [f64; 2] = parsed.ok_or(shape)?;
+    if from > 0.0 && from <= to && to.is_finite() {
+        Ok([from, to])
+    } else {
+        Err(format!("no ratio lies between {from} and {to}; {shape}"))
+    }
+}
+
+fn price(text: &str) -> Result<f64, String> {
+    let price: f64 = text.parse().map_err(|_| "write a plain number")?;
+    if price > 0.0 && price.is_finite() {
+        Ok(price)
+    } else {
+        Err("it must be greater than zero".to_owned())
+    }
+}
+
+/// Two or three objectives.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Objectives(pub Vec<Objective>);
+
+impl Objectives {
+    /// Reads objectives with commas between.
+    ///
+    /// # Errors
+    /// Another number of them, or one that does not exist.
+    pub fn read(text: &str) -> Result<Self, String> {
+        objectives(text).map(Self)
+    }
+}
+
+fn objectives(text: &str) -> Result<Vec<Objective>, String> {
+    let words: Vec<&str> = text.split(',').map(str::trim).collect();
+    let read = words
+        .iter()
+        .map(|word| Objective::of_word(&word.to_lowercase()));
+    let found = read.collect::<Option<Vec<_>>>().ok_or_else(|| {
+        "an objective is one of power, mass, price, energy, margin, temperature".to_owned()
+    })?;
+    let twice = found
+        .iter()
+        .enumerate()
+        .any(|(k, o)| found.iter().take(k).any(|other| other == o));
+    if !(2..=3).contains(&found.len()) || twice {
+        return Err("name two or three different objectives, such as mass,energy".to_owned());
+    }
+    Ok(found)
+}
+
+/// Where the rows of a study go.
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Rows")]
+pub struct Rows {
+    /// How rows are written; a file has CSV or JSON lines.
+    #[arg(long, value_parser = word::<Form>(), default_value_t)]
+    pub format: Form,
+    /// File for the rows, written as they come.
+    #[arg(long, short, value_parser = super::output_file())]
+    pub out: Option<PathBuf>,
+    /// Continue the file.
+    #[arg(long, requires = "out")]
+    pub resume: bool,
+    /// Only a share of the rows, INDEX/COUNT from 0: "0/8" to "7/8"; `jred merge` puts the files together.
+    #[arg(long, value_name = "INDEX/COUNT", requires = "out")]
+    pub shard: Option<Shard>,
+}
+
+/// `jred vary`
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Exit codes: 0 at least one machine has a drive that holds every rule; 1 none of the machines has (a \
+                  share, --shard, ends with 0 all the same); 2 bad input; 130 stopped before the last row."
+)]
+pub struct Vary {
+    /// Machine file, with a `[motion]`.
+    pub file: PathBuf,
+    /// A quantity and its values: PATH=FROM..TO UNIT:COUNT, with `:log` behind for equal ratios, or PATH=A,B,C UNIT; may be
+    /// repeated: then every combination.
+    #[arg(
+        long,
+        required = true,
+        value_name = "PATH=VALUES",
+        allow_hyphen_values = true
+    )]
+    pub vary: Vec<String>,
+    /// Catalogue and time steps.
+    #[command(flatten)]
+    pub supply: Supply,
+    /// Rows.
+    #[command(flatten)]
+    pub rows: Rows,
+    /// Which drives.
+    #[command(flatten)]
+    pub search: Search,
+}
+
+/// `jred merge`
+#[derive(Debug, Args)]
+pub struct Merge {
+    /// File to write.
+    #[arg(value_parser = super::output_file())]
+    pub out: PathBuf,
+    /// The shares.
+    #[arg(required = true)]
+    pub parts: Vec<PathBuf>,
+}
+
+/// `jred ratio`
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Exit codes: 0 at least one motor holds every rule with some ratio; 1 none does; 2 bad input."
+)]
+pub struct Ratio {
+    /// Machine file, with a `[motion]`.
+    pub file: PathBuf,
+    /// Catalogue and time steps.
+    #[command(flatten)]
+    pub supply: Supply,
+    /// Efficiency of the gearbox that is looked for, 0 to 1.
+    #[arg(long, default_value_t = 1.0, value_parser = efficiency)]
+    pub efficiency: f64,
+    /// Its inertia at the input, e.g. "0.5 kg cm^2"; nothing if not given.
+    #[arg(long, value_parser = jred_machine::read::inertia_argument)]
+    pub gearbox_inertia: Option<f64>,
+    /// Only motors whose key is like this, e.g. "sgmsh-*"; may be repeated.
+    #[arg(long, value_name = "GLOB")]
+    pub motor: Vec<Pattern>,
+    /// List only the first so many of the motors that hold every rule with some ratio, the smallest first; the others are
+    /// counted.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub top: Option<u32>,
+    /// How to write the result.
+    #[arg(long, value_parser = word::<Format>(), default_value_t)]
+    pub format: Format,
+}
+
+fn efficiency(text: &str) -> Result<f64, String> {
+    let parsed = match text.strip_suffix('%') {
+        Some(percent) => percent.trim().parse::<f64>().map(|x| x / 100.0),
+        None => text.parse(),
+    };
+    let efficiency = parsed.map_err(|_| "write a share such as 0.97 or \"97 %\"")?;
+    if efficiency > 0.0 && efficiency <= 1.0 {
+        Ok(efficiency)
+    } else {
+        Err("it must lie above 0 and not above 1".to_owned())
+    }
+}
+
+/// `jred sensitivity`
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Exit codes: 0 the drive holds every rule as it is; 1 it breaks one; 2 bad input."
+)]
+pub struct Sensitivity {
+    /// Machine file, with a `[motion]`.
+    pub file: PathBuf,
+    /// The drive, MOTOR+GEARBOX or MOTOR alone for a direct one; without: the best of the catalogue.
+    #[arg(long, value_name = "MOTOR+GEARBOX")]
+    pub drive: Option<String>,
+    /// Relative change of the differences (%).
+    #[arg(long, default_value_t = 1.0, value_parser = percent)]
+    pub change: f64,
+    /// How far each quantity is moved at most in search of the first rule that breaks (%).
+    #[arg(long, default_value_t = 50.0, value_parser = percent)]
+    pub most: f64,
+    /// Catalogue and time steps.
+    #[command(flatten)]
+    pub supply: Supply,
+    /// Which drives.
+    #[command(flatten)]
+    pub search: Search,
+    /// How to write the result.
+    #[arg(long, value_parser = word::<Format>(), default_value_t)]
+    pub format: Format,
+}
+
+fn percent(text: &str) -> Result<f64, String> {
+    let text = text.trim().trim_end_matches('%').trim_end();
+    let percent: f64 = text.parse().map_err(|_| "write per cent, such as 1")?;
+    if percent > 0.0 && percent < 100.0 {
+        Ok(percent)
+    } else {
+        Err("it must lie between 0 and 100 %".to_owned())
+    }
+}
+
+/// `jred tolerance`
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Exit codes: 0 every machine drawn holds every rule; 1 one does not, or cannot be built as drawn; 2 bad \
+                  input; 130 stopped before the last machine."
+)]
+pub struct Tolerance {
+    /// Machine file, with a `[motion]`.
+    pub file: PathBuf,
+    /// A tolerance beside those of `[tolerance]`, or instead of one of them: PATH=5%, PATH=0.1mm, PATH=normal:2%.
+    #[arg(long, value_name = "PATH=AMOUNT")]
+    pub tolerance: Vec<String>,
+    /// Number of machines.
+    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
+    pub samples: u64,
+    /// Seed of the random numbers.
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// The drive, MOTOR+GEARBOX or MOTOR alone for a direct one; without: the best of the catalogue.
+    #[arg(long, value_name = "MOTOR+GEARBOX")]
+    pub drive: Option<String>,
+    /// Catalogue and time steps.
+    #[command(flatten)]
+    pub supply: Supply,
+    /// Which drives.
+    #[command(flatten)]
+    pub search: Search,
+    /// Rows.
+    #[command(flatten)]
+    pub rows: Rows,
+}

@@ -1,0 +1,141 @@
+//! Running a study: rows in parallel, written in order, until all are there or somebody stops it.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::Once;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use miette::{IntoDiagnostic as _, Result, WrapErr as _};
+use rayon::prelude::*;
+
+use super::store;
+use jred_report::table::rows::Form;
+use jred_sizing::study::cell::Cell;
+use jred_sizing::study::shard::Shard;
+use jred_sizing::study::task::Task;
+
+/// Where the rows go, and which.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// File to write; `None`: standard output.
+    pub out: Option<PathBuf>,
+    /// How rows are written.
+    pub form: Form,
+    /// Whether the file is continued.
+    pub resume: bool,
+    /// Which rows.
+    pub shard: Option<Shard>,
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ended {
+    /// Rows of this share that are there.
+    pub rows: u64,
+    /// Rows that the share has.
+    pub of: u64,
+}
+
+impl Ended {
+    /// Whether every row is there.
+    pub const fn is_complete(self) -> bool {
+        self.rows == self.of
+    }
+}
+
+/// Set by the first Ctrl-C (or SIGTERM): rows that are begun are finished, no others are begun.
+static STOP: AtomicBool = AtomicBool::new(false);
+
+/// Lets Ctrl-C end a run after the rows that are begun; a second one ends it at once.
+fn heed_signals() {
+    static ONCE: Once = Once::new();
+    static COUNT: AtomicU32 = AtomicU32::new(0);
+    ONCE.call_once(|| {
+        // Without a handler the signal ends the program, and the file keeps what was written: nothing else is lost.
+        let _ = ctrlc::set_handler(|| {
+            STOP.store(true, Ordering::Relaxed);
+            if COUNT.fetch_add(1, Ordering::Relaxed) > 0 {
+                std::process::exit(130);
+            }
+        });
+    });
+}
+
+/// Rows that each thread works on between two writings.
+const BLOCK: u64 = 16;
+
+/// Runs a study. `seen` is shown every row of the share in order, those of a continued file included.
+///
+/// # Errors
+/// Files that cannot be written or are not those of this study.
+pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) -> Result<Ended> {
+    heed_signals();
+    let mut header = task.header();
+    header.shard = plan.shard;
+    let shard = header.share();
+    let of = shard.len(header.rows);
+    let form = match plan.form {
+        Form::Table if plan.out.is_some() => Form::Csv,
+        form => form,
+    };
+    let mut done = 0;
+    let mut sink: Option<Box<dyn Write>> = match &plan.out {
+        Some(path) if plan.resume && path.exists() => {
+            let columns = header.columns.clone();
+            let (file, rows) = store::resume(path, &header, form, &mut |index, line| {
+                seen(index, &form.cells(line, &columns).unwrap_or_default());
+            })?;
+            done = rows;
+            Some(Box::new(file))
+        }
+        Some(path) => Some(Box::new(store::begin(path, &store::lines(&header, form)?)?)),
+        None if form == Form::Table => None,
+        None => {
+            let mut out = std::io::stdout();
+            let _ = out.write_all(store::lines(&header, form)?.as_bytes());
+            Some(Box::new(out))
+        }
+    };
+    let bar = bar(of, done);
+    let block = BLOCK * rayon::current_num_threads() as u64;
+    while done < of && !STOP.load(Ordering::Relaxed) {
+        let rows: Vec<Option<Vec<Cell>>> = (done..of.min(done + block))
+            .into_par_iter()
+            .map(|k| {
+                let row = (!STOP.load(Ordering::Relaxed)).then(|| task.row(shard.row(k)));
+                bar.inc(1);
+                row
+            })
+            .collect();
+        let mut text = String::new();
+        for cells in rows.into_iter().map_while(|row| row) {
+            let index = shard.row(done);
+            text += &form.line(&header.columns, index, &cells);
+            seen(index, &cells);
+            done += 1;
+        }
+        if let Some(sink) = &mut sink {
+            match sink.write_all(text.as_bytes()).and_then(|()| sink.flush()) {
+                // `jred vary … | head` has seen enough.
+                Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => break,
+                written => written
+                    .into_diagnostic()
+                    .wrap_err("cannot write the rows")?,
+            }
+        }
+    }
+    bar.finish_and_clear();
+    Ok(Ended { rows: done, of })
+}
+
+/// A bar on standard error; none if that is not a terminal.
+fn bar(of: u64, done: u64) -> ProgressBar {
+    let style = "{bar:40} {pos}/{len}, {per_sec}, {eta} left";
+    let bar = ProgressBar::new(of).with_style(
+        ProgressStyle::with_template(style).unwrap_or_else(|_| ProgressStyle::default_bar()),
+    );
+    bar.set_position(done);
+    bar.reset_eta();
+    bar
+}

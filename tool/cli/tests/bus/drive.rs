@@ -1,0 +1,160 @@
+//! The power of one drive, and the rule for the resistance of its brake resistor.
+
+use std::path::Path;
+
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::RuleSet;
+use jred_machine::model::rules::Verdict;
+use jred_machine::model::site::Site;
+use jred_machine::model::supply::{BrakeResistor, Supply};
+use jred_machine::read;
+use jred_sizing::bus;
+use jred_sizing::catalogue::Drive;
+use jred_sizing::catalogue::{Amplifier, Motor, Winding};
+use jred_sizing::cycle::Cycle;
+use jred_sizing::judge::Context;
+use jred_sizing::judge::check::Check;
+use jred_sizing::motor::envelope::Prepared;
+
+use super::{budget, near};
+use crate::support::press_text;
+
+fn cycle() -> Cycle {
+    let file = read::parse("press.toml", &press_text(), Path::new("")).unwrap();
+    Cycle::new(&Duty::new(&file, file.motion.as_ref().unwrap(), 1000).unwrap())
+}
+
+/// A motor that turns the press without a gearbox, and at 30 V runs into the weakened field.
+fn motor() -> Motor {
+    Motor {
+        key: "m".to_owned(),
+        rated_torque: Some(40.0),
+        rated_speed: Some(200.0),
+        max_speed: Some(400.0),
+        peak_torque: Some(400.0),
+        rotor_inertia: 0.01,
+        winding: Winding {
+            torque_constant: Some(2.0),
+            resistance: Some(0.6),
+            inductance: Some(5e-3),
+            pole_pairs: Some(5.0),
+            ..Winding::default()
+        },
+        ..Motor::default()
+    }
+}
+
+/// P = T·ω + 3/2·R·I² + p₀ + p₁·I, with the field-weakening current in I while the motor drives alone.
+#[test]
+fn field_weakening_is_drawn_and_not_fed_back() {
+    let (cycle, motor) = (cycle(), motor());
+    let site = Site {
+        bus_voltage: Some(30.0),
+        ..Site::default()
+    };
+    let amplifier = Amplifier {
+        rated_current: 100.0,
+        peak_current: 400.0,
+        losses: [20.0, 8.0],
+        ..Amplifier::default()
+    };
+    let prepared = Prepared::new(&motor, Some(&amplifier), &site);
+    assert!(prepared.circuit.is_some_and(|circuit| circuit.weakens));
+    let drive = Drive {
+        motor: &motor,
+        gearbox: None,
+        amplifier: Some(&amplifier),
+    };
+    let coefficients = drive.coefficients();
+    let curve = bus::power(
+        &cycle,
+        &coefficients,
+        1.0,
+        &motor,
+        &prepared,
+        Some(&amplifier),
+    );
+    let (mut weakened, mut braked) = (0, 0);
+    for sample in cycle.samples() {
+        let torque = coefficients.torque(&sample.loads());
+        let speed = sample.speed();
+        let along = torque.abs() / 2.0;
+        let total = prepared.current(torque, speed).unwrap();
+        let current = if torque * speed < 0.0 { along } else { total };
+        let expected = torque * speed + 1.5 * 0.6 * current * current + 20.0 + 8.0 * current;
+        let at = |p: &&[f64; 2]| p[0] == sample.t;
+        let found = curve.points().iter().find(at).unwrap();
+        near("power", found[1], expected, budget::BUS);
+        if total > 1.01 * along {
+            weakened += usize::from(torque * speed > 0.0);
+            braked += usize::from(torque * speed < 0.0);
+        }
+    }
+    assert!(weakened > 50 && braked > 50, "{weakened} {braked}");
+}
+
+/// What the rule says with a resistor of 20 Ω.
+fn resistance(amplifier: Option<f64>, supply: Option<f64>) -> Check {
+    let (cycle, motor) = (cycle(), motor());
+    let site = Site {
+        bus_voltage: Some(560.0),
+        supply: Supply {
+            given: true,
+            capacitance: Some(1e-6),
+            chopper_voltage: Some(780.0),
+            max_voltage: Some(820.0),
+            min_resistance: supply,
+            regenerative: false,
+            brake_resistor: Some(BrakeResistor {
+                resistance: 20.0,
+                power: 1e6,
+                peak_power: Some(1e6),
+                pulse_energy: Some(1e6),
+            }),
+        },
+        ..Site::default()
+    };
+    let amplifier = Amplifier {
+        rated_current: 100.0,
+        peak_current: 400.0,
+        min_resistance: amplifier,
+        ..Amplifier::default()
+    };
+    let prepared = Prepared::new(&motor, Some(&amplifier), &site);
+    let drive = Drive {
+        motor: &motor,
+        gearbox: None,
+        amplifier: Some(&amplifier),
+    };
+    let rules = RuleSet::default();
+    let checks = Context::new(&cycle, &site, drive, &prepared).checks(&rules);
+    let power = checks.iter().find(|c| c.id == Rule::ResistorPower).unwrap();
+    assert!(
+        power.value.unwrap() > 0.0,
+        "the resistor comes on: {power:?}"
+    );
+    let mut checks = checks.into_iter();
+    checks.find(|c| c.id == Rule::BrakeResistance).unwrap()
+}
+
+#[test]
+fn a_resistor_too_small_for_the_amplifier() {
+    let low = resistance(Some(30.0), None);
+    assert_eq!(
+        (low.verdict, low.value, low.limit, low.unit),
+        (Verdict::Fail, Some(20.0), Some(30.0), "Ohm")
+    );
+    assert!(
+        low.note
+            .contains("smallest resistance that the chopper may switch"),
+        "{}",
+        low.note
+    );
+    assert_eq!(resistance(Some(20.0), None).verdict, Verdict::Pass);
+    // The machine file has the last word.
+    assert_eq!(resistance(Some(30.0), Some(15.0)).verdict, Verdict::Pass);
+    let unknown = resistance(None, None);
+    assert_eq!(unknown.verdict, Verdict::NotChecked);
+    assert!(unknown.note.contains("not known"), "{}", unknown.note);
+}

@@ -1,0 +1,231 @@
+//! Whether every drive of a catalogue is screened as judging it in full says: the same verdicts, the same first drives in order.
+
+use std::cell::Cell;
+
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::rules::RuleSet;
+use jred_machine::model::rules::Verdict;
+use jred_machine::model::site::Site;
+use jred_machine::read;
+use jred_sizing::catalogue::Drive;
+use jred_sizing::catalogue::{Amplifier, Catalogue};
+use jred_sizing::cycle::Cycle;
+use jred_sizing::judge::{Context, Outcome};
+use jred_sizing::select::size::{Candidate, FIRST, Group, Selection};
+
+use super::catalogue::with_more_ratios;
+use super::random::duty;
+use super::runner;
+use crate::support::press_text;
+
+/// Every drive in full, in the order that docs/search.md states: those that fit, those that are refused.
+fn plainly(
+    catalogue: &Catalogue,
+    cycle: &Cycle,
+    site: &Site,
+    rules: &RuleSet,
+) -> [Vec<(String, Outcome)>; 2] {
+    let motors = catalogue.prepare(site);
+    let mut lists = [Vec::new(), Vec::new()];
+    for (index, drive) in catalogue.drives() {
+        let outcome = Context::new(cycle, site, drive, &motors[index]).outcome(rules);
+        lists[usize::from(outcome.verdict == Verdict::Fail)].push((drive, outcome));
+    }
+    let power = |drive: &Drive| drive.motor.rated_power().unwrap_or(f64::INFINITY);
+    let [fit, refused] = &mut lists;
+    // Both sorts are stable: equal drives stay in the order of the catalogue.
+    fit.sort_by(|(a, x), (b, y)| {
+        (power(a).total_cmp(&power(b)))
+            .then((x.warnings > 0).cmp(&(y.warnings > 0)))
+            .then(x.worst_use.total_cmp(&y.worst_use))
+    });
+    refused.sort_by(|(_, x), (_, y)| {
+        (x.beyond_all_limits.cmp(&y.beyond_all_limits)).then(x.worst_use.total_cmp(&y.worst_use))
+    });
+    lists.map(|list| {
+        let named = list.into_iter().map(|(drive, found)| (drive.name(), found));
+        named.collect()
+    })
+}
+
+fn named(candidates: &[Candidate]) -> Vec<(String, Outcome)> {
+    let named = candidates.iter().map(|c| (c.drive.name(), c.outcome));
+    named.collect()
+}
+
+fn names(group: &Group) -> Vec<String> {
+    let mut names: Vec<String> = group.drives().map(|drive| drive.name()).collect();
+    names.sort();
+    names
+}
+
+/// The first drives must be those expected; says where they differ.
+#[track_caller]
+fn same(found: &[(String, Outcome)], expected: &[(String, Outcome)]) {
+    assert_eq!(found.len(), expected.len());
+    for (k, pair) in found.iter().zip(expected).enumerate() {
+        assert_eq!(pair.0, pair.1, "place {k}");
+    }
+}
+
+/// Both ways must agree; how many fit and how many are refused.
+fn compare(catalogue: &Catalogue, cycle: &Cycle, site: &Site, rules: &RuleSet) -> [usize; 2] {
+    let motors = catalogue.prepare(site);
+    let expected = plainly(catalogue, cycle, site, rules);
+    let mut one = Selection::new(catalogue, &motors, cycle, site, rules);
+    let all = Selection::parallel(catalogue, &motors, cycle, site, rules);
+    for selection in [&one, &all] {
+        for (group, expected) in [&selection.fit, &selection.refused].iter().zip(&expected) {
+            assert_eq!(group.len(), expected.len());
+            let known = group.known();
+            assert!(known.len() >= expected.len().min(FIRST));
+            same(&named(known), &expected[..known.len()]);
+            let mut wanted: Vec<String> = expected.iter().map(|(name, _)| name.clone()).collect();
+            wanted.sort();
+            assert!(names(group) == wanted);
+        }
+        let partly = expected[0]
+            .iter()
+            .filter(|(_, found)| found.not_checked > 0);
+        assert_eq!(selection.partly_checked(), partly.count());
+    }
+    // More than stand in order, and all.
+    for count in [FIRST + 1, 3 * FIRST, usize::MAX] {
+        for (found, expected) in [one.first_fit(count), one.first_refused(count)]
+            .iter()
+            .zip(&expected)
+        {
+            same(&named(found), &expected[..count.min(expected.len())]);
+        }
+    }
+    one.complete();
+    same(&named(one.fit.known()), &expected[0]);
+    same(&named(one.refused.known()), &expected[1]);
+    expected.map(|list| list.len())
+}
+
+/// The same duty with its largest torque and speed at these (N·m, rad/s).
+fn scaled(mut duty: Duty, [torque, speed]: [f64; 2]) -> Duty {
+    let most = |of: fn(&jred_machine::analysis::duty::Instant) -> f64| {
+        let largest = duty
+            .instants
+            .iter()
+            .map(|i| of(i).abs())
+            .fold(0.0, f64::max);
+        if largest > 0.0 { largest } else { 1.0 }
+    };
+    let factors = [
+        torque / most(|i| i.input_torque),
+        speed / most(|i| i.input_speed),
+        torque / most(|i| i.input_alpha),
+    ];
+    for instant in &mut duty.instants {
+        instant.input_torque *= factors[0];
+        instant.input_speed *= factors[1];
+        instant.omega *= factors[1];
+        instant.input_alpha *= 10.0 * factors[2];
+    }
+    duty.hold_torque = 0.5 * torque;
+    duty
+}
+
+/// Random cycles of all kinds, at torques and speeds that a part of the catalogue suits.
+#[test]
+fn random_cycles_are_screened_as_in_full() {
+    let catalogue = with_more_ratios();
+    let ranges = [-1.0..3.0f64, -1.0..2.5f64];
+    let cases = (duty(), ranges, 0usize..3, -20.0..70.0f64);
+    let sets = sets();
+    let seen = Cell::new([0; 2]);
+    let check = |(duty, tens, set, ambient): (Duty, [f64; 2], usize, f64)| {
+        let cycle = Cycle::new(&scaled(duty, tens.map(|x| 10f64.powf(x))));
+        let mut site = Site::default();
+        site.surroundings.ambient = ambient;
+        let [fit, refused] = compare(&catalogue, &cycle, &site, &sets[set]);
+        let [many_fit, many_refused] = seen.get();
+        seen.set([
+            many_fit + usize::from(fit > FIRST),
+            many_refused + usize::from(refused > FIRST),
+        ]);
+        Ok(())
+    };
+    runner(48).run(&cases, check).unwrap();
+    let [many_fit, many_refused] = seen.get();
+    assert!(
+        many_fit >= 5 && many_refused >= 20,
+        "{many_fit} {many_refused}"
+    );
+}
+
+/// Three sets of rules: the general one, one with warnings, one that judges little.
+fn sets() -> [RuleSet; 3] {
+    let with = |rules: &str| {
+        let text = format!("{}\n{rules}", press_text());
+        let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+        file.rules
+    };
+    [
+        RuleSet::default(),
+        with("[rules]\npeak_torque_warning = 0.5\nrms_torque_warning = 0.3\nspeed_warning = 0.8\n"),
+        with("[rules]\npeak_torque = \"off\"\ninertia_ratio = \"off\"\n"),
+    ]
+}
+
+/// Amplifiers bring currents, I²t and the DC bus into play.
+#[test]
+fn drives_on_amplifiers_are_screened_as_in_full() {
+    let text = press_text();
+    let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 300).unwrap();
+    let cycle = Cycle::new(&duty);
+    let mut catalogue = with_more_ratios();
+    let currents = [2.0, 6.0, 12.0, 25.0];
+    catalogue.amplifiers = currents
+        .map(|current| Amplifier {
+            key: format!("amplifier-{current}"),
+            rated_current: current,
+            peak_current: 2.0 * current,
+            peak_time: (current < 12.0).then_some(2.0),
+            ..Amplifier::default()
+        })
+        .to_vec();
+    let (site, rules) = (Site::default(), RuleSet::default());
+    let [fit, refused] = compare(&catalogue, &cycle, &site, &rules);
+    assert!(fit > FIRST && refused > FIRST, "{fit} {refused}");
+    // A drive asked for without its amplifier: the first of them in the lists, wherever they stand.
+    let motors = catalogue.prepare(&site);
+    let selection = Selection::parallel(&catalogue, &motors, &cycle, &site, &rules);
+    let expected = plainly(&catalogue, &cycle, &site, &rules).concat();
+    for (_, asked) in catalogue.drives().step_by(97) {
+        let alone = Drive {
+            amplifier: None,
+            ..asked
+        };
+        let alone = alone.name();
+        let is_asked = |name: &str| name == alone || name.starts_with(&format!("{alone} on "));
+        let found = selection.find(|drive| is_asked(&drive.name()));
+        let first = expected.iter().find(|(name, _)| is_asked(name));
+        assert_eq!(found.unwrap().drive.name(), first.unwrap().0);
+    }
+}
+
+/// A catalogue of which every drive is equal: they stand in the order of the catalogue.
+#[test]
+fn equal_drives_stand_in_the_order_of_the_catalogue() {
+    let text = press_text();
+    let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 100).unwrap();
+    let cycle = Cycle::new(&duty);
+    let mut all = Catalogue::load(None, None).unwrap();
+    let gearbox = all.gearboxes[0].clone();
+    all.gearboxes = (0..400)
+        .map(|k| {
+            let mut other = gearbox.clone();
+            other.key = format!("equal-{k}");
+            other
+        })
+        .collect();
+    all.motors.truncate(3);
+    let [fit, refused] = compare(&all, &cycle, &Site::default(), &RuleSet::default());
+    assert!(fit.max(refused) > 400, "{fit} {refused}");
+}

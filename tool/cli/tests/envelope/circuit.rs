@@ -1,0 +1,234 @@
+//! The winding's limits against a search over all currents.
+
+use jred_machine::model::site::Site;
+use jred_sizing::catalogue::{Motor, Winding};
+use jred_sizing::motor::envelope::Envelope;
+use jred_sizing::motor::winding::Commutation;
+
+use super::{RPM, bare, budget, near, servo, site};
+
+/// The three-phase machine, phase by phase: amplitudes of the phase quantities, no line-to-line figure.
+struct Phases {
+    resistance: f64,
+    inductance: f64,
+    flux: f64,
+    pairs: f64,
+    /// Largest amplitude of the phase voltage: the circle inside the bridge's hexagon, U/√3.
+    voltage: f64,
+    /// Largest amplitude of the phase current.
+    current: f64,
+}
+
+impl Phases {
+    fn of(motor: &Motor, bus: f64, peak: f64) -> Self {
+        let winding = &motor.winding;
+        let pairs = winding.pole_pairs.unwrap();
+        // A line-to-line RMS voltage per speed, as the amplitude of a phase's flux linkage times p.
+        let flux = winding.voltage_constant.unwrap() * 2f64.sqrt() / 3f64.sqrt() / pairs;
+        Self {
+            resistance: winding.resistance.unwrap() / 2.0,
+            inductance: winding.inductance.unwrap() / 2.0,
+            flux,
+            pairs,
+            voltage: bus / 3f64.sqrt(),
+            current: peak / winding.torque_constant.unwrap() * 2f64.sqrt(),
+        }
+    }
+
+    /// 3/2·p·ψ·i_q.
+    fn torque(&self, q: f64) -> f64 {
+        1.5 * self.pairs * self.flux * q
+    }
+
+    fn allows(&self, [d, q]: [f64; 2], speed: f64) -> bool {
+        let electrical = self.pairs * speed;
+        let v_d = self.resistance * d - electrical * self.inductance * q;
+        let v_q = self.resistance * q + electrical * (self.inductance * d + self.flux);
+        v_d.hypot(v_q) <= self.voltage && d.hypot(q) <= self.current
+    }
+
+    /// The largest i_q along (`sign` 1) or against the speed at this i_d: a scan, then halving. `None`: none at all.
+    fn across(&self, d: f64, speed: f64, sign: f64) -> Option<f64> {
+        let at = |k: u32| [d, sign * self.current * f64::from(k) / 300.0];
+        let last = (0..=300).rev().find(|k| self.allows(at(*k), speed))?;
+        let (mut low, mut high) = (at(last)[1], at(last + 1)[1]);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if self.allows([d, middle], speed) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        Some(low.abs())
+    }
+
+    /// The largest torque along or against the speed: at i_d = 0 only, or over all i_d < 0, closing in on the best.
+    fn largest(&self, speed: f64, sign: f64, weakens: bool) -> f64 {
+        if !weakens {
+            return self
+                .across(0.0, speed, sign)
+                .map_or(0.0, |q| self.torque(q));
+        }
+        let (mut best, mut centre, mut span) = (0.0f64, -0.5 * self.current, 0.5 * self.current);
+        for _ in 0..12 {
+            let middle = centre;
+            for k in -100..=100 {
+                let d = (middle + span * f64::from(k) / 100.0).clamp(-self.current, 0.0);
+                if let Some(q) = self.across(d, speed, sign)
+                    && q > best
+                {
+                    (best, centre) = (q, d);
+                }
+            }
+            span *= 0.1;
+        }
+        self.torque(best)
+    }
+}
+
+fn speeds(envelope: &Envelope) -> impl Iterator<Item = f64> {
+    let top = envelope.max_speed();
+    (0..=24).map(move |k| top * 0.999 * f64::from(k) / 24.0)
+}
+
+fn compare(motor: &Motor, site: &Site, bus: f64, weakens: bool) {
+    let envelope = Envelope::at(motor, None, site);
+    let peak = motor.peak_torque.unwrap();
+    let phases = Phases::of(motor, bus, peak);
+    for speed in speeds(&envelope) {
+        for sign in [1.0, -1.0] {
+            let expected = phases.largest(speed, sign, weakens).min(peak);
+            let found = envelope.peak_torque(sign, speed);
+            assert!(
+                (found - expected).abs() < budget::GRID_SEARCH * peak,
+                "{found} and {expected} N·m at {} rpm, sign {sign}",
+                speed / RPM
+            );
+        }
+    }
+}
+
+#[test]
+fn a_servo_motor_reaches_what_a_search_over_its_currents_finds() {
+    compare(&servo(), &Site::default(), 560.0, false);
+    for bus in [200.0, 325.0, 680.0] {
+        compare(&servo(), &site(bus), bus, false);
+    }
+}
+
+#[test]
+fn with_its_field_weakened_too() {
+    // A short-circuit current above and below the peak current.
+    for (inductance, peak) in [(14e-3, 9.0), (60e-3, 9.0), (30e-3, 6.0)] {
+        let mut motor = servo();
+        motor.winding.inductance = Some(inductance);
+        motor.peak_torque = Some(peak);
+        let base = Envelope::of(&motor).max_speed();
+        motor.max_speed = Some(1.6 * base);
+        let envelope = Envelope::of(&motor);
+        assert!(
+            envelope.max_speed() > 1.01 * base,
+            "{}",
+            envelope.max_speed() / base
+        );
+        compare(&motor, &Site::default(), 560.0, true);
+        let words = envelope.assumptions().join("; ");
+        assert!(words.contains("field weakening: "), "{words}");
+    }
+}
+
+#[test]
+fn where_the_field_cannot_be_weakened_enough_the_speed_ends() {
+    let mut motor = servo();
+    motor.max_speed = Some(1e4);
+    motor.winding.inductance = Some(7e-3);
+    let envelope = Envelope::of(&motor);
+    let phases = Phases::of(&motor, 560.0, 9.0);
+    let held = |speed: f64| {
+        (0..=20_000).any(|k| {
+            let d = -phases.current * f64::from(k) / 2e4;
+            phases.allows([d, 0.0], speed)
+        })
+    };
+    let top = envelope.max_speed();
+    assert!(
+        held(top * (1.0 - 1e-6)) && !held(top * (1.0 + 1e-6)),
+        "{top}"
+    );
+    assert_eq!(envelope.peak_torque(1.0, 1.001 * top), 0.0);
+}
+
+fn direct_current() -> Motor {
+    Motor {
+        winding: Winding {
+            commutation: Commutation::Block,
+            torque_constant: Some(0.05),
+            resistance: Some(0.4),
+            inductance: Some(1e-3),
+            ..Winding::default()
+        },
+        bus_voltage: Some(24.0),
+        ..bare()
+    }
+}
+
+#[test]
+fn a_direct_current_motor_has_a_straight_line_from_stall_to_no_load() {
+    let motor = direct_current();
+    let envelope = Envelope::of(&motor);
+    let (stall, no_load) = (0.05 * 24.0 / 0.4, 24.0 / 0.05);
+    near(envelope.max_speed(), no_load, budget::CLOSED_FORM);
+    for k in 0..=10 {
+        let share = f64::from(k) / 10.0;
+        let speed = share * no_load;
+        let found = envelope.peak_torque(1.0, speed);
+        assert!((found - stall * (1.0 - share)).abs() < budget::CLOSED_FORM * stall);
+        // Braking, the voltage of the magnets drives the current too.
+        let braking = envelope.peak_torque(-1.0, speed);
+        let expected = if k == 0 { stall } else { stall * (1.0 + share) };
+        near(braking, expected, budget::CLOSED_FORM);
+        near(envelope.peak_torque(1.0, -speed), braking, 0.0);
+    }
+    assert_eq!(envelope.peak_torque(1.0, no_load * 1.001), 0.0);
+    assert_eq!(envelope.peak_torque(-1.0, no_load * 1.001), 0.0);
+}
+
+#[test]
+fn the_peak_current_cuts_the_line() {
+    let mut motor = direct_current();
+    motor.winding.peak_current = Some(20.0);
+    let envelope = Envelope::of(&motor);
+    // 20 A leave 24 − 8 V: 320 rad/s.
+    near(envelope.peak_torque(1.0, 0.0), 1.0, budget::CLOSED_FORM);
+    near(envelope.peak_torque(1.0, 319.0), 1.0, budget::CLOSED_FORM);
+    near(envelope.peak_torque(1.0, 400.0), 0.5, budget::CLOSED_FORM);
+    near(envelope.peak_torque(-1.0, 400.0), 1.0, budget::CLOSED_FORM);
+    let words = envelope.assumptions().join("; ");
+    assert!(words.contains("peak torque not stated"), "{words}");
+}
+
+#[test]
+fn a_hot_winding_reaches_less() {
+    let mut motor = direct_current();
+    let cold = Envelope::of(&motor).peak_torque(1.0, 0.0);
+    motor.thermal.max_temperature = Some(120.0);
+    let envelope = Envelope::of(&motor);
+    near(
+        cold / envelope.peak_torque(1.0, 0.0),
+        1.0 + 0.00393 * 100.0,
+        budget::CLOSED_FORM,
+    );
+    let words = envelope.assumptions().join("; ");
+    assert!(words.contains("highest temperature"), "{words}");
+}
+
+#[test]
+fn without_inductance_a_three_phase_winding_is_not_guessed() {
+    let mut motor = servo();
+    motor.winding.inductance = None;
+    let envelope = Envelope::of(&motor);
+    near(envelope.max_speed(), 4000.0 * RPM, budget::CLOSED_FORM);
+    let words = envelope.assumptions().join("; ");
+    assert!(words.contains("the rated speed is taken"), "{words}");
+}

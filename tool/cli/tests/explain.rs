@@ -1,0 +1,298 @@
+//! What a drive's torque is made of, and what would have to change for it to hold.
+
+mod remedies;
+
+use std::path::Path;
+
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::read;
+use jred_sizing::catalogue::Catalogue;
+use jred_sizing::catalogue::Drive;
+use jred_sizing::explain::{Alteration, Altered, Breakdown, Cells, Share};
+
+use crate::support::{budget, edited, near, press_text, within};
+
+fn parse(text: &str) -> MachineFile {
+    read::parse("machine.toml", text, Path::new("")).unwrap()
+}
+
+fn machine(name: &str) -> MachineFile {
+    read::read(
+        &Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../../machines")
+            .join(name),
+    )
+    .unwrap()
+}
+
+fn duty_of(file: &MachineFile) -> Duty {
+    Duty::new(file, file.motion.as_ref().unwrap(), 2000).unwrap()
+}
+
+fn catalogue() -> Catalogue {
+    Catalogue::load(None, None).unwrap()
+}
+
+/// A drive with everything that costs torque: friction, brake, a lossy gearbox.
+fn lossy(catalogue: &mut Catalogue) -> Drive<'_> {
+    let motor = &mut catalogue.motors[3];
+    motor.friction = [0.05, 2e-4];
+    motor.brake = Some(jred_sizing::catalogue::Brake {
+        torque: 20.0,
+        inertia: 3e-4,
+    });
+    let gearbox = &mut catalogue.gearboxes[2];
+    (gearbox.efficiency, gearbox.back_efficiency) = (0.9, 0.85);
+    gearbox.no_load_torque = 0.12;
+    Drive {
+        motor: &catalogue.motors[3],
+        gearbox: Some(&catalogue.gearboxes[2]),
+        amplifier: None,
+    }
+}
+
+fn total(shares: &[Share], of: impl Fn(&Share) -> f64) -> f64 {
+    shares.iter().map(of).sum()
+}
+
+/// Every machine that comes with the tool: links, weights, springs, dampers, belts, slides.
+#[test]
+fn the_cells_of_every_instant_add_up_to_the_motor_torque() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines");
+    let mut machines = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|e| e != "toml") {
+            continue;
+        }
+        let Ok(file) = read::read(&path) else {
+            continue;
+        };
+        if file.motion.is_none() || file.variator.is_some() {
+            continue;
+        }
+        let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 400).unwrap();
+        let mut catalogue = catalogue();
+        let geared = lossy(&mut catalogue);
+        let direct = Drive {
+            gearbox: None,
+            ..geared
+        };
+        for drive in [geared, direct] {
+            let torques: Vec<f64> = duty
+                .instants
+                .iter()
+                .map(|i| drive.motor_point(i).torque)
+                .collect();
+            let largest = crate::support::largest(&torques);
+            let cells = Cells::new(&file, &duty, &drive).unwrap();
+            for (k, torque) in torques.iter().enumerate() {
+                let sum = cells.cells.iter().map(|cell| cell.torque[k]);
+                let name = format!("{} at {k}", path.display());
+                within(&name, sum.sum(), *torque, budget::CELLS * largest);
+            }
+            let breakdown = Breakdown::of(&duty, &drive, &cells);
+            for shares in [&breakdown.effects, &breakdown.parts] {
+                let squares = total(shares, |s| s.mean_square);
+                within("mean square", squares, 1.0, budget::CELLS);
+                let at_peak = total(shares, |s| s.at_peak);
+                within("peak", at_peak.abs(), largest, budget::CELLS * largest);
+            }
+            // The inertias add up to that which λ is made of.
+            let rotor = drive.motor.rotor_inertia;
+            let brake = drive.motor.brake.unwrap().inertia;
+            for (found, load) in [
+                (
+                    breakdown.total_inertia.inertia.min,
+                    duty.figures(|i| i.input_inertia).min,
+                ),
+                (
+                    breakdown.total_inertia.inertia.max,
+                    duty.figures(|i| i.input_inertia).max,
+                ),
+            ] {
+                let expected = (drive.inertia_ratio(load) + 1.0) * (rotor + brake);
+                near("inertia", found, expected, budget::SAME_SUMS);
+            }
+        }
+        machines += 1;
+    }
+    assert!(machines > 12, "{machines} machines");
+}
+
+/// What is known of the press without this code: stored energies come back over a closed cycle, the others do not.
+#[test]
+fn energies_of_the_press() {
+    let file = machine("press.toml");
+    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 40_000).unwrap();
+    let mut catalogue = catalogue();
+    let drive = lossy(&mut catalogue);
+    let breakdown = Breakdown::new(&file, &duty, &drive).unwrap();
+    let effect = |start: &str| {
+        let mut effects = breakdown.effects.iter();
+        effects.find(|e| e.name.starts_with(start)).unwrap()
+    };
+    let stored = effect("acceleration").energy + effect("velocity").energy;
+    let turned_over = duty.integral(|i| (i.terms.acceleration * i.omega).abs());
+    within(
+        "kinetic energy",
+        stored,
+        0.0,
+        budget::CLOSED_CYCLE * turned_over,
+    );
+    for name in [
+        "weight",
+        "rotor",
+        "gearbox, inertia",
+        "drive train, inertia",
+    ] {
+        let energy = effect(name).energy;
+        within(name, energy, 0.0, budget::CLOSED_CYCLE * turned_over);
+    }
+    // The belt's losses, stage by stage: the train states them as power.
+    let train = &file.drive_train;
+    let loss = duty.integral(|i| {
+        train
+            .input(i.terms.total(), i.inertia, i.omega, i.alpha)
+            .loss
+    });
+    near(
+        "belt",
+        effect("drive train, losses").energy,
+        loss,
+        budget::SAME_SUMS,
+    );
+    // 150 N over twice the stroke of 60 mm; Coulomb friction of the guide alone.
+    near(
+        "guide",
+        effect("Coulomb").energy,
+        150.0 * 0.12,
+        budget::DEFAULT_STEPS,
+    );
+    // The motor's and the gearbox's friction: c·∫|n| and b·∫n².
+    let angle = duty.integral(|i| i.input_speed.abs()) * drive.ratio();
+    let square = duty.integral(|i| i.input_speed.powi(2)) * drive.ratio().powi(2);
+    let own = 0.05 * angle + 2e-4 * square;
+    near(
+        "motor friction",
+        effect("motor friction").energy,
+        own,
+        budget::SAME_SUMS,
+    );
+    // All of them are the work of the motor.
+    let sum = total(&breakdown.effects, |e| e.energy);
+    near("work", sum, breakdown.total.energy, budget::SAME_SUMS);
+    let work = duty.integral(|i| {
+        let point = drive.motor_point(i);
+        point.torque * point.speed
+    });
+    near(
+        "work of the motor",
+        breakdown.total.energy,
+        work,
+        budget::SAME_SUMS,
+    );
+}
+
+/// A slower, lighter press under another force, read from an edited file, against the alteration.
+#[test]
+fn an_altered_duty_is_that_of_the_altered_file() {
+    let (time, mass, process) = (1.5, 0.8, 0.6);
+    let file = parse(&press_text());
+    let duty = duty_of(&file);
+    let altered = Altered::new(&file, &duty).unwrap();
+    let found = altered.duty(Alteration {
+        time,
+        mass,
+        process,
+    });
+    let mut text = press_text();
+    for (from, to) in [
+        ("duration = \"0.4 s\"", "duration = \"0.6 s\""),
+        ("dwell = \"0.1 s\"", "dwell = \"0.15 s\""),
+        ("\"-10 kN\"", "\"-6 kN\""),
+        ("flywheel = \"0.05 kg m^2\"", "flywheel = \"0.04 kg m^2\""),
+        ("mass = \"9 kg\"", "mass = \"7.2 kg\""),
+        ("inertia = \"0.018 kg m^2\"", "inertia = \"0.0144 kg m^2\""),
+        ("mass = \"6.5 kg\"", "mass = \"5.2 kg\""),
+        (
+            "inertia = \"0.03 kg m^2\"\ncom = [\"55 mm\"",
+            "inertia = \"0.024 kg m^2\"\ncom = [\"55 mm\"",
+        ),
+        ("mass = \"42 kg\"", "mass = \"33.6 kg\""),
+    ] {
+        text = edited(&text, from, to);
+    }
+    let other = parse(&text);
+    let expected = duty_of(&other);
+    near(
+        "duration",
+        found.duration,
+        expected.duration,
+        budget::SAME_SUMS,
+    );
+    near(
+        "holding torque",
+        found.hold_torque,
+        expected.hold_torque,
+        budget::SAME_SUMS,
+    );
+    for (name, quantity) in [
+        (
+            "torque",
+            (|i| i.input_torque) as fn(&jred_machine::analysis::duty::Instant) -> f64,
+        ),
+        ("speed", |i| i.input_speed),
+        ("acceleration", |i| i.input_alpha),
+        ("inertia", |i| i.input_inertia),
+    ] {
+        let (a, b) = (found.figures(quantity), expected.figures(quantity));
+        near(name, a.rms, b.rms, budget::DEFAULT_STEPS);
+        near(name, a.peak(), b.peak(), budget::DEFAULT_PEAK);
+    }
+    // Unaltered, it is the duty itself.
+    let same = altered.duty(Alteration::default());
+    for (a, b) in same.instants.iter().zip(&duty.instants) {
+        within(
+            "unaltered",
+            a.input_torque,
+            b.input_torque,
+            1e-12 * b.input_torque.abs(),
+        );
+    }
+    near(
+        "holding torque",
+        same.hold_torque,
+        duty.hold_torque,
+        budget::SAME_SUMS,
+    );
+}
+
+/// A spring is no mass: it keeps its torque where the masses are gone.
+#[test]
+fn springs_keep_their_torque_without_masses() {
+    let file = machine("linkage-four-bar.toml");
+    assert!(!file.elements.is_empty(), "a machine with a spring");
+    let duty = duty_of(&file);
+    let altered = Altered::new(&file, &duty).unwrap();
+    let light = altered.duty(Alteration {
+        mass: 0.0,
+        ..Alteration::default()
+    });
+    let mut catalogue = catalogue();
+    let drive = lossy(&mut catalogue);
+    let cells = Cells::new(&file, &duty, &drive).unwrap();
+    let springs = cells.cells.iter().filter(|c| c.effect == "springs");
+    let ratio = drive.ratio() * file.drive_train.ratio();
+    let springs: Vec<&Vec<f64>> = springs.map(|c| &c.torque).collect();
+    let mut largest = 0.0f64;
+    for (k, instant) in light.instants.iter().enumerate() {
+        let spring: f64 = springs.iter().map(|s| s[k] * ratio).sum();
+        let scale = duty.instants[k].terms.potential.abs() + spring.abs();
+        within("spring", instant.terms.potential, spring, 1e-11 * scale);
+        assert!(instant.inertia.abs() <= 0.0 && instant.terms.acceleration.abs() <= 0.0);
+        largest = largest.max(spring.abs());
+    }
+    assert!(largest > 0.0);
+}

@@ -1,0 +1,266 @@
+//! The values at which a drive begins to hold: closed forms, and the machine file with that value written into it.
+
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::Verdict;
+use jred_machine::model::rules::{Limit, RuleSet};
+use jred_sizing::catalogue::Catalogue;
+use jred_sizing::catalogue::Drive;
+use jred_sizing::cycle::Cycle;
+use jred_sizing::explain::{Altered, Lever, Remedies, Remedy};
+use jred_sizing::judge::Context;
+use jred_sizing::select::size::Selection;
+
+use super::{duty_of, parse};
+use crate::support::{Folder, budget, edited, near, press_text};
+
+/// A wheel that is moved by half a turn and back, nothing else: T = α·(J_M·i + J/i).
+const WHEEL: &str = r#"
+gravity = ["0 m/s^2", "0 m/s^2"]
+[mechanism]
+type = "gear-train"
+stage = [{ driver = { teeth = 20, inertia = "0.5 kg m^2" }, driven = { teeth = 20, inertia = "0.5 kg m^2" } }]
+[motion]
+type = "cycle"
+[[motion.segment]]
+law = "polynomial-345"
+move = "180 deg"
+duration = "0.5 s"
+[[motion.segment]]
+law = "polynomial-345"
+move = "-180 deg"
+duration = "0.5 s"
+"#;
+
+/// A motor whose S1 torque of 10 N·m is the same at every speed.
+const MOTOR: &str = "key,maker,model,rated_torque [N m],rated_speed [rpm],peak_torque [N m],rotor_inertia [kg cm^2],source\n\
+     m,A,B,10,100000,1000,80,none\n";
+
+/// Only the RMS torque is judged, up to the S1 torque.
+fn only_rms() -> RuleSet {
+    let mut rules = RuleSet::default();
+    for rule in Rule::ALL {
+        rules.set(rule, Limit::default());
+    }
+    let fail = Some(1.0);
+    rules.set(Rule::RmsTorque, Limit { fail, warn: None });
+    rules
+}
+
+fn remedy(remedies: &Remedies, lever: Lever) -> Remedy {
+    let mut all = remedies.remedies.iter();
+    *all.find(|r| r.lever == lever).unwrap()
+}
+
+#[test]
+fn ranges_of_a_wheel_in_closed_form() {
+    let folder = Folder::new();
+    let motors = folder.file("m.csv", MOTOR);
+    let catalogue = Catalogue::load(Some(&motors), None).unwrap();
+    let file = parse(WHEEL);
+    let duty = duty_of(&file);
+    let altered = Altered::new(&file, &duty).unwrap();
+    let prepared = catalogue.prepare(&file.site);
+    let drive = Drive {
+        motor: &catalogue.motors[0],
+        gearbox: None,
+        amplifier: None,
+    };
+    let rules = only_rms();
+    let remedies = Remedies::new(&altered, &file.site, &rules, drive, &prepared[0]);
+    assert!(!remedies.holds);
+    let (rotor, load) = (0.008, 1.0);
+    let alpha = duty.figures(|i| i.alpha).rms;
+    let share = alpha * (rotor + load) / 10.0;
+    assert_eq!(remedies.misses.len(), 1);
+    assert_eq!(remedies.misses[0].rule, Rule::RmsTorque);
+    near(
+        "use",
+        remedies.misses[0].used.unwrap(),
+        share,
+        budget::SAME_SUMS,
+    );
+    near(
+        "needed",
+        remedies.misses[0].needed.unwrap(),
+        share,
+        budget::SAME_SUMS,
+    );
+    // J_M·i² − (M/α)·i + J = 0
+    let half = 10.0 / alpha / (2.0 * rotor);
+    let root = (half * half - load / rotor).sqrt();
+    let found = remedy(&remedies, Lever::IdealGearbox);
+    let [low, high] = found.range.unwrap();
+    near("least ratio", low.value, half - root, budget::RANGE_END);
+    near("largest ratio", high.value, half + root, budget::RANGE_END);
+    assert_eq!(low.rule, Some(Rule::RmsTorque));
+    assert_eq!(found.change(), Some(low), "from the ratio 1 upwards");
+    // T is proportional to 1/s².
+    let found = remedy(&remedies, Lever::CycleTime);
+    let [low, high] = found.range.unwrap();
+    near("cycle time", low.value, share.sqrt(), budget::RANGE_END);
+    assert_eq!(high.rule, None, "the slower the better");
+    // α·(J_M + m·J) = M
+    let found = remedy(&remedies, Lever::MovingMass);
+    let [low, high] = found.range.unwrap();
+    near(
+        "mass",
+        high.value,
+        (10.0 / alpha - rotor) / load,
+        budget::RANGE_END,
+    );
+    assert!(low.value <= 0.0 && low.rule.is_none());
+    // No load, no lever.
+    assert!(
+        remedies
+            .remedies
+            .iter()
+            .all(|r| r.lever != Lever::ProcessLoad)
+    );
+}
+
+#[test]
+fn no_value_helps_where_the_rotor_alone_is_too_heavy() {
+    let folder = Folder::new();
+    let motors = folder.file("m.csv", MOTOR.replace(",80,", ",8000000,"));
+    let catalogue = Catalogue::load(Some(&motors), None).unwrap();
+    let file = parse(WHEEL);
+    let duty = duty_of(&file);
+    let altered = Altered::new(&file, &duty).unwrap();
+    let prepared = catalogue.prepare(&file.site);
+    let drive = Drive {
+        motor: &catalogue.motors[0],
+        gearbox: None,
+        amplifier: None,
+    };
+    let rules = only_rms();
+    let remedies = Remedies::new(&altered, &file.site, &rules, drive, &prepared[0]);
+    let found = remedy(&remedies, Lever::MovingMass);
+    assert_eq!(found.range, None);
+    let best = found.best.unwrap();
+    assert!(best.value <= 0.0, "the lightest is the best");
+    assert_eq!(best.rule, Some(Rule::RmsTorque));
+    let alpha = duty.figures(|i| i.alpha).rms;
+    near(
+        "use",
+        found.best_use.unwrap(),
+        alpha * 800.0 / 10.0,
+        budget::SAME_SUMS,
+    );
+    assert!(found.sentence(1.0).contains("no value helps"));
+    assert_eq!(found.change(), None);
+    // As in the table of checks, digits beyond ten times the limit say nothing.
+    let words = remedies.misses[0].sentence();
+    assert!(
+        words.contains("RMS torque uses > 1000 % of its limit"),
+        "{words}"
+    );
+    assert!(found.sentence(1.0).contains("> 1000 % of its limit"));
+}
+
+/// The temperature of a motor that is far too small is beyond all measure, but it is not what the drive is refused for: the
+/// explanation begins with the rule that the ranking goes by.
+#[test]
+fn what_is_missed_is_what_the_ranking_goes_by() {
+    let folder = Folder::new();
+    let motors = folder.file("m.csv", MOTOR.replace("1000,80,", "40,800,"));
+    let catalogue = Catalogue::load(Some(&motors), None).unwrap();
+    let file = parse(WHEEL);
+    let duty = duty_of(&file);
+    let altered = Altered::new(&file, &duty).unwrap();
+    let prepared = catalogue.prepare(&file.site);
+    let drive = Drive {
+        motor: &catalogue.motors[0],
+        gearbox: None,
+        amplifier: None,
+    };
+    let rules = RuleSet::default();
+    let cycle = Cycle::new(&duty);
+    let context = Context::new(&cycle, &file.site, drive, &prepared[0]);
+    let hot = context.findings(&rules).get(Rule::WindingTemperature);
+    let hot = rules.use_of_limit(Rule::WindingTemperature, hot.unwrap());
+    let outcome = context.outcome(&rules);
+    assert!(hot > outcome.worst_use, "{hot} {outcome:?}");
+    let remedies = Remedies::new(&altered, &file.site, &rules, drive, &prepared[0]);
+    let first = remedies.misses[0];
+    assert_eq!(Some(first.rule), outcome.worst_rule);
+    near(
+        "use",
+        first.used.unwrap(),
+        outcome.worst_use,
+        budget::SAME_SUMS,
+    );
+    assert!(remedies.misses.iter().all(|m| !m.rule.follows_time()));
+}
+
+/// The press under 25 kN: what the tool says about the best refused drives, written into the machine file.
+#[test]
+fn a_change_written_into_the_machine_file_does_what_was_said() {
+    let text = edited(&press_text(), "\"-10 kN\"", "\"-60 kN\"");
+    let file = parse(&text);
+    let duty = duty_of(&file);
+    let catalogue = super::catalogue();
+    let motors = catalogue.prepare(&file.site);
+    let cycle = Cycle::new(&duty);
+    let selection = Selection::new(&catalogue, &motors, &cycle, &file.site, &file.rules);
+    let altered = Altered::new(&file, &duty).unwrap();
+    let all = Remedies::of_nearest(&selection, &altered, 3).unwrap();
+    assert_eq!(all.len(), 3);
+    let mut checked = 0;
+    for (remedies, candidate) in all.iter().zip(selection.refused.known()) {
+        assert!(!remedies.holds && !remedies.misses.is_empty());
+        for remedy in &remedies.remedies {
+            let Some(edge) = remedy.change() else {
+                continue;
+            };
+            let rule = edge.rule.expect("what hinders");
+            let outward = (edge.value - remedy.now).signum();
+            for (side, holds) in [(1.0, true), (-1.0, false)] {
+                let value = edge.value * (1.0 + side * outward * 1e-4);
+                let mut gearbox = candidate.drive.gearbox.cloned();
+                let text = match remedy.lever {
+                    Lever::GearRatio => {
+                        gearbox.as_mut().unwrap().ratio = value;
+                        text.clone()
+                    }
+                    Lever::CycleTime => {
+                        let move_time = format!("duration = \"{} s\"", 0.4 * value);
+                        let text = edited(&text, "duration = \"0.4 s\"", &move_time);
+                        edited(
+                            &text,
+                            "dwell = \"0.1 s\"",
+                            &format!("dwell = \"{} s\"", 0.1 * value),
+                        )
+                    }
+                    Lever::ProcessLoad => {
+                        edited(&text, "\"-60 kN\"", &format!("\"{} kN\"", -60.0 * value))
+                    }
+                    Lever::MovingMass | Lever::IdealGearbox => continue,
+                };
+                let other = parse(&text);
+                let cycle = Cycle::new(&duty_of(&other));
+                let drive = Drive {
+                    gearbox: gearbox.as_ref(),
+                    ..candidate.drive
+                };
+                let context = Context::new(&cycle, &other.site, drive, candidate.motor);
+                let findings = context.findings(&file.rules);
+                let broken: Vec<Rule> = findings
+                    .iter()
+                    .filter(|(rule, f)| file.rules.verdict(*rule, *f) == Verdict::Fail)
+                    .map(|(rule, _)| rule)
+                    .collect();
+                let what = format!("{}, {:?} {value}", remedies.drive, remedy.lever);
+                if holds {
+                    assert!(broken.is_empty(), "{what}: {broken:?}");
+                } else {
+                    assert!(
+                        broken.contains(&rule),
+                        "{what}: {broken:?} and not {rule:?}"
+                    );
+                }
+                checked += 1;
+            }
+        }
+    }
+    assert!(checked >= 6, "{checked}");
+}

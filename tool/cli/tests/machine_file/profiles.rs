@@ -1,0 +1,181 @@
+//! Motions from CSV files.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+use jred_machine::read;
+
+use super::{data, parse, rendered};
+
+fn machine(file: &str, more: &str) -> String {
+    format!(
+        "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"belt\"\n\
+         driver = {{ radius = \"2 cm\", inertia = \"1 kg cm^2\" }}\n\
+         driven = {{ radius = \"5 cm\", inertia = \"6 kg cm^2\" }}\n\
+         [motion]\ntype = \"profile\"\nfile = \"{file}\"\n{more}"
+    )
+}
+
+/// Writes a CSV file beside a machine file and reads the machine.
+fn report(csv: &str, more: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("profile.csv"), csv).unwrap();
+    match read::parse("machine.toml", &machine("profile.csv", more), folder.path()) {
+        Ok(file) => format!("accepted, {} s", file.motion.unwrap().duration()),
+        Err(report) => {
+            let text = rendered(&report);
+            if std::env::var_os("SHOW_REPORTS").is_some() {
+                println!("{text}");
+            }
+            text
+        }
+    }
+}
+
+/// Eight equal steps of one turn in 0.8 s.
+fn turn(header: &str, row: impl Fn(usize) -> Option<String>) -> String {
+    let mut csv = format!("{header}\n");
+    for k in 0..=8 {
+        let line = row(k).unwrap_or_else(|| format!("{:.1},{}", k as f64 * 0.1, k * 45));
+        writeln!(csv, "{line}").unwrap();
+    }
+    csv
+}
+
+#[test]
+fn a_recorded_turn_is_read() {
+    let file = parse(&machine("turn.csv", "")).unwrap();
+    let motion = file.motion.unwrap();
+    assert!(motion.cyclic);
+    assert!((motion.duration() - 2.0).abs() < 1e-12);
+    // phi = 2π·z + 0.5·sin(2π·z), in the file in degrees with six digits
+    for k in 0..40 {
+        let z = f64::from(k) / 40.0;
+        let state = motion.at(2.0 * z);
+        assert!((state.phi - (TAU * z + 0.5 * (TAU * z).sin())).abs() < 1e-6);
+        assert!((state.omega - TAU * (0.5 + 0.25 * (TAU * z).cos())).abs() < 1e-3);
+    }
+    assert!(data().join("turn.csv").exists());
+}
+
+#[test]
+fn units_order_and_byte_order_mark_of_the_columns_are_free() {
+    assert_eq!(
+        report(&turn("t [s],phi [deg]", |_| None), ""),
+        "accepted, 0.8 s"
+    );
+    let swapped = turn("\u{feff}phi [rad], t [ms]", |k| {
+        Some(format!("{},{}", k as f64 * TAU / 8.0, k * 100))
+    });
+    assert_eq!(report(&swapped, ""), "accepted, 0.8 s");
+    let half = turn("t [s],phi [deg]", |k| {
+        Some(format!("{:.1},{}", k as f64 * 0.1, k * 10))
+    });
+    assert_eq!(report(&half, "cyclic = false"), "accepted, 0.8 s");
+}
+
+#[test]
+fn wrong_profiles_are_shown_in_the_csv_file() {
+    let at =
+        |wrong: usize, line: &'static str| move |k: usize| (k == wrong).then(|| line.to_owned());
+    let header = "t [s],phi [deg]";
+    let cases: [(String, &str, &[&str]); 14] = [
+        (
+            turn("t [s],phi [deg]", |k| {
+                Some(format!("{:.1},{}", k as f64 * 0.1, k * 40))
+            }),
+            "",
+            &[
+                "40 deg short of a whole number of turns",
+                "profile.csv:2",
+                "cyclic = false",
+            ],
+        ),
+        (
+            turn(header, at(8, "3.41,360")),
+            "",
+            &["a gap", "row 9", "2.71 s", "0.1 s", "profile.csv:10"],
+        ),
+        (
+            turn(header, at(4, "0.3,180")),
+            "",
+            &["does not rise", "row 5", "profile.csv:6"],
+        ),
+        (
+            turn(header, at(4, "0.4,abc")),
+            "",
+            &["row 5: \"abc\"", "phi [deg]", "decimal point"],
+        ),
+        (
+            turn(header, at(4, "0.4,nan")),
+            "",
+            &["\"nan\"", "not a finite number"],
+        ),
+        (
+            turn(header, at(4, "0.4,")),
+            "",
+            &["\"\"", "not a finite number"],
+        ),
+        (
+            turn(header, at(4, "0,4,180")),
+            "",
+            &["row 5 has 3 values", "decimals have a point"],
+        ),
+        (
+            turn("t,phi [deg]", |_| None),
+            "",
+            &["the column \"t\" has no unit", "t [s]", "profile.csv:1"],
+        ),
+        (
+            turn("t [s];phi [deg]", |_| None),
+            "",
+            &["row 1 has 1 values", "2 columns", "as the header does"],
+        ),
+        (
+            turn("t [s],phi [dge]", |_| None),
+            "",
+            &["unknown unit \"dge\"", "did you mean \"deg\""],
+        ),
+        (
+            turn("t [s],t [ms]", |_| None),
+            "",
+            &["the column \"t\" is there twice"],
+        ),
+        (
+            format!("{header}\n0,0\n1,90\n2,180\n3,360\n"),
+            "",
+            &["has 4 rows", "at least 5"],
+        ),
+        (String::new(), "", &["has 0 rows", "t [s],phi [deg]"]),
+        (
+            turn(header, |_| None),
+            "cyclic = \"yes\"",
+            &[
+                "`cyclic` in [motion] must be true or false",
+                "without quotes",
+            ],
+        ),
+    ];
+    for (csv, more, words) in cases {
+        let report = report(&csv, more);
+        for word in words {
+            assert!(report.contains(word), "{word:?} is not in\n{report}");
+        }
+    }
+}
+
+#[test]
+fn a_profile_that_cannot_be_read_is_shown_in_the_machine_file() {
+    for (file, words) in [
+        ("none.csv", ["no such file", "looked for"]),
+        (".", ["is a folder", "name the file"]),
+    ] {
+        let report = rendered(&parse(&machine(file, "")).unwrap_err());
+        for word in words
+            .iter()
+            .chain(&["machine.toml:8", "`file` in [motion]"])
+        {
+            assert!(report.contains(word), "{word:?} is not in\n{report}");
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! Curves below the limits of motors of every kind: never above, and not needlessly low.
+
+use jred::duty::{Curve, MAX_POINTS};
+use jred_sizing::catalogue::{Catalogue, Motor, Winding};
+use jred_sizing::meter::{Below, continuous, peak};
+use jred_sizing::motor::envelope::Envelope;
+use jred_sizing::motor::winding::Commutation;
+use proptest::prelude::*;
+
+use crate::support::budget;
+
+const SPEEDS: u32 = 10_000;
+
+/// Holds a curve against the limit at many speeds, its own points and their neighbours.
+fn holds(what: &str, curve: &Below, end: f64, limit: impl Fn(f64) -> f64) {
+    assert!((1..=MAX_POINTS).contains(&curve.points.len()), "{curve:?}");
+    let read = Curve::new(&curve.points).unwrap();
+    let even = (0..SPEEDS).map(|k| (1.01 * end * f64::from(k) / f64::from(SPEEDS)) as f32);
+    let own = curve.points.iter();
+    let own = own.flat_map(|[speed, _]| [speed.next_down(), *speed, speed.next_up()]);
+    let (mut most, mut largest, mut missed) = (f64::INFINITY, 0.0f64, 0.0f64);
+    let mut speeds: Vec<f32> = even.chain(own).filter(|speed| *speed >= 0.0).collect();
+    speeds.sort_by(f32::total_cmp);
+    for speed in speeds {
+        let (found, exact) = (f64::from(read.at(speed)), limit(f64::from(speed)));
+        assert!(
+            found <= exact,
+            "{what}: {found} above {exact} at {speed} of {end}, {curve:?}"
+        );
+        // What the curve cannot know is not asked of it, nor that it rises again.
+        if exact.is_finite() {
+            most = most.min(exact);
+            largest = largest.max(most);
+            missed = missed.max(most - found);
+        }
+    }
+    let stated = curve.shortfall + budget::METER_BETWEEN;
+    assert!(
+        missed <= stated * largest,
+        "{what}: {} of the largest torque below, {stated} allowed, {curve:?}",
+        missed / largest
+    );
+    assert!(
+        curve.shortfall <= budget::METER_SHORTFALL,
+        "{what}: {curve:?}"
+    );
+}
+
+fn every_curve(what: &str, motor: &Motor) {
+    let envelope = Envelope::of(motor);
+    let end = envelope.max_speed().min(jred::duty::MOST_SPEED);
+    for share in [0.8, 1.0] {
+        if let Some(curve) = continuous(&envelope, share) {
+            let limit = |speed| share * envelope.continuous_torque(speed);
+            holds(&format!("{what}, S1"), &curve, end, limit);
+        } else {
+            assert!(
+                envelope.continuous_torque(0.5 * end).is_infinite(),
+                "{what}"
+            );
+        }
+        if let Some(curve) = peak(&envelope, share) {
+            let of = |sign, speed| envelope.peak_torque(sign, speed);
+            let limit = |speed| share * of(1.0, speed).min(of(-1.0, speed));
+            holds(&format!("{what}, peak"), &curve, end, limit);
+        } else {
+            assert!(envelope.peak_torque(1.0, 0.5 * end).is_infinite(), "{what}");
+        }
+    }
+}
+
+#[test]
+fn motors_of_the_catalogue() {
+    for motor in &Catalogue::load(None, None).unwrap().motors {
+        every_curve(&motor.key, motor);
+    }
+}
+
+fn motor() -> impl Strategy<Value = Motor> {
+    let points = || prop::collection::vec((1e-3..1.0f64, 0.0..1.0f64), 1..9);
+    let s1 = prop_oneof![
+        (0.1..1.0f64, 0.3..1.2f64, 0.05..1.0f64).prop_map(|(standstill, share, speed)| Motor {
+            standstill_torque: Some(standstill),
+            rated_torque: Some(share * standstill),
+            rated_speed: Some(300.0 * speed),
+            ..Motor::default()
+        }),
+        (points(), proptest::option::of(0.1..2.0f64)).prop_map(|(steps, standstill)| Motor {
+            continuous_curve: falling(&steps, 1.0),
+            standstill_torque: standstill,
+            ..Motor::default()
+        }),
+    ];
+    let short = prop_oneof![
+        (0.2..4.0f64, 0.05..1.0f64, 0.0..1.0f64)
+            .prop_map(|(peak, corner, share)| Motor {
+                peak_torque: Some(peak),
+                max_speed: Some(300.0),
+                corner_speed: Some(300.0 * corner),
+                torque_at_max_speed: Some(share * peak),
+                ..Motor::default()
+            })
+            .boxed(),
+        points()
+            .prop_map(|steps| Motor {
+                peak_curve: falling(&steps, 4.0),
+                ..Motor::default()
+            })
+            .boxed(),
+        (
+            (0.05..2.0f64, 0.0..0.02f64, any::<bool>()),
+            proptest::option::of(0.3..3.0f64),
+        )
+            .prop_map(|((resistance, inductance, block), speed)| Motor {
+                peak_torque: Some(4.0),
+                bus_voltage: Some(96.0),
+                max_speed: speed.map(|share| share * 300.0),
+                winding: Winding {
+                    torque_constant: Some(0.4),
+                    resistance: Some(resistance),
+                    inductance: Some(inductance),
+                    pole_pairs: Some(4.0),
+                    commutation: if block {
+                        Commutation::Block
+                    } else {
+                        Commutation::Sine
+                    },
+                    ..Winding::default()
+                },
+                ..Motor::default()
+            })
+            .boxed(),
+        Just(Motor::default()).boxed(),
+    ];
+    (s1, short, proptest::option::of(10.0..300.0f64)).prop_map(|(s1, short, power)| Motor {
+        standstill_torque: s1.standstill_torque,
+        rated_torque: s1.rated_torque,
+        rated_speed: s1.rated_speed,
+        continuous_curve: s1.continuous_curve,
+        max_power: power,
+        ..short
+    })
+}
+
+fn falling(steps: &[(f64, f64)], mut torque: f64) -> Vec<[f64; 2]> {
+    let mut speed = 0.0;
+    let mut points = vec![[speed, torque]];
+    for (step, drop) in steps {
+        speed += 60.0 * step;
+        torque *= 1.0 - 0.6 * drop;
+        points.push([speed, torque]);
+    }
+    points
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 100,
+        rng_seed: proptest::test_runner::RngSeed::Fixed(0x5eed_0017),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn motors_of_every_kind(motor in motor()) {
+        every_curve("random", &motor);
+    }
+}

@@ -1,0 +1,396 @@
+//! `jred reduce --points`: golden transfer functions, closed forms of velocity and acceleration, a sliding drive link.
+
+use std::path::Path;
+
+use crate::support::{Folder, budget, jred, near, near_column, press_file};
+use jred::joint::Joints;
+use jred::mechanism::Frames;
+use jred::{Domain, Error, Frame, Joint, Jointed, Link, Machine, Marker, Mechanism, Transfer};
+use jred_machine::analysis::inspect::Findings;
+use jred_machine::analysis::reduce::{Over, Request, Sets, reduce};
+use jred_machine::model::coordinate::Coordinate;
+use jred_machine::model::machine::{AnyMechanism, MachineFile};
+use jred_machine::units::RPM;
+use serde_json::Value;
+
+/// The slider-crank of the golden data as a machine file.
+const GOLDEN: &str = r#"
+gravity = ["0 m/s^2", "-9.81 m/s^2"]
+[mechanism]
+type = "slider-crank"
+offset = "12 mm"
+[mechanism.crank]
+length = "50 mm"
+mass = "0.8 kg"
+inertia = "0.0006 kg m^2"
+com = ["15 mm", "4 mm"]
+[mechanism.rod]
+length = "200 mm"
+mass = "0.45 kg"
+inertia = "0.0021 kg m^2"
+com = ["75 mm", "6 mm"]
+[mechanism.slider]
+mass = "0.6 kg"
+[[load]]
+on = "slider"
+force = ["-120 N", "0 N"]
+"#;
+
+fn golden_rows() -> (Vec<String>, Vec<Vec<f64>>) {
+    let text = include_str!("../../../tests/data/01_slider_crank_A.json");
+    let case: Value = serde_json::from_str(text).unwrap();
+    let table = &case["expected"]["tables"]["position"];
+    let names = table["columns"].as_array().unwrap().iter();
+    let rows = table["rows"].as_array().unwrap().iter();
+    let row = |row: &Value| {
+        let cells = row.as_array().unwrap().iter();
+        cells.map(|x| x.as_f64().unwrap()).collect()
+    };
+    (
+        names.map(|n| n.as_str().unwrap().to_owned()).collect(),
+        // The last three are not tens of degrees.
+        rows.map(row).take(36).collect(),
+    )
+}
+
+#[test]
+fn transfer_functions_are_the_golden_ones() {
+    let folder = Folder::new();
+    let file = folder.file("golden.toml", GOLDEN);
+    let found = jred([&"reduce", &file, &"--points", &"--format", &"csv"])
+        .ends(0)
+        .columns();
+    let (names, rows) = golden_rows();
+    let golden = |name: &str| -> Vec<f64> {
+        let k = names.iter().position(|n| n == name).unwrap();
+        rows.iter().map(|row| row[k]).collect()
+    };
+    for (column, name) in [
+        ("B x [m]", "xB"),
+        ("B x' [m/rad]", "dxB"),
+        ("B x'' [m/rad^2]", "d2xB"),
+        ("slider com x [m]", "xB"),
+        ("rod psi' [rad/rad]", "dth"),
+        ("rod psi'' [rad/rad^2]", "d2th"),
+    ] {
+        near_column(
+            column,
+            &found.get(column),
+            &golden(name),
+            budget::CLOSED_FORM,
+        );
+    }
+    let psi: Vec<f64> = golden("th").iter().map(|x| x.to_degrees()).collect();
+    near_column(
+        "rod psi",
+        &found.get("rod psi [deg]"),
+        &psi,
+        budget::CLOSED_FORM,
+    );
+    assert!(
+        !found.names.iter().any(|name| name.contains("/s")),
+        "velocities without a motion: {:?}",
+        found.names
+    );
+    // JSON holds the same numbers.
+    let json = jred([&"reduce", &file, &"--points", &"--format", &"json"]).json();
+    let again = crate::support::Columns::of_json(&json);
+    assert_eq!(again.names, found.names);
+    for name in &found.names {
+        // The JSON reader of the test rounds the last digit.
+        near_column(
+            name,
+            &again.get(name),
+            &found.get(name),
+            budget::CLOSED_FORM,
+        );
+    }
+}
+
+/// At a constant ω, v = −r·ω·(sin φ + …): the in-line press by hand.
+#[test]
+fn velocities_and_accelerations_in_time() {
+    let found = jred([
+        &"reduce",
+        &press_file(),
+        &"--points",
+        &"--speed",
+        &"-90 rpm",
+        &"--accel",
+        &"35 rad/s^2",
+        &"--format",
+        &"csv",
+    ])
+    .ends(0)
+    .columns();
+    let (r, l) = (0.03f64, 0.18f64);
+    let (omega, alpha) = (-90.0 * RPM, 35.0);
+    let phi: Vec<f64> = found
+        .get("phi [deg]")
+        .iter()
+        .map(|x| x.to_radians())
+        .collect();
+    let of = |f: &dyn Fn(f64) -> f64| phi.iter().map(|&phi| f(phi)).collect::<Vec<f64>>();
+    // x = r·cos φ + w, w² = l² − r²·sin²φ: w·w′ = −r²·sin φ·cos φ, w·w″ = −w′² − r²·cos 2φ.
+    let w = |phi: f64| (l * l - (r * phi.sin()).powi(2)).sqrt();
+    let d1 = |phi: f64| -r * r * phi.sin() * phi.cos() / w(phi);
+    let d2 = |phi: f64| -(d1(phi).powi(2) + r * r * (2.0 * phi).cos()) / w(phi);
+    let v = |phi: f64| (-r * phi.sin() + d1(phi)) * omega;
+    let a =
+        |phi: f64| (-r * phi.sin() + d1(phi)) * alpha + (-r * phi.cos() + d2(phi)) * omega * omega;
+    near_column(
+        "v_x",
+        &found.get("B v_x [m/s]"),
+        &of(&v),
+        budget::CLOSED_FORM,
+    );
+    near_column(
+        "v",
+        &found.get("B v [m/s]"),
+        &of(&|p| v(p).abs()),
+        budget::CLOSED_FORM,
+    );
+    near_column(
+        "a_x",
+        &found.get("B a_x [m/s^2]"),
+        &of(&a),
+        budget::CLOSED_FORM,
+    );
+    // The crank pin goes round a circle.
+    let speed = of(&|_| r * omega.abs());
+    near_column("A v", &found.get("A v [m/s]"), &speed, budget::CLOSED_FORM);
+    let size = of(&|_| r * (omega.powi(4) + alpha * alpha).sqrt());
+    near_column("A a", &found.get("A a [m/s^2]"), &size, budget::CLOSED_FORM);
+    // sin β = −(r/l)·sin φ.
+    let turn = of(&|p| -r * p.cos() * omega / w(p));
+    near_column(
+        "rod",
+        &found.get("rod omega [rad/s]"),
+        &turn,
+        budget::CLOSED_FORM,
+    );
+    let slider = found.get("slider alpha [rad/s^2]");
+    assert!(slider.iter().all(|x| x.abs() <= 0.0), "{slider:?}");
+}
+
+/// Over time the speed is the slope of the position.
+#[test]
+fn over_time_velocities_are_those_of_the_motion() {
+    let found = jred([
+        &"reduce",
+        &press_file(),
+        &"--points",
+        &"--over",
+        &"time",
+        &"--positions",
+        &"2001",
+        &"--format",
+        &"csv",
+    ])
+    .ends(0)
+    .columns();
+    let (t, x) = (found.get("t [s]"), found.get("rod com x [m]"));
+    let (v, a) = (
+        found.get("rod com v_x [m/s]"),
+        found.get("rod com a_x [m/s^2]"),
+    );
+    let step = t[1] - t[0];
+    let largest = crate::support::largest(&v);
+    for k in (4..1990).step_by(97) {
+        let slope = (8.0 * (x[k + 1] - x[k - 1]) - (x[k + 2] - x[k - 2])) / (12.0 * step);
+        crate::support::within("v_x", v[k], slope, 1e-6 * largest);
+        let slope = (8.0 * (v[k + 1] - v[k - 1]) - (v[k + 2] - v[k - 2])) / (12.0 * step);
+        crate::support::within("a_x", a[k], slope, 1e-5 * crate::support::largest(&a));
+    }
+}
+
+#[test]
+fn what_cannot_be_asked_for() {
+    let press = press_file();
+    jred([&"reduce", &press, &"--points", &"--links"]).ends(2);
+    jred([&"reduce", &press, &"--accel", &"3 rad/s^2"]).ends(2);
+    jred([&"reduce", &press, &"--speed", &"0.2 m/s"])
+        .ends(2)
+        .says(&["--speed \"0.2 m/s\" cannot be used", "angular speed", "rpm"]);
+    jred([&"reduce", &press, &"--speed", &"1 rpm", &"--over", &"time"])
+        .ends(2)
+        .says(&["over time the motion of the machine file gives the speed"]);
+    let folder = Folder::new();
+    let file = folder.file("golden.toml", GOLDEN);
+    jred([&"reduce", &file, &"--reactions"])
+        .ends(2)
+        .says(&["forces and energies need a speed", "--speed \"60 rpm\""]);
+}
+
+/// A block on a guide along x, driven along it, with a pin that swings a slotted lever about (0, −h).
+#[derive(Debug)]
+struct Lever {
+    links: [Link; 2],
+}
+
+const HEIGHT: f64 = 0.2;
+const FROM: f64 = -0.1;
+const TO: f64 = 0.15;
+
+impl Mechanism for Lever {
+    fn links(&self) -> &[Link] {
+        &self.links
+    }
+    fn domain(&self) -> Domain {
+        Domain::stroke(FROM, TO).unwrap()
+    }
+    fn frames(&self, s: f64) -> Result<Frames, Error> {
+        let s = Transfer::variable(s);
+        let h = Transfer::constant(HEIGHT);
+        let length = (s * s + h * h).sqrt();
+        let lever = Transfer::angle(h.over(length), s.over(length));
+        Ok(Frames::from_iter([
+            Frame::translating([s, Transfer::constant(0.0)]),
+            Frame::turning([0.0, -HEIGHT], lever),
+        ]))
+    }
+}
+
+impl Jointed for Lever {
+    fn joints(&self, _: f64, _: &Frames) -> Result<Joints, Error> {
+        Ok(Joints::from_iter([
+            Joint::Prismatic([Marker::ground([0.0, 0.0]), Marker::on(0, [0.0, 0.0])]),
+            Joint::Revolute([Marker::ground([0.0, -HEIGHT]), Marker::on(1, [0.0, 0.0])]),
+            Joint::PinInSlot([Marker::on(0, [0.0, 0.0]), Marker::on(1, [0.0, 0.0])]),
+        ]))
+    }
+}
+
+fn lever() -> MachineFile {
+    let plain = "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"belt\"\n\
+         driver = { radius = \"1 m\", inertia = \"1 kg m^2\" }\ndriven = { radius = \"1 m\", inertia = \"1 kg m^2\" }\n";
+    let file = jred_machine::read::parse("plain", plain, Path::new("")).unwrap();
+    let links = [
+        Link::new(3.0, 0.0, [0.0, 0.0]).unwrap(),
+        Link::new(2.0, 0.04, [0.0, 0.0]).unwrap(),
+    ];
+    let mechanism = AnyMechanism::new(
+        "lever",
+        Lever { links },
+        ["block", "lever"],
+        ["guide", "pivot", "pin, in the slot"],
+    )
+    .with_point("tip, \"end\"", 1, [0.3, 0.0]);
+    MachineFile {
+        title: "Lever".to_owned(),
+        machine: Machine::new(mechanism),
+        ..file
+    }
+}
+
+fn request(sets: Sets) -> Request {
+    Request {
+        over: Over::Angle,
+        positions: 6,
+        sets,
+        state: Some([0.4, -2.0]),
+    }
+}
+
+/// m_red = m + J·ψ′², ψ′ = −h/(s² + h²); a stroke is counted from end to end, in millimetres.
+#[test]
+fn a_sliding_drive_link() {
+    let file = lever();
+    assert_eq!(
+        Coordinate::of(file.machine.mechanism()).unwrap(),
+        Coordinate::Length
+    );
+    let curves = Sets {
+        curves: true,
+        ..Sets::default()
+    };
+    let columns = reduce(&file, &request(curves)).unwrap();
+    let expected = [
+        "s [mm]",
+        "m_red [kg]",
+        "m_red' [kg/m]",
+        "m_red'' [kg/m^2]",
+        "U [J]",
+        "F_potential [N]",
+        "F_process [N]",
+        "b_viscous [N s/m]",
+        "c_coulomb [N]",
+        "v [m/s]",
+        "a [m/s^2]",
+    ];
+    assert_eq!(&columns.names()[..11], expected);
+    assert!(columns.names().contains(&"F_drive [N]".to_owned()));
+    for (k, row) in columns.rows().iter().enumerate() {
+        let s = FROM + (TO - FROM) * k as f64 / 5.0;
+        near("s", row[0].unwrap(), s * 1e3, 1e-12);
+        let psi = -HEIGHT / (s * s + HEIGHT * HEIGHT);
+        near(
+            "m_red",
+            row[1].unwrap(),
+            3.0 + 0.04 * psi * psi,
+            budget::CLOSED_FORM,
+        );
+    }
+    let points = Sets {
+        points: true,
+        reactions: true,
+        ..Sets::default()
+    };
+    let columns = reduce(&file, &request(points)).unwrap();
+    let csv =
+        jred_report::table::output::write(&columns, jred_report::table::output::Format::Csv, "");
+    let header = csv.lines().next().unwrap();
+    assert!(header.contains("\"tip, \"\"end\"\" x' [m/m]\""), "{header}");
+    assert!(header.contains("lever psi' [rad/m]") && header.contains("\"pin, in the slot F [N]\""));
+    assert!(header.contains("guide M [N m]") && !header.contains("pivot M"));
+    let at = |name: &str| columns.names().iter().position(|n| n == name).unwrap();
+    for row in columns.rows() {
+        let s = row[0].unwrap() * 1e-3;
+        let d = s * s + HEIGHT * HEIGHT;
+        let turn = -HEIGHT / d * 0.4;
+        near(
+            "lever",
+            row[at("lever omega [rad/s]")].unwrap(),
+            turn,
+            budget::CLOSED_FORM,
+        );
+        // J·ψ̈ is the pin's moment about the pivot.
+        let bend = 2.0 * s * HEIGHT / (d * d) * 0.16 + HEIGHT / d * 2.0;
+        let force = row[at("pin, in the slot F [N]")].unwrap();
+        near("pin", force, (0.04 * bend).abs() / d.sqrt(), 1e-11);
+    }
+}
+
+/// A pin in a straight slot through the pivot pushes square to the lever: the best there is. Seen from the guide it does not.
+#[test]
+fn the_check_of_a_stroke() {
+    let findings = Findings::of(&lever()).unwrap();
+    assert!(findings.holds(), "{:?}", findings.violations());
+    let json = jred_report::list::inspection::json(&findings);
+    assert_eq!(json["degrees of freedom"], 1);
+    assert_eq!(json["range"], serde_json::json!([FROM, TO]));
+    assert_eq!(json["closure"], Value::Null);
+    let travel = &json["travels"][0];
+    assert_eq!(travel["way"], "swings");
+    let swing = HEIGHT.atan2(FROM) - HEIGHT.atan2(TO);
+    near("swing", travel["stroke"].as_f64().unwrap(), swing, 1e-12);
+    near(
+        "index",
+        json["transmission"]["index"].as_f64().unwrap(),
+        1.0,
+        1e-12,
+    );
+    let text = jred_report::list::inspection::text(&findings);
+    for words in [
+        "s = -100 to 150 mm",
+        "no dead centre",
+        "m_red: ",
+        "drive force",
+    ] {
+        assert!(text.contains(words), "{words} is not in\n{text}");
+    }
+    let page = jred_report::page::mechanism_page("lever.toml", &lever(), Some([0.4, 0.0]));
+    let page = page.unwrap();
+    assert!(page.contains("displacement of the drive link s [mm]") && !page.contains("NaN"));
+    assert!(page.contains("reduced force [N]") && page.contains("m_red [kg]"));
+}

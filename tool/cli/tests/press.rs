@@ -1,0 +1,340 @@
+//! The numbers of the press example, derived independently: textbook formulas in `support/press.rs`, other numerical
+//! methods, none of the tool's code. What is compared is what the command prints.
+
+mod drives;
+
+use std::f64::consts::TAU;
+use std::sync::OnceLock;
+
+use crate::support::numerics::{derivative, trapezoid};
+use crate::support::press::{self, Input, figures};
+use crate::support::{
+    Columns, Folder, budget, edited_press, jred, largest, near, near_column, press_file, within,
+};
+use drives::{ONE_GEARBOX, ONE_MOTOR};
+use jred_machine::units::RPM;
+use serde_json::Value;
+
+/// Instants of the reference: 2.5 µs apart, a hundred times closer than the tool's.
+const FINE: usize = 200_000;
+
+/// The reference cycle at the input of the belt.
+fn reference() -> &'static [Input] {
+    static CYCLE: OnceLock<Vec<Input>> = OnceLock::new();
+    CYCLE.get_or_init(|| press::cycle(FINE))
+}
+
+fn meaningful(text: &str) -> Vec<String> {
+    let lines = text.lines().map(|line| {
+        let line = line.split('#').next().unwrap_or_default();
+        line.split_whitespace().collect::<Vec<_>>().join(" ")
+    });
+    lines.filter(|line| !line.is_empty()).collect()
+}
+
+#[test]
+fn the_example_is_the_machine_written_down_here() {
+    let text = crate::support::press_text();
+    let (machine, _) = text.split_once("[simulation]").unwrap();
+    let machine: Vec<String> = meaningful(machine)
+        .into_iter()
+        .filter(|line| !line.starts_with("title"))
+        .collect();
+    assert_eq!(
+        machine,
+        meaningful(press::STATED),
+        "machines/press.toml was changed: change support/press.rs with it"
+    );
+    assert!(!text.contains("[rules]"), "the defaults are judged here");
+}
+
+#[test]
+fn both_derivations_of_the_torque_agree() {
+    // Not of the tool: d'Alembert and Lagrange on one side, the power balance on the other.
+    let times: Vec<f64> = (40..=360).map(|k| 1e-3 * f64::from(k) + 1.37e-5).collect();
+    let lagrange: Vec<f64> = times.iter().map(|t| press::crank_torque(*t)).collect();
+    let power: Vec<f64> = times
+        .iter()
+        .map(|t| press::crank_torque_by_power(*t))
+        .collect();
+    near_column("torque by power", &power, &lagrange, budget::DERIVATION);
+}
+
+#[test]
+fn the_reduced_link() {
+    let run = jred([
+        &"reduce",
+        &press_file(),
+        &"--positions",
+        &"720",
+        &"--links",
+        &"--format",
+        &"json",
+    ]);
+    let columns = Columns::of_json(&run.ends(0).json());
+    let angles = columns.get("phi [deg]");
+    let angles: Vec<f64> = angles.iter().map(|phi| phi.to_radians()).collect();
+    let check = |name: &str, expected: &dyn Fn(f64) -> f64, share: f64| {
+        let expected: Vec<f64> = angles.iter().map(|phi| expected(*phi)).collect();
+        near_column(name, &columns.get(name), &expected, share);
+    };
+    let slope = |phi: f64| derivative(press::inertia, phi, 2e-3);
+    check(
+        "J_red [kg m^2]",
+        &|phi| press::inertia(phi) + press::train(),
+        budget::CLOSED_FORM,
+    );
+    check("J_red' [kg m^2/rad]", &slope, budget::DIFFERENCES);
+    check(
+        "J_red'' [kg m^2/rad^2]",
+        &|phi| derivative(slope, phi, 2e-2),
+        budget::SECOND_DIFFERENCES,
+    );
+    check("U [J]", &press::potential, budget::CLOSED_FORM);
+    check(
+        "T_potential [N m]",
+        &|phi| -derivative(press::potential, phi, 2e-3),
+        budget::DIFFERENCES,
+    );
+    check("T_process [N m]", &press::process, budget::CLOSED_FORM);
+    check(
+        "b_viscous [N m s/rad]",
+        &press::viscous,
+        budget::CLOSED_FORM,
+    );
+    check("c_coulomb [N m]", &press::coulomb, budget::CLOSED_FORM);
+    for (k, link) in ["crank", "rod", "slider"].into_iter().enumerate() {
+        let name = format!("J_red {link} [kg m^2]");
+        check(&name, &|phi| press::shares(phi)[k], budget::CLOSED_FORM);
+    }
+    check(
+        "J_red flywheel and drive train [kg m^2]",
+        &|_| 0.05 + press::train(),
+        budget::CLOSED_FORM,
+    );
+}
+
+fn over_time(positions: &str) -> Columns {
+    let run = jred([
+        &"reduce",
+        &press_file(),
+        &"--over",
+        &"time",
+        &"--positions",
+        &positions,
+        &"--format",
+        &"csv",
+    ]);
+    run.ends(0).columns()
+}
+
+#[test]
+fn the_torque_over_time() {
+    let columns = over_time("2001");
+    let times = columns.get("t [s]");
+    assert_eq!(times.first(), Some(&0.0));
+    within("cycle", times[2000], press::CYCLE, 1e-15);
+    let check = |name: &str, expected: &dyn Fn(f64) -> f64, share: f64| {
+        let expected: Vec<f64> = times.iter().map(|t| expected(*t)).collect();
+        near_column(name, &columns.get(name), &expected, share);
+    };
+    check(
+        "phi [deg]",
+        &|t| press::motion(t)[0].to_degrees(),
+        budget::CLOSED_FORM,
+    );
+    check(
+        "omega [rad/s]",
+        &|t| press::motion(t)[1],
+        budget::CLOSED_FORM,
+    );
+    check(
+        "alpha [rad/s^2]",
+        &|t| press::motion(t)[2],
+        budget::CLOSED_FORM,
+    );
+    check(
+        "T_drive [N m]",
+        &|t| press::crank_torque(t) + press::train() * press::motion(t)[2],
+        budget::DERIVATION,
+    );
+    check(
+        "T_input [N m]",
+        &|t| press::input(t).torque,
+        budget::DERIVATION,
+    );
+}
+
+/// Over a cycle that ends as it began, the drive gives exactly what the loads take: the ram's friction over twice the
+/// stroke, the bearings' over the motion, 0.4·(2π)²/0.4 s·∫S′² dz with ∫S′² dz = 10/7, and the pressing force over its
+/// way.
+#[test]
+fn the_energy_of_a_cycle() {
+    let friction = 150.0 * 2.0 * 0.06;
+    let bearings = 0.4 * TAU * TAU / press::MOVE * (10.0 / 7.0);
+    let n = 90_000;
+    let (from, width) = (315f64.to_radians(), 45f64.to_radians());
+    let force = (0..=n).map(|k| -press::process(from + width * f64::from(k) / f64::from(n)));
+    let pressing = trapezoid(width / f64::from(n), force.collect::<Vec<_>>().into_iter());
+    let columns = over_time("100001");
+    let power: Vec<f64> = columns
+        .get("T_drive [N m]")
+        .iter()
+        .zip(columns.get("omega [rad/s]"))
+        .map(|(torque, omega)| torque * omega)
+        .collect();
+    let work = trapezoid(press::CYCLE / 1e5, power.into_iter());
+    near(
+        "work of the drive over a cycle",
+        work,
+        friction + bearings + pressing,
+        budget::QUADRATURE,
+    );
+}
+
+/// The command's answer as JSON, with more arguments.
+fn size(steps: &str, motors: Option<&str>, gearboxes: Option<&str>) -> Value {
+    let folder = Folder::new();
+    let file = press_file();
+    let run = match (motors, gearboxes) {
+        (Some(motors), Some(gearboxes)) => jred([
+            &"size",
+            &file,
+            &"--format",
+            &"json",
+            &"--all",
+            &"--steps",
+            &steps,
+            &"--motors",
+            &folder.file("motors.csv", motors),
+            &"--gearboxes",
+            &folder.file("gearboxes.csv", gearboxes),
+        ]),
+        _ => jred([
+            &"size",
+            &file,
+            &"--format",
+            &"json",
+            &"--all",
+            &"--steps",
+            &steps,
+        ]),
+    };
+    run.ends(0).json()
+}
+
+fn check_figures(what: &str, found: &Value, values: &[f64], [integral, peak]: [f64; 2]) {
+    let expected = figures(values);
+    let size = largest(values);
+    let one = |name: &str| found[name].as_f64().unwrap();
+    within(
+        &format!("{what}, min"),
+        one("min"),
+        expected.min,
+        peak * size,
+    );
+    within(
+        &format!("{what}, max"),
+        one("max"),
+        expected.max,
+        peak * size,
+    );
+    within(
+        &format!("{what}, mean"),
+        one("mean"),
+        expected.mean,
+        integral * expected.rms,
+    );
+    near(&format!("{what}, RMS"), one("rms"), expected.rms, integral);
+}
+
+fn check_duty(answer: &Value, tolerances: [f64; 2]) {
+    let cycle = reference();
+    let of = |quantity: fn(&Input) -> f64| cycle.iter().map(quantity).collect::<Vec<_>>();
+    near("cycle", answer["cycle [s]"].as_f64().unwrap(), 0.5, 1e-15);
+    let check = |name: &str, values: &[f64]| check_figures(name, &answer[name], values, tolerances);
+    check("input torque [N m]", &of(|i| i.torque));
+    check("input speed [rad/s]", &of(|i| i.speed));
+    check("input inertia [kg m^2]", &of(|i| i.inertia));
+    let times = (0..=FINE).map(|k| press::CYCLE * k as f64 / FINE as f64);
+    let torque: Vec<f64> = times.map(press::crank_torque).collect();
+    check("drive link torque [N m]", &torque);
+    // The largest torque against gravity, sought here every 0.01° instead of every 0.5°.
+    let weight = (0..36_000).map(|k| {
+        let phi = f64::from(k) / 100.0;
+        derivative(press::potential, phi.to_radians(), 2e-3).abs() / press::RATIO
+    });
+    let hold = weight.fold(0.0, f64::max);
+    near(
+        "holding torque",
+        answer["holding torque [N m]"].as_f64().unwrap(),
+        hold,
+        budget::HOLDING_GRID,
+    );
+}
+
+#[test]
+fn the_duty_at_the_input() {
+    let answer = size("2000", None, None);
+    check_duty(&answer, [budget::DEFAULT_STEPS, budget::DEFAULT_PEAK]);
+}
+
+#[test]
+fn the_duty_at_the_input_with_fine_steps() {
+    let answer = size("200000", Some(ONE_MOTOR), Some(ONE_GEARBOX));
+    check_duty(&answer, [budget::FINE_STEPS, budget::FINE_PEAK]);
+}
+
+/// RMS of the input torque of a press with `steps`.
+fn rms(text: &str, steps: u32) -> f64 {
+    let folder = Folder::new();
+    let run = jred([
+        &"size",
+        &folder.file("press.toml", text),
+        &"--format",
+        &"json",
+        &"--steps",
+        &steps.to_string(),
+        &"--motors",
+        &folder.file("motors.csv", ONE_MOTOR),
+        &"--gearboxes",
+        &folder.file("gearboxes.csv", ONE_GEARBOX),
+    ]);
+    run.json()["input torque [N m]"]["rms"].as_f64().unwrap()
+}
+
+/// With a trapezoidal law, no friction, no pressing force and no kink from an efficiency, the integrand is smooth on
+/// each stretch but not periodic, and Simpson's rule shows its order: half the step, a sixteenth of the error.
+#[test]
+fn the_rms_converges_with_order_four() {
+    let smooth = edited_press("efficiency = \"97 %\"", "efficiency = \"100 %\"");
+    let smooth = crate::support::edited(&smooth, "[\"-10 kN\", \"0 N\"]", "[\"0 N\", \"0 N\"]");
+    let smooth = crate::support::edited(&smooth, "\"150 N\"", "\"0 N\"");
+    let smooth = crate::support::edited(
+        &smooth,
+        "\"polynomial-345\"",
+        "\"trapezoid\"\naccelerate = 0.25\ndecelerate = 0.25",
+    );
+    let limit = rms(&smooth, 100_000);
+    // Stretches of 0.1 s and 0.2 s are cut into even numbers, rounded up: these double exactly.
+    let errors = [99, 199, 399].map(|steps| (rms(&smooth, steps) - limit).abs());
+    let orders = [
+        (errors[0] / errors[1]).log2(),
+        (errors[1] / errors[2]).log2(),
+    ];
+    println!("errors {errors:?}, orders {orders:?}");
+    for order in orders {
+        within("order", order, 4.0, budget::ORDER);
+    }
+}
+
+/// With ramps and efficiency, the default of 2000 steps still leaves less than the budget, and more steps leave less.
+#[test]
+fn the_default_steps_are_enough() {
+    let press = crate::support::press_text();
+    let limit = figures(&reference().iter().map(|i| i.torque).collect::<Vec<_>>()).rms;
+    let errors = [250, 2000, 16_000].map(|steps| (rms(&press, steps) / limit - 1.0).abs());
+    println!("relative errors of the RMS: {errors:?}");
+    assert!(errors[0] > errors[1] && errors[1] < budget::DEFAULT_STEPS);
+    assert!(errors[2] < budget::DEFAULT_STEPS / 10.0);
+}

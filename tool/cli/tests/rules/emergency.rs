@@ -1,0 +1,124 @@
+//! The emergency stop: the hull against every state, the formula against the equations of motion.
+
+use jred_machine::analysis::mechanics::{Braking, Stop};
+use jred_machine::model::rule::Rule;
+use proptest::prelude::*;
+
+use super::{Stand, budget, near, within};
+
+/// Torque through the gearbox by elimination from the equations of the two bodies, solved as a linear system in the
+/// torque and the deceleration.
+fn torque_by_cramer(braking: &Braking, [inertia, driving]: [f64; 2]) -> f64 {
+    // τ − J·a = d;  τ·η/i + J_1·i·a = T
+    let (a11, a12, b1) = (1.0, -inertia, driving);
+    let (a21, a22, b2) = (
+        braking.back_efficiency / braking.ratio,
+        braking.inertia * braking.ratio,
+        braking.torque,
+    );
+    (b1 * a22 - a12 * b2) / (a11 * a22 - a12 * a21)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { rng_seed: proptest::test_runner::RngSeed::Fixed(5), ..ProptestConfig::default() })]
+
+    /// The worst state by halving along the hull is the worst of all.
+    #[test]
+    fn the_hull_holds_the_worst_state(
+        states in prop::collection::vec((0.01f64..2.0, -50.0f64..50.0), 1..60),
+        torque in 1.0f64..60.0, inertia in 1e-4f64..0.01, ratio in 1.0f64..50.0, back in 0.3f64..1.0,
+    ) {
+        let states: Vec<[f64; 2]> = states.into_iter().map(|(j, d)| [j, d]).collect();
+        let braking = Braking { torque, inertia, ratio, back_efficiency: back };
+        let brute = states.iter().map(|s| braking.torque_at(*s)).fold(f64::NEG_INFINITY, f64::max);
+        let [found, _] = Stop::among(states).worst(&braking).unwrap();
+        prop_assert!((found - brute).abs() <= budget::SAME_SUMS * brute.abs().max(1.0), "{found} {brute}");
+    }
+
+    /// The torque satisfies both equations of motion.
+    #[test]
+    fn the_torque_moves_both_bodies(
+        load in 0.01f64..2.0, driving in -50.0f64..50.0,
+        torque in 1.0f64..60.0, inertia in 1e-4f64..0.01, ratio in 1.0f64..50.0, back in 0.3f64..1.0,
+    ) {
+        let braking = Braking { torque, inertia, ratio, back_efficiency: back };
+        let by_system = torque_by_cramer(&braking, [load, driving]);
+        let found = braking.torque_at([load, driving]);
+        prop_assert!((found - by_system).abs() <= budget::SAME_SUMS * (torque * ratio + driving.abs()), "{found} {by_system}");
+    }
+}
+
+/// Without a rotor all of the motor's torque goes through the gearbox; before a machine without inertia nothing does.
+#[test]
+fn the_share_of_the_rotor() {
+    let braking = |inertia: f64| Braking {
+        torque: 10.0,
+        inertia,
+        ratio: 4.0,
+        back_efficiency: 0.9,
+    };
+    near(
+        "no rotor",
+        braking(0.0).torque_at([0.3, 0.0]),
+        40.0 / 0.9,
+        1e-14,
+    );
+    within(
+        "no machine",
+        braking(0.01).torque_at([0.0, 0.0]),
+        0.0,
+        1e-14,
+    );
+    // Equal inertias without losses: one half each.
+    let lossless = Braking {
+        back_efficiency: 1.0,
+        ..braking(0.01)
+    };
+    near("halves", lossless.torque_at([0.16, 0.0]), 20.0, 1e-14);
+}
+
+/// The whole press, every instant at full speed and at standstill, looked at one by one.
+#[test]
+fn the_press_stops() {
+    let mut stand = Stand::press();
+    stand.motor.friction = [0.2, 0.0];
+    for (back, brake) in [(0.95, None), (0.5, None), (0.95, Some(55.0))] {
+        stand.gearbox.back_efficiency = back;
+        stand.motor.brake = None;
+        if let Some(torque) = brake {
+            stand.brake(torque);
+        }
+        let ratio = 5.0;
+        let own = 8e-4 + 0.8e-4;
+        let pull = brake.unwrap_or(30.0) + 0.2;
+        let mut worst = f64::NEG_INFINITY;
+        for instant in stand.duty.instants.iter().filter(|i| i.omega != 0.0) {
+            let all = instant.terms.total() - instant.terms.acceleration;
+            let slow = all - instant.terms.velocity - instant.terms.viscous;
+            for torque in [all, slow] {
+                let resists = torque * instant.omega.signum() / 3.0;
+                let load = instant.input_inertia;
+                // Deceleration from the whole, seen at the output, then the torque that this needs.
+                let sum = load + own * ratio * ratio / back;
+                let deceleration = (pull * ratio / back + resists) / sum;
+                worst = worst.max(load * deceleration - resists);
+            }
+        }
+        let found = stand.found(true, Rule::GearboxEmergency);
+        near("emergency torque", found.value, worst, budget::SAME_SUMS);
+        assert_eq!(found.rating, 160.0);
+    }
+    // It locks, and the rotor is too light to drag it on: no rigid body can say.
+    stand.gearbox.back_efficiency = 2.0 - 1.0 / 0.1;
+    assert!(!stand.found(true, Rule::GearboxEmergency).is_known());
+    let check = stand.check(true, &stand.file.rules, Rule::GearboxEmergency);
+    assert!(check.note.contains("locks"), "{}", check.note);
+    stand.gearbox.back_efficiency = 0.9;
+    stand.gearbox.emergency_torque = None;
+    assert!(!stand.found(true, Rule::GearboxEmergency).is_known());
+    assert!(
+        stand
+            .finding(false, &stand.file.rules, Rule::GearboxEmergency)
+            .is_none()
+    );
+}

@@ -1,0 +1,199 @@
+//! Torque at rest, and what a gearbox does with torque that flows back.
+
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::RuleSet;
+use jred_sizing::catalogue::Drive;
+use jred_sizing::cycle::form::Coefficients;
+use proptest::prelude::*;
+
+use super::{Stand, budget, near, press_text, within};
+
+/// A weight of 120 N m on a belt of 3 to 1 with 96 %, which goes round once and then hangs.
+const HOIST: &str = r#"
+gravity = ["0 m/s^2", "0 m/s^2"]
+[mechanism]
+type = "gear-train"
+flywheel = "0.5 kg m^2"
+stage = [{ driver = { teeth = 20, inertia = "0 kg m^2" }, driven = { teeth = 20, inertia = "0 kg m^2" } }]
+[[load]]
+on = "shaft-2"
+moment = "120 N m"
+[[load]]
+on = "shaft-1"
+opposing_moment = "7 N m"
+[[load]]
+on = "shaft-1"
+viscous_moment = "0.5 N m s/rad"
+[[drive_train]]
+type = "belt"
+driver = { radius = "40 mm", inertia = "0 kg m^2" }
+driven = { radius = "120 mm", inertia = "0 kg m^2" }
+efficiency = "96 %"
+[motion]
+type = "cycle"
+[[motion.segment]]
+move = "1 turn"
+duration = "2 s"
+law = "cycloidal"
+[[motion.segment]]
+dwell = "3 s"
+"#;
+
+fn hoist() -> Stand {
+    Stand::new(&HOIST.replace("1 turn", "360 deg"))
+}
+
+/// The motor may have to hold against friction, the brake without its help.
+#[test]
+fn a_weight_is_held() {
+    let mut stand = hoist();
+    stand.brake(9.0);
+    let at_input = 120.0 / 3.0;
+    near(
+        "direct",
+        stand.found(false, Rule::HoldingTorque).value,
+        at_input / 0.96,
+        1e-12,
+    );
+    near(
+        "direct, brake",
+        stand.found(false, Rule::BrakeTorque).value,
+        at_input,
+        1e-12,
+    );
+    for back in [0.95, 2.0 - 1.0 / 0.95, 0.1] {
+        stand.gearbox.back_efficiency = back;
+        near(
+            "geared",
+            stand.found(true, Rule::HoldingTorque).value,
+            at_input / (0.96 * 5.0 * 0.95),
+            1e-12,
+        );
+        let brake = stand.found(true, Rule::BrakeTorque);
+        near("geared, brake", brake.value, at_input / 5.0, 1e-12);
+        assert_eq!(brake.rating, 9.0);
+    }
+    // A gearbox that cannot be driven back holds by itself.
+    for back in [0.0, -0.4] {
+        stand.gearbox.back_efficiency = back;
+        assert_eq!(stand.found(true, Rule::HoldingTorque).value, 0.0);
+        assert_eq!(stand.found(true, Rule::BrakeTorque).value, 0.0);
+        let check = stand.check(true, &RuleSet::default(), Rule::BrakeTorque);
+        assert!(check.note.contains("holds by itself"), "{}", check.note);
+    }
+    stand.motor.brake = None;
+    assert!(
+        stand
+            .finding(true, &RuleSet::default(), Rule::BrakeTorque)
+            .is_none()
+    );
+}
+
+/// At rest the torque of the time course lies within the band that friction allows, at the end that the rule judges.
+#[test]
+fn the_time_course_rests_where_the_rule_says() {
+    let stand = hoist();
+    let drive = stand.drive(true);
+    let rest = stand.duty.instants.iter().find(|i| i.t > 3.0).unwrap();
+    assert_eq!(rest.omega, 0.0);
+    let torque = drive.motor_point(rest).torque.abs();
+    near(
+        "at rest",
+        torque,
+        stand.found(true, Rule::HoldingTorque).value,
+        1e-12,
+    );
+    let most = stand.cycle.mechanics().holding;
+    near("most", most, 40.0 / 0.96, 1e-12);
+}
+
+/// Weight and friction without acceleration: lifting against both, and the motor's own friction.
+#[test]
+fn constant_torque() {
+    let mut stand = hoist();
+    stand.motor.friction = [0.3, 0.002];
+    stand.gearbox.no_load_torque = 0.15;
+    // The moment drives the shaft on: friction 7 N m and 0.5 N m s/rad against it.
+    let fastest = stand
+        .duty
+        .instants
+        .iter()
+        .map(|i| i.omega.abs())
+        .fold(0.0, f64::max);
+    let motor_speed = fastest * 3.0 * 5.0;
+    let own = 0.3 + 0.15 + 0.002 * motor_speed;
+    let fanuc = jred_machine::read::rule_set("fanuc").unwrap();
+    let found = stand.finding(true, &fanuc, Rule::ConstantTorque).unwrap();
+    // A process moment is not a constant load: what resists is friction alone, at its largest at full speed.
+    let resisting = (7.0 + 0.5 * fastest) / (3.0 * 0.96);
+    near(
+        "constant torque",
+        found.value,
+        resisting / (5.0 * 0.95) + own,
+        1e-9,
+    );
+    assert_eq!(found.rating, 9.0);
+    let check = stand.check(true, &fanuc, Rule::ConstantTorque);
+    near("limit", check.limit.unwrap(), 0.7 * 9.0, 1e-14);
+    assert!(check.source.contains("B-65262EN"), "{}", check.source);
+    // The general set does not have the rule.
+    assert!(!RuleSet::default().shows(Rule::ConstantTorque));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { rng_seed: proptest::test_runner::RngSeed::Fixed(6), ..ProptestConfig::default() })]
+
+    /// A gearbox never gives more power than it gets, whichever way it flows and whether it locks or not; where the loss is
+    /// friction, it is the same both ways: |τ·n|·(1/η − 1).
+    #[test]
+    fn losses_are_never_gains(
+        torque in -100.0f64..100.0, speed in -50.0f64..50.0,
+        efficiency in 0.2f64..1.0, by_friction: bool, ratio in 1.0f64..100.0,
+    ) {
+        let mut stand = hoist_once();
+        stand.1.ratio = ratio;
+        stand.1.efficiency = efficiency;
+        stand.1.back_efficiency = if by_friction { 2.0 - 1.0 / efficiency } else { efficiency };
+        stand.1.no_load_torque = 0.0;
+        stand.1.inertia = 0.0;
+        let drive = Drive { motor: &stand.0, gearbox: Some(&stand.1), amplifier: None };
+        let Coefficients([_, forth, back, _, _]) = drive.coefficients();
+        let driven = torque * speed < 0.0;
+        let motor = if driven { back * torque } else { forth * torque };
+        let loss = motor * speed * ratio - torque * speed;
+        let size = (torque * speed).abs();
+        prop_assert!(loss >= -1e-12 * size, "{loss}");
+        let expected = if driven && !by_friction { size * (1.0 - efficiency) } else { size * (1.0 / efficiency - 1.0) };
+        prop_assert!((loss - expected).abs() <= 1e-12 * size / efficiency, "{loss} {expected}");
+        // At rest the band that friction leaves is centred on the torque without losses.
+        if by_friction {
+            let centre = 0.5 * (forth + back) * torque;
+            prop_assert!((centre - torque / ratio).abs() <= 1e-12 * torque.abs());
+        }
+    }
+}
+
+fn hoist_once() -> (
+    jred_sizing::catalogue::Motor,
+    jred_sizing::catalogue::Gearbox,
+) {
+    use std::sync::OnceLock;
+    static PARTS: OnceLock<(
+        jred_sizing::catalogue::Motor,
+        jred_sizing::catalogue::Gearbox,
+    )> = OnceLock::new();
+    let parts = PARTS.get_or_init(|| {
+        let stand = hoist();
+        (stand.motor, stand.gearbox)
+    });
+    parts.clone()
+}
+
+/// The press holds its weight, and its loads where it stands: the same as every other derivation of it.
+#[test]
+fn the_press_is_held() {
+    let stand = Stand::new(&press_text());
+    let most = stand.cycle.mechanics().holding;
+    let hold = stand.duty.hold_torque;
+    within("most", most, hold / 0.97, budget::SAME_SUMS);
+}

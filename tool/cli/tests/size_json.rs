@@ -1,0 +1,140 @@
+//! The JSON of `jred size` against its schema, `docs/size.schema.json`.
+
+use std::path::{Path, PathBuf};
+
+use crate::support::schema::faults;
+use crate::support::{Folder, edited_press, jred, press_file};
+use serde_json::{Value, json};
+
+fn docs(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../docs")
+        .join(name);
+    std::fs::read_to_string(path).unwrap()
+}
+
+fn schema() -> Value {
+    serde_json::from_str(&docs("size.schema.json")).unwrap()
+}
+
+fn check(answer: &Value) {
+    let faults = faults(&schema(), answer);
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+fn machine(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../machines")
+        .join(name)
+}
+
+#[test]
+fn answers_follow_the_schema() {
+    let explained = jred([&"size", &press_file(), &"--explain", &"--format", &"json"]);
+    let answer = explained.ends(0).json();
+    check(&answer);
+    let effects = answer["explanation"]["contributions"]["effects"]
+        .as_array()
+        .unwrap();
+    let shares = effects
+        .iter()
+        .map(|e| e["share of mean square"].as_f64().unwrap());
+    crate::support::within("shares", shares.sum(), 1.0, crate::support::budget::CELLS);
+    assert_eq!(answer["fit"].as_array().unwrap().len(), 10);
+    assert_eq!(answer["refused"].as_array().unwrap().len(), 3);
+    for name in ["hoist.toml", "ball-screw.toml", "geneva.toml"] {
+        let run = jred([&"size", &machine(name), &"--all", &"--format", &"json"]);
+        let answer = run.json();
+        check(&answer);
+        for list in ["fit", "refused"] {
+            assert_eq!(
+                answer["counts"][list],
+                answer[list].as_array().unwrap().len()
+            );
+        }
+    }
+}
+
+#[test]
+fn an_answer_without_a_drive_follows_it_as_well() {
+    let folder = Folder::new();
+    let file = folder.file("heavy.toml", edited_press("\"-10 kN\"", "\"-900 kN\""));
+    let run = jred([&"size", &file, &"--explain", &"--format", &"json"]);
+    let answer = run.ends(1).json();
+    check(&answer);
+    assert_eq!(answer["explanation"]["change"]["holds"], false);
+}
+
+/// The schema can be violated: it is no schema that takes everything.
+#[test]
+fn the_schema_refuses_what_is_wrong() {
+    let best = jred([&"size", &press_file(), &"--top", &"1", &"--format", &"json"]).json();
+    let mut name = best["fit"][0]["motor"].as_str().unwrap().to_owned();
+    if let Some(gearbox) = best["fit"][0]["gearbox"].as_str() {
+        name = format!("{name}+{gearbox}");
+    }
+    let run = jred([
+        &"size",
+        &press_file(),
+        &"--top",
+        &"1",
+        &"--why",
+        &name,
+        &"--format",
+        &"json",
+    ]);
+    let answer = run.ends(0).json();
+    check(&answer);
+    assert_eq!(answer["asked"]["rank"], 1);
+    let schema = schema();
+    let spoilt: [(&str, Value); 6] = [
+        ("/schema", json!("jred-size/1")),
+        ("/asked/rank", json!(0)),
+        ("/cycle [s]", json!("0.5 s")),
+        ("/counts/fit", json!(-1)),
+        ("/fit/0/checks/0/verdict", json!("good")),
+        ("/fit/0/duty/torque [N m]", json!({ "min": 0 })),
+    ];
+    for (place, wrong) in spoilt {
+        let mut answer = answer.clone();
+        *answer.pointer_mut(place).unwrap() = wrong;
+        assert!(!faults(&schema, &answer).is_empty(), "{place}");
+    }
+    let mut without = answer.clone();
+    without.as_object_mut().unwrap().remove("counts");
+    assert!(!faults(&schema, &without).is_empty());
+}
+
+#[test]
+fn a_drive_can_be_named() {
+    let named = |name: &str, code: i32| {
+        jred([
+            &"size",
+            &press_file(),
+            &"--why",
+            &name,
+            &"--format",
+            &"json",
+        ])
+        .ends(code)
+    };
+    let answer = jred([&"size", &press_file(), &"--format", &"json"]).json();
+    let refused = &answer["refused"][0];
+    let motor = refused["motor"].as_str().unwrap();
+    let name = match refused["gearbox"].as_str() {
+        Some(gearbox) => format!("{motor}+{gearbox}"),
+        None => motor.to_owned(),
+    };
+    let why = named(&name, 0).json();
+    check(&why);
+    assert!(why["asked"]["rank"].is_null());
+    assert_eq!(why["asked"]["motor"], motor);
+    let change = &why["explanation"]["change"];
+    assert_eq!(change["holds"], false);
+    assert!(change["drive"].as_str().unwrap().contains(motor));
+    assert!(!change["misses"].as_array().unwrap().is_empty());
+    named("fxm33-30a+npt025mf-33", 2).says(&[
+        "the catalogue has no drive \"fxm33-30a+npt025mf-33\"",
+        "did you mean \"fxm33-30a + npt025mf-3\"?",
+    ]);
+}

@@ -1,0 +1,268 @@
+//! Temperature and current of a drive: which model its data allow, and what is said when they do not.
+
+use std::path::Path;
+
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::operation::Operation;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::RuleSet;
+use jred_machine::model::rules::Verdict;
+use jred_machine::model::site::Site;
+use jred_machine::read;
+use jred_sizing::catalogue::Drive;
+use jred_sizing::catalogue::{Amplifier, Motor, Thermal, Winding};
+use jred_sizing::cycle::Cycle;
+use jred_sizing::judge::Context;
+use jred_sizing::judge::check::Check;
+use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::motor::winding::COPPER;
+
+use super::{budget, near};
+use crate::support::press_text;
+
+fn cycle() -> Cycle {
+    let file = read::parse("press.toml", &press_text(), Path::new("")).unwrap();
+    Cycle::new(&Duty::new(&file, file.motion.as_ref().unwrap(), 1000).unwrap())
+}
+
+/// A motor that turns the press without a gearbox.
+fn motor() -> Motor {
+    Motor {
+        key: "m".to_owned(),
+        rated_torque: Some(40.0),
+        standstill_torque: Some(50.0),
+        rated_speed: Some(200.0),
+        max_speed: Some(400.0),
+        peak_torque: Some(400.0),
+        rotor_inertia: 0.01,
+        friction: [0.3, 0.002],
+        winding: Winding {
+            torque_constant: Some(2.0),
+            resistance: Some(0.6),
+            ..Winding::default()
+        },
+        thermal: Thermal {
+            winding_resistance: Some(0.15),
+            housing_resistance: Some(0.35),
+            winding_time: Some(40.0),
+            housing_time: Some(2400.0),
+            max_temperature: Some(155.0),
+        },
+        ..Motor::default()
+    }
+}
+
+fn amplifier() -> Amplifier {
+    Amplifier {
+        key: "a".to_owned(),
+        rated_current: 20.0,
+        peak_current: 60.0,
+        peak_time: Some(2.0),
+        ..Amplifier::default()
+    }
+}
+
+fn checks(motor: &Motor, amplifier: Option<&Amplifier>, site: &Site) -> Vec<Check> {
+    let cycle = cycle();
+    let prepared = Prepared::new(motor, amplifier, site);
+    let drive = Drive {
+        motor,
+        gearbox: None,
+        amplifier,
+    };
+    Context::new(&cycle, site, drive, &prepared).checks(&RuleSet::default())
+}
+
+fn check(checks: &[Check], rule: Rule) -> &Check {
+    let found = checks.iter().find(|check| check.id == rule);
+    found.unwrap_or_else(|| panic!("no {rule:?} in {checks:?}"))
+}
+
+fn winding(motor: &Motor, site: &Site) -> Check {
+    check(&checks(motor, None, site), Rule::WindingTemperature).clone()
+}
+
+/// RMS of current (A) and friction loss (W) by plain sums over the cycle.
+fn sums(motor: &Motor) -> (f64, f64) {
+    let cycle = cycle();
+    let (mut squares, mut friction) = (0.0, 0.0);
+    let [coulomb, viscous] = motor.friction;
+    let drive = Drive {
+        motor,
+        gearbox: None,
+        amplifier: None,
+    };
+    for sample in cycle.samples() {
+        let current = drive.coefficients().torque(&sample.loads()) / 2.0;
+        let speed = sample.speed().abs();
+        squares += sample.weight * current * current;
+        friction += sample.weight * (coulomb + viscous * speed) * speed;
+    }
+    (
+        (squares / cycle.duration()).sqrt(),
+        friction / cycle.duration(),
+    )
+}
+
+/// The cycle lasts 0.5 s: the hottest point of bodies with 40 s and 2400 s lies close above the rise of the mean losses,
+/// which is in closed form.
+#[test]
+fn every_model_that_data_allow() {
+    let (site, full) = (Site::default(), motor());
+    let (rms, friction) = sums(&full);
+    let growth = COPPER / (1.0 + COPPER * 20.0);
+    let copper = 1.5 * 0.6 * (1.0 + COPPER * 20.0) * rms * rms;
+    let mean = (0.5 * copper + 0.35 * friction) / (1.0 - growth * 0.5 * copper);
+    let two = winding(&full, &site);
+    let value = two.value.unwrap();
+    assert!(
+        value > mean && value < 1.02 * mean,
+        "{value}, mean losses {mean}"
+    );
+    near("limit", two.limit.unwrap(), 115.0, budget::THERMAL);
+    assert!(
+        two.note.contains("duty type S5") && two.note.contains("40 °C"),
+        "{}",
+        two.note
+    );
+
+    let mut steady = full.clone();
+    steady.thermal.winding_time = None;
+    steady.thermal.housing_time = None;
+    let found = winding(&steady, &site);
+    near("mean losses", found.value.unwrap(), mean, budget::SIMPSON);
+    assert!(
+        found.note.contains("ripple over the cycle not followed"),
+        "{}",
+        found.note
+    );
+
+    let mut slow = full.clone();
+    slow.thermal.housing_time = None;
+    let found = winding(&slow, &site).value.unwrap();
+    near("housing at rest", found, value, budget::SLOW_HOUSING);
+    let mut whole = full.clone();
+    whole.thermal.winding_time = None;
+    let found = winding(&whole, &site).value.unwrap();
+    let one = 0.5 * (copper + friction) / (1.0 - growth * 0.5 * copper);
+    near("one body", found, one, budget::SLOW_HOUSING);
+
+    let fixed = Site {
+        surroundings: jred_machine::model::surroundings::Surroundings {
+            resistance_at: Some(120.0),
+            ..site.surroundings
+        },
+        ..site.clone()
+    };
+    let found = winding(&steady, &fixed).value.unwrap();
+    let expected = 0.5 * 1.5 * 0.6 * (1.0 + COPPER * 100.0) * rms * rms + 0.35 * friction;
+    near("resistance at 120 °C", found, expected, budget::SIMPSON);
+
+    let mut bare = full.clone();
+    bare.winding = Winding::default();
+    bare.thermal = Thermal::default();
+    let found = winding(&bare, &site);
+    assert_eq!((found.unit, found.limit), ("%", Some(100.0)));
+    assert!(
+        found.note.starts_with("100 % of the rise at the S1 torque"),
+        "{}",
+        found.note
+    );
+    assert!(
+        found.note.contains("from the squared torque"),
+        "{}",
+        found.note
+    );
+    // Every loss is at least that of the torque, and less than with the friction of the largest speed.
+    let least = (rms * 2.0 / 50.0).powi(2);
+    let value = 0.01 * found.value.unwrap();
+    assert!(
+        value > least && value < least + 1.0 - 0.8f64.powi(2),
+        "{value} {least}"
+    );
+}
+
+#[test]
+fn what_is_missing_is_said() {
+    let site = Site::default();
+    let mut open = motor();
+    open.thermal.max_temperature = None;
+    let found = winding(&open, &site);
+    assert_eq!(found.verdict, Verdict::NotChecked);
+    assert!(
+        found.note.contains("highest temperature of the winding"),
+        "{}",
+        found.note
+    );
+    let cold = Site {
+        duty: jred_machine::model::operation::Duty {
+            operation: Operation::Short { operating: 60.0 },
+            kind: Some(2),
+        },
+        ..Site::default()
+    };
+    let mut steady = motor();
+    steady.thermal.winding_time = None;
+    steady.thermal.housing_time = None;
+    let found = winding(&steady, &cold);
+    assert_eq!(found.verdict, Verdict::NotChecked);
+    assert!(
+        found.note.contains("thermal time constants"),
+        "{}",
+        found.note
+    );
+    let short = winding(&motor(), &cold).value.unwrap();
+    assert!(short < winding(&motor(), &site).value.unwrap());
+    // Currents without an amplifier, a bus without a supply.
+    let all = checks(&motor(), None, &site);
+    for (rule, word) in [
+        (Rule::RmsCurrent, "amplifier"),
+        (Rule::BusVoltage, "voltage"),
+    ] {
+        let found = check(&all, rule);
+        assert_eq!(found.verdict, Verdict::NotChecked, "{rule:?}");
+        assert!(found.note.contains(word), "{}", found.note);
+    }
+}
+
+/// So little cooling that the copper runs away.
+#[test]
+fn runaway_fails() {
+    let mut hot = motor();
+    hot.thermal.housing_resistance = Some(50.0);
+    let found = winding(&hot, &Site::default());
+    assert_eq!((found.verdict, found.value), (Verdict::Fail, None));
+    assert!(found.note.contains("thermal runaway"), "{}", found.note);
+}
+
+#[test]
+fn currents_follow_the_torque() {
+    let (motor, amplifier) = (motor(), amplifier());
+    let all = checks(&motor, Some(&amplifier), &Site::default());
+    let (rms, _) = sums(&motor);
+    near(
+        "RMS",
+        check(&all, Rule::RmsCurrent).value.unwrap(),
+        rms,
+        budget::THERMAL,
+    );
+    let torque = check(&all, Rule::PeakTorque).value.unwrap();
+    let peak = check(&all, Rule::PeakCurrent);
+    near("peak", peak.value.unwrap(), torque / 2.0, budget::THERMAL);
+    near("its limit", peak.limit.unwrap(), 60.0, budget::THERMAL);
+    let overload = check(&all, Rule::Overload);
+    near(
+        "I²t",
+        overload.limit.unwrap(),
+        (3600.0 - 400.0) * 2.0,
+        budget::THERMAL,
+    );
+    assert!(
+        overload.value.unwrap() > 0.0 && overload.verdict == Verdict::Pass,
+        "{overload:?}"
+    );
+    let mut large = amplifier.clone();
+    large.rated_current = 55.0;
+    let all = checks(&motor, Some(&large), &Site::default());
+    assert_eq!(check(&all, Rule::Overload).value, Some(0.0));
+}

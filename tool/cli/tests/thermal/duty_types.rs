@@ -1,0 +1,93 @@
+//! The duty type of a cycle, one machine for each row of the table.
+
+use std::path::Path;
+
+use jred_machine::analysis::duty::Duty;
+use jred_machine::read;
+use jred_sizing::cycle::Cycle;
+use jred_sizing::cycle::form::Coefficients;
+use jred_sizing::thermal::classify::{DutyType, Features};
+
+use super::budget;
+use super::within;
+
+/// A flywheel on a shaft with friction, a load that opposes, and a motion.
+fn machine(load: &str, motion: &str) -> Cycle {
+    let text = format!(
+        r#"
+gravity = ["0 m/s^2", "-9.81 m/s^2"]
+[mechanism]
+type = "gear-train"
+flywheel = "0.02 kg m^2"
+stage = [{{ driver = {{ teeth = 20, inertia = "0.001 kg m^2" }}, driven = {{ teeth = 40, inertia = "0.002 kg m^2" }} }}]
+[[load]]
+on = "shaft-1"
+{load}
+[motion]
+{motion}
+"#
+    );
+    let file = read::parse("machine.toml", &text, Path::new("")).unwrap();
+    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 800).unwrap();
+    Cycle::new(&duty)
+}
+
+fn kind(load: &str, motion: &str) -> DutyType {
+    let direct = Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]);
+    let features = Features::of(&machine(load, motion), &direct, 1.0);
+    features.duty_type()
+}
+
+const FRICTION: &str = "opposing_moment = \"2 N m\"";
+/// So much that the machine never pushes its motor.
+const MUCH_FRICTION: &str = "opposing_moment = \"900 N m\"";
+const STEADY: &str = "type = \"constant-speed\"\nspeed = \"300 rpm\"";
+
+fn moves(segments: &[&str]) -> String {
+    let head = "type = \"cycle\"\nstart = \"0 deg\"";
+    let segments = segments.join("\n[[motion.segment]]\n");
+    format!("{head}\n[[motion.segment]]\n{segments}\n")
+}
+
+const TURN: &str = "law = \"polynomial-345\"\nmove = \"360 deg\"\nduration = \"0.3 s\"";
+const BACK: &str = "law = \"polynomial-345\"\nmove = \"-360 deg\"\nduration = \"0.3 s\"";
+const DWELL: &str = "dwell = \"0.1 s\"";
+
+#[test]
+fn each_type() {
+    let window =
+        "opposing_moment = \"2 N m\"\nbetween = [\"20 deg\", \"90 deg\"]\nramp = \"10 deg\"";
+    for (number, load, motion) in [
+        (1, FRICTION, STEADY.to_owned()),
+        (4, MUCH_FRICTION, moves(&[TURN, DWELL])),
+        (5, FRICTION, moves(&[TURN, DWELL])),
+        (6, window, STEADY.to_owned()),
+        (7, FRICTION, moves(&[TURN, BACK])),
+        (8, MUCH_FRICTION, moves(&[TURN])),
+    ] {
+        let found = kind(load, &motion);
+        assert_eq!(found.number, number, "{found}: {found:?}");
+        assert!(found.to_string().contains(&format!("S{number}")), "{found}");
+    }
+}
+
+/// A long run at constant speed between short ramps: the starts do not count thermally.
+#[test]
+fn starts_that_do_not_count() {
+    let long = "law = \"trapezoid\"\naccelerate = \"0.5 %\"\ndecelerate = \"0.5 %\"\nmove = \"36000 deg\"\nduration = \"60 s\"";
+    let found = kind(MUCH_FRICTION, &moves(&[long, "dwell = \"20 s\""]));
+    assert_eq!(found.number, 3, "{found:?}");
+    assert_eq!(found.features.starts, 1);
+    within("rest", found.features.rest, 0.25, budget::SIMPSON);
+}
+
+#[test]
+fn features_are_counted() {
+    let two = kind(FRICTION, &moves(&[TURN, DWELL, TURN, DWELL]));
+    assert_eq!(two.features.starts, 2);
+    within("rest", two.features.rest, 0.25, budget::SIMPSON);
+    let words = two.to_string();
+    for part in ["S5", "2 starts", "25 %", "with electric braking"] {
+        assert!(words.contains(part), "{part} is not in {words}");
+    }
+}

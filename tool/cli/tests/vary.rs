@@ -1,0 +1,376 @@
+//! `jred vary` and `jred merge`: what a row says, shares, continuing, messages.
+// Rows are compared digit by digit.
+#![allow(clippy::float_cmp)]
+
+mod store;
+
+use std::collections::HashMap;
+
+use crate::support::{Folder, jred, press_file, press_text};
+use jred_sizing::study::axis::{Axis, Grid};
+use jred_sizing::study::edit::{Document, Edit};
+
+fn document() -> Document {
+    Document::parse(press_text()).unwrap()
+}
+
+/// The rows of a CSV file by column.
+fn rows(text: &str) -> Vec<HashMap<String, String>> {
+    let body: Vec<&str> = text.lines().filter(|l| !l.starts_with("# ")).collect();
+    let mut reader = csv_reader(&body.join("\n"));
+    let names: Vec<String> = reader.remove(0);
+    let row = |cells: Vec<String>| names.iter().cloned().zip(cells).collect();
+    reader.into_iter().map(row).collect()
+}
+
+/// CSV as the test reads it, by hand: quotes, commas, lines.
+fn csv_reader(text: &str) -> Vec<Vec<String>> {
+    let mut rows = Vec::new();
+    for line in text.lines() {
+        let (mut cells, mut cell, mut quoted) = (Vec::new(), String::new(), false);
+        for c in line.chars() {
+            match c {
+                '"' => quoted = !quoted,
+                ',' if !quoted => cells.push(std::mem::take(&mut cell)),
+                c => cell.push(c),
+            }
+        }
+        cells.push(cell);
+        rows.push(cells);
+    }
+    rows
+}
+
+/// Quantities are found where they stand, and only the named ones change.
+#[test]
+fn a_changed_file_differs_in_the_named_place_only() {
+    let document = document();
+    let find = |path: &str| document.find(path).unwrap();
+    for (path, from, to) in [
+        ("slider.mass", "mass = \"42 kg\"", "mass = \"77.5 kg\""),
+        (
+            "mechanism.slider.mass",
+            "mass = \"42 kg\"",
+            "mass = \"77.5 kg\"",
+        ),
+        (
+            "load.guide friction.opposing_force",
+            "opposing_force = \"150 N\"",
+            "opposing_force = \"77.5 kg\"",
+        ),
+        (
+            "load.1.opposing_force",
+            "opposing_force = \"150 N\"",
+            "opposing_force = \"77.5 kg\"",
+        ),
+        (
+            "segment.0.duration",
+            "duration = \"0.4 s\"",
+            "duration = \"77.5 kg\"",
+        ),
+        (
+            "pressing force.between.0",
+            "between = [\"315 deg\"",
+            "between = [\"77.5 kg\"",
+        ),
+        (
+            "drive_train.0.driver.radius",
+            "driver = { radius = \"40 mm\"",
+            "driver = { radius = \"77.5 kg\"",
+        ),
+        (
+            "simulation.torque_speed.1.1",
+            "[\"500 rpm\", \"45 N m\"]",
+            "[\"500 rpm\", \"77.5 kg\"]",
+        ),
+    ] {
+        let edit = Edit {
+            quantity: find(path),
+            number: 77.5,
+            unit: "kg",
+        };
+        assert_eq!(
+            document.with(&[edit]),
+            press_text().replacen(from, to, 1),
+            "{path}"
+        );
+    }
+    // Two at once, given in the other order.
+    let edits =
+        [("slider.mass", 50.0, "kg"), ("crank.length", 31.0, "mm")].map(|(path, number, unit)| {
+            Edit {
+                quantity: find(path),
+                number,
+                unit,
+            }
+        });
+    let expected = press_text()
+        .replacen("length = \"30 mm\"", "length = \"31.0 mm\"", 1)
+        .replacen("mass = \"42 kg\"", "mass = \"50.0 kg\"", 1);
+    assert_eq!(document.with(&edits), expected);
+    assert_eq!(document.with(&[]), press_text());
+}
+
+/// Texts that are not quantities, names and titles are left alone.
+#[test]
+fn only_quantities_are_found() {
+    let text = press_text().replacen("Servo press, 60 mm stroke, 10 kN", "5 kg", 1);
+    let document = Document::parse(text).unwrap();
+    let paths: Vec<&str> = document
+        .quantities()
+        .iter()
+        .map(|q| q.path.as_str())
+        .collect();
+    assert!(!paths.contains(&"title"), "{paths:?}");
+    assert!(
+        !paths
+            .iter()
+            .any(|path| path.contains("law") || path.contains("type")),
+        "{paths:?}"
+    );
+    // By hand, from the file: two of gravity, 10 of crank and rod, the slider, flywheel and offset, force (2), between (2),
+    // ramp, friction, viscous moment, 6 of the belt, start, 3 of the motion, 4 + 6 + 1 of the simulation.
+    assert_eq!(
+        paths.len(),
+        2 + 10 + 1 + 2 + 2 + 2 + 1 + 1 + 1 + 6 + 1 + 3 + 11,
+        "{paths:#?}"
+    );
+}
+
+#[test]
+fn values_of_an_axis() {
+    let document = document();
+    let values = |text: &str| Axis::parse(&document, text).unwrap().values;
+    assert_eq!(values("slider.mass=30..60kg:4"), [30.0, 40.0, 50.0, 60.0]);
+    assert_eq!(values("slider.mass=60 kg..30 kg:3"), [60.0, 45.0, 30.0]);
+    assert_eq!(values("slider.mass=1..100 kg:3:log"), [1.0, 10.0, 100.0]);
+    assert_eq!(values("slider.mass=30,45,60kg"), [30.0, 45.0, 60.0]);
+    assert_eq!(values("slider.mass=45000g"), [45000.0]);
+    assert_eq!(
+        values("com.0=-5..5mm:2".replace("com", "crank.com").as_str()),
+        [-5.0, 5.0]
+    );
+    // What is in a row is what was put into the file.
+    assert_eq!(values("slider.mass=0.1..0.4kg:4"), [0.1, 0.2, 0.3, 0.4]);
+    let grid = Grid::new(vec![
+        Axis::parse(&document, "slider.mass=1,2kg").unwrap(),
+        Axis::parse(&document, "crank.length=10,20,30mm").unwrap(),
+    ])
+    .unwrap();
+    assert_eq!(grid.count(), 6);
+    let all: Vec<Vec<f64>> = (0..6).map(|row| grid.values(row)).collect();
+    assert_eq!(
+        all,
+        [
+            [1.0, 10.0],
+            [1.0, 20.0],
+            [1.0, 30.0],
+            [2.0, 10.0],
+            [2.0, 20.0],
+            [2.0, 30.0]
+        ]
+    );
+}
+
+/// A row says what `jred size` says of a machine file that was changed by hand.
+#[test]
+fn a_row_is_what_sizing_the_changed_file_gives() {
+    let folder = Folder::new();
+    let run = jred([
+        &"vary",
+        &press_file(),
+        &"--vary",
+        &"slider.mass=42,60kg",
+        &"--vary",
+        &"segment.0.duration=0.4,0.3s",
+        &"--format",
+        &"csv",
+    ])
+    .ends(0);
+    let rows = rows(&run.out);
+    assert_eq!(rows.len(), 4);
+    for row in &rows {
+        let text = press_text()
+            .replacen(
+                "\"42 kg\"",
+                &format!("\"{} kg\"", row["mechanism.slider.mass [kg]"]),
+                1,
+            )
+            .replacen(
+                "\"0.4 s\"",
+                &format!("\"{} s\"", row["motion.segment.0.duration [s]"]),
+                1,
+            );
+        let file = folder.file("changed.toml", text);
+        let sized = jred([&"size", &file, &"--format", &"json"]);
+        let sized = sized.json();
+        let fit = sized["fit"].as_array().unwrap();
+        if fit.is_empty() {
+            assert_eq!(row["verdict"], "none fits");
+            continue;
+        }
+        assert_eq!(row["verdict"], "fits");
+        let best = &fit[0];
+        assert_eq!(row["motor"], best["motor"].as_str().unwrap());
+        assert_eq!(row["gearbox"], best["gearbox"].as_str().unwrap_or("direct"));
+        let energy = best["duty"]["motoring energy [J]"].as_f64().unwrap();
+        crate::support::near(
+            "energy",
+            row["energy [J]"].parse().unwrap(),
+            energy,
+            crate::support::budget::ROW,
+        );
+        let checks = best["checks"].as_array().unwrap();
+        let judged = checks.iter().filter(|c| c["verdict"] != "warn");
+        let margins = judged.filter_map(|c| c["margin"].as_f64());
+        let margin = margins.fold(f64::INFINITY, f64::min);
+        crate::support::within(
+            "margin",
+            row["margin"].parse().unwrap(),
+            margin,
+            crate::support::budget::ROW,
+        );
+    }
+}
+
+/// Machines that cannot be built are rows with the reason.
+#[test]
+fn a_machine_that_is_refused_is_a_row() {
+    let run = jred([
+        &"vary",
+        &press_file(),
+        &"--vary",
+        &"rod.length=25,180mm",
+        &"--format",
+        &"json",
+    ])
+    .ends(0);
+    let rows: Vec<serde_json::Value> = run
+        .out
+        .lines()
+        .skip(1)
+        .map(|l| serde_json::from_str(l).unwrap())
+        .collect();
+    assert_eq!(rows.len(), 2);
+    assert_eq!(rows[0]["verdict"], "machine refused");
+    assert!(
+        rows[0]["note"]
+            .as_str()
+            .unwrap()
+            .contains("too short for a full turn"),
+        "{}",
+        rows[0]
+    );
+    assert!(rows[0]["motor"].is_null());
+    assert_eq!(rows[1]["verdict"], "fits");
+}
+
+/// No machine with a drive is an answer of its own: the exit code of `jred size` that finds none. A share leaves the answer to
+/// the whole.
+#[test]
+fn one_when_no_machine_has_a_drive() {
+    let (press, out) = (press_file(), Folder::new());
+    let vary = |values: &str, code: i32| {
+        let run = jred([&"vary", &press, &"--vary", &values, &"--steps", &"64"]);
+        run.ends(code).out
+    };
+    let none = vary("load.pressing force.force.0=-900,-800kN", 1);
+    assert!(none.contains("0 of 2 machines have a drive"), "{none}");
+    let one = vary("load.pressing force.force.0=-900,-10kN", 0);
+    assert!(one.contains("1 of 2 machines have a drive"), "{one}");
+    jred([
+        &"vary",
+        &press,
+        &"--vary",
+        &"load.pressing force.force.0=-900,-800kN",
+        &"--steps",
+        &"64",
+        &"--shard",
+        &"0/2",
+        &"--out",
+        &out.path("share.csv"),
+    ])
+    .ends(0);
+    let help = jred([&"vary", &"--help"]).ends(0).out;
+    assert!(help.contains("1 none of the machines has"), "{help}");
+}
+
+#[test]
+fn what_cannot_be_varied_is_said() {
+    let press = press_file();
+    let out = Folder::new();
+    let says = |vary: &str, words: &[&str]| {
+        jred([&"vary", &press, &"--vary", &vary])
+            .ends(2)
+            .says(words);
+    };
+    says(
+        "slider.mas=30..60kg:8",
+        &[
+            "no quantity \"slider.mas\"",
+            "did you mean \"slider.mass\"?",
+        ],
+    );
+    says(
+        "hammer.mass=30..60kg:8",
+        &["no quantity \"hammer.mass\"", "mechanism.slider.mass"],
+    );
+    says(
+        "mass=30..60kg:8",
+        &["names 3 quantities", "mechanism.crank.mass"],
+    );
+    says(
+        "rules.rms_torque=70..90%:3",
+        &["no quantity", "must be written there first"],
+    );
+    says(
+        "slider.mass=30..60mm:8",
+        &["\"mm\" is not a unit of mechanism.slider.mass", "42 kg"],
+    );
+    says(
+        "slider.mass=30..60:8",
+        &["is not a unit of mechanism.slider.mass"],
+    );
+    says("slider.mass=30g..60kg:8", &["write both in one unit"]);
+    says("slider.mass=30..60kg", &["how many values"]);
+    says("slider.mass=30..60kg:0", &["0 values", "1 to"]);
+    says("slider.mass=30..30kg:4", &["range is empty"]);
+    says("slider.mass=30..60kg:1", &["one value of a range"]);
+    says("slider.mass=-30..60kg:4:log", &["greater than zero"]);
+    says("slider.mass=30..60kg:4:lin", &["\"lin\" is not known"]);
+    says("slider.mass", &["has no \"=\""]);
+    says("slider.mass=heavy", &["does not begin with a number"]);
+    says("slider.mass=30..60kilos:3", &["unknown unit \"kilos\""]);
+    let twice = jred([
+        &"vary",
+        &press,
+        &"--vary",
+        &"slider.mass=30,40kg",
+        &"--vary",
+        &"mechanism.slider.mass=50kg",
+    ]);
+    twice
+        .ends(2)
+        .says(&["mechanism.slider.mass is varied twice"]);
+    let many = jred([
+        &"vary",
+        &press,
+        &"--vary",
+        &"slider.mass=30..60kg:100000",
+        &"--vary",
+        &"rod.mass=5..6kg:100000",
+    ]);
+    many.ends(2)
+        .says(&["100000 × 100000 machines are too many", "at most 100000000"]);
+    let shard = jred([
+        &"vary",
+        &press,
+        &"--vary",
+        &"slider.mass=30,40kg",
+        &"--shard",
+        &"2/2",
+        &"--out",
+        &out.path("x"),
+    ]);
+    shard.ends(2).says(&["there is no share 2 of 2"]);
+}

@@ -1,0 +1,269 @@
+//! Files of rows: shares, merging, continuing, threads, clusters.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::support::{Folder, jred, press_file};
+
+const STUDY: [&str; 4] = [
+    "--vary",
+    "slider.mass=30..60kg:7",
+    "--vary",
+    "segment.0.duration=0.3,0.4s",
+];
+
+/// A quick study into a file.
+fn study(folder: &Folder, name: &str, more: &[&str]) -> (i32, String) {
+    let path = folder.path(name);
+    let mut command = Command::new(env!("CARGO_BIN_EXE_jred"));
+    command
+        .arg("vary")
+        .arg(press_file())
+        .args(STUDY)
+        .args(["--steps", "64", "--motor", "sgmsh-*"]);
+    command
+        .args(more)
+        .arg("--out")
+        .arg(path)
+        .env("NO_COLOR", "1");
+    let output = command.output().unwrap();
+    let message = String::from_utf8(output.stderr).unwrap();
+    let words = message.split_whitespace().filter(|w| *w != "│");
+    (
+        output.status.code().unwrap(),
+        words.collect::<Vec<_>>().join(" "),
+    )
+}
+
+fn read(folder: &Folder, name: &str) -> String {
+    std::fs::read_to_string(folder.path(name)).unwrap()
+}
+
+/// Shares put together are the file of one run, byte by byte, in CSV and in JSON; missing and doubled rows are found.
+#[test]
+fn shares_merge_to_the_whole() {
+    for format in ["csv", "json"] {
+        let folder = Folder::new();
+        assert_eq!(study(&folder, "whole", &["--format", format]).0, 0);
+        let mut parts: Vec<PathBuf> = Vec::new();
+        for k in 0..3 {
+            let (name, shard) = (format!("part-{k}"), format!("{k}/3"));
+            assert_eq!(
+                study(&folder, &name, &["--format", format, "--shard", &shard]).0,
+                0
+            );
+            parts.push(folder.path(&name));
+        }
+        let out = folder.path("merged");
+        // In any order.
+        jred([&"merge", &out, &parts[2], &parts[0], &parts[1]]).ends(0);
+        assert_eq!(read(&folder, "merged"), read(&folder, "whole"));
+        assert_eq!(
+            read(&folder, "whole").lines().count(),
+            14 + if format == "csv" { 2 } else { 1 }
+        );
+
+        let again = folder.path("again");
+        jred([&"merge", &again, &parts[0], &parts[2]])
+            .ends(2)
+            .says(&["row 1 alone is missing"]);
+        jred([&"merge", &again, &parts[0], &parts[1], &parts[1], &parts[2]])
+            .ends(2)
+            .says(&["row 1 is there twice"]);
+        jred([&"merge", &out, &parts[0], &parts[1], &parts[2]])
+            .ends(2)
+            .says(&["exists already"]);
+        assert!(!again.exists() && !folder.path("again.part").exists());
+
+        // A share that was cut off in its last row.
+        let text = read(&folder, "part-1");
+        folder.file("part-1", &text[..text.len() - 9]);
+        jred([&"merge", &again, &parts[0], &parts[1], &parts[2]])
+            .ends(2)
+            .says(&["no whole row", "--resume"]);
+        folder.file(
+            "part-1",
+            text.lines()
+                .map(|l| format!("{l}\n"))
+                .take(3)
+                .collect::<String>(),
+        );
+        jred([&"merge", &again, &parts[0], &parts[1], &parts[2]])
+            .ends(2)
+            .says(&["is missing"]);
+    }
+}
+
+#[test]
+fn shares_of_other_studies_are_refused() {
+    let folder = Folder::new();
+    assert_eq!(study(&folder, "a", &["--shard", "0/2"]).0, 0);
+    assert_eq!(
+        study(&folder, "b", &["--shard", "1/2", "--gearbox", "npt0*"]).0,
+        0
+    );
+    let [a, b, out] = ["a", "b", "out"].map(|name| folder.path(name));
+    let run = jred([&"merge", &out, &a, &b]).ends(2);
+    run.says(&["do not belong together", "the catalogue", "the options"]);
+    let run = jred([&"merge", &out, &press_file()]).ends(2);
+    run.says(&["is not a file of rows"]);
+}
+
+/// Wherever a run was cut off, continuing it gives the file of an undisturbed run.
+#[test]
+fn a_run_that_was_cut_off_is_continued() {
+    let folder = Folder::new();
+    assert_eq!(study(&folder, "whole", &[]).0, 0);
+    let whole = read(&folder, "whole");
+    // Nothing yet, inside the header, after it, inside a row, at the end of a row, all.
+    let header = whole.find('\n').unwrap();
+    for length in [
+        0,
+        20,
+        header + 1,
+        header + 30,
+        whole.len() / 2,
+        whole.len() * 3 / 4,
+        whole.len() - 1,
+        whole.len(),
+    ] {
+        folder.file("cut", &whole[..length]);
+        let (code, message) = study(&folder, "cut", &["--resume"]);
+        if length == 20 {
+            // What is no header might be a file of somebody else's.
+            assert_eq!(code, 0, "{message}");
+        }
+        assert_eq!(code, 0, "{length}: {message}");
+        assert_eq!(read(&folder, "cut"), whole, "cut at {length}");
+    }
+    // A file that is not there yet is begun.
+    assert_eq!(study(&folder, "new", &["--resume"]).0, 0);
+    assert_eq!(read(&folder, "new"), whole);
+    // Without --resume nothing is overwritten.
+    let (code, message) = study(&folder, "new", &[]);
+    assert_eq!(code, 2);
+    assert!(
+        message.contains("exists already") && message.contains("--resume"),
+        "{message}"
+    );
+    // Another study is refused, the file stays.
+    let (code, message) = study(&folder, "new", &["--resume", "--rank", "margin"]);
+    assert_eq!(code, 2);
+    assert!(
+        message.contains("not the same are the options"),
+        "{message}"
+    );
+    let (code, message) = study(&folder, "new", &["--resume", "--shard", "0/2"]);
+    assert_eq!(code, 2);
+    assert!(message.contains("another share"), "{message}");
+    assert_eq!(read(&folder, "new"), whole);
+}
+
+/// The number of threads does not change a byte.
+#[test]
+fn rows_do_not_depend_on_threads() {
+    let folder = Folder::new();
+    assert_eq!(study(&folder, "many", &[]).0, 0);
+    let mut command = Command::new(env!("CARGO_BIN_EXE_jred"));
+    command
+        .arg("vary")
+        .arg(press_file())
+        .args(STUDY)
+        .args(["--steps", "64", "--motor", "sgmsh-*", "--out"]);
+    let status = command
+        .arg(folder.path("one"))
+        .env("RAYON_NUM_THREADS", "1")
+        .status()
+        .unwrap();
+    assert!(status.success());
+    assert_eq!(read(&folder, "one"), read(&folder, "many"));
+}
+
+/// `script` with the environment of task `index` of `count`.
+fn cluster(mut command: Command, folder: &Folder, environment: &[(&str, String)]) {
+    let binaries = Path::new(env!("CARGO_BIN_EXE_jred")).parent().unwrap();
+    let path = format!("{}:{}", binaries.display(), std::env::var("PATH").unwrap());
+    command
+        .current_dir(folder.path(""))
+        .env("PATH", path)
+        .env("MACHINE", press_file());
+    command.env("SLIDER", STUDY[1]).env("DURATION", STUDY[3]);
+    command.envs(
+        environment
+            .iter()
+            .map(|(name, value)| (*name, value.as_str())),
+    );
+    let output = command.output().unwrap();
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+}
+
+/// The scripts of machines/cluster, run as a cluster would run their tasks, merge to the file of one run.
+#[test]
+fn scripts_for_clusters() {
+    let scripts = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines/cluster");
+    let folder = Folder::new();
+    let whole = folder.path("whole.csv");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_jred"));
+    let status = command
+        .arg("vary")
+        .arg(press_file())
+        .args(STUDY)
+        .arg("--out")
+        .arg(&whole)
+        .status()
+        .unwrap();
+    assert!(status.success());
+    let whole = read(&folder, "whole.csv");
+
+    for index in 0..3 {
+        let mut command = Command::new("bash");
+        command.arg(scripts.join("vary.slurm.sh"));
+        let task = [
+            ("SLURM_ARRAY_TASK_ID", format!("{index}")),
+            ("SLURM_ARRAY_TASK_COUNT", "3".to_owned()),
+            ("SLURM_CPUS_PER_TASK", "1".to_owned()),
+            ("OUT", "slurm".to_owned()),
+        ];
+        cluster(command, &folder, &task);
+    }
+    let part = |name: &str, k: u32| folder.path(&format!("{name}.part-{k}.csv"));
+    jred([
+        &"merge",
+        &folder.path("slurm.csv"),
+        &part("slurm", 0),
+        &part("slurm", 1),
+        &part("slurm", 2),
+    ])
+    .ends(0);
+    assert_eq!(read(&folder, "slurm.csv"), whole);
+
+    let job = std::fs::read_to_string(scripts.join("vary.job.yaml")).unwrap();
+    assert!(job.contains("completionMode: Indexed"));
+    assert!(job.contains("command: [\"/bin/sh\", \"-euc\"]"));
+    let script: Vec<&str> = (job.lines().skip_while(|line| line.trim() != "- |").skip(1))
+        .map_while(|line| line.strip_prefix(&" ".repeat(14)))
+        .collect();
+    let script = script.join("\n");
+    assert!(script.contains("jred vary"), "{job}");
+    for index in 0..2 {
+        let mut command = Command::new("/bin/sh");
+        command.args(["-euc", &script]);
+        let task = [
+            ("JOB_COMPLETION_INDEX", format!("{index}")),
+            ("SHARDS", "2".to_owned()),
+        ];
+        cluster(command, &folder, &task);
+    }
+    jred([
+        &"merge",
+        &folder.path("job.csv"),
+        &part("press", 0),
+        &part("press", 1),
+    ])
+    .ends(0);
+    assert_eq!(read(&folder, "job.csv"), whole);
+}

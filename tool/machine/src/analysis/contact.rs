@@ -1,0 +1,173 @@
+//! What holds on one side only: a follower presses on its cam, a rope pulls. Where the motion asks for the opposite, the
+//! equations still have an answer, but the machine has come apart.
+
+use std::f64::consts::TAU;
+
+use jred::cam::{contact_force, lift_off};
+use jred::{Error, Machine, Mechanism as _};
+
+use crate::model::coordinate::{Coordinate, positions};
+use crate::model::machine::AnyMechanism;
+use crate::number::rounding::figure;
+
+/// A rope that is pushed with less than this (N) is slack: nothing but rounding.
+const ROUNDING: f64 = 1e-6;
+
+/// Positions at which a whole range is looked at.
+const SCANNED: usize = 1440;
+
+/// A joint that can let go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OneWay {
+    /// Index of the joint.
+    pub joint: usize,
+    /// Whether it is a rope, which pulls; else a cam's contact, which presses.
+    pub rope: bool,
+}
+
+/// A machine that has come apart: where, and what helps.
+#[derive(Clone, Debug)]
+pub struct Parted {
+    /// What lets go.
+    pub what: String,
+    /// Position and speed.
+    pub state: String,
+    /// The force that would be needed.
+    pub force: String,
+    /// What helps.
+    pub cure: String,
+}
+
+impl OneWay {
+    /// Those of a mechanism.
+    pub fn all(mechanism: &AnyMechanism) -> Vec<Self> {
+        let contacts = mechanism.contacts().iter().map(|contact| Self {
+            joint: contact.joint,
+            rope: false,
+        });
+        let ropes = mechanism
+            .ropes()
+            .iter()
+            .map(|&joint| Self { joint, rope: true });
+        contacts.chain(ropes).collect()
+    }
+
+    /// The force (N) of contact or rope at φ, ω, α; positive when it holds.
+    ///
+    /// # Errors
+    /// Those of [`contact_force`].
+    pub fn force(
+        self,
+        machine: &Machine<AnyMechanism>,
+        [phi, omega, alpha]: [f64; 3],
+    ) -> Result<f64, Error> {
+        contact_force(machine, self.joint, phi, omega, alpha)
+    }
+
+    /// What comes apart somewhere in the drive link's range at this speed and acceleration (rad/s, rad/s²; or m), in words for
+    /// a figure that is computed as if it did not.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub fn mind(
+        machine: &Machine<AnyMechanism>,
+        [omega, alpha]: [f64; 2],
+    ) -> Result<Option<String>, Error> {
+        for joint in Self::all(machine.mechanism()) {
+            let mut worst = (f64::INFINITY, 0.0);
+            for phi in positions(machine.mechanism().domain(), SCANNED) {
+                let force = joint.force(machine, [phi, omega, alpha])?;
+                if force < worst.0 {
+                    worst = (force, phi);
+                }
+            }
+            let (force, phi) = worst;
+            if !joint.holds(force) {
+                let parted = joint.parted(machine, [phi, omega], force)?;
+                return Ok(Some(format!(
+                    "mind: {} ({}): {}; the figures hold only if it is held by other means",
+                    parted.what, parted.state, parted.force
+                )));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Whether a joint with this force holds.
+    pub fn holds(self, force: f64) -> bool {
+        if self.rope {
+            force >= -ROUNDING
+        } else {
+            force > 0.0
+        }
+    }
+
+    /// Why it does not hold, at the state φ, ω with this force.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub fn parted(
+        self,
+        machine: &Machine<AnyMechanism>,
+        [phi, omega]: [f64; 2],
+        force: f64,
+    ) -> Result<Parted, Error> {
+        let mechanism = machine.mechanism();
+        let name = mechanism.joint_names().get(self.joint);
+        let coordinate = Coordinate::of(mechanism)?;
+        let state = match coordinate {
+            Coordinate::Length => format!("{}, {} m/s", coordinate.place(phi), figure(omega)),
+            Coordinate::Angle => {
+                let degrees = if self.rope { phi } else { phi.rem_euclid(TAU) }.to_degrees();
+                format!("φ = {degrees:.2}°, {} rpm", figure(omega * 60.0 / TAU))
+            }
+        };
+        if self.rope {
+            return Ok(Parted {
+                what: format!("the {} goes slack", name.map_or("rope", String::as_str)),
+                state,
+                force: format!(
+                    "it would have to push with {} N, and a rope can only pull",
+                    figure(-force)
+                ),
+                cure: "accelerate or brake more slowly, or hang more weight on this rope"
+                    .to_owned(),
+            });
+        }
+        let joint = match name {
+            Some(name) if name != "contact" => format!("joint \"{name}\": "),
+            _ => String::new(),
+        };
+        Ok(Parted {
+            what: format!("{joint}the follower leaves the cam"),
+            state,
+            force: format!("the contact force would be {} N", figure(force)),
+            cure: self.cam_cure(machine, coordinate, omega)?,
+        })
+    }
+
+    fn cam_cure(
+        self,
+        machine: &Machine<AnyMechanism>,
+        coordinate: Coordinate,
+        omega: f64,
+    ) -> Result<String, Error> {
+        const FORM: &str = "write closure = \"form\" for a grooved or conjugate cam, which holds the follower on both sides";
+        if coordinate == Coordinate::Length {
+            return Ok(format!(
+                "use a stiffer spring, more preload or a slower motion; {FORM}"
+            ));
+        }
+        let contacts = machine.mechanism().contacts();
+        let Some(contact) = contacts.iter().find(|c| c.joint == self.joint) else {
+            return Ok(FORM.to_owned());
+        };
+        let pieces = contact.pieces.iter().copied();
+        let limit = lift_off(machine, self.joint, pieces, omega)?;
+        let cure = limit.map_or_else(
+            || "it would not: accelerate more slowly, or add preload".to_owned(),
+            |limit| limit.to_string(),
+        );
+        Ok(format!("at constant speed: {cure}; {FORM}"))
+    }
+}

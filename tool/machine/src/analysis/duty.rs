@@ -1,0 +1,261 @@
+//! The duty: what one cycle of the motion asks of the drive, independent of any motor.
+
+use jred::{Domain, Error, Reducible as _, TorqueTerms};
+
+use crate::analysis::mechanics::Mechanics;
+use crate::model::coordinate;
+use crate::model::machine::MachineFile;
+use crate::model::motion::Motion;
+use crate::number::figures::Figures;
+
+/// One instant of the cycle. "Input" is the input shaft of the machine's fixed drive train: what a motor or the
+/// output of its gearbox is coupled to.
+#[derive(Clone, Copy, Debug)]
+pub struct Instant {
+    /// Time (s).
+    pub t: f64,
+    /// Weight in the integral over the cycle (s).
+    pub weight: f64,
+    /// φ of the drive link (rad), as the motion counts it.
+    pub phi: f64,
+    /// ω of the drive link (rad/s).
+    pub omega: f64,
+    /// α of the drive link (rad/s²).
+    pub alpha: f64,
+    /// J_red of the mechanism at the drive link, without drive train (kg·m²).
+    pub inertia: f64,
+    /// Torque at the drive link, term by term, without drive train (N·m).
+    pub terms: TorqueTerms,
+    /// Torque at the input (N·m), losses and inertia of the drive train included.
+    pub input_torque: f64,
+    /// Speed at the input (rad/s).
+    pub input_speed: f64,
+    /// Acceleration at the input (rad/s²).
+    pub input_alpha: f64,
+    /// J at the input: (J_red + drive train) reduced to it (kg·m²).
+    pub input_inertia: f64,
+}
+
+/// A cycle as a row of instants with integration weights.
+#[derive(Clone, Debug)]
+pub struct Duty {
+    /// The instants, in order of time.
+    pub instants: Vec<Instant>,
+    /// Length of the cycle (s).
+    pub duration: f64,
+    /// Largest torque (N·m) that holds the machine at the input, without losses and without the help of friction: against
+    /// the weight anywhere in the turn, and against weight and process loads where the motion stands still.
+    pub hold_torque: f64,
+    /// What the mechanical rules need to know.
+    pub mechanics: Mechanics,
+}
+
+/// Default number of time steps of a cycle.
+pub const STEPS: usize = 2000;
+
+/// The stretches of the motion, cut as well where the drive link passes an edge of a load's window: a load that acts for
+/// a moment only gets instants of its own.
+pub(crate) fn smooth_stretches(
+    file: &MachineFile,
+    motion: &Motion,
+    steps: usize,
+) -> Vec<(f64, f64)> {
+    use std::f64::consts::TAU;
+    let loads = file.machine.loads().iter();
+    let edges: Vec<f64> = loads
+        .filter_map(jred::Load::window)
+        .flat_map(|window| window.edges())
+        .collect();
+    // Which side of the edge the drive link is on; on a turn, after how many of its passages.
+    let turn = file.machine.domain() == Domain::Turn;
+    let turns = |t: f64, edge: f64| {
+        let beyond = motion.at(t).phi - edge;
+        if turn {
+            (beyond / TAU).floor() as i64
+        } else {
+            i64::from(beyond >= 0.0)
+        }
+    };
+    let mut stretches = Vec::new();
+    for (from, to) in motion.stretches() {
+        let n = ((steps as f64 * (to - from) / motion.duration()).ceil() as usize).max(16);
+        let mut cuts = Vec::new();
+        for k in 0..n {
+            let time = |k: usize| from + (to - from) * k as f64 / n as f64;
+            for &edge in &edges {
+                let (mut before, mut after) = (time(k), time(k + 1));
+                let start = turns(before, edge);
+                if start == turns(after, edge) {
+                    continue;
+                }
+                while after - before > 1e-13 * motion.duration() {
+                    let middle = 0.5 * (before + after);
+                    if turns(middle, edge) == start {
+                        before = middle;
+                    } else {
+                        after = middle;
+                    }
+                }
+                cuts.push(after);
+            }
+        }
+        cuts.sort_by(f64::total_cmp);
+        let shortest = 1e-9 * motion.duration();
+        let mut start = from;
+        for cut in cuts {
+            if cut - start > shortest && to - cut > shortest {
+                stretches.push((start, cut));
+                start = cut;
+            }
+        }
+        stretches.push((start, to));
+    }
+    stretches
+}
+
+/// Share of the largest input torque by which a peak between two instants may be missed.
+const PEAK_MISSED: f64 = 1e-5;
+
+/// Puts instants of no weight where the input torque bends sharply from index `first` on. Between instants at a distance h
+/// any peak stands out by at most T″·h²/8, whatever a motor's own inertia, which bends little, adds to it.
+fn refine_bends(
+    file: &MachineFile,
+    motion: &Motion,
+    first: usize,
+    instants: &mut Vec<Instant>,
+) -> Result<(), Error> {
+    const MOST_PARTS: f64 = 64.0;
+    let stretch = instants.get(first..).unwrap_or_default();
+    let torques = stretch.iter().map(|i| i.input_torque.abs());
+    let most = PEAK_MISSED * torques.fold(0.0, f64::max);
+    let mut fine = Vec::new();
+    for four in stretch.windows(4) {
+        let [a, b, c, d] = four else {
+            continue;
+        };
+        let bend = |x: &Instant, y: &Instant, z: &Instant| {
+            (x.input_torque - 2.0 * y.input_torque + z.input_torque).abs()
+        };
+        let missed = bend(a, b, c).max(bend(b, c, d)) / 8.0;
+        let parts = (missed / most).sqrt().ceil().min(MOST_PARTS) as u32;
+        for k in 1..parts {
+            let t = b.t + (c.t - b.t) * f64::from(k) / f64::from(parts);
+            fine.push(Instant::new(file, motion, t, 0.0)?);
+        }
+    }
+    instants.extend(fine);
+    if let Some(stretch) = instants.get_mut(first..) {
+        // Stable sorting takes half as much memory again.
+        stretch.sort_unstable_by(|a, b| a.t.total_cmp(&b.t));
+    }
+    Ok(())
+}
+
+impl Instant {
+    /// The machine at time `t` of its motion.
+    fn new(file: &MachineFile, motion: &Motion, t: f64, weight: f64) -> Result<Self, Error> {
+        let train = &file.drive_train;
+        let ratio = train.ratio();
+        let state = motion.at(t);
+        let reduction = file.bare_reduction(state.phi)?;
+        let inertia = reduction.inertia[0];
+        let terms = reduction.torque(state.omega, state.alpha);
+        let input = train.input(terms.total(), inertia, state.omega, state.alpha);
+        Ok(Self {
+            t,
+            weight,
+            phi: state.phi,
+            omega: state.omega,
+            alpha: state.alpha,
+            inertia,
+            terms,
+            input_torque: input.torque,
+            input_speed: state.omega * ratio,
+            input_alpha: state.alpha * ratio,
+            input_inertia: inertia / (ratio * ratio) + train.inertia_at_input(),
+        })
+    }
+}
+
+impl Duty {
+    /// Samples the machine's motion in about `steps` time steps. Each smooth stretch of the motion is cut into an
+    /// even number of equal steps with Simpson's weights; the ends of a stretch are taken from inside, so that a
+    /// jump of the acceleration belongs to both sides.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub fn new(file: &MachineFile, motion: &Motion, steps: usize) -> Result<Self, Error> {
+        const INSIDE: f64 = 1e-9;
+        let duration = motion.duration();
+        let mut instants = Vec::with_capacity(steps + 1024);
+        for (from, to) in smooth_stretches(file, motion, steps) {
+            let span = to - from;
+            let share = (steps as f64 * span / duration / 2.0).ceil().max(8.0);
+            let n = 2 * share as usize;
+            let step = span / n as f64;
+            let first = instants.len();
+            for k in 0..=n {
+                let weight = match k {
+                    _ if k == 0 || k == n => 1.0,
+                    _ if k % 2 == 1 => 4.0,
+                    _ => 2.0,
+                } * step
+                    / 3.0;
+                let place = (k as f64 / n as f64).clamp(INSIDE, 1.0 - INSIDE);
+                instants.push(Instant::new(file, motion, from + place * span, weight)?);
+            }
+            refine_bends(file, motion, first, &mut instants)?;
+        }
+        let ratio = file.drive_train.ratio();
+        let mut hold_torque = 0.0f64;
+        for phi in coordinate::positions(file.machine.domain(), 720) {
+            let slope = file.bare_reduction(phi)?.potential_energy[1];
+            hold_torque = hold_torque.max((slope / ratio).abs());
+        }
+        let at_rest = instants.iter().filter(|i| i.omega == 0.0);
+        let held = at_rest.map(|i| ((i.terms.potential + i.terms.process) / ratio).abs());
+        let hold_torque = held.fold(hold_torque, f64::max);
+        Ok(Self {
+            mechanics: Mechanics::new(file, &instants, duration, hold_torque),
+            instants,
+            duration,
+            hold_torque,
+        })
+    }
+
+    /// Integral of a quantity over the cycle.
+    pub fn integral(&self, quantity: impl Fn(&Instant) -> f64) -> f64 {
+        self.integral_of(self.instants.iter().map(quantity))
+    }
+
+    /// Integral of the values of a quantity, one for each instant.
+    pub fn integral_of(&self, values: impl Iterator<Item = f64>) -> f64 {
+        let weighted = self.instants.iter().zip(values);
+        weighted
+            .map(|(instant, value)| instant.weight * value)
+            .sum()
+    }
+
+    /// Extremes, mean and RMS of a quantity.
+    pub fn figures(&self, quantity: impl Fn(&Instant) -> f64) -> Figures {
+        self.figures_of(self.instants.iter().map(quantity))
+    }
+
+    /// Extremes, mean and RMS of the values of a quantity, one for each instant.
+    pub fn figures_of(&self, values: impl Iterator<Item = f64>) -> Figures {
+        let (mut min, mut max) = (f64::INFINITY, f64::NEG_INFINITY);
+        let (mut sum, mut squares) = (0.0, 0.0);
+        for (instant, value) in self.instants.iter().zip(values) {
+            min = min.min(value);
+            max = max.max(value);
+            sum += instant.weight * value;
+            squares += instant.weight * value * value;
+        }
+        Figures {
+            min,
+            mean: sum / self.duration,
+            max,
+            rms: (squares / self.duration).sqrt(),
+        }
+    }
+}

@@ -1,0 +1,397 @@
+//! `jred check`: is this mechanism what it is meant to be, and is it far enough from its dead points?
+//!
+//! Limits of the transmission index (see `inspect/transmission.rs`): the classical rule keeps the transmission angle above
+//! 40° (H. Alt, *Der Übertragungswinkel und seine Bedeutung für das Konstruieren periodischer Getriebe*, Werkstattstechnik
+//! 26, 1932; S. S. Balli and S. Chand, *Transmission angle in mechanisms*, Mechanism and Machine Theory 37, 2002), which is
+//! an index of 0.643. Below 0.3, an angle of 17.5°, forces and play are more than three times those at 90°: the mechanism is
+//! near a dead point, and the check fails.
+
+use jred::cam::lift_off;
+use jred::joint::Joints;
+use jred::mechanism::Frames;
+use jred::{Body, Domain, Error, Frame, Joint, Jointed as _, Mechanism as _};
+use serde::Serialize;
+
+use crate::model::coordinate::{Coordinate, whole_range};
+use crate::model::machine::{AnyMechanism, Fact, MachineFile};
+use crate::number::numerics;
+use crate::number::rounding::short;
+
+mod agreement;
+mod centres;
+mod transmission;
+
+pub use agreement::{Agreement, Inertia};
+pub use centres::Travel;
+use transmission::{Index, Structure};
+
+/// Below this index a mechanism is near a dead point.
+pub const NEAR_DEAD_POINT: f64 = 0.3;
+
+/// sin 40°: below it the transmission is poorer than textbooks recommend.
+pub const RECOMMENDED: f64 = 0.642_787_609_686_539_3;
+
+/// An index that changes by less is constant.
+const CONSTANT: f64 = 1e-9;
+
+/// How far the links' speeds may be off after a turn, as a share of the mechanism's size (or of the drive's speed).
+const CLOSED: f64 = 1e-9;
+
+/// How far the two ways to the drive torque may be apart, as a share of its largest term.
+const AGREED: f64 = 1e-10;
+
+/// How far work and energy may be apart, as a share of the energy that the drive moves.
+const BALANCED: f64 = 1e-9;
+
+/// One joint.
+#[derive(Clone, Debug, Serialize)]
+pub struct JointFinding {
+    /// Its name.
+    pub name: String,
+    /// Pin, guide, and so on.
+    pub kind: &'static str,
+    /// The two bodies: the first acts on the second.
+    pub bodies: [String; 2],
+    /// Freedoms that it takes.
+    pub constraints: usize,
+    /// Whether the drive moves it.
+    pub driven: bool,
+}
+
+/// The smallest transmission index.
+#[derive(Clone, Debug, Serialize)]
+pub struct Transmission {
+    /// The index, 0 (dead point) to 1.
+    pub index: f64,
+    /// The transmission angle of a dyad with this index (deg); none of a contact or a mesh.
+    #[serde(rename = "angle [deg]")]
+    pub angle: Option<f64>,
+    /// Position of the drive link (rad or m); none where the index is the same everywhere.
+    pub at: Option<f64>,
+    /// The links of the group.
+    pub links: Vec<String>,
+    /// Whether every group keeps the sign of its determinant, and so its branch.
+    pub branch_kept: bool,
+}
+
+impl Transmission {
+    /// Where the index is smallest, in words.
+    pub fn place(&self, coordinate: Coordinate) -> String {
+        self.at.map_or_else(
+            || "everywhere".to_owned(),
+            |at| format!("at {}", coordinate.place(at)),
+        )
+    }
+}
+
+/// What the check found.
+#[derive(Clone, Debug)]
+pub struct Findings {
+    /// Title of the machine file.
+    pub title: String,
+    /// Type of the mechanism.
+    pub kind: &'static str,
+    /// Whether the drive link turns or slides.
+    pub coordinate: Coordinate,
+    /// Range of the drive link.
+    pub domain: Domain,
+    /// Number of its links.
+    pub links: usize,
+    /// Its joints.
+    pub joints: Vec<JointFinding>,
+    /// How far the links' speeds are off after a turn; `None` of a stroke.
+    pub closure: Option<f64>,
+    /// Where its links travel.
+    pub travels: Vec<Travel>,
+    /// The smallest transmission index; `None` without a group of links.
+    pub transmission: Option<Transmission>,
+    /// Its inertia.
+    pub inertia: Inertia,
+    /// How far the methods agree.
+    pub agreement: Agreement,
+    /// Figures of its kind.
+    pub facts: Vec<Fact>,
+    /// Remarks.
+    pub notes: Vec<String>,
+}
+
+impl Findings {
+    /// Checks the machine.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed somewhere in its range.
+    pub fn of(file: &MachineFile) -> Result<Self, Error> {
+        let mechanism = file.machine.mechanism();
+        let domain = mechanism.domain();
+        let start = domain.position(0.0);
+        let frames = mechanism.frames(start)?;
+        let joints = mechanism.joints(start, &frames)?;
+        Ok(Self {
+            title: file.title.clone(),
+            kind: mechanism.kind(),
+            coordinate: Coordinate::of(mechanism)?,
+            domain,
+            links: mechanism.links().len(),
+            joints: joint_findings(mechanism, &joints),
+            closure: closure(mechanism)?,
+            travels: centres::travels(mechanism)?,
+            transmission: transmission(file)?,
+            inertia: agreement::inertia(file)?,
+            agreement: agreement::agreement(file)?,
+            facts: facts(file)?,
+            notes: crate::model::variator::integrability_text(file)
+                .into_iter()
+                .collect(),
+        })
+    }
+
+    /// Degrees of freedom: 3·n − constraints.
+    pub fn freedoms(&self) -> i64 {
+        3 * self.links as i64 - self.constraints() as i64
+    }
+
+    /// Freedoms that the joints take.
+    pub fn constraints(&self) -> usize {
+        self.joints.iter().map(|joint| joint.constraints).sum()
+    }
+
+    /// The rules that are violated, in words.
+    pub fn violations(&self) -> Vec<String> {
+        let mut violations = Vec::new();
+        if self.freedoms() != 1 {
+            violations.push(format!(
+                "{} degrees of freedom instead of one",
+                self.freedoms()
+            ));
+        }
+        if let Some(gap) = self.closure.filter(|gap| *gap > CLOSED) {
+            violations.push(format!("the mechanism does not close: after a turn the speeds of its links are {gap:.1e} off"));
+        }
+        if let Some(transmission) = &self.transmission {
+            if transmission.index < NEAR_DEAD_POINT {
+                violations.push(format!(
+                    "too near a dead point: transmission index {} {}, at least {NEAR_DEAD_POINT} is asked for",
+                    short(transmission.index),
+                    transmission.place(self.coordinate)
+                ));
+            }
+            if !transmission.branch_kept {
+                violations
+                    .push("the mechanism changes its branch: it passes a dead point".to_owned());
+            }
+        }
+        if self.agreement.dalembert > AGREED {
+            violations.push(format!(
+                "drive torque by d'Alembert and by reduction are {:.1e} apart",
+                self.agreement.dalembert
+            ));
+        }
+        if let Some(off) = self.agreement.energy.filter(|off| *off > BALANCED) {
+            violations.push(format!(
+                "work and energy over the motion are {off:.1e} of what the drive moves apart"
+            ));
+        }
+        violations
+    }
+
+    /// Whether every rule holds.
+    pub fn holds(&self) -> bool {
+        self.violations().is_empty()
+    }
+}
+
+/// The figures of the mechanism's kind, and the speeds at which its followers leave their cams.
+fn facts(file: &MachineFile) -> Result<Vec<Fact>, Error> {
+    let mechanism = file.machine.mechanism();
+    let mut facts = mechanism.facts().to_vec();
+    if Coordinate::of(mechanism)? == Coordinate::Length {
+        return Ok(facts);
+    }
+    // The way the motion goes; a cam that swings has the limit of its way forward.
+    let direction = file.motion.as_ref().map_or(1.0, |motion| {
+        motion.at(motion.duration()).phi - motion.at(0.0).phi
+    });
+    for contact in mechanism.contacts() {
+        let name = mechanism.joint_names().get(contact.joint);
+        let joint = match name {
+            Some(name) if name != "contact" => format!("joint \"{name}\": "),
+            _ => String::new(),
+        };
+        let pieces = contact.pieces.iter().copied();
+        let text = match lift_off(&file.machine, contact.joint, pieces, direction)? {
+            None => "none: it holds at any constant speed".to_owned(),
+            Some(limit) => format!(
+                "{} rpm at {}",
+                short(limit.omega * 60.0 / std::f64::consts::TAU),
+                Coordinate::Angle.place(limit.phi)
+            ),
+        };
+        facts.push(Fact {
+            label: format!("{joint}constant speed at which the follower lifts off"),
+            text,
+        });
+    }
+    Ok(facts)
+}
+
+fn body_name(mechanism: &AnyMechanism, body: Body) -> String {
+    match body {
+        Body::Ground => "ground".to_owned(),
+        Body::Link(k) => mechanism.link_names().get(k).cloned().unwrap_or_default(),
+    }
+}
+
+fn joint_findings(mechanism: &AnyMechanism, joints: &[Joint]) -> Vec<JointFinding> {
+    let names = mechanism.joint_names();
+    let finding = |(k, joint): (usize, &Joint)| JointFinding {
+        name: names
+            .get(k)
+            .cloned()
+            .unwrap_or_else(|| format!("joint {k}")),
+        kind: match joint {
+            Joint::Revolute(_) => "pin",
+            Joint::Prismatic(_) => "guide",
+            Joint::Fixed(_) => "rigid",
+            Joint::PinInSlot(_) => "pin in slot",
+            Joint::Transmission(_) => "transmission",
+        },
+        bodies: joint.bodies().map(|body| body_name(mechanism, body)),
+        constraints: joint.constraints(),
+        driven: k == mechanism.drive(),
+    };
+    joints.iter().enumerate().map(finding).collect()
+}
+
+/// The size of a mechanism: the largest distance between two of its joints (m).
+fn size(joints: &[Joint], frames: &Frames) -> f64 {
+    let points: Vec<[f64; 2]> = joints
+        .iter()
+        .flat_map(|joint| points(joint, frames))
+        .collect();
+    let mut most = 0.0f64;
+    for a in &points {
+        for b in &points {
+            most = most.max((a[0] - b[0]).hypot(a[1] - b[1]));
+        }
+    }
+    if most > 0.0 { most } else { 1.0 }
+}
+
+/// The points of a joint.
+fn points(joint: &Joint, frames: &Frames) -> Vec<[f64; 2]> {
+    match joint {
+        Joint::Revolute(m) | Joint::Prismatic(m) | Joint::Fixed(m) | Joint::PinInSlot(m) => {
+            let of = |m: &jred::Marker| m.position(frames).map(|c| c.value);
+            m.iter().map(of).collect()
+        }
+        Joint::Transmission(_) => Vec::new(),
+    }
+}
+
+/// How far the speeds of the links are from what they were a turn before: |r_c′| by the size of the mechanism, ψ′. Positions
+/// may go on, as those of a rack, a nut or a planet do, but then the reduced curves still repeat.
+fn closure(mechanism: &AnyMechanism) -> Result<Option<f64>, Error> {
+    use std::f64::consts::TAU;
+    if mechanism.domain() != Domain::Turn {
+        return Ok(None);
+    }
+    let mut most = 0.0f64;
+    for k in 0..8 {
+        let phi = TAU * f64::from(k) / 8.0;
+        let (now, later) = (mechanism.frames(phi)?, mechanism.frames(phi + TAU)?);
+        let length = size(&mechanism.joints(phi, &now)?, &now);
+        for ((a, b), link) in now.iter().zip(&later).zip(mechanism.links()) {
+            let speed = |frame: &Frame| {
+                let [x, y] = frame.point(link.com());
+                x.d1.hypot(y.d1)
+            };
+            most = most.max((speed(b) - speed(a)).abs() / length);
+            most = most.max((b.psi.d1 - a.psi.d1).abs() / a.psi.d1.abs().max(1.0));
+        }
+    }
+    Ok(Some(most))
+}
+
+/// The smallest index over the motion, or over the whole range without one.
+fn transmission(file: &MachineFile) -> Result<Option<Transmission>, Error> {
+    const STEPS: usize = 1440;
+    const SAMPLES: usize = 24;
+    let mechanism = file.machine.mechanism();
+    let drive = mechanism.drive();
+    let start = mechanism.domain().position(0.0);
+    let joints = mechanism.joints(start, &mechanism.frames(start)?)?;
+    let placed = |phi: f64| -> Result<(Joints, Frames, f64), Error> {
+        let frames = mechanism.frames(phi)?;
+        let joints = mechanism.joints(phi, &frames)?;
+        let length = size(&joints, &frames);
+        Ok((joints, frames, length))
+    };
+    let samples = whole_range(mechanism.domain(), SAMPLES)
+        .map(placed)
+        .collect::<Result<Vec<_>, Error>>()?;
+    let structure = Structure::new(&joints, drive, mechanism.links().len(), &samples);
+    let at = |phi: f64| -> Result<Vec<Index>, Error> {
+        let (joints, frames, length) = placed(phi)?;
+        Ok(structure.indices(&joints, &frames, length))
+    };
+    let places: Vec<f64> = match &file.motion {
+        Some(motion) => (0..=STEPS)
+            .map(|k| motion.at(motion.duration() * k as f64 / STEPS as f64).phi)
+            .collect(),
+        None => whole_range(mechanism.domain(), STEPS).collect(),
+    };
+    let values = places
+        .iter()
+        .map(|&phi| at(phi))
+        .collect::<Result<Vec<_>, Error>>()?;
+    let mut worst: Option<(f64, usize, usize)> = None;
+    let mut branch_kept = true;
+    for (k, row) in values.iter().enumerate() {
+        for (block, index) in row.iter().enumerate() {
+            if worst.is_none_or(|(least, ..)| index.value.abs() < least) {
+                worst = Some((index.value.abs(), k, block));
+            }
+            let first = values.first().and_then(|first| first.get(block));
+            let same = first.is_some_and(|first| first.value * index.value > 0.0);
+            branch_kept &= !index.bilateral || same;
+        }
+    }
+    let Some((_, k, block)) = worst else {
+        return Ok(None);
+    };
+    let [low, high] = [places[k.saturating_sub(1)], places[(k + 1).min(STEPS)]];
+    let index = |phi: f64| -> Result<f64, Error> {
+        Ok(at(phi)?.get(block).map_or(1.0, |index| index.value.abs()))
+    };
+    let middle = numerics::least(index, low, high)?;
+    let (phi, least) = if index(middle)? < index(places[k])? {
+        (middle, index(middle)?)
+    } else {
+        (places[k], index(places[k])?)
+    };
+    let names = mechanism.link_names();
+    let here = values[k].get(block).copied();
+    let group = here.map_or(0, |index| index.group);
+    let most = values
+        .iter()
+        .filter_map(|row| Some(row.get(block)?.value.abs()))
+        .fold(0.0, f64::max);
+    let shown = if mechanism.domain() == Domain::Turn {
+        phi.rem_euclid(std::f64::consts::TAU)
+    } else {
+        phi
+    };
+    let links = structure.links(group);
+    Ok(Some(Transmission {
+        index: least,
+        angle: here
+            .is_some_and(|index| index.bilateral)
+            .then(|| least.min(1.0).asin().to_degrees()),
+        at: (most - least > CONSTANT).then_some(shown),
+        links: links
+            .iter()
+            .filter_map(|&k| names.get(k).cloned())
+            .collect(),
+        branch_kept,
+    }))
+}

@@ -1,0 +1,98 @@
+//! What the mechanical rules need to know of machine and motion. It does not depend on the drive and is worked out once.
+
+use jred::{Domain, Mechanism as _, Reducible as _};
+
+use crate::analysis::duty::Instant;
+use crate::model::machine::MachineFile;
+use crate::model::site::ToolPlace;
+
+mod moves;
+mod stop;
+
+pub use stop::{Braking, Stop};
+
+/// Figures of machine and motion at the input of the drive train, that is at the gearbox output.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mechanics {
+    /// Moves in a cycle: from rest to rest, where a reversal counts as rest. At least one where the drive link accelerates.
+    pub moves: u32,
+    /// Moves per second.
+    pub move_rate: f64,
+    /// Highest frequency with which the motion excites the machine (Hz): that of a turning drive link at its largest speed, or
+    /// one over the time of the shortest move, whichever is higher.
+    pub drive_frequency: f64,
+    /// Largest torque at rest (N·m), at which the machine would begin to move on: the friction of the drive train may point
+    /// either way.
+    pub holding: f64,
+    /// Largest torque of weight, springs and friction over the motion (N·m), where they resist it and where they drive it:
+    /// without acceleration and process loads.
+    pub constant: [f64; 2],
+    /// States from which an emergency stop may begin.
+    pub stop: Stop,
+    /// Drive ratio: speed at the input over that of the drive link, without sign.
+    pub train_ratio: f64,
+    /// Largest |x′| of the tool over the motion, per rad (or m) of the drive link; `None` without a tool.
+    pub tool_slope: Option<f64>,
+}
+
+impl Mechanics {
+    /// The figures of a motion.
+    pub fn new(file: &MachineFile, instants: &[Instant], duration: f64, hold_torque: f64) -> Self {
+        let ratio = file.drive_train.ratio().abs();
+        let efficiency = file.drive_train.efficiency();
+        let moves = moves::Moves::of(
+            instants,
+            duration,
+            file.motion.as_ref().is_some_and(|m| m.cyclic),
+        );
+        let speed = instants.iter().map(|i| i.omega.abs()).fold(0.0, f64::max);
+        let turning = match file.machine.domain() {
+            Domain::Turn => speed / std::f64::consts::TAU,
+            Domain::Stroke { .. } => 0.0,
+        };
+        let accelerates = instants.iter().any(|i| i.alpha != 0.0);
+        let count = moves.count.max(u32::from(accelerates));
+        let shortest = moves.shortest.map_or(0.0, |time| 1.0 / time);
+        let mut constant = [0.0f64; 2];
+        for instant in instants.iter().filter(|i| i.omega != 0.0) {
+            let terms = &instant.terms;
+            let torque = terms.potential + terms.viscous + terms.coulomb;
+            let resisting = torque * instant.omega.signum() / ratio;
+            let [most, driving] = &mut constant;
+            *most = most.max(resisting / efficiency);
+            *driving = driving.max(-resisting * efficiency);
+        }
+        Self {
+            moves: count,
+            move_rate: f64::from(count) / duration,
+            drive_frequency: turning.max(shortest),
+            holding: hold_torque / efficiency,
+            constant,
+            stop: Stop::of(instants, ratio),
+            train_ratio: ratio,
+            tool_slope: tool_slope(file, instants),
+        }
+    }
+}
+
+/// The largest |x′| of the tool, or |ψ′| of a tool that turns. A position in which the mechanism cannot be placed was refused
+/// before.
+fn tool_slope(file: &MachineFile, instants: &[Instant]) -> Option<f64> {
+    let tool = file.site.tool.as_ref()?;
+    let mechanism = file.machine.mechanism();
+    let slope = |instant: &Instant| {
+        let frames = mechanism.frames(instant.phi).ok()?;
+        let frame = frames.get(tool.link)?;
+        Some(match tool.place {
+            ToolPlace::Point(at) => {
+                let [x, y] = frame.point(at);
+                x.d1.hypot(y.d1)
+            }
+            ToolPlace::Turning => frame.psi.d1.abs(),
+        })
+    };
+    instants
+        .iter()
+        .map(slope)
+        .try_fold(0.0, |most, slope| Some(f64::max(most, slope?)))
+}

@@ -1,0 +1,105 @@
+//! The emergency stop: what torque the gearbox carries while the motor brakes as hard as it can.
+//!
+//! The motor brakes with T_S against the motion, friction of motor and gearbox with T_F. Its own side, J_1 = J_M + J_G at
+//! the motor shaft, takes a part of that; the rest goes through the gearbox. With J the inertia at the gearbox output, d the
+//! torque with which the machine drives itself on there (weight, ½·J′·ω², process loads, less friction), a the deceleration,
+//! and τ the torque through the gearbox, where the power flows back to the motor:
+//!
+//! ```text
+//! machine   τ = J·a + d
+//! motor     T_S + T_F = τ·η_back/i + J_1·i·a
+//! so        τ = i·((T_S + T_F)·J + J_1·i·d)/(J_1·i² + η_back·J)
+//! ```
+//!
+//! For given J and d the position of the machine is settled; of all positions of the motion, each at the motion's speed and
+//! at standstill, the worst is taken. Between those two speeds d is a convex or a falling function of the speed, so
+//! nothing lies beyond. Losses of the drive train, which would help to brake, are left out.
+
+use crate::analysis::duty::Instant;
+
+/// States (J, d) from which a stop may begin: the upper hull of all, J rising. τ is a quotient of two linear functions of J and
+/// d that rises with d, so its maximum lies on that hull and nothing but it on the way along.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Stop {
+    hull: Vec<[f64; 2]>,
+}
+
+/// The motor's side of a stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Braking {
+    /// Braking torque of motor and friction at the motor shaft (N·m).
+    pub torque: f64,
+    /// Inertia of rotor and gearbox at the motor shaft (kg·m²).
+    pub inertia: f64,
+    /// Ratio of the gearbox.
+    pub ratio: f64,
+    /// Factor of the torque that flows back through the gearbox.
+    pub back_efficiency: f64,
+}
+
+impl Braking {
+    /// Torque through the gearbox at its output (N·m). Infinite where the gearbox locks: rigid bodies then stop at once.
+    pub fn torque_at(&self, [inertia, driving]: [f64; 2]) -> f64 {
+        let own = self.inertia * self.ratio;
+        let below = own * self.ratio + self.back_efficiency * inertia;
+        if below > 0.0 {
+            self.ratio * (self.torque * inertia + own * driving) / below
+        } else {
+            f64::INFINITY
+        }
+    }
+}
+
+impl Stop {
+    /// The states of a motion whose drive train has this ratio (without sign).
+    pub(super) fn of(instants: &[Instant], ratio: f64) -> Self {
+        let moving = instants.iter().filter(|i| i.omega != 0.0);
+        let states = moving.flat_map(|instant| {
+            let terms = &instant.terms;
+            let slow = terms.potential + terms.process + terms.coulomb;
+            let fast = slow + terms.velocity + terms.viscous;
+            let driving = |torque: f64| -torque * instant.omega.signum() / ratio;
+            [slow, fast].map(|torque| [instant.input_inertia, driving(torque)])
+        });
+        Self::among(states.collect())
+    }
+
+    /// The upper hull of states [J (kg·m²), d (N·m)].
+    pub fn among(mut states: Vec<[f64; 2]>) -> Self {
+        states.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+        let mut hull: Vec<[f64; 2]> = Vec::new();
+        for point in states {
+            while let [.., a, b] = hull.as_slice() {
+                let turn = (b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0]);
+                if turn < 0.0 {
+                    break;
+                }
+                hull.pop();
+            }
+            if let [single] = hull.as_slice()
+                && single[0] >= point[0]
+            {
+                hull.pop();
+            }
+            hull.push(point);
+        }
+        Self { hull }
+    }
+
+    /// Largest torque through the gearbox at its output (N·m), and the inertia (kg·m²) at which it occurs; `None` where nothing
+    /// ever moves.
+    pub fn worst(&self, braking: &Braking) -> Option<[f64; 2]> {
+        let at = |k: usize| self.hull.get(k).map(|state| braking.torque_at(*state));
+        // Unimodal along the hull: the first state from which it no longer rises.
+        let (mut low, mut high) = (0, self.hull.len().checked_sub(1)?);
+        while low < high {
+            let middle = usize::midpoint(low, high);
+            if at(middle + 1) > at(middle) {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
+        }
+        Some([at(low)?, self.hull.get(low)?[0]])
+    }
+}

@@ -1,0 +1,8 @@
+//! What follows from a machine and its motion, without any drive.
+
+pub mod contact;
+pub mod duty;
+pub mod inspect;
+pub mod mechanics;
+pub mod reduce;
+pub mod simulate;

@@ -1,0 +1,228 @@
+//! `jred reduce`: the reduced link over a turn or a stroke, the motion of every point and link, the force in every joint,
+//! and what the file's motion asks of the drive.
+
+use jred::mechanism::Frames;
+use jred::motion::State;
+use jred::{Domain, Error, Machine, Mechanism as _, Reducible as _};
+
+use crate::model::coordinate::{Coordinate, positions};
+use crate::model::machine::{AnyMechanism, MachineFile};
+use crate::model::motion::Motion;
+use crate::number::columns::Columns;
+
+mod curves;
+mod energy;
+mod largest;
+mod points;
+mod reactions;
+
+pub use largest::{Largest, largest};
+
+crate::words! {
+    /// What the rows run over.
+    pub enum Over default Angle {
+        /// Equal steps of the drive link's angle over one turn, or of its position over its stroke.
+        Angle = "angle",
+        /// Equal steps of time over the motion.
+        Time = "time",
+    }
+}
+
+/// Which columns there are beside the position.
+#[derive(Clone, Copy, Debug, Default)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each set is there or not, whatever the others"
+)]
+pub struct Sets {
+    /// The reduced link and the motion's drive torque.
+    pub curves: bool,
+    /// Each link's share of J_red, with the curves.
+    pub links: bool,
+    /// Points and links: positions, transfer functions, velocities and accelerations.
+    pub points: bool,
+    /// Forces by d'Alembert's principle.
+    pub reactions: bool,
+    /// Energies and generalised forces.
+    pub energy: bool,
+}
+
+/// What to compute.
+#[derive(Clone, Copy, Debug)]
+pub struct Request {
+    /// What the rows run over.
+    pub over: Over,
+    /// Number of rows.
+    pub positions: usize,
+    /// Which columns.
+    pub sets: Sets,
+    /// Speed and acceleration of the drive link at every position instead of those of the motion (rad/s, rad/s², or m/s,
+    /// m/s²).
+    pub state: Option<[f64; 2]>,
+}
+
+/// One row: where the machine is, and how it moves there, if that is known.
+struct Place {
+    phi: f64,
+    frames: Frames,
+    state: Option<State<f64>>,
+}
+
+/// What the columns are made from.
+struct Source<'f> {
+    file: &'f MachineFile,
+    /// The machine with its drive train.
+    machine: Machine<AnyMechanism>,
+    coordinate: Coordinate,
+}
+
+/// Columns that belong together.
+trait Set {
+    /// Their names.
+    fn names(&self, source: &Source) -> Vec<String>;
+
+    /// Their values, as many as names.
+    fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error>;
+}
+
+/// The columns asked for, at every position.
+///
+/// # Errors
+/// Those of the machine.
+pub fn reduce(file: &MachineFile, request: &Request) -> Result<Columns, Error> {
+    let source = Source {
+        file,
+        machine: file.with_drive_train()?,
+        coordinate: Coordinate::of(file.machine.mechanism())?,
+    };
+    let moves = file.motion.is_some() || request.state.is_some();
+    let in_time = request.over == Over::Time || request.state.is_some();
+    let Sets {
+        curves,
+        links,
+        points,
+        reactions,
+        energy,
+    } = request.sets;
+    let mut sets: Vec<Box<dyn Set>> = Vec::new();
+    if curves {
+        sets.push(Box::new(curves::Curves { links, moves }));
+    } else if moves {
+        sets.push(Box::new(curves::Motion));
+    }
+    if points {
+        sets.push(Box::new(points::Points { in_time }));
+    }
+    if reactions {
+        sets.push(Box::new(reactions::Reactions::new(&source)?));
+    }
+    if energy {
+        sets.push(Box::new(energy::Energy));
+    }
+    let mut names = match request.over {
+        Over::Angle => vec![],
+        Over::Time => vec!["t [s]".to_owned()],
+    };
+    names.push(source.coordinate.column().to_owned());
+    names.extend(sets.iter().flat_map(|set| set.names(&source)));
+    let mut columns = Columns::new(names);
+    for (time, phi, state) in rows(file, request) {
+        let place = Place {
+            phi,
+            frames: source.machine.mechanism().frames(phi)?,
+            state,
+        };
+        let mut row: Vec<Option<f64>> = time.into_iter().map(Some).collect();
+        row.push(Some(source.coordinate.shown(phi)));
+        for set in &sets {
+            row.extend(set.values(&source, &place)?);
+        }
+        columns.push(row);
+    }
+    Ok(columns)
+}
+
+/// Time (over time only), position and state of every row.
+fn rows(file: &MachineFile, request: &Request) -> Vec<(Option<f64>, f64, Option<State<f64>>)> {
+    if let (Over::Time, Some(motion)) = (request.over, &file.motion) {
+        let last = (request.positions - 1).max(1) as f64;
+        let row = |k: usize| {
+            let t = motion.duration() * k as f64 / last;
+            let state = motion.at(t);
+            (Some(t), state.phi, Some(state))
+        };
+        return (0..request.positions).map(row).collect();
+    }
+    let domain = file.machine.domain();
+    let pass = match &file.motion {
+        Some(motion) if request.state.is_none() => Pass::of(motion, domain),
+        _ => None,
+    };
+    let state = |phi| match request.state {
+        Some([omega, alpha]) => Some(State { phi, omega, alpha }),
+        None => pass.as_ref()?.at(phi),
+    };
+    positions(domain, request.positions)
+        .map(|phi| (None, phi, state(phi)))
+        .collect()
+}
+
+/// A motion that passes every position at most once: it goes one way, through exactly one turn or within the stroke.
+/// Dwells count once, at rest.
+struct Pass<'m> {
+    motion: &'m Motion,
+    start: f64,
+    way: f64,
+    length: f64,
+    turn: bool,
+}
+
+impl<'m> Pass<'m> {
+    fn of(motion: &'m Motion, domain: Domain) -> Option<Self> {
+        let (start, end) = (motion.at(0.0).phi, motion.at(motion.duration()).phi);
+        let way = (end - start).signum();
+        let length = (end - start).abs();
+        let turn = domain == Domain::Turn;
+        let one_turn = !turn || (length - domain.span()).abs() < 1e-9;
+        let one_way = (0..=1000).all(|k| {
+            let t = motion.duration() * f64::from(k) / 1000.0;
+            motion.at(t).omega * way >= -1e-12
+        });
+        (one_turn && one_way).then_some(Self {
+            motion,
+            start,
+            way,
+            length,
+            turn,
+        })
+    }
+
+    /// The motion's state where it passes the position `phi`, for a turn modulo 2π.
+    fn at(&self, phi: f64) -> Option<State<f64>> {
+        let motion = self.motion;
+        let ahead = (phi - self.start) * self.way;
+        let distance = if self.turn {
+            ahead.rem_euclid(std::f64::consts::TAU)
+        } else {
+            ahead
+        };
+        // The ends of a stroke are positions as well; a rounding must not cost them.
+        let slack = 1e-12 * self.length;
+        if !self.turn && !(-slack..=self.length + slack).contains(&distance) {
+            return None;
+        }
+        let (mut early, mut late) = (0.0, motion.duration());
+        for _ in 0..60 {
+            let middle = 0.5 * (early + late);
+            if (motion.at(middle).phi - self.start) * self.way < distance {
+                early = middle;
+            } else {
+                late = middle;
+            }
+        }
+        Some(State {
+            phi,
+            ..motion.at(late)
+        })
+    }
+}

@@ -1,0 +1,109 @@
+//! The reduced link and the motion's drive torque as columns.
+
+use jred::{Error, Reducible as _, TorqueTerms};
+
+use super::{Place, Set, Source};
+use crate::model::coordinate::Coordinate;
+
+/// J_red with its derivatives, the parts of the reduced torque, and the drive torque of the motion.
+pub(super) struct Curves {
+    /// Each link's share of J_red.
+    pub(super) links: bool,
+    /// Whether there is a motion.
+    pub(super) moves: bool,
+}
+
+/// Speed and acceleration alone.
+pub(super) struct Motion;
+
+impl Set for Motion {
+    fn names(&self, source: &Source) -> Vec<String> {
+        source.coordinate.rates().map(String::from).to_vec()
+    }
+
+    fn values(&self, _: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
+        let rates = place.state.map(|s| [s.omega, s.alpha]);
+        Ok(vec![rates.map(|r| r[0]), rates.map(|r| r[1])])
+    }
+}
+
+/// The columns of the reduced link, drive train and flywheel included.
+fn curve_names(coordinate: Coordinate) -> Vec<String> {
+    let (inertia, unit, per) = (
+        coordinate.inertia(),
+        coordinate.inertia_unit(),
+        coordinate.per(),
+    );
+    let (effort, effort_unit) = (coordinate.effort(), coordinate.effort_unit());
+    let viscous = match coordinate {
+        Coordinate::Angle => "N m s/rad",
+        Coordinate::Length => "N s/m",
+    };
+    vec![
+        format!("{inertia} [{unit}]"),
+        format!("{inertia}' [{unit}/{per}]"),
+        format!("{inertia}'' [{unit}/{per}^2]"),
+        "U [J]".to_owned(),
+        format!("{effort}_potential [{effort_unit}]"),
+        format!("{effort}_process [{effort_unit}]"),
+        format!("b_viscous [{viscous}]"),
+        format!("c_coulomb [{effort_unit}]"),
+    ]
+}
+
+impl Set for Curves {
+    fn names(&self, source: &Source) -> Vec<String> {
+        let coordinate = source.coordinate;
+        let (inertia, unit) = (coordinate.inertia(), coordinate.inertia_unit());
+        let mut names = curve_names(coordinate);
+        if self.links {
+            let each = source.machine.mechanism().link_names().iter();
+            names.extend(each.map(|link| format!("{inertia} {link} [{unit}]")));
+            names.push(format!("{inertia} flywheel and drive train [{unit}]"));
+        }
+        if self.moves {
+            let (effort, unit) = (coordinate.effort(), coordinate.effort_unit());
+            names.extend(coordinate.rates().map(String::from));
+            names.extend(TorqueTerms::NAMES.map(|term| format!("{effort}_drive {term} [{unit}]")));
+            names.push(format!("{effort}_drive [{unit}]"));
+            names.push(format!("{effort}_input [{unit}]"));
+        }
+        names
+    }
+
+    fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
+        let point = source.machine.reduction(place.phi)?;
+        let [inertia, slope, bend] = point.inertia;
+        let mut values = vec![
+            inertia,
+            slope,
+            bend,
+            point.potential_energy[0],
+            -point.potential_energy[1],
+            point.process,
+            point.viscous,
+            point.coulomb,
+        ];
+        if self.links {
+            let each = source.machine.link_inertias(place.phi)?;
+            values.extend(each.iter().map(|j| j[0]));
+            values.push(source.machine.flywheel());
+        }
+        let mut values: Vec<Option<f64>> = values.into_iter().map(Some).collect();
+        let Some(state) = place.state else {
+            let empty = if self.moves { 10 } else { 0 };
+            values.resize(values.len() + empty, None);
+            return Ok(values);
+        };
+        let terms = point.torque(state.omega, state.alpha);
+        // The drive train's inertia sits in its stages, between the losses.
+        let bare = source.file.machine.bare_reduction(place.phi)?;
+        let bare = bare.torque(state.omega, state.alpha).total();
+        let train = &source.file.drive_train;
+        let input = train.input(bare, 0.0, state.omega, state.alpha).torque;
+        values.extend([state.omega, state.alpha].map(Some));
+        values.extend(terms.values().map(Some));
+        values.extend([terms.total(), input].map(Some));
+        Ok(values)
+    }
+}

@@ -1,0 +1,60 @@
+//! `jred simulate`: the free motion φ(t), ω(t) under a motor torque, (7.12) and (7.13).
+//!
+//! Beside the motion it integrates the work of the motor, of the signed process loads, and the losses, so that the energy
+//! balance closes only if motion and reduction agree.
+
+mod error;
+mod machine;
+mod run;
+mod variator;
+mod watch;
+
+pub use error::SimulationError;
+
+use crate::model::machine::{MachineFile, Simulation};
+use crate::number::columns::Columns;
+
+/// Runs the simulation of the file: t, φ, ω, α, J, energies, and the balance
+/// (E + U) − (E + U)₀ − W_motor − W_process + losses, which is zero up to the tolerance.
+///
+/// # Errors
+/// Those of the machine and the integrator.
+pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Columns, SimulationError> {
+    match &file.variator {
+        Some(variator) => run::run(
+            &variator::Plant::new(file, variator, simulation)?,
+            file,
+            simulation,
+        ),
+        None => run::run(&machine::Plant::new(file, simulation)?, file, simulation),
+    }
+}
+
+/// Motor torque at a speed: straight lines between the points of the file, the end values beyond the ends.
+fn motor_torque(simulation: &Simulation, speed: f64) -> f64 {
+    let points = &simulation.torque;
+    let right = points.partition_point(|p| p.0 < speed);
+    match (
+        right.checked_sub(1).and_then(|k| points.get(k)),
+        points.get(right),
+    ) {
+        (Some(a), Some(b)) => a.1 + (b.1 - a.1) * (speed - a.0) / (b.0 - a.0),
+        (Some(only), None) | (None, Some(only)) => only.1,
+        (None, None) => 0.0,
+    }
+}
+
+/// The zero of a rising, piecewise linear function, from its value and slope: the efficiencies of the drive train change
+/// sides with its power.
+fn newton(mut f: impl FnMut(f64) -> [f64; 2]) -> f64 {
+    let mut x = 0.0f64;
+    for _ in 0..50 {
+        let [value, slope] = f(x);
+        let step = value / slope;
+        x -= step;
+        if step.abs() <= 1e-15 * x.abs() {
+            break;
+        }
+    }
+    x
+}

@@ -1,0 +1,161 @@
+//! A machine whose motor drives it through a fixed ratio.
+
+use jred::Error;
+
+use super::run::{self, Row};
+use super::{SimulationError, motor_torque, newton};
+use crate::model::coordinate::Coordinate;
+use crate::model::machine::{MachineFile, Shaft, Simulation};
+
+/// φ, ω, work of the motor, work of the process loads, losses.
+type State = [f64; 5];
+
+/// The machine with its drive and motor torque.
+pub(super) struct Plant<'a> {
+    file: &'a MachineFile,
+    simulation: &'a Simulation,
+    coordinate: Coordinate,
+}
+
+/// What happens at one state.
+struct Instant {
+    alpha: f64,
+    motor_power: f64,
+    process_power: f64,
+    loss: f64,
+}
+
+impl<'a> Plant<'a> {
+    pub(super) fn new(file: &'a MachineFile, simulation: &'a Simulation) -> Result<Self, Error> {
+        Ok(Self {
+            file,
+            simulation,
+            coordinate: Coordinate::of(file.machine.mechanism())?,
+        })
+    }
+
+    /// Motor torque, and the speed of the shaft at which it acts.
+    fn motor(&self, omega: f64) -> [f64; 2] {
+        let speed = match self.simulation.at {
+            Shaft::Motor => omega * self.file.drive_train.ratio(),
+            Shaft::DriveLink => omega,
+        };
+        [motor_torque(self.simulation, speed), speed]
+    }
+
+    /// The acceleration that solves the equation of motion through the losses of the drive train.
+    ///
+    /// The torque that the motor must give is piecewise linear and monotone in α (each stage's efficiency changes
+    /// sides with its power), so Newton's method ends after a few steps.
+    fn instant(&self, direction: f64, [phi, omega, ..]: &State) -> Result<Instant, Error> {
+        let omega = *omega;
+        let point = self.file.machine.bare_reduction(*phi)?;
+        let load = point.load_torque() - point.viscous * omega - point.coulomb * direction;
+        let resisting = 0.5 * point.inertia[1] * omega * omega - load;
+        let [torque, speed] = self.motor(omega);
+        let train = &self.file.drive_train;
+        let ratio = train.ratio();
+        let rotor = self.simulation.rotor_inertia;
+        // With the torque at the drive link, what sits in front of it only drags along.
+        let (at_motor, at_link) = match self.simulation.at {
+            Shaft::Motor => (torque, 0.0),
+            Shaft::DriveLink => (0.0, torque),
+        };
+        let mut loss = 0.0;
+        let alpha = newton(|alpha| {
+            let asked = point.inertia[0] * alpha + resisting - at_link;
+            let input = train.input(asked, point.inertia[0], omega, alpha);
+            loss = input.loss;
+            [
+                input.torque + rotor * ratio * alpha - at_motor,
+                input.torque_per_alpha + rotor * ratio,
+            ]
+        });
+        Ok(Instant {
+            alpha,
+            motor_power: torque * speed,
+            process_power: point.process * omega,
+            loss: loss + (point.viscous * omega + point.coulomb * direction) * omega,
+        })
+    }
+}
+
+impl run::Plant<5> for Plant<'_> {
+    fn start(&self) -> Result<State, Error> {
+        let Simulation {
+            start_angle,
+            start_speed,
+            ..
+        } = *self.simulation;
+        Ok([start_angle, start_speed, 0.0, 0.0, 0.0])
+    }
+
+    fn slope(&self, direction: f64, _: f64, y: &State) -> Result<State, Error> {
+        if direction == 0.0 {
+            return Ok([0.0; 5]);
+        }
+        let now = self.instant(direction, y)?;
+        Ok([
+            y[1],
+            now.alpha,
+            now.motor_power,
+            now.process_power,
+            now.loss,
+        ])
+    }
+
+    fn link(&self, _: f64, y: &State) -> Result<[f64; 2], Error> {
+        Ok([y[0], y[1]])
+    }
+
+    fn with_link(&self, _: f64, y: &State, [phi, omega]: [f64; 2]) -> Result<State, Error> {
+        Ok([phi, omega, y[2], y[3], y[4]])
+    }
+
+    fn alpha(&self, direction: f64, _: f64, y: &State) -> Result<f64, Error> {
+        Ok(self.instant(direction, y)?.alpha)
+    }
+
+    fn check(&self, _: f64, _: f64, _: &State) -> Result<(), SimulationError> {
+        Ok(())
+    }
+
+    fn corners(&self) -> impl Iterator<Item = f64> {
+        std::iter::empty()
+    }
+
+    fn names(&self) -> Vec<String> {
+        let coordinate = self.coordinate;
+        let [speed, acceleration] = coordinate.rates();
+        let motor = if self.simulation.drives_a_slide(self.file, coordinate) {
+            "motor force [N]"
+        } else {
+            "motor torque [N m]"
+        };
+        let inertia = format!("{} [{}]", coordinate.inertia(), coordinate.inertia_unit());
+        [coordinate.column(), speed, acceleration, motor, &inertia]
+            .map(str::to_owned)
+            .to_vec()
+    }
+
+    fn row(&self, direction: f64, t: f64, y: &State) -> Result<Row, Error> {
+        let [phi, omega, ..] = *y;
+        let point = self.file.machine.bare_reduction(phi)?;
+        let alpha = if direction == 0.0 {
+            0.0
+        } else {
+            self.alpha(direction, t, y)?
+        };
+        // The rotor and the drive train turn with the drive link.
+        let train = &self.file.drive_train;
+        let ratio = train.ratio();
+        let drive = (train.inertia_at_input() + self.simulation.rotor_inertia) * ratio * ratio;
+        let inertia = point.inertia[0] + drive;
+        let [torque, _] = self.motor(omega);
+        Ok(Row {
+            figures: vec![self.coordinate.shown(phi), omega, alpha, torque, inertia],
+            kinetic: 0.5 * inertia * omega * omega,
+            potential: point.potential_energy[0],
+        })
+    }
+}

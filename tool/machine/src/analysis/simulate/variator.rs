@@ -1,0 +1,274 @@
+//! A machine with a variator between its motor and its drive train: the angle of the drive link is integrated with its own
+//! speed, never taken from the motor's.
+
+use jred::Error;
+use jred::friction::{Contact, Place, Stage};
+
+use super::run::{self, Row};
+use super::{SimulationError, motor_torque, newton};
+use crate::model::machine::{MachineFile, Shaft, Simulation};
+use crate::model::variator::{Slip, Variator};
+
+/// φ₁, ω₁ of the input shaft; φ of the drive link; ω₂ of the output shaft (creep only); work of the motor, work of the
+/// process loads, losses.
+type State = [f64; 7];
+
+/// Losses may be negative by this share of the power through the contact: rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// The machine with its variator and motor torque.
+pub(super) struct Plant<'a> {
+    file: &'a MachineFile,
+    simulation: &'a Simulation,
+    variator: &'a Variator,
+    stage: Stage<'a>,
+}
+
+/// What happens at one state.
+#[derive(Clone, Copy, Default)]
+struct Instant {
+    /// ω̇ of the input shaft, the output shaft and the drive link.
+    alpha: [f64; 3],
+    /// ω of the output shaft and the drive link.
+    omega: [f64; 2],
+    ratio: f64,
+    slip: f64,
+    /// Torque of the contact on the output shaft.
+    contact: f64,
+    contact_loss: f64,
+    motor_torque: f64,
+    motor_power: f64,
+    process_power: f64,
+    loss: f64,
+    /// Inertia of the mechanism at its drive link.
+    inertia: f64,
+    potential: f64,
+}
+
+/// What the mechanism and its drive train ask for at the output shaft: torque at no acceleration of the drive link, and
+/// by how much each unit of it adds.
+struct Behind<'a> {
+    plant: &'a Plant<'a>,
+    inertia: f64,
+    resisting: f64,
+    omega: f64,
+}
+
+impl Behind<'_> {
+    /// Torque at the output shaft, its derivative by the drive link's acceleration, and the drive train's loss.
+    fn torque(&self, alpha: f64) -> [f64; 3] {
+        let train = &self.plant.file.drive_train;
+        let asked = self.inertia * alpha + self.resisting;
+        let input = train.input(asked, self.inertia, self.omega, alpha);
+        let own = self.plant.variator.inertia[1];
+        [
+            input.torque + own * train.ratio() * alpha,
+            input.torque_per_alpha + own * train.ratio(),
+            input.loss,
+        ]
+    }
+}
+
+impl<'a> Plant<'a> {
+    pub(super) fn new(
+        file: &'a MachineFile,
+        variator: &'a Variator,
+        simulation: &'a Simulation,
+    ) -> Result<Self, Error> {
+        Ok(Self {
+            file,
+            simulation,
+            variator,
+            stage: variator.stage()?,
+        })
+    }
+
+    /// Speed of the output shaft per speed of the input shaft.
+    fn speed_ratio(&self, t: f64, y: &State) -> Result<f64, Error> {
+        Ok(self.stage.at(Place::new(t, y[0], 0.0))?.speed.value)
+    }
+
+    fn creeps(&self) -> bool {
+        matches!(self.variator.slip, Slip::Creep(_))
+    }
+
+    fn instant(&self, direction: f64, t: f64, y: &State) -> Result<Instant, Error> {
+        let n = self.file.drive_train.ratio();
+        let ratios = self.stage.at(Place::new(t, y[0], 0.0))?;
+        let (i, j) = (ratios.geometric.value, ratios.speed.value);
+        // The ratio depends on time alone.
+        let rate = ratios.speed.slope[0];
+        let second = if self.creeps() { y[3] } else { j * y[1] };
+        let omega = second / n;
+        let point = self.file.machine.bare_reduction(y[2])?;
+        let speed = match self.simulation.at {
+            Shaft::Motor => y[1],
+            Shaft::DriveLink => omega,
+        };
+        let torque = motor_torque(self.simulation, speed);
+        let (at_motor, at_link) = match self.simulation.at {
+            Shaft::Motor => (torque, 0.0),
+            Shaft::DriveLink => (0.0, torque),
+        };
+        let friction = point.viscous * omega + point.coulomb * direction;
+        let behind = Behind {
+            plant: self,
+            inertia: point.inertia[0],
+            resisting: 0.5 * point.inertia[1] * omega * omega - point.load_torque() + friction
+                - at_link,
+            omega,
+        };
+        let input = self.variator.inertia[0] + self.simulation.rotor_inertia;
+        let mut now = Instant {
+            omega: [second, omega],
+            ratio: i,
+            motor_torque: torque,
+            motor_power: torque * speed,
+            process_power: point.process * omega,
+            inertia: point.inertia[0],
+            potential: point.potential_energy[0],
+            ..Instant::default()
+        };
+        if let Slip::Creep(contact) = self.variator.slip {
+            let traction = contact.traction(i * y[1], second);
+            let alpha = newton(|alpha| {
+                let [torque, slope, _] = behind.torque(alpha);
+                [torque - traction.torque, slope]
+            });
+            now.alpha = [(at_motor - i * traction.torque) / input, alpha * n, alpha];
+            now.slip = traction.slip;
+            now.contact = traction.torque;
+            now.contact_loss = traction.loss;
+        } else {
+            let force = match self.variator.contact() {
+                Contact::Ideal => j,
+                Contact::Slipping => i,
+            };
+            let link = |first: f64| (j * first + rate * y[1]) / n;
+            let first = newton(|first| {
+                let [torque, slope, _] = behind.torque(link(first));
+                [
+                    input * first + force * torque - at_motor,
+                    input + force * slope * j / n,
+                ]
+            });
+            let alpha = link(first);
+            let [torque, ..] = behind.torque(alpha);
+            now.alpha = [first, alpha * n, alpha];
+            now.slip = ratios.slip.value;
+            now.contact = torque;
+            now.contact_loss = torque * (force - j) * y[1];
+        }
+        let [.., train] = behind.torque(now.alpha[2]);
+        now.loss = now.contact_loss + train + friction * omega;
+        Ok(now)
+    }
+}
+
+impl run::Plant<7> for Plant<'_> {
+    fn start(&self) -> Result<State, Error> {
+        let second = self.simulation.start_speed * self.file.drive_train.ratio();
+        let first = second / self.speed_ratio(0.0, &[0.0; 7])?;
+        let own = if self.creeps() { second } else { 0.0 };
+        Ok([0.0, first, self.simulation.start_angle, own, 0.0, 0.0, 0.0])
+    }
+
+    fn slope(&self, direction: f64, t: f64, y: &State) -> Result<State, Error> {
+        let now = self.instant(direction, t, y)?;
+        let held = direction == 0.0;
+        let free = if held && !self.creeps() { 0.0 } else { 1.0 };
+        let moving = if held { 0.0 } else { 1.0 };
+        let second = if self.creeps() { now.alpha[1] } else { 0.0 };
+        Ok([
+            y[1] * free,
+            now.alpha[0] * free,
+            now.omega[1] * moving,
+            second * moving,
+            now.motor_power,
+            now.process_power,
+            now.loss,
+        ])
+    }
+
+    fn link(&self, t: f64, y: &State) -> Result<[f64; 2], Error> {
+        let second = if self.creeps() {
+            y[3]
+        } else {
+            self.speed_ratio(t, y)? * y[1]
+        };
+        Ok([y[2], second / self.file.drive_train.ratio()])
+    }
+
+    fn with_link(&self, t: f64, y: &State, [phi, omega]: [f64; 2]) -> Result<State, Error> {
+        let mut y = *y;
+        let second = omega * self.file.drive_train.ratio();
+        y[2] = phi;
+        if self.creeps() {
+            y[3] = second;
+        } else {
+            y[1] = second / self.speed_ratio(t, &y)?;
+        }
+        Ok(y)
+    }
+
+    fn alpha(&self, direction: f64, t: f64, y: &State) -> Result<f64, Error> {
+        Ok(self.instant(direction, t, y)?.alpha[2])
+    }
+
+    fn check(&self, direction: f64, t: f64, y: &State) -> Result<(), SimulationError> {
+        let now = self.instant(direction, t, y)?;
+        if now.contact_loss < -ROUNDING * (now.contact * now.omega[0]).abs() {
+            let power = -now.contact_loss;
+            return Err(SimulationError::PowerFlowsBack { t, power });
+        }
+        Ok(())
+    }
+
+    fn corners(&self) -> impl Iterator<Item = f64> {
+        self.variator.ratio.breaks()
+    }
+
+    fn names(&self) -> Vec<String> {
+        let names = [
+            "phi [deg]",
+            "omega [rad/s]",
+            "alpha [rad/s^2]",
+            "input phi [deg]",
+            "input omega [rad/s]",
+            "ratio",
+            "slip [%]",
+            "contact torque [N m]",
+            "motor torque [N m]",
+            "J_red [kg m^2]",
+        ];
+        names.map(str::to_owned).to_vec()
+    }
+
+    fn row(&self, direction: f64, t: f64, y: &State) -> Result<Row, Error> {
+        let n = self.file.drive_train.ratio();
+        let train = self.file.drive_train.inertia_at_input() + self.variator.inertia[1];
+        let input = self.variator.inertia[0] + self.simulation.rotor_inertia;
+        let now = self.instant(direction, t, y)?;
+        let held = direction == 0.0;
+        let [second, omega] = if held { [0.0; 2] } else { now.omega };
+        let behind = now.inertia + train * n * n;
+        let speed = self.speed_ratio(t, y)?;
+        Ok(Row {
+            figures: vec![
+                y[2].to_degrees(),
+                omega,
+                if held { 0.0 } else { now.alpha[2] },
+                y[0].to_degrees(),
+                y[1],
+                now.ratio,
+                now.slip * 100.0,
+                now.contact,
+                now.motor_torque,
+                behind + input * n * n / (speed * speed),
+            ],
+            kinetic: 0.5 * (input * y[1] * y[1] + train * second * second)
+                + 0.5 * now.inertia * omega * omega,
+            potential: now.potential,
+        })
+    }
+}

@@ -1,0 +1,152 @@
+//! Ends a simulation where a follower leaves its cam or a rope goes slack.
+
+use jred::{Domain, Reducible as _};
+
+use super::SimulationError;
+use crate::analysis::contact::OneWay;
+use crate::model::machine::MachineFile;
+use crate::number::numerics;
+
+/// Between the integrator's steps the forces are looked at this many times over the drive link's range.
+const PER_RANGE: f64 = 720.0;
+
+/// A state of the drive link.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct At {
+    /// Time (s).
+    pub(crate) t: f64,
+    /// φ, ω, α.
+    pub(crate) state: [f64; 3],
+}
+
+/// The joints of a machine that can let go.
+pub(crate) struct Watch<'a> {
+    file: &'a MachineFile,
+    joints: Vec<OneWay>,
+}
+
+impl<'a> Watch<'a> {
+    pub(crate) fn new(file: &'a MachineFile) -> Self {
+        let joints = OneWay::all(file.machine.mechanism());
+        Self { file, joints }
+    }
+
+    /// Whether there is nothing to watch.
+    pub(crate) fn is_idle(&self) -> bool {
+        self.joints.is_empty()
+    }
+
+    /// Refuses a state in which a joint lets go.
+    pub(crate) fn check(&self, at: At) -> Result<(), SimulationError> {
+        match self.first_open(at)? {
+            Some((joint, force)) => Err(self.parted(joint, force, at)),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses the way from one state to the next, which `alpha` gives the accelerations of, where a joint lets go.
+    pub(crate) fn check_between(
+        &self,
+        [from, to]: [At; 2],
+        alpha: impl Fn(f64, [f64; 2]) -> Result<f64, SimulationError>,
+    ) -> Result<(), SimulationError> {
+        let span = match self.file.machine.domain() {
+            Domain::Turn => std::f64::consts::TAU,
+            stroke @ Domain::Stroke { .. } => stroke.span(),
+        };
+        let parts = (PER_RANGE * (to.state[0] - from.state[0]).abs() / span).ceil();
+        let parts = parts.clamp(1.0, 1e6) as u32;
+        let at = |share: f64| -> Result<At, SimulationError> {
+            let [phi, omega] = between([from, to], share);
+            let t = from.t + share * (to.t - from.t);
+            let alpha = alpha(t, [phi, omega])?;
+            Ok(At {
+                t,
+                state: [phi, omega, alpha],
+            })
+        };
+        let mut closed = 0.0;
+        for k in 1..=parts {
+            let share = f64::from(k) / f64::from(parts);
+            let here = if k == parts { to } else { at(share)? };
+            if self.first_open(here)?.is_none() {
+                closed = share;
+                continue;
+            }
+            // The first instant at which it lets go.
+            let holds =
+                |share: f64| Ok::<_, SimulationError>(self.first_open(at(share)?)?.is_none());
+            let first = at(numerics::edge(holds, closed, share)?)?;
+            // By a rounding it may still hold there.
+            self.check(first)?;
+            self.check(here)?;
+        }
+        Ok(())
+    }
+
+    /// The first joint that lets go, and its force.
+    fn first_open(&self, at: At) -> Result<Option<(OneWay, f64)>, SimulationError> {
+        for joint in &self.joints {
+            let force = joint.force(&self.file.machine, at.state)?;
+            if !joint.holds(force) {
+                return Ok(Some((*joint, force)));
+            }
+        }
+        Ok(None)
+    }
+
+    fn parted(&self, joint: OneWay, force: f64, At { t, state }: At) -> SimulationError {
+        let [phi, omega, _] = state;
+        match joint.parted(&self.file.machine, [phi, omega], force) {
+            Ok(parted) => SimulationError::Parted {
+                t,
+                what: parted.what,
+                state: parted.state,
+                cure: parted.cure,
+            },
+            Err(error) => error.into(),
+        }
+    }
+}
+
+/// φ and ω between two states: the polynomial of the fifth degree with their positions, speeds and accelerations.
+fn between([from, to]: [At; 2], share: f64) -> [f64; 2] {
+    let h = to.t - from.t;
+    let ([p, v, a], [q, w, b]) = (from.state, to.state);
+    // What is left of the way, speed and acceleration after a parabola from the start.
+    let way = q - p - v * h - 0.5 * a * h * h;
+    let speed = (w - v - a * h) * h;
+    let acceleration = (b - a) * h * h;
+    let c3 = 10.0 * way - 4.0 * speed + 0.5 * acceleration;
+    let c4 = -15.0 * way + 7.0 * speed - acceleration;
+    let c5 = 6.0 * way - 3.0 * speed + 0.5 * acceleration;
+    let x = share;
+    let phi = p + x * (v * h + x * (0.5 * a * h * h + x * (c3 + x * (c4 + x * c5))));
+    let slope = v * h + x * (a * h * h + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)));
+    [phi, if h > 0.0 { slope / h } else { v }]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A motion of the fifth degree is met exactly.
+    #[test]
+    fn the_way_between_two_states() {
+        let at = |t: f64| At {
+            t,
+            state: [
+                1.0 + 2.0 * t - 3.0 * t.powi(3) + t.powi(5),
+                2.0 - 9.0 * t * t + 5.0 * t.powi(4),
+                -18.0 * t + 20.0 * t.powi(3),
+            ],
+        };
+        let ends = [at(0.2), at(0.9)];
+        for share in [0.0, 0.3, 0.71, 1.0] {
+            let [phi, omega] = between(ends, share);
+            let expected = at(0.2 + 0.7 * share).state;
+            assert!((phi - expected[0]).abs() < 1e-14, "{phi}");
+            assert!((omega - expected[1]).abs() < 1e-13, "{omega}");
+        }
+    }
+}

@@ -1,0 +1,285 @@
+//! Why no table meets what was asked for: what each layout reaches, what is in the way, and what helps.
+
+use std::fmt::Write as _;
+
+use jred::Error;
+use jred::table::{Cubic, MAX_CELLS, Quadratic, Spline};
+
+use super::choice::{LayoutName, Number};
+use super::place::{Feature, feature};
+use super::search::{Answer, Candidate, Search};
+use super::{Failure, Task};
+use crate::model::coordinate::Coordinate;
+use crate::model::machine::MachineFile;
+use crate::number::rounding::{rounded, short};
+
+/// A search that found nothing.
+pub(super) struct NotReached<'f> {
+    pub(super) file: &'f MachineFile,
+    pub(super) coordinate: Coordinate,
+    pub(super) task: &'f Task,
+    pub(super) search: &'f Search<'f>,
+    pub(super) answers: &'f [(Number, LayoutName, Answer)],
+}
+
+/// What keeps a table from being more exact.
+enum Limit {
+    /// The number type.
+    Rounding,
+    /// The number of cells: the power of it by which the error falls, if it falls.
+    Cells(Option<f64>),
+}
+
+impl NotReached<'_> {
+    pub(super) fn failure(&self) -> Result<Failure, Error> {
+        let own: Vec<&Answer> = self
+            .answers
+            .iter()
+            .filter(|(number, layout, _)| {
+                *number == self.task.number && self.task.layout.allows(*layout)
+            })
+            .map(|(_, _, answer)| answer)
+            .collect();
+        let misses = own.iter().filter_map(|answer| match answer {
+            Answer::Misses(candidate) => Some(candidate.as_ref()),
+            _ => None,
+        });
+        let mut misses: Vec<&Candidate> = misses.collect();
+        misses.sort_by(|a, b| a.error.total_cmp(&b.error));
+        if let Some(most) = self.task.max_bytes {
+            return Ok(self.none_fits(most, &own, misses.first().copied()));
+        }
+        let Some(best) = misses.first() else {
+            // Refused, every one of them.
+            let refused = own.iter().find_map(|answer| match answer {
+                Answer::Refused(error) => Some(*error),
+                _ => None,
+            });
+            return Ok(Failure::Machine(
+                refused.unwrap_or(Error::NotFinite("torque error of the table")),
+            ));
+        };
+        self.not_reached(&misses, best).map(Failure::NotReached)
+    }
+
+    fn error(&self, bound: f64) -> String {
+        format!("{} {}", short(bound), self.coordinate.effort_unit())
+    }
+
+    fn effort(&self) -> &'static str {
+        match self.coordinate {
+            Coordinate::Angle => "torque",
+            Coordinate::Length => "force",
+        }
+    }
+
+    fn not_reached(&self, misses: &[&Candidate], best: &Candidate) -> Result<String, Error> {
+        let allowed = self.task.torque_error.unwrap_or_default();
+        let number = self.task.number.name();
+        let mut text = format!(
+            "no table meets a {} error of {} {}: type {number}, up to {} cells\n",
+            self.effort(),
+            rounded(allowed),
+            self.coordinate.effort_unit(),
+            self.task.max_cells
+        );
+        let mut most_cells = None;
+        for candidate in misses {
+            let cells = candidate.found.cells;
+            let _ = write!(
+                text,
+                "  {}: {cells} cells reach {}",
+                candidate.layout.name(),
+                self.error(candidate.error)
+            );
+            match self.limit(candidate)? {
+                Limit::Rounding => {
+                    let _ = write!(
+                        text,
+                        "; that is the floor of rounding in {number}, more cells do not lower it"
+                    );
+                }
+                Limit::Cells(Some(order)) => {
+                    let _ = write!(
+                        text,
+                        "; the error falls with the power {order:.1} of the cells"
+                    );
+                    let needed = f64::from(cells) * (candidate.error / allowed).powf(1.0 / order);
+                    // Where less than what was tried would do by this, there is more to the error than its order.
+                    if round_up(needed.min(1e9)) <= self.task.max_cells {
+                        text += " so far, but not to the error asked for";
+                    } else if needed <= f64::from(MAX_CELLS) {
+                        let needed = round_up(needed);
+                        if most_cells.is_none_or(|most| needed < most) {
+                            most_cells = Some(needed);
+                        }
+                        let _ = write!(text, "; if it goes on so, about {needed} would do");
+                    } else {
+                        let _ = write!(text, "; if it goes on so, {MAX_CELLS} are too few");
+                    }
+                }
+                Limit::Cells(None) => text += "; more cells hardly lower it",
+            }
+            text.push('\n');
+        }
+        let rounding = matches!(self.limit(best)?, Limit::Rounding);
+        let worst = best.found.worst;
+        let _ = write!(text, "largest error at {}", self.coordinate.place(worst));
+        let mut found = None;
+        if !rounding {
+            found = self.feature(worst, best.found.cells)?;
+            if let Some(found) = &found {
+                let _ = write!(text, ": {}", found.words);
+            } else {
+                // What is smooth grows small with more cells, and what is not stands out.
+                let finer = (4 * best.found.cells).min(MAX_CELLS);
+                let (_, worst) = self.without_rounding(best.layout, finer)?;
+                found = self.feature(worst, finer)?;
+                if let Some(found) = &found {
+                    let _ = write!(text, "; with more cells, where {}", found.words);
+                }
+            }
+        }
+        text += "\nallow a larger error";
+        for cure in self.cures() {
+            text += ", or take ";
+            text += &cure;
+        }
+        if let Some(cells) = most_cells {
+            let _ = write!(text, ", or --max-cells {cells}");
+        }
+        if let Some(cure) = found.and_then(|found| found.cure) {
+            text += ", or ";
+            text += &cure;
+        }
+        if rounding {
+            text += ", or state a smaller range with --omega and --alpha";
+        }
+        Ok(text)
+    }
+
+    /// What is within a cell and a half of a position.
+    fn feature(&self, at: f64, cells: u32) -> Result<Option<Feature>, Error> {
+        let near = 1.5 * self.search.domain.span() / f64::from(cells);
+        feature(self.file, self.search.machine, self.coordinate, at, near)
+    }
+
+    /// What other layouts and types do: each was tried.
+    fn cures(&self) -> Vec<String> {
+        let meets = |number: Number, layouts: bool| {
+            let found = self
+                .answers
+                .iter()
+                .filter_map(|(n, _, answer)| match answer {
+                    Answer::Meets(c) if *n == number => Some(c.as_ref()),
+                    _ => None,
+                });
+            let best = found.min_by_key(|candidate| candidate.bytes())?;
+            let layout = if layouts {
+                format!("--layout {}", best.layout.name())
+            } else if self.task.layout.allows(best.layout) {
+                format!("--type {}", number.name())
+            } else {
+                format!("--type {} --layout {}", number.name(), best.layout.name())
+            };
+            Some(format!(
+                "{layout} ({} cells, {} bytes)",
+                best.found.cells,
+                best.bytes()
+            ))
+        };
+        let own = meets(self.task.number, true);
+        let others = Number::ALL.into_iter().filter(|n| *n != self.task.number);
+        own.into_iter()
+            .chain(others.filter_map(|number| meets(number, false)))
+            .collect()
+    }
+
+    /// The torque error in double precision, and where it is largest.
+    fn without_rounding(&self, layout: LayoutName, cells: u32) -> Result<(f64, f64), Error> {
+        match layout {
+            LayoutName::Spline | LayoutName::Spline16 => {
+                self.search.without_rounding::<Spline>(cells)
+            }
+            LayoutName::Cubic => self.search.without_rounding::<Cubic>(cells),
+            LayoutName::Quadratic | LayoutName::Rows => {
+                self.search.without_rounding::<Quadratic>(cells)
+            }
+        }
+    }
+
+    fn limit(&self, candidate: &Candidate) -> Result<Limit, Error> {
+        // Of what is there, or of what is allowed, rounding may make up so much.
+        const SHARE: f64 = 0.5;
+        let without = |cells| {
+            self.without_rounding(candidate.layout, cells)
+                .map(|(error, _)| error)
+        };
+        let cells = candidate.found.cells;
+        let allowed = self.task.torque_error.unwrap_or_default();
+        let (bound, error) = (candidate.looked, without(cells)?);
+        // More cells were tried and were worse, though the curves themselves come closer.
+        let larger = cells + cells.div_ceil(4) <= self.task.max_cells;
+        let closer = larger && without(self.task.max_cells)? < SHARE * bound;
+        if closer || error < SHARE * bound || bound - error > SHARE * allowed {
+            return Ok(Limit::Rounding);
+        }
+        // The largest error of a curve with a kink swings with the place of the kink in its cell: the mean of a few sizes.
+        let mean = |cells: u32| -> Result<f64, Error> {
+            let sizes = [
+                cells,
+                cells - cells / 24,
+                cells - cells / 12,
+                cells - cells / 8,
+            ];
+            let mut sum = 0.0;
+            for cells in sizes {
+                sum += without(cells.max(4))?.ln();
+            }
+            Ok(sum / 4.0)
+        };
+        if cells < 16 {
+            return Ok(Limit::Cells(Some(3.0)));
+        }
+        let order = (mean(cells / 2)? - mean(cells)?) / 2f64.ln();
+        Ok(Limit::Cells((order > 0.25).then_some(order)))
+    }
+
+    fn none_fits(&self, most: u32, own: &[&Answer], best: Option<&Candidate>) -> Failure {
+        let number = self.task.number.name();
+        let smallest = own.iter().filter_map(|answer| match answer {
+            Answer::TooLarge(bytes) => Some(*bytes),
+            _ => None,
+        });
+        let message = match (best, self.task.torque_error, smallest.min()) {
+            (Some(best), Some(allowed), _) => format!(
+                "no {number} table of {most} bytes meets a {} error of {} {}: the least within them is {}, layout {}, {} cells",
+                self.effort(),
+                rounded(allowed),
+                self.coordinate.effort_unit(),
+                self.error(best.error),
+                best.layout.name(),
+                best.found.cells
+            ),
+            (_, _, Some(smallest)) => format!(
+                "no {number} table fits into {most} bytes: the smallest image has {smallest}"
+            ),
+            _ => format!("no {number} table of {most} bytes is sound: it takes more cells"),
+        };
+        let mut help = "allow more bytes".to_owned();
+        if self.task.torque_error.is_some() {
+            help += ", or a larger error";
+        }
+        for cure in self.cures() {
+            help += ", or take ";
+            help += &cure;
+        }
+        Failure::NoneFits { message, help }
+    }
+}
+
+/// Two digits, rounded up.
+fn round_up(cells: f64) -> u32 {
+    let unit = 10f64.powf((cells.log10() - 1.0).floor()).max(1.0);
+    (((cells / unit).ceil() * unit) as u32).min(MAX_CELLS)
+}

@@ -1,0 +1,246 @@
+//! What a table is, how exact it is, and what its alternatives would be: for the terminal, for source comments, as JSON.
+
+use std::fmt::Write as _;
+
+use jred::Usage;
+use jred::table::curves;
+use serde_json::{Value, json};
+
+use super::search::{Answer, Candidate};
+use super::{Export, LayoutName, Number};
+use crate::model::coordinate::Coordinate;
+use crate::number::rounding::{rounded, short};
+
+/// Bit of the set, its word for a reader, its name in Rust.
+const CURVES: [(u8, &str, &str); 6] = [
+    (curves::LOAD, "load", "LOAD"),
+    (curves::VISCOUS, "viscous", "VISCOUS"),
+    (curves::COULOMB, "coulomb", "COULOMB"),
+    (curves::RECIPROCAL, "reciprocal", "RECIPROCAL"),
+    (
+        curves::CONSTANT_VISCOUS,
+        "constant viscous",
+        "CONSTANT_VISCOUS",
+    ),
+    (
+        curves::CONSTANT_COULOMB,
+        "constant coulomb",
+        "CONSTANT_COULOMB",
+    ),
+];
+
+/// The set as a constant expression in Rust.
+fn rust_set(set: u8) -> String {
+    let names = CURVES.iter().filter(|(bit, _, _)| set & bit != 0);
+    let names: Vec<String> = names
+        .map(|(_, _, name)| format!("curves::{name}"))
+        .collect();
+    if names.is_empty() {
+        "curves::INERTIA".to_owned()
+    } else {
+        names.join(" | ")
+    }
+}
+
+/// What loads the image in Rust.
+fn rust_call(table: &Candidate) -> String {
+    let (scalar, set) = (table.number.scalar(), rust_set(table.curves));
+    match table.layout.type_name() {
+        Some(layout) => format!("image.model::<{scalar}, {{ {set} }}, {layout}>()"),
+        None => format!("image.short_model::<{{ {set} }}>()"),
+    }
+}
+
+/// The part of a number range that is left, in bits.
+fn headroom(usage: f32) -> Option<f64> {
+    (usage > 0.0).then(|| -f64::from(usage).log2())
+}
+
+/// Names and shares of the quantities that a fixed-point tick holds.
+fn quantities(usage: &Usage, coordinate: Coordinate) -> [(&'static str, f32); 6] {
+    let derivative = match coordinate {
+        Coordinate::Angle => "J'·omega^2/2",
+        Coordinate::Length => "m'·v^2/2",
+    };
+    let viscous = match coordinate {
+        Coordinate::Angle => "b·omega",
+        Coordinate::Length => "b·v",
+    };
+    [
+        (coordinate.inertia(), usage.inertia),
+        (derivative, usage.velocity),
+        ("load", usage.load),
+        (viscous, usage.viscous),
+        ("c", usage.coulomb),
+        ("sum", usage.torque),
+    ]
+}
+
+impl Export {
+    fn effort(&self) -> &'static str {
+        match self.coordinate {
+            Coordinate::Angle => "torque",
+            Coordinate::Length => "force",
+        }
+    }
+
+    /// What the table is and how exact it is, for the terminal and for source comments.
+    pub fn summary(&self) -> String {
+        let chosen = self.chosen();
+        let coordinate = self.coordinate;
+        let (effort, inertia) = (coordinate.effort_unit(), coordinate.inertia_unit());
+        let (word, speed) = (self.effort(), coordinate.speed_unit());
+        let ([v, a], acceleration) = match coordinate {
+            Coordinate::Angle => (["omega", "alpha"], "rad/s^2"),
+            Coordinate::Length => (["v", "a"], "m/s^2"),
+        };
+        let mut names = vec![coordinate.inertia()];
+        let has = CURVES.iter().filter(|(bit, _, _)| chosen.curves & bit != 0);
+        names.extend(has.map(|(_, name, _)| *name));
+        let mut text = String::new();
+        let _ = writeln!(text, "{}: reduced machine at the drive link", self.title);
+        let _ = writeln!(
+            text,
+            "{}, layout {}, {} cells, curves: {}; {} bytes of rows, {} bytes of image",
+            chosen.number.name(),
+            chosen.layout.name(),
+            chosen.found.cells,
+            names.join(", "),
+            chosen.row_bytes,
+            chosen.bytes()
+        );
+        let _ = writeln!(text, "in Rust: {}", rust_call(chosen));
+        let allowed = self.task.torque_error.map_or(String::new(), |allowed| {
+            format!(" of {} {effort} allowed", rounded(allowed))
+        });
+        let _ = writeln!(
+            text,
+            "{word} error reached {} {effort}{allowed}, at {} {}, for |{v}| <= {} {speed}, |{a}| <= {} {acceleration}",
+            rounded(chosen.error),
+            rounded(coordinate.shown(chosen.found.worst)),
+            coordinate.unit(),
+            rounded(self.task.omega),
+            rounded(self.task.alpha),
+        );
+        let _ = writeln!(
+            text,
+            "measured in ticks: {word} within {} {effort} ({} of the largest, {} {effort}), {a} within {} {acceleration}",
+            rounded(chosen.ticks.torque),
+            short(chosen.ticks.torque / chosen.ticks.peak_torque),
+            rounded(chosen.ticks.peak_torque),
+            rounded(chosen.ticks.acceleration),
+        );
+        if chosen.number.is_fixed() {
+            let scale = &chosen.scale;
+            let _ = writeln!(
+                text,
+                "1.0 stands for: {word} {} {effort}, speed {} {speed}, inertia {} {inertia}, acceleration {} {acceleration}",
+                rounded(scale.torque().into()),
+                rounded(scale.speed().into()),
+                rounded(scale.inertia().into()),
+                rounded(scale.acceleration().into()),
+            );
+            let unused = quantities(&chosen.usage, coordinate);
+            let unused = unused.iter().filter_map(|(name, usage)| {
+                headroom(*usage).map(|bits| format!("{name} {bits:.1}"))
+            });
+            let unused: Vec<String> = unused.collect();
+            let _ = writeln!(text, "bits unused: {}", unused.join(", "));
+        }
+        text
+    }
+
+    /// Everything, with every digit, in SI units.
+    pub fn json(&self) -> Value {
+        let chosen = self.chosen();
+        let task = &self.task;
+        let alternatives = self.answers.iter().map(|(number, layout, answer)| {
+            let mut object = json!({
+                "type": number.name(),
+                "layout": layout.name(),
+                "meets": matches!(answer, Answer::Meets(_)),
+            });
+            if let (Answer::Meets(c) | Answer::Misses(c), Some(map)) =
+                (answer, object.as_object_mut())
+            {
+                map.extend(figures(c));
+            } else if let Some(map) = object.as_object_mut() {
+                map.insert("why".into(), answer.remark().into());
+            }
+            object
+        });
+        let alternatives: Vec<Value> = alternatives.collect();
+        let mut object = json!({
+            "title": self.title,
+            "position_unit": match self.coordinate { Coordinate::Angle => "rad", Coordinate::Length => "m" },
+            "effort_unit": self.coordinate.effort_unit(),
+            "omega": task.omega,
+            "alpha": task.alpha,
+            "torque_error_allowed": task.torque_error,
+            "max_bytes": task.max_bytes,
+            "max_cells": task.max_cells,
+            "type": chosen.number.name(),
+            "layout": chosen.layout.name(),
+            "rust": rust_call(chosen),
+        });
+        if let Some(map) = object.as_object_mut() {
+            map.extend(figures(chosen));
+            let scale = &chosen.scale;
+            map.insert(
+                "scale".into(),
+                json!({
+                    "torque": scale.torque(),
+                    "speed": scale.speed(),
+                    "inertia": scale.inertia(),
+                    "acceleration": scale.acceleration(),
+                }),
+            );
+            if chosen.number.is_fixed() {
+                let usage = &chosen.usage;
+                map.insert(
+                    "bits_unused".into(),
+                    json!({
+                        "inertia": headroom(usage.inertia),
+                        "velocity": headroom(usage.velocity),
+                        "load": headroom(usage.load),
+                        "viscous": headroom(usage.viscous),
+                        "coulomb": headroom(usage.coulomb),
+                        "torque": headroom(usage.torque),
+                    }),
+                );
+            }
+            map.insert("alternatives".into(), alternatives.into());
+            map.insert("words".into(), json!(chosen.words));
+        }
+        object
+    }
+}
+
+/// The figures of a table for JSON.
+fn figures(c: &Candidate) -> serde_json::Map<String, Value> {
+    let value = json!({
+        "curves": c.curves,
+        "cells": c.found.cells,
+        "row_bytes": c.row_bytes,
+        "image_bytes": c.bytes(),
+        "torque_error": c.error,
+        "curve_error": c.found.bound,
+        "worst": c.found.worst,
+        "tick_torque_error": c.ticks.torque,
+        "tick_worst": c.ticks.worst,
+        "tick_acceleration_error": c.ticks.acceleration,
+        "peak_torque": c.ticks.peak_torque,
+    });
+    match value {
+        Value::Object(map) => map,
+        _ => serde_json::Map::new(),
+    }
+}
+
+impl Export {
+    /// The number type and layout that were chosen.
+    pub fn kind(&self) -> (Number, LayoutName) {
+        let chosen = self.chosen();
+        (chosen.number, chosen.layout)
+    }
+}

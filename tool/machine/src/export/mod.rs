@@ -1,0 +1,164 @@
+//! `jred export`: the smallest table that meets a torque error, or the best one for its bytes, as an image or as source
+//! code, beside what other number types and layouts would take.
+
+mod choice;
+mod fault;
+mod figures;
+mod form;
+mod kind;
+mod place;
+mod reference;
+mod search;
+mod ticks;
+
+pub use choice::{Choice, LayoutChoice, LayoutName, Number};
+pub use form::Form;
+pub use search::{Answer, Candidate, EXHAUSTIVE};
+pub use ticks::Ticks;
+
+use jred::Error;
+
+use crate::model::coordinate::Coordinate;
+use crate::model::machine::MachineFile;
+use fault::NotReached;
+use search::{Goal, Search};
+
+/// What is asked for. At least one of torque error and bytes is given.
+#[derive(Clone, Copy, Debug)]
+pub struct Task {
+    /// Number type.
+    pub number: Number,
+    /// Layout.
+    pub layout: LayoutChoice,
+    /// Whether fixed-point tables get the curve of 1/J.
+    pub reciprocal: bool,
+    /// Largest error of the drive torque (N·m, or N); without one, the least that is possible.
+    pub torque_error: Option<f64>,
+    /// Most bytes of the image.
+    pub max_bytes: Option<u32>,
+    /// Most cells to try.
+    pub max_cells: u32,
+    /// Largest speed (rad/s, or m/s).
+    pub omega: f64,
+    /// Largest acceleration (rad/s², or m/s²).
+    pub alpha: f64,
+    /// Inertia of rotor and gearbox at the input of the drive train (kg·m²).
+    pub rotor: f64,
+}
+
+/// A table, ready to be written, beside those of the other types and layouts.
+#[derive(Clone, Debug)]
+pub struct Export {
+    title: String,
+    /// Whether the drive link turns or slides.
+    pub coordinate: Coordinate,
+    task: Task,
+    /// What every number type and layout takes.
+    pub answers: Vec<(Number, LayoutName, Answer)>,
+    /// Which of them was chosen.
+    pub chosen: usize,
+}
+
+/// Why there is no table.
+#[derive(Clone, Debug)]
+pub enum Failure {
+    /// The machine cannot be tabulated.
+    Machine(Error),
+    /// No table meets the torque error: what is in the way, and what helps.
+    NotReached(String),
+    /// No table within so many bytes does: the least error within them, and what helps.
+    NoneFits {
+        /// What is the case.
+        message: String,
+        /// What helps.
+        help: String,
+    },
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self::Machine(error)
+    }
+}
+
+impl Export {
+    /// Looks for the table that is asked for, and for its alternatives.
+    ///
+    /// # Errors
+    /// A machine that cannot be tabulated; no table that meets what is asked for.
+    pub fn new(file: &MachineFile, task: Task) -> Result<Self, Failure> {
+        let ratio = file.drive_train.ratio();
+        let machine = file
+            .with_drive_train()?
+            .with_flywheel(task.rotor * ratio * ratio)?;
+        let coordinate = Coordinate::of(file.machine.mechanism())?;
+        let goal = Goal {
+            torque_error: task.torque_error,
+            range: [task.omega, task.alpha],
+            max_cells: task.max_cells,
+            max_bytes: task.max_bytes.map(|most| most as usize),
+            reciprocal: task.reciprocal,
+        };
+        let search = Search::new(&machine, goal)?;
+        let mut answers = Vec::new();
+        for number in Number::ALL {
+            for &layout in number.layouts() {
+                answers.push((number, layout, number.search(layout, &search)?));
+            }
+        }
+        let Some(chosen) = choose(&task, &answers) else {
+            return Err(NotReached {
+                file,
+                coordinate,
+                task: &task,
+                search: &search,
+                answers: &answers,
+            }
+            .failure()?);
+        };
+        Ok(Self {
+            title: file.title.clone(),
+            coordinate,
+            task,
+            answers,
+            chosen,
+        })
+    }
+
+    /// The table that was chosen.
+    ///
+    /// # Panics
+    /// Never: what was chosen is a table.
+    pub fn chosen(&self) -> &Candidate {
+        let answer = self.answers.get(self.chosen).map(|(_, _, answer)| answer);
+        match answer {
+            Some(Answer::Meets(candidate)) => candidate,
+            _ => unreachable!("only what meets the request is chosen"),
+        }
+    }
+
+    /// The largest speed of the drive link that it was made for.
+    pub const fn omega(&self) -> f64 {
+        self.task.omega
+    }
+}
+
+/// The fewest bytes that meet the error; without one, the least error. Of equals the more exact one.
+fn choose(task: &Task, answers: &[(Number, LayoutName, Answer)]) -> Option<usize> {
+    let rank = |candidate: &Candidate| {
+        let bytes = match task.torque_error {
+            Some(_) => candidate.bytes(),
+            None => 0,
+        };
+        (bytes, candidate.error)
+    };
+    let own = answers.iter().enumerate().filter_map(|(k, answer)| {
+        let (number, layout, Answer::Meets(candidate)) = answer else {
+            return None;
+        };
+        let asked = *number == task.number && task.layout.allows(*layout);
+        asked.then(|| (k, rank(candidate)))
+    });
+    own.min_by(|(_, a), (_, b)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)))
+        .map(|(k, _)| k)
+}

@@ -1,0 +1,179 @@
+//! What makes a curve hard to follow at one position: the edge of a load's window, the end of a piece of a cam, a jump, a kink.
+
+use std::f64::consts::TAU;
+
+use jred::{Domain, Error, Mechanism as _, Reducible, Reduction};
+
+use crate::model::coordinate::Coordinate;
+use crate::model::machine::MachineFile;
+use crate::number::rounding::rounded;
+
+/// What is found, and what would help if anything in the machine file does.
+pub(super) struct Feature {
+    pub(super) words: String,
+    pub(super) cure: Option<String>,
+}
+
+/// How far apart two positions are, the turn taken into account.
+fn distance(domain: Domain, a: f64, b: f64) -> f64 {
+    let apart = (a - b).abs();
+    match domain {
+        Domain::Turn => {
+            let apart = apart % TAU;
+            apart.min(TAU - apart)
+        }
+        Domain::Stroke { .. } => apart,
+    }
+}
+
+/// What is within `near` (rad, or m) of a position.
+pub(super) fn feature(
+    file: &MachineFile,
+    machine: &impl Reducible,
+    coordinate: Coordinate,
+    at: f64,
+    near: f64,
+) -> Result<Option<Feature>, Error> {
+    if let Some(found) = window_edge(file, coordinate, at, near) {
+        return Ok(Some(found));
+    }
+    let jump = jump_or_kink(machine, coordinate, at, near)?;
+    let piece = piece_end(file, coordinate, at, near);
+    Ok(match (piece, jump) {
+        (Some(piece), Some(jump)) => Some(Feature {
+            words: format!("{piece}, and {}", jump.words),
+            ..jump
+        }),
+        (Some(words), None) => Some(Feature { words, cure: None }),
+        (None, jump) => jump,
+    })
+}
+
+fn window_edge(file: &MachineFile, coordinate: Coordinate, at: f64, near: f64) -> Option<Feature> {
+    const WHAT: [&str; 4] = ["begins", "is fully there", "begins to fall", "ends"];
+    let domain = file.machine.mechanism().domain();
+    let edges = file.loads.iter().filter_map(|load| {
+        let edges = load.load.window()?.edges();
+        let edge = WHAT.into_iter().zip(edges).map(|(what, edge)| {
+            let away = distance(domain, edge, at);
+            (away, what, edge, edges)
+        });
+        let (away, what, edge, edges) = edge.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        (away <= near).then_some((away, load.name.as_str(), what, edge, edges))
+    });
+    let (_, name, what, edge, edges) = edges.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let ramp = rounded(coordinate.shown(edges[1] - edges[0]));
+    let unit = coordinate.unit();
+    let words = format!(
+        "the load {name:?} {what} at {}, over a ramp of {ramp} {unit}",
+        coordinate.place(edge)
+    );
+    let cure = Some(format!(
+        "a longer ramp of the load {name:?} in the machine file (or tables of the pieces between its edges: \
+         Part and Pieces of the library)"
+    ));
+    Some(Feature { words, cure })
+}
+
+fn piece_end(file: &MachineFile, coordinate: Coordinate, at: f64, near: f64) -> Option<String> {
+    let mechanism = file.machine.mechanism();
+    let contacts = mechanism.contacts().iter();
+    let ends = contacts.flat_map(|c| c.pieces.iter().flat_map(|p| [p.from, p.to]));
+    let nearest = ends
+        .map(|end| (distance(mechanism.domain(), end, at), end))
+        .min_by(|a, b| a.0.total_cmp(&b.0))?;
+    (nearest.0 <= near).then(|| {
+        format!(
+            "a segment of the cam's program ends at {}",
+            coordinate.place(nearest.1)
+        )
+    })
+}
+
+/// A curve of the reduced machine.
+type Curve = fn(&Reduction) -> f64;
+
+/// The curves that a table follows.
+const CURVES: [(&str, Curve); 5] = [
+    ("J", |r| r.inertia[0]),
+    ("J'", |r| r.inertia[1]),
+    ("load", |r| r.load_torque()),
+    ("viscous", |r| r.viscous),
+    ("coulomb", |r| r.coulomb),
+];
+
+fn jump_or_kink(
+    machine: &impl Reducible,
+    coordinate: Coordinate,
+    at: f64,
+    near: f64,
+) -> Result<Option<Feature>, Error> {
+    let domain = machine.domain();
+    let ends = match domain {
+        Domain::Turn => [at - near, at + near],
+        Domain::Stroke { from, to } => [(at - near).max(from), (at + near).min(to)],
+    };
+    for (name, curve) in CURVES {
+        let value = |phi: f64| machine.reduction(phi).map(|r| curve(&r));
+        let step = 1e-7 * domain.span();
+        let slope = |phi: f64| {
+            let [low, high] = match domain {
+                Domain::Turn => [phi - step, phi + step],
+                Domain::Stroke { from, to } => [(phi - step).max(from), (phi + step).min(to)],
+            };
+            Ok((value(high)? - value(low)?) / (high - low))
+        };
+        for (what, found) in [
+            ("jumps", narrow(&value, ends, 0.0)?),
+            ("has a kink", narrow(&slope, ends, 2.0 * step)?),
+        ] {
+            if let Some(phi) = found {
+                let name = if name.starts_with('J') {
+                    name.replace('J', coordinate.inertia())
+                } else {
+                    format!("the curve of {name}")
+                };
+                let words = format!("{name} {what} at {}", coordinate.place(phi));
+                return Ok(Some(Feature { words, cure: None }));
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// Where a function steps within an interval: the part whose difference is least like those beside it, again and again; a step
+/// is what keeps its size. Not looked at closer than `finest`.
+fn narrow(
+    f: &impl Fn(f64) -> Result<f64, Error>,
+    [mut from, mut to]: [f64; 2],
+    finest: f64,
+) -> Result<Option<f64>, Error> {
+    const PARTS: u32 = 16;
+    const DEPTH: u32 = 8;
+    // An interval of three parts of the one before shows a smooth curve 150 times, a kink 5 times smaller.
+    const KEPT: f64 = 0.5;
+    let mut first = None;
+    for depth in 0..DEPTH {
+        if depth > 1 && to - from < finest * f64::from(PARTS) {
+            break;
+        }
+        let at = |k: u32| from + (to - from) * f64::from(k) / f64::from(PARTS);
+        let values = (0..=PARTS).map(|k| f(at(k)));
+        let values = values.collect::<Result<Vec<f64>, Error>>()?;
+        let size = values
+            .iter()
+            .fold(0.0, |most: f64, value| most.max(value.abs()));
+        let steps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let odd = |triple: &[f64]| (triple[1] - 0.5 * (triple[0] + triple[2])).abs();
+        let best = (1..).zip(steps.windows(3).map(odd));
+        let Some((k, step)) = best.max_by(|a: &(u32, f64), b| a.1.total_cmp(&b.1)) else {
+            return Ok(None);
+        };
+        // Nothing but roundings, or smooth.
+        if step <= 1e-6 * size || step < KEPT * *first.get_or_insert(step) {
+            return Ok(None);
+        }
+        (from, to) = (at(k - 1), at(k + 2));
+    }
+    Ok(Some(0.5 * (from + to)))
+}

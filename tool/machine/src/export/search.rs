@@ -1,0 +1,360 @@
+//! The smallest table of one number type and layout that meets a torque error, or the best one for its bytes.
+//!
+//! A size is looked at in two steps: against exact curves computed once, which refuses nearly all that miss; then against
+//! [`tabulate::measure`], and by ticking its image. What passes both is a table.
+
+use jred::table::{Layout, MAX_CELLS, MIN_CELLS, curves};
+use jred::tabulate::{self, Request, Tabulated};
+use jred::{Domain, Error, Machine, Reducible as _, Scale, Usage};
+
+use super::choice::{LayoutName, Number};
+use super::kind::{Kind, Made, Size};
+use super::reference::{Curves, Reference, Remembered};
+use super::ticks::Ticks;
+use crate::model::machine::AnyMechanism;
+
+/// Sizes up to this one are all tried.
+pub const EXHAUSTIVE: u32 = 512;
+
+/// A table with its image.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// Number type.
+    pub number: Number,
+    /// Layout.
+    pub layout: LayoutName,
+    /// Set of [`curves`].
+    pub curves: u8,
+    /// How exact its curves are.
+    pub found: Tabulated,
+    /// The largest error of the drive torque (N·m, or N): of the curves and of the ticks.
+    pub error: f64,
+    /// Its torque error at the places of the search alone (N·m, or N).
+    pub looked: f64,
+    /// How exact its ticks are.
+    pub ticks: Ticks,
+    /// How much of the number range each quantity uses.
+    pub usage: Usage,
+    /// Its machine units.
+    pub scale: Scale,
+    /// Bytes of its rows.
+    pub row_bytes: usize,
+    /// The image.
+    pub words: Vec<u32>,
+}
+
+impl Candidate {
+    /// Bytes of the image.
+    pub fn bytes(&self) -> usize {
+        4 * self.words.len()
+    }
+}
+
+/// What was found for one number type and layout.
+#[derive(Clone, Debug)]
+pub enum Answer {
+    /// It meets what was asked for.
+    Meets(Box<Candidate>),
+    /// The best there is does not.
+    Misses(Box<Candidate>),
+    /// No size gives a sound table; why the last one did not.
+    Refused(Error),
+    /// The smallest image does not fit; its bytes.
+    TooLarge(usize),
+}
+
+impl Answer {
+    /// Why it is not taken, in a few words; nothing where it meets what is asked for.
+    pub const fn remark(&self) -> &'static str {
+        match self {
+            Self::Meets(_) => "",
+            Self::Misses(_) => "misses",
+            Self::Refused(_) => "no size is sound",
+            Self::TooLarge(_) => "does not fit",
+        }
+    }
+}
+
+/// What is looked for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Goal {
+    /// Largest error of the drive torque (N·m); without one, the least possible.
+    pub(super) torque_error: Option<f64>,
+    /// Largest speed and acceleration.
+    pub(super) range: [f64; 2],
+    /// Most cells to try.
+    pub(super) max_cells: u32,
+    /// Most bytes of the image.
+    pub(super) max_bytes: Option<usize>,
+    /// Whether fixed-point tables get the curve of 1/J.
+    pub(super) reciprocal: bool,
+}
+
+/// A search for one machine.
+pub(super) struct Search<'m> {
+    pub(super) machine: &'m Machine<AnyMechanism>,
+    pub(super) knots: Remembered<'m, Machine<AnyMechanism>>,
+    pub(super) domain: Domain,
+    pub(super) reference: Reference,
+    pub(super) goal: Goal,
+    set: u8,
+}
+
+impl<'m> Search<'m> {
+    pub(super) fn new(machine: &'m Machine<AnyMechanism>, goal: Goal) -> Result<Self, Error> {
+        let domain = machine.domain();
+        if domain == Domain::Turn {
+            machine.check_repeats()?;
+        }
+        Ok(Self {
+            machine,
+            knots: Remembered::new(machine),
+            domain,
+            reference: Reference::new(machine)?,
+            goal,
+            set: tabulate::curves_in_use(machine, super::choice::PLACES)?,
+        })
+    }
+
+    /// The table of this type and layout.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub(super) fn run<K: Kind>(&self, number: Number, layout: LayoutName) -> Result<Answer, Error> {
+        let reciprocal = if self.goal.reciprocal && K::RECIPROCAL {
+            curves::RECIPROCAL
+        } else {
+            0
+        };
+        let mut attempt = Attempt::<K> {
+            search: self,
+            number,
+            layout,
+            set: self.set | reciprocal,
+            scale: number.scale(self.machine, self.goal.range)?,
+            buffers: K::Buffers::default(),
+            worst: 0,
+            refused: None,
+        };
+        attempt.run()
+    }
+
+    /// The torque error of a table in double precision, which is what is left without roundings, and where it is largest.
+    pub(super) fn without_rounding<L: Layout>(&self, cells: u32) -> Result<(f64, f64), Error> {
+        let mut scratch = vec![0.0; tabulate::scratch_len(cells, self.set)];
+        let mut words = vec![0.0f64; tabulate::words_len::<L>(cells, self.set)];
+        let (scale, words) = (&Scale::SI, words.as_mut_slice());
+        let table =
+            tabulate::fill::<f64, L>(&self.knots, self.set, cells, scale, &mut scratch, words)?;
+        let per_position = f64::from(cells) / self.domain.span();
+        let read = |phase| {
+            let read = table.at(phase);
+            Curves {
+                inertia: read.inertia,
+                slope: read.inertia_slope * per_position,
+                load: read.load,
+                viscous: read.viscous,
+                coulomb: read.coulomb,
+            }
+        };
+        let all = (0, f64::INFINITY);
+        let (error, index) = self.reference.error(read, self.goal.range, all);
+        let worst = self.reference.places.get(index);
+        Ok((error, worst.map_or(0.0, |place| place.phi)))
+    }
+}
+
+/// Sizes that grow by a quarter each, the last one too.
+fn growing(most: u32) -> impl Iterator<Item = u32> {
+    std::iter::successors(Some((MIN_CELLS as u32).min(most)), move |cells| {
+        (*cells < most).then(|| (cells + cells.div_ceil(4)).min(most))
+    })
+}
+
+struct Attempt<'s, K: Kind> {
+    search: &'s Search<'s>,
+    number: Number,
+    layout: LayoutName,
+    set: u8,
+    scale: Scale,
+    buffers: K::Buffers,
+    /// Index of the place where the table before was worst: the next one is looked at there first.
+    worst: usize,
+    /// Why the last size that was refused was.
+    refused: Option<Error>,
+}
+
+impl<'s, K: Kind> Attempt<'s, K> {
+    fn run(&mut self) -> Result<Answer, Error> {
+        let goal = self.search.goal;
+        let Some(most) = self.most_cells() else {
+            return Ok(Answer::TooLarge(self.bytes(MIN_CELLS as u32)));
+        };
+        if let Some(allowed) = goal.torque_error
+            && let Some(candidate) = self.smallest(most, allowed)?
+        {
+            return Ok(Answer::Meets(Box::new(candidate)));
+        }
+        let Some(candidate) = self.best(most)? else {
+            let sound = Error::NotFinite("torque error of the table");
+            return Ok(Answer::Refused(self.refused.unwrap_or(sound)));
+        };
+        let candidate = Box::new(candidate);
+        Ok(match goal.torque_error {
+            Some(allowed) if candidate.error > allowed => Answer::Misses(candidate),
+            _ => Answer::Meets(candidate),
+        })
+    }
+
+    fn bytes(&self, cells: u32) -> usize {
+        K::bytes(cells, self.set)
+    }
+
+    /// The most cells that may be tried; `None` if not even the fewest fit.
+    fn most_cells(&self) -> Option<u32> {
+        let goal = &self.search.goal;
+        let most = goal.max_cells.min(MAX_CELLS);
+        let fits = |cells: u32| goal.max_bytes.is_none_or(|most| self.bytes(cells) <= most);
+        let (mut fitting, mut above) = (MIN_CELLS as u32, most + 1);
+        if !fits(fitting) {
+            return None;
+        }
+        while fitting + 1 < above {
+            let middle = fitting.midpoint(above);
+            if fits(middle) {
+                fitting = middle;
+            } else {
+                above = middle;
+            }
+        }
+        Some(fitting)
+    }
+
+    /// The table with the fewest cells that meets the error: every size up to [`EXHAUSTIVE`] is tried, beyond it bisection
+    /// takes for granted that more cells err less.
+    fn smallest(&mut self, most: u32, allowed: f64) -> Result<Option<Candidate>, Error> {
+        let mut above = None;
+        for cells in growing(most) {
+            if let Some(found) = self.make(cells, allowed)? {
+                above = Some(found);
+                break;
+            }
+        }
+        let end = above.as_ref().map_or(most, |c| c.found.cells - 1);
+        for cells in MIN_CELLS as u32..=end.min(EXHAUSTIVE) {
+            if let Some(found) = self.make(cells, allowed)? {
+                return Ok(Some(found));
+            }
+        }
+        let Some(mut best) = above else {
+            return Ok(None);
+        };
+        // The growing size before it misses.
+        let before = growing(most).take_while(|cells| *cells < best.found.cells);
+        let mut below = before.last().unwrap_or(0).max(EXHAUSTIVE.min(end));
+        while below + 1 < best.found.cells {
+            let middle = below.midpoint(best.found.cells);
+            match self.make(middle, allowed)? {
+                Some(found) => best = found,
+                None => below = middle,
+            }
+        }
+        Ok(Some(best))
+    }
+
+    /// The most exact table of up to `most` cells: of all sizes up to [`EXHAUSTIVE`], and of growing ones beyond.
+    fn best(&mut self, most: u32) -> Result<Option<Candidate>, Error> {
+        let all = (MIN_CELLS as u32..=most.min(EXHAUSTIVE)).rev();
+        let beyond = growing(most).filter(|cells| *cells > EXHAUSTIVE);
+        let mut sizes: Vec<(f64, u32)> = Vec::new();
+        let mut least = f64::INFINITY;
+        for cells in beyond.chain(all) {
+            if let Some(error) = self.look(cells, least)? {
+                least = error;
+                sizes.push((error, cells));
+            }
+        }
+        // The last is the best; should its image be refused, those before it.
+        while let Some((_, cells)) = sizes.pop() {
+            if let Some(found) = self.make(cells, f64::INFINITY)? {
+                return Ok(Some(found));
+            }
+        }
+        Ok(None)
+    }
+
+    fn size(&self, cells: u32) -> Size<'s> {
+        Size {
+            search: self.search,
+            set: self.set,
+            cells,
+            scale: K::scale(self.scale, cells, self.search.domain.span()),
+        }
+    }
+
+    /// The bound of the torque error of this size at the places of the reference; `None` if it is above `limit`, or if the
+    /// size gives no sound table.
+    fn look(&mut self, cells: u32, limit: f64) -> Result<Option<f64>, Error> {
+        let size = self.size(cells);
+        match K::look(&size, &mut self.buffers, (self.worst, limit)) {
+            Ok((error, worst)) => {
+                self.worst = worst;
+                Ok((error <= limit).then_some(error))
+            }
+            Err(error) => self.refuse(error),
+        }
+    }
+
+    /// This size, if it meets the limit everywhere.
+    fn make(&mut self, cells: u32, limit: f64) -> Result<Option<Candidate>, Error> {
+        let Some(looked) = self.look(cells, limit)? else {
+            return Ok(None);
+        };
+        let [omega, alpha] = self.search.goal.range;
+        let request = Request {
+            torque_error: limit,
+            omega,
+            alpha,
+            max_cells: cells,
+        };
+        let size = self.size(cells);
+        let made = match K::make(&size, &mut self.buffers, &request, looked) {
+            Ok(Some(made)) => made,
+            Ok(None) => return Ok(None),
+            Err(error) => return self.refuse(error),
+        };
+        let scale = size.scale;
+        let Made {
+            found,
+            error,
+            usage,
+            ticks,
+            row_bytes,
+            words,
+        } = made;
+        Ok(Some(Candidate {
+            number: self.number,
+            layout: self.layout,
+            curves: self.set,
+            found,
+            error,
+            looked,
+            ticks,
+            usage,
+            scale,
+            row_bytes,
+            words,
+        }))
+    }
+
+    /// A coarse curve may dip below zero or leave the range: more cells cure it. Everything else is the machine's fault.
+    fn refuse<T>(&mut self, error: Error) -> Result<Option<T>, Error> {
+        match error {
+            Error::Overflow { .. } | Error::NoInertia { .. } | Error::Table(_) => {
+                self.refused = Some(error);
+                Ok(None)
+            }
+            error => Err(error),
+        }
+    }
+}

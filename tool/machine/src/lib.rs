@@ -1,0 +1,26 @@
+//! Machines as data: the texts that describe them, what they say, and what can be worked out from that alone.
+//!
+//! The first of the packages behind the command `jred`:
+//!
+//! ```text
+//! jred ─► jred-machine ─► jred-sizing ─► jred-report ─► jred-cli
+//! core    machine files,   catalogue,     tables, plots,  the command
+//!         analysis         drives         pages
+//! ```
+//!
+//! The way of the data is that of the folders, each knows those before it:
+//!
+//! 1. [`number`]: rounding, integrals, splines, columns of numbers.
+//! 2. [`units`] and [`text`]: quantities with units, TOML and CSV with places; every fault names its place and its cure.
+//! 3. [`model`]: a machine as a machine file describes it, in SI units.
+//! 4. [`analysis`]: reduction, duty, check of the mechanism, free motion.
+//! 5. [`read`]: a text in, a [`model::machine::MachineFile`] out.
+//! 6. [`export`]: the smallest table for the firmware that meets a torque error.
+
+pub mod analysis;
+pub mod export;
+pub mod model;
+pub mod number;
+pub mod read;
+pub mod text;
+pub mod units;

@@ -1,0 +1,137 @@
+//! The coordinate of the drive link: an angle φ, or a displacement s of one that slides; how each is named and shown.
+
+use std::f64::consts::TAU;
+
+use jred::{Domain, Error, Joint, Jointed as _, Mechanism as _};
+
+use crate::model::machine::AnyMechanism;
+
+/// What the drive link does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coordinate {
+    /// It turns or swings: φ in rad, torque in N·m.
+    Angle,
+    /// It slides: s in m, force in N; J_red is a reduced mass.
+    Length,
+}
+
+impl Coordinate {
+    /// The coordinate of a mechanism, from the joint that its drive moves.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed.
+    pub fn of(mechanism: &AnyMechanism) -> Result<Self, Error> {
+        let phi = mechanism.domain().position(0.0);
+        let joints = mechanism.joints(phi, &mechanism.frames(phi)?)?;
+        Ok(match joints.get(mechanism.drive()) {
+            Some(Joint::Prismatic(_)) => Self::Length,
+            _ => Self::Angle,
+        })
+    }
+
+    const fn pick(self, angle: &'static str, length: &'static str) -> &'static str {
+        match self {
+            Self::Angle => angle,
+            Self::Length => length,
+        }
+    }
+
+    /// Name of the column of positions.
+    pub const fn column(self) -> &'static str {
+        self.pick("phi [deg]", "s [mm]")
+    }
+
+    /// Label of the axis of positions.
+    pub const fn axis(self) -> &'static str {
+        self.pick(
+            "angle of the drive link φ [deg]",
+            "displacement of the drive link s [mm]",
+        )
+    }
+
+    /// Symbol of the position.
+    pub const fn symbol(self) -> &'static str {
+        self.pick("φ", "s")
+    }
+
+    /// Unit of a shown position.
+    pub const fn unit(self) -> &'static str {
+        self.pick("deg", "mm")
+    }
+
+    /// A position (rad or m) as it is shown: in degrees or millimetres.
+    pub fn shown(self, position: f64) -> f64 {
+        match self {
+            Self::Angle => position.to_degrees(),
+            Self::Length => position * 1e3,
+        }
+    }
+
+    /// A position with its symbol and unit, such as `φ = 90 deg`.
+    pub fn place(self, position: f64) -> String {
+        let shown = (self.shown(position) * 1e4).round() / 1e4 + 0.0;
+        format!("{} = {shown} {}", self.symbol(), self.unit())
+    }
+
+    /// Names of speed and acceleration.
+    pub const fn rates(self) -> [&'static str; 2] {
+        match self {
+            Self::Angle => ["omega [rad/s]", "alpha [rad/s^2]"],
+            Self::Length => ["v [m/s]", "a [m/s^2]"],
+        }
+    }
+
+    /// Unit of the speed.
+    pub const fn speed_unit(self) -> &'static str {
+        match self {
+            Self::Angle => "rad/s",
+            Self::Length => "m/s",
+        }
+    }
+
+    /// Symbol of the drive's effort: torque or force.
+    pub const fn effort(self) -> &'static str {
+        self.pick("T", "F")
+    }
+
+    /// Unit of the drive's effort.
+    pub const fn effort_unit(self) -> &'static str {
+        self.pick("N m", "N")
+    }
+
+    /// Symbol of the reduced inertia.
+    pub const fn inertia(self) -> &'static str {
+        self.pick("J_red", "m_red")
+    }
+
+    /// Unit of the reduced inertia.
+    pub const fn inertia_unit(self) -> &'static str {
+        self.pick("kg m^2", "kg")
+    }
+
+    /// Unit by which derivatives are taken.
+    pub const fn per(self) -> &'static str {
+        self.pick("rad", "m")
+    }
+}
+
+/// `count` positions over the range: of a turn without its end, which is its start; of a stroke from end to end.
+pub fn positions(domain: Domain, count: usize) -> impl Iterator<Item = f64> {
+    let last = match domain {
+        Domain::Turn => count,
+        Domain::Stroke { .. } => count.saturating_sub(1).max(1),
+    };
+    (0..count).map(move |k| at(domain, k, last))
+}
+
+/// `count` + 1 positions over the range with both its ends, for curves that are drawn.
+pub fn whole_range(domain: Domain, count: usize) -> impl Iterator<Item = f64> {
+    (0..=count).map(move |k| at(domain, k, count))
+}
+
+fn at(domain: Domain, k: usize, last: usize) -> f64 {
+    match domain {
+        Domain::Turn => TAU * k as f64 / last as f64,
+        Domain::Stroke { .. } => domain.position(k as f64 / last as f64),
+    }
+}

@@ -1,0 +1,13 @@
+//! A machine as a machine file describes it, in SI units, with what the file asks of its drive.
+
+pub mod coordinate;
+pub mod machine;
+pub mod motion;
+pub mod operation;
+pub mod rule;
+pub mod rules;
+pub mod site;
+pub mod supply;
+pub mod surroundings;
+pub mod tabulated;
+pub mod variator;

@@ -1,0 +1,152 @@
+//! A rule set: which rules are judged, with what limits, and who says so.
+//!
+//! The sets that come with the tool are files of `tool/machine/rules`; `docs/sizing-rules.md` lists them with their sources.
+
+use serde::Serialize;
+
+use crate::model::rule::{Rule, Sense};
+
+mod change;
+mod choice;
+mod verdict;
+
+pub use change::{Change, Changes, Contradiction, What, shown};
+pub use choice::{Choices, InertiaOf, MeanTorque, Moves};
+pub use verdict::{Finding, Verdict};
+
+/// The limits of one rule, as shares of its rating. `None`: no such limit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Limit {
+    /// Beyond this the rule is violated.
+    pub fail: Option<f64>,
+    /// Beyond this a warning is given.
+    pub warn: Option<f64>,
+}
+
+impl Limit {
+    /// Whether the rule is judged at all.
+    pub const fn is_set(&self) -> bool {
+        self.fail.is_some() || self.warn.is_some()
+    }
+}
+
+/// Limits of the sizing rules. All can be overridden in `[rules]` of the machine file, and all are printed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RuleSet {
+    /// Name of the set that was chosen.
+    pub name: String,
+    /// What the set is, in a few words.
+    pub title: String,
+    /// Figures that a rule may be judged by, where there is more than one.
+    pub choices: Choices,
+    limits: [Limit; Rule::COUNT],
+    off: [bool; Rule::COUNT],
+    sources: [String; Rule::COUNT],
+    /// What the machine file changed; kept so that the same changes can be made to another set.
+    own: Changes,
+}
+
+impl RuleSet {
+    /// A set that judges nothing.
+    pub fn empty(name: impl Into<String>, title: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            title: title.into(),
+            choices: Choices::default(),
+            limits: [Limit::default(); Rule::COUNT],
+            off: [false; Rule::COUNT],
+            sources: std::array::from_fn(|_| String::new()),
+            own: Changes::default(),
+        }
+    }
+
+    /// The limits of a rule.
+    pub const fn limit(&self, rule: Rule) -> Limit {
+        self.limits[rule as usize]
+    }
+
+    /// Sets the limits of a rule.
+    pub const fn set(&mut self, rule: Rule, limit: Limit) {
+        self.limits[rule as usize] = limit;
+    }
+
+    /// Whether the rule was switched off on purpose.
+    pub const fn is_off(&self, rule: Rule) -> bool {
+        self.off[rule as usize]
+    }
+
+    /// Whether reports show the rule: it has a limit, or was switched off on purpose.
+    pub const fn shows(&self, rule: Rule) -> bool {
+        self.is_off(rule) || self.limit(rule).is_set()
+    }
+
+    /// Where the rule's limits come from.
+    pub fn source(&self, rule: Rule) -> &str {
+        &self.sources[rule as usize]
+    }
+
+    /// How a finding comes out under a rule.
+    pub fn verdict(&self, rule: Rule, finding: Finding) -> Verdict {
+        let limit = self.limit(rule);
+        if !limit.is_set() {
+            return Verdict::Off;
+        }
+        if !finding.is_known() {
+            return Verdict::NotChecked;
+        }
+        let beyond = |share: Option<f64>| {
+            share.is_some_and(|share| {
+                let limit = share * finding.rating;
+                match rule.sense() {
+                    Sense::AtMost => finding.value > limit,
+                    Sense::AtLeast => finding.value < limit,
+                }
+            })
+        };
+        if beyond(limit.fail) {
+            Verdict::Fail
+        } else if beyond(limit.warn) {
+            Verdict::Warn
+        } else {
+            Verdict::Pass
+        }
+    }
+
+    /// How much of the limit whose passing violates the rule a finding uses; zero where there is no such limit, infinite
+    /// where the limit is zero and something is asked for.
+    pub fn use_of_limit(&self, rule: Rule, finding: Finding) -> f64 {
+        use_of(self.limit(rule).fail, rule, finding)
+    }
+
+    /// The same of the limit that is shown: that of the warning, where there is no other.
+    pub fn use_shown(&self, rule: Rule, finding: Finding) -> f64 {
+        let limit = self.limit(rule);
+        use_of(limit.fail.or(limit.warn), rule, finding)
+    }
+}
+
+fn use_of(share: Option<f64>, rule: Rule, finding: Finding) -> f64 {
+    let Some(share) = share.filter(|_| finding.is_known()) else {
+        return 0.0;
+    };
+    let limit = share * finding.rating;
+    let (top, bottom) = match rule.sense() {
+        Sense::AtMost => (finding.value, limit),
+        Sense::AtLeast => (limit, finding.value),
+    };
+    if bottom > 0.0 {
+        top / bottom
+    } else if top > 0.0 {
+        f64::INFINITY
+    } else {
+        0.0
+    }
+}
+
+impl Default for RuleSet {
+    /// The set `general`.
+    fn default() -> Self {
+        // The file is part of the tool, and a test reads it.
+        crate::read::built_in_rules("general").unwrap_or_else(|| Self::empty("general", ""))
+    }
+}

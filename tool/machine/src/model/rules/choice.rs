@@ -1,0 +1,129 @@
+//! Figures that a rule may be judged by, where there is more than one.
+
+use serde::Serialize;
+
+use crate::number::figures::Figures;
+
+/// Which λ of the cycle is judged. With J(φ) the inertia ratio is a curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum InertiaOf {
+    /// The smallest.
+    Min,
+    /// The mean over time.
+    Mean,
+    /// The root mean square over time.
+    Rms,
+    /// The largest.
+    #[default]
+    Max,
+}
+
+impl InertiaOf {
+    /// As machine files write them.
+    pub const WORDS: [&'static str; 4] = ["max", "mean", "rms", "min"];
+
+    /// The choice of a word.
+    pub fn of(word: &str) -> Option<Self> {
+        match word {
+            "max" => Some(Self::Max),
+            "mean" => Some(Self::Mean),
+            "rms" => Some(Self::Rms),
+            "min" => Some(Self::Min),
+            _ => None,
+        }
+    }
+
+    /// The figure chosen.
+    pub const fn pick(self, figures: &Figures) -> f64 {
+        match self {
+            Self::Min => figures.min,
+            Self::Mean => figures.mean,
+            Self::Rms => figures.rms,
+            Self::Max => figures.max,
+        }
+    }
+
+    /// In words for reports.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Min => "judged at the smallest λ over the cycle",
+            Self::Mean => "judged at the mean λ over the cycle",
+            Self::Rms => "judged at the RMS of λ over the cycle",
+            Self::Max => "judged at the largest λ over the cycle",
+        }
+    }
+}
+
+/// Exponent of the mean torque of a gearbox.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub enum MeanTorque {
+    /// 3: gears.
+    #[default]
+    #[serde(rename = "3")]
+    Cubic,
+    /// 10/3: roller bearings.
+    #[serde(rename = "10/3")]
+    RollerBearing,
+}
+
+impl MeanTorque {
+    /// As machine files write them.
+    pub const WORDS: [&'static str; 2] = ["3", "10/3"];
+
+    /// The choice of a word.
+    pub fn of(word: &str) -> Option<Self> {
+        match word {
+            "3" => Some(Self::Cubic),
+            "10/3" => Some(Self::RollerBearing),
+            _ => None,
+        }
+    }
+
+    /// The exponent.
+    pub const fn exponent(self) -> f64 {
+        match self {
+            Self::Cubic => 3.0,
+            Self::RollerBearing => 10.0 / 3.0,
+        }
+    }
+}
+
+/// The largest inertia ratio of machines that make more than so many moves a minute.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Moves {
+    /// Moves per minute.
+    #[serde(rename = "above [1/min]")]
+    pub above: f64,
+    /// Largest λ.
+    pub limit: f64,
+}
+
+/// What a rule set chooses beside its limits.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Choices {
+    /// Which λ is judged.
+    pub inertia_ratio_of: InertiaOf,
+    /// Exponent of the mean torque of a gearbox.
+    pub gearbox_mean_exponent: MeanTorque,
+    /// Limits of λ by moves per minute, rising; empty: the same for all.
+    pub inertia_ratio_by_moves: Vec<Moves>,
+}
+
+impl Choices {
+    /// What the limits of λ are multiplied with at so many moves a minute: one without a table, else the table's figure,
+    /// NaN where it holds none.
+    pub fn inertia_rating(&self, moves_per_minute: f64) -> f64 {
+        let mut rating = if self.inertia_ratio_by_moves.is_empty() {
+            1.0
+        } else {
+            f64::NAN
+        };
+        for band in &self.inertia_ratio_by_moves {
+            if moves_per_minute > band.above {
+                rating = band.limit;
+            }
+        }
+        rating
+    }
+}

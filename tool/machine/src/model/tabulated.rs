@@ -1,0 +1,354 @@
+//! Curves from elsewhere as links of a mechanism.
+//!
+//! What a machine's file gives as a curve over the drive link's position is carried by a *stand-in*: a rotor on a bearing of
+//! its own, geared to the drive link with a ratio ψ′(φ) that the curve makes. The method of reduction then gives the curve back,
+//! with consistent derivatives, and d'Alembert's principle finds the same torque through the gearing:
+//!
+//! ```text
+//! inertia J(φ)            rotor of 1 kg·m²                ψ′ = √J        J_red = ψ′², J_red′ = 2·ψ′·ψ″
+//! torque T(φ)             1 N·m on a rotor without mass   ψ′ = T         T·ω = 1 N·m·ψ̇
+//! weight, −U′(φ)          spring of 1 N·m/rad             ψ = √(2·U)     U = ½·ψ²
+//! opposing torque c(φ)    1 N·m against the rotor         ψ′ = c
+//! viscous b(φ)            1 N·m·s/rad on the rotor        ψ′ = √b
+//! payload m(φ) on a link  two rotors of 1 kg·m²           ψ′ = √m·x′, √m·y′
+//! its weight              1 N·m                           ψ′ = m·(g_x·x′ + g_y·y′)
+//! force F(φ) against it   1 N·m against the rotor         ψ′ = F·|r′|
+//! ```
+//!
+//! ψ itself is only kept where a spring needs it; elsewhere nothing depends on it and it stays zero.
+
+use std::sync::Arc;
+
+use jred::joint::{Joints, Marker};
+use jred::mechanism::{Frames, MAX_LINKS};
+use jred::{
+    Action, Body, Domain, Element, Error, Frame, Joint, Jointed, Link, Load, Mechanism, Transfer,
+    Wrench,
+};
+
+use crate::model::machine::Inner;
+use crate::number::spline::Spline;
+
+/// What a stand-in carries.
+#[derive(Clone, Debug)]
+pub enum Course {
+    /// A reduced inertia (kg·m², or kg of a drive link that slides).
+    Inertia(Spline),
+    /// A torque (N·m, or N) in the direction of growing φ.
+    Torque(Spline),
+    /// A torque that a potential makes, −U′; over a turn its integral is zero. See [`Course::potential`].
+    Potential {
+        /// The torque.
+        torque: Spline,
+        /// What is added to −∫T, so that the energy is never near zero.
+        offset: f64,
+    },
+    /// A torque against the motion, not negative.
+    Opposing(Spline),
+    /// A viscous coefficient b (N·m·s/rad, or N·s/m), not negative.
+    Viscous(Spline),
+    /// A mass (kg) at the origin of the frame of link number `link`: its motion along x or y.
+    Payload {
+        /// Mass.
+        mass: Spline,
+        /// Index of the link.
+        link: usize,
+        /// 0: along x, 1: along y.
+        axis: usize,
+    },
+    /// The weight of that mass.
+    Weight {
+        /// Mass.
+        mass: Spline,
+        /// Index of the link.
+        link: usize,
+        /// Gravity (m/s²).
+        gravity: [f64; 2],
+    },
+    /// A force (N) against the motion of that point, not negative.
+    Thrust {
+        /// Force.
+        force: Spline,
+        /// Index of the link.
+        link: usize,
+    },
+}
+
+/// A stand-in.
+#[derive(Clone, Debug)]
+pub struct StandIn {
+    /// Its name in tables.
+    pub name: String,
+    /// What it carries.
+    pub course: Course,
+}
+
+/// √f with its first two derivatives; zero with level derivatives where f is zero.
+fn root([value, d1, d2, _]: [f64; 4]) -> [f64; 3] {
+    if value <= 0.0 {
+        return [0.0; 3];
+    }
+    let f = Transfer {
+        value,
+        d1,
+        d2,
+        d3: 0.0,
+    }
+    .sqrt();
+    [f.value, f.d1, f.d2]
+}
+
+/// ψ from ψ′ with its derivatives.
+const fn from_rate([d1, d2, d3]: [f64; 3]) -> Transfer {
+    Transfer {
+        value: 0.0,
+        d1,
+        d2,
+        d3,
+    }
+}
+
+/// f·g with two derivatives.
+fn product(f: [f64; 3], g: [f64; 3]) -> [f64; 3] {
+    [
+        f[0] * g[0],
+        f[1] * g[0] + f[0] * g[1],
+        f[2] * g[0] + 2.0 * f[1] * g[1] + f[0] * g[2],
+    ]
+}
+
+/// x′ with two derivatives.
+const fn rate(x: Transfer) -> [f64; 3] {
+    [x.d1, x.d2, x.d3]
+}
+
+const fn three([a, b, c, _]: [f64; 4]) -> [f64; 3] {
+    [a, b, c]
+}
+
+impl Course {
+    /// The torque of a potential, with an offset of more than it can fall: a constant in U does nothing.
+    pub fn potential(torque: Spline) -> Self {
+        let [from, to] = torque.range();
+        let offset = 2.0 * (to - from) * torque.largest() + 1e-9;
+        Self::Potential { torque, offset }
+    }
+
+    /// ψ of the rotor at `phi`, where the mechanism's own links are at `frames`.
+    fn psi(&self, phi: f64, frames: &[Frame]) -> Transfer {
+        let origin = |link: usize| {
+            let frame = frames.get(link).unwrap_or(&Frame::GROUND);
+            [frame.x, frame.y]
+        };
+        match self {
+            Self::Inertia(curve) | Self::Viscous(curve) => from_rate(root(curve.at(phi))),
+            Self::Torque(curve) | Self::Opposing(curve) => from_rate(three(curve.at(phi))),
+            Self::Potential { torque, offset } => {
+                let [value, d1, d2, _] = torque.at(phi);
+                let energy = Transfer {
+                    value: offset - torque.integral(phi),
+                    d1: -value,
+                    d2: -d1,
+                    d3: -d2,
+                };
+                (energy * 2.0).sqrt()
+            }
+            Self::Payload { mass, link, axis } => {
+                let along = origin(*link)[*axis % 2];
+                from_rate(product(root(mass.at(phi)), rate(along)))
+            }
+            Self::Weight {
+                mass,
+                link,
+                gravity,
+            } => {
+                let [x, y] = origin(*link);
+                let fall = x * gravity[0] + y * gravity[1];
+                from_rate(product(three(mass.at(phi)), rate(fall)))
+            }
+            Self::Thrust { force, link } => {
+                let [x, y] = origin(*link).map(rate);
+                let speed = x[0].hypot(y[0]);
+                // Where the point stands still the magnitude has a bend; nothing with a mass needs its slope.
+                let bend = if speed > 0.0 {
+                    (x[0] * x[1] + y[0] * y[1]) / speed
+                } else {
+                    0.0
+                };
+                from_rate(product(three(force.at(phi)), [speed, bend, 0.0]))
+            }
+        }
+    }
+
+    /// Inertia of the rotor (kg·m²).
+    const fn inertia(&self) -> f64 {
+        match self {
+            Self::Inertia(_) | Self::Payload { .. } => 1.0,
+            _ => 0.0,
+        }
+    }
+
+    /// The load on the rotor, link number `link`.
+    ///
+    /// # Errors
+    /// None: the loads are constants.
+    pub(crate) fn load(&self, link: usize) -> Result<Option<Load>, Error> {
+        let action = match self {
+            Self::Torque(_) | Self::Weight { .. } => Action::Moment(1.0),
+            Self::Opposing(_) | Self::Thrust { .. } => Action::OpposingMoment(1.0),
+            Self::Viscous(_) => Action::ViscousMoment(1.0),
+            Self::Inertia(_) | Self::Potential { .. } | Self::Payload { .. } => return Ok(None),
+        };
+        Load::new(link, action).map(Some)
+    }
+
+    /// The spring on the rotor, link number `link`.
+    ///
+    /// # Errors
+    /// None: the spring is a constant.
+    pub(crate) fn spring(&self, link: usize) -> Result<Option<Element>, Error> {
+        let Self::Potential { .. } = self else {
+            return Ok(None);
+        };
+        let ends = [Marker::ground([0.0, 0.0]), Marker::on(link, [0.0, 0.0])];
+        Element::torsion_spring(ends, 1.0, 0.0).map(Some)
+    }
+}
+
+/// A mechanism with stand-ins after its own links.
+#[derive(Clone, Debug)]
+pub(crate) struct Tabulated {
+    inner: Arc<dyn Inner>,
+    links: Vec<Link>,
+    courses: Vec<Course>,
+}
+
+impl Tabulated {
+    pub(crate) fn new(inner: Arc<dyn Inner>, stand_ins: &[StandIn]) -> Result<Self, Error> {
+        let mut links = inner.links().to_vec();
+        for stand_in in stand_ins {
+            links.push(Link::rotor(stand_in.course.inertia())?);
+        }
+        if links.len() > MAX_LINKS {
+            return Err(Error::TooMany {
+                what: "links, of which each curve takes one",
+                capacity: MAX_LINKS,
+            });
+        }
+        let courses = stand_ins.iter().map(|s| s.course.clone()).collect();
+        Ok(Self {
+            inner,
+            links,
+            courses,
+        })
+    }
+
+    /// Number of the mechanism's own links.
+    fn own(&self) -> usize {
+        self.links.len() - self.courses.len()
+    }
+}
+
+impl Mechanism for Tabulated {
+    fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    fn domain(&self) -> Domain {
+        self.inner.domain()
+    }
+
+    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+        let mut frames = self.inner.frames(phi)?;
+        let own = frames.len();
+        for course in &self.courses {
+            let psi = course.psi(phi, &frames[..own]);
+            // Cannot fail: `new` counted the links.
+            let _ = frames.push(Frame::turning([0.0, 0.0], psi));
+        }
+        Ok(frames)
+    }
+}
+
+impl Jointed for Tabulated {
+    /// Those of the mechanism; then for each stand-in its bearing and its gearing with the drive link.
+    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, Error> {
+        let own = self.own();
+        let inner: Frames = frames.iter().take(own).copied().collect();
+        let mut joints = self.inner.joints(phi, &inner)?;
+        let drive = match joints.get(self.inner.drive()) {
+            Some(joint) => joint.unit_drive(frames)[1],
+            None => Wrench::moment(Body::Ground, 0.0),
+        };
+        for (k, frame) in frames.iter().enumerate().skip(own) {
+            let bearing = [Marker::ground([0.0, 0.0]), Marker::on(k, [0.0, 0.0])];
+            let gearing = [
+                drive.times(-frame.psi.d1),
+                Wrench::moment(Body::Link(k), 1.0),
+            ];
+            for joint in [Joint::Revolute(bearing), Joint::Transmission(gearing)] {
+                // Cannot fail: two joints a link.
+                let _ = joints.push(joint);
+            }
+        }
+        Ok(joints)
+    }
+
+    fn drive(&self) -> usize {
+        self.inner.drive()
+    }
+}
+
+/// A drive link without mass, alone: what tabulated curves alone are hung on.
+#[derive(Clone, Debug)]
+pub(crate) struct DriveLinkAlone {
+    domain: Domain,
+    slides: bool,
+    links: [Link; 1],
+}
+
+impl DriveLinkAlone {
+    pub(crate) fn new(domain: Domain, slides: bool) -> Result<Self, Error> {
+        let links = [Link::new(0.0, 0.0, [0.0, 0.0])?];
+        Ok(Self {
+            domain,
+            slides,
+            links,
+        })
+    }
+}
+
+impl Mechanism for DriveLinkAlone {
+    fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    fn domain(&self) -> Domain {
+        self.domain
+    }
+
+    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+        if !phi.is_finite() {
+            return Err(Error::NotFinite("position of the drive link"));
+        }
+        let at = Transfer::variable(phi);
+        let frame = if self.slides {
+            Frame::translating([at, Transfer::constant(0.0)])
+        } else {
+            Frame::turning([0.0, 0.0], at)
+        };
+        Ok(Frames::from_iter([frame]))
+    }
+}
+
+impl Jointed for DriveLinkAlone {
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+        let ends = [Marker::ground([0.0, 0.0]), Marker::on(0, [0.0, 0.0])];
+        let joint = if self.slides {
+            Joint::Prismatic(ends)
+        } else {
+            Joint::Revolute(ends)
+        };
+        Ok(Joints::from_iter([joint]))
+    }
+}

@@ -1,0 +1,184 @@
+//! A friction variator between the motor and the drive train.
+//!
+//! Its ratio is shifted in time, so the constraint between its shafts is not integrable: the angle of the drive link is not
+//! a function of the motor's angle, and there is no one table J_red(φ) of the motor shaft. What remains is the equation of
+//! motion, [`simulate`](crate::analysis::simulate).
+
+use jred::Error;
+use jred::friction::{
+    Arrangement, Contact, Course, CreepContact, Drive, Dual, Flow, Place, Ramp, Stage, Variable,
+};
+use jred::motion::Law;
+use miette::{Report, miette};
+
+use crate::model::machine::MachineFile;
+
+/// A variator as the machine file gives it.
+#[derive(Clone, Debug)]
+pub struct Variator {
+    /// Its ratio over time.
+    pub ratio: Ratio,
+    /// Its slip.
+    pub slip: Slip,
+    /// Inertias of its input and output shaft (kg·m²).
+    pub inertia: [f64; 2],
+}
+
+/// Slip of the contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Slip {
+    /// None, or a constant one.
+    Constant {
+        /// ε
+        share: f64,
+        /// Which way power flows.
+        flow: Flow,
+        /// Whether it loses power.
+        contact: Contact,
+    },
+    /// Slip that grows with the load, up to the limit of friction.
+    Creep(CreepContact),
+}
+
+/// A ratio i = ω₂/ω₁ that is shifted in time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ratio {
+    start: f64,
+    shifts: Vec<Shift>,
+}
+
+/// One shift.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Shift {
+    from: f64,
+    to: f64,
+    course: Ramp,
+}
+
+impl Ratio {
+    /// A ratio that stays `start`.
+    pub const fn new(start: f64) -> Self {
+        Self {
+            start,
+            shifts: Vec::new(),
+        }
+    }
+
+    /// The ratio after the last shift.
+    pub fn last(&self) -> f64 {
+        let value = |shift: &Shift| shift.course.at(Place::new(shift.to, 0.0, 0.0)).value;
+        self.shifts.last().map_or(self.start, value)
+    }
+
+    /// When the last shift ends (s).
+    pub fn end(&self) -> f64 {
+        self.shifts.last().map_or(f64::NEG_INFINITY, |s| s.to)
+    }
+
+    /// With one more shift to the ratio `to`, from the time `at` (s) over `duration` (s), after the last one.
+    ///
+    /// # Errors
+    /// A duration that is not positive, or a value that is not finite.
+    pub fn shift(&mut self, at: f64, duration: f64, to: f64, law: Law) -> Result<(), Error> {
+        let course = Ramp::new(Variable::Time, at, duration, [self.last(), to], law)?;
+        self.shifts.push(Shift {
+            from: at,
+            to: at + duration,
+            course,
+        });
+        Ok(())
+    }
+
+    /// The times at which a shift begins or ends (s), where the third derivative of the motion jumps.
+    pub fn breaks(&self) -> impl Iterator<Item = f64> {
+        self.shifts.iter().flat_map(|s| [s.from, s.to])
+    }
+
+    /// Whether it stays the same.
+    pub const fn is_constant(&self) -> bool {
+        self.shifts.is_empty()
+    }
+}
+
+impl Course for Ratio {
+    fn at(&self, at: Place) -> Dual<3> {
+        let begun = self.shifts.partition_point(|s| s.from <= at.t.value);
+        let current = begun.checked_sub(1).and_then(|k| self.shifts.get(k));
+        current.map_or(Dual::constant(self.start), |s| s.course.at(at))
+    }
+}
+
+impl Variator {
+    /// The one stage that it is; of a creeping contact, without its slip.
+    ///
+    /// # Errors
+    /// None for a variator that was read without error.
+    pub fn stage(&self) -> Result<Stage<'_>, Error> {
+        let stage = Stage::new(&self.ratio)?;
+        match self.slip {
+            Slip::Constant { share, flow, .. } => stage.with_slip(share, flow),
+            Slip::Creep(_) => Ok(stage),
+        }
+    }
+
+    /// What slip does to torques; a creeping contact passes on what the radii say.
+    pub const fn contact(&self) -> Contact {
+        match self.slip {
+            Slip::Constant { contact, .. } => contact,
+            Slip::Creep(_) => Contact::Slipping,
+        }
+    }
+}
+
+/// Whether the angles of the variator's shafts are related, in words; nothing for a machine without one.
+pub fn integrability_text(file: &MachineFile) -> Option<String> {
+    let variator = file.variator.as_ref()?;
+    if let Slip::Creep(_) = variator.slip {
+        return Some(
+            "variator: not a constraint: its slip depends on the load, so its shafts are coupled by the force of the \
+             contact and have a freedom each"
+                .to_owned(),
+        );
+    }
+    let end = file.simulation.as_ref().map_or(0.0, |s| s.duration);
+    let last = variator.ratio.end().max(end);
+    let answer = variator.stage().and_then(|stage| {
+        let drive = Drive::new(Arrangement::Chain, variator.contact(), &[stage])?;
+        drive.integrability([0.0, last], [0.0, std::f64::consts::TAU])
+    });
+    Some(match answer.as_deref() {
+        Ok([constraint, ..]) => {
+            format!("variator (α_a: input shaft, α_b: output shaft): {constraint}")
+        }
+        Ok([]) => return None,
+        Err(error) => format!("variator: {error}"),
+    })
+}
+
+/// Refuses a machine with a variator for a command that needs one table of the drive link, or one motion of it, for the
+/// motor.
+///
+/// # Errors
+/// The machine has a variator.
+pub fn refuse(file: &MachineFile, command: &str) -> Result<(), Report> {
+    let Some(variator) = &file.variator else {
+        return Ok(());
+    };
+    let (why, help) = if variator.ratio.is_constant() {
+        (
+            "with slip or without, it is simulated only",
+            "a ratio that does not change is a stage: write it as a belt under [[drive_train]], with its efficiency, \
+             and leave [variator] out",
+        )
+    } else {
+        (
+            "its ratio is shifted in time, so the angle of the drive link is no function of the motor's angle \
+             (non-holonomic), and no single table of reduced inertia exists for the motor",
+            "`jred simulate` integrates the motion; for the machine behind the variator alone, leave [variator] out",
+        )
+    };
+    Err(miette!(
+        help = help,
+        "`jred {command}` cannot be used with a [variator]: {why}"
+    ))
+}

@@ -1,0 +1,9 @@
+//! Numbers: how they are rounded for reading, integrated, fitted, and put in columns.
+
+pub mod columns;
+pub mod csv;
+pub mod figures;
+pub mod numerics;
+pub mod rounding;
+pub mod spline;
+pub mod words;

@@ -1,0 +1,53 @@
+//! Values that a command line names by a word, each with what it means: said once, beside the value.
+
+/// A value with its word.
+pub trait Word: Copy + Send + Sync + 'static {
+    /// All values: the value, its word, what it means.
+    const WORDS: &'static [(Self, &'static str, &'static str)];
+
+    /// The value of a word.
+    fn of_word(word: &str) -> Option<Self> {
+        let known = Self::WORDS.iter().find(|(_, own, _)| *own == word);
+        known.map(|(value, ..)| *value)
+    }
+}
+
+/// An enum whose variants have words: `Variant = "word"`. The doc comments are its meanings.
+#[macro_export]
+macro_rules! words {
+    ($(#[$meta:meta])* pub enum $name:ident $(default $default:ident)? {
+        $($(#[doc = $doc:literal])+ $variant:ident = $word:literal,)+
+    }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $name {
+            $($(#[doc = $doc])+ $variant,)+
+        }
+
+        impl $name {
+            /// Its word.
+            pub const fn word(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $word,)+
+                }
+            }
+        }
+
+        impl $crate::number::words::Word for $name {
+            const WORDS: &'static [(Self, &'static str, &'static str)] =
+                &[$((Self::$variant, $word, concat!($($doc),+))),+];
+        }
+
+        impl std::fmt::Display for $name {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str(self.word())
+            }
+        }
+
+        $(impl Default for $name {
+            fn default() -> Self {
+                Self::$default
+            }
+        })?
+    };
+}

@@ -1,0 +1,102 @@
+//! Quantities on the command line, read as in machine files.
+
+use crate::model::coordinate::Coordinate;
+use crate::units::kind::{
+    ACCELERATION, ANGULAR_ACCELERATION, ANGULAR_SPEED, FORCE, INERTIA, Kind, MASS, TORQUE, VELOCITY,
+};
+use crate::units::quantity;
+
+/// What reads a quantity of the drive link, which turns or slides.
+pub type Reader = fn(&str, Coordinate) -> Result<f64, String>;
+
+/// A torque at the drive link greater than zero, such as "0.5 N m", or a force, "5 N", of one that slides.
+///
+/// # Errors
+/// In words for the command line.
+pub fn drive_effort(text: &str, coordinate: Coordinate) -> Result<f64, String> {
+    positive(
+        text,
+        match coordinate {
+            Coordinate::Angle => &TORQUE,
+            Coordinate::Length => &FORCE,
+        },
+    )
+}
+
+/// A speed of the drive link greater than zero.
+///
+/// # Errors
+/// In words for the command line.
+pub fn largest_speed(text: &str, coordinate: Coordinate) -> Result<f64, String> {
+    above_zero(drive_speed(text, coordinate)?)
+}
+
+/// An acceleration of the drive link greater than zero.
+///
+/// # Errors
+/// In words for the command line.
+pub fn largest_acceleration(text: &str, coordinate: Coordinate) -> Result<f64, String> {
+    above_zero(drive_acceleration(text, coordinate)?)
+}
+
+/// An inertia greater than zero, such as "8.5 kg cm^2" (kg·m²).
+///
+/// # Errors
+/// In words for the command line.
+pub fn inertia_argument(text: &str) -> Result<f64, String> {
+    positive(text, &INERTIA)
+}
+
+/// A mass greater than zero, such as "12 kg" (kg).
+///
+/// # Errors
+/// In words for the command line.
+pub fn mass_argument(text: &str) -> Result<f64, String> {
+    positive(text, &MASS)
+}
+
+/// A speed of the drive link of either sign, such as "-60 rpm", or "0.2 m/s" of one that slides.
+///
+/// # Errors
+/// In words for the command line.
+pub fn drive_speed(text: &str, coordinate: Coordinate) -> Result<f64, String> {
+    any(
+        text,
+        match coordinate {
+            Coordinate::Angle => &ANGULAR_SPEED,
+            Coordinate::Length => &VELOCITY,
+        },
+    )
+}
+
+/// An acceleration of the drive link of either sign, such as "120 rad/s^2", or "3 m/s^2" of one that slides.
+///
+/// # Errors
+/// In words for the command line.
+pub fn drive_acceleration(text: &str, coordinate: Coordinate) -> Result<f64, String> {
+    any(
+        text,
+        match coordinate {
+            Coordinate::Angle => &ANGULAR_ACCELERATION,
+            Coordinate::Length => &ACCELERATION,
+        },
+    )
+}
+
+fn positive(text: &str, kind: &'static Kind) -> Result<f64, String> {
+    above_zero(any(text, kind)?)
+}
+
+fn above_zero(value: f64) -> Result<f64, String> {
+    if value > 0.0 {
+        Ok(value)
+    } else {
+        Err("it must be greater than zero".to_owned())
+    }
+}
+
+fn any(text: &str, kind: &'static Kind) -> Result<f64, String> {
+    quantity::read(text, kind)
+        .map(|quantity| quantity.si)
+        .map_err(|fault| format!("it {}; {}", fault.message, fault.help))
+}

@@ -1,0 +1,62 @@
+//! What can only be checked on the whole machine.
+
+use std::f64::consts::TAU;
+
+use jred::{Domain, Error, Reducible};
+
+use crate::model::machine::MachineFile;
+use crate::number::numerics;
+
+use crate::text::problem::{Problem, Result};
+use crate::text::section::Section;
+
+/// Samples of a turn or a stroke.
+const SAMPLES: u32 = 720;
+
+/// An inertia that falls below this share of its largest value is zero.
+const ZERO: f64 = 1e-12;
+
+/// Checks that the reduced inertia is positive at every angle, drive train included.
+pub(super) fn inertia(file: &MachineFile, mechanism: &Section) -> Result<()> {
+    let report = |error: &Error| no_inertia(mechanism, error);
+    let machine = file.with_drive_train().map_err(|error| report(&error))?;
+    let inertia = |phi: f64| {
+        Ok(machine
+            .reduction(phi)
+            .map_err(|error| report(&error))?
+            .inertia[0])
+    };
+    let domain = machine.domain();
+    let (from, to) = (domain.position(0.0), domain.position(1.0));
+    let step = domain.span() / f64::from(SAMPLES);
+    let (mut largest, mut smallest, mut place) = (0.0_f64, f64::INFINITY, from);
+    for k in 0..=SAMPLES {
+        let phi = domain.position(f64::from(k) / f64::from(SAMPLES));
+        let value = inertia(phi)?;
+        largest = largest.max(value);
+        if value < smallest {
+            (smallest, place) = (value, phi);
+        }
+    }
+    // Between the samples the smallest value is found by thirds.
+    let (low, high) = match domain {
+        Domain::Turn => (place - step, place + step),
+        Domain::Stroke { .. } => ((place - step).max(from), (place + step).min(to)),
+    };
+    let phi = numerics::least(inertia, low, high)?;
+    if inertia(phi)? <= ZERO * largest {
+        let phi = match domain {
+            Domain::Turn => phi.rem_euclid(TAU),
+            Domain::Stroke { .. } => phi,
+        };
+        return Err(report(&Error::NoInertia { phi }));
+    }
+    Ok(())
+}
+
+fn no_inertia(mechanism: &Section, error: &Error) -> Problem {
+    mechanism.problem(error.to_string(), "in this machine").help(
+        "a real drive link has a moment of inertia: give the mass and inertia of the crank or shaft, \
+         or add flywheel = \"0.05 kg m^2\" under [mechanism]",
+    )
+}

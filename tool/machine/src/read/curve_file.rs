@@ -1,0 +1,206 @@
+//! Curves over the drive link's position, from the columns of a CSV file.
+
+use std::f64::consts::TAU;
+
+use jred::Domain;
+
+use super::drive_link::DriveLink;
+use crate::number::rounding::figure;
+use crate::number::spline::{MIN_POINTS, Spline, Way};
+use crate::text::columns::Columns;
+use crate::text::problem::{Problem, Result};
+
+/// Rows nearer than this share of the range are one row too many.
+const CLOSEST: f64 = 1e-6;
+
+/// Largest difference between the first and the last row of a turn, as a share of the column's largest magnitude.
+const CLOSED: f64 = 1e-6;
+
+/// A turn whose last row is not given may be open by so many of its largest steps.
+const OPEN: f64 = 2.0;
+
+/// Share of a range by which its rows may miss its ends: rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// The positions of the rows, checked against the range of the drive link.
+pub(super) struct Positions<'c> {
+    columns: &'c Columns,
+    /// Positions of the rows that count (rad or m).
+    x: &'c [f64],
+    /// Whether the range is a turn.
+    turn: bool,
+    /// Whether the last row is the first, a turn later.
+    closing: bool,
+}
+
+impl<'c> Positions<'c> {
+    /// The rows of column 0, rising, over a turn or at least the stroke of the drive link.
+    pub(super) fn of(columns: &'c Columns, drive: DriveLink) -> Result<Self> {
+        columns.check_rising(
+            0,
+            "position",
+            "give one row for each position, in rising order, and every position once",
+        )?;
+        let x = columns.get(0).unwrap_or_default();
+        let (Some(&first), Some(&last)) = (x.first(), x.last()) else {
+            return Err(Problem::new("the file has no rows"));
+        };
+        let span = drive.domain.span();
+        let near = |pair: &[f64]| pair[1] - pair[0] < CLOSEST * span;
+        if let Some(row) = x.windows(2).position(near) {
+            return Err(columns
+                .problem(0, row + 1, "is too close to the row before")
+                .help(format!(
+                    "rows that are nearer than a millionth of the range, {}, make slopes of their rounding: leave one out",
+                    columns.shown(0, CLOSEST * span)
+                )));
+        }
+        let shown = |position: f64| columns.shown(0, position);
+        let turn = drive.domain == Domain::Turn;
+        if let Domain::Stroke { from, to } = drive.domain {
+            let slack = ROUNDING * span;
+            if first > from + slack || last < to - slack {
+                return Err(Problem::new(format!(
+                    "the rows run from {} to {}, but the drive link from {} to {}",
+                    shown(first),
+                    shown(last),
+                    shown(from),
+                    shown(to)
+                ))
+                .at(columns.place(0), "first row")
+                .at(columns.place(columns.rows() - 1), "last row")
+                .help(
+                    "give rows over the whole stroke of the drive link; rows beyond it do no harm",
+                ));
+            }
+            return Ok(Self {
+                columns,
+                x,
+                turn,
+                closing: false,
+            });
+        }
+        let open = first + TAU - last;
+        let closing = open.abs() <= ROUNDING * TAU;
+        let widest = x
+            .windows(2)
+            .map(|pair| pair[1] - pair[0])
+            .fold(0.0, f64::max);
+        if !closing && (open < 0.0 || open > OPEN * widest) {
+            return Err(Problem::new(format!(
+                "the rows cover {} of a turn, from {} to {}",
+                shown(last - first),
+                shown(first),
+                shown(last)
+            ))
+            .at(columns.place(0), "first row")
+            .at(columns.place(columns.rows() - 1), "last row")
+            .help(
+                "a drive link that turns fully needs rows over one turn, and no more: up to the first position plus a turn, or one \
+                 step before it; for a part of a turn write range = \"stroke\"",
+            ));
+        }
+        let count = x.len() - usize::from(closing);
+        if count < MIN_POINTS {
+            return Err(Problem::new(format!(
+                "{count} different rows in a turn are too few: at least {MIN_POINTS}"
+            ))
+            .at(columns.place(0), "first row")
+            .help("give a row every few degrees"));
+        }
+        Ok(Self {
+            columns,
+            x: &x[..count],
+            turn,
+            closing,
+        })
+    }
+
+    /// Positions of the rows that count.
+    pub(super) const fn x(&self) -> &[f64] {
+        self.x
+    }
+
+    /// The column's values at these positions; on a turn its last row must be its first.
+    pub(super) fn values(&self, index: usize) -> Result<Option<Vec<f64>>> {
+        let Some(values) = self.columns.get(index) else {
+            return Ok(None);
+        };
+        if let (true, [first, .., last]) = (self.closing, values) {
+            let most = values.iter().fold(0.0f64, |most, v| most.max(v.abs()));
+            if (last - first).abs() > CLOSED * most {
+                return Err(self
+                    .columns
+                    .problem(
+                        index,
+                        values.len() - 1,
+                        &format!(
+                            "a turn after row 1, which has {}",
+                            self.columns.shown(index, *first)
+                        ),
+                    )
+                    .help(format!(
+                        "after a turn the machine is where it was: make the two rows equal to {} of the largest value, or leave \
+                         the last row out",
+                        figure(CLOSED)
+                    )));
+            }
+        }
+        Ok(Some(values[..self.x.len()].to_vec()))
+    }
+
+    /// The column's values, none of which may be negative (`zero`: nor zero).
+    pub(super) fn magnitudes(
+        &self,
+        index: usize,
+        zero: bool,
+        why: &str,
+    ) -> Result<Option<Vec<f64>>> {
+        let values = self.values(index)?;
+        let bad = |value: &f64| *value < 0.0 || (!zero && *value == 0.0);
+        if let Some(row) = values.as_deref().and_then(|v| v.iter().position(bad)) {
+            let what = if zero {
+                "must not be negative"
+            } else {
+                "must be greater than zero"
+            };
+            return Err(self.columns.problem(index, row, what).help(why));
+        }
+        Ok(values)
+    }
+
+    /// A curve through values at these positions.
+    pub(super) fn curve(&self, values: &[f64], way: Way) -> Result<Spline> {
+        let spline = if self.turn {
+            Spline::periodic(self.x, values, TAU, way)
+        } else {
+            Spline::bounded(self.x, values, way)
+        };
+        spline.map_err(|fault| {
+            Problem::new(format!("no curve can be laid through these rows: {fault}"))
+                .at(self.columns.place(0), "first row")
+        })
+    }
+
+    /// How far a curve through every second row misses the rows between, as a share of the largest magnitude: through all
+    /// rows it is about a sixteenth of that.
+    pub(super) fn resolution(&self, values: &[f64]) -> Option<f64> {
+        let every_second = |v: &[f64]| -> Vec<f64> { v.iter().copied().step_by(2).collect() };
+        let (x, y) = (every_second(self.x), every_second(values));
+        let coarse = if self.turn {
+            Spline::periodic(&x, &y, TAU, Way::Interpolating)
+        } else {
+            Spline::bounded(&x, &y, Way::Interpolating)
+        }
+        .ok()?;
+        let [from, to] = coarse.range();
+        let rows = self
+            .x
+            .iter()
+            .zip(values)
+            .filter(|(x, _)| (from..=to).contains(*x));
+        let missed = rows.map(|(x, y)| (coarse.at(*x)[0] - y).abs());
+        let most = values.iter().fold(0.0f64, |most, v| most.max(v.abs()));
+        Some(missed.fold(0.0, f64::max) / most)
+    }
+}

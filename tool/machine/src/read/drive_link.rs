@@ -1,0 +1,81 @@
+//! The drive link as the rest of the file sees it: whether it turns, swings or slides, and how far.
+
+use std::f64::consts::TAU;
+
+use jred::{Domain, Error, Mechanism as _};
+
+use crate::model::coordinate::Coordinate;
+use crate::model::machine::AnyMechanism;
+
+use crate::units::kind::{ANGLE, ANGULAR_SPEED, FORCE, Kind, LENGTH, TORQUE, VELOCITY};
+
+/// Share of a stroke by which a motion may pass its ends: rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// What the drive link does.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct DriveLink {
+    pub(super) coordinate: Coordinate,
+    pub(super) domain: Domain,
+}
+
+impl DriveLink {
+    pub(super) fn of(mechanism: &AnyMechanism) -> Result<Self, Error> {
+        Ok(Self {
+            coordinate: Coordinate::of(mechanism)?,
+            domain: mechanism.domain(),
+        })
+    }
+
+    /// It slides.
+    pub(super) fn slides(self) -> bool {
+        self.coordinate == Coordinate::Length
+    }
+
+    /// The kind of its positions.
+    pub(super) const fn position(self) -> &'static Kind {
+        match self.coordinate {
+            Coordinate::Angle => &ANGLE,
+            Coordinate::Length => &LENGTH,
+        }
+    }
+
+    /// The kind of its speeds.
+    pub(super) const fn speed(self) -> &'static Kind {
+        match self.coordinate {
+            Coordinate::Angle => &ANGULAR_SPEED,
+            Coordinate::Length => &VELOCITY,
+        }
+    }
+
+    /// The kind of what drives it.
+    pub(super) const fn effort(self) -> &'static Kind {
+        match self.coordinate {
+            Coordinate::Angle => &TORQUE,
+            Coordinate::Length => &FORCE,
+        }
+    }
+
+    /// Whether `position` lies on the stroke; on a turn, every position does.
+    pub(super) fn reaches(self, position: f64) -> bool {
+        match self.domain {
+            Domain::Turn => true,
+            Domain::Stroke { from, to } => {
+                let slack = ROUNDING * (to - from);
+                (from - slack..=to + slack).contains(&position)
+            }
+        }
+    }
+
+    /// The ends of the stroke in words, such as "400 mm to 650 mm".
+    pub(super) fn range(self) -> String {
+        let shown = |position| {
+            let shown = (self.coordinate.shown(position) * 1e4).round() / 1e4 + 0.0;
+            format!("{shown} {}", self.coordinate.unit())
+        };
+        match self.domain {
+            Domain::Turn => shown(TAU),
+            Domain::Stroke { from, to } => format!("{} to {}", shown(from), shown(to)),
+        }
+    }
+}

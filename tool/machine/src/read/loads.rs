@@ -1,0 +1,342 @@
+//! `[[load]]`: what acts on the links.
+
+use std::f64::consts::TAU;
+
+use jred::{Action, Domain, Load, MAX_LOADS, Mechanism as _, Window};
+
+use crate::model::machine::{AnyMechanism, NamedLoad};
+
+use super::drive_link::DriveLink;
+use super::load_table;
+use crate::text::item::Item;
+use crate::text::problem::{Problem, Result};
+use crate::text::section::Section;
+use crate::units::kind::{ANGLE, FORCE, Kind, LENGTH, TORQUE, VISCOUS_FORCE, VISCOUS_MOMENT};
+
+/// What a load can do, as keys.
+const ACTIONS: [&str; 6] = [
+    "force",
+    "moment",
+    "opposing_force",
+    "opposing_moment",
+    "viscous_force",
+    "viscous_moment",
+];
+
+/// All loads of the file.
+pub(super) fn read(
+    root: &Section,
+    mechanism: &AnyMechanism,
+    drive: DriveLink,
+) -> Result<Vec<NamedLoad>> {
+    let mut loads = mechanism.own_loads().to_vec();
+    let Some(item) = root.get("load") else {
+        return Ok(loads);
+    };
+    let mut sections = item.sections("[[load]]")?;
+    sections.retain(|section| !load_table::is_table(section));
+    if let Some(surplus) = sections.get(MAX_LOADS.saturating_sub(loads.len())) {
+        return Err(surplus
+            .problem(format!("more than {MAX_LOADS} loads"), "one too many")
+            .help("combine loads that act on the same link"));
+    }
+    for section in &sections {
+        loads.push(load(section, mechanism, drive)?);
+    }
+    Ok(loads)
+}
+
+fn load(section: &Section, mechanism: &AnyMechanism, drive: DriveLink) -> Result<NamedLoad> {
+    let links = mechanism.link_names();
+    let name = section
+        .get("name")
+        .map(|item| item.text("pressing force"))
+        .transpose()?;
+    let example = format!("on = \"{}\"", links.last().map_or("slider", String::as_str));
+    let on = section.require("on", &example)?;
+    let link = on.choice(links)?;
+    let (key, item) = action_key(section)?;
+    let action = action(key, &item)?;
+    let at = section.get("at");
+    let point = section.point("at", &LENGTH)?;
+    let window = match drive.domain {
+        Domain::Turn => window(section)?,
+        Domain::Stroke { .. } => stretch(section, drive)?,
+    };
+    section.finish()?;
+
+    let link_name = links.get(link).map_or("", String::as_str);
+    let of_a_force = key.ends_with("force");
+    if let (Some(at), false) = (&at, of_a_force) {
+        return Err(Problem::new(format!(
+            "`at` has no meaning for `{key}` in {}",
+            section.title()
+        ))
+        .at(at.key_span(), "remove this")
+        .help("a moment acts on the link as a whole; only forces have a point of application"));
+    }
+    let movement = Movement::of(mechanism, link);
+    if movement.slides && !of_a_force {
+        return Err(item
+            .problem(
+                &format!("does nothing: \"{link_name}\" does not turn"),
+                "acts on a link that only slides",
+            )
+            .help(format!(
+                "use force, opposing_force or viscous_force for \"{link_name}\", or name another link in `on`"
+            )));
+    }
+    if key == "force" && !movement.closes {
+        return Err(item
+            .problem(
+                &format!(
+                    "acts in a fixed direction on \"{link_name}\", which does not move alike in every turn of the drive link"
+                ),
+                "does not repeat with the drive link",
+            )
+            .help("a load must repeat with every turn of the drive link: use moment, or opposing_force"));
+    }
+    if movement.pivots && of_a_force && point == [0.0, 0.0] {
+        return Err(item
+            .problem(
+                &format!("does nothing: it acts on the fixed pivot of \"{link_name}\""),
+                "acts on the pivot",
+            )
+            .help("give the point it acts on, in the link's frame: at = [\"30 mm\", \"0 mm\"], or use a moment"));
+    }
+    let mut load = Load::new(link, action)
+        .and_then(|load| load.at(point))
+        .map_err(|error| section.problem(error.to_string(), "in this load"))?;
+    if let Some(window) = window {
+        load = load.within(window);
+    }
+    let name = name.map_or_else(
+        || format!("{} on {link_name}", key.replace('_', " ")),
+        ToOwned::to_owned,
+    );
+    Ok(NamedLoad { name, load })
+}
+
+/// How a link moves, as far as loads care.
+struct Movement {
+    /// It never turns.
+    slides: bool,
+    /// The origin of its frame never moves.
+    pivots: bool,
+    /// It stands as it stood and moves as it moved after every turn of the drive link.
+    closes: bool,
+}
+
+impl Movement {
+    /// Looked up at places spread over the drive link's range by the golden ratio, none of them special.
+    fn of(mechanism: &AnyMechanism, link: usize) -> Self {
+        let domain = mechanism.domain();
+        let mut movement = Self {
+            slides: true,
+            pivots: true,
+            closes: true,
+        };
+        for k in 1..=16 {
+            let phi = domain.position((f64::from(k) * 0.618_033_988_749_895).fract());
+            let frame = |phi| Some(*mechanism.frames(phi).ok()?.get(link)?);
+            let Some(now) = frame(phi) else { continue };
+            movement.slides &= now.psi.d1 == 0.0;
+            movement.pivots &= now.x.d1 == 0.0 && now.y.d1 == 0.0;
+            if let (Domain::Turn, Some(later)) = (domain, frame(phi + TAU)) {
+                let turns = (later.psi.value - now.psi.value) / TAU;
+                movement.closes &= (turns - turns.round()).abs() < 1e-9;
+                // A rack may be elsewhere after a turn, but must move as before.
+                let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * (1.0 + a.abs());
+                movement.closes &= same(now.x.d1, later.x.d1) && same(now.y.d1, later.y.d1);
+            }
+        }
+        movement
+    }
+}
+
+/// The one key that says what the load does.
+fn action_key<'a>(section: &Section<'a>) -> Result<(&'static str, Item<'a>)> {
+    let mut found = ACTIONS
+        .into_iter()
+        .filter_map(|key| Some((key, section.get(key)?)));
+    let Some((key, item)) = found.next() else {
+        let missing = format!(
+            "`force` or another action is missing in {}",
+            section.title()
+        );
+        return Err(section.finish().err().unwrap_or_else(|| {
+            section
+                .problem(missing, "what does this load do?")
+                .help(format!(
+                    "add exactly one of {}, such as opposing_force = \"150 N\"",
+                    ACTIONS.join(", ")
+                ))
+        }));
+    };
+    if let Some((second, other)) = found.next() {
+        return Err(Problem::new(format!(
+            "{} has both `{key}` and `{second}`",
+            section.title()
+        ))
+        .at(item.key_span(), "one action")
+        .at(other.key_span(), "another action")
+        .help("write a [[load]] of its own for each"));
+    }
+    Ok((key, item))
+}
+
+fn action(key: &str, item: &Item) -> Result<Action> {
+    let size = |kind: &'static Kind| {
+        let value = item.quantity(kind)?;
+        if value.si < 0.0 {
+            let what = format!("is {}, but must not be negative", value.shown());
+            return Err(value.problem(&what, "negative").help(
+                "it always acts against the motion, so only its size is given; \
+                 a load with a direction is a `force` or a `moment`",
+            ));
+        }
+        Ok(value.si)
+    };
+    Ok(match key {
+        "force" => Action::Force(item.pair([&FORCE, &FORCE])?.map(|value| value.si)),
+        "moment" => Action::Moment(item.quantity(&TORQUE)?.si),
+        "opposing_force" => Action::OpposingForce(size(&FORCE)?),
+        "opposing_moment" => Action::OpposingMoment(size(&TORQUE)?),
+        "viscous_force" => Action::ViscousForce(size(&VISCOUS_FORCE)?),
+        _ => Action::ViscousMoment(size(&VISCOUS_MOMENT)?),
+    })
+}
+
+/// The part of the turn in which the load acts.
+fn window(section: &Section) -> Result<Option<Window>> {
+    let (between, ramp) = (section.get("between"), section.optional("ramp", &ANGLE)?);
+    let (between, ramp) = match (between, ramp) {
+        (None, None) => return Ok(None),
+        (Some(between), Some(ramp)) => (between, ramp),
+        (Some(_), None) => {
+            return Err(section.missing(
+                "ramp",
+                "ramp = \"10 deg\": the angle over which the load rises and falls",
+            ));
+        }
+        (None, Some(_)) => {
+            return Err(section.missing(
+                "between",
+                "between = [\"315 deg\", \"360 deg\"]: where the load acts",
+            ));
+        }
+    };
+    ramp.check_positive()?;
+    let [from, to] = between.pair([&ANGLE, &ANGLE])?;
+    let end = if to.si < from.si { to.si + TAU } else { to.si };
+    let width = end - from.si;
+    if width <= 0.0 || width > TAU * (1.0 + 1e-12) {
+        return Err(between
+            .problem("must span more than nothing and at most one turn", "check these angles")
+            .help(format!(
+                "the load acts from the first angle on to the second, which may be smaller: then it lies one turn later; \
+                 here that is {}",
+                to.show(width)
+            )));
+    }
+    // Kept a hair below one turn, so that rounding cannot make it wider.
+    let start = from.si.rem_euclid(TAU);
+    let end = start + width.min(TAU * (1.0 - 1e-14));
+    if width < 2.0 * ramp.si {
+        let what = format!(
+            "is {}, too long for the range of {}",
+            ramp.shown(),
+            from.show(width)
+        );
+        let help = format!(
+            "the load rises over one ramp and falls over another: at most {}",
+            ramp.show(width / 2.0)
+        );
+        // Rounding may leave two ramps a hair wider than the range.
+        if width < 2.0 * ramp.si * (1.0 - 1e-12) {
+            return Err(ramp
+                .problem(&what, "too long")
+                .at(between.span(), "range")
+                .help(help));
+        }
+    }
+    let ramp = ramp.si.min((end - start) / 2.0);
+    Window::new(start, end, ramp).map(Some).map_err(|error| {
+        between.problem(&format!("is not possible: {error}"), "check these angles")
+    })
+}
+
+/// The part of the stroke in which the load acts.
+fn stretch(section: &Section, drive: DriveLink) -> Result<Option<Window>> {
+    let kind = drive.position();
+    let (between, ramp) = (section.get("between"), section.optional("ramp", kind)?);
+    let (between, ramp) = match (between, ramp) {
+        (None, None) => return Ok(None),
+        (Some(between), Some(ramp)) => (between, ramp),
+        (Some(_), None) => {
+            let example = format!(
+                "ramp = \"{}\": the way over which the load rises and falls",
+                kind.example
+            );
+            return Err(section.missing("ramp", &example));
+        }
+        (None, Some(_)) => {
+            let example = format!(
+                "between = [\"{}\", …]: where the load acts, within the stroke {}",
+                kind.example,
+                drive.range()
+            );
+            return Err(section.missing("between", &example));
+        }
+    };
+    ramp.check_positive()?;
+    let [from, to] = between.pair([kind, kind])?;
+    let width = to.si - from.si;
+    if width <= 0.0 {
+        return Err(between
+            .problem(
+                &format!("runs from {} to {}", from.shown(), to.shown()),
+                "check these ends",
+            )
+            .help("on a stroke the second position is the larger one"));
+    }
+    let Domain::Stroke {
+        from: start,
+        to: end,
+    } = drive.domain
+    else {
+        return Ok(None);
+    };
+    if to.si <= start || from.si >= end {
+        return Err(between
+            .problem(
+                &format!("lies outside the stroke, {}", drive.range()),
+                "never reached",
+            )
+            .help("give positions within the stroke; those beyond its ends do no harm"));
+    }
+    if width < 2.0 * ramp.si * (1.0 - 1e-12) {
+        return Err(ramp
+            .problem(
+                &format!(
+                    "is {}, too long for the range of {}",
+                    ramp.shown(),
+                    from.show(width)
+                ),
+                "too long",
+            )
+            .at(between.span(), "range")
+            .help(format!(
+                "the load rises over one ramp and falls over another: at most {}",
+                ramp.show(width / 2.0)
+            )));
+    }
+    Window::on_stroke(from.si, to.si, ramp.si.min(width / 2.0))
+        .map(Some)
+        .map_err(|error| {
+            between.problem(
+                &format!("is not possible: {error}"),
+                "check these positions",
+            )
+        })
+}

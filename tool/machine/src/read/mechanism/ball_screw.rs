@@ -1,0 +1,30 @@
+//! `type = "ball-screw"`.
+
+use jred::mechanism::BallScrew;
+
+use super::{core, parts};
+use crate::model::machine::AnyMechanism;
+use crate::text::problem::Result;
+use crate::text::section::Section;
+use crate::units::kind::LENGTH;
+
+pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
+    let lead = section.quantity("lead", &LENGTH)?;
+    if lead.si.abs() < LENGTH.smallest {
+        let what = format!("is {}, with which the nut would not move", lead.shown());
+        return Err(lead.problem(&what, "too small").help(
+            "write the nut's travel a turn, such as \"10 mm\"; negative, if it moves along -x",
+        ));
+    }
+    let (screw, nut) = (section.section("screw")?, section.section("nut")?);
+    let links = [parts::wheel(&screw)?, parts::slide(&nut)?];
+    let mechanism = BallScrew::new(lead.si, links).map_err(|error| core(section, &error))?;
+    let joints = ["screw bearings", "nut guide", "thread"];
+    Ok(
+        AnyMechanism::new(super::BALL_SCREW, mechanism, ["screw", "nut"], joints).with_point(
+            "B",
+            BallScrew::NUT,
+            [0.0, 0.0],
+        ),
+    )
+}

@@ -1,0 +1,137 @@
+//! `type = "disc-cam"`.
+
+mod facts;
+mod follower;
+mod program;
+mod refusal;
+
+use std::f64::consts::TAU;
+
+use jred::mechanism::{DiscCam, Follower, Roller};
+
+use super::{core, link, parts};
+use crate::model::machine::{AnyMechanism, Contact, NamedElement};
+use crate::text::problem::Result;
+use crate::text::section::Section;
+use crate::units::kind::{FORCE, INERTIA, LENGTH, MASS, STIFFNESS, TORQUE, TORSION_STIFFNESS};
+
+pub(super) use follower::follower;
+pub(super) use program::read as program;
+pub(super) use refusal::problem;
+
+/// Points of the profile for drawings.
+const OUTLINE: u32 = 720;
+
+pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
+    let base_radius = section.quantity("base_radius", &LENGTH)?;
+    base_radius.check_positive()?;
+    let closure = section.get("closure");
+    let by_force = match &closure {
+        Some(item) => item.choice(&["force", "form"])? == 0,
+        None => true,
+    };
+    let cam = link(&section.section("cam")?)?;
+    let part = section.section("follower")?;
+    let follower = follower(&part, || roller(section))?;
+    let mass = match follower.pivot() {
+        Some(_) => link(&part)?,
+        None => parts::slide(&part)?,
+    };
+    let program = program(section, "[[mechanism.segment]]", follower.pivot().is_some())?;
+    let spring = section
+        .get("spring")
+        .map(|item| item.section("[mechanism.spring]".into()))
+        .transpose()?;
+
+    let mechanism = DiscCam::new(program, base_radius.si, follower, [cam, mass])
+        .map_err(|error| problem(section, &part, &base_radius, &error))?;
+    let spring = spring
+        .map(|spring| closing_spring(&spring, &mechanism))
+        .transpose()?;
+    let contact = by_force.then(|| Contact {
+        joint: DiscCam::CONTACT,
+        pieces: mechanism.program().pieces().collect(),
+    });
+    let facts = facts::of(&mechanism);
+    let mechanism = described(mechanism).with_elements(spring);
+    let mechanism = facts
+        .into_iter()
+        .fold(mechanism, |any, [label, text]| any.with_fact(label, text));
+    Ok(match contact {
+        Some(contact) => mechanism.with_contact(contact),
+        None => mechanism,
+    })
+}
+
+/// Names, points and outlines.
+fn described(mechanism: DiscCam) -> AnyMechanism {
+    let follower = *mechanism.follower();
+    let around = |count: u32| (0..count).map(move |k| TAU * f64::from(k) / f64::from(count));
+    let profile = around(OUTLINE).map(|phi| mechanism.profile(phi)).collect();
+    let guide = if follower.pivot().is_some() {
+        "follower pivot"
+    } else {
+        "guide"
+    };
+    let links = ["cam", "follower", "roller"];
+    let joints = ["cam pivot", guide, "contact", "roller pin", "rolling"];
+    let (link_count, joint_count) = match follower.roller() {
+        Some(_) => (3, 5),
+        None => (2, 3),
+    };
+    let mut any = AnyMechanism::new(
+        super::DISC_CAM,
+        mechanism,
+        links.into_iter().take(link_count),
+        joints.into_iter().take(joint_count),
+    )
+    .with_outline(DiscCam::CAM, profile)
+    .with_ground_point("O", [0.0, 0.0]);
+    if let Some((pivot, _)) = follower.pivot() {
+        any = any.with_ground_point("A", pivot);
+    }
+    match follower {
+        Follower::TranslatingFace { .. } => any.with_point("B", DiscCam::FOLLOWER, [0.0, 0.0]),
+        Follower::OscillatingFace { .. } => any,
+        Follower::TranslatingRoller { roller, .. } | Follower::OscillatingRoller { roller, .. } => {
+            let at = match follower {
+                Follower::OscillatingRoller { arm, .. } => [arm, 0.0],
+                _ => [0.0, 0.0],
+            };
+            let rim = around(72).map(|angle| {
+                let (sin, cos) = angle.sin_cos();
+                [roller.radius() * cos, roller.radius() * sin]
+            });
+            any.with_outline(DiscCam::ROLLER, rim.collect())
+                .with_point("B", DiscCam::FOLLOWER, at)
+        }
+    }
+}
+
+fn roller(section: &Section) -> Result<Roller> {
+    let section = section.section("roller")?;
+    let radius = section.quantity("radius", &LENGTH)?.positive()?;
+    let mass = section.quantity("mass", &MASS)?.not_negative()?;
+    let inertia = section.quantity("inertia", &INERTIA)?.not_negative()?;
+    section.finish_with(|key| {
+        (key == "com").then_some("a roller is balanced: its centre of mass lies on its axis")
+    })?;
+    Roller::new(radius, mass, inertia).map_err(|error| core(&section, &error))
+}
+
+fn closing_spring(section: &Section, mechanism: &DiscCam) -> Result<NamedElement> {
+    let (stiffness, preload) = if mechanism.follower().pivot().is_some() {
+        (&TORSION_STIFFNESS, &TORQUE)
+    } else {
+        (&STIFFNESS, &FORCE)
+    };
+    let stiffness = section.quantity("stiffness", stiffness)?.positive()?;
+    let preload = section.quantity("preload", preload)?.not_negative()?;
+    section.finish()?;
+    Ok(NamedElement {
+        name: "closing spring".to_owned(),
+        element: mechanism
+            .closing_spring(stiffness, preload)
+            .map_err(|error| core(section, &error))?,
+    })
+}

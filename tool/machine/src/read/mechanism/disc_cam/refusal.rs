@@ -1,0 +1,109 @@
+//! What the core finds wrong with a cam, in the words of the machine file.
+
+use jred::Error;
+use jred::cam::CamError;
+
+use crate::read::mechanism::core;
+use crate::text::item::Value;
+use crate::text::problem::Problem;
+use crate::text::section::Section;
+
+/// What is wrong with the cam, at the key that cures it.
+pub(in crate::read::mechanism) fn problem(
+    section: &Section,
+    follower: &Section,
+    base_radius: &Value,
+    error: &Error,
+) -> Problem {
+    let Error::Cam(cam) = error else {
+        return core(section, error);
+    };
+    let deg = |phi: f64| format!("{:.2}°", phi.to_degrees());
+    match *cam {
+        CamError::Undercut {
+            phi,
+            radius,
+            limit,
+            base_radius: cure,
+        } => {
+            let found = base_radius.problem(
+                &format!(
+                    "is too small: the cam is undercut at φ = {}, where the radius of curvature is {}, \
+                     but must be larger than {}",
+                    deg(phi),
+                    base_radius.show(radius),
+                    base_radius.show(limit)
+                ),
+                "undercut",
+            );
+            match cure {
+                Some(least) => found.help(format!(
+                    "make the base radius larger than {}, or the rise smaller, or its angle longer",
+                    base_radius.show(least)
+                )),
+                None => found
+                    .help("no base radius cures it: make the rise smaller, its angle longer, or the roller smaller"),
+            }
+        }
+        CamError::Offset {
+            offset,
+            base_radius: least,
+        } => base_radius
+            .problem(
+                &format!(
+                    "is too small for the guide's offset of {}",
+                    base_radius.show(offset)
+                ),
+                "too small",
+            )
+            .help(format!(
+                "make it larger than {}, or the offset smaller",
+                base_radius.show(least)
+            )),
+        CamError::Arm {
+            pivot_distance,
+            reach,
+        } => follower
+            .problem(
+                format!(
+                    "the arm in {} cannot hold the roller on the base circle",
+                    follower.title()
+                ),
+                "this follower",
+            )
+            .help(format!(
+                "with the pivot {} from the cam's, base radius + roller radius must lie between {} and {}",
+                base_radius.show(pivot_distance),
+                base_radius.show(reach[0]),
+                base_radius.show(reach[1])
+            )),
+        CamError::Face {
+            pivot_distance,
+            least,
+        } => follower
+            .problem(
+                format!(
+                    "the face in {} cannot lie on the base circle",
+                    follower.title()
+                ),
+                "this follower",
+            )
+            .help(format!(
+                "its pivot is {} from the cam's, but must be farther than base radius + offset = {}",
+                base_radius.show(pivot_distance),
+                base_radius.show(least)
+            )),
+        CamError::CoversPivot { phi, reach, pivot } => base_radius
+            .problem(
+                &format!(
+                    "is too large: the cam reaches {} from its axis at φ = {} and covers the follower's pivot, {} away",
+                    base_radius.show(reach),
+                    deg(phi),
+                    base_radius.show(pivot)
+                ),
+                "too large",
+            )
+            .help("make the base radius or the rise smaller, or move the pivot outwards"),
+        _ => section.problem(error.to_string(), "in this cam"),
+    }
+}

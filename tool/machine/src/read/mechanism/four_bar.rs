@@ -1,0 +1,129 @@
+//! `type = "four-bar"`.
+
+use jred::Error;
+use jred::mechanism::{Blocked, FourBar, Grashof, Side};
+
+use super::{core, link};
+use crate::model::machine::AnyMechanism;
+use crate::number::rounding::short;
+use crate::text::item::{Item, Value};
+use crate::text::problem::{Problem, Result};
+use crate::text::section::Section;
+use crate::units::kind::{ANGLE, LENGTH};
+
+pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
+    let item = section.require("pivot", "pivot = [\"300 mm\", \"0 mm\"]")?;
+    let pivot = item.pair([&LENGTH, &LENGTH])?.map(|value| value.si);
+    let side = side(section.get("side"))?;
+    let stroke = section.get("stroke");
+    let parts = ["crank", "coupler", "rocker"];
+    let [crank, coupler, rocker] = [
+        section.section(parts[0])?,
+        section.section(parts[1])?,
+        section.section(parts[2])?,
+    ];
+    let length = length(&crank)?;
+    let lengths = [
+        length.si,
+        self::length(&coupler)?.si,
+        self::length(&rocker)?.si,
+    ];
+    let links = [link(&crank)?, link(&coupler)?, link(&rocker)?];
+    let mechanism = match &stroke {
+        None => FourBar::new(lengths, pivot, side, links)
+            .map_err(|error| blocked(section, &length, &length, &error))?,
+        Some(item) => {
+            let [from, to] = item.pair([&ANGLE, &ANGLE])?.map(|value| value.si);
+            FourBar::over_stroke(lengths, pivot, side, [from, to], links)
+                .map_err(|error| stopped(section, item, &error))?
+        }
+    };
+    let joints = ["crank pivot", "crank pin", "rocker pin", "rocker pivot"];
+    let [least, most] = mechanism.transmission_angle_range().map(f64::to_degrees);
+    let angles = format!("{} to {} deg", short(least), short(most));
+    let grashof = grashof(mechanism.grashof());
+    Ok(AnyMechanism::new(super::FOUR_BAR, mechanism, parts, joints)
+        .with_point("A", FourBar::CRANK, [lengths[0], 0.0])
+        .with_point("B", FourBar::ROCKER, [lengths[2], 0.0])
+        .with_point("C", FourBar::ROCKER, [0.0, 0.0])
+        .with_fact("Grashof's type", grashof)
+        .with_fact("transmission angle over the crank's range", angles))
+}
+
+fn grashof(kind: Grashof) -> &'static str {
+    match kind {
+        Grashof::CrankRocker => "crank-rocker: the crank turns fully, the rocker swings",
+        Grashof::DoubleCrank => "double crank (drag link): crank, coupler and rocker turn fully",
+        Grashof::RockerCrank => "rocker-crank: the rocker could turn fully, the crank swings",
+        Grashof::DoubleRocker => "double rocker: only the coupler could turn fully",
+        Grashof::TripleRocker => "triple rocker: no link turns fully",
+        Grashof::ChangePoint => "change point: the linkage can flatten",
+    }
+}
+
+/// The length of a link, greater than zero.
+pub(super) fn length(link: &Section) -> Result<Value> {
+    let length = link.quantity("length", &LENGTH)?;
+    length.check_positive()?;
+    Ok(length)
+}
+
+/// `side = "left"` or `"right"`; left if not given.
+pub(super) fn side(item: Option<Item>) -> Result<Side> {
+    Ok(match item {
+        Some(item) if item.choice(&["left", "right"])? == 1 => Side::Right,
+        _ => Side::Left,
+    })
+}
+
+/// A crank that cannot turn fully: shown at its length, or at that of the `last` link, to the slider, if that is too
+/// short; the cure as help.
+pub(super) fn blocked(section: &Section, crank: &Value, last: &Value, error: &Error) -> Problem {
+    let Error::Blocked(blocked) = error else {
+        return core(section, error);
+    };
+    let (place, label) = match blocked {
+        Blocked::TooShort { .. } => (last, "too short"),
+        _ => (crank, "this crank"),
+    };
+    let text = error.to_string();
+    let (what, cure) = text
+        .split_once("; ")
+        .unwrap_or((&text, "change the lengths"));
+    Problem::new(format!("{}: {what}", section.title()))
+        .at(place.span(), label)
+        .help(cure)
+}
+
+/// A stroke that the linkage cannot follow.
+fn stopped(section: &Section, stroke: &Item, error: &Error) -> Problem {
+    let degrees = |phi: f64| format!("φ = {:.2}°", phi.to_degrees());
+    match error {
+        Error::DeadPoint { phi, .. } => stroke
+            .problem(
+                &format!(
+                    "reaches a dead point at {}: coupler and rocker are in line there",
+                    degrees(*phi)
+                ),
+                "goes too far",
+            )
+            .help("end the stroke some degrees before it, or change the lengths"),
+        Error::CannotAssemble { phi, gap, .. } => stroke
+            .problem(
+                &format!(
+                    "starts at {}, where coupler and rocker do not meet: they are {:.6} m apart",
+                    degrees(*phi),
+                    gap
+                ),
+                "cannot be assembled here",
+            )
+            .help("start the stroke where the linkage can be assembled, or change the lengths"),
+        Error::NotPositive(..) => stroke
+            .problem(
+                "is empty: its end must be larger than its start",
+                "check these angles",
+            )
+            .help("write the smaller angle first: stroke = [\"-30 deg\", \"60 deg\"]"),
+        _ => core(section, error),
+    }
+}

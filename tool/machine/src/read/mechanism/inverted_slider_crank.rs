@@ -1,0 +1,66 @@
+//! `type = "inverted-slider-crank"`: crank and slotted lever, Whitworth's motion.
+
+use jred::Error;
+use jred::mechanism::{InvertedSliderCrank, Misfit};
+
+use super::{core, link};
+use crate::model::machine::AnyMechanism;
+use crate::text::problem::Result;
+use crate::text::section::Section;
+use crate::units::kind::LENGTH;
+
+pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
+    let (crank, block, lever) = (
+        section.section("crank")?,
+        section.section("block")?,
+        section.section("lever")?,
+    );
+    let length = crank.quantity("length", &LENGTH)?;
+    length.check_positive()?;
+    let crank = link(&crank)?;
+    let block = link(&block)?;
+    let item = lever.require("pivot", "pivot = [\"0 mm\", \"-200 mm\"]")?;
+    let pivot = item.pair([&LENGTH, &LENGTH])?.map(|value| value.si);
+    let offset = lever
+        .optional("offset", &LENGTH)?
+        .map_or(0.0, |value| value.si);
+    let lever = link(&lever)?;
+    let links = [crank, block, lever];
+    let mechanism =
+        InvertedSliderCrank::new(length.si, pivot, offset, links).map_err(|error| {
+            let Error::Misfit(Misfit::ChangePoint {
+                centres,
+                rocking,
+                turning,
+            }) = error
+            else {
+                return core(section, &error);
+            };
+            let what = format!(
+                "is {} from the crank's pivot, where the slot cannot follow the crank pin through a whole turn",
+                length.show(centres)
+            );
+            let rocks = format!(
+                "move it farther than crank + |offset| = {} for a lever that rocks",
+                length.show(rocking)
+            );
+            let turns = if turning > 0.0 {
+                format!(
+                    ", or nearer than crank − |offset| = {} for one that turns",
+                    length.show(turning)
+                )
+            } else {
+                String::new()
+            };
+            item.problem(&what, "neither rocks nor turns")
+                .at(length.span(), "crank")
+                .help(format!("{rocks}{turns}"))
+        })?;
+    let names = ["crank", "block", "lever"];
+    let joints = ["crank pivot", "crank pin", "slot", "lever pivot"];
+    Ok(
+        AnyMechanism::new(super::INVERTED_SLIDER_CRANK, mechanism, names, joints)
+            .with_point("A", InvertedSliderCrank::CRANK, [length.si, 0.0])
+            .with_point("C", InvertedSliderCrank::LEVER, [0.0, 0.0]),
+    )
+}

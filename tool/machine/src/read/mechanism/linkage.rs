@@ -1,0 +1,205 @@
+//! `type = "linkage"`: bodies and joints of any topology, from an approximate drawing.
+
+mod bodies;
+mod cam;
+mod drawing;
+mod joints;
+mod problems;
+mod wheels;
+
+use jred::joint::Joints;
+use jred::mechanism::{Frames, Pair};
+use jred::{Domain, Error, Frame, Joint, Jointed, Link, Mechanism};
+
+use crate::model::coordinate::Coordinate;
+use crate::model::machine::AnyMechanism;
+use crate::text::item::Item;
+use crate::text::problem::Result;
+use crate::text::section::Section;
+use crate::units::kind::{ANGLE, LENGTH};
+
+use bodies::Bodies;
+use joints::Held;
+use problems::{Assembled, Context};
+
+/// Positions kept along the drive's range: between them one step of Newton's method is enough.
+const STATIONS: usize = 256;
+
+/// The linkage in a box: with all its stations it is too large to be moved about on the stack.
+#[derive(Debug)]
+struct Boxed(Assembled);
+
+impl Mechanism for Boxed {
+    fn links(&self) -> &[Link] {
+        self.0.links()
+    }
+    fn domain(&self) -> Domain {
+        self.0.domain()
+    }
+    fn frames(&self, phi: f64) -> std::result::Result<Frames, Error> {
+        self.0.frames(phi)
+    }
+}
+
+impl Jointed for Boxed {
+    fn joints(&self, phi: f64, frames: &Frames) -> std::result::Result<Joints, Error> {
+        self.0.joints(phi, frames)
+    }
+    fn drive(&self) -> usize {
+        self.0.drive()
+    }
+}
+
+pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
+    section.expects(&["drive", "drawn_at", "stroke", "ground", "body", "joint"]);
+    let bodies = Bodies::read(section)?;
+    let mut joints = joints::read(section, &bodies)?;
+    let drive = drive(section, &joints)?;
+    problems::check_topology(section, &bodies, &joints)?;
+    let coordinate = match joints.get(drive).map(|joint| joint.kind) {
+        Some("prismatic") => Coordinate::Length,
+        _ => Coordinate::Angle,
+    };
+    let kind = match coordinate {
+        Coordinate::Angle => &ANGLE,
+        Coordinate::Length => &LENGTH,
+    };
+    let drawn_at = section.optional("drawn_at", kind)?.map(|value| value.si);
+    let domain = domain(section, coordinate)?;
+    let poses = drawing::poses(&bodies, &joints, drive, drawn_at)?;
+    let frames: Vec<Frame> = poses.iter().map(jred::mechanism::Pose::frame).collect();
+    for joint in &mut joints {
+        joint.meshing_at(&frames);
+    }
+    let drawn_at = drawn_at.unwrap_or_else(|| match joints.get(drive).map(|joint| joint.pair) {
+        Some(Pair::Joint(joint)) => joint.coordinate(&frames).value,
+        _ => 0.0,
+    });
+    let context = Context {
+        section,
+        bodies: &bodies,
+        joints: &joints,
+        drive,
+        coordinate,
+        poses: &poses,
+        frames: &frames,
+    };
+    let assembly = assembled(&context, domain, drawn_at)?;
+    wheels::check(&assembly, &bodies, &joints)?;
+    cam::check(&assembly, &bodies, &joints)?;
+    inertias(&assembly, &bodies)?;
+
+    let names = bodies.names();
+    let joint_names = joints.iter().map(|joint| joint.name.clone());
+    let mut mechanism = AnyMechanism::new(super::LINKAGE, assembly, names, joint_names);
+    for (link, body) in bodies.moving.iter().enumerate() {
+        for point in &body.points {
+            let name = format!("{}.{}", body.name, point.name);
+            mechanism = mechanism.with_point(name, link, point.at);
+        }
+    }
+    for point in &bodies.ground {
+        mechanism = mechanism.with_ground_point(point.name.clone(), point.at);
+    }
+    Ok(cam::described(mechanism, &joints))
+}
+
+/// Out of line, so that the stations leave the stack with it.
+#[inline(never)]
+fn assembled(context: &Context, domain: Domain, drawn_at: f64) -> Result<Boxed> {
+    context
+        .linkage()
+        .and_then(|linkage| linkage.assemble::<STATIONS>(domain, drawn_at, context.poses))
+        .map(|assembly| Boxed(Box::new(assembly)))
+        .map_err(|error| context.problem(&error))
+}
+
+/// The joint that is driven.
+fn drive(section: &Section, joints: &[Held]) -> Result<usize> {
+    let names: Vec<&str> = joints.iter().map(|joint| joint.name.as_str()).collect();
+    let item = section.require(
+        "drive",
+        &format!("drive = \"{}\"", names.first().unwrap_or(&"crank bearing")),
+    )?;
+    if item.is_list() {
+        return Err(item
+            .problem("is a list, but a linkage has one drive", "more than one")
+            .help("name the one joint that is driven; a second drive would move a second degree of freedom"));
+    }
+    let drive = item.choice(&names)?;
+    let Some(joint) = joints.get(drive) else {
+        return Ok(drive);
+    };
+    if !matches!(
+        joint.pair,
+        Pair::Joint(Joint::Revolute(_) | Joint::Prismatic(_))
+    ) {
+        return Err(item
+            .problem(
+                &format!("is \"{}\", of type \"{}\"", joint.name, joint.kind),
+                "cannot be driven",
+            )
+            .at(joint.place.clone(), "this joint")
+            .help("a drive turns a revolute joint or moves a prismatic one"));
+    }
+    Ok(drive)
+}
+
+/// A full turn, or the stroke that the file gives.
+fn domain(section: &Section, coordinate: Coordinate) -> Result<Domain> {
+    let (kind, example) = match coordinate {
+        Coordinate::Angle => (&ANGLE, "stroke = [\"-30 deg\", \"60 deg\"]"),
+        Coordinate::Length => (&LENGTH, "stroke = [\"400 mm\", \"650 mm\"]"),
+    };
+    let Some(item) = section.get("stroke") else {
+        if coordinate == Coordinate::Length {
+            return Err(section.missing(
+                "stroke",
+                &format!("{example}: a drive that slides does so between two ends"),
+            ));
+        }
+        return Ok(Domain::Turn);
+    };
+    let [from, to] = item.pair([kind, kind])?;
+    if to.si - from.si < kind.smallest {
+        return Err(stroke_problem(&item, &from.shown(), &to.shown())
+            .help(format!("the second end is the larger one: {example}")));
+    }
+    Domain::stroke(from.si, to.si).map_err(|error| super::core(section, &error))
+}
+
+fn stroke_problem(item: &Item, from: &str, to: &str) -> crate::text::problem::Problem {
+    item.problem(
+        &format!("runs from {from} to {to}, which is no way at all or goes backwards"),
+        "check these ends",
+    )
+}
+
+/// A body that turns needs a moment of inertia, be it zero.
+fn inertias(assembly: &Boxed, bodies: &Bodies) -> Result<()> {
+    let open: Vec<usize> = (0..bodies.moving.len())
+        .filter(|k| bodies.moving.get(*k).is_some_and(|body| !body.has_inertia))
+        .collect();
+    if open.is_empty() {
+        return Ok(());
+    }
+    for k in 0..=16 {
+        let phi = assembly.domain().position(f64::from(k) / 16.0);
+        let Ok(frames) = assembly.frames(phi) else {
+            continue; // an assembled linkage has a position everywhere
+        };
+        for &link in &open {
+            let turns = frames.get(link).is_some_and(|f| f.psi.d1.abs() > 1e-9);
+            if let (true, Some(body)) = (turns, bodies.moving.get(link)) {
+                return Err(crate::text::problem::Problem::new(format!(
+                    "`inertia` of body \"{}\" is missing, and the body turns",
+                    body.name
+                ))
+                .at(body.place.clone(), "`inertia` belongs here")
+                .help("add its moment of inertia about its own centre of mass, such as inertia = \"0.02 kg m^2\"; \
+                       only a body that never turns has none"));
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,249 @@
+//! The bodies of a linkage: mass, approximate drawing, and the points by which joints hold them.
+
+use std::ops::Range;
+
+use jred::{Body, Link, Marker};
+
+use crate::read::mechanism::core;
+use crate::text::item::{Item, Value};
+use crate::text::problem::{Problem, Result, quoted};
+use crate::text::section::Section;
+use crate::units::closest;
+use crate::units::kind::{ANGLE, INERTIA, LENGTH, MASS};
+
+/// What joints call the fixed frame.
+pub(super) const GROUND: &str = "ground";
+
+/// The most bodies of a linkage.
+pub(super) const MOST: usize = 16;
+
+/// One body as the file gives it.
+pub(super) struct Drawn {
+    pub(super) name: String,
+    pub(super) link: Link,
+    pub(super) points: Vec<Point>,
+    /// Angle in the drawing (rad).
+    pub(super) angle: Option<f64>,
+    /// Origin in the drawing (m).
+    pub(super) position: Option<[f64; 2]>,
+    /// Whether the file gives a moment of inertia.
+    pub(super) has_inertia: bool,
+    pub(super) place: Range<usize>,
+}
+
+/// A point with its name, in its body's frame (m).
+pub(super) struct Point {
+    pub(super) name: String,
+    pub(super) at: [f64; 2],
+}
+
+/// The ground's points and all bodies.
+pub(super) struct Bodies {
+    pub(super) ground: Vec<Point>,
+    pub(super) moving: Vec<Drawn>,
+}
+
+/// A point of a body, found by its name.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct End {
+    pub(super) body: Body,
+    pub(super) at: [f64; 2],
+}
+
+impl End {
+    pub(super) const fn marker(&self) -> Marker {
+        match self.body {
+            Body::Ground => Marker::ground(self.at),
+            Body::Link(link) => Marker::on(link, self.at),
+        }
+    }
+}
+
+impl Bodies {
+    pub(super) fn read(section: &Section) -> Result<Self> {
+        let ground = match section.get(GROUND) {
+            Some(item) => points(&item.section(format!("`{GROUND}` of {}", section.title()))?)?,
+            None => Vec::new(),
+        };
+        let item = section.require(
+            "body",
+            "[[mechanism.body]] once for each moving body, with name, mass, angle and points",
+        )?;
+        let sections = item.sections("[[mechanism.body]]")?;
+        if sections.is_empty() {
+            return Err(item
+                .problem("is empty", "here")
+                .help("a linkage has at least one moving body"));
+        }
+        if let Some(surplus) = sections.get(MOST) {
+            return Err(surplus
+                .problem(
+                    format!(
+                        "the linkage has {} bodies, more than {MOST}",
+                        sections.len()
+                    ),
+                    "one too many",
+                )
+                .help("bodies that are rigidly connected are one body: add up their masses"));
+        }
+        let mut bodies = Self {
+            ground,
+            moving: Vec::with_capacity(sections.len()),
+        };
+        for section in &sections {
+            let body = drawn(section)?;
+            if let Some(first) = bodies.moving.iter().find(|b| b.name == body.name) {
+                return Err(Problem::new(format!(
+                    "two bodies have the name \"{}\"",
+                    body.name
+                ))
+                .at(first.place.clone(), "the first")
+                .at(body.place, "the second")
+                .help("give each body a name of its own: joints and loads find it by the name"));
+            }
+            bodies.moving.push(body);
+        }
+        Ok(bodies)
+    }
+
+    /// Names of the moving bodies.
+    pub(super) fn names(&self) -> Vec<String> {
+        self.moving.iter().map(|body| body.name.clone()).collect()
+    }
+
+    /// The name of a body, the ground included, in quotes.
+    pub(super) fn name(&self, body: Body) -> String {
+        let moving = body.link().and_then(|link| self.moving.get(link));
+        format!("\"{}\"", moving.map_or(GROUND, |body| &body.name))
+    }
+
+    /// The body called `name`.
+    pub(super) fn find(&self, item: &Item, name: &str) -> Result<Body> {
+        if name == GROUND {
+            return Ok(Body::Ground);
+        }
+        if let Some(link) = self.moving.iter().position(|body| body.name == name) {
+            return Ok(Body::Link(link));
+        }
+        let mut names = vec![GROUND.to_owned()];
+        names.extend(self.names());
+        let near = closest(name, &names)
+            .map_or_else(String::new, |near| format!("did you mean \"{near}\"? "));
+        Err(item
+            .problem(
+                &format!("names \"{name}\", but there is no such body"),
+                "unknown body",
+            )
+            .help(format!("{near}bodies: {}", quoted(&names))))
+    }
+
+    /// The point that `item` names: "body.point", or "body" for the origin of its frame.
+    pub(super) fn end(&self, item: &Item) -> Result<End> {
+        let text = item.text("crank.A")?;
+        let (name, point) = match text.split_once('.') {
+            Some((name, point)) => (name.trim(), Some(point.trim())),
+            None => (text, None),
+        };
+        let body = self.find(item, name)?;
+        let Some(point) = point else {
+            return Ok(End {
+                body,
+                at: [0.0, 0.0],
+            });
+        };
+        let points = match body {
+            Body::Ground => &self.ground,
+            Body::Link(link) => self.moving.get(link).map_or(&self.ground, |b| &b.points),
+        };
+        if let Some(found) = points.iter().find(|p| p.name == point) {
+            return Ok(End { body, at: found.at });
+        }
+        let names: Vec<&str> = points.iter().map(|p| p.name.as_str()).collect();
+        let near = closest(point, &names).map_or_else(String::new, |near| {
+            format!("did you mean \"{name}.{near}\"? ")
+        });
+        let known = match (body, names.as_slice()) {
+            (Body::Ground, []) => format!(
+                "the ground has no points yet: add ground = {{ {point} = [\"0 mm\", \"0 mm\"] }} to [mechanism]"
+            ),
+            (_, []) => format!(
+                "\"{name}\" has no points yet: add points = {{ {point} = [\"80 mm\", \"0 mm\"] }} to it"
+            ),
+            _ => format!("points of \"{name}\": {}", names.join(", ")),
+        };
+        Err(item
+            .problem(
+                &format!("names the point \"{point}\", which \"{name}\" does not have"),
+                "unknown point",
+            )
+            .help(format!(
+                "{near}{known}; \"{name}\" alone is the origin of its frame"
+            )))
+    }
+}
+
+fn drawn(section: &Section) -> Result<Drawn> {
+    section.expects(&[
+        "name", "mass", "inertia", "com", "angle", "position", "points",
+    ]);
+    let item = section.require("name", "name = \"crank\"")?;
+    let name = item.text("crank")?.to_owned();
+    if name == GROUND || name.contains('.') {
+        let what = if name == GROUND {
+            "is \"ground\", the name of the fixed frame".to_owned()
+        } else {
+            format!("is \"{name}\", which contains a point")
+        };
+        return Err(item
+            .problem(&what, "another name")
+            .help("joints write \"body.point\"; choose a name without \".\", and not \"ground\""));
+    }
+    let mass = section.quantity("mass", &MASS)?.not_negative()?;
+    let inertia = section.optional("inertia", &INERTIA)?;
+    let has_inertia = inertia.is_some();
+    let inertia = inertia.map_or(Ok(0.0), Value::not_negative)?;
+    let com = section.point("com", &LENGTH)?;
+    let angle = section.optional("angle", &ANGLE)?.map(|value| value.si);
+    let position = section
+        .get("position")
+        .map(|item| item.pair([&LENGTH, &LENGTH]))
+        .transpose()?
+        .map(|pair| pair.map(|value| value.si));
+    let points = match section.get("points") {
+        Some(item) => points(&item.section(format!("`points` of {}", section.title()))?)?,
+        None => Vec::new(),
+    };
+    section.finish_with(|key| match key {
+        "length" => Some(
+            "a body has no length: give its points, such as points = { A = [\"80 mm\", \"0 mm\"] }",
+        ),
+        "at" => Some("where the body is drawn is its position"),
+        _ => None,
+    })?;
+    let link = Link::new(mass, inertia, com).map_err(|error| core(section, &error))?;
+    Ok(Drawn {
+        name,
+        link,
+        points,
+        angle,
+        position,
+        has_inertia,
+        place: section.header(),
+    })
+}
+
+/// The points of a table whose keys are their names.
+fn points(section: &Section) -> Result<Vec<Point>> {
+    let point = |(name, item): (&str, Item)| {
+        if name.contains('.') || name.trim().is_empty() {
+            return Err(item
+                .problem("has a name that joints cannot write", "this point")
+                .help("joints write \"body.point\": choose a name without \".\", such as A"));
+        }
+        Ok(Point {
+            name: name.trim().to_owned(),
+            at: item.pair([&LENGTH, &LENGTH])?.map(|value| value.si),
+        })
+    };
+    section.entries().into_iter().map(point).collect()
+}

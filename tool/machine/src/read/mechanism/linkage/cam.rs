@@ -1,0 +1,263 @@
+//! `type = "cam"`: a disc cam that moves a follower, as a joint of a linkage.
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use jred::cam::Piece;
+use jred::mechanism::{CamProfile, Follower, Pair, PlacedCam, Roller};
+use jred::{Body, Domain, Mechanism};
+
+use crate::model::machine::{AnyMechanism, Contact};
+use crate::number::rounding::figure;
+use crate::read::mechanism::{core, disc_cam};
+use crate::text::problem::{Problem, Result};
+use crate::text::section::Section;
+use crate::units::kind::{ANGLE, LENGTH};
+
+use super::bodies::{Bodies, End};
+use super::joints::Held;
+
+/// The most cams of a linkage.
+pub(super) const MOST: usize = 8;
+
+/// The bearings may miss the place that the joint gives them by this share of the base radius: a rounding in the file.
+const ROUNDING: f64 = 1e-4;
+
+/// Largest angular velocity against the drive's that counts as standing still.
+const STILL: f64 = 1e-6;
+
+/// Points of the profile for drawings.
+const OUTLINE: u32 = 720;
+
+/// What the file says of a cam, beside its pair.
+pub(super) struct Cam {
+    pub(super) placed: PlacedCam,
+    /// A groove or a second cam holds the follower on both sides.
+    by_form: bool,
+    /// Where the axis and the follower stand in the file.
+    axis: Range<usize>,
+    follower: Range<usize>,
+}
+
+/// The pair, number `place` of the linkage's cams, and the cam.
+pub(super) fn read(
+    section: &Section,
+    bodies: &Bodies,
+    [cam, follower]: [End; 2],
+    place: usize,
+) -> Result<(Pair, Cam)> {
+    if place >= MOST {
+        return Err(section
+            .problem(format!("the linkage has more than {MOST} cams"), "one too many")
+            .help("cams that press on the same follower one after the other are one cam with one program"));
+    }
+    let angle = |key| Ok(section.optional(key, &ANGLE)?.map_or(0.0, |value| value.si));
+    let axis = section.require(
+        "axis",
+        "axis = \"ground.O\": the point of the ground about which the cam turns",
+    )?;
+    let end = bodies.end(&axis)?;
+    if [cam.body, follower.body].contains(&end.body) {
+        return Err(axis
+            .problem(
+                &format!("is on {}, which this joint moves", bodies.name(end.body)),
+                "not the body of the bearings",
+            )
+            .help("name the point on the body that carries the bearings of both, mostly the ground: axis = \"ground.O\""));
+    }
+    let base = end.marker().with_angle(angle("axis_direction")?);
+    let by_form = match section.get("closure") {
+        Some(item) => item.choice(&["force", "form"])? == 1,
+        None => false,
+    };
+    let base_radius = section.quantity("base_radius", &LENGTH)?;
+    base_radius.check_positive()?;
+    let part = section
+        .require(
+            "follower",
+            "follower = { type = \"oscillating-roller\", pivot = [\"120 mm\", \"0 mm\"], arm = \"100 mm\", swing = \"clockwise\" }",
+        )?
+        .section(format!("`follower` of {}", section.title()))?;
+    let shape = disc_cam::follower(&part, || roller(section))?;
+    part.finish_with(|key| match key {
+        "mass" | "inertia" | "com" => {
+            Some("the follower is a body of the linkage, which has its own mass: give it there")
+        }
+        _ => None,
+    })?;
+    let program = disc_cam::program(
+        section,
+        "[[mechanism.joint.segment]]",
+        shape.pivot().is_some(),
+    )?;
+    let profile = CamProfile::new(program, base_radius.si, shape)
+        .map_err(|error| disc_cam::problem(section, &part, &base_radius, &error))?;
+    let pair = Pair::Cam {
+        cam: cam.marker().with_angle(angle("direction")?),
+        follower: follower.marker().with_angle(angle("second_direction")?),
+        place,
+    };
+    let cam = Cam {
+        placed: PlacedCam::new(profile, base),
+        by_form,
+        axis: axis.span(),
+        follower: part.header(),
+    };
+    Ok((pair, cam))
+}
+
+/// The roller, of which the radius is all that a linkage needs.
+fn roller(section: &Section) -> Result<Roller> {
+    let section = section
+        .require("roller", "roller = { radius = \"13 mm\" }")?
+        .section(format!("`roller` of {}", section.title()))?;
+    let radius = section.quantity("radius", &LENGTH)?.positive()?;
+    section.finish_with(|key| match key {
+        "mass" | "com" => {
+            Some("in a linkage the roller is part of the follower: add its mass to that body")
+        }
+        "inertia" => {
+            Some("the roller's own turning is left out in a linkage; type = \"disc-cam\" has it")
+        }
+        _ => None,
+    })?;
+    Roller::new(radius, 0.0, 0.0).map_err(|error| core(&section, &error))
+}
+
+/// Checks all over the drive's range that the bearings are where the joints have them.
+pub(super) fn check(mechanism: &impl Mechanism, bodies: &Bodies, joints: &[Held]) -> Result<()> {
+    const PLACES: usize = 12;
+    let domain = mechanism.domain();
+    for (joint, cam) in cams(joints) {
+        for k in 0..=PLACES {
+            let last = if domain == Domain::Turn { 0.999 } else { 1.0 };
+            let phi = domain.position(last * k as f64 / PLACES as f64);
+            let Ok(frames) = mechanism.frames(phi) else {
+                continue; // an assembled linkage has a position everywhere
+            };
+            stands(joint, cam, bodies, &frames)?;
+        }
+    }
+    Ok(())
+}
+
+fn stands(joint: &Held, cam: &Cam, bodies: &Bodies, frames: &[jred::Frame]) -> Result<()> {
+    let (base, profile) = (cam.placed.base(), cam.placed.profile());
+    let [on_cam, on_follower] = joint.pair.markers();
+    let [x, y] = base.position(frames).map(|c| c.value);
+    let [cos, sin] = base.axis(frames).map(|c| c.value);
+    // Seen from the base.
+    let seen = |marker: &jred::Marker| {
+        let [to_x, to_y] = marker.position(frames).map(|c| c.value);
+        let (to_x, to_y) = (to_x - x, to_y - y);
+        [cos * to_x + sin * to_y, cos * to_y - sin * to_x]
+    };
+    let mm = |length: f64| figure(length * 1e3);
+    let misfit = |message: &str, place: &Range<usize>| {
+        Problem::new(format!("joint \"{}\": {message}", joint.name))
+            .at(place.clone(), "does not fit")
+    };
+    let allowed = ROUNDING * profile.base_radius();
+    let [u, v] = seen(&on_cam);
+    if u.hypot(v) > allowed {
+        return Err(misfit(
+            &format!(
+                "the point of the cam {} lies {} mm from the axis",
+                bodies.name(on_cam.body),
+                mm(u.hypot(v))
+            ),
+            &cam.axis,
+        )
+        .help("`between` names the point of the cam in its bearing, `axis` the point of the other body in the same bearing"));
+    }
+    let [u, v] = seen(&on_follower);
+    let name = bodies.name(on_follower.body);
+    if let Some(([p, q], _)) = profile.follower().pivot() {
+        if (u - p).hypot(v - q) > allowed {
+            return Err(misfit(
+                &format!(
+                    "the follower {name} turns about [{} mm, {} mm], seen from the cam's axis, not about its `pivot`, \
+                     [{} mm, {} mm]",
+                    mm(u), mm(v), mm(p), mm(q)
+                ),
+                &cam.follower,
+            )
+                .help("`between` names the point of the follower in its bearing; give its place from the cam's axis as `pivot`"));
+        }
+    } else {
+        let offset = match *profile.follower() {
+            Follower::TranslatingRoller { offset, .. } | Follower::TranslatingFace { offset } => {
+                offset
+            }
+            _ => u,
+        };
+        if (u - offset).abs() > allowed {
+            return Err(misfit(
+                &format!(
+                    "the follower {name} slides {} mm beside the cam's axis, but its `offset` is {} mm",
+                    mm(u),
+                    mm(offset)
+                ),
+                &cam.follower,
+            )
+                .help("the follower slides along +y of the arrangement, which `axis_direction` turns, at x = offset"));
+        }
+        let turn = on_follower.direction(frames).d1 - base.direction(frames).d1;
+        if turn.abs() > STILL {
+            return Err(misfit(
+                &format!("the follower {name} turns, but its type is that of one that translates"),
+                &cam.follower,
+            )
+            .help("guide it by a prismatic joint, or give it an oscillating type"));
+        }
+    }
+    Ok(())
+}
+
+/// With the profiles as outlines of their bodies, and the contacts that must not open.
+pub(super) fn described(mut mechanism: AnyMechanism, joints: &[Held]) -> AnyMechanism {
+    // Where a curve is not smooth within a piece, the limit is as near as its samples, some tenths of a degree.
+    const PIECES: u32 = 12;
+    let domain = mechanism.domain();
+    let share = |k: u32| domain.position(f64::from(k) / f64::from(PIECES));
+    for (index, held) in joints.iter().enumerate() {
+        let Some(cam) = &held.cam else { continue };
+        let [on_cam, _] = held.pair.markers();
+        if let Body::Link(link) = on_cam.body {
+            let (sin, cos) = on_cam.angle().sin_cos();
+            let point = |k: u32| {
+                let theta = TAU * f64::from(k) / f64::from(OUTLINE);
+                let [u, v] = cam.placed.profile().equidistant(theta, 0.0);
+                [
+                    on_cam.at[0] + cos * u - sin * v,
+                    on_cam.at[1] + sin * u + cos * v,
+                ]
+            };
+            mechanism = mechanism.with_outline(link, (0..OUTLINE).map(point).collect());
+        }
+        if !cam.by_form {
+            mechanism = mechanism.with_contact(Contact {
+                joint: index,
+                pieces: (0..PIECES)
+                    .map(|k| Piece {
+                        from: share(k),
+                        to: share(k + 1),
+                    })
+                    .collect(),
+            });
+        }
+    }
+    mechanism
+}
+
+/// The joints that are cams.
+fn cams(joints: &[Held]) -> impl Iterator<Item = (&Held, &Cam)> {
+    joints
+        .iter()
+        .filter_map(|joint| joint.cam.as_ref().map(|cam| (joint, cam)))
+}
+
+/// The cams in the order of their numbers.
+pub(super) fn placed(joints: &[Held]) -> Vec<PlacedCam> {
+    cams(joints).map(|(_, cam)| cam.placed.clone()).collect()
+}

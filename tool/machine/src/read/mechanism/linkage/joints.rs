@@ -1,0 +1,282 @@
+//! The joints of a linkage, each as a pair of the core.
+
+use std::ops::Range;
+
+use jred::mechanism::Pair;
+use jred::{Body, Frame, Joint};
+
+use crate::text::item::Item;
+use crate::text::problem::{Problem, Result};
+use crate::text::section::Section;
+use crate::units::kind::{ANGLE, LENGTH};
+
+use super::bodies::{Bodies, End};
+use super::cam::{self, Cam};
+
+/// The most joints of a linkage.
+pub(super) const MOST: usize = 32;
+
+/// The types of joint, as machine files write them.
+const TYPES: [&str; 8] = [
+    "revolute",
+    "prismatic",
+    "fixed",
+    "pin-in-slot",
+    "gears",
+    "rack",
+    "belt",
+    "cam",
+];
+
+/// One joint as the file gives it.
+pub(super) struct Held {
+    pub(super) name: String,
+    pub(super) kind: &'static str,
+    pub(super) pair: Pair,
+    pub(super) place: Range<usize>,
+    /// Where the radii stand, of a joint that rolls.
+    pub(super) radii: Option<Range<usize>>,
+    pub(super) cam: Option<Cam>,
+}
+
+impl Held {
+    /// With its teeth in mesh as the bodies are drawn; a rack lies on the side of its pinion on which it is drawn.
+    pub(super) fn meshing_at(&mut self, frames: &[Frame]) {
+        if let Pair::Rack {
+            pinion,
+            rack,
+            radius,
+            ..
+        } = &mut self.pair
+        {
+            let offset = super::wheels::offset(pinion, rack, frames);
+            *radius = radius.abs().copysign(offset);
+        }
+        self.pair = self.pair.meshing_at(frames);
+    }
+}
+
+pub(super) fn read(section: &Section, bodies: &Bodies) -> Result<Vec<Held>> {
+    let item = section.require(
+        "joint",
+        "[[mechanism.joint]] once for each joint, with name, type and between = [\"ground.O\", \"crank\"]",
+    )?;
+    let sections = item.sections("[[mechanism.joint]]")?;
+    if let Some(surplus) = sections.get(MOST) {
+        return Err(surplus
+            .problem(
+                format!(
+                    "the linkage has {} joints, more than {MOST}",
+                    sections.len()
+                ),
+                "one too many",
+            )
+            .help(
+                "bodies that are rigidly connected are one body: leave out the joint between them",
+            ));
+    }
+    let mut joints: Vec<Held> = Vec::with_capacity(sections.len());
+    for section in &sections {
+        let cams = joints.iter().filter(|joint| joint.cam.is_some()).count();
+        let joint = joint(section, bodies, cams)?;
+        if let Some(first) = joints.iter().find(|j| j.name == joint.name) {
+            return Err(
+                Problem::new(format!("two joints have the name \"{}\"", joint.name))
+                    .at(first.place.clone(), "the first")
+                    .at(joint.place, "the second")
+                    .help("give each joint a name of its own, such as name = \"crank pin\""),
+            );
+        }
+        joints.push(joint);
+    }
+    Ok(joints)
+}
+
+/// A joint; `cams` of those before it are cams.
+fn joint(section: &Section, bodies: &Bodies, cams: usize) -> Result<Held> {
+    section.expects(&["name", "type", "between"]);
+    let kind = match section.get("type") {
+        Some(item) => item.choice(&TYPES)?,
+        None => 0,
+    };
+    let kind = TYPES.get(kind).copied().unwrap_or(TYPES[0]);
+    let between = section.require("between", "between = [\"ground.O\", \"crank\"]")?;
+    let list = between.list("end", "[\"ground.O\", \"crank\"]")?;
+    let [first, second] = list.as_slice() else {
+        let count = list.len();
+        return Err(between
+            .problem(
+                &format!("has {count} ends, but a joint connects two"),
+                "here",
+            )
+            .help("a pin that holds three bodies is two joints at the same point"));
+    };
+    let ends = [bodies.end(first)?, bodies.end(second)?];
+    if ends[0].body == ends[1].body {
+        return Err(between
+            .problem(
+                &format!("joins {} to itself", bodies.name(ends[0].body)),
+                "the same body twice",
+            )
+            .help("a joint connects two different bodies, or a body and the ground"));
+    }
+    let name = match section.get("name") {
+        Some(item) => item.text("crank pin")?.to_owned(),
+        None => format!("{} to {}", first.text("")?, second.text("")?),
+    };
+    let (pair, radii, cam) = if kind == "cam" {
+        let (pair, cam) = cam::read(section, bodies, ends, cams)?;
+        (pair, None, Some(cam))
+    } else {
+        let (pair, radii) = pair(kind, section, bodies, ends)?;
+        (pair, radii, None)
+    };
+    section.finish_with(|key| {
+        Some(match key {
+            "direction" | "second_direction" => {
+                "only prismatic and fixed joints, slots, racks and cams have a direction"
+            }
+            "radius" => "gears and belts have radii = [\"40 mm\", \"80 mm\"], a rack has the radius of its pinion",
+            "radii" | "mesh" | "carrier" => "only gears and belts have radii, only gears mesh and carrier",
+            "crossed" => "only belts can be crossed",
+            "axis" | "base_radius" | "follower" | "roller" | "segment" => "only cams have it",
+            "at" => "the points that a joint connects are its ends: between = [\"crank.A\", \"rod\"]",
+            _ => return None,
+        })
+    })?;
+    Ok(Held {
+        name,
+        kind,
+        pair,
+        place: section.header(),
+        radii,
+        cam,
+    })
+}
+
+/// The pair, and where its radii stand.
+fn pair(
+    kind: &str,
+    section: &Section,
+    bodies: &Bodies,
+    ends: [End; 2],
+) -> Result<(Pair, Option<Range<usize>>)> {
+    let angle = |key| Ok(section.optional(key, &ANGLE)?.map_or(0.0, |value| value.si));
+    let [a, b] = ends.map(|end| end.marker());
+    let joint = |joint| Ok((Pair::Joint(joint), None));
+    match kind {
+        "revolute" => joint(Joint::Revolute([a, b])),
+        "prismatic" => {
+            let direction = section
+                .require(
+                    "direction",
+                    "direction = \"0 deg\": the guide's direction on the first body",
+                )?
+                .quantity(&ANGLE)?;
+            let [a, b] = [
+                a.with_angle(direction.si),
+                b.with_angle(angle("second_direction")?),
+            ];
+            joint(Joint::Prismatic([a, b]))
+        }
+        "fixed" => joint(Joint::Fixed([
+            a.with_angle(angle("direction")?),
+            b.with_angle(angle("second_direction")?),
+        ])),
+        "pin-in-slot" => {
+            let direction = section
+                .require(
+                    "direction",
+                    "direction = \"0 deg\": the slot's direction on the second body",
+                )?
+                .quantity(&ANGLE)?;
+            joint(Joint::PinInSlot([a, b.with_angle(direction.si)]))
+        }
+        "rack" => {
+            let radius = section.quantity("radius", &LENGTH)?;
+            let place = radius.span();
+            let radius = radius.positive()?;
+            let direction = section
+                .require(
+                    "direction",
+                    "direction = \"0 deg\": that of the rack's pitch line on the second body",
+                )?
+                .quantity(&ANGLE)?;
+            let rack = Pair::Rack {
+                pinion: a,
+                rack: b.with_angle(direction.si),
+                radius,
+                phase: 0.0,
+            };
+            Ok((rack, Some(place)))
+        }
+        _ => {
+            let item = section.require("radii", "radii = [\"40 mm\", \"80 mm\"]")?;
+            let place = item.span();
+            let [r_a, r_b] = item.pair([&LENGTH, &LENGTH])?;
+            let radii = [r_a.positive()?, r_b.positive()?];
+            let pair = if kind == "belt" {
+                let crossed = section
+                    .get("crossed")
+                    .map_or(Ok(false), |item| item.flag())?;
+                Pair::Belt {
+                    centres: [a, b],
+                    radii: [radii[0], if crossed { -radii[1] } else { radii[1] }],
+                    phase: 0.0,
+                }
+            } else {
+                Pair::Gears {
+                    centres: [a, b],
+                    carrier: carrier(section, bodies, ends)?,
+                    radii: meshing(section, &item, radii)?,
+                    phase: 0.0,
+                }
+            };
+            Ok((pair, Some(place)))
+        }
+    }
+}
+
+/// The body in which both gears turn.
+fn carrier(section: &Section, bodies: &Bodies, ends: [End; 2]) -> Result<Body> {
+    let Some(item) = section.get("carrier") else {
+        if ends.iter().any(|end| end.body == Body::Ground) {
+            return Err(section.missing(
+                "carrier",
+                "carrier = \"arm\": the ground is one of these gears, so the other one is carried by a body that turns",
+            ));
+        }
+        return Ok(Body::Ground);
+    };
+    let carrier = bodies.find(&item, item.text("arm")?)?;
+    if ends.iter().any(|end| end.body == carrier) {
+        return Err(item
+            .problem(
+                &format!("names {}, which is one of the gears", bodies.name(carrier)),
+                "a gear",
+            )
+            .help("the carrier is the body that holds the bearings of both gears"));
+    }
+    Ok(carrier)
+}
+
+/// The radii with the sign that the core gives a ring gear.
+fn meshing(section: &Section, item: &Item, radii: [f64; 2]) -> Result<[f64; 2]> {
+    let internal = match section.get("mesh") {
+        Some(mesh) => mesh.choice(&["external", "internal"])? == 1,
+        None => false,
+    };
+    if !internal {
+        return Ok(radii);
+    }
+    let [a, b] = radii;
+    if (a - b).abs() <= 1e-9 * a.max(b) {
+        return Err(item
+            .problem(
+                "are equal, but one of two gears that mesh internally is a ring, larger than the other",
+                "equal radii",
+            )
+            .help("give the ring gear its larger pitch radius"));
+    }
+    Ok(if a > b { [-a, b] } else { [a, -b] })
+}

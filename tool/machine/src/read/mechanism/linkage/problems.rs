@@ -1,0 +1,292 @@
+//! What the core finds wrong with a linkage, in the words of the machine file.
+
+use jred::mechanism::{Assembly, Linkage, Pair};
+use jred::{Body, Domain, Error, Frame, Joint, mechanism::Pose};
+
+use crate::model::coordinate::Coordinate;
+use crate::number::rounding::figure;
+use crate::read::mechanism::core;
+use crate::text::problem::{Problem, Result};
+use crate::text::section::Section;
+
+use super::bodies::{self, Bodies};
+use super::cam;
+use super::joints::{self, Held};
+
+/// Everything that messages speak of.
+pub(super) struct Context<'a> {
+    pub(super) section: &'a Section<'a>,
+    pub(super) bodies: &'a Bodies,
+    pub(super) joints: &'a [Held],
+    pub(super) drive: usize,
+    pub(super) coordinate: Coordinate,
+    pub(super) poses: &'a [Pose],
+    pub(super) frames: &'a [Frame],
+}
+
+/// Refuses bodies without a joint, bodies that nothing connects with the ground, and any number of freedoms but one.
+pub(super) fn check_topology(section: &Section, bodies: &Bodies, joints: &[Held]) -> Result<()> {
+    let count = bodies.moving.len();
+    // Connected with the ground, found by going round as often as there are bodies.
+    let mut held = vec![false; count];
+    let mut used = vec![false; count];
+    for _ in 0..=count {
+        for joint in joints {
+            let ends = joint.pair.bodies();
+            let grounded = ends
+                .iter()
+                .any(|body| body.link().is_none_or(|link| held.get(link) == Some(&true)));
+            for link in ends.iter().filter_map(|body| body.link()) {
+                if let (Some(held), Some(used)) = (held.get_mut(link), used.get_mut(link)) {
+                    *used = true;
+                    *held |= grounded;
+                }
+            }
+        }
+    }
+    for (k, body) in bodies.moving.iter().enumerate() {
+        if !used.get(k).copied().unwrap_or_default() {
+            return Err(
+                Problem::new(format!("body \"{}\" is in no joint", body.name))
+                    .at(body.place.clone(), "never used")
+                    .help("remove it, or add the [[mechanism.joint]] that holds it"),
+            );
+        }
+        if !held.get(k).copied().unwrap_or_default() {
+            return Err(Problem::new(format!(
+                "nothing connects body \"{}\" with the ground",
+                body.name
+            ))
+            .at(body.place.clone(), "floats freely")
+            .help("a chain of joints must lead from every body to the ground"));
+        }
+    }
+    let taken: usize = joints.iter().map(|joint| joint.pair.constraints()).sum();
+    let freedoms = 3 * count as i64 - taken as i64;
+    if freedoms == 1 {
+        return Ok(());
+    }
+    let each: Vec<String> = joints
+        .iter()
+        .map(|joint| format!("\"{}\" {}", joint.name, joint.pair.constraints()))
+        .collect();
+    let cure = if freedoms > 1 {
+        "some body can still move by itself: hold it by another joint, or leave it out"
+    } else {
+        "some joints hold what others hold already: leave one out, or use a pin-in-slot, which takes 1, for a pin"
+    };
+    Err(section
+        .problem(
+            format!(
+                "the linkage has {freedoms} degrees of freedom, not one: 3·{count} − {taken} = {freedoms}"
+            ),
+            "in this linkage",
+        )
+        .help(format!("{cure}. Freedoms taken by each joint: {}", each.join(", "))))
+}
+
+impl Context<'_> {
+    /// An error of the core.
+    pub(super) fn problem(&self, error: &Error) -> Problem {
+        match *error {
+            Error::CannotAssemble { phi, joint, gap } => self.open(phi, joint, gap),
+            Error::DeadPoint { phi, joint } => self.dead(phi, joint),
+            Error::BranchChange { phi, joint } => self
+                .at_joint(
+                    joint,
+                    &format!(
+                        "is where the linkage changes to another branch, at {}",
+                        self.place(phi)
+                    ),
+                    "stretched or folded here",
+                )
+                .help(
+                    "two bodies come into line there and may go on either way: change the lengths, or end the stroke \
+                     before it",
+                ),
+            Error::NotClosed { link, gap } => self.not_closed(link, gap),
+            Error::OverConstrained { joint, free } => self.held_twice(joint, free),
+            _ => core(self.section, error),
+        }
+    }
+
+    fn place(&self, phi: f64) -> String {
+        self.coordinate.place(phi)
+    }
+
+    fn at_joint(&self, joint: usize, message: &str, label: &str) -> Problem {
+        match self.joints.get(joint) {
+            Some(joint) => Problem::new(format!("joint \"{}\" {message}", joint.name))
+                .at(joint.place.clone(), label),
+            None => self.section.problem(message, label),
+        }
+    }
+
+    /// A joint that cannot be closed.
+    fn open(&self, phi: f64, joint: usize, gap: f64) -> Problem {
+        let Some(held) = self.joints.get(joint) else {
+            return core(self.section, &Error::CannotAssemble { phi, joint, gap });
+        };
+        let size = match held.kind {
+            "prismatic" | "fixed" | "cam" => {
+                format!("{} mm, or mrad of an angle", figure(gap * 1e3))
+            }
+            _ => format!("{} mm", figure(gap * 1e3)),
+        };
+        let [a, b] = held.pair.bodies().map(|body| self.bodies.name(body));
+        self.at_joint(
+            joint,
+            &format!(
+                "cannot be closed: the linkage cannot be assembled at {}, this joint stays open by {size}",
+                self.place(phi)
+            ),
+            "stays open",
+        )
+        .help(format!(
+            "check the angles of {a} and {b} in the drawing, and whether their points can meet{}",
+            self.widest_gap()
+        ))
+    }
+
+    /// Where the drawing itself is open.
+    fn widest_gap(&self) -> String {
+        let gap = |held: &Held| match held.pair {
+            Pair::Joint(Joint::Revolute([a, b])) => {
+                let (a, b) = (a.position(self.frames), b.position(self.frames));
+                (b[0].value - a[0].value).hypot(b[1].value - a[1].value)
+            }
+            _ => 0.0,
+        };
+        let widest = self
+            .joints
+            .iter()
+            .map(|held| (gap(held), &held.name))
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        match widest {
+            Some((gap, name)) if gap > 0.0 => format!(
+                "; the widest gap in the drawing is {} mm, at \"{name}\"",
+                figure(gap * 1e3)
+            ),
+            _ => String::new(),
+        }
+    }
+
+    /// As many equations as coordinates, but some joints hold the same.
+    fn held_twice(&self, joint: usize, free: usize) -> Problem {
+        let free = self.bodies.name(Body::Link(free));
+        let what = if joint == self.drive {
+            "is driven, but the other joints leave it no freedom"
+        } else {
+            "holds bodies that other joints hold already"
+        };
+        self.at_joint(
+            joint,
+            &format!("{what}, while {free} can still move"),
+            "held twice",
+        )
+        .help(format!(
+            "leave out one of the joints between the bodies of this loop, and add one that holds {free}"
+        ))
+    }
+
+    /// The end of what the drive can reach.
+    fn dead(&self, phi: f64, joint: usize) -> Problem {
+        let drive = self.joints.get(self.drive).map_or("", |j| j.name.as_str());
+        let problem = self.at_joint(
+            joint,
+            &format!(
+                "locks: the drive \"{drive}\" reaches a dead point at {}",
+                self.place(phi)
+            ),
+            "locks here",
+        );
+        let Some([from, to]) = self.reach() else {
+            return problem.help(
+                "the drawing itself stands at a dead point, or two joints hold the same: check its angles, or draw it \
+                 in another position",
+            );
+        };
+        let unit = self.coordinate.unit();
+        let shown = |position: f64| (self.coordinate.shown(position) * 1e2).round() / 1e2 + 0.0;
+        problem.help(format!(
+            "from the drawing the drive can move from {} {unit} to {} {unit}: give a stroke within, such as stroke = \
+             [\"{} {unit}\", \"{} {unit}\"], or change the lengths",
+            shown(from),
+            shown(to),
+            figure(shown(from + 0.1 * (to - from)).round()),
+            figure(shown(to - 0.1 * (to - from)).round()),
+        ))
+    }
+
+    /// How far the drive can move from the drawing to either side.
+    fn reach(&self) -> Option<[f64; 2]> {
+        let drawn = self.drawn_at()?;
+        let mut ends = [0.0; 2];
+        for (end, way) in ends.iter_mut().zip([-1.0, 1.0]) {
+            let far = drawn + way * self.search();
+            let domain = Domain::stroke(drawn.min(far), drawn.max(far)).ok()?;
+            let linkage = self.linkage().ok()?;
+            // Followed from the drawing to the far end: the error names where it stops.
+            *end = match linkage.assemble::<2>(domain, drawn, self.poses) {
+                Ok(_) => far,
+                Err(Error::DeadPoint { phi, .. } | Error::BranchChange { phi, .. }) => phi,
+                Err(_) => return None,
+            };
+        }
+        let [from, to] = ends;
+        (to - from > 1e-6 * self.search()).then_some(ends)
+    }
+
+    /// How far to look for the end: a turn, or many times the size of a linkage.
+    fn search(&self) -> f64 {
+        match self.coordinate {
+            Coordinate::Angle => std::f64::consts::TAU,
+            Coordinate::Length => {
+                let points = self.joints.iter().flat_map(|j| j.pair.markers());
+                let far = points
+                    .flat_map(|m| m.at)
+                    .fold(0.0_f64, |most, c| most.max(c.abs()));
+                4.0 * far.max(1e-3)
+            }
+        }
+    }
+
+    fn drawn_at(&self) -> Option<f64> {
+        let joint = self.joints.get(self.drive)?;
+        match joint.pair {
+            Pair::Joint(joint) => Some(joint.coordinate(self.frames).value),
+            _ => None,
+        }
+    }
+
+    /// The linkage, its topology checked.
+    pub(super) fn linkage(&self) -> std::result::Result<Whole, Error> {
+        let links: Vec<_> = self.bodies.moving.iter().map(|body| body.link).collect();
+        let pairs: Vec<_> = self.joints.iter().map(|joint| joint.pair).collect();
+        Linkage::with_cams(&links, &pairs, &cam::placed(self.joints), self.drive)
+    }
+
+    fn not_closed(&self, link: usize, gap: f64) -> Problem {
+        let message = format!(
+            "the linkage does not repeat: after a turn of the drive link, body {} is {} mm from where it was, or turned \
+             as much at the linkage's size",
+            self.bodies.name(Body::Link(link)),
+            figure(gap * 1e3)
+        );
+        let problem = match self.bodies.moving.get(link) {
+            Some(body) => Problem::new(message).at(body.place.clone(), "not where it was"),
+            None => self.section.problem(message, "in this linkage"),
+        };
+        problem.help(
+            "with gears the whole may repeat after several turns only: drive it over as many with `stroke`, or drive the \
+             slowest shaft",
+        )
+    }
+}
+
+/// Room for the largest linkage.
+type Whole = Linkage<{ bodies::MOST }, { joints::MOST }, { cam::MOST }>;
+
+/// A linkage that was followed over its range, kept where it does not fill the stack.
+pub(super) type Assembled =
+    Box<Assembly<{ bodies::MOST }, { joints::MOST }, { super::STATIONS }, { cam::MOST }>>;

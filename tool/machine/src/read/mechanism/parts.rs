@@ -1,0 +1,39 @@
+//! Parts that several mechanisms have: links that only slide, and wheels that only turn.
+
+use jred::Link;
+
+use super::core;
+use crate::text::item::Value;
+use crate::text::problem::Result;
+use crate::text::section::Section;
+use crate::units::kind::{INERTIA, LENGTH, MASS};
+
+/// Mass and centre of mass of a link that slides without turning. The section may hold other keys that are known by now.
+pub(super) fn slide(section: &Section) -> Result<Link> {
+    let mass = section.quantity("mass", &MASS)?.not_negative()?;
+    let com = section.point("com", &LENGTH)?;
+    let turns = |key: &str| {
+        (key == "inertia").then_some("this part does not turn, so it has no moment of inertia")
+    };
+    section.finish_with(turns)?;
+    Link::new(mass, 0.0, com).map_err(|error| core(section, &error))
+}
+
+/// Moment of inertia and, for the forces in its bearings, mass of a part that turns about its own axis, on which its centre
+/// of mass lies. The section may hold other keys that are known by now.
+pub(super) fn wheel(section: &Section) -> Result<Link> {
+    let mass = mass(section)?;
+    let inertia = section.quantity("inertia", &INERTIA)?.not_negative()?;
+    let balanced = |key: &str| {
+        (key == "com").then_some("this part is balanced: its centre of mass lies on its axis")
+    };
+    section.finish_with(balanced)?;
+    Link::new(mass, inertia, [0.0, 0.0]).map_err(|error| core(section, &error))
+}
+
+/// The mass (kg) of a part that may leave it out.
+pub(super) fn mass(section: &Section) -> Result<f64> {
+    section
+        .optional("mass", &MASS)?
+        .map_or(Ok(0.0), Value::not_negative)
+}

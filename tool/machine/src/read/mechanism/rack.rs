@@ -1,0 +1,24 @@
+//! `type = "rack-and-pinion"`.
+
+use jred::mechanism::RackAndPinion;
+
+use super::{core, link, parts};
+use crate::model::machine::AnyMechanism;
+use crate::text::problem::Result;
+use crate::text::section::Section;
+use crate::units::kind::LENGTH;
+
+pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
+    let (pinion, rack) = (section.section("pinion")?, section.section("rack")?);
+    let radius = pinion.quantity("radius", &LENGTH)?.positive()?;
+    let links = [link(&pinion)?, parts::slide(&rack)?];
+    let mechanism = RackAndPinion::new(radius, links).map_err(|error| core(section, &error))?;
+    let joints = ["pinion bearing", "rack guide", "mesh"];
+    Ok(
+        AnyMechanism::new(super::RACK, mechanism, ["pinion", "rack"], joints).with_point(
+            "B",
+            RackAndPinion::RACK,
+            [0.0, 0.0],
+        ),
+    )
+}

@@ -1,0 +1,318 @@
+//! `type = "reduced-curves"`: J(φ) and torques from a CSV file.
+
+use std::path::Path;
+
+use jred::Domain;
+
+use super::core;
+use crate::model::coordinate::Coordinate;
+use crate::model::machine::AnyMechanism;
+use crate::model::tabulated::{Course, DriveLinkAlone, StandIn};
+use crate::number::rounding::figure;
+use crate::number::spline::{MIN_POINTS, Spline, Way};
+use crate::read::curve_file::Positions;
+use crate::read::drive_link::DriveLink;
+use crate::text::columns;
+use crate::text::columns::{Columns, CsvFile, Format, Known, known};
+use crate::text::problem::{Problem, Result};
+use crate::text::section::Section;
+use crate::units::kind::{
+    ANGLE, FORCE, INERTIA, INERTIA_SLOPE, LENGTH, MASS, MASS_SLOPE, TORQUE, VISCOUS_FORCE,
+    VISCOUS_MOMENT,
+};
+
+const POSITION: usize = 0;
+const INERTIA_COLUMN: usize = 1;
+const PROCESS: usize = 2;
+const POTENTIAL: usize = 3;
+const VISCOUS: usize = 4;
+const COULOMB: usize = 5;
+const SLOPE: usize = 6;
+
+/// Share of the work that a potential's torque does one way by which it may miss zero over a turn: what is left is taken off
+/// as a constant torque.
+const CONSERVED: f64 = 1e-3;
+
+/// Less is rounding of the file's digits, and not worth a word.
+const ROUNDING: f64 = 1e-6;
+
+const ANGLES: [Known; 7] = [
+    known(&["phi", "φ", "angle", "position"], &ANGLE),
+    known(&["J", "J_red", "inertia"], &INERTIA),
+    known(&["T", "T_process", "torque"], &TORQUE),
+    known(&["T_potential", "T_weight"], &TORQUE),
+    known(&["b", "b_viscous"], &VISCOUS_MOMENT),
+    known(&["c", "c_coulomb"], &TORQUE),
+    known(&["J'", "J_red'"], &INERTIA_SLOPE),
+];
+
+const LENGTHS: [Known; 7] = [
+    known(&["s", "position"], &LENGTH),
+    known(&["m", "m_red", "mass"], &MASS),
+    known(&["F", "F_process", "force"], &FORCE),
+    known(&["F_potential", "F_weight"], &FORCE),
+    known(&["b", "b_viscous"], &VISCOUS_FORCE),
+    known(&["c", "c_coulomb"], &FORCE),
+    known(&["m'", "m_red'"], &MASS_SLOPE),
+];
+
+/// What `jred reduce` writes beside: derived from the columns that are read, or parts of them, or those of a motion.
+fn of_reduce(name: &str) -> bool {
+    let prefixes = [
+        "J_red ", "m_red ", "T_drive", "F_drive", "T_input", "F_input",
+    ];
+    [
+        "J''", "J_red''", "m''", "m_red''", "U", "omega", "alpha", "v", "a",
+    ]
+    .contains(&name)
+        || prefixes.iter().any(|prefix| name.starts_with(prefix))
+}
+
+pub(super) fn read(section: &Section, folder: &Path) -> Result<AnyMechanism> {
+    let item = section.require("file", "file = \"curves.csv\"")?;
+    let turn = section
+        .require(
+            "range",
+            "range = \"turn\", or \"stroke\" for a part of a turn and for a drive link that slides",
+        )?
+        .choice(&["turn", "stroke"])?
+        == 0;
+    let file = CsvFile::open(&item, "curves.csv", folder)?;
+    let curves = Curves::read(&file.text, turn).map_err(|problem| file.shows(problem))?;
+    let slides = curves.drive.slides();
+    let alone =
+        DriveLinkAlone::new(curves.drive.domain, slides).map_err(|error| core(section, &error))?;
+    let joint = if slides {
+        "drive guide"
+    } else {
+        "drive bearing"
+    };
+    let mut mechanism = AnyMechanism::new(super::REDUCED_CURVES, alone, ["drive link"], [joint])
+        .with_stand_ins(&curves.stand_ins)
+        .map_err(|error| core(section, &error))?;
+    for (label, text) in curves.facts {
+        mechanism = mechanism.with_fact(label, text);
+    }
+    Ok(mechanism)
+}
+
+/// The curves of a file.
+struct Curves {
+    drive: DriveLink,
+    stand_ins: Vec<StandIn>,
+    facts: Vec<(&'static str, String)>,
+}
+
+impl Curves {
+    fn read(text: &str, turn: bool) -> Result<Self> {
+        let (columns, coordinate) = read_columns(text, turn)?;
+        let x = columns.get(POSITION).unwrap_or_default();
+        let domain = match (turn, x) {
+            (false, [first, .., last]) if last > first => Domain::Stroke {
+                from: *first,
+                to: *last,
+            },
+            (false, _) => Domain::Stroke { from: 0.0, to: 1.0 },
+            (true, _) => Domain::Turn,
+        };
+        let drive = DriveLink { coordinate, domain };
+        let positions = Positions::of(&columns, drive)?;
+        let mut facts = vec![(
+            "rows of the file",
+            format!(
+                "{} from {} to {}",
+                columns.rows(),
+                columns.shown(0, x[0]),
+                columns.shown(0, x[x.len() - 1])
+            ),
+        )];
+        let mut stand_ins = Vec::new();
+        let mut add = |name: &str, course: Course| {
+            let name = name.to_owned();
+            stand_ins.push(StandIn { name, course });
+        };
+
+        let inertia = positions
+            .magnitudes(
+                INERTIA_COLUMN,
+                false,
+                "the reduced inertia of a machine that moves is positive everywhere; add the inertia of the drive link itself",
+            )?
+            .unwrap_or_default();
+        let curve = positions.curve(&inertia, Way::Interpolating)?;
+        let (least, at) = curve.least();
+        if least <= 0.0 {
+            let row = x.partition_point(|x| *x <= at).saturating_sub(1);
+            return Err(Problem::new(format!(
+                "the curve through the rows falls to {} at {}, between rows",
+                columns.shown(INERTIA_COLUMN, least),
+                columns.shown(POSITION, at)
+            ))
+            .at(columns.place(row), "after this row")
+            .help("the curve must stay positive: give more rows where it is steep"));
+        }
+        facts.extend(agreement(&positions, &columns, &curve, &inertia));
+        add("inertia", Course::Inertia(curve));
+
+        if let Some(torque) = positions.values(PROCESS)? {
+            add(
+                "process",
+                Course::Torque(positions.curve(&torque, Way::Interpolating)?),
+            );
+        }
+        if let Some(torque) = positions.values(POTENTIAL)? {
+            let (torque, fact) = conserved(&positions, &columns, torque, turn)?;
+            facts.extend(fact);
+            add("weight", Course::potential(torque));
+        }
+        let why =
+            "friction takes power whichever way the machine moves, so its size is never negative";
+        if let Some(viscous) = positions.magnitudes(VISCOUS, true, why)? {
+            add(
+                "viscous",
+                Course::Viscous(positions.curve(&viscous, Way::Monotone)?),
+            );
+        }
+        if let Some(coulomb) = positions.magnitudes(COULOMB, true, why)? {
+            add(
+                "coulomb",
+                Course::Opposing(positions.curve(&coulomb, Way::Monotone)?),
+            );
+        }
+        facts.push((
+            "weight",
+            "that of the column T_potential or F_potential; `gravity` of the file acts on nothing here".to_owned(),
+        ));
+        Ok(Self {
+            drive,
+            stand_ins,
+            facts,
+        })
+    }
+}
+
+/// The columns, of a drive link that turns or of one that slides: whichever its position says.
+fn read_columns(text: &str, turn: bool) -> Result<(Columns, Coordinate)> {
+    let format = |known: &'static [Known], example: &'static str| Format {
+        known,
+        ignored: of_reduce,
+        example,
+        min_rows: MIN_POINTS,
+    };
+    let angles = format(
+        &ANGLES,
+        "\"phi [deg],J [kg m^2]\", and T, T_potential [N m], b [N m s/rad], c [N m] if there are any",
+    );
+    let lengths = format(
+        &LENGTHS,
+        "\"s [mm],m [kg]\", and F, F_potential [N], b [N s/m], c [N] if there are any",
+    );
+    let mut names = columns::header_of(text).split([',', ';', '\t']);
+    let slides = names.any(|name| {
+        name.trim()
+            .trim_matches('"')
+            .to_lowercase()
+            .starts_with("s [")
+    });
+    let (format, coordinate) = if slides {
+        (lengths, Coordinate::Length)
+    } else {
+        (angles, Coordinate::Angle)
+    };
+    let columns = columns::read(text, &format)?;
+    for (index, what) in [(POSITION, "position"), (INERTIA_COLUMN, "reduced inertia")] {
+        if columns.get(index).is_none() {
+            return Err(Problem::new(format!("there is no column for the {what}"))
+                .at(columns::header_place(text), "header")
+                .help(format!(
+                    "the first line names columns with their units: {}",
+                    format.example
+                )));
+        }
+    }
+    if slides && turn {
+        return Err(
+            Problem::new("the drive link slides, so its range is no turn")
+                .at(columns::header_place(text), "s is a displacement")
+                .help("write range = \"stroke\" in [mechanism]"),
+        );
+    }
+    Ok((columns, coordinate))
+}
+
+/// How well the rows carry the curve, and how its slope agrees with one that the file gives.
+fn agreement(
+    positions: &Positions,
+    columns: &Columns,
+    curve: &Spline,
+    inertia: &[f64],
+) -> Vec<(&'static str, String)> {
+    let mut facts = Vec::new();
+    if let Some(missed) = positions.resolution(inertia) {
+        facts.push((
+            "curve through the rows",
+            format!(
+                "through every second row it misses the rows between by {} % of the largest inertia; through all of them, where \
+                 they are smooth, about a sixteenth of that",
+                figure(missed * 100.0)
+            ),
+        ));
+    }
+    if let Some(slopes) = columns.get(SLOPE) {
+        let rows = positions.x().iter().zip(slopes);
+        let off = rows
+            .map(|(x, slope)| (curve.at(*x)[1] - slope).abs())
+            .fold(0.0, f64::max);
+        let most = slopes.iter().fold(0.0f64, |most, s| most.max(s.abs()));
+        if most > 0.0 {
+            facts.push((
+                "slope of the curve",
+                format!(
+                    "within {} % of the largest slope that the file gives",
+                    figure(off / most * 100.0)
+                ),
+            ));
+        }
+    }
+    facts
+}
+
+/// The torque of a potential: over a turn it does no work.
+fn conserved(
+    positions: &Positions,
+    columns: &Columns,
+    mut torque: Vec<f64>,
+    turn: bool,
+) -> Result<(Spline, Option<(&'static str, String)>)> {
+    let curve = positions.curve(&torque, Way::Interpolating)?;
+    if !turn {
+        return Ok((curve, None));
+    }
+    let [from, to] = curve.range();
+    let work = curve.integral(to);
+    let sizes: Vec<f64> = torque.iter().map(|t| t.abs()).collect();
+    let size = positions.curve(&sizes, Way::Monotone)?.integral(to);
+    if work.abs() > CONSERVED * size {
+        return Err(Problem::new(format!(
+            "the torque of weight and springs does work over a turn: {} J of {} J",
+            figure(work),
+            figure(size)
+        ))
+        .at(columns.place(0), "first row")
+        .help("what is lifted in a turn must come down in it; a torque that does not give back its work belongs in the column T"));
+    }
+    let mean = work / (to - from);
+    for value in &mut torque {
+        *value -= mean;
+    }
+    let fact = format!(
+        "{} N m were taken off its torque, so that it does no work over a turn",
+        figure(mean)
+    );
+    // The curve is linear in its values: without the mean its integral is nothing but rounding.
+    let curve = positions.curve(&torque, Way::Interpolating)?;
+    Ok((
+        curve,
+        (work.abs() > ROUNDING * size).then_some(("weight over a turn", fact)),
+    ))
+}

@@ -1,0 +1,39 @@
+//! `type = "scotch-yoke"`.
+
+use std::f64::consts::FRAC_PI_2;
+
+use jred::Error;
+use jred::mechanism::ScotchYoke;
+
+use super::{core, link, parts};
+use crate::model::machine::AnyMechanism;
+use crate::text::problem::Result;
+use crate::text::section::Section;
+use crate::units::kind::{ANGLE, LENGTH};
+
+pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
+    let slot_angle = section.optional("slot_angle", &ANGLE)?;
+    let (crank, yoke) = (section.section("crank")?, section.section("yoke")?);
+    let length = crank.quantity("length", &LENGTH)?.positive()?;
+    let links = [link(&crank)?, parts::slide(&yoke)?];
+    let angle = slot_angle.as_ref().map_or(FRAC_PI_2, |value| value.si);
+    let mechanism = ScotchYoke::new(length, angle, links).map_err(|error| {
+        let (Error::OutOfRange { min, max, .. }, Some(given)) = (error, &slot_angle) else {
+            return core(section, &error);
+        };
+        let what = format!(
+            "is {}, so that the slot would lock the crank",
+            given.shown()
+        );
+        let range = format!("{} to {}", given.show(min), given.show(max));
+        given.problem(&what, "too flat").help(format!(
+            "write an angle from the direction of motion of {range}; a straight yoke has 90 deg"
+        ))
+    })?;
+    let joints = ["crank pivot", "pin in the slot", "guide"];
+    Ok(
+        AnyMechanism::new(super::SCOTCH_YOKE, mechanism, ["crank", "yoke"], joints)
+            .with_point("A", ScotchYoke::CRANK, [length, 0.0])
+            .with_point("B", ScotchYoke::YOKE, [0.0, 0.0]),
+    )
+}

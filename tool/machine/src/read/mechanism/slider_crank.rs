@@ -1,0 +1,58 @@
+//! `type = "slider-crank"`.
+
+use jred::mechanism::{Branch, SliderCrank};
+use jred::{Error, Link};
+
+use crate::model::machine::AnyMechanism;
+
+use super::{core, link};
+use crate::text::problem::Result;
+use crate::text::section::Section;
+use crate::units::kind::{LENGTH, MASS};
+
+pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
+    let branches = ["right", "left"];
+    let branch = match section.get("branch") {
+        Some(item) if item.choice(&branches)? == 1 => Branch::Left,
+        _ => Branch::Right,
+    };
+    let offset = section.optional("offset", &LENGTH)?;
+    let (crank, rod, slider) = (
+        section.section("crank")?,
+        section.section("rod")?,
+        section.section("slider")?,
+    );
+    let length = crank.quantity("length", &LENGTH)?.positive()?;
+    let crank = link(&crank)?;
+    let rod_length = rod.quantity("length", &LENGTH)?;
+    rod_length.check_positive()?;
+    let rod = link(&rod)?;
+    let mass = slider.quantity("mass", &MASS)?.not_negative()?;
+    let com = slider.point("com", &LENGTH)?;
+    let turns = |key: &str| {
+        (key == "inertia").then_some("the slider does not turn, so it has no moment of inertia")
+    };
+    slider.finish_with(turns)?;
+    let slider = Link::new(mass, 0.0, com).map_err(|error| core(section, &error))?;
+    let offset_si = offset.as_ref().map_or(0.0, |value| value.si);
+    let mechanism = SliderCrank::new(length, rod_length.si, offset_si, branch, [crank, rod, slider]).map_err(|error| {
+        let Error::CannotTurn { phi, shortest_rod } = error else {
+            return core(section, &error);
+        };
+        let what = format!(
+            "is too short for a full turn of the crank: it no longer reaches the guide at φ = {:.2}°",
+            phi.to_degrees()
+        );
+        rod_length.problem(&what, "too short").help(format!(
+            "make the rod longer than crank + |offset| = {}, or shorten the crank or the offset",
+            rod_length.show(shortest_rod)
+        ))
+    })?;
+    let links = ["crank", "rod", "slider"];
+    let joints = ["crank pivot", "crank pin", "slider pin", "guide"];
+    Ok(
+        AnyMechanism::new(super::SLIDER_CRANK, mechanism, links, joints)
+            .with_point("A", SliderCrank::CRANK, [length, 0.0])
+            .with_point("B", SliderCrank::SLIDER, [0.0, 0.0]),
+    )
+}

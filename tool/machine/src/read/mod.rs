@@ -1,0 +1,251 @@
+//! Machine files: TOML in, a checked [`MachineFile`] in SI units out.
+//!
+//! What a machine file may say is listed in `docs/machine-file.md`. Every error shows the line, names the quantity,
+//! its value and the limit, and says what to do.
+
+mod argument;
+mod check;
+mod contact;
+mod curve_file;
+mod drive_link;
+mod drive_train;
+mod duty_type;
+mod elements;
+mod load_table;
+mod loads;
+mod mechanism;
+mod motion;
+mod profile;
+mod rules;
+mod simulation;
+mod stage;
+mod stiffness;
+mod supply;
+mod surroundings;
+mod tolerance;
+mod tool;
+mod variator;
+
+pub use argument::{
+    Reader, drive_acceleration, drive_effort, drive_speed, inertia_argument, largest_acceleration,
+    largest_speed, mass_argument,
+};
+pub use mechanism::mechanism_types;
+pub use tolerance::{Shape, Tolerance};
+
+use std::path::Path;
+
+use jred::Machine;
+use miette::{Report, miette};
+use toml::de::DeTable;
+
+use crate::model::machine::MachineFile;
+use crate::model::rules::RuleSet;
+use crate::text::file;
+use crate::units::kind::ACCELERATION;
+
+use crate::text::problem::{Problem, Result};
+use crate::text::section::Section;
+use drive_link::DriveLink;
+
+/// The largest machine file (bytes).
+const MAX_SIZE: u64 = 1 << 20;
+
+/// The rule set of this name that comes with the tool.
+pub fn built_in_rules(name: &str) -> Option<RuleSet> {
+    rules::built_in(name)?.ok()
+}
+
+/// The names of the rule sets that come with the tool.
+pub fn rule_set_names() -> impl Iterator<Item = &'static str> {
+    rules::BUILT_IN.iter().map(|(name, _)| *name)
+}
+
+/// The rule set of a name, or of a file: what ends in `.toml` or holds a slash.
+///
+/// # Errors
+/// A name that does not exist, a file that cannot be read, or whatever is wrong in it, with its place.
+pub fn rule_set(word: &str) -> std::result::Result<RuleSet, Report> {
+    rules::named_or_file(word, Path::new("")).map_err(|problem| problem.into_report(word, ""))
+}
+
+/// What a machine file says, on top of another set: `word` is its name or a file.
+///
+/// # Errors
+/// There is no such set, its file is wrong, or what the machine file says contradicts it.
+pub fn rules_based_on(rules: &RuleSet, word: &str) -> std::result::Result<RuleSet, Report> {
+    let set = rule_set(word)?;
+    rules.based_on(set).map_err(|contradiction| {
+        miette!(
+            help = contradiction.help,
+            "[rules] of the machine file does not go with the set \"{word}\": {}",
+            contradiction.message
+        )
+    })
+}
+
+/// Reads the machine file at `path`.
+///
+/// # Errors
+/// A file that cannot be read, or anything that [`parse`] reports.
+pub fn read(path: &Path) -> std::result::Result<MachineFile, Report> {
+    parse(&path.display().to_string(), &text(path)?, folder(path))
+}
+
+/// The text of the machine file at `path`.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn text(path: &Path) -> std::result::Result<String, Report> {
+    let name = path.display().to_string();
+    file::read(path, MAX_SIZE).map_err(|fault| {
+        Problem::new(format!(
+            "cannot read the machine file {name}: {}",
+            fault.message
+        ))
+        .help(fault.help)
+        .into_report(&name, "")
+    })
+}
+
+/// The folder of a machine file, in which the files that it names are looked for.
+pub fn folder(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
+}
+
+/// Reads a machine file from its `text`. The `name` is used in messages; a profile's CSV file is looked for in
+/// `folder`.
+///
+/// # Errors
+/// Whatever is wrong with the file: the first thing found, with its place and what to do.
+pub fn parse(name: &str, text: &str, folder: &Path) -> std::result::Result<MachineFile, Report> {
+    machine(name, text, folder).map_err(|problem| problem.into_report(name, text))
+}
+
+fn machine(name: &str, text: &str, folder: &Path) -> Result<MachineFile> {
+    if text.len() as u64 > MAX_SIZE {
+        let fault = file::too_large(&file::size(text.len() as u64), MAX_SIZE);
+        return Err(Problem::new(format!(
+            "cannot read the machine file {name}: {}",
+            fault.message
+        ))
+        .help(fault.help));
+    }
+    let tree = DeTable::parse(text).map_err(|error| syntax(&error, text))?;
+    if tree.get_ref().is_empty() {
+        return Err(Problem::new(format!("the machine file {name} is empty")).help(
+            "a machine file needs at least gravity = [\"9.81 m/s^2\", \"0 m/s^2\"] and a [mechanism] with its type",
+        ));
+    }
+    let root = Section::new(String::new(), 0..0, tree.get_ref());
+    let title = match root.get("title") {
+        Some(item) => item.text("Servo press")?.to_owned(),
+        None => Path::new(name)
+            .file_name()
+            .map_or_else(|| name.to_owned(), |name| name.display().to_string()),
+    };
+    let gravity = root
+        .require(
+            "gravity",
+            "gravity = [\"9.81 m/s^2\", \"0 m/s^2\"], its x and y component; \
+             gravity = [\"0 m/s^2\", \"0 m/s^2\"] for a machine that moves in a horizontal plane",
+        )?
+        .pair([&ACCELERATION, &ACCELERATION])?
+        .map(|value| value.si);
+    let section = root.section("mechanism")?;
+    let (mechanism, flywheel) = mechanism::read(&section, folder)?;
+    let drive_link = DriveLink::of(&mechanism)
+        .map_err(|error| section.problem(error.to_string(), "in this mechanism"))?;
+    if let (true, Some(item)) = (
+        drive_link.slides() && flywheel > 0.0,
+        section.peek("flywheel"),
+    ) {
+        return Err(item
+            .problem("turns, but the drive link of this mechanism slides", "nothing turns with it")
+            .help("give a mass that slides with the drive link to its body; what turns belongs to a stage of [[drive_train]]"));
+    }
+    let mechanism = load_table::read(&root, mechanism, drive_link, gravity, folder)?;
+    let loads = loads::read(&root, &mechanism, drive_link)?;
+    let elements = elements::read(&root, &mechanism, drive_link.coordinate)?;
+    let drive_train = drive_train::read(&root, drive_link)?;
+    let variator = variator::read(&root, drive_link)?;
+    let motion = motion::read(&root, folder, drive_link)?;
+    let simulation = simulation::read(&root, drive_link, &drive_train)?;
+    let rules = rules::read(&root, folder)?;
+    let stiffness = stiffness::read(&root, drive_link, &drive_train)?;
+    let tool = tool::read(&root, &mechanism)?;
+    let tolerances = tolerance::read(&root)?;
+    let mut site = crate::model::site::Site::default();
+    supply::read(&root, &mut site)?;
+    surroundings::read(&root, &mut site)?;
+    duty_type::read(&root, &mut site)?;
+    root.finish()?;
+
+    let machine = Machine::new(mechanism)
+        .with_gravity(gravity)
+        .and_then(|machine| machine.with_flywheel(flywheel))
+        .and_then(|machine| {
+            loads
+                .iter()
+                .try_fold(machine, |m, named| m.with_load(named.load))
+        })
+        .and_then(|machine| {
+            elements
+                .iter()
+                .try_fold(machine, |m, named| m.with_element(named.element))
+        })
+        .map_err(|error| section.problem(error.to_string(), "in this machine"))?;
+    let file = MachineFile {
+        title,
+        machine,
+        flywheel,
+        loads,
+        elements,
+        drive_train,
+        variator,
+        motion,
+        simulation,
+        rules,
+        tolerances,
+        site: crate::model::site::Site {
+            shaft_stiffness: stiffness.shaft,
+            train_play: stiffness.play,
+            tool,
+            ..site
+        },
+    };
+    check::inertia(&file, &section)?;
+    contact::check(&file, &section)?;
+    Ok(file)
+}
+
+/// Text that is not TOML.
+fn syntax(error: &toml::de::Error, text: &str) -> Problem {
+    let message = error.message();
+    let span = error.span().unwrap_or(0..0);
+    let start = text
+        .get(..span.start)
+        .map_or(0, |before| before.rfind('\n').map_or(0, |at| at + 1));
+    let line = text
+        .get(start..)
+        .and_then(|rest| rest.lines().next())
+        .unwrap_or_default();
+    let bare = line.split_once('=').filter(|(key, value)| {
+        !value.contains(['"', '[', '{', '\'']) && span.start > start + key.len()
+    });
+    let help = match bare {
+        _ if message.contains("duplicate") => "remove or rename one of the two".to_owned(),
+        Some((key, value)) if !value.trim().is_empty() => {
+            let value = value.split('#').next().unwrap_or_default().trim();
+            format!(
+                "texts and quantities are written in quotes: {} = \"{value}\"",
+                key.trim()
+            )
+        }
+        _ => "a line is key = \"value\", a [table] or a [[table of a list]]; texts stand in quotes"
+            .to_owned(),
+    };
+    Problem::new(format!("the file is not valid TOML: {message}"))
+        .at(span, "here")
+        .help(help)
+}

@@ -1,0 +1,382 @@
+//! `[motion] type = "profile"`: positions or speeds over time from a CSV file, as a drive or a motion program records them.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use jred::Domain;
+
+use crate::model::coordinate::Coordinate;
+use crate::model::motion::{Closing, Motion, Recording};
+use crate::number::spline::MIN_POINTS;
+
+use super::drive_link::DriveLink;
+use super::motion;
+use crate::number::rounding::figure;
+use crate::text::columns;
+use crate::text::columns::{Columns, CsvFile, Format, Known, known};
+use crate::text::item::Value;
+use crate::text::problem::{Problem, Result};
+use crate::text::section::Section;
+use crate::units::kind::{ANGLE, ANGULAR_SPEED, CUTOFF, LENGTH, TIME, VELOCITY};
+
+/// A cyclic profile closes if it misses a whole number of turns, or its start on a stroke, by less than this share of a turn
+/// or of the stroke, unless the file says how much it may miss.
+const CLOSED: f64 = 1e-5;
+
+/// Share of the largest speed by which the first and the last speed of a cycle may differ.
+const SPEED_CLOSED: f64 = 0.01;
+
+/// A time step so many times the usual one is a gap in the recording.
+const GAP: f64 = 20.0;
+
+/// The fewest rows in a period of the cut-off frequency, and the fewest such periods in a recording.
+const ROWS_PER_CUTOFF: f64 = 4.0;
+const CUTOFFS: f64 = 2.0;
+
+const TIME_COLUMN: usize = 0;
+const POSITION: usize = 1;
+const SPEED: usize = 2;
+
+/// The columns of a drive link that turns or swings.
+const ANGLES: [Known; 3] = [
+    known(&["t", "time"], &TIME),
+    known(&["phi", "φ", "angle", "position"], &ANGLE),
+    known(&["omega", "ω", "n", "speed"], &ANGULAR_SPEED),
+];
+
+/// The columns of one that slides.
+const LENGTHS: [Known; 3] = [
+    known(&["t", "time"], &TIME),
+    known(&["s", "position"], &LENGTH),
+    known(&["v", "speed"], &VELOCITY),
+];
+
+/// The cure of most things that are wrong with the time column.
+const TIMES: &str =
+    "give one row for each instant, in order, and the times with enough digits to tell them apart";
+
+/// What `[motion]` says about the file.
+struct Request {
+    cyclic: bool,
+    /// Where a recorded speed starts (rad or m).
+    start: Option<Value>,
+    /// Time between rows (s), if there is no column for it.
+    step: Option<Value>,
+    /// Cut-off frequency of smoothing.
+    smoothing: Option<Value>,
+    /// How far a cycle may miss its start.
+    close_within: Option<Value>,
+}
+
+/// The motion of the file named in `section`.
+pub(super) fn read(section: &Section, folder: &Path, drive: DriveLink) -> Result<Motion> {
+    let item = section.require("file", "file = \"profile.csv\"")?;
+    let request = Request {
+        cyclic: section.get("cyclic").map_or(Ok(true), |item| item.flag())?,
+        start: section.optional("start", drive.position())?,
+        step: section.optional("step", &TIME)?,
+        smoothing: section.optional("smoothing", &CUTOFF)?,
+        close_within: section.optional("close_within", drive.position())?,
+    };
+    motion::finish(section)?;
+    for value in [&request.step, &request.smoothing, &request.close_within]
+        .into_iter()
+        .flatten()
+    {
+        value.check_positive()?;
+    }
+    let file = CsvFile::open(&item, "profile.csv", folder)?;
+    let columns = read_columns(&file.text, drive).map_err(|problem| file.shows(problem))?;
+    check_request(&request, &columns, drive)?;
+    curve(&columns, &request, drive, &file.text).map_err(|fault| match fault {
+        Place::File(problem) => file.shows(problem),
+        Place::Machine(problem) => problem,
+    })
+}
+
+/// Which file a problem is shown in.
+enum Place {
+    File(Problem),
+    Machine(Problem),
+}
+
+impl From<Problem> for Place {
+    fn from(problem: Problem) -> Self {
+        Self::File(problem)
+    }
+}
+
+fn read_columns(text: &str, drive: DriveLink) -> Result<Columns> {
+    let (known, example) = match drive.coordinate {
+        Coordinate::Angle => (
+            &ANGLES,
+            "\"t [s],phi [deg]\" (or t [ms], phi [rad]; or omega [rpm] instead of phi)",
+        ),
+        Coordinate::Length => (
+            &LENGTHS,
+            "\"t [s],s [mm]\" (or t [ms], s [m]; or v [m/s] instead of s)",
+        ),
+    };
+    let format = Format {
+        known,
+        ignored: |_| false,
+        example,
+        min_rows: MIN_POINTS,
+    };
+    let columns = columns::read(text, &format)?;
+    if columns.get(POSITION).is_some() == columns.get(SPEED).is_some() {
+        return Err(Problem::new(
+            "the header must have one column for the position or for the speed, and not both",
+        )
+        .at(columns::header_place(text), "header")
+        .help(format!(
+            "the first line names columns with their units: {example}"
+        )));
+    }
+    Ok(columns)
+}
+
+/// Whether the keys of `[motion]` go with the columns of the file.
+fn check_request(request: &Request, columns: &Columns, drive: DriveLink) -> Result<()> {
+    let of_positions = columns.get(POSITION).is_some();
+    if let (Some(start), true) = (&request.start, of_positions) {
+        return Err(start
+            .problem("is given, but the file has positions", "not needed")
+            .help("a profile of positions starts at its first position; remove this"));
+    }
+    if let Some(start) = request
+        .start
+        .as_ref()
+        .filter(|start| !drive.reaches(start.si))
+    {
+        let what = format!(
+            "is {}, outside the stroke, {}",
+            start.shown(),
+            drive.range()
+        );
+        return Err(start
+            .problem(&what, "out of reach")
+            .help("start at a position within the stroke"));
+    }
+    match (&request.step, columns.get(TIME_COLUMN)) {
+        (Some(step), Some(_)) => Err(step
+            .problem("is given, but the file has a column for the time", "not needed")
+            .help("remove this, or the column")),
+        (None, None) => Err(Problem::new("the file has no column for the time")
+            .help("add the column \"t [s]\", or write the time between rows into [motion]: step = \"1 ms\"")),
+        _ => Ok(()),
+    }
+}
+
+fn curve(
+    columns: &Columns,
+    request: &Request,
+    drive: DriveLink,
+    text: &str,
+) -> std::result::Result<Motion, Place> {
+    let times = times(columns, request)?;
+    let duration = times.last().copied().unwrap_or_default();
+    let cutoff = cutoff(request, &times)?;
+    let closing = |what: f64| {
+        if request.cyclic {
+            Closing::After(what)
+        } else {
+            Closing::Open
+        }
+    };
+    let unmade = |fault| {
+        Problem::new(format!("no motion can be made of these rows: {fault}"))
+            .at(columns::header_place(text), "in this file")
+    };
+    let most = |default: f64| {
+        request
+            .close_within
+            .as_ref()
+            .map_or(default, |value| value.si)
+    };
+    let mut advance = 0.0;
+    let motion = if let Some(positions) = columns.get(POSITION) {
+        let (first, last) = (
+            positions.first().copied().unwrap_or_default(),
+            positions.last().copied().unwrap_or_default(),
+        );
+        if request.cyclic {
+            advance = closed(
+                last - first,
+                most(CLOSED * drive.domain.span()),
+                columns,
+                drive,
+            )?;
+        }
+        let recording = Recording {
+            times: &times,
+            values: positions,
+            cutoff,
+            closing: closing(advance),
+        };
+        Motion::positions(&recording).map_err(unmade)?
+    } else {
+        let speeds = columns.get(SPEED).unwrap_or_default();
+        let start = request.start.as_ref().map_or_else(
+            || match drive.domain {
+                Domain::Turn => 0.0,
+                Domain::Stroke { from, .. } => from,
+            },
+            |start| start.si,
+        );
+        if request.cyclic {
+            check_speed_closes(columns, speeds)?;
+        }
+        let mut recording = Recording {
+            times: &times,
+            values: speeds,
+            cutoff,
+            closing: Closing::Open,
+        };
+        if request.cyclic {
+            let way = Motion::speeds(&recording, start)
+                .map_err(unmade)?
+                .at(duration)
+                .phi
+                - start;
+            advance = closed(way, most(CLOSED * drive.domain.span()), columns, drive)?;
+            recording.closing = Closing::After(advance);
+        }
+        Motion::speeds(&recording, start).map_err(unmade)?
+    };
+    let outside = times.iter().position(|t| !drive.reaches(motion.at(*t).phi));
+    if let Some(row) = outside {
+        return Err(Problem::new(format!(
+            "row {}: the position {} lies outside the stroke, {}",
+            row + 1,
+            drive.coordinate.place(motion.at(times[row]).phi),
+            drive.range()
+        ))
+        .at(columns.place(row), "leaves the stroke")
+        .help("record a motion that stays within the stroke of the mechanism")
+        .into());
+    }
+    Ok(motion)
+}
+
+/// The times from the first row on (s).
+fn times(columns: &Columns, request: &Request) -> Result<Vec<f64>> {
+    if let Some(step) = &request.step {
+        return Ok((0..columns.rows()).map(|k| k as f64 * step.si).collect());
+    }
+    columns.check_rising(TIME_COLUMN, "time", TIMES)?;
+    let times = columns.get(TIME_COLUMN).unwrap_or_default();
+    let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    // The usual step is the middle one: a single gap then does not shift what is expected of all others.
+    let mut sorted = steps.clone();
+    sorted.sort_by(f64::total_cmp);
+    let usual = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
+    if let Some(row) = steps.iter().position(|step| *step > GAP * usual) {
+        return Err(Problem::new(format!(
+            "there is a gap in the times: row {} comes {} s after the row before, usual are {} s",
+            row + 2,
+            figure(steps[row]),
+            figure(usual)
+        ))
+        .at(columns.place(row + 1), "this row")
+        .help(format!(
+            "a curve through a gap of more than {GAP} steps would be invented: fill the rows in, also those of a standstill"
+        )));
+    }
+    let first = times.first().copied().unwrap_or_default();
+    Ok(times.iter().map(|t| t - first).collect())
+}
+
+/// The cut-off (rad/s), which the rows must be able to show.
+fn cutoff(request: &Request, times: &[f64]) -> std::result::Result<Option<f64>, Place> {
+    let Some(smoothing) = &request.smoothing else {
+        return Ok(None);
+    };
+    let duration = times.last().copied().unwrap_or_default();
+    let rate = (times.len() - 1) as f64 / duration;
+    let (low, high) = (CUTOFFS / duration, rate / ROWS_PER_CUTOFF);
+    if !(low..=high).contains(&smoothing.si) {
+        let what = if low > high {
+            format!(
+                "is {}, but these rows are too few to be smoothed",
+                smoothing.shown()
+            )
+        } else {
+            format!(
+                "is {}, but these rows can be smoothed at {} to {}",
+                smoothing.shown(),
+                smoothing.show(low),
+                smoothing.show(high)
+            )
+        };
+        return Err(Place::Machine(
+            smoothing.problem(&what, "cannot be done").help(
+                "take a frequency well above that of the motion and well below that of the rows; without `smoothing` the curve \
+                 goes through every row",
+            ),
+        ));
+    }
+    Ok(Some(smoothing.si * TAU))
+}
+
+/// The first and the last speed of a cycle are one.
+fn check_speed_closes(columns: &Columns, speeds: &[f64]) -> Result<()> {
+    let [first, .., last] = speeds else {
+        return Ok(());
+    };
+    let most = speeds.iter().fold(0.0f64, |most, v| most.max(v.abs()));
+    if (last - first).abs() <= SPEED_CLOSED * most {
+        return Ok(());
+    }
+    let [first, last] = [*first, *last].map(|v| columns.shown(SPEED, v));
+    Err(
+        Problem::new(format!("the cycle begins with {first} and ends with {last}"))
+            .at(columns.place(0), "first speed")
+            .at(columns.place(columns.rows() - 1), "last speed")
+            .help(
+                "a cyclic motion ends as it began, with the last row at the end of the cycle: cut the recording at a place where \
+                 they meet; for a motion that does not repeat write cyclic = false in [motion]",
+            ),
+    )
+}
+
+/// The whole turns (or nothing, on a stroke) that a cycle goes on by (rad or m), if it misses them by no more than `most`.
+fn closed(way: f64, most: f64, columns: &Columns, drive: DriveLink) -> Result<f64> {
+    let whole = match drive.domain {
+        Domain::Turn => (way / TAU).round() * TAU,
+        Domain::Stroke { .. } => 0.0,
+    };
+    let gap = way - whole;
+    if gap.abs() <= most {
+        return Ok(whole);
+    }
+    let shown = |gap: f64| {
+        let unit = drive.coordinate.unit();
+        format!("{} {unit}", figure(drive.coordinate.shown(gap)))
+    };
+    let message = match drive.domain {
+        Domain::Stroke { .. } => {
+            format!("the last position lies {} from the first one", shown(gap))
+        }
+        Domain::Turn => format!(
+            "the last position lies {} {} a whole number of turns from the first one",
+            shown(gap.abs()),
+            if gap > 0.0 { "beyond" } else { "short of" }
+        ),
+    };
+    Err(Problem::new(message)
+        .at(columns.place(0), "first position")
+        .at(columns.place(columns.rows() - 1), "last position")
+        .help(format!(
+            "a cyclic motion ends where it began or whole turns further on, with the last row at the end of the cycle; for a motion \
+             that does not repeat write cyclic = false in [motion]; if this is what the measurement is worth, write \
+             close_within = \"{}\": it is then spread over the cycle as a constant speed",
+            format_args!("{} {}", figure(rounded_up(drive.coordinate.shown(gap.abs()))), drive.coordinate.unit())
+        )))
+}
+
+/// A little more, with two digits.
+fn rounded_up(gap: f64) -> f64 {
+    let unit = 10f64.powf(gap.log10().floor() - 1.0);
+    (gap / unit * 1.05).ceil() * unit
+}

@@ -1,0 +1,320 @@
+//! `[rules]` of a machine file, and files of rule sets: limits that replace those of the set they are based on.
+
+use std::ops::Range;
+use std::path::Path;
+
+use toml::de::DeTable;
+
+use crate::model::rule::Rule;
+use crate::model::rules::{
+    Change, Changes, Contradiction, InertiaOf, Limit, MeanTorque, Moves, RuleSet, What,
+};
+
+use crate::text::file;
+use crate::text::item::Item;
+use crate::text::problem::{Problem, Result, quoted};
+use crate::text::section::Section;
+use crate::units::closest;
+use crate::units::kind::SHARE;
+
+/// The rule sets that come with the tool, by name; each is a file.
+pub(super) const BUILT_IN: [(&str, &str); 9] = [
+    ("general", include_str!("../../rules/general.toml")),
+    ("fanuc", include_str!("../../rules/fanuc.toml")),
+    (
+        "fanuc-contouring",
+        include_str!("../../rules/fanuc-contouring.toml"),
+    ),
+    (
+        "mitsubishi-mr-j2s",
+        include_str!("../../rules/mitsubishi-mr-j2s.toml"),
+    ),
+    ("parker", include_str!("../../rules/parker.toml")),
+    (
+        "precision-gearhead",
+        include_str!("../../rules/precision-gearhead.toml"),
+    ),
+    (
+        "safety-factor-1.5",
+        include_str!("../../rules/safety-factor-1.5.toml"),
+    ),
+    (
+        "safety-factor-2",
+        include_str!("../../rules/safety-factor-2.toml"),
+    ),
+    (
+        "beckhoff-ax8000",
+        include_str!("../../rules/beckhoff-ax8000.toml"),
+    ),
+];
+
+/// The set that all others are based on.
+const GENERAL: &str = "general";
+
+/// The largest share that makes sense as a limit.
+const MAX_SHARE: f64 = 2.0;
+/// The same of the cycles per hour, of which T2B holds for 1000.
+const MAX_CYCLES: f64 = 1000.0;
+/// The same of a ratio of inertias or frequencies.
+const MAX_RATIO: f64 = 1000.0;
+
+/// The largest file of a rule set (bytes).
+const MAX_SIZE: u64 = 1 << 16;
+
+/// The rule set of a machine file in `folder`: the set that it names, or the general one, with what it changes.
+pub(super) fn read(root: &Section, folder: &Path) -> Result<RuleSet> {
+    let Some(item) = root.get("rules") else {
+        return named(GENERAL);
+    };
+    let section = item.section("[rules]".into())?;
+    let set = match section.get("set") {
+        Some(word) => chosen(&word, folder)?,
+        None => named(GENERAL)?,
+    };
+    let changes = changes(&section, "[rules] of the machine file")?;
+    section.finish_with(explain)?;
+    set.with_own(changes).map_err(contradicts)
+}
+
+/// The set of a name that comes with the tool.
+pub(super) fn built_in(name: &str) -> Option<Result<RuleSet>> {
+    let (name, text) = BUILT_IN.iter().find(|(known, _)| *known == name)?;
+    Some(parse(name, text))
+}
+
+fn is_file(word: &str) -> bool {
+    word.contains(['/', '\\']) || Path::new(word).extension().is_some_and(|e| e == "toml")
+}
+
+/// The set of a name, or of a file: what ends in ".toml" or holds a "/" is a file.
+pub(super) fn named_or_file(word: &str, folder: &Path) -> Result<RuleSet> {
+    if !is_file(word) {
+        return named(word);
+    }
+    let path = folder.join(word);
+    let name = path.display().to_string();
+    let text = file::read(&path, MAX_SIZE).map_err(|fault| {
+        Problem::new(format!(
+            "cannot read the rule set {name}: {}",
+            fault.message
+        ))
+        .help(fault.help)
+    })?;
+    parse(&name, &text).map_err(|problem| problem.in_file(&name, &text))
+}
+
+fn named(name: &str) -> Result<RuleSet> {
+    built_in(name).unwrap_or_else(|| Err(unknown(name)))
+}
+
+fn unknown(name: &str) -> Problem {
+    let names = BUILT_IN.map(|(name, _)| name);
+    let near =
+        closest(name, &names).map_or_else(String::new, |near| format!("did you mean \"{near}\"? "));
+    Problem::new(format!("there is no rule set \"{name}\"")).help(format!(
+        "{near}possible: {}; or a file such as \"our-rules.toml\"; `jred rules` shows them with their sources",
+        quoted(&names)
+    ))
+}
+
+/// The set that the key `set` names, with the place where it does.
+fn chosen(word: &Item, folder: &Path) -> Result<RuleSet> {
+    let name = word.text(GENERAL)?;
+    let is_known = BUILT_IN.iter().any(|(known, _)| *known == name);
+    if is_known || is_file(name) {
+        return named_or_file(name, folder);
+    }
+    Err(unknown(name).at(word.span(), "unknown"))
+}
+
+/// Reads a rule set from the text of its file.
+fn parse(name: &str, text: &str) -> Result<RuleSet> {
+    let tree = DeTable::parse(text).map_err(|error| super::syntax(&error, text))?;
+    let root = Section::new(String::new(), 0..0, tree.get_ref());
+    let title = root.require("title", "title = \"Rules of our house\"")?;
+    let title = title.text("Rules of our house")?.to_owned();
+    let source = match root.get("source") {
+        Some(item) => item.text("data sheet, page 4")?.to_owned(),
+        None => format!("rule set {name}"),
+    };
+    let base = match root.get("based_on") {
+        _ if name == GENERAL => RuleSet::empty(name, ""),
+        None => named(GENERAL)?,
+        Some(item) if item.is_word("none") => RuleSet::empty(name, ""),
+        Some(item) => {
+            let word = item.text(GENERAL)?;
+            let known = BUILT_IN
+                .iter()
+                .any(|(known, _)| *known == word && *known != name);
+            if !known {
+                return Err(unknown(word).at(item.span(), "unknown"));
+            }
+            named(word)?
+        }
+    };
+    let section = root.section("rules")?;
+    let changes = changes(&section, &source)?;
+    section.finish_with(explain)?;
+    root.finish()?;
+    let mut set = base.with(&changes).map_err(contradicts)?;
+    // A file is called by its name without folder and ending.
+    let path = Path::new(name);
+    let stem = path
+        .file_stem()
+        .filter(|_| path.extension().is_some_and(|e| e == "toml"));
+    set.name = stem.map_or_else(|| name.to_owned(), |stem| stem.display().to_string());
+    set.title = title;
+    Ok(set)
+}
+
+fn contradicts(contradiction: Contradiction) -> Problem {
+    let problem = Problem::new(contradiction.message).help(contradiction.help);
+    contradiction
+        .places
+        .into_iter()
+        .fold(problem, |problem, place| problem.at(place, "here"))
+}
+
+fn explain(key: &str) -> Option<&'static str> {
+    key.ends_with("_warning")
+        .then_some("a warning has the key of its rule and _warning")
+}
+
+/// Every change that a table holds.
+fn changes(section: &Section, source: &str) -> Result<Changes> {
+    section.expects(&Rule::ALL.map(Rule::key));
+    let mut changes = Vec::new();
+    let mut change = |what: What, source: &str, place: Range<usize>| {
+        let source = source.to_owned();
+        changes.push(Change {
+            what,
+            source,
+            place,
+        });
+    };
+    for rule in Rule::ALL {
+        if let Some(item) = section.get(rule.key()) {
+            let place = item.span();
+            if item.is_word("off") {
+                change(What::Off(rule), source, place);
+            } else if item.is_table() {
+                let (limit, said) = both(&item, rule)?;
+                change(
+                    What::Both(rule, limit),
+                    said.as_deref().unwrap_or(source),
+                    place,
+                );
+            } else {
+                change(What::Fail(rule, limit(&item, rule)?), source, place);
+            }
+        }
+        if let Some(item) = section.get(rule.warning_key()) {
+            change(What::Warn(rule, limit(&item, rule)?), source, item.span());
+        }
+    }
+    if let Some(item) = section.get("inertia_ratio_of") {
+        let word = InertiaOf::WORDS[item.choice(&InertiaOf::WORDS)?];
+        change(
+            What::InertiaOf(InertiaOf::of(word).unwrap_or_default()),
+            source,
+            item.span(),
+        );
+    }
+    if let Some(item) = section.get("gearbox_mean_exponent") {
+        let word = MeanTorque::WORDS[item.choice(&MeanTorque::WORDS)?];
+        change(
+            What::MeanTorque(MeanTorque::of(word).unwrap_or_default()),
+            source,
+            item.span(),
+        );
+    }
+    if let Some(item) = section.get("inertia_ratio_by_moves") {
+        let bands = by_moves(&item)?;
+        if let Some(other) = section.peek("inertia_ratio") {
+            return Err(item
+                .problem("is given together with `inertia_ratio`", "here")
+                .at(other.span(), "and here")
+                .help(
+                    "limits by moves per minute replace the one limit: leave one of the two out",
+                ));
+        }
+        change(What::InertiaByMoves(bands), source, item.span());
+    }
+    Ok(Changes(changes))
+}
+
+/// A limit: a share of the rule's rating, or a plain ratio.
+fn limit(item: &Item, rule: Rule) -> Result<f64> {
+    match rule {
+        _ if rule.is_ratio() => item.number([0.01, MAX_RATIO], "10"),
+        Rule::GearboxCycles => item.quantity(&SHARE)?.up_to(MAX_CYCLES),
+        _ => item.quantity(&SHARE)?.up_to(MAX_SHARE),
+    }
+}
+
+/// `{ limit = …, warning = …, source = "…" }`: limits and who says so.
+fn both(item: &Item, rule: Rule) -> Result<(Limit, Option<String>)> {
+    let section = item.section(format!("[rules.{}]", rule.key()))?;
+    let read = |key: &'static str| section.get(key).map(|item| limit(&item, rule)).transpose();
+    let limits = Limit {
+        fail: read("limit")?,
+        warn: read("warning")?,
+    };
+    let source = section
+        .get("source")
+        .map(|item| item.text("data sheet, page 4").map(str::to_owned));
+    let source = source.transpose()?;
+    section.finish()?;
+    if !limits.is_set() {
+        return Err(section
+            .problem(
+                format!("[rules.{}] has neither limit nor warning", rule.key()),
+                "here",
+            )
+            .help(format!(
+                "give at least one of them, or write {} = \"off\"",
+                rule.key()
+            )));
+    }
+    Ok((limits, source))
+}
+
+/// The most bands of moves per minute.
+const MAX_BANDS: usize = 20;
+
+/// `[{ above = 60, limit = 5 }, { above = 100, limit = 3 }]`, in moves per minute.
+fn by_moves(item: &Item) -> Result<Vec<Moves>> {
+    let mut bands: Vec<Moves> = Vec::new();
+    let list = item.list(
+        "band",
+        "[{ above = 60, limit = 5 }, { above = 100, limit = 3 }]",
+    )?;
+    if list.is_empty() || list.len() > MAX_BANDS {
+        return Err(item
+            .problem(
+                &format!("has {} bands, but must have 1 to {MAX_BANDS}", list.len()),
+                "here",
+            )
+            .help("write [{ above = 60, limit = 5 }, { above = 100, limit = 3 }]"));
+    }
+    for band in list {
+        let section = band.section("band of inertia_ratio_by_moves".into())?;
+        let above = section.require("above", "above = 60, in moves per minute")?;
+        let limit = section.require("limit", "limit = 5")?;
+        let moves = Moves {
+            above: above.number([0.0, 1e6], "60")?,
+            limit: limit.number([0.01, MAX_RATIO], "5")?,
+        };
+        section.finish()?;
+        if bands
+            .last()
+            .is_some_and(|before| before.above >= moves.above)
+        {
+            return Err(above
+                .problem("is not above that of the band before", "here")
+                .help("write the bands with rising moves per minute"));
+        }
+        bands.push(moves);
+    }
+    Ok(bands)
+}

@@ -1,0 +1,193 @@
+//! `[simulation]`: a free motion under a motor torque.
+
+use jred::mechanism::Train;
+
+use crate::model::coordinate::Coordinate;
+use crate::model::machine::{Shaft, Simulation};
+
+use super::drive_link::DriveLink;
+use crate::number::rounding::figure;
+use crate::text::item::Item;
+use crate::text::problem::{Problem, Result};
+use crate::text::section::Section;
+use crate::units::kind::{INERTIA, MASS, TIME};
+
+/// The most output points of a simulation.
+const MAX_STEPS: f64 = 100_000.0;
+
+/// The most points of a torque-speed curve.
+const MAX_POINTS: usize = 1000;
+
+/// What `jred simulate` is to run, if the file says.
+pub(super) fn read(
+    root: &Section,
+    drive: DriveLink,
+    drive_train: &Train,
+) -> Result<Option<Simulation>> {
+    let Some(item) = root.get("simulation") else {
+        return Ok(None);
+    };
+    let section = item.section("[simulation]".into())?;
+    let start_angle = start(&section, drive)?;
+    let start_speed = section
+        .optional("start_speed", drive.speed())?
+        .map_or(0.0, |value| value.si);
+    let duration = section.quantity("duration", &TIME)?;
+    let output_step = section.quantity("output_step", &TIME)?;
+    duration.check_positive()?;
+    output_step.check_positive()?;
+    let steps = duration.si / output_step.si;
+    if !(1.0 - 1e-9..=MAX_STEPS * (1.0 + 1e-9)).contains(&steps) {
+        let what = format!(
+            "is {}, which gives {} steps",
+            output_step.shown(),
+            figure(steps)
+        );
+        return Err(output_step
+            .problem(&what, "check this step")
+            .at(duration.span(), "against this duration")
+            .help(format!(
+                "between 1 and {MAX_STEPS} steps are possible: a step from {} to {}",
+                output_step.show(duration.si / MAX_STEPS),
+                output_step.show(duration.si)
+            )));
+    }
+    let words = [
+        "motor",
+        if drive.slides() {
+            "drive-link"
+        } else {
+            "crank"
+        },
+    ];
+    let at = match section.get("at") {
+        Some(item) if item.choice(&words)? == 1 => Shaft::DriveLink,
+        _ => Shaft::Motor,
+    };
+    // What drives directly a link that slides is a linear motor or a cylinder.
+    let linear = drive.slides() && (at == Shaft::DriveLink || drive_train.stages().is_empty());
+    let torque = if linear {
+        effort(
+            &section,
+            ["force", "force_speed"],
+            drive,
+            ["0.2 m/s", "400 N"],
+        )?
+    } else {
+        let rotary = DriveLink {
+            coordinate: Coordinate::Angle,
+            ..drive
+        };
+        effort(
+            &section,
+            ["torque", "torque_speed"],
+            rotary,
+            ["3000 rpm", "14 N m"],
+        )?
+    };
+    // A linear motor has a mass where a rotary one has an inertia.
+    let direct = drive.slides() && drive_train.stages().is_empty();
+    let (rotor, kind) = if direct {
+        ("motor_mass", &MASS)
+    } else {
+        ("rotor_inertia", &INERTIA)
+    };
+    let rotor_inertia = match section.optional(rotor, kind)? {
+        Some(value) => value.not_negative()?,
+        None => 0.0,
+    };
+    let tolerance = match section.get("tolerance") {
+        Some(item) => item.number([1e-13, 1e-3], "1e-10")?,
+        None => 1e-10,
+    };
+    section.finish()?;
+    Ok(Some(Simulation {
+        start_angle,
+        start_speed,
+        duration: duration.si,
+        output_step: output_step.si,
+        torque,
+        at,
+        rotor_inertia,
+        tolerance,
+    }))
+}
+
+/// Where the drive link starts (rad, or m).
+fn start(section: &Section, drive: DriveLink) -> Result<f64> {
+    let key = if drive.slides() {
+        "start_position"
+    } else {
+        "start_angle"
+    };
+    let start = section.quantity(key, drive.position())?;
+    if !drive.reaches(start.si) {
+        let what = format!(
+            "is {}, outside the stroke, {}",
+            start.shown(),
+            drive.range()
+        );
+        return Err(start
+            .problem(&what, "out of reach")
+            .help("start at a position within the stroke"));
+    }
+    Ok(start.si)
+}
+
+/// The torque or force as points over speed.
+fn effort(
+    section: &Section,
+    [key, curve_key]: [&'static str; 2],
+    drive: DriveLink,
+    [speed, most]: [&str; 2],
+) -> Result<Vec<(f64, f64)>> {
+    let no_speed = format!("0 {}", drive.speed().unit);
+    let no_effort = format!("0 {}", drive.effort().unit);
+    let example = format!("[[\"{no_speed}\", \"{most}\"], [\"{speed}\", \"{no_effort}\"]]");
+    match (section.get(key), section.get(curve_key)) {
+        (Some(constant), None) => Ok(vec![(0.0, constant.quantity(drive.effort())?.si)]),
+        (None, Some(curve)) => points(&curve, drive, &example),
+        (Some(constant), Some(curve)) => Err(Problem::new(format!(
+            "[simulation] has both `{key}` and `{curve_key}`"
+        ))
+        .at(constant.key_span(), format!("a constant {key}"))
+        .at(
+            curve.key_span(),
+            format!("a {key} that depends on the speed"),
+        )
+        .help("keep one of them")),
+        (None, None) => Err(section.missing(
+            key,
+            &format!(
+                "{key} = \"{}\", or {curve_key} = {example}",
+                drive.effort().example
+            ),
+        )),
+    }
+}
+
+fn points(curve: &Item, drive: DriveLink, example: &str) -> Result<Vec<(f64, f64)>> {
+    let list = curve.list("point", example)?;
+    if list.is_empty() || list.len() > MAX_POINTS {
+        let what = format!("has {} points, but must have 1 to {MAX_POINTS}", list.len());
+        return Err(curve
+            .problem(&what, "here")
+            .help(format!("a point is [speed, effort], as in {example}")));
+    }
+    let mut points: Vec<(f64, f64)> = Vec::with_capacity(list.len());
+    for item in list {
+        let [speed, effort] = item.pair([drive.speed(), drive.effort()])?;
+        if let Some((before, _)) = points.last().filter(|(before, _)| speed.si <= *before) {
+            let what = format!(
+                "is {}, but must be larger than the speed of the point before, {}",
+                speed.shown(),
+                speed.show(*before)
+            );
+            return Err(speed
+                .problem(&what, "not rising")
+                .help("sort the points by rising speed"));
+        }
+        points.push((speed.si, effort.si));
+    }
+    Ok(points)
+}

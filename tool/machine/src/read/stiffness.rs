@@ -1,0 +1,57 @@
+//! `[stiffness]`: how stiff the shafts between gearbox and machine are, and the play of the drive train.
+
+use jred::mechanism::Train;
+
+use super::drive_link::DriveLink;
+use crate::text::item::Value;
+use crate::text::problem::Result;
+use crate::text::section::Section;
+use crate::units::kind::{ANGLE, Kind, LENGTH, STIFFNESS, TORSION_STIFFNESS};
+
+/// Where the figures hold.
+const PLACES: [&str; 2] = ["input", "drive-link"];
+
+/// What the section gives.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Stiffness {
+    /// Of the shafts, at the input of the drive train (N·m/rad).
+    pub(super) shaft: Option<f64>,
+    /// Of the drive train, at the drive link (rad or m).
+    pub(super) play: Option<f64>,
+}
+
+/// The section, if the file has it.
+pub(super) fn read(root: &Section, drive: DriveLink, train: &Train) -> Result<Stiffness> {
+    let Some(item) = root.get("stiffness") else {
+        return Ok(Stiffness::default());
+    };
+    let section = item.section("[stiffness]".into())?;
+    let at_input = match section.get("at") {
+        Some(word) => word.choice(&PLACES)? == 0,
+        None => true,
+    };
+    let slides = drive.slides() && (!at_input || train.stages().is_empty());
+    let kinds: [&'static Kind; 2] = if slides {
+        [&STIFFNESS, &LENGTH]
+    } else {
+        [&TORSION_STIFFNESS, &ANGLE]
+    };
+    let shaft = section.optional("shaft", kinds[0])?;
+    let play = section.optional("backlash", kinds[1])?;
+    section.finish()?;
+    if shaft.is_none() && play.is_none() {
+        return Err(section
+            .problem("[stiffness] gives neither `shaft` nor `backlash`", "empty")
+            .help(
+                "add shaft = \"12 kN m/rad\" or backlash = \"0.05 deg\", or leave the section out",
+            ));
+    }
+    let ratio = train.ratio().abs();
+    let shaft = shaft.map(Value::positive).transpose()?;
+    let play = play.map(Value::not_negative).transpose()?;
+    Ok(Stiffness {
+        // ½·c·θ² is the same at both ends.
+        shaft: shaft.map(|c| if at_input { c } else { c / (ratio * ratio) }),
+        play: play.map(|play| if at_input { play / ratio } else { play }),
+    })
+}

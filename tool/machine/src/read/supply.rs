@@ -1,0 +1,157 @@
+//! `[supply]`: what feeds the DC bus and what takes up the energy that comes back.
+
+use std::f64::consts::SQRT_2;
+
+use crate::model::site::Site;
+use crate::model::supply::{BrakeResistor, Supply};
+
+use crate::text::item::Value;
+use crate::text::problem::{Problem, Result};
+use crate::text::section::Section;
+use crate::units::kind::{CAPACITANCE, ENERGY, POWER, RESISTANCE, VOLTAGE};
+
+/// Reads the supply into the site.
+pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
+    let Some(item) = root.get("supply") else {
+        return Ok(());
+    };
+    let section = item.section("[supply]".into())?;
+    let bus = section.optional("bus_voltage", &VOLTAGE)?;
+    let mains = section.optional("mains_voltage", &VOLTAGE)?;
+    let voltage = match (bus, mains) {
+        (Some(bus), Some(mains)) => {
+            return Err(Problem::new("`bus_voltage` and `mains_voltage` in [supply] are both given")
+                .at(bus.span(), "one")
+                .at(mains.span(), "the other")
+                .help("give one of them: the DC bus of a rectifier has √2 times the mains voltage, such as 565 V at 400 V"));
+        }
+        (Some(bus), None) => Some((bus.shown(), bus.positive()?)),
+        (None, Some(mains)) => {
+            let shown = format!("√2 times {}", mains.shown());
+            Some((shown, SQRT_2 * mains.positive()?))
+        }
+        (None, None) => None,
+    };
+    let positive = |value: Option<Value>| value.map(Value::positive).transpose();
+    let chopper = section.optional("chopper_voltage", &VOLTAGE)?;
+    let max = section.optional("max_voltage", &VOLTAGE)?;
+    above(
+        chopper.as_ref(),
+        "chopper_voltage",
+        voltage.as_ref(),
+        "the brake resistor would always be on",
+    )?;
+    above(
+        max.as_ref(),
+        "max_voltage",
+        voltage.as_ref(),
+        "the bus has that voltage already",
+    )?;
+    if let (Some(chopper), Some(max)) = (&chopper, &max)
+        && chopper.si >= max.si
+    {
+        let message = format!(
+            "`chopper_voltage` in [supply] is {}, not below `max_voltage`, which is {}",
+            chopper.shown(),
+            max.shown()
+        );
+        return Err(Problem::new(message)
+            .at(chopper.span(), "here")
+            .at(max.span(), "here")
+            .help("the brake resistor must come on before the highest voltage of the bus is reached: raise max_voltage or lower chopper_voltage to what the amplifier's manual says"));
+    }
+    let capacitance = positive(section.optional("capacitance", &CAPACITANCE)?)?;
+    let least = section.optional("min_resistance", &RESISTANCE)?;
+    let regenerative = match section.get("regenerative") {
+        Some(item) => item.flag()?,
+        None => false,
+    };
+    let brake_resistor = resistor(&section, least.as_ref(), regenerative)?;
+    section.finish()?;
+    site.bus_voltage = voltage.map(|(_, volts)| volts);
+    site.supply = Supply {
+        given: true,
+        capacitance,
+        chopper_voltage: positive(chopper)?,
+        max_voltage: positive(max)?,
+        min_resistance: positive(least)?,
+        regenerative,
+        brake_resistor,
+    };
+    Ok(())
+}
+
+/// Checks that a voltage is greater than that of the supply.
+fn above(
+    value: Option<&Value>,
+    key: &str,
+    supply: Option<&(String, f64)>,
+    otherwise: &str,
+) -> Result<()> {
+    let (Some(value), Some((shown, volts))) = (value, supply) else {
+        return Ok(());
+    };
+    if value.si > *volts {
+        return Ok(());
+    }
+    let what = format!(
+        "is {}, but must be above the voltage of the DC bus, {shown}: {otherwise}",
+        value.shown()
+    );
+    Err(value.problem(&what, "too low").help(format!(
+        "write {key} as in the amplifier's manual, or correct the voltage of the supply"
+    )))
+}
+
+fn resistor(
+    section: &Section,
+    least: Option<&Value>,
+    regenerative: bool,
+) -> Result<Option<BrakeResistor>> {
+    let Some(item) = section.get("brake_resistor") else {
+        return Ok(None);
+    };
+    if regenerative {
+        return Err(item
+            .problem("is given, but the supply takes energy back", "never on")
+            .help("leave out one of the two: brake_resistor or regenerative = true"));
+    }
+    let table = item.section("[supply.brake_resistor]".into())?;
+    let resistance = table.quantity("resistance", &RESISTANCE)?;
+    resistance.check_positive()?;
+    if let Some(least) = least
+        && resistance.si < least.si
+    {
+        let what = format!(
+            "is {}, below `min_resistance` in [supply], which is {}",
+            resistance.shown(),
+            least.shown()
+        );
+        return Err(resistance
+            .problem(&what, "too small")
+            .help("the chopper cannot switch the current: take a larger resistance"));
+    }
+    let power = table.quantity("power", &POWER)?;
+    power.check_positive()?;
+    let peak = table.optional("peak_power", &POWER)?;
+    if let Some(peak) = &peak
+        && peak.si < power.si
+    {
+        let what = format!(
+            "is {}, below `power`, which is {}",
+            peak.shown(),
+            power.shown()
+        );
+        return Err(peak
+            .problem(&what, "too small")
+            .help("`power` is what the resistor bears without end, `peak_power` for a short time: check which is which"));
+    }
+    let pulse = table.optional("pulse_energy", &ENERGY)?;
+    table.finish()?;
+    Ok(Some(BrakeResistor {
+        resistance: resistance.si,
+        power: power.si,
+        peak_power: peak.map(Value::positive).transpose()?,
+        pulse_energy: pulse.map(Value::positive).transpose()?,
+    }))
+}

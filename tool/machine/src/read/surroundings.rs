@@ -1,0 +1,78 @@
+//! `[surroundings]`: what a motor is cooled by.
+
+use crate::model::site::Site;
+use crate::model::surroundings::Surroundings;
+
+use crate::text::item::Item;
+use crate::text::problem::Result;
+use crate::text::section::Section;
+use crate::units::kind::{ALTITUDE, TEMPERATURE};
+
+/// Temperatures that motors are built for (°C).
+const TEMPERATURES: [f64; 2] = [-60.0, 300.0];
+
+/// Altitude up to which the rule for thin air is meant (m).
+const HIGHEST: f64 = 4000.0;
+
+/// Reads the surroundings into the site.
+pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
+    let Some(item) = root.get("surroundings") else {
+        return Ok(());
+    };
+    let section = item.section("[surroundings]".into())?;
+    let mut found = Surroundings::default();
+    let temperature = |key| section.get(key).map(|item| celsius(&item)).transpose();
+    if let Some(ambient) = temperature("ambient")? {
+        found.ambient = ambient;
+    }
+    found.resistance_at = temperature("resistance_at")?;
+    found.housing = temperature("max_housing")?;
+    if let (Some(limit), Some(item)) = (found.housing, section.peek("max_housing"))
+        && limit <= found.ambient
+    {
+        let what = format!(
+            "is {limit} degC, but must be above `ambient`, which is {} degC",
+            found.ambient
+        );
+        return Err(item
+            .problem(&what, "too low")
+            .help("no motor is colder than what surrounds it: correct one of the two"));
+    }
+    if let Some(altitude) = section.optional("altitude", &ALTITUDE)? {
+        found.altitude = altitude.si;
+        if !(-500.0..=HIGHEST).contains(&altitude.si) {
+            let what = format!(
+                "is {}, but must lie between -500 m and {}",
+                altitude.shown(),
+                altitude.show(HIGHEST)
+            );
+            return Err(altitude
+                .problem(&what, "out of range")
+                .help("above 4000 m ask the maker for the motor's figures, and put those into the catalogue"));
+        }
+    }
+    section.finish()?;
+    site.surroundings = found;
+    Ok(())
+}
+
+/// A temperature on the Celsius scale (°C).
+fn celsius(item: &Item) -> Result<f64> {
+    let value = item.quantity(&TEMPERATURE)?;
+    if !value.shown().ends_with("degC") {
+        return Err(item
+            .problem("is not on the Celsius scale", "which scale?")
+            .help("write a temperature in degrees Celsius, such as \"40 degC\""));
+    }
+    let [low, high] = TEMPERATURES;
+    if !(low..=high).contains(&value.si) {
+        let what = format!(
+            "is {}, but must lie between {low} degC and {high} degC",
+            value.shown()
+        );
+        return Err(value
+            .problem(&what, "out of range")
+            .help("check the number"));
+    }
+    Ok(value.si)
+}

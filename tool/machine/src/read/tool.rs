@@ -1,0 +1,103 @@
+//! `[tool]`: where play matters, and how much of it is allowed.
+
+use jred::Mechanism as _;
+
+use crate::model::coordinate;
+use crate::model::machine::AnyMechanism;
+use crate::model::site::{Tool, ToolPlace};
+
+use crate::text::item::Item;
+use crate::text::problem::Result;
+use crate::text::section::Section;
+use crate::units::kind::{ANGLE, LENGTH};
+
+/// Slower than this (m or rad, per rad or m of the drive link) a tool does not move at all.
+const STANDS: f64 = 1e-9;
+
+/// Positions at which it is looked whether the tool moves.
+const POSITIONS: usize = 64;
+
+/// The section, if the file has it.
+pub(super) fn read(root: &Section, mechanism: &AnyMechanism) -> Result<Option<Tool>> {
+    let Some(item) = root.get("tool") else {
+        return Ok(None);
+    };
+    let section = item.section("[tool]".into())?;
+    let (point, link) = (section.get("point"), section.get("link"));
+    let tool = match (&point, &link) {
+        (Some(point), Some(link)) => {
+            return Err(link
+                .problem("is given together with `point`", "here")
+                .at(point.span(), "and here")
+                .help("name the point whose position matters, or the link whose angle matters, not both"));
+        }
+        (Some(point), None) => of_point(&section, point, mechanism)?,
+        (None, Some(link)) => {
+            let index = link.choice(mechanism.link_names())?;
+            let play = section.quantity("play", &ANGLE)?.positive()?;
+            Tool {
+                name: link.text("table")?.to_owned(),
+                link: index,
+                place: ToolPlace::Turning,
+                play,
+            }
+        }
+        (None, None) => {
+            return Err(section
+                .problem("[tool] names neither `point` nor `link`", "incomplete")
+                .help("add point = \"slider\", a named point or link, or link = \"table\", a link that turns"));
+        }
+    };
+    section.finish()?;
+    if let Some(named) = point.or(link).filter(|_| !moves(&tool, mechanism)) {
+        let what = match tool.place {
+            ToolPlace::Point(_) => "does not move with the drive link: play is not seen there",
+            ToolPlace::Turning => "does not turn with the drive link: play is not seen there",
+        };
+        return Err(named
+            .problem(what, "stands")
+            .help("name the point or link that does the machine's work; of a link, at = [\"40 mm\", \"0 mm\"] says which of its points"));
+    }
+    Ok(Some(tool))
+}
+
+fn of_point(section: &Section, item: &Item, mechanism: &AnyMechanism) -> Result<Tool> {
+    let points = mechanism.points();
+    let mut names: Vec<&str> = points.iter().map(|point| point.name.as_str()).collect();
+    names.extend(mechanism.link_names().iter().map(String::as_str));
+    let index = item.choice(&names)?;
+    let name = names.get(index).copied().unwrap_or_default().to_owned();
+    let play = section.quantity("play", &LENGTH)?.positive()?;
+    let at = section.get("at");
+    let (link, place) = match (points.get(index), &at) {
+        (Some(point), None) => (point.link, point.at),
+        (Some(_), Some(at)) => {
+            return Err(at
+                .problem(
+                    "is given for a point that has a place already",
+                    "remove this",
+                )
+                .help("`at` says which point of a link is meant"));
+        }
+        (None, _) => (index - points.len(), section.point("at", &LENGTH)?),
+    };
+    Ok(Tool {
+        name,
+        link,
+        place: ToolPlace::Point(place),
+        play,
+    })
+}
+
+/// Whether the tool moves anywhere in the range of the drive link.
+fn moves(tool: &Tool, mechanism: &AnyMechanism) -> bool {
+    coordinate::positions(mechanism.domain(), POSITIONS).any(|phi| {
+        let Ok(frames) = mechanism.frames(phi) else {
+            return false;
+        };
+        frames.get(tool.link).is_some_and(|frame| match tool.place {
+            ToolPlace::Point(at) => frame.point(at).iter().any(|x| x.d1.abs() > STANDS),
+            ToolPlace::Turning => frame.psi.d1.abs() > STANDS,
+        })
+    })
+}

@@ -1,0 +1,347 @@
+//! One value of the machine file, with its place, turned into what its key asks for.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::problem::{Problem, Result, quoted};
+use super::section::Section;
+use crate::number::rounding::figure;
+use crate::units::kind::Kind;
+use crate::units::quantity::{self, Quantity};
+use crate::units::{Fault, closest};
+
+/// A value with the words that messages call it by.
+#[derive(Clone, Debug)]
+pub(crate) struct Item<'a> {
+    /// "`length` in [mechanism.crank]"
+    name: String,
+    key: &'static str,
+    /// The key in the text; the value for the elements of a list.
+    key_span: Range<usize>,
+    value: &'a Spanned<DeValue<'a>>,
+}
+
+/// A quantity in SI with the place it was read from.
+pub(crate) struct Value {
+    /// The value in SI.
+    pub(crate) si: f64,
+    quantity: Quantity,
+    kind: &'static Kind,
+    name: String,
+    span: Range<usize>,
+}
+
+impl<'a> Item<'a> {
+    pub(crate) fn new(
+        name: String,
+        key: &'static str,
+        key_span: Range<usize>,
+        value: &'a Spanned<DeValue<'a>>,
+    ) -> Self {
+        Self {
+            name,
+            key,
+            key_span,
+            value,
+        }
+    }
+
+    /// The place of the value.
+    pub(crate) fn span(&self) -> Range<usize> {
+        self.value.span()
+    }
+
+    /// The place of the key.
+    pub(crate) fn key_span(&self) -> Range<usize> {
+        self.key_span.clone()
+    }
+
+    /// A problem with this value: "`length` in [mechanism.crank] " and `what`.
+    pub(crate) fn problem(&self, what: &str, label: &str) -> Problem {
+        Problem::new(format!("{} {what}", self.name)).at(self.span(), label)
+    }
+
+    fn fault(&self, fault: Fault) -> Problem {
+        self.problem(&fault.message, &fault.label).help(fault.help)
+    }
+
+    fn wrong_type(&self, expected: &str, example: &str) -> Problem {
+        let found = match self.value.get_ref() {
+            DeValue::String(_) => "a text in quotes",
+            DeValue::Integer(_) | DeValue::Float(_) => "a plain number",
+            DeValue::Boolean(_) => "true or false",
+            DeValue::Datetime(_) => "a date",
+            DeValue::Array(_) => "a list",
+            DeValue::Table(_) => "a table",
+        };
+        self.problem(&format!("must be {expected}, but is {found}"), "here")
+            .help(format!("write {example}"))
+    }
+
+    /// A quantity of the `kind`.
+    pub(crate) fn quantity(&self, kind: &'static Kind) -> Result<Value> {
+        let read = match self.value.get_ref() {
+            DeValue::String(text) => quantity::read(text, kind),
+            DeValue::Integer(_) | DeValue::Float(_) => {
+                let number = self.plain_number();
+                if !number.is_some_and(f64::is_finite) {
+                    Err(quantity::not_finite(kind))
+                } else if kind.unit == "%" {
+                    quantity::share(number.unwrap_or(f64::NAN).to_string())
+                } else {
+                    Err(quantity::no_unit(&figure(number.unwrap_or(f64::NAN)), kind))
+                }
+            }
+            _ => {
+                let example = format!("{} = \"{}\"", self.key, kind.example);
+                return Err(
+                    self.wrong_type(&format!("{} as a text in quotes", kind.name), &example)
+                );
+            }
+        };
+        let quantity = read.map_err(|fault| self.fault(fault))?;
+        Ok(Value {
+            si: quantity.si,
+            quantity,
+            kind,
+            name: self.name.clone(),
+            span: self.span(),
+        })
+    }
+
+    fn plain_number(&self) -> Option<f64> {
+        match self.value.get_ref() {
+            DeValue::Float(float) => float.as_str().parse().ok(),
+            DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
+                .ok()
+                .map(|n| n as f64),
+            _ => None,
+        }
+    }
+
+    /// A plain number from `min` to `max`.
+    pub(crate) fn number(&self, [min, max]: [f64; 2], example: &str) -> Result<f64> {
+        let example = format!("{} = {example}", self.key);
+        let is_number = matches!(
+            self.value.get_ref(),
+            DeValue::Float(_) | DeValue::Integer(_)
+        );
+        if !is_number {
+            return Err(self.wrong_type("a plain number without quotes and unit", &example));
+        }
+        match self.plain_number() {
+            Some(number) if (min..=max).contains(&number) => Ok(number),
+            Some(number) if number.is_finite() => Err(self
+                .problem(
+                    &format!(
+                        "is {number}, but must lie between {} and {}",
+                        figure(min),
+                        figure(max)
+                    ),
+                    "here",
+                )
+                .help(format!("write for instance {example}"))),
+            _ => Err(self
+                .problem("is not a finite number", "here")
+                .help(format!("write {example}"))),
+        }
+    }
+
+    /// A whole number from 1 to `max`.
+    pub(crate) fn count(&self, max: u32, example: &str) -> Result<u32> {
+        let example = format!("{} = {example}", self.key);
+        let DeValue::Integer(integer) = self.value.get_ref() else {
+            return Err(self.wrong_type("a whole number without quotes", &example));
+        };
+        match u32::from_str_radix(integer.as_str(), integer.radix()) {
+            Ok(count) if (1..=max).contains(&count) => Ok(count),
+            _ => Err(self
+                .problem(
+                    &format!("is {integer}, but must lie between 1 and {max}"),
+                    "here",
+                )
+                .help(format!("write for instance {example}"))),
+        }
+    }
+
+    /// A text that is not empty.
+    pub(crate) fn text(&self, example: &str) -> Result<&'a str> {
+        let example = format!("{} = \"{example}\"", self.key);
+        let DeValue::String(text) = self.value.get_ref() else {
+            return Err(self.wrong_type("a text in quotes", &example));
+        };
+        if text.trim().is_empty() {
+            return Err(self
+                .problem("is empty", "here")
+                .help(format!("write for instance {example}")));
+        }
+        Ok(text.trim())
+    }
+
+    /// Whether the value is this text.
+    pub(crate) fn is_word(&self, word: &str) -> bool {
+        matches!(self.value.get_ref(), DeValue::String(text) if text.trim() == word)
+    }
+
+    /// `true` or `false`.
+    pub(crate) fn flag(&self) -> Result<bool> {
+        let example = format!("{0} = true or {0} = false, without quotes", self.key);
+        self.value
+            .get_ref()
+            .as_bool()
+            .ok_or_else(|| self.wrong_type("true or false", &example))
+    }
+
+    /// One of the `words`, as its index.
+    pub(crate) fn choice<S: AsRef<str>>(&self, words: &[S]) -> Result<usize> {
+        let text = self.text(words.first().map_or("", AsRef::as_ref))?;
+        if let Some(index) = words.iter().position(|w| w.as_ref() == text) {
+            return Ok(index);
+        }
+        let near = closest(text, words)
+            .map_or_else(String::new, |near| format!("did you mean \"{near}\"? "));
+        Err(self
+            .problem(
+                &format!("is \"{text}\", which does not exist here"),
+                "unknown",
+            )
+            .help(format!("{near}possible: {}", quoted(words))))
+    }
+
+    /// Whether the value is a list.
+    pub(crate) fn is_list(&self) -> bool {
+        matches!(self.value.get_ref(), DeValue::Array(_))
+    }
+
+    /// Whether the value is a table.
+    pub(crate) fn is_table(&self) -> bool {
+        matches!(self.value.get_ref(), DeValue::Table(_))
+    }
+
+    /// The elements of a list, each called `word` and its number in messages.
+    pub(crate) fn list(&self, word: &str, example: &str) -> Result<Vec<Self>> {
+        let DeValue::Array(array) = self.value.get_ref() else {
+            return Err(self.wrong_type("a list", &format!("{} = {example}", self.key)));
+        };
+        let element = |(k, value): (usize, &'a Spanned<DeValue<'a>>)| {
+            let name = format!("{word} {} of {}", k + 1, self.name);
+            Self::new(name, self.key, value.span(), value)
+        };
+        Ok(array.iter().enumerate().map(element).collect())
+    }
+
+    /// Two quantities.
+    pub(crate) fn pair(&self, kinds: [&'static Kind; 2]) -> Result<[Value; 2]> {
+        let [first, second] = kinds;
+        let second = if std::ptr::eq(first, second) {
+            format!("0 {}", second.unit)
+        } else {
+            second.example.to_owned()
+        };
+        let example = format!("[\"{}\", \"{second}\"]", first.example);
+        let list = self.list("value", &example)?;
+        let [first, second] = list.as_slice() else {
+            let count = list.len();
+            return Err(self
+                .problem(&format!("must have two values, but has {count}"), "here")
+                .help(format!("write {} = {example}", self.key)));
+        };
+        Ok([first.quantity(kinds[0])?, second.quantity(kinds[1])?])
+    }
+
+    /// A table, called `title` in messages.
+    pub(crate) fn section(&self, title: String) -> Result<Section<'a>> {
+        let DeValue::Table(table) = self.value.get_ref() else {
+            let example = format!("a table: {title}, or {} = {{ … }}", self.key);
+            return Err(self.wrong_type("a table", &example));
+        };
+        Ok(Section::new(title, self.span(), table))
+    }
+
+    /// An array of tables, called `title` and their number in messages.
+    pub(crate) fn sections(&self, title: &str) -> Result<Vec<Section<'a>>> {
+        let DeValue::Array(array) = self.value.get_ref() else {
+            let example = format!("the header in double brackets: {title}, once for each");
+            return Err(self.wrong_type("a list of tables", &example));
+        };
+        let items = array.iter().enumerate();
+        items
+            .map(|(k, value)| {
+                let name = format!("{title} number {}", k + 1);
+                Self::new(name.clone(), self.key, value.span(), value).section(name)
+            })
+            .collect()
+    }
+}
+
+impl Value {
+    /// A problem with this quantity.
+    pub(crate) fn problem(&self, what: &str, label: &str) -> Problem {
+        Problem::new(format!("{} {what}", self.name)).at(self.span.clone(), label)
+    }
+
+    /// The place of the value.
+    pub(crate) fn span(&self) -> Range<usize> {
+        self.span.clone()
+    }
+
+    /// As the file gives it, the number shortened.
+    pub(crate) fn shown(&self) -> String {
+        self.show(self.si)
+    }
+
+    /// Another value in SI, in the unit of this one.
+    pub(crate) fn show(&self, si: f64) -> String {
+        self.quantity.in_its_unit(si).trim_end().to_owned()
+    }
+
+    /// The value if it is not negative.
+    pub(crate) fn not_negative(self) -> Result<f64> {
+        if self.si >= 0.0 {
+            return Ok(self.si);
+        }
+        let what = format!("is {}, but must not be negative", self.shown());
+        Err(self
+            .problem(&what, "negative")
+            .help(format!("write {} of zero or more", self.kind.name)))
+    }
+
+    /// Checks that the value is greater than zero.
+    pub(crate) fn check_positive(&self) -> Result<()> {
+        if self.si >= self.kind.smallest {
+            return Ok(());
+        }
+        let what = if self.si > 0.0 {
+            format!("is {}, smaller than any machine needs", self.shown())
+        } else {
+            format!("is {}, but must be greater than zero", self.shown())
+        };
+        Err(self.problem(&what, "too small").help(format!(
+            "write {} such as \"{}\"",
+            self.kind.name, self.kind.example
+        )))
+    }
+
+    /// The value if it is greater than zero.
+    pub(crate) fn positive(self) -> Result<f64> {
+        self.check_positive().map(|()| self.si)
+    }
+
+    /// The value if it is greater than zero and at most `max` (SI).
+    pub(crate) fn up_to(self, max: f64) -> Result<f64> {
+        self.check_positive()?;
+        if self.si <= max {
+            return Ok(self.si);
+        }
+        let (max, shown) = (self.show(max), self.shown());
+        let what = format!("is {shown}, but must not be larger than {max}");
+        let help = if self.kind.unit == "%" && self.quantity.unit.text.is_empty() {
+            format!("a plain number 1 means 100 %; write it with the sign: \"{shown} %\"")
+        } else {
+            format!("write {} of {max} or less", self.kind.name)
+        };
+        Err(self.problem(&what, "too large").help(help))
+    }
+}

@@ -1,0 +1,7 @@
+//! Texts with places: what stands where in TOML and CSV, and what is wrong with it.
+
+pub mod columns;
+pub mod file;
+pub mod item;
+pub mod problem;
+pub mod section;

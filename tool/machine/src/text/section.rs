@@ -1,0 +1,177 @@
+//! A table of the machine file. It remembers which keys were asked for, so that the others can be reported.
+
+use std::cell::RefCell;
+use std::ops::Range;
+
+use toml::de::DeTable;
+
+use super::item::{Item, Value};
+use super::problem::{Problem, Result};
+use crate::units::closest;
+use crate::units::kind::Kind;
+
+/// A table with the words that messages call it by.
+#[derive(Debug)]
+pub(crate) struct Section<'a> {
+    /// "[mechanism.crank]"; empty for the top of the file.
+    title: String,
+    /// The table's header.
+    header: Range<usize>,
+    table: &'a DeTable<'a>,
+    known: RefCell<Vec<&'static str>>,
+}
+
+impl<'a> Section<'a> {
+    pub(crate) fn new(title: String, header: Range<usize>, table: &'a DeTable<'a>) -> Self {
+        Self {
+            title,
+            header,
+            table,
+            known: RefCell::default(),
+        }
+    }
+
+    /// "[mechanism.crank]"
+    pub(crate) fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// The place of the header.
+    pub(crate) fn header(&self) -> Range<usize> {
+        self.header.clone()
+    }
+
+    /// A problem with the table as a whole.
+    pub(crate) fn problem(&self, message: impl Into<String>, label: &str) -> Problem {
+        Problem::new(message).at(self.header.clone(), label)
+    }
+
+    /// "`length` in [mechanism.crank]"
+    fn name(&self, key: &str) -> String {
+        if self.title.is_empty() {
+            format!("`{key}`")
+        } else {
+            format!("`{key}` in {}", self.title)
+        }
+    }
+
+    /// Makes `keys` known before they are asked for, so that none is taken for a slip of the pen for another.
+    pub(crate) fn expects(&self, keys: &[&'static str]) {
+        for key in keys {
+            self.get(key);
+        }
+    }
+
+    /// The value of `key`, if the table has it.
+    pub(crate) fn get(&self, key: &'static str) -> Option<Item<'a>> {
+        let mut known = self.known.borrow_mut();
+        if !known.contains(&key) {
+            known.push(key);
+        }
+        self.peek(key)
+    }
+
+    /// The value of `key`, which stays unknown: for keys that only a message is to be made of.
+    pub(crate) fn peek(&self, key: &'static str) -> Option<Item<'a>> {
+        let (found, value) = self.table.get_key_value(key)?;
+        Some(Item::new(self.name(key), key, found.span(), value))
+    }
+
+    /// The value of `key`; `example` is the line to write if it is missing.
+    pub(crate) fn require(&self, key: &'static str, example: &str) -> Result<Item<'a>> {
+        self.get(key).ok_or_else(|| self.missing(key, example))
+    }
+
+    /// The problem of a key that is not there. A key that looks like a slip of the pen for it is named.
+    pub(crate) fn missing(&self, key: &'static str, example: &str) -> Problem {
+        let known = self.known.borrow();
+        let others = self
+            .table
+            .iter()
+            .filter(|(k, _)| !known.contains(&k.get_ref().as_ref()));
+        for (other, _) in others {
+            if closest(other.get_ref(), &[key]).is_some() {
+                return Problem::new(format!("{} is not known", self.name(other.get_ref())))
+                    .at(other.span(), format!("did you mean \"{key}\"?"))
+                    .help(format!("write {example}"));
+            }
+        }
+        self.problem(
+            format!("{} is missing", self.name(key)),
+            &format!("`{key}` belongs here"),
+        )
+        .help(format!("add {example}"))
+    }
+
+    /// A quantity that must be there.
+    pub(crate) fn quantity(&self, key: &'static str, kind: &'static Kind) -> Result<Value> {
+        self.require(key, &format!("{key} = \"{}\"", kind.example))?
+            .quantity(kind)
+    }
+
+    /// A quantity that may be left out.
+    pub(crate) fn optional(&self, key: &'static str, kind: &'static Kind) -> Result<Option<Value>> {
+        self.get(key).map(|item| item.quantity(kind)).transpose()
+    }
+
+    /// Two quantities that may be left out: then zero.
+    pub(crate) fn point(&self, key: &'static str, kind: &'static Kind) -> Result<[f64; 2]> {
+        let Some(item) = self.get(key) else {
+            return Ok([0.0, 0.0]);
+        };
+        Ok(item.pair([kind, kind])?.map(|value| value.si))
+    }
+
+    /// All entries in the order of the text, for a table whose keys are names that the user chooses.
+    pub(crate) fn entries(&self) -> Vec<(&'a str, Item<'a>)> {
+        let mut entries: Vec<_> = self.table.iter().collect();
+        entries.sort_by_key(|(key, _)| key.span().start);
+        let entry = |(key, value): (&'a toml::Spanned<_>, _)| {
+            let name: &'a str = std::borrow::Cow::as_ref(key.get_ref());
+            (name, Item::new(self.name(name), "point", key.span(), value))
+        };
+        entries.into_iter().map(entry).collect()
+    }
+
+    /// A table that must be there.
+    pub(crate) fn section(&self, key: &'static str) -> Result<Self> {
+        let title = self.child(key);
+        self.require(key, &title)?.section(title)
+    }
+
+    fn child(&self, key: &str) -> String {
+        let parent = self.title.trim_start_matches('[').trim_end_matches(']');
+        if parent.is_empty() {
+            format!("[{key}]")
+        } else {
+            format!("[{parent}.{key}]")
+        }
+    }
+
+    /// Reports a key that nobody asked for.
+    pub(crate) fn finish(&self) -> Result<()> {
+        self.finish_with(|_| None)
+    }
+
+    /// As [`finish`](Self::finish), with an explanation for keys that belong elsewhere.
+    pub(crate) fn finish_with(&self, explain: impl Fn(&str) -> Option<&'static str>) -> Result<()> {
+        let known = self.known.borrow();
+        let unknown = self.table.iter().map(|(key, _)| key);
+        let unknown = unknown.filter(|key| !known.contains(&key.get_ref().as_ref()));
+        let Some(key) = unknown.min_by_key(|key| key.span().start) else {
+            return Ok(());
+        };
+        let word = key.get_ref().as_ref();
+        let label = match closest(word, &known) {
+            Some(near) => format!("did you mean \"{near}\"?"),
+            None => "unknown key".to_owned(),
+        };
+        let help = explain(word).map_or_else(
+            || format!("known here: {}", known.join(", ")),
+            |reason| format!("{reason}; known here: {}", known.join(", ")),
+        );
+        Err(Problem::new(format!("{} is not known", self.name(word)))
+            .at(key.span(), label)
+            .help(help))
+    }
+}

@@ -1,0 +1,239 @@
+//! Quantities: a number and its unit, of a kind that the key asks for.
+
+use super::fault::Fault;
+use super::kind::{ANGULAR_SPEED, FREQUENCY, Kind, SHARE, describe};
+use super::unit::{self, Dimension, Unit};
+use crate::number::rounding::figure;
+
+/// A quantity as read.
+#[derive(Debug)]
+pub struct Quantity {
+    /// The value in SI.
+    pub si: f64,
+    /// The unit it was written in.
+    pub unit: Unit,
+}
+
+impl Quantity {
+    /// `si` in the unit that the quantity was written in, for messages.
+    pub fn in_its_unit(&self, si: f64) -> String {
+        format!("{} {}", figure(si / self.unit.scale), self.unit.text)
+    }
+}
+
+/// Reads `text` as a quantity of the `kind`.
+pub fn read(text: &str, kind: &Kind) -> Result<Quantity, Fault> {
+    let tidy = unit::tidy(text);
+    if tidy.is_empty() {
+        return Err(Fault::new(
+            "is empty",
+            format!("write {}: \"{}\"", kind.name, kind.example),
+        ));
+    }
+    let (number, rest) = split_number(&tidy, kind)?;
+    if rest.is_empty() {
+        if kind.dimension == SHARE.dimension {
+            return finish(number, plain(), kind);
+        }
+        return Err(no_unit(&number, kind));
+    }
+    let unit = unit::read(rest)?;
+    check_dimension(&unit, text, kind)?;
+    finish(number, unit, kind)
+}
+
+/// The fault of a number without a unit.
+pub fn no_unit(number: &str, kind: &Kind) -> Fault {
+    Fault::new(
+        format!("has no unit: {number}"),
+        format!(
+            "write {} as a text with its unit, such as \"{number} {}\" (possible units: {})",
+            kind.name, kind.unit, kind.units
+        ),
+    )
+    .label("no unit")
+}
+
+/// The unit of a plain number.
+fn plain() -> Unit {
+    let dimension = SHARE.dimension;
+    Unit {
+        text: String::new(),
+        scale: 1.0,
+        dimension,
+    }
+}
+
+/// A share written as a plain number.
+pub fn share(number: String) -> Result<Quantity, Fault> {
+    finish(number, plain(), &SHARE)
+}
+
+fn finish(number: String, unit: Unit, kind: &Kind) -> Result<Quantity, Fault> {
+    let si = scaled(&number, unit.scale);
+    if !si.is_finite() {
+        return Err(not_finite(kind));
+    }
+    let quantity = Quantity { si, unit };
+    if si.abs() > kind.largest {
+        let shown = if quantity.unit.text.is_empty() {
+            number
+        } else {
+            format!("{number} {}", quantity.unit.text)
+        };
+        return Err(Fault::new(
+            format!("is {shown}, larger than any machine needs"),
+            format!(
+                "at most {} is accepted here; check the number and its unit",
+                quantity.in_its_unit(kind.largest).trim_end()
+            ),
+        ));
+    }
+    Ok(quantity)
+}
+
+/// The fault of infinity and not-a-number.
+pub fn not_finite(kind: &Kind) -> Fault {
+    Fault::new(
+        "is not a finite number",
+        format!(
+            "write {} as a number with a unit: \"{}\"",
+            kind.name, kind.example
+        ),
+    )
+}
+
+/// `number`·`scale`. A scale that is a power of ten is put into the number's exponent, so that "120 mm" is the double
+/// nearest to 0.12.
+fn scaled(number: &str, scale: f64) -> f64 {
+    let power = scale.log10().round();
+    if power.is_finite() && (10f64.powf(power) / scale - 1.0).abs() < 1e-12 {
+        let (digits, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
+        if let Ok(exponent) = exponent.parse::<i32>() {
+            let shifted = format!("{digits}e{}", exponent.saturating_add(power as i32));
+            return shifted.parse().unwrap_or(f64::NAN);
+        }
+    }
+    number
+        .parse::<f64>()
+        .map_or(f64::NAN, |value| value * scale)
+}
+
+/// Splits "1.2e-3 kg m^2" into its number and its unit.
+pub fn split_number<'t>(text: &'t str, kind: &Kind) -> Result<(String, &'t str), Fault> {
+    let bytes = text.as_bytes();
+    let is = |index: usize, set: &[u8]| bytes.get(index).is_some_and(|b| set.contains(b));
+    let digits = |from: usize| {
+        from + bytes
+            .iter()
+            .skip(from)
+            .take_while(|b| b.is_ascii_digit())
+            .count()
+    };
+    let sign = usize::from(is(0, b"+-"));
+    let mut end = digits(sign);
+    let mut count = end - sign;
+    if is(end, b".") {
+        let after = digits(end + 1);
+        count += after - end - 1;
+        end = after;
+    }
+    let part = |range: std::ops::Range<usize>| text.get(range).unwrap_or_default();
+    if count == 0 {
+        let word = part(sign..text.len()).trim().to_lowercase();
+        if word.starts_with("nan") || word.starts_with("inf") {
+            return Err(not_finite(kind));
+        }
+        return Err(Fault::new(
+            format!("does not begin with a number: \"{text}\""),
+            format!(
+                "write {} as a number with a unit: \"{}\"",
+                kind.name, kind.example
+            ),
+        ));
+    }
+    if is(end, b",") {
+        let (whole, fraction) = (part(0..end), part(end + 1..digits(end + 1)));
+        return Err(Fault::new(
+            "has a comma in its number",
+            format!(
+                "write a decimal point, \"{whole}.{fraction}\", and no separator for thousands, \"{whole}{fraction}\""
+            ),
+        ));
+    }
+    let mut number = part(0..end).to_owned();
+    // An exponent: e-3, E+3, or times ten to the power of.
+    let exponent = if is(end, b"eE") {
+        Some(end + 1)
+    } else if part(end..text.len()).starts_with("*10^") {
+        Some(end + 4)
+    } else {
+        None
+    };
+    if let Some(start) = exponent {
+        let first = start + usize::from(is(start, b"+-"));
+        if digits(first) > first {
+            end = digits(first);
+            number.push('e');
+            number.push_str(part(start..end));
+        }
+    }
+    let rest = part(end..text.len());
+    let second = rest.trim_start_matches([' ', '*', '/', '+', '-']);
+    if rest.starts_with(['+', '-']) || rest.contains(" +") || rest.contains(" -") {
+        return Err(Fault::new(
+            format!("is a sum or a difference: \"{text}\""),
+            "write one number and its unit; sums are not worked out",
+        ));
+    }
+    let per_second = rest.strip_prefix(' ').is_some_and(|r| r.starts_with("1/"));
+    if second.starts_with(|c: char| c.is_ascii_digit() || ".,_'".contains(c)) && !per_second {
+        return Err(Fault::new(
+            format!("contains more than one number: \"{text}\""),
+            "write one number without separators, then its unit; products and fractions are not worked out",
+        ));
+    }
+    Ok((number, rest.trim_start_matches([' ', '*'])))
+}
+
+fn check_dimension(unit: &Unit, text: &str, kind: &Kind) -> Result<(), Fault> {
+    let found = unit.dimension;
+    let same = found == kind.dimension
+        || kind.angle_optional
+            && found
+                == Dimension {
+                    angle: 0,
+                    ..kind.dimension
+                };
+    if same {
+        return Ok(());
+    }
+    let help = if found == FREQUENCY && kind.dimension == ANGULAR_SPEED.dimension {
+        "whether turns or radians are counted is not clear from \"Hz\" or \"1/s\": write \"rpm\" or \"rad/s\" \
+         (1 turn per second = 60 rpm = 6.2832 rad/s)"
+            .to_owned()
+    } else if found == SHARE.dimension && kind.dimension.angle == 1 {
+        format!(
+            "write the angle with its unit, as in \"{}\"; possible units: {}",
+            kind.example, kind.units
+        )
+    } else {
+        format!(
+            "write {} such as \"{}\"; possible units: {}",
+            kind.name, kind.example, kind.units
+        )
+    };
+    Err(Fault::new(
+        format!(
+            "must be {}, but \"{}\" is {}",
+            kind.name,
+            text.trim(),
+            describe(found)
+        ),
+        help,
+    )
+    .label(describe(found)))
+}
+
+#[cfg(test)]
+mod tests;

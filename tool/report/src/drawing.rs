@@ -1,0 +1,193 @@
+//! The mechanism as a drawing, made from its joints and frames alone: any mechanism can be drawn.
+//!
+//! Links are bars and plates through their joints and named points, or the outlines that they were given; pins are circles,
+//! sliders blocks, guides and slots pairs of lines; what stands still is hatched. Behind them lie the paths of the named points
+//! over the whole range and faint copies of the links at other positions.
+
+use std::fmt::Write as _;
+
+use jred::{Error, Mechanism as _};
+
+use crate::plot::PALETTE;
+use crate::plot::svg::{Anchor, Ink, Svg};
+use jred_machine::model::coordinate::{Coordinate, positions};
+use jred_machine::model::machine::AnyMechanism;
+
+mod glyphs;
+mod sketch;
+mod view;
+
+use glyphs::Pen;
+use sketch::{Pose, Sketch};
+use view::View;
+
+/// Pictures of an animation over the range.
+pub const PICTURES: usize = 180;
+
+/// Faint copies.
+const GHOSTS: usize = 8;
+
+/// The position of a still drawing, as a share of the range: an eighth of a turn shows a crank off its dead centres.
+const SHOWN: f64 = 0.125;
+
+/// Ink of hatching and notes.
+const QUIET: &str = "#8a949e";
+
+/// A drawing that a script can move.
+#[derive(Clone, Debug)]
+pub struct Moving {
+    /// The drawing at the picture `first`.
+    pub svg: String,
+    /// What moves: a JSON object of numbers, `positions` (deg or mm), `links` (x, y in px and an angle in deg for each link and
+    /// picture), `points` (x, y for each named point and picture), `turn` whether the first picture follows the last, `first`
+    /// the picture to begin with.
+    pub track: String,
+}
+
+/// The mechanism at one position.
+///
+/// # Errors
+/// The mechanism cannot be placed.
+pub fn still(mechanism: &AnyMechanism) -> Result<String, Error> {
+    let phi = mechanism.domain().position(SHOWN);
+    let sketch = Sketch::new(mechanism)?;
+    let pose = sketch.pose(mechanism, phi)?;
+    let place = Coordinate::of(mechanism)?.place(phi);
+    Ok(draw(mechanism, &sketch, &pose, &place))
+}
+
+/// The mechanism at one position, with what a script needs to move it.
+///
+/// # Errors
+/// The mechanism cannot be placed.
+pub fn moving(mechanism: &AnyMechanism) -> Result<Moving, Error> {
+    let coordinate = Coordinate::of(mechanism)?;
+    let sketch = Sketch::new(mechanism)?;
+    let view = View::of(&sketch);
+    let places: Vec<f64> = positions(mechanism.domain(), PICTURES).collect();
+    let poses = places
+        .iter()
+        .map(|&phi| sketch.pose(mechanism, phi))
+        .collect::<Result<Vec<Pose>, Error>>()?;
+    let first = (SHOWN * PICTURES as f64) as usize;
+    let svg = draw(mechanism, &sketch, &poses[first], "");
+    let shown: Vec<f64> = places
+        .iter()
+        .map(|&phi| (coordinate.shown(phi) * 1e3).round() / 1e3)
+        .collect();
+    let links = poses.iter().map(|pose| {
+        let each = pose.links.iter().map(|[x, y, psi]| {
+            let [x, y] = view.page([*x, *y]);
+            format!("{x:.2},{y:.2},{:.3}", -psi.to_degrees())
+        });
+        each.collect::<Vec<_>>().join(",")
+    });
+    let points = poses.iter().map(|pose| {
+        let each = sketch.points.iter().map(|point| {
+            let [x, y] = view.page(pose.point(point.link, point.at));
+            format!("{x:.2},{y:.2}")
+        });
+        each.collect::<Vec<_>>().join(",")
+    });
+    let mut track = format!("{{\"positions\":{shown:?}");
+    for (name, rows) in [
+        ("links", links.collect::<Vec<_>>()),
+        ("points", points.collect::<Vec<_>>()),
+    ] {
+        let _ = write!(track, ",\"{name}\":[[{}]]", rows.join("],["));
+    }
+    let turn = mechanism.domain() == jred::Domain::Turn;
+    let _ = write!(track, ",\"turn\":{turn},\"first\":{first}}}");
+    Ok(Moving { svg, track })
+}
+
+fn draw(mechanism: &AnyMechanism, sketch: &Sketch, pose: &Pose, place: &str) -> String {
+    let view = View::of(sketch);
+    let mut svg = Svg::new(view.width, view.height);
+    let mut pen = Pen {
+        svg: &mut svg,
+        scale: view.scale,
+    };
+    pen.svg.open("class=\"ground\"", "");
+    for part in &sketch.ground {
+        pen.ground(part, &|at| view.page(at));
+    }
+    pen.svg.close();
+
+    let step = (sketch.poses.len() / GHOSTS).max(1);
+    for ghost in sketch.poses.iter().step_by(step) {
+        for (link, parts) in sketch.links.iter().enumerate() {
+            let Some(&[x, y, psi]) = ghost.links.get(link) else {
+                continue;
+            };
+            let [x, y] = view.page([x, y]);
+            let turn = -psi.to_degrees();
+            if parts.iter().any(sketch::Part::leaves_ghosts) {
+                pen.svg.open(&placed([x, y], turn, "class=\"ghost\""), "");
+                for part in parts {
+                    pen.ghost(part);
+                }
+                pen.svg.close();
+            }
+        }
+    }
+    for (k, path) in sketch.paths.iter().enumerate() {
+        let path: Vec<[f64; 2]> = path.iter().map(|&at| view.page(at)).collect();
+        let ink = Ink::line(colour(sketch.points[k].link), 1.4).dashed("5 3");
+        pen.svg.path(&path, false, &ink);
+    }
+
+    // Bodies first, pins above all of them.
+    let names = mechanism.link_names();
+    for layer in [false, true] {
+        for (link, parts) in sketch.links.iter().enumerate() {
+            let Some(&[x, y, psi]) = pose.links.get(link) else {
+                continue;
+            };
+            let [x, y] = view.page([x, y]);
+            let turn = -psi.to_degrees();
+            let name = names.get(link).map_or("", String::as_str);
+            pen.svg.open(
+                &placed([x, y], turn, &format!("data-link=\"{link}\"")),
+                name,
+            );
+            for part in parts.iter().filter(|part| part.is_pin() == layer) {
+                pen.part(part, colour(link));
+            }
+            pen.svg.close();
+        }
+    }
+    for (k, point) in sketch.points.iter().enumerate() {
+        let [x, y] = view.page(pose.point(point.link, point.at));
+        pen.svg
+            .open(&placed([x, y], 0.0, &format!("data-point=\"{k}\"")), "");
+        pen.svg.circle(
+            [0.0, 0.0],
+            2.2,
+            &Ink::line("#1d2733", 0.0).filled("#1d2733"),
+        );
+        pen.svg.text(
+            [9.0, -9.0],
+            Anchor::Start,
+            &lettering("#1d2733"),
+            &point.name,
+        );
+        pen.svg.close();
+    }
+    view.legend(&mut svg, sketch.schematic, place);
+    svg.finish()
+}
+
+/// Attributes of a group that is moved and turned (deg).
+fn placed([x, y]: [f64; 2], turn: f64, mark: &str) -> String {
+    format!("transform=\"translate({x:.2} {y:.2}) rotate({turn:.3})\" {mark}")
+}
+
+/// Attributes of a text.
+fn lettering(colour: &str) -> String {
+    format!("font-size=\"13\" fill=\"{colour}\"")
+}
+
+fn colour(link: usize) -> &'static str {
+    PALETTE[link % PALETTE.len()]
+}

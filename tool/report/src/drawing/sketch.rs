@@ -1,0 +1,350 @@
+//! What is drawn, in metres: parts of links in their own frames, parts of the ground, paths, poses.
+
+use jred::joint::Joints;
+use jred::mechanism::Frames;
+use jred::{Body, Error, Joint, Jointed as _, Marker, Mechanism as _};
+
+use jred_machine::model::coordinate::whole_range;
+use jred_machine::model::machine::{AnyMechanism, NamedPoint};
+
+/// Poses for paths, ranges of guides and the size of the drawing.
+const POSES: usize = 240;
+
+/// One part of a body, in the body's frame.
+#[derive(Clone, Debug)]
+pub(super) enum Part {
+    /// A link between two points.
+    Bar([[f64; 2]; 2]),
+    /// A link through three or more points: their convex hull.
+    Plate(Vec<[f64; 2]>),
+    /// A closed outline, such as a cam's.
+    Outline(Vec<[f64; 2]>),
+    /// A wheel of a radius (m) about a point, with a spoke.
+    Wheel([f64; 2], f64),
+    /// A block that slides in a direction (rad).
+    Block([f64; 2], f64),
+    /// A guide or a slot from one point to the other.
+    Slot([[f64; 2]; 2]),
+    /// A pin.
+    Pin([f64; 2]),
+}
+
+impl Part {
+    pub(super) const fn is_pin(&self) -> bool {
+        matches!(self, Self::Pin(_))
+    }
+
+    /// Whether faint copies of it help: wheels and outlines look alike everywhere.
+    pub(super) const fn leaves_ghosts(&self) -> bool {
+        matches!(self, Self::Bar(_) | Self::Plate(_) | Self::Block(..))
+    }
+}
+
+/// Where every link is: x, y (m) and angle (rad).
+#[derive(Clone, Debug)]
+pub(super) struct Pose {
+    pub(super) links: Vec<[f64; 3]>,
+}
+
+impl Pose {
+    /// A point of a link in global coordinates.
+    pub(super) fn point(&self, link: usize, [u, v]: [f64; 2]) -> [f64; 2] {
+        let [x, y, psi] = self.links.get(link).copied().unwrap_or_default();
+        let (sin, cos) = psi.sin_cos();
+        [x + cos * u - sin * v, y + sin * u + cos * v]
+    }
+}
+
+/// Everything that is drawn.
+#[derive(Clone, Debug)]
+pub(super) struct Sketch {
+    pub(super) links: Vec<Vec<Part>>,
+    pub(super) ground: Vec<Part>,
+    pub(super) points: Vec<NamedPoint>,
+    /// The path of each named point.
+    pub(super) paths: Vec<Vec<[f64; 2]>>,
+    pub(super) poses: Vec<Pose>,
+    /// Whether shafts that the mechanism has at one point were drawn apart.
+    pub(super) schematic: bool,
+    /// How far each link is drawn from where the mechanism has it (m).
+    apart: Vec<[f64; 2]>,
+}
+
+impl Sketch {
+    pub(super) fn new(mechanism: &AnyMechanism) -> Result<Self, Error> {
+        let links = mechanism.links().len();
+        let mut sketch = Self {
+            links: vec![Vec::new(); links],
+            ground: Vec::new(),
+            points: mechanism.points().to_vec(),
+            paths: Vec::new(),
+            poses: Vec::new(),
+            schematic: false,
+            apart: vec![[0.0; 2]; links],
+        };
+        let places: Vec<f64> = whole_range(mechanism.domain(), POSES).collect();
+        let frames = places
+            .iter()
+            .map(|&phi| mechanism.frames(phi))
+            .collect::<Result<Vec<Frames>, Error>>()?;
+        let joints = places
+            .iter()
+            .zip(&frames)
+            .map(|(&phi, frames)| mechanism.joints(phi, frames))
+            .collect::<Result<Vec<_>, Error>>()?;
+        let first = &joints[0];
+        if is_at_one_point(first, &frames[0], mechanism) {
+            sketch.row_of_wheels(first);
+        } else {
+            for k in 0..first.len() {
+                let over_range: Vec<(&Joint, &Frames)> =
+                    joints.iter().map(|j| &j[k]).zip(&frames).collect();
+                sketch.joint(&first[k], &over_range);
+            }
+            let size = extent(&joints, &frames, &sketch.points);
+            sketch.bodies(mechanism, size);
+        }
+        sketch.poses = frames.iter().map(|frames| sketch.placed(frames)).collect();
+        for point in std::mem::take(&mut sketch.points) {
+            let path = sketch.poses.iter().map(|p| p.point(point.link, point.at));
+            let path: Vec<[f64; 2]> = path.collect();
+            // Two links name the pin between them: one name is enough.
+            if !sketch.paths.iter().any(|drawn| coincide(drawn, &path)) {
+                sketch.paths.push(path);
+                sketch.points.push(point);
+            }
+        }
+        Ok(sketch)
+    }
+
+    /// The pose at a position of the drive link.
+    pub(super) fn pose(&self, mechanism: &AnyMechanism, phi: f64) -> Result<Pose, Error> {
+        Ok(self.placed(&mechanism.frames(phi)?))
+    }
+
+    fn placed(&self, frames: &Frames) -> Pose {
+        let links = frames.iter().zip(&self.apart);
+        let links = links.map(|(f, [x, y])| [f.x.value + x, f.y.value + y, f.psi.value]);
+        Pose {
+            links: links.collect(),
+        }
+    }
+
+    fn add(&mut self, body: Body, part: Part) {
+        match body {
+            Body::Ground => self.ground.push(part),
+            Body::Link(k) => {
+                if let Some(parts) = self.links.get_mut(k) {
+                    parts.push(part);
+                }
+            }
+        }
+    }
+
+    /// Pins, blocks and slots of one joint.
+    fn joint(&mut self, joint: &Joint, over_range: &[(&Joint, &Frames)]) {
+        match joint {
+            Joint::Revolute([a, b]) => {
+                // One circle is enough: the fixed one, which stands on its bearing, and else that of the later link.
+                if a.body == Body::Ground || b.body == Body::Ground {
+                    let (fixed, moving) = if a.body == Body::Ground {
+                        (a, b)
+                    } else {
+                        (b, a)
+                    };
+                    self.add(Body::Ground, Part::Pin(fixed.at));
+                    self.add(moving.body, Part::Pin(moving.at));
+                } else {
+                    self.add(a.body, Part::Pin(a.at));
+                    self.add(b.body, Part::Pin(b.at));
+                }
+            }
+            Joint::Prismatic([guide, block]) => {
+                let way = |(joint, frames): &(&Joint, &Frames)| joint.coordinate(frames).value;
+                self.slot(guide, over_range.iter().map(way));
+                self.add(block.body, Part::Block(block.at, block.angle()));
+            }
+            Joint::PinInSlot([pin, slot]) => {
+                let way = |(joint, frames): &(&Joint, &Frames)| along(joint, frames);
+                self.slot(slot, over_range.iter().map(way));
+                self.add(pin.body, Part::Pin(pin.at));
+            }
+            Joint::Fixed(_) | Joint::Transmission(_) => {}
+        }
+    }
+
+    /// A slot as long as its pin or block moves.
+    fn slot(&mut self, marker: &Marker, ways: impl Iterator<Item = f64>) {
+        let (low, high) = ways.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), way| {
+            (low.min(way), high.max(way))
+        });
+        let (sin, cos) = marker.angle().sin_cos();
+        let end = |way: f64| [marker.at[0] + way * cos, marker.at[1] + way * sin];
+        self.add(marker.body, Part::Slot([end(low), end(high)]));
+    }
+
+    /// Bars and plates through what each link holds; `size` (m) is that of the mechanism.
+    fn bodies(&mut self, mechanism: &AnyMechanism, size: f64) {
+        for (k, parts) in self.links.iter_mut().enumerate() {
+            let outlines: Vec<Part> = mechanism
+                .outlines(k)
+                .map(|outline| Part::Outline(outline.to_vec()))
+                .collect();
+            if !outlines.is_empty() {
+                parts.splice(0..0, outlines);
+                continue;
+            }
+            let mut nodes: Vec<[f64; 2]> = Vec::new();
+            let mut slides = false;
+            for part in parts.iter() {
+                match part {
+                    Part::Pin(at) => nodes.push(*at),
+                    Part::Block(at, _) => {
+                        slides = true;
+                        nodes.push(*at);
+                    }
+                    Part::Slot(ends) => {
+                        slides = true;
+                        nodes.extend(ends);
+                    }
+                    _ => {}
+                }
+            }
+            let named = mechanism.points().iter().filter(|point| point.link == k);
+            nodes.extend(named.map(|point| point.at));
+            let hull = hull(nodes, 1e-6 * size);
+            let body = match hull.as_slice() {
+                [] => None,
+                [only] => (!slides).then_some(Part::Wheel(*only, 0.1 * size)),
+                [a, b] => Some(Part::Bar([*a, *b])),
+                _ => Some(Part::Plate(hull)),
+            };
+            if let Some(body) = body {
+                parts.insert(0, body);
+            }
+        }
+    }
+
+    /// Shafts side by side, for a train that has ratios and no geometry. The wheels of a stage have radii by its ratio; the
+    /// row is a metre long for each stage.
+    fn row_of_wheels(&mut self, joints: &[Joint]) {
+        self.schematic = true;
+        let mut place = 0.0;
+        let mut radii: Vec<Vec<f64>> = vec![Vec::new(); self.links.len()];
+        for joint in joints {
+            let Joint::Transmission([driver, driven]) = joint else {
+                continue;
+            };
+            let (Some(a), Some(b)) = (driver.body.link(), driven.body.link()) else {
+                continue;
+            };
+            let ratio = driven.moment / -driver.moment;
+            if !ratio.is_finite() {
+                continue;
+            }
+            let share = (ratio.abs() / (1.0 + ratio.abs())).clamp(0.04, 0.96);
+            // Wheels that turn against each other mesh; others stand apart, as those of a belt do.
+            place += if ratio < 0.0 { 1.0 } else { 1.35 };
+            self.apart[b] = [place, 0.0];
+            radii[a].push(1.0 - share);
+            radii[b].push(share);
+        }
+        for (k, radii) in radii.into_iter().enumerate() {
+            let radii = if radii.is_empty() { vec![0.5] } else { radii };
+            self.links[k] = radii
+                .into_iter()
+                .map(|r| Part::Wheel([0.0; 2], r))
+                .collect();
+            self.links[k].push(Part::Pin([0.0; 2]));
+            self.ground.push(Part::Pin(self.apart[k]));
+        }
+    }
+}
+
+/// Whether all joints of a mechanism are at one place, and no outline says more.
+fn is_at_one_point(joints: &[Joint], frames: &Frames, mechanism: &AnyMechanism) -> bool {
+    let outlined = (0..frames.len()).any(|k| mechanism.outlines(k).next().is_some());
+    let markers = joints.iter().flat_map(markers);
+    let mut places = markers.map(|m| m.position(frames).map(|c| c.value));
+    let first = places.next().unwrap_or_default();
+    !outlined
+        && mechanism.points().is_empty()
+        && places.all(|[x, y]| (x - first[0]).hypot(y - first[1]) <= 0.0)
+}
+
+fn markers(joint: &Joint) -> Vec<Marker> {
+    match joint {
+        Joint::Revolute(m) | Joint::Prismatic(m) | Joint::Fixed(m) | Joint::PinInSlot(m) => {
+            m.to_vec()
+        }
+        Joint::Transmission(_) => Vec::new(),
+    }
+}
+
+/// Where the pin is along its slot.
+fn along(joint: &Joint, frames: &Frames) -> f64 {
+    let Joint::PinInSlot([pin, slot]) = joint else {
+        return 0.0;
+    };
+    let [cos, sin] = slot.axis(frames).map(|c| c.value);
+    let (at, from) = (
+        pin.position(frames).map(|c| c.value),
+        slot.position(frames).map(|c| c.value),
+    );
+    cos * (at[0] - from[0]) + sin * (at[1] - from[1])
+}
+
+/// Length of the diagonal of all joints and named points over the range (m).
+fn extent(joints: &[Joints], frames: &[Frames], points: &[NamedPoint]) -> f64 {
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for (joints, frames) in joints.iter().zip(frames) {
+        let named = points.iter().map(|point| Marker::on(point.link, point.at));
+        for marker in joints.iter().flat_map(markers).chain(named) {
+            let at = marker.position(frames).map(|c| c.value);
+            for k in 0..2 {
+                low[k] = low[k].min(at[k]);
+                high[k] = high[k].max(at[k]);
+            }
+        }
+    }
+    (high[0] - low[0]).hypot(high[1] - low[1])
+}
+
+/// The convex hull, counter-clockwise, without points nearer than `near` (m) to a line between others (Andrew's monotone
+/// chain).
+fn hull(mut points: Vec<[f64; 2]>, near: f64) -> Vec<[f64; 2]> {
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    points.dedup_by(|a, b| (a[0] - b[0]).hypot(a[1] - b[1]) <= near);
+    if points.len() < 3 {
+        return points;
+    }
+    let off = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
+        let (x, y) = (c[0] - a[0], c[1] - a[1]);
+        let length = x.hypot(y).max(near);
+        (x * (b[1] - a[1]) - y * (b[0] - a[0])) / length
+    };
+    let chain = |points: &mut dyn Iterator<Item = [f64; 2]>| {
+        let mut chain: Vec<[f64; 2]> = Vec::new();
+        for point in points {
+            // Left turns only: the point between lies to the right of the line.
+            while let [.., a, b] = chain[..] {
+                if off(a, b, point) < -near {
+                    break;
+                }
+                chain.pop();
+            }
+            chain.push(point);
+        }
+        chain.pop();
+        chain
+    };
+    let mut hull = chain(&mut points.iter().copied());
+    hull.extend(chain(&mut points.iter().rev().copied()));
+    hull
+}
+
+/// Whether two points are in the same place all the time, to a micrometre.
+fn coincide(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
+    let together = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-6;
+    a.iter().zip(b).all(together)
+}

@@ -1,0 +1,290 @@
+//! The answer of `jred bus` as text and CSV.
+
+use std::fmt::Write as _;
+
+use miette::{Result, miette};
+
+use crate::table::output;
+use crate::table::output::Format;
+use jred_machine::number::columns::Columns;
+use jred_machine::number::rounding::short;
+use jred_sizing::bus::answer::Answer;
+use jred_sizing::bus::axes::Bounds;
+use jred_sizing::bus::curve::PowerCurve;
+use jred_sizing::bus::store::BusFigures;
+use jred_sizing::bus::verdict::Judged;
+
+/// The answer for reading.
+pub fn text(answer: &Answer) -> String {
+    let mut text = axes_text(answer);
+    text.push('\n');
+    if let (Some(figures), Some(power)) = (&answer.in_step, &answer.power) {
+        let [least, most] = power.extremes();
+        let _ = writeln!(
+            text,
+            "All axes in step, period {} s: peak drawn {} W, peak fed back {} W",
+            short(power.period()),
+            short(most.max(0.0)),
+            short((-least).max(0.0)),
+        );
+        text += &line(answer, figures, power);
+    } else {
+        let _ = writeln!(
+            text,
+            "Judged by what holds at any phases: {}.",
+            answer.no_search()
+        );
+    }
+    text += &worst_text(answer);
+    let Bounds {
+        drawn,
+        back,
+        highest,
+        resistor,
+    } = answer.bounds;
+    let voltage = if highest.is_infinite() && answer.data.capacitance.is_none() {
+        "bus voltage not known".to_owned()
+    } else {
+        format!("bus at most {} V", volts(highest))
+    };
+    let _ = writeln!(
+        text,
+        "At any phases: peak drawn at most {} W, peak fed back at most {} W, {voltage}, a brake resistor at most {} W mean",
+        short(drawn),
+        short(back),
+        short(resistor),
+    );
+    if let Some(saved) = answer.saved() {
+        let _ = writeln!(
+            text,
+            "Against a bus for each axis, with 1/{} of the capacitance and a brake resistor like this, one bus saves {} W mean in step",
+            answer.axes.len(),
+            short(saved)
+        );
+    }
+    text += &resistor_text(answer);
+    if answer.data.capacitance.is_none() && answer.data.resistor.is_some() {
+        text += "Capacitance of the DC bus not known (capacitance in [supply]): all that comes back goes into the brake resistor\n";
+    }
+    text.push('\n');
+    text + &verdicts(answer) + &cures_text(answer)
+}
+
+fn axes_text(answer: &Answer) -> String {
+    let mut text = String::new();
+    for (k, axis) in answer.axes.iter().enumerate() {
+        let [drawn, back] = axis.curve.energies();
+        let [least, most] = axis.curve.extremes();
+        let broken = if axis.holds {
+            ""
+        } else {
+            ", breaks a rule: see `jred size`"
+        };
+        let _ = writeln!(
+            text,
+            "{}. {}: {}{broken}\n   cycle {} s, draws {} J (peak {} W), feeds back {} J (peak {} W)",
+            k + 1,
+            axis.title,
+            axis.drive,
+            short(axis.curve.period()),
+            short(drawn),
+            short(most.max(0.0)),
+            short(back),
+            short((-least).max(0.0)),
+        );
+    }
+    text
+}
+
+fn worst_text(answer: &Answer) -> String {
+    let mut text = String::new();
+    let (Some(worst), Some(power)) = (&answer.worst, &answer.power) else {
+        return text;
+    };
+    if answer.axes.len() < 2 {
+        return text;
+    }
+    let names = [
+        "Phases with the highest voltage",
+        "Phases that burn most",
+        "Phases with the largest power burnt",
+        "Phases with the largest pulse",
+    ];
+    let count = if answer.data.resistor.is_some() { 4 } else { 1 };
+    for (k, (name, phases)) in names.into_iter().zip(worst).enumerate().take(count) {
+        // Phases that are the worst in several ways are printed once.
+        let same = |other: &&jred_sizing::bus::axes::Worst| other.phases == phases.phases;
+        if worst[..k].iter().any(|other| same(&other)) {
+            continue;
+        }
+        text += name;
+        for (other, also) in names.iter().zip(worst).take(count).skip(k + 1) {
+            if same(&also) {
+                let rest = other.trim_start_matches("Phases ");
+                let _ = write!(text, " and {}", rest.trim_start_matches("with "));
+            }
+        }
+        let _ = write!(text, ", {}: ", shown(&phases.phases));
+        text += &line(answer, &phases.figures, power);
+    }
+    if answer.axes.len() > 3 {
+        text += "More than three axes: searched from several starts, a worse phase may exist; the bounds hold.\n";
+    }
+    text
+}
+
+/// What the brake resistor lacks, or which one is needed.
+fn resistor_text(answer: &Answer) -> String {
+    let mut text = String::new();
+    let lacks = answer.lacks();
+    if !lacks.is_empty() {
+        let each: Vec<String> = lacks
+            .iter()
+            .map(|(what, by)| {
+                let (unit, of) = match what {
+                    Judged::Mean => ("W", "mean power"),
+                    Judged::Peak => ("W", "peak power"),
+                    Judged::Pulse => ("J", "energy of a pulse"),
+                    _ => ("Ohm", "resistance"),
+                };
+                format!("{} {unit} {of}", short(*by))
+            })
+            .collect();
+        let _ = writeln!(text, "The brake resistor lacks {}", each.join(", "));
+    }
+    if let Some(conflict) = answer.conflict() {
+        let _ = writeln!(text, "NO BRAKE RESISTOR DOES: {}", conflict.words());
+    }
+    if let Some(need) = &answer.need {
+        let proposal = match &answer.proposal {
+            Some(key) => format!("; {key} of the catalogue does"),
+            None => "; the catalogue has none of which it is known".to_owned(),
+        };
+        let needs = if answer.data.resistor.is_some() {
+            "A brake resistor that does: "
+        } else {
+            "The bus needs a brake resistor of "
+        };
+        let _ = writeln!(text, "{needs}{}{proposal}", need.figures());
+    }
+    text
+}
+
+/// A line for every check, and for every one that could not be done.
+fn verdicts(answer: &Answer) -> String {
+    let mut text = String::new();
+    for check in &answer.checks() {
+        let verdict = match check.holds() {
+            None => continue,
+            Some(true) => "ok",
+            Some(false) => "FAIL",
+        };
+        let limit = check.limit.map_or_else(
+            || "any limit".to_owned(),
+            |limit| format!("{} {}", short(limit), check.unit()),
+        );
+        let _ = writeln!(
+            text,
+            "{} {} against {limit}: {verdict}",
+            check.name(),
+            volts(check.figure)
+        );
+    }
+    for open in answer.open() {
+        let _ = writeln!(text, "NOT CHECKED: {}: {}", open.figure, open.words);
+    }
+    text
+}
+
+fn cures_text(answer: &Answer) -> String {
+    let mut text = String::new();
+    if !answer.cures.is_empty() {
+        text += "\nAny one of these would do:\n";
+    }
+    for cure in &answer.cures {
+        let _ = writeln!(text, "- {}", cure.words);
+    }
+    text
+}
+
+/// Power and voltage over time with all axes in step.
+///
+/// # Errors
+/// The cycles have no common period that is searched.
+pub fn csv(answer: &Answer) -> Result<String> {
+    let power = answer.power.as_ref().ok_or_else(|| {
+        miette!(
+            help = "use --format table or json, which give bounds",
+            "power and voltage over a common period cannot be written: {}",
+            answer.no_search()
+        )
+    })?;
+    let mut columns = Columns::new(["t [s]", "power [W]", "voltage [V]"]);
+    let trace = answer.shared.bus().trace(power);
+    let ends = std::iter::once(power.points().first().map_or(0.0, |p| p[1]))
+        .chain(power.pieces().map(|(_, [_, b])| b));
+    let mut t = 0.0;
+    let lengths = std::iter::once(0.0).chain(power.pieces().map(|(h, _)| h));
+    for (k, (p, h)) in ends.zip(lengths).enumerate() {
+        t += h;
+        columns.push([Some(t), Some(p), trace.get(k).map(|[_, volts]| *volts)]);
+    }
+    Ok(output::write(&columns, Format::Csv, ""))
+}
+
+/// Voltage, supply and resistor in words.
+fn line(answer: &Answer, figures: &BusFigures, power: &PowerCurve) -> String {
+    let period = power.period();
+    let bounded = figures.highest.is_finite();
+    let voltage = if !bounded && answer.data.capacitance.is_none() {
+        "bus voltage not known".to_owned()
+    } else {
+        format!("bus up to {} V", volts(figures.highest))
+    };
+    let supply = if bounded {
+        format!(
+            "{} W mean",
+            short((figures.supplied - figures.returned) / period)
+        )
+    } else {
+        // All that comes back is drawn again, or nothing of it.
+        let [drawn, back] = power.energies();
+        format!(
+            "{} to {} W mean",
+            short((drawn - back).max(0.0) / period),
+            short(drawn / period)
+        )
+    };
+    let resistor = if answer.data.resistor.is_some() {
+        format!(
+            ", brake resistor {} W mean, {} W peak, {} J a pulse",
+            short(figures.burnt / period),
+            short(figures.burnt_peak),
+            short(figures.pulse),
+        )
+    } else if answer.data.regenerative {
+        format!(", {} W mean fed back", short(figures.returned / period))
+    } else {
+        ", no brake resistor".to_owned()
+    };
+    format!("{voltage}, supply {supply}{resistor}\n")
+}
+
+/// A figure that may have no bound.
+fn volts(x: f64) -> String {
+    if x.is_infinite() {
+        "without bound".to_owned()
+    } else if x.is_nan() {
+        "–".to_owned()
+    } else {
+        short(x)
+    }
+}
+
+fn shown(phases: &[f64]) -> String {
+    let phases: Vec<String> = phases
+        .iter()
+        .map(|phase| format!("{} s", short(*phase)))
+        .collect();
+    phases.join(", ")
+}

@@ -1,0 +1,80 @@
+//! The Pareto front as a table, CSV or JSON.
+
+use serde_json::{Value, json};
+
+use crate::table::output::{Format, text_table};
+use crate::table::rows::csv_line;
+use jred_machine::number::rounding::rounded;
+use jred_sizing::select::pareto::{Front, Point};
+use jred_sizing::study::cell::Cell;
+
+/// The front in one of the formats.
+pub fn write(front: &Front, format: Format, title: &str) -> String {
+    let row = |point: &Point| -> [String; 3] {
+        let drive = &point.candidate.drive;
+        [
+            drive.motor.key.clone(),
+            drive.gearbox.map_or_else(String::new, |g| g.key.clone()),
+            drive.amplifier.map_or_else(String::new, |a| a.key.clone()),
+        ]
+    };
+    let columns = front.objectives.iter().map(|o| o.column().to_owned());
+    match format {
+        Format::Table => {
+            let names = ["motor", "gearbox", "amplifier"].map(str::to_owned);
+            let mut table = text_table(&names.into_iter().chain(columns).collect::<Vec<_>>());
+            for point in &front.points {
+                let [motor, gearbox, amplifier] = row(point);
+                let gearbox = if gearbox.is_empty() {
+                    "direct".to_owned()
+                } else {
+                    gearbox
+                };
+                let values = point.values.iter().map(|x| rounded(*x));
+                table.add_row([motor, gearbox, amplifier].into_iter().chain(values));
+            }
+            let gaps: Vec<String> = front
+                .gaps()
+                .iter()
+                .map(|gap| format!("mind: {gap}\n"))
+                .collect();
+            let gaps = gaps.concat();
+            if front.compared == 0 && gaps.is_empty() {
+                return format!("{title}\nno drive breaks no rule: there is none to compare\n");
+            }
+            format!(
+                "{title}\n{table}\n{} of {} drives: no other that fits is as good in all of these and better in one\n{gaps}",
+                front.points.len(),
+                front.compared
+            )
+        }
+        Format::Csv => {
+            let names = ["motor", "gearbox", "amplifier"].map(str::to_owned);
+            let mut text = csv_line(names.into_iter().chain(columns).map(Cell::Text));
+            for point in &front.points {
+                let values = point.values.iter().map(|x| Cell::Number(*x));
+                text += &csv_line(row(point).into_iter().map(Cell::Text).chain(values));
+            }
+            text
+        }
+        Format::Json => {
+            let points = front.points.iter().map(|point| {
+                let [motor, gearbox, amplifier] = row(point);
+                let named = |key: String| (!key.is_empty()).then_some(key);
+                json!({
+                    "motor": motor, "gearbox": named(gearbox), "amplifier": named(amplifier), "values": point.values
+                })
+            });
+            let names: Vec<String> = columns.collect();
+            let value = json!({
+                "schema": "jred-pareto/1",
+                "title": title,
+                "columns": names,
+                "compared": front.compared,
+                "unknown": front.unknown,
+                "front": points.collect::<Vec<Value>>(),
+            });
+            format!("{value:#}\n")
+        }
+    }
+}

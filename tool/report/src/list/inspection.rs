@@ -1,0 +1,194 @@
+//! What the check of a mechanism found, for reading and as JSON.
+
+use std::fmt::Write as _;
+
+use jred::Domain;
+use serde_json::{Value, json};
+
+use crate::table::output::text_table;
+use jred_machine::analysis::inspect::{Findings, NEAR_DEAD_POINT, RECOMMENDED};
+use jred_machine::model::coordinate::Coordinate;
+use jred_machine::number::rounding::short;
+
+jred_machine::words! {
+    /// How findings are written.
+    pub enum Format default Table {
+        /// For reading.
+        Table = "table",
+        /// JSON, every digit.
+        Json = "json",
+    }
+}
+
+/// For reading.
+pub fn text(findings: &Findings) -> String {
+    let c = findings.coordinate;
+    let mut text = format!("{}: {}\n\n", findings.title, findings.kind);
+    let _ = writeln!(
+        text,
+        "degrees of freedom: 3·{} links − {} constraints = {}",
+        findings.links,
+        findings.constraints(),
+        findings.freedoms()
+    );
+    let mut table = text_table(&[
+        "joint",
+        "kind",
+        "first body",
+        "second body",
+        "constraints",
+        "",
+    ]);
+    for joint in &findings.joints {
+        let [first, second] = joint.bodies.clone();
+        table.add_row([
+            joint.name.clone(),
+            joint.kind.to_owned(),
+            first,
+            second,
+            joint.constraints.to_string(),
+            if joint.driven { "drive" } else { "" }.to_owned(),
+        ]);
+    }
+    let _ = writeln!(text, "{table}\n");
+    let range = match findings.domain {
+        Domain::Turn => "a full turn".to_owned(),
+        Domain::Stroke { from, to } => format!(
+            "{} = {} to {} {}",
+            c.symbol(),
+            short(c.shown(from)),
+            short(c.shown(to)),
+            c.unit()
+        ),
+    };
+    let _ = writeln!(text, "range of the drive link: {range}");
+    if let Some(gap) = findings.closure {
+        let gap = exponent(gap);
+        let _ = writeln!(
+            text,
+            "closure: the speeds of all links repeat after a turn to {gap}"
+        );
+    }
+    write_motion(findings, &mut text);
+    let [min, mean, max] = findings.inertia.reduced;
+    let _ = writeln!(
+        text,
+        "{}: {} to {} {}, mean {}; flywheel and drive train {} of it",
+        c.inertia(),
+        short(min),
+        short(max),
+        c.inertia_unit(),
+        short(mean),
+        short(findings.inertia.flywheel)
+    );
+    let _ = writeln!(
+        text,
+        "mass of the links: {} kg",
+        short(findings.inertia.mass)
+    );
+    let _ = writeln!(
+        text,
+        "drive {} by d'Alembert against the reduced equation: {} of its largest term{}",
+        if c == Coordinate::Angle {
+            "torque"
+        } else {
+            "force"
+        },
+        exponent(findings.agreement.dalembert),
+        if findings.agreement.of_motion {
+            ""
+        } else {
+            ", at unit speed"
+        }
+    );
+    if let Some(balance) = findings.agreement.energy {
+        let _ = writeln!(
+            text,
+            "energy balance over the motion: {} of the energy that the drive moves",
+            exponent(balance)
+        );
+    }
+    for note in &findings.notes {
+        let _ = writeln!(text, "{note}");
+    }
+    let violations = findings.violations();
+    if violations.is_empty() {
+        text += "\nevery rule holds\n";
+    }
+    for violation in violations {
+        let _ = writeln!(text, "\nviolated: {violation}");
+    }
+    text
+}
+
+/// Travels of the links, transmission, branch.
+fn write_motion(findings: &Findings, text: &mut String) {
+    let c = findings.coordinate;
+    for travel in &findings.travels {
+        let _ = writeln!(text, "{}", travel.sentence(c));
+    }
+    if let Some(transmission) = &findings.transmission {
+        let verdict = if transmission.index < NEAR_DEAD_POINT {
+            "NEAR A DEAD POINT"
+        } else if transmission.index < RECOMMENDED {
+            "poorer than the recommended 40 deg"
+        } else {
+            "ok"
+        };
+        let angle = transmission.angle.map_or_else(String::new, |angle| {
+            format!("a transmission angle of {} deg; ", short(angle))
+        });
+        let _ = writeln!(
+            text,
+            "smallest transmission index: {} {} ({angle}{}): {verdict}",
+            short(transmission.index),
+            transmission.place(c),
+            transmission.links.join(", ")
+        );
+        let branch = if transmission.branch_kept {
+            "kept over the whole range"
+        } else {
+            "CHANGES"
+        };
+        let _ = writeln!(text, "branch: {branch}");
+    }
+    for fact in &findings.facts {
+        let _ = writeln!(text, "{}: {}", fact.label, fact.text);
+    }
+}
+
+/// Everything, with every digit.
+pub fn json(findings: &Findings) -> Value {
+    let range = match findings.domain {
+        Domain::Turn => json!("turn"),
+        Domain::Stroke { from, to } => json!([from, to]),
+    };
+    json!({
+        "schema": "jred-check/1",
+        "title": findings.title,
+        "mechanism": findings.kind,
+        "drive coordinate": match findings.coordinate { Coordinate::Angle => "angle [rad]", Coordinate::Length => "displacement [m]" },
+        "degrees of freedom": findings.freedoms(),
+        "links": findings.links,
+        "constraints": findings.constraints(),
+        "joints": findings.joints,
+        "range": range,
+        "closure": findings.closure,
+        "travels": findings.travels,
+        "transmission": findings.transmission,
+        "inertia": findings.inertia,
+        "agreement": findings.agreement,
+        "facts": findings.facts,
+        "notes": findings.notes,
+        "violations": findings.violations(),
+    })
+}
+
+/// A small share, such as `1.6e-16`.
+fn exponent(x: f64) -> String {
+    if x == 0.0 {
+        "0".to_owned()
+    } else {
+        format!("{x:.1e}")
+    }
+}

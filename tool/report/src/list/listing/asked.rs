@@ -1,0 +1,103 @@
+//! The drive that was asked for by name, and why it stands where it does.
+
+use std::fmt::Write as _;
+
+use miette::Result;
+
+use super::explained;
+use jred_machine::model::rules::Verdict;
+use jred_machine::number::rounding::significant;
+use jred_sizing::judge::vocabulary::Units;
+use jred_sizing::select::size::{Candidate, RANKING, Selection};
+
+/// A drive and its place.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked<'c> {
+    /// The drive.
+    pub candidate: Candidate<'c>,
+    /// Its rank among the drives that fit, from 1; `None`: it is refused.
+    pub rank: Option<usize>,
+}
+
+impl<'c> Asked<'c> {
+    /// The drive of this name: see [`explained`].
+    ///
+    /// # Errors
+    /// No drive of that name.
+    pub fn named(selection: &Selection<'c>, name: &str) -> Result<Option<Self>> {
+        let found = explained(selection, Some(name))?;
+        Ok(found.map(|candidate| Self::of(selection, candidate)))
+    }
+
+    fn of(selection: &Selection<'c>, candidate: Candidate<'c>) -> Self {
+        let own = candidate.drive.name();
+        let rank = if candidate.outcome.fails() {
+            None
+        } else {
+            let fit = selection.first_fit(usize::MAX);
+            fit.iter().position(|c| c.drive.name() == own)
+        };
+        Self {
+            candidate,
+            rank: rank.map(|k| k + 1),
+        }
+    }
+
+    /// Why it stands where it does: the rules that it breaks, or what the drives before it have that it has not.
+    pub fn place(&self, selection: &Selection) -> String {
+        let all = selection.fit.len() + selection.refused.len();
+        let units = Units::of(self.candidate.drive.motor.kind);
+        let Some(rank) = self.rank else {
+            // The figures stand in the table of its rules.
+            let judged = selection.judged(&self.candidate);
+            let broken = judged
+                .checks
+                .iter()
+                .filter(|check| check.verdict == Verdict::Fail);
+            let broken: Vec<String> = broken.map(|c| format!("{} {}", c.rule, c.used())).collect();
+            return format!(
+                "refused; used of the limits that it breaks: {}",
+                broken.join(", ")
+            );
+        };
+        let mut words = format!(
+            "breaks no rule: rank {rank} of {} that fit, of {all} drives; ranked: {}",
+            selection.fit.len(),
+            units.words(selection.ranking)
+        );
+        // Only the default ranking goes by figures that every drive has.
+        if rank > 1 && selection.ranking == RANKING {
+            let before = selection.first_fit(rank - 1);
+            let others = before
+                .first()
+                .into_iter()
+                .chain(before.get(1..).and_then(<[_]>::last));
+            for (other, place) in others.zip([1, rank - 1]) {
+                let _ = write!(words, "\nrank {place}: {}", figures(other));
+            }
+            let _ = write!(words, "\nrank {rank}: {}", figures(&self.candidate));
+        }
+        words
+    }
+}
+
+/// What the default ranking goes by.
+fn figures(candidate: &Candidate) -> String {
+    let outcome = &candidate.outcome;
+    let units = Units::of(candidate.drive.motor.kind);
+    let power = candidate.drive.motor.rated_power();
+    let power = power.map_or_else(
+        || "rated power not known".to_owned(),
+        |power| format!("{} kW", significant(power / 1000.0, 3)),
+    );
+    let warnings = match outcome.warnings {
+        0 => "no warning".to_owned(),
+        1 => "1 warning".to_owned(),
+        n => format!("{n} warnings"),
+    };
+    let most = outcome.worst_rule.map_or_else(String::new, |rule| {
+        let used = significant(outcome.worst_use * 100.0, 3);
+        format!(", most of a limit: {} {used} %", units.rule(rule))
+    });
+    format!("{}, {power}, {warnings}{most}", candidate.drive.name())
+}

@@ -1,0 +1,86 @@
+//! Which drives of a selection are listed.
+
+use miette::{Result, miette};
+
+use jred_sizing::catalogue::Drive;
+use jred_sizing::select::size::{Candidate, Selection};
+
+/// How much of a selection is listed.
+#[derive(Clone, Copy, Debug)]
+pub struct List {
+    /// Number of ranked drives.
+    pub top: usize,
+    /// Number of refused drives, those that miss by least first.
+    pub nearest: usize,
+    /// Every refused drive instead.
+    pub refused: bool,
+    /// Every drive instead.
+    pub all: bool,
+}
+
+impl List {
+    /// The ranked drives to list.
+    pub fn fit<'c>(&self, selection: &Selection<'c>) -> Vec<Candidate<'c>> {
+        let count = if self.all { usize::MAX } else { self.top };
+        selection.first_fit(count)
+    }
+
+    /// The refused drives to list, those that miss by least first.
+    pub fn refused<'c>(&self, selection: &Selection<'c>) -> Vec<Candidate<'c>> {
+        if self.all || self.refused {
+            return selection.first_refused(usize::MAX);
+        }
+        selection.first_refused(self.nearest)
+    }
+}
+
+/// The drive that is to be explained: the one that `name` says; without a name the best, or, if none holds, the one that misses by
+/// least. `None` if there is no drive at all.
+///
+/// A name has the keys of the catalogue, in capitals or not: MOTOR+GEARBOX, MOTOR or MOTOR+direct, or as tables have it, "MOTOR, direct" and
+/// "MOTOR + GEARBOX on AMPLIFIER". Without amplifier it is the first of the drives that differ in nothing else.
+///
+/// # Errors
+/// No drive of that name.
+pub fn explained<'c>(
+    selection: &Selection<'c>,
+    name: Option<&str>,
+) -> Result<Option<Candidate<'c>>> {
+    let Some(name) = name else {
+        let best = selection.fit.first().or(selection.refused.first());
+        return Ok(best.copied());
+    };
+    let asked = plain(name);
+    let is_asked = |drive: &Drive| {
+        let alone = Drive {
+            amplifier: None,
+            ..*drive
+        };
+        let names = [drive, &alone].map(|drive| plain(&drive.name()));
+        names
+            .iter()
+            .any(|name| *name == asked || name.replacen("+direct", "", 1) == asked)
+    };
+    if let Some(found) = selection.find(is_asked) {
+        return Ok(Some(found));
+    }
+    let names = selection.fit.drives().chain(selection.refused.drives());
+    let closest = names
+        .map(|drive| (strsim::jaro_winkler(&plain(&drive.name()), &asked), drive))
+        .max_by(|a, b| a.0.total_cmp(&b.0));
+    let closest = closest.map_or(String::new(), |(_, drive)| {
+        format!("; did you mean \"{}\"?", drive.name())
+    });
+    Err(miette!(
+        help = format!(
+            "write MOTOR+GEARBOX, or MOTOR alone for a direct drive, with the keys that `jred size --all` lists{closest}"
+        ),
+        "the catalogue has no drive \"{name}\""
+    ))
+}
+
+/// A drive's name with one way of joining its parts, in small letters: "m+g on a", "m+direct".
+fn plain(name: &str) -> String {
+    let name = name.to_lowercase().replacen(", direct", "+direct", 1);
+    name.split('+').map(str::trim).collect::<Vec<_>>().join("+")
+}

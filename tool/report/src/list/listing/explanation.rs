@@ -1,0 +1,167 @@
+//! What one drive is made of and what would have to change, for all forms of output.
+
+use std::fmt::Write as _;
+
+use jred::Error;
+use serde::Serialize;
+
+use crate::table::output::text_table;
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::number::rounding::{short, shown};
+use jred_sizing::explain::{Altered, Breakdown, InertiaShare, Remedies, Share};
+use jred_sizing::select::size::{Candidate, Selection};
+
+/// The explanation of one drive, and the refused drives that miss by least.
+#[derive(Clone, Debug, Serialize)]
+pub struct Explanation {
+    /// Torque and inertia of the drive, part by part; `None` if only refused drives were asked for.
+    pub contributions: Option<Breakdown>,
+    /// How far the drive may change, or what would have to change.
+    pub change: Option<Remedies>,
+    /// The same of the nearest refused drives.
+    #[serde(rename = "nearest refused")]
+    pub nearest: Vec<Remedies>,
+}
+
+impl Explanation {
+    /// Explains a drive and the `nearest` refused ones.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub fn new(
+        file: &MachineFile,
+        duty: &Duty,
+        selection: &Selection,
+        candidate: &Candidate,
+        nearest: usize,
+    ) -> Result<Self, Error> {
+        let altered = Altered::new(file, duty)?;
+        let change = Remedies::new(
+            &altered,
+            selection.site,
+            selection.rules,
+            candidate.drive,
+            candidate.motor,
+        );
+        let nearest = Remedies::of_nearest(selection, &altered, nearest)?;
+        Ok(Self {
+            contributions: Some(Breakdown::new(file, duty, &candidate.drive)?),
+            nearest: nearest
+                .into_iter()
+                .filter(|refused| refused.drive != change.drive)
+                .collect(),
+            change: Some(change),
+        })
+    }
+
+    /// What would have to change for one of the `nearest` refused drives.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub fn of_refused(
+        file: &MachineFile,
+        duty: &Duty,
+        selection: &Selection,
+        nearest: usize,
+    ) -> Result<Self, Error> {
+        let altered = Altered::new(file, duty)?;
+        Ok(Self {
+            contributions: None,
+            change: None,
+            nearest: Remedies::of_nearest(selection, &altered, nearest)?,
+        })
+    }
+
+    /// For reading; `duration` is the cycle time (s).
+    pub fn text(&self, duration: f64) -> String {
+        let mut text = String::new();
+        if let Some(contributions) = &self.contributions {
+            text += &contributions_text(contributions);
+        }
+        if let Some(change) = &self.change {
+            let heading = if change.holds {
+                "How far it may change, one thing at a time, before a rule is broken"
+            } else {
+                "What would have to change, one thing at a time"
+            };
+            let _ = write!(text, "\n{heading}\n{}", remedies_text(change, duration));
+        }
+        if !self.nearest.is_empty() {
+            text += "\nRefused by least, and what would have to change, one thing at a time\n";
+            for refused in &self.nearest {
+                text += &remedies_text(refused, duration);
+            }
+        }
+        text
+    }
+}
+
+fn contributions_text(breakdown: &Breakdown) -> String {
+    let shares = |heading: &str, shares: &[Share]| {
+        let mut table = text_table(&[
+            heading,
+            "RMS",
+            "peak",
+            "at the peak",
+            "share of mean square",
+            "energy [J]",
+        ]);
+        for share in shares.iter().chain([&breakdown.total]) {
+            table.add_row([
+                breakdown.units.words(&share.name),
+                short(share.torque.rms),
+                short(share.torque.peak()),
+                shown(share.at_peak, breakdown.total.at_peak),
+                format!("{:.1} %", share.mean_square * 100.0),
+                shown(share.energy, breakdown.turned_over()),
+            ]);
+        }
+        table.to_string()
+    };
+    let units = breakdown.units;
+    let (unit, scale) = units.shown_inertia();
+    let heading = format!("{} at the motor [{unit}]", units.inertia_word);
+    let mut inertias = text_table(&[heading.as_str(), "min", "mean", "max", "share"]);
+    let row = |share: &InertiaShare| {
+        let figures = share.inertia;
+        let [min, mean, max] = [figures.min, figures.mean, figures.max];
+        let [min, mean, max] = [min, mean, max].map(|x| shown(x / scale, figures.max / scale));
+        let part = format!("{:.1} %", share.of_mean * 100.0);
+        [units.words(&share.name), min, mean, max, part]
+    };
+    for share in breakdown.inertia.iter().chain([&breakdown.total_inertia]) {
+        inertias.add_row(row(share));
+    }
+    format!(
+        "\nWhat the motor {} of {} is made of [{}]; the peak is at {} s\n{}\n\n{}\n\n{inertias}\n",
+        units.torque_word,
+        breakdown.drive,
+        units.torque,
+        short(breakdown.peak_time),
+        shares("effect", &breakdown.effects),
+        shares("part", &breakdown.parts)
+    )
+}
+
+/// A drive, what it breaks, and every way out.
+fn remedies_text(remedies: &Remedies, duration: f64) -> String {
+    let mut text = format!("  {}", remedies.drive);
+    let misses: Vec<String> = remedies
+        .misses
+        .iter()
+        .map(|miss| remedies.units.words(&miss.sentence()))
+        .collect();
+    if !misses.is_empty() {
+        let _ = write!(text, ": {}", misses.join("; "));
+    }
+    text += "\n";
+    for remedy in &remedies.remedies {
+        let _ = writeln!(
+            text,
+            "    {}",
+            remedies.units.words(&remedy.sentence(duration))
+        );
+    }
+    text
+}

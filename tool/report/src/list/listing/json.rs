@@ -1,0 +1,83 @@
+//! A selection as JSON; the form is described in `docs/size-json.md` and `docs/size.schema.json`.
+
+use serde_json::{Map, Value, json as object};
+
+use super::{Asked, Explanation, List};
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::rule::Rule;
+use jred_sizing::select::size::{Candidate, Selection};
+
+/// Name and version of the form. The number is raised whenever a key is removed or changes its meaning.
+pub const SCHEMA: &str = "jred-size/2";
+
+/// The listed drives and the one asked for with every digit, and how many there are in all.
+pub fn json(
+    list: List,
+    file: &MachineFile,
+    duty: &Duty,
+    selection: &Selection,
+    asked: Option<&Asked>,
+    explanation: Option<&Explanation>,
+) -> Value {
+    let drives = |candidates: &[Candidate]| -> Vec<Value> {
+        candidates.iter().map(|c| drive(selection, c)).collect()
+    };
+    let limits: Map<String, Value> = Rule::ALL
+        .into_iter()
+        .filter(|rule| selection.rules.shows(*rule))
+        .map(|rule| {
+            let limit = selection.rules.limit(rule);
+            let source = selection.rules.source(rule);
+            let limit = object!({ "fail": limit.fail, "warn": limit.warn, "source": source });
+            (rule.key().to_owned(), limit)
+        })
+        .collect();
+    let mut value = object!({
+        "schema": SCHEMA,
+        "version": env!("CARGO_PKG_VERSION"),
+        "title": file.title,
+        "cycle [s]": duty.duration,
+        "drive link torque [N m]": duty.figures(|i| i.terms.total()),
+        "drive link speed [rad/s]": duty.figures(|i| i.omega),
+        "input torque [N m]": duty.figures(|i| i.input_torque),
+        "input speed [rad/s]": duty.figures(|i| i.input_speed),
+        "input inertia [kg m^2]": duty.figures(|i| i.input_inertia),
+        "holding torque [N m]": duty.hold_torque,
+        "rules": { "set": selection.rules.name, "title": selection.rules.title, "limits": limits },
+        "ranking": selection.ranking,
+        "counts": {
+            "drives": selection.fit.len() + selection.refused.len(),
+            "fit": selection.fit.len(),
+            "fit, not all rules checked": selection.partly_checked(),
+            "refused": selection.refused.len(),
+        },
+        "fit": drives(&list.fit(selection)),
+        "refused": drives(&list.refused(selection)),
+    });
+    if let (Some(asked), Some(map)) = (asked, value.as_object_mut()) {
+        let mut found = drive(selection, &asked.candidate);
+        found["rank"] = asked.rank.into();
+        map.insert("asked".to_owned(), found);
+    }
+    if let (Some(explanation), Some(map)) = (explanation, value.as_object_mut()) {
+        map.insert("explanation".to_owned(), object!(explanation));
+    }
+    value
+}
+
+fn drive(selection: &Selection, candidate: &Candidate) -> Value {
+    let judged = selection.judged(candidate);
+    let drive = &judged.drive;
+    object!({
+        "motor": drive.motor.key,
+        "gearbox": drive.gearbox.map(|g| &g.key),
+        "amplifier": drive.amplifier.map(|a| &a.key),
+        "ratio": drive.ratio(),
+        "rated power [W]": judged.rated_power(),
+        "verdict": judged.verdict(),
+        "duty": judged.duty,
+        "checks": judged.checks,
+        "assumptions": judged.assumptions,
+    })
+}

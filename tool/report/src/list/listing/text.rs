@@ -1,0 +1,245 @@
+//! A selection for reading.
+
+use comfy_table::{ColumnConstraint, ContentArrangement, Width};
+
+use super::{Asked, Explanation, List};
+use crate::table::output::text_table;
+use jred_machine::analysis::duty::{Duty, Instant};
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::Verdict;
+use jred_machine::number::figures::Figures;
+use jred_machine::number::rounding::{rounded, short, significant};
+use jred_sizing::catalogue::MotorKind;
+use jred_sizing::judge::Judged;
+use jred_sizing::judge::check::Check;
+use jred_sizing::judge::vocabulary::Units;
+use jred_sizing::select::size::Selection;
+
+/// Widest line of what a limit is.
+const NOTE_WIDTH: u16 = 72;
+
+/// Duty, best drive with every rule, ranking, and the refused ones if asked for; a drive that was asked for by name instead of the
+/// best, with why it stands where it does.
+pub fn text(
+    list: List,
+    file: &MachineFile,
+    duty: &Duty,
+    selection: &Selection,
+    asked: Option<&Asked>,
+    explanation: Option<&Explanation>,
+) -> String {
+    let input_power = |i: &Instant| i.input_torque * i.input_speed;
+    let first = selection.fit.first().or(selection.refused.first());
+    let shown = asked.map(|asked| &asked.candidate).or(first);
+    let units = Units::of(shown.map_or(MotorKind::Rotary, |c| c.drive.motor.kind));
+    let input = figures_table(&[
+        (units.torque_label(), duty.figures(|i| i.input_torque), 1.0),
+        (
+            units.speed_label(),
+            duty.figures(|i| i.input_speed),
+            units.speed_scale,
+        ),
+        ("power [W]".to_owned(), duty.figures(input_power), 1.0),
+        (
+            units.inertia_label(),
+            duty.figures(|i| i.input_inertia),
+            units.inertia_scale,
+        ),
+    ]);
+    let mut parts = vec![format!(
+        "{}\n\nDuty at the input of the drive train, cycle {} s\n{input}\n",
+        file.title,
+        rounded(duty.duration)
+    )];
+    let all = selection.fit.len() + selection.refused.len();
+    if let Some(asked) = asked {
+        parts.push(asked_text(asked, selection));
+    } else if let Some(best) = selection.fit.first() {
+        let best = &selection.judged(best);
+        parts.push(format!(
+            "Best drive: {}\n{}",
+            best.drive.name(),
+            drive_text(best)
+        ));
+        let open = match selection.partly_checked() {
+            0 => String::new(),
+            open => {
+                format!("; {open} of them have rules that could not be checked for want of figures")
+            }
+        };
+        parts.push(format!(
+            "\n{} of {all} drives break no rule{open}",
+            selection.fit.len()
+        ));
+        parts.push(ranking(list, selection, units));
+    } else if let Some(nearest) = selection.refused.first() {
+        let nearest = &selection.judged(nearest);
+        parts.push(format!(
+            "No drive of {all} holds every rule. The one that misses by least: {}\n{}",
+            nearest.drive.name(),
+            drive_text(nearest)
+        ));
+    }
+    if let Some(explanation) = explanation {
+        parts.push(explanation.text(duty.duration));
+    }
+    if list.refused || list.all {
+        parts.push("\nRefused".to_owned());
+        for candidate in &list.refused(selection) {
+            let reasons = selection.judged(candidate).reasons();
+            parts.push(format!("  {}: {reasons}", candidate.drive.name()));
+        }
+    } else if !selection.refused.is_empty() {
+        let explain = if explanation.is_some() {
+            ""
+        } else {
+            "; --explain says what would have to change"
+        };
+        parts.push(format!(
+            "{} refused; --refused lists them with their reasons{explain}",
+            selection.refused.len()
+        ));
+    }
+    parts.join("\n") + "\n"
+}
+
+/// The drive that was asked for, every rule, and the best one's name.
+fn asked_text(asked: &Asked, selection: &Selection) -> String {
+    let judged = &selection.judged(&asked.candidate);
+    let (name, place) = (judged.drive.name(), asked.place(selection));
+    let best = match selection.fit.first() {
+        Some(best) if asked.rank != Some(1) => format!("\nThe best drive is {}", best.drive.name()),
+        Some(_) => String::new(),
+        None => "\nNo drive holds every rule".to_owned(),
+    };
+    format!(
+        "Drive asked for: {name}\n{place}\n\n{}\n{best}",
+        drive_text(judged)
+    )
+}
+
+fn ranking(list: List, selection: &Selection, units: Units) -> String {
+    let mut table = text_table(&[
+        "rank",
+        "motor",
+        "gearbox",
+        "rated [kW]",
+        "RMS used",
+        "peak used",
+        "speed used",
+        "λ max",
+    ]);
+    for (k, candidate) in list.fit(selection).iter().enumerate() {
+        table.add_row(rank_row(k + 1, &selection.judged(candidate)));
+    }
+    format!("{table}\nranked: {}", units.words(selection.ranking))
+}
+
+/// Rows of min, mean, max and RMS, each in its unit.
+fn figures_table(rows: &[(String, Figures, f64)]) -> String {
+    let mut table = text_table(&["", "min", "mean", "max", "RMS"]);
+    for (name, figures, unit) in rows {
+        // What is nothing but rounding beside the largest reads as zero.
+        let noise = 1e-12 * figures.peak();
+        let cells = figures
+            .values()
+            .map(|x| rounded(if x.abs() <= noise { 0.0 } else { x / unit }));
+        table.add_row(std::iter::once(name.clone()).chain(cells));
+    }
+    table.to_string()
+}
+
+/// A drive's duty and how every rule came out.
+fn drive_text(judged: &Judged) -> String {
+    let duty = &judged.duty;
+    let units = Units::of(judged.drive.motor.kind);
+    let figures = figures_table(&[
+        (format!("motor {}", units.torque_label()), duty.torque, 1.0),
+        (
+            format!("motor {}", units.speed_label()),
+            duty.speed,
+            units.speed_scale,
+        ),
+        ("motor power [W]".to_owned(), duty.power, 1.0),
+        (
+            format!("{} ratio λ", units.inertia_word),
+            duty.inertia_ratio,
+            1.0,
+        ),
+    ]);
+    format!(
+        "{figures}\nper cycle {} J put in, {} J regenerated\n\n{}",
+        rounded(duty.motoring_energy),
+        rounded(duty.regenerative_energy),
+        rules_table(judged)
+    )
+}
+
+/// The rules that were checked as a table, the others in a line.
+fn rules_table(judged: &Judged) -> String {
+    let mut table = text_table(&[
+        "rule", "figure", "limit", "used", "margin", "verdict", "limit is",
+    ]);
+    let open = |check: &&Check| check.verdict == Verdict::NotChecked;
+    for check in judged.checks.iter().filter(|check| !open(check)) {
+        table.add_row([
+            check.rule.to_owned(),
+            check.figure(),
+            check
+                .limit
+                .map_or(String::new(), |limit| check.with_unit(limit)),
+            check.used(),
+            margin(check),
+            check.verdict.word().to_owned(),
+            check.note.clone(),
+        ]);
+    }
+    let missing: Vec<String> = judged
+        .checks
+        .iter()
+        .filter(open)
+        .map(|check| format!("{} ({})", check.rule, check.note))
+        .collect();
+    // The last column alone is broken into lines.
+    table
+        .set_content_arrangement(ContentArrangement::Dynamic)
+        .set_width(1000);
+    if let Some(column) = table.column_mut(6) {
+        column.set_constraint(ColumnConstraint::UpperBoundary(Width::Fixed(NOTE_WIDTH)));
+    }
+    let mut text = table.to_string();
+    if !missing.is_empty() {
+        text += "\nnot checked: ";
+        text += &missing.join("; ");
+    }
+    for assumed in &judged.assumptions {
+        text += "\nmind: ";
+        text += &Units::of(judged.drive.motor.kind).words(assumed);
+    }
+    text
+}
+
+/// What is left of the limit, in percent.
+pub(crate) fn margin(check: &Check) -> String {
+    match check.margin() {
+        Some(margin) if margin > -9.995 => format!("{:+.0} %", margin * 100.0),
+        Some(_) => "< -999 %".to_owned(),
+        None => String::new(),
+    }
+}
+
+fn rank_row(rank: usize, judged: &Judged) -> [String; 8] {
+    let drive = &judged.drive;
+    let power = judged.rated_power();
+    [
+        rank.to_string(),
+        drive.motor.key.clone(),
+        drive.gearbox.map_or("direct".to_owned(), |g| g.key.clone()),
+        power.map_or("–".to_owned(), |power| significant(power / 1000.0, 3)),
+        judged.used(Rule::RmsTorque),
+        judged.used(Rule::PeakTorque),
+        judged.used(Rule::Speed),
+        short(judged.duty.inertia_ratio.max),
+    ]
+}

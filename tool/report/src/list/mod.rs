@@ -1,0 +1,9 @@
+//! The answers of the commands, for reading, as CSV and as JSON.
+
+pub mod alternatives;
+pub mod bus_json;
+pub mod bus_text;
+pub mod front;
+pub mod inspection;
+pub mod listing;
+pub mod rule_list;

@@ -1,0 +1,367 @@
+//! The report: one self-contained HTML page about a sizing.
+//!
+//! Every chart is on the page twice: as a picture, for paper and for browsers without scripts, and as data that the page's
+//! script draws with uPlot (`templates/vendor/uplot`, MIT licence), to be zoomed and read out.
+
+use askama::Template;
+use jred::Error;
+
+use crate::list::listing::Explanation;
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::coordinate::Coordinate;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::number::columns::Columns;
+use jred_machine::number::rounding::{rounded, short};
+use jred_sizing::catalogue::MotorKind;
+use jred_sizing::explain::{Breakdown, Cells, Lever, Remedies};
+use jred_sizing::judge::Context;
+use jred_sizing::judge::vocabulary::Units;
+use jred_sizing::select::size::{Candidate, Selection};
+
+mod chart;
+mod drive;
+mod extract;
+mod figures;
+mod mechanism;
+mod notes;
+mod rows;
+
+use chart::Chart;
+use drive::{Subject, TOP};
+use rows::{ChangeRow, CheckRow, FitRow, InertiaRow, ShareRow};
+
+pub use mechanism::mechanism_page;
+
+/// Most ranked drives that the page lists.
+const LISTED: usize = 25;
+
+/// Most refused drives that the page lists.
+const REFUSED: usize = 50;
+
+/// Refused drives of which the page says what would have to change.
+const CHANGED: usize = 3;
+
+struct Figure {
+    chart: Chart,
+    caption: String,
+}
+
+impl Figure {
+    fn new(chart: Chart, units: Units, caption: &str) -> Self {
+        let caption = units.words(caption);
+        Self { chart, caption }
+    }
+}
+
+#[derive(Template)]
+#[template(path = "report.html")]
+struct Page {
+    title: String,
+    version: &'static str,
+    file: String,
+    found: bool,
+    answer: String,
+    cards: Vec<(String, String)>,
+    drive: String,
+    checks: Vec<CheckRow>,
+    open: Vec<(&'static str, String)>,
+    plane: Vec<Figure>,
+    over_time: Vec<Figure>,
+    drawing: String,
+    machine: Vec<Figure>,
+    torque_word: &'static str,
+    torque_unit: &'static str,
+    effects: Vec<ShareRow>,
+    parts: Vec<ShareRow>,
+    inertia_word: &'static str,
+    inertia_unit: &'static str,
+    inertias: Vec<InertiaRow>,
+    peak_time: String,
+    effects_chart: Vec<Figure>,
+    ratio: Vec<Figure>,
+    change: ChangeRow,
+    nearest: Vec<ChangeRow>,
+    duty: Vec<(String, Vec<String>)>,
+    energy: String,
+    fit_count: usize,
+    all_count: usize,
+    partly: usize,
+    fit: Vec<FitRow>,
+    fit_more: usize,
+    ranking: String,
+    refused_count: usize,
+    refused: Vec<(String, String)>,
+    rule_set: String,
+    rules: Vec<[String; 4]>,
+    notes: Vec<String>,
+}
+
+/// The page for a selection. It is about the best drive, or, if none holds, the one that misses by least.
+///
+/// # Errors
+/// Those of the machine; `None` if the catalogue was empty.
+pub fn page(
+    name: &str,
+    file: &MachineFile,
+    duty: &Duty,
+    selection: &Selection,
+) -> Result<Option<String>, Error> {
+    let Some(candidate) = selection.fit.first().or(selection.refused.first()) else {
+        return Ok(None);
+    };
+    let page = Page::of(name, file, duty, selection, candidate)?;
+    // Rendering into a string fails only if a template is wrong, which the tests would show.
+    Ok(Some(page.render().unwrap_or_default()))
+}
+
+impl Page {
+    fn of(
+        name: &str,
+        file: &MachineFile,
+        duty: &Duty,
+        selection: &Selection,
+        candidate: &Candidate,
+    ) -> Result<Self, Error> {
+        let found = !selection.fit.is_empty();
+        let best = &selection.judged(candidate);
+        let units = Units::of(best.drive.motor.kind);
+        let explanation = Explanation::new(file, duty, selection, candidate, CHANGED)?;
+        let cells = Cells::new(file, duty, &best.drive)?;
+        let breakdown = Breakdown::of(duty, &best.drive, &cells);
+        let subject = Subject {
+            context: Context::new(
+                selection.cycle,
+                selection.site,
+                candidate.drive,
+                candidate.motor,
+            ),
+            judged: best,
+            duty,
+            rules: selection.rules,
+        };
+        let mean_speed = duty.integral(|i| i.omega.abs()) / duty.duration;
+        let (checked, open) = split_checks(best);
+        let all_count = selection.fit.len() + selection.refused.len();
+        Ok(Self {
+            title: file.title.clone(),
+            version: env!("CARGO_PKG_VERSION"),
+            file: name.to_owned(),
+            found,
+            answer: notes::answer(best, found),
+            cards: cards(best, duty, units),
+            drive: best.drive.name(),
+            checks: checked,
+            open,
+            plane: vec![Figure::new(
+                subject.plane(),
+                units,
+                "Torque and speed of the motor over the cycle in all four quadrants; where their signs differ, it brakes. Dashed: what the rules allow.",
+            )],
+            over_time: over_time(&subject, units),
+            drawing: crate::drawing::still(file.machine.mechanism())?,
+            machine: machine(&subject, file, mean_speed)?,
+            torque_word: units.torque_word,
+            torque_unit: units.torque,
+            effects: rows::share_rows(&breakdown.effects, &breakdown),
+            parts: rows::share_rows(&breakdown.parts, &breakdown),
+            inertia_word: units.inertia_word,
+            inertia_unit: units.shown_inertia().0,
+            inertias: rows::inertia_rows(&breakdown),
+            peak_time: short(breakdown.peak_time),
+            effects_chart: vec![Figure::new(
+                subject.effects(&cells),
+                units,
+                "Motor torque over the cycle, effect by effect; at every instant they add up to the motor torque.",
+            )],
+            ratio: ratio(&subject, explanation.change.as_ref()),
+            change: explanation
+                .change
+                .as_ref()
+                .map_or_else(ChangeRow::default, |c| ChangeRow::of(c, duty.duration)),
+            nearest: explanation
+                .nearest
+                .iter()
+                .map(|refused| ChangeRow::of(refused, duty.duration))
+                .collect(),
+            duty: rows::duty_rows(best, duty, units),
+            energy: format!(
+                "Over a cycle the motor puts in {} J and takes back {} J; what the brake resistor or the DC bus has to \
+                 take is at most the latter.",
+                rounded(best.duty.motoring_energy),
+                rounded(best.duty.regenerative_energy)
+            ),
+            fit_count: selection.fit.len(),
+            all_count,
+            partly: selection.partly_checked(),
+            fit: ranked(selection),
+            fit_more: selection.fit.len().saturating_sub(LISTED),
+            ranking: units.words(selection.ranking),
+            refused_count: selection.refused.len(),
+            refused: (selection.first_refused(REFUSED))
+                .iter()
+                .map(|c| (c.drive.name(), selection.judged(c).reasons()))
+                .collect(),
+            rule_set: format!("{}: {}", selection.rules.name, selection.rules.title),
+            rules: rows::rule_rows(selection.rules, units),
+            notes: notes::notes(best, duty),
+        })
+    }
+}
+
+fn ranked(selection: &Selection) -> Vec<FitRow> {
+    let listed = selection.first_fit(LISTED).into_iter().enumerate();
+    listed
+        .map(|(k, candidate)| FitRow::of(k + 1, &selection.judged(&candidate)))
+        .collect()
+}
+
+/// The rules that were checked, and those that were not with what is missing.
+fn split_checks(best: &jred_sizing::judge::Judged) -> (Vec<CheckRow>, Vec<(&'static str, String)>) {
+    let (open, checked): (Vec<_>, Vec<_>) = best
+        .checks
+        .iter()
+        .partition(|check| check.verdict == jred_machine::model::rules::Verdict::NotChecked);
+    let checked = checked.into_iter().map(CheckRow::of).collect();
+    let open = open
+        .into_iter()
+        .map(|check| (check.rule, check.note.clone()));
+    (checked, open.collect())
+}
+
+fn cards(best: &jred_sizing::judge::Judged, duty: &Duty, units: Units) -> Vec<(String, String)> {
+    let motor = &best.duty;
+    let (word, unit) = (units.torque_word, units.torque);
+    let card = |name: String, value: String| (name, value);
+    vec![
+        card("cycle".to_owned(), format!("{} s", rounded(duty.duration))),
+        card(
+            format!("RMS {word}"),
+            format!("{} {unit}", short(motor.torque.rms)),
+        ),
+        card(
+            format!("peak {word}"),
+            format!("{} {unit}", short(motor.torque.peak())),
+        ),
+        card(
+            "largest speed".to_owned(),
+            format!(
+                "{} {}",
+                short(motor.speed.peak() / units.speed_scale),
+                units.speed
+            ),
+        ),
+        card(
+            format!("{} ratio λ", units.inertia_word),
+            format!(
+                "{} to {}",
+                short(motor.inertia_ratio.min),
+                short(motor.inertia_ratio.max)
+            ),
+        ),
+        card(
+            "regenerative energy".to_owned(),
+            format!("{} J per cycle", short(motor.regenerative_energy)),
+        ),
+    ]
+}
+
+fn over_time(subject: &Subject, units: Units) -> Vec<Figure> {
+    let mut figures = vec![
+        Figure::new(
+            subject.torque(),
+            units,
+            "Motor torque, and what the rotor itself takes of it.",
+        ),
+        Figure::new(subject.speed(), units, "Motor speed."),
+        Figure::new(
+            subject.power(),
+            units,
+            "Mechanical power at the motor shaft; below zero it flows back.",
+        ),
+    ];
+    figures.extend(subject.rises().map(|chart| {
+        Figure::new(
+            chart,
+            units,
+            "Temperature rise once the cycle repeats without end.",
+        )
+    }));
+    figures.extend(subject.bus_voltage().map(|chart| {
+        Figure::new(
+            chart,
+            units,
+            "Voltage of the DC bus once the cycle repeats without end.",
+        )
+    }));
+    figures
+}
+
+fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec<Figure>, Error> {
+    let units = subject.units();
+    let (what, term) = match Coordinate::of(file.machine.mechanism())? {
+        Coordinate::Angle => (
+            "Reduced inertia",
+            "J_red varies, a drive that knows only a mean value is wrong by ½·J′·ω²",
+        ),
+        Coordinate::Length => (
+            "Reduced mass",
+            "m_red varies, a drive that knows only a mean value is wrong by ½·m′·v²",
+        ),
+    };
+    let reduced = format!(
+        "{what} with flywheel and drive train, and its derivative. Where {term} at every speed."
+    );
+    Ok(vec![
+        Figure::new(figures::reduced_inertia(file)?, units, &reduced),
+        Figure::new(
+            figures::reduced_torque(file, mean_speed)?,
+            units,
+            "Parts of the reduced torque that do not depend on the motion: weight, process loads, and the sizes of the viscous and motion-opposing loads at the mean speed.",
+        ),
+        Figure::new(
+            subject.inertia_ratio(file)?,
+            units,
+            "Inertia ratio λ of this drive over the range of the drive link, with the value that is judged.",
+        ),
+    ])
+}
+
+/// Every rule over the gear ratio, wide enough for the range in which all hold.
+fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
+    let units = subject.units();
+    if subject.judged.drive.motor.kind == MotorKind::Linear {
+        return Vec::new();
+    }
+    let now = subject.context.ratio;
+    let remedies = change.map_or(&[][..], |c| &c.remedies);
+    let found = remedies
+        .iter()
+        .find(|r| matches!(r.lever, Lever::GearRatio | Lever::IdealGearbox));
+    let (mut from, mut to) = (now / 3.0, now * 3.0);
+    if let Some([low, high]) = found.and_then(|r| r.range) {
+        (from, to) = (from.min(low.value / 1.3), to.max(high.value * 1.3));
+    }
+    vec![Figure::new(
+        subject.ratios(from, to),
+        units,
+        &format!(
+            "What each rule uses of its limit over the gear ratio, the other data of motor and gearbox kept. Where all are below 100 %, the drive holds. A curve ends where it passes {TOP} %, or where the motor has no torque left: the limit is zero beyond its largest speed. Rules that follow time are not drawn."
+        ),
+    )]
+}
+
+#[derive(Template)]
+#[template(path = "simulation.html")]
+struct SimulationPage<'a> {
+    title: &'a str,
+    figures: Vec<(&'static str, String)>,
+}
+
+/// The page with the plots of a simulation.
+pub fn simulation_page(title: &str, run: &Columns) -> String {
+    let page = SimulationPage {
+        title,
+        figures: figures::simulation(run),
+    };
+    page.render().unwrap_or_default()
+}

@@ -1,0 +1,319 @@
+//! Charts of the drive: the torque-speed plane, the course over time, λ over the range, and every rule over the ratio.
+
+use jred::{Error, Reducible as _};
+
+use super::chart::{Chart, Form};
+use super::figures::{dashed, line};
+use crate::plot::{Axes, Series, Style};
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::coordinate::{Coordinate, whole_range};
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::RuleSet;
+use jred_sizing::explain::{Cells, ratio_course};
+use jred_sizing::judge::Context;
+use jred_sizing::judge::Judged;
+use jred_sizing::judge::vocabulary::Units;
+use jred_sizing::motor::envelope::Envelope;
+
+/// Use of a limit beyond which the curves over the gear ratio are not drawn (%).
+pub(super) const TOP: f64 = 200.0;
+
+/// Intervals of a curve.
+const INTERVALS: u32 = 200;
+
+/// The drive that a report is about, its duty and its limits.
+pub(super) struct Subject<'a> {
+    pub(super) context: Context<'a>,
+    pub(super) judged: &'a Judged<'a>,
+    pub(super) duty: &'a Duty,
+    pub(super) rules: &'a RuleSet,
+}
+
+impl Subject<'_> {
+    pub(super) fn units(&self) -> Units {
+        Units::of(self.judged.drive.motor.kind)
+    }
+
+    fn torque_axis(&self, what: &str) -> String {
+        let units = self.units();
+        format!("{what} {} [{}]", units.torque_word, dotted(units.torque))
+    }
+
+    /// (time, value) at every instant.
+    fn over_time(&self, value: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
+        let instants = self.duty.instants.iter();
+        instants
+            .map(|i| {
+                let point = self.judged.drive.motor_point(i);
+                (i.t, value(point.torque, point.speed))
+            })
+            .collect()
+    }
+
+    fn level(&self, value: f64) -> Vec<(f64, f64)> {
+        vec![(0.0, value), (self.duty.duration, value)]
+    }
+
+    /// The torque-speed plane in all four quadrants: peak and S1 torque, what the rules allow of them, the duty, its RMS point,
+    /// and the point that comes closest to the peak torque.
+    pub(super) fn plane(&self) -> Chart {
+        let units = self.units();
+        let envelope = &self.context.motor.envelope;
+        let scale = units.speed_scale;
+        let points = self.duty.instants.iter().map(|i| {
+            let point = self.judged.drive.motor_point(i);
+            (point.speed / scale, point.torque)
+        });
+        let duty = &self.judged.duty;
+        let top = match envelope.max_speed() {
+            top if top.is_finite() => top,
+            _ => 1.2 * duty.speed.peak(),
+        };
+        let share = |rule: Rule| self.rules.limit(rule).fail.unwrap_or(f64::NAN);
+        let peak = |part: f64| {
+            outline(top, scale, |torque, n| {
+                part * envelope.peak_torque(torque, n)
+            })
+        };
+        let steady = |part: f64| outline(top, scale, |_, n| part * envelope.continuous_torque(n));
+        let (n, rms) = (duty.mean_speed / scale, duty.torque.rms);
+        let cross = |x: f64, y: f64| {
+            let (dx, dy) = (0.015 * top / scale, 0.025 * self.height(envelope));
+            let gap = (f64::NAN, f64::NAN);
+            vec![(x - dx, y), (x + dx, y), gap, (x, y - dy), (x, y + dy)]
+        };
+        let closest =
+            self.context
+                .cycle
+                .peak(&self.context.coefficients, self.context.ratio, envelope);
+        let axes = Axes {
+            title: "",
+            x: &format!("motor speed [{}]", units.speed),
+            y: &self.torque_axis("motor"),
+        };
+        let name = |text: &str| units.words(text);
+        let names = [
+            name("peak torque"),
+            name("S1 torque"),
+            name("allowed peak torque"),
+            name("allowed RMS torque"),
+            "RMS at mean speed".to_owned(),
+            "closest to the peak".to_owned(),
+        ];
+        let chart = Chart::new(
+            Form::Plane,
+            &axes,
+            &[
+                line(&names[0], peak(1.0)),
+                line(&names[1], steady(1.0)),
+                dashed(&names[2], peak(share(Rule::PeakTorque))),
+                dashed(&names[3], steady(share(Rule::RmsTorque))),
+                Series {
+                    name: "duty",
+                    points: points.collect(),
+                    style: Style::Dots,
+                },
+                line(&names[4], cross(n, rms)),
+                line(&names[5], cross(closest.speed / scale, closest.torque)),
+            ],
+        );
+        chart.with_times("duty", self.duty.instants.iter().map(|i| i.t))
+    }
+
+    /// Size of the plane's vertical axis.
+    fn height(&self, envelope: &Envelope) -> f64 {
+        let peak = envelope.peak_torque(1.0, 0.0);
+        if peak.is_finite() {
+            peak
+        } else {
+            self.judged.duty.torque.peak()
+        }
+    }
+
+    /// Motor torque, the rotor's part of it, and the RMS.
+    pub(super) fn torque(&self) -> Chart {
+        let motor = self.judged.drive.motor;
+        let ratio = self.context.ratio;
+        let rotor = self.duty.instants.iter();
+        let rotor = rotor.map(|i| (i.t, motor.rotor_inertia * i.input_alpha * ratio));
+        let units = self.units();
+        let own = format!("of which the {} itself", units.rotor_word);
+        let axis = self.torque_axis("motor");
+        let series = [
+            line(units.torque_word, self.over_time(|torque, _| torque)),
+            line(&own, rotor.collect()),
+            dashed("RMS", self.level(self.judged.duty.torque.rms)),
+        ];
+        Chart::new(Form::Time, &time_axes(&axis), &series)
+    }
+
+    /// Motor torque, effect by effect.
+    pub(super) fn effects(&self, cells: &Cells) -> Chart {
+        let mut sums: Vec<(&str, Vec<f64>)> = Vec::new();
+        for cell in &cells.cells {
+            match sums.iter_mut().find(|(name, _)| *name == cell.effect) {
+                Some((_, sum)) => {
+                    for (sum, torque) in sum.iter_mut().zip(&cell.torque) {
+                        *sum += torque;
+                    }
+                }
+                None => sums.push((cell.effect, cell.torque.clone())),
+            }
+        }
+        let times = || self.duty.instants.iter().map(|i| i.t);
+        let series: Vec<Series> = sums
+            .into_iter()
+            .filter(|(_, values)| values.iter().any(|value| *value != 0.0))
+            .map(|(name, values)| line(name, times().zip(values).collect()))
+            .collect();
+        Chart::new(Form::Time, &time_axes(&self.torque_axis("motor")), &series)
+    }
+
+    /// Motor speed.
+    pub(super) fn speed(&self) -> Chart {
+        let units = self.units();
+        let scale = units.speed_scale;
+        let axis = format!("motor speed [{}]", units.speed);
+        let speed = self.over_time(|_, speed| speed / scale);
+        Chart::new(Form::Time, &time_axes(&axis), &[line("speed", speed)])
+    }
+
+    /// Mechanical power at the motor shaft.
+    pub(super) fn power(&self) -> Chart {
+        let mean = self.judged.duty.power.mean;
+        let series = [
+            line("power", self.over_time(|torque, speed| torque * speed)),
+            dashed("mean", self.level(mean)),
+        ];
+        Chart::new(
+            Form::Time,
+            &time_axes("power at the motor shaft [W]"),
+            &series,
+        )
+    }
+
+    /// Rises of winding and housing over the cycle, where they can be followed.
+    pub(super) fn rises(&self) -> Option<Chart> {
+        let course = thinned(self.context.rises()?);
+        let body = |k: usize| {
+            course
+                .iter()
+                .map(|(t, rise)| (*t, rise[k]))
+                .collect::<Vec<_>>()
+        };
+        let mut series = vec![line("winding", body(0))];
+        if course.iter().any(|(_, rise)| rise[1] != 0.0) {
+            series.push(line("housing", body(1)));
+        }
+        let axes = time_axes("rise above the surroundings [K]");
+        Some(Chart::new(Form::Time, &axes, &series))
+    }
+
+    /// Voltage of the DC bus over the cycle, where it is known.
+    pub(super) fn bus_voltage(&self) -> Option<Chart> {
+        let trace = thinned(self.context.bus_voltage());
+        let points: Vec<(f64, f64)> = trace.iter().map(|[t, voltage]| (*t, *voltage)).collect();
+        let axes = time_axes("voltage of the DC bus [V]");
+        (!points.is_empty()).then(|| Chart::new(Form::Time, &axes, &[line("bus", points)]))
+    }
+
+    /// λ over the range of the drive link, and what of it is judged.
+    pub(super) fn inertia_ratio(&self, file: &MachineFile) -> Result<Chart, Error> {
+        let machine = file.with_drive_train()?;
+        let coordinate = Coordinate::of(machine.mechanism())?;
+        let ratio = file.drive_train.ratio();
+        let mut points = Vec::new();
+        for phi in whole_range(machine.domain(), 360) {
+            let inertia = machine.bare_reduction(phi)?.inertia[0] / (ratio * ratio);
+            let lambda = self.judged.drive.inertia_ratio(inertia);
+            points.push((coordinate.shown(phi), lambda));
+        }
+        let ends = [points.first(), points.last()].map(|p| p.map_or(0.0, |p| p.0));
+        let level = |value: f64| ends.map(|x| (x, value)).to_vec();
+        let mut series = vec![line("λ", points)];
+        let check = self
+            .judged
+            .checks
+            .iter()
+            .find(|c| c.id == Rule::InertiaRatio);
+        if let Some(value) = check.and_then(|c| c.value) {
+            series.push(dashed("judged", level(value)));
+        }
+        if let Some(limit) = check.and_then(|c| c.limit) {
+            series.push(dashed("limit", level(limit)));
+        }
+        let axes = Axes {
+            title: "",
+            x: coordinate.axis(),
+            y: &format!("{} ratio λ", self.units().inertia_word),
+        };
+        Ok(Chart::new(Form::Course, &axes, &series))
+    }
+
+    /// How much of its limit every rule uses over the gear ratio, all else kept; time courses are not followed.
+    pub(super) fn ratios(&self, from: f64, to: f64) -> Chart {
+        let step = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(INTERVALS));
+        let ratios: Vec<f64> = (0..=INTERVALS).map(step).collect();
+        let courses = ratio_course(&self.context, self.rules, &ratios);
+        let units = self.units();
+        let mut series: Vec<Series> = courses
+            .iter()
+            .map(|(rule, uses)| {
+                let shown = |used: f64| Some(used * 100.0).filter(|used| *used <= TOP);
+                let uses = uses.iter().map(|used| shown(*used).unwrap_or(f64::NAN));
+                line(
+                    units.rule(*rule),
+                    ratios.iter().copied().zip(uses).collect(),
+                )
+            })
+            .collect();
+        series.push(dashed("limit", vec![(from, 100.0), (to, 100.0)]));
+        let now = self.context.ratio;
+        // Not quite upright: the page's script draws curves over rising abscissae.
+        let upright = vec![(now * (1.0 - 1e-4), 0.0), (now * (1.0 + 1e-4), TOP)];
+        series.push(dashed("this drive", upright));
+        let axes = Axes {
+            title: "",
+            x: "gear ratio i",
+            y: "share of the limit [%]",
+        };
+        Chart::new(Form::Course, &axes, &series)
+    }
+}
+
+/// So many points of a course, spread over it, that a chart shows no more.
+fn thinned<T: Copy>(course: Vec<T>) -> Vec<T> {
+    const MOST: usize = 3000;
+    let every = course.len().div_ceil(MOST).max(1);
+    let last = course.last().copied();
+    let mut kept: Vec<T> = course.into_iter().step_by(every).collect();
+    kept.extend(last);
+    kept
+}
+
+fn time_axes(y: &str) -> Axes<'_> {
+    Axes {
+        title: "",
+        x: "time [s]",
+        y,
+    }
+}
+
+/// A unit with the dot of print.
+fn dotted(unit: &str) -> String {
+    unit.replace(' ', "·")
+}
+
+/// A limit of the torque around all four quadrants: `limit` gives its size in the direction of a torque at a speed (rad/s).
+fn outline(top: f64, scale: f64, limit: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
+    let half = f64::from(INTERVALS) / 2.0;
+    let speed = |k: u32| top * (f64::from(k) - half) / half;
+    let upper = (0..=INTERVALS).map(|k| (speed(k) / scale, limit(1.0, speed(k))));
+    let lower = (0..=INTERVALS)
+        .rev()
+        .map(|k| (speed(k) / scale, -limit(-1.0, speed(k))));
+    let mut points: Vec<(f64, f64)> = upper.chain(lower).collect();
+    points.extend(points.first().copied());
+    points
+}

@@ -1,0 +1,319 @@
+//! The page about a mechanism: drawing, animation, check, curves, motions, forces.
+
+use askama::Template;
+use jred::Error;
+
+use super::extract::{Table, largest_forces, tables};
+use super::figures::{self, line};
+use crate::drawing;
+use crate::plot::{Axes, Series, lines};
+use jred_machine::analysis::inspect::Findings;
+use jred_machine::analysis::reduce::{Over, Request, Sets, reduce};
+use jred_machine::model::coordinate::Coordinate;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::number::columns::Columns;
+use jred_machine::number::rounding::short;
+
+/// Points of each curve.
+pub(super) const POINTS: usize = 361;
+
+#[derive(Template)]
+#[template(path = "mechanism.html")]
+struct Page<'a> {
+    title: &'a str,
+    version: &'static str,
+    file: &'a str,
+    kind: &'a str,
+    drawing: String,
+    track: String,
+    last: usize,
+    symbol: &'static str,
+    unit: &'static str,
+    check: String,
+    sections: Vec<Section>,
+    largest: Vec<[String; 3]>,
+    tables: Vec<Table>,
+    notes: Vec<String>,
+}
+
+struct Section {
+    heading: &'static str,
+    figures: Vec<Figure>,
+}
+
+struct Figure {
+    svg: String,
+    caption: String,
+}
+
+/// What the curves of motions and forces run over, with the columns at their points.
+pub(super) struct Source<'f> {
+    pub(super) file: &'f MachineFile,
+    coordinate: Coordinate,
+    pub(super) over: Over,
+    pub(super) state: Option<[f64; 2]>,
+}
+
+impl Source<'_> {
+    pub(super) fn moves(&self) -> bool {
+        self.over == Over::Time || self.state.is_some()
+    }
+
+    pub(super) fn columns(&self, sets: Sets, positions: usize) -> Result<Columns, Error> {
+        let request = Request {
+            over: self.over,
+            positions,
+            sets,
+            state: self.state,
+        };
+        reduce(self.file, &request)
+    }
+
+    /// The axis, and the column that runs along it.
+    fn axis(&self) -> (&'static str, &'static str) {
+        match self.over {
+            Over::Time => ("time [s]", "t [s]"),
+            Over::Angle => (self.coordinate.axis(), self.coordinate.column()),
+        }
+    }
+
+    /// The columns whose names end with one of `tails`, over the axis.
+    fn plot(&self, columns: &Columns, y: &str, tails: &[&str]) -> Option<String> {
+        let names = columns.names();
+        let (axis, along) = self.axis();
+        let x = names.iter().position(|name| name == along)?;
+        let chosen: Vec<(usize, &str)> = names
+            .iter()
+            .enumerate()
+            .filter_map(|(k, name)| {
+                let tail = tails.iter().find(|tail| name.ends_with(**tail))?;
+                Some((k, name.strip_suffix(tail)?.trim()))
+            })
+            .filter(|(k, _)| {
+                let rows = columns.rows().iter();
+                rows.filter_map(|row| row[*k]).any(|value| value != 0.0)
+            })
+            .collect();
+        let series: Vec<Series> = chosen
+            .iter()
+            .map(|&(k, name)| {
+                let rows = columns.rows().iter();
+                let points = rows.filter_map(|row| Some((row[x]?, row[k]?)));
+                line(name, points.collect())
+            })
+            .collect();
+        let axes = Axes {
+            title: "",
+            x: axis,
+            y,
+        };
+        (!series.is_empty()).then(|| lines(&axes, &series))
+    }
+}
+
+/// The page about a machine's mechanism. Motions and forces are those of the file's motion over time, or those at the
+/// speed and acceleration `state` over the range.
+///
+/// # Errors
+/// Those of the machine.
+pub fn mechanism_page(
+    name: &str,
+    file: &MachineFile,
+    state: Option<[f64; 2]>,
+) -> Result<String, Error> {
+    let mechanism = file.machine.mechanism();
+    let over = if file.motion.is_some() && state.is_none() {
+        Over::Time
+    } else {
+        Over::Angle
+    };
+    let source = Source {
+        file,
+        coordinate: Coordinate::of(mechanism)?,
+        over,
+        state,
+    };
+    let moving = drawing::moving(mechanism)?;
+    let findings = Findings::of(file)?;
+    // The title stands above already.
+    let check = crate::list::inspection::text(&findings);
+    let check = check.split_once("\n\n").map_or("", |(_, rest)| rest);
+    let page = Page {
+        title: &file.title,
+        version: env!("CARGO_PKG_VERSION"),
+        file: name,
+        kind: mechanism.kind(),
+        drawing: moving.svg,
+        track: moving.track,
+        last: drawing::PICTURES - 1,
+        symbol: source.coordinate.symbol(),
+        unit: source.coordinate.unit(),
+        check: check.trim_end().to_owned(),
+        sections: sections(&source)?,
+        largest: largest_forces(&source)?,
+        tables: tables(&source)?,
+        notes: notes(&source),
+    };
+    // Rendering into a string fails only if a template is wrong, which the tests would show.
+    Ok(page.render().unwrap_or_default())
+}
+
+fn sections(source: &Source) -> Result<Vec<Section>, Error> {
+    let figure = |svg: String, caption: &str| Figure {
+        svg,
+        caption: caption.to_owned(),
+    };
+    let speed = match (source.state, &source.file.motion) {
+        (Some([omega, _]), _) => omega.abs(),
+        (None, Some(motion)) => {
+            (motion.at(motion.duration()).phi - motion.at(0.0).phi).abs() / motion.duration()
+        }
+        (None, None) => 1.0,
+    };
+    let mut sections = vec![Section {
+        heading: "The machine, reduced to its drive link",
+        figures: vec![
+            figure(
+                figures::reduced_inertia(source.file)?.svg,
+                "Reduced inertia with flywheel and drive train, and its derivative by the drive link's position.",
+            ),
+            figure(
+                figures::reduced_torque(source.file, speed)?.svg,
+                "Parts of the reduced torque: weight and springs, process loads, and the sizes of viscous and motion-opposing loads.",
+            ),
+        ],
+    }];
+    let points = source.columns(
+        Sets {
+            points: true,
+            ..Sets::default()
+        },
+        POINTS,
+    )?;
+    let mut motions = Vec::new();
+    let per = source.coordinate.per();
+    let mut add = |plot: Option<String>, caption: &str| {
+        motions.extend(plot.map(|svg| figure(svg, caption)));
+    };
+    if source.moves() {
+        add(
+            source.plot(&points, "speed [m/s]", &[" v [m/s]"]),
+            "Speed of every point, its magnitude.",
+        );
+        add(
+            source.plot(&points, "acceleration [m/s²]", &[" a [m/s^2]"]),
+            "Acceleration of every point, its magnitude.",
+        );
+        add(
+            source.plot(&points, "angular speed [rad/s]", &[" omega [rad/s]"]),
+            "Angular speed of every link.",
+        );
+        add(
+            source.plot(
+                &points,
+                "angular acceleration [rad/s²]",
+                &[" alpha [rad/s^2]"],
+            ),
+            "Angular acceleration of every link.",
+        );
+    } else {
+        add(
+            source.plot(
+                &points,
+                &format!("x′ [m/{per}]"),
+                &[&format!(" x' [m/{per}]")],
+            ),
+            "Velocity transfer functions of every point, x: times the drive's speed they are the velocity.",
+        );
+        add(
+            source.plot(
+                &points,
+                &format!("y′ [m/{per}]"),
+                &[&format!(" y' [m/{per}]")],
+            ),
+            "Velocity transfer functions of every point, y.",
+        );
+        let unit = format!("ψ′ [rad/{per}]");
+        add(
+            source.plot(&points, &unit, &[&format!(" psi' [rad/{per}]")]),
+            "Velocity transfer functions of every link's angle.",
+        );
+    }
+    if !motions.is_empty() {
+        sections.push(Section {
+            heading: "Motion of points and links",
+            figures: motions,
+        });
+    }
+    if source.moves() {
+        sections.push(forces(source)?);
+    }
+    Ok(sections)
+}
+
+/// Drive, joints, shaking force.
+fn forces(source: &Source) -> Result<Section, Error> {
+    let reactions = source.columns(
+        Sets {
+            reactions: true,
+            ..Sets::default()
+        },
+        POINTS,
+    )?;
+    let (drive, unit) = match source.coordinate {
+        Coordinate::Angle => ("drive torque [N·m]", "_drive [N m]"),
+        Coordinate::Length => ("drive force [N]", "_drive [N]"),
+    };
+    let plots = [
+        (
+            source.plot(&reactions, drive, &[unit]),
+            "What the drive must give at the drive link, by d'Alembert's principle, drive train included.",
+        ),
+        (
+            source.plot(&reactions, "force [N]", &[" F [N]"]),
+            "Magnitude of the force in every joint, and of the shaking force of all links on the frame.",
+        ),
+        (
+            source.plot(&reactions, "moment [N·m]", &[" M [N m]"]),
+            "Moments in guides and transmissions, and the shaking moment about the origin.",
+        ),
+    ];
+    let figures = plots.into_iter().filter_map(|(svg, caption)| {
+        Some(Figure {
+            svg: svg?,
+            caption: caption.to_owned(),
+        })
+    });
+    Ok(Section {
+        heading: "Forces",
+        figures: figures.collect(),
+    })
+}
+
+fn notes(source: &Source) -> Vec<String> {
+    let mut notes = vec![match (source.over, source.state) {
+        (Over::Time, _) => "Motions and forces are those of the machine file's motion.".to_owned(),
+        (Over::Angle, Some([speed, acceleration])) => {
+            let [rate, change] = source.coordinate.rates();
+            format!(
+                "Motions and forces are those at {rate} = {} and {change} = {} at every position.",
+                short(speed),
+                short(acceleration)
+            )
+        }
+        (Over::Angle, None) => {
+            "The machine file has no motion, and no --speed was given: there are transfer functions, and no forces."
+                .to_owned()
+        }
+    }];
+    notes.push(
+        "Forces by d'Alembert's principle, link by link; they use neither J_red nor its derivative. Flywheel and drive \
+         train turn with the drive link: they change what the drive must give and no force in a joint. What a belt or a \
+         pinion pulls at the drive link's bearing is not in the machine file."
+            .to_owned(),
+    );
+    notes.push(
+        "Whole tables: jred reduce --points, --reactions, --energy, each with --format csv or json.".to_owned(),
+    );
+    notes
+}

@@ -1,0 +1,98 @@
+//! What the report says beside its figures: the answer, self-check, assumptions, sources.
+
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::rules::Verdict;
+use jred_machine::number::rounding::{rounded, short};
+use jred_sizing::judge::Judged;
+
+/// The answer in HTML: the one piece of the page that is put together by hand.
+pub(super) fn answer(best: &Judged, found: bool) -> String {
+    let motor = best.drive.motor;
+    let gearbox = best
+        .drive
+        .gearbox
+        .map_or("coupled directly".to_owned(), |g| {
+            format!("with {} {} (i = {})", g.maker, g.model, rounded(g.ratio))
+        });
+    let amplifier = best.drive.amplifier;
+    let amplifier = amplifier.map_or(String::new(), |a| format!(" on {} {}", a.maker, a.model));
+    let drive = format!("{} {} {gearbox}{amplifier}", motor.maker, motor.model);
+    let drive = escape(&drive);
+    if found {
+        let named = |verdict: Verdict| {
+            let checks = best.checks.iter().filter(|c| c.verdict == verdict);
+            let names: Vec<&str> = checks.map(|c| c.rule).collect();
+            names.join(", ")
+        };
+        let mut answer = format!(
+            "<b>{drive}</b><br>comes first of the drives of the catalogue that break no rule."
+        );
+        for (what, names) in [
+            ("Warning", named(Verdict::Warn)),
+            (
+                "Not checked for want of figures",
+                named(Verdict::NotChecked),
+            ),
+        ] {
+            if !names.is_empty() {
+                answer = format!("{answer}<br>{what}: {names}.");
+            }
+        }
+        answer
+    } else {
+        let reasons = escape(&best.reasons());
+        format!(
+            "<b>No drive of the catalogue holds every rule.</b><br>{drive} misses by least: {reasons}."
+        )
+    }
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+}
+
+/// Self-check, way of working, sources.
+pub(super) fn notes(best: &Judged, duty: &Duty) -> Vec<String> {
+    let work = duty.integral(|i| i.terms.total() * i.omega);
+    let kinetic = duty.integral(|i| (i.terms.acceleration + i.terms.velocity) * i.omega);
+    let potential = duty.integral(|i| i.terms.potential * i.omega);
+    let mut notes = vec![
+        format!(
+            "Self-check over the cycle: work at the drive link {} J; of it into kinetic energy {} J and potential \
+             energy {} J (zero for a cycle that closes, but for a payload that varies with the position).",
+            rounded(work),
+            short(kinetic),
+            short(potential)
+        ),
+        "Losses: an efficiency divides the torque where power flows to the machine and multiplies it where power flows \
+         back."
+            .to_owned(),
+        format!(
+            "The cycle is evaluated exactly at {} instants; integrals by Simpson's rule on each smooth stretch.",
+            duty.instants.len()
+        ),
+        "Share of mean square: mean of (part × whole) over mean of (whole × whole); the shares add up to 100 %. A negative \
+         one makes the RMS smaller."
+            .to_owned(),
+    ];
+    let drive = &best.drive;
+    let mut source = |model: &str, source: &str| {
+        notes.push(format!("Source of {model}: {source}"));
+    };
+    source(&drive.motor.model, &drive.motor.source);
+    if let Some(gearbox) = drive.gearbox {
+        source(&gearbox.model, &gearbox.source);
+    }
+    if let Some(amplifier) = drive.amplifier {
+        source(&amplifier.model, &amplifier.source);
+    }
+    let units = jred_sizing::judge::vocabulary::Units::of(best.drive.motor.kind);
+    notes.extend(
+        best.assumptions
+            .iter()
+            .map(|a| format!("Mind: {}.", units.words(a))),
+    );
+    notes
+}

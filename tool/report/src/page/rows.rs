@@ -1,0 +1,234 @@
+//! The tables of the report.
+
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::RuleSet;
+use jred_machine::model::rules::Verdict;
+use jred_machine::number::figures::Figures;
+use jred_machine::number::rounding::{rounded, short, shown, significant};
+use jred_sizing::explain::{Breakdown, InertiaShare, Remedies, Share};
+use jred_sizing::judge::Judged;
+use jred_sizing::judge::check::Check;
+use jred_sizing::judge::vocabulary::Units;
+
+/// A rule, how it came out, and a bar for what it uses of its limit.
+pub(super) struct CheckRow {
+    pub(super) rule: &'static str,
+    pub(super) value: String,
+    pub(super) limit: String,
+    pub(super) used: String,
+    /// Length of the bar (%).
+    pub(super) bar: f64,
+    pub(super) margin: String,
+    pub(super) verdict: &'static str,
+    pub(super) class: &'static str,
+    pub(super) note: String,
+}
+
+impl CheckRow {
+    pub(super) fn of(check: &Check) -> Self {
+        let class = match check.verdict {
+            Verdict::Pass | Verdict::Off => "ok",
+            Verdict::Warn | Verdict::NotChecked => "warn",
+            Verdict::Fail => "bad",
+        };
+        let used = check.use_of_limit();
+        Self {
+            rule: check.rule,
+            value: check.figure(),
+            limit: check
+                .limit
+                .map_or("–".into(), |limit| check.with_unit(limit)),
+            used: check.used(),
+            bar: if used.is_finite() {
+                (used * 100.0).clamp(0.0, 100.0).round()
+            } else {
+                100.0
+            },
+            margin: crate::list::listing::margin(check),
+            verdict: check.verdict.word(),
+            class,
+            note: check.note.clone(),
+        }
+    }
+}
+
+/// A ranked drive.
+pub(super) struct FitRow {
+    pub(super) rank: usize,
+    pub(super) motor: String,
+    pub(super) gearbox: String,
+    pub(super) ratio: String,
+    pub(super) power: String,
+    pub(super) rms: String,
+    pub(super) peak: String,
+    pub(super) lambda: String,
+    pub(super) remarks: String,
+}
+
+impl FitRow {
+    pub(super) fn of(rank: usize, judged: &Judged) -> Self {
+        let drive = &judged.drive;
+        let named = |verdict: Verdict| -> Vec<&str> {
+            let checks = judged.checks.iter().filter(|c| c.verdict == verdict);
+            checks.map(|c| c.rule).collect()
+        };
+        let mut remarks = Vec::new();
+        for verdict in [Verdict::Warn, Verdict::NotChecked] {
+            let rules = named(verdict);
+            if !rules.is_empty() {
+                remarks.push(format!("{}: {}", verdict.word(), rules.join(", ")));
+            }
+        }
+        let power = judged.rated_power();
+        Self {
+            rank,
+            motor: format!("{} {}", drive.motor.maker, drive.motor.model),
+            gearbox: drive
+                .gearbox
+                .map_or("direct".into(), |g| format!("{} {}", g.maker, g.model)),
+            ratio: rounded(drive.ratio()),
+            power: power.map_or("–".to_owned(), |p| {
+                format!("{} kW", significant(p / 1000.0, 3))
+            }),
+            rms: judged.used(Rule::RmsTorque),
+            peak: judged.used(Rule::PeakTorque),
+            lambda: short(judged.duty.inertia_ratio.max),
+            remarks: remarks.join("; "),
+        }
+    }
+}
+
+/// Something's part of the motor torque, with a bar.
+pub(super) struct ShareRow {
+    pub(super) name: String,
+    pub(super) rms: String,
+    pub(super) peak: String,
+    pub(super) at_peak: String,
+    pub(super) energy: String,
+    pub(super) share: String,
+    /// Length of the bar (%).
+    pub(super) bar: f64,
+    /// Whether it makes the RMS torque smaller.
+    pub(super) negative: bool,
+}
+
+/// The rows of `shares` of a breakdown, and the whole.
+pub(super) fn share_rows(shares: &[Share], breakdown: &Breakdown) -> Vec<ShareRow> {
+    let total = &breakdown.total;
+    let rows = shares.iter().chain([total]).map(|share| ShareRow {
+        name: breakdown.units.words(&share.name),
+        rms: short(share.torque.rms),
+        peak: short(share.torque.peak()),
+        at_peak: shown(share.at_peak, total.at_peak),
+        energy: shown(share.energy, breakdown.turned_over()),
+        share: format!("{:.1} %", share.mean_square * 100.0),
+        bar: (share.mean_square.abs() * 100.0).min(100.0).round(),
+        negative: share.mean_square < 0.0,
+    });
+    rows.collect()
+}
+
+/// A part's inertia at the motor: name, min, mean, max, share, length of the bar (%).
+pub(super) struct InertiaRow {
+    pub(super) name: String,
+    pub(super) figures: [String; 3],
+    pub(super) share: String,
+    pub(super) bar: f64,
+}
+
+pub(super) fn inertia_rows(breakdown: &Breakdown) -> Vec<InertiaRow> {
+    let (_, scale) = breakdown.units.shown_inertia();
+    let row = |share: &InertiaShare| InertiaRow {
+        name: breakdown.units.words(&share.name),
+        figures: [share.inertia.min, share.inertia.mean, share.inertia.max]
+            .map(|x| shown(x / scale, share.inertia.max / scale)),
+        share: format!("{:.1} %", share.of_mean * 100.0),
+        bar: (share.of_mean * 100.0).clamp(0.0, 100.0).round(),
+    };
+    let all = breakdown.inertia.iter().chain([&breakdown.total_inertia]);
+    all.map(row).collect()
+}
+
+/// A drive and what would have to change for it to hold, or how far it may change.
+#[derive(Default)]
+pub(super) struct ChangeRow {
+    pub(super) drive: String,
+    pub(super) misses: Vec<String>,
+    pub(super) changes: Vec<String>,
+}
+
+impl ChangeRow {
+    pub(super) fn of(remedies: &Remedies, duration: f64) -> Self {
+        let misses = remedies.misses.iter();
+        let changes = remedies.remedies.iter();
+        Self {
+            drive: remedies.drive.clone(),
+            misses: misses
+                .map(|m| remedies.units.words(&m.sentence()))
+                .collect(),
+            changes: changes
+                .map(|r| remedies.units.words(&r.sentence(duration)))
+                .collect(),
+        }
+    }
+}
+
+/// A rule of the set: name, limit, warning, source.
+pub(super) fn rule_rows(rules: &RuleSet, units: Units) -> Vec<[String; 4]> {
+    let limit_of = |share: Option<f64>| share.map_or(String::new(), short);
+    Rule::ALL
+        .into_iter()
+        .filter(|rule| rules.shows(*rule))
+        .map(|rule| {
+            let limit = rules.limit(rule);
+            let fail = if rules.is_off(rule) {
+                "off".to_owned()
+            } else {
+                limit_of(limit.fail)
+            };
+            let source = rules.source(rule).to_owned();
+            [
+                units.rule(rule).to_owned(),
+                fail,
+                limit_of(limit.warn),
+                source,
+            ]
+        })
+        .collect()
+}
+
+/// Minima, means, maxima and RMS values along the way from the drive link to the motor.
+pub(super) fn duty_rows(best: &Judged, duty: &Duty, units: Units) -> Vec<(String, Vec<String>)> {
+    let row = |name: String, figures: Figures, unit: f64| {
+        let cells = figures.values().map(|x| rounded(x / unit));
+        (name, cells.to_vec())
+    };
+    let (word, torque) = (units.torque_word, units.torque);
+    let (speed, scale) = (units.speed, units.speed_scale);
+    vec![
+        row(
+            format!("{word} at the drive link [{torque}], without drive train"),
+            duty.figures(|i| i.terms.total()),
+            1.0,
+        ),
+        row(
+            format!("speed of the drive link [{speed}]"),
+            duty.figures(|i| i.omega),
+            scale,
+        ),
+        row(
+            format!("{word} at the drive train's input [{torque}]"),
+            duty.figures(|i| i.input_torque),
+            1.0,
+        ),
+        row(format!("motor {word} [{torque}]"), best.duty.torque, 1.0),
+        row(format!("motor speed [{speed}]"), best.duty.speed, scale),
+        row("motor power [W]".to_owned(), best.duty.power, 1.0),
+        row(
+            format!("{} ratio λ", units.inertia_word),
+            best.duty.inertia_ratio,
+            1.0,
+        ),
+    ]
+}

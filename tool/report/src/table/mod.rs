@@ -1,0 +1,5 @@
+//! Columns, rows and sheets as aligned tables, CSV or JSON.
+
+pub mod output;
+pub mod rows;
+pub mod sheet;

@@ -1,0 +1,63 @@
+//! The DC bus: what a drive, or several on one bus, draw from it and feed back, the voltage and the brake resistor.
+//!
+//! The power that a drive draws from the bus is that of the motor's torque, which covers all friction behind it, with the
+//! copper loss and the losses of the amplifier:
+//!
+//! ```text
+//! P = T·ω + R·I² + p₀ + p₁·I        R at 20 °C; of a three-phase winding 3/2 of that between two terminals
+//! ```
+//!
+//! Most comes back with the least losses: the copper is taken cold, and left out where the winding's resistance is not
+//! stated. While the motor brakes, I is the current of the torque alone: how far the bus has risen, and how much the
+//! amplifier still weakens the field, is not known. While it drives, the field-weakening current is in I.
+
+pub mod answer;
+pub mod axes;
+pub mod conflict;
+pub mod cure;
+pub mod curve;
+mod need;
+pub mod period;
+mod phases;
+pub mod store;
+pub mod supply;
+pub mod verdict;
+
+pub use need::Need;
+pub use phases::Watch;
+
+use crate::catalogue::{Amplifier, Motor};
+use crate::cycle::Cycle;
+use crate::cycle::form::Coefficients;
+use crate::motor::envelope::Prepared;
+use crate::motor::winding::REFERENCE_TEMPERATURE;
+
+use curve::PowerCurve;
+
+/// Power that a drive draws from the DC bus over the cycle.
+pub fn power(
+    cycle: &Cycle,
+    coefficients: &Coefficients,
+    ratio: f64,
+    motor: &Motor,
+    prepared: &Prepared,
+    amplifier: Option<&Amplifier>,
+) -> PowerCurve {
+    let resistance = motor.winding.loss_resistance(REFERENCE_TEMPERATURE);
+    let [constant, per_ampere] = amplifier.map_or([0.0; 2], |a| a.losses);
+    let points = cycle.samples().iter().map(|sample| {
+        let torque = coefficients.torque(&sample.loads());
+        let speed = sample.speed() * ratio;
+        let mut power = torque * speed + constant;
+        let current = if torque * speed < 0.0 {
+            prepared.torques.map(|curve| curve.current(torque))
+        } else {
+            prepared.current(torque, speed)
+        };
+        if let Some(current) = current {
+            power += per_ampere * current + resistance.unwrap_or(0.0) * current * current;
+        }
+        [sample.t, power]
+    });
+    PowerCurve::new(points, cycle.duration())
+}

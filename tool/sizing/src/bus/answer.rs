@@ -1,0 +1,156 @@
+//! What the axes on one DC bus do, and whether the bus holds.
+
+use miette::{Result, miette};
+
+use super::axes::{Axes, Bounds, Worst};
+use super::cure::{Cure, share};
+use super::curve::PowerCurve;
+use super::store::BusFigures;
+use super::supply::BusData;
+use super::{Need, Watch};
+use crate::catalogue::Catalogue;
+use jred_machine::model::supply::Supply;
+
+/// One axis: its drive, and what it draws.
+#[derive(Debug)]
+pub struct Axis {
+    /// Title of its machine file.
+    pub title: String,
+    /// Name of its drive.
+    pub drive: String,
+    /// Power that it draws over its cycle.
+    pub curve: PowerCurve,
+    /// What its own amplifier and motor say of the bus.
+    pub data: BusData,
+    /// Whether its drive violates no rule.
+    pub holds: bool,
+}
+
+/// What the axes do on their bus.
+#[derive(Debug)]
+pub struct Answer {
+    /// Whether all axes start their cycles together, and only that is judged.
+    pub only_in_step: bool,
+    /// The axes.
+    pub axes: Vec<Axis>,
+    /// What is known of the bus.
+    pub data: BusData,
+    /// All of them.
+    pub shared: Axes,
+    /// Figures of the bus with all axes in step.
+    pub in_step: Option<BusFigures>,
+    /// Power drawn with all axes in step.
+    pub power: Option<PowerCurve>,
+    /// Worst phases, in the order of [`Goal::ALL`](super::axes::Goal::ALL).
+    pub worst: Option<[Worst; 4]>,
+    /// The phases that take the smallest share of the limits.
+    pub calmest: Option<Worst>,
+    /// What holds at any phases.
+    pub bounds: Bounds,
+    /// The brake resistor that is needed where there is none, or none that does.
+    pub need: Option<Need>,
+    /// A resistor of the catalogue that meets it.
+    pub proposal: Option<String>,
+    /// What would make it hold.
+    pub cures: Vec<Cure>,
+}
+
+impl Answer {
+    /// What the axes do; `only_in_step`: only with all of them in step.
+    ///
+    /// # Errors
+    /// The DC bus is not known.
+    pub fn new(
+        axes: Vec<Axis>,
+        only_in_step: bool,
+        supply: &Supply,
+        catalogue: &Catalogue,
+        watch: &dyn Watch,
+    ) -> Result<Self> {
+        let each: Vec<BusData> = axes.iter().map(|axis| axis.data).collect();
+        let data = BusData::shared(supply, &each);
+        let bus = data.bus().map_err(|missing| {
+            miette!(
+                help = "add a [supply] to one of the machine files, for example mains_voltage = \"400 V\", capacitance = \"470 uF\", \
+                        chopper_voltage = \"780 V\", max_voltage = \"820 V\"; docs/thermal-and-bus.md has all keys",
+                "the DC bus is not known: {missing} is missing"
+            )
+        })?;
+        let curves: Vec<PowerCurve> = axes.iter().map(|axis| axis.curve.clone()).collect();
+        let shared = Axes::new(bus, curves);
+        let together = vec![0.0; axes.len()];
+        let mut answer = Self {
+            only_in_step,
+            in_step: shared.at(&together),
+            power: shared.power(&together),
+            worst: None,
+            calmest: None,
+            bounds: shared.bounds(),
+            need: None,
+            proposal: None,
+            cures: Vec::new(),
+            axes,
+            data,
+            shared,
+        };
+        if !only_in_step {
+            answer.search(watch);
+        }
+        if answer.asks_for_a_resistor() {
+            answer.need = match &answer.power {
+                Some(power) if only_in_step => Need::of(&data, power),
+                _ => Need::over(&data, &answer.shared, watch),
+            };
+            let proposal = answer
+                .need
+                .and_then(|need| need.proposal(&catalogue.resistors));
+            answer.proposal = proposal.map(|resistor| resistor.key.clone());
+        }
+        if only_in_step && !answer.failed().is_empty() {
+            answer.search(watch);
+            answer.worst = None;
+        }
+        answer.cures = answer.cures(watch);
+        Ok(answer)
+    }
+
+    /// The worst phases, and those with the most room.
+    fn search(&mut self, watch: &dyn Watch) {
+        let Some(period) = self.power.as_ref().map(PowerCurve::period) else {
+            return;
+        };
+        let limits = self.limits();
+        let goals = |figures: &BusFigures| {
+            [
+                figures.highest,
+                figures.burnt,
+                figures.burnt_peak,
+                figures.pulse,
+                -share(limits, figures, period),
+            ]
+        };
+        if let Some([voltage, resistor, peak, pulse, calmest]) = self.shared.largest(goals, watch) {
+            self.worst = Some([voltage, resistor, peak, pulse]);
+            self.calmest = Some(calmest);
+        }
+    }
+
+    /// Whether what comes back goes beyond what the bus, with the resistor that it has, may do.
+    fn asks_for_a_resistor(&self) -> bool {
+        if self.data.resistor.is_some() {
+            return !self.failed().is_empty();
+        }
+        let voltage = self.judged()[0];
+        // Not known: more than the capacitor of which nothing is known can be said to take.
+        let top = self.data.max_voltage.or(self.data.chopper_voltage);
+        top.is_some_and(|top| voltage.is_nan() || voltage > top)
+    }
+
+    /// Mean power of separate resistors less that of a common one (W), all axes in step; of several axes, where the resistor is
+    /// known.
+    pub fn saved(&self) -> Option<f64> {
+        self.data.resistor.filter(|_| self.axes.len() > 1)?;
+        let period = self.power.as_ref()?.period();
+        Some(self.shared.apart() - self.in_step?.burnt / period)
+    }
+}

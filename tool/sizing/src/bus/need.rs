@@ -1,0 +1,131 @@
+//! The brake resistor that a bus needs.
+
+use super::axes::Axes;
+use super::curve::PowerCurve;
+use super::phases::Watch;
+use super::store::Bus;
+use super::supply::BusData;
+use crate::catalogue::Resistor;
+use jred_machine::model::supply::BrakeResistor;
+use jred_machine::number::rounding::short;
+
+/// What a brake resistor must bear that the chopper's voltage alone bounds.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Need {
+    /// Mean power (W).
+    #[serde(rename = "mean [W]")]
+    pub mean: f64,
+    /// Largest power (W).
+    #[serde(rename = "peak [W]")]
+    pub peak: f64,
+    /// Largest energy without a pause (J).
+    #[serde(rename = "pulse [J]")]
+    pub pulse: f64,
+    /// Largest resistance that takes that power at the chopper's voltage (Ω).
+    #[serde(rename = "largest resistance [Ohm]")]
+    pub largest_resistance: f64,
+    /// Smallest resistance that the chopper may switch (Ω).
+    #[serde(rename = "smallest resistance [Ohm]")]
+    pub smallest_resistance: Option<f64>,
+}
+
+impl Need {
+    /// The need of a power. `None`: the chopper's voltage is not known, or not between those of the supply and of the limit
+    /// ([`BusData::conflict`]), or the capacitor takes all that comes back.
+    pub fn of(data: &BusData, curve: &PowerCurve) -> Option<Self> {
+        let [least, _] = curve.extremes();
+        let figures = Self::bus(data, -least)?.run(curve);
+        let mean = figures.burnt / curve.period();
+        Self::new(data, [mean, figures.burnt_peak, figures.pulse])
+    }
+
+    /// The need of several axes at any phases: each figure at the phases where it is largest. `None`: as [`Need::of`], or their
+    /// common period is not searched.
+    pub fn over(data: &BusData, axes: &Axes, watch: &dyn Watch) -> Option<Self> {
+        let axes = axes.on(Self::bus(data, axes.bounds().back)?);
+        let period = axes.power(&[])?.period();
+        let of = |f: &super::store::BusFigures| [f.burnt, f.burnt_peak, f.pulse];
+        let [mean, peak, pulse] = axes.largest(of, watch)?.map(|worst| of(&worst.figures));
+        Self::new(data, [mean[0] / period, peak[1], pulse[2]])
+    }
+
+    /// The bus with a resistor that takes the largest power which ever comes back, `back`, and so never lets the voltage rise
+    /// above the chopper's.
+    fn bus(data: &BusData, back: f64) -> Option<Bus> {
+        let on = data.chopper_voltage?;
+        if data.regenerative || back <= 0.0 || data.conflict().is_some() {
+            return None;
+        }
+        let resistor = BrakeResistor {
+            resistance: on * on / back,
+            power: f64::INFINITY,
+            peak_power: None,
+            pulse_energy: None,
+        };
+        let with = BusData {
+            resistor: Some(resistor),
+            ..*data
+        };
+        with.bus().ok()
+    }
+
+    fn new(data: &BusData, [mean, peak, pulse]: [f64; 3]) -> Option<Self> {
+        let on = data.chopper_voltage?;
+        (mean > 0.0).then(|| Self {
+            mean,
+            peak,
+            pulse,
+            largest_resistance: on * on / peak,
+            smallest_resistance: data.min_resistance,
+        })
+    }
+
+    /// Whether there is a resistance at all: what the chopper may switch, and what takes the power.
+    pub fn is_possible(&self) -> bool {
+        self.smallest_resistance
+            .is_none_or(|least| least <= self.largest_resistance)
+    }
+
+    /// Whether a resistor bears it.
+    pub fn is_met(&self, resistor: &Resistor) -> bool {
+        let least = self.smallest_resistance.unwrap_or(0.0);
+        (least..=self.largest_resistance).contains(&resistor.resistance)
+            && resistor.rated_power >= self.mean
+            && resistor.peak_power.is_some_and(|peak| peak >= self.peak)
+            && resistor
+                .pulse_energy
+                .is_none_or(|energy| energy >= self.pulse)
+    }
+
+    /// The smallest resistor (rated power, then price) of a catalogue that bears it.
+    pub fn proposal<'c>(&self, resistors: &'c [Resistor]) -> Option<&'c Resistor> {
+        let price = |r: &Resistor| r.price.unwrap_or(f64::INFINITY);
+        let met = resistors.iter().filter(|resistor| self.is_met(resistor));
+        met.min_by(|a, b| {
+            (a.rated_power.total_cmp(&b.rated_power)).then(price(a).total_cmp(&price(b)))
+        })
+    }
+
+    /// In words.
+    pub fn words(&self) -> String {
+        format!("needs a brake resistor of {}", self.figures())
+    }
+
+    /// Its figures in words.
+    pub fn figures(&self) -> String {
+        let largest = short(self.largest_resistance);
+        let range = match self.smallest_resistance.map(short) {
+            Some(least) if self.is_possible() => format!("{least} to {largest} Ω"),
+            Some(least) => {
+                format!("at most {largest} Ω, where the chopper may switch no less than {least} Ω,")
+            }
+            None => format!("at most {largest} Ω"),
+        };
+        format!(
+            "{range} for {} W mean, {} W peak and {} J a pulse",
+            short(self.mean),
+            short(self.peak),
+            short(self.pulse)
+        )
+    }
+}

@@ -1,0 +1,90 @@
+//! The bus of one drive or of several, as far as it is known.
+
+use crate::catalogue::{Amplifier, Motor};
+use jred_machine::model::supply::{BrakeResistor, Supply};
+
+use super::store::Bus;
+
+/// The bus of one drive, as far as it is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BusData {
+    /// Voltage that the supply holds (V).
+    pub voltage: Option<f64>,
+    /// Capacitance (F).
+    pub capacitance: Option<f64>,
+    /// Voltage at which the brake resistor comes on (V).
+    pub chopper_voltage: Option<f64>,
+    /// Highest voltage (V).
+    pub max_voltage: Option<f64>,
+    /// Smallest resistance (Ω).
+    pub min_resistance: Option<f64>,
+    /// Whether energy is fed back into the mains.
+    pub regenerative: bool,
+    /// The brake resistor.
+    pub resistor: Option<BrakeResistor>,
+}
+
+impl BusData {
+    /// From the machine file, else the amplifier, else, for the voltage, the motor's data sheet.
+    pub fn new(
+        supply: &Supply,
+        bus_voltage: Option<f64>,
+        amplifier: Option<&Amplifier>,
+        motor: &Motor,
+    ) -> Self {
+        let own = |figure: fn(&Amplifier) -> Option<f64>| amplifier.and_then(figure);
+        Self {
+            voltage: bus_voltage.or(own(|a| a.bus_voltage)).or(motor.bus_voltage),
+            capacitance: supply.capacitance.or(own(|a| a.capacitance)),
+            chopper_voltage: supply.chopper_voltage.or(own(|a| a.chopper_voltage)),
+            max_voltage: supply.max_voltage.or(own(|a| a.max_voltage)),
+            min_resistance: supply.min_resistance.or(own(|a| a.min_resistance)),
+            regenerative: supply.regenerative,
+            resistor: supply.brake_resistor,
+        }
+    }
+
+    /// The bus of several drives, each with what its own amplifier adds to `supply`: the strictest of what they say, and the
+    /// sum of their capacitances, if each is known.
+    pub fn shared(supply: &Supply, each: &[Self]) -> Self {
+        let of = |figure: fn(&Self) -> Option<f64>, stricter: fn(f64, f64) -> f64| {
+            each.iter().filter_map(figure).reduce(stricter)
+        };
+        Self {
+            voltage: each.iter().find_map(|data| data.voltage),
+            capacitance: supply
+                .capacitance
+                .or_else(|| each.iter().map(|data| data.capacitance).sum()),
+            chopper_voltage: of(|data| data.chopper_voltage, f64::min),
+            max_voltage: of(|data| data.max_voltage, f64::min),
+            min_resistance: of(|data| data.min_resistance, f64::max),
+            regenerative: supply.regenerative,
+            resistor: supply.brake_resistor,
+        }
+    }
+
+    /// The bus with its resistor, if it has both that and a voltage at which it comes on. A missing capacitance stores
+    /// nothing: all that comes back goes into the resistor.
+    ///
+    /// # Errors
+    /// What is missing, in words.
+    pub fn bus(&self) -> Result<Bus, &'static str> {
+        let voltage = self.voltage.ok_or("voltage of the DC bus")?;
+        let resistor = match (self.resistor, self.chopper_voltage) {
+            (Some(resistor), Some(on)) => Some([on, resistor.resistance]),
+            (Some(_), None) => return Err("voltage at which the brake resistor comes on"),
+            (None, _) => None,
+        };
+        if let Some([on, _]) = resistor
+            && on <= voltage
+        {
+            return Err("voltage at which the brake resistor comes on, above that of the supply");
+        }
+        Ok(Bus {
+            voltage,
+            capacitance: self.capacitance.unwrap_or(0.0),
+            regenerative: self.regenerative,
+            resistor,
+        })
+    }
+}

@@ -1,0 +1,291 @@
+//! What `jred bus` judges, and what it cannot.
+
+use super::answer::Answer;
+use super::conflict::Conflict;
+use super::curve::PowerCurve;
+use super::period::{Common, LOOKED_AT, MOST_CYCLES};
+use super::store::BusFigures;
+use jred_machine::model::rule::Sense;
+use jred_machine::number::rounding::short;
+
+/// What is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Judged {
+    /// Highest voltage of the bus.
+    Voltage,
+    /// Resistance of the brake resistor.
+    Resistance,
+    /// Its mean power.
+    Mean,
+    /// Its largest power.
+    Peak,
+    /// Its largest energy without a pause.
+    Pulse,
+}
+
+/// A figure of the bus beside its limit.
+#[derive(Clone, Copy, Debug)]
+pub struct BusCheck {
+    /// What is judged.
+    pub what: Judged,
+    /// NaN: not known.
+    pub figure: f64,
+    /// `None`: none is stated, but the figure is beyond any.
+    pub limit: Option<f64>,
+}
+
+impl BusCheck {
+    /// Its name in reports.
+    pub const fn name(&self) -> &'static str {
+        match self.what {
+            Judged::Voltage => "bus voltage",
+            Judged::Resistance => "brake resistance",
+            Judged::Mean => "brake resistor mean power",
+            Judged::Peak => "brake resistor peak power",
+            Judged::Pulse => "brake resistor pulse energy",
+        }
+    }
+
+    /// Unit of figure and limit.
+    pub const fn unit(&self) -> &'static str {
+        match self.what {
+            Judged::Voltage => "V",
+            Judged::Resistance => "Ohm",
+            Judged::Mean | Judged::Peak => "W",
+            Judged::Pulse => "J",
+        }
+    }
+
+    /// On which side of its limit the figure must be.
+    pub const fn sense(&self) -> Sense {
+        match self.what {
+            Judged::Resistance => Sense::AtLeast,
+            _ => Sense::AtMost,
+        }
+    }
+
+    /// Whether the figure keeps its limit; `None`: it is not known.
+    pub fn holds(&self) -> Option<bool> {
+        (!self.figure.is_nan()).then(|| {
+            self.limit.is_some_and(|limit| match self.sense() {
+                Sense::AtMost => self.figure <= limit,
+                Sense::AtLeast => self.figure >= limit,
+            })
+        })
+    }
+}
+
+/// What is not known, and which keys of `[supply]` would say it: all of one of these lists.
+pub struct Open {
+    /// Name of the figure.
+    pub figure: &'static str,
+    /// Lists of keys; all of one list say it.
+    pub keys: &'static [&'static [&'static str]],
+    /// What is missing, in words.
+    pub words: String,
+}
+
+impl Answer {
+    /// The figures that are judged, each at the phases where it is worst: highest voltage, mean power, largest power and pulse of
+    /// the resistor; NaN where one is not known.
+    pub fn judged(&self) -> [f64; 4] {
+        let mut judged = self.found();
+        // Nothing takes up what comes back, or nobody said what does.
+        if judged[0].is_infinite() && self.data.capacitance.is_none() {
+            judged[0] = f64::NAN;
+        }
+        judged
+    }
+
+    fn found(&self) -> [f64; 4] {
+        let of = |figures: &BusFigures, period: f64| {
+            [
+                figures.highest,
+                figures.burnt / period,
+                figures.burnt_peak,
+                figures.pulse,
+            ]
+        };
+        let period = self.power.as_ref().map_or(1.0, PowerCurve::period);
+        match (&self.in_step, &self.worst) {
+            (Some(figures), _) if self.only_in_step => of(figures, period),
+            (Some(_), Some(worst)) => {
+                let each = worst.each_ref().map(|worst| of(&worst.figures, period));
+                std::array::from_fn(|k| each.iter().map(|figures| figures[k]).fold(0.0, f64::max))
+            }
+            _ if self.data.resistor.is_some() => [
+                self.bounds.highest,
+                self.bounds.resistor,
+                self.bounds.back,
+                f64::NAN,
+            ],
+            _ => [self.bounds.highest, 0.0, 0.0, 0.0],
+        }
+    }
+
+    /// What is judged; only where there is a limit.
+    pub fn checks(&self) -> Vec<BusCheck> {
+        let [voltage, mean, peak, pulse] = self.judged();
+        let resistor = self.data.resistor.as_ref();
+        let least = self.data.min_resistance;
+        let check = |what, figure, limit| BusCheck {
+            what,
+            figure,
+            limit,
+        };
+        [
+            check(Judged::Voltage, voltage, self.data.max_voltage),
+            check(
+                Judged::Resistance,
+                resistor.map_or(f64::NAN, |r| r.resistance),
+                least.filter(|_| resistor.is_some()),
+            ),
+            check(Judged::Mean, mean, resistor.map(|r| r.power)),
+            check(Judged::Peak, peak, resistor.and_then(|r| r.peak_power)),
+            check(Judged::Pulse, pulse, resistor.and_then(|r| r.pulse_energy)),
+        ]
+        .into_iter()
+        // A voltage without bound is beyond any limit.
+        .filter(|check| check.limit.is_some() || check.figure.is_infinite())
+        .collect()
+    }
+
+    /// The checks that do not hold.
+    pub fn failed(&self) -> Vec<BusCheck> {
+        let mut checks = self.checks();
+        checks.retain(|check| check.holds() == Some(false));
+        checks
+    }
+
+    /// Voltages in an order in which no brake resistor does what is needed; where nothing is needed they are not looked at.
+    pub fn conflict(&self) -> Option<Conflict> {
+        let asked = |check: &BusCheck| matches!(check.what, Judged::Voltage | Judged::Resistance);
+        let needed = self.judged()[0].is_nan() || self.failed().iter().any(asked);
+        self.data.conflict().filter(|_| needed)
+    }
+
+    /// What could not be checked, what is missing for it, and where it would be said.
+    pub fn open(&self) -> Vec<Open> {
+        let [voltage, _, peak, pulse] = self.judged();
+        let data = &self.data;
+        let mut open = Vec::new();
+        if voltage.is_nan() {
+            open.push(Open {
+                figure: "bus voltage",
+                keys: &[
+                    &["capacitance"],
+                    &["chopper_voltage", "brake_resistor"],
+                    &["regenerative"],
+                ],
+                words: "the capacitance of the DC bus is not known, and there is no brake resistor for what comes back: give in [supply] \
+                        capacitance, or chopper_voltage and brake_resistor, or regenerative = true"
+                    .to_owned(),
+            });
+        }
+        if data.max_voltage.is_none() && !voltage.is_infinite() {
+            let rise = data.voltage.filter(|volts| voltage > *volts);
+            let rise = rise.map_or(String::new(), |volts| {
+                let bare = if data.resistor.is_none() && !data.regenerative {
+                    " without a brake resistor"
+                } else {
+                    ""
+                };
+                format!(
+                    ", and it rises from {} V to {} V{bare}",
+                    short(volts),
+                    short(voltage)
+                )
+            });
+            open.push(Open {
+                figure: "bus voltage",
+                keys: &[&["max_voltage"]],
+                words: format!(
+                    "the highest voltage of the DC bus is not known{rise}: give max_voltage in [supply]"
+                ),
+            });
+        }
+        if voltage.is_nan() && data.chopper_voltage.is_none() {
+            open.push(Open {
+                figure: "brake resistor",
+                keys: &[&["chopper_voltage"]],
+                words: format!(
+                    "what one would have to bear is known only as at most {} W mean and {} W peak: give chopper_voltage in [supply]",
+                    short(self.bounds.resistor),
+                    short(self.bounds.back)
+                ),
+            });
+        }
+        let Some(resistor) = data.resistor.as_ref().filter(|_| peak > 0.0) else {
+            return open;
+        };
+        let mut without = |known: bool, figure, keys, words: String| {
+            if !known {
+                open.push(Open {
+                    figure,
+                    keys,
+                    words,
+                });
+            }
+        };
+        without(
+            data.min_resistance.is_some(),
+            "brake resistance",
+            &[&["min_resistance"]],
+            "the smallest resistance that the chopper may switch is not known: give min_resistance in [supply]".to_owned(),
+        );
+        without(
+            resistor.peak_power.is_some(),
+            "brake resistor peak power",
+            &[&["brake_resistor.peak_power"]],
+            "that of the resistor is not known: give brake_resistor.peak_power in [supply]"
+                .to_owned(),
+        );
+        without(
+            resistor.pulse_energy.is_some(),
+            "brake resistor pulse energy",
+            &[&["brake_resistor.pulse_energy"]],
+            "that of the resistor is not known: give brake_resistor.pulse_energy in [supply]"
+                .to_owned(),
+        );
+        without(
+            !pulse.is_nan() || resistor.pulse_energy.is_none(),
+            "brake resistor pulse energy",
+            &[],
+            format!("no bound holds for it, and {}", self.no_search()),
+        );
+        open
+    }
+
+    /// Why the phases are not searched, in words.
+    pub fn no_search(&self) -> String {
+        match self.shared.common() {
+            Common::Searched { .. } => "the phases are searched".to_owned(),
+            Common::TooLong { period, cycles } => {
+                let each: Vec<String> = cycles.iter().map(u32::to_string).collect();
+                let axes: Vec<String> = (1..=each.len()).map(|k| k.to_string()).collect();
+                format!(
+                    "the common period of the cycles is {} s ({} cycles of axes {}), longer than the {MOST_CYCLES} cycles that are searched",
+                    short(*period),
+                    each.join(", "),
+                    axes.join(", "),
+                )
+            }
+            Common::None => {
+                format!("the cycles have no common period of up to {LOOKED_AT} cycles")
+            }
+        }
+    }
+
+    /// Whether nothing that was checked is violated; what was not is [named](Self::open).
+    pub fn holds(&self) -> bool {
+        self.axes.iter().all(|axis| axis.holds) && self.failed().is_empty()
+    }
+
+    /// By how much the brake resistor misses what is asked of it.
+    pub fn lacks(&self) -> Vec<(Judged, f64)> {
+        let failed = self.failed().into_iter();
+        let own = failed.filter(|check| check.what != Judged::Voltage);
+        own.filter_map(|check| Some((check.what, (check.figure - check.limit?).abs())))
+            .collect()
+    }
+}

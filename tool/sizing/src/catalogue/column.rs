@@ -1,0 +1,309 @@
+//! The columns of jred's own catalogue format: name, units, and the tables that have them.
+
+use std::f64::consts::SQRT_2;
+
+use jred_machine::units::{ARCMIN, DEGREE, RPM};
+
+/// A table of the catalogue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) enum Kind {
+    Motors,
+    Gearboxes,
+    Amplifiers,
+    Resistors,
+    Compatibility,
+}
+
+impl Kind {
+    pub(super) const ALL: [Self; 5] = [
+        Self::Motors,
+        Self::Gearboxes,
+        Self::Amplifiers,
+        Self::Resistors,
+        Self::Compatibility,
+    ];
+
+    /// What a file with such a table ends in before ".csv", and what its rows are called.
+    pub(super) const fn plural(self) -> &'static str {
+        match self {
+            Self::Motors => "motors",
+            Self::Gearboxes => "gearboxes",
+            Self::Amplifiers => "amplifiers",
+            Self::Resistors => "resistors",
+            Self::Compatibility => "compatibility",
+        }
+    }
+
+    /// The name of its tables in TOML.
+    pub(super) const fn singular(self) -> &'static str {
+        match self {
+            Self::Motors => "motor",
+            Self::Gearboxes => "gearbox",
+            Self::Amplifiers => "amplifier",
+            Self::Resistors => "resistor",
+            Self::Compatibility => "compatibility",
+        }
+    }
+}
+
+/// Which motors a unit is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum For {
+    Any,
+    Rotary,
+    Linear,
+}
+
+/// A unit that a column accepts.
+#[derive(Debug)]
+pub(super) struct Unit {
+    pub(super) text: &'static str,
+    /// One of it in SI.
+    pub(super) si: f64,
+    pub(super) motors: For,
+}
+
+const fn unit(text: &'static str, si: f64) -> Unit {
+    Unit {
+        text,
+        si,
+        motors: For::Any,
+    }
+}
+
+const fn rotary(text: &'static str, si: f64) -> Unit {
+    Unit {
+        text,
+        si,
+        motors: For::Rotary,
+    }
+}
+
+const fn linear(text: &'static str, si: f64) -> Unit {
+    Unit {
+        text,
+        si,
+        motors: For::Linear,
+    }
+}
+
+/// Cells are words, or quantities that carry their units themselves.
+const WORDS: &[Unit] = &[unit("", 1.0)];
+const NUMBER: &[Unit] = &[unit("", 1.0)];
+const TORQUE: &[Unit] = &[
+    unit("N m", 1.0),
+    unit("Nm", 1.0),
+    unit("mN m", 1e-3),
+    unit("mNm", 1e-3),
+    unit("kN m", 1e3),
+];
+const FORCE: &[Unit] = &[linear("N", 1.0), linear("kN", 1e3)];
+pub(super) const SPEED: &[Unit] = &[
+    rotary("rpm", RPM),
+    rotary("rad/s", 1.0),
+    linear("m/s", 1.0),
+    linear("mm/s", 1e-3),
+];
+const TURNING: &[Unit] = &[unit("rpm", RPM), unit("rad/s", 1.0)];
+/// Torque or force, for the points of a curve.
+pub(super) const EFFORT: &[Unit] = &[
+    rotary("N m", 1.0),
+    rotary("Nm", 1.0),
+    rotary("mN m", 1e-3),
+    rotary("mNm", 1e-3),
+    rotary("kN m", 1e3),
+    linear("N", 1.0),
+    linear("kN", 1e3),
+];
+/// Cycles per hour, for shock factors.
+pub(super) const CYCLES: &[Unit] = &[unit("/h", 1.0), unit("1/h", 1.0), unit("per hour", 1.0)];
+pub(super) const FACTOR: &[Unit] = &[unit("", 1.0), unit("%", 0.01)];
+const INERTIA: &[Unit] = &[
+    unit("kg cm^2", 1e-4),
+    unit("kg m^2", 1.0),
+    unit("g cm^2", 1e-7),
+    unit("kg mm^2", 1e-6),
+];
+const MASS: &[Unit] = &[unit("kg", 1.0), unit("g", 1e-3), unit("t", 1e3)];
+const VOLTAGE: &[Unit] = &[unit("V", 1.0)];
+/// An alternating current is stated by its RMS value or by its amplitude.
+const CURRENT: &[Unit] = &[
+    unit("A", 1.0),
+    unit("A rms", 1.0),
+    unit("A peak", 1.0 / SQRT_2),
+    unit("mA", 1e-3),
+];
+const TORQUE_CONSTANT: &[Unit] = &[
+    rotary("N m/A", 1.0),
+    rotary("N m/A rms", 1.0),
+    rotary("N m/A peak", SQRT_2),
+    rotary("mN m/A", 1e-3),
+    linear("N/A", 1.0),
+    linear("N/A rms", 1.0),
+    linear("N/A peak", SQRT_2),
+];
+const VOLTAGE_CONSTANT: &[Unit] = &[
+    rotary("V s/rad", 1.0),
+    rotary("V/krpm", 1e-3 / RPM),
+    rotary("mV/rpm", 1e-3 / RPM),
+    linear("V s/m", 1.0),
+];
+const RESISTANCE: &[Unit] = &[
+    unit("Ohm", 1.0),
+    unit("ohm", 1.0),
+    unit("Ω", 1.0),
+    unit("mOhm", 1e-3),
+];
+const INDUCTANCE: &[Unit] = &[unit("H", 1.0), unit("mH", 1e-3), unit("uH", 1e-6)];
+const CAPACITANCE: &[Unit] = &[unit("F", 1.0), unit("mF", 1e-3), unit("uF", 1e-6)];
+const POWER: &[Unit] = &[unit("W", 1.0), unit("kW", 1e3)];
+const ENERGY: &[Unit] = &[unit("J", 1.0), unit("kJ", 1e3)];
+const TIME: &[Unit] = &[unit("s", 1.0), unit("ms", 1e-3), unit("min", 60.0)];
+const THERMAL: &[Unit] = &[unit("K/W", 1.0)];
+const TEMPERATURE: &[Unit] = &[unit("C", 1.0), unit("°C", 1.0), unit("degC", 1.0)];
+const VISCOUS: &[Unit] = &[
+    rotary("N m s/rad", 1.0),
+    rotary("N m s", 1.0),
+    rotary("N m/krpm", 1e-3 / RPM),
+    linear("N s/m", 1.0),
+];
+const SHARE: &[Unit] = &[unit("%", 0.01), unit("", 1.0)];
+const PLAY: &[Unit] = &[
+    unit("arcmin", ARCMIN),
+    unit("deg", DEGREE),
+    unit("rad", 1.0),
+];
+const STIFFNESS: &[Unit] = &[
+    unit("N m/arcmin", 1.0 / ARCMIN),
+    unit("N m/rad", 1.0),
+    unit("kN m/rad", 1e3),
+    unit("N m/deg", 1.0 / DEGREE),
+];
+const LOSS: &[Unit] = &[unit("W/A", 1.0), unit("V", 1.0)];
+/// The currency is a word of the user's; it is only compared.
+const PRICE: &[Unit] = &[unit("", 1.0)];
+
+macro_rules! columns {
+    ($($column:ident $name:literal $units:ident [$($kind:ident)*];)*) => {
+        /// A column; as an index its place in [`Column::ALL`].
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(super) enum Column { $($column,)* }
+
+        impl Column {
+            pub(super) const ALL: &[Self] = &[$(Self::$column,)*];
+
+            pub(super) const fn name(self) -> &'static str {
+                match self { $(Self::$column => $name,)* }
+            }
+
+            /// Units accepted, each with its factor to SI.
+            pub(super) const fn units(self) -> &'static [Unit] {
+                match self { $(Self::$column => $units,)* }
+            }
+
+            /// The tables that have it.
+            pub(super) const fn kinds(self) -> &'static [Kind] {
+                match self { $(Self::$column => &[$(Kind::$kind,)*],)* }
+            }
+        }
+    };
+}
+
+columns! {
+    Key "key" WORDS [Motors Gearboxes Amplifiers Resistors];
+    Maker "maker" WORDS [Motors Gearboxes Amplifiers Resistors];
+    Model "model" WORDS [Motors Gearboxes Amplifiers Resistors];
+    MotorKind "kind" WORDS [Motors];
+    RatedTorque "rated_torque" TORQUE [Motors];
+    RatedForce "rated_force" FORCE [Motors];
+    RatedSpeed "rated_speed" SPEED [Motors];
+    StandstillTorque "standstill_torque" TORQUE [Motors];
+    StandstillForce "standstill_force" FORCE [Motors];
+    PeakTorque "peak_torque" TORQUE [Motors];
+    PeakForce "peak_force" FORCE [Motors];
+    MaxSpeed "max_speed" SPEED [Motors];
+    MaxPower "max_power" POWER [Motors];
+    NoLoadSpeed "no_load_speed" SPEED [Motors];
+    RotorInertia "rotor_inertia" INERTIA [Motors];
+    MovingMass "moving_mass" MASS [Motors];
+    CornerSpeed "peak_corner_speed" SPEED [Motors];
+    TorqueAtMaxSpeed "peak_torque_at_max_speed" TORQUE [Motors];
+    ForceAtMaxSpeed "peak_force_at_max_speed" FORCE [Motors];
+    PeakCurve "peak_curve" WORDS [Motors];
+    ContinuousCurve "continuous_curve" WORDS [Motors];
+    CoulombFriction "coulomb_friction" TORQUE [Motors];
+    FrictionForce "friction_force" FORCE [Motors];
+    ViscousFriction "viscous_friction" VISCOUS [Motors];
+    Commutation "commutation" WORDS [Motors];
+    TorqueConstant "torque_constant" TORQUE_CONSTANT [Motors];
+    VoltageConstant "voltage_constant" VOLTAGE_CONSTANT [Motors];
+    WindingResistance "winding_resistance" RESISTANCE [Motors];
+    WindingInductance "winding_inductance" INDUCTANCE [Motors];
+    PolePairs "pole_pairs" NUMBER [Motors];
+    StandstillCurrent "standstill_current" CURRENT [Motors];
+    NoLoadCurrent "no_load_current" CURRENT [Motors];
+    WindingThermalResistance "thermal_resistance_winding" THERMAL [Motors];
+    HousingThermalResistance "thermal_resistance_housing" THERMAL [Motors];
+    WindingTime "thermal_time_winding" TIME [Motors];
+    HousingTime "thermal_time_housing" TIME [Motors];
+    MaxTemperature "max_winding_temperature" TEMPERATURE [Motors];
+    BrakeTorque "brake_torque" TORQUE [Motors];
+    BrakeForce "brake_force" FORCE [Motors];
+    BrakeInertia "brake_inertia" INERTIA [Motors];
+    BrakeMass "brake_mass" MASS [Motors];
+    BuiltInGearbox "built_in_gearbox" WORDS [Motors];
+    BusVoltage "bus_voltage" VOLTAGE [Motors Amplifiers];
+    RatedCurrent "rated_current" CURRENT [Motors Amplifiers];
+    PeakCurrent "peak_current" CURRENT [Motors Amplifiers];
+    Ratio "ratio" NUMBER [Gearboxes];
+    Reverses "reverses" WORDS [Gearboxes];
+    Stages "stages" NUMBER [Gearboxes];
+    RatedOutputTorque "rated_output_torque" TORQUE [Gearboxes];
+    PeakOutputTorque "peak_output_torque" TORQUE [Gearboxes];
+    EmergencyOutputTorque "emergency_output_torque" TORQUE [Gearboxes];
+    RatedInputSpeed "rated_input_speed" TURNING [Gearboxes];
+    MaxInputSpeed "max_input_speed" TURNING [Gearboxes];
+    InputInertia "input_inertia" INERTIA [Gearboxes];
+    Efficiency "efficiency" SHARE [Gearboxes];
+    BackDriving "back_driving" SHARE [Gearboxes];
+    NoLoadTorque "no_load_torque" TORQUE [Gearboxes];
+    Stiffness "stiffness" STIFFNESS [Gearboxes];
+    Backlash "backlash" PLAY [Gearboxes];
+    ShockFactors "shock_factors" WORDS [Gearboxes];
+    PeakTime "peak_time" TIME [Amplifiers];
+    Capacitance "capacitance" CAPACITANCE [Amplifiers];
+    ChopperVoltage "chopper_voltage" VOLTAGE [Amplifiers];
+    MaxVoltage "max_voltage" VOLTAGE [Amplifiers];
+    MinResistance "min_resistance" RESISTANCE [Amplifiers];
+    ConstantLoss "constant_loss" POWER [Amplifiers];
+    CurrentLoss "loss_per_current" LOSS [Amplifiers];
+    Resistance "resistance" RESISTANCE [Resistors];
+    RatedPower "rated_power" POWER [Resistors];
+    PeakPower "peak_power" POWER [Resistors];
+    PulseEnergy "pulse_energy" ENERGY [Resistors];
+    Mass "mass" MASS [Motors Gearboxes Amplifiers];
+    Price "price" PRICE [Motors Gearboxes Amplifiers Resistors];
+    FiguresFrom "figures_from" WORDS [Motors Gearboxes Amplifiers Resistors];
+    Source "source" WORDS [Motors Gearboxes Amplifiers Resistors];
+    ListedMotor "motor" WORDS [Compatibility];
+    ListedGearboxes "gearboxes" WORDS [Compatibility];
+    Direct "direct" WORDS [Compatibility];
+    ListedAmplifiers "amplifiers" WORDS [Compatibility];
+}
+
+impl Column {
+    pub(super) const COUNT: usize = Self::ALL.len();
+
+    /// The columns of a table.
+    pub(super) fn of(kind: Kind) -> impl Iterator<Item = Self> {
+        let all = Self::ALL.iter().copied();
+        all.filter(move |column| column.kinds().contains(&kind))
+    }
+
+    /// Its units for messages: "[N m], [mN m]"; nothing if it has none.
+    pub(super) fn unit_list(self) -> String {
+        let units = self.units().iter().filter(|unit| !unit.text.is_empty());
+        let units: Vec<String> = units.map(|unit| format!("[{}]", unit.text)).collect();
+        units.join(", ")
+    }
+}

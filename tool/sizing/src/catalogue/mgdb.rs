@@ -1,0 +1,305 @@
+//! Reader for files of the Motor-Gearbox Database (github.com/ekrimsk/MGDB) as they are: figures in SI, columns by name,
+//! "inf", "nan" or nothing where the data sheet does not say. The mapping is tabulated in docs/catalogue.md.
+
+use std::ops::Range;
+
+use super::fault::{Fault, Remarks, Text};
+use super::gearbox::Gearbox;
+use super::lists::Listing;
+use super::motor::{Motor, Thermal, Winding};
+use super::table::{cell_start, csv_fault};
+use crate::motor::winding::Commutation;
+
+/// What a stage passes on where the database gives no efficiency: 608 of the 613 gearboxes of the maker in question that state
+/// one have at least as much.
+const STAGE_EFFICIENCY: f64 = 0.87;
+
+/// Whether a header is that of the database.
+pub(super) fn is_header(text: &str) -> bool {
+    let start = text.trim_start_matches('\u{feff}');
+    let header = start.lines().next().unwrap_or_default();
+    let titles: Vec<&str> = header.split(',').map(str::trim).collect();
+    ["key", "manufacturer", "ID"]
+        .iter()
+        .all(|t| titles.contains(t))
+}
+
+/// The rows of a file with their titles.
+struct Sheet<'t> {
+    text: &'t Text,
+    header: csv::StringRecord,
+    record: csv::StringRecord,
+}
+
+impl Sheet<'_> {
+    fn index(&self, title: &str) -> Option<usize> {
+        self.header.iter().position(|t| t == title)
+    }
+
+    fn word(&self, title: &str) -> &str {
+        let index = self.index(title);
+        index.and_then(|i| self.record.get(i)).unwrap_or_default()
+    }
+
+    fn place(&self, title: &str) -> Range<usize> {
+        let row = self.record.position().map_or(0, |p| p.byte() as usize);
+        let start = cell_start(&self.text.text, row, self.index(title).unwrap_or(0), ',');
+        start..start + self.word(title).len()
+    }
+
+    fn line(&self) -> usize {
+        self.record.position().map_or(0, csv::Position::line) as usize
+    }
+
+    fn at_line(&self) -> String {
+        format!("{}:{}", self.text.name, self.line())
+    }
+
+    /// A figure above zero; nothing where the data sheet does not say. What is no number at all is taken for not stated,
+    /// and remarked upon.
+    fn figure(&self, title: &str, remarks: &mut Remarks) -> Option<f64> {
+        let word = self.word(title);
+        if word.is_empty() {
+            return None;
+        }
+        let value = word.parse::<f64>();
+        if !matches!(value, Ok(value) if value >= 0.0 || value.is_nan()) {
+            remarks.add("cells that are not numbers from zero up, taken for not stated", || {
+                format!(
+                    "{}: {title} of \"{}\" is \"{word}\", not a number from zero up: taken for not stated",
+                    self.at_line(),
+                    self.word("key")
+                )
+            });
+        }
+        value.ok().filter(|value| value.is_finite() && *value > 0.0)
+    }
+
+    /// A figure that no drive can be judged without.
+    fn needed(&self, title: &str) -> Result<f64, Fault> {
+        let value = self.word(title).parse::<f64>().ok();
+        value.filter(|v| v.is_finite() && *v > 0.0).ok_or_else(|| {
+            self.fault(
+                title,
+                "not a number greater than zero",
+                format!("{title} is needed in every row, in SI units"),
+            )
+        })
+    }
+
+    fn fault(&self, title: &str, label: &'static str, help: String) -> Fault {
+        let message = format!(
+            "{title} of \"{}\" is \"{}\"",
+            self.word("key"),
+            self.word(title)
+        );
+        Fault::new(message, self.place(title), label, help)
+    }
+
+    fn key(&self) -> Result<String, Fault> {
+        match self.word("key") {
+            "" => Err(self.fault(
+                "key",
+                "needed in every row",
+                "give the row a key".to_owned(),
+            )),
+            key => Ok(key.to_owned()),
+        }
+    }
+
+    fn source(&self) -> String {
+        format!(
+            "Motor-Gearbox Database, {}, row {}",
+            self.text.name,
+            self.word("key")
+        )
+    }
+}
+
+/// An entry as read: its line, its place, and itself.
+type Take<'a, T> = &'a mut dyn FnMut(Result<(T, usize, Range<usize>), Fault>);
+
+fn each<T>(
+    text: &Text,
+    remarks: &mut Remarks,
+    build: impl Fn(&Sheet, &mut Remarks) -> Result<T, Fault>,
+    take: Take<T>,
+) -> Result<usize, Fault> {
+    let mut reader = csv::ReaderBuilder::new()
+        .trim(csv::Trim::All)
+        .from_reader(text.text.as_bytes());
+    let header = reader
+        .headers()
+        .map_err(|e| csv_fault(&text.text, &e, ','))?
+        .clone();
+    let mut sheet = Sheet {
+        text,
+        header,
+        record: csv::StringRecord::new(),
+    };
+    let mut count = 0;
+    loop {
+        match reader.read_record(&mut sheet.record) {
+            Ok(false) => return Ok(count),
+            Ok(true) => {
+                count += 1;
+                let entry = build(&sheet, remarks);
+                take(entry.map(|entry| (entry, sheet.line(), sheet.place("key"))));
+            }
+            Err(error) => {
+                count += 1;
+                take(Err(csv_fault(&text.text, &error, ',')));
+            }
+        }
+    }
+}
+
+/// Motors.
+pub(super) fn motors(
+    text: &Text,
+    remarks: &mut Remarks,
+    take: Take<Motor>,
+) -> Result<usize, Fault> {
+    each(text, remarks, motor, take)
+}
+
+fn motor(sheet: &Sheet, remarks: &mut Remarks) -> Result<Motor, Fault> {
+    let mut figure = |title| sheet.figure(title, remarks);
+    let torque_constant = figure("k_t");
+    let rated_current = figure("I_nom");
+    let no_load_current = figure("I_nl");
+    let no_load_speed = figure("omega_nl");
+    let voltage_constant = figure("k_e").or(torque_constant);
+    let rated_torque = torque_constant.zip(rated_current).map(|(k, i)| k * i);
+    // Torque that the motor loses without load.
+    let lost = torque_constant.zip(no_load_current).map(|(k, i)| k * i);
+    let coulomb = figure("coulomb_friction");
+    let viscous = figure("viscous_friction");
+    let friction = match (coulomb, viscous, lost, no_load_speed) {
+        (Some(coulomb), None, Some(lost), Some(speed)) => {
+            [coulomb, ((lost - coulomb) / speed).max(0.0)]
+        }
+        (None, None, Some(lost), _) => [lost, 0.0],
+        _ => [coulomb.unwrap_or(0.0), viscous.unwrap_or(0.0)],
+    };
+    Ok(Motor {
+        key: sheet.key()?,
+        maker: sheet.word("manufacturer").replace('_', " "),
+        model: sheet.word("ID").to_owned(),
+        rated_torque,
+        rated_speed: figure("max_cont_speed"),
+        peak_torque: figure("max_int_torque"),
+        max_speed: figure("max_int_speed"),
+        max_power: figure("max_cont_power"),
+        no_load_speed,
+        rotor_inertia: sheet.needed("inertia")?,
+        friction,
+        winding: Winding {
+            torque_constant,
+            voltage_constant,
+            resistance: figure("R"),
+            inductance: figure("L"),
+            rated_current,
+            no_load_current,
+            commutation: Commutation::Block,
+            ..Winding::default()
+        },
+        thermal: Thermal {
+            winding_resistance: figure("Rth1"),
+            housing_resistance: figure("Rth2"),
+            ..Thermal::default()
+        },
+        bus_voltage: figure("V"),
+        mass: figure("mass"),
+        from_maker: false,
+        source: sheet.source(),
+        ..Motor::default()
+    })
+}
+
+/// Gearboxes.
+pub(super) fn gearboxes(
+    text: &Text,
+    remarks: &mut Remarks,
+    take: Take<Gearbox>,
+) -> Result<usize, Fault> {
+    each(text, remarks, gearbox, take)
+}
+
+fn gearbox(sheet: &Sheet, remarks: &mut Remarks) -> Result<Gearbox, Fault> {
+    let ratio = sheet.needed("ratio")?;
+    let reverses = match sheet.word("direction").parse::<f64>() {
+        Ok(direction) => direction < 0.0,
+        Err(_) if sheet.word("direction").is_empty() => false,
+        Err(_) => {
+            let help = "write 1 if the output turns with the input, -1 if against it".to_owned();
+            return Err(sheet.fault("direction", "not a number", help));
+        }
+    };
+    let mut figure = |title| sheet.figure(title, remarks);
+    let stages = figure("stages").map(|n| n.round() as u32);
+    let stated = figure("efficiency");
+    let inertia = figure("inertia").unwrap_or(0.0);
+    let [rated_torque, peak_torque] = ["max_cont_torque", "max_int_torque"].map(&mut figure);
+    let mass = figure("mass");
+    let efficiency = stated.unwrap_or_else(|| {
+        remarks.add("gearboxes without an efficiency", || {
+            format!(
+                "{}: \"{}\" has no efficiency: {STAGE_EFFICIENCY} per stage is taken",
+                sheet.at_line(),
+                sheet.word("key")
+            )
+        });
+        STAGE_EFFICIENCY.powi(stages.unwrap_or(1) as i32)
+    });
+    if efficiency > 1.0 {
+        let help = "a share from 0 to 1 is expected".to_owned();
+        return Err(sheet.fault("efficiency", "above 1", help));
+    }
+    Ok(Gearbox {
+        key: sheet.key()?,
+        maker: sheet.word("manufacturer").replace('_', " "),
+        model: sheet.word("ID").to_owned(),
+        ratio,
+        reverses,
+        stages,
+        rated_torque,
+        peak_torque,
+        inertia,
+        efficiency,
+        efficiency_assumed: stated.is_none(),
+        back_efficiency: efficiency,
+        mass,
+        from_maker: false,
+        source: sheet.source(),
+        ..Gearbox::default()
+    })
+}
+
+/// A compatibility file: no header; motor key, then gearbox keys.
+pub(super) fn listings(text: &Text, mut take: impl FnMut(Result<Listing, Fault>)) {
+    let mut reader = csv::ReaderBuilder::new()
+        .trim(csv::Trim::All)
+        .has_headers(false)
+        .flexible(true)
+        .from_reader(text.text.as_bytes());
+    let mut record = csv::StringRecord::new();
+    loop {
+        match reader.read_record(&mut record) {
+            Ok(false) => return,
+            Ok(true) => {
+                let start = record.position().map_or(0, |p| p.byte() as usize);
+                let motor = record.get(0).unwrap_or_default().to_owned();
+                let keys = record.iter().skip(1).filter(|key| !key.is_empty());
+                take(Ok(Listing {
+                    at: start..start + motor.len(),
+                    motor,
+                    gearboxes: Some(keys.map(ToOwned::to_owned).collect()),
+                    direct: true,
+                    amplifiers: None,
+                }));
+            }
+            Err(error) => take(Err(csv_fault(&text.text, &error, ','))),
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! A motor of the catalogue.
+
+use crate::motor::winding::Commutation;
+
+/// A servo motor; SI units. `None`: the data sheet does not say. Of a linear motor read force (N) for torque, m/s for
+/// speed, and the mass of the moving part (kg) for the rotor's inertia.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Motor {
+    /// Short name, unique in the catalogue.
+    pub key: String,
+    /// Maker.
+    pub maker: String,
+    /// Maker's type designation.
+    pub model: String,
+    /// Whether it turns or slides.
+    pub kind: MotorKind,
+    /// S1 torque at rated speed (N·m).
+    pub rated_torque: Option<f64>,
+    /// Rated speed (rad/s).
+    pub rated_speed: Option<f64>,
+    /// S1 torque at standstill M0 (N·m).
+    pub standstill_torque: Option<f64>,
+    /// Peak torque (N·m).
+    pub peak_torque: Option<f64>,
+    /// Largest speed (rad/s).
+    pub max_speed: Option<f64>,
+    /// Largest continuous power (W).
+    pub max_power: Option<f64>,
+    /// Inertia of the rotor without brake (kg·m²).
+    pub rotor_inertia: f64,
+    /// Speed up to which the peak torque is there (rad/s).
+    pub corner_speed: Option<f64>,
+    /// Peak torque at the largest speed (N·m).
+    pub torque_at_max_speed: Option<f64>,
+    /// Speed without load at the voltage of the figures (rad/s).
+    pub no_load_speed: Option<f64>,
+    /// Peak torque over speed as points (rad/s, N·m), speeds rising; empty: not given.
+    pub peak_curve: Vec<[f64; 2]>,
+    /// S1 torque over speed as points; empty: not given.
+    pub continuous_curve: Vec<[f64; 2]>,
+    /// Coulomb (N·m) and viscous (N·m·s/rad) friction at the shaft; zero where the data sheet does not say.
+    pub friction: [f64; 2],
+    /// The winding.
+    pub winding: Winding,
+    /// Its thermal data.
+    pub thermal: Thermal,
+    /// Its holding brake.
+    pub brake: Option<Brake>,
+    /// DC-bus voltage that the figures hold for (V).
+    pub bus_voltage: Option<f64>,
+    /// Mass (kg).
+    pub mass: Option<f64>,
+    /// Price, in the currency of the catalogue.
+    pub price: Option<f64>,
+    /// Whether the figures were read in the maker's own document.
+    pub from_maker: bool,
+    /// Where the figures are from.
+    pub source: String,
+}
+
+/// Whether a motor turns or slides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MotorKind {
+    /// It turns.
+    #[default]
+    Rotary,
+    /// It slides.
+    Linear,
+}
+
+/// A motor's winding. For a three-phase motor currents are RMS values, voltages line to line; for a direct-current motor
+/// both are plain.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Winding {
+    /// How it is fed, and so what the figures below mean.
+    pub commutation: Commutation,
+    /// Torque constant k_t (N·m/A).
+    pub torque_constant: Option<f64>,
+    /// Voltage constant k_e (V·s/rad); in SI equal to k_t for a direct-current motor.
+    pub voltage_constant: Option<f64>,
+    /// Resistance at 20 °C (Ω).
+    pub resistance: Option<f64>,
+    /// Inductance (H).
+    pub inductance: Option<f64>,
+    /// Pairs of poles.
+    pub pole_pairs: Option<f64>,
+    /// Current at rated torque (A).
+    pub rated_current: Option<f64>,
+    /// Current at standstill torque (A).
+    pub standstill_current: Option<f64>,
+    /// Largest current (A).
+    pub peak_current: Option<f64>,
+    /// Current without load at the no-load speed (A).
+    pub no_load_current: Option<f64>,
+}
+
+/// A motor's thermal data.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Thermal {
+    /// Thermal resistance from winding to housing, or from winding to surroundings if that is all there is (K/W).
+    pub winding_resistance: Option<f64>,
+    /// Thermal resistance from housing to surroundings (K/W).
+    pub housing_resistance: Option<f64>,
+    /// Thermal time constant of the winding (s).
+    pub winding_time: Option<f64>,
+    /// Thermal time constant of the housing, or of the motor as a whole (s).
+    pub housing_time: Option<f64>,
+    /// Highest temperature of the winding (°C).
+    pub max_temperature: Option<f64>,
+}
+
+/// A holding brake.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Brake {
+    /// Static torque (N·m).
+    pub torque: f64,
+    /// Its inertia (kg·m²).
+    pub inertia: f64,
+}
+
+impl Motor {
+    /// Rated torque times rated speed (W). Where no rated speed is stated, it is that of the nominal point of a motor fed with
+    /// direct current: n = (V − R·I)/k_e at the rated current.
+    pub fn rated_power(&self) -> Option<f64> {
+        let torque = self.rated_torque?;
+        let speed = self.rated_speed.or_else(|| self.nominal_speed(torque))?;
+        Some(torque * speed)
+    }
+
+    fn nominal_speed(&self, torque: f64) -> Option<f64> {
+        let winding = &self.winding;
+        if winding.commutation != Commutation::Block {
+            return None;
+        }
+        let constant = winding.torque_constant?;
+        let current = winding.rated_current.unwrap_or(torque / constant);
+        let voltage = self.bus_voltage? - winding.resistance? * current;
+        let speed = voltage / winding.voltage_constant.unwrap_or(constant);
+        (speed.is_finite() && speed > 0.0).then_some(speed)
+    }
+}

@@ -1,0 +1,345 @@
+//! One cycle of the duty, prepared so that any number of drives can be judged against it.
+//!
+//! The torque of a motor is a linear form c·x of the five [loads](loads_of) x of an instant, its five coefficients c being all that a
+//! drive contributes. What a form does over the cycle is worked out from c without going through the samples:
+//! - its RMS is ‖R·c‖, R being the triangular factor of the samples ([`Cycle::rms_torque`]);
+//! - its extremes, its peak against an envelope and the signs of its power are found by branch and bound over stretches of
+//!   samples ([`Cycle::peak`], [`Cycle::torque_extremes`], [`Cycle::energies`]).
+//!
+//! Each equals what a loop over all samples gives, to rounding (1e-12 of the sum of the form's terms; `tests/cycle.rs`).
+//! [`Cycle::new`] is one pass over the samples; after it a drive costs the same at a thousand samples and at a million, but for
+//! the search's few levels more (docs/performance.md).
+
+use std::sync::OnceLock;
+
+use crate::catalogue::Drive;
+use crate::cycle::form::{Coefficients, LOADS, MotorDuty, loads_of};
+use crate::motor::envelope::Envelope;
+use jred_machine::analysis::duty::Duty;
+use jred_machine::analysis::mechanics::Mechanics;
+use jred_machine::number::figures::Figures;
+
+mod against;
+mod beyond;
+mod factor;
+mod floor;
+pub mod form;
+mod front;
+mod kernels;
+mod power;
+mod search;
+pub(crate) mod speeds;
+mod tree;
+
+pub(crate) use against::Against;
+use factor::Factor;
+use front::Front;
+use search::Stretches;
+use speeds::Speeds;
+use tree::Tree;
+
+/// Exponent of the mean torque that counts for roller bearings.
+const BEARING: f64 = 10.0 / 3.0;
+
+/// One instant of the cycle, as drives see it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Time (s).
+    pub t: f64,
+    /// Weight in the integral over the cycle (s).
+    pub weight: f64,
+    alpha: f64,
+    output_torque: f64,
+    speed: f64,
+}
+
+impl Sample {
+    /// The five loads: see [`loads_of`]. They are not kept: of a million instants that would be another 16 MB.
+    #[inline]
+    pub fn loads(&self) -> [f64; LOADS] {
+        loads_of(self.alpha, self.output_torque, self.speed)
+    }
+
+    /// Speed at the gearbox output (rad/s).
+    #[inline]
+    pub const fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// Torque at the gearbox output (N·m).
+    #[inline]
+    pub const fn output_torque(&self) -> f64 {
+        self.output_torque
+    }
+}
+
+/// The cycle.
+#[derive(Clone, Debug)]
+pub struct Cycle {
+    duration: f64,
+    hold_torque: f64,
+    mechanics: Mechanics,
+    samples: Vec<Sample>,
+    inertia: Figures,
+    speed: Figures,
+    mean_speed: f64,
+    peak_output_torque: f64,
+    mean_loads: [f64; LOADS],
+    /// Largest magnitudes of the loads.
+    largest: [f64; LOADS],
+    torque: Factor,
+    power: Factor,
+    tree: Tree,
+    front: Front,
+    cubic_mean: OnceLock<f64>,
+    /// Sorted only when a motor's heat asks for it.
+    speeds: OnceLock<Speeds>,
+    bearing_mean: OnceLock<f64>,
+}
+
+/// Where the cycle comes closest to an envelope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peak {
+    /// |T| as a share of the envelope's torque there; infinite beyond the envelope's largest speed.
+    pub used: f64,
+    /// Motor torque there (N·m).
+    pub torque: f64,
+    /// Motor speed there (rad/s).
+    pub speed: f64,
+}
+
+impl Cycle {
+    /// Prepares a duty: one pass over its instants, of which the weights must not be negative.
+    pub fn new(duty: &Duty) -> Self {
+        let samples: Vec<Sample> = duty
+            .instants
+            .iter()
+            .map(|instant| Sample {
+                t: instant.t,
+                weight: instant.weight,
+                alpha: instant.input_alpha,
+                output_torque: instant.input_torque,
+                speed: instant.input_speed,
+            })
+            .collect();
+        let mut largest = [0.0f64; LOADS];
+        let mut mean_loads = [0.0; LOADS];
+        let mut peak_output_torque = 0.0f64;
+        for sample in &samples {
+            for (k, load) in sample.loads().into_iter().enumerate() {
+                largest[k] = largest[k].max(load.abs());
+                mean_loads[k] += sample.weight * load;
+            }
+            peak_output_torque = peak_output_torque.max(sample.output_torque().abs());
+        }
+        let tree = Tree::new(&samples, &largest);
+        Self {
+            duration: duty.duration,
+            hold_torque: duty.hold_torque,
+            mechanics: duty.mechanics.clone(),
+            inertia: duty.figures(|i| i.input_inertia),
+            speed: duty.figures(|i| i.input_speed),
+            mean_speed: duty.integral(|i| i.input_speed.abs()) / duty.duration,
+            peak_output_torque,
+            mean_loads: mean_loads.map(|sum| sum / duty.duration),
+            torque: Factor::of_loads(&samples),
+            power: Factor::of_powers(&samples),
+            front: Front::new(&tree, &samples, &largest),
+            tree,
+            largest,
+            cubic_mean: OnceLock::new(),
+            speeds: OnceLock::new(),
+            bearing_mean: OnceLock::new(),
+            samples,
+        }
+    }
+
+    /// Length of the cycle (s).
+    pub const fn duration(&self) -> f64 {
+        self.duration
+    }
+
+    /// Torque that holds the machine at the gearbox output (N·m); see [`Duty::hold_torque`].
+    pub const fn hold_torque(&self) -> f64 {
+        self.hold_torque
+    }
+
+    /// What the mechanical rules need to know of machine and motion.
+    pub const fn mechanics(&self) -> &Mechanics {
+        &self.mechanics
+    }
+
+    /// The instants in order of time.
+    pub fn samples(&self) -> &[Sample] {
+        &self.samples
+    }
+
+    /// Inertia at the gearbox output over the cycle (kg·m²).
+    pub const fn inertia(&self) -> Figures {
+        self.inertia
+    }
+
+    /// Mean of the speed's magnitude at the gearbox output (rad/s).
+    pub const fn mean_speed(&self) -> f64 {
+        self.mean_speed
+    }
+
+    /// Largest speed at the gearbox output (rad/s).
+    #[inline]
+    pub fn peak_speed(&self) -> f64 {
+        self.speed.peak()
+    }
+
+    /// Largest magnitude of the torque at the gearbox output (N·m).
+    pub const fn peak_output_torque(&self) -> f64 {
+        self.peak_output_torque
+    }
+
+    /// Mean torque at the gearbox output, weighted with the speed: (∫|n|·|T|^p dt/∫|n| dt)^(1/p). The load's share of each
+    /// revolution counts. p = 3 is the root-mean-cube torque of gears, 10/3 that of roller bearings; these two are worked
+    /// out once, any other at every call.
+    pub fn mean_output_torque(&self, power: f64) -> f64 {
+        let once = match power {
+            3.0 => &self.cubic_mean,
+            BEARING => &self.bearing_mean,
+            _ => return self.power_mean(power),
+        };
+        *once.get_or_init(|| self.power_mean(power))
+    }
+
+    fn power_mean(&self, power: f64) -> f64 {
+        let turning = self.mean_speed * self.duration;
+        if turning == 0.0 {
+            return 0.0;
+        }
+        let share = |s: &Sample| s.weight * s.speed().abs() * s.output_torque().abs().powf(power);
+        (self.samples.iter().map(share).sum::<f64>() / turning).powf(1.0 / power)
+    }
+
+    /// The samples by speed.
+    pub(crate) fn speeds(&self) -> &Speeds {
+        self.speeds.get_or_init(|| Speeds::new(&self.samples))
+    }
+
+    /// RMS of the motor torque (N·m).
+    pub fn rms_torque(&self, coefficients: &Coefficients) -> f64 {
+        self.torque.norm(&coefficients.0) / self.duration.sqrt()
+    }
+
+    /// Calls `take` with every sample at which the motor torque (N·m), given too, is larger in magnitude than `bound`: the cost
+    /// is that of these samples.
+    pub(crate) fn beyond(
+        &self,
+        coefficients: &Coefficients,
+        bound: f64,
+        take: impl FnMut(&Sample, f64),
+    ) {
+        self.stretches().beyond(coefficients, bound, take);
+    }
+
+    /// Mean of the motor torque (N·m).
+    pub fn mean_torque(&self, coefficients: &Coefficients) -> f64 {
+        coefficients.torque(&self.mean_loads)
+    }
+
+    /// Least and largest motor torque (N·m), both with their sign.
+    pub fn torque_extremes(&self, coefficients: &Coefficients) -> [f64; 2] {
+        self.stretches().extremes(coefficients)
+    }
+
+    /// Largest magnitude of the motor torque (N·m).
+    pub fn peak_torque(&self, coefficients: &Coefficients) -> f64 {
+        self.stretches().largest_magnitude(coefficients)
+    }
+
+    /// Energy that the motor puts in over a cycle and energy that comes back to it (J), neither negative.
+    pub fn energies(&self, coefficients: &Coefficients, ratio: f64) -> [f64; 2] {
+        self.stretches().energies(coefficients, ratio)
+    }
+
+    /// Whether the motor takes back energy at any instant: cheaper than [`Cycle::energies`].
+    pub fn regenerates(&self, coefficients: &Coefficients) -> bool {
+        self.stretches().regenerates(coefficients)
+    }
+
+    /// The instant that comes closest to the peak-torque envelope, or passes it furthest; the first beyond the envelope's
+    /// largest speed, if there is one. Where the envelope knows no limit it is the instant of the largest torque.
+    pub fn peak(&self, coefficients: &Coefficients, ratio: f64, envelope: &Envelope) -> Peak {
+        let peak = self.stretches().peak(coefficients, ratio, envelope);
+        peak.unwrap_or(Peak {
+            used: f64::NEG_INFINITY,
+            torque: 0.0,
+            speed: 0.0,
+        })
+    }
+
+    /// Whether the peak keeps within shares of the envelope, as far as bounds tell: much cheaper than [`Cycle::peak`], which
+    /// settles what they leave open.
+    pub(crate) fn peak_against(
+        &self,
+        coefficients: &Coefficients,
+        ratio: f64,
+        envelope: &Envelope,
+        shares: [f64; 2],
+    ) -> Against {
+        (self.stretches()).against(coefficients, ratio, envelope, shares)
+    }
+
+    fn stretches(&self) -> Stretches<'_> {
+        Stretches {
+            samples: &self.samples,
+            tree: &self.tree,
+            front: &self.front,
+            largest: &self.largest,
+        }
+    }
+
+    /// The duty at the motor of a drive. The extremes of the power take a pass over the samples; all else does not.
+    pub fn motor_duty(&self, drive: &Drive) -> MotorDuty {
+        let (coefficients, ratio) = (drive.coefficients(), drive.ratio());
+        let [least, largest] = self.torque_extremes(&coefficients);
+        let [motoring_energy, regenerative_energy] = self.energies(&coefficients, ratio);
+        let (mut least_power, mut largest_power) = (f64::INFINITY, f64::NEG_INFINITY);
+        for sample in &self.samples {
+            let power = coefficients.torque(&sample.loads()) * (sample.speed() * ratio);
+            least_power = least_power.min(power);
+            largest_power = largest_power.max(power);
+        }
+        let scale = 1.0 / (ratio * ratio);
+        let gearbox = drive.inertia_ratio(0.0);
+        let load = scale / drive.rotor();
+        let inertia = self.inertia;
+        // λ = g + s·J: its mean square is (g + s·mean)² + s²·(rms² − mean²).
+        let spread = inertia.rms * inertia.rms - inertia.mean * inertia.mean;
+        let mean = gearbox + load * inertia.mean;
+        MotorDuty {
+            torque: Figures {
+                min: least,
+                mean: self.mean_torque(&coefficients),
+                max: largest,
+                rms: self.rms_torque(&coefficients),
+            },
+            speed: Figures {
+                min: self.speed.min * ratio,
+                mean: self.speed.mean * ratio,
+                max: self.speed.max * ratio,
+                rms: self.speed.rms * ratio,
+            },
+            mean_speed: self.mean_speed * ratio,
+            power: Figures {
+                min: least_power,
+                mean: (motoring_energy - regenerative_energy) / self.duration,
+                max: largest_power,
+                rms: self.power.norm(&coefficients.0) * ratio / self.duration.sqrt(),
+            },
+            motoring_energy,
+            regenerative_energy,
+            inertia_ratio: Figures {
+                min: gearbox + load * inertia.min,
+                mean,
+                max: gearbox + load * inertia.max,
+                rms: (mean * mean + load * load * spread.max(0.0)).sqrt(),
+            },
+        }
+    }
+}

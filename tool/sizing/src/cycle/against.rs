@@ -1,0 +1,81 @@
+//! Whether the peak of a cycle keeps within a share of an envelope, where bounds tell: without a search for the peak itself.
+
+use super::Sample;
+use super::search::Stretches;
+use crate::cycle::form::Coefficients;
+use crate::motor::envelope::Envelope;
+
+/// How the peak of a cycle stands against shares of an envelope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Against {
+    /// It keeps within the lower share at every instant.
+    Below,
+    /// It passes the upper share: an instant uses at least this much.
+    Beyond {
+        /// |T| as a share of the envelope's torque there, rounding allowed for.
+        used: f64,
+    },
+    /// Bounds do not tell.
+    Open,
+}
+
+/// What rounding may make of a share.
+const NEAR: f64 = 1e-9;
+
+impl Stretches<'_> {
+    /// See [`Against`]; `low` is not above `high`.
+    pub(super) fn against(
+        self,
+        c: &Coefficients,
+        ratio: f64,
+        envelope: &Envelope,
+        [low, high]: [f64; 2],
+    ) -> Against {
+        let Some(line) = self.floor_line(ratio, envelope) else {
+            return Against::Open;
+        };
+        let front = self.front;
+        let [start, slope] = line;
+        let least = low * (1.0 - NEAR);
+        if front.most_above(&c.0, [least * start, least * slope]) + self.slack(c) <= 0.0 {
+            return Against::Below;
+        }
+        let bounds = front.bounds(&c.0);
+        let floors = front.floors(line);
+        let (mut worst, mut most) = (0, f64::NEG_INFINITY);
+        for k in 0..front.len {
+            let share = bounds[k] / floors[k];
+            if share > most {
+                (worst, most) = (k, share);
+            }
+        }
+        let node = &self.tree.nodes[front.nodes[worst] as usize];
+        let used =
+            |sample: &Sample| envelope.peak_used(c.torque(&sample.loads()), sample.speed() * ratio);
+        let used = [node.first, node.last]
+            .map(|end| used(&self.samples[end as usize]))
+            .into_iter()
+            .fold(0.0, f64::max);
+        if used > high * (1.0 + 4.0 * NEAR) && used.is_finite() {
+            Against::Beyond {
+                used: used * (1.0 - NEAR),
+            }
+        } else {
+            Against::Open
+        }
+    }
+
+    /// A line over the speed at the gearbox output, torque at rest and slope, that the envelope does not fall below at any speed
+    /// of the cycle; `None` where there is none above zero.
+    fn floor_line(self, ratio: f64, envelope: &Envelope) -> Option<[f64; 2]> {
+        let fastest = self.tree.nodes.first()?.speed[1];
+        let floor = |driving| envelope.floor(driving, [0.0, fastest * ratio]);
+        let [driving, braking] = [floor(true), floor(false)];
+        let [start, end] = [driving[0].min(braking[0]), driving[1].min(braking[1])];
+        let slope = (end - start) / fastest;
+        // An infinite limit is one that is not known.
+        let known = driving[0].max(braking[0]).is_finite() && slope.is_finite();
+        let usable = known && start > 0.0 && end > 0.0;
+        usable.then_some([start, slope])
+    }
+}

@@ -1,0 +1,122 @@
+//! What the motor of a drive does: its torque as a linear form in the loads of an instant.
+
+use serde::Serialize;
+
+use crate::catalogue::Drive;
+use jred_machine::analysis::duty::Instant;
+use jred_machine::number::figures::Figures;
+
+/// The motor torque as a linear form in the five loads of an instant: see [`loads`].
+///
+/// ```text
+/// T = (J_M + J_G)·i·α + τ₊/(i·η) + τ₋·η_back/i + b·i·n + c·sgn n
+/// ```
+///
+/// α, n and τ are acceleration, speed and torque at the gearbox output; τ₊ is the torque where power flows to the machine
+/// (and at rest), τ₋ where it flows back; J_M and J_G inertia of rotor and gearbox, i the ratio, η the efficiencies, b and c
+/// viscous and Coulomb friction of motor and gearbox at the motor shaft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coefficients(pub [f64; LOADS]);
+
+/// Number of loads of an instant.
+pub const LOADS: usize = 5;
+
+/// The five loads of an instant: α, τ₊, τ₋, n, sgn n.
+pub fn loads(instant: &Instant) -> [f64; LOADS] {
+    loads_of(
+        instant.input_alpha,
+        instant.input_torque,
+        instant.input_speed,
+    )
+}
+
+/// The five loads of acceleration (rad/s²), torque (N·m) and speed (rad/s) at the gearbox output.
+#[inline]
+pub fn loads_of(alpha: f64, torque: f64, speed: f64) -> [f64; LOADS] {
+    let [driving, back] = if torque * speed < 0.0 {
+        [0.0, torque]
+    } else {
+        [torque, 0.0]
+    };
+    let sign = if speed == 0.0 { 0.0 } else { speed.signum() };
+    [alpha, driving, back, speed, sign]
+}
+
+impl Coefficients {
+    /// The motor torque (N·m) under these loads.
+    #[inline]
+    pub fn torque(&self, loads: &[f64; LOADS]) -> f64 {
+        let [a, b, c, d, e] = self.0;
+        let [alpha, driving, back, speed, sign] = loads;
+        a * alpha + (b * driving + c * back) + (d * speed + e * sign)
+    }
+}
+
+/// Torque and speed of the motor at one instant.
+#[derive(Clone, Copy, Debug)]
+pub struct MotorPoint {
+    /// Torque (N·m).
+    pub torque: f64,
+    /// Speed (rad/s).
+    pub speed: f64,
+}
+
+/// The duty seen by the motor.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct MotorDuty {
+    /// Motor torque (N·m).
+    #[serde(rename = "torque [N m]")]
+    pub torque: Figures,
+    /// Motor speed (rad/s).
+    #[serde(rename = "speed [rad/s]")]
+    pub speed: Figures,
+    /// Mean of the speed's magnitude (rad/s).
+    #[serde(rename = "mean |speed| [rad/s]")]
+    pub mean_speed: f64,
+    /// Mechanical power at the motor shaft (W).
+    #[serde(rename = "power [W]")]
+    pub power: Figures,
+    /// Energy that the motor puts in over a cycle (J).
+    #[serde(rename = "motoring energy [J]")]
+    pub motoring_energy: f64,
+    /// Energy that comes back to the motor over a cycle (J).
+    #[serde(rename = "regenerative energy [J]")]
+    pub regenerative_energy: f64,
+    /// Inertia ratio λ = (load and gearbox at the motor)/(rotor), over the cycle.
+    #[serde(rename = "inertia ratio")]
+    pub inertia_ratio: Figures,
+}
+
+impl Drive<'_> {
+    /// The motor torque as a linear form in the loads.
+    pub fn coefficients(&self) -> Coefficients {
+        let motor = self.motor;
+        let rotor = self.rotor();
+        let [coulomb, viscous] = motor.friction;
+        match self.gearbox {
+            None => Coefficients([rotor, 1.0, 1.0, viscous, coulomb]),
+            Some(g) => Coefficients([
+                (rotor + g.inertia) * g.ratio,
+                1.0 / (g.ratio * g.efficiency),
+                g.back_efficiency / g.ratio,
+                viscous * g.ratio,
+                coulomb + g.no_load_torque,
+            ]),
+        }
+    }
+
+    /// What the motor does at an instant.
+    pub fn motor_point(&self, instant: &Instant) -> MotorPoint {
+        MotorPoint {
+            torque: self.coefficients().torque(&loads(instant)),
+            speed: instant.input_speed * self.ratio(),
+        }
+    }
+
+    /// λ for an inertia at the gearbox output: (J/i² + J_G)/J_M, where J_M is the rotor with its brake.
+    pub fn inertia_ratio(&self, inertia: f64) -> f64 {
+        let ratio = self.ratio();
+        let gearbox = self.gearbox.map_or(0.0, |g| g.inertia);
+        (inertia / (ratio * ratio) + gearbox) / self.rotor()
+    }
+}

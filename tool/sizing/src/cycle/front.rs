@@ -1,0 +1,150 @@
+//! A few stretches that cover the cycle, side by side in memory: one look tells which of them can hold a peak.
+
+use pulp::Arch;
+
+use super::Sample;
+use super::kernels::{Above, Bounds, Signs};
+use super::tree::{Direction, Node, Tree};
+use crate::cycle::form::LOADS;
+
+/// Number of stretches. At this number the chords of a smooth cycle are some parts in a thousand from its loads.
+pub(super) const WIDTH: usize = 32;
+
+const _: () = assert!(WIDTH <= u32::BITS as usize, "a bit for each stretch");
+
+/// The stretches: where they are in the tree, and what bounds a torque on them. Each array holds one figure of all stretches:
+/// the compiler makes vector instructions of the loops, the widest that the processor has.
+#[derive(Clone, Debug)]
+pub(super) struct Front {
+    vectors: Arch,
+    /// Indices of the nodes in the order of time; those beyond `len` are not used.
+    pub(super) nodes: [u32; WIDTH],
+    /// How many there are.
+    pub(super) len: usize,
+    pub(super) middle: [[f64; WIDTH]; LOADS],
+    pub(super) half: [[f64; WIDTH]; LOADS],
+    pub(super) reach: [[f64; WIDTH]; LOADS],
+    /// Direction of speed: 1 or −1; 0 for both or rest.
+    pub(super) direction: [f64; WIDTH],
+    /// Those at the first and at the last sample.
+    pub(super) directions: [[f64; WIDTH]; 2],
+    /// Least and largest magnitude of the speed at the gearbox output.
+    pub(super) speeds: [[f64; WIDTH]; 2],
+}
+
+impl Front {
+    pub(super) fn new(tree: &Tree, samples: &[Sample], largest: &[f64; LOADS]) -> Self {
+        let mut front = Self {
+            vectors: Arch::new(),
+            nodes: [0; WIDTH],
+            len: 0,
+            middle: [[0.0; WIDTH]; LOADS],
+            half: [[0.0; WIDTH]; LOADS],
+            reach: [[0.0; WIDTH]; LOADS],
+            direction: [0.0; WIDTH],
+            directions: [[0.0; WIDTH]; 2],
+            speeds: [[0.0; WIDTH]; 2],
+        };
+        let mut chosen = Vec::from_iter((!tree.nodes.is_empty()).then_some(0));
+        let stray = |node: &Node| -> f64 {
+            let shares = node.reach.iter().zip(largest);
+            shares
+                .map(|(r, x)| if *x > 0.0 { r / x } else { 0.0 })
+                .sum()
+        };
+        // The stretch whose loads stray most from its chord is cut, again and again.
+        while chosen.len() < WIDTH {
+            let cut = |k: &u32| tree.nodes[*k as usize].second > 0;
+            let open = chosen.iter().enumerate().filter(|(_, k)| cut(k));
+            let stray = |k: u32| stray(&tree.nodes[k as usize]);
+            let Some((place, &node)) = open.max_by(|a, b| stray(*a.1).total_cmp(&stray(*b.1)))
+            else {
+                break;
+            };
+            chosen[place] = node + 1;
+            chosen.push(tree.nodes[node as usize].second);
+        }
+        chosen.sort_unstable();
+        front.len = chosen.len();
+        for (place, &index) in chosen.iter().enumerate() {
+            let node = &tree.nodes[index as usize];
+            let (from, to) = (&samples[node.first as usize], &samples[node.last as usize]);
+            front.nodes[place] = index;
+            front.direction[place] = match node.direction {
+                Direction::One(forwards) => f64::from(u8::from(forwards)) * 2.0 - 1.0,
+                Direction::Any => 0.0,
+            };
+            front.speeds[0][place] = node.speed[0];
+            front.speeds[1][place] = node.speed[1];
+            for (end, sample) in [from, to].into_iter().enumerate() {
+                let speed = sample.speed();
+                front.directions[end][place] = if speed == 0.0 { 0.0 } else { speed.signum() };
+            }
+            let (from, to) = (from.loads(), to.loads());
+            for k in 0..LOADS {
+                front.middle[k][place] = 0.5 * (from[k] + to[k]);
+                front.half[k][place] = 0.5 * (to[k] - from[k]);
+                front.reach[k][place] = node.reach[k];
+            }
+        }
+        front
+    }
+
+    /// What |c·x| does not exceed on each stretch; zero beyond `len`.
+    pub(super) fn bounds(&self, c: &[f64; LOADS]) -> [f64; WIDTH] {
+        let mut bounds = [0.0; WIDTH];
+        self.vectors.dispatch(Bounds {
+            front: self,
+            c,
+            found: &mut bounds,
+        });
+        bounds
+    }
+
+    /// Whether a torque c·x is against the speed anywhere, by more than `slack`: known where an end of a stretch shows it, or no
+    /// stretch can hold it; else the stretches that can, a bit for each.
+    pub(super) fn against_speed(&self, c: &[f64; LOADS], slack: f64) -> Result<bool, u32> {
+        let mut least = [0.0; WIDTH];
+        let lowest = self.vectors.dispatch(Signs {
+            front: self,
+            c,
+            least: &mut least,
+        });
+        if lowest < -slack {
+            return Ok(true);
+        }
+        let mut open = 0;
+        for (k, least) in least.iter().enumerate().take(self.len) {
+            let rests = self.speeds[1][k] == 0.0;
+            // Both directions: the bound holds for neither.
+            let both = self.direction[k] == 0.0 && !rests;
+            open |= u32::from(!rests && (both || *least < -slack)) << k;
+        }
+        if open == 0 { Ok(false) } else { Err(open) }
+    }
+
+    /// What |c·x| less a line over the speed, its value at rest and its slope, does not exceed on any stretch.
+    pub(super) fn most_above(&self, c: &[f64; LOADS], line: [f64; 2]) -> f64 {
+        self.vectors.dispatch(Above {
+            front: self,
+            c,
+            line,
+        })
+    }
+
+    /// Where a line of this slope has its least on each stretch: one end of the speeds has it, the same one on every stretch.
+    pub(super) const fn speeds_of_least(&self, slope: f64) -> &[f64; WIDTH] {
+        let [least, most] = &self.speeds;
+        if slope < 0.0 { most } else { least }
+    }
+
+    /// The least of a line over the speed, its value at rest and its slope, on each stretch.
+    pub(super) fn floors(&self, [start, slope]: [f64; 2]) -> [f64; WIDTH] {
+        let speeds = self.speeds_of_least(slope);
+        let mut floors = [0.0; WIDTH];
+        for (floor, speed) in floors.iter_mut().zip(speeds) {
+            *floor = start + slope * speed;
+        }
+        floors
+    }
+}

@@ -1,0 +1,343 @@
+//! Extremes over a cycle without looking at every sample: branch and bound over the [tree](super::tree) of stretches.
+//!
+//! A stretch is looked into only if its bound exceeds the best sample found so far. Where loads are smooth the bound's excess
+//! over the true largest value falls with the square of a stretch's length, so around a peak the stretches that must be looked
+//! into are a few at each size: their number grows with the logarithm of the number of samples, times the number of peaks of
+//! nearly the same height. Bounds hold for any course; jumps, noise and corners only cost time.
+//!
+//! A sample that exceeds the best by less than rounding, 64 units of the last place of the terms of the torque, may be passed
+//! over: else a constant torque would be looked at sample by sample.
+
+use super::floor::{Falling, Floor, Level, Straight};
+use super::front::Front;
+use super::tree::{Direction, Node, Tree};
+use super::{Peak, Sample};
+use crate::cycle::form::{Coefficients, LOADS};
+use crate::motor::envelope::Envelope;
+
+/// Rounding of a torque and of its bound, as a share of the sum of its terms' largest magnitudes.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// The samples and their stretches.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretches<'c> {
+    pub(super) samples: &'c [Sample],
+    pub(super) tree: &'c Tree,
+    pub(super) front: &'c Front,
+    pub(super) largest: &'c [f64; LOADS],
+}
+
+impl Stretches<'_> {
+    /// The sample that comes closest to the envelope, or is beyond it by most; the first that has no limit at all, if there is
+    /// one.
+    pub(super) fn peak(self, c: &Coefficients, ratio: f64, envelope: &Envelope) -> Option<Peak> {
+        let top = self.tree.nodes.first()?.speed[1] * ratio;
+        if let Some(limit) = envelope.level_up_to(top) {
+            let known = limit.is_finite() && limit > 0.0;
+            let level = Level(if known { limit } else { 1.0 });
+            let mut peak = Search::new(self, c, ratio, level).run();
+            peak.used = envelope.peak_used(peak.torque, peak.speed);
+            return Some(peak);
+        }
+        let [driving, braking] = [true, false].map(|driving| envelope.floor(driving, [0.0, top]));
+        let [start, end] = [driving[0].min(braking[0]), driving[1].min(braking[1])];
+        let least = start.min(end);
+        let slope = (end - start) / self.tree.nodes.first()?.speed[1];
+        let line = if slope.is_finite() {
+            [start, slope]
+        } else {
+            [least, 0.0]
+        };
+        if least <= 0.0 {
+            let positive_below = envelope.positive_below() / ratio;
+            let beyond = First {
+                stretches: self,
+                c,
+                ratio,
+                envelope,
+                positive_below,
+            };
+            if let Some(beyond) = beyond.visit(0) {
+                return Some(beyond);
+            }
+        }
+        if let Some(lines) = envelope.straight_up_to(top) {
+            let floor = Straight { lines, line, least };
+            return Some(Search::new(self, c, ratio, floor).run());
+        }
+        let floor = Falling {
+            envelope,
+            line,
+            least,
+        };
+        Some(Search::new(self, c, ratio, floor).run())
+    }
+
+    /// Largest value of |c·x|.
+    pub(super) fn largest_magnitude(self, c: &Coefficients) -> f64 {
+        if self.samples.is_empty() {
+            return 0.0;
+        }
+        Search::new(self, c, 1.0, Level(1.0)).run().torque.abs()
+    }
+
+    /// Least and largest value of c·x.
+    pub(super) fn extremes(self, c: &Coefficients) -> [f64; 2] {
+        let opposite = Coefficients(c.0.map(|c| -c));
+        [-self.largest_value(&opposite), self.largest_value(c)]
+    }
+
+    fn largest_value(self, c: &Coefficients) -> f64 {
+        fn visit(stretches: Stretches, c: &Coefficients, slack: f64, node: usize, best: &mut f64) {
+            let node_index = node;
+            let node = &stretches.tree.nodes[node];
+            let ends = stretches.ends(node, c);
+            *best = best.max(ends[0]).max(ends[1]);
+            let reach: f64 = (0..LOADS).map(|k| c.0[k].abs() * node.reach[k]).sum();
+            if ends[0].max(ends[1]) + reach - slack <= *best {
+                return;
+            }
+            if node.second == 0 {
+                let samples = &stretches.samples[node.first as usize..=node.last as usize];
+                *best = samples
+                    .iter()
+                    .map(|s| c.torque(&s.loads()))
+                    .fold(*best, f64::max);
+            } else {
+                visit(stretches, c, slack, node_index + 1, best);
+                visit(stretches, c, slack, node.second as usize, best);
+            }
+        }
+        let mut best = f64::NEG_INFINITY;
+        if !self.tree.nodes.is_empty() {
+            visit(self, c, self.slack(c), 0, &mut best);
+        }
+        best
+    }
+
+    pub(super) fn slack(self, c: &Coefficients) -> f64 {
+        let terms = c.0.iter().zip(self.largest).map(|(c, x)| c.abs() * x);
+        ROUNDING * terms.sum::<f64>()
+    }
+
+    /// The linear form at both ends of a stretch.
+    pub(super) fn ends(self, node: &Node, c: &Coefficients) -> [f64; 2] {
+        [node.first, node.last].map(|k| c.torque(&self.samples[k as usize].loads()))
+    }
+}
+
+/// The search for the largest share of a limit.
+struct Search<'s, F> {
+    stretches: Stretches<'s>,
+    c: &'s Coefficients,
+    ratio: f64,
+    floor: F,
+    slack: f64,
+    best: Peak,
+}
+
+impl<'s, F: Floor> Search<'s, F> {
+    fn new(stretches: Stretches<'s>, c: &'s Coefficients, ratio: f64, floor: F) -> Self {
+        Self {
+            slack: stretches.slack(c),
+            stretches,
+            c,
+            ratio,
+            floor,
+            best: Peak {
+                used: f64::NEG_INFINITY,
+                torque: 0.0,
+                speed: 0.0,
+            },
+        }
+    }
+
+    fn run(mut self) -> Peak {
+        let front = self.stretches.front;
+        let bounds = front.bounds(&self.c.0);
+        let floors = front.floors(self.floor.line());
+        let (mut first, mut most) = (0, f64::NEG_INFINITY);
+        for (k, (bound, floor)) in bounds.iter().zip(&floors).take(front.len).enumerate() {
+            let share = bound / floor.max(f64::MIN_POSITIVE);
+            if share > most {
+                (first, most) = (k, share);
+            }
+        }
+        self.weigh_ends(front.nodes[first]);
+        self.look(front.nodes[first] as usize);
+        for (k, (bound, floor)) in bounds.iter().zip(&floors).take(front.len).enumerate() {
+            if k != first && bound - self.slack > self.best.used * floor {
+                self.look(front.nodes[k] as usize);
+            }
+        }
+        self.best
+    }
+
+    /// Weighs both ends of a stretch: what they hold may spare much of the search.
+    fn weigh_ends(&mut self, node: u32) {
+        let node = &self.stretches.tree.nodes[node as usize];
+        for end in [node.first, node.last] {
+            self.weigh(&self.stretches.samples[end as usize], self.floor.least());
+        }
+    }
+
+    /// Looks at a stretch if it may hold more than the best.
+    fn look(&mut self, index: usize) {
+        let node = &self.stretches.tree.nodes[index];
+        let excess = self.excess(node);
+        self.look_into(index, excess);
+    }
+
+    fn look_into(&mut self, index: usize, excess: f64) {
+        if excess <= self.slack {
+            return;
+        }
+        let nodes = &self.stretches.tree.nodes;
+        let node = &nodes[index];
+        if node.second == 0 {
+            let samples = &self.stretches.samples[node.first as usize..=node.last as usize];
+            let least = self.least_on(node);
+            for sample in samples {
+                self.weigh(sample, least);
+            }
+            return;
+        }
+        let second = node.second as usize;
+        let [one, two] = [index + 1, second].map(|k| self.excess(&nodes[k]));
+        // The more promising half first: what it holds may spare the other, whose bound is worked out anew.
+        if one >= two {
+            self.look_into(index + 1, one);
+            self.look(second);
+        } else {
+            self.look_into(second, two);
+            self.look(index + 1);
+        }
+    }
+
+    /// What the limit does not fall below on a stretch.
+    fn least_on(&self, node: &Node) -> f64 {
+        let [start, slope] = self.floor.line();
+        (start + slope * node.speed[0]).min(start + slope * node.speed[1])
+    }
+
+    /// Takes a sample for the best if it is; `least`: what its limit does not fall below.
+    fn weigh(&mut self, sample: &Sample, least: f64) {
+        let torque = self.c.torque(&sample.loads());
+        if torque.abs() <= self.best.used * least {
+            return;
+        }
+        let speed = sample.speed() * self.ratio;
+        let limit = self.floor.limit(torque, speed);
+        // Most samples are told apart without a division.
+        if torque.abs() > self.best.used * limit {
+            let used = if limit > 0.0 {
+                torque.abs() / limit
+            } else {
+                0.0
+            };
+            if used > self.best.used {
+                self.best = Peak {
+                    used,
+                    torque,
+                    speed,
+                };
+            }
+        }
+    }
+
+    /// An upper bound of |T| − u·M over a stretch, u being the best share so far and M the limit; the stretch holds nothing
+    /// better where that is not positive. On one side of the torque, and with M replaced by a chord below it, that is a linear
+    /// form of the loads.
+    fn excess(&self, node: &Node) -> f64 {
+        let u = self.best.used;
+        if u < 0.0 {
+            return f64::INFINITY;
+        }
+        let c = &self.c.0;
+        let torques = self.stretches.ends(node, self.c);
+        let [least, largest] = node.speed;
+        let speeds = [least * self.ratio, largest * self.ratio];
+        let reach_without_speed = c[0].abs() * node.reach[0]
+            + (c[1].abs() * node.reach[1] + c[2].abs() * node.reach[2])
+            + c[4].abs() * node.reach[4];
+        let reach = reach_without_speed + c[3].abs() * node.reach[3];
+        let least_here = u * self.least_on(node);
+        let side = |positive: bool| {
+            let sign = if positive { 1.0 } else { -1.0 };
+            let [a, b] = torques.map(|torque| sign * torque);
+            let flat = a.max(b) + reach - least_here;
+            if flat <= self.slack {
+                return flat;
+            }
+            let driving = match node.direction {
+                Direction::One(forwards) => forwards == positive,
+                Direction::Any => true,
+            };
+            let [mut low, mut high] = self.floor.chord(driving, speeds);
+            if node.direction == Direction::Any || !driving && least == 0.0 {
+                // Both directions of power, rest counting as driving: the lower of all.
+                let [other_low, other_high] = self.floor.chord(!driving, speeds);
+                low = low.min(high).min(other_low).min(other_high);
+                high = low;
+            }
+            // M = low + slope·(|n| − least), and |n| is n itself or −n.
+            let slope = (high - low) / (largest - least);
+            if slope == 0.0 || !slope.is_finite() {
+                let limit = low.min(high);
+                // One that is not known is infinite, and nothing is beyond it.
+                return if limit.is_infinite() {
+                    f64::NEG_INFINITY
+                } else {
+                    a.max(b) + reach - u * limit
+                };
+            }
+            let limit = |k: u32| {
+                let speed = self.stretches.samples[k as usize].speed().abs();
+                u * (low + slope * (speed - least))
+            };
+            let forwards = matches!(node.direction, Direction::One(true));
+            let coefficient = sign * c[3] - if forwards { u * slope } else { -u * slope };
+            (a - limit(node.first)).max(b - limit(node.last))
+                + reach_without_speed
+                + coefficient.abs() * node.reach[3]
+        };
+        side(true).max(side(false))
+    }
+}
+
+/// The search for the first sample that has no limit at all.
+struct First<'s> {
+    stretches: Stretches<'s>,
+    c: &'s Coefficients,
+    ratio: f64,
+    envelope: &'s Envelope,
+    /// Speed at the gearbox output below which there is some torque in all directions.
+    positive_below: f64,
+}
+
+impl First<'_> {
+    /// The first sample in a stretch at whose speed there is no torque.
+    fn visit(&self, index: usize) -> Option<Peak> {
+        let node = &self.stretches.tree.nodes[index];
+        if node.speed[1] < self.positive_below {
+            return None;
+        }
+        if node.second > 0 {
+            return (self.visit(index + 1)).or_else(|| self.visit(node.second as usize));
+        }
+        let samples = &self.stretches.samples[node.first as usize..=node.last as usize];
+        samples.iter().find_map(|sample| {
+            if sample.speed().abs() < self.positive_below {
+                return None;
+            }
+            let torque = self.c.torque(&sample.loads());
+            let speed = sample.speed() * self.ratio;
+            let used = self.envelope.peak_used(torque, speed);
+            used.is_infinite().then_some(Peak {
+                used,
+                torque,
+                speed,
+            })
+        })
+    }
+}

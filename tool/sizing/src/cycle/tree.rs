@@ -1,0 +1,192 @@
+//! The samples of a cycle in stretches of stretches: what is known of a stretch without looking at its samples.
+
+use super::Sample;
+use crate::cycle::form::LOADS;
+
+/// Most samples of a stretch that is not cut further.
+const LEAF: usize = 16;
+
+/// A sample stands apart from the one before where the step is so many times the steps beside it: an acceleration jumps, a
+/// motion stops. A stretch is cut there, for no chord follows a jump.
+const JUMP: f64 = 4.0;
+
+/// Smallest step that can be a jump, as a share of the largest loads.
+const SMALLEST_JUMP: f64 = 1e-6;
+
+/// Which directions of speed occur in a stretch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Direction {
+    /// None above zero in one of the directions: that sign of the speed, and perhaps rest.
+    One(bool),
+    /// Both, or only rest.
+    Any,
+}
+
+/// A stretch of samples.
+///
+/// Each load of a sample at the time t lies no further than `reach` from the chord between the first and the last sample of the
+/// stretch. For a linear form c·x that means: its largest value on the stretch is at most the larger of the two at its
+/// ends, plus ∑ |c_k|·reach_k. Where loads are smooth the reach falls with the square of the stretch's length.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    /// Index of the first sample.
+    pub(super) first: u32,
+    /// Index of the last sample.
+    pub(super) last: u32,
+    /// Index of the second half, the first half being the next node; zero: the stretch is not cut.
+    pub(super) second: u32,
+    /// Directions of speed.
+    pub(super) direction: Direction,
+    /// How far the loads stray from the chord.
+    pub(super) reach: [f64; LOADS],
+    /// Least and largest magnitude of the speed.
+    pub(super) speed: [f64; 2],
+    /// ∑ w·n·x, of which the energy is a linear form.
+    pub(super) energy: [f64; LOADS],
+}
+
+/// The stretches, each before its halves.
+#[derive(Clone, Debug)]
+pub(super) struct Tree {
+    pub(super) nodes: Vec<Node>,
+}
+
+impl Tree {
+    pub(super) fn new(samples: &[Sample], largest: &[f64; LOADS]) -> Self {
+        let cuts = jumps(samples, largest);
+        let mut tree = Self {
+            nodes: Vec::with_capacity(2 * (samples.len() / LEAF * 2 + 2 * cuts.len()) + 1),
+        };
+        if !samples.is_empty() {
+            tree.build(samples, &cuts, 0, samples.len() - 1);
+        }
+        tree.nodes.shrink_to_fit();
+        tree
+    }
+
+    /// Adds the stretch from `first` to `last`, both included; its index.
+    fn build(&mut self, samples: &[Sample], cuts: &[u32], first: usize, last: usize) -> usize {
+        let own = self.nodes.len();
+        let inside = {
+            let from = cuts.partition_point(|&cut| (cut as usize) <= first);
+            let to = cuts.partition_point(|&cut| (cut as usize) <= last);
+            &cuts[from..to]
+        };
+        if inside.is_empty() && last - first < LEAF {
+            self.nodes.push(Node::leaf(samples, first, last));
+            return own;
+        }
+        let middle = usize::midpoint(first, last) + 1;
+        let place = inside.partition_point(|&cut| (cut as usize) < middle);
+        // The jump nearest to the middle, if any.
+        let beside = [place.checked_sub(1), Some(place)];
+        let nearest = beside.into_iter().flatten().filter_map(|k| inside.get(k));
+        let cut = nearest
+            .map(|&cut| cut as usize)
+            .min_by_key(|cut| cut.abs_diff(middle))
+            .unwrap_or(middle);
+        self.nodes.push(Node::leaf(samples, first, first));
+        let one = self.build(samples, inside, first, cut - 1);
+        let two = self.build(samples, inside, cut, last);
+        self.nodes[own] = Node::of_halves(samples, &self.nodes[one], &self.nodes[two], two);
+        own
+    }
+}
+
+/// The samples that stand apart from the one before, in order.
+fn jumps(samples: &[Sample], largest: &[f64; LOADS]) -> Vec<u32> {
+    let scale = largest.map(|x| if x > 0.0 { 1.0 / x } else { 0.0 });
+    let step = |a: &Sample, b: &Sample| -> f64 {
+        let (a, b) = (a.loads(), b.loads());
+        let steps = (0..LOADS).map(|k| (b[k] - a[k]).abs() * scale[k]);
+        steps.fold(0.0, f64::max)
+    };
+    let mut cuts = Vec::new();
+    let (mut before, mut here) = (0.0, 0.0);
+    for (k, pair) in samples.windows(2).enumerate() {
+        let after = step(&pair[0], &pair[1]);
+        if k > 0 && here > SMALLEST_JUMP && here > JUMP * f64::max(before, after) {
+            cuts.push(k as u32);
+        }
+        (before, here) = (here, after);
+    }
+    if here > SMALLEST_JUMP && here > JUMP * before {
+        cuts.push(samples.len() as u32 - 1);
+    }
+    cuts
+}
+
+/// How far a sample is from the chord between two others.
+fn astray(from: &Sample, to: &Sample, sample: &Sample) -> [f64; LOADS] {
+    let span = to.t - from.t;
+    let part = if span > 0.0 {
+        (sample.t - from.t) / span
+    } else {
+        0.0
+    };
+    let [from, to, sample] = [from, to, sample].map(Sample::loads);
+    std::array::from_fn(|k| {
+        let chord = from[k] + part * (to[k] - from[k]);
+        (sample[k] - chord).abs()
+    })
+}
+
+impl Node {
+    fn leaf(samples: &[Sample], first: usize, last: usize) -> Self {
+        let (from, to) = (&samples[first], &samples[last]);
+        let mut node = Self {
+            first: first as u32,
+            last: last as u32,
+            second: 0,
+            direction: Direction::Any,
+            reach: [0.0; LOADS],
+            speed: [f64::INFINITY, 0.0],
+            energy: [0.0; LOADS],
+        };
+        let [mut forwards, mut backwards] = [false; 2];
+        for sample in &samples[first..=last] {
+            let astray = astray(from, to, sample);
+            let speed = sample.speed();
+            for (reach, astray) in node.reach.iter_mut().zip(astray) {
+                *reach = reach.max(astray);
+            }
+            for (energy, load) in node.energy.iter_mut().zip(sample.loads()) {
+                *energy += sample.weight * speed * load;
+            }
+            let [least, largest] = &mut node.speed;
+            (*least, *largest) = (least.min(speed.abs()), largest.max(speed.abs()));
+            forwards |= speed > 0.0;
+            backwards |= speed < 0.0;
+        }
+        if forwards != backwards {
+            node.direction = Direction::One(forwards);
+        }
+        node
+    }
+
+    fn of_halves(samples: &[Sample], one: &Self, two: &Self, second: usize) -> Self {
+        let (from, to) = (&samples[one.first as usize], &samples[two.last as usize]);
+        // Each half's chord leaves that of the whole linearly, so by most at the cut.
+        let left = astray(from, to, &samples[one.last as usize]);
+        let right = astray(from, to, &samples[two.first as usize]);
+        let rest = |node: &Self| node.speed[1] == 0.0;
+        let direction = match (one.direction, two.direction) {
+            (a, b) if a == b => a,
+            (a, _) if rest(two) => a,
+            (_, b) if rest(one) => b,
+            _ => Direction::Any,
+        };
+        Self {
+            first: one.first,
+            last: two.last,
+            second: second as u32,
+            direction,
+            reach: std::array::from_fn(|k| (one.reach[k] + left[k]).max(two.reach[k] + right[k])),
+            speed: [
+                one.speed[0].min(two.speed[0]),
+                one.speed[1].max(two.speed[1]),
+            ],
+            energy: std::array::from_fn(|k| one.energy[k] + two.energy[k]),
+        }
+    }
+}

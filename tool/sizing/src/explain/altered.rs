@@ -1,0 +1,141 @@
+//! The duty of an altered machine: slower, lighter, or under other process loads.
+//!
+//! All three alterations are exact, without sampling the machine again. At the same positions, a cycle that takes s times as
+//! long has speeds 1/s and accelerations 1/s² of those before, so that
+//!
+//! ```text
+//! T(s, m, p) = m·(J·α + ½·J′·ω²)/s² + m·U′_weight + U′_springs + p·process + b·ω/s + c·sgn ω
+//! ```
+//!
+//! m scales every mass and inertia of the mechanism and its flywheel, p every force and moment of given direction. The
+//! drive train behind it keeps its inertia and its losses, which are worked out anew at every instant.
+
+use jred::{Error, Machine, Mechanism as _, TorqueTerms};
+
+use jred_machine::analysis::duty::{Duty, Instant};
+use jred_machine::analysis::mechanics::Mechanics;
+use jred_machine::model::coordinate::positions;
+use jred_machine::model::machine::{AnyMechanism, MachineFile};
+
+/// Factors on parts of the machine and its motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Alteration {
+    /// On the cycle time.
+    pub time: f64,
+    /// On the moving masses and inertias, flywheel included.
+    pub mass: f64,
+    /// On the process loads.
+    pub process: f64,
+}
+
+impl Default for Alteration {
+    fn default() -> Self {
+        Self {
+            time: 1.0,
+            mass: 1.0,
+            process: 1.0,
+        }
+    }
+}
+
+/// A machine's duty, prepared for alterations.
+#[derive(Clone, Debug)]
+pub struct Altered<'a> {
+    file: &'a MachineFile,
+    duty: &'a Duty,
+    /// U′ of the weight at every instant (N·m).
+    weights: Vec<f64>,
+    /// [U′ of the weight, U′ of the rest] at positions over the range (N·m).
+    range: Vec<[f64; 2]>,
+}
+
+/// Positions at which the holding torque is sought, as in [`Duty::new`].
+const POSITIONS: usize = 720;
+
+impl<'a> Altered<'a> {
+    /// Prepares a duty.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub fn new(file: &'a MachineFile, duty: &'a Duty) -> Result<Self, Error> {
+        let machine = &file.machine;
+        let bare: Machine<AnyMechanism> =
+            Machine::new(machine.mechanism().clone()).with_gravity(machine.gravity())?;
+        let weight = |phi: f64| {
+            let links = bare.bare_reduction(phi)?.potential_energy[1];
+            Ok(links + file.payload_weight(phi)?)
+        };
+        let range = positions(machine.mechanism().domain(), POSITIONS).map(|phi| {
+            let weight = weight(phi)?;
+            let all = file.bare_reduction(phi)?.potential_energy[1];
+            Ok([weight, all - weight])
+        });
+        Ok(Self {
+            range: range.collect::<Result<_, Error>>()?,
+            weights: duty
+                .instants
+                .iter()
+                .map(|i| weight(i.phi))
+                .collect::<Result<_, Error>>()?,
+            file,
+            duty,
+        })
+    }
+
+    /// The duty as it is.
+    pub const fn original(&self) -> &'a Duty {
+        self.duty
+    }
+
+    /// The altered duty.
+    pub fn duty(&self, by: Alteration) -> Duty {
+        let ratio = self.file.drive_train.ratio();
+        let instants = self.duty.instants.iter().zip(&self.weights);
+        let instants: Vec<Instant> = instants
+            .map(|(instant, weight)| self.instant(instant, *weight, by))
+            .collect();
+        let hold = self.range.iter();
+        let hold = hold.map(|[weight, rest]| ((by.mass * weight + rest) / ratio).abs());
+        let at_rest = instants.iter().filter(|i| i.omega == 0.0);
+        let held = at_rest.map(|i| ((i.terms.potential + i.terms.process) / ratio).abs());
+        let hold_torque = hold.chain(held).fold(0.0, f64::max);
+        let duration = self.duty.duration * by.time;
+        Duty {
+            mechanics: Mechanics::new(self.file, &instants, duration, hold_torque),
+            hold_torque,
+            duration,
+            instants,
+        }
+    }
+
+    fn instant(&self, instant: &Instant, weight: f64, by: Alteration) -> Instant {
+        let train = &self.file.drive_train;
+        let ratio = train.ratio();
+        let rate = 1.0 / by.time;
+        let inertia = instant.inertia * by.mass;
+        let terms = &instant.terms;
+        let terms = TorqueTerms {
+            acceleration: terms.acceleration * (by.mass * rate * rate),
+            velocity: terms.velocity * (by.mass * rate * rate),
+            potential: terms.potential + (by.mass - 1.0) * weight,
+            process: terms.process * by.process,
+            viscous: terms.viscous * rate,
+            coulomb: terms.coulomb,
+        };
+        let (omega, alpha) = (instant.omega * rate, instant.alpha * rate * rate);
+        let input = train.input(terms.total(), inertia, omega, alpha);
+        Instant {
+            t: instant.t * by.time,
+            weight: instant.weight * by.time,
+            phi: instant.phi,
+            omega,
+            alpha,
+            inertia,
+            terms,
+            input_torque: input.torque,
+            input_speed: omega * ratio,
+            input_alpha: alpha * ratio,
+            input_inertia: inertia / (ratio * ratio) + train.inertia_at_input(),
+        }
+    }
+}

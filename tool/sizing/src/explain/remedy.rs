@@ -1,0 +1,248 @@
+//! What would have to change for a drive to hold every rule, or how far it may change before it no longer does.
+//!
+//! One quantity is changed at a time, all else kept: the gear ratio (the gearbox's other data as they are), the cycle time,
+//! the moving masses, the process loads. The range in which every rule holds is sought on a grid, outwards from the
+//! present value, and its ends by bisection to 1e-10; the duty at every value is exact ([`Altered`]). A range narrower than the
+//! grid's step (3 % of the ratio, a tenth of the others) is found if it lies around the value at which the worst rule uses
+//! least. Cost: up to some hundred judgements of one drive for each quantity.
+
+use jred::Error;
+use serde::Serialize;
+
+use super::altered::{Alteration, Altered};
+use super::seek::State;
+use crate::catalogue::Drive;
+use crate::catalogue::{Gearbox, MotorKind};
+use crate::cycle::Cycle;
+use crate::judge::Context;
+use crate::judge::vocabulary::Units;
+use crate::motor::envelope::Prepared;
+use crate::select::size::Selection;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::RuleSet;
+use jred_machine::model::rules::Verdict;
+use jred_machine::model::site::Site;
+
+/// What is changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Lever {
+    /// Ratio of the gearbox.
+    GearRatio,
+    /// Ratio of a gearbox without losses, inertia and limits, for a motor that has none.
+    IdealGearbox,
+    /// Cycle time, as a factor.
+    CycleTime,
+    /// Masses and inertias of the mechanism, as a factor.
+    MovingMass,
+    /// Process loads, as a factor.
+    ProcessLoad,
+}
+
+impl Lever {
+    const ALL: [Self; 5] = [
+        Self::GearRatio,
+        Self::IdealGearbox,
+        Self::CycleTime,
+        Self::MovingMass,
+        Self::ProcessLoad,
+    ];
+
+    /// In words.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::GearRatio => "gear ratio",
+            Self::IdealGearbox => "ratio of an ideal gearbox",
+            Self::CycleTime => "cycle time",
+            Self::MovingMass => "moving masses",
+            Self::ProcessLoad => "process loads",
+        }
+    }
+
+    /// The values that are tried, rising.
+    pub(super) fn grid(self) -> Vec<f64> {
+        let log = |from: f64, to: f64, steps: u32| {
+            (0..=steps).map(move |k| from * (to / from).powf(f64::from(k) / f64::from(steps)))
+        };
+        match self {
+            Self::GearRatio | Self::IdealGearbox => log(0.2, 500.0, 264).collect(),
+            Self::CycleTime => log(0.05, 100.0, 76).collect(),
+            Self::MovingMass | Self::ProcessLoad => {
+                let below = (0..20).map(|k| f64::from(k) / 20.0);
+                below.chain(log(1.0, 100.0, 46)).collect()
+            }
+        }
+    }
+}
+
+/// An end of the range in which every rule holds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Edge {
+    /// The value.
+    pub value: f64,
+    /// The rule that is at its limit there; `None`: beyond, nothing was tried.
+    pub rule: Option<Rule>,
+}
+
+/// One quantity, changed by itself.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Remedy {
+    /// What is changed.
+    pub lever: Lever,
+    /// Its value as it is: the ratio, or 1.
+    pub now: f64,
+    /// From where to where every rule holds: the range that the present value is in, or the nearest to it. `None`: no value
+    /// helps.
+    pub range: Option<[Edge; 2]>,
+    /// Where no value helps: the best value tried, and the rule that is violated there.
+    pub best: Option<Edge>,
+    /// The share of its limit that this rule uses there.
+    pub best_use: Option<f64>,
+}
+
+/// A rule that a drive breaks.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Miss {
+    /// The rule.
+    pub rule: Rule,
+    /// The share of its limit that is used; `None`: the limit is zero there.
+    pub used: Option<f64>,
+    /// The limit as a share of the rating.
+    pub limit: f64,
+    /// The limit that the drive would hold; `None`: no limit would do.
+    pub needed: Option<f64>,
+}
+
+/// What would have to change for one drive to hold.
+#[derive(Clone, Debug, Serialize)]
+pub struct Remedies {
+    /// The drive.
+    pub drive: String,
+    /// Units and words of its figures.
+    #[serde(skip)]
+    pub units: Units,
+    /// Whether it holds as it is: then the ranges say how far each quantity may go.
+    pub holds: bool,
+    /// The rules that it breaks.
+    pub misses: Vec<Miss>,
+    /// One quantity after the other.
+    pub remedies: Vec<Remedy>,
+}
+
+impl Remedies {
+    /// What would have to change for `drive`, or how far it may.
+    pub fn new(
+        altered: &Altered,
+        site: &Site,
+        rules: &RuleSet,
+        drive: Drive,
+        motor: &Prepared,
+    ) -> Self {
+        let cycle = Cycle::new(altered.original());
+        let context = Context::new(&cycle, site, drive, motor);
+        let misses = misses(&context, rules);
+        let free = |lever: &Lever| match lever {
+            Lever::GearRatio => drive.gearbox.is_some(),
+            Lever::IdealGearbox => drive.gearbox.is_none() && drive.motor.kind == MotorKind::Rotary,
+            Lever::ProcessLoad => {
+                let mut instants = altered.original().instants.iter();
+                instants.any(|i| i.terms.process != 0.0)
+            }
+            _ => true,
+        };
+        let levers = Lever::ALL.into_iter().filter(free);
+        let remedies = levers.map(|lever| {
+            let by = |value: f64| match lever {
+                Lever::GearRatio | Lever::IdealGearbox => {
+                    let gearbox = with_ratio(drive.gearbox, value);
+                    let gearbox = Some(&gearbox);
+                    let drive = Drive { gearbox, ..drive };
+                    State::of(&Context::new(&cycle, site, drive, motor), rules)
+                }
+                _ => {
+                    let cycle = Cycle::new(&altered.duty(lever.alteration(value)));
+                    State::of(&Context::new(&cycle, site, drive, motor), rules)
+                }
+            };
+            let now = match lever {
+                Lever::GearRatio | Lever::IdealGearbox => drive.ratio(),
+                _ => 1.0,
+            };
+            Remedy::find(lever, now, by)
+        });
+        Self {
+            drive: drive.name(),
+            units: Units::of(drive.motor.kind),
+            holds: misses.is_empty(),
+            remedies: remedies.collect(),
+            misses,
+        }
+    }
+
+    /// The nearest refused drives of a selection, `count` of them, each with what would have to change.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub fn of_nearest(
+        selection: &Selection,
+        altered: &Altered,
+        count: usize,
+    ) -> Result<Vec<Self>, Error> {
+        let nearest = selection.first_refused(count);
+        Ok(nearest
+            .iter()
+            .map(|c| Self::new(altered, selection.site, selection.rules, c.drive, c.motor))
+            .collect())
+    }
+}
+
+impl Lever {
+    fn alteration(self, value: f64) -> Alteration {
+        let mut by = Alteration::default();
+        match self {
+            Self::GearRatio | Self::IdealGearbox => {}
+            Self::CycleTime => by.time = value,
+            Self::MovingMass => by.mass = value,
+            Self::ProcessLoad => by.process = value,
+        }
+        by
+    }
+}
+
+/// The rules that a drive breaks, those that it misses furthest first. As in the ranking, temperatures and the like are not
+/// followed where another rule is violated: they would say nothing more.
+fn misses(context: &Context, rules: &RuleSet) -> Vec<Miss> {
+    let (findings, _) = context.ranked(rules);
+    let broken = findings
+        .iter()
+        .filter(|(rule, finding)| rules.verdict(*rule, *finding) == Verdict::Fail);
+    let mut misses: Vec<Miss> = broken
+        .filter_map(|(rule, finding)| {
+            let limit = rules.limit(rule).fail?;
+            let used = Some(rules.use_of_limit(rule, finding)).filter(|used| used.is_finite());
+            let needed = finding.value / finding.rating;
+            Some(Miss {
+                rule,
+                used,
+                limit,
+                needed: Some(needed).filter(|needed| needed.is_finite()),
+            })
+        })
+        .collect();
+    let far = |miss: &Miss| miss.used.unwrap_or(f64::INFINITY);
+    misses.sort_by(|a, b| far(b).total_cmp(&far(a)));
+    misses
+}
+
+/// The gearbox with another ratio; without one, a gearbox that has nothing but its ratio.
+pub(super) fn with_ratio(gearbox: Option<&Gearbox>, ratio: f64) -> Gearbox {
+    let bare = || Gearbox {
+        key: "ideal".to_owned(),
+        ratio,
+        from_maker: true,
+        ..Gearbox::default()
+    };
+    let mut gearbox = gearbox.cloned().unwrap_or_else(bare);
+    gearbox.ratio = ratio;
+    gearbox
+}

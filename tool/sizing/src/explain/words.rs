@@ -1,0 +1,85 @@
+//! Remedies in words.
+
+use super::remedy::{Edge, Lever, Miss, Remedy};
+use jred_machine::model::rule::Rule;
+use jred_machine::number::rounding::short;
+
+impl Remedy {
+    /// The nearest value at which every rule holds, and what is at its limit there; `None` where no value helps, or where the
+    /// present one holds.
+    pub fn change(&self) -> Option<Edge> {
+        let [low, high] = self.range?;
+        if self.now < low.value {
+            Some(low)
+        } else if self.now > high.value {
+            Some(high)
+        } else {
+            None
+        }
+    }
+
+    /// In words; `duration` is the cycle time as it is (s).
+    pub fn sentence(&self, duration: f64) -> String {
+        let shown = |value: f64| match self.lever {
+            Lever::GearRatio | Lever::IdealGearbox => short(value),
+            Lever::CycleTime => format!("{} s", short(value * duration)),
+            Lever::MovingMass | Lever::ProcessLoad => format!("{} %", short(value * 100.0)),
+        };
+        let at = |edge: &Edge| {
+            let rule = edge
+                .rule
+                .map_or(String::new(), |r| format!(" ({})", r.name()));
+            format!("{}{rule}", shown(edge.value))
+        };
+        let (name, now) = (self.lever.name(), shown(self.now));
+        if let Some([low, high]) = &self.range {
+            let range = match (low.rule, high.rule) {
+                (None, None) => "any value that was tried".to_owned(),
+                (Some(_), None) => format!("{} or more", at(low)),
+                (None, Some(_)) => format!("{} or less", at(high)),
+                (Some(_), Some(_)) => format!("{} to {}", at(low), at(high)),
+            };
+            return if self.change().is_some() {
+                format!("{name} {now}: holds with {range}")
+            } else {
+                format!("{name} {now}: may be {range}")
+            };
+        }
+        let Some(best) = &self.best else {
+            return format!("{name} {now}: no value helps");
+        };
+        let rule = best.rule.map_or("a rule", Rule::name);
+        let used = self.best_use.map_or(String::new(), |used| {
+            format!(" with {} of its limit", percent(used))
+        });
+        format!(
+            "{name} {now}: no value helps; at {}, the best, {rule} fails{used}",
+            shown(best.value)
+        )
+    }
+}
+
+impl Miss {
+    /// In words: what is used, and what limit would do.
+    pub fn sentence(&self) -> String {
+        let name = self.rule.name();
+        match (self.used, self.needed) {
+            (Some(used), Some(needed)) => format!(
+                "{name} uses {} of its limit (it would hold with {} instead of {})",
+                percent(used),
+                short(needed),
+                short(self.limit)
+            ),
+            _ => format!("{name} is asked for where there is none"),
+        }
+    }
+}
+
+/// A share that is used; beyond ten times the limit its digits say nothing, as in [`Check::used`](crate::judge::check::Check::used).
+fn percent(used: f64) -> String {
+    if used < 10.0 {
+        format!("{:.1} %", used * 100.0)
+    } else {
+        "> 1000 %".to_owned()
+    }
+}

@@ -1,0 +1,248 @@
+//! Judging a drive: every rule's figure and rating, as plain numbers; words come later, for the drives that are shown.
+//!
+//! Each family of rules is a file of [`judge`](self): it measures ([`Findings::set`]) and says what the rating is made of
+//! (`note`). A rule that does not apply to a drive, such as those of a gearbox to a direct drive, is left out of the
+//! findings; one that applies but lacks a figure of the catalogue or of the machine file is set with [`Finding::UNKNOWN`].
+
+use crate::catalogue::Drive;
+use crate::cycle::Cycle;
+use crate::cycle::form::Coefficients;
+use crate::judge::check::Check;
+use crate::judge::vocabulary::Units;
+use crate::motor::envelope::Prepared;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::{Finding, RuleSet, Verdict};
+use jred_machine::model::site::Site;
+
+pub mod check;
+mod electric;
+mod gearbox;
+mod judged;
+mod motor;
+mod outcome;
+pub mod overload;
+mod screen;
+mod stiffness;
+mod thermal;
+pub mod vocabulary;
+
+pub use judged::Judged;
+pub use outcome::Outcome;
+pub(crate) use screen::Screen;
+
+/// The findings of all rules that apply to a drive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Findings {
+    found: [Finding; Rule::COUNT],
+    /// A bit for each rule that applies.
+    apply: u32,
+}
+
+const _: () = assert!(Rule::COUNT <= u32::BITS as usize, "a bit for each rule");
+
+impl Default for Findings {
+    fn default() -> Self {
+        Self {
+            found: [Finding::new(0.0, 0.0); Rule::COUNT],
+            apply: 0,
+        }
+    }
+}
+
+/// What takes findings as they are measured: [`Findings`] keeps them, an outcome weighs them and forgets them.
+trait Take {
+    /// Takes the finding of a rule, which thereby applies. Each rule is found once.
+    fn set(&mut self, rule: Rule, finding: Finding);
+}
+
+impl Take for Findings {
+    fn set(&mut self, rule: Rule, finding: Finding) {
+        Self::set(self, rule, finding);
+    }
+}
+
+impl Findings {
+    /// Sets the finding of a rule, which thereby applies.
+    pub const fn set(&mut self, rule: Rule, finding: Finding) {
+        self.found[rule as usize] = finding;
+        self.apply |= 1 << rule as u32;
+    }
+
+    /// The finding of a rule, if it applies.
+    pub const fn get(&self, rule: Rule) -> Option<Finding> {
+        if self.apply & 1 << rule as u32 == 0 {
+            None
+        } else {
+            Some(self.found[rule as usize])
+        }
+    }
+
+    /// The rules that apply, with their findings, in the order of reports.
+    pub fn iter(&self) -> impl Iterator<Item = (Rule, Finding)> {
+        let mut rest = self.apply;
+        std::iter::from_fn(move || {
+            let place = rest.trailing_zeros() as usize;
+            rest &= rest.wrapping_sub(1);
+            Some((*Rule::ALL.get(place)?, self.found[place]))
+        })
+    }
+}
+
+/// All that judging a drive looks at.
+#[derive(Clone, Copy, Debug)]
+pub struct Context<'a> {
+    /// The duty, prepared.
+    pub cycle: &'a Cycle,
+    /// Where the drive is to stand: supply, surroundings, stiffness, tool.
+    pub site: &'a Site,
+    /// The drive.
+    pub drive: Drive<'a>,
+    /// What is known of its motor's limits at this supply.
+    pub motor: &'a Prepared,
+    /// Its ratio.
+    pub ratio: f64,
+    /// Its motor torque as a linear form.
+    pub coefficients: Coefficients,
+}
+
+impl<'a> Context<'a> {
+    /// The context of one drive.
+    pub fn new(cycle: &'a Cycle, site: &'a Site, drive: Drive<'a>, motor: &'a Prepared) -> Self {
+        Self {
+            cycle,
+            site,
+            drive,
+            motor: motor.on(drive.amplifier),
+            ratio: drive.ratio(),
+            coefficients: drive.coefficients(),
+        }
+    }
+
+    /// What was assumed about the drive, and whose figures are not the maker's own.
+    pub fn assumptions(&self) -> Vec<&'static str> {
+        let mut assumptions = Vec::new();
+        if !self.drive.motor.from_maker {
+            assumptions.push(
+                "motor figures not read in the maker's own document: check them against the data sheet",
+            );
+        }
+        if self.drive.gearbox.is_some_and(|g| !g.from_maker) {
+            assumptions.push(
+                "gearbox figures not read in the maker's own document: check them against the data sheet",
+            );
+        }
+        if self.drive.gearbox.is_some_and(|g| g.efficiency_assumed) {
+            assumptions.push("gearbox efficiency not stated: 87 % per stage taken");
+        }
+        assumptions.extend(self.motor.envelope.assumptions());
+        assumptions
+    }
+
+    /// Every rule that applies.
+    pub fn findings(&self, rules: &RuleSet) -> Findings {
+        let mut findings = Findings::default();
+        self.measure_directly(rules, &mut findings);
+        self.follow_time(&mut findings);
+        findings
+    }
+
+    /// The rules that need no time course: see [`Rule::follows_time`]. The rule set says by which figure a rule is judged,
+    /// where there is more than one.
+    pub fn measure_directly(&self, rules: &RuleSet, findings: &mut Findings) {
+        gearbox::measure_alone(self, rules, findings);
+        stiffness::measure(self, findings);
+        motor::measure_speed(self.cycle, self.motor, self.ratio, findings);
+        motor::measure_inertia(self, rules, findings);
+        motor::measure_torques(self, findings);
+        motor::measure_peak(self, findings);
+        gearbox::measure_stop(self, findings);
+        electric::measure(self, findings);
+    }
+
+    /// The rules that follow a state over time.
+    pub fn follow_time(&self, findings: &mut Findings) {
+        let peak_current = findings.get(Rule::PeakCurrent).map(|found| found.value);
+        thermal::follow(self, findings);
+        electric::follow(self, peak_current, findings);
+    }
+
+    /// Time (s) and rises of winding and housing (K) over the cycle; `None` where they cannot be followed.
+    pub fn rises(&self) -> Option<Vec<(f64, [f64; 2])>> {
+        thermal::course(self)
+    }
+
+    /// Voltage of the DC bus over the cycle, \[time (s), voltage (V)\]; nothing where it is not known.
+    pub fn bus_voltage(&self) -> Vec<[f64; 2]> {
+        electric::trace(self)
+    }
+
+    /// The findings in words, under a rule set.
+    pub fn checks(&self, rules: &RuleSet) -> Vec<Check> {
+        let findings = self.findings(rules);
+        findings
+            .iter()
+            .filter(|(rule, _)| rules.shows(*rule))
+            .map(|(rule, finding)| self.check(rules, rule, finding))
+            .collect()
+    }
+
+    fn check(&self, rules: &RuleSet, rule: Rule, finding: Finding) -> Check {
+        use Rule::{
+            Backlash, BrakeTorque, ConstantTorque, GearboxCubicMean, GearboxCycles,
+            GearboxEmergency, GearboxMeanSpeed, GearboxPeak, GearboxSpeed, HoldingTorque,
+            HousingTemperature, InertiaRatio, NaturalFrequency, PeakTorque, RmsTorque, Speed,
+            WindingTemperature,
+        };
+        let words = match rule {
+            RmsTorque | PeakTorque | Speed | HoldingTorque | ConstantTorque | BrakeTorque
+            | InertiaRatio => motor::words(self, rules, rule, finding),
+            GearboxPeak | GearboxCubicMean | GearboxEmergency | GearboxMeanSpeed | GearboxSpeed
+            | GearboxCycles => gearbox::words(self, rules, rule, finding),
+            WindingTemperature | HousingTemperature => thermal::words(self, rule, finding),
+            NaturalFrequency | Backlash => stiffness::words(self, rule, finding),
+            _ => electric::words(self, rule, finding),
+        };
+        let units = Units::of(self.drive.motor.kind);
+        let words = Words {
+            rating: units.words(&words.rating),
+            place: units.words(&words.place),
+            ..words
+        };
+        let mut check = Check::new(rules, rule, finding, words);
+        check.rule = units.rule(rule);
+        check
+    }
+
+    /// The worst verdict and the largest share of a limit used. The rules that follow time are judged only if the others
+    /// hold: a drive that is refused already is not followed.
+    pub fn outcome(&self, rules: &RuleSet) -> Outcome {
+        self.ranked(rules).1
+    }
+
+    /// The findings that the ranking goes by, and how they come out: without the rules that follow time, if another is
+    /// violated.
+    pub fn ranked(&self, rules: &RuleSet) -> (Findings, Outcome) {
+        let mut findings = Findings::default();
+        self.measure_directly(rules, &mut findings);
+        let outcome = Outcome::of(rules, &findings);
+        if outcome.verdict == Verdict::Fail {
+            return (findings, outcome);
+        }
+        self.follow_time(&mut findings);
+        let outcome = Outcome::of(rules, &findings);
+        (findings, outcome)
+    }
+}
+
+/// What a check says beside its numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Words {
+    /// Unit in which figure and rating are shown.
+    pub unit: &'static str,
+    /// SI value of that unit; figures are divided by it.
+    pub scale: f64,
+    /// What the rating is, such as "S1 torque at mean speed"; of an unknown finding what is missing.
+    pub rating: String,
+    /// Where or how the figure was found, or nothing.
+    pub place: String,
+}

@@ -1,0 +1,146 @@
+//! One sizing rule applied to one drive: figure, limit, verdict.
+
+use serde::Serialize;
+
+use crate::judge::Words;
+use jred_machine::model::rule::{Rule, Sense};
+use jred_machine::model::rules::{Finding, RuleSet, Verdict};
+use jred_machine::number::rounding::short;
+
+/// A rule, what it judged, and how it came out.
+#[derive(Clone, Debug, Serialize)]
+pub struct Check {
+    /// Name of the rule.
+    pub rule: &'static str,
+    /// The rule.
+    pub id: Rule,
+    /// The figure judged, in `unit`; `None` if it cannot be had.
+    pub value: Option<f64>,
+    /// Its limit, in `unit`; `None` if the catalogue does not hold what it is made of.
+    pub limit: Option<f64>,
+    /// Unit of figure and limit.
+    pub unit: &'static str,
+    /// The share of the limit that is used; zero without a limit. JSON has it as the margin.
+    #[serde(skip)]
+    pub used: f64,
+    /// What is left of the limit, as a share of it; `None` where there is no limit.
+    pub margin: Option<f64>,
+    /// How it came out.
+    pub verdict: Verdict,
+    /// What the limit is made of, or what is missing.
+    pub note: String,
+    /// Where the limit comes from.
+    pub source: String,
+}
+
+impl Check {
+    /// A finding under a rule set, in words.
+    pub fn new(rules: &RuleSet, rule: Rule, finding: Finding, words: Words) -> Self {
+        let verdict = rules.verdict(rule, finding);
+        let limit = rules.limit(rule);
+        let Words {
+            unit,
+            scale,
+            rating,
+            place,
+        } = words;
+        let share = limit.fail.or(limit.warn);
+        let used = rules.use_shown(rule, finding);
+        let shown = |x: f64| x / scale;
+        let bound = share.map(|share| share * finding.rating);
+        let bound = bound.filter(|bound| finding.is_known() && bound.is_finite());
+        let mut note = match share {
+            None if rules.is_off(rule) => "switched off".to_owned(),
+            _ if !finding.is_known() => format!("not known: {rating}"),
+            None => "no limit set".to_owned(),
+            Some(_) if !finding.rating.is_finite() => format!("no limit: {rating}"),
+            Some(share) if unit.is_empty() => {
+                format!("{} {rating}", short(share * shown(finding.rating)))
+            }
+            Some(share) if unit == "%" => {
+                format!("{} % of the {rating}", short(share * shown(finding.rating)))
+            }
+            Some(share) => {
+                let share = if rule.is_ratio() {
+                    format!("{} times", short(share))
+                } else {
+                    format!("{:.0} % of", share * 100.0)
+                };
+                let shown = short(shown(finding.rating));
+                format!("{share} {shown} {unit}, the {rating}")
+            }
+        };
+        if verdict == Verdict::Warn
+            && let Some(warn) = limit.warn.filter(|_| limit.fail.is_some())
+        {
+            let beyond = match rule.sense() {
+                Sense::AtMost => "above",
+                Sense::AtLeast => "below",
+            };
+            let warn = short(shown(warn * finding.rating));
+            note += format!("; a warning {beyond} {warn} {unit}").trim_end();
+        }
+        if !place.is_empty() {
+            note += ", ";
+            note += &place;
+        }
+        let margin = bound.is_some() && used.is_finite();
+        Self {
+            rule: rule.name(),
+            id: rule,
+            value: Some(shown(finding.value)).filter(|v| v.is_finite()),
+            limit: bound.map(shown),
+            unit,
+            used,
+            margin: margin.then_some(1.0 - used),
+            verdict,
+            note,
+            source: rules.source(rule).to_owned(),
+        }
+    }
+
+    /// The figure as a share of its limit; zero if there is no limit, infinite where the limit is zero.
+    pub const fn use_of_limit(&self) -> f64 {
+        self.used
+    }
+
+    /// What is left of the limit, as a share of it; nothing where there is no limit.
+    pub const fn margin(&self) -> Option<f64> {
+        self.margin
+    }
+
+    /// Four digits and the unit.
+    pub fn with_unit(&self, figure: f64) -> String {
+        format!("{} {}", short(figure), self.unit)
+            .trim_end()
+            .to_owned()
+    }
+
+    /// How much of the limit is used, in words.
+    pub fn used(&self) -> String {
+        match self.use_of_limit() * 100.0 {
+            _ if self.limit.is_none() => String::new(),
+            percent if percent < 1000.0 => format!("{percent:.0} %"),
+            _ => "> 1000 %".to_owned(),
+        }
+    }
+
+    /// The figure with its unit, or a dash.
+    pub fn figure(&self) -> String {
+        self.value.map_or("–".to_owned(), |v| self.with_unit(v))
+    }
+
+    /// Figure, limit and what the limit is, as one sentence.
+    pub fn sentence(&self) -> String {
+        let value = self.figure();
+        match self.limit {
+            Some(limit) => format!(
+                "{} {value} against {} ({})",
+                self.rule,
+                self.with_unit(limit),
+                self.note
+            ),
+            None => format!("{} {value}: {}", self.rule, self.note),
+        }
+    }
+}

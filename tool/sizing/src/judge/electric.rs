@@ -1,0 +1,265 @@
+//! Current of the amplifier, energy of the DC bus, brake resistor.
+
+use super::{Context, Take, Words};
+use crate::bus::store::BusFigures;
+use crate::bus::supply::BusData;
+use crate::bus::{self, Need};
+use crate::judge::overload;
+use crate::thermal::mean::rms_current;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::Finding;
+use jred_machine::number::rounding::short;
+
+/// Currents; returns the largest (A), if the rules need it; NaN where the motor's data do not say which current makes a torque.
+pub(super) fn measure(context: &Context, findings: &mut impl Take) -> Option<f64> {
+    let motor_peak = context.drive.motor.winding.peak_current;
+    let Some(amplifier) = context.drive.amplifier else {
+        findings.set(Rule::RmsCurrent, Finding::UNKNOWN);
+        let limit = motor_peak?;
+        let peak = peak_current(context);
+        findings.set(Rule::PeakCurrent, Finding::new(peak, limit));
+        return Some(peak);
+    };
+    let Context {
+        cycle,
+        coefficients,
+        ratio,
+        motor,
+        ..
+    } = context;
+    let rms = rms_current(cycle, coefficients, *ratio, motor).unwrap_or(f64::NAN);
+    let peak = peak_current(context);
+    findings.set(Rule::RmsCurrent, Finding::new(rms, amplifier.rated_current));
+    let limit = motor_peak.map_or(amplifier.peak_current, |motor| {
+        motor.min(amplifier.peak_current)
+    });
+    findings.set(Rule::PeakCurrent, Finding::new(peak, limit));
+    Some(peak)
+}
+
+/// Largest current (A); NaN where the motor's data do not say which current makes a torque. It is that of the largest torque,
+/// unless the field is weakened.
+fn peak_current(context: &Context) -> f64 {
+    let Context {
+        cycle,
+        coefficients,
+        ratio,
+        motor,
+        ..
+    } = context;
+    let Some(curve) = motor.torques else {
+        return f64::NAN;
+    };
+    if !motor.circuit.as_ref().is_some_and(|c| c.weakens) {
+        return curve.current(cycle.peak_torque(coefficients));
+    }
+    let currents = cycle.samples().iter().map(|sample| {
+        let torque = coefficients.torque(&sample.loads());
+        let current = motor.current(torque, sample.speed() * ratio);
+        current.unwrap_or(f64::NAN)
+    });
+    currents.fold(0.0, f64::max)
+}
+
+/// Overload, bus and brake resistor; the largest current (A) is known from [`measure`].
+pub(super) fn follow(context: &Context, peak_current: Option<f64>, findings: &mut impl Take) {
+    overload(context, peak_current.unwrap_or(f64::NAN), findings);
+    let data = data(context);
+    if data.regenerative {
+        return;
+    }
+    if let (Some(resistor), Some(least)) = (data.resistor, data.min_resistance) {
+        findings.set(
+            Rule::BrakeResistance,
+            Finding::new(resistor.resistance, least),
+        );
+    }
+    if !context.cycle.regenerates(&context.coefficients) {
+        if let (Some(voltage), Some(max)) = (data.voltage, data.max_voltage) {
+            findings.set(Rule::BusVoltage, Finding::new(voltage, max));
+        }
+        return;
+    }
+    if missing(&data).is_some() {
+        findings.set(Rule::BusVoltage, Finding::UNKNOWN);
+        return;
+    }
+    let Some(figures) = figures(context, &data) else {
+        findings.set(Rule::BusVoltage, Finding::UNKNOWN);
+        return;
+    };
+    let voltage = Finding::against(figures.highest, data.max_voltage);
+    findings.set(Rule::BusVoltage, voltage);
+    if let Some(resistor) = data.resistor {
+        if figures.burnt > 0.0 && data.min_resistance.is_none() {
+            let finding = Finding::against(resistor.resistance, None);
+            findings.set(Rule::BrakeResistance, finding);
+        }
+        let mean = figures.burnt / context.cycle.duration();
+        let peak = figures.burnt_peak;
+        findings.set(Rule::ResistorPower, Finding::new(mean, resistor.power));
+        // What never comes on needs no figures of short pulses.
+        if figures.burnt > 0.0 || resistor.peak_power.is_some() {
+            findings.set(
+                Rule::ResistorPeak,
+                Finding::against(peak, resistor.peak_power),
+            );
+        }
+        if figures.burnt > 0.0 || resistor.pulse_energy.is_some() {
+            let pulse = Finding::against(figures.pulse, resistor.pulse_energy);
+            findings.set(Rule::ResistorPulse, pulse);
+        }
+    }
+}
+
+/// Whether nothing that [`follow`] finds can be worse than a figure that is missing: without an amplifier, and without the
+/// highest voltage of the bus, none of its rules has both figure and rating.
+pub(super) fn only_misses_figures(context: &Context) -> bool {
+    let data = data(context);
+    let resistance = data.resistor.is_some() && data.min_resistance.is_some();
+    context.drive.amplifier.is_none() && data.max_voltage.is_none() && !resistance
+}
+
+fn overload(context: &Context, peak: f64, findings: &mut impl Take) {
+    let Some(amplifier) = context.drive.amplifier else {
+        return;
+    };
+    let rated = amplifier.rated_current;
+    if peak <= rated {
+        findings.set(Rule::Overload, Finding::new(0.0, f64::INFINITY));
+        return;
+    }
+    let allowed = amplifier
+        .peak_time
+        .map(|time| overload::allowed(rated, amplifier.peak_current, time));
+    if peak.is_nan() || allowed.is_none() {
+        findings.set(Rule::Overload, Finding::UNKNOWN);
+        return;
+    }
+    let cycle = context.cycle;
+    let points = cycle.samples().iter().map(|sample| {
+        let torque = context.coefficients.torque(&sample.loads());
+        let speed = sample.speed() * context.ratio;
+        let current = context.motor.current(torque, speed).unwrap_or(0.0);
+        [sample.t, current.copysign(torque)]
+    });
+    let points: Vec<overload::Point> = points.collect();
+    let largest = overload::largest(&points, cycle.duration(), rated);
+    findings.set(Rule::Overload, Finding::against(largest, allowed));
+}
+
+fn data(context: &Context) -> BusData {
+    let site = context.site;
+    let drive = &context.drive;
+    BusData::new(&site.supply, site.bus_voltage, drive.amplifier, drive.motor)
+}
+
+/// What is missing to say how high the voltage of the bus rises.
+fn missing(data: &BusData) -> Option<&'static str> {
+    match data.bus() {
+        Err(missing) => Some(missing),
+        Ok(bus) if bus.resistor.is_none() && data.capacitance.is_none() => {
+            Some("capacitance of the DC bus")
+        }
+        Ok(_) if data.max_voltage.is_none() => Some("highest voltage of the DC bus"),
+        Ok(_) => None,
+    }
+}
+
+fn power(context: &Context) -> bus::curve::PowerCurve {
+    let drive = &context.drive;
+    bus::power(
+        context.cycle,
+        &context.coefficients,
+        context.ratio,
+        drive.motor,
+        context.motor,
+        drive.amplifier,
+    )
+}
+
+fn figures(context: &Context, data: &BusData) -> Option<BusFigures> {
+    Some(data.bus().ok()?.run(&power(context)))
+}
+
+pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
+    let amplifier = context.drive.amplifier;
+    let known = |text: &str| text.to_owned();
+    let (unit, rating) = match rule {
+        Rule::RmsCurrent if amplifier.is_none() => ("A", known("amplifier: none is chosen")),
+        Rule::RmsCurrent | Rule::PeakCurrent if finding.value.is_nan() => {
+            ("A", known("torque constant of the motor"))
+        }
+        Rule::RmsCurrent => ("A", known("rated current of the amplifier")),
+        Rule::PeakCurrent => {
+            let motor = context.drive.motor.winding.peak_current;
+            let own = motor.is_some_and(|motor| amplifier.is_none_or(|a| motor <= a.peak_current));
+            let whose = if own { "motor" } else { "amplifier" };
+            ("A", format!("peak current of the {whose}"))
+        }
+        Rule::Overload => {
+            let rating = match amplifier {
+                _ if finding.rating.is_infinite() => {
+                    "the current never exceeds the amplifier's rated one"
+                }
+                Some(a) if a.peak_time.is_none() => {
+                    "time for which the amplifier bears its peak current"
+                }
+                _ if finding.value.is_nan() => "torque constant of the motor",
+                _ => "(peak current² − rated current²)·peak time of the amplifier",
+            };
+            ("A^2 s", known(rating))
+        }
+        Rule::BusVoltage => {
+            let missing = missing(&data(context)).filter(|_| !finding.is_known());
+            (
+                "V",
+                known(missing.unwrap_or("highest voltage of the DC bus")),
+            )
+        }
+        Rule::BrakeResistance => (
+            "Ohm",
+            known("smallest resistance that the chopper may switch"),
+        ),
+        Rule::ResistorPower => ("W", known("continuous power of the brake resistor")),
+        Rule::ResistorPeak => ("W", known("peak power of the brake resistor")),
+        _ => ("J", known("pulse energy of the brake resistor")),
+    };
+    Words {
+        unit,
+        scale: 1.0,
+        rating,
+        place: match rule {
+            Rule::BusVoltage => bus_place(context, finding),
+            _ => String::new(),
+        },
+    }
+}
+
+/// What comes back, and what the brake resistor that is not there would have to be.
+fn bus_place(context: &Context, finding: Finding) -> String {
+    let data = data(context);
+    let curve = power(context);
+    let [_, back] = curve.energies();
+    if back == 0.0 {
+        return "nothing comes back".to_owned();
+    }
+    let mut words = format!("{} J come back in a cycle", short(back));
+    if finding.is_known() && finding.value.is_infinite() {
+        words += ", more than is drawn: without a brake resistor nothing bounds the voltage";
+    }
+    if data.resistor.is_none()
+        && let Some(need) = Need::of(&data, &curve)
+        && finding.value > data.chopper_voltage.unwrap_or(f64::INFINITY)
+    {
+        words += ", ";
+        words += &need.words();
+    }
+    words
+}
+
+/// Voltage of the bus over a cycle once it repeats, \[time (s), voltage (V)\]; nothing where what it takes is not known.
+pub(super) fn trace(context: &Context) -> Vec<[f64; 2]> {
+    let bus = data(context).bus();
+    bus.map_or_else(|_| Vec::new(), |bus| bus.trace(&power(context)))
+}

@@ -1,0 +1,167 @@
+//! The gearbox's torques, speeds and cycles.
+
+use super::{Context, Take, Words};
+use crate::catalogue::Gearbox;
+use jred_machine::analysis::mechanics::Braking;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::Finding;
+use jred_machine::model::rules::{MeanTorque, RuleSet};
+use jred_machine::number::rounding::short;
+use jred_machine::units::RPM;
+
+/// Acceleration torques T2B hold for up to 1000 cycles per hour (WITTENSTEIN, engineering glossary).
+const CYCLES: f64 = 1000.0;
+
+/// Seconds of an hour.
+const HOUR: f64 = 3600.0;
+
+/// The rules that depend on gearbox and cycle alone, whatever the motor.
+pub(super) fn measure_alone(context: &Context, rules: &RuleSet, findings: &mut impl Take) {
+    let Some(gearbox) = context.drive.gearbox else {
+        return;
+    };
+    let cycle = context.cycle;
+    let cycles = cycles_per_hour(context);
+    let peak = gearbox
+        .peak_torque
+        .map(|torque| torque / shock_factor(gearbox, cycles));
+    findings.set(
+        Rule::GearboxPeak,
+        Finding::against(cycle.peak_output_torque(), peak),
+    );
+    let exponent = rules.choices.gearbox_mean_exponent.exponent();
+    findings.set(
+        Rule::GearboxCubicMean,
+        Finding::against(cycle.mean_output_torque(exponent), gearbox.rated_torque),
+    );
+    findings.set(
+        Rule::GearboxMeanSpeed,
+        Finding::against(cycle.mean_speed() * context.ratio, gearbox.rated_speed),
+    );
+    findings.set(
+        Rule::GearboxSpeed,
+        Finding::against(cycle.peak_speed() * context.ratio, gearbox.max_speed),
+    );
+    if cycles > 0.0 {
+        let most = gearbox
+            .shock_factors
+            .last()
+            .map_or(CYCLES, |[most, _]| *most);
+        findings.set(Rule::GearboxCycles, Finding::new(cycles, most));
+    }
+}
+
+/// The emergency stop, in which the motor brakes.
+pub(super) fn measure_stop(context: &Context, findings: &mut impl Take) {
+    let Some(gearbox) = context.drive.gearbox else {
+        return;
+    };
+    let stop = gearbox.emergency_torque.and_then(|rating| {
+        let [torque, _] = emergency(context, gearbox)?;
+        Some(Finding::new(torque, rating))
+    });
+    findings.set(Rule::GearboxEmergency, stop.unwrap_or(Finding::UNKNOWN));
+}
+
+/// Moves of the drive link in an hour: each loads the teeth with an acceleration torque.
+fn cycles_per_hour(context: &Context) -> f64 {
+    context.cycle.mechanics().move_rate * HOUR
+}
+
+/// The maker's factor by which T2B is divided at so many cycles an hour: on straight lines between the maker's points, at the
+/// ends as there. One where the maker gives none.
+fn shock_factor(gearbox: &Gearbox, cycles: f64) -> f64 {
+    let points = &gearbox.shock_factors;
+    let above = points.partition_point(|[at, _]| *at <= cycles);
+    match (
+        above.checked_sub(1).and_then(|k| points.get(k)),
+        points.get(above),
+    ) {
+        (Some([from, low]), Some([to, high])) => low + (high - low) * (cycles - from) / (to - from),
+        (Some([_, factor]), None) | (None, Some([_, factor])) => *factor,
+        (None, None) => 1.0,
+    }
+}
+
+/// Torque through the gearbox (N·m) in the worst emergency stop, and the inertia at its output (kg·m²) there: the motor brakes
+/// with its peak torque at standstill, or its brake closes, whichever is more. `None` where that torque is not known, or
+/// where the gearbox locks: what stops the machine then is its stiffness.
+fn emergency(context: &Context, gearbox: &Gearbox) -> Option<[f64; 2]> {
+    let motor = context.drive.motor;
+    let mechanics = context.cycle.mechanics();
+    let peak = context.motor.envelope.peak_torque(-1.0, 0.0);
+    let [_, _, _, viscous, coulomb] = context.coefficients.0;
+    let friction = coulomb + viscous * context.cycle.peak_speed();
+    let braking = Braking {
+        torque: peak.max(motor.brake.map_or(0.0, |brake| brake.torque)) + friction,
+        inertia: context.coefficients.0[0] / context.ratio,
+        ratio: context.ratio,
+        back_efficiency: gearbox.back_efficiency,
+    };
+    let worst = mechanics.stop.worst(&braking);
+    worst
+        .or(Some([0.0, 0.0]))
+        .filter(|[torque, _]| torque.is_finite())
+}
+
+pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Finding) -> Words {
+    let (unit, scale, rating) = match rule {
+        Rule::GearboxPeak => ("N m", 1.0, "acceleration torque T2B"),
+        Rule::GearboxCubicMean => ("N m", 1.0, "rated torque T2N"),
+        Rule::GearboxEmergency => ("N m", 1.0, "emergency torque"),
+        Rule::GearboxMeanSpeed => ("rpm", RPM, "rated input speed n1N"),
+        Rule::GearboxSpeed => ("rpm", RPM, "maximum input speed"),
+        _ => (
+            "per hour",
+            1.0,
+            "number up to which T2B holds; above, it is to be reduced by the maker's shock factor",
+        ),
+    };
+    let mut words = Words {
+        unit,
+        scale,
+        rating: rating.to_owned(),
+        place: String::new(),
+    };
+    let Some(gearbox) = context.drive.gearbox else {
+        return words;
+    };
+    match rule {
+        Rule::GearboxPeak => {
+            let cycles = cycles_per_hour(context);
+            let factor = shock_factor(gearbox, cycles);
+            if factor > 1.0 {
+                words.rating = format!(
+                    "{rating} by the maker's shock factor of {} for {} cycles an hour",
+                    short(factor),
+                    short(cycles)
+                );
+            }
+        }
+        Rule::GearboxCubicMean
+            if rules.choices.gearbox_mean_exponent == MeanTorque::RollerBearing =>
+        {
+            "mean with the exponent 10/3".clone_into(&mut words.place);
+        }
+        Rule::GearboxEmergency if gearbox.emergency_torque.is_some() && !finding.is_known() => {
+            words.rating = if gearbox.back_efficiency <= 0.0 {
+                "the gearbox locks, and its stiffness decides".to_owned()
+            } else {
+                "peak torque of the motor".to_owned()
+            };
+        }
+        Rule::GearboxEmergency if finding.is_known() => {
+            if let Some([_, inertia]) = emergency(context, gearbox) {
+                words.place = format!(
+                    "the motor braking with all it has where the machine has {} kg m^2 at the gearbox",
+                    short(inertia)
+                );
+            }
+        }
+        Rule::GearboxCycles if !gearbox.shock_factors.is_empty() => {
+            "number up to which the maker gives shock factors".clone_into(&mut words.rating);
+        }
+        _ => {}
+    }
+    words
+}

@@ -1,0 +1,172 @@
+//! The motor's torque, speed, holding torque and inertia ratio.
+
+use super::{Context, Take, Words};
+use crate::cycle::Cycle;
+use crate::judge::vocabulary::Units;
+use crate::motor::envelope::Prepared;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::Finding;
+use jred_machine::model::rules::RuleSet;
+use jred_machine::number::rounding::short;
+
+/// Seconds of a minute.
+const MINUTE: f64 = 60.0;
+
+/// A rating that is known if it is finite.
+fn known(rating: f64) -> f64 {
+    if rating.is_finite() { rating } else { f64::NAN }
+}
+
+/// The largest speed; nothing but the ratio is needed of the drive.
+pub(super) fn measure_speed(cycle: &Cycle, motor: &Prepared, ratio: f64, findings: &mut impl Take) {
+    let rating = known(motor.envelope.max_speed());
+    findings.set(
+        Rule::Speed,
+        Finding::new(cycle.peak_speed() * ratio, rating),
+    );
+}
+
+/// The inertia ratio.
+pub(super) fn measure_inertia(context: &Context, rules: &RuleSet, findings: &mut impl Take) {
+    let inertia = rules
+        .choices
+        .inertia_ratio_of
+        .pick(&context.cycle.inertia());
+    let lambda = context.drive.inertia_ratio(inertia);
+    let rating = rules.choices.inertia_rating(moves_per_minute(context));
+    findings.set(Rule::InertiaRatio, Finding::new(lambda, rating));
+}
+
+/// Torques that need no search over the cycle.
+pub(super) fn measure_torques(context: &Context, findings: &mut impl Take) {
+    let cycle = context.cycle;
+    let envelope = &context.motor.envelope;
+    let s1 = envelope.continuous_torque(cycle.mean_speed() * context.ratio);
+    findings.set(
+        Rule::RmsTorque,
+        Finding::new(cycle.rms_torque(&context.coefficients), known(s1)),
+    );
+    let standstill = known(envelope.standstill());
+    let held = holding(context);
+    findings.set(Rule::HoldingTorque, Finding::new(held, standstill));
+    let constant = Finding::new(constant(context), standstill);
+    findings.set(Rule::ConstantTorque, constant);
+    if let Some(brake) = context.drive.motor.brake {
+        let against = Finding::new(braked(context), brake.torque);
+        findings.set(Rule::BrakeTorque, against);
+    }
+}
+
+/// The torque where the cycle comes closest to the envelope.
+pub(super) fn measure_peak(context: &Context, findings: &mut impl Take) {
+    let envelope = &context.motor.envelope;
+    let peak = context
+        .cycle
+        .peak(&context.coefficients, context.ratio, envelope);
+    let limit = envelope.peak_torque(peak.torque, peak.speed);
+    findings.set(
+        Rule::PeakTorque,
+        Finding::new(peak.torque.abs(), known(limit)),
+    );
+}
+
+/// A peak torque of which it is only known that it uses at least this share of the envelope.
+pub(super) fn set_peak_use(used: f64, findings: &mut impl Take) {
+    findings.set(Rule::PeakTorque, Finding::new(used, 1.0));
+}
+
+fn moves_per_minute(context: &Context) -> f64 {
+    context.cycle.mechanics().move_rate * MINUTE
+}
+
+/// Whether the gearbox cannot be driven back: the machine then rests on its friction.
+fn locks(context: &Context) -> bool {
+    context
+        .drive
+        .gearbox
+        .is_some_and(|g| g.back_efficiency <= 0.0)
+}
+
+/// Torque at rest that the motor may have to hold (N·m). Friction lets it lie anywhere from τ·η_back/i, where the machine would
+/// begin to drive back, to τ/(i·η), where it would begin to move on: the larger end is taken, as the time course does. A
+/// gearbox that locks holds by itself.
+pub(super) fn holding(context: &Context) -> f64 {
+    if locks(context) {
+        return 0.0;
+    }
+    let most = context.cycle.mechanics().holding;
+    let efficiency = context.drive.gearbox.map_or(1.0, |g| g.efficiency);
+    most / (context.ratio * efficiency)
+}
+
+/// Torque that the brake must hold (N·m): τ/i, without the help of friction, which is not to be relied on.
+fn braked(context: &Context) -> f64 {
+    if locks(context) {
+        0.0
+    } else {
+        context.cycle.hold_torque() / context.ratio
+    }
+}
+
+/// Torque of weight, springs and friction at the motor (N·m), the motor's and the gearbox's friction included at the largest
+/// speed.
+fn constant(context: &Context) -> f64 {
+    let [resisting, driving] = context.cycle.mechanics().constant;
+    let [_, forth, back, viscous, coulomb] = context.coefficients.0;
+    let own = coulomb + viscous * context.cycle.peak_speed();
+    // Where the load drives, friction helps: no more of it is relied on than there is at any speed.
+    (resisting * forth + own).max(driving * back - coulomb)
+}
+
+pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Finding) -> Words {
+    let units = Units::of(context.drive.motor.kind);
+    let (unit, scale, rating) = match rule {
+        Rule::RmsTorque => (units.torque, 1.0, "S1 torque at mean speed"),
+        Rule::PeakTorque => (units.torque, 1.0, "peak torque at that speed"),
+        Rule::Speed => (units.speed, units.speed_scale, "maximum speed"),
+        Rule::HoldingTorque | Rule::ConstantTorque => (units.torque, 1.0, "standstill torque"),
+        Rule::BrakeTorque => (units.torque, 1.0, "brake torque"),
+        _ => ("", 1.0, "times the rotor's inertia"),
+    };
+    let mut rating = units.words(rating);
+    let place = match rule {
+        Rule::PeakTorque => {
+            let envelope = &context.motor.envelope;
+            let peak = context
+                .cycle
+                .peak(&context.coefficients, context.ratio, envelope);
+            format!(
+                "at {}, where the cycle comes closest to the envelope",
+                units.speed(peak.speed)
+            )
+        }
+        Rule::HoldingTorque | Rule::BrakeTorque if locks(context) => {
+            "the gearbox locks and holds by itself".to_owned()
+        }
+        Rule::HoldingTorque if finding.value > 0.0 => {
+            units.words("torque at rest with friction against it")
+        }
+        Rule::ConstantTorque => units.words("torque of weight and friction alone"),
+        Rule::BrakeTorque => units.words("torque at rest without the help of friction"),
+        Rule::InertiaRatio => {
+            let choices = &rules.choices;
+            let judged = choices.inertia_ratio_of.words();
+            if choices.inertia_ratio_by_moves.is_empty() {
+                judged.to_owned()
+            } else {
+                let moves = short(moves_per_minute(context));
+                if !finding.is_known() {
+                    rating = format!("a limit for {moves} moves per minute; take the data sheet's");
+                }
+                format!("{judged}, for {moves} moves per minute")
+            }
+        }
+        _ => String::new(),
+    };
+    Words {
+        unit,
+        scale,
+        rating,
+        place,
+    }
+}

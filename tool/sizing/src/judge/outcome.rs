@@ -1,0 +1,92 @@
+//! How a drive comes out, in numbers.
+
+use super::{Findings, Take};
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::Finding;
+use jred_machine::model::rules::RuleSet;
+use jred_machine::model::rules::Verdict;
+
+/// How a drive comes out, in numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// The worst verdict.
+    pub verdict: Verdict,
+    /// The largest finite share of a limit that is used. Where a limit is zero (no torque beyond the maximum speed) the
+    /// rule for the speed says by how much.
+    pub worst_use: f64,
+    /// The rule of which that share is used; of several the first in the order of reports.
+    pub worst_rule: Option<Rule>,
+    /// How many rules give a warning.
+    pub warnings: u8,
+    /// How many rules could not be judged for want of a figure.
+    pub not_checked: u8,
+    /// How many rules ask for something where the limit is zero: by how much they are missed cannot be said.
+    pub beyond_all_limits: u8,
+}
+
+impl Outcome {
+    /// That of no findings at all.
+    pub const NOTHING: Self = Self {
+        verdict: Verdict::Pass,
+        worst_use: 0.0,
+        worst_rule: None,
+        warnings: 0,
+        not_checked: 0,
+        beyond_all_limits: 0,
+    };
+
+    /// How these findings come out under a rule set.
+    pub fn of(rules: &RuleSet, findings: &Findings) -> Self {
+        let mut tally = Tally::new(rules, Self::NOTHING);
+        for (rule, finding) in findings.iter() {
+            tally.set(rule, finding);
+        }
+        tally.outcome
+    }
+
+    /// Whether a rule is violated.
+    pub const fn fails(&self) -> bool {
+        matches!(self.verdict, Verdict::Fail)
+    }
+
+    fn uses(&mut self, rule: Rule, used: f64) {
+        let first = |other: Rule| used >= self.worst_use && rule < other;
+        if used > self.worst_use || self.worst_rule.is_some_and(first) {
+            self.worst_use = used;
+            self.worst_rule = Some(rule);
+        }
+    }
+}
+
+/// Weighs findings as they come; each adds to an outcome, in whatever order.
+pub(super) struct Tally<'r> {
+    rules: &'r RuleSet,
+    pub(super) outcome: Outcome,
+}
+
+impl<'r> Tally<'r> {
+    /// Goes on from an outcome.
+    pub(super) const fn new(rules: &'r RuleSet, outcome: Outcome) -> Self {
+        Self { rules, outcome }
+    }
+}
+
+impl Take for Tally<'_> {
+    #[inline]
+    fn set(&mut self, rule: Rule, finding: Finding) {
+        let outcome = &mut self.outcome;
+        let verdict = self.rules.verdict(rule, finding);
+        if verdict == Verdict::Off {
+            return;
+        }
+        outcome.verdict = outcome.verdict.max(verdict);
+        outcome.warnings += u8::from(verdict == Verdict::Warn);
+        outcome.not_checked += u8::from(verdict == Verdict::NotChecked);
+        let used = self.rules.use_of_limit(rule, finding);
+        if used.is_infinite() {
+            outcome.beyond_all_limits += 1;
+        } else {
+            outcome.uses(rule, used);
+        }
+    }
+}

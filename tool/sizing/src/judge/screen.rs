@@ -1,0 +1,138 @@
+//! Judging many drives against one cycle, each only as far as is asked.
+//!
+//! Whether a drive fits must be known of each. By how much it misses, or of which limit it uses most, is asked only of the few
+//! that stand first in their list: what is known of a drive after the rules that settle its verdict bounds its place there. The
+//! rules of a gearbox do not depend on the motor and are judged once for all drives that have it; whether the peak
+//! torque fits is mostly settled by [bounds](crate::cycle::Cycle::peak_against) without a search for where the peak is.
+//!
+//! The verdicts are those of [`Context::outcome`], and so is the order of the first (`tests/cycle/screen.rs`).
+
+use std::ptr;
+
+use super::outcome::Tally;
+use super::{Context, Outcome, electric, gearbox, motor, stiffness, thermal};
+use crate::catalogue::Drive;
+use crate::catalogue::{Gearbox, Motor};
+use crate::cycle::{Against, Cycle};
+use crate::motor::envelope::Prepared;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::RuleSet;
+use jred_machine::model::site::Site;
+
+/// What is asked of every drive.
+#[derive(Clone, Debug)]
+pub(crate) struct Screen<'c> {
+    cycle: &'c Cycle,
+    site: &'c Site,
+    rules: &'c RuleSet,
+    gearboxes: &'c [Gearbox],
+    /// How the rules of each gearbox alone come out, and those of none.
+    alone: Vec<Outcome>,
+    direct: Outcome,
+}
+
+impl<'c> Screen<'c> {
+    /// Judges each gearbox by itself. `motors`: the motors that they are to be joined to, with their limits.
+    pub(crate) fn new(
+        cycle: &'c Cycle,
+        site: &'c Site,
+        rules: &'c RuleSet,
+        gearboxes: &'c [Gearbox],
+        any: Option<(&'c Motor, &'c Prepared)>,
+    ) -> Self {
+        let alone = |gearbox: Option<&'c Gearbox>| {
+            let Some((motor, limits)) = any else {
+                return Outcome::NOTHING;
+            };
+            let drive = Drive {
+                motor,
+                gearbox,
+                amplifier: None,
+            };
+            by_itself(&Context::new(cycle, site, drive, limits), rules)
+        };
+        Self {
+            cycle,
+            site,
+            rules,
+            gearboxes,
+            alone: gearboxes.iter().map(|g| alone(Some(g))).collect(),
+            direct: alone(None),
+        }
+    }
+
+    /// Whether a drive fits, and its outcome as far as that took. The verdict is the drive's own; if it fits, so is whether a rule
+    /// gives a warning, and whether one could not be checked. No share of a limit is larger than in [`Context::outcome`], nor
+    /// are more limits of zero passed.
+    pub(crate) fn judge(&self, drive: Drive<'c>, limits: &'c Prepared) -> Outcome {
+        let mut tally = Tally::new(self.rules, self.of_gearbox(&drive, limits));
+        let motor = limits.on(drive.amplifier);
+        motor::measure_speed(self.cycle, motor, drive.ratio(), &mut tally);
+        if tally.outcome.fails() {
+            return tally.outcome;
+        }
+        let context = Context::new(self.cycle, self.site, drive, limits);
+        motor::measure_inertia(&context, self.rules, &mut tally);
+        motor::measure_torques(&context, &mut tally);
+        gearbox::measure_stop(&context, &mut tally);
+        if tally.outcome.fails() {
+            return tally.outcome;
+        }
+        match self.peak(&context) {
+            Against::Below => {}
+            Against::Beyond { used } => motor::set_peak_use(used, &mut tally),
+            Against::Open => motor::measure_peak(&context, &mut tally),
+        }
+        if tally.outcome.fails() {
+            return tally.outcome;
+        }
+        let current = electric::measure(&context, &mut tally);
+        if tally.outcome.fails() {
+            return tally.outcome;
+        }
+        thermal::follow(&context, &mut tally);
+        // One figure that is missing is as many as are asked for here.
+        if tally.outcome.not_checked == 0 || !electric::only_misses_figures(&context) {
+            electric::follow(&context, current, &mut tally);
+        }
+        tally.outcome
+    }
+
+    /// How the peak torque stands against the lower of its limits, failure and warning, as far as bounds tell.
+    fn peak(&self, context: &Context) -> Against {
+        let limit = self.rules.limit(Rule::PeakTorque);
+        let [low, high] = match (limit.warn, limit.fail) {
+            (None, None) => return Against::Below,
+            (Some(share), None) => [share, f64::INFINITY],
+            (None, Some(share)) => [share; 2],
+            (Some(warn), Some(fail)) => [warn.min(fail), fail],
+        };
+        let envelope = &context.motor.envelope;
+        (context.cycle).peak_against(&context.coefficients, context.ratio, envelope, [low, high])
+    }
+
+    /// How the rules of the gearbox alone come out.
+    fn of_gearbox(&self, drive: &Drive<'c>, limits: &'c Prepared) -> Outcome {
+        let Some(gearbox) = drive.gearbox else {
+            return self.direct;
+        };
+        // The place in the list of an entry of the list.
+        let offset = (ptr::from_ref(gearbox).addr()).wrapping_sub(self.gearboxes.as_ptr().addr());
+        let place = offset / size_of::<Gearbox>();
+        match self.gearboxes.get(place) {
+            Some(same) if ptr::eq(same, gearbox) => self.alone[place],
+            _ => by_itself(
+                &Context::new(self.cycle, self.site, *drive, limits),
+                self.rules,
+            ),
+        }
+    }
+}
+
+/// How the rules come out that do not depend on the motor.
+fn by_itself(context: &Context, rules: &RuleSet) -> Outcome {
+    let mut tally = Tally::new(rules, Outcome::NOTHING);
+    gearbox::measure_alone(context, rules, &mut tally);
+    stiffness::measure(context, &mut tally);
+    tally.outcome
+}

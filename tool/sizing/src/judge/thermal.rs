@@ -1,0 +1,164 @@
+//! Temperature of winding and housing.
+
+use super::{Context, Take, Words};
+use crate::thermal::classify::Features;
+use crate::thermal::course::Hottest;
+use crate::thermal::{Heating, Load, Model, allowed_rise};
+use jred_machine::model::operation::Operation;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::Finding;
+
+pub(super) fn follow(context: &Context, findings: &mut impl Take) {
+    let Ok(heating) = heating(context) else {
+        findings.set(Rule::WindingTemperature, Finding::UNKNOWN);
+        return;
+    };
+    let [winding, housing] = match heating.hottest {
+        Hottest::Rise(rise) => rise,
+        Hottest::Runaway => [f64::INFINITY; 2],
+    };
+    let surroundings = &context.site.surroundings;
+    let allowed = allowed_rise(context.drive.motor, surroundings, heating.relative);
+    findings.set(Rule::WindingTemperature, Finding::against(winding, allowed));
+    if let Some(limit) = surroundings.housing {
+        let finding = if heating.housing {
+            Finding::new(housing, limit - surroundings.ambient)
+        } else {
+            Finding::UNKNOWN
+        };
+        findings.set(Rule::HousingTemperature, finding);
+    }
+}
+
+/// What the motor's data allow to say of its temperature.
+fn heating(context: &Context) -> Result<Heating, &'static str> {
+    let (site, prepared) = (context.site, context.motor);
+    let load = load(context);
+    let surroundings = &site.surroundings;
+    let model = Model::of(load.motor, prepared, surroundings, load.cycle.duration())?;
+    let operation = &site.duty.operation;
+    let held = match operation {
+        Operation::Intermittent { holding: true, .. } => super::motor::holding(context),
+        _ => 0.0,
+    };
+    model.heating(&load, operation, model.at_rest(prepared, held))
+}
+
+const fn load<'a>(context: &'a Context) -> Load<'a> {
+    Load {
+        cycle: context.cycle,
+        coefficients: &context.coefficients,
+        ratio: context.ratio,
+        motor: context.drive.motor,
+        prepared: context.motor,
+    }
+}
+
+pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
+    let found = heating(context);
+    let relative = found.as_ref().is_ok_and(|found| found.relative);
+    let surroundings = &context.site.surroundings;
+    let unknown = match &found {
+        Err(missing) => Some(*missing),
+        Ok(found) if rule == Rule::HousingTemperature && !found.housing => {
+            Some("thermal resistances of winding and housing")
+        }
+        Ok(_) if finding.rating.is_nan() => Some("highest temperature of the winding"),
+        Ok(_) => None,
+    };
+    let rating = match (unknown, rule) {
+        (Some(missing), _) => missing.to_owned(),
+        (None, Rule::HousingTemperature) => format!(
+            "rise from {} °C to the housing's highest temperature",
+            surroundings.ambient
+        ),
+        (None, _) if relative => "rise at the S1 torque".to_owned(),
+        (None, _) => {
+            let thin = if surroundings.altitude_factor() < 1.0 {
+                format!(
+                    ", less 1 % per 100 m above 1000 m at {} m",
+                    surroundings.altitude
+                )
+            } else {
+                String::new()
+            };
+            format!(
+                "rise from {} °C to the winding's highest temperature{thin}",
+                surroundings.ambient
+            )
+        }
+    };
+    Words {
+        unit: if relative { "%" } else { "K" },
+        scale: if relative { 0.01 } else { 1.0 },
+        rating,
+        place: found.map_or_else(|_| String::new(), |found| place(context, found)),
+    }
+}
+
+/// How the temperature was found, and in which duty.
+fn place(context: &Context, found: Heating) -> String {
+    let Context {
+        cycle,
+        site,
+        ratio,
+        coefficients,
+        ..
+    } = context;
+    let mut parts = Vec::new();
+    if found.hottest == Hottest::Runaway {
+        parts.push("thermal runaway: the copper loss grows faster with the temperature than the heat that flows off".to_owned());
+    }
+    if found.relative {
+        parts.push(
+            "from the squared torque, for want of thermal resistances and winding data".to_owned(),
+        );
+    }
+    if !found.ripple {
+        parts.push(
+            "at mean losses, the ripple over the cycle not followed for want of time constants"
+                .to_owned(),
+        );
+    }
+    parts.push(match site.duty.operation {
+        Operation::Continuous => {
+            let found = Features::of(cycle, coefficients, *ratio).duty_type();
+            match site.duty.kind {
+                Some(stated) if stated != found.number => {
+                    format!("{found} (stated: S{stated})")
+                }
+                _ => found.to_string(),
+            }
+        }
+        Operation::Short { operating } => {
+            format!("duty type S2, at the end of {operating} s from cold")
+        }
+        Operation::Intermittent {
+            operating, rest, ..
+        } => format!(
+            "duty type S{}, {operating} s of operation and {rest} s of rest",
+            site.duty.kind.unwrap_or(3)
+        ),
+    });
+    parts.join(", ")
+}
+
+/// Time (s) and rises of winding and housing (K) over a cycle that repeats without pause; `None` where the motor's data do not
+/// allow to follow them, or where the machine pauses.
+pub(super) fn course(context: &Context) -> Option<Vec<(f64, [f64; 2])>> {
+    let load = load(context);
+    let surroundings = &context.site.surroundings;
+    let model = Model::of(
+        load.motor,
+        load.prepared,
+        surroundings,
+        load.cycle.duration(),
+    )
+    .ok()?;
+    let (Model::Bodies { network, .. }, Operation::Continuous) =
+        (model, context.site.duty.operation)
+    else {
+        return None;
+    };
+    model.course(&load).periodic(&network)
+}

@@ -1,0 +1,290 @@
+//! The limits of a drive for the firmware's duty meter, [`jred::duty`]: what `jred size --meter` writes.
+//!
+//! The rules' shares are in the limits: where the RMS torque may be 80 % of the S1 torque, that is the limit. Curves are lower
+//! bounds of at most [`jred::duty::MAX_POINTS`] points ([`below()`]), the same in all four quadrants, so the lower of driving
+//! and braking; figures are rounded down to single precision. So the meter allows nothing that `jred size` does not. A rule that is
+//! off, or lacks its rating, gives no limit, and the source says so.
+
+mod below;
+mod source;
+
+pub use below::{Below, below};
+
+use crate::catalogue::Drive;
+use crate::judge::Judged;
+use crate::judge::vocabulary::Units;
+use crate::judge::{Context, Findings};
+use crate::motor::envelope::Envelope;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::Verdict;
+use jred_machine::model::rules::{MeanTorque, RuleSet};
+use jred_machine::number::rounding::{short, significant};
+
+/// A shortfall that needs no mention: the margin for roundings.
+const EXACT: f64 = 1e-5;
+
+/// What a limit is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Bound {
+    /// A torque over speed.
+    Curve(Below),
+    /// A figure.
+    Figure(f32),
+    /// None: it is not checked.
+    Open,
+}
+
+/// One field of [`jred::duty::Limits`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Name of the field.
+    pub field: &'static str,
+    /// What it is.
+    pub bound: Bound,
+    /// What it is made of, or why there is none.
+    pub words: String,
+}
+
+/// The limits of a drive under a rule set, and the figures that its cycle was sized with.
+#[derive(Clone, Debug)]
+pub struct MeterLimits<'a> {
+    context: &'a Context<'a>,
+    rules: &'a RuleSet,
+    /// One entry for each field of [`jred::duty::Limits`], in their order.
+    pub entries: Vec<Entry>,
+}
+
+/// A share of the S1 torque over speed.
+pub fn continuous(envelope: &Envelope, share: f64) -> Option<Below> {
+    let floor = |speeds| {
+        envelope
+            .continuous_floor(speeds)
+            .map(|torque| share * torque)
+    };
+    below(end(envelope), &envelope.corners(), floor)
+}
+
+/// A share of the short-time torque over speed.
+pub fn peak(envelope: &Envelope, share: f64) -> Option<Below> {
+    let floor = |speeds| envelope.peak_floor(speeds).map(|torque| share * torque);
+    below(end(envelope), &envelope.corners(), floor)
+}
+
+/// The largest speed; where none is known, that of the meter.
+fn end(envelope: &Envelope) -> f64 {
+    envelope.max_speed().min(jred::duty::MOST_SPEED)
+}
+
+/// The share of a rating that a rule allows; `Err`: why none.
+fn share(rules: &RuleSet, rule: Rule) -> Result<Share, String> {
+    let limit = rules.limit(rule);
+    let share = limit.fail.or(limit.warn);
+    let share = share.ok_or_else(|| format!("the rule \"{}\" is not judged", rule.name()))?;
+    Ok(Share {
+        share,
+        warns: limit.fail.is_none(),
+    })
+}
+
+/// What a rule allows.
+struct Share {
+    share: f64,
+    /// Whether sizing only warns beyond it.
+    warns: bool,
+}
+
+impl Share {
+    fn words(&self, rating: &str) -> String {
+        let warns = if self.warns {
+            ", beyond which sizing gives a warning"
+        } else {
+            ""
+        };
+        format!("{} % of the {rating}{warns}", short(100.0 * self.share))
+    }
+}
+
+/// The limit of a figure: the smallest of those that the rules give.
+fn figure(
+    field: &'static str,
+    rules: &RuleSet,
+    findings: &Findings,
+    judged: &[(Rule, &'static str)],
+) -> Entry {
+    let mut least: Option<(f64, String)> = None;
+    let mut open = Vec::new();
+    for &(rule, rating) in judged {
+        let Some(finding) = findings.get(rule) else {
+            continue;
+        };
+        match share(rules, rule) {
+            Err(why) => open.push(why),
+            Ok(_) if !finding.rating.is_finite() => open.push(format!("{rating} is not known")),
+            Ok(share) => {
+                let limit = share.share * finding.rating;
+                if least.as_ref().is_none_or(|(other, _)| limit < *other) {
+                    least = Some((limit, share.words(rating)));
+                }
+            }
+        }
+    }
+    let (bound, words) = match least {
+        Some((limit, words)) => (Bound::Figure(below::rounded_down(limit)), words),
+        None if open.is_empty() => (Bound::Open, "nothing to judge at this drive".to_owned()),
+        None => (Bound::Open, open.join("; ")),
+    };
+    Entry {
+        field,
+        bound,
+        words,
+    }
+}
+
+fn curve(
+    field: &'static str,
+    rules: &RuleSet,
+    rule: Rule,
+    rating: &str,
+    of: impl Fn(f64) -> Option<Below>,
+) -> Entry {
+    let (bound, words) = match share(rules, rule) {
+        Err(why) => (Bound::Open, why),
+        Ok(share) => match of(share.share) {
+            None => (Bound::Open, format!("the {rating} is not known")),
+            Some(curve) => {
+                let mut words = share.words(rating);
+                if curve.shortfall > EXACT {
+                    let shortfall = significant(100.0 * curve.shortfall, 2);
+                    words = format!("{words}, up to {shortfall} % of its largest value below it");
+                }
+                (Bound::Curve(curve), words)
+            }
+        },
+    };
+    Entry {
+        field,
+        bound,
+        words,
+    }
+}
+
+impl<'a> MeterLimits<'a> {
+    /// The limits of a drive.
+    pub fn new(context: &'a Context<'a>, rules: &'a RuleSet) -> Self {
+        let findings = context.findings(rules);
+        let envelope = &context.motor.envelope;
+        let of = |field, judged: &[_]| figure(field, rules, &findings, judged);
+        let mut output_mean = of(
+            "output_mean",
+            &[(Rule::GearboxCubicMean, "gearbox's rated torque T2N")],
+        );
+        if rules.choices.gearbox_mean_exponent != MeanTorque::Cubic {
+            output_mean.bound = Bound::Open;
+            "the rule's mean has the exponent 10/3, the meter's 3"
+                .clone_into(&mut output_mean.words);
+        }
+        let entries = vec![
+            curve("continuous", rules, Rule::RmsTorque, "S1 torque", |share| {
+                continuous(envelope, share)
+            }),
+            curve("peak", rules, Rule::PeakTorque, "peak torque", |share| {
+                peak(envelope, share)
+            }),
+            of(
+                "speed",
+                &[
+                    (Rule::Speed, "motor's maximum speed"),
+                    (Rule::GearboxSpeed, "gearbox's maximum input speed"),
+                ],
+            ),
+            of(
+                "mean_speed",
+                &[(Rule::GearboxMeanSpeed, "gearbox's rated input speed n1N")],
+            ),
+            of(
+                "output_peak",
+                &[(Rule::GearboxPeak, "gearbox's acceleration torque T2B")],
+            ),
+            output_mean,
+            regenerative_power(context, rules, &findings),
+            of(
+                "cycles_per_hour",
+                &[(Rule::GearboxCycles, "moves an hour up to which T2B holds")],
+            ),
+        ];
+        Self {
+            context,
+            rules,
+            entries,
+        }
+    }
+
+    /// The rules that are judged at this drive and that no figure of the meter stands for.
+    pub fn unseen(&self) -> Vec<Rule> {
+        use Rule::{
+            GearboxCubicMean, GearboxCycles, GearboxMeanSpeed, GearboxPeak, GearboxSpeed,
+            PeakTorque, RmsTorque, Speed,
+        };
+        let seen = |rule: Rule| match rule {
+            RmsTorque | PeakTorque | Speed | GearboxMeanSpeed | GearboxPeak | GearboxSpeed
+            | GearboxCycles => true,
+            GearboxCubicMean => self.rules.choices.gearbox_mean_exponent == MeanTorque::Cubic,
+            _ => false,
+        };
+        let findings = self.context.findings(self.rules);
+        let judged = findings.iter().map(|(rule, _)| rule);
+        judged
+            .filter(|rule| self.rules.limit(*rule).is_set() && !seen(*rule))
+            .collect()
+    }
+
+    /// The rules that the drive breaks, each with its figure, its limit and the share of it that is used.
+    pub fn broken(&self) -> Vec<String> {
+        let units = Units::of(self.context.drive.motor.kind);
+        let judged = Judged::new(self.context, self.rules);
+        let broken = judged.checks.iter();
+        let broken = broken.filter(|check| check.verdict == Verdict::Fail);
+        let words = broken.map(|check| {
+            let rule = units.rule(check.id);
+            match check.limit {
+                Some(limit) => format!(
+                    "{rule} {} of {}, {}",
+                    check.figure(),
+                    check.with_unit(limit),
+                    check.used()
+                ),
+                None => format!("{rule} {}: {}", check.figure(), check.note),
+            }
+        });
+        words.collect()
+    }
+
+    /// The drive.
+    pub const fn drive(&self) -> &Drive<'a> {
+        &self.context.drive
+    }
+}
+
+/// What may come back at the shaft: all of it reaches the brake resistor but for the losses on the way and what the capacitor
+/// takes, so a limit on it is on the safe side. Where the cycle itself passes that it says nothing, and there is none.
+fn regenerative_power(context: &Context, rules: &RuleSet, findings: &Findings) -> Entry {
+    let mut entry = figure(
+        "regenerative_power",
+        rules,
+        findings,
+        &[(
+            Rule::ResistorPower,
+            "brake resistor's continuous power, at the shaft",
+        )],
+    );
+    let cycle = context.cycle;
+    let [_, back] = cycle.energies(&context.coefficients, context.ratio);
+    if let Bound::Figure(limit) = entry.bound
+        && back / cycle.duration() > f64::from(limit)
+    {
+        entry.bound = Bound::Open;
+        "more comes back at the shaft than the brake resistor takes: losses and capacitor take the rest"
+            .clone_into(&mut entry.words);
+    }
+    entry
+}

@@ -1,0 +1,354 @@
+//! Which figures an envelope is made of, and what is assumed instead of those that are missing.
+
+use super::circuit::Circuit;
+use super::continuous::Continuous;
+use super::limit::{Limit, Piece};
+use super::{Envelope, voltage};
+use crate::catalogue::{Amplifier, Motor};
+use crate::motor::winding::{Commutation, CurrentCurve, REFERENCE_TEMPERATURE};
+use jred_machine::model::site::Site;
+
+/// A motor's figures on their way to an envelope.
+pub(super) struct Builder<'a> {
+    motor: &'a Motor,
+    /// Actual bus voltage over that of the data sheet.
+    share: f64,
+    /// Current of a torque.
+    pub(super) torques: Option<CurrentCurve>,
+    /// The winding at the actual voltage; reactance left out where it is not stated.
+    line: Option<Circuit>,
+    /// Peak torque (N·m).
+    peak: f64,
+    /// What the amplifier's peak current makes (N·m).
+    cap: f64,
+    assumptions: Vec<&'static str>,
+}
+
+/// A supply is of the same class as the voltage of a motor's figures up to this share: 325 V for 282 V, 680 V for 540 V.
+const VOLTAGE_CLASS: f64 = 4.0 / 3.0;
+
+/// A figure that can be reckoned with: what no motor has would overflow.
+fn finite(figure: Option<f64>) -> Option<f64> {
+    figure.filter(|x| PLAUSIBLE.contains(x))
+}
+
+/// Far beyond any motor, in SI units.
+const PLAUSIBLE: std::ops::RangeInclusive<f64> = 1e-15..=1e15;
+
+/// A figure, infinite where there is none that can be reckoned with.
+fn known(figure: Option<f64>) -> f64 {
+    finite(figure).unwrap_or(f64::INFINITY)
+}
+
+/// The points that can be reckoned with: speeds rising, torques never rising.
+fn falling(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut kept: Vec<[f64; 2]> = Vec::with_capacity(points.len());
+    for &[speed, torque] in points {
+        let (last, most) = kept.last().map_or((-1.0, f64::INFINITY), |p| (p[0], p[1]));
+        let plausible = |x: f64| x == 0.0 || PLAUSIBLE.contains(&x);
+        if speed > last && plausible(speed) && plausible(torque) {
+            kept.push([speed, torque.min(most)]);
+        }
+    }
+    kept
+}
+
+impl<'a> Builder<'a> {
+    pub(super) fn new(motor: &'a Motor, amplifier: Option<&Amplifier>, site: &Site) -> Self {
+        let mut assumptions = Vec::new();
+        let torques = CurrentCurve::of(motor);
+        let sheet = finite(motor.bus_voltage);
+        let actual = finite(site.bus_voltage).or(finite(amplifier.and_then(|a| a.bus_voltage)));
+        let share = match (actual, sheet) {
+            (Some(actual), Some(sheet)) => actual / sheet,
+            _ => 1.0,
+        };
+        let line = circuit(motor, torques.as_ref(), actual.or(sheet));
+        let mut peak = known(motor.peak_torque);
+        if motor.peak_torque.is_none()
+            && let (Some(torques), Some(current)) = (torques, finite(motor.winding.peak_current))
+        {
+            peak = torques.torque(current);
+            assumptions.push("peak torque not stated: that of the peak current");
+        }
+        let cap = match (amplifier, torques) {
+            (Some(amplifier), Some(torques)) => torques.torque(known(Some(amplifier.peak_current))),
+            (Some(_), None) => {
+                assumptions.push(
+                    "torque constant not stated: peak torque not limited by the amplifier's current",
+                );
+                f64::INFINITY
+            }
+            (None, _) => f64::INFINITY,
+        };
+        if actual.is_some() && sheet.is_none() && line.is_none() {
+            assumptions.push(
+                "bus voltage of the motor's figures not stated: they are taken at any supply",
+            );
+        }
+        if share > VOLTAGE_CLASS {
+            assumptions.push(
+                "the supply has more than 4/3 of the voltage that the motor's figures hold for: whether its insulation and its \
+                 bearings stand that is not checked",
+            );
+        }
+        Self {
+            motor,
+            share,
+            torques,
+            line,
+            peak,
+            cap,
+            assumptions,
+        }
+    }
+
+    /// The winding's voltage line, where enough is stated and the data sheet does not state the envelope itself.
+    pub(super) fn circuit(&self) -> Option<Circuit> {
+        let motor = self.motor;
+        let points = !motor.peak_curve.is_empty();
+        let figures =
+            finite(motor.corner_speed).is_some() && finite(motor.torque_at_max_speed).is_some();
+        if points || figures {
+            return None;
+        }
+        let winding = &motor.winding;
+        let whole = winding.commutation == Commutation::Block
+            || (finite(winding.inductance).is_some() && finite(winding.pole_pairs).is_some());
+        let torques = self.torques?;
+        let mut circuit = self.line.filter(|_| whole)?;
+        let peak = self.peak.min(self.cap);
+        // The data sheet's corner says how much of the voltage the drive makes use of.
+        if let Some(corner) = finite(motor.corner_speed).filter(|_| self.peak.is_finite()) {
+            let current = torques.current(self.peak);
+            let along = circuit.drop * current + circuit.flux * corner;
+            circuit.voltage = self.share * along.hypot(circuit.reactance * corner * current);
+        }
+        circuit.current = torques.current(peak);
+        let stated = known(motor.max_speed);
+        let beyond = stated.is_finite() && stated > circuit.no_load_speed() / self.share;
+        circuit.weakens = beyond && circuit.reactance > 0.0 && circuit.current.is_finite();
+        // A data sheet that goes beyond what the winding explains is believed.
+        let explained = circuit.weakens || !beyond || motor.corner_speed.is_none();
+        let plausible = circuit.voltage.is_finite() && circuit.no_load_speed() > 0.0;
+        (explained && plausible).then_some(circuit)
+    }
+
+    pub(super) fn build(mut self) -> Envelope {
+        let motor = self.motor;
+        let winding = self.circuit().zip(self.torques);
+        let [driving, braking] = if let Some((circuit, torques)) = winding {
+            self.by_winding(&circuit, &torques)
+        } else {
+            let mut limit = self.by_figures();
+            if self.cap.is_finite() {
+                limit = limit.min(&Limit::level(self.cap, f64::INFINITY));
+            }
+            [limit.clone(), limit]
+        };
+        let rated = known(motor.rated_torque);
+        let points = falling(&motor.continuous_curve);
+        if motor.standstill_torque.is_none() && rated.is_finite() && points.is_empty() {
+            self.assumptions
+                .push("standstill torque not stated: the rated torque is taken");
+        }
+        if motor.rated_speed.is_none() && rated.is_finite() && points.is_empty() {
+            self.assumptions.push(
+                "rated speed not stated: the rated torque is taken as S1 torque at every speed",
+            );
+        }
+        Envelope {
+            max_speed: driving.end(),
+            driving,
+            braking,
+            continuous: Continuous::of(motor, known, points),
+            assumptions: self.assumptions,
+        }
+    }
+
+    fn by_winding(&mut self, circuit: &Circuit, torques: &CurrentCurve) -> [Limit; 2] {
+        let motor = self.motor;
+        if motor.max_speed.is_none() {
+            self.assumptions
+                .push("maximum speed not stated: the no-load speed of the winding is taken");
+        }
+        self.assumptions.push(if motor.corner_speed.is_some() {
+            "peak torque at maximum speed not stated: the winding's voltage line through the corner"
+        } else {
+            "corner of the peak torque not stated: peak torque up to the winding's voltage line"
+        });
+        self.assumptions
+            .push(if finite(motor.thermal.max_temperature).is_some() {
+                "resistance of the winding at its highest temperature"
+            } else {
+                "resistance of the winding at 20 °C: its highest temperature is not stated"
+            });
+        match motor.winding.commutation {
+            Commutation::Block => {}
+            Commutation::Sine if circuit.weakens => self
+                .assumptions
+                .push("field weakening: the maximum speed lies beyond the no-load speed"),
+            Commutation::Sine => self.assumptions.push("no field weakening"),
+        }
+        // The circuit's largest current is that of the peak torque, the amplifier's included.
+        let end = circuit.largest_speed(known(motor.max_speed));
+        [false, true].map(|braking| voltage::limit(circuit, torques, braking, end))
+    }
+
+    /// From points, or from corner and torque at the largest speed; the same in all four quadrants.
+    fn by_figures(&mut self) -> Limit {
+        let motor = self.motor;
+        let rated_torque = known(motor.rated_torque);
+        let rated_speed = known(motor.rated_speed);
+        let points = falling(&motor.peak_curve);
+        let last = points.last().map(|p| p[0]);
+        if motor.max_speed.is_none() && last.is_none() && rated_speed.is_finite() {
+            self.assumptions
+                .push("maximum speed not stated: the rated speed is taken");
+        }
+        let stated = known(motor.max_speed.or(last).or(Some(rated_speed)));
+        let mut is_assumed = false;
+        let vertices = if points.is_empty() {
+            let corner = motor.corner_speed.map(|n| known(Some(n)));
+            is_assumed = corner.is_none();
+            let corner = corner.unwrap_or_else(|| {
+                if self.peak.is_finite() && rated_speed.is_finite() {
+                    self.assumptions.push(
+                        "corner of the peak torque not stated: peak torque up to rated speed",
+                    );
+                }
+                rated_speed
+            });
+            let corner = corner.min(stated);
+            let end = if stated > corner && self.peak.is_finite() {
+                finite(motor.torque_at_max_speed).unwrap_or_else(|| {
+                    self.assumptions.push(
+                        "peak torque at maximum speed not stated: straight line to the rated torque",
+                    );
+                    rated_torque
+                })
+            } else {
+                self.peak
+            };
+            vec![[corner, self.peak], [stated, end.min(self.peak)]]
+        } else {
+            points
+        };
+        let top = stated.min(vertices.last().map_or(stated, |p| p[0]));
+        let share = self.share(is_assumed);
+        let limit = if is_one(share) {
+            through(&vertices)
+        } else {
+            through(&self.moved(&vertices, share, top))
+        };
+        let limit = limit.min(&Limit::level(self.peak, top));
+        match self.at_standstill(share) {
+            Some(most) => limit.min(&Limit::level(most, f64::INFINITY)),
+            None => limit,
+        }
+    }
+
+    /// By how much the voltage moves the speeds; says so.
+    fn share(&mut self, is_assumed: bool) -> f64 {
+        if is_one(self.share) {
+            return 1.0;
+        }
+        if self.share > 1.0 && is_assumed {
+            self.assumptions
+                .push("bus voltage above that of the data sheet: the assumed corner is not raised");
+            return 1.0;
+        }
+        self.assumptions.push(if self.line.is_some() {
+            "bus voltage not that of the data sheet: the envelope's speeds moved along the winding's voltage line"
+        } else {
+            "bus voltage not that of the data sheet: the envelope's speeds moved in proportion to it, as resistance and voltage constant are not stated"
+        });
+        self.share
+    }
+
+    /// Vertices at another voltage, and the point without torque that the largest speed leads to.
+    fn moved(&self, vertices: &[[f64; 2]], share: f64, top: f64) -> Vec<[f64; 2]> {
+        let ratio = |torque: f64| match (&self.line, &self.torques) {
+            (Some(line), Some(torques)) if torque.is_finite() => {
+                let current = torques.current(torque);
+                let sheet = Circuit {
+                    voltage: line.voltage / share,
+                    ..*line
+                };
+                let before = sheet.speed_of(current);
+                if before > 0.0 {
+                    line.speed_of(current) / before
+                } else {
+                    share
+                }
+            }
+            _ => share,
+        };
+        let mut moved: Vec<[f64; 2]> = vertices.iter().map(|&[n, t]| [n * ratio(t), t]).collect();
+        if share < 1.0 && top.is_finite() {
+            moved.push([top * share, 0.0]);
+        }
+        moved
+    }
+
+    /// The torque that a lower voltage leaves at standstill (N·m).
+    fn at_standstill(&self, share: f64) -> Option<f64> {
+        let (line, torques) = (self.line.filter(|_| share < 1.0)?, self.torques?);
+        Some(torques.torque(line.voltage / line.drop))
+    }
+}
+
+/// Whether the voltage is that of the data sheet, but for rounding.
+fn is_one(share: f64) -> bool {
+    (share - 1.0).abs() <= f64::EPSILON
+}
+
+/// Straight lines through vertices, level before the first.
+fn through(vertices: &[[f64; 2]]) -> Limit {
+    let Some(&first) = vertices.first() else {
+        return Limit::new([]);
+    };
+    let mut pieces = vec![Piece::level(0.0, first[0], first[1])];
+    let mut last = first;
+    for &vertex in vertices.get(1..).unwrap_or_default() {
+        if vertex[0] > last[0] {
+            pieces.push(Piece::line(last, vertex));
+            last = vertex;
+        } else {
+            last = [last[0], vertex[1].min(last[1])];
+        }
+    }
+    Limit::new(pieces)
+}
+
+/// The winding of a motor at a bus voltage, as far as the data sheet says.
+fn circuit(
+    motor: &Motor,
+    torques: Option<&CurrentCurve>,
+    bus_voltage: Option<f64>,
+) -> Option<Circuit> {
+    let winding = &motor.winding;
+    let commutation = winding.commutation;
+    let hot = finite(motor.thermal.max_temperature).unwrap_or(REFERENCE_TEMPERATURE);
+    let per_constant = commutation.torque_per_voltage_constant();
+    let flux = finite(winding.voltage_constant)
+        .or_else(|| Some(torques?.torque_constant() / per_constant))?;
+    let drop = commutation.drop_factor();
+    let reactance = match (
+        commutation,
+        finite(winding.inductance),
+        finite(winding.pole_pairs),
+    ) {
+        (Commutation::Sine, Some(inductance), Some(pairs)) => drop * pairs * inductance,
+        _ => 0.0,
+    };
+    finite(winding.resistance)?;
+    Some(Circuit {
+        voltage: commutation.voltage_share() * bus_voltage?,
+        flux,
+        drop: drop * winding.resistance_at(hot)?,
+        reactance,
+        current: f64::INFINITY,
+        weakens: false,
+    })
+}

@@ -1,0 +1,236 @@
+//! A limit over speed as a row of pieces.
+
+use super::circuit::Circuit;
+use crate::motor::winding::CurrentCurve;
+
+/// A torque limit over the magnitude of the speed, from zero up to the largest speed; beyond that it is zero.
+///
+/// A short row of [`Piece`]s without gaps, in rising order. Where the motor drives the limit never rises with speed; where it
+/// brakes it may, since the voltage drop of the current then helps. It may jump down from one piece to the next. An infinite
+/// value says that no limit is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limit {
+    pieces: Box<[Piece]>,
+}
+
+/// One piece of a limit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// Speed at which it begins (rad/s), finite.
+    pub from: f64,
+    /// Speed up to which it holds, end included (rad/s); may be infinite in the last piece if it is level.
+    pub to: f64,
+    /// What the torque is.
+    pub curve: Curve,
+    /// How the curve is bent between `from` and `to`.
+    pub shape: Shape,
+}
+
+/// Torque over speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Curve {
+    /// A straight line: torque at the piece's beginning (N·m, may be infinite if the slope is zero) and slope (N·m·s/rad).
+    Line {
+        /// Torque where the piece begins (N·m).
+        start: f64,
+        /// Slope (N·m·s/rad).
+        slope: f64,
+    },
+    /// What the winding's circuit allows.
+    Winding {
+        /// The circuit.
+        circuit: Circuit,
+        /// Its torques.
+        torques: CurrentCurve,
+        /// Whether the motor brakes.
+        braking: bool,
+    },
+}
+
+/// How a curve is bent: what bounds it from below between two speeds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Straight: the chord is the curve.
+    Straight,
+    /// Concave: no point lies below the chord.
+    Concave,
+    /// Falling or rising all along, convex or not known: no point lies below the lower end.
+    Monotone,
+}
+
+impl Piece {
+    /// A straight piece through two points \[speed, torque\].
+    pub fn line([from, start]: [f64; 2], [to, end]: [f64; 2]) -> Self {
+        let slope = (end - start) / (to - from);
+        Self {
+            from,
+            to,
+            curve: Curve::Line {
+                start,
+                slope: if slope.is_finite() { slope } else { 0.0 },
+            },
+            shape: Shape::Straight,
+        }
+    }
+
+    /// A level piece.
+    pub const fn level(from: f64, to: f64, torque: f64) -> Self {
+        Self {
+            from,
+            to,
+            curve: Curve::Line {
+                start: torque,
+                slope: 0.0,
+            },
+            shape: Shape::Straight,
+        }
+    }
+
+    /// Torque (N·m) at a speed of the piece (rad/s).
+    #[inline]
+    pub fn torque(&self, speed: f64) -> f64 {
+        match &self.curve {
+            // Level: an infinite piece stays free of 0·∞.
+            Curve::Line { start, slope } if *slope == 0.0 => *start,
+            // A line that ends at nothing may round to less.
+            Curve::Line { start, slope } => (start + slope * (speed - self.from)).max(0.0),
+            Curve::Winding {
+                circuit,
+                torques,
+                braking,
+            } => torques.torque(circuit.largest_current(speed, *braking)),
+        }
+    }
+
+    /// The same piece between two other speeds inside it.
+    #[must_use]
+    pub fn cut(&self, from: f64, to: f64) -> Self {
+        let curve = match self.curve {
+            Curve::Line { slope, .. } => Curve::Line {
+                start: self.torque(from),
+                slope,
+            },
+            winding @ Curve::Winding { .. } => winding,
+        };
+        Self {
+            from,
+            to,
+            curve,
+            shape: self.shape,
+        }
+    }
+}
+
+impl Limit {
+    /// From pieces in rising order without gaps; pieces without length are left out. An empty row allows no torque at all.
+    pub fn new(pieces: impl IntoIterator<Item = Piece>) -> Self {
+        let pieces = pieces.into_iter().filter(|piece| piece.to > piece.from);
+        Self {
+            pieces: pieces.collect(),
+        }
+    }
+
+    /// The same torque up to a speed.
+    pub fn level(torque: f64, to: f64) -> Self {
+        Self::new([Piece::level(0.0, to, torque)])
+    }
+
+    /// The pieces.
+    pub fn pieces(&self) -> &[Piece] {
+        &self.pieces
+    }
+
+    /// Largest speed (rad/s).
+    pub fn end(&self) -> f64 {
+        self.pieces.last().map_or(0.0, |piece| piece.to)
+    }
+
+    /// Torque (N·m) at a speed's magnitude (rad/s); zero beyond the end.
+    #[inline]
+    pub fn torque(&self, speed: f64) -> f64 {
+        // Two or three pieces: no search is faster than this.
+        for piece in &self.pieces {
+            if speed <= piece.to {
+                return piece.torque(speed);
+            }
+        }
+        0.0
+    }
+
+    /// The lower of two limits, up to the lower of their ends.
+    #[must_use]
+    pub fn min(&self, other: &Self) -> Self {
+        let end = self.end().min(other.end());
+        let starts = self.pieces.iter().chain(&*other.pieces);
+        let mut cuts: Vec<f64> = starts.map(|piece| piece.from).chain([end]).collect();
+        cuts.retain(|cut| *cut <= end);
+        cuts.sort_by(f64::total_cmp);
+        cuts.dedup();
+        let mut pieces = Vec::with_capacity(cuts.len());
+        for pair in cuts.windows(2) {
+            let &[from, to] = pair else { continue };
+            // A piece holds up to its end, the next from there on.
+            let at = |limit: &Self| limit.pieces.iter().find(|p| p.to > from).copied();
+            if let (Some(a), Some(b)) = (at(self), at(other)) {
+                lower(&a, &b, from, to, &mut pieces);
+            }
+        }
+        Self::new(pieces)
+    }
+}
+
+/// The lower of two pieces between two speeds, cut where they cross.
+fn lower(a: &Piece, b: &Piece, from: f64, to: f64, pieces: &mut Vec<Piece>) {
+    let difference = |speed: f64| a.torque(speed) - b.torque(speed);
+    let mut cuts = vec![from];
+    if to.is_finite() {
+        cuts.extend(crossings(&difference, from, to, is_bent(a) || is_bent(b)));
+    }
+    cuts.push(to);
+    for pair in cuts.windows(2) {
+        let &[from, to] = pair else { continue };
+        let middle = if to.is_finite() {
+            0.5 * (from + to)
+        } else {
+            from
+        };
+        let lower = if a.torque(middle) <= b.torque(middle) {
+            a
+        } else {
+            b
+        };
+        pieces.push(lower.cut(from, to));
+    }
+}
+
+const fn is_bent(piece: &Piece) -> bool {
+    !matches!(piece.shape, Shape::Straight)
+}
+
+/// Where a difference changes its sign, by halving.
+fn crossings(difference: &impl Fn(f64) -> f64, from: f64, to: f64, bent: bool) -> Vec<f64> {
+    // Straight lines cross once; of curves, two crossings closer than this are not told apart.
+    let parts = if bent { 32 } else { 1 };
+    let place = |k: u32| from + (to - from) * (f64::from(k) / f64::from(parts));
+    let mut found = Vec::new();
+    for k in 0..parts {
+        let (mut low, mut high) = (place(k), place(k + 1));
+        let below = difference(low) <= 0.0;
+        if below == (difference(high) <= 0.0) {
+            continue;
+        }
+        while {
+            let middle = 0.5 * (low + high);
+            low < middle && middle < high
+        } {
+            let middle = 0.5 * (low + high);
+            if (difference(middle) <= 0.0) == below {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        found.push(high);
+    }
+    found
+}

@@ -1,0 +1,186 @@
+//! Torque-speed limits of a motor at the supply and the amplifier that it gets, in four quadrants.
+//!
+//! In order of preference the limit of the short-time torque comes from points (`peak_curve`), from the data sheet's corner
+//! speed and torque at the largest speed, or from the winding ([`Circuit`]). Where a figure is missing, a stated assumption
+//! stands in ([`Envelope::assumptions`]):
+//! - no maximum speed: the winding's no-load speed, else the rated speed;
+//! - no corner speed: the winding's voltage line, else the peak torque is available up to the rated speed;
+//! - no peak torque at maximum speed: the voltage line through the corner, else a straight line to the rated torque there;
+//! - no standstill torque: the rated torque;
+//! - the S1 torque falls in a straight line from standstill to rated speed, and above that with constant power.
+//!
+//! Equations, units and sources: `docs/motor-limits.md`.
+
+use crate::catalogue::{Amplifier, Catalogue, Motor};
+use crate::motor::winding::CurrentCurve;
+use jred_machine::model::site::Site;
+
+mod bound;
+mod build;
+mod circuit;
+mod continuous;
+mod floor;
+mod limit;
+mod segment;
+mod voltage;
+
+pub use circuit::Circuit;
+pub use limit::{Curve, Limit, Piece, Shape};
+pub(crate) use segment::Segment;
+
+use build::Builder;
+use continuous::Continuous;
+
+/// Peak and continuous torque over speed. An infinite torque says that no limit is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Envelope {
+    driving: Limit,
+    braking: Limit,
+    continuous: Continuous,
+    max_speed: f64,
+    assumptions: Vec<&'static str>,
+}
+
+impl Envelope {
+    /// The envelope of a motor at the voltage of its data sheet, without an amplifier.
+    pub fn of(motor: &Motor) -> Self {
+        Self::at(motor, None, &Site::default())
+    }
+
+    /// The envelope of a motor on an amplifier at a supply. The bus voltage is the site's, else the amplifier's, else that of
+    /// the motor's data sheet.
+    pub fn at(motor: &Motor, amplifier: Option<&Amplifier>, site: &Site) -> Self {
+        Builder::new(motor, amplifier, site).build()
+    }
+
+    /// Largest speed (rad/s).
+    pub const fn max_speed(&self) -> f64 {
+        self.max_speed
+    }
+
+    /// S1 torque at standstill (N·m).
+    pub fn standstill(&self) -> f64 {
+        self.capped(self.continuous.standstill, 0.0)
+    }
+
+    /// What was assumed because the data sheet does not say.
+    pub fn assumptions(&self) -> &[&'static str] {
+        &self.assumptions
+    }
+
+    /// The limit of the short-time torque in the quadrants where power flows to the shaft, or, `braking`, from it.
+    #[inline]
+    pub const fn limit(&self, braking: bool) -> &Limit {
+        if braking {
+            &self.braking
+        } else {
+            &self.driving
+        }
+    }
+
+    /// Largest short-time torque in the direction of `torque` (N·m) at `speed` (rad/s); zero beyond the maximum speed.
+    #[inline]
+    pub fn peak_torque(&self, torque: f64, speed: f64) -> f64 {
+        self.limit(torque * speed < 0.0).torque(speed.abs())
+    }
+
+    /// |`torque`| as a share of the peak torque at `speed`; infinite where there is none.
+    #[inline]
+    pub fn peak_used(&self, torque: f64, speed: f64) -> f64 {
+        let limit = self.peak_torque(torque, speed);
+        if limit > 0.0 {
+            torque.abs() / limit
+        } else if torque == 0.0 {
+            0.0
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// Continuous (S1) torque at `speed` (rad/s), never more than the peak torque; zero beyond the maximum speed.
+    pub fn continuous_torque(&self, speed: f64) -> f64 {
+        let speed = speed.abs();
+        if speed > self.max_speed {
+            return 0.0;
+        }
+        self.capped(self.continuous.torque(speed), speed)
+    }
+
+    /// A torque limited by the peak torque; one that is not known stays so.
+    fn capped(&self, torque: f64, speed: f64) -> f64 {
+        if torque.is_finite() {
+            torque.min(self.driving.torque(speed))
+        } else {
+            torque
+        }
+    }
+}
+
+/// A motor's limits on one amplifier at the supply that it gets, worked out once for all drives with that pair.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    /// Peak and continuous torque over speed.
+    pub envelope: Envelope,
+    /// Current of a torque; `None`: no torque constant stated.
+    pub torques: Option<CurrentCurve>,
+    /// The circuit that the envelope is made of; `None`: it comes from the data sheet's speeds and torques.
+    pub circuit: Option<Circuit>,
+    /// The same on the amplifiers that the motor goes with, by their keys.
+    amplified: Box<[(String, Self)]>,
+}
+
+impl Prepared {
+    /// The limits of a motor, with the amplifier that feeds it where one is chosen.
+    pub fn new(motor: &Motor, amplifier: Option<&Amplifier>, site: &Site) -> Self {
+        let builder = Builder::new(motor, amplifier, site);
+        Self {
+            torques: builder.torques,
+            circuit: builder.circuit(),
+            envelope: builder.build(),
+            amplified: Box::default(),
+        }
+    }
+
+    /// With the same motor's limits on each of these amplifiers.
+    #[must_use]
+    pub fn with<'a>(
+        mut self,
+        motor: &Motor,
+        amplifiers: impl Iterator<Item = &'a Amplifier>,
+        site: &Site,
+    ) -> Self {
+        let on = |a: &Amplifier| (a.key.clone(), Self::new(motor, Some(a), site));
+        self.amplified = amplifiers.map(on).collect();
+        self
+    }
+
+    /// The limits on one of the amplifiers that were named, else those of the motor alone.
+    pub fn on(&self, amplifier: Option<&Amplifier>) -> &Self {
+        let named = |a: &Amplifier| self.amplified.iter().find(|(key, _)| *key == a.key);
+        amplifier.and_then(named).map_or(self, |(_, on)| on)
+    }
+
+    /// Current (A, RMS of a three-phase motor) of a torque (N·m) at a speed (rad/s), with what weakens the field where the
+    /// envelope reckons with that. `None`: no torque constant stated.
+    pub fn current(&self, torque: f64, speed: f64) -> Option<f64> {
+        let along = self.torques?.current(torque);
+        Some(match &self.circuit {
+            Some(circuit) if circuit.weakens => {
+                let along = if torque * speed < 0.0 { -along } else { along };
+                circuit.total_current(along, speed.abs())
+            }
+            _ => along,
+        })
+    }
+}
+
+impl Catalogue {
+    /// Every motor's limits at the supply of the site, with each amplifier that it goes with, in the order of the motors.
+    pub fn prepare(&self, site: &Site) -> Vec<Prepared> {
+        let prepare = |(index, motor)| {
+            let amplifiers = self.amplifiers_of(index).into_iter();
+            Prepared::new(motor, None, site).with(motor, amplifiers, site)
+        };
+        self.motors.iter().enumerate().map(prepare).collect()
+    }
+}

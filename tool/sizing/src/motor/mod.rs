@@ -1,0 +1,4 @@
+//! What a motor can do at a supply, from the figures of its data sheet.
+
+pub mod envelope;
+pub mod winding;

@@ -1,0 +1,120 @@
+//! Which drives of a catalogue are considered at all.
+
+use glob::{MatchOptions, Pattern};
+use miette::{Result, miette};
+
+use crate::catalogue::Catalogue;
+use crate::select::rank::Objective;
+use crate::select::size::{Candidate, Group, Selection};
+
+/// What a drive must be to be considered; nothing set: every drive is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Filter {
+    /// Makers of motor and gearbox, as patterns; empty: any.
+    pub makers: Vec<Pattern>,
+    /// Keys of motors, as patterns; empty: any.
+    pub motors: Vec<Pattern>,
+    /// Keys of gearboxes, as patterns; empty: any, and none.
+    pub gearboxes: Vec<Pattern>,
+    /// Smallest and largest ratio; a direct drive has 1.
+    pub ratio: Option<[f64; 2]>,
+    /// Only drives without a gearbox.
+    pub direct_only: bool,
+    /// Largest mass (kg).
+    pub max_mass: Option<f64>,
+    /// Largest price, in the currency of the catalogue.
+    pub max_price: Option<f64>,
+}
+
+/// What a filter took out because the catalogue does not say.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Unknown {
+    /// Drives of unknown mass.
+    pub mass: usize,
+    /// Drives of unknown price.
+    pub price: usize,
+}
+
+fn matches(patterns: &[Pattern], text: &str) -> bool {
+    const EITHER_CASE: MatchOptions = MatchOptions {
+        case_sensitive: false,
+        require_literal_separator: false,
+        require_literal_leading_dot: false,
+    };
+    patterns.is_empty() || patterns.iter().any(|p| p.matches_with(text, EITHER_CASE))
+}
+
+impl Filter {
+    /// Leaves only those motors and gearboxes of a catalogue that a drive may have.
+    ///
+    /// # Errors
+    /// Nothing left.
+    pub fn thin(&self, catalogue: &mut Catalogue) -> Result<()> {
+        let (motors, gearboxes) = (catalogue.motors.len(), catalogue.gearboxes.len());
+        let [least, most] = self.ratio.unwrap_or([0.0, f64::INFINITY]);
+        catalogue.keep(
+            |m| matches(&self.makers, &m.maker) && matches(&self.motors, &m.key),
+            |g| {
+                !self.direct_only
+                    && matches(&self.makers, &g.maker)
+                    && matches(&self.gearboxes, &g.key)
+                    && (least..=most).contains(&g.ratio)
+            },
+        );
+        if catalogue.motors.is_empty() {
+            return Err(miette!(
+                help = "patterns have * for any text and ? for any letter; without --maker and --motor all are considered",
+                "none of the {motors} motors of the catalogue passes the filter"
+            ));
+        }
+        if catalogue.gearboxes.is_empty() && !self.allows_direct() {
+            return Err(miette!(
+                help = "patterns have * for any text and ? for any letter; a direct drive has the ratio 1",
+                "none of the {gearboxes} gearboxes of the catalogue passes the filter"
+            ));
+        }
+        Ok(())
+    }
+
+    /// Whether a drive without gearbox may be considered.
+    fn allows_direct(&self) -> bool {
+        let [least, most] = self.ratio.unwrap_or([0.0, f64::INFINITY]);
+        self.gearboxes.is_empty() && (least..=most).contains(&1.0)
+    }
+
+    /// Takes out drives that do not pass as a whole: direct ones, too heavy and too dear ones, and those of which mass or
+    /// price is asked for but not known.
+    pub fn sift(&self, selection: &mut Selection) -> Unknown {
+        let mut unknown = Unknown::default();
+        if self.allows_direct() && self.max_mass.is_none() && self.max_price.is_none() {
+            return unknown;
+        }
+        let mut sifted = [Vec::new(), Vec::new()];
+        // Only the first stand in order so far: which of them are left is not known before.
+        selection.complete();
+        for (kept, from) in sifted.iter_mut().zip([&selection.fit, &selection.refused]) {
+            for candidate in from.known() {
+                if self.passes(selection, candidate, &mut unknown) {
+                    kept.push(*candidate);
+                }
+            }
+        }
+        [selection.fit, selection.refused] = sifted.map(Group::of);
+        unknown
+    }
+
+    fn passes(&self, selection: &Selection, candidate: &Candidate, unknown: &mut Unknown) -> bool {
+        if candidate.drive.gearbox.is_none() && !self.allows_direct() {
+            return false;
+        }
+        let below = |most: Option<f64>, objective: Objective, unknown: &mut usize| {
+            most.is_none_or(|most| {
+                let value = objective.value(selection, candidate);
+                *unknown += usize::from(value.is_none());
+                value.is_some_and(|value| value <= most)
+            })
+        };
+        below(self.max_mass, Objective::Mass, &mut unknown.mass)
+            && below(self.max_price, Objective::Price, &mut unknown.price)
+    }
+}

@@ -1,0 +1,8 @@
+//! Drives of a catalogue, judged, filtered and ranked.
+
+pub mod filter;
+pub mod fit;
+pub mod pareto;
+pub mod rank;
+pub mod ratio;
+pub mod size;

@@ -1,0 +1,127 @@
+//! The drives that no other beats in everything: the Pareto front over two or three objectives.
+
+use miette::{Report, miette};
+
+use crate::select::rank::Objective;
+use crate::select::size::{Candidate, Selection};
+
+/// A drive of the front with its values, one for each objective.
+#[derive(Clone, Debug)]
+pub struct Point<'c> {
+    /// The drive.
+    pub candidate: Candidate<'c>,
+    /// Its values.
+    pub values: Vec<f64>,
+}
+
+/// The front.
+#[derive(Clone, Debug)]
+pub struct Front<'c> {
+    /// The objectives.
+    pub objectives: Vec<Objective>,
+    /// Its drives, by the first objective.
+    pub points: Vec<Point<'c>>,
+    /// How many drives fit.
+    pub fit: usize,
+    /// How many of them were compared.
+    pub compared: usize,
+    /// For each objective, of how many drives it is not known; they are not compared.
+    pub unknown: Vec<usize>,
+}
+
+impl<'c> Front<'c> {
+    /// The drives that fit and that no other drive that fits beats: is as good in every objective and better in one. Of
+    /// drives that are equal in all of them each is kept.
+    pub fn new(selection: &Selection<'c>, objectives: &[Objective]) -> Self {
+        let mut unknown = vec![0; objectives.len()];
+        let mut points = Vec::new();
+        let fit = selection.first_fit(usize::MAX);
+        for candidate in &fit {
+            let values: Vec<Option<f64>> = objectives
+                .iter()
+                .map(|o| o.value(selection, candidate))
+                .collect();
+            for (count, value) in unknown.iter_mut().zip(&values) {
+                *count += usize::from(value.is_none());
+            }
+            if let Some(values) = values.into_iter().collect() {
+                points.push(Point {
+                    candidate: *candidate,
+                    values,
+                });
+            }
+        }
+        let compared = points.len();
+        let costs = |point: &Point| -> Vec<f64> {
+            let pairs = objectives.iter().zip(&point.values);
+            pairs
+                .map(|(objective, value)| objective.cost(*value))
+                .collect()
+        };
+        // In this order no point is beaten by one that follows.
+        points.sort_by(|a, b| {
+            let pairs = costs(a).into_iter().zip(costs(b));
+            pairs.fold(std::cmp::Ordering::Equal, |order, (a, b)| {
+                order.then(a.total_cmp(&b))
+            })
+        });
+        let mut front: Vec<(Vec<f64>, Point)> = Vec::new();
+        for point in points {
+            let own = costs(&point);
+            if !front.iter().any(|(other, _)| beats(other, &own)) {
+                front.push((own, point));
+            }
+        }
+        Self {
+            objectives: objectives.to_vec(),
+            points: front.into_iter().map(|(_, point)| point).collect(),
+            fit: fit.len(),
+            compared,
+            unknown,
+        }
+    }
+
+    /// What could not be compared, in words.
+    pub fn gaps(&self) -> Vec<String> {
+        let pairs = self
+            .objectives
+            .iter()
+            .zip(&self.unknown)
+            .filter(|(_, n)| **n > 0);
+        pairs
+            .map(|(objective, n)| {
+                format!(
+                    "{n} drives that fit are left out: the catalogue does not say their {}; fill in the column, or take another objective",
+                    objective.name()
+                )
+            })
+            .collect()
+    }
+
+    /// Why drives fit and yet none of them could be compared; nothing where one was, or none fits.
+    pub fn obstacle(&self) -> Option<Report> {
+        if self.compared > 0 || self.fit == 0 {
+            return None;
+        }
+        let missing = self.objectives.iter().zip(&self.unknown);
+        let missing: Vec<String> = missing
+            .filter(|(_, n)| **n > 0)
+            .map(|(objective, n)| match *n {
+                n if n == self.fit => format!("of none the {} is known", objective.name()),
+                n => format!("of {n} the {} is not known", objective.name()),
+            })
+            .collect();
+        Some(miette!(
+            help = "fill in the column of the catalogue (docs/catalogue.md), or take another objective",
+            "{} drives fit, but {}: there is nothing to compare",
+            self.fit,
+            missing.join(", ")
+        ))
+    }
+}
+
+/// Whether `a` costs no more than `b` in anything and less in something.
+fn beats(a: &[f64], b: &[f64]) -> bool {
+    let pairs = || a.iter().zip(b);
+    pairs().all(|(a, b)| a <= b) && pairs().any(|(a, b)| a < b)
+}

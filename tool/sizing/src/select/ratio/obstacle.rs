@@ -1,0 +1,180 @@
+//! Why a motor holds every rule with no ratio at all.
+
+use std::convert::Infallible;
+
+use super::Range;
+use super::ranges::{Trial, tried};
+use crate::judge::Findings;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::Verdict;
+use jred_machine::number::numerics::edge;
+use jred_machine::number::rounding::significant;
+
+/// Parts into which a step of the tried ratios is cut where a use of a limit is least.
+const FINER: u32 = 200;
+
+/// What stands against every ratio.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Obstacle {
+    /// A rule that is broken with every ratio: the least share of its limit that it uses, and the ratio with which it does.
+    Always {
+        /// The rule; of several that which is missed by most.
+        rule: Rule,
+        /// The share.
+        used: f64,
+        /// The ratio.
+        ratio: f64,
+    },
+    /// Two rules that hold with different ratios only.
+    Apart {
+        /// The rule that needs a large ratio, and the least that will do.
+        least: (Rule, f64),
+        /// The rule that needs a small one, and the largest that will do.
+        most: (Rule, f64),
+    },
+    /// No ratio holds all rules together, although each holds with some; the ratio that misses by least.
+    Together {
+        /// The rule that is broken there.
+        rule: Rule,
+        /// The share of its limit.
+        used: f64,
+        /// The ratio.
+        ratio: f64,
+    },
+}
+
+impl Obstacle {
+    /// In words.
+    pub fn words(&self) -> String {
+        let shown = |x: f64| significant(x, 3);
+        match *self {
+            Self::Always { rule, used, ratio } => format!(
+                "{}: {} % of its limit at best, with ratio {}",
+                rule.name(),
+                shown(used * 100.0),
+                shown(ratio)
+            ),
+            Self::Apart { least, most } => format!(
+                "{} needs {} or more, {} {} or less",
+                least.0.name(),
+                shown(least.1),
+                most.0.name(),
+                shown(most.1)
+            ),
+            Self::Together { rule, used, ratio } => format!(
+                "not all rules at once: with ratio {}, the best, {} uses {} % of its limit",
+                shown(ratio),
+                rule.name(),
+                shown(used * 100.0)
+            ),
+        }
+    }
+}
+
+/// How one rule comes out over the ratios that are tried.
+struct Course {
+    rule: Rule,
+    /// Of each ratio: whether the rule holds, and the share of its limit.
+    points: Vec<(bool, f64)>,
+}
+
+impl Trial<'_> {
+    /// What stands against every ratio; `None` if one holds every rule. `best` is tried beside the others.
+    pub fn obstacle(&self, best: Option<f64>) -> Option<Obstacle> {
+        let ratios = tried(best);
+        let findings: Vec<Findings> = ratios.iter().map(|ratio| self.findings(*ratio)).collect();
+        let courses: Vec<Course> = Rule::ALL
+            .into_iter()
+            .filter(|rule| self.rules.limit(*rule).fail.is_some())
+            .map(|rule| Course {
+                rule,
+                points: findings
+                    .iter()
+                    .map(|found| self.point(rule, found))
+                    .collect(),
+            })
+            .collect();
+        let all = |k: usize| courses.iter().all(|c| c.points.get(k).is_none_or(|p| p.0));
+        if (0..ratios.len()).any(all) {
+            return None;
+        }
+        let never = courses.iter().filter(|c| c.points.iter().all(|p| !p.0));
+        let never = never.map(|c| (c.rule, minimum(&ratios, |ratio| self.one(c.rule, ratio).1)));
+        // Between the tried ratios it may hold after all.
+        let never = never.filter(|(_, (_, used))| *used > 1.0);
+        if let Some((rule, (ratio, used))) = never.max_by(|a, b| a.1.1.total_cmp(&b.1.1)) {
+            return Some(Obstacle::Always { rule, used, ratio });
+        }
+        let bounds = courses.iter().filter_map(|c| {
+            let [from, to] = self.bounds(c, &ratios)?;
+            Some((c.rule, from, to))
+        });
+        let bounds: Vec<(Rule, f64, f64)> = bounds.collect();
+        let least = bounds.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let most = bounds.iter().min_by(|a, b| a.2.total_cmp(&b.2))?;
+        if least.1 > most.2 {
+            return Some(Obstacle::Apart {
+                least: (least.0, least.1),
+                most: (most.0, most.2),
+            });
+        }
+        let worst = |ratio: f64| {
+            let findings = self.findings(ratio);
+            let uses = courses
+                .iter()
+                .map(|c| (self.point(c.rule, &findings), c.rule));
+            let broken = uses.filter(|((holds, _), _)| !holds);
+            broken
+                .max_by(|a, b| a.0.1.total_cmp(&b.0.1))
+                .map(|((_, used), rule)| (used, rule))
+        };
+        let (ratio, used) = minimum(&ratios, |ratio| worst(ratio).map_or(0.0, |w| w.0));
+        let (_, rule) = worst(ratio)?;
+        Some(Obstacle::Together { rule, used, ratio })
+    }
+
+    /// Whether a rule holds, and the share of its limit; a rule that does not apply holds.
+    fn point(&self, rule: Rule, findings: &Findings) -> (bool, f64) {
+        findings.get(rule).map_or((true, 0.0), |finding| {
+            let holds = self.rules.verdict(rule, finding) != Verdict::Fail;
+            (holds, self.rules.use_of_limit(rule, finding))
+        })
+    }
+
+    /// The same with a ratio.
+    fn one(&self, rule: Rule, ratio: f64) -> (bool, f64) {
+        self.point(rule, &self.findings(ratio))
+    }
+
+    /// The smallest and the largest ratio with which a rule holds.
+    fn bounds(&self, course: &Course, ratios: &[f64]) -> Option<Range> {
+        let first = course.points.iter().position(|p| p.0)?;
+        let last = course.points.iter().rposition(|p| p.0)?;
+        let holds = |ratio: f64| Ok::<_, Infallible>(self.one(course.rule, ratio).0);
+        let at = |k: usize| ratios.get(k).copied();
+        let closed = |inside: f64, outside: Option<f64>| match outside {
+            Some(outside) => edge(holds, inside, outside).unwrap_or(inside),
+            None => inside,
+        };
+        let below = first.checked_sub(1).and_then(at);
+        Some([closed(at(first)?, below), closed(at(last)?, at(last + 1))])
+    }
+}
+
+/// The ratio with the least value of a function, and that value: the best of those tried, closed in.
+fn minimum(ratios: &[f64], value: impl Fn(f64) -> f64) -> (f64, f64) {
+    let of = |ratio: f64| (ratio, value(ratio));
+    let smaller = |a: (f64, f64), b: (f64, f64)| if b.1 < a.1 { b } else { a };
+    let points: Vec<(f64, f64)> = ratios.iter().map(|ratio| of(*ratio)).collect();
+    let start = points
+        .iter()
+        .enumerate()
+        .min_by(|a, b| a.1.1.total_cmp(&b.1.1));
+    let Some((k, first)) = start else {
+        return (1.0, f64::INFINITY);
+    };
+    let neighbour = |k: usize| points.get(k).map_or(first.0, |p| p.0);
+    let [from, to] = [neighbour(k.saturating_sub(1)), neighbour(k + 1)];
+    let step = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(FINER));
+    (0..=FINER).map(|k| of(step(k))).fold(*first, smaller)
+}

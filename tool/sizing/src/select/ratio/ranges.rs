@@ -1,0 +1,133 @@
+//! Between which ratios a motor holds every rule of its own, as the rules themselves judge it: a gearbox of any ratio is put
+//! in front of the motor, and the places where a rule begins or ceases to hold are closed in.
+
+use super::{Gear, Range};
+use crate::catalogue::Drive;
+use crate::catalogue::{Gearbox, Motor};
+use crate::cycle::Cycle;
+use crate::judge::{Context, Findings};
+use crate::motor::envelope::Prepared;
+use crate::study::one::broken;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::RuleSet;
+use jred_machine::model::site::Site;
+use jred_machine::number::numerics::edge;
+
+/// The ratios that are looked at.
+const LOOKED_AT: Range = [0.01, 10_000.0];
+
+/// Ratios that are tried from one end to the other, in equal ratios: neighbours differ by 2.3 %. Of ratios that hold, a range
+/// narrower than that is found if i* lies in it.
+const TRIED: u32 = 600;
+
+/// The ratios that are tried, rising; `best` among them.
+pub(super) fn tried(best: Option<f64>) -> Vec<f64> {
+    let [from, to] = LOOKED_AT;
+    let step = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(TRIED));
+    let mut ratios: Vec<f64> = (0..=TRIED).map(step).collect();
+    ratios.extend(best.filter(|best| (from..to).contains(best)));
+    ratios.sort_by(f64::total_cmp);
+    ratios
+}
+
+/// A range of ratios, and what ends it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Found {
+    /// The ratios.
+    pub range: Range,
+    /// The rule that is broken below; `None`: the range goes on.
+    pub below: Option<Rule>,
+    /// The rule that is broken above; `None`: the range goes on.
+    pub above: Option<Rule>,
+}
+
+/// A motor, to be tried with any ratio.
+#[derive(Clone, Copy, Debug)]
+pub struct Trial<'a> {
+    /// The duty.
+    pub cycle: &'a Cycle,
+    /// Where the drive is to stand.
+    pub site: &'a Site,
+    /// The limits.
+    pub rules: &'a RuleSet,
+    /// The motor.
+    pub motor: &'a Motor,
+    /// Its limits.
+    pub prepared: &'a Prepared,
+    /// What is known of the gearbox.
+    pub gear: Gear,
+}
+
+impl Trial<'_> {
+    /// What the rules that need no time course find with a ratio.
+    pub fn findings(&self, ratio: f64) -> Findings {
+        let gearbox = self.gear.with_ratio(ratio);
+        let drive = Drive {
+            motor: self.motor,
+            gearbox: Some(&gearbox),
+            amplifier: None,
+        };
+        let mut findings = Findings::default();
+        Context::new(self.cycle, self.site, drive, self.prepared)
+            .measure_directly(self.rules, &mut findings);
+        findings
+    }
+
+    /// The rule that is broken with a ratio; of several that of which most of the limit is used.
+    pub fn broken(&self, ratio: f64) -> Option<Rule> {
+        broken(self.rules, &self.findings(ratio))
+    }
+
+    /// The ranges in which no rule is broken; `best` is a ratio that is tried beside the others.
+    pub fn ranges(&self, best: Option<f64>) -> Vec<Found> {
+        let mut found: Vec<Found> = Vec::new();
+        let mut open: Option<Found> = None;
+        let mut before: Option<(f64, Option<Rule>)> = None;
+        for ratio in tried(best) {
+            let broken = self.broken(ratio);
+            match (&mut open, broken) {
+                (None, None) => {
+                    let (start, below) = match before {
+                        Some((last, rule)) => (self.edge(ratio, last), rule),
+                        None => (ratio, None),
+                    };
+                    open = Some(Found {
+                        range: [start, ratio],
+                        below,
+                        above: None,
+                    });
+                }
+                (Some(range), None) => range.range[1] = ratio,
+                (Some(range), Some(rule)) => {
+                    let last = range.range[1];
+                    range.range[1] = self.edge(last, ratio);
+                    range.above = Some(rule);
+                    found.extend(open.take());
+                }
+                (None, Some(_)) => {}
+            }
+            before = Some((ratio, broken));
+        }
+        found.extend(open);
+        found
+    }
+
+    /// The last ratio from `inside`, where every rule holds, towards `outside`, where one is broken.
+    fn edge(&self, inside: f64, outside: f64) -> f64 {
+        let holds = |ratio: f64| Ok::<_, std::convert::Infallible>(self.broken(ratio).is_none());
+        edge(holds, inside, outside).unwrap_or(inside)
+    }
+}
+
+impl Gear {
+    /// A gearbox of this kind that limits nothing.
+    fn with_ratio(self, ratio: f64) -> Gearbox {
+        Gearbox {
+            ratio,
+            inertia: self.inertia,
+            efficiency: self.efficiency,
+            back_efficiency: self.efficiency,
+            ..Gearbox::default()
+        }
+    }
+}

@@ -1,0 +1,249 @@
+//! Sizing: every drive of a catalogue, judged and ranked.
+
+use rayon::prelude::*;
+
+use crate::catalogue::Catalogue;
+use crate::catalogue::Drive;
+use crate::cycle::Cycle;
+use crate::judge::Judged;
+use crate::judge::{Context, Outcome, Screen};
+use crate::motor::envelope::Prepared;
+use jred_machine::model::rules::RuleSet;
+use jred_machine::model::site::Site;
+
+mod group;
+mod order;
+
+pub use group::{FIRST, Group};
+use group::{Placed, Unranked};
+use order::{Order, Place};
+
+/// How drives are ranked, in words for reports.
+pub const RANKING: &str = "drives that break no rule, the smallest motor first (rated torque times rated speed), \
+     among equal motors without warnings first, then by the largest share of a limit used";
+
+/// Motors whose drives a thread takes at a time, at least.
+const SHARE: usize = 16;
+
+/// A drive and how it came out, in numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct Candidate<'c> {
+    /// The drive.
+    pub drive: Drive<'c>,
+    /// What is known of its motor's limits.
+    pub motor: &'c Prepared,
+    /// How it came out.
+    pub outcome: Outcome,
+    /// Its place in the catalogue: equal drives stand in this order.
+    place: Place,
+}
+
+/// All drives, judged.
+///
+/// Which of them fit is known of every one, by every rule. The figures by which drives are ordered are worked out for those
+/// only that stand among the first [`FIRST`] of those that fit, or of those refused: of a large catalogue that is a small part
+/// of the work. [`Selection::complete`] works them out for all.
+#[derive(Clone, Debug)]
+pub struct Selection<'c> {
+    /// The prepared duty.
+    pub cycle: &'c Cycle,
+    /// Where the drives are to stand.
+    pub site: &'c Site,
+    /// The rules they were judged by.
+    pub rules: &'c RuleSet,
+    /// How the drives that fit are ranked, in words; [`RANKING`] unless something else was asked for.
+    pub ranking: &'static str,
+    /// Drives that break no rule, best first; see [`RANKING`].
+    pub fit: Group<'c>,
+    /// Drives that break a rule, those that miss by least first.
+    pub refused: Group<'c>,
+    motors: &'c [Prepared],
+}
+
+/// Whether a drive fits as far as was checked, but not every rule could be.
+const fn is_open(outcome: &Outcome) -> bool {
+    !outcome.fails() && outcome.not_checked > 0
+}
+
+impl<'c> Selection<'c> {
+    /// Judges every drive of the catalogue on this thread. The time for a drive does not depend on the number of the cycle's
+    /// instants, but for rules that follow time: docs/performance.md.
+    pub fn new(
+        catalogue: &'c Catalogue,
+        motors: &'c [Prepared],
+        cycle: &'c Cycle,
+        site: &'c Site,
+        rules: &'c RuleSet,
+    ) -> Self {
+        let all = catalogue.drives();
+        Self::among(all, catalogue, motors, cycle, site, rules)
+    }
+
+    /// Judges these drives of the catalogue only, each with the index of its motor, motor by motor.
+    pub fn among(
+        drives: impl Iterator<Item = (usize, Drive<'c>)>,
+        catalogue: &'c Catalogue,
+        motors: &'c [Prepared],
+        cycle: &'c Cycle,
+        site: &'c Site,
+        rules: &'c RuleSet,
+    ) -> Self {
+        let mut selection = Self::empty(motors, cycle, site, rules);
+        let screen = selection.screen(catalogue);
+        selection.judge(&screen, drives);
+        selection.in_order(&screen)
+    }
+
+    /// The same as [`Selection::new`] on all cores: the same drives in the same order.
+    pub fn parallel(
+        catalogue: &'c Catalogue,
+        motors: &'c [Prepared],
+        cycle: &'c Cycle,
+        site: &'c Site,
+        rules: &'c RuleSet,
+    ) -> Self {
+        let empty = || Self::empty(motors, cycle, site, rules);
+        let screen = empty().screen(catalogue);
+        let all = (0..catalogue.motors.len()).into_par_iter();
+        let judged = all.with_min_len(SHARE).fold(empty, |mut part, index| {
+            part.judge(&screen, catalogue.drives_of(index..index + 1));
+            part
+        });
+        judged.reduce(empty, Self::join).in_order(&screen)
+    }
+
+    const fn empty(
+        motors: &'c [Prepared],
+        cycle: &'c Cycle,
+        site: &'c Site,
+        rules: &'c RuleSet,
+    ) -> Self {
+        Self {
+            cycle,
+            site,
+            rules,
+            ranking: RANKING,
+            fit: Group::none(),
+            refused: Group::none(),
+            motors,
+        }
+    }
+
+    fn screen(&self, catalogue: &'c Catalogue) -> Screen<'c> {
+        let any = catalogue.motors.first().zip(self.motors.first());
+        Screen::new(self.cycle, self.site, self.rules, &catalogue.gearboxes, any)
+    }
+
+    fn judge(&mut self, screen: &Screen<'c>, drives: impl Iterator<Item = (usize, Drive<'c>)>) {
+        let (mut before, mut number) = (usize::MAX, 0);
+        drives.for_each(|(index, drive)| {
+            number = if index == before { number + 1 } else { 0 };
+            before = index;
+            let place = Place::new(index, number);
+            let (unranked, outcome) = self.bound(screen, &Placed { drive, place });
+            let group = if outcome.fails() {
+                &mut self.refused
+            } else {
+                &mut self.fit
+            };
+            group.add(unranked, is_open(&outcome));
+        });
+    }
+
+    /// A drive with what it does not stand before.
+    fn bound(&self, screen: &Screen<'c>, drive: &Placed<'c>) -> (Unranked<'c>, Outcome) {
+        let Placed { drive, place } = *drive;
+        let outcome = screen.judge(drive, &self.motors[place.motor()]);
+        let bound = Order::from(&drive, &outcome, place);
+        (Unranked { drive, bound }, outcome)
+    }
+
+    fn join(mut self, other: Self) -> Self {
+        self.fit.join(other.fit);
+        self.refused.join(other.refused);
+        self
+    }
+
+    fn in_order(mut self, screen: &Screen<'c>) -> Self {
+        let mut groups = [&mut self.fit, &mut self.refused].map(std::mem::take);
+        for group in &mut groups {
+            group.rank(
+                |drive| self.in_full(drive),
+                |drive| self.bound(screen, drive).0,
+            );
+        }
+        [self.fit, self.refused] = groups;
+        self
+    }
+
+    /// Judges every drive in full and puts all in order.
+    pub fn complete(&mut self) {
+        self.fit = self.completed(&self.fit);
+        self.refused = self.completed(&self.refused);
+    }
+
+    fn completed(&self, group: &Group<'c>) -> Group<'c> {
+        if group.rest.is_empty() {
+            // Perhaps in another order than this one.
+            return group.clone();
+        }
+        let mut all = group.known().to_vec();
+        all.par_extend(group.rest.par_iter().map(|drive| self.in_full(drive)));
+        all.par_sort_unstable_by_key(Order::of);
+        Group::of(all)
+    }
+
+    fn in_full(&self, drive: &Placed<'c>) -> Candidate<'c> {
+        let Placed { drive, place } = *drive;
+        let motor = &self.motors[place.motor()];
+        let context = Context::new(self.cycle, self.site, drive, motor);
+        Candidate {
+            drive,
+            motor,
+            outcome: context.outcome(self.rules),
+            place,
+        }
+    }
+
+    /// The first `count` drives that fit, best first.
+    pub fn first_fit(&self, count: usize) -> Vec<Candidate<'c>> {
+        self.first(&self.fit, count)
+    }
+
+    /// The first `count` refused drives, those that miss by least first.
+    pub fn first_refused(&self, count: usize) -> Vec<Candidate<'c>> {
+        self.first(&self.refused, count)
+    }
+
+    fn first(&self, group: &Group<'c>, count: usize) -> Vec<Candidate<'c>> {
+        let count = count.min(group.len());
+        let known = group.known();
+        match known.get(..count) {
+            Some(first) => first.to_vec(),
+            None => self.completed(group).known()[..count].to_vec(),
+        }
+    }
+
+    /// A drive of the selection, judged in full; of several the one that stands first.
+    pub fn find(&self, wanted: impl Fn(&Drive<'c>) -> bool) -> Option<Candidate<'c>> {
+        [&self.fit, &self.refused].into_iter().find_map(|group| {
+            let known = group.known().iter().find(|c| wanted(&c.drive)).copied();
+            known.or_else(|| {
+                let found = group.rest.iter().filter(|placed| wanted(&placed.drive));
+                let found = found.map(|placed| self.in_full(placed));
+                found.min_by_key(Order::of)
+            })
+        })
+    }
+
+    /// How many of the drives that fit have a rule that could not be checked.
+    pub fn partly_checked(&self) -> usize {
+        self.fit.partly_checked()
+    }
+
+    /// A candidate by every rule, in words.
+    pub fn judged(&self, candidate: &Candidate<'c>) -> Judged<'c> {
+        let context = Context::new(self.cycle, self.site, candidate.drive, candidate.motor);
+        Judged::new(&context, self.rules)
+    }
+}

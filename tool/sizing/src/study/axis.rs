@@ -1,0 +1,229 @@
+//! What `--vary` says: a quantity, and the values that it takes.
+//!
+//! ```text
+//! slider.mass=50..120kg:8        eight values in equal steps, ends included
+//! slider.mass=50..120kg:8:log    in equal ratios
+//! slider.mass=50,60,80kg         these values
+//! ```
+
+use miette::{Result, miette};
+
+use super::edit::Document;
+use jred_machine::units::literal;
+
+/// Most values of one axis.
+const MOST_STEPS: u32 = 1_000_000;
+
+/// One quantity and the values that it takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Index of the quantity in the document.
+    pub quantity: usize,
+    /// Its path, in full.
+    pub path: String,
+    /// Unit of the values.
+    pub unit: String,
+    /// The values.
+    pub values: Vec<f64>,
+}
+
+/// How to write `--vary`, for messages.
+const SHAPE: &str = "write --vary slider.mass=50..120kg:8 for eight values in equal steps, …:8:log for equal ratios, or a \
+                     list: slider.mass=50,60,80kg";
+
+impl Axis {
+    /// Reads one `--vary`.
+    ///
+    /// # Errors
+    /// A quantity that is not there, a unit of another kind, a range without values.
+    pub fn parse(document: &Document, text: &str) -> Result<Self> {
+        let wrong = |why: String| miette!(help = SHAPE, "--vary {text:?} cannot be used: {why}");
+        let (path, range) = text
+            .split_once('=')
+            .ok_or_else(|| wrong("it has no \"=\"".to_owned()))?;
+        let quantity = document.find(path.trim())?;
+        let own = document
+            .quantities()
+            .get(quantity)
+            .ok_or_else(|| wrong("there is no such quantity".to_owned()))?;
+        let (values, unit, unit_like) = if let Some((from, rest)) = range.split_once("..") {
+            let (to, steps) = rest.split_once(':').ok_or_else(|| {
+                wrong("it does not say how many values: end it with \":8\"".to_owned())
+            })?;
+            let to = literal::read(to).map_err(|why| wrong(format!("the end {to:?} {why}")))?;
+            let from = start(from, &to).map_err(wrong)?;
+            (
+                spread(from, to.number, steps).map_err(wrong)?,
+                to.unit.clone(),
+                to,
+            )
+        } else {
+            let (values, last) = list(range).map_err(wrong)?;
+            (values, last.unit.clone(), last)
+        };
+        if !unit_like.is_like(&own.literal) {
+            return Err(miette!(
+                help = format!(
+                    "the machine file says {}: write a unit of the same kind",
+                    own.shown()
+                ),
+                "--vary {text:?} cannot be used: \"{}\" is not a unit of {}",
+                unit,
+                own.path
+            ));
+        }
+        Ok(Self {
+            quantity,
+            path: own.path.clone(),
+            unit,
+            values,
+        })
+    }
+
+    /// Name of its column: the path and the unit.
+    pub fn column(&self) -> String {
+        if self.unit.is_empty() {
+            self.path.clone()
+        } else {
+            format!("{} [{}]", self.path, self.unit)
+        }
+    }
+}
+
+/// The start of a range: a number, with the unit of the end or none.
+fn start(text: &str, end: &literal::Literal) -> Result<f64, String> {
+    let from = literal::read(text).map_err(|why| format!("the start {text:?} {why}"))?;
+    if from.unit.is_empty() || from.unit == end.unit {
+        Ok(from.number)
+    } else {
+        Err(format!(
+            "its ends are in \"{}\" and \"{}\"; write both in one unit",
+            from.unit, end.unit
+        ))
+    }
+}
+
+/// The values from `from` to `to`.
+fn spread(from: f64, to: f64, steps: &str) -> Result<Vec<f64>, String> {
+    let (steps, log) = match steps.split_once(':') {
+        None => (steps, false),
+        Some((steps, "log")) => (steps, true),
+        Some((_, other)) => {
+            return Err(format!(
+                "{other:?} is not known after the number of values; it can be \"log\""
+            ));
+        }
+    };
+    let steps: u32 = steps
+        .trim()
+        .parse()
+        .map_err(|_| format!("{steps:?} is not a number of values"))?;
+    if !(1..=MOST_STEPS).contains(&steps) {
+        return Err(format!("{steps} values: it must be 1 to {MOST_STEPS}"));
+    }
+    let empty = from.total_cmp(&to).is_eq();
+    if empty && steps > 1 {
+        return Err(format!(
+            "its range is empty, from {from} to {to}, but {steps} values are asked for"
+        ));
+    }
+    if !empty && steps == 1 {
+        return Err("one value of a range: write that value alone".to_owned());
+    }
+    if log && !(from > 0.0 && to > 0.0) {
+        return Err("steps of equal ratio need ends greater than zero".to_owned());
+    }
+    let last = f64::from(steps - 1).max(1.0);
+    let at = |k: u32| {
+        let part = f64::from(k) / last;
+        match k {
+            0 => from,
+            _ if k == steps - 1 => to,
+            _ if log => tidy(from * (to / from).powf(part)),
+            _ => tidy(from + (to - from) * part),
+        }
+    };
+    Ok((0..steps).map(at).collect())
+}
+
+/// The number with twelve digits, which is what stands in the file and in the row.
+fn tidy(x: f64) -> f64 {
+    format!("{x:.11e}").parse().unwrap_or(x)
+}
+
+/// A list of values; those before the last may leave the unit out.
+fn list(text: &str) -> Result<(Vec<f64>, literal::Literal), String> {
+    let (front, last) = text.rsplit_once(',').unwrap_or(("", text));
+    let end = literal::read(last).map_err(|why| format!("{last:?} {why}"))?;
+    let front = front.split(',').filter(|_| !front.is_empty());
+    let mut values = front
+        .map(|text| start(text, &end))
+        .collect::<Result<Vec<f64>, _>>()?;
+    values.push(end.number);
+    Ok((values, end))
+}
+
+/// Every combination of the values of some axes, the last axis running fastest.
+#[derive(Clone, Debug)]
+pub struct Grid {
+    /// The axes.
+    pub axes: Vec<Axis>,
+    count: u64,
+}
+
+/// Most machines of one study.
+pub const MOST_MACHINES: u64 = 100_000_000;
+
+impl Grid {
+    /// The combinations of the axes.
+    ///
+    /// # Errors
+    /// Too many combinations, or a quantity that is varied twice.
+    pub fn new(axes: Vec<Axis>) -> Result<Self> {
+        for (k, axis) in axes.iter().enumerate() {
+            if axes
+                .iter()
+                .take(k)
+                .any(|other| other.quantity == axis.quantity)
+            {
+                return Err(miette!(
+                    help = "leave one of the two out",
+                    "{} is varied twice",
+                    axis.path
+                ));
+            }
+        }
+        let product = axes
+            .iter()
+            .try_fold(1u64, |n, axis| n.checked_mul(axis.values.len() as u64));
+        let count = product.filter(|n| *n <= MOST_MACHINES).ok_or_else(|| {
+            let counts: Vec<String> = axes.iter().map(|a| a.values.len().to_string()).collect();
+            miette!(
+                help = "take fewer values of a quantity, or vary fewer quantities",
+                "{} machines are too many: at most {MOST_MACHINES} are sized in one study",
+                counts.join(" × ")
+            )
+        })?;
+        Ok(Self { axes, count })
+    }
+
+    /// How many there are.
+    pub const fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// The values of combination number `row`, one for each axis.
+    pub fn values(&self, row: u64) -> Vec<f64> {
+        let mut rest = row;
+        let mut values: Vec<f64> = (self.axes.iter().rev())
+            .map(|axis| {
+                let n = axis.values.len() as u64;
+                let k = (rest % n) as usize;
+                rest /= n;
+                axis.values.get(k).copied().unwrap_or(f64::NAN)
+            })
+            .collect();
+        values.reverse();
+        values
+    }
+}

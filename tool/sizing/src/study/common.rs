@@ -1,0 +1,187 @@
+//! What every machine of a study shares: the machine file that is changed, the catalogue, the time steps.
+
+use std::path::{Path, PathBuf};
+
+use miette::{IntoDiagnostic as _, Report, Result, miette};
+
+use super::edit::{Document, Edit};
+use crate::catalogue::Catalogue;
+use crate::catalogue::Drive;
+use crate::cycle::Cycle;
+use crate::select::fit::fit_input;
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::coordinate::Coordinate;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::read;
+use jred_machine::units::closest;
+
+/// The common part of a study.
+#[derive(Debug)]
+pub struct Study {
+    /// Name of the machine file, for messages.
+    pub name: String,
+    folder: PathBuf,
+    /// The file with the places of its quantities.
+    pub document: Document,
+    /// The machine as the file says.
+    pub nominal: MachineFile,
+    /// What drives are chosen from.
+    pub catalogue: Catalogue,
+    /// Rule set instead of the file's.
+    rules: Option<String>,
+    /// Time steps of a cycle.
+    pub steps: usize,
+}
+
+/// A machine ready to be sized.
+#[derive(Debug)]
+pub struct Prepared {
+    /// The machine.
+    pub file: MachineFile,
+    /// Its cycle.
+    pub cycle: Cycle,
+}
+
+impl Study {
+    /// Reads the machine file, which must be one that can be sized; `rules` names a rule set to judge by instead of its own.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or whose machine cannot be sized.
+    pub fn new(
+        path: &Path,
+        mut catalogue: Catalogue,
+        rules: Option<&str>,
+        steps: usize,
+    ) -> Result<Self> {
+        let text = read::text(path)?;
+        let name = path.display().to_string();
+        let folder = read::folder(path).to_owned();
+        let mut nominal = read::parse(&name, &text, &folder)?;
+        let rules = rules.map(ToOwned::to_owned);
+        if let Some(word) = &rules {
+            nominal.rules = read::rules_based_on(&nominal.rules, word)?;
+        }
+        sizeable(&nominal)?;
+        fit_input(&mut catalogue, &nominal)?;
+        Ok(Self {
+            name,
+            folder,
+            document: Document::parse(text)?,
+            nominal,
+            catalogue,
+            rules,
+            steps,
+        })
+    }
+
+    /// Digest of the machine file and of all that was read with it.
+    pub fn machine_digest(&self) -> String {
+        crate::study::header::digest(&(self.document.text(), &self.nominal))
+    }
+
+    /// The drive that a text names, MOTOR+GEARBOX or MOTOR alone, with " on AMPLIFIER" behind where the catalogue has amplifiers (else
+    /// the first that goes with the motor): the index of its motor, and the drive.
+    ///
+    /// # Errors
+    /// A drive that the catalogue does not have.
+    pub fn drive(&self, text: &str) -> Result<(usize, Drive<'_>)> {
+        let (rest, amplifier) = match text.split_once(" on ") {
+            Some((rest, amplifier)) => (rest, Some(amplifier.trim())),
+            None => (text, None),
+        };
+        let (motor, gearbox) = match rest.split_once('+') {
+            Some((motor, gearbox)) => (motor.trim(), Some(gearbox.trim())),
+            None => (rest.trim(), None),
+        };
+        let wanted = |drive: &Drive| {
+            drive.motor.key == motor
+                && drive.gearbox.map(|g| g.key.as_str()) == gearbox
+                && amplifier.is_none_or(|key| drive.amplifier.is_some_and(|a| a.key == key))
+        };
+        if let Some(found) = self.catalogue.drives().find(|(_, drive)| wanted(drive)) {
+            return Ok(found);
+        }
+        let motors: Vec<&str> = self
+            .catalogue
+            .motors
+            .iter()
+            .map(|m| m.key.as_str())
+            .collect();
+        let gearboxes: Vec<&str> = self
+            .catalogue
+            .gearboxes
+            .iter()
+            .map(|g| g.key.as_str())
+            .collect();
+        let amplifiers: Vec<&str> = self
+            .catalogue
+            .amplifiers
+            .iter()
+            .map(|a| a.key.as_str())
+            .collect();
+        let (word, keys) = match (gearbox, amplifier) {
+            _ if !motors.contains(&motor) => (motor, motors),
+            (Some(gearbox), _) if !gearboxes.contains(&gearbox) => (gearbox, gearboxes),
+            (_, Some(amplifier)) => (amplifier, amplifiers),
+            (Some(gearbox), None) => (gearbox, gearboxes),
+            (None, None) => (motor, motors),
+        };
+        let near = closest(word, &keys).map_or_else(
+            || "`jred size FILE --refused` lists every drive".to_owned(),
+            |near| format!("did you mean \"{near}\"?"),
+        );
+        Err(miette!(
+            help = near,
+            "the catalogue has no \"{word}\" to make the drive {text:?} of"
+        ))
+    }
+
+    /// The machine with some of its quantities changed.
+    ///
+    /// # Errors
+    /// What is wrong with that machine.
+    pub fn machine(&self, edits: &[Edit]) -> Result<Prepared> {
+        let text = self.document.with(edits);
+        let mut file = read::parse(&self.name, &text, &self.folder)?;
+        if let Some(word) = &self.rules {
+            file.rules = read::rules_based_on(&file.rules, word)?;
+        }
+        sizeable(&file)?;
+        let cycle = cycle(&file, self.steps)?;
+        Ok(Prepared { file, cycle })
+    }
+}
+
+/// The prepared duty of a machine.
+///
+/// # Errors
+/// A machine without a motion, or one that cannot follow it.
+pub fn cycle(file: &MachineFile, steps: usize) -> Result<Cycle> {
+    let motion = file.motion.as_ref().ok_or_else(no_motion)?;
+    let duty = Duty::new(file, motion, steps).into_diagnostic()?;
+    Ok(Cycle::new(&duty))
+}
+
+fn no_motion() -> Report {
+    miette!(
+        help = "add a [motion], for example type = \"constant-speed\", speed = \"60 rpm\"",
+        "the machine file has no [motion]"
+    )
+}
+
+/// Refuses machines that cannot be sized over the catalogue.
+///
+/// # Errors
+/// A machine with a variator, or no motion.
+pub fn sizeable(file: &MachineFile) -> Result<()> {
+    jred_machine::model::variator::refuse(file, "size")?;
+    file.motion.as_ref().map(|_| ()).ok_or_else(no_motion)?;
+    Coordinate::of(file.machine.mechanism()).into_diagnostic()?;
+    Ok(())
+}
+
+/// A report as one line of a table: its sentence, without line breaks.
+pub fn sentence(report: &Report) -> String {
+    let text = report.to_string();
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,325 @@
+//! The quantities of a machine file by path, and the file with some of them changed.
+//!
+//! A path is the keys from the top of the file, joined by points: `mechanism.slider.mass`, `motion.segment.0.duration`.
+//! An element of a list is called by its number, from 0, or by its `name`: `load.guide friction.opposing_force`. Keys at
+//! the front may be left out while one quantity answers to the rest: `slider.mass`.
+//!
+//! A changed file is the text with other numbers in the same places, so that a message shows the line that the user knows.
+
+use std::ops::Range;
+use std::path::Path;
+
+use miette::{Result, miette};
+use toml_edit::{Document as Toml, Item, Table, TableLike, Value};
+
+use jred_machine::units::closest;
+use jred_machine::units::literal;
+use jred_machine::units::literal::Literal;
+
+/// Tables and keys whose texts are never quantities of the machine.
+const NOT_VARIED: [&str; 3] = ["title", "name", "tolerance"];
+
+/// How a quantity stands in the file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Written {
+    /// A text in quotes.
+    Text,
+    /// A whole number.
+    Whole,
+    /// A number with a decimal point.
+    Plain,
+}
+
+/// One quantity of the file.
+#[derive(Clone, Debug)]
+pub struct Quantity {
+    /// Its path, in full.
+    pub path: String,
+    /// Number and unit.
+    pub(crate) literal: Literal,
+    /// The words that each step of the path answers to.
+    steps: Vec<Vec<String>>,
+    span: Range<usize>,
+    written: Written,
+}
+
+impl Quantity {
+    /// The number as written, in [`unit`](Self::unit).
+    pub const fn number(&self) -> f64 {
+        self.literal.number
+    }
+
+    /// The unit as written; empty for a plain number.
+    pub fn unit(&self) -> &str {
+        &self.literal.unit
+    }
+
+    /// Number and unit.
+    pub fn shown(&self) -> String {
+        self.literal.shown()
+    }
+
+    /// Whether it is a count, such as a number of teeth, or a number written like one.
+    pub fn is_whole(&self) -> bool {
+        self.written == Written::Whole
+    }
+
+    /// `number` in `unit`, as it is put in the quantity's place.
+    fn text(&self, number: f64, unit: &str) -> String {
+        match self.written {
+            Written::Text => format!("\"{}\"", format!("{number:?} {unit}").trim_end()),
+            _ if !unit.is_empty() => format!("\"{number:?} {unit}\""),
+            // Whole numbers stay whole, so that counts may be varied.
+            Written::Whole if number.fract() == 0.0 && number.abs() < 1e15 => {
+                format!("{number:.0}")
+            }
+            _ => format!("{number:?}"),
+        }
+    }
+}
+
+/// A new value for a quantity: its place in [`Document::quantities`], number and unit.
+#[derive(Clone, Debug)]
+pub struct Edit<'a> {
+    /// Index of the quantity.
+    pub quantity: usize,
+    /// The new number.
+    pub number: f64,
+    /// In this unit.
+    pub unit: &'a str,
+}
+
+/// A machine file as text, with the places of its quantities.
+#[derive(Clone, Debug)]
+pub struct Document {
+    text: String,
+    quantities: Vec<Quantity>,
+}
+
+impl Document {
+    /// Finds the quantities of a machine file that was read without error.
+    ///
+    /// # Errors
+    /// A text that is not TOML.
+    pub fn parse(text: String) -> Result<Self> {
+        let toml = Toml::parse(text.as_str()).map_err(|error| miette!("{error}"))?;
+        let mut finder = Finder::default();
+        finder.table(toml.as_table());
+        let mut quantities = finder.found;
+        quantities.sort_by_key(|quantity| quantity.span.start);
+        Ok(Self { text, quantities })
+    }
+
+    /// The text as it is.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Every quantity, in the order of the text.
+    pub fn quantities(&self) -> &[Quantity] {
+        &self.quantities
+    }
+
+    /// The text with some quantities changed; of two edits of one quantity the last counts.
+    pub fn with(&self, edits: &[Edit]) -> String {
+        let mut ordered: Vec<&Edit> = edits.iter().collect();
+        ordered.sort_by_key(|edit| edit.quantity);
+        let mut text = String::with_capacity(self.text.len() + 16 * edits.len());
+        let mut end = 0;
+        for (k, edit) in ordered.iter().enumerate() {
+            if ordered
+                .get(k + 1)
+                .is_some_and(|next| next.quantity == edit.quantity)
+            {
+                continue;
+            }
+            let Some(quantity) = self.quantities.get(edit.quantity) else {
+                continue;
+            };
+            text += self.text.get(end..quantity.span.start).unwrap_or_default();
+            text += &quantity.text(edit.number, edit.unit);
+            end = quantity.span.end;
+        }
+        text + self.text.get(end..).unwrap_or_default()
+    }
+
+    /// The index of the quantity that a path names.
+    ///
+    /// # Errors
+    /// A path that names none, or several.
+    pub fn find(&self, path: &str) -> Result<usize> {
+        let wanted = steps(path);
+        let answers: Vec<usize> = (0..self.quantities.len())
+            .filter(|k| self.quantities.get(*k).is_some_and(|q| q.answers(&wanted)))
+            .collect();
+        let in_full = |k: &&usize| {
+            let quantity = self.quantities.get(**k);
+            quantity.is_some_and(|q| q.steps.len() == wanted.len())
+        };
+        if let [one] = answers.as_slice() {
+            return Ok(*one);
+        }
+        if let Some(one) = answers.iter().find(in_full) {
+            return Ok(*one);
+        }
+        let paths = |indices: &[usize]| -> Vec<String> {
+            let found = indices.iter().filter_map(|k| self.quantities.get(*k));
+            found.map(|q| format!("\"{}\"", q.path)).collect()
+        };
+        if !answers.is_empty() {
+            return Err(miette!(
+                help = format!("write more of its path: {}", paths(&answers).join(" or ")),
+                "\"{path}\" names {} quantities of the machine file",
+                answers.len()
+            ));
+        }
+        Err(miette!(
+            help = self.nearest(path),
+            "the machine file has no quantity \"{path}\""
+        ))
+    }
+
+    fn nearest(&self, path: &str) -> String {
+        let endings = self.quantities.iter().flat_map(|q| {
+            let whole = q.path.as_str();
+            std::iter::once(whole).chain(
+                whole
+                    .match_indices('.')
+                    .filter_map(move |(at, _)| whole.get(at + 1..)),
+            )
+        });
+        let endings: Vec<&str> = endings.collect();
+        if let Some(near) = closest(path, &endings) {
+            return format!("did you mean \"{near}\"?");
+        }
+        let last = steps(path).pop().unwrap_or_default();
+        let same: Vec<String> = (self.quantities.iter())
+            .filter(|q| q.steps.last().is_some_and(|step| step.contains(&last)))
+            .map(|q| format!("\"{}\"", q.path))
+            .collect();
+        if same.is_empty() {
+            "a quantity that the file leaves to its default must be written there first; `jred sensitivity` lists those \
+             that it has"
+                .to_owned()
+        } else {
+            format!("there is {}", same.join(", "))
+        }
+    }
+}
+
+/// The steps of a path. Points between double quotes do not part.
+fn steps(path: &str) -> Vec<String> {
+    let (mut steps, mut quoted) = (vec![String::new()], false);
+    for c in path.chars() {
+        match c {
+            '"' => quoted = !quoted,
+            '.' if !quoted => steps.push(String::new()),
+            _ => steps.last_mut().into_iter().for_each(|step| step.push(c)),
+        }
+    }
+    steps.iter().map(|step| step.trim().to_owned()).collect()
+}
+
+impl Quantity {
+    /// Whether the last steps of its path are these.
+    fn answers(&self, wanted: &[String]) -> bool {
+        let spare = self.steps.len().checked_sub(wanted.len());
+        spare.is_some_and(|spare| {
+            let own = self.steps.iter().skip(spare);
+            own.zip(wanted).all(|(words, word)| words.contains(word))
+        })
+    }
+}
+
+/// Walks through the file.
+#[derive(Default)]
+struct Finder {
+    found: Vec<Quantity>,
+    steps: Vec<Vec<String>>,
+}
+
+impl Finder {
+    fn table(&mut self, table: &dyn TableLike) {
+        for (key, item) in table.iter() {
+            if !NOT_VARIED.contains(&key) {
+                self.steps.push(vec![key.to_owned()]);
+                self.item(item);
+                self.steps.pop();
+            }
+        }
+    }
+
+    fn item(&mut self, item: &Item) {
+        match item {
+            Item::Table(table) => self.table(table),
+            Item::ArrayOfTables(list) => {
+                let name = |table: &Table| name_of(table);
+                let names: Vec<Option<String>> = list.iter().map(name).collect();
+                for (k, table) in list.iter().enumerate() {
+                    self.element(k, &names, |finder| finder.table(table));
+                }
+            }
+            Item::Value(value) => self.value(value),
+            Item::None => {}
+        }
+    }
+
+    /// Element number `k` of a list whose elements have these names.
+    fn element(&mut self, k: usize, names: &[Option<String>], walk: impl FnOnce(&mut Self)) {
+        let name = names.get(k).and_then(Option::as_ref);
+        let single = |name: &&String| names.iter().flatten().filter(|n| n == name).count() == 1;
+        let words = name
+            .filter(single)
+            .cloned()
+            .into_iter()
+            .chain([k.to_string()]);
+        self.steps.push(words.collect());
+        walk(self);
+        self.steps.pop();
+    }
+
+    fn value(&mut self, value: &Value) {
+        let (literal, written) = match value {
+            Value::String(text) => (literal::read(text.value()).ok(), Written::Text),
+            Value::Integer(number) => {
+                (Some(Literal::plain(*number.value() as f64)), Written::Whole)
+            }
+            Value::Float(number) => (Some(Literal::plain(*number.value())), Written::Plain),
+            Value::InlineTable(table) => return self.table(table),
+            Value::Array(list) => {
+                let name = |value: &Value| value.as_inline_table().and_then(|t| name_of(t));
+                let names: Vec<Option<String>> = list.iter().map(name).collect();
+                for (k, value) in list.iter().enumerate() {
+                    self.element(k, &names, |finder| finder.value(value));
+                }
+                return;
+            }
+            Value::Boolean(_) | Value::Datetime(_) => return,
+        };
+        if let (Some(literal), Some(span)) = (literal, value.span()) {
+            let first = |words: &Vec<String>| match words.first() {
+                Some(word) if word.contains('.') => format!("\"{word}\""),
+                word => word.cloned().unwrap_or_default(),
+            };
+            self.found.push(Quantity {
+                path: self.steps.iter().map(first).collect::<Vec<_>>().join("."),
+                literal,
+                steps: self.steps.clone(),
+                span,
+                written,
+            });
+        }
+    }
+}
+
+fn name_of(table: &dyn TableLike) -> Option<String> {
+    table.get("name")?.as_str().map(ToOwned::to_owned)
+}
+
+/// Reads the text of a machine file.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn read(path: &Path) -> Result<Document> {
+    Document::parse(jred_machine::read::text(path)?)
+}

@@ -1,0 +1,18 @@
+//! Many machines instead of one: quantities of a machine file varied over ranges, every machine sized over the catalogue.
+//!
+//! A machine file is changed as a text ([`edit`]) and read by the ordinary reader, so that every check of a machine file
+//! applies to every machine of a study; one that is refused is a row with the reason. Rows are computed in parallel and
+//! written in order; a study may be cut into shares ([`shard`]) and put together again, stopped and
+//! continued: the file is always that of an undisturbed run, byte by byte.
+
+pub mod axis;
+pub mod cell;
+pub mod common;
+pub mod edit;
+pub mod header;
+pub mod one;
+pub mod sensitivity;
+pub mod shard;
+pub mod sized;
+pub mod task;
+pub mod tolerance;

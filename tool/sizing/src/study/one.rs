@@ -1,0 +1,90 @@
+//! One drive, judged in any machine of a study.
+
+use miette::{Result, miette};
+
+use crate::catalogue::Drive;
+use crate::catalogue::{Amplifier, Gearbox, Motor};
+use crate::judge::{Context, Findings};
+use crate::motor::envelope::Prepared;
+use crate::select::filter::Filter;
+use crate::select::rank::{Objective, rank};
+use crate::select::size::Selection;
+use crate::study::common::{Prepared as Machine, Study};
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::RuleSet;
+use jred_machine::model::rules::Verdict;
+
+/// A drive of the catalogue.
+#[derive(Clone, Debug)]
+pub struct One {
+    motor: Motor,
+    gearbox: Option<Gearbox>,
+    amplifier: Option<Amplifier>,
+}
+
+impl One {
+    /// The drive of this name; without a name the best for the machine as the file says, or the one that misses by least.
+    ///
+    /// # Errors
+    /// No such drive.
+    pub fn choose(
+        study: &Study,
+        name: Option<&str>,
+        filter: &Filter,
+        objective: Option<Objective>,
+    ) -> Result<Self> {
+        if let Some(name) = name {
+            return Ok(Self::of(&study.drive(name)?.1));
+        }
+        let machine = study.machine(&[])?;
+        let (site, rules) = (&machine.file.site, &machine.file.rules);
+        let motors = study.catalogue.prepare(site);
+        let mut selection = Selection::new(&study.catalogue, &motors, &machine.cycle, site, rules);
+        filter.sift(&mut selection);
+        if let Some(objective) = objective {
+            rank(&mut selection, objective);
+        }
+        let first = selection.fit.first().or(selection.refused.first());
+        let first = first.ok_or_else(|| miette!("no drive of the catalogue passes the filter"))?;
+        Ok(Self::of(&first.drive))
+    }
+
+    fn of(drive: &Drive) -> Self {
+        Self {
+            motor: drive.motor.clone(),
+            gearbox: drive.gearbox.cloned(),
+            amplifier: drive.amplifier.cloned(),
+        }
+    }
+
+    /// The drive.
+    pub fn drive(&self) -> Drive<'_> {
+        Drive {
+            motor: &self.motor,
+            gearbox: self.gearbox.as_ref(),
+            amplifier: self.amplifier.as_ref(),
+        }
+    }
+
+    /// Its name.
+    pub fn name(&self) -> String {
+        self.drive().name()
+    }
+
+    /// What every rule finds in a machine.
+    pub fn findings(&self, machine: &Machine) -> Findings {
+        let site = &machine.file.site;
+        let limits = Prepared::new(&self.motor, self.amplifier.as_ref(), site);
+        Context::new(&machine.cycle, site, self.drive(), &limits).findings(&machine.file.rules)
+    }
+}
+
+/// The rule that is broken; of several that of which most of the limit is used.
+pub fn broken(rules: &RuleSet, findings: &Findings) -> Option<Rule> {
+    let broken = findings
+        .iter()
+        .filter(|(rule, finding)| rules.verdict(*rule, *finding) == Verdict::Fail);
+    let used = broken.map(|(rule, finding)| (rules.use_of_limit(rule, finding), rule));
+    used.max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, rule)| rule)
+}

@@ -1,0 +1,292 @@
+//! What a drive's rules depend on: how much of each limit every quantity of the machine file moves, and how far each may
+//! move until a rule is broken.
+//!
+//! Every number with a unit, and every plain number, is moved by its relative change ε with all else as it is; the machine
+//! is read and judged anew. The derivative of a rule's share of its limit u is the central difference
+//! (u(ε) − u(−ε))/(2ε), extrapolated from ε and ε/2 to (4·D(ε/2) − D(ε))/3, whose error grows with ε⁴; what two such values
+//! differ by is stated as its uncertainty. A quantity that is zero has no relative change, and some cannot be moved alone
+//! (the moves of a cycle add up to whole turns, teeth are whole): these are named with the reason.
+
+use rayon::prelude::*;
+
+use crate::judge::Findings;
+use crate::study::common::{Study, sentence};
+use crate::study::edit::Edit;
+use crate::study::one::{One, broken};
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::{Limit, RuleSet};
+
+/// One rule's dependence on one quantity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slope {
+    /// The rule.
+    pub rule: Rule,
+    /// Whether it can refuse a drive, or only warns.
+    pub refuses: bool,
+    /// Change of its share of the limit for a relative change of the quantity: du/dε.
+    pub slope: f64,
+    /// By how much the two estimates of the slope differ.
+    pub uncertainty: f64,
+}
+
+/// How far a quantity may move in one direction.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Room {
+    /// As far as was looked: this relative change.
+    AtLeast(f64),
+    /// Up to this relative change; beyond, the rule is broken.
+    UpTo(f64, Rule),
+    /// Up to this relative change; beyond, the machine file is refused for this reason.
+    Refused(f64, String),
+    /// A rule is broken as it is.
+    Broken,
+}
+
+impl Room {
+    /// The relative change up to which it goes.
+    pub const fn change(&self) -> f64 {
+        match self {
+            Self::AtLeast(change) | Self::UpTo(change, _) | Self::Refused(change, _) => *change,
+            Self::Broken => 0.0,
+        }
+    }
+}
+
+/// What depends on one quantity.
+#[derive(Clone, Debug)]
+pub struct Dependence {
+    /// Index of the quantity in the document.
+    pub quantity: usize,
+    /// The slopes of the rules that can be judged.
+    pub slopes: Vec<Slope>,
+    /// How far it may become smaller, and larger.
+    pub room: [Room; 2],
+}
+
+impl Dependence {
+    /// Whether it moves no rule at all, and no rule ends its room.
+    pub fn is_idle(&self) -> bool {
+        let still = self.slopes.iter().all(|slope| slope.slope == 0.0);
+        still
+            && self
+                .room
+                .iter()
+                .all(|room| matches!(room, Room::AtLeast(_) | Room::Broken))
+    }
+
+    /// The rule that it moves most: of those that can refuse the drive, or else of those that only warn.
+    pub fn steepest(&self) -> Option<Slope> {
+        let slopes = self.slopes.iter().copied();
+        let key = |slope: &Slope| (slope.refuses && slope.slope != 0.0, slope.slope.abs());
+        slopes.max_by(|a, b| {
+            let (a, b) = (key(a), key(b));
+            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+        })
+    }
+}
+
+/// What depends on what.
+#[derive(Clone, Debug)]
+pub struct Sensitivity {
+    /// The shares of the limits as they are.
+    pub shares: Vec<(Rule, f64)>,
+    /// By quantity, that which moves a rule most first.
+    pub dependences: Vec<Dependence>,
+    /// Quantities that were not moved, and why.
+    pub fixed: Vec<(usize, String)>,
+    /// How many quantities of `[simulation]` and `[tolerance]` were left out: no rule can depend on them.
+    pub left_out: usize,
+}
+
+/// How a sensitivity is looked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Reach {
+    /// Relative change of the differences.
+    pub change: f64,
+    /// Largest relative change in search of the first broken rule.
+    pub most: f64,
+}
+
+/// Share of the limit (of the warning, where there is no other) of every rule that can be judged and has one. A share without bound (the limit is zero) is left out.
+pub fn shares(rules: &RuleSet, findings: &Findings) -> Vec<(Rule, f64)> {
+    let known = findings
+        .iter()
+        .filter(|(rule, finding)| finding.is_known() && rules.limit(*rule) != Limit::default());
+    let used = known.map(|(rule, finding)| (rule, rules.use_shown(rule, finding)));
+    used.filter(|(_, used)| used.is_finite()).collect()
+}
+
+/// A quantity of a study, moved.
+struct Mover<'a> {
+    study: &'a Study,
+    one: &'a One,
+    quantity: usize,
+    number: f64,
+    unit: &'a str,
+}
+
+/// Shares of the limits and the rule that is broken; or why the file was refused.
+type Judged = Result<(Vec<(Rule, f64)>, Option<Rule>), String>;
+
+impl Mover<'_> {
+    /// The drive with the quantity moved by a relative change.
+    fn at(&self, change: f64) -> Judged {
+        let edit = Edit {
+            quantity: self.quantity,
+            number: self.number * (1.0 + change),
+            unit: self.unit,
+        };
+        let machine = self
+            .study
+            .machine(&[edit])
+            .map_err(|report| sentence(&report))?;
+        let findings = self.one.findings(&machine);
+        let rules = &machine.file.rules;
+        Ok((shares(rules, &findings), broken(rules, &findings)))
+    }
+
+    /// (u(ε) − u(−ε))/(2ε) of every rule.
+    fn difference(&self, change: f64) -> Result<Vec<(Rule, f64)>, String> {
+        let (above, below) = (self.at(change)?.0, self.at(-change)?.0);
+        let pairs = above.iter().filter_map(|(rule, above)| {
+            let below = below.iter().find(|(other, _)| other == rule)?.1;
+            Some((*rule, (above - below) / (2.0 * change)))
+        });
+        Ok(pairs.collect())
+    }
+
+    fn slopes(&self, change: f64) -> Result<Vec<Slope>, String> {
+        let steps = [change, 0.5 * change, 0.25 * change];
+        let [coarse, middle, fine] = steps.map(|step| self.difference(step));
+        let (coarse, middle, fine) = (coarse?, middle?, fine?);
+        let of = |all: &[(Rule, f64)], rule: Rule| Some(all.iter().find(|(r, _)| *r == rule)?.1);
+        let slope = |(rule, fine): &(Rule, f64)| {
+            let (coarse, middle) = (of(&coarse, *rule)?, of(&middle, *rule)?);
+            let extrapolated = |d: f64, half: f64| (4.0 * half - d) / 3.0;
+            let (first, second) = (extrapolated(coarse, middle), extrapolated(middle, *fine));
+            Some(Slope {
+                rule: *rule,
+                refuses: self.study.nominal.rules.limit(*rule).fail.is_some(),
+                slope: second,
+                uncertainty: (second - first).abs(),
+            })
+        };
+        Ok(fine.iter().filter_map(slope).collect())
+    }
+
+    /// How far the quantity may move in the direction of `sign`: steps that double, then halving.
+    fn room(&self, sign: f64, reach: Reach) -> Room {
+        const HALVINGS: u32 = 16;
+        let (mut held, mut tried) = (0.0, reach.change);
+        let stopped = loop {
+            match self.at(sign * tried) {
+                Ok((_, None)) => held = tried,
+                stopped => break stopped,
+            }
+            if tried >= reach.most {
+                return Room::AtLeast(sign * tried);
+            }
+            tried = (2.0 * tried).min(reach.most);
+        };
+        let mut stopped = stopped;
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (held + tried);
+            match self.at(sign * middle) {
+                Ok((_, None)) => held = middle,
+                other => {
+                    tried = middle;
+                    stopped = other;
+                }
+            }
+        }
+        match stopped {
+            Ok((_, Some(rule))) => Room::UpTo(sign * held, rule),
+            Err(why) => Room::Refused(sign * held, why),
+            Ok((_, None)) => Room::AtLeast(sign * held),
+        }
+    }
+}
+
+impl Sensitivity {
+    /// Moves every quantity of the study's machine file; `progress` is told of each.
+    ///
+    /// # Errors
+    /// Those of the machine as it is.
+    pub fn new(
+        study: &Study,
+        one: &One,
+        reach: Reach,
+        progress: impl Fn() + Sync,
+    ) -> miette::Result<Self> {
+        let machine = study.machine(&[])?;
+        let findings = one.findings(&machine);
+        let rules = &machine.file.rules;
+        let holds = broken(rules, &findings).is_none();
+        // The free motion of `[simulation]` and the scatter of `[tolerance]` have no bearing on sizing.
+        let apart = |path: &str| {
+            ["simulation.", "tolerance."]
+                .iter()
+                .any(|at| path.starts_with(at))
+        };
+        let quantities = study.document.quantities().iter().enumerate();
+        let quantities: Vec<_> = quantities.filter(|(_, q)| !apart(&q.path)).collect();
+        let left_out = study.document.quantities().len() - quantities.len();
+        let found: Vec<(usize, Result<Dependence, String>)> = quantities
+            .into_par_iter()
+            .map(|(index, quantity)| {
+                let mover = Mover {
+                    study,
+                    one,
+                    quantity: index,
+                    number: quantity.number(),
+                    unit: quantity.unit(),
+                };
+                let dependence = if quantity.number() == 0.0 {
+                    Err("zero has no relative change".to_owned())
+                } else {
+                    mover.slopes(reach.change).map(|slopes| {
+                        let room = |sign| {
+                            if holds {
+                                mover.room(sign, reach)
+                            } else {
+                                Room::Broken
+                            }
+                        };
+                        Dependence {
+                            quantity: index,
+                            slopes,
+                            room: [room(-1.0), room(1.0)],
+                        }
+                    })
+                };
+                progress();
+                (index, dependence)
+            })
+            .collect();
+        let (mut dependences, mut fixed) = (Vec::new(), Vec::new());
+        for (index, dependence) in found {
+            match dependence {
+                Ok(dependence) => dependences.push(dependence),
+                Err(why) => fixed.push((index, why)),
+            }
+        }
+        let steepest = |d: &Dependence| d.steepest().map_or(0.0, |slope| slope.slope.abs());
+        dependences.sort_by(|a, b| steepest(b).total_cmp(&steepest(a)));
+        Ok(Self {
+            shares: shares(rules, &findings),
+            dependences,
+            fixed,
+            left_out,
+        })
+    }
+
+    /// The quantity whose least move breaks a rule, with the room that it has there.
+    pub fn first_to_break(&self) -> Option<(usize, &Room)> {
+        let rooms = self
+            .dependences
+            .iter()
+            .flat_map(|d| d.room.iter().map(|room| (d.quantity, room)));
+        let breaking = rooms.filter(|(_, room)| matches!(room, Room::UpTo(..)));
+        breaking.min_by(|a, b| a.1.change().abs().total_cmp(&b.1.change().abs()))
+    }
+}

@@ -1,0 +1,198 @@
+//! How likely a drive holds its rules when quantities of the machine file scatter: Monte Carlo.
+//!
+//! Sample k draws the deviation of every quantity that has a tolerance, in the order of their list, from stream k of ChaCha8
+//! with the seed: a sample is the same whichever thread, share or run computes it. A machine that the reader refuses is
+//! counted apart and for no rule. Of n others, k hold: Wilson's interval is stated for the probability,
+//!
+//! ```text
+//! (k + z²/2 ± z·√(k(n − k)/n + z²/4)) / (n + z²),   z = 1.96 for 95 %
+//! ```
+
+pub mod summary;
+
+use miette::{Result, miette};
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt as _, SeedableRng as _};
+use rand_distr::{Distribution as _, StandardNormal};
+
+use crate::study::cell::Cell;
+use crate::study::common::{Study, sentence};
+use crate::study::edit::Edit;
+use crate::study::header::{Header, digest};
+use crate::study::one::{One, broken};
+use crate::study::task::Task;
+use jred_machine::model::rule::Rule;
+use jred_machine::read::{Shape, Tolerance};
+
+/// One quantity that scatters.
+#[derive(Clone, Debug)]
+pub struct Scatter {
+    /// Index of the quantity in the document.
+    pub quantity: usize,
+    /// Its path in the machine file.
+    pub path: String,
+    /// Unit of its figures.
+    pub unit: String,
+    /// What the file says, in the unit.
+    nominal: f64,
+    /// Half the width, or the standard deviation, in the unit.
+    pub amount: f64,
+    /// How it scatters.
+    pub shape: Shape,
+}
+
+impl Scatter {
+    /// The quantity that a tolerance is of.
+    ///
+    /// # Errors
+    /// A quantity that is not there, or an amount of another kind.
+    pub fn new(study: &Study, tolerance: &Tolerance) -> Result<Self> {
+        let quantity = study.document.find(&tolerance.path)?;
+        let own = study.document.quantities().get(quantity);
+        let own = own.ok_or_else(|| miette!("there is no quantity {:?}", tolerance.path))?;
+        let nominal = own.number();
+        let given = &tolerance.amount;
+        let amount = if given.unit == "%" && own.unit() != "%" {
+            if nominal == 0.0 {
+                return Err(miette!(
+                    help = "write the tolerance as an amount with its unit",
+                    "the tolerance of {} is a share of zero",
+                    own.path
+                ));
+            }
+            given.number / 100.0 * nominal.abs()
+        } else if given.is_like(&own.literal) {
+            given.number * given.scale / own.literal.scale
+        } else {
+            return Err(miette!(
+                help = "write a share, such as \"5 %\", or an amount in a unit of the same kind",
+                "the tolerance of {}, which is {}, cannot be {}",
+                own.path,
+                own.shown(),
+                given.shown()
+            ));
+        };
+        Ok(Self {
+            quantity,
+            path: own.path.clone(),
+            unit: own.unit().to_owned(),
+            nominal,
+            amount,
+            shape: tolerance.shape,
+        })
+    }
+
+    /// A value.
+    fn draw(&self, rng: &mut ChaCha8Rng) -> f64 {
+        let deviation: f64 = match self.shape {
+            Shape::Uniform => 2.0 * rng.random::<f64>() - 1.0,
+            Shape::Normal => StandardNormal.sample(rng),
+        };
+        self.nominal + self.amount * deviation
+    }
+}
+
+/// Machines that scatter about the one of the file.
+#[derive(Debug)]
+pub struct Samples<'s> {
+    /// What they share.
+    pub study: &'s Study,
+    /// The drive that is judged.
+    pub one: &'s One,
+    /// What scatters.
+    pub scatters: Vec<Scatter>,
+    /// The rules that can be judged.
+    pub rules: Vec<Rule>,
+    /// Number of machines.
+    pub count: u64,
+    /// Seed of the random numbers.
+    pub seed: u64,
+}
+
+impl Samples<'_> {
+    /// The values of sample `index`, in the order of the scatters.
+    pub fn values(&self, index: u64) -> Vec<f64> {
+        let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
+        rng.set_stream(index);
+        self.scatters
+            .iter()
+            .map(|scatter| scatter.draw(&mut rng))
+            .collect()
+    }
+}
+
+impl Task for Samples<'_> {
+    fn header(&self) -> Header {
+        let scatters = self.scatters.iter().map(|s| match s.unit.as_str() {
+            "" => s.path.clone(),
+            unit => format!("{} [{unit}]", s.path),
+        });
+        let rules = self.rules.iter().map(|rule| rule.name().to_owned());
+        let verdict = ["verdict".to_owned(), "worst rule".to_owned()];
+        let columns = scatters
+            .chain(verdict)
+            .chain(rules)
+            .chain(["note".to_owned()])
+            .collect();
+        let mut options: Vec<String> = (self.scatters.iter())
+            .map(|s| format!("{} {:?} ± {:?} {}", s.path, s.shape, s.amount, s.unit))
+            .collect();
+        options.push(format!("seed = {}", self.seed));
+        options.push(format!("steps = {}", self.study.steps));
+        options.push(format!("drive = {}", self.one.name()));
+        Header {
+            jred: "tolerance/1".to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            machine: self.study.name.clone(),
+            machine_digest: self.study.machine_digest(),
+            catalogue_digest: digest(&self.study.catalogue),
+            options,
+            rows: self.count,
+            columns,
+            shard: None,
+        }
+    }
+
+    fn row(&self, index: u64) -> Vec<Cell> {
+        let values = self.values(index);
+        let edits: Vec<Edit> = (self.scatters.iter().zip(&values))
+            .map(|(scatter, value)| Edit {
+                quantity: scatter.quantity,
+                number: *value,
+                unit: &scatter.unit,
+            })
+            .collect();
+        let mut cells: Vec<Cell> = values.into_iter().map(Cell::from).collect();
+        match self.study.machine(&edits) {
+            Err(report) => {
+                cells.extend(["machine refused".into(), Cell::Empty]);
+                cells.extend(self.rules.iter().map(|_| Cell::Empty));
+                cells.push(sentence(&report).into());
+            }
+            Ok(machine) => {
+                let rules = &machine.file.rules;
+                let findings = self.one.findings(&machine);
+                let broken = broken(rules, &findings);
+                let known = |rule: &Rule| findings.get(*rule).is_some_and(|f| f.is_known());
+                let verdict = match broken {
+                    Some(_) => "broken",
+                    None if self.rules.iter().all(known) => "holds",
+                    None => "not checked",
+                };
+                cells.push(verdict.into());
+                cells.push(broken.map_or(Cell::Empty, |rule| rule.name().into()));
+                cells.extend(self.rules.iter().map(|rule| {
+                    let finding = findings
+                        .get(*rule)
+                        .filter(jred_machine::model::rules::Finding::is_known);
+                    match finding.map(|finding| rules.use_shown(*rule, finding)) {
+                        Some(used) if used.is_infinite() => "inf".into(),
+                        used => used.into(),
+                    }
+                }));
+                cells.push(Cell::Empty);
+            }
+        }
+        cells
+    }
+}

@@ -1,0 +1,289 @@
+//! Temperature of a motor over the cycle.
+//!
+//! Which model is used follows from what the data sheet says:
+//!
+//! | known | model |
+//! |---|---|
+//! | winding's resistance and current, both thermal resistances, both time constants | [`Model::Bodies`], winding and housing |
+//! | the same with the winding's time constant alone | winding and housing, the latter's temperature constant |
+//! | winding's resistance and current, thermal resistance, time constant of the motor as a whole | [`Model::Bodies`], one body |
+//! | the same without a time constant | [`Model::Steady`]: mean losses; the ripple over the cycle is not followed |
+//! | S1 torques | [`Model::Relative`]: shares of the rated rise, from the squared torque |
+//!
+//! The relative model: at each speed the S1 torque brings the rated rise, so that p(T, n) = T²/M₀² + max(0, 1 − T_S1(n)²/M₀²) are
+//! the losses as a share of the rated ones, and τ·ϑ′ = p − ϑ. What the S1 curve loses from standstill to a speed stands for
+//! friction and iron losses there. Mean losses, all that counts without time constants: [`mean`].
+
+pub mod classify;
+pub mod course;
+pub mod mean;
+pub mod network;
+
+use crate::catalogue::Motor;
+use crate::cycle::Cycle;
+use crate::cycle::form::Coefficients;
+use crate::motor::envelope::Prepared;
+use crate::motor::winding::{COPPER, REFERENCE_TEMPERATURE};
+
+use course::{Course, Hottest, Point};
+use jred_machine::model::operation::Operation;
+use jred_machine::model::surroundings::{REFERENCE, Surroundings};
+use network::{Losses, Network};
+
+/// How much longer than everything else the time constant of a housing is taken of which none is stated.
+const SLOW: f64 = 1e6;
+
+/// A motor as heated bodies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Model {
+    /// Bodies with time constants; losses in W, rises in K.
+    Bodies {
+        /// The bodies.
+        network: Network,
+        /// Copper loss over squared current (W/A²), the winding at the temperature of the surroundings or at the stated one.
+        copper: f64,
+        /// Whether the housing's time constant is stated (or there is but one body).
+        follows_housing: bool,
+    },
+    /// Thermal resistances without time constants: mean losses, steady rises in K.
+    Steady {
+        /// Winding to housing, housing to surroundings (K/W).
+        resistances: [f64; 2],
+        /// Copper loss over squared current (W/A²), the winding at the temperature of the surroundings or at the stated one.
+        copper: f64,
+        /// Growth of the copper loss (1/K).
+        growth: f64,
+    },
+    /// Shares of the rated rise.
+    Relative {
+        /// S1 torque at standstill (N·m).
+        standstill: f64,
+        /// Time constant (s), if one is stated.
+        time: Option<f64>,
+    },
+}
+
+/// What heats a motor: a drive on its way through a cycle.
+#[derive(Clone, Copy, Debug)]
+pub struct Load<'a> {
+    /// The cycle.
+    pub cycle: &'a Cycle,
+    /// The drive's torque as a linear form.
+    pub coefficients: &'a Coefficients,
+    /// Its ratio.
+    pub ratio: f64,
+    /// Its motor.
+    pub motor: &'a Motor,
+    /// What is known of the motor's limits.
+    pub prepared: &'a Prepared,
+}
+
+/// What a model found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Heating {
+    /// The hottest rises; in K, or as shares of the rated rise.
+    pub hottest: Hottest,
+    /// Whether they are shares of the rated rise.
+    pub relative: bool,
+    /// Whether the housing's rise was found.
+    pub housing: bool,
+    /// Whether the ripple over the cycle was followed.
+    pub ripple: bool,
+}
+
+fn usable(figure: Option<f64>) -> Option<f64> {
+    figure.filter(|x| x.is_finite() && *x > 0.0)
+}
+
+impl Model {
+    /// The model that a motor's data allow.
+    ///
+    /// # Errors
+    /// What is missing, in words.
+    pub fn of(
+        motor: &Motor,
+        prepared: &Prepared,
+        surroundings: &Surroundings,
+        cycle_time: f64,
+    ) -> Result<Self, &'static str> {
+        let thermal = &motor.thermal;
+        let reference = surroundings.resistance_at.unwrap_or(surroundings.ambient);
+        let resistance = usable(motor.winding.loss_resistance(reference));
+        let growth = match surroundings.resistance_at {
+            Some(_) => 0.0,
+            None => COPPER / (1.0 + COPPER * (surroundings.ambient - REFERENCE_TEMPERATURE)),
+        };
+        let to_housing = usable(thermal.winding_resistance);
+        let to_air = usable(thermal.housing_resistance);
+        let times = [thermal.winding_time, thermal.housing_time].map(usable);
+        let copper = resistance.filter(|_| prepared.torques.is_some());
+        let bodies = |network, copper, follows_housing| Self::Bodies {
+            network,
+            copper,
+            follows_housing,
+        };
+        if let Some((copper, first)) = copper.zip(to_housing.or(to_air)) {
+            let both = to_housing.zip(to_air);
+            return Ok(match (both, times) {
+                (Some((w, h)), [Some(tw), Some(th)]) => {
+                    bodies(Network::two([w, h], [tw, th], growth), copper, true)
+                }
+                (Some((w, h)), [Some(tw), None]) => {
+                    let th = SLOW * tw.max(cycle_time);
+                    bodies(Network::two([w, h], [tw, th], growth), copper, false)
+                }
+                (_, [None, None]) => Self::Steady {
+                    resistances: [to_housing.unwrap_or(0.0), to_air.unwrap_or(0.0)],
+                    copper,
+                    growth,
+                },
+                (_, [winding, whole]) => {
+                    let total = both.map_or(first, |(w, h)| w + h);
+                    let time = whole.or(winding).unwrap_or(f64::INFINITY);
+                    bodies(Network::one(total, time, growth), copper, true)
+                }
+            });
+        }
+        if motor.rated_torque.is_none() && motor.continuous_curve.is_empty() {
+            return Err("S1 torque over speed, for want of thermal resistances and winding data");
+        }
+        let standstill = prepared.envelope.standstill();
+        if !(standstill.is_finite() && standstill > 0.0) {
+            return Err(
+                "S1 torque, or resistance, torque constant and thermal resistances of the winding",
+            );
+        }
+        let [winding, whole] = times;
+        Ok(Self::Relative {
+            standstill,
+            time: whole.or(winding),
+        })
+    }
+
+    /// The losses over a cycle: at every instant the torque's copper loss and the motor's friction, or shares of the rated
+    /// losses.
+    pub fn course(&self, load: &Load) -> Course {
+        let Load {
+            cycle,
+            coefficients,
+            ratio,
+            motor,
+            prepared,
+        } = *load;
+        let [coulomb, viscous] = motor.friction;
+        let points = cycle.samples().iter().map(|sample| {
+            let torque = coefficients.torque(&sample.loads());
+            let signed = sample.speed() * ratio;
+            let speed = signed.abs();
+            let other = match self {
+                Self::Bodies { .. } | Self::Steady { .. } => (coulomb + viscous * speed) * speed,
+                Self::Relative { standstill, .. } => {
+                    let s1 = prepared.envelope.continuous_torque(speed) / standstill;
+                    (1.0 - s1 * s1).max(0.0)
+                }
+            };
+            Point {
+                t: sample.t,
+                root: self.root(prepared, torque, signed),
+                other,
+            }
+        });
+        Course::new(points.collect(), cycle.duration())
+    }
+
+    /// Root of the copper loss (√W), or of its share of the rated one, with the sign of the torque.
+    fn root(&self, prepared: &Prepared, torque: f64, speed: f64) -> f64 {
+        match self {
+            Self::Bodies { copper, .. } | Self::Steady { copper, .. } => {
+                let current = prepared.current(torque, speed).unwrap_or(0.0);
+                (current * copper.sqrt()).copysign(torque)
+            }
+            Self::Relative { standstill, .. } => torque / standstill,
+        }
+    }
+
+    /// The losses while the motor holds the machine at rest with `torque` (N·m); zero: it is without current.
+    pub fn at_rest(&self, prepared: &Prepared, torque: f64) -> Losses {
+        let root = self.root(prepared, torque, 0.0);
+        Losses {
+            copper: root * root,
+            other: 0.0,
+        }
+    }
+
+    /// The hottest rises in an operation of a cycle; `rest` are the losses at rest.
+    ///
+    /// # Errors
+    /// What is missing, in words.
+    pub fn heating(
+        &self,
+        load: &Load,
+        operation: &Operation,
+        rest: Losses,
+    ) -> Result<Heating, &'static str> {
+        let from_cold = matches!(operation, Operation::Short { .. });
+        let mean = || {
+            let running = operation.running().unwrap_or(1.0);
+            let mean = self.mean_losses(load);
+            Losses {
+                copper: running * mean.copper + (1.0 - running) * rest.copper,
+                other: running * mean.other,
+            }
+        };
+        let hottest = |network: &Network| self.course(load).hottest(network, operation, rest);
+        let steady = |resistances, growth| match network::steady(resistances, mean(), growth) {
+            Some(rise) => Hottest::Rise(rise),
+            None => Hottest::Runaway,
+        };
+        let (hottest, ripple) = match *self {
+            Self::Bodies {
+                follows_housing: false,
+                ..
+            } if from_cold => {
+                return Err(
+                    "thermal time constant of the housing, to follow an operation from cold",
+                );
+            }
+            Self::Bodies { network, .. } => (hottest(&network), true),
+            Self::Steady { .. } | Self::Relative { time: None, .. } if from_cold => {
+                return Err("thermal time constants, to follow an operation from cold");
+            }
+            Self::Steady {
+                resistances,
+                growth,
+                ..
+            } => (steady(resistances, growth), false),
+            Self::Relative {
+                time: Some(time), ..
+            } => (hottest(&Network::one(1.0, time, 0.0)), true),
+            Self::Relative { time: None, .. } => (steady([0.0, 1.0], 0.0), false),
+        };
+        let relative = matches!(self, Self::Relative { .. });
+        let housing = match self {
+            Self::Bodies { network, .. } => network.has_housing(),
+            Self::Steady { resistances, .. } => resistances.iter().all(|r| *r > 0.0),
+            Self::Relative { .. } => false,
+        };
+        Ok(Heating {
+            hottest,
+            relative,
+            housing,
+            ripple,
+        })
+    }
+}
+
+/// The rise that is allowed (K, or as a share of the rated rise). `None`: the data do not say.
+pub fn allowed_rise(motor: &Motor, surroundings: &Surroundings, relative: bool) -> Option<f64> {
+    let limit = usable(motor.thermal.max_temperature);
+    let factor = surroundings.altitude_factor();
+    let rise = limit.map(|limit| limit - surroundings.ambient);
+    if !relative {
+        return Some(factor * rise?);
+    }
+    match (limit, rise) {
+        (Some(limit), Some(rise)) if limit > REFERENCE => Some(factor * rise / (limit - REFERENCE)),
+        _ if surroundings.ambient <= REFERENCE => Some(factor),
+        _ => None,
+    }
+}

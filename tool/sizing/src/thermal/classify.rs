@@ -1,0 +1,174 @@
+//! The duty type of IEC 60034-1 that a cycle belongs to, by what the motor does in it.
+//!
+//! | type | the motor | told here by |
+//! |---|---|---|
+//! | S1 | constant load | torque and speed constant |
+//! | S2 | one run from cold | only stated, `[duty]` |
+//! | S3 | runs and rests; starts do not count thermally | rests; at most 5 % of ∫T² dt while it accelerates |
+//! | S4 | runs and rests; starts count | rests, no electric braking |
+//! | S5 | the same with electric braking | rests, power flows back |
+//! | S6 | runs on with and without load | speed constant, torque not |
+//! | S7 | starts, runs and brakes without rest | stops or reverses without rest, power flows back |
+//! | S8 | load and speed change without rest | the others |
+//! | S9 | load and speed change irregularly | only stated, `[duty]` |
+
+use std::fmt;
+
+use crate::cycle::Cycle;
+use crate::cycle::form::Coefficients;
+
+/// What the motor does in the cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a feature of its own"
+)]
+pub struct Features {
+    /// Share of the time at standstill.
+    pub rest: f64,
+    /// Starts from rest in a cycle.
+    pub starts: u32,
+    /// Whether the motor turns power back.
+    pub braking: bool,
+    /// Whether the speed is constant.
+    pub constant_speed: bool,
+    /// Whether the torque is constant.
+    pub constant_torque: bool,
+    /// Whether it stops for an instant, or reverses.
+    pub stops: bool,
+    /// Share of the squared torque's integral that belongs to acceleration and deceleration.
+    pub accelerating: f64,
+}
+
+/// The type, with what it follows from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DutyType {
+    /// 1 to 9.
+    pub number: u8,
+    /// What it follows from.
+    pub features: Features,
+}
+
+/// What a figure may change by and still be constant, as a share of its largest magnitude.
+const CONSTANT: f64 = 1e-3;
+
+/// A speed below this share of the largest is a stop for an instant.
+const STOP: f64 = 1e-6;
+
+/// Energy that flows back below this share of the energy turned over is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Share of the squared torque up to which starts do not count thermally.
+const NEGLIGIBLE: f64 = 0.05;
+
+impl Features {
+    /// What the motor of a drive does.
+    pub fn of(cycle: &Cycle, coefficients: &Coefficients, ratio: f64) -> Self {
+        let samples = cycle.samples();
+        let [mut slowest, mut fastest] = [f64::INFINITY, f64::NEG_INFINITY];
+        let [mut least, mut most] = [f64::INFINITY, f64::NEG_INFINITY];
+        let [mut rest, mut back, mut turned] = [0.0; 3];
+        let [mut squares, mut accelerating] = [0.0; 2];
+        let mut starts = 0;
+        // Whether the cycle ends at rest: then its first move is a start.
+        let mut resting = samples.last().is_some_and(|s| s.speed() == 0.0);
+        for sample in samples {
+            let torque = coefficients.torque(&sample.loads());
+            let speed = sample.speed() * ratio;
+            slowest = slowest.min(speed);
+            fastest = fastest.max(speed);
+            least = least.min(torque);
+            most = most.max(torque);
+            let still = speed == 0.0;
+            starts += u32::from(resting && !still);
+            resting = still;
+            let weight = sample.weight;
+            rest += if still { weight } else { 0.0 };
+            let power = torque * speed;
+            back += weight * (-power).max(0.0);
+            turned += weight * power.abs();
+            squares += weight * torque * torque;
+            if sample.loads()[0] != 0.0 {
+                accelerating += weight * torque * torque;
+            }
+        }
+        let constant = |low: f64, high: f64| high - low <= CONSTANT * high.abs().max(low.abs());
+        let largest = fastest.abs().max(slowest.abs());
+        let nearest = samples.iter().map(|s| (s.speed() * ratio).abs());
+        let nearest = nearest.fold(f64::INFINITY, f64::min);
+        Self {
+            rest: rest / cycle.duration(),
+            starts,
+            braking: back > ROUNDING * turned,
+            constant_speed: constant(slowest, fastest),
+            constant_torque: constant(least, most),
+            stops: slowest < 0.0 && fastest > 0.0 || nearest <= STOP * largest,
+            accelerating: if squares > 0.0 {
+                accelerating / squares
+            } else {
+                0.0
+            },
+        }
+    }
+
+    /// The type.
+    pub fn duty_type(self) -> DutyType {
+        let number = if self.rest > 0.0 && self.starts > 0 {
+            if self.accelerating <= NEGLIGIBLE {
+                3
+            } else if self.braking {
+                5
+            } else {
+                4
+            }
+        } else if self.constant_speed {
+            if self.constant_torque { 1 } else { 6 }
+        } else if self.stops && self.braking {
+            7
+        } else {
+            8
+        };
+        DutyType {
+            number,
+            features: self,
+        }
+    }
+}
+
+impl fmt::Display for DutyType {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Features {
+            rest,
+            starts,
+            braking,
+            ..
+        } = self.features;
+        let braking = if braking { "with" } else { "without" };
+        match self.number {
+            1 => write!(f, "duty type S1, constant load"),
+            3 => write!(
+                f,
+                "duty type S3, at rest {:.0} % of the time, starts do not count thermally",
+                100.0 * rest
+            ),
+            4 | 5 => {
+                let starts = match starts {
+                    1 => "a start".to_owned(),
+                    n => format!("{n} starts"),
+                };
+                write!(
+                    f,
+                    "duty type S{}, {starts} per cycle, at rest {:.0} % of the time, {braking} electric braking",
+                    self.number,
+                    100.0 * rest
+                )
+            }
+            6 => write!(f, "duty type S6, constant speed with changing load"),
+            7 => write!(f, "duty type S7, starts and electric braking without rest"),
+            _ => write!(
+                f,
+                "duty type S8, load and speed change without rest, {braking} electric braking"
+            ),
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! Mean losses over a cycle, for motors without time constants: all that can be said of their temperature.
+//!
+//! The mean is the sum over the instants with their weights in the integral over the cycle, as that of the RMS torque is: where
+//! the S1 torque loses nothing to speed the relative model's mean is (T_rms/M₀)² to the last digits. Parts:
+//!
+//! - copper, and its share of the rated loss, from the RMS of torque or current ([`Cycle::rms_torque`], [`rms_current`]);
+//! - friction c·|n|‾ + b·n_rms²;
+//! - what the S1 torque loses to speed, max(0, 1 − (T_S1(n)/M₀)²), from the distribution of |n| over the cycle.
+
+use super::network::Losses;
+use super::{Load, Model};
+use crate::cycle::Cycle;
+use crate::cycle::form::Coefficients;
+use crate::cycle::speeds::Form;
+use crate::motor::envelope::{Envelope, Prepared, Segment};
+
+impl Model {
+    /// The mean losses (W; of the relative model as shares of the rated ones). Cost: that of a few square roots, and of the
+    /// relative model the logarithm of the number of instants for each line or hyperbola of the S1 torque. Instants where
+    /// the voltage line of a winding cuts the S1 torque off, and those of [`rms_current`], are looked at one by one.
+    pub fn mean_losses(&self, load: &Load) -> Losses {
+        let Load {
+            cycle,
+            coefficients,
+            ratio,
+            motor,
+            prepared,
+        } = *load;
+        match *self {
+            Self::Bodies { copper, .. } | Self::Steady { copper, .. } => {
+                let [coulomb, viscous] = motor.friction;
+                let current = rms_current(cycle, coefficients, ratio, prepared).unwrap_or(0.0);
+                let speed = cycle.rms_torque(&Coefficients([0.0, 0.0, 0.0, ratio, 0.0]));
+                Losses {
+                    copper: copper * current * current,
+                    other: coulomb * cycle.mean_speed() * ratio + viscous * speed * speed,
+                }
+            }
+            Self::Relative { standstill, .. } => {
+                let root = cycle.rms_torque(coefficients) / standstill;
+                Losses {
+                    copper: root * root,
+                    other: lost_to_speed(cycle, ratio, &prepared.envelope, standstill),
+                }
+            }
+        }
+    }
+}
+
+/// RMS current (A). Of a current that is proportional to the torque it is T_rms/k_t; instants at which the iron saturates add
+/// what they ask for beyond that. Where the field is weakened every instant is looked at. `None`: no torque constant.
+pub fn rms_current(
+    cycle: &Cycle,
+    coefficients: &Coefficients,
+    ratio: f64,
+    prepared: &Prepared,
+) -> Option<f64> {
+    let curve = prepared.torques?;
+    if prepared.circuit.as_ref().is_some_and(|c| c.weakens) {
+        let squares = cycle.samples().iter().map(|sample| {
+            let torque = coefficients.torque(&sample.loads());
+            let current = prepared.current(torque, sample.speed() * ratio);
+            sample.weight * current.unwrap_or(f64::NAN).powi(2)
+        });
+        return Some((squares.sum::<f64>() / cycle.duration()).sqrt());
+    }
+    let constant = curve.torque_constant();
+    let straight = cycle.rms_torque(coefficients) / constant;
+    let mut more = 0.0;
+    if curve.saturates() {
+        cycle.beyond(coefficients, curve.knee(), |sample, torque| {
+            let (current, along) = (curve.current(torque), torque.abs() / constant);
+            more += sample.weight * (current - along) * (current + along);
+        });
+    }
+    Some((straight * straight + more / cycle.duration()).sqrt())
+}
+
+/// Mean of max(0, 1 − (T_S1/M₀)²).
+fn lost_to_speed(cycle: &Cycle, ratio: f64, envelope: &Envelope, standstill: f64) -> f64 {
+    let on = |speeds: [f64; 2]| {
+        let speeds = speeds.map(|speed| speed * ratio);
+        let (torques, form) = match envelope.continuous_segment(speeds)? {
+            Segment::Unknown => return Some(Form::Zero),
+            Segment::Line(torques) => {
+                let shares = torques.map(|torque| torque / standstill);
+                (torques, Form::LessLine(shares))
+            }
+            Segment::Power(power) => (
+                speeds.map(|speed| power / speed),
+                Form::LessInverse(power / (standstill * ratio)),
+            ),
+        };
+        if torques.iter().all(|torque| *torque >= standstill) {
+            Some(Form::Zero)
+        } else if torques.iter().any(|torque| *torque > standstill) {
+            None
+        } else {
+            Some(form)
+        }
+    };
+    let at = |speed: f64| {
+        let s1 = envelope.continuous_torque(speed * ratio) / standstill;
+        (1.0 - s1 * s1).max(0.0)
+    };
+    cycle.speeds().sum(on, at) / cycle.duration()
+}
