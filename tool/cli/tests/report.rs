@@ -354,6 +354,21 @@ fn the_page_of_a_simulation() {
     check_plots(&page, 5);
 }
 
+/// The columns of a drive link that slides have other names: every chart has its curve.
+#[test]
+fn the_page_of_a_simulation_that_slides() {
+    let folder = Folder::new();
+    let plot = folder.path("plot.html");
+    let machine = press_file().with_file_name("linear-gripper.toml");
+    jred([&"simulate", &machine, &"--plot", &plot]).ends(0);
+    let page = std::fs::read_to_string(plot).unwrap();
+    check_plots(&page, 5);
+    assert!(page.contains("Motor force") && page.contains("v [m/s]"));
+    for plot in plots(&page) {
+        assert!(plot.contains("<path"), "no curve: {plot}");
+    }
+}
+
 /// Machines without loads, without a train, at constant speed: plots of nothing are plots nevertheless.
 #[test]
 fn reports_of_plain_machines() {

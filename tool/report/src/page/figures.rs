@@ -102,6 +102,7 @@ pub(super) fn simulation(run: &Columns) -> Vec<(&'static str, String)> {
         rows.filter_map(|row| Some((value(row, 0)?, value(row, index?)?)))
             .collect()
     };
+    let has = |name: &str| run.names().iter().any(|n| n == name);
     let plot = |y: &str, names: &[&str]| {
         let series: Vec<Series> = names.iter().map(|n| line(n, column(n))).collect();
         let axes = Axes {
@@ -110,6 +111,22 @@ pub(super) fn simulation(run: &Columns) -> Vec<(&'static str, String)> {
             y,
         };
         lines(&axes, &series)
+    };
+    let coordinate = if has(Coordinate::Length.column()) {
+        Coordinate::Length
+    } else {
+        Coordinate::Angle
+    };
+    let (position, place, speed) = match coordinate {
+        Coordinate::Angle => ("Angle of the drive link", "φ [deg]", "ω [rad/s]"),
+        Coordinate::Length => ("Position of the drive link", "s [mm]", "v [m/s]"),
+    };
+    let force = "motor force [N]";
+    let (effort, motor) = if has(force) {
+        ("Motor force", plot("force [N]", &[force]))
+    } else {
+        let torque = plot("torque [N·m]", &["motor torque [N m]"]);
+        ("Motor torque", torque)
     };
     let energies = [
         "kinetic energy [J]",
@@ -121,13 +138,10 @@ pub(super) fn simulation(run: &Columns) -> Vec<(&'static str, String)> {
     vec![
         (
             "Speed of the drive link",
-            plot("ω [rad/s]", &["omega [rad/s]"]),
+            plot(speed, &[coordinate.rates()[0]]),
         ),
-        ("Angle of the drive link", plot("φ [deg]", &["phi [deg]"])),
-        (
-            "Motor torque",
-            plot("torque [N·m]", &["motor torque [N m]"]),
-        ),
+        (position, plot(place, &[coordinate.column()])),
+        (effort, motor),
         ("Energies", plot("energy [J]", &energies)),
         (
             "Energy balance: zero but for the integrator's error",
