@@ -22,14 +22,13 @@ use std::process::{Command, ExitCode};
 use std::{fs, io};
 
 use bench::{Bench, best, once};
-use bytemuck::Zeroable;
 use jred::harmonic::{self, terms};
 use jred::mechanism::{Branch, SliderCrank};
-use jred::table::{Constants, Cubic, Layout, Quadratic, Spline, Spline16, curves};
-use jred::tabulate::{Request, fill, scratch_len, tabulate, words_len};
+use jred::table::{Shape, words_len};
+use jred::tabulate::{Request, fill, scratch_len, tabulate};
 use jred::{
-    Action, Domain, Error, Link, Load, Machine, Model, Phase, Q31, Reducible, Reduction, Scalar,
-    Scale, Table,
+    Action, Cubic, Domain, Error, Format, Link, Load, Machine, Model, Number, Phase, Q31,
+    Quadratic, Reducible, Reduction, Scale, Set, Spline, Spline16, Table, curves,
 };
 
 /// Samples of a batch that is timed, and of one whose instructions are counted.
@@ -38,7 +37,7 @@ const COUNTED: u32 = 10_000;
 /// Cells of the batch's table.
 const CELLS: u32 = 128;
 /// Its curves: inertia and load, constant friction.
-const SET: u8 = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 /// Largest speed and acceleration (rad/s, rad/s²).
 const OMEGA: f64 = 60.0;
 const ALPHA: f64 = 400.0;
@@ -84,7 +83,7 @@ struct Batch<S> {
     torques: Vec<S>,
 }
 
-impl<S: Scalar> Batch<S> {
+impl<S: Number> Batch<S> {
     /// Phases of a turn in order, or one after another far away: 2³²/φ apart, φ the golden ratio.
     fn new(ordered: bool, samples: usize) -> Self {
         let step = if ordered { 4295 } else { 0x9e37_79b9 };
@@ -102,7 +101,7 @@ impl<S: Scalar> Batch<S> {
         }
     }
 
-    fn run<L: Layout>(&mut self, model: &Model<'_, S, SET, L>) {
+    fn run<F: Format<Number = S>>(&mut self, model: &Model<'_, F, SET>) {
         let count = model.torques(
             black_box(&self.phases),
             black_box(&self.omegas),
@@ -113,43 +112,38 @@ impl<S: Scalar> Batch<S> {
     }
 
     /// The shortest time of all samples (s), of many runs.
-    fn time<L: Layout>(&mut self, model: &Model<'_, S, SET, L>) -> f64 {
+    fn time<F: Format<Number = S>>(&mut self, model: &Model<'_, F, SET>) -> f64 {
         let runs = (0..BATCHES).map(|_| once(|| self.run(model)));
         runs.fold(f64::INFINITY, f64::min)
     }
 }
 
-/// Words of a table, and its constants.
-type Filled<W> = (Vec<W>, Constants<W>);
-
 /// The table, filled.
-fn words<S: Scalar, L: Layout>(machine: &impl Reducible) -> Result<Filled<S::Word>, Error> {
+fn words<F: Format>(machine: &impl Reducible) -> Result<(Vec<F::Word>, Shape<F>), Error> {
     let mut scratch = vec![0.0; scratch_len(CELLS, SET)];
-    let mut words = vec![S::Word::zeroed(); words_len::<L>(CELLS, SET)];
-    let constants =
-        fill::<S, L>(machine, SET, CELLS, &Scale::SI, &mut scratch, &mut words)?.constants();
-    Ok((words, constants))
+    let mut words = vec![F::Word::default(); words_len::<F>(CELLS, SET)];
+    let shape = fill::<F>(machine, SET, CELLS, &Scale::SI, &mut scratch, &mut words)?.shape();
+    Ok((words, shape))
 }
 
 /// Runs of a batch: 3 ms each, so that some of them are not interrupted.
 const BATCHES: u32 = 31;
 
 /// Both orders of phases with one number type and layout: a hundred samples.
-fn batch<S: Scalar, L: Layout>(bench: &mut Bench, machine: &impl Reducible) -> Result<(), Error> {
-    let (words, constants) = words::<S, L>(machine)?;
-    let table = Table::with_constants(&words, constants, SET, CELLS, true).map_err(Error::Table)?;
-    let model = Model::<S, SET, L>::for_domain(table, machine.domain(), &Scale::SI)
-        .map_err(Error::Table)?;
+fn batch<F: Format>(bench: &mut Bench, machine: &impl Reducible) -> Result<(), Error> {
+    let (words, shape) = words::<F>(machine)?;
+    let table = Table::<F>::new(&words, shape).map_err(Error::Table)?;
+    let model = Model::<F, SET>::new(table).map_err(Error::Table)?;
     for (order, ordered) in [("ordered", true), ("random", false)] {
-        let name = format!("batch-{}-{}-{order}", S::NAME, L::NAME);
-        let mut counted = Batch::<S>::new(ordered, COUNTED as usize);
+        let name = format!("batch-{}-{}-{order}", <F::Number as Number>::NAME, F::NAME);
+        let mut counted = Batch::<F::Number>::new(ordered, COUNTED as usize);
         let count = bench.count(&name, || counted.run(&model));
         bench.cost_of(
             &name,
             COUNTED / 100,
             count,
             || {
-                let mut batch = Batch::<S>::new(ordered, SAMPLES);
+                let mut batch = Batch::<F::Number>::new(ordered, SAMPLES);
                 batch.time(&model) * 100.0 / SAMPLES as f64
             },
             |time| format!("{:9.2} {:9.0}", time * 1e7, 1e-6 * 100.0 / time),
@@ -160,10 +154,10 @@ fn batch<S: Scalar, L: Layout>(bench: &mut Bench, machine: &impl Reducible) -> R
 
 /// NumPy with the same cubic table and samples.
 fn numpy(bench: &mut Bench, machine: &impl Reducible, peak: f64) -> Result<(), Error> {
-    let (words, constants) = words::<f32, Cubic>(machine)?;
-    let table = Table::with_constants(&words, constants, SET, CELLS, true).map_err(Error::Table)?;
-    let model = Model::<f32, SET, Cubic>::for_domain(table, machine.domain(), &Scale::SI)
-        .map_err(Error::Table)?;
+    let (words, shape) = words::<Cubic<f32>>(machine)?;
+    let table = Table::new(&words, shape).map_err(Error::Table)?;
+    let model = Model::<Cubic<f32>, SET>::new(table).map_err(Error::Table)?;
+    let constants = shape.constants;
     for (order, ordered) in [("ordered", true), ("random", false)] {
         let mut batch = Batch::<f32>::new(ordered, SAMPLES);
         let mut own = batch.time(&model);
@@ -275,7 +269,7 @@ impl<M: Reducible> Reducible for Counted<'_, M> {
 const MOST: u32 = 16_384;
 
 /// The smallest table for an error, as a share of the peak torque.
-fn table<S: Scalar, L: Layout>(
+fn table<F: Format>(
     bench: &mut Bench,
     machine: &impl Reducible,
     peak: f64,
@@ -290,15 +284,19 @@ fn table<S: Scalar, L: Layout>(
         max_cells: MOST,
     };
     let mut scratch = vec![0.0; scratch_len(MOST, set)];
-    let mut words = vec![S::Word::zeroed(); words_len::<L>(MOST, set)];
+    let mut words = vec![F::Word::default(); words_len::<F>(MOST, set)];
     let counted = Counted(machine, Cell::new(0));
-    let found = tabulate::<S, L>(&counted, set, &request, scale, &mut scratch, &mut words)?;
+    let found = tabulate::<F>(&counted, set, &request, scale, &mut scratch, &mut words)?;
     if bench.counts() {
         return Ok(());
     }
-    let time = best(|| tabulate::<S, L>(machine, set, &request, scale, &mut scratch, &mut words));
+    let time = best(|| tabulate::<F>(machine, set, &request, scale, &mut scratch, &mut words));
     bench.judge(
-        &format!("table-{}-{}-{share:e}", S::NAME, L::NAME),
+        &format!(
+            "table-{}-{}-{share:e}",
+            <F::Number as Number>::NAME,
+            F::NAME
+        ),
         u64::from(counted.1.get()),
         &format!("{:9.3} {:9} cells", time * 1e3, found.cells),
     );
@@ -313,8 +311,8 @@ fn harmonics<T: harmonic::Circular>(
     peak: f64,
     share: f64,
 ) -> Result<(), Error> {
-    const SET: u8 = curves::LOAD;
-    const TERMS: u8 = terms::SYMMETRIC;
+    const SET: Set = curves::LOAD;
+    const TERMS: Set = terms::SYMMETRIC;
     const MOST: u32 = 16;
     let request = harmonic::Request {
         torque_error: share * peak,
@@ -342,10 +340,10 @@ fn run(bench: &mut Bench) -> Result<(), Error> {
     println!(
         "torques                              ns a sample, million/s, instructions a hundred samples"
     );
-    batch::<f32, Cubic>(bench, &machine)?;
-    batch::<f32, Spline>(bench, &machine)?;
-    batch::<f64, Cubic>(bench, &machine)?;
-    batch::<f64, Spline>(bench, &machine)?;
+    batch::<Cubic<f32>>(bench, &machine)?;
+    batch::<Spline<f32>>(bench, &machine)?;
+    batch::<Cubic<f64>>(bench, &machine)?;
+    batch::<Spline<f64>>(bench, &machine)?;
     if !bench.counts() {
         println!();
         numpy(bench, &machine, peak(&machine)?)?;
@@ -357,13 +355,13 @@ fn run(bench: &mut Bench) -> Result<(), Error> {
     println!(
         "\ntable for an error                   ms, size, reductions; harmonics: instructions"
     );
-    table::<Q31, Spline16>(bench, &machine, peak, 1e-3, &covering)?;
-    table::<Q31, Quadratic>(bench, &machine, peak, 1e-4, &covering)?;
-    table::<Q31, Spline>(bench, &machine, peak, 1e-6, &covering)?;
-    table::<f32, Cubic>(bench, &machine, peak, 1e-6, &Scale::SI)?;
-    table::<f64, Cubic>(bench, &machine, peak, 1e-6, &Scale::SI)?;
-    table::<f64, Spline>(bench, &machine, peak, 1e-6, &Scale::SI)?;
-    table::<f64, Spline>(bench, &machine, peak, 1e-9, &Scale::SI)?;
+    table::<Spline16>(bench, &machine, peak, 1e-3, &covering)?;
+    table::<Quadratic<Q31>>(bench, &machine, peak, 1e-4, &covering)?;
+    table::<Spline<Q31>>(bench, &machine, peak, 1e-6, &covering)?;
+    table::<Cubic<f32>>(bench, &machine, peak, 1e-6, &Scale::SI)?;
+    table::<Cubic<f64>>(bench, &machine, peak, 1e-6, &Scale::SI)?;
+    table::<Spline<f64>>(bench, &machine, peak, 1e-6, &Scale::SI)?;
+    table::<Spline<f64>>(bench, &machine, peak, 1e-9, &Scale::SI)?;
     harmonics::<f32>(bench, "f32", &machine, peak, 1e-6)?;
     harmonics::<f64>(bench, "f64", &machine, peak, 1e-6)?;
     harmonics::<f64>(bench, "f64", &machine, peak, 1e-9)

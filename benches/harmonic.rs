@@ -8,11 +8,10 @@ use jred::harmonic::{
     HarmonicModel, Identification, Request, Sample, fit, scratch_len, terms, words_len,
 };
 use jred::mechanism::{Branch, SliderCrank};
-use jred::table::curves;
-use jred::{Error, Link, Machine, Phase};
+use jred::{Error, Link, Machine, Phase, Set, curves};
 
-const SET: u8 = curves::LOAD;
-const TERMS: u8 = terms::SYMMETRIC;
+const SET: Set = curves::LOAD;
+const TERMS: Set = terms::SYMMETRIC;
 /// J and load, eleven harmonics.
 const WORDS: usize = words_len(11, SET, TERMS);
 

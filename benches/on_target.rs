@@ -34,9 +34,8 @@ mod target {
     use cortex_m_rt::entry;
     use cortex_m_semihosting::{debug, hprintln};
     use jred::duty::{Curve, Limits, Meter, Window};
-    use jred::table::{Spline, curves};
     use jred::tabulate::{fill, scratch_len};
-    use jred::{Error, Machine, Mechanism, Reducible, Scale};
+    use jred::{Error, Machine, Mechanism, Reducible, Scale, Spline, curves};
     use panic_semihosting as _;
 
     use crate::ceilings::judge;
@@ -139,11 +138,11 @@ mod target {
             count / CELLS
         };
         let cell = filled(&|scratch, words| {
-            fill::<f32, Spline>(&four_bar, curves::LOAD, CELLS, &Scale::SI, scratch, words).is_ok()
+            fill::<Spline<f32>>(&four_bar, curves::LOAD, CELLS, &Scale::SI, scratch, words).is_ok()
         });
         report("four-bar-fill-cell", cell);
         let cell = filled(&|scratch, words| {
-            fill::<f32, Spline>(&linkage, curves::LOAD, CELLS, &Scale::SI, scratch, words).is_ok()
+            fill::<Spline<f32>>(&linkage, curves::LOAD, CELLS, &Scale::SI, scratch, words).is_ok()
         });
         report("linkage-fill-cell", cell);
 

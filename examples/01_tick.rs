@@ -10,12 +10,11 @@ mod support;
 
 use core::num::NonZeroU32;
 
-use jred::table::curves;
-use jred::{Image, Model, Phase, include_image};
+use jred::{Image, Model, Phase, Set, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: u8 = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 const ENCODER: NonZeroU32 = NonZeroU32::new(4096).unwrap();
 
@@ -23,7 +22,7 @@ fn run() -> Result<(), Failure> {
     // Once, at start-up. The image stays where it is, in flash; nothing is copied. Any fault of it shows here; after this line
     // a tick can neither fail nor panic.
     let image = Image::from_bytes(include_image!("data/press_f32.jred"))?;
-    let press: Model<'_, f32, PRESS> = image.model()?;
+    let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
 
     let validity = image.validity();
     println!(

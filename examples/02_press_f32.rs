@@ -13,12 +13,11 @@ mod support;
 use core::f32::consts::{PI, TAU};
 
 use jred::motion::{Law, Move};
-use jred::table::curves;
-use jred::{Image, Model, include_image};
+use jred::{Image, Model, Set, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: u8 = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// Length of a tick (s).
 const TICK: f32 = 0.001;
@@ -29,7 +28,7 @@ const BOUND: f32 = 0.001;
 
 fn run() -> Result<(), Failure> {
     let image = Image::from_bytes(include_image!("data/press_f32.jred"))?;
-    let press: Model<'_, f32, PRESS> = image.model()?;
+    let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
     // From top dead centre (180 deg) to top dead centre; before and after, the crank is at rest. The 3-4-5 polynomial
     // needs no sine, and in f32 no double precision.
     let stroke =

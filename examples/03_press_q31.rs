@@ -13,12 +13,11 @@ mod support;
 use core::f32::consts::{PI, TAU};
 
 use jred::motion::{Law, Move};
-use jred::table::curves;
-use jred::{Image, Model, Q31, include_image};
+use jred::{Image, Model, Q31, Set, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: u8 = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// Length of a tick (s).
 const TICK: f32 = 0.001;
@@ -32,7 +31,7 @@ const DIFFERENCE: f32 = 0.001;
 
 fn run() -> Result<(), Failure> {
     let image = Image::from_bytes(include_image!("data/press_q31.jred"))?;
-    let press: Model<'_, Q31, PRESS> = image.model()?;
+    let press: Model<'_, Spline<Q31>, PRESS> = image.model()?;
     let scale = image.scale();
     println!(
         "1.0 is {} mN m, {} mrad/s, {} mrad/s2",
@@ -42,7 +41,7 @@ fn run() -> Result<(), Failure> {
     );
     // To compare with: firmware carries one of the two images.
     let float = Image::from_bytes(include_image!("data/press_f32.jred"))?;
-    let float: Model<'_, f32, PRESS> = float.model()?;
+    let float: Model<'_, Spline<f32>, PRESS> = float.model()?;
     let stroke =
         Move::new(Law::Polynomial345, PI, TAU, 0.4).map_err(|_| "the move is not valid")?;
 

@@ -18,9 +18,12 @@
 mod support;
 
 use jred::mechanism::{Assembly, FourBar, Linkage, Pair, Pose, Side};
-use jred::table::curves;
+use jred::table::words_len;
 use jred::tabulate::{Request, fill, measure, scratch_len};
-use jred::{Domain, Error, Joint, Link, Machine, Marker, Mechanism, Model, Phase, Scale, Table};
+use jred::{
+    Domain, Error, Joint, Link, Machine, Marker, Mechanism, Model, Phase, Scale, Spline, Table,
+    curves,
+};
 use support::{Failure, milli, println, program};
 
 /// Crank, coupler and arm from pin to pin (m).
@@ -37,7 +40,7 @@ const GRAVITY: [f64; 2] = [0.0, -9.806_65];
 /// Cells of the table: enough for the design below, with the payload; `check` shows it.
 const CELLS: u32 = 40;
 /// Words of such a table of inertia and load.
-const WORDS: usize = 2 * (CELLS as usize + 3);
+const WORDS: usize = words_len::<Spline<f32>>(CELLS, curves::LOAD);
 /// What it was designed for.
 const DESIGN: Request = Request {
     torque_error: 0.02,
@@ -92,7 +95,10 @@ fn assemble(links: &[Link; 3]) -> Result<Assembly<3, 4, 32>, Error> {
 }
 
 /// Fills a table from a mechanism.
-fn tabulate<'w>(mechanism: &impl Mechanism, words: &'w mut Words) -> Result<Table<'w, f32>, Error> {
+fn tabulate<'w>(
+    mechanism: &impl Mechanism,
+    words: &'w mut Words,
+) -> Result<Table<'w, Spline<f32>>, Error> {
     let machine = Machine::new(mechanism).with_gravity(GRAVITY)?;
     let mut scratch = [0.0; scratch_len(CELLS, curves::LOAD)];
     fill(
@@ -106,10 +112,10 @@ fn tabulate<'w>(mechanism: &impl Mechanism, words: &'w mut Words) -> Result<Tabl
 }
 
 /// Checks a table against the closed form, and prints how exact it is.
-fn check(table: &Table<'_, f32>, links: [Link; 3]) -> Result<(), Failure> {
+fn check(table: &Table<'_, Spline<f32>>, links: [Link; 3]) -> Result<(), Failure> {
     let four_bar = FourBar::new(LENGTHS, PIVOT, Side::Left, links)?;
     let machine = Machine::new(&four_bar).with_gravity(GRAVITY)?;
-    let found = measure(&machine, table, &DESIGN, &Scale::SI)?;
+    let found = measure(&machine, table, &DESIGN)?;
     let sum = table.words().iter().fold(0u32, |sum, word| {
         (sum ^ word.to_bits()).wrapping_mul(16_777_619)
     });
@@ -136,13 +142,14 @@ fn run() -> Result<(), Failure> {
     println!("with {} g", milli(PAYLOAD[0] as f32));
     check(&spare, [crank, coupler, arm])?;
 
-    let model = |table| Model::for_domain(table, Domain::Turn, &Scale::SI).map_err(Error::Table);
+    let model = |table| Model::new(table).map_err(Error::Table);
     let (before, after) = (model(in_use)?, model(spare)?);
     println!("   phase   drive torque for 10 rad/s, 50 rad/s2: empty, loaded");
     for eighth in 0..8u32 {
         let phase = Phase::from_bits(eighth << 29);
-        let torque =
-            |model: &Model<'_, f32, { curves::LOAD }>| milli(model.torque(phase, 10.0, 50.0));
+        let torque = |model: &Model<'_, Spline<f32>, { curves::LOAD }>| {
+            milli(model.torque(phase, 10.0, 50.0))
+        };
         println!(
             "{:08x} {:12} {:12} mN m",
             phase.to_bits(),

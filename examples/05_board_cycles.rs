@@ -21,14 +21,13 @@ mod support;
 use core::hint::black_box;
 
 use cycles::Counter;
-use jred::table::curves;
-use jred::{Image, Model, Phase, Q31, Scalar, include_image};
+use jred::{Image, Model, Phase, Q31, Scalar, Set, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: u8 = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
-type Press<S> = Model<'static, S, PRESS>;
+type Press<S> = Model<'static, Spline<S>, PRESS>;
 
 /// Calls of a loop, at phases all round the turn.
 const CALLS: u32 = 64;

@@ -13,12 +13,11 @@ mod support;
 
 use jred::duty::{Curve, Limits, Meter, Verdict, Window};
 use jred::motion::{Law, Move};
-use jred::table::curves;
-use jred::{Image, Model, Phase, include_image};
+use jred::{Image, Model, Phase, Set, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: u8 = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// Time of a tick (s).
 const STEP: f32 = 0.5e-3;
@@ -44,7 +43,7 @@ fn word(verdict: Verdict) -> &'static str {
 
 fn run() -> Result<(), Failure> {
     let image = Image::from_bytes(include_image!("data/press_f32.jred"))?;
-    let press: Model<'_, f32, PRESS> = image.model()?;
+    let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
     let turn = Move::new(
         Law::Polynomial345,
         0.0,

@@ -19,11 +19,18 @@ use core::num::NonZeroU32;
 
 use jred::duty::{Curve, Limits, Meter, Window};
 use jred::motion::{Law, Move};
-use jred::table::{Cubic, Layout, Quadratic, Spline, Spline16, curves};
-use jred::{Image, ImageError, Model, Outcome, Phase, Pieces, Q15, Q31, Scalar, include_image};
+use jred::{
+    Cubic, Format, Image, ImageError, Model, Outcome, Phase, Pieces, Q31, Quadratic, Rows16, Set,
+    Spline, Spline16, curves, include_image,
+};
 
 /// The curves of the press, as `jred export` prints them.
-const PRESS: u8 = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+
+/// Constant friction.
+const CONSTANTS: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+/// Every curve.
+const EVERY: Set = curves::ALL | curves::RECIPROCAL;
 
 /// Everything that firmware calls, with arguments unknown to the optimiser.
 fn calls() -> Result<(), ImageError> {
@@ -31,18 +38,19 @@ fn calls() -> Result<(), ImageError> {
         include_image!("data/press_f32.jred"),
         include_image!("data/press_q31.jred"),
     );
-    every_tick::<f32, PRESS, Spline>(float)?;
-    every_tick::<Q31, PRESS, Spline>(fixed)?;
+    every_tick::<Spline<f32>, PRESS>(float)?;
+    every_tick::<Spline<Q31>, PRESS>(fixed)?;
     // Refused, because the images have other layouts and sets; the linker does not know.
     let other = [
-        every_tick::<f32, { curves::ALL }, Cubic>(float),
-        every_tick::<f32, { curves::EVERY & !curves::RECIPROCAL }, Quadratic>(float),
-        every_tick::<Q31, { curves::EVERY }, Spline>(fixed),
-        every_tick::<Q31, { curves::EVERY }, Cubic>(fixed),
-        every_tick::<Q31, { curves::LOAD | curves::RECIPROCAL }, Quadratic>(fixed),
-        every_tick::<Q31, { curves::EVERY }, Spline16>(fixed),
-        every_short_tick::<{ curves::ALL }>(fixed),
-        every_short_tick::<{ curves::EVERY }>(fixed),
+        every_tick::<Cubic<f32>, { curves::ALL }>(float),
+        every_tick::<Quadratic<f32>, CONSTANTS>(float),
+        every_tick::<Spline<Q31>, EVERY>(fixed),
+        every_tick::<Cubic<Q31>, EVERY>(fixed),
+        every_tick::<Quadratic<Q31>, { curves::LOAD | curves::RECIPROCAL }>(fixed),
+        every_tick::<Spline16, EVERY>(fixed),
+        every_tick::<Rows16, { curves::ALL }>(fixed),
+        every_tick::<Rows16, EVERY>(fixed),
+        every_tick::<Rows16, { CONSTANTS | curves::RECIPROCAL }>(fixed),
     ];
     let _ = black_box(other);
 
@@ -74,18 +82,18 @@ fn calls() -> Result<(), ImageError> {
     Ok(())
 }
 
-fn every_tick<S: Scalar, const SET: u8, L: Layout>(bytes: &'static [u8]) -> Result<(), ImageError> {
+fn every_tick<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), ImageError> {
     let image = Image::from_bytes(black_box(bytes))?;
-    let model: Model<'_, S, SET, L> = image.model()?;
+    let model: Model<'_, F, SET> = image.model()?;
     let scale = image.scale();
     let phase = image.domain().phase(black_box(1.0));
-    let omega: Outcome<S> = scale.omega(black_box(10.0));
-    let alpha: Outcome<S> = scale.alpha(black_box(50.0));
-    let limit: Outcome<S> = scale.to_torque(black_box(100.0));
+    let omega: Outcome<F::Number> = scale.omega(black_box(10.0));
+    let alpha: Outcome<F::Number> = scale.alpha(black_box(50.0));
+    let limit: Outcome<F::Number> = scale.to_torque(black_box(100.0));
     let torque = model.torque(phase, omega.value, alpha.value);
     let back = model.acceleration(phase, omega.value, limit.value);
     let range = model.acceleration_range(phase, omega.value, torque, limit.value);
-    let mut torques = black_box([S::default(); 3]);
+    let mut torques = black_box([F::Number::default(); 3]);
     let done = model.torques(
         black_box(&[phase; 3]),
         black_box(&[omega.value; 3]),
@@ -104,20 +112,6 @@ fn every_tick<S: Scalar, const SET: u8, L: Layout>(bytes: &'static [u8]) -> Resu
         black_box(pieces.torque(phase, omega.value, alpha.value));
         black_box(pieces.acceleration(phase, omega.value, torque));
     }
-    Ok(())
-}
-
-fn every_short_tick<const SET: u8>(bytes: &'static [u8]) -> Result<(), ImageError> {
-    let image = Image::from_bytes(black_box(bytes))?;
-    let model = image.short_model::<SET>()?;
-    let scale = image.scale();
-    let phase = image.domain().phase(black_box(1.0));
-    let omega: Outcome<Q15> = scale.omega(black_box(10.0));
-    let alpha: Outcome<Q15> = scale.alpha(black_box(50.0));
-    let torque = model.torque(phase, omega.value, alpha.value);
-    let back = model.acceleration(phase, omega.value, torque);
-    let range = model.acceleration_range(phase, omega.value, Q15::MIN, Q15::MAX);
-    black_box((scale.torque_si(torque), scale.alpha_si(back.value), range));
     Ok(())
 }
 

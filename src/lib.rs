@@ -53,9 +53,9 @@
 //!
 //! ```
 //! use jred::mechanism::{Branch, SliderCrank};
-//! use jred::table::{Spline, curves};
+//! use jred::table::words_len;
 //! use jred::tabulate::{Request, fill, scratch_len, tabulate};
-//! use jred::{Domain, Error, Link, Machine, Model, Phase, Reducible, Scale};
+//! use jred::{Error, Link, Machine, Model, Phase, Reducible, Scale, Spline, curves};
 //!
 //! fn main() -> Result<(), Error> {
 //!     // Crank 50 mm, rod 200 mm; masses in kg, inertias about the centres of mass in kg·m².
@@ -69,14 +69,14 @@
 //!     const MOST: u32 = 128;
 //!     let request = Request { torque_error: 0.01, omega: 60.0, alpha: 400.0, max_cells: MOST };
 //!     let mut scratch = [0.0; scratch_len(MOST, curves::LOAD)];
-//!     let mut words = [0.0f32; 2 * (MOST as usize + 3)];
-//!     let found = tabulate::<f32, Spline>(&machine, curves::LOAD, &request, &Scale::SI, &mut scratch, &mut words)?;
+//!     let mut words = [0.0; words_len::<Spline<f32>>(MOST, curves::LOAD)];
+//!     let found = tabulate::<Spline<f32>>(&machine, curves::LOAD, &request, &Scale::SI, &mut scratch, &mut words)?;
 //!     assert!(found.torque_error <= 0.01);
 //!
 //!     // The tick: torque for a motion, and back.
 //!     let set = curves::LOAD;
-//!     let table = fill::<f32, Spline>(&machine, set, found.cells, &found.scale, &mut scratch, &mut words)?;
-//!     let model = Model::<_, { curves::LOAD }>::for_domain(table, machine.domain(), &found.scale).map_err(Error::Table)?;
+//!     let table = fill::<Spline<f32>>(&machine, set, found.cells, &found.scale, &mut scratch, &mut words)?;
+//!     let model = Model::<_, { curves::LOAD }>::new(table).map_err(Error::Table)?;
 //!     let phase = Phase::from_radians(0.5);
 //!     let torque = model.torque(phase, 40.0, 200.0);
 //!     let alpha = model.acceleration(phase, 40.0, torque).value;
@@ -85,7 +85,6 @@
 //!     // Against the exact reduction.
 //!     let exact = machine.reduction(0.5)?.torque(40.0, 200.0).total();
 //!     assert!((f64::from(torque) - exact).abs() < 0.01);
-//!     # assert_eq!(machine.domain(), Domain::Turn);
 //!     Ok(())
 //! }
 //! ```
@@ -95,8 +94,8 @@
 //! # Numbers
 //!
 //! Mechanisms, reduction and tabulation run in `f64`: once, on the host or in firmware after a change of payload.
-//! Ticks run in the table's type: `f32` (SI units, no double precision anywhere), [`Q31`] (fixed point in per-unit, see
-//! [`Scale`]; integers only), or `f64`. The same code gives the same bits on every processor.
+//! Ticks run in the numbers of the table's [`Format`]: `f32` (SI units, no double precision anywhere), [`Q31`] and [`Q15`] (fixed
+//! point in per-unit, see [`Scale`]; integers only), or `f64`. The same code gives the same bits on every processor.
 //!
 //! # Features
 //!
@@ -107,7 +106,7 @@
 
 // What a tick reads takes elements by `get`, never by an index that could be out of bounds.
 #[deny(clippy::indexing_slicing)]
-pub mod curve;
+mod curve;
 mod error;
 pub mod friction;
 mod machine;
@@ -128,15 +127,32 @@ pub use machine::{
 pub use math::Real;
 pub use mechanism::{cam, synthesis};
 
-// Numbers, curves and the tick.
-pub use curve as table;
-pub use curve::{Table, TableError};
+// Numbers.
 pub use number::{Domain, Number, Outcome, Phase, Q15, Q31, Scalar, Scale, Transfer};
-pub use tick::{
-    AccelerationRange, Aligned, HEADER_WORDS, Image, ImageError, Model, Part, Pieces, Usage,
-    VERSION, Validity,
+
+// Tables and the tick.
+pub use curve::{
+    Cubic, Format, Quadratic, Rows16, Set, Spline, Spline16, Table, TableError, Usage, curves,
 };
-pub use tick::{duty, encode, harmonic, image_words, short};
+pub use tick::{
+    AccelerationRange, Aligned, AnyModel, Image, ImageError, Model, Part, Pieces, Validity, duty,
+    harmonic,
+};
+
+/// What tables are made of, for those who make or keep their own.
+pub mod table {
+    pub use crate::curve::{
+        Constants, CubicSpline, CurveValues, MAX_CELLS, MIN_CELLS, RowConstants, Shape,
+        control_points, fit_bounded, fit_periodic, fit_quadratic_bounded, fit_quadratic_periodic,
+        words_len,
+    };
+    pub use crate::number::Role;
+}
+
+/// Table images: a machine's curves as the tool exports them and firmware uses them, in place from flash.
+pub mod image {
+    pub use crate::tick::{HEADER_WORDS, VERSION, encode, image_len};
+}
 
 mod sealed {
     /// Keeps the number traits closed: their contracts are tested type by type.
@@ -145,10 +161,11 @@ mod sealed {
     impl Sealed for f64 {}
     impl Sealed for crate::Q15 {}
     impl Sealed for crate::Q31 {}
-    impl Sealed for crate::curve::Spline {}
-    impl Sealed for crate::curve::Spline16 {}
-    impl Sealed for crate::curve::Cubic {}
-    impl Sealed for crate::curve::Quadratic {}
+    impl<S: crate::Scalar> Sealed for crate::Spline<S> {}
+    impl Sealed for crate::Spline16 {}
+    impl<S: crate::Scalar> Sealed for crate::Cubic<S> {}
+    impl<S: crate::Scalar> Sealed for crate::Quadratic<S> {}
+    impl Sealed for crate::Rows16 {}
 }
 
 /// The README's program is compiled and run with the documentation tests.

@@ -22,6 +22,8 @@ pub trait Real:
     fn from_f64(value: f64) -> Self;
     /// The same number in double precision.
     fn to_f64(self) -> f64;
+    /// The nearest number in single precision.
+    fn to_f32(self) -> f32;
     /// The nearest value to a count, in single precision without double precision inside.
     fn from_count(count: u32) -> Self;
     /// Neither NaN nor infinite.
@@ -39,6 +41,9 @@ pub trait Real:
 
 impl Real for f32 {
     const EPSILON: Self = Self::EPSILON;
+    fn to_f32(self) -> f32 {
+        self
+    }
     fn to_f64(self) -> f64 {
         f64::from(self)
     }
@@ -74,6 +79,9 @@ impl Real for f32 {
 
 impl Real for f64 {
     const EPSILON: Self = Self::EPSILON;
+    fn to_f32(self) -> f32 {
+        self as f32
+    }
     fn to_f64(self) -> f64 {
         self
     }

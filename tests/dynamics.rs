@@ -6,8 +6,10 @@ use crate::support::machines::{Spec, spec};
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, config, derivative, largest, rk4};
 use jred::mechanism::{Mesh, SliderCrank, Stage, Train};
-use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
-use jred::{Domain, Error, Machine, Mechanism, Phase, Reducible, Reduction, Scale, Table};
+use jred::{
+    Cubic, Domain, Error, Format, Machine, Mechanism, Phase, Quadratic, Reducible, Reduction,
+    Scale, Set, Spline, Table, curves,
+};
 use proptest::prelude::*;
 
 proptest! {
@@ -90,8 +92,8 @@ const CELLS: u32 = 32;
 
 /// Largest share by which ½·J·ω² + U of the table leaves its start over four turns without drive torque, with
 /// `per_cell` Runge-Kutta steps a cell. dω/dφ = α/ω over steps of a power of two of a turn: phases are exact.
-fn energy_drift<L: Layout>(
-    table: &Table<'_, f64, L>,
+fn energy_drift<L: Format<Number = f64>>(
+    table: &Table<'_, L>,
     omega: f64,
     per_cell: u32,
     acceleration: impl Fn(Phase, f64) -> f64,
@@ -117,8 +119,8 @@ fn energy_drift<L: Layout>(
     drift
 }
 
-fn drifts<const CURVES: u8, L: Layout>(machine: &impl Reducible, omega: f64) {
-    let rows = Rows::<f64, L>::of(machine, CURVES, CELLS, &Scale::SI).unwrap();
+fn drifts<const CURVES: Set, L: Format<Number = f64>>(machine: &impl Reducible, omega: f64) {
+    let rows = Rows::<L>::of(machine, CURVES, CELLS, &Scale::SI).unwrap();
     let model = rows.model::<CURVES>(&Scale::SI);
     let forward = |phase, w| model.acceleration(phase, w, 0.0).value;
     let at = |per_cell| energy_drift(model.table(), omega, per_cell, forward);
@@ -164,16 +166,16 @@ fn press() -> Spec {
 
 #[test]
 fn energy_is_conserved_through_the_table() {
-    drifts::<{ curves::INERTIA }, Spline>(&press().bare(), 10.0);
-    drifts::<{ curves::INERTIA }, Cubic>(&press().bare(), 10.0);
-    drifts::<{ curves::INERTIA }, Quadratic>(&press().bare(), 10.0);
+    drifts::<{ curves::INERTIA }, Spline<f64>>(&press().bare(), 10.0);
+    drifts::<{ curves::INERTIA }, Cubic<f64>>(&press().bare(), 10.0);
+    drifts::<{ curves::INERTIA }, Quadratic<f64>>(&press().bare(), 10.0);
 }
 
 #[test]
 fn energy_is_conserved_through_the_table_with_gravity() {
-    drifts::<{ curves::LOAD }, Spline>(&press().heavy(), 60.0);
-    drifts::<{ curves::LOAD }, Cubic>(&press().heavy(), 60.0);
-    drifts::<{ curves::LOAD }, Quadratic>(&press().heavy(), 60.0);
+    drifts::<{ curves::LOAD }, Spline<f64>>(&press().heavy(), 60.0);
+    drifts::<{ curves::LOAD }, Cubic<f64>>(&press().heavy(), 60.0);
+    drifts::<{ curves::LOAD }, Quadratic<f64>>(&press().heavy(), 60.0);
 }
 
 /// A slider-crank reduced to the way of its slider, over a stroke between its dead centres: (7.10).
@@ -240,7 +242,7 @@ fn sliding_drive_link_is_the_same_machine() {
         phi: [0.6, 2.4],
     };
     let domain = sliding.domain();
-    let rows = Rows::<f64>::of(&sliding, curves::ALL, 128, &Scale::SI).unwrap();
+    let rows = Rows::<Spline<f64>>::of(&sliding, curves::ALL, 128, &Scale::SI).unwrap();
     let model = rows.model::<{ curves::ALL }>(&Scale::SI);
     let mut worst = 0.0;
     for k in 0..200 {

@@ -7,11 +7,11 @@ use crate::support::rows::Rows;
 use crate::support::{assert_near, budget};
 use jred::mechanism::{Branch, Geneva, Mesh, RackAndPinion, SliderCrank, Stage, Train};
 use jred::motion::{Law, Move};
-use jred::table::{CubicSpline, MAX_CELLS, Spline, curves, fit_bounded, fit_periodic};
+use jred::table::{CubicSpline, MAX_CELLS, fit_bounded, fit_periodic};
 use jred::tabulate::{Request, fill, tabulate};
 use jred::{
-    Action, Domain, Element, Error, Link, Load, Machine, Marker, Mechanism, Q31, Reducible, Scalar,
-    Scale, Window,
+    Action, Domain, Element, Error, Format, Link, Load, Machine, Marker, Mechanism, Q31, Reducible,
+    Scale, Set, Spline, Window, curves,
 };
 
 /// The error, after checking that its text holds every part.
@@ -34,13 +34,13 @@ fn slider_crank(r: f64, l: f64, e: f64) -> Result<SliderCrank, Error> {
 }
 
 /// The table of a machine, or why there is none.
-fn rows<S: Scalar>(
+fn rows<S: jred::Scalar>(
     machine: &impl Reducible,
-    set: u8,
+    set: Set,
     cells: u32,
     scale: &Scale,
-) -> Result<Vec<S::Word>, Error> {
-    Rows::<S>::of(machine, set, cells, scale).map(|rows| rows.words)
+) -> Result<Vec<<Spline<S> as Format>::Word>, Error> {
+    Rows::<Spline<S>>::of(machine, set, cells, scale).map(|rows| rows.words)
 }
 
 fn machine() -> Machine<SliderCrank> {
@@ -323,7 +323,7 @@ fn tables_that_cannot_be_made_say_why() {
     assert!(matches!(error, Error::Table(_)));
     let mut rows = [0.0f32; 19];
     let error = says(
-        fill::<f32, Spline>(&wave, 0, 16, &Scale::SI, &mut [0.0; 37], &mut rows),
+        fill::<Spline<f32>>(&wave, 0, 16, &Scale::SI, &mut [0.0; 37], &mut rows),
         &["holds 37", "38"],
     );
     assert_eq!(
@@ -334,7 +334,7 @@ fn tables_that_cannot_be_made_say_why() {
         }
     );
     says(
-        fill::<f32, Spline>(&wave, 0, 16, &Scale::SI, &mut [0.0; 38], &mut rows[..18]),
+        fill::<Spline<f32>>(&wave, 0, 16, &Scale::SI, &mut [0.0; 38], &mut rows[..18]),
         &["holds 18", "19"],
     );
     let request = Request {
@@ -345,7 +345,7 @@ fn tables_that_cannot_be_made_say_why() {
     };
     let parts = ["1e-9", "16 cells reach", "allow a larger error"];
     let error = says(
-        tabulate::<f32, Spline>(&wave, 0, &request, &Scale::SI, &mut [0.0; 38], &mut rows),
+        tabulate::<Spline<f32>>(&wave, 0, &request, &Scale::SI, &mut [0.0; 38], &mut rows),
         &parts,
     );
     let Error::TorqueErrorNotReached { reached, .. } = error else {
@@ -360,7 +360,7 @@ fn tables_that_cannot_be_made_say_why() {
             max_cells: 16,
         };
         let refused =
-            tabulate::<f32, Spline>(&wave, 0, &bad, &Scale::SI, &mut [0.0; 38], &mut rows);
+            tabulate::<Spline<f32>>(&wave, 0, &bad, &Scale::SI, &mut [0.0; 38], &mut rows);
         says(refused, &["greater than zero"]);
     }
     says(CubicSpline::new([0.0; 6]), &["holds 6", "7"]);

@@ -2,23 +2,26 @@
 
 use crate::support::budget::Q31_UNIT;
 use crate::support::machines::{Wave, spec};
-use crate::support::rows::{Rows, zero};
+use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, largest, samples};
-use jred::table::{Cubic, Layout, MIN_CELLS, Quadratic, Spline, Table, curves};
-use jred::tabulate::{Request, Tabulated, measure, scratch_len, tabulate, words_len};
-use jred::{Phase, Q31, Reducible, Scalar, Scale};
+use jred::table::MIN_CELLS;
+use jred::table::words_len;
+use jred::tabulate::{Request, Tabulated, measure, scratch_len, tabulate};
+use jred::{
+    Cubic, Format, Number, Phase, Q31, Quadratic, Reducible, Scale, Set, Spline, Table, curves,
+};
 use proptest::prelude::any;
 
-const ALL: u8 = curves::ALL;
+const ALL: Set = curves::ALL;
 
-fn table_of<S: Scalar, L: Layout>(
+fn table_of<F: Format>(
     machine: &impl Reducible,
     request: &Request,
     scale: &Scale,
-) -> (Tabulated, Rows<S, L>) {
+) -> (Tabulated, Rows<F>) {
     let mut scratch = vec![0.0; scratch_len(request.max_cells, ALL)];
-    let mut words = vec![zero::<S>(); words_len::<L>(request.max_cells, ALL)];
-    let found = tabulate::<S, L>(machine, ALL, request, scale, &mut scratch, &mut words).unwrap();
+    let mut words = vec![F::Word::default(); words_len::<F>(request.max_cells, ALL)];
+    let found = tabulate::<F>(machine, ALL, request, scale, &mut scratch, &mut words).unwrap();
     let rows = Rows::of(machine, ALL, found.cells, &found.scale).unwrap();
     words.truncate(rows.words.len());
     assert_eq!(words, rows.words);
@@ -26,7 +29,7 @@ fn table_of<S: Scalar, L: Layout>(
 }
 
 /// Ticks of random machines against the exact reduction: the table's stated error and the arithmetic's rounding.
-fn ticks_keep_the_stated_error<S: Scalar, L: Layout>(seed: u64, rounding: f64) {
+fn ticks_keep_the_stated_error<F: Format>(seed: u64, rounding: f64) {
     let (mut worst, mut square, mut sum, mut count) = (0.0, 0.0, 0.0, 0.0);
     let states = samples(300, seed + 1, &(any::<u32>(), -1.0..1.0, -1.0..1.0));
     for spec in samples(12, seed, &spec()) {
@@ -40,15 +43,15 @@ fn ticks_keep_the_stated_error<S: Scalar, L: Layout>(seed: u64, rounding: f64) {
             alpha: top,
             max_cells: 512,
         };
-        let (found, rows) = table_of::<S, L>(&machine, &request, &scale);
+        let (found, rows) = table_of::<F>(&machine, &request, &scale);
         let scale = found.scale;
         let base = f64::from(scale.torque());
         let model = rows.model::<ALL>(&scale);
         for (bits, w, a) in &states {
             let phase = Phase::from_bits(*bits);
             let (omega, alpha) = (
-                scale.omega::<S>((top_speed * w) as f32).value,
-                scale.alpha::<S>((0.9 * top * a) as f32).value,
+                scale.omega::<F::Number>((top_speed * w) as f32).value,
+                scale.alpha::<F::Number>((0.9 * top * a) as f32).value,
             );
             let exact = machine.reduction(phase.radians()).unwrap();
             let terms = exact.torque(
@@ -62,7 +65,7 @@ fn ticks_keep_the_stated_error<S: Scalar, L: Layout>(seed: u64, rounding: f64) {
                 + rounding
                 + budget::FACTOR_ROUNDING * size;
             assert_near("torque", torque, terms.total() / base, allowed);
-            let drive = scale.to_torque::<S>(terms.total() as f32).value;
+            let drive = scale.to_torque::<F::Number>(terms.total() as f32).value;
             let expected = exact.acceleration(
                 omega.to_f64() * f64::from(scale.speed()),
                 drive.to_f64() * base,
@@ -83,8 +86,8 @@ fn ticks_keep_the_stated_error<S: Scalar, L: Layout>(seed: u64, rounding: f64) {
     let (rms, bias) = (f64::sqrt(square / count), sum / count);
     println!(
         "{} {}: error over stated error: largest {worst:.3}, RMS {rms:.3}, bias {bias:.1e}",
-        S::NAME,
-        L::NAME
+        <F::Number as Number>::NAME,
+        F::NAME
     );
     assert!(
         rms < 0.5 && bias.abs() < budget::TABLE_BIAS,
@@ -96,23 +99,23 @@ fn ticks_keep_the_stated_error<S: Scalar, L: Layout>(seed: u64, rounding: f64) {
 #[test]
 fn single_precision_ticks_keep_the_stated_error() {
     let rounding = budget::TICK_ROUNDINGS * f64::from(f32::EPSILON);
-    ticks_keep_the_stated_error::<f32, Spline>(0x0021, rounding);
-    ticks_keep_the_stated_error::<f32, Cubic>(0x0021, rounding);
-    ticks_keep_the_stated_error::<f32, Quadratic>(0x0021, rounding);
+    ticks_keep_the_stated_error::<Spline<f32>>(0x0021, rounding);
+    ticks_keep_the_stated_error::<Cubic<f32>>(0x0021, rounding);
+    ticks_keep_the_stated_error::<Quadratic<f32>>(0x0021, rounding);
 }
 
 #[test]
 fn q31_ticks_keep_the_stated_error() {
     let rounding = budget::Q31_TICK_UNITS * Q31_UNIT;
-    ticks_keep_the_stated_error::<Q31, Spline>(0x0021, rounding);
-    ticks_keep_the_stated_error::<Q31, Cubic>(0x0021, rounding);
-    ticks_keep_the_stated_error::<Q31, Quadratic>(0x0021, rounding);
+    ticks_keep_the_stated_error::<Spline<Q31>>(0x0021, rounding);
+    ticks_keep_the_stated_error::<Cubic<Q31>>(0x0021, rounding);
+    ticks_keep_the_stated_error::<Quadratic<Q31>>(0x0021, rounding);
 }
 
 /// The bound of `tabulate`, written anew, on more places, none of which is among those checked.
-fn dense<S: Scalar, L: Layout>(
+fn dense<F: Format>(
     machine: &impl Reducible,
-    table: &Table<'_, S, L>,
+    table: &Table<'_, F>,
     request: &Request,
     scale: &Scale,
 ) -> f64 {
@@ -126,17 +129,16 @@ fn dense<S: Scalar, L: Layout>(
             machine.reduction(phi).unwrap(),
             table.at(machine.domain().phase(phi)),
         );
-        let slope =
-            read.inertia_slope.to_f64() * j * f64::from(table.cells()) / machine.domain().span();
-        (j * read.inertia.to_f64() - exact.inertia[0]).abs() * request.alpha
+        let slope = read.inertia_slope * j;
+        (j * read.inertia - exact.inertia[0]).abs() * request.alpha
             + (slope - exact.inertia[1]).abs() * request.omega.powi(2) / 2.0
-            + (t * read.load.to_f64() - exact.load_torque()).abs()
-            + (t / w * read.viscous.to_f64() - exact.viscous).abs() * request.omega
-            + (t * read.coulomb.to_f64() - exact.coulomb).abs()
+            + (t * read.load - exact.load_torque()).abs()
+            + (t / w * read.viscous - exact.viscous).abs() * request.omega
+            + (t * read.coulomb - exact.coulomb).abs()
     }))
 }
 
-fn finds_the_smallest<S: Scalar, L: Layout>() {
+fn finds_the_smallest<F: Format>() {
     let mut worst = [f64::INFINITY, 0.0];
     for (k, spec) in samples(8, 0x0031, &spec()).iter().enumerate() {
         let machine = spec.machine();
@@ -148,10 +150,10 @@ fn finds_the_smallest<S: Scalar, L: Layout>() {
             alpha: 600.0,
             max_cells: 400,
         };
-        let (found, rows) = table_of::<S, L>(&machine, &request, &scale);
+        let (found, rows) = table_of::<F>(&machine, &request, &scale);
         let table = rows.table();
         assert!(found.torque_error <= torque_error);
-        let again = measure(&machine, &table, &request, &found.scale).unwrap();
+        let again = measure(&machine, &table, &request).unwrap();
         assert_eq!(again.torque_error.to_bits(), found.torque_error.to_bits());
         assert!(found.bound > found.torque_error);
         assert!(found.bound < budget::BOUND_SLACK * found.torque_error);
@@ -161,18 +163,18 @@ fn finds_the_smallest<S: Scalar, L: Layout>() {
         worst = [worst[0].min(ratio), worst[1].max(ratio)];
         // No smaller table does.
         for cells in MIN_CELLS as u32..found.cells {
-            let scale = if S::FIXED {
+            let scale = if F::Number::FIXED {
                 scale.for_cells(cells, machine.domain().span())
             } else {
                 scale
             };
-            let Ok(rows) = Rows::<S, L>::of(&machine, ALL, cells, &scale) else {
+            let Ok(rows) = Rows::<F>::of(&machine, ALL, cells, &scale) else {
                 continue;
             };
             if rows.try_model::<ALL>(&scale).is_err() {
                 continue;
             }
-            let reached = measure(&machine, &rows.table(), &request, &scale);
+            let reached = measure(&machine, &rows.table(), &request);
             let reached = reached.unwrap().torque_error;
             assert!(
                 reached > torque_error,
@@ -182,12 +184,12 @@ fn finds_the_smallest<S: Scalar, L: Layout>() {
         }
         println!(
             "{} {}: {} cells, dense over stated {ratio:.4}",
-            S::NAME,
-            L::NAME,
+            <F::Number as Number>::NAME,
+            F::NAME,
             found.cells
         );
     }
-    let least = match L::NAME {
+    let least = match F::NAME {
         "quadratic" => budget::DENSE_GRID_QUADRATIC,
         _ => 1.0 / budget::DENSE_GRID,
     };
@@ -199,9 +201,9 @@ fn finds_the_smallest<S: Scalar, L: Layout>() {
 
 #[test]
 fn tabulate_finds_the_smallest_table_that_holds_everywhere() {
-    finds_the_smallest::<Q31, Spline>();
-    finds_the_smallest::<Q31, Cubic>();
-    finds_the_smallest::<f32, Quadratic>();
+    finds_the_smallest::<Spline<Q31>>();
+    finds_the_smallest::<Cubic<Q31>>();
+    finds_the_smallest::<Quadratic<f32>>();
     // Four cells are tried, too.
     let request = Request {
         torque_error: 1.0,
@@ -210,7 +212,7 @@ fn tabulate_finds_the_smallest_table_that_holds_everywhere() {
         max_cells: 64,
     };
     let machine = Wave::bare(1.0, 0.001);
-    let cells = table_of::<f64, Spline>(&machine, &request, &Scale::SI)
+    let cells = table_of::<Spline<f64>>(&machine, &request, &Scale::SI)
         .0
         .cells;
     assert_eq!(cells, 4);

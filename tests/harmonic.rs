@@ -5,8 +5,7 @@ use std::f64::consts::TAU;
 use crate::support::harmonics::{Waves, fitted, phases, press, request, series, waves, words_of};
 use crate::support::{assert_near, budget, config, largest};
 use jred::harmonic::{Circular, HarmonicModel, terms};
-use jred::table::curves;
-use jred::{Phase, Reducible};
+use jred::{Phase, Reducible, curves};
 use proptest::prelude::*;
 
 #[test]

@@ -9,8 +9,7 @@ use crate::support::machines::{Wave, spec};
 use crate::support::{assert_near, budget, config};
 use jred::harmonic::{HarmonicError, HarmonicModel, Request, measure, terms};
 use jred::mechanism::SliderCrank;
-use jred::table::curves;
-use jred::{Action, Domain, Error, Load, Phase, Reducible, Reduction};
+use jred::{Action, Domain, Error, Load, Phase, Reducible, Reduction, Set, curves};
 use proptest::prelude::*;
 
 proptest! {
@@ -240,8 +239,8 @@ fn what_no_sample_shows_is_in_the_bound() {
 /// F·|x′| has kinks at the dead centres, F·x′ has none; a constant friction beside it has a number of its own.
 #[test]
 fn friction_of_the_ram_is_smooth() {
-    const SET: u8 = curves::LOAD | curves::COULOMB | curves::CONSTANT_COULOMB;
-    const TERMS: u8 = terms::SYMMETRIC | terms::COULOMB_SIN;
+    const SET: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_COULOMB;
+    const TERMS: Set = terms::SYMMETRIC | terms::COULOMB_SIN;
     for constant in [0.0, 2.0] {
         let load = Load::new(SliderCrank::CRANK, Action::OpposingMoment(constant)).unwrap();
         let machine = rubbing().with_load(load).unwrap();

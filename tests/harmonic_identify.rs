@@ -8,14 +8,13 @@ use jred::harmonic::{
     Kind, Request, Sample, fit, identify, scratch_len, terms,
 };
 use jred::mechanism::{Branch, SliderCrank};
-use jred::table::curves;
-use jred::{Error, Link, Machine, Phase, Reducible};
+use jred::{Error, Link, Machine, Phase, Reducible, Set, curves};
 use proptest::prelude::*;
 
-const SET: u8 = curves::ALL;
+const SET: Set = curves::ALL;
 /// Ten harmonics of J and load, a viscous and a Coulomb constant.
 const WORDS: usize = 24;
-const TERMS: u8 = terms::SYMMETRIC;
+const TERMS: Set = terms::SYMMETRIC;
 
 /// A press whose weight acts along the guide.
 fn press() -> Machine<SliderCrank> {
@@ -306,8 +305,8 @@ proptest! {
     fn names_are_those_of_the_words(
         set in 0usize..10, word in 0usize..24, bits: u32, omega in 1f64..9.0, alpha in -50f64..50.0,
     ) {
-        fn check<const SET: u8>(word: usize, phase: Phase, omega: f64, alpha: f64) {
-            const TERMS: u8 = terms::ALL & !terms::LOAD_COS;
+        fn check<const SET: Set>(word: usize, phase: Phase, omega: f64, alpha: f64) {
+            const TERMS: Set = terms::ALL & !terms::LOAD_COS;
             let harmonics = 3;
             let len = jred::harmonic::words_len(harmonics, SET, TERMS);
             assert!(Coefficient::of_word(len, SET, TERMS).is_some(), "of the next harmonic");

@@ -9,8 +9,7 @@ use jred::harmonic::{
     CoefficientError, HarmonicError, HarmonicModel, Request, fit, scratch_len, terms,
 };
 use jred::mechanism::SliderCrank;
-use jred::table::curves;
-use jred::{Action, Domain, Error, Load, Phase, Window};
+use jred::{Action, Domain, Error, Load, Phase, Set, Window, curves};
 
 #[test]
 fn kinks_and_hidden_harmonics_are_refused() {
@@ -168,7 +167,7 @@ fn bad_requests_are_named() {
 
 #[test]
 fn bad_coefficients_are_named() {
-    fn check<const CURVES: u8, const TERMS: u8>(words: &[f32]) -> Option<CoefficientError> {
+    fn check<const CURVES: Set, const TERMS: Set>(words: &[f32]) -> Option<CoefficientError> {
         HarmonicModel::<f32, CURVES, TERMS>::new(words).err()
     }
     let length = |given, means, row| Some(CoefficientError::Length { given, means, row });

@@ -4,11 +4,10 @@ use crate::support::images::{VALIDITY, crc32, small, stroke, stroke_in};
 use crate::support::machines::{Spec, Wave, spec};
 use crate::support::rows::Rows;
 use crate::support::{config, number, samples};
-use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
+use jred::image::{HEADER_WORDS, VERSION, encode, image_len};
 use jred::tabulate::{Request, Tabulated};
 use jred::{
-    Domain, Error, HEADER_WORDS, Image, Model, Phase, Q31, Scalar, Scale, VERSION, encode,
-    image_words,
+    Cubic, Domain, Error, Format, Image, Model, Phase, Q31, Quadratic, Scale, Set, Spline, curves,
 };
 use proptest::prelude::*;
 
@@ -41,7 +40,7 @@ fn known_crc_and_layout() {
     assert_eq!([image[5], image[6]], [-0.5f32, 1.5].map(f32::to_bits));
     let read = Image::new(&image).unwrap();
     assert_eq!(
-        (read.cells(), read.curves(), read.validity()),
+        (read.cells(), read.set(), read.validity()),
         (12, 7, VALIDITY)
     );
     assert_eq!(
@@ -67,20 +66,20 @@ fn known_crc_and_layout() {
     assert_eq!(found.validity(&request), VALIDITY);
 }
 
-fn same_bits<S: Scalar, const SET: u8, L: Layout>(spec: &Spec, bits: u32, state: [f64; 2]) {
+fn same_bits<F: Format, const SET: Set>(spec: &Spec, bits: u32, state: [f64; 2]) {
     let machine = spec.machine();
     let scale = Scale::covering(&machine, 60.0, 900.0, 64).unwrap();
     let scale = scale.for_cells(90, std::f64::consts::TAU);
-    let rows = Rows::<S, L>::of(&machine, SET, 90, &scale).unwrap();
+    let rows = Rows::<F>::of(&machine, SET, 90, &scale).unwrap();
     let before = rows.model::<SET>(&scale);
-    let mut buffer = vec![u32::MAX; image_words::<S, L>(90, SET)];
-    let image = encode(before.table(), Domain::Turn, &scale, VALIDITY, &mut buffer).unwrap();
+    let mut buffer = vec![u32::MAX; image_len::<F>(90, SET)];
+    let image = encode(before.table(), VALIDITY, &mut buffer).unwrap();
     let image = Image::new(image).unwrap();
     assert_eq!(*image.scale(), scale);
-    let after: Model<'_, S, SET, L> = image.model().unwrap();
+    let after: Model<'_, F, SET> = image.model().unwrap();
     assert_eq!(after.table().words(), rows.words);
-    assert_eq!(after.table().constants(), rows.constants);
-    assert_eq!(image.table::<S, L>().unwrap().curves(), SET);
+    assert_eq!(*after.table().constants(), rows.constants);
+    assert_eq!(image.table::<F>().unwrap().set(), SET);
     let (phase, [omega, alpha]) = (Phase::from_bits(bits), state.map(number));
     assert_eq!(
         after.torque(phase, omega, alpha),
@@ -96,14 +95,13 @@ fn same_bits<S: Scalar, const SET: u8, L: Layout>(spec: &Spec, bits: u32, state:
 fn encoding_needs_room_and_a_stored_number_type() {
     let machine = Wave::bare(1.0, 0.0);
     let mut buffer = [0; SMALL as usize];
-    let rows = Rows::<f64>::of(&machine, 0, 4, &Scale::SI).unwrap();
-    let turn = Domain::Turn;
-    let error = encode(&rows.table(), turn, &Scale::SI, VALIDITY, &mut buffer).unwrap_err();
+    let rows = Rows::<Spline<f64>>::of(&machine, 0, 4, &Scale::SI).unwrap();
+    let error = encode(&rows.table(), VALIDITY, &mut buffer).unwrap_err();
     assert_eq!(error, Error::NoImage("f64"));
     assert!(error.to_string().contains("use f32"), "{error}");
-    let rows = Rows::<f32>::of(&machine, 0, 4, &Scale::SI).unwrap();
+    let rows = Rows::<Spline<f32>>::of(&machine, 0, 4, &Scale::SI).unwrap();
     let short = &mut buffer[..SMALL as usize - 1];
-    let error = encode(&rows.table(), turn, &Scale::SI, VALIDITY, short).unwrap_err();
+    let error = encode(&rows.table(), VALIDITY, short).unwrap_err();
     assert_eq!(
         error,
         Error::BufferTooShort {
@@ -111,7 +109,7 @@ fn encoding_needs_room_and_a_stored_number_type() {
             given: 31
         }
     );
-    assert!(encode(&rows.table(), turn, &Scale::SI, VALIDITY, &mut buffer).is_ok());
+    assert!(encode(&rows.table(), VALIDITY, &mut buffer).is_ok());
 }
 
 proptest! {
@@ -120,28 +118,32 @@ proptest! {
     #[test]
     fn round_trip_is_bit_exact(spec in spec(), bits: u32, omega in -0.9..0.9, alpha in -0.9..0.9) {
         let state = [omega, alpha];
-        same_bits::<f32, { curves::ALL }, Spline>(&spec, bits, state);
-        same_bits::<f32, { curves::LOAD | curves::CONSTANT_VISCOUS }, Quadratic>(&spec, bits, state);
-        same_bits::<f32, { curves::COULOMB }, Cubic>(&spec, bits, state);
-        same_bits::<Q31, { curves::ALL }, Spline>(&spec, bits, state);
-        same_bits::<Q31, { curves::LOAD | curves::VISCOUS | curves::CONSTANT_COULOMB }, Cubic>(&spec, bits, state);
-        same_bits::<Q31, { curves::ALL }, Quadratic>(&spec, bits, state);
+        same_bits::<Spline<f32>, { curves::ALL }>(&spec, bits, state);
+        same_bits::<Quadratic<f32>, { curves::LOAD | curves::CONSTANT_VISCOUS }>(&spec, bits, state);
+        same_bits::<Cubic<f32>, { curves::COULOMB }>(&spec, bits, state);
+        same_bits::<Spline<Q31>, { curves::ALL }>(&spec, bits, state);
+        same_bits::<Cubic<Q31>, { curves::LOAD | curves::VISCOUS | curves::CONSTANT_COULOMB }>(&spec, bits, state);
+        same_bits::<Quadratic<Q31>, { curves::ALL }>(&spec, bits, state);
     }
 }
 
-/// With the curve of 1/J, and every constant.
+/// With the curve of 1/J, and constants or curves beside it.
 #[test]
 fn round_trip_of_every_curve_is_bit_exact() {
-    const EVERY: u8 = curves::EVERY;
+    const EVERY: Set = curves::ALL | curves::RECIPROCAL;
+    const CONSTANTS: Set =
+        curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB | curves::RECIPROCAL;
     for spec in samples(3, 0x0007, &spec()) {
-        same_bits::<Q31, EVERY, Spline>(&spec, 0x1234_5678, [0.3, -0.2]);
-        same_bits::<Q31, EVERY, Cubic>(&spec, 0x8765_4321, [-0.3, 0.2]);
+        same_bits::<Spline<Q31>, EVERY>(&spec, 0x1234_5678, [0.3, -0.2]);
+        same_bits::<Cubic<Q31>, EVERY>(&spec, 0x8765_4321, [-0.3, 0.2]);
+        same_bits::<Spline<Q31>, CONSTANTS>(&spec, 0x1234_5678, [0.3, -0.2]);
+        same_bits::<Cubic<Q31>, CONSTANTS>(&spec, 0x8765_4321, [-0.3, 0.2]);
     }
-    let reciprocal = stroke_in::<Q31, Quadratic>(curves::RECIPROCAL);
+    let reciprocal = stroke_in::<Quadratic<Q31>>(curves::RECIPROCAL);
     let image = Image::new(&reciprocal).unwrap();
     assert!(
         image
-            .model::<Q31, { curves::RECIPROCAL }, Quadratic>()
+            .model::<Quadratic<Q31>, { curves::RECIPROCAL }>()
             .is_ok()
     );
 }

@@ -2,8 +2,8 @@
 
 use crate::support::images::{refused, sealed, small, stroke, stroke_in};
 use crate::support::{config, samples};
-use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
-use jred::{HEADER_WORDS, Image, ImageError, Phase, Q31, Scalar, VERSION};
+use jred::image::{HEADER_WORDS, VERSION};
+use jred::{Cubic, Format, Image, ImageError, Number, Phase, Q31, Quadratic, Set, Spline, curves};
 use proptest::prelude::*;
 
 #[test]
@@ -11,8 +11,8 @@ fn every_flipped_bit_is_refused() {
     let images = [
         small(),
         stroke(),
-        stroke_in::<Q31, Cubic>(curves::LOAD | curves::RECIPROCAL),
-        stroke_in::<f32, Quadratic>(curves::LOAD | curves::CONSTANT_COULOMB),
+        stroke_in::<Cubic<Q31>>(curves::LOAD | curves::RECIPROCAL),
+        stroke_in::<Quadratic<f32>>(curves::LOAD | curves::CONSTANT_COULOMB),
     ];
     for image in images {
         assert!(Image::new(&image).is_ok());
@@ -72,13 +72,13 @@ fn truncated_extended_and_misaligned_images_are_refused() {
 }
 
 /// Ticks a model if there is one; in fixed point a limited acceleration is at an end of the range.
-fn tick<S: Scalar, const SET: u8, L: Layout>(
+fn tick<F: Format, const SET: Set>(
     image: &Image<'_>,
-    state: [S; 2],
+    state: [F::Number; 2],
     phase: Phase,
-    ends: Option<[S; 2]>,
+    ends: Option<[F::Number; 2]>,
 ) -> u32 {
-    let Ok(model) = image.model::<S, SET, L>() else {
+    let Ok(model) = image.model::<F, SET>() else {
         return 0;
     };
     let [a, b] = state;
@@ -94,22 +94,22 @@ fn tick<S: Scalar, const SET: u8, L: Layout>(
 /// Whatever an image holds, looking at it neither panics nor overflows (overflow checks are on in debug builds).
 /// Returns how many models there were to tick.
 fn look_at(image: &[u32], state: [i32; 2], phase: Phase) -> u32 {
-    const ALL: u8 = curves::ALL;
-    const SEEDED: u8 = curves::VISCOUS | curves::COULOMB | curves::RECIPROCAL;
+    const ALL: Set = curves::ALL;
+    const SEEDED: Set = curves::VISCOUS | curves::COULOMB | curves::RECIPROCAL;
     let Ok(image) = Image::new(image) else {
         return 0;
     };
     let fixed = state.map(Q31::from_bits);
     let float = state.map(|bits| bits as f32 * 1e-6);
     let ends = Some([Q31::MIN, Q31::MAX]);
-    tick::<Q31, ALL, Spline>(&image, fixed, phase, ends)
-        + tick::<Q31, ALL, Cubic>(&image, fixed, phase, ends)
-        + tick::<Q31, ALL, Quadratic>(&image, fixed, phase, ends)
-        + tick::<Q31, SEEDED, Spline>(&image, fixed, phase, ends)
-        + tick::<Q31, SEEDED, Quadratic>(&image, fixed, phase, ends)
-        + tick::<f32, ALL, Spline>(&image, float, phase, None)
-        + tick::<f32, ALL, Cubic>(&image, float, phase, None)
-        + tick::<f32, ALL, Quadratic>(&image, float, phase, None)
+    tick::<Spline<Q31>, ALL>(&image, fixed, phase, ends)
+        + tick::<Cubic<Q31>, ALL>(&image, fixed, phase, ends)
+        + tick::<Quadratic<Q31>, ALL>(&image, fixed, phase, ends)
+        + tick::<Spline<Q31>, SEEDED>(&image, fixed, phase, ends)
+        + tick::<Quadratic<Q31>, SEEDED>(&image, fixed, phase, ends)
+        + tick::<Spline<f32>, ALL>(&image, float, phase, None)
+        + tick::<Cubic<f32>, ALL>(&image, float, phase, None)
+        + tick::<Quadratic<f32>, ALL>(&image, float, phase, None)
 }
 
 proptest! {
@@ -146,7 +146,7 @@ fn garbage_with_a_header_never_panics() {
         image[2] = (HEADER_WORDS + words + 1) as u32;
         // Four curves: all, or b, c and a seed of 1/J.
         let seeded = state[0] % 4 == 0;
-        let set = if seeded { 14 } else { 7 };
+        let set: u8 = if seeded { 14 } else { 7 };
         image[3] = u32::from_le_bytes([code, set, layout, 1]);
         image[4] = 4;
         image[6] = 1f32.to_bits();

@@ -1,8 +1,8 @@
 //! Table images that are whole, but of another kind, without meaning or without a sound table.
 
 use crate::support::images::{refused, sealed, small, stroke, stroke_in};
-use jred::table::{Cubic, Layout, Quadratic, Spline, TableError, curves};
-use jred::{HEADER_WORDS, Image, ImageError, Q31, Scalar, VERSION};
+use jred::image::{HEADER_WORDS, VERSION};
+use jred::{Cubic, Format, Image, ImageError, Q31, Quadratic, Set, Spline, TableError, curves};
 
 /// Words of the smallest image: header, seven points, CRC.
 const SMALL: u32 = HEADER_WORDS as u32 + 7 + 1;
@@ -99,63 +99,63 @@ fn unknown_domain_is_refused_with_its_word() {
     assert_eq!(refused(&sealed(image)), ImageError::Header(3));
 }
 
-fn no_model<S: Scalar, const SET: u8, L: Layout>(image: Vec<u32>) -> ImageError {
+fn no_model<F: Format, const SET: Set>(image: Vec<u32>) -> ImageError {
     let image = sealed(image);
     let image = Image::new(&image).unwrap();
-    image.model::<S, SET, L>().map(|_| ()).unwrap_err()
+    image.model::<F, SET>().map(|_| ()).unwrap_err()
 }
 
 #[test]
 fn model_of_another_type_set_or_layout_is_refused() {
     let table = ImageError::Table;
     assert_eq!(
-        no_model::<Q31, 0, Spline>(small()),
+        no_model::<Spline<Q31>, 0>(small()),
         ImageError::NumberType(1)
     );
     assert_eq!(
-        no_model::<f64, 0, Spline>(small()),
+        no_model::<Spline<f64>, 0>(small()),
         ImageError::NumberType(1)
     );
     assert_eq!(
-        no_model::<f32, 7, Spline>(stroke()),
+        no_model::<Spline<f32>, 7>(stroke()),
         ImageError::NumberType(2)
     );
     assert_eq!(
-        no_model::<f32, 1, Spline>(small()),
+        no_model::<Spline<f32>, 1>(small()),
         table(TableError::Curves(0))
     );
     assert_eq!(
-        no_model::<Q31, 3, Spline>(stroke()),
+        no_model::<Spline<Q31>, 3>(stroke()),
         table(TableError::Curves(7))
     );
     let layout = ImageError::Layout;
-    assert_eq!(no_model::<f32, 0, Cubic>(small()), layout(1));
-    assert_eq!(no_model::<f32, 0, Quadratic>(small()), layout(1));
-    let cubic = stroke_in::<Q31, Cubic>(curves::ALL);
-    assert_eq!(no_model::<Q31, 7, Spline>(cubic.clone()), layout(2));
-    assert_eq!(no_model::<Q31, 7, Quadratic>(cubic.clone()), layout(2));
-    let quadratic = stroke_in::<f32, Quadratic>(curves::ALL);
-    assert_eq!(no_model::<f32, 7, Cubic>(quadratic), layout(3));
+    assert_eq!(no_model::<Cubic<f32>, 0>(small()), layout(1));
+    assert_eq!(no_model::<Quadratic<f32>, 0>(small()), layout(1));
+    let cubic = stroke_in::<Cubic<Q31>>(curves::ALL);
+    assert_eq!(no_model::<Spline<Q31>, 7>(cubic.clone()), layout(2));
+    assert_eq!(no_model::<Quadratic<Q31>, 7>(cubic.clone()), layout(2));
+    let quadratic = stroke_in::<Quadratic<f32>>(curves::ALL);
+    assert_eq!(no_model::<Cubic<f32>, 7>(quadratic), layout(3));
     for (code, set, other) in [(9, 0, 1), (0, 0, 1), (255, 63, 3)] {
         let mut image = small();
         image[3] = u32::from_le_bytes([code, set, other, 0]);
-        let refused = no_model::<f32, 0, Spline>(image);
+        let refused = no_model::<Spline<f32>, 0>(image);
         assert_eq!(refused, ImageError::NumberType(code));
     }
     for other in [0, 9, 255] {
         let mut image = small();
         image[3] = u32::from_le_bytes([1, 0, other, 0]);
-        assert_eq!(no_model::<f32, 0, Spline>(image), layout(other));
+        assert_eq!(no_model::<Spline<f32>, 0>(image), layout(other));
     }
 }
 
 #[test]
 fn model_of_an_unsound_table_is_refused() {
-    const RECIPROCAL: u8 = curves::RECIPROCAL;
+    const RECIPROCAL: Set = curves::RECIPROCAL;
     let with = |word: usize, value: u32| {
         let mut image = small();
         image[word] = value;
-        no_model::<f32, 0, Spline>(image)
+        no_model::<Spline<f32>, 0>(image)
     };
     let table = ImageError::Table;
     let row = HEADER_WORDS;
@@ -193,19 +193,19 @@ fn model_of_an_unsound_table_is_refused() {
     let mut fast = stroke();
     fast[8] = 3e4f32.to_bits();
     assert_eq!(
-        no_model::<Q31, 7, Spline>(fast),
+        no_model::<Spline<Q31>, 7>(fast),
         table(TableError::SpeedBase)
     );
-    let mut wrong = stroke_in::<Q31, Cubic>(RECIPROCAL);
+    let mut wrong = stroke_in::<Cubic<Q31>>(RECIPROCAL);
     wrong[row + 4] /= 2; // 1/J in cell 0 then has another unit than in cell 1
     assert_eq!(
-        no_model::<Q31, RECIPROCAL, Cubic>(wrong),
+        no_model::<Cubic<Q31>, RECIPROCAL>(wrong),
         table(TableError::Reciprocal { cell: 1 })
     );
-    let mut heavy = stroke_in::<Q31, Spline>(curves::CONSTANT_COULOMB);
+    let mut heavy = stroke_in::<Spline<Q31>>(curves::CONSTANT_COULOMB);
     heavy[15] = 1 << 29;
     assert_eq!(
-        no_model::<Q31, { curves::CONSTANT_COULOMB }, Spline>(heavy),
+        no_model::<Spline<Q31>, { curves::CONSTANT_COULOMB }>(heavy),
         table(TableError::TorqueRange { cell: 0 })
     );
 }

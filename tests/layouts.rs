@@ -5,11 +5,13 @@ use std::f64::consts::TAU;
 use crate::support::machines::spec;
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, config, largest};
-use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
-use jred::{Domain, Error, Phase, Q31, Reducible, Reduction, Scalar, Scale};
+use jred::{
+    Cubic, Domain, Error, Format, Number, Phase, Q31, Quadratic, Reducible, Reduction, Scalar,
+    Scale, Set, Spline, curves,
+};
 use proptest::prelude::*;
 
-const ALL: u8 = curves::ALL;
+const ALL: Set = curves::ALL;
 
 /// Curves that are not polynomials, with exact slopes: sizes of one.
 struct Smooth(Domain);
@@ -33,9 +35,9 @@ impl Reducible for Smooth {
 }
 
 /// Largest errors of the values and of the slope a cell, in machine units, over a grid that has every knot and both ends.
-fn errors<S: Scalar, L: Layout>(domain: Domain, cells: u32, scale: &Scale) -> [f64; 2] {
+fn errors<F: Format>(domain: Domain, cells: u32, scale: &Scale) -> [f64; 2] {
     let machine = Smooth(domain);
-    let rows = Rows::<S, L>::of(&machine, ALL, cells, scale).unwrap();
+    let rows = Rows::<F>::of(&machine, ALL, cells, scale).unwrap();
     let table = rows.table();
     let mut found = [0.0; 2];
     let places = 24 * cells;
@@ -48,29 +50,28 @@ fn errors<S: Scalar, L: Layout>(domain: Domain, cells: u32, scale: &Scale) -> [f
         let [torque, speed, inertia] =
             [scale.torque(), scale.speed(), scale.inertia()].map(f64::from);
         let values = [
-            read.inertia.to_f64() - exact.inertia[0] / inertia,
-            read.load.to_f64() - exact.load_torque() / torque,
-            read.viscous.to_f64() - exact.viscous * speed / torque,
-            read.coulomb.to_f64() - exact.coulomb / torque,
+            read.inertia - exact.inertia[0] / inertia,
+            read.load - exact.load_torque() / torque,
+            read.viscous - exact.viscous * speed / torque,
+            read.coulomb - exact.coulomb / torque,
         ];
-        let slope = exact.inertia[1] / inertia * domain.span() / f64::from(cells);
+        let slope = read.inertia_slope - exact.inertia[1] / inertia;
         found[0] = largest(values).max(found[0]);
-        found[1] = largest([read.inertia_slope.to_f64() - slope]).max(found[1]);
+        found[1] = largest([slope * domain.span() / f64::from(cells)]).max(found[1]);
     }
     found
 }
 
 /// The slope is one a cell here, which is one order more.
-fn converges<L: Layout>(orders: [i32; 2]) {
+fn converges<F: Format>(orders: [i32; 2]) {
     for domain in [Domain::Turn, Domain::stroke(-0.4, 1.3).unwrap()] {
         for cells in [48, 96] {
-            let [coarse, fine] =
-                [cells, 2 * cells].map(|n| errors::<f64, L>(domain, n, &Scale::SI));
+            let [coarse, fine] = [cells, 2 * cells].map(|n| errors::<F>(domain, n, &Scale::SI));
             for (k, order) in orders.iter().enumerate() {
                 let ratio = coarse[k] / fine[k];
                 println!(
                     "{} {domain:?} {cells}: {:.1e}, ratio {ratio:.2}",
-                    L::NAME,
+                    F::NAME,
                     coarse[k]
                 );
                 let expected = f64::from(1 << order);
@@ -82,22 +83,26 @@ fn converges<L: Layout>(orders: [i32; 2]) {
 
 #[test]
 fn errors_fall_with_the_order_of_the_spline() {
-    converges::<Spline>([4, 4]);
-    converges::<Cubic>([4, 4]);
-    converges::<Quadratic>([3, 3]);
+    converges::<Spline<f64>>([4, 4]);
+    converges::<Cubic<f64>>([4, 4]);
+    converges::<Quadratic<f64>>([3, 3]);
 }
 
 /// In every number type as in f64, but for the type's own roundings.
-fn agrees_with_f64<S: Scalar, L: Layout>(roundings: [f64; 2]) {
+fn agrees_with_f64<F: Format, E: Format>(roundings: [f64; 2]) {
     let scale = Scale::new(1.0, 2.0, 1.0).unwrap();
     for domain in [Domain::Turn, Domain::stroke(-0.4, 1.3).unwrap()] {
         for cells in [8, 37, 250] {
-            let exact = errors::<f64, L>(domain, cells, &scale);
-            let found = errors::<S, L>(domain, cells, &scale);
+            let exact = errors::<E>(domain, cells, &scale);
+            let found = errors::<F>(domain, cells, &scale);
             let [value, slope] = [found[0] - exact[0], found[1] - exact[1]];
-            println!("{} {} {cells}: {value:.1e} {slope:.1e}", S::NAME, L::NAME);
+            println!(
+                "{} {} {cells}: {value:.1e} {slope:.1e}",
+                <F::Number as Number>::NAME,
+                F::NAME
+            );
             // A place of 16 bits moves along the slope, which is below 2.5 times the width of a cell.
-            let place = if S::FIXED && L::NAME == "quadratic" {
+            let place = if F::Number::FIXED && F::NAME == "quadratic" {
                 2.5 * domain.span() / f64::from(cells) / 65_536.0
             } else {
                 0.0
@@ -111,37 +116,38 @@ fn agrees_with_f64<S: Scalar, L: Layout>(roundings: [f64; 2]) {
 #[test]
 fn every_number_type_reads_the_same_curves() {
     let f32 = [budget::F32_READ; 2];
-    agrees_with_f64::<f32, Spline>(f32);
-    agrees_with_f64::<f32, Cubic>(f32);
-    agrees_with_f64::<f32, Quadratic>(f32);
-    agrees_with_f64::<Q31, Spline>(budget::Q31_READ);
-    agrees_with_f64::<Q31, Cubic>(budget::Q31_READ);
-    agrees_with_f64::<Q31, Quadratic>(budget::Q31_READ);
+    agrees_with_f64::<Spline<f32>, Spline<f64>>(f32);
+    agrees_with_f64::<Cubic<f32>, Cubic<f64>>(f32);
+    agrees_with_f64::<Quadratic<f32>, Quadratic<f64>>(f32);
+    agrees_with_f64::<Spline<Q31>, Spline<f64>>(budget::Q31_READ);
+    agrees_with_f64::<Cubic<Q31>, Cubic<f64>>(budget::Q31_READ);
+    agrees_with_f64::<Quadratic<Q31>, Quadratic<f64>>(budget::Q31_READ);
 }
 
 /// A Cubic is the Spline's own curve.
 fn cubic_is_the_spline<S: Scalar>(machine: &impl Reducible, cells: u32, bits: u32, roundings: f64) {
     let scale = Scale::covering(machine, 60.0, 900.0, 64).unwrap();
     let scale = scale.for_cells(cells, TAU);
-    let Ok(spline) = Rows::<S, Spline>::of(machine, ALL, cells, &scale) else {
+    let Ok(spline) = Rows::<Spline<S>>::of(machine, ALL, cells, &scale) else {
         return; // too few cells
     };
-    let cubic = Rows::<S, Cubic>::of(machine, ALL, cells, &scale).unwrap();
+    let cubic = Rows::<Cubic<S>>::of(machine, ALL, cells, &scale).unwrap();
     let phase = Phase::from_bits(bits);
     let [a, b] = [spline.table().at(phase), cubic.table().at(phase)];
+    let h = machine.domain().span() / f64::from(cells);
     for (what, a, b) in [
         ("J", a.inertia, b.inertia),
-        ("J' a cell", a.inertia_slope, b.inertia_slope),
+        ("J' a cell", h * a.inertia_slope, h * b.inertia_slope),
         ("load", a.load, b.load),
         ("b", a.viscous, b.viscous),
         ("c", a.coulomb, b.coulomb),
     ] {
-        assert_near(what, b.to_f64(), a.to_f64(), roundings);
+        assert_near(what, b, a, roundings);
     }
 }
 
 /// Value and slope on both sides of every knot, and of the turn: equal but for what changes within the phases between.
-fn smooth_at_knots<S: Scalar, L: Layout>(rows: &Rows<S, L>, roundings: [f64; 2]) {
+fn smooth_at_knots<F: Format>(rows: &Rows<F>, roundings: [f64; 2]) {
     let table = rows.table();
     let cells = rows.cells;
     let turn = rows.domain == Domain::Turn;
@@ -155,7 +161,7 @@ fn smooth_at_knots<S: Scalar, L: Layout>(rows: &Rows<S, L>, roundings: [f64; 2])
         let [a, b] = [table.at(before), table.at(after)];
         // Two phases are cells·2⁻³² of a cell apart; in 16 bits of a cell one step more.
         let apart = f64::from(cells) / 4_294_967_296.0
-            + if S::FIXED && L::NAME == "quadratic" {
+            + if F::Number::FIXED && F::NAME == "quadratic" {
                 1.0 / 65_536.0
             } else {
                 0.0
@@ -165,22 +171,27 @@ fn smooth_at_knots<S: Scalar, L: Layout>(rows: &Rows<S, L>, roundings: [f64; 2])
         let moved = apart * h.max(h * h);
         for (what, a, b, roundings) in [
             ("J", a.inertia, b.inertia, roundings[0]),
-            ("J' a cell", a.inertia_slope, b.inertia_slope, roundings[1]),
+            (
+                "J' a cell",
+                h * a.inertia_slope,
+                h * b.inertia_slope,
+                roundings[1],
+            ),
             ("load", a.load, b.load, roundings[0]),
             ("b", a.viscous, b.viscous, roundings[0]),
             ("c", a.coulomb, b.coulomb, roundings[0]),
         ] {
-            let jump = b.to_f64() - a.to_f64();
+            let jump = b - a;
             assert_near(what, jump, 0.0, roundings + moved);
         }
     }
 }
 
-fn smooth_everywhere<S: Scalar, L: Layout>(roundings: [f64; 2]) {
+fn smooth_everywhere<F: Format>(roundings: [f64; 2]) {
     let scale = Scale::new(1.0, 2.0, 1.0).unwrap();
     for domain in [Domain::Turn, Domain::stroke(-0.4, 1.3).unwrap()] {
         for cells in [8, 13, 64, 300] {
-            let rows = Rows::<S, L>::of(&Smooth(domain), ALL, cells, &scale).unwrap();
+            let rows = Rows::<F>::of(&Smooth(domain), ALL, cells, &scale).unwrap();
             smooth_at_knots(&rows, roundings);
         }
     }
@@ -189,16 +200,16 @@ fn smooth_everywhere<S: Scalar, L: Layout>(roundings: [f64; 2]) {
 #[test]
 fn value_and_slope_meet_at_every_knot() {
     let f64 = [budget::SPLINE_END; 2];
-    smooth_everywhere::<f64, Spline>(f64);
-    smooth_everywhere::<f64, Cubic>(f64);
-    smooth_everywhere::<f64, Quadratic>(f64);
+    smooth_everywhere::<Spline<f64>>(f64);
+    smooth_everywhere::<Cubic<f64>>(f64);
+    smooth_everywhere::<Quadratic<f64>>(f64);
     let f32 = [budget::F32_READ; 2];
-    smooth_everywhere::<f32, Spline>(f32);
-    smooth_everywhere::<f32, Cubic>(f32);
-    smooth_everywhere::<f32, Quadratic>(f32);
-    smooth_everywhere::<Q31, Spline>(budget::Q31_READ);
-    smooth_everywhere::<Q31, Cubic>(budget::Q31_READ);
-    smooth_everywhere::<Q31, Quadratic>(budget::Q31_READ);
+    smooth_everywhere::<Spline<f32>>(f32);
+    smooth_everywhere::<Cubic<f32>>(f32);
+    smooth_everywhere::<Quadratic<f32>>(f32);
+    smooth_everywhere::<Spline<Q31>>(budget::Q31_READ);
+    smooth_everywhere::<Cubic<Q31>>(budget::Q31_READ);
+    smooth_everywhere::<Quadratic<Q31>>(budget::Q31_READ);
 }
 
 proptest! {

@@ -45,9 +45,10 @@ mod rack;
 mod range;
 mod reactions;
 mod reciprocal;
+mod rows16;
 mod scale;
 mod scotch_yoke;
-mod short;
+
 mod six_link;
 mod spline;
 mod spline_quadratic;

@@ -1,8 +1,10 @@
 //! Tables at the edge of what a model may be made of: a table that is let in never wraps, whatever its numbers.
 
-use jred::table::{Cubic, Spline, Table, TableError, curves};
+use crate::support::rows::Rows;
 use jred::tabulate::{Request, tabulate};
-use jred::{Domain, Error, Model, Phase, Q31, Reducible, Reduction, Scale};
+use jred::{
+    Cubic, Domain, Error, Phase, Q31, Reducible, Reduction, Scale, Set, Spline, TableError, curves,
+};
 
 const SPAN: f32 = core::f32::consts::TAU;
 
@@ -28,12 +30,11 @@ fn roundings_of_the_slope_are_in_the_proof() {
             [a - slope, slope, 0, 0],
             [a, slope, 0, 0],
         ];
-        let table = Table::<Q31, Cubic>::new(words.as_flattened(), curves::INERTIA, 4, true);
+        let words = words.as_flattened().to_vec();
+        let rows = Rows::<Cubic<Q31>>::plain(words, curves::INERTIA, 4, Domain::Turn);
         for share in [1.0, 0.99] {
             let scale = scale((factor * share).floor());
-            let Ok(model) =
-                Model::<Q31, { curves::INERTIA }, Cubic>::new(table.unwrap(), SPAN, &scale)
-            else {
+            let Ok(model) = rows.try_model::<{ curves::INERTIA }>(&scale) else {
                 continue;
             };
             accepted += 1;
@@ -54,7 +55,7 @@ fn roundings_of_the_slope_are_in_the_proof() {
 /// 1/J that is right at the four places of a cell that are looked at first, and far off at its ends.
 #[test]
 fn a_reciprocal_is_looked_at_everywhere() {
-    const SET: u8 = curves::RECIPROCAL;
+    const SET: Set = curves::RECIPROCAL;
     // (v + 3/8)(v + 1/8)(v − 1/8)(v − 3/8) has no cubic: the cubic through ±e at these places, by Lagrange.
     let nodes = [-0.375, -0.125, 0.125, 0.375];
     let through = |e: f64, v: f64| -> f64 {
@@ -77,8 +78,8 @@ fn a_reciprocal_is_looked_at_everywhere() {
         let seed = [f0, odd - p3, p2, p3].map(|p| (p / 30.4 * 2f64.powi(31)) as i32);
         let row = [1_020_054_733, 0, 0, 0, seed[0], seed[1], seed[2], seed[3]];
         let words: Vec<i32> = row.iter().copied().cycle().take(32).collect();
-        let table = Table::<Q31, Cubic>::new(&words, SET, 4, true).unwrap();
-        Model::<Q31, SET, Cubic>::new(table, SPAN, &scale(1.0)).map(|model| {
+        let rows = Rows::<Cubic<Q31>>::plain(words, SET, 4, Domain::Turn);
+        rows.try_model::<SET>(&scale(1.0)).map(|model| {
             let torque = Q31::from_bits(1 << 28);
             let alphas = (0..64u32).map(|k| {
                 let phase = Phase::from_bits(k << 24 | 0xffff);
@@ -125,7 +126,7 @@ fn a_search_without_a_limit_ends() {
     let (mut scratch, mut words) = (vec![0.0; 3000], vec![0.0f32; 3000]);
     let set = curves::LOAD;
     let found =
-        tabulate::<f32, Spline>(&Ripple, set, &request, &Scale::SI, &mut scratch, &mut words);
+        tabulate::<Spline<f32>>(&Ripple, set, &request, &Scale::SI, &mut scratch, &mut words);
     assert!(
         matches!(found, Err(Error::BufferTooShort { .. })),
         "{found:?}"
@@ -146,10 +147,11 @@ fn constants_are_looked_at() {
             inertia: 0.0,
             viscous,
             coulomb,
-            gains: [0.0; 5],
+            gains: [0; 5],
         };
         let set = curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
-        let table = Table::<f32>::with_constants(&words, constants, set, 4, true);
-        assert_eq!(table.unwrap_err(), TableError::Constant);
+        let mut rows = Rows::<Spline<f32>>::plain(words.to_vec(), set, 4, Domain::Turn);
+        rows.constants = constants;
+        assert_eq!(rows.try_table().unwrap_err(), TableError::Constant);
     }
 }

@@ -3,9 +3,11 @@
 use crate::support::machines::Wave;
 use jred::mechanism::{Branch, Mesh, SliderCrank, Stage, Train};
 use jred::motion::{Law, Move};
-use jred::table::{CubicSpline, Spline, curves};
+use jred::table::CubicSpline;
 use jred::tabulate::{Request, tabulate};
-use jred::{Action, Domain, Error, Link, Load, Machine, Mechanism, Reducible, Scale, Window};
+use jred::{
+    Action, Domain, Error, Link, Load, Machine, Mechanism, Reducible, Scale, Spline, Window, curves,
+};
 
 fn slider_crank(r: f64, l: f64, e: f64) -> Result<SliderCrank, Error> {
     let link = Link::new(0.1, 0.001, [0.0, 0.0])?;
@@ -147,7 +149,7 @@ fn request(torque_error: f64, omega: f64, alpha: f64) -> Result<(), Error> {
         alpha,
         max_cells: 8,
     };
-    tabulate::<f32, Spline>(
+    tabulate::<Spline<f32>>(
         &Wave::bare(1.0, 0.1),
         curves::INERTIA,
         &request,

@@ -80,7 +80,7 @@ proptest! {
         let found = f64::from(domain.phase(position).to_bits());
         assert_near("phase", found + 0.5, expected, 0.5 + coarse + 0.5);
         assert_near("span", domain.span(), length, budget::POSITION);
-        let single = domain.to_f32();
+        let single = domain.to::<f32>();
         let coarse = 15.0 * 4.0 * f64::from(f32::EPSILON) / length * TURN;
         let found = f64::from(single.phase(position as f32).to_bits());
         assert_near("phase in f32", found, expected, 1.0 + coarse);
@@ -98,7 +98,7 @@ fn ends_of_a_stroke() {
         [bits(0.25), bits(0.0), bits(f64::NAN)],
         [1 << 31, 1 << 30, 0]
     );
-    let single = |position| domain.to_f32().phase(position).to_bits();
+    let single = |position| domain.to::<f32>().phase(position).to_bits();
     assert_eq!([single(-0.25), single(-9.0), single(f32::NAN)], [0; 3]);
     assert_eq!(
         [single(0.75), single(9.0), single(f32::INFINITY)],
@@ -107,7 +107,7 @@ fn ends_of_a_stroke() {
     assert_eq!(single(0.25), 1 << 31);
     let spans = [
         Domain::<f64>::Turn.span(),
-        f64::from(Domain::<f64>::Turn.to_f32().span()),
+        f64::from(Domain::<f64>::Turn.to::<f32>().span()),
     ];
     assert_near("a turn", spans[0], TAU, 0.0);
     assert_near(

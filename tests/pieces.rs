@@ -2,19 +2,19 @@
 
 use std::f64::consts::TAU;
 
-use crate::support::rows::{Rows, zero};
+use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, largest, number};
 use jred::cam::{Program, Segment};
 use jred::mechanism::{Branch, DiscCam, Follower, Roller, SliderCrank};
 use jred::motion::Law;
-use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
-use jred::tabulate::{Request, scratch_len, tabulate, words_len};
+use jred::table::words_len;
+use jred::tabulate::{Request, scratch_len, tabulate};
 use jred::{
-    Domain, Error, Link, Machine, Number, Part, Phase, Pieces, Q31, Reducible, Reduction, Scalar,
-    Scale,
+    Cubic, Domain, Error, Format, Link, Machine, Number, Part, Phase, Pieces, Q31, Quadratic,
+    Reducible, Reduction, Scale, Set, Spline, curves,
 };
 
-const SET: u8 = curves::LOAD;
+const SET: Set = curves::LOAD;
 /// Speed and acceleration at which tables are compared.
 const AT: [f64; 2] = [20.0, 300.0];
 
@@ -96,7 +96,7 @@ fn one_table_cannot_follow_a_jump() {
     let machine = switched(TAU / 3.0, TAU / 1.5);
     let mut means = Vec::new();
     for cells in [64, 128, 256, 512] {
-        let rows = Rows::<f64, Cubic>::of(&machine, SET, cells, &Scale::SI).unwrap();
+        let rows = Rows::<Cubic<f64>>::of(&machine, SET, cells, &Scale::SI).unwrap();
         let model = rows.model::<SET>(&Scale::SI);
         let error = |phase| (model.torque(phase, 0.0, 0.0) - exact_at_rest(&machine, phase)).abs();
         let most = largest(places(1 << 18).map(error));
@@ -118,11 +118,11 @@ fn exact_at_rest(machine: &impl Reducible, phase: Phase) -> f64 {
 }
 
 /// Tables of all pieces between the breaks for an error, in N·m.
-fn pieces_of<S: Scalar, L: Layout>(
+fn pieces_of<F: Format>(
     machine: &impl Reducible,
     breaks: &[f64],
     torque_error: f64,
-) -> Vec<Rows<S, L>> {
+) -> Vec<Rows<F>> {
     const MOST: u32 = 512;
     let request = Request {
         torque_error,
@@ -134,15 +134,15 @@ fn pieces_of<S: Scalar, L: Layout>(
     let pieces = breaks.iter().zip(ends).map(|(from, to)| {
         let part = Part::new(machine, *from, to).unwrap();
         let mut scratch = vec![0.0; scratch_len(MOST, SET)];
-        let mut words = vec![zero::<S>(); words_len::<L>(MOST, SET)];
+        let mut words = vec![F::Word::default(); words_len::<F>(MOST, SET)];
         let found =
-            tabulate::<S, L>(&part, SET, &request, &Scale::SI, &mut scratch, &mut words).unwrap();
+            tabulate::<F>(&part, SET, &request, &Scale::SI, &mut scratch, &mut words).unwrap();
         assert!(found.torque_error <= torque_error);
         println!(
             "{from:.3} to {to:.3}: {} cells, {:.1e} N m",
             found.cells, found.torque_error
         );
-        Rows::<S, L>::of(&part, SET, found.cells, &Scale::SI).unwrap()
+        Rows::<F>::of(&part, SET, found.cells, &Scale::SI).unwrap()
     });
     pieces.collect()
 }
@@ -157,23 +157,19 @@ fn beside(breaks: &[f64]) -> Vec<Phase> {
 }
 
 /// The error asked for is reached at all places, those next to the breaks included.
-fn reaches<S: Scalar, L: Layout, const N: usize>(
-    machine: &impl Reducible,
-    breaks: [f64; N],
-    share: f64,
-) {
+fn reaches<F: Format, const N: usize>(machine: &impl Reducible, breaks: [f64; N], share: f64) {
     let size = largest(places(3600).map(|phase| exact(machine, phase, 1.0)));
     let asked = share * size;
-    let rows = pieces_of::<S, L>(machine, &breaks, asked);
+    let rows = pieces_of::<F>(machine, &breaks, asked);
     let models: Vec<_> = rows.iter().map(|r| r.model::<SET>(&Scale::SI)).collect();
-    let turn: Pieces<'_, S, SET, N, L> = Pieces::new(std::array::from_fn(|k| {
+    let turn: Pieces<'_, F, SET, N> = Pieces::new(std::array::from_fn(|k| {
         (Phase::from_radians(breaks[k]), models[k])
     }))
     .unwrap();
     let mut most = 0.0f64;
     for phase in places(1 << 16).chain(beside(&breaks)) {
         for sign in [1.0, -1.0] {
-            let [omega, alpha] = AT.map(|x| number::<S>(sign * x));
+            let [omega, alpha] = AT.map(|x| number::<F::Number>(sign * x));
             let expected = exact(machine, phase, sign);
             let torque = turn.torque(phase, omega, alpha);
             most = most.max((torque.to_f64() - expected).abs());
@@ -189,9 +185,13 @@ fn reaches<S: Scalar, L: Layout, const N: usize>(
             assert_eq!([range.least, range.greatest], [back, back]);
         }
     }
-    println!("{} {}: {most:.3e} of {asked:.3e} N m", S::NAME, L::NAME);
+    println!(
+        "{} {}: {most:.3e} of {asked:.3e} N m",
+        <F::Number as Number>::NAME,
+        F::NAME
+    );
     let rounding = budget::PIECES_F32 * size;
-    let grid = match L::NAME {
+    let grid = match F::NAME {
         "quadratic" => budget::PIECES_QUADRATIC,
         _ => budget::DENSE_GRID,
     };
@@ -206,22 +206,22 @@ fn reaches<S: Scalar, L: Layout, const N: usize>(
 fn pieces_reach_the_request_beside_a_jump() {
     let (on, off) = (TAU / 3.0, TAU / 3.0 + 1.0);
     let machine = switched(on, off);
-    reaches::<f64, Spline, 2>(&machine, [on, off], 1e-4);
-    reaches::<f64, Cubic, 2>(&machine, [on, off], 1e-6);
-    reaches::<f64, Quadratic, 2>(&machine, [on, off], 1e-3);
-    reaches::<f32, Cubic, 2>(&machine, [on, off], 1e-4);
-    reaches::<f32, Spline, 2>(&machine, [on, off], 1e-4);
+    reaches::<Spline<f64>, 2>(&machine, [on, off], 1e-4);
+    reaches::<Cubic<f64>, 2>(&machine, [on, off], 1e-6);
+    reaches::<Quadratic<f64>, 2>(&machine, [on, off], 1e-3);
+    reaches::<Cubic<f32>, 2>(&machine, [on, off], 1e-4);
+    reaches::<Spline<f32>, 2>(&machine, [on, off], 1e-4);
     // A piece more than there need be, and one that goes on past the end of the turn.
-    reaches::<f64, Spline, 5>(&machine, [0.5, 1.0, on, off, 5.0], 1e-4);
+    reaches::<Spline<f64>, 5>(&machine, [0.5, 1.0, on, off, 5.0], 1e-4);
     let machine = switched(5.5, 5.5 + 1.5);
-    reaches::<f64, Spline, 2>(&machine, [5.5 + 1.5 - TAU, 5.5], 1e-4);
+    reaches::<Spline<f64>, 2>(&machine, [5.5 + 1.5 - TAU, 5.5], 1e-4);
 }
 
 #[test]
 fn one_piece_is_the_turn() {
     let machine = press();
-    reaches::<f64, Spline, 1>(&machine, [0.0], 1e-4);
-    reaches::<f64, Spline, 1>(&machine, [4.0], 1e-4);
+    reaches::<Spline<f64>, 1>(&machine, [0.0], 1e-4);
+    reaches::<Spline<f64>, 1>(&machine, [4.0], 1e-4);
 }
 
 #[test]
@@ -229,7 +229,7 @@ fn pieces_reach_the_request_beside_the_kinks_of_a_cam() {
     let (machine, breaks) = cam();
     println!("{breaks:?}");
     let breaks: [f64; 6] = breaks.try_into().unwrap();
-    reaches::<f64, Cubic, 6>(&machine, breaks, 1e-7);
+    reaches::<Cubic<f64>, 6>(&machine, breaks, 1e-7);
     // One table is off by half the jump of ½·J′·ω² or more.
     let jump = largest(breaks.map(|at| {
         let side = |d: f64| machine.reduction(at + d).unwrap().inertia[1];
@@ -238,7 +238,7 @@ fn pieces_reach_the_request_beside_the_kinks_of_a_cam() {
     let size = largest(places(3600).map(|phase| exact(&machine, phase, 1.0)));
     assert!(jump > 0.01 * size, "{jump} of {size}");
     for cells in [128, 1024] {
-        let rows = Rows::<f64, Cubic>::of(&machine, SET, cells, &Scale::SI).unwrap();
+        let rows = Rows::<Cubic<f64>>::of(&machine, SET, cells, &Scale::SI).unwrap();
         let model = rows.model::<SET>(&Scale::SI);
         let error = |phase| {
             model.torque(phase, AT[0], 0.0) - {
@@ -254,7 +254,7 @@ fn pieces_reach_the_request_beside_the_kinks_of_a_cam() {
 }
 
 /// In fixed point with cells of the same width, against the same in f64.
-fn fixed_agrees<L: Layout>() {
+fn fixed_agrees<F: Format<Number = Q31>, E: Format<Number = f64>>() {
     // 24, 40 and 32 of 96 cells.
     let starts = [0.25, 0.5, 11.0 / 12.0];
     let cells = [24, 40, 32];
@@ -272,15 +272,15 @@ fn fixed_agrees<L: Layout>() {
         Part::new(&machine, breaks[k], to).unwrap()
     });
     let fixed: Vec<_> = (0..3)
-        .map(|k| Rows::<Q31, L>::of(&parts[k], SET, cells[k], &scale).unwrap())
+        .map(|k| Rows::<F>::of(&parts[k], SET, cells[k], &scale).unwrap())
         .collect();
     let float: Vec<_> = (0..3)
-        .map(|k| Rows::<f64, L>::of(&parts[k], SET, cells[k], &scale).unwrap())
+        .map(|k| Rows::<E>::of(&parts[k], SET, cells[k], &scale).unwrap())
         .collect();
     let start = |k: usize| Phase::from_radians(breaks[k]);
-    let fixed: Pieces<'_, Q31, SET, 3, L> =
+    let fixed: Pieces<'_, F, SET, 3> =
         Pieces::new(std::array::from_fn(|k| (start(k), fixed[k].model(&scale)))).unwrap();
-    let float: Pieces<'_, f64, SET, 3, L> =
+    let float: Pieces<'_, E, SET, 3> =
         Pieces::new(std::array::from_fn(|k| (start(k), float[k].model(&scale)))).unwrap();
     let mut most = 0.0f64;
     for phase in places(1 << 14).chain(beside(&breaks)) {
@@ -295,12 +295,12 @@ fn fixed_agrees<L: Layout>() {
             assert!(!back.saturated);
         }
     }
-    println!("{}: {:.1} units of 2^-31", L::NAME, most / budget::Q31_UNIT);
+    println!("{}: {:.1} units of 2^-31", F::NAME, most / budget::Q31_UNIT);
     assert!(most <= budget::PIECES_Q31, "{most:e}");
 }
 
 #[test]
 fn fixed_point_agrees_with_f64() {
-    fixed_agrees::<Spline>();
-    fixed_agrees::<Cubic>();
+    fixed_agrees::<Spline<Q31>, Spline<f64>>();
+    fixed_agrees::<Cubic<Q31>, Cubic<f64>>();
 }

@@ -5,11 +5,13 @@ use std::f64::consts::TAU;
 use crate::support::machines::Wave;
 use crate::support::rows::Rows;
 use crate::support::{budget, config};
-use jred::table::curves;
-use jred::{Domain, Error, Part, Phase, Pieces, Reducible, Reduction, Scale, TableError};
+use jred::{
+    Domain, Error, Part, Phase, Pieces, Reducible, Reduction, Scale, Set, Spline, TableError,
+    curves,
+};
 use proptest::prelude::*;
 
-const SET: u8 = curves::LOAD;
+const SET: Set = curves::LOAD;
 
 /// A load that grows evenly from 0 to 1 over a stroke of this length, which a spline follows exactly: the torque is minus the
 /// place in the piece.
@@ -42,10 +44,10 @@ fn maps<const N: usize>(starts: [u32; N], phases: impl Iterator<Item = u32>) {
     let rows: Vec<_> = (0..N)
         .map(|k| {
             let ruler = Ruler(length(k) as f64 / WHOLE as f64);
-            Rows::<f64>::of(&ruler, SET, 4, &Scale::SI).unwrap()
+            Rows::<Spline<f64>>::of(&ruler, SET, 4, &Scale::SI).unwrap()
         })
         .collect();
-    let turn: Pieces<'_, f64, SET, N> = Pieces::new(std::array::from_fn(|k| {
+    let turn: Pieces<'_, Spline<f64>, SET, N> = Pieces::new(std::array::from_fn(|k| {
         (
             Phase::from_bits(starts[k]),
             rows[k].model::<SET>(&Scale::SI),
@@ -130,7 +132,7 @@ fn pieces_that_do_not_belong_together() {
     let part = |k: f64, length: f64| {
         let wave = Wave::bare(1.0, 0.25);
         let part = Part::new(&wave, k, k + length).unwrap();
-        Rows::<f64>::of(&part, curves::INERTIA, 8, &Scale::SI).unwrap()
+        Rows::<Spline<f64>>::of(&part, curves::INERTIA, 8, &Scale::SI).unwrap()
     };
     let quarters = [0.0, 0.25, 0.5, 0.75].map(|k| part(k * TAU, 0.25 * TAU));
     let models = quarters.each_ref().map(|rows| rows.model::<0>(&Scale::SI));
@@ -172,7 +174,7 @@ fn pieces_that_do_not_belong_together() {
     let error = pieces.unwrap_err();
     assert_eq!(error, TableError::PieceUnits);
     assert!(error.to_string().contains("same machine units"), "{error}");
-    let none: [(Phase, jred::Model<'_, f64, 0>); 0] = [];
+    let none: [(Phase, jred::Model<'_, Spline<f64>, 0>); 0] = [];
     assert_eq!(
         Pieces::<_, 0, 0>::new(none).unwrap_err(),
         TableError::Pieces

@@ -6,22 +6,21 @@ use crate::support::budget::{self, Q31_UNIT};
 use crate::support::config;
 use crate::support::exact::place_bits;
 use crate::support::machines::Wave;
-use crate::support::rows::Rows;
-use jred::table::{Cubic, Layout, Quadratic, Spline, TableError, curves};
-use jred::{Domain, Phase, Q31, Scalar, Scale};
+use crate::support::rows::{Fixed, Rows};
+use jred::{Cubic, Domain, Format, Phase, Q31, Quadratic, Scale, Set, Spline, TableError, curves};
 use proptest::prelude::*;
 
-const ALL: u8 = curves::ALL;
-const CONSTANT: u8 = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const ALL: Set = curves::ALL;
+const CONSTANT: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 const CELLS: u32 = 64;
 
-fn built<const SET: u8, L: Layout>(machine: &Wave, scale: &Scale) -> Result<(), TableError> {
-    let rows = Rows::<Q31, L>::of(machine, SET, CELLS, scale).unwrap();
+fn built<const SET: Set, L: Fixed>(machine: &Wave, scale: &Scale) -> Result<(), TableError> {
+    let rows = Rows::<L>::of(machine, SET, CELLS, scale).unwrap();
     rows.try_model::<SET>(scale).map(|_| ())
 }
 
 /// J + b + c alone, exactly: refused from 1 on, whichever term it is that grows.
-fn sum_is_bounded<const SET: u8, L: Layout>() {
+fn sum_is_bounded<const SET: Set, L: Fixed>() {
     let scale = Scale::SI.for_cells(CELLS, TAU);
     let [torque, speed, inertia] = [scale.torque(), scale.speed(), scale.inertia()].map(f64::from);
     let build = |[j, b, c]: [f64; 3]| {
@@ -49,11 +48,11 @@ fn sum_is_bounded<const SET: u8, L: Layout>() {
 
 #[test]
 fn terms_that_do_not_fit_together_are_refused() {
-    sum_is_bounded::<ALL, Spline>();
-    sum_is_bounded::<ALL, Cubic>();
-    sum_is_bounded::<ALL, Quadratic>();
-    sum_is_bounded::<CONSTANT, Spline>();
-    sum_is_bounded::<CONSTANT, Quadratic>();
+    sum_is_bounded::<ALL, Spline<Q31>>();
+    sum_is_bounded::<ALL, Cubic<Q31>>();
+    sum_is_bounded::<ALL, Quadratic<Q31>>();
+    sum_is_bounded::<CONSTANT, Spline<Q31>>();
+    sum_is_bounded::<CONSTANT, Quadratic<Q31>>();
 }
 
 /// A load of one peak is refused in the cells at the peak.
@@ -66,7 +65,7 @@ fn a_load_that_does_not_fit_is_refused_where_it_does_not() {
             load,
             ..Wave::bare(0.25 * f64::from(scale.inertia()), 0.0)
         };
-        built::<{ curves::LOAD }, Spline>(&machine, &scale)
+        built::<{ curves::LOAD }, Spline<Q31>>(&machine, &scale)
     };
     assert_eq!(build(0.748), Ok(()));
     let refused = build(0.7505);
@@ -77,7 +76,7 @@ fn a_load_that_does_not_fit_is_refused_where_it_does_not() {
 }
 
 /// ½·J′·ω_b² must fit the torque base: refused just above, accepted just below.
-fn velocity_is_bounded<L: Layout>() {
+fn velocity_is_bounded<L: Fixed>() {
     let machine = Wave::bare(1.0, 0.25); // ½·J′·ω² is up to 0.125·ω²
     let build = |share: f32, inertia: f32| {
         let scale = Scale::new(2.0, 4.0 * share.sqrt(), inertia).unwrap();
@@ -102,15 +101,15 @@ fn velocity_is_bounded<L: Layout>() {
 
 #[test]
 fn velocity_torque_outside_the_base_is_refused() {
-    velocity_is_bounded::<Spline>();
-    velocity_is_bounded::<Cubic>();
-    velocity_is_bounded::<Quadratic>();
+    velocity_is_bounded::<Spline<Q31>>();
+    velocity_is_bounded::<Cubic<Q31>>();
+    velocity_is_bounded::<Quadratic<Q31>>();
 }
 
-fn other_speed_bases<S: Scalar, L: Layout>(fixed: bool) {
+fn other_speed_bases<F: Format>(fixed: bool) {
     let machine = Wave::bare(0.5, 0.1);
     let scale = Scale::new(2.0, 4.0, 1.5).unwrap().for_cells(CELLS, TAU);
-    let rows = Rows::<S, L>::of(&machine, curves::INERTIA, CELLS, &scale).unwrap();
+    let rows = Rows::<F>::of(&machine, curves::INERTIA, CELLS, &scale).unwrap();
     let build = |scale: &Scale| rows.try_model::<{ curves::INERTIA }>(scale).map(|_| ());
     assert_eq!(build(&scale), Ok(()));
     for share in [1.0 - 1e-5, 1.0 + 1e-5, 0.3, 0.01] {
@@ -128,23 +127,35 @@ fn other_speed_bases<S: Scalar, L: Layout>(fixed: bool) {
 
 #[test]
 fn a_speed_base_that_does_not_suit_the_cells_is_refused() {
-    other_speed_bases::<Q31, Spline>(true);
-    other_speed_bases::<Q31, Cubic>(true);
-    other_speed_bases::<Q31, Quadratic>(true);
-    other_speed_bases::<f32, Spline>(false);
-    other_speed_bases::<f64, Quadratic>(false);
+    other_speed_bases::<Spline<Q31>>(true);
+    other_speed_bases::<Cubic<Q31>>(true);
+    other_speed_bases::<Quadratic<Q31>>(true);
+    other_speed_bases::<Spline<f32>>(false);
+    other_speed_bases::<Quadratic<f64>>(false);
 }
 
 #[test]
 fn a_span_that_is_no_length_is_refused() {
     let machine = Wave::bare(0.5, 0.1);
     let scale = Scale::new(2.0, 4.0, 1.5).unwrap().for_cells(CELLS, TAU);
-    let fixed = Rows::<Q31>::of(&machine, curves::INERTIA, CELLS, &scale).unwrap();
-    let float = Rows::<f32>::of(&machine, curves::INERTIA, CELLS, &scale).unwrap();
-    for span in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e-40] {
-        let found = jred::Model::<Q31, { curves::INERTIA }>::new(fixed.table(), span, &scale);
+    let fixed = Rows::<Spline<Q31>>::of(&machine, curves::INERTIA, CELLS, &scale).unwrap();
+    let float = Rows::<Spline<f32>>::of(&machine, curves::INERTIA, CELLS, &scale).unwrap();
+    for span in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-40] {
+        let domain = Domain::Stroke {
+            from: 0.0,
+            to: span,
+        };
+        let fixed = Rows {
+            domain,
+            ..fixed.clone()
+        };
+        let float = Rows {
+            domain,
+            ..float.clone()
+        };
+        let found = fixed.try_model::<{ curves::INERTIA }>(&scale);
         assert!(found.is_err(), "span {span}");
-        let found = jred::Model::<f32, { curves::INERTIA }>::new(float.table(), span, &scale);
+        let found = float.try_model::<{ curves::INERTIA }>(&scale);
         assert!(found.is_err(), "span {span}");
     }
 }
@@ -153,7 +164,7 @@ fn a_span_that_is_no_length_is_refused() {
 #[test]
 fn another_set_of_curves_is_refused() {
     let machine = Wave::bare(0.5, 0.1);
-    let rows = |set| Rows::<f32>::of(&machine, set, CELLS, &Scale::SI).unwrap();
+    let rows = |set| Rows::<Spline<f32>>::of(&machine, set, CELLS, &Scale::SI).unwrap();
     let [none, load] = [curves::INERTIA, curves::LOAD].map(rows);
     let refused = |set| Err(TableError::Curves(set));
     assert_eq!(
@@ -183,7 +194,7 @@ fn another_set_of_curves_is_refused() {
 fn a_slope_whose_rounding_leaves_the_range_is_refused() {
     let words = [0, -660, -1328, -1996, -2664, -3332, -4000].map(|step| (1 << 18) + step);
     let domain = Domain::stroke(0.0, 2.0).unwrap();
-    let rows = Rows::<Q31>::plain(words.to_vec(), curves::INERTIA, 4, domain);
+    let rows = Rows::<Spline<Q31>>::plain(words.to_vec(), curves::INERTIA, 4, domain);
     // ½·4 cells/span 2 = 1, and J_b·ω_b²/T_b is the rest of the factor. Two units of Q31 a unit of Q30.
     let edge = 2_147_483_648.0 / 8020.0;
     let scale = |factor: f64| Scale::new(1.0, 1.0, factor.floor() as f32).unwrap();
@@ -212,7 +223,7 @@ fn a_slope_whose_rounding_leaves_the_range_is_refused() {
 }
 
 /// Random words of J and of every curve, up to the ends of the range.
-fn words<L: Layout>() -> impl Strategy<Value = Vec<i32>> {
+fn words<L: Fixed>() -> impl Strategy<Value = Vec<i32>> {
     let (rows, pitch, curve) = match L::NAME {
         "spline" => (7, 4, 1),
         "cubic" => (4, 16, 4),
@@ -235,14 +246,14 @@ fn words<L: Layout>() -> impl Strategy<Value = Vec<i32>> {
 
 /// At every corner of the state space and at one random state: the exact torque, off by the stated floors and no more. A
 /// torque that wrapped would be off by 2³².
-fn never_wraps<L: Layout>(
+fn never_wraps<L: Fixed>(
     words: Vec<i32>,
     factor: u32,
     bits: u32,
     state: [i32; 2],
 ) -> Result<(), TestCaseError> {
     let domain = Domain::stroke(0.0, 2.0).unwrap();
-    let rows = Rows::<Q31, L>::plain(words, ALL, 4, domain);
+    let rows = Rows::<L>::plain(words, ALL, 4, domain);
     let scale = Scale::new(1.0, 1.0, factor as f32).unwrap();
     let Ok(model) = rows.try_model::<ALL>(&scale) else {
         return Err(TestCaseError::reject("not a table, or out of range"));
@@ -274,18 +285,18 @@ proptest! {
     #![proptest_config(config(1024, 0x0071))]
 
     #[test]
-    fn an_accepted_spline_never_wraps(words in words::<Spline>(), factor in 1u32..9, bits: u32, state: [i32; 2]) {
-        never_wraps::<Spline>(words, factor, bits, state)?;
+    fn an_accepted_spline_never_wraps(words in words::<Spline<Q31>>(), factor in 1u32..9, bits: u32, state: [i32; 2]) {
+        never_wraps::<Spline<Q31>>(words, factor, bits, state)?;
     }
 
     #[test]
-    fn an_accepted_cubic_never_wraps(words in words::<Cubic>(), factor in 1u32..9, bits: u32, state: [i32; 2]) {
-        never_wraps::<Cubic>(words, factor, bits, state)?;
+    fn an_accepted_cubic_never_wraps(words in words::<Cubic<Q31>>(), factor in 1u32..9, bits: u32, state: [i32; 2]) {
+        never_wraps::<Cubic<Q31>>(words, factor, bits, state)?;
     }
 
     #[test]
-    fn an_accepted_quadratic_never_wraps(words in words::<Quadratic>(), factor in 1u32..9, bits: u32, state: [i32; 2]) {
-        never_wraps::<Quadratic>(words, factor, bits, state)?;
+    fn an_accepted_quadratic_never_wraps(words in words::<Quadratic<Q31>>(), factor in 1u32..9, bits: u32, state: [i32; 2]) {
+        never_wraps::<Quadratic<Q31>>(words, factor, bits, state)?;
     }
 }
 
@@ -299,7 +310,7 @@ fn a_model_may_use_the_range_up_to_its_end() {
         coulomb: 0.199_98 * torque,
         ..Wave::bare(0.6 * inertia, 0.0)
     };
-    let rows = Rows::<Q31>::of(&machine, ALL, CELLS, &scale).unwrap();
+    let rows = Rows::<Spline<Q31>>::of(&machine, ALL, CELLS, &scale).unwrap();
     let model = rows.model::<ALL>(&scale);
     for (end, expected) in [(Q31::MAX, 0.999_98), (Q31::MIN, -0.999_98)] {
         let found = f64::from(model.torque(Phase::default(), end, end).to_bits()) * Q31_UNIT;

@@ -4,26 +4,26 @@ use std::f64::consts::TAU;
 
 use crate::support::budget::{self, Q31_UNIT};
 use crate::support::machines::{Spec, Wave, spec};
-use crate::support::rows::Rows;
+use crate::support::rows::{Fixed, Meaning as _, Plain, Rows};
 use crate::support::{assert_near, config, largest, rk4};
-use jred::table::{Cubic, Layout, Quadratic, Role, Spline, TableError, curves};
-use jred::{Model, Phase, Q31, Scalar, Scale};
+use jred::table::Role;
+use jred::{Cubic, Model, Phase, Q31, Quadratic, Scale, Set, Spline, TableError, curves};
 use proptest::prelude::*;
 
-const SET: u8 = curves::ALL | curves::RECIPROCAL;
+const SET: Set = curves::ALL | curves::RECIPROCAL;
 
 fn of(x: Q31) -> f64 {
     f64::from(x.to_bits()) * Q31_UNIT
 }
 
 /// J_m: the power of two that J times its reciprocal's curve is.
-fn unit<L: Layout>(rows: &Rows<Q31, L>) -> f64 {
+fn unit<L: Fixed>(rows: &Rows<L>) -> f64 {
     let read = rows.exact(Phase::default(), !0);
     (read.inertia * read.reciprocal).log2().round().exp2()
 }
 
 /// Acceleration → torque → acceleration; the range of two torques; and the table's own seed against its own J.
-fn there_and_back<L: Layout>(
+fn there_and_back<L: Fixed>(
     spec: &Spec,
     cells: u32,
     [omega, alpha, other]: [f64; 3],
@@ -32,7 +32,7 @@ fn there_and_back<L: Layout>(
     let machine = spec.machine();
     let scale = Scale::covering(&machine, 60.0, 900.0, 256).unwrap();
     let scale = scale.for_cells(cells, TAU);
-    let Ok(rows) = Rows::<Q31, L>::of(&machine, SET, cells, &scale) else {
+    let Ok(rows) = Rows::<L>::of(&machine, SET, cells, &scale) else {
         return; // too few cells
     };
     let Ok(model) = rows.try_model::<SET>(&scale) else {
@@ -56,7 +56,7 @@ fn there_and_back<L: Layout>(
     let budget = units * Q31_UNIT + left.abs() * of(alpha).abs();
     assert_near("α", of(back.value), of(alpha), budget);
     // What the model says of itself is about the same everywhere in the table.
-    let stated = f64::from(model.reciprocal_error());
+    let stated = f64::from(model.table().reciprocal_error());
     assert!(
         left.abs()
             <= budget::RECIPROCAL_STATED * stated + budget::RECIPROCAL_UNITS * Q31_UNIT / unit,
@@ -77,9 +77,9 @@ proptest! {
         spec in spec(), state in [-1.0..1.0, -1.0..1.0, -1.0..1.0], cells in 24u32..200, bits: u32,
     ) {
         let phase = Phase::from_bits(bits);
-        there_and_back::<Spline>(&spec, cells, state, phase);
-        there_and_back::<Cubic>(&spec, cells, state, phase);
-        there_and_back::<Quadratic>(&spec, 2 * cells, state, phase);
+        there_and_back::<Spline<Q31>>(&spec, cells, state, phase);
+        there_and_back::<Cubic<Q31>>(&spec, cells, state, phase);
+        there_and_back::<Quadratic<Q31>>(&spec, 2 * cells, state, phase);
     }
 }
 
@@ -91,12 +91,12 @@ fn wave() -> Wave {
 }
 
 /// The largest difference there and back, as a part of the acceleration, at large accelerations and everywhere.
-fn inconsistency<L: Layout>(cells: u32) -> [f64; 2] {
+fn inconsistency<L: Fixed>(cells: u32) -> [f64; 2] {
     // J is 0.19 to 0.57, so J_m is ⅛; the velocity factor is one.
     let speed = (2.0 * TAU / f64::from(cells) * 5.0 / 2.63).sqrt();
     let scale = Scale::new(5.0, speed as f32, 2.63).unwrap();
     let scale = scale.for_cells(cells, TAU);
-    let rows = Rows::<Q31, L>::of(&wave(), SET, cells, &scale).unwrap();
+    let rows = Rows::<L>::of(&wave(), SET, cells, &scale).unwrap();
     let model = rows.model::<SET>(&scale);
     let alpha = scale.alpha::<Q31>(1.8).value;
     let places = 64 * cells;
@@ -107,12 +107,12 @@ fn inconsistency<L: Layout>(cells: u32) -> [f64; 2] {
         assert!(!back.saturated);
         of(back.value) / of(alpha) - 1.0
     }));
-    [found, f64::from(model.reciprocal_error())]
+    [found, f64::from(model.table().reciprocal_error())]
 }
 
 /// It falls with the order of the spline, squared by Newton's step, until the roundings are left; and it is what the model
 /// says.
-fn falls<L: Layout>(cells: [u32; 3], ratio: [f64; 2], floor: f64) {
+fn falls<L: Fixed>(cells: [u32; 3], ratio: [f64; 2], floor: f64) {
     let found = cells.map(inconsistency::<L>);
     for (cells, [found, stated]) in cells.iter().zip(found) {
         println!(
@@ -134,13 +134,13 @@ fn falls<L: Layout>(cells: [u32; 3], ratio: [f64; 2], floor: f64) {
 #[test]
 fn the_inconsistency_is_what_is_stated() {
     // (16/12)⁴ squared is 10, and 2³. The roundings are those of `there_and_back`, over J = 0.19 and J_m = ⅛.
-    falls::<Spline>([12, 16, 48], [6.0, 16.0], 1e-7);
-    falls::<Cubic>([12, 16, 48], [6.0, 16.0], 1e-7);
-    falls::<Quadratic>([32, 64, 1024], [7.0, 9.5], 3e-7);
+    falls::<Spline<Q31>>([12, 16, 48], [6.0, 16.0], 1e-7);
+    falls::<Cubic<Q31>>([12, 16, 48], [6.0, 16.0], 1e-7);
+    falls::<Quadratic<Q31>>([32, 64, 1024], [7.0, 9.5], 3e-7);
 }
 
 /// Unit by unit around T = ±J: flagged where the quotient leaves the range, within the quotient's own error.
-fn saturates<L: Layout>() {
+fn saturates<L: Fixed>() {
     let scale = Scale::SI.for_cells(16, TAU);
     let [torque, inertia] = [scale.torque(), scale.inertia()].map(f64::from);
     let machine = Wave {
@@ -148,10 +148,10 @@ fn saturates<L: Layout>() {
         ..Wave::bare(0.5 * inertia, 0.0)
     };
     let set = curves::COULOMB | curves::RECIPROCAL;
-    let rows = Rows::<Q31, L>::of(&machine, set, 16, &scale).unwrap();
+    let rows = Rows::<L>::of(&machine, set, 16, &scale).unwrap();
     let model = rows.model::<{ curves::COULOMB | curves::RECIPROCAL }>(&scale);
     let read = model.table().at(Phase::default());
-    let (inertia, friction) = (read.inertia.to_bits(), read.coulomb.to_bits());
+    let [inertia, friction] = [read.inertia, read.coulomb].map(|x| (x / Q31_UNIT) as i32);
     let at = |omega: i32, torque: i32| {
         model.acceleration(
             Phase::default(),
@@ -189,20 +189,20 @@ fn saturates<L: Layout>() {
 
 #[test]
 fn saturation_is_flagged() {
-    saturates::<Spline>();
-    saturates::<Cubic>();
-    saturates::<Quadratic>();
+    saturates::<Spline<Q31>>();
+    saturates::<Cubic<Q31>>();
+    saturates::<Quadratic<Q31>>();
 }
 
 /// Largest share by which the energy ½·J·ω² + U leaves its start over four turns without drive torque: the model's own J
 /// and load, the model's own acceleration.
-fn energy_drift<const S: u8, L: Layout>(spec: &Spec) -> f64 {
+fn energy_drift<const S: Set, L: Fixed>(spec: &Spec) -> f64 {
     const STEPS: u32 = 1024;
     let machine = spec.heavy();
     let scale = Scale::covering(&machine, 90.0, 2000.0, 256).unwrap();
     let scale = scale.for_cells(64, TAU);
-    let rows = Rows::<Q31, L>::of(&machine, S, 64, &scale).unwrap();
-    let model: Model<'_, Q31, S, L> = rows.model(&scale);
+    let rows = Rows::<L>::of(&machine, S, 64, &scale).unwrap();
+    let model: Model<'_, L, S> = rows.model(&scale);
     let phase = |x: f64| Phase::from_bits((x * (4_294_967_296.0 / f64::from(STEPS))) as u64 as u32);
     let [torque, speed, inertia] = [scale.torque(), scale.speed(), scale.inertia()].map(f64::from);
     let exact = |x: f64| rows.exact(phase(x), !0);
@@ -229,8 +229,8 @@ fn energy_drift<const S: u8, L: Layout>(spec: &Spec) -> f64 {
 
 #[test]
 fn energy_is_conserved_without_division() {
-    const DIVIDE: u8 = curves::LOAD;
-    const MULTIPLY: u8 = curves::LOAD | curves::RECIPROCAL;
+    const DIVIDE: Set = curves::LOAD;
+    const MULTIPLY: Set = curves::LOAD | curves::RECIPROCAL;
     let press = Spec {
         crank: 0.08,
         rod_ratio: 2.5,
@@ -242,13 +242,16 @@ fn energy_is_conserved_without_division() {
         loads: [0.0; 4],
         flywheel: 0.6,
     };
-    let divided = energy_drift::<DIVIDE, Spline>(&press);
+    let divided = energy_drift::<DIVIDE, Spline<Q31>>(&press);
     println!("spline, divided {divided:.1e}");
     assert_near("spline", divided, 0.0, budget::Q31_ENERGY);
     for (name, drift) in [
-        ("spline", energy_drift::<MULTIPLY, Spline>(&press)),
-        ("cubic", energy_drift::<MULTIPLY, Cubic>(&press)),
-        ("quadratic", energy_drift::<MULTIPLY, Quadratic>(&press)),
+        ("spline", energy_drift::<MULTIPLY, Spline<Q31>>(&press)),
+        ("cubic", energy_drift::<MULTIPLY, Cubic<Q31>>(&press)),
+        (
+            "quadratic",
+            energy_drift::<MULTIPLY, Quadratic<Q31>>(&press),
+        ),
     ] {
         println!("{name} {drift:.1e}");
         assert_near(name, drift, 0.0, budget::Q31_ENERGY_RECIPROCAL);
@@ -256,7 +259,7 @@ fn energy_is_conserved_without_division() {
 }
 
 /// Every word of the reciprocal's curve times `share`.
-fn scaled<L: Layout>(rows: &Rows<Q31, L>, share: f64) -> Rows<Q31, L> {
+fn scaled<L: Fixed>(rows: &Rows<L>, share: f64) -> Rows<L> {
     let mut rows = rows.clone();
     let (first, count, pitch) = match L::NAME {
         "spline" => (1, 1, 2),
@@ -271,12 +274,12 @@ fn scaled<L: Layout>(rows: &Rows<Q31, L>, share: f64) -> Rows<Q31, L> {
     rows
 }
 
-fn refuses_another_reciprocal<L: Layout>(accepted: [f64; 2], refused: [f64; 2]) {
-    const SET: u8 = curves::RECIPROCAL;
+fn refuses_another_reciprocal<L: Fixed>(accepted: [f64; 2], refused: [f64; 2]) {
+    const SET: Set = curves::RECIPROCAL;
     let scale = Scale::covering(&wave(), 10.0, 20.0, 256).unwrap();
     let scale = scale.for_cells(128, TAU);
-    let rows = Rows::<Q31, L>::of(&wave(), SET, 128, &scale).unwrap();
-    let build = |rows: &Rows<Q31, L>| rows.try_model::<SET>(&scale).map(|_| ());
+    let rows = Rows::<L>::of(&wave(), SET, 128, &scale).unwrap();
+    let build = |rows: &Rows<L>| rows.try_model::<SET>(&scale).map(|_| ());
     assert_eq!(build(&rows), Ok(()));
     for share in accepted {
         assert_eq!(build(&scaled(&rows, share)), Ok(()), "{share}");
@@ -310,20 +313,20 @@ fn refuses_another_reciprocal<L: Layout>(accepted: [f64; 2], refused: [f64; 2]) 
 
 #[test]
 fn a_reciprocal_of_another_inertia_is_refused() {
-    refuses_another_reciprocal::<Spline>([0.85, 1.0], [0.79, 0.6]);
-    refuses_another_reciprocal::<Cubic>([0.85, 1.0], [0.79, 0.6]);
-    refuses_another_reciprocal::<Quadratic>([0.985, 1.0], [0.975, 0.9]);
+    refuses_another_reciprocal::<Spline<Q31>>([0.85, 1.0], [0.79, 0.6]);
+    refuses_another_reciprocal::<Cubic<Q31>>([0.85, 1.0], [0.79, 0.6]);
+    refuses_another_reciprocal::<Quadratic<Q31>>([0.985, 1.0], [0.975, 0.9]);
 }
 
 /// 1/J of an inertia that swings much needs more cells than J itself.
 #[test]
 fn too_few_cells_are_refused() {
-    const SET: u8 = curves::RECIPROCAL;
+    const SET: Set = curves::RECIPROCAL;
     let machine = Wave::bare(1.0, 0.9);
     let build = |cells: u32| {
         let scale = Scale::covering(&machine, 10.0, 20.0, 256).unwrap();
         let scale = scale.for_cells(cells, TAU);
-        let rows = Rows::<Q31, Quadratic>::of(&machine, SET, cells, &scale)?;
+        let rows = Rows::<Quadratic<Q31>>::of(&machine, SET, cells, &scale)?;
         rows.try_model::<SET>(&scale)
             .map(|_| ())
             .map_err(jred::Error::Table)
@@ -334,20 +337,20 @@ fn too_few_cells_are_refused() {
     assert_eq!(build(96), Ok(()));
 }
 
-fn refused_in_floating_point<S: Scalar, L: Layout>() {
-    let refused = Rows::<S, L>::of(&wave(), SET, 16, &Scale::SI).map(|_| ());
+fn refused_in_floating_point<F: Plain>() {
+    let refused = Rows::<F>::of(&wave(), SET, 16, &Scale::SI).map(|_| ());
     let expected = TableError::Curves(SET);
     assert_eq!(refused, Err(jred::Error::Table(expected)));
-    let word = S::word(Role::Inertia, 0.1).unwrap();
-    let words = vec![word; jred::tabulate::words_len::<L>(16, curves::RECIPROCAL)];
-    let rows = Rows::<S, L>::plain(words, curves::RECIPROCAL, 16, jred::Domain::Turn);
+    let word = F::Word::of(Role::Inertia, 0.1);
+    let words = vec![word; jred::table::words_len::<F>(16, curves::RECIPROCAL)];
+    let rows = Rows::<F>::plain(words, curves::RECIPROCAL, 16, jred::Domain::Turn);
     let expected = TableError::Curves(curves::RECIPROCAL);
     assert_eq!(rows.try_table().map(|_| ()), Err(expected));
 }
 
 #[test]
 fn floating_point_has_no_reciprocal() {
-    refused_in_floating_point::<f32, Spline>();
-    refused_in_floating_point::<f32, Quadratic>();
-    refused_in_floating_point::<f64, Cubic>();
+    refused_in_floating_point::<Spline<f32>>();
+    refused_in_floating_point::<Quadratic<f32>>();
+    refused_in_floating_point::<Cubic<f64>>();
 }

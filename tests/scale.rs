@@ -3,13 +3,12 @@
 use std::f64::consts::TAU;
 
 use crate::support::machines::{Wave, spec};
-use crate::support::rows::Rows;
+use crate::support::rows::{Fixed, Rows};
 use crate::support::{assert_near, budget, config, largest};
-use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
-use jred::{Outcome, Phase, Q31, Reducible, Scale};
+use jred::{Cubic, Outcome, Phase, Q31, Quadratic, Reducible, Scale, Set, Spline, curves};
 use proptest::prelude::*;
 
-const ALL: u8 = curves::ALL;
+const ALL: Set = curves::ALL;
 
 /// ½·cells/span·J_b·ω_b²/T_b
 fn factor(scale: &Scale, cells: u32, span: f64) -> f64 {
@@ -53,9 +52,9 @@ proptest! {
         let machine = spec.machine();
         let scale = Scale::covering(&machine, omega, alpha, 256).unwrap();
         let states = [[w, a], [w.signum(), a.signum()], [-w.signum(), a.signum()]].map(|[w, a]| [omega * w, alpha * a]);
-        covers::<Spline>(&machine, &scale, &states, bits)?;
-        covers::<Cubic>(&machine, &scale, &states, bits)?;
-        covers::<Quadratic>(&machine, &scale, &states, bits)?;
+        covers::<Spline<Q31>>(&machine, &scale, &states, bits)?;
+        covers::<Cubic<Q31>>(&machine, &scale, &states, bits)?;
+        covers::<Quadratic<Q31>>(&machine, &scale, &states, bits)?;
     }
 
     /// The same with the finest scale, in which torque is as large as inverse dynamics needs.
@@ -66,21 +65,21 @@ proptest! {
         let machine = spec.machine();
         let limited = Scale::limited_to(&machine, omega, alpha, 256).unwrap();
         let states = [[w, a], [w.signum(), a.signum()], [-w.signum(), a.signum()]].map(|[w, a]| [omega * w, alpha * a]);
-        covers::<Spline>(&machine, &limited, &states, bits)?;
+        covers::<Spline<Q31>>(&machine, &limited, &states, bits)?;
         let covering = Scale::covering(&machine, omega, alpha, 256).unwrap();
         prop_assert!(limited.acceleration() <= covering.acceleration() && limited.torque() <= covering.torque());
         assert_near("acceleration base", f64::from(limited.acceleration()), 1.05 * alpha, 1e-6 * alpha);
     }
 }
 
-fn covers<L: Layout>(
+fn covers<L: Fixed>(
     machine: &impl Reducible,
     scale: &Scale,
     states: &[[f64; 2]],
     bits: u32,
 ) -> Result<(), TestCaseError> {
     let scale = scale.for_cells(128, TAU);
-    let rows = Rows::<Q31, L>::of(machine, ALL, 128, &scale).unwrap();
+    let rows = Rows::<L>::of(machine, ALL, 128, &scale).unwrap();
     let model = rows.try_model::<ALL>(&scale);
     let model = model.expect("the scale covers all terms together");
     for [omega, alpha] in states {
@@ -102,7 +101,7 @@ fn covering_scale_covers_the_velocity_torque() {
     let machine = Wave::bare(1.0, 0.01);
     let scale = Scale::covering(&machine, 100.0, 0.1, 256).unwrap();
     let scale = scale.for_cells(64, TAU);
-    let rows = Rows::<Q31>::of(&machine, curves::INERTIA, 64, &scale).unwrap();
+    let rows = Rows::<Spline<Q31>>::of(&machine, curves::INERTIA, 64, &scale).unwrap();
     let built = rows.try_model::<{ curves::INERTIA }>(&scale);
     assert!(built.is_ok(), "{:?} with {scale:?}", built.err());
 }
@@ -121,7 +120,7 @@ fn covering_scale_covers_forward_dynamics() {
     let drive = largest(needed) as f32;
     let saturated = |scale: Scale| {
         let scale = scale.for_cells(64, TAU);
-        let rows = Rows::<Q31>::of(&machine, ALL, 64, &scale).unwrap();
+        let rows = Rows::<Spline<Q31>>::of(&machine, ALL, 64, &scale).unwrap();
         let model = rows.model::<ALL>(&scale);
         let torque = scale.to_torque::<Q31>(drive).value;
         let states = (0..64u32).flat_map(|k| [-10.0, 0.0, 10.0].map(|speed| (k << 26, speed)));
@@ -153,7 +152,7 @@ fn a_slow_machine_has_a_model() {
     let machine = Wave::bare(1.0, 0.25);
     let slow = Scale::new(1e3, 0.1, 1.5).unwrap();
     let scale = slow.for_cells(64, TAU);
-    let rows = Rows::<Q31>::of(&machine, curves::INERTIA, 64, &scale).unwrap();
+    let rows = Rows::<Spline<Q31>>::of(&machine, curves::INERTIA, 64, &scale).unwrap();
     let model = rows.model::<{ curves::INERTIA }>(&scale);
     let omega = scale.omega::<Q31>(0.1).value;
     let phase = Phase::from_radians(1.0);

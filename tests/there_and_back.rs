@@ -6,16 +6,15 @@ use std::f64::consts::TAU;
 use crate::support::machines::{Spec, spec};
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, config};
-use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
-use jred::{Phase, Q31, Scalar, Scale};
+use jred::{Cubic, Format, Number, Phase, Q31, Quadratic, Scale, Set, Spline, curves};
 use proptest::prelude::*;
 
-const ALL: u8 = curves::ALL;
+const ALL: Set = curves::ALL;
 const CELLS: u32 = 64;
 
 /// Acceleration → torque → acceleration, and the range of accelerations of two torques. `bound` is of J·α and J in machine
 /// units.
-fn there_and_back<S: Scalar, L: Layout>(
+fn there_and_back<F: Format>(
     spec: &Spec,
     [omega, alpha, other]: [f64; 3],
     phase: Phase,
@@ -24,25 +23,31 @@ fn there_and_back<S: Scalar, L: Layout>(
     let machine = spec.machine();
     let scale = Scale::covering(&machine, 60.0, 900.0, 256).unwrap();
     let scale = scale.for_cells(CELLS, TAU);
-    let rows = Rows::<S, L>::of(&machine, ALL, CELLS, &scale).unwrap();
+    let rows = Rows::<F>::of(&machine, ALL, CELLS, &scale).unwrap();
     let model = rows.model::<ALL>(&scale);
     let (base, acceleration) = (f64::from(scale.speed()), f64::from(scale.acceleration()));
-    let omega = S::from_f64(omega * 60.0 / base).unwrap();
-    let [alpha, other] = [alpha, other].map(|a| S::from_f64(a * 900.0 / acceleration).unwrap());
+    let omega = F::Number::from_f64(omega * 60.0 / base).unwrap();
+    let [alpha, other] =
+        [alpha, other].map(|a| F::Number::from_f64(a * 900.0 / acceleration).unwrap());
     let torque = model.torque(phase, omega, alpha);
     let back = model.acceleration(phase, omega, torque);
     assert!(!back.saturated, "{back:?}");
-    let inertia = model.table().at(phase).inertia.to_f64();
+    let inertia = model.table().at(phase).inertia;
     let budget = bound(inertia * alpha.to_f64(), inertia);
-    assert_near(S::NAME, back.value.to_f64(), alpha.to_f64(), budget);
+    assert_near(
+        <F::Number as Number>::NAME,
+        back.value.to_f64(),
+        alpha.to_f64(),
+        budget,
+    );
     // Both at once are each by itself.
     let least = model.torque(phase, omega, other);
     let range = model.acceleration_range(phase, omega, least, torque);
     assert_eq!(range.greatest, back);
     assert_eq!(range.least, model.acceleration(phase, omega, least));
-    let mut many = [S::default(); 3];
+    let mut many = [F::Number::default(); 3];
     let done = model.torques(&[phase; 2], &[omega; 3], &[alpha, other], &mut many);
-    assert_eq!((done, many), (2, [torque, least, S::default()]));
+    assert_eq!((done, many), (2, [torque, least, F::Number::default()]));
 }
 
 fn float(epsilon: f64) -> impl Fn(f64, f64) -> f64 {
@@ -61,14 +66,14 @@ proptest! {
     #[test]
     fn forward_inverts_inverse(spec in spec(), state in [-1.0..1.0, -1.0..1.0, -1.0..1.0], bits: u32) {
         let phase = Phase::from_bits(bits);
-        there_and_back::<f64, Spline>(&spec, state, phase, float(f64::EPSILON));
-        there_and_back::<f64, Cubic>(&spec, state, phase, float(f64::EPSILON));
-        there_and_back::<f64, Quadratic>(&spec, state, phase, float(f64::EPSILON));
-        there_and_back::<f32, Spline>(&spec, state, phase, float(f64::from(f32::EPSILON)));
-        there_and_back::<f32, Cubic>(&spec, state, phase, float(f64::from(f32::EPSILON)));
-        there_and_back::<f32, Quadratic>(&spec, state, phase, float(f64::from(f32::EPSILON)));
-        there_and_back::<Q31, Spline>(&spec, state, phase, fixed);
-        there_and_back::<Q31, Cubic>(&spec, state, phase, fixed);
-        there_and_back::<Q31, Quadratic>(&spec, state, phase, fixed);
+        there_and_back::<Spline<f64>>(&spec, state, phase, float(f64::EPSILON));
+        there_and_back::<Cubic<f64>>(&spec, state, phase, float(f64::EPSILON));
+        there_and_back::<Quadratic<f64>>(&spec, state, phase, float(f64::EPSILON));
+        there_and_back::<Spline<f32>>(&spec, state, phase, float(f64::from(f32::EPSILON)));
+        there_and_back::<Cubic<f32>>(&spec, state, phase, float(f64::from(f32::EPSILON)));
+        there_and_back::<Quadratic<f32>>(&spec, state, phase, float(f64::from(f32::EPSILON)));
+        there_and_back::<Spline<Q31>>(&spec, state, phase, fixed);
+        there_and_back::<Cubic<Q31>>(&spec, state, phase, fixed);
+        there_and_back::<Quadratic<Q31>>(&spec, state, phase, fixed);
     }
 }

@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, config, largest};
 use jred::mechanism::{Branch, SliderCrank};
-use jred::table::{Cubic, Layout, Quadratic, Spline, curves};
 use jred::tabulate::curves_in_use;
 use jred::{
-    Action, Domain, Error, Link, Load, Machine, Phase, Q31, Reducible, Reduction, Scalar, Scale,
+    Action, Cubic, Domain, Error, Format, Link, Load, Machine, Number, Phase, Q31, Quadratic,
+    Reducible, Reduction, Scale, Set, Spline, curves,
 };
 use proptest::prelude::*;
 
@@ -35,8 +35,8 @@ impl<V: Fn(f64) -> f64> Reducible for Friction<V> {
 }
 
 /// Largest error of c.
-fn error<S: Scalar, L: Layout>(machine: &impl Reducible, cells: u32, scale: &Scale) -> f64 {
-    let rows = Rows::<S, L>::of(machine, curves::COULOMB, cells, scale).unwrap();
+fn error<F: Format>(machine: &impl Reducible, cells: u32, scale: &Scale) -> f64 {
+    let rows = Rows::<F>::of(machine, curves::COULOMB, cells, scale).unwrap();
     let table = rows.table();
     let places = 48 * cells;
     largest((0..places).map(|k| {
@@ -45,7 +45,7 @@ fn error<S: Scalar, L: Layout>(machine: &impl Reducible, cells: u32, scale: &Sca
             .domain()
             .position(f64::from(phase.to_bits()) / 4_294_967_296.0);
         let exact = machine.reduction(phi).unwrap().coulomb;
-        table.at(phase).coulomb.to_f64() * f64::from(scale.torque()) - exact
+        table.at(phase).coulomb * f64::from(scale.torque()) - exact
     }))
 }
 
@@ -62,12 +62,12 @@ fn press() -> Machine<SliderCrank> {
     Machine::new(mechanism).with_load(friction).unwrap()
 }
 
-fn converges<L: Layout>(machine: &impl Reducible, order: i32) {
+fn converges<F: Format>(machine: &impl Reducible, order: i32) {
     for cells in [64, 128] {
-        let [coarse, fine] = [cells, 2 * cells].map(|n| error::<f64, L>(machine, n, &Scale::SI));
+        let [coarse, fine] = [cells, 2 * cells].map(|n| error::<F>(machine, n, &Scale::SI));
         println!(
             "{} {cells} cells: {coarse:.1e}, ratio {:.2}",
-            L::NAME,
+            F::NAME,
             coarse / fine
         );
         let expected = f64::from(1 << order);
@@ -82,16 +82,16 @@ fn converges<L: Layout>(machine: &impl Reducible, order: i32) {
 
 #[test]
 fn friction_of_a_slider_converges_as_a_smooth_curve_does() {
-    converges::<Spline>(&press(), 4);
-    converges::<Cubic>(&press(), 4);
-    converges::<Quadratic>(&press(), 3);
+    converges::<Spline<f64>>(&press(), 4);
+    converges::<Cubic<f64>>(&press(), 4);
+    converges::<Quadratic<f64>>(&press(), 3);
     // Over a stroke with one reversal inside.
     let stroke = Friction {
         domain: Domain::stroke(-0.7, 1.9).unwrap(),
         v: |x: f64| (1.3 * x).sin() * (2.0 + x),
     };
-    converges::<Spline>(&stroke, 4);
-    converges::<Quadratic>(&stroke, 3);
+    converges::<Spline<f64>>(&stroke, 4);
+    converges::<Quadratic<f64>>(&stroke, 3);
 }
 
 /// A magnitude that touches zero an odd number of times a turn belongs to no curve that closes: it stays as it is, with its
@@ -103,8 +103,8 @@ fn a_single_kink_a_turn_stays() {
         v: |phi: f64| (0.5 * phi - 0.3).sin(),
     };
     for cells in [64, 128] {
-        let ratio = error::<f64, Spline>(&odd, cells, &Scale::SI)
-            / error::<f64, Spline>(&odd, 2 * cells, &Scale::SI);
+        let ratio = error::<Spline<f64>>(&odd, cells, &Scale::SI)
+            / error::<Spline<f64>>(&odd, 2 * cells, &Scale::SI);
         assert!((1.0..4.0).contains(&ratio), "{ratio}");
     }
     // Over a stroke of the same length nothing need close.
@@ -112,13 +112,13 @@ fn a_single_kink_a_turn_stays() {
         domain: Domain::stroke(0.0, TAU).unwrap(),
         v: odd.v,
     };
-    converges::<Spline>(&stroke, 4);
+    converges::<Spline<f64>>(&stroke, 4);
     // A curve that touches zero without a change of sign is the same either way: of order 4 or, mirrored, 2.
     let touching = Friction {
         domain: Domain::Turn,
         v: |phi: f64| 1.0 - phi.cos(),
     };
-    let found = error::<f64, Spline>(&touching, 128, &Scale::SI);
+    let found = error::<Spline<f64>>(&touching, 128, &Scale::SI);
     assert!(found < 2.0 * (TAU / 128.0).powi(2), "{found:e}");
 }
 
@@ -130,7 +130,7 @@ fn a_magnitude_without_zeros_keeps_its_sign() {
         v: |phi: f64| 1.0 + 0.9 * (3.0 * phi).cos(),
     };
     let set = curves::COULOMB;
-    let rows = Rows::<f64>::of(&rippled, set, 64, &Scale::SI).unwrap();
+    let rows = Rows::<Spline<f64>>::of(&rippled, set, 64, &Scale::SI).unwrap();
     for knot in 0..64u32 {
         let exact = 1.0 + 0.9 * (3.0 * f64::from(knot) / 64.0 * TAU).cos();
         let read = rows.exact(Phase::from_bits(knot << 26), !0);
@@ -155,9 +155,9 @@ proptest! {
         let near = 2.0 * 32.2 * h.powi(4);
         // A quadratic errs by less than h³·f‴/24 of its own; f‴ is 2³ + 0.2·3³ at most.
         let quadratic = near + 13.4 * h.powi(3) / 24.0;
-        prop_assert!(error::<f64, Spline>(&machine, 128, &Scale::SI) < near);
-        prop_assert!(error::<Q31, Cubic>(&machine, 128, &scale) < near);
-        prop_assert!(error::<f64, Quadratic>(&machine, 128, &Scale::SI) < quadratic);
+        prop_assert!(error::<Spline<f64>>(&machine, 128, &Scale::SI) < near);
+        prop_assert!(error::<Cubic<Q31>>(&machine, 128, &scale) < near);
+        prop_assert!(error::<Quadratic<f64>>(&machine, 128, &Scale::SI) < quadratic);
     }
 }
 
@@ -185,9 +185,9 @@ impl Reducible for Constant {
     }
 }
 
-fn constants_are_curves<S: Scalar, L: Layout>(units: f64) {
-    const CURVES: u8 = curves::VISCOUS | curves::COULOMB;
-    const CONSTANTS: u8 = curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+fn constants_are_curves<F: Format>(units: f64) {
+    const CURVES: Set = curves::VISCOUS | curves::COULOMB;
+    const CONSTANTS: Set = curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
     let scale = Scale::new(4.0, 3.0, 5.0).unwrap().for_cells(32, TAU);
     let machine = Constant {
         viscous: 0.3,
@@ -195,8 +195,8 @@ fn constants_are_curves<S: Scalar, L: Layout>(units: f64) {
         load: 0.0,
         domain: Domain::Turn,
     };
-    let curves = Rows::<S, L>::of(&machine, CURVES, 32, &scale).unwrap();
-    let constants = Rows::<S, L>::of(&machine, CONSTANTS, 32, &scale).unwrap();
+    let curves = Rows::<F>::of(&machine, CURVES, 32, &scale).unwrap();
+    let constants = Rows::<F>::of(&machine, CONSTANTS, 32, &scale).unwrap();
     assert!(constants.words.len() < curves.words.len());
     let [a, b] = [curves.table(), constants.table()];
     let (model_a, model_b) = (
@@ -206,10 +206,10 @@ fn constants_are_curves<S: Scalar, L: Layout>(units: f64) {
     for k in 0..97u32 {
         let phase = Phase::from_bits(k.wrapping_mul(0x9E37_79B9));
         let [a, b] = [a.at(phase), b.at(phase)];
-        assert_near("b", b.viscous.to_f64(), a.viscous.to_f64(), units);
-        assert_near("c", b.coulomb.to_f64(), a.coulomb.to_f64(), units);
+        assert_near("b", b.viscous, a.viscous, units);
+        assert_near("c", b.coulomb, a.coulomb, units);
         for omega in [-0.8, 0.0, 0.8] {
-            let [omega, alpha] = [omega, 0.1].map(crate::support::number::<S>);
+            let [omega, alpha] = [omega, 0.1].map(crate::support::number::<F::Number>);
             let [a, b] = [
                 model_a.torque(phase, omega, alpha),
                 model_b.torque(phase, omega, alpha),
@@ -223,13 +223,13 @@ fn constants_are_curves<S: Scalar, L: Layout>(units: f64) {
 
 #[test]
 fn a_constant_equals_a_curve_that_is_constant() {
-    constants_are_curves::<f64, Spline>(budget::SPLINE_KNOT);
-    constants_are_curves::<f32, Spline>(budget::F32_READ);
-    constants_are_curves::<f32, Quadratic>(budget::F32_READ);
+    constants_are_curves::<Spline<f64>>(budget::SPLINE_KNOT);
+    constants_are_curves::<Spline<f32>>(budget::F32_READ);
+    constants_are_curves::<Quadratic<f32>>(budget::F32_READ);
     let q31 = (budget::Q31_POINTS_UNITS + budget::Q31_TICK_UNITS) * budget::Q31_UNIT;
-    constants_are_curves::<Q31, Spline>(q31);
-    constants_are_curves::<Q31, Cubic>(q31);
-    constants_are_curves::<Q31, Quadratic>(q31);
+    constants_are_curves::<Spline<Q31>>(q31);
+    constants_are_curves::<Cubic<Q31>>(q31);
+    constants_are_curves::<Quadratic<Q31>>(q31);
 }
 
 #[test]

@@ -4,31 +4,33 @@
 
 use core::hint::black_box;
 
-use jred::table::{Cubic, Layout, Quadratic, Spline, Spline16, curves};
-use jred::{Image, Model, Phase, Q15, Q31, Scalar, short};
+use jred::{
+    Cubic, Format, Image, Model, Number, Phase, Q15, Q31, Quadratic, Rows16, Set, Spline, Spline16,
+    curves,
+};
 
 use crate::target::{Kernel, Point, each};
 
 /// Load, and friction of the drive link that does not depend on the angle.
-const FULL: u8 = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const FULL: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 /// The inertia alone.
-const BARE: u8 = curves::INERTIA;
+const BARE: Set = curves::INERTIA;
 /// With a seed of 1/J instead of a division.
-const SEED: u8 = curves::RECIPROCAL;
+const SEED: Set = curves::RECIPROCAL;
 
 /// A function of that name, with the number type, the layout and the curves of its model.
 macro_rules! kernels {
-    ($($name:ident: $number:ident $layout:ident $set:ident, $body:expr;)*) => {
+    ($($name:ident: $number:ident, $format:ty, $set:ident, $body:expr;)*) => {
         $(
             #[unsafe(no_mangle)]
             #[inline(never)]
             extern "Rust" fn $name(
-                model: &Model<$number, $set, $layout>,
+                model: &Model<$format, $set>,
                 phase: Phase,
                 omega: $number,
                 third: $number,
             ) -> $number {
-                let body: fn(&Model<$number, $set, $layout>, _, _, _) -> _ = $body;
+                let body: fn(&Model<$format, $set>, _, _, _) -> _ = $body;
                 body(model, phase, omega, third)
             }
         )*
@@ -40,113 +42,64 @@ macro_rules! kernels {
 }
 
 kernels! {
-    jred_f32_torque: f32 Cubic FULL, |m, p, w, a| m.torque(p, w, a);
-    jred_f32_acceleration: f32 Cubic BARE, |m, p, w, t| m.acceleration(p, w, t).value;
-    jred_f32_spline_torque: f32 Spline FULL, |m, p, w, a| m.torque(p, w, a);
-    jred_f32_spline_acceleration: f32 Spline BARE, |m, p, w, t| m.acceleration(p, w, t).value;
-    jred_q31_torque: Q31 Cubic FULL, |m, p, w, a| m.torque(p, w, a);
-    jred_q31_acceleration: Q31 Cubic SEED, |m, p, w, t| m.acceleration(p, w, t).value;
-    jred_q31_quadratic_torque: Q31 Quadratic FULL, |m, p, w, a| m.torque(p, w, a);
-    jred_q31_spline16_torque: Q31 Spline16 FULL, |m, p, w, a| m.torque(p, w, a);
-    jred_q31_spline16_acceleration: Q31 Spline16 SEED, |m, p, w, t| m.acceleration(p, w, t).value;
-    jred_q31_quadratic_acceleration: Q31 Quadratic SEED, |m, p, w, t| m.acceleration(p, w, t).value;
-}
-
-#[unsafe(no_mangle)]
-#[inline(never)]
-extern "Rust" fn jred_q15_torque(
-    model: &short::Model<FULL>,
-    phase: Phase,
-    omega: Q15,
-    alpha: Q15,
-) -> Q15 {
-    model.torque(phase, omega, alpha)
-}
-
-#[unsafe(no_mangle)]
-#[inline(never)]
-extern "Rust" fn jred_q15_acceleration(
-    model: &short::Model<SEED>,
-    phase: Phase,
-    omega: Q15,
-    torque: Q15,
-) -> Q15 {
-    model.acceleration(phase, omega, torque).value
-}
-
-/// The ticks over 16-bit rows.
-pub(crate) const SHORT: &[Kernel] = &[
-    ("jred_q15_torque", |image, points| {
-        over_short(image, points, jred_q15_torque);
-    }),
-    ("jred_q15_acceleration", |image, points| {
-        over_short(image, points, jred_q15_acceleration);
-    }),
-];
-
-/// As `over`, for 16-bit rows.
-fn over_short<const CURVES: u8>(
-    image: &[u32],
-    points: &mut [Point],
-    kernel: fn(&short::Model<CURVES>, Phase, Q15, Q15) -> Q15,
-) {
-    let kernel = black_box(kernel);
-    let image = Image::new(image).expect("a table image");
-    let model = image.short_model().expect("of this set of curves");
-    let number = |bits: u32| Q15::from_bits(bits as i16);
-    each(points, |[phase, omega, third]| {
-        let result = kernel(
-            &model,
-            Phase::from_bits(phase),
-            number(omega),
-            number(third),
-        );
-        i32::from(result.to_bits()).cast_unsigned()
-    });
+    jred_f32_torque: f32, Cubic<f32>, FULL, |m, p, w, a| m.torque(p, w, a);
+    jred_f32_acceleration: f32, Cubic<f32>, BARE, |m, p, w, t| m.acceleration(p, w, t).value;
+    jred_f32_spline_torque: f32, Spline<f32>, FULL, |m, p, w, a| m.torque(p, w, a);
+    jred_f32_spline_acceleration: f32, Spline<f32>, BARE, |m, p, w, t| m.acceleration(p, w, t).value;
+    jred_q31_torque: Q31, Cubic<Q31>, FULL, |m, p, w, a| m.torque(p, w, a);
+    jred_q31_acceleration: Q31, Cubic<Q31>, SEED, |m, p, w, t| m.acceleration(p, w, t).value;
+    jred_q31_quadratic_torque: Q31, Quadratic<Q31>, FULL, |m, p, w, a| m.torque(p, w, a);
+    jred_q31_spline16_torque: Q31, Spline16, FULL, |m, p, w, a| m.torque(p, w, a);
+    jred_q31_spline16_acceleration: Q31, Spline16, SEED, |m, p, w, t| m.acceleration(p, w, t).value;
+    jred_q31_quadratic_acceleration: Q31, Quadratic<Q31>, SEED, |m, p, w, t| m.acceleration(p, w, t).value;
+    jred_q15_torque: Q15, Rows16, FULL, |m, p, w, a| m.torque(p, w, a);
+    jred_q15_acceleration: Q15, Rows16, SEED, |m, p, w, t| m.acceleration(p, w, t).value;
 }
 
 /// Calls a kernel over the model that the image holds.
-fn over<S: Word, L: Layout, const CURVES: u8>(
+fn over<F: Format<Number: Word>, const SET: Set>(
     image: &[u32],
     points: &mut [Point],
-    kernel: fn(&Model<S, CURVES, L>, Phase, S, S) -> S,
+    kernel: fn(&Model<F, SET>, Phase, F::Number, F::Number) -> F::Number,
 ) {
     let kernel = black_box(kernel);
     let image = Image::new(image).expect("a table image");
-    let model = image
-        .model()
-        .expect("of this type, layout and set of curves");
+    let model = image.model().expect("of this format and set of curves");
     each(points, |[phase, omega, third]| {
-        kernel(
-            &model,
-            Phase::from_bits(phase),
-            S::from(omega),
-            S::from(third),
-        )
-        .into()
+        let [omega, third] = [omega, third].map(Word::number);
+        kernel(&model, Phase::from_bits(phase), omega, third).word()
     });
 }
 
 /// A number of the tick as a word.
-trait Word: Scalar {
-    fn from(bits: u32) -> Self;
-    fn into(self) -> u32;
+trait Word: Number {
+    fn number(bits: u32) -> Self;
+    fn word(self) -> u32;
 }
 
 impl Word for f32 {
-    fn from(bits: u32) -> Self {
+    fn number(bits: u32) -> Self {
         Self::from_bits(bits)
     }
-    fn into(self) -> u32 {
+    fn word(self) -> u32 {
         self.to_bits()
     }
 }
 
 impl Word for Q31 {
-    fn from(bits: u32) -> Self {
+    fn number(bits: u32) -> Self {
         Self::from_bits(bits.cast_signed())
     }
-    fn into(self) -> u32 {
+    fn word(self) -> u32 {
         self.to_bits().cast_unsigned()
+    }
+}
+
+impl Word for Q15 {
+    fn number(bits: u32) -> Self {
+        Self::from_bits(bits as i16)
+    }
+    fn word(self) -> u32 {
+        i32::from(self.to_bits()).cast_unsigned()
     }
 }

@@ -55,7 +55,6 @@ mod target {
 
     const LISTS: &[&[Kernel]] = &[
         crate::library::KERNELS,
-        crate::library::SHORT,
         crate::hand::KERNELS,
         crate::analytic::KERNELS,
         #[cfg(tick_peers)]

@@ -1,50 +1,51 @@
 //! Which curves a table has beside the reduced inertia, as a bit set.
 //!
-//! The set is part of a table's type: curves that a machine does not have cost neither memory nor instructions.
+//! The set is part of a [`Model`](crate::Model)'s type: curves that a machine does not have cost neither memory nor instructions.
+//! A friction is a curve or a constant, not both.
+
+use crate::number::Role;
+
+/// A set of curves: `LOAD | CONSTANT_VISCOUS`.
+pub type Set = u16;
 
 /// Only J_red.
-pub const INERTIA: u8 = 0;
+pub const INERTIA: Set = 0;
 /// The part of the reduced torque that does not depend on ω: −U′ + process.
-pub const LOAD: u8 = 1;
+pub const LOAD: Set = 1;
 /// b in −b·ω.
-pub const VISCOUS: u8 = 2;
+pub const VISCOUS: Set = 2;
 /// c in −c·sgn ω. The tick takes the curve's magnitude, so that a friction force F on a link with velocity v is stored as
 /// F·v′, which is smooth where |v′| has a kink.
-pub const COULOMB: u8 = 4;
+pub const COULOMB: Set = 4;
 /// Every curve that a machine can have.
-pub const ALL: u8 = LOAD | VISCOUS | COULOMB;
+pub const ALL: Set = LOAD | VISCOUS | COULOMB;
 /// A seed of 1/J, with which fixed-point forward dynamics does without a division. Fixed point only.
-pub const RECIPROCAL: u8 = 8;
-/// A constant that adds to b: one number instead of a curve.
-pub const CONSTANT_VISCOUS: u8 = 16;
-/// A constant that adds to c.
-pub const CONSTANT_COULOMB: u8 = 32;
-/// Every bit.
-pub const EVERY: u8 = ALL | RECIPROCAL | CONSTANT_VISCOUS | CONSTANT_COULOMB;
+pub const RECIPROCAL: Set = 8;
+/// A constant b: one number instead of a curve.
+pub const CONSTANT_VISCOUS: Set = 16;
+/// A constant c.
+pub const CONSTANT_COULOMB: Set = 32;
 
 /// Curves in a row: J_red and one for each curve of the set, in the order of their bits.
 #[must_use]
-pub const fn width(set: u8) -> usize {
+pub const fn width(set: Set) -> usize {
     1 + (set & (ALL | RECIPROCAL)).count_ones() as usize
 }
 
-/// What a curve of a table stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
-    /// J_red
-    Inertia,
-    /// −U′ + process
-    Load,
-    /// b
-    Viscous,
-    /// c, signed
-    Coulomb,
-    /// J_m/J with J_m the power of two (in per-unit) below the least J
-    Reciprocal,
+/// Whether the set has this curve.
+pub(crate) const fn has(set: Set, curve: Set) -> bool {
+    set & curve != 0
+}
+
+/// Whether a table of polynomials can have this set: no unknown bit, and no friction twice.
+pub(crate) const fn is_known(set: Set) -> bool {
+    set <= (ALL | RECIPROCAL | CONSTANT_VISCOUS | CONSTANT_COULOMB)
+        && !(has(set, VISCOUS) && has(set, CONSTANT_VISCOUS))
+        && !(has(set, COULOMB) && has(set, CONSTANT_COULOMB))
 }
 
 /// The curves of a row, by column.
-pub(crate) fn roles(set: u8) -> impl Iterator<Item = (usize, Role)> {
+pub(crate) fn roles(set: Set) -> impl Iterator<Item = (usize, Role)> {
     let all = [
         Role::Inertia,
         Role::Load,
@@ -57,7 +58,7 @@ pub(crate) fn roles(set: u8) -> impl Iterator<Item = (usize, Role)> {
 }
 
 impl Role {
-    const fn bit(self) -> u8 {
+    const fn bit(self) -> Set {
         match self {
             Self::Inertia => 0,
             Self::Load => LOAD,
@@ -68,7 +69,7 @@ impl Role {
     }
 
     /// Position in a row of the set; `None` if the set has no such curve.
-    pub(crate) const fn column(self, set: u8) -> Option<usize> {
+    pub(crate) const fn column(self, set: Set) -> Option<usize> {
         let bit = self.bit();
         if bit == 0 {
             Some(0)
@@ -76,6 +77,14 @@ impl Role {
             None
         } else {
             Some(width(set & (bit - 1)))
+        }
+    }
+
+    /// The base to enlarge when a curve does not fit.
+    pub(crate) const fn base(self) -> &'static str {
+        match self {
+            Self::Inertia => "inertia",
+            _ => "torque",
         }
     }
 }

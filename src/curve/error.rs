@@ -2,7 +2,8 @@
 
 use core::fmt;
 
-use super::{MAX_CELLS, MIN_CELLS, curves};
+use super::curves::{self, Set};
+use super::{MAX_CELLS, MIN_CELLS};
 
 /// Why words are not a usable table, or a table not a usable model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,9 +58,9 @@ pub enum TableError {
     /// The models of a turn's pieces do not share their machine units, or the range of one is not the distance from its start to
     /// the next.
     PieceUnits,
-    /// The table has another set of [`curves`] than the model; or the set has an unknown bit, or a reciprocal or a layout of
-    /// 16 bits for floating point. The set.
-    Curves(u8),
+    /// The table has another set of [`curves`] than the model; or the set has an unknown bit, a friction both as a curve and as a
+    /// constant, or a reciprocal for floating point. The set.
+    Curves(Set),
     /// The curve of the reciprocal inertia is not that of the inertia in this cell.
     Reciprocal {
         /// Index of the cell.
@@ -73,7 +74,7 @@ pub enum TableError {
 }
 
 /// The curves of a set, as their constants are called.
-const NAMES: [(u8, &str); 6] = [
+const NAMES: [(Set, &str); 6] = [
     (curves::LOAD, "LOAD"),
     (curves::VISCOUS, "VISCOUS"),
     (curves::COULOMB, "COULOMB"),
@@ -139,7 +140,7 @@ impl fmt::Display for TableError {
                 }
                 write!(
                     f,
-                    " (set {set}): another set than the model's type says, or one that this number type or layout cannot have"
+                    " (set {set}): another set than the model's type says, or one that this format cannot have"
                 )
             }
             Self::Slope { cell } => write!(

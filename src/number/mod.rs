@@ -13,6 +13,7 @@
 //! Products round towards −∞. What could overflow inside a cell, or in a sum of torques at full speed and
 //! acceleration, is refused when table and model are built; so inverse dynamics cannot saturate. Forward dynamics can, and says so.
 
+mod kernel;
 #[allow(
     clippy::indexing_slicing,
     reason = "mechanisms solve systems, ticks do not"
@@ -24,14 +25,16 @@ mod product;
 mod q15;
 mod q31;
 pub(crate) mod quadrature;
+mod role;
 mod scalar;
 mod scale;
 pub(crate) mod transfer;
 
+pub(crate) use kernel::{Kernel, Ring};
 pub use phase::{Domain, Phase};
 pub use q15::Q15;
 pub use q31::Q31;
-pub(crate) use scalar::{Kernel, Ring};
+pub use role::Role;
 pub use scalar::{Number, Outcome, Scalar};
 pub use scale::Scale;
 pub use transfer::Transfer;

@@ -5,7 +5,7 @@ use core::num::NonZeroU32;
 use core::ops::{Add, Sub};
 
 use crate::error::finite;
-use crate::{Error, math};
+use crate::{Error, Real, math};
 
 /// A position within the drive link's range as a fraction of 2³²: one turn for a rotating link, the stroke for a
 /// sliding one.
@@ -174,15 +174,6 @@ impl Domain {
         Ok(Self::Stroke { from, to })
     }
 
-    /// Length of the range: 2π or the stroke.
-    #[must_use]
-    pub fn span(self) -> f64 {
-        match self {
-            Self::Turn => TAU,
-            Self::Stroke { from, to } => to - from,
-        }
-    }
-
     /// The phase of a position: wrapped for a turn, clamped for a stroke.
     #[must_use]
     pub fn phase(self, position: f64) -> Phase {
@@ -203,30 +194,32 @@ impl Domain {
             Self::Stroke { from, to } => from + fraction * (to - from),
         }
     }
+}
 
-    /// The same range in single precision, as table images hold it.
+impl<R: Real> Domain<R> {
+    /// Length of the range: 2π or the stroke.
     #[must_use]
-    pub fn to_f32(self) -> Domain<f32> {
+    pub fn span(self) -> R {
+        match self {
+            Self::Turn => R::from_f64(TAU),
+            Self::Stroke { from, to } => to - from,
+        }
+    }
+
+    /// The same range in another precision: tables and images in `f32` hold it in single precision.
+    #[must_use]
+    pub fn to<T: Real>(self) -> Domain<T> {
         match self {
             Self::Turn => Domain::Turn,
             Self::Stroke { from, to } => Domain::Stroke {
-                from: from as f32,
-                to: to as f32,
+                from: T::from_f64(from.to_f64()),
+                to: T::from_f64(to.to_f64()),
             },
         }
     }
 }
 
 impl Domain<f32> {
-    /// Length of the range: 2π or the stroke.
-    #[must_use]
-    pub fn span(self) -> f32 {
-        match self {
-            Self::Turn => core::f32::consts::TAU,
-            Self::Stroke { from, to } => to - from,
-        }
-    }
-
     /// The phase of a position: wrapped for a turn, clamped for a stroke. No double precision.
     #[must_use]
     pub fn phase(self, position: f32) -> Phase {

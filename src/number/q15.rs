@@ -3,7 +3,7 @@
 use crate::math;
 use crate::number::{Number, Outcome};
 
-/// A per-unit number in [−1, 1): an `i16` in units of 2⁻¹⁵, for the tables of [`short`](crate::short).
+/// A per-unit number in [−1, 1): an `i16` in units of 2⁻¹⁵, for tables of [`Rows16`](crate::curve::Rows16).
 ///
 /// What 1 stands for is said by the [`Scale`](crate::Scale) of the model it is used with. Conversions round to the nearest
 /// number, halves away from zero.
@@ -36,6 +36,10 @@ impl Q15 {
 }
 
 impl Number for Q15 {
+    type Real = f32;
+    const NAME: &'static str = "i16";
+    const FIXED: bool = true;
+
     fn from_f64(value: f64) -> Option<Self> {
         let nearest = math::round(value * f64::from(UNIT));
         let fits = (f64::from(i16::MIN)..=f64::from(i16::MAX)).contains(&nearest);

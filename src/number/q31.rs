@@ -2,10 +2,10 @@
 
 use core::num::{NonZeroU64, Wrapping};
 
+use super::kernel::{Kernel, Ring};
 use super::product::{high, high_short};
-use crate::curve::Role;
-use crate::number::{Kernel, Number, Outcome, Ring, Scalar};
-use crate::{Domain, Scale, math};
+use super::{Number, Outcome, Role, Scalar, Scale};
+use crate::math;
 
 /// A per-unit number in [−1, 1): an `i32` in units of 2⁻³¹.
 ///
@@ -38,6 +38,10 @@ impl Ring for Wrapping<i32> {
     fn times(self, factor: i8) -> Self {
         self * Self(i32::from(factor))
     }
+    #[inline]
+    fn whole(number: u16) -> Self {
+        Self(i32::from(number))
+    }
 }
 
 impl Ring for i64 {
@@ -45,11 +49,13 @@ impl Ring for i64 {
     fn times(self, factor: i8) -> Self {
         self * Self::from(factor)
     }
+    #[inline]
+    fn whole(number: u16) -> Self {
+        Self::from(number)
+    }
 }
 
-impl Scalar for Q31 {
-    const NAME: &'static str = "i32";
-}
+impl Scalar for Q31 {}
 
 /// 2 to the power of the fractional bits that a raw value of this role has.
 const fn unit(role: Role) -> f64 {
@@ -61,6 +67,10 @@ const fn unit(role: Role) -> f64 {
 }
 
 impl Number for Q31 {
+    type Real = f32;
+    const NAME: &'static str = "i32";
+    const FIXED: bool = true;
+
     fn from_f64(value: f64) -> Option<Self> {
         Self::word(Role::Reciprocal, value).map(Self)
     }
@@ -85,41 +95,10 @@ impl Kernel for Q31 {
     type Wide = i64;
     type Factor = i32;
     type Reciprocal = Reciprocal;
-    type Span = f32;
     type Fraction = i32; // Q31 from 0 to 1; in rows Q32 from −½ to ½
     const CODE: Option<u8> = Some(2);
     const STEP: i8 = 2;
     const ROW_CENTRE: f64 = 0.5;
-    const FIXED: bool = true;
-
-    fn word_bits(word: i32) -> u32 {
-        word.cast_unsigned()
-    }
-    fn word_from_bits(bits: u32) -> i32 {
-        bits.cast_signed()
-    }
-    #[inline]
-    fn half(word: i32, upper: bool) -> i32 {
-        if upper {
-            word >> 16
-        } else {
-            i32::from(word as i16)
-        }
-    }
-    fn with_half(word: i32, upper: bool, half: i32) -> Option<i32> {
-        let half = i32::from(i16::try_from(half).ok()?);
-        Some(if upper {
-            half << 16 | word & 0xffff
-        } else {
-            word & !0xffff | half & 0xffff
-        })
-    }
-    fn whole(number: u16) -> i32 {
-        i32::from(number)
-    }
-    fn exact_whole(word: i32) -> u16 {
-        word as u16
-    }
     #[inline]
     fn raw(word: i32) -> Self::Raw {
         Wrapping(word)
@@ -145,31 +124,6 @@ impl Kernel for Q31 {
         let limit = i64::from(i32::MAX) - 8;
         p1 + p2 + p3 <= limit && p0 + (p1 + p2 + p3) / 2 <= limit
     }
-    fn number(role: Role, raw: Self::Raw) -> Self {
-        let bits = 31 - unit(role).to_bits().wrapping_shr(52).wrapping_sub(1023) as u32;
-        let fits = i32::MIN >> bits..=i32::MAX >> bits;
-        Self(raw.0.clamp(*fits.start(), *fits.end()) << bits)
-    }
-    fn slope_number(slope: Self::Raw, step: i8) -> Self {
-        // Q30 times `step`, which is 1 or 2.
-        Self(if step == 2 {
-            slope.0
-        } else {
-            slope.0.saturating_mul(2)
-        })
-    }
-    fn span(domain: Domain) -> f32 {
-        domain.to_f32().span()
-    }
-    fn span_f32(domain: Domain<f32>) -> f32 {
-        domain.span()
-    }
-    fn span_to_f32(span: f32) -> f32 {
-        span
-    }
-    fn factor_size(factor: i32) -> f32 {
-        factor as f32
-    }
     fn velocity_factor(cells: u32, span: f32, scale: &Scale, step: i8) -> Option<i32> {
         whole(f32::velocity_factor(cells, span, scale, step)? * 2.0 / f32::from(step))
     }
@@ -193,10 +147,6 @@ impl Kernel for Q31 {
         Wrapping(high(x.0, u))
     }
     #[inline]
-    fn row_step(x: Self::Raw, u: i32) -> Self::Raw {
-        Wrapping(high(x.0, u))
-    }
-    #[inline]
     fn row_step_short(x: Self::Raw, u: i32) -> Self::Raw {
         Wrapping(high_short(x.0, u))
     }
@@ -212,10 +162,6 @@ impl Kernel for Q31 {
     #[inline]
     fn product(a: Self::Raw, b: Self) -> Self::Raw {
         Wrapping(high(a.0, b.0))
-    }
-    #[inline]
-    fn accumulate(sum: Self::Raw, a: Self::Raw, b: Self) -> Self::Raw {
-        sum + Wrapping(high(a.0, b.0))
     }
     #[inline]
     fn add_signed(sum: Self::Raw, c: Self::Raw, omega: Self) -> Self::Raw {

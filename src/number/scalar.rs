@@ -1,24 +1,23 @@
-//! The numbers a table and a tick are made of: `f32`, `f64`, [`Q31`](crate::Q31) and [`Q15`](crate::Q15).
+//! The numbers that a tick takes and gives: `f32`, `f64`, [`Q31`](crate::Q31) and [`Q15`](crate::Q15).
 
 use core::fmt;
-use core::ops::{Add, Mul, Sub};
 
-use crate::curve::Role;
-use crate::{Domain, Scale};
+use super::kernel::Kernel;
+use crate::Real;
 
-/// A number type for tables and ticks. Sealed: `f32`, `f64`, [`Q31`](crate::Q31); [`Q15`](crate::Q15) has ticks of its own, [`short`](crate::short).
+/// A number of a tick: `f32`, `f64`, [`Q31`](crate::Q31) or [`Q15`](crate::Q15). Sealed.
 ///
-/// Floating point works in SI units or in per-unit, as its [`Scale`] says; fixed point always in per-unit.
-pub trait Scalar: Kernel + Number {
-    /// Name as the command line and the generated sources use it.
-    const NAME: &'static str;
-}
-
-/// A number that a [`Scale`] converts: those of [`Scalar`] and [`Q15`](crate::Q15), whose tables have rows of their own
-/// ([`short`](crate::short)). Sealed.
+/// Floating point works in SI units or in per-unit, as its [`Scale`](crate::Scale) says; fixed point always in per-unit.
 pub trait Number:
     Copy + Default + PartialEq + PartialOrd + fmt::Debug + crate::sealed::Sealed + 'static
 {
+    /// What lengths and spans are computed in beside it: `f64` for `f64`, else `f32`.
+    type Real: Real;
+    /// Name as the command line and the generated sources use it.
+    const NAME: &'static str;
+    /// Fixed point: the largest number is 1, and forward dynamics can do without a division.
+    const FIXED: bool;
+
     /// The nearest number, if it is in range.
     fn from_f64(value: f64) -> Option<Self>;
     /// The same number.
@@ -28,6 +27,9 @@ pub trait Number:
     /// Back to SI.
     fn si(self, base: f32) -> f32;
 }
+
+/// A number that tables of polynomials hold: `f32`, `f64`, [`Q31`](crate::Q31). Sealed.
+pub trait Scalar: Number + Kernel {}
 
 /// A result, and whether it had to be limited to the number's range.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -39,135 +41,15 @@ pub struct Outcome<S> {
     pub saturated: bool,
 }
 
-/// What coefficients of a cell are computed in.
-pub trait Ring:
-    Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
-{
-    /// A small multiple.
-    fn times(self, factor: i8) -> Self;
-}
-
-/// The arithmetic behind a tick. Not nameable outside the crate: it may change with every release.
-///
-/// A curve is evaluated in [`Raw`](Self::Raw) numbers, in a format that its [`Role`] fixes; see `fixed` for those of the
-/// fixed-point types. For floating point every format is the plain number.
-pub trait Kernel: Number {
-    /// A number as it lies in a table image.
-    type Word: bytemuck::Pod + fmt::Debug + PartialEq;
-    /// What polynomials are evaluated and torques are summed in.
-    type Raw: Ring;
-    /// As `Raw`, wide enough that no check overflows.
-    type Wide: Ring;
-    /// A constant to multiply slopes by, of any size.
-    type Factor: Copy + fmt::Debug + PartialEq;
-    /// Constants of forward dynamics without a division.
-    type Reciprocal: Copy + Default + fmt::Debug + PartialEq;
-    /// Length of the drive link's range: `f64` for `f64` models, else `f32`.
-    type Span: Copy + fmt::Debug;
-    /// A place within a cell, 0 to 1.
-    type Fraction: Copy;
-    /// Code in the image header; `None`: not stored in images.
-    const CODE: Option<u8>;
-    /// What [`step`](Self::step) divides by.
-    const STEP: i8;
-    /// The place in a cell that the polynomials of rows are about.
-    const ROW_CENTRE: f64;
-    /// The largest number is 1, and forward dynamics can do without a division.
-    const FIXED: bool;
-
-    /// A word of the header, and back.
-    fn word_bits(word: Self::Word) -> u32;
-    fn word_from_bits(bits: u32) -> Self::Word;
-    /// The lower or upper half of a word, as a number of its own.
-    fn half(word: Self::Word, upper: bool) -> Self::Word;
-    /// `word` with one half replaced, if that fits into 16 bits.
-    fn with_half(word: Self::Word, upper: bool, half: Self::Word) -> Option<Self::Word>;
-    /// A whole number, and back.
-    fn whole(number: u16) -> Self::Word;
-    fn exact_whole(word: Self::Word) -> u16;
-    fn raw(word: Self::Word) -> Self::Raw;
-    /// The nearest word for a coefficient in machine units, if it is in range.
-    fn word(role: Role, coefficient: f64) -> Option<Self::Word>;
-    fn widen(raw: Self::Raw) -> Self::Wide;
-    /// A coefficient or sum in machine units, in single precision: for checks without double precision in firmware.
-    fn approximate(role: Role, wide: Self::Wide) -> f32;
-    /// A coefficient in machine units.
-    fn exact(role: Role, raw: Self::Raw) -> f64;
-    /// Whether a cell can be evaluated anywhere without overflow, NaN or infinity.
-    fn is_sound(coefficients: [Self::Wide; 4]) -> bool;
-    /// A value of this role as a number of the type.
-    fn number(role: Role, raw: Self::Raw) -> Self;
-    /// The slope a cell, of a raw slope times `step`.
-    fn slope_number(slope: Self::Raw, step: i8) -> Self;
-
-    fn span(domain: Domain) -> Self::Span;
-    fn span_f32(domain: Domain<f32>) -> Self::Span;
-    fn span_to_f32(span: Self::Span) -> f32;
-    /// ½·cells/span·J_b·ω_b²/T_b: the velocity torque at the speed base is this times dJ/du. For a slope that is stored
-    /// times `step`.
-    fn velocity_factor(
-        cells: u32,
-        span: Self::Span,
-        scale: &Scale,
-        step: i8,
-    ) -> Option<Self::Factor>;
-    /// Its size, up to a constant of the type.
-    fn factor_size(factor: Self::Factor) -> f32;
-
-    /// The cell that a phase lies in, and where.
-    fn locate(phase: u32, cells: u32) -> (u32, Self::Fraction);
-    /// As `locate`, the place from `ROW_CENTRE` on.
-    fn locate_row(phase: u32, cells: u32) -> (u32, Self::Fraction);
-    /// As `locate_row`, to 2⁻¹⁶ of a cell.
-    fn locate_row_short(phase: u32, cells: u32) -> (u32, Self::Fraction);
-    /// x·u/STEP, for a place of `locate`.
-    fn step(x: Self::Raw, u: Self::Fraction) -> Self::Raw;
-    /// x·u, for a place of `locate_row`.
-    fn row_step(x: Self::Raw, u: Self::Fraction) -> Self::Raw;
-    /// x·u, for a place of `locate_row_short`.
-    fn row_step_short(x: Self::Raw, u: Self::Fraction) -> Self::Raw;
-
-    fn magnitude(raw: Self::Raw) -> Self::Raw;
-    /// ½·J′·ω_b²/T_b·ω from the slope: a coefficient that adds to b.
-    fn velocity(slope: Self::Raw, factor: Self::Factor, omega: Self) -> Self::Raw;
-    /// a·b: J·α, or (½·J′·ω + b)·ω.
-    fn product(a: Self::Raw, b: Self) -> Self::Raw;
-    /// sum + a·b
-    fn accumulate(sum: Self::Raw, a: Self::Raw, b: Self) -> Self::Raw;
-    /// sum + c·sgn ω; nothing for ω = 0.
-    fn add_signed(sum: Self::Raw, c: Self::Raw, omega: Self) -> Self::Raw;
-    /// The sum as a torque. It fits: `Model::new` saw to it.
-    fn torque(sum: Self::Raw) -> Self;
-    /// (torque − resisting)/J
-    fn quotient(torque: Self, resisting: Self::Raw, inertia: Self::Raw) -> Outcome<Self>;
-    /// What `by_reciprocal` needs, from J and J_m/J at one place, and |1 − J·(1/J)|; `None` if they do not belong together.
-    fn reciprocal_of(inertia: Self::Raw, reciprocal: Self::Raw) -> Option<(Self::Reciprocal, f32)>;
-    /// J_m, in machine units.
-    fn reciprocal_unit(constants: Self::Reciprocal) -> f32;
-    /// As `quotient`, with J_m/J; with one step of Newton's iteration if J is given.
-    fn by_reciprocal(
-        torque: Self,
-        resisting: Self::Raw,
-        reciprocal: Self::Raw,
-        constants: Self::Reciprocal,
-        inertia: Option<Self::Raw>,
-    ) -> Outcome<Self>;
-}
-
 macro_rules! float {
-    ($float:ident, $code:expr) => {
-        impl Ring for $float {
-            #[inline]
-            fn times(self, factor: i8) -> Self {
-                self * $float::from(factor)
-            }
-        }
-
-        impl Scalar for $float {
-            const NAME: &'static str = stringify!($float);
-        }
+    ($float:ident) => {
+        impl Scalar for $float {}
 
         impl Number for $float {
+            type Real = $float;
+            const NAME: &'static str = stringify!($float);
+            const FIXED: bool = false;
+
             fn from_f64(value: f64) -> Option<Self> {
                 let nearest = value as $float;
                 nearest.is_finite().then_some(nearest)
@@ -185,167 +67,8 @@ macro_rules! float {
                 self as f32 * base
             }
         }
-
-        impl Kernel for $float {
-            type Word = $float;
-            type Raw = $float;
-            type Wide = $float;
-            type Factor = $float;
-            type Reciprocal = ();
-            type Span = $float;
-            type Fraction = $float;
-            const CODE: Option<u8> = $code;
-            const STEP: i8 = 1;
-            const ROW_CENTRE: f64 = 0.0;
-            const FIXED: bool = false;
-
-            fn word_bits(word: $float) -> u32 {
-                // f64 is not stored in images.
-                (word as f32).to_bits()
-            }
-            fn word_from_bits(bits: u32) -> $float {
-                f32::from_bits(bits) as $float
-            }
-            #[inline]
-            fn half(word: $float, _: bool) -> $float {
-                word
-            }
-            fn with_half(_: $float, _: bool, _: $float) -> Option<$float> {
-                None
-            }
-            fn whole(number: u16) -> $float {
-                $float::from(number)
-            }
-            fn exact_whole(word: $float) -> u16 {
-                word as u16
-            }
-            #[inline]
-            fn raw(word: $float) -> $float {
-                word
-            }
-            fn word(_: Role, coefficient: f64) -> Option<$float> {
-                Self::from_f64(coefficient)
-            }
-            fn widen(raw: $float) -> $float {
-                raw
-            }
-            fn approximate(_: Role, wide: $float) -> f32 {
-                wide as f32
-            }
-            fn exact(_: Role, raw: $float) -> f64 {
-                raw as f64
-            }
-            fn is_sound(coefficients: [$float; 4]) -> bool {
-                // Far below the largest number, no sum of a few such products overflows.
-                coefficients.iter().all(|c| c.abs() < 1e30)
-            }
-            #[inline]
-            fn number(_: Role, raw: $float) -> $float {
-                raw
-            }
-            #[inline]
-            fn slope_number(slope: $float, _: i8) -> $float {
-                slope
-            }
-            fn span(domain: Domain) -> $float {
-                domain.span() as $float
-            }
-            fn span_f32(domain: Domain<f32>) -> $float {
-                domain.span() as $float
-            }
-            fn span_to_f32(span: $float) -> f32 {
-                span as f32
-            }
-            fn factor_size(factor: $float) -> f32 {
-                factor as f32
-            }
-            fn velocity_factor(cells: u32, span: $float, scale: &Scale, _: i8) -> Option<$float> {
-                let bases = scale.velocity_base() as $float;
-                let factor = 0.5 * cells as $float / span * bases;
-                (factor.is_finite() && factor > 0.0).then_some(factor)
-            }
-            #[inline]
-            fn locate(phase: u32, cells: u32) -> (u32, $float) {
-                let (cell, fraction) = crate::number::phase::cell(phase, cells);
-                (cell, fraction as $float * (1.0 / 4_294_967_296.0))
-            }
-            #[inline]
-            fn locate_row(phase: u32, cells: u32) -> (u32, $float) {
-                Self::locate(phase, cells)
-            }
-            #[inline]
-            fn locate_row_short(phase: u32, cells: u32) -> (u32, $float) {
-                Self::locate(phase, cells)
-            }
-            #[inline]
-            fn step(x: $float, u: $float) -> $float {
-                x * u
-            }
-            #[inline]
-            fn row_step(x: $float, u: $float) -> $float {
-                x * u
-            }
-            #[inline]
-            fn row_step_short(x: $float, u: $float) -> $float {
-                x * u
-            }
-            #[inline]
-            fn magnitude(raw: $float) -> $float {
-                raw.abs()
-            }
-            #[inline]
-            fn velocity(slope: $float, factor: $float, omega: $float) -> $float {
-                slope * factor * omega
-            }
-            #[inline]
-            fn product(a: $float, b: $float) -> $float {
-                a * b
-            }
-            #[inline]
-            fn accumulate(sum: $float, a: $float, b: $float) -> $float {
-                sum + a * b
-            }
-            #[inline]
-            fn add_signed(sum: $float, c: $float, omega: $float) -> $float {
-                if omega > 0.0 {
-                    sum + c
-                } else if omega < 0.0 {
-                    sum - c
-                } else {
-                    sum
-                }
-            }
-            #[inline]
-            fn torque(sum: $float) -> $float {
-                sum
-            }
-            #[inline]
-            fn quotient(torque: $float, resisting: $float, inertia: $float) -> Outcome<$float> {
-                Outcome {
-                    value: (torque - resisting) / inertia,
-                    saturated: false,
-                }
-            }
-            fn reciprocal_of(_: $float, _: $float) -> Option<((), f32)> {
-                None
-            }
-            fn reciprocal_unit((): ()) -> f32 {
-                1.0
-            }
-            #[inline]
-            fn by_reciprocal(
-                torque: $float,
-                resisting: $float,
-                reciprocal: $float,
-                (): (),
-                _: Option<$float>,
-            ) -> Outcome<$float> {
-                // Not reached: `Table::new` refuses a reciprocal in floating point.
-                Self::quotient(torque * reciprocal, resisting * reciprocal, 1.0)
-            }
-        }
     };
 }
 
-float!(f32, Some(1));
-float!(f64, None);
+float!(f32);
+float!(f64);

@@ -1,47 +1,39 @@
 //! How exact a table is.
 
 use super::{CHECKS_PER_CELL, Request, Tabulated};
-use crate::curve::{Layout, Table};
+use crate::curve::{CurveValues, Format, Table};
 use crate::machine::reduction::{Reducible, Reduction};
-use crate::number::Scalar;
-use crate::{Domain, Error, Phase, Scale, math};
+use crate::{Domain, Error, Phase, math};
 
-/// The largest torque error of a table within the range of the request.
+/// The largest torque error of a table within the range of the request. With 16 bits the roundings of the tick count, and are
+/// added: at most ¾ of a unit of 2⁻¹⁵ of the torque base. So at the places checked no tick within the range of the request, whose
+/// ω and α are numbers of the type, is off by more.
 ///
 /// # Errors
 /// Those of the machine.
-pub fn measure<S: Scalar, L: Layout>(
+pub fn measure<F: Format>(
     machine: &impl Reducible,
-    table: &Table<'_, S, L>,
+    table: &Table<'_, F>,
     request: &Request,
-    scale: &Scale,
 ) -> Result<Tabulated, Error> {
-    measure_until(
-        machine,
-        table,
-        request,
-        scale,
-        (0.0, CHECKS_PER_CELL),
-        false,
-    )
+    measure_until(machine, table, request, (0.0, CHECKS_PER_CELL), false)
 }
 
 /// As [`measure`], from `start` on round the range at so many places a cell; if `stop`, only up to the first that
 /// misses.
-pub(super) fn measure_until<S: Scalar, L: Layout>(
+pub(super) fn measure_until<F: Format>(
     machine: &impl Reducible,
-    table: &Table<'_, S, L>,
+    table: &Table<'_, F>,
     request: &Request,
-    scale: &Scale,
     from: (f64, u32),
     stop: bool,
 ) -> Result<Tabulated, Error> {
     let limit = stop.then_some(request.torque_error);
     let found = scan(machine.domain(), table.cells(), limit, from, |phase| {
-        torque_error(machine, table, request, scale, phase)
+        torque_error(machine, table, request, phase)
     })?;
     Ok(Tabulated {
-        scale: *scale,
+        scale: *table.scale(),
         ..found
     })
 }
@@ -139,41 +131,27 @@ pub(super) fn scan_places(
 }
 
 /// The bound of the module's head, at one phase, and where that is.
-pub(super) fn torque_error<S: Scalar, L: Layout>(
+pub(super) fn torque_error<F: Format>(
     machine: &impl Reducible,
-    table: &Table<'_, S, L>,
+    table: &Table<'_, F>,
     request: &Request,
-    scale: &Scale,
     phase: Phase,
 ) -> Result<(f64, f64), Error> {
     let domain = machine.domain();
     let phi = domain.position(f64::from(phase.to_bits()) / 4_294_967_296.0);
     let exact = machine.reduction(phi)?;
-    let read = table.at(phase);
-    let (torque, speed, inertia) = (
-        f64::from(scale.torque()),
-        f64::from(scale.speed()),
-        f64::from(scale.inertia()),
-    );
-    let per_position = f64::from(table.cells()) / domain.span();
-    let slope = read.inertia_slope.to_f64() * inertia * per_position;
-    let read = Reduction {
-        inertia: [read.inertia.to_f64() * inertia, slope, 0.0],
-        process: read.load.to_f64() * torque,
-        viscous: read.viscous.to_f64() * torque / speed,
-        coulomb: read.coulomb.to_f64() * torque,
-        ..Reduction::default()
-    };
-    Ok((torque_between(request, &read, &exact), phi))
+    let read = table.si(phase, domain);
+    let rounding = F::TICK_ROUNDING * f64::from(table.scale().torque());
+    Ok((torque_between(request, &read, &exact) + rounding, phi))
 }
 
-/// How far the drive torques of two reductions are apart at most within the range of the request: the bound of the module's
+/// How far the drive torques of a table and of the machine are apart at most within the range of the request: the bound of the module's
 /// head.
-pub(crate) fn torque_between(request: &Request, read: &Reduction, exact: &Reduction) -> f64 {
+pub(crate) fn torque_between(request: &Request, read: &CurveValues, exact: &Reduction) -> f64 {
     [
-        (read.inertia[0] - exact.inertia[0]) * request.alpha,
-        0.5 * (read.inertia[1] - exact.inertia[1]) * request.omega * request.omega,
-        read.load_torque() - exact.load_torque(),
+        (read.inertia - exact.inertia[0]) * request.alpha,
+        0.5 * (read.inertia_slope - exact.inertia[1]) * request.omega * request.omega,
+        read.load - exact.load_torque(),
         (read.viscous - exact.viscous) * request.omega,
         read.coulomb - exact.coulomb,
     ]

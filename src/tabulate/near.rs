@@ -6,11 +6,11 @@
 //! all places of every candidate.
 
 use super::measure::{Places, measure_until, scan_places, torque_error};
-use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, Tabulated, search};
-use crate::curve::{Layout, Table};
+use super::search::search;
+use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, Tabulated};
+use crate::Error;
+use crate::curve::{Format, Table};
 use crate::machine::reduction::Reducible;
-use crate::number::Scalar;
-use crate::{Error, Scale};
 
 /// Cells on each side of the worst place that are looked at.
 const NEIGHBOURS: u32 = 8;
@@ -51,16 +51,15 @@ pub(super) type Worst = Option<(f64, u32)>;
 
 /// What is found of a table near its worst place, if it meets the request there. That place is looked for all round, in few
 /// places, in the first table, and again in one that meets the request and is much larger.
-pub(super) fn meets_near<S: Scalar, L: Layout>(
+pub(super) fn meets_near<F: Format>(
     machine: &impl Reducible,
-    table: &Table<'_, S, L>,
+    table: &Table<'_, F>,
     request: &Request,
-    scale: &Scale,
     worst: &mut Worst,
 ) -> Result<Option<Tabulated>, Error> {
     let (domain, cells) = (machine.domain(), table.cells());
     let meets = |found: &Tabulated| found.torque_error <= request.torque_error;
-    let survey = || measure_until(machine, table, request, scale, (0.0, COARSE_CHECKS), false);
+    let survey = || measure_until(machine, table, request, (0.0, COARSE_CHECKS), false);
     let around = |place: f64| {
         let first = domain.phase(place).cell(cells).0 + cells - NEIGHBOURS;
         let places = Places {
@@ -69,7 +68,7 @@ pub(super) fn meets_near<S: Scalar, L: Layout>(
             checks: CHECKS_PER_CELL,
         };
         scan_places(domain, cells, Some(request.torque_error), places, |phase| {
-            torque_error(machine, table, request, scale, phase)
+            torque_error(machine, table, request, phase)
         })
     };
     if let Some((place, of)) = *worst {

@@ -6,10 +6,10 @@
 //! `one_table_cannot_follow_a_jump`). A table for each piece between the jumps has no such cells. [`Part`] is a piece of a
 //! machine, to be tabulated as a stroke; [`Pieces`] puts their models together again.
 
-use crate::curve::{Layout, Spline, TableError};
+use crate::curve::{Format, Set, TableError};
 use crate::error::finite;
-use crate::number::{Outcome, Scalar};
-use crate::{AccelerationRange, Domain, Error, Model, Phase, Reducible, Reduction};
+use crate::number::Outcome;
+use crate::{AccelerationRange, Domain, Error, Model, Phase, Real, Reducible, Reduction};
 
 /// A part of a machine's range, as a stroke.
 #[derive(Clone, Copy, Debug)]
@@ -72,9 +72,8 @@ impl<M: Reducible> Reducible for Part<'_, M> {
 ///
 /// ```
 /// use core::f64::consts::TAU;
-/// use jred::table::{Spline, curves};
 /// use jred::tabulate::{Request, fill, scratch_len, tabulate};
-/// use jred::{Domain, Error, Model, Part, Phase, Pieces, Reducible, Reduction, Scale};
+/// use jred::{Domain, Error, Model, Part, Phase, Pieces, Reducible, Reduction, Scale, Set, Spline, curves};
 ///
 /// /// A flywheel, and a brake that is on from 1 to 2 rad.
 /// struct Braked;
@@ -91,7 +90,7 @@ impl<M: Reducible> Reducible for Part<'_, M> {
 /// }
 ///
 /// fn main() -> Result<(), Error> {
-///     const SET: u8 = curves::LOAD;
+///     const SET: Set = curves::LOAD;
 ///     const MOST: u32 = 16;
 ///     let request = Request { torque_error: 0.001, omega: 20.0, alpha: 100.0, max_cells: MOST };
 ///     let mut scratch = [0.0; scratch_len(MOST, SET)];
@@ -100,12 +99,12 @@ impl<M: Reducible> Reducible for Part<'_, M> {
 ///     let mut model = |from: f64, to: f64, words| {
 ///         let part = Part::new(&Braked, from, to)?;
 ///         let words: &mut [f32; 2 * (MOST as usize + 3)] = words;
-///         let cells = tabulate::<f32, Spline>(&part, SET, &request, &Scale::SI, &mut scratch, &mut words[..])?.cells;
-///         let table = fill::<f32, Spline>(&part, SET, cells, &Scale::SI, &mut scratch, words)?;
-///         let model = Model::for_domain(table, part.domain(), &Scale::SI).map_err(Error::Table)?;
+///         let cells = tabulate::<Spline<f32>>(&part, SET, &request, &Scale::SI, &mut scratch, &mut words[..])?.cells;
+///         let table = fill::<Spline<f32>>(&part, SET, cells, &Scale::SI, &mut scratch, words)?;
+///         let model = Model::new(table).map_err(Error::Table)?;
 ///         Ok::<_, Error>((Phase::from_radians(from), model))
 ///     };
-///     let turn: Pieces<'_, f32, SET, 2> =
+///     let turn: Pieces<'_, Spline<f32>, SET, 2> =
 ///         Pieces::new([model(1.0, 2.0, on)?, model(2.0, 1.0 + TAU, off)?]).map_err(Error::Table)?;
 ///     let torque = |phi: f64| turn.torque(Phase::from_radians(phi), 0.0, 0.0);
 ///     assert!(torque(0.999_999).abs() < 0.001 && (torque(1.000_001) - 5.0).abs() < 0.001);
@@ -114,37 +113,37 @@ impl<M: Reducible> Reducible for Part<'_, M> {
 /// }
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Pieces<'a, S: Scalar, const CURVES: u8, const N: usize, L: Layout = Spline> {
-    pieces: [Piece<'a, S, CURVES, L>; N],
+pub struct Pieces<'a, F: Format, const SET: Set, const N: usize> {
+    pieces: [Piece<'a, F, SET>; N],
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Piece<'a, S: Scalar, const CURVES: u8, L: Layout> {
+struct Piece<'a, F: Format, const SET: Set> {
     start: u32,
     /// Shifts the length of the piece to the left until its top bit is set.
     shift: u32,
     /// 2⁶³ divided by the length so shifted.
     stretch: u32,
-    model: Model<'a, S, CURVES, L>,
+    model: Model<'a, F, SET>,
 }
 
-/// Largest difference of the factor of the velocity torque between two pieces: of a length of 2¹⁶ units, rounded to one.
+/// Largest difference of the length of a phase between two pieces: of a length of 2¹⁶ units, rounded to one.
 const UNITS: f32 = 1e-4;
 
-impl<'a, S: Scalar, const CURVES: u8, const N: usize, L: Layout> Pieces<'a, S, CURVES, N, L> {
+impl<'a, F: Format, const SET: Set, const N: usize> Pieces<'a, F, SET, N> {
     /// From the models of pieces and the phases at which they start, in ascending order; the last ends where the first starts.
     ///
     /// # Errors
     /// [`TableError::Pieces`]: no piece, starts that do not ascend, or a piece shorter than 2⁻¹⁶ of a turn.
     /// [`TableError::PieceUnits`]: a model whose range is not the distance of the starts, or whose machine units are not those of
     /// the first.
-    pub fn new(models: [(Phase, Model<'a, S, CURVES, L>); N]) -> Result<Self, TableError> {
+    pub fn new(models: [(Phase, Model<'a, F, SET>); N]) -> Result<Self, TableError> {
         let starts = models.map(|(start, _)| start.to_bits());
         if N == 0 || !starts.is_sorted_by(|a, b| a < b) {
             return Err(TableError::Pieces);
         }
         let mut following = starts.iter().cycle().skip(1);
-        let (mut too_short, mut apart, mut units_of_first) = (false, false, None);
+        let (mut too_short, mut apart, mut first) = (false, false, None);
         let pieces = models.map(|(start, model)| {
             let start = start.to_bits();
             let next = following.next().copied().unwrap_or(start);
@@ -158,10 +157,12 @@ impl<'a, S: Scalar, const CURVES: u8, const N: usize, L: Layout> Pieces<'a, S, C
             let shifted = u64::from(length.wrapping_shl(shift)).max(1);
             // To the nearest: off by half a unit, which is a unit of 2⁻³² at the end of the piece.
             let stretch = (((1u64 << 63) + shifted / 2) / shifted).min(u64::from(u32::MAX));
-            let units = model.factor_of_range() * length as f32;
-            let expected = *units_of_first.get_or_insert(units);
-            let near = (units - expected).abs() <= UNITS * expected;
-            apart |= !near;
+            // What a piece's phases are long, as a part of its range.
+            let table = model.table();
+            let share = length as f32 / table.domain().span().to_f32();
+            let (expected, scale) = *first.get_or_insert((share, *table.scale()));
+            let near = (share - expected).abs() <= UNITS * expected;
+            apart |= !near || scale != *table.scale();
             Piece {
                 start,
                 shift,
@@ -180,7 +181,7 @@ impl<'a, S: Scalar, const CURVES: u8, const N: usize, L: Layout> Pieces<'a, S, C
 
     /// The model of the piece at `phase`, and the phase within it.
     #[inline]
-    fn at(&self, phase: Phase) -> Option<(&Model<'a, S, CURVES, L>, Phase)> {
+    fn at(&self, phase: Phase) -> Option<(&Model<'a, F, SET>, Phase)> {
         // Before the first start it is the last piece, which goes on from the turn before.
         let mut piece = self.pieces.last()?;
         for candidate in &self.pieces {
@@ -197,16 +198,21 @@ impl<'a, S: Scalar, const CURVES: u8, const N: usize, L: Layout> Pieces<'a, S, C
 
     /// As [`Model::torque`].
     #[inline]
-    pub fn torque(&self, phase: Phase, omega: S, alpha: S) -> S {
+    pub fn torque(&self, phase: Phase, omega: F::Number, alpha: F::Number) -> F::Number {
         let found = self.at(phase);
-        found.map_or(S::default(), |(model, phase)| {
+        found.map_or(F::Number::default(), |(model, phase)| {
             model.torque(phase, omega, alpha)
         })
     }
 
     /// As [`Model::acceleration`].
     #[inline]
-    pub fn acceleration(&self, phase: Phase, omega: S, torque: S) -> Outcome<S> {
+    pub fn acceleration(
+        &self,
+        phase: Phase,
+        omega: F::Number,
+        torque: F::Number,
+    ) -> Outcome<F::Number> {
         let found = self.at(phase);
         found.map_or(Outcome::default(), |(model, phase)| {
             model.acceleration(phase, omega, torque)
@@ -218,10 +224,10 @@ impl<'a, S: Scalar, const CURVES: u8, const N: usize, L: Layout> Pieces<'a, S, C
     pub fn acceleration_range(
         &self,
         phase: Phase,
-        omega: S,
-        least: S,
-        greatest: S,
-    ) -> AccelerationRange<S> {
+        omega: F::Number,
+        least: F::Number,
+        greatest: F::Number,
+    ) -> AccelerationRange<F::Number> {
         let found = self.at(phase);
         found.map_or(AccelerationRange::default(), |(model, phase)| {
             model.acceleration_range(phase, omega, least, greatest)

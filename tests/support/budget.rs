@@ -320,27 +320,27 @@ pub(crate) const PIECES_Q31: f64 = Q31_READ[0] * 2.0 + Q31_READ[1] + 10.0 * Q31_
 
 /// Curves of 16-bit rows at 300 cells against a machine of size one, in units of 2⁻¹⁵: J, V, load, b, c (whose kinks lie beside the
 /// knots of a stroke), and J times 1/J.
-pub(crate) const SHORT_CURVES: [f64; 6] = [1.0, 1.7, 1.3, 1.3, 1.3, 15.0];
+pub(crate) const ROWS16_CURVES: [f64; 6] = [1.0, 1.7, 1.3, 1.3, 1.3, 15.0];
 
 /// The largest step of a 16-bit curve at a knot, in units of 2⁻¹⁵: what both sides round off.
-pub(crate) const SHORT_STEP: f64 = 3.0;
+pub(crate) const ROWS16_STEP: f64 = 3.0;
 
-/// `short::Model::torque` promises this against the curves of its table, in units of 2⁻¹⁵.
-pub(crate) const SHORT_TORQUE: f64 = 0.75;
+/// `Model::torque` over 16-bit rows promises this against the curves of its table, in units of 2⁻¹⁵.
+pub(crate) const ROWS16_TORQUE: f64 = 0.75;
 
 /// Forward after inverse, in units of 2⁻¹⁵ of the torque: one rounding of the torque and one of what resists, half a unit each, and the
 /// unit that the floor of the quotient may take off where J is 1.
-pub(crate) const SHORT_BACK: f64 = 1.5;
+pub(crate) const ROWS16_BACK: f64 = 1.5;
 
 /// The same where only J and V are there: two floors instead of the latter.
-pub(crate) const SHORT_BARE_BACK: f64 = 3.0;
+pub(crate) const ROWS16_BARE_BACK: f64 = 3.0;
 
 /// Cells of the example press with its load for shares of the peak torque: the figures of `docs/table-image.md`.
-pub(crate) const SHORT_PRESS_CELLS: [(f64, u32); 4] =
+pub(crate) const ROWS16_PRESS_CELLS: [(f64, u32); 4] =
     [(3e-3, 60), (1e-3, 107), (3e-4, 230), (1.5e-4, 587)];
 
 /// The least share of the peak torque that 16 bits reach for the example press with its load [1.31e-4 found].
-pub(crate) const SHORT_FLOOR: [f64; 2] = [1.2e-4, 1.4e-4];
+pub(crate) const ROWS16_FLOOR: [f64; 2] = [1.2e-4, 1.4e-4];
 
 /// Largest error of Quadratic pieces over the stated one, which is found at the knots, too: as `DENSE_GRID`.
 pub(crate) const PIECES_QUADRATIC: f64 = 1.001;

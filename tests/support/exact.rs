@@ -1,10 +1,10 @@
 //! What a table's words mean, in double precision and by other formulas than the library's: basis functions instead of the
 //! power form, no floors.
 
-use jred::table::{Layout, Role, curves};
-use jred::{Phase, Scalar};
+use jred::table::Role;
+use jred::{Format, Phase, curves};
 
-use super::rows::Rows;
+use super::rows::{Meaning, Plain, Rows};
 
 /// Curves at one phase in machine units, the slope a cell.
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,8 +18,8 @@ pub(crate) struct Exact {
 }
 
 /// The bits of a place in a cell that the fixed-point tick looks at.
-pub(crate) fn place_bits<L: Layout>() -> u32 {
-    match L::NAME {
+pub(crate) fn place_bits<F: Format>() -> u32 {
+    match F::NAME {
         "spline" => !1,
         "cubic" => !0,
         "quadratic" => !0xffff,
@@ -27,7 +27,7 @@ pub(crate) fn place_bits<L: Layout>() -> u32 {
     }
 }
 
-impl<S: Scalar, L: Layout> Rows<S, L> {
+impl<F: Plain> Rows<F> {
     /// All curves at `phase`, of the place rounded down to these bits.
     pub(crate) fn exact(&self, phase: Phase, bits: u32) -> Exact {
         let (cell, fraction) = phase.cell(self.cells);
@@ -36,7 +36,7 @@ impl<S: Scalar, L: Layout> Rows<S, L> {
             let column = self.column(role)?;
             Some(self.curve(role, cell as usize, column, u))
         };
-        let of = |role, word| S::exact(role, S::raw(word));
+        let of = |role, word: F::Word| word.value(role);
         let value = |role| curve(role).map_or(0.0, |[value, _]| value);
         let [inertia, inertia_slope] = curve(Role::Inertia).unwrap();
         Exact {
@@ -71,7 +71,7 @@ impl<S: Scalar, L: Layout> Rows<S, L> {
     /// Value and slope a cell.
     fn curve(&self, role: Role, cell: usize, column: usize, u: f64) -> [f64; 2] {
         let curves = 1 + (self.set & (curves::ALL | curves::RECIPROCAL)).count_ones() as usize;
-        let word = |index: usize| S::exact(role, S::raw(self.words[index]));
+        let word = |index: usize| self.words[index].value(role);
         let sum = |words: [f64; 4], weights: [f64; 4]| -> f64 {
             words
                 .iter()
@@ -79,7 +79,7 @@ impl<S: Scalar, L: Layout> Rows<S, L> {
                 .map(|(word, weight)| word * weight)
                 .sum()
         };
-        if L::NAME == "spline" {
+        if F::NAME == "spline" {
             let points = [0, 1, 2, 3].map(|row| word((cell + row) * curves + column));
             let v = 1.0 - u;
             let values = [
@@ -96,11 +96,11 @@ impl<S: Scalar, L: Layout> Rows<S, L> {
             ];
             return [sum(points, values), sum(points, slopes)];
         }
-        let (count, pitch) = match L::NAME {
+        let (count, pitch) = match F::NAME {
             "cubic" => (4, 4 * curves),
             _ => (3, (3 * curves).div_ceil(4) * 4),
         };
-        let x = u - if S::FIXED { 0.5 } else { 0.0 };
+        let x = u - if F::Word::FIXED { 0.5 } else { 0.0 };
         let words = [0, 1, 2, 3].map(|k| {
             let index = cell * pitch + column * count + k;
             if k < count { word(index) } else { 0.0 }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use jred::harmonic::{Circular, Fitted, Request, fit, scratch_len, terms_in_use, words_len};
 use jred::mechanism::{Branch, SliderCrank};
-use jred::{Action, Domain, Error, Link, Load, Machine, Phase, Reducible, Reduction};
+use jred::{Action, Domain, Error, Link, Load, Machine, Phase, Reducible, Reduction, Set};
 use proptest::prelude::*;
 
 use super::largest;
@@ -118,7 +118,7 @@ pub(crate) fn peak(machine: &impl Reducible) -> f64 {
     }))
 }
 
-pub(crate) fn fitted<T: Circular + Default, const CURVES: u8, const TERMS: u8>(
+pub(crate) fn fitted<T: Circular + Default, const CURVES: Set, const TERMS: Set>(
     machine: &impl Reducible,
     request: &Request,
 ) -> Result<(Fitted, Vec<T>), Error> {
@@ -133,7 +133,7 @@ pub(crate) fn phases(count: u32) -> impl Iterator<Item = Phase> {
     (0..count).map(move |k| Phase::from_bits(k.wrapping_mul((u32::MAX / count) | 1)))
 }
 
-pub(crate) fn terms_of(machine: &impl Reducible, set: u8) -> Result<u8, Error> {
+pub(crate) fn terms_of(machine: &impl Reducible, set: Set) -> Result<Set, Error> {
     terms_in_use(machine, set, 16, &mut vec![0.0; scratch_len(16)])
 }
 

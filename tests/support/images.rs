@@ -1,7 +1,7 @@
 //! Images to test with, and an independent CRC.
 
-use jred::table::{Layout, Spline, curves};
-use jred::{Domain, Image, ImageError, Q31, Scalar, Scale, Validity, encode, image_words};
+use jred::image::{encode, image_len};
+use jred::{Domain, Format, Image, ImageError, Q31, Scale, Set, Spline, Validity, curves};
 
 use super::machines::Wave;
 use super::rows::Rows;
@@ -31,30 +31,25 @@ pub(crate) const VALIDITY: Validity = Validity {
     torque_error: 0.01,
 };
 
-pub(crate) fn encoded<S: Scalar, L: Layout>(
-    machine: &Wave,
-    set: u8,
-    cells: u32,
-    scale: &Scale,
-) -> Vec<u32> {
-    let rows = Rows::<S, L>::of(machine, set, cells, scale).unwrap();
-    let mut buffer = vec![0; image_words::<S, L>(cells, set) + 3];
-    encode(&rows.table(), machine.domain, scale, VALIDITY, &mut buffer)
+pub(crate) fn encoded<F: Format>(machine: &Wave, set: Set, cells: u32, scale: &Scale) -> Vec<u32> {
+    let rows = Rows::<F>::of(machine, set, cells, scale).unwrap();
+    let mut buffer = vec![0; image_len::<F>(cells, set) + 3];
+    encode(&rows.table(), VALIDITY, &mut buffer)
         .unwrap()
         .to_vec()
 }
 
 /// The smallest image there is: four cells, inertia only.
 pub(crate) fn small() -> Vec<u32> {
-    encoded::<f32, Spline>(&Wave::bare(1.0, 0.25), curves::INERTIA, 4, &Scale::SI)
+    encoded::<Spline<f32>>(&Wave::bare(1.0, 0.25), curves::INERTIA, 4, &Scale::SI)
 }
 
 pub(crate) fn stroke() -> Vec<u32> {
-    stroke_in::<Q31, Spline>(curves::ALL)
+    stroke_in::<Spline<Q31>>(curves::ALL)
 }
 
 /// Over a stroke, with the curves of this set.
-pub(crate) fn stroke_in<S: Scalar, L: Layout>(set: u8) -> Vec<u32> {
+pub(crate) fn stroke_in<F: Format>(set: Set) -> Vec<u32> {
     let domain = Domain::stroke(-0.5, 1.5).unwrap();
     let wave = Wave {
         mean: 1.0,
@@ -65,7 +60,7 @@ pub(crate) fn stroke_in<S: Scalar, L: Layout>(set: u8) -> Vec<u32> {
         domain,
     };
     let scale = Scale::new(60.0, 11.0, 2.0).unwrap();
-    encoded::<S, L>(&wave, set, 12, &scale.for_cells(12, domain.span()))
+    encoded::<F>(&wave, set, 12, &scale.for_cells(12, domain.span()))
 }
 
 pub(crate) fn refused(image: &[u32]) -> ImageError {

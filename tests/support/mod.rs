@@ -11,7 +11,7 @@ pub(crate) mod jointed;
 pub(crate) mod machines;
 pub(crate) mod rows;
 
-use jred::Scalar;
+use jred::Number;
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
@@ -66,6 +66,6 @@ pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
 }
 
 /// The nearest number of a type; its own name for it is reachable from generic code only.
-pub(crate) fn number<S: Scalar>(value: f64) -> S {
+pub(crate) fn number<S: Number>(value: f64) -> S {
     S::from_f64(value).unwrap()
 }

@@ -1,84 +1,144 @@
 //! A table with the memory it lies in.
 
-use std::marker::PhantomData;
+use jred::table::{Constants, Role, Shape, words_len};
+use jred::tabulate::{fill, scratch_len};
+use jred::{Domain, Error, Format, Model, Reducible, Scale, Set, Table, TableError};
 
-use jred::table::{Constants, Layout, Role, Spline};
-use jred::tabulate::{fill, scratch_len, words_len};
-use jred::{Domain, Error, Model, Reducible, Scalar, Scale, Table, TableError};
-
-/// Words and constants of a table, and what else it takes to read them.
-#[derive(Clone)]
-pub(crate) struct Rows<S: Scalar, L: Layout = Spline> {
-    pub(crate) words: Vec<S::Word>,
-    pub(crate) constants: Constants<S::Word>,
-    pub(crate) set: u8,
+/// Words of a table, and what they stand for.
+#[derive(Clone, Debug)]
+pub(crate) struct Rows<F: Format> {
+    pub(crate) words: Vec<F::Word>,
+    pub(crate) constants: F::Constants,
+    pub(crate) set: Set,
     pub(crate) cells: u32,
     pub(crate) domain: Domain,
-    pub(crate) layout: PhantomData<L>,
+    pub(crate) scale: Scale,
 }
 
-impl<S: Scalar, L: Layout> Rows<S, L> {
+impl<F: Format> Rows<F> {
     /// The table with exactly `cells` cells.
     pub(crate) fn of(
         machine: &impl Reducible,
-        set: u8,
+        set: Set,
         cells: u32,
         scale: &Scale,
     ) -> Result<Self, Error> {
         let mut scratch = vec![0.0; scratch_len(cells, set)];
-        let mut words = vec![zero::<S>(); words_len::<L>(cells, set)];
-        let constants =
-            fill::<S, L>(machine, set, cells, scale, &mut scratch, &mut words)?.constants();
+        let mut words = vec![F::Word::default(); words_len::<F>(cells, set)];
+        let table = fill::<F>(machine, set, cells, scale, &mut scratch, &mut words)?;
+        let constants = *table.constants();
         Ok(Self {
             words,
             constants,
             set,
             cells,
             domain: machine.domain(),
-            layout: PhantomData,
+            scale: *scale,
         })
     }
 
     /// Words as they are, without constants.
-    pub(crate) fn plain(words: Vec<S::Word>, set: u8, cells: u32, domain: Domain) -> Self {
-        let constants = Constants {
-            inertia: zero::<S>(),
-            viscous: zero::<S>(),
-            coulomb: zero::<S>(),
-            gains: [zero::<S>(); 5],
-        };
+    pub(crate) fn plain(words: Vec<F::Word>, set: Set, cells: u32, domain: Domain) -> Self {
         Self {
             words,
-            constants,
+            constants: F::Constants::default(),
             set,
             cells,
             domain,
-            layout: PhantomData,
+            scale: Scale::SI,
         }
     }
 
-    pub(crate) fn try_table(&self) -> Result<Table<'_, S, L>, TableError> {
-        let periodic = self.domain == Domain::Turn;
-        Table::with_constants(&self.words, self.constants, self.set, self.cells, periodic)
+    fn in_units(&self, scale: &Scale) -> Result<Table<'_, F>, TableError> {
+        let shape = Shape {
+            set: self.set,
+            cells: self.cells,
+            domain: self.domain.to(),
+            scale: *scale,
+            constants: self.constants,
+        };
+        Table::new(&self.words, shape)
     }
 
-    pub(crate) fn table(&self) -> Table<'_, S, L> {
+    pub(crate) fn try_table(&self) -> Result<Table<'_, F>, TableError> {
+        self.in_units(&self.scale)
+    }
+
+    pub(crate) fn table(&self) -> Table<'_, F> {
         self.try_table().unwrap()
     }
 
-    pub(crate) fn try_model<const SET: u8>(
+    pub(crate) fn try_model<const SET: Set>(
         &self,
         scale: &Scale,
-    ) -> Result<Model<'_, S, SET, L>, TableError> {
-        Model::for_domain(self.try_table()?, self.domain, scale)
+    ) -> Result<Model<'_, F, SET>, TableError> {
+        Model::new(self.in_units(scale)?)
     }
 
-    pub(crate) fn model<const SET: u8>(&self, scale: &Scale) -> Model<'_, S, SET, L> {
+    pub(crate) fn model<const SET: Set>(&self, scale: &Scale) -> Model<'_, F, SET> {
         self.try_model(scale).unwrap()
     }
 }
 
-/// The word of the number 0.
-pub(crate) fn zero<S: Scalar>() -> S::Word {
-    S::word(Role::Inertia, 0.0).unwrap()
+/// What a word means, by the formats that `docs/table-image.md` states.
+pub(crate) trait Meaning: Copy + Default {
+    const FIXED: bool;
+    fn value(self, role: Role) -> f64;
+    /// The nearest word.
+    fn of(role: Role, value: f64) -> Self;
 }
+
+impl Meaning for f32 {
+    const FIXED: bool = false;
+    fn value(self, _: Role) -> f64 {
+        f64::from(self)
+    }
+    fn of(_: Role, value: f64) -> Self {
+        value as Self
+    }
+}
+
+impl Meaning for f64 {
+    const FIXED: bool = false;
+    fn value(self, _: Role) -> f64 {
+        self
+    }
+    fn of(_: Role, value: f64) -> Self {
+        value
+    }
+}
+
+impl Meaning for i32 {
+    const FIXED: bool = true;
+    fn value(self, role: Role) -> f64 {
+        f64::from(self) / unit(role)
+    }
+    fn of(role: Role, value: f64) -> Self {
+        (value * unit(role)).round_ties_even() as Self
+    }
+}
+
+fn unit(role: Role) -> f64 {
+    2.0f64.powi(match role {
+        Role::Inertia | Role::Viscous => 30,
+        Role::Load | Role::Coulomb => 29,
+        Role::Reciprocal => 31,
+    })
+}
+
+/// A format of polynomials, whose words are numbers.
+pub(crate) trait Plain: Format<Word = Self::W, Constants = Constants<Self::W>> {
+    type W: Meaning;
+}
+
+impl<W: Meaning, F: Format<Word = W, Constants = Constants<W>>> Plain for F {
+    type W = W;
+}
+
+/// Of 32 bits.
+pub(crate) trait Fixed:
+    Format<Number = jred::Q31, Word = i32, Constants = Constants<i32>>
+{
+}
+
+impl<F: Format<Number = jred::Q31, Word = i32, Constants = Constants<i32>>> Fixed for F {}

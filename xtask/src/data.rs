@@ -16,7 +16,11 @@ use crate::number::{Number, acceleration_base};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Data {
     /// A table image of the library.
-    Jred { layout: Layout, set: u8, cells: u32 },
+    Jred {
+        layout: Layout,
+        set: jred::Set,
+        cells: u32,
+    },
     /// J, ½·J′, G in linear tables, single precision.
     LinearF32,
     /// The same, per unit, with 31 fractional bits.

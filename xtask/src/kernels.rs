@@ -53,7 +53,7 @@ macro_rules! kernels {
 }
 
 /// A table of the library: 64 cells, quadratics 256.
-const fn table(layout: Layout, set: u8) -> Data {
+const fn table(layout: Layout, set: jred::Set) -> Data {
     let cells = if matches!(layout, Quadratic | Rows16) {
         256
     } else {

@@ -21,16 +21,15 @@ mod target {
     use cortex_m_semihosting::debug;
     use defmt_semihosting as _;
     use jred::motion::{Law, Move};
-    use jred::table::{Spline, curves};
-    use jred::{Error, Image, ImageError, Model, Q31, include_image};
+    use jred::{Error, Format, Image, ImageError, Model, Q31, Set, Spline, curves, include_image};
 
     /// The curves of the press, as `jred export` prints them.
-    const PRESS: u8 = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+    const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
     fn run() -> Result<(), ImageError> {
         let bytes = include_image!("../../data/press_f32.jred");
         let image = Image::from_bytes(bytes)?;
-        let press: Model<'_, f32, PRESS> = image.model()?;
+        let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
         defmt::info!("{=u32} cells, {}", image.cells(), image.validity());
 
         let stroke: Result<Move<f32>, Error> = Move::new(Law::Polynomial345, PI, TAU, 0.4);
@@ -47,7 +46,7 @@ mod target {
         if let Err(error) = Image::from_bytes(bytes.get(..256).unwrap_or_default()) {
             defmt::warn!("cut off: {}", error);
         }
-        if let Err(error) = image.model::<Q31, PRESS, Spline>() {
+        if let Err(error) = image.model::<Spline<Q31>, PRESS>() {
             defmt::warn!("not fixed point: {}", error);
         }
         Ok(())

@@ -11,6 +11,7 @@
 use super::spectrum::Spectrum;
 use super::word::{Coefficient, Curve, Kind, in_use, words_len};
 use super::{Circular, HarmonicError, HarmonicModel, MAX_HARMONICS};
+use crate::Set;
 use crate::error::positive;
 use crate::machine::reduction::Reducible;
 use crate::{Domain, Error, Phase, math};
@@ -73,10 +74,10 @@ pub const fn scratch_len(max_harmonics: u32) -> usize {
 /// Those of the machine; [`HarmonicError::Stroke`]; a buffer too short.
 pub fn terms_in_use(
     machine: &impl Reducible,
-    set: u8,
+    set: Set,
     max_harmonics: u32,
     scratch: &mut [f64],
-) -> Result<u8, Error> {
+) -> Result<Set, Error> {
     const ROUNDING: f64 = 1e-12;
     let mut spectrum = spectrum(machine, set, max_harmonics, scratch)?;
     while spectrum.can_grow() {
@@ -87,7 +88,7 @@ pub fn terms_in_use(
         let limit = ROUNDING * spectrum.size(curve);
         for k in 1..=spectrum.samples() / 2 {
             let [a, b] = spectrum.coefficient(curve, k).map(|x| math::abs(x) > limit);
-            terms |= (u8::from(a) | u8::from(b) << 1) << bit;
+            terms |= (Set::from(a) | Set::from(b) << 1) << bit;
         }
     }
     Ok(in_use(set, terms))
@@ -96,7 +97,7 @@ pub fn terms_in_use(
 /// The curves of a machine that turns, not sampled yet.
 fn spectrum<'s>(
     machine: &impl Reducible,
-    set: u8,
+    set: Set,
     max_harmonics: u32,
     scratch: &'s mut [f64],
 ) -> Result<Spectrum<'s>, Error> {
@@ -132,7 +133,7 @@ fn spectrum<'s>(
 /// [`HarmonicError::Stroke`]; [`HarmonicError::NotConverged`], for a curve with a kink in particular;
 /// [`HarmonicError::Coefficients`] if J is not shown to be positive between the samples; [`Error::NoInertia`] if it is
 /// not at one; buffers too short; those of the machine.
-pub fn fit<T: Circular, const CURVES: u8, const TERMS: u8>(
+pub fn fit<T: Circular, const CURVES: Set, const TERMS: Set>(
     machine: &impl Reducible,
     request: &Request,
     scratch: &mut [f64],
@@ -200,7 +201,7 @@ pub fn fit<T: Circular, const CURVES: u8, const TERMS: u8>(
 ///
 /// # Errors
 /// Those of the machine.
-pub fn measure<T: Circular, const CURVES: u8, const TERMS: u8>(
+pub fn measure<T: Circular, const CURVES: Set, const TERMS: Set>(
     machine: &impl Reducible,
     model: &HarmonicModel<'_, T, CURVES, TERMS>,
     request: &Request,
@@ -234,7 +235,7 @@ fn amplitude([a, b]: [f64; 2]) -> f64 {
 }
 
 /// The bound's share of what the samples tell: harmonics and kinds left out, and the rounding of the rest to `T`.
-fn left_out<T: Circular, const CURVES: u8, const TERMS: u8>(
+fn left_out<T: Circular, const CURVES: Set, const TERMS: Set>(
     spectrum: &Spectrum<'_>,
     request: &Request,
     harmonics: usize,
@@ -288,7 +289,10 @@ fn unseen(spectrum: &Spectrum<'_>, request: &Request) -> Option<f64> {
 }
 
 /// The coefficients, in the order of [`Coefficient::of_word`].
-fn fill<T: Circular, const CURVES: u8, const TERMS: u8>(spectrum: &Spectrum<'_>, words: &mut [T]) {
+fn fill<T: Circular, const CURVES: Set, const TERMS: Set>(
+    spectrum: &Spectrum<'_>,
+    words: &mut [T],
+) {
     for (word, slot) in words.iter_mut().enumerate() {
         if let Some(Coefficient { curve, kind }) = Coefficient::of_word(word, CURVES, TERMS) {
             *slot = T::from_f64(match kind {

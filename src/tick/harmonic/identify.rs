@@ -15,6 +15,7 @@
 
 use super::word::{Coefficient, Curve, Kind, means, row, words_len};
 use super::{Circular, HarmonicError, MAX_HARMONICS};
+use crate::Set;
 use crate::error::finite;
 use crate::{Error, Phase, math};
 
@@ -60,7 +61,7 @@ pub struct Identified<const WORDS: usize> {
 ///
 /// **Cost** of a sample: 3·WORDS² multiplications in `f64`; 8·WORDS² bytes.
 #[derive(Clone, Debug)]
-pub struct Identification<const WORDS: usize, const CURVES: u8, const TERMS: u8> {
+pub struct Identification<const WORDS: usize, const CURVES: Set, const TERMS: Set> {
     /// R, row by row.
     triangle: [[f64; WORDS]; WORDS],
     right: [f64; WORDS],
@@ -68,7 +69,7 @@ pub struct Identification<const WORDS: usize, const CURVES: u8, const TERMS: u8>
     samples: u32,
 }
 
-impl<const WORDS: usize, const CURVES: u8, const TERMS: u8> Identification<WORDS, CURVES, TERMS> {
+impl<const WORDS: usize, const CURVES: Set, const TERMS: Set> Identification<WORDS, CURVES, TERMS> {
     /// No samples yet.
     ///
     /// # Errors
@@ -249,7 +250,7 @@ fn norm(values: impl IntoIterator<Item = f64>) -> f64 {
 /// use jred::{Phase, table::curves};
 ///
 /// // J = 0.5 − 0.2·cos 2φ kg·m², 3 N·m of Coulomb friction.
-/// const TERMS: u8 = terms::INERTIA_COS;
+/// const TERMS: Set = terms::INERTIA_COS;
 /// let made = [0.5, 3.0, 0.0, -0.2];
 /// let machine = HarmonicModel::<f64, { curves::COULOMB }, TERMS>::new(&made)?;
 /// let samples = core::array::from_fn::<_, 50, _>(|k| {
@@ -264,7 +265,7 @@ fn norm(values: impl IntoIterator<Item = f64>) -> f64 {
 ///
 /// # Errors
 /// As [`Identification::new`], [`add`](Identification::add) and [`solve`](Identification::solve).
-pub fn identify<const WORDS: usize, const CURVES: u8, const TERMS: u8>(
+pub fn identify<const WORDS: usize, const CURVES: Set, const TERMS: Set>(
     samples: &[Sample],
 ) -> Result<Identified<WORDS>, Error> {
     let mut identification = Identification::<WORDS, CURVES, TERMS>::new()?;

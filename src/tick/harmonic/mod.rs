@@ -72,6 +72,7 @@ pub use identify::{EXCITED, Identification, Identified, Sample, identify};
 pub use sine::Circular;
 pub use word::{Coefficient, Curve, Kind, terms, words_len};
 
+use crate::Set;
 use crate::tick::AccelerationRange;
 use crate::{Outcome, Phase};
 
@@ -94,7 +95,7 @@ const PLACES: [u32; 2] = [64, 4096];
 /// **Cost** of a tick: one sine and cosine, then six operations for each harmonic, two for each of its coefficients and
 /// for each of J's two or three more (J′). A division only in `acceleration`. Instructions are in `docs/harmonics.md`.
 #[derive(Clone, Copy, Debug)]
-pub struct HarmonicModel<'a, T: Circular, const CURVES: u8, const TERMS: u8> {
+pub struct HarmonicModel<'a, T: Circular, const CURVES: Set, const TERMS: Set> {
     means: [T; 5],
     rows: &'a [T],
 }
@@ -115,7 +116,7 @@ pub struct Values<T> {
     pub coulomb: T,
 }
 
-impl<'a, T: Circular, const CURVES: u8, const TERMS: u8> HarmonicModel<'a, T, CURVES, TERMS> {
+impl<'a, T: Circular, const CURVES: Set, const TERMS: Set> HarmonicModel<'a, T, CURVES, TERMS> {
     /// Coefficients of each harmonic.
     const ROW: usize = word::row(CURVES, TERMS);
 
@@ -327,11 +328,11 @@ fn size<T: Circular>(x: T) -> T {
 
 /// The next coefficients of a curve, [cosine, sine], where it has them.
 #[inline]
-fn pair<T, const CURVES: u8, const TERMS: u8>(
+fn pair<T, const CURVES: Set, const TERMS: Set>(
     words: &mut impl Iterator<Item = T>,
     curve: u8,
 ) -> [Option<T>; 2] {
-    let has = |term: u8| word::in_use(CURVES, TERMS) & (term << (2 * curve)) != 0;
+    let has = |term: Set| word::in_use(CURVES, TERMS) & (term << (2 * curve)) != 0;
     let a = if has(1) { words.next() } else { None };
     let b = if has(2) { words.next() } else { None };
     [a, b]

@@ -8,12 +8,13 @@
 //! fall like a geometric series (L. N. Trefethen, J. A. C. Weideman, *SIAM Review* 56, 2014). The sums are written out:
 //! N is some tens, and there is no transform in `f64` without an allocator to take from elsewhere.
 
+use crate::Set;
 use core::f64::consts::TAU;
 
 use super::word::Curve;
+use crate::curve::unfold;
 use crate::error::finite;
 use crate::machine::reduction::Reducible;
-use crate::tabulate::unfold;
 use crate::{Error, math};
 
 /// Samples taken at first; also the least room for them.
@@ -47,7 +48,7 @@ impl<'s> Spectrum<'s> {
     }
 
     /// No samples yet, of a machine with this set of curves.
-    pub(super) fn new(scratch: &'s mut [f64], harmonics: u32, set: u8) -> Result<Self, Error> {
+    pub(super) fn new(scratch: &'s mut [f64], harmonics: u32, set: Set) -> Result<Self, Error> {
         let (needed, given) = (Self::scratch_len(harmonics), scratch.len());
         let most = most_samples(harmonics);
         let scratch = scratch.get_mut(..needed);

@@ -1,5 +1,6 @@
 //! Which coefficients there are, and the order in which they lie.
 
+use crate::Set;
 use core::fmt;
 
 use crate::curve::curves;
@@ -10,32 +11,34 @@ use crate::curve::curves;
 /// slider-crank without offset whose centres of mass are on the links' lines and whose weight acts along the guide) has
 /// even J and odd load: half the coefficients. [`terms_in_use`](super::terms_in_use) finds the set.
 pub mod terms {
+    use crate::Set;
+
     /// Cosines of J.
-    pub const INERTIA_COS: u8 = 1;
+    pub const INERTIA_COS: Set = 1;
     /// Sines of J.
-    pub const INERTIA_SIN: u8 = 1 << 1;
+    pub const INERTIA_SIN: Set = 1 << 1;
     /// Cosines of the load.
-    pub const LOAD_COS: u8 = 1 << 2;
+    pub const LOAD_COS: Set = 1 << 2;
     /// Sines of the load.
-    pub const LOAD_SIN: u8 = 1 << 3;
+    pub const LOAD_SIN: Set = 1 << 3;
     /// Cosines of the viscous coefficient.
-    pub const VISCOUS_COS: u8 = 1 << 4;
+    pub const VISCOUS_COS: Set = 1 << 4;
     /// Sines of the viscous coefficient.
-    pub const VISCOUS_SIN: u8 = 1 << 5;
+    pub const VISCOUS_SIN: Set = 1 << 5;
     /// Cosines of the Coulomb friction.
-    pub const COULOMB_COS: u8 = 1 << 6;
+    pub const COULOMB_COS: Set = 1 << 6;
     /// Sines of the Coulomb friction.
-    pub const COULOMB_SIN: u8 = 1 << 7;
+    pub const COULOMB_SIN: Set = 1 << 7;
     /// J and load of any machine; constant viscous and Coulomb friction.
-    pub const GENERAL: u8 = INERTIA_COS | INERTIA_SIN | LOAD_COS | LOAD_SIN;
+    pub const GENERAL: Set = INERTIA_COS | INERTIA_SIN | LOAD_COS | LOAD_SIN;
     /// J even, load odd; constant viscous and Coulomb friction.
-    pub const SYMMETRIC: u8 = INERTIA_COS | LOAD_SIN;
+    pub const SYMMETRIC: Set = INERTIA_COS | LOAD_SIN;
     /// All.
-    pub const ALL: u8 = u8::MAX;
+    pub const ALL: Set = 0xff;
 }
 
 /// The terms of curves that there are.
-pub(super) const fn in_use(set: u8, terms: u8) -> u8 {
+pub(super) const fn in_use(set: Set, terms: Set) -> Set {
     let mut used = terms & 0b11;
     let mut curve = 1;
     while curve < 4 {
@@ -48,7 +51,7 @@ pub(super) const fn in_use(set: u8, terms: u8) -> u8 {
 }
 
 /// Means of J and of the curves of the set.
-pub(super) const fn means(set: u8) -> usize {
+pub(super) const fn means(set: Set) -> usize {
     let mut means = 0;
     let mut curve = 0;
     while curve < Curve::ALL.len() {
@@ -59,13 +62,13 @@ pub(super) const fn means(set: u8) -> usize {
 }
 
 /// Coefficients of each harmonic.
-pub(super) const fn row(set: u8, terms: u8) -> usize {
+pub(super) const fn row(set: Set, terms: Set) -> usize {
     in_use(set, terms).count_ones() as usize
 }
 
 /// Number of coefficients of so many harmonics.
 #[must_use]
-pub const fn words_len(harmonics: u32, set: u8, terms: u8) -> usize {
+pub const fn words_len(harmonics: u32, set: Set, terms: Set) -> usize {
     means(set) + harmonics as usize * row(set, terms)
 }
 
@@ -95,7 +98,7 @@ impl Curve {
     ];
 
     /// Whether machines of this set have it. A constant b is the mean of a curve without terms.
-    pub(super) const fn is_in(self, set: u8) -> bool {
+    pub(super) const fn is_in(self, set: Set) -> bool {
         let bits = match self {
             Self::Inertia => return true,
             Self::Load => curves::LOAD,
@@ -134,7 +137,7 @@ impl Coefficient {
     /// Coulomb friction last; then for each harmonic, the cosine and the sine of J, of the load, of the viscous
     /// coefficient, of the Coulomb friction, as far as they are in `terms`. `None` behind the last possible one.
     #[must_use]
-    pub fn of_word(word: usize, set: u8, terms: u8) -> Option<Self> {
+    pub fn of_word(word: usize, set: Set, terms: Set) -> Option<Self> {
         let mut present = Curve::ALL.into_iter().filter(|curve| curve.is_in(set));
         let Some(place) = word.checked_sub(means(set)) else {
             let kind = Kind::Mean;

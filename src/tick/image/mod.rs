@@ -8,9 +8,8 @@ mod error;
 
 pub use error::ImageError;
 
-use crate::curve::{Constants, Layout, Table, curves};
-use crate::number::Scalar;
-use crate::{Domain, Error, Model, Scale};
+use crate::curve::{CONSTANTS, Format, Set, Shape, Table, words_len};
+use crate::{AnyModel, Domain, Error, Model, Number, Scale};
 
 /// "JRED" in the file's first four bytes.
 const MAGIC: u32 = u32::from_le_bytes(*b"JRED");
@@ -18,10 +17,10 @@ const MAGIC: u32 = u32::from_le_bytes(*b"JRED");
 pub const VERSION: u16 = 2;
 /// Words of the header.
 pub const HEADER_WORDS: usize = 24;
-/// Words of it for what a layout has beside its rows.
-pub(crate) const CONSTANTS: usize = HEADER_WORDS - 13;
 /// Words from here on are zero.
 const RESERVED: usize = 19;
+/// Bits of the set of curves that have a meaning.
+const KNOWN: u32 = 6;
 /// Domain codes.
 const TURN: u8 = 0;
 const STROKE: u8 = 1;
@@ -43,11 +42,11 @@ pub struct Validity {
 /// A table image whose header and CRC were checked.
 #[derive(Clone, Copy, Debug)]
 pub struct Image<'a> {
-    pub(crate) rows: &'a [u32],
-    pub(crate) code: u8,
-    curves: u8,
-    pub(crate) layout: u8,
-    pub(crate) constants: [u32; CONSTANTS],
+    rows: &'a [u32],
+    code: u8,
+    set: Set,
+    layout: u8,
+    constants: [u32; CONSTANTS],
     cells: u32,
     domain: Domain<f32>,
     scale: Scale,
@@ -120,7 +119,8 @@ impl<'a> Image<'a> {
             STROKE => return Err(ImageError::Header(5)),
             _ => return Err(ImageError::Header(3)),
         };
-        if set > curves::EVERY {
+        let set = Set::from(set);
+        if set >= 1 << KNOWN {
             return Err(ImageError::Header(3));
         }
         if header.get(RESERVED..) != Some(&[0; HEADER_WORDS - RESERVED]) {
@@ -142,7 +142,7 @@ impl<'a> Image<'a> {
         Ok(Self {
             rows,
             code,
-            curves: set,
+            set,
             layout,
             constants,
             cells,
@@ -164,49 +164,39 @@ impl<'a> Image<'a> {
     /// The model, its table in place in the image.
     ///
     /// # Errors
-    /// Another number type or other curves than the image has, or a table that is not sound.
-    pub fn model<S: Scalar, const CURVES: u8, L: Layout>(
-        &self,
-    ) -> Result<Model<'a, S, CURVES, L>, ImageError> {
-        let table = self.table::<S, L>()?;
-        Ok(Model::new(table, S::span_f32(self.domain), &self.scale)?)
+    /// Another number type, format or other curves than the image has, or a table that is not sound.
+    pub fn model<F: Format, const SET: Set>(&self) -> Result<Model<'a, F, SET>, ImageError> {
+        Ok(Model::new(self.table()?)?)
+    }
+
+    /// The model, for a program that does not know its curves when it is compiled.
+    ///
+    /// # Errors
+    /// As [`model`](Self::model).
+    pub fn any_model<F: Format>(&self) -> Result<AnyModel<'a, F>, ImageError> {
+        Ok(AnyModel::new(self.table()?)?)
     }
 
     /// The table, in place in the image.
     ///
     /// # Errors
-    /// Another number type or layout than the image has, or a table that is not sound.
-    pub fn table<S: Scalar, L: Layout>(&self) -> Result<Table<'a, S, L>, ImageError> {
-        if S::CODE != Some(self.code) {
+    /// Another number type or format than the image has, or a table that is not sound.
+    pub fn table<F: Format>(&self) -> Result<Table<'a, F>, ImageError> {
+        if F::CODES.map(|[code, _]| code) != Some(self.code) {
             return Err(ImageError::NumberType(self.code));
         }
-        if L::CODE != self.layout {
+        if F::CODES.map(|[_, layout]| layout) != Some(self.layout) {
             return Err(ImageError::Layout(self.layout));
         }
         let words = bytemuck::try_cast_slice(self.rows).map_err(|_| ImageError::Misaligned)?;
-        // 16-bit words may leave half a word unused at the end.
-        let used = L::words(self.cells as usize, self.curves);
-        let words = match words.get(..used) {
-            Some(used) if words.len() - used.len() <= 1 => used,
-            _ => words,
+        let shape = Shape {
+            set: self.set,
+            cells: self.cells,
+            domain: self.domain.to(),
+            scale: self.scale,
+            constants: F::from_header(&self.constants),
         };
-        let [inertia, viscous, coulomb, j_load, b_c, reciprocal, ..] = self.constants;
-        let gain = |bits: u32| S::whole(bits as u16);
-        let constants = Constants {
-            inertia: S::word_from_bits(inertia),
-            viscous: S::word_from_bits(viscous),
-            coulomb: S::word_from_bits(coulomb),
-            gains: [
-                gain(j_load),
-                gain(j_load >> 16),
-                gain(b_c),
-                gain(b_c >> 16),
-                gain(reciprocal),
-            ],
-        };
-        let periodic = matches!(self.domain, Domain::Turn);
-        let table = Table::with_constants(words, constants, self.curves, self.cells, periodic)?;
-        Ok(table)
+        Ok(Table::new(words, shape)?)
     }
 
     /// The machine units.
@@ -219,9 +209,9 @@ impl<'a> Image<'a> {
         self.domain
     }
 
-    /// The set of [`curves`] beside the inertia.
-    pub const fn curves(&self) -> u8 {
-        self.curves
+    /// The set of [`curves`](crate::curves) beside the inertia.
+    pub const fn set(&self) -> Set {
+        self.set
     }
 
     /// Number of cells.
@@ -240,83 +230,38 @@ const fn word_of(low: u16, high: u16) -> u32 {
     low as u32 | (high as u32) << 16
 }
 
-/// Words of the image of a table.
+/// Words of the image of a table of `cells` cells.
 #[must_use]
-pub fn image_words<S: Scalar, L: Layout>(cells: u32, set: u8) -> usize {
-    let bytes = L::words(cells as usize, set) * size_of::<S::Word>();
-    HEADER_WORDS + bytes.div_ceil(4) + 1
+pub const fn image_len<F: Format>(cells: u32, set: Set) -> usize {
+    HEADER_WORDS + (words_len::<F>(cells, set) * size_of::<F::Word>()).div_ceil(4) + 1
 }
 
 /// Writes the image of `table` and returns it. The table was checked when it was built.
 ///
 /// # Errors
-/// A buffer shorter than [`image_words`], or a number type that is not stored in images (f64).
-pub fn encode<'b, S: Scalar, L: Layout>(
-    table: &Table<'_, S, L>,
-    domain: Domain,
-    scale: &Scale,
+/// A buffer shorter than [`image_len`], or a number type that is not stored in images (f64).
+pub fn encode<'b, F: Format>(
+    table: &Table<'_, F>,
     validity: Validity,
     buffer: &'b mut [u32],
 ) -> Result<&'b [u32], Error> {
-    let code = S::CODE.ok_or(Error::NoImage(S::NAME))?;
-    let constants = table.constants();
-    let [j, load, b, c, reciprocal] = constants.gains.map(|g| S::exact_whole(g));
-    let header = Header {
-        kind: [code, table.curves(), L::CODE],
-        cells: table.cells(),
-        domain,
-        scale,
-        validity,
-        constants: [
-            S::word_bits(constants.inertia),
-            S::word_bits(constants.viscous),
-            S::word_bits(constants.coulomb),
-            word_of(j, load),
-            word_of(b, c),
-            word_of(reciprocal, 0),
-            0,
-            0,
-            0,
-            0,
-            0,
-        ],
-    };
-    seal(&header, bytemuck::cast_slice(table.words()), buffer)
-}
-
-/// What an image says about its rows.
-pub(crate) struct Header<'s> {
-    /// Codes of the number type, the set of curves, and the layout.
-    pub(crate) kind: [u8; 3],
-    pub(crate) cells: u32,
-    pub(crate) domain: Domain,
-    pub(crate) scale: &'s Scale,
-    pub(crate) validity: Validity,
-    pub(crate) constants: [u32; CONSTANTS],
-}
-
-/// Writes an image: header, rows, CRC.
-pub(crate) fn seal<'b>(
-    header: &Header<'_>,
-    rows: &[u8],
-    buffer: &'b mut [u32],
-) -> Result<&'b [u32], Error> {
-    let needed = HEADER_WORDS + rows.len().div_ceil(4) + 1;
+    let [code, layout] = F::CODES.ok_or(Error::NoImage(<F::Number as Number>::NAME))?;
+    let rows: &[u8] = bytemuck::cast_slice(table.words());
+    let needed = image_len::<F>(table.cells(), table.set());
     let given = buffer.len();
     let short = Error::BufferTooShort { needed, given };
     let image = buffer.get_mut(..needed).ok_or(short)?;
-    let (domain, from, to) = match header.domain.to_f32() {
+    let (domain, from, to) = match table.domain().to::<f32>() {
         Domain::Turn => (TURN, 0.0, 0.0),
         Domain::Stroke { from, to } => (STROKE, from, to),
     };
-    let [code, set, layout] = header.kind;
-    let (scale, validity) = (header.scale, header.validity);
+    let scale = table.scale();
     let words: [u32; HEADER_WORDS - CONSTANTS] = [
         MAGIC,
         word_of(VERSION, HEADER_WORDS as u16),
         needed as u32,
-        u32::from_le_bytes([code, set, layout, domain]),
-        header.cells,
+        u32::from_le_bytes([code, table.set() as u8, layout, domain]),
+        table.cells(),
         from.to_bits(),
         to.to_bits(),
         scale.torque().to_bits(),
@@ -326,8 +271,9 @@ pub(crate) fn seal<'b>(
         validity.alpha.to_bits(),
         validity.torque_error.to_bits(),
     ];
+    let constants = F::header(table.constants());
     image.fill(0);
-    for (slot, word) in image.iter_mut().zip(words.iter().chain(&header.constants)) {
+    for (slot, word) in image.iter_mut().zip(words.iter().chain(&constants)) {
         *slot = *word;
     }
     let bytes: &mut [u8] = bytemuck::cast_slice_mut(image);

@@ -1,7 +1,6 @@
 //! The image against its documentation, docs/table-image.md.
 
-use jred::table::{Cubic, Layout, Quadratic, Spline, Spline16};
-use jred::{Image, Phase, Q31, Scalar};
+use jred::{Cubic, Format, Image, Phase, Q31, Quadratic, Rows16, Spline, Spline16};
 
 use super::reader::{Read, Reader};
 use super::{KINDS, export_of, image, words_of};
@@ -11,43 +10,27 @@ use crate::support::{Folder, budget};
 fn library(words: &[u32], kind: (&str, &str), phase: Phase) -> Read {
     let image = Image::new(words).unwrap();
     match kind {
-        ("f32", "spline") => long::<f32, Spline>(&image, phase),
-        ("f32", "cubic") => long::<f32, Cubic>(&image, phase),
-        ("f32", _) => long::<f32, Quadratic>(&image, phase),
-        ("i32", "spline") => long::<Q31, Spline>(&image, phase),
-        ("i32", "spline16") => long::<Q31, Spline16>(&image, phase),
-        ("i32", "cubic") => long::<Q31, Cubic>(&image, phase),
-        ("i32", _) => long::<Q31, Quadratic>(&image, phase),
-        _ => {
-            let read = image.short_table().unwrap().at(phase);
-            let scale = image.scale();
-            let [torque, speed, inertia] =
-                [scale.torque(), scale.speed(), scale.inertia()].map(f64::from);
-            Read {
-                inertia: read.inertia * inertia,
-                slope: 2.0 * read.velocity * torque / (speed * speed),
-                load: read.load * torque,
-                viscous: read.viscous * torque / speed,
-                coulomb: read.coulomb * torque,
-                reciprocal: read.reciprocal,
-            }
-        }
+        ("f32", "spline") => long::<Spline<f32>>(&image, phase),
+        ("f32", "cubic") => long::<Cubic<f32>>(&image, phase),
+        ("f32", _) => long::<Quadratic<f32>>(&image, phase),
+        ("i32", "spline") => long::<Spline<Q31>>(&image, phase),
+        ("i32", "spline16") => long::<Spline16>(&image, phase),
+        ("i32", "cubic") => long::<Cubic<Q31>>(&image, phase),
+        ("i32", _) => long::<Quadratic<Q31>>(&image, phase),
+        _ => long::<Rows16>(&image, phase),
     }
 }
 
-fn long<S: Scalar, L: Layout>(image: &Image<'_>, phase: Phase) -> Read {
-    let table = image.table::<S, L>().unwrap();
-    let read = table.at(phase);
-    let scale = image.scale();
-    let [torque, speed, inertia] = [scale.torque(), scale.speed(), scale.inertia()].map(f64::from);
-    let span = f64::from(image.domain().span());
+fn long<F: Format>(image: &Image<'_>, phase: Phase) -> Read {
+    let table = image.table::<F>().unwrap();
+    let read = table.si(phase, image.domain().to());
     Read {
-        inertia: read.inertia.to_f64() * inertia,
-        slope: read.inertia_slope.to_f64() * inertia * f64::from(table.cells()) / span,
-        load: read.load.to_f64() * torque,
-        viscous: read.viscous.to_f64() * torque / speed,
-        coulomb: read.coulomb.to_f64() * torque,
-        reciprocal: 0.0,
+        inertia: read.inertia,
+        slope: read.inertia_slope,
+        load: read.load,
+        viscous: read.viscous,
+        coulomb: read.coulomb,
+        reciprocal: table.reciprocal(phase).unwrap_or(0.0),
     }
 }
 

@@ -58,14 +58,14 @@ fn source_texts_hold_the_image() {
             assert!(text.contains(&format!("// {number}, layout {layout}, ")));
             let set = "{ curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS }";
             let call = match (number, layout) {
-                ("f32", "spline") => format!("image.model::<f32, {set}, Spline>()"),
-                ("f32", "cubic") => format!("image.model::<f32, {set}, Cubic>()"),
-                ("f32", _) => format!("image.model::<f32, {set}, Quadratic>()"),
-                ("i32", "spline") => format!("image.model::<Q31, {set}, Spline>()"),
-                ("i32", "spline16") => format!("image.model::<Q31, {set}, Spline16>()"),
-                ("i32", "cubic") => format!("image.model::<Q31, {set}, Cubic>()"),
-                ("i32", _) => format!("image.model::<Q31, {set}, Quadratic>()"),
-                _ => format!("image.short_model::<{set}>()"),
+                ("f32", "spline") => format!("image.model::<Spline<f32>, {set}>()"),
+                ("f32", "cubic") => format!("image.model::<Cubic<f32>, {set}>()"),
+                ("f32", _) => format!("image.model::<Quadratic<f32>, {set}>()"),
+                ("i32", "spline") => format!("image.model::<Spline<Q31>, {set}>()"),
+                ("i32", "spline16") => format!("image.model::<Spline16, {set}>()"),
+                ("i32", "cubic") => format!("image.model::<Cubic<Q31>, {set}>()"),
+                ("i32", _) => format!("image.model::<Quadratic<Q31>, {set}>()"),
+                _ => format!("image.model::<Rows16, {set}>()"),
             };
             assert!(text.contains(&format!("// in Rust: {call}\n")), "{text}");
         }

@@ -1,15 +1,17 @@
 //! Every exported type and layout, loaded and ticked as firmware does it, against the exact reduction.
 
-use jred::table::{Cubic, Layout, Quadratic, Spline, Spline16, curves};
-use jred::{Image, ImageError, Number, Phase, Q15, Q31, Reducible as _, Scalar, Scale};
+use jred::{
+    Cubic, Format, Image, ImageError, Number, Phase, Q31, Quadratic, Reducible as _, Rows16, Set,
+    Spline, Spline16, curves,
+};
 use jred_machine::model::machine::{AnyMechanism, MachineFile};
 
 use super::{KINDS, export, export_of, image, number_after, words_of};
 use crate::support::{Folder, budget, press_file};
 
 /// The curves of the press.
-const SET: u8 = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
-const WITH_RECIPROCAL: u8 = SET | curves::RECIPROCAL;
+const SET: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+const WITH_RECIPROCAL: Set = SET | curves::RECIPROCAL;
 
 /// A fixed sequence of numbers from 0 to 1 (xorshift; G. Marsaglia 2003).
 pub(super) fn random() -> impl FnMut() -> f64 {
@@ -69,20 +71,10 @@ fn errors<N: Number>(
     worst
 }
 
-fn of_model<S: Scalar, const CURVES: u8, L: Layout>(words: &[u32]) -> [f64; 2] {
+fn of_model<F: Format, const CURVES: Set>(words: &[u32]) -> [f64; 2] {
     let image = Image::new(words).unwrap();
-    let model = image.model::<S, CURVES, L>().unwrap();
+    let model = image.model::<F, CURVES>().unwrap();
     errors(
-        &image,
-        |phase, omega, alpha| model.torque(phase, omega, alpha),
-        |phase, omega, torque| model.acceleration(phase, omega, torque),
-    )
-}
-
-fn of_short<const CURVES: u8>(words: &[u32]) -> [f64; 2] {
-    let image = Image::new(words).unwrap();
-    let model = image.short_model::<CURVES>().unwrap();
-    errors::<Q15>(
         &image,
         |phase, omega, alpha| model.torque(phase, omega, alpha),
         |phase, omega, torque| model.acceleration(phase, omega, torque),
@@ -91,19 +83,19 @@ fn of_short<const CURVES: u8>(words: &[u32]) -> [f64; 2] {
 
 fn ticked(words: &[u32], kind: (&str, &str), reciprocal: bool) -> [f64; 2] {
     match (kind, reciprocal) {
-        (("f32", "spline"), _) => of_model::<f32, SET, Spline>(words),
-        (("f32", "cubic"), _) => of_model::<f32, SET, Cubic>(words),
-        (("f32", _), _) => of_model::<f32, SET, Quadratic>(words),
-        (("i32", "spline"), false) => of_model::<Q31, SET, Spline>(words),
-        (("i32", "spline16"), false) => of_model::<Q31, SET, Spline16>(words),
-        (("i32", "cubic"), false) => of_model::<Q31, SET, Cubic>(words),
-        (("i32", _), false) => of_model::<Q31, SET, Quadratic>(words),
-        (("i32", "spline"), true) => of_model::<Q31, WITH_RECIPROCAL, Spline>(words),
-        (("i32", "spline16"), true) => of_model::<Q31, WITH_RECIPROCAL, Spline16>(words),
-        (("i32", "cubic"), true) => of_model::<Q31, WITH_RECIPROCAL, Cubic>(words),
-        (("i32", _), true) => of_model::<Q31, WITH_RECIPROCAL, Quadratic>(words),
-        (_, false) => of_short::<SET>(words),
-        (_, true) => of_short::<WITH_RECIPROCAL>(words),
+        (("f32", "spline"), _) => of_model::<Spline<f32>, SET>(words),
+        (("f32", "cubic"), _) => of_model::<Cubic<f32>, SET>(words),
+        (("f32", _), _) => of_model::<Quadratic<f32>, SET>(words),
+        (("i32", "spline"), false) => of_model::<Spline<Q31>, SET>(words),
+        (("i32", "spline16"), false) => of_model::<Spline16, SET>(words),
+        (("i32", "cubic"), false) => of_model::<Cubic<Q31>, SET>(words),
+        (("i32", _), false) => of_model::<Quadratic<Q31>, SET>(words),
+        (("i32", "spline"), true) => of_model::<Spline<Q31>, WITH_RECIPROCAL>(words),
+        (("i32", "spline16"), true) => of_model::<Spline16, WITH_RECIPROCAL>(words),
+        (("i32", "cubic"), true) => of_model::<Cubic<Q31>, WITH_RECIPROCAL>(words),
+        (("i32", _), true) => of_model::<Quadratic<Q31>, WITH_RECIPROCAL>(words),
+        (_, false) => of_model::<Rows16, SET>(words),
+        (_, true) => of_model::<Rows16, WITH_RECIPROCAL>(words),
     }
 }
 
@@ -241,41 +233,26 @@ fn of_curves(image: &Image<'_>, file: &MachineFile, kind: (&str, &str)) -> f64 {
 
 fn curves_at(image: &Image<'_>, kind: (&str, &str), phase: Phase) -> [f64; 5] {
     match kind {
-        ("f32", "spline") => long::<f32, Spline>(image, phase),
-        ("f32", "cubic") => long::<f32, Cubic>(image, phase),
-        ("f32", _) => long::<f32, Quadratic>(image, phase),
-        ("i32", "spline") => long::<Q31, Spline>(image, phase),
-        ("i32", "spline16") => long::<Q31, Spline16>(image, phase),
-        ("i32", "cubic") => long::<Q31, Cubic>(image, phase),
-        ("i32", _) => long::<Q31, Quadratic>(image, phase),
-        _ => {
-            let read = image.short_table().unwrap().at(phase);
-            let [torque, speed, inertia] = bases(image.scale());
-            [
-                read.inertia * inertia,
-                2.0 * read.velocity * torque / (speed * speed),
-                read.load * torque,
-                read.viscous * torque / speed,
-                read.coulomb * torque,
-            ]
-        }
+        ("f32", "spline") => long::<Spline<f32>>(image, phase),
+        ("f32", "cubic") => long::<Cubic<f32>>(image, phase),
+        ("f32", _) => long::<Quadratic<f32>>(image, phase),
+        ("i32", "spline") => long::<Spline<Q31>>(image, phase),
+        ("i32", "spline16") => long::<Spline16>(image, phase),
+        ("i32", "cubic") => long::<Cubic<Q31>>(image, phase),
+        ("i32", _) => long::<Quadratic<Q31>>(image, phase),
+        _ => long::<Rows16>(image, phase),
     }
 }
 
-fn bases(scale: &Scale) -> [f64; 3] {
-    [scale.torque(), scale.speed(), scale.inertia()].map(f64::from)
-}
-
-fn long<S: Scalar, L: Layout>(image: &Image<'_>, phase: Phase) -> [f64; 5] {
-    let read = image.table::<S, L>().unwrap().at(phase);
-    let [torque, speed, inertia] = bases(image.scale());
-    let per_position = f64::from(image.cells()) / f64::from(image.domain().span());
+fn long<F: Format>(image: &Image<'_>, phase: Phase) -> [f64; 5] {
+    let table = image.table::<F>().unwrap();
+    let read = table.si(phase, image.domain().to());
     [
-        read.inertia.to_f64() * inertia,
-        read.inertia_slope.to_f64() * inertia * per_position,
-        read.load.to_f64() * torque,
-        read.viscous.to_f64() * torque / speed,
-        read.coulomb.to_f64() * torque,
+        read.inertia,
+        read.inertia_slope,
+        read.load,
+        read.viscous,
+        read.coulomb,
     ]
 }
 
@@ -309,7 +286,7 @@ fn no_smaller_table_would_do() {
 /// Loads the words and ticks them once; an error wherever it is noticed.
 fn load(words: &[u32]) -> Result<f32, ImageError> {
     let image = Image::new(words)?;
-    let model = image.model::<f32, SET, Spline>()?;
+    let model = image.model::<Spline<f32>, SET>()?;
     Ok(model.torque(Phase::from_radians(1.0), 2.0, 3.0))
 }
 
@@ -346,19 +323,19 @@ fn a_damaged_file_is_refused() {
     // Another number type, layout or set is refused, not misread.
     let image = Image::new(&words).unwrap();
     assert!(matches!(
-        image.model::<Q31, SET, Spline>(),
+        image.model::<Spline<Q31>, SET>(),
         Err(ImageError::NumberType(1))
     ));
     assert!(matches!(
-        image.model::<f32, SET, Cubic>(),
+        image.model::<Cubic<f32>, SET>(),
         Err(ImageError::Layout(1))
     ));
     assert!(matches!(
-        image.short_model::<SET>(),
+        image.model::<Rows16, SET>(),
         Err(ImageError::NumberType(1))
     ));
     assert!(matches!(
-        image.model::<f32, 0, Spline>(),
+        image.model::<Spline<f32>, 0>(),
         Err(ImageError::Table(jred::TableError::Curves(SET)))
     ));
 }
@@ -373,7 +350,7 @@ fn the_rotor_comes_into_the_table() {
             &[&["--torque-error", "0.05 N m", "--layout", "spline"], more].concat(),
         );
         let model = Image::new(&words).unwrap();
-        let model = model.model::<f32, SET, Spline>().unwrap();
+        let model = model.model::<Spline<f32>, SET>().unwrap();
         f64::from(model.torque(Phase::from_radians(0.7), 0.0, 100.0))
     };
     let more = torque(&["--rotor-inertia", "100 kg cm^2"]) - torque(&[]);

@@ -1,9 +1,10 @@
 //! Number types and layouts that a table can have, by name.
 
-use jred::table::{Cubic, Layout as _, Quadratic, Spline, Spline16};
-use jred::{Error, Q31, Reducible, Scalar as _, Scale};
+use jred::{
+    Cubic, Error, Format as _, Number as _, Q15, Q31, Quadratic, Reducible, Rows16, Scale, Spline,
+    Spline16,
+};
 
-use super::kind::{Long, Short};
 use super::search::{Answer, Search};
 
 /// Places at which a machine is sampled for its scale and its set of curves.
@@ -73,7 +74,7 @@ impl Number {
         match self {
             Self::F32 => f32::NAME,
             Self::I32 => Q31::NAME,
-            Self::I16 => "i16",
+            Self::I16 => Q15::NAME,
         }
     }
 
@@ -121,14 +122,14 @@ impl Number {
     /// What the search finds for this type and a layout of it.
     pub(super) fn search(self, layout: LayoutName, search: &Search<'_>) -> Result<Answer, Error> {
         match (self, layout) {
-            (Self::F32, LayoutName::Cubic) => search.run::<Long<f32, Cubic>>(self, layout),
-            (Self::F32, LayoutName::Quadratic) => search.run::<Long<f32, Quadratic>>(self, layout),
-            (Self::F32, _) => search.run::<Long<f32, Spline>>(self, layout),
-            (Self::I32, LayoutName::Spline16) => search.run::<Long<Q31, Spline16>>(self, layout),
-            (Self::I32, LayoutName::Cubic) => search.run::<Long<Q31, Cubic>>(self, layout),
-            (Self::I32, LayoutName::Quadratic) => search.run::<Long<Q31, Quadratic>>(self, layout),
-            (Self::I32, _) => search.run::<Long<Q31, Spline>>(self, layout),
-            (Self::I16, _) => search.run::<Short>(self, layout),
+            (Self::F32, LayoutName::Cubic) => search.run::<Cubic<f32>>(self, layout),
+            (Self::F32, LayoutName::Quadratic) => search.run::<Quadratic<f32>>(self, layout),
+            (Self::F32, _) => search.run::<Spline<f32>>(self, layout),
+            (Self::I32, LayoutName::Spline16) => search.run::<Spline16>(self, layout),
+            (Self::I32, LayoutName::Cubic) => search.run::<Cubic<Q31>>(self, layout),
+            (Self::I32, LayoutName::Quadratic) => search.run::<Quadratic<Q31>>(self, layout),
+            (Self::I32, _) => search.run::<Spline<Q31>>(self, layout),
+            (Self::I16, _) => search.run::<Rows16>(self, layout),
         }
     }
 }
@@ -137,22 +138,23 @@ impl LayoutName {
     /// Name as the command line writes it.
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Spline => Spline::NAME,
+            Self::Spline => Spline::<f32>::NAME,
             Self::Spline16 => Spline16::NAME,
-            Self::Cubic => Cubic::NAME,
-            Self::Quadratic => Quadratic::NAME,
-            Self::Rows => "rows",
+            Self::Cubic => Cubic::<f32>::NAME,
+            Self::Quadratic => Quadratic::<f32>::NAME,
+            Self::Rows => Rows16::NAME,
         }
     }
 
-    /// Name of the type in Rust, of those that are one.
-    pub const fn type_name(self) -> Option<&'static str> {
+    /// The format in Rust, of this number type.
+    pub fn type_name(self, number: Number) -> String {
+        let number = number.scalar();
         match self {
-            Self::Spline => Some("Spline"),
-            Self::Spline16 => Some("Spline16"),
-            Self::Cubic => Some("Cubic"),
-            Self::Quadratic => Some("Quadratic"),
-            Self::Rows => None,
+            Self::Spline => format!("Spline<{number}>"),
+            Self::Spline16 => "Spline16".to_owned(),
+            Self::Cubic => format!("Cubic<{number}>"),
+            Self::Quadratic => format!("Quadratic<{number}>"),
+            Self::Rows => "Rows16".to_owned(),
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use jred::Error;
-use jred::table::{Cubic, MAX_CELLS, Quadratic, Spline};
+use jred::table::MAX_CELLS;
+use jred::{Cubic, Error, Quadratic, Spline};
 
 use super::choice::{LayoutName, Number};
 use super::place::{Feature, feature};
@@ -199,11 +199,11 @@ impl NotReached<'_> {
     fn without_rounding(&self, layout: LayoutName, cells: u32) -> Result<(f64, f64), Error> {
         match layout {
             LayoutName::Spline | LayoutName::Spline16 => {
-                self.search.without_rounding::<Spline>(cells)
+                self.search.without_rounding::<Spline<f64>>(cells)
             }
-            LayoutName::Cubic => self.search.without_rounding::<Cubic>(cells),
+            LayoutName::Cubic => self.search.without_rounding::<Cubic<f64>>(cells),
             LayoutName::Quadratic | LayoutName::Rows => {
-                self.search.without_rounding::<Quadratic>(cells)
+                self.search.without_rounding::<Quadratic<f64>>(cells)
             }
         }
     }

@@ -2,8 +2,7 @@
 
 use std::fmt::Write as _;
 
-use jred::Usage;
-use jred::table::curves;
+use jred::{Set, Usage, curves};
 use serde_json::{Value, json};
 
 use super::search::{Answer, Candidate};
@@ -12,7 +11,7 @@ use crate::model::coordinate::Coordinate;
 use crate::number::rounding::{rounded, short};
 
 /// Bit of the set, its word for a reader, its name in Rust.
-const CURVES: [(u8, &str, &str); 6] = [
+const CURVES: [(Set, &str, &str); 6] = [
     (curves::LOAD, "load", "LOAD"),
     (curves::VISCOUS, "viscous", "VISCOUS"),
     (curves::COULOMB, "coulomb", "COULOMB"),
@@ -30,7 +29,7 @@ const CURVES: [(u8, &str, &str); 6] = [
 ];
 
 /// The set as a constant expression in Rust.
-fn rust_set(set: u8) -> String {
+fn rust_set(set: Set) -> String {
     let names = CURVES.iter().filter(|(bit, _, _)| set & bit != 0);
     let names: Vec<String> = names
         .map(|(_, _, name)| format!("curves::{name}"))
@@ -44,11 +43,9 @@ fn rust_set(set: u8) -> String {
 
 /// What loads the image in Rust.
 fn rust_call(table: &Candidate) -> String {
-    let (scalar, set) = (table.number.scalar(), rust_set(table.curves));
-    match table.layout.type_name() {
-        Some(layout) => format!("image.model::<{scalar}, {{ {set} }}, {layout}>()"),
-        None => format!("image.short_model::<{{ {set} }}>()"),
-    }
+    let format = table.layout.type_name(table.number);
+    let set = rust_set(table.curves);
+    format!("image.model::<{format}, {{ {set} }}>()")
 }
 
 /// The part of a number range that is left, in bits.

@@ -5,10 +5,10 @@ mod choice;
 mod fault;
 mod figures;
 mod form;
-mod kind;
 mod place;
 mod reference;
 mod search;
+mod size;
 mod ticks;
 
 pub use choice::{Choice, LayoutChoice, LayoutName, Number};

@@ -3,6 +3,7 @@
 use std::cell::{OnceCell, RefCell};
 use std::collections::HashMap;
 
+use jred::table::CurveValues;
 use jred::{Domain, Error, Phase, Reducible, Reduction};
 
 /// Places of the range, a prime number: no number of cells has a common measure with it, so that they fall on every part of a
@@ -54,20 +55,6 @@ pub(super) struct Place {
     pub(super) exact: Reduction,
 }
 
-/// The curves of a table at one place, in SI units.
-pub(super) struct Curves {
-    /// J
-    pub(super) inertia: f64,
-    /// dJ/dφ
-    pub(super) slope: f64,
-    /// −U′ + process
-    pub(super) load: f64,
-    /// b
-    pub(super) viscous: f64,
-    /// c
-    pub(super) coulomb: f64,
-}
-
 /// The exact curves at places all over the range.
 #[derive(Clone, Debug)]
 pub(super) struct Reference {
@@ -91,7 +78,7 @@ impl Reference {
     /// place. Looks from index `start` on, and no further than the first place above `limit`.
     pub(super) fn error(
         &self,
-        read: impl Fn(Phase) -> Curves,
+        read: impl Fn(Phase) -> CurveValues,
         [omega, alpha]: [f64; 2],
         (start, limit): (usize, f64),
     ) -> (f64, usize) {
@@ -100,7 +87,7 @@ impl Reference {
         for (index, place) in order.filter_map(|k| Some((k, self.places.get(k)?))) {
             let (exact, read) = (&place.exact, read(place.phase));
             let error = (read.inertia - exact.inertia[0]).abs() * alpha
-                + 0.5 * (read.slope - exact.inertia[1]).abs() * omega * omega
+                + 0.5 * (read.inertia_slope - exact.inertia[1]).abs() * omega * omega
                 + (read.load - exact.load_torque()).abs()
                 + (read.viscous - exact.viscous).abs() * omega
                 + (read.coulomb - exact.coulomb).abs();

@@ -3,13 +3,13 @@
 //! A size is looked at in two steps: against exact curves computed once, which refuses nearly all that miss; then against
 //! [`tabulate::measure`], and by ticking its image. What passes both is a table.
 
-use jred::table::{Layout, MAX_CELLS, MIN_CELLS, curves};
+use jred::table::{MAX_CELLS, MIN_CELLS};
 use jred::tabulate::{self, Request, Tabulated};
-use jred::{Domain, Error, Machine, Reducible as _, Scale, Usage};
+use jred::{Domain, Error, Format, Machine, Reducible as _, Scale, Set, Usage, curves};
 
 use super::choice::{LayoutName, Number};
-use super::kind::{Kind, Made, Size};
-use super::reference::{Curves, Reference, Remembered};
+use super::reference::{Reference, Remembered};
+use super::size::{Buffers, Made, Size, bytes};
 use super::ticks::Ticks;
 use crate::model::machine::AnyMechanism;
 
@@ -24,7 +24,7 @@ pub struct Candidate {
     /// Layout.
     pub layout: LayoutName,
     /// Set of [`curves`].
-    pub curves: u8,
+    pub curves: Set,
     /// How exact its curves are.
     pub found: Tabulated,
     /// The largest error of the drive torque (N·m, or N): of the curves and of the ticks.
@@ -97,7 +97,7 @@ pub(super) struct Search<'m> {
     pub(super) domain: Domain,
     pub(super) reference: Reference,
     pub(super) goal: Goal,
-    set: u8,
+    set: Set,
 }
 
 impl<'m> Search<'m> {
@@ -120,47 +120,38 @@ impl<'m> Search<'m> {
     ///
     /// # Errors
     /// Those of the machine.
-    pub(super) fn run<K: Kind>(&self, number: Number, layout: LayoutName) -> Result<Answer, Error> {
-        let reciprocal = if self.goal.reciprocal && K::RECIPROCAL {
+    pub(super) fn run<F: Format>(
+        &self,
+        number: Number,
+        layout: LayoutName,
+    ) -> Result<Answer, Error> {
+        let reciprocal = if self.goal.reciprocal && F::accepts(curves::RECIPROCAL) {
             curves::RECIPROCAL
         } else {
             0
         };
-        let mut attempt = Attempt::<K> {
+        let mut attempt = Attempt::<F> {
             search: self,
             number,
             layout,
             set: self.set | reciprocal,
             scale: number.scale(self.machine, self.goal.range)?,
-            buffers: K::Buffers::default(),
+            buffers: Buffers::default(),
             worst: 0,
             refused: None,
         };
         attempt.run()
     }
 
-    /// The torque error of a table in double precision, which is what is left without roundings, and where it is largest.
-    pub(super) fn without_rounding<L: Layout>(&self, cells: u32) -> Result<(f64, f64), Error> {
-        let mut scratch = vec![0.0; tabulate::scratch_len(cells, self.set)];
-        let mut words = vec![0.0f64; tabulate::words_len::<L>(cells, self.set)];
-        let (scale, words) = (&Scale::SI, words.as_mut_slice());
-        let table =
-            tabulate::fill::<f64, L>(&self.knots, self.set, cells, scale, &mut scratch, words)?;
-        let per_position = f64::from(cells) / self.domain.span();
-        let read = |phase| {
-            let read = table.at(phase);
-            Curves {
-                inertia: read.inertia,
-                slope: read.inertia_slope * per_position,
-                load: read.load,
-                viscous: read.viscous,
-                coulomb: read.coulomb,
-            }
+    /// The torque error of a table of this format, whose numbers are double precision, and where it is largest.
+    pub(super) fn without_rounding<F: Format>(&self, cells: u32) -> Result<(f64, f64), Error> {
+        let size = Size {
+            search: self,
+            set: self.set,
+            cells,
+            scale: Scale::SI,
         };
-        let all = (0, f64::INFINITY);
-        let (error, index) = self.reference.error(read, self.goal.range, all);
-        let worst = self.reference.places.get(index);
-        Ok((error, worst.map_or(0.0, |place| place.phi)))
+        size.without_rounding::<F>()
     }
 }
 
@@ -171,20 +162,20 @@ fn growing(most: u32) -> impl Iterator<Item = u32> {
     })
 }
 
-struct Attempt<'s, K: Kind> {
+struct Attempt<'s, F: Format> {
     search: &'s Search<'s>,
     number: Number,
     layout: LayoutName,
-    set: u8,
+    set: Set,
     scale: Scale,
-    buffers: K::Buffers,
+    buffers: Buffers<F>,
     /// Index of the place where the table before was worst: the next one is looked at there first.
     worst: usize,
     /// Why the last size that was refused was.
     refused: Option<Error>,
 }
 
-impl<'s, K: Kind> Attempt<'s, K> {
+impl<'s, F: Format> Attempt<'s, F> {
     fn run(&mut self) -> Result<Answer, Error> {
         let goal = self.search.goal;
         let Some(most) = self.most_cells() else {
@@ -207,7 +198,7 @@ impl<'s, K: Kind> Attempt<'s, K> {
     }
 
     fn bytes(&self, cells: u32) -> usize {
-        K::bytes(cells, self.set)
+        bytes::<F>(cells, self.set)
     }
 
     /// The most cells that may be tried; `None` if not even the fewest fit.
@@ -284,11 +275,15 @@ impl<'s, K: Kind> Attempt<'s, K> {
     }
 
     fn size(&self, cells: u32) -> Size<'s> {
+        let mut scale = self.scale;
+        if F::WHOLE_FACTOR {
+            scale = scale.for_cells(cells, self.search.domain.span());
+        }
         Size {
             search: self.search,
             set: self.set,
             cells,
-            scale: K::scale(self.scale, cells, self.search.domain.span()),
+            scale,
         }
     }
 
@@ -296,7 +291,7 @@ impl<'s, K: Kind> Attempt<'s, K> {
     /// size gives no sound table.
     fn look(&mut self, cells: u32, limit: f64) -> Result<Option<f64>, Error> {
         let size = self.size(cells);
-        match K::look(&size, &mut self.buffers, (self.worst, limit)) {
+        match size.look(&mut self.buffers, (self.worst, limit)) {
             Ok((error, worst)) => {
                 self.worst = worst;
                 Ok((error <= limit).then_some(error))
@@ -318,7 +313,7 @@ impl<'s, K: Kind> Attempt<'s, K> {
             max_cells: cells,
         };
         let size = self.size(cells);
-        let made = match K::make(&size, &mut self.buffers, &request, looked) {
+        let made = match size.make(&mut self.buffers, &request, looked) {
             Ok(Some(made)) => made,
             Ok(None) => return Ok(None),
             Err(error) => return self.refuse(error),

@@ -1,7 +1,6 @@
 //! An image ticked as firmware does it, against the exact machine.
 
-use jred::table::Layout;
-use jred::{Error, Image, ImageError, Number, Outcome, Phase, Scalar, Scale, TableError};
+use jred::{Error, Format, Image, ImageError, Number as _};
 
 use super::reference::{Place, Reference};
 
@@ -19,86 +18,19 @@ pub struct Ticks {
     pub peak_torque: f64,
 }
 
-/// Loads an image with its set of curves, which is a type.
-macro_rules! for_set {
-    ($image:expr, $run:ident) => {
-        for_set!(
-            $image, $run,
-            // Load; viscous as a curve (2) or a constant (16); Coulomb as a curve (4) or a constant (32); reciprocal (8).
-            0 1 2 3 4 5 6 7 16 17 20 21 32 33 34 35 48 49
-            8 9 10 11 12 13 14 15 24 25 28 29 40 41 42 43 56 57
-        )
-    };
-    ($image:expr, $run:ident, $($set:literal)*) => {
-        match $image.curves() {
-            $($set => $run!($set),)*
-            set => Err(Error::Table(TableError::Curves(set))),
-        }
-    };
-}
-
 /// Ticks an image at every place of the reference.
-pub(super) fn measure<S: Scalar, L: Layout>(
+pub(super) fn measure<F: Format>(
     image: &Image<'_>,
-    reference: &Reference,
-    range: [f64; 2],
-) -> Result<Ticks, Error> {
-    macro_rules! run {
-        ($set:literal) => {{
-            let model = image.model::<S, $set, L>().map_err(refusal)?;
-            Ok(run(
-                image.scale(),
-                reference,
-                range,
-                |phase, omega, alpha| model.torque(phase, omega, alpha),
-                |phase, omega, torque| model.acceleration(phase, omega, torque),
-            ))
-        }};
-    }
-    for_set!(image, run)
-}
-
-/// As [`measure`], of 16-bit rows.
-pub(super) fn measure_short(
-    image: &Image<'_>,
-    reference: &Reference,
-    range: [f64; 2],
-) -> Result<Ticks, Error> {
-    macro_rules! run {
-        ($set:literal) => {{
-            let model = image.short_model::<$set>().map_err(refusal)?;
-            Ok(run(
-                image.scale(),
-                reference,
-                range,
-                |phase, omega, alpha| model.torque(phase, omega, alpha),
-                |phase, omega, torque| model.acceleration(phase, omega, torque),
-            ))
-        }};
-    }
-    for_set!(image, run)
-}
-
-pub(super) fn refusal(error: ImageError) -> Error {
-    match error {
-        ImageError::Table(error) => Error::Table(error),
-        // Cannot happen: the image was just made, of this type and layout.
-        _ => Error::NoImage("this type and layout"),
-    }
-}
-
-fn run<N: Number>(
-    scale: &Scale,
     reference: &Reference,
     [omega, alpha]: [f64; 2],
-    torque: impl Fn(Phase, N, N) -> N,
-    acceleration: impl Fn(Phase, N, N) -> Outcome<N>,
-) -> Ticks {
+) -> Result<Ticks, Error> {
+    let model = image.any_model::<F>().map_err(refusal)?;
+    let scale = image.scale();
     let [torque_base, speed_base, acceleration_base] =
         [scale.torque(), scale.speed(), scale.acceleration()].map(f64::from);
     let (number, value) = (
-        |value: f64| N::from_f64(value).unwrap_or_default(),
-        N::to_f64,
+        |value: f64| F::Number::from_f64(value).unwrap_or_default(),
+        F::Number::to_f64,
     );
     // The arguments as the number type holds them: their own rounding is not an error of the table.
     let corners = [
@@ -120,7 +52,7 @@ fn run<N: Number>(
             let expected = exact
                 .torque(speed, value(alpha) * acceleration_base)
                 .total();
-            let found = value(torque(*phase, omega, alpha)) * torque_base;
+            let found = value(model.torque(*phase, omega, alpha)) * torque_base;
             let error = (found - expected).abs();
             if error > worst.torque {
                 worst.torque = error;
@@ -128,7 +60,7 @@ fn run<N: Number>(
             }
             worst.peak_torque = worst.peak_torque.max(expected.abs());
             let drive = number(expected / torque_base);
-            let back = acceleration(*phase, omega, drive);
+            let back = model.acceleration(*phase, omega, drive);
             if !back.saturated {
                 let expected = exact.acceleration(speed, value(drive) * torque_base);
                 let error = (value(back.value) * acceleration_base - expected).abs();
@@ -136,5 +68,13 @@ fn run<N: Number>(
             }
         }
     }
-    worst
+    Ok(worst)
+}
+
+pub(super) fn refusal(error: ImageError) -> Error {
+    match error {
+        ImageError::Table(error) => Error::Table(error),
+        // Cannot happen: the image was just made, of this type and layout.
+        _ => Error::NoImage("this type and layout"),
+    }
 }

@@ -1,14 +1,13 @@
 //! What is not a table, and not a machine that 16 bits can hold.
 
-use jred::short::{Constants, Model, Table, fill, row_words, scratch_len, tabulate, words_len};
-use jred::table::{MAX_CELLS, curves};
-use jred::tabulate::Request;
-use jred::{Domain, Error, Scale, TableError};
+use jred::table::{MAX_CELLS, RowConstants, words_len};
+use jred::tabulate::{Request, fill, scratch_len, tabulate};
+use jred::{Domain, Error, Rows16, Scale, Set, TableError, curves};
 
-use crate::short::Short;
+use super::{CONSTANT, Short, model, row_words};
 use crate::support::machines::Wave;
 
-const SET: u8 = curves::EVERY;
+const SET: Set = super::EVERY;
 
 /// J = 0.5, 1/J = 2, all else 0.
 fn good() -> Short {
@@ -17,7 +16,7 @@ fn good() -> Short {
     assert_eq!(row.len(), row_words(SET));
     Short {
         words: row.repeat(4),
-        constants: Constants {
+        constants: RowConstants {
             viscous: 0,
             coulomb: 0,
             shift: 13,
@@ -45,8 +44,8 @@ fn with(index: usize, word: u32) -> TableError {
 #[test]
 fn sizes_and_sets() {
     assert!(good().try_table().is_ok());
-    good().model::<SET>();
-    for set in [64, 128, 255] {
+    model::<SET>(&good());
+    for set in [64, 128, 255, 18, 36, 63] {
         assert_eq!(refused(|rows| rows.set = set), TableError::Curves(set));
     }
     for cells in [0, 3, MAX_CELLS + 1, u32::MAX] {
@@ -109,13 +108,21 @@ fn torque_beyond_the_range() {
     assert_eq!(with(5, 0x4000 << 16), beyond);
     assert_eq!(with(5, 0xc000 << 16), beyond);
     let first = TableError::TorqueRange { cell: 0 };
-    assert_eq!(refused(|rows| rows.constants.viscous = 1 << 29), first);
-    assert_eq!(refused(|rows| rows.constants.viscous = i32::MIN), first);
-    assert_eq!(refused(|rows| rows.constants.coulomb = 1 << 30), first);
-    assert_eq!(refused(|rows| rows.constants.coulomb = i32::MIN), first);
+    let constant = |change: fn(&mut RowConstants)| {
+        let mut rows = good();
+        rows.set = CONSTANT;
+        let row = [0, 0, 0, 0x8000_0000, 2 << 29];
+        rows.words = row.repeat(4);
+        assert!(rows.try_table().is_ok());
+        change(&mut rows.constants);
+        rows.try_table().map(|_| ()).unwrap_err()
+    };
+    assert_eq!(constant(|constants| constants.viscous = 1 << 29), first);
+    assert_eq!(constant(|constants| constants.viscous = i32::MIN), first);
+    assert_eq!(constant(|constants| constants.coulomb = 1 << 30), first);
+    assert_eq!(constant(|constants| constants.coulomb = i32::MIN), first);
     // Constants that the set does not have do not count.
     let mut rows = good();
-    rows.set = curves::ALL | curves::RECIPROCAL;
     rows.constants.viscous = i32::MIN;
     rows.constants.coulomb = i32::MIN;
     assert!(rows.try_table().is_ok());
@@ -147,12 +154,13 @@ fn another_reciprocal() {
 #[test]
 fn a_model_of_another_set_span_or_scale() {
     let rows = good();
-    let scale = &rows.scale;
-    let error = Model::<{ curves::LOAD }>::new(rows.table(), 1.0, scale).map(|_| ());
+    let error = rows.try_model::<{ curves::LOAD }>(&rows.scale).map(|_| ());
     assert_eq!(error.unwrap_err(), TableError::Curves(SET));
-    for span in [0.0, -1.0, f32::NAN] {
-        let error = Model::<SET>::new(rows.table(), span, scale).map(|_| ());
-        assert_eq!(error.unwrap_err(), TableError::SpeedBase, "{span}");
+    for to in [0.0, -1.0, f64::NAN] {
+        let domain = Domain::Stroke { from: 0.0, to };
+        let rows = Short { domain, ..good() };
+        let error = rows.try_model::<SET>(&rows.scale).map(|_| ());
+        assert_eq!(error.unwrap_err(), TableError::SpeedBase, "{to}");
     }
     let scale = Scale::new(60.0, 11.0, 2.0).unwrap();
     let wave = Wave {
@@ -160,17 +168,21 @@ fn a_model_of_another_set_span_or_scale() {
         ..Wave::bare(1.0, 0.25)
     };
     let rows = Short::of(&wave, curves::LOAD, 40, &scale).unwrap();
-    let tau = std::f32::consts::TAU;
-    let model = |span: f32, scale: &Scale| {
-        Model::<{ curves::LOAD }>::new(rows.table(), span, scale).map(|_| ())
+    let model = |domain: Domain, scale: &Scale| {
+        let rows = Short {
+            domain,
+            ..rows.clone()
+        };
+        rows.try_model::<{ curves::LOAD }>(scale).map(|_| ())
     };
-    assert!(model(tau, &scale).is_ok());
-    let Err(TableError::Slope { cell }) = model(1.1 * tau, &scale) else {
+    assert!(model(Domain::Turn, &scale).is_ok());
+    let longer = Domain::stroke(0.0, 1.1 * std::f64::consts::TAU).unwrap();
+    let Err(TableError::Slope { cell }) = model(longer, &scale) else {
         panic!("accepted");
     };
     assert!(cell < 40);
     let faster = Scale::new(60.0, 12.0, 2.0).unwrap();
-    let error = model(tau, &faster).unwrap_err();
+    let error = model(Domain::Turn, &faster).unwrap_err();
     assert!(matches!(error, TableError::Slope { .. }), "{error:?}");
     assert!(
         error.to_string().contains("take the span and the scale"),
@@ -178,7 +190,7 @@ fn a_model_of_another_set_span_or_scale() {
     );
 }
 
-fn filled(machine: &Wave, set: u8, cells: u32, scale: &Scale) -> Error {
+fn filled(machine: &Wave, set: Set, cells: u32, scale: &Scale) -> Error {
     Short::of(machine, set, cells, scale)
         .map(|_| ())
         .unwrap_err()
@@ -188,7 +200,7 @@ fn filled(machine: &Wave, set: u8, cells: u32, scale: &Scale) -> Error {
 fn machines_out_of_range() {
     let scale = Scale::new(60.0, 11.0, 2.0).unwrap();
     let wave = Wave::bare(1.0, 0.25);
-    let base = |wave: &Wave, set: u8| match filled(wave, set, 40, &scale) {
+    let base = |wave: &Wave, set: Set| match filled(wave, set, 40, &scale) {
         Error::Overflow { base, .. } => base,
         other => panic!("{other}"),
     };
@@ -235,13 +247,13 @@ fn machines_out_of_range() {
 fn buffers_and_requests() {
     let scale = Scale::new(60.0, 11.0, 2.0).unwrap();
     let wave = Wave::bare(1.0, 0.25);
-    let (scratch, words) = (scratch_len(40, SET), words_len(40, SET));
+    let (scratch, words) = (scratch_len(40, SET), words_len::<Rows16>(40, SET));
     for (scratch, words, needed, given) in [
         (scratch - 1, words, scratch, scratch - 1),
         (scratch, words - 1, words, words - 1),
     ] {
         let (mut scratch, mut words) = (vec![0.0; scratch], vec![0; words]);
-        let error = fill(&wave, SET, 40, &scale, &mut scratch, &mut words).map(|_| ());
+        let error = fill::<Rows16>(&wave, SET, 40, &scale, &mut scratch, &mut words).map(|_| ());
         assert_eq!(error.unwrap_err(), Error::BufferTooShort { needed, given });
     }
     let request = Request {
@@ -251,8 +263,12 @@ fn buffers_and_requests() {
         max_cells: 40,
     };
     let (mut scratch, mut words) = (vec![0.0; scratch], vec![0; words]);
-    let error = tabulate(&wave, SET, &request, &scale, &mut scratch, &mut words);
+    let error = tabulate::<Rows16>(&wave, SET, &request, &scale, &mut scratch, &mut words);
     assert_eq!(error.unwrap_err(), Error::NotPositive("torque error", 0.0));
     // Of the checks of a table, for a table of its own.
-    assert!(Table::new(&[0; 12], Constants::default(), 0, 4).is_err());
+    assert!(
+        Short::plain(vec![0; 12], 0, 4, Domain::Turn)
+            .try_table()
+            .is_err()
+    );
 }

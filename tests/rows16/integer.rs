@@ -1,15 +1,14 @@
 //! The tick against the formulas in wide integers, where nothing wraps: random rows, not only those of machines.
 
-use jred::short::{Constants, Model, Table, row_words};
-use jred::table::curves;
-use jred::{Phase, Q15, Scale};
+use jred::table::RowConstants;
+use jred::{Domain, Phase, Q15, Scale, Set, curves};
 use proptest::prelude::*;
 
-use crate::short::q15;
+use super::{CONSTANT, Short, q15, row_words};
 use crate::support::config;
 
-const ALL: u8 = curves::ALL;
-const FULL: u8 = curves::EVERY;
+const ALL: Set = curves::ALL;
+const FULL: Set = super::EVERY;
 
 /// floor(x/2ⁿ)
 fn floor(x: i128, n: u32) -> i128 {
@@ -22,13 +21,13 @@ fn line(word: u32, u: i128) -> i128 {
 }
 
 /// Torque and resisting torque, Q31 before the last floor, of the first cell.
-fn sums<const SET: u8>(
+fn sums<const SET: Set>(
     words: &[u32],
-    constants: Constants,
+    constants: RowConstants,
     u: i128,
     [omega, alpha]: [i128; 2],
 ) -> [i128; 2] {
-    let has = |of: u8| SET & of != 0;
+    let has = |of: Set| SET & of != 0;
     let mut row = words.iter().copied();
     let mut next = || row.next().unwrap();
     let load = if has(curves::LOAD) { next() } else { 0 };
@@ -59,7 +58,7 @@ fn sums<const SET: u8>(
 }
 
 /// (torque − resisting)/J of the same cell, before it is limited; and whether it has to be.
-fn quotient<const SET: u8>(words: &[u32], shift: u32, u: i128, net: i128) -> i128 {
+fn quotient<const SET: Set>(words: &[u32], shift: u32, u: i128, net: i128) -> i128 {
     if SET & curves::RECIPROCAL != 0 {
         return floor(line(words[row_words(SET) - 1], u) * net, shift);
     }
@@ -68,7 +67,7 @@ fn quotient<const SET: u8>(words: &[u32], shift: u32, u: i128, net: i128) -> i12
     (net << 16) / inertia
 }
 
-fn check<const SET: u8>(random: &Random) -> bool {
+fn check<const SET: Set>(random: &Random) -> bool {
     let mut words: Vec<u32> = random.words[..row_words(SET)].to_vec();
     // V that belongs to J, or no model is made: per unit, a slope a cell counts eight times.
     let scale = Scale::new(1.0, 1.0, 1.0).unwrap();
@@ -84,17 +83,16 @@ fn check<const SET: u8>(random: &Random) -> bool {
         let [r0, rise] = [ends[0], ends[1] - ends[0]].map(|r| (r as i64) as u16);
         words[row_words(SET) - 1] = u32::from(r0) << 16 | u32::from(rise);
     }
-    let constants = Constants {
+    let constants = RowConstants {
         viscous: random.constants[0],
         coulomb: random.constants[1],
         shift,
     };
     let rows = words.repeat(4);
-    let Ok(table) = Table::new(&rows, constants, SET, 4) else {
-        return false;
-    };
+    let mut rows = Short::plain(rows, SET, 4, Domain::stroke(0.0, 0.25).unwrap());
+    rows.constants = constants;
     // ½·4/span = 8
-    let Ok(model) = Model::<SET>::new(table, 0.25, &scale) else {
+    let Ok(model) = rows.try_model::<SET>(&scale) else {
         return false;
     };
     let phase = Phase::from_bits(u32::from(random.u) << 14);
@@ -183,6 +181,7 @@ proptest! {
         check::<{ curves::LOAD }>(&random);
         check::<{ ALL }>(&random);
         check::<{ FULL }>(&random);
+        check::<{ CONSTANT }>(&random);
         check::<{ curves::LOAD | curves::RECIPROCAL }>(&random);
         check::<{ curves::RECIPROCAL }>(&random);
         check::<{ curves::CONSTANT_COULOMB }>(&random);
@@ -200,6 +199,7 @@ fn many_random_rows_are_tables() {
         count(check::<{ curves::LOAD }>),
         count(check::<{ ALL }>),
         count(check::<{ FULL }>),
+        count(check::<{ CONSTANT }>),
         count(check::<{ curves::LOAD | curves::RECIPROCAL }>),
         count(check::<{ curves::RECIPROCAL }>),
         count(check::<{ curves::CONSTANT_COULOMB }>),

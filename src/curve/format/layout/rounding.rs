@@ -11,8 +11,8 @@
 //! with the errors e and the slopes B′ of the cubic B-spline. Sweeps over the points take each to the unit that is nearest to
 //! the minimum for its neighbours as they are.
 
-use crate::curve::Role;
-use crate::number::Scalar;
+use super::{Layout, Word};
+use crate::number::{Kernel, Role};
 
 /// The products of slopes beside the diagonal.
 const BESIDE: [f64; 3] = [-1.0 / 8.0, -1.0 / 5.0, -1.0 / 120.0];
@@ -21,35 +21,32 @@ const DIAGONAL: f64 = 2.0 / 3.0 + 0.02;
 const SWEEPS: usize = 6;
 
 /// The control points of one curve among the words of a table.
-pub(super) struct Points<'w, S: Scalar> {
-    pub(super) words: &'w mut [S::Word],
+pub(super) struct Points<'w, L: Layout> {
+    pub(super) words: &'w mut [Word<L>],
     pub(super) role: Role,
     /// Index of the word that the first is in.
     pub(super) first: usize,
     /// Words from one to the next.
     pub(super) pitch: usize,
-    /// Which half of a word it is; `None`: all of it.
-    pub(super) upper: Option<bool>,
+    /// Which half of a word it is, if words hold halves.
+    pub(super) upper: bool,
     /// What the stored number is multiplied by.
     pub(super) gain: f64,
 }
 
-impl<S: Scalar> Points<'_, S> {
+impl<L: Layout> Points<'_, L> {
     /// What is stored.
     fn get(&self, point: usize) -> Option<f64> {
         let word = *self.words.get(self.first + point * self.pitch)?;
-        let stored = self.upper.map_or(word, |upper| S::half(word, upper));
-        Some(S::exact(self.role, S::raw(stored)) * self.gain)
+        let stored = L::half(word, self.upper);
+        Some(L::Scalar::exact(self.role, L::Scalar::raw(stored)) * self.gain)
     }
 
     /// Stores what is nearest to `value`; `None` if it is out of range.
     pub(super) fn set(&mut self, point: usize, value: f64) -> Option<()> {
-        let stored = S::word(self.role, value / self.gain)?;
+        let stored = L::Scalar::word(self.role, value / self.gain)?;
         let slot = self.words.get_mut(self.first + point * self.pitch)?;
-        *slot = match self.upper {
-            None => stored,
-            Some(upper) => S::with_half(*slot, upper, stored)?,
-        };
+        *slot = L::with_half(*slot, self.upper, stored)?;
         Some(())
     }
 

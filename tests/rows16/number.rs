@@ -2,7 +2,7 @@
 
 use jred::{Number, Outcome, Q15, Scale};
 
-use crate::short::q15;
+use crate::rows16::q15;
 
 fn outcome(bits: i16, saturated: bool) -> Outcome<Q15> {
     Outcome {

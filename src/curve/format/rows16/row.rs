@@ -16,47 +16,42 @@
 //! u is the place in the cell, 0 to 1. Every lower half also adds to the upper half beside it as the fraction of a unit that
 //! it is when it is read as an unsigned number.
 
-use crate::curve::curves;
+use super::Rows16;
+use crate::curve::Format as _;
+use crate::curve::curves::{self, Set, has};
 
 /// Words of a row.
-#[must_use]
-pub const fn row_words(set: u8) -> usize {
-    let more = curves::LOAD | curves::VISCOUS | curves::COULOMB | curves::RECIPROCAL;
-    3 + (set & more).count_ones() as usize
-}
-
-/// Whether the set has this curve.
-pub(super) const fn has(set: u8, curve: u8) -> bool {
-    set & curve != 0
+pub(super) const fn length(set: Set) -> usize {
+    Rows16::ROW.pitch(set)
 }
 
 /// Index of the line of J.
-pub(super) const fn inertia(set: u8) -> usize {
+pub(super) const fn inertia(set: Set) -> usize {
     has(set, curves::LOAD) as usize
 }
 
 /// Index of the line of V.
-pub(super) const fn velocity(set: u8) -> usize {
+pub(super) const fn velocity(set: Set) -> usize {
     inertia(set) + 1
 }
 
 /// Index of the starts of J and of the load.
-pub(super) const fn start(set: u8) -> usize {
+pub(super) const fn start(set: Set) -> usize {
     inertia(set) + 2
 }
 
 /// Index of the line of b, if the set has it.
-pub(super) const fn viscous(set: u8) -> usize {
+pub(super) const fn viscous(set: Set) -> usize {
     inertia(set) + 3
 }
 
 /// Index of the line of c, if the set has it.
-pub(super) const fn coulomb(set: u8) -> usize {
+pub(super) const fn coulomb(set: Set) -> usize {
     viscous(set) + has(set, curves::VISCOUS) as usize
 }
 
 /// Index of the line of 1/J, if the set has it.
-pub(super) const fn reciprocal(set: u8) -> usize {
+pub(super) const fn reciprocal(set: Set) -> usize {
     coulomb(set) + has(set, curves::COULOMB) as usize
 }
 
@@ -77,9 +72,9 @@ pub(super) struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    pub(super) fn new(words: &'a [u32], set: u8) -> Self {
+    pub(super) fn new(words: &'a [u32], set: Set) -> Self {
         let mut rows = Self::default();
-        match row_words(set) {
+        match length(set) {
             3 => rows.three = words.as_chunks().0,
             4 => rows.four = words.as_chunks().0,
             5 => rows.five = words.as_chunks().0,
@@ -87,41 +82,6 @@ impl<'a> Rows<'a> {
             _ => rows.seven = words.as_chunks().0,
         }
         rows
-    }
-
-    /// How many there are, of this set.
-    #[inline]
-    pub(super) fn count(&self, set: u8) -> u32 {
-        let count = match row_words(set) {
-            3 => self.three.len(),
-            4 => self.four.len(),
-            5 => self.five.len(),
-            6 => self.six.len(),
-            _ => self.seven.len(),
-        };
-        count as u32
-    }
-
-    /// All words.
-    pub(super) fn words(&self, set: u8) -> &'a [u32] {
-        match row_words(set) {
-            3 => self.three.as_flattened(),
-            4 => self.four.as_flattened(),
-            5 => self.five.as_flattened(),
-            6 => self.six.as_flattened(),
-            _ => self.seven.as_flattened(),
-        }
-    }
-
-    #[inline]
-    pub(super) fn get(&self, index: usize, set: u8) -> Option<&'a [u32]> {
-        match row_words(set) {
-            3 => self.three.get(index).map(<[u32; 3]>::as_slice),
-            4 => self.four.get(index).map(<[u32; 4]>::as_slice),
-            5 => self.five.get(index).map(<[u32; 5]>::as_slice),
-            6 => self.six.get(index).map(<[u32; 6]>::as_slice),
-            _ => self.seven.get(index).map(<[u32; 7]>::as_slice),
-        }
     }
 }
 

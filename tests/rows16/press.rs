@@ -2,19 +2,18 @@
 
 use std::f64::consts::TAU;
 
-use jred::short::{measure, scratch_len, tabulate, words_len};
-use jred::table::curves;
-use jred::tabulate::Request;
-use jred::{Error, Number, Phase, Q15, Reducible, Scale};
+use jred::table::words_len;
+use jred::tabulate::{Request, measure, scratch_len, tabulate};
+use jred::{Error, Number, Phase, Q15, Reducible, Rows16, Scale, Set, curves};
 use proptest::prelude::*;
 
-use super::{Short, q15};
+use super::{Short, model, q15};
 use crate::support::harmonics::press;
 use crate::support::{budget, largest, samples};
 
 const OMEGA: f64 = 40.0;
 const ALPHA: f64 = 800.0;
-const SET: u8 = curves::LOAD;
+const SET: Set = curves::LOAD;
 
 fn request(torque_error: f64) -> Request {
     Request {
@@ -40,18 +39,18 @@ fn scale() -> Scale {
 
 fn tabulated(share: f64) -> Result<(Short, jred::tabulate::Tabulated), Error> {
     let mut scratch = vec![0.0; scratch_len(1024, SET)];
-    let mut words = vec![0; words_len(1024, SET)];
+    let mut words = vec![0; words_len::<Rows16>(1024, SET)];
     let request = request(share * peak());
-    let found = tabulate(&press(), SET, &request, &scale(), &mut scratch, &mut words)?;
+    let found = tabulate::<Rows16>(&press(), SET, &request, &scale(), &mut scratch, &mut words)?;
     let rows = Short::of(&press(), SET, found.cells, &scale())?;
-    assert_eq!(rows.words, words[..words_len(found.cells, SET)]);
+    assert_eq!(rows.words, words[..words_len::<Rows16>(found.cells, SET)]);
     Ok((rows, found))
 }
 
 /// The figures of `docs/table-image.md`.
 #[test]
 fn sizes_are_the_stated_ones() {
-    for (share, cells) in budget::SHORT_PRESS_CELLS {
+    for (share, cells) in budget::ROWS16_PRESS_CELLS {
         let (rows, found) = tabulated(share).unwrap();
         assert_eq!(found.cells, cells, "{share}");
         let error = found.torque_error / peak();
@@ -60,9 +59,9 @@ fn sizes_are_the_stated_ones() {
         // One cell less misses.
         let less = Short::of(&press(), SET, cells - 1, &scale()).unwrap();
         let request = request(share * peak());
-        let missed = measure(&press(), &less.table(), &request, &scale()).unwrap();
+        let missed = measure(&press(), &less.table(), &request).unwrap();
         assert!(missed.torque_error > request.torque_error);
-        let again = measure(&press(), &rows.table(), &request, &scale()).unwrap();
+        let again = measure(&press(), &rows.table(), &request).unwrap();
         assert_eq!(again.torque_error.to_bits(), found.torque_error.to_bits());
     }
 }
@@ -70,13 +69,13 @@ fn sizes_are_the_stated_ones() {
 /// 16 bits go no further, with however many cells.
 #[test]
 fn the_floor_is_the_stated_one() {
-    let [least, most] = budget::SHORT_FLOOR;
+    let [least, most] = budget::ROWS16_FLOOR;
     let request = request(1.0);
     let best = (300..1024)
         .step_by(40)
         .map(|cells| {
             let rows = Short::of(&press(), SET, cells, &scale()).unwrap();
-            let found = measure(&press(), &rows.table(), &request, &scale()).unwrap();
+            let found = measure(&press(), &rows.table(), &request).unwrap();
             found.torque_error
         })
         .fold(f64::INFINITY, f64::min);
@@ -94,7 +93,7 @@ fn the_floor_is_the_stated_one() {
 fn no_tick_errs_more_than_stated() {
     let (machine, scale) = (press(), scale());
     let (rows, found) = tabulated(3e-4).unwrap();
-    let model = rows.model::<SET>();
+    let model = model::<SET>(&rows);
     let base = f64::from(scale.torque());
     let speed = f64::from(scale.speed());
     let acceleration = f64::from(scale.acceleration());

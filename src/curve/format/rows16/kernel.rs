@@ -10,7 +10,7 @@
 //! | T − resisting, times 1/J | 17 bits·u15 | 65535·32767 < 2³¹ |
 //!
 //! The product (V·ω + b)·ω and the partial sums may wrap: they are taken modulo 2³², and only the whole sum counts, of
-//! which [`Table`](super::Table) knows that it fits.
+//! which [`Table`](crate::Table) knows that it fits.
 
 #![allow(
     clippy::inline_always,
@@ -39,7 +39,7 @@ pub(super) fn locate(phase: Phase, cells: u32) -> (usize, i32) {
 
 /// A line over the cell, from a word of its value (upper half) and difference: floor((word + difference·u)/2¹⁶).
 ///
-/// The word goes in whole: its lower half adds up to one unit to the value, which [`fill`](super::fill()) takes into account.
+/// The word goes in whole: its lower half adds up to one unit to the value, which `fill` takes into account.
 #[inline(always)]
 pub(super) fn line(word: u32, u: i32) -> i32 {
     let difference = i32::from(word as i16);

@@ -3,12 +3,11 @@
 //! A line is greatest at an end of its cell, a quadratic stays within its Bézier points: the bounds hold everywhere in a cell. They
 //! are integers, for arguments −1 … 1, both ends included, and count every rounding of the tick.
 
-use super::Table;
-use super::row::{self, has};
-use crate::Scale;
-use crate::curve::{TableError, curves};
+use super::row;
+use super::{Rows16, row_of};
+use crate::curve::curves::{self, has};
+use crate::curve::{Table, TableError, Usage};
 use crate::number::Kernel;
-use crate::tick::Usage;
 
 /// One unit of the upper half of a word.
 const UNIT: i64 = 1 << 16;
@@ -74,10 +73,10 @@ impl Most {
         }
     }
 
-    fn of(table: &Table<'_>, cell: u32) -> Result<Self, TableError> {
-        let set = table.curves();
+    fn of(table: &Table<'_, Rows16>, cell: u32) -> Result<Self, TableError> {
+        let set = table.set();
         let constants = table.constants();
-        let row = table.rows.get(cell as usize, set).unwrap_or_default();
+        let row = row_of(table, cell);
         let word = |index| row::at(row, index);
         let range = |index: usize| TableError::Range {
             curve: index as u8,
@@ -108,16 +107,14 @@ impl Most {
         let mut viscous = 0;
         if has(set, curves::VISCOUS) {
             viscous = signed(row::viscous(set))? << 15;
-        }
-        if has(set, curves::CONSTANT_VISCOUS) {
-            viscous += i64::from(constants.viscous).abs();
+        } else if has(set, curves::CONSTANT_VISCOUS) {
+            viscous = i64::from(constants.viscous).abs();
         }
         let mut coulomb = 0;
         if has(set, curves::COULOMB) {
             coulomb = signed(row::coulomb(set))? << 16;
-        }
-        if has(set, curves::CONSTANT_COULOMB) {
-            coulomb += i64::from(constants.coulomb).abs();
+        } else if has(set, curves::CONSTANT_COULOMB) {
+            coulomb = i64::from(constants.coulomb).abs();
         }
         Ok(Self {
             inertia: (inertia >> 16) + 1,
@@ -130,10 +127,10 @@ impl Most {
 }
 
 /// Every cell, for [`Table::new`].
-pub(super) fn all(table: &Table<'_>) -> Result<(), TableError> {
+pub(super) fn all(table: &Table<'_, Rows16>) -> Result<(), TableError> {
     // Of 1/J, beyond what the tick rounds away where J is large.
     const RECIPROCAL: f32 = 0.02;
-    let set = table.curves();
+    let set = table.set();
     for cell in 0..table.cells() {
         if Most::of(table, cell)?.torque() > i64::from(i32::MAX) {
             return Err(TableError::TorqueRange { cell });
@@ -150,10 +147,10 @@ pub(super) fn all(table: &Table<'_>) -> Result<(), TableError> {
 }
 
 /// A bound on |J·(1/J) − 1| in a cell, by the Bézier points of that cubic; `None` if 1/J leaves its range.
-fn reciprocal_error_in(table: &Table<'_>, cell: u32) -> Option<f32> {
+fn reciprocal_error_in(table: &Table<'_, Rows16>, cell: u32) -> Option<f32> {
     const UNSIGNED: [i64; 2] = [1, 32_767];
-    let set = table.curves();
-    let row = table.rows.get(cell as usize, set)?;
+    let set = table.set();
+    let row = row_of(table, cell);
     let word = row::at(row, row::reciprocal(set));
     let [least, _] = line_range(word, UNSIGNED)?;
     let unit = match table.constants().shift {
@@ -182,21 +179,21 @@ fn reciprocal_error_in(table: &Table<'_>, cell: u32) -> Option<f32> {
 }
 
 /// The largest of all cells.
-pub(super) fn reciprocal_error(table: &Table<'_>) -> f32 {
+pub(super) fn reciprocal_error(table: &Table<'_, Rows16>) -> f32 {
     (0..table.cells())
         .filter_map(|cell| reciprocal_error_in(table, cell))
         .fold(0.0, f32::max)
 }
 
 /// Whether V is what the slope of J makes of it in these machine units, but for the roundings of their numbers.
-pub(super) fn velocity(table: &Table<'_>, span: f32, scale: &Scale) -> Result<(), TableError> {
-    let set = table.curves();
+pub(super) fn velocity(table: &Table<'_, Rows16>) -> Result<(), TableError> {
+    let (set, span, scale) = (table.set(), table.domain().span(), table.scale());
     let factor = <f32 as Kernel>::velocity_factor(table.cells(), span, scale, 1)
         .ok_or(TableError::SpeedBase)?;
     // Two numbers of J's, one of them counted twice, and two of V's, each to a unit and a half.
     let limit = 4.5 * factor / 65_536.0 + 3.0 / 32_768.0;
     for cell in 0..table.cells() {
-        let row = table.rows.get(cell as usize, set).unwrap_or_default();
+        let row = row_of(table, cell);
         let [slope, twice] = line(row::at(row, row::inertia(set)));
         let [start, rise] = line(row::at(row, row::velocity(set)));
         for (slope, velocity) in [(slope, start), (slope + 2 * twice, start + rise)] {
@@ -210,10 +207,8 @@ pub(super) fn velocity(table: &Table<'_>, span: f32, scale: &Scale) -> Result<()
     Ok(())
 }
 
-/// How much of the number range each quantity of a table uses at most, over all phases and at full speed and acceleration: 1 is
-/// all of it.
-#[must_use]
-pub fn usage(table: &Table<'_>) -> Usage {
+/// How much of the number range each quantity of a table uses at most.
+pub(super) fn usage(table: &Table<'_, Rows16>) -> Usage {
     // Every cell was found sound when the table was built.
     (0..table.cells())
         .filter_map(|cell| Most::of(table, cell).ok())

@@ -1,23 +1,22 @@
 //! The tick against the curves that its table reads, and against itself the other way.
 
-use jred::short::{CurveValues, Model};
-use jred::table::curves;
-use jred::{Number, Phase, Q15, Scale};
+use jred::{Number, Phase, Q15, Scale, Set, curves};
 use proptest::prelude::*;
 
-use super::{Short, q15, units};
+use super::{CONSTANT, EVERY, Short, model, q15, units, velocity};
 use crate::support::machines::{Spec, spec};
 use crate::support::{budget, config, largest, samples};
+use jred::table::CurveValues;
 
-const ALL: u8 = curves::ALL;
-const CONSTANTS: u8 = curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const ALL: Set = curves::ALL;
+const CONSTANTS: Set = curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 
 fn scale(spec: &Spec) -> Scale {
     Scale::limited_to(&spec.machine(), 60.0, 900.0, 256).unwrap()
 }
 
 /// Over it, machines whose curves overshoot in so few cells are left out.
-fn table(spec: &Spec, set: u8) -> Option<Short> {
+fn table(spec: &Spec, set: Set) -> Option<Short> {
     Short::of(&spec.machine(), set, 200, &scale(spec)).ok()
 }
 
@@ -25,16 +24,16 @@ fn sgn(x: f64) -> f64 {
     if x == 0.0 { 0.0 } else { x.signum() }
 }
 
-fn resisting(read: &CurveValues, omega: f64) -> f64 {
-    (read.velocity * omega + read.viscous) * omega - read.load + read.coulomb * sgn(omega)
+fn resisting(read: &CurveValues, scale: &Scale, omega: f64) -> f64 {
+    (velocity(read, scale) * omega + read.viscous) * omega - read.load + read.coulomb * sgn(omega)
 }
 
 /// Torque less that of the curves, in units of 2⁻¹⁵.
-fn torque_error<const SET: u8>(rows: &Short, phase: Phase, omega: Q15, alpha: Q15) -> f64 {
+fn torque_error<const SET: Set>(rows: &Short, phase: Phase, omega: Q15, alpha: Q15) -> f64 {
     let read = rows.table().at(phase);
     let (w, a) = (omega.to_f64(), alpha.to_f64());
-    let exact = read.inertia * a + resisting(&read, w);
-    let torque = rows.model::<SET>().torque(phase, omega, alpha);
+    let exact = read.inertia * a + resisting(&read, &rows.scale, w);
+    let torque = model::<SET>(rows).torque(phase, omega, alpha);
     units(torque) - 32_768.0 * exact
 }
 
@@ -48,7 +47,7 @@ fn cases(count: u32) -> Vec<Case> {
     )
 }
 
-fn torque_of_set<const SET: u8>() {
+fn torque_of_set<const SET: Set>() {
     let mut worst = [0.0f64; 2];
     for (spec, phase, omega, alpha) in cases(300) {
         let Some(rows) = table(&spec, SET) else {
@@ -62,7 +61,7 @@ fn torque_of_set<const SET: u8>() {
             }
         }
     }
-    let most = budget::SHORT_TORQUE;
+    let most = budget::ROWS16_TORQUE;
     assert!(
         worst[0] >= -most && worst[1] <= most,
         "set {SET}: {worst:?}"
@@ -81,31 +80,32 @@ fn torque_is_that_of_the_curves() {
     torque_of_set::<{ curves::COULOMB }>();
     torque_of_set::<{ ALL }>();
     torque_of_set::<{ curves::LOAD | CONSTANTS }>();
-    torque_of_set::<{ curves::EVERY }>();
+    torque_of_set::<EVERY>();
+    torque_of_set::<CONSTANT>();
 }
 
 /// Acceleration of the torque that an acceleration needs, less that acceleration, over what it may be: a part of it, and units
 /// of the torque over J.
-fn there_and_back<const SET: u8>() {
+fn there_and_back<const SET: Set>() {
     let mut worst = 0.0f64;
     let mut compared = 0;
     for (spec, phase, omega, alpha) in cases(400) {
         let Some(rows) = table(&spec, SET) else {
             continue;
         };
-        let model = rows.model::<SET>();
+        let model = model::<SET>(&rows);
         let phase = Phase::from_bits(phase);
         let inertia = model.table().at(phase).inertia;
         for alpha in [alpha / 2, 0, 20_000, -20_000] {
             let torque = model.torque(phase, q15(omega), q15(alpha));
             let back = model.acceleration(phase, q15(omega), torque);
             let roundings = if SET & !curves::RECIPROCAL == curves::INERTIA {
-                budget::SHORT_BARE_BACK
+                budget::ROWS16_BARE_BACK
             } else {
-                budget::SHORT_BACK
+                budget::ROWS16_BACK
             };
-            let allowed = f64::from(model.reciprocal_error()) * f64::from(alpha).abs()
-                + roundings / inertia * (1.0 + f64::from(model.reciprocal_error()))
+            let allowed = f64::from(model.table().reciprocal_error()) * f64::from(alpha).abs()
+                + roundings / inertia * (1.0 + f64::from(model.table().reciprocal_error()))
                 + 1.0;
             let off = units(back.value) - f64::from(alpha);
             if f64::from(alpha).abs() + allowed < 32_767.0 {
@@ -125,15 +125,16 @@ fn forward_undoes_inverse() {
     there_and_back::<{ curves::RECIPROCAL }>();
     there_and_back::<{ curves::LOAD | CONSTANTS }>();
     there_and_back::<{ curves::LOAD | CONSTANTS | curves::RECIPROCAL }>();
-    there_and_back::<{ curves::EVERY }>();
+    there_and_back::<EVERY>();
 }
 
 /// Where the exact acceleration is well out of range or well within it, the flag says so, and the value is the nearest.
-fn saturation<const SET: u8>(rows: &Short, phase: Phase, omega: Q15, torque: Q15) {
-    let model: Model<'_, SET> = rows.model();
+fn saturation<const SET: Set>(rows: &Short, phase: Phase, omega: Q15, torque: Q15) {
+    let model = model::<SET>(rows);
     let read = model.table().at(phase);
-    let exact = (torque.to_f64() - resisting(&read, omega.to_f64())) / read.inertia;
-    let off = f64::from(model.reciprocal_error()) * exact.abs() + 1e-4 * (1.0 + 3.0 / read.inertia);
+    let exact = (torque.to_f64() - resisting(&read, &rows.scale, omega.to_f64())) / read.inertia;
+    let off = f64::from(model.table().reciprocal_error()) * exact.abs()
+        + 1e-4 * (1.0 + 3.0 / read.inertia);
     let found = model.acceleration(phase, omega, torque);
     if exact > 1.0 + off {
         assert_eq!((found.value, found.saturated), (Q15::MAX, true));
@@ -166,8 +167,8 @@ proptest! {
     fn a_range_is_its_two_accelerations(spec in spec(), phase: u32, omega: i16, torques: [i16; 2]) {
         let phase = Phase::from_bits(phase);
         let [least, greatest] = torques.map(q15);
-        if let Some(rows) = table(&spec, curves::EVERY) {
-            let model: Model<'_, { curves::EVERY }> = rows.model();
+        if let Some(rows) = table(&spec, EVERY) {
+            let model = model::<EVERY>(&rows);
             let range = model.acceleration_range(phase, q15(omega), least, greatest);
             prop_assert_eq!(range.least, model.acceleration(phase, q15(omega), least));
             prop_assert_eq!(range.greatest, model.acceleration(phase, q15(omega), greatest));
@@ -179,7 +180,7 @@ proptest! {
 fn many_samples_are_single_ones() {
     let (spec, ..) = cases(1).remove(0);
     let rows = table(&spec, ALL).unwrap();
-    let model: Model<'_, ALL> = rows.model();
+    let model = model::<ALL>(&rows);
     let phases = [1u32, 1 << 30, 3 << 30].map(Phase::from_bits);
     let [omegas, alphas] = [[100, -200, 300], [-4000, 5000, 6000]].map(|n: [i16; 3]| n.map(q15));
     let mut torques = [Q15::default(); 4];
@@ -199,10 +200,10 @@ fn reciprocal_error_is_a_bound() {
             continue;
         };
         let table = rows.table();
-        let stated = f64::from(table.reciprocal_error().unwrap());
+        let stated = f64::from(table.reciprocal_error());
         let found = largest((0..40_000u32).map(|k| {
-            let read = table.at(Phase::from_bits(k * 107_374));
-            read.inertia * read.reciprocal - 1.0
+            let phase = Phase::from_bits(k * 107_374);
+            table.at(phase).inertia * table.reciprocal(phase).unwrap() - 1.0
         }));
         assert!(found <= stated, "{found} {stated}");
         nearest = nearest.max(found / stated);

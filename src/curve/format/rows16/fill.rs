@@ -1,85 +1,36 @@
-//! Fills a table of 16-bit rows of a given size.
+//! Fills the rows of a table.
 
-use super::row::{self, has, word};
-use super::table::words_len;
-use super::{Constants, Table, fit};
+use super::row::{self, word};
+use super::{RowConstants, fit};
+use crate::curve::curves::{self, Set, has};
+use crate::curve::samples::{Sample, Samples};
 use crate::curve::{
-    MAX_CELLS, MIN_CELLS, TableError, control_points, curves, fit_quadratic_bounded,
-    fit_quadratic_periodic,
+    TableError, control_points, fit_quadratic_bounded, fit_quadratic_periodic, unfold,
 };
-use crate::machine::reduction::{Reducible, Reduction};
-use crate::tabulate::unfold;
-use crate::{Domain, Error, Scale, math};
+use crate::{Error, math};
 
-/// Numbers of `f64` scratch that tables of up to `cells` cells need.
-#[must_use]
-pub const fn scratch_len(cells: u32, set: u8) -> usize {
-    let curves = (set & curves::ALL).count_ones() as usize;
-    (2 + curves) * control_points(cells as usize)
-}
-
-/// Fills `words` with the table of exactly `cells` cells and of this set of [`curves`], and returns it.
-///
-/// A constant of the set is the machine's value at the start of its range; a curve beside it is what is left. For Coulomb
-/// friction, whose curve is read as a magnitude, a constant beside a curve is the least value; the curve is stored with a sign that
-/// changes where its magnitude has a kink at zero (see [`curves::COULOMB`]).
-///
-/// # Errors
-/// Those of the machine; curves that do not repeat with the turn of the drive link; buffers too short; a curve outside the
-/// number range of `scale`; as [`Table::new`].
-pub fn fill<'w>(
-    machine: &impl Reducible,
-    set: u8,
-    cells: u32,
-    scale: &Scale,
+/// Fills `words`, and says what the table has beside them.
+pub(super) fn fill(
+    samples: &Samples<impl Fn(f64) -> Result<Sample, Error>>,
     scratch: &mut [f64],
-    words: &'w mut [u32],
-) -> Result<Table<'w>, Error> {
-    if set > curves::EVERY {
-        return Err(Error::Table(TableError::Curves(set)));
+    words: &mut [u32],
+) -> Result<RowConstants, Error> {
+    let (set, cells) = (samples.set, samples.cells);
+    let mut curves = Curves::split(scratch, cells, set, samples.periodic());
+    let constants = curves.sample(samples)?.rounded(curves.shift()?)?;
+    let base = f64::from(samples.scale.velocity_base());
+    let factor = 0.5 * f64::from(cells) / samples.domain.span() * base;
+    for (cell, row) in (0..cells).zip(words.chunks_exact_mut(row::length(set))) {
+        curves.pack(cell, factor, constants.shift, row)?;
     }
-    if cells < MIN_CELLS as u32 || cells > MAX_CELLS {
-        return Err(Error::Table(TableError::Cells(cells)));
-    }
-    let (given, needed) = (scratch.len(), scratch_len(cells, set));
-    let too_short = Error::BufferTooShort { needed, given };
-    let scratch = scratch.get_mut(..needed).ok_or(too_short)?;
-    let (given, needed) = (words.len(), words_len(cells, set));
-    let too_short = Error::BufferTooShort { needed, given };
-    let words = words.get_mut(..needed).ok_or(too_short)?;
-
-    let domain = machine.domain();
-    if domain == Domain::Turn {
-        machine.check_repeats()?;
-    }
-    let mut curves = Curves::split(scratch, cells, set);
-    let constants = curves.sample(machine, scale)?;
-    let constants = constants.rounded(curves.shift(domain)?)?;
-    let factor = 0.5 * f64::from(cells) / domain.span() * f64::from(scale.velocity_base());
-    for (cell, row) in (0..cells).zip(words.chunks_exact_mut(row::row_words(set))) {
-        curves.pack(cell, factor, constants.shift, domain, row)?;
-    }
-    let table = Table::new(words, constants, set, cells);
-    table.map_err(|error| match error {
-        TableError::Range { curve, cell } => Error::Overflow {
-            base: if usize::from(curve) == row::inertia(set) {
-                "inertia"
-            } else {
-                "torque"
-            },
-            cell,
-        },
-        TableError::NoInertia { cell } => Error::NoInertia {
-            phi: domain.position(f64::from(cell) / f64::from(cells)),
-        },
-        other => Error::Table(other),
-    })
+    Ok(constants)
 }
 
 /// Control points and knots of the curves, in machine units.
 struct Curves<'s> {
     cells: u32,
-    set: u8,
+    set: Set,
+    periodic: bool,
     /// Control points of J in halves.
     inertia: &'s mut [f64],
     /// Control points of the load in halves.
@@ -92,7 +43,7 @@ struct Curves<'s> {
     spare: &'s mut [f64],
 }
 
-/// Constant parts of b and c in machine units.
+/// b and c in machine units, if they are constant.
 #[derive(Clone, Copy)]
 struct Parts {
     viscous: f64,
@@ -101,7 +52,7 @@ struct Parts {
 
 impl Parts {
     /// As they are stored.
-    fn rounded(self, shift: u32) -> Result<Constants, Error> {
+    fn rounded(self, shift: u32) -> Result<RowConstants, Error> {
         let rounded = |value: f64, unit: f64| {
             let scaled = math::rint(value * unit);
             (math::abs(scaled) < 2_147_483_648.0)
@@ -111,7 +62,7 @@ impl Parts {
                     cell: 0,
                 })
         };
-        Ok(Constants {
+        Ok(RowConstants {
             viscous: rounded(self.viscous, 1_073_741_824.0)?,
             coulomb: rounded(self.coulomb, 2_147_483_648.0)?,
             shift,
@@ -137,7 +88,7 @@ fn quadratic(control: &[f64], cell: usize) -> [f64; 3] {
 }
 
 impl<'s> Curves<'s> {
-    fn split(scratch: &'s mut [f64], cells: u32, set: u8) -> Self {
+    fn split(scratch: &'s mut [f64], cells: u32, set: Set, periodic: bool) -> Self {
         let rows = control_points(cells as usize);
         let mut rest = scratch;
         let mut part = |wanted: bool| {
@@ -149,6 +100,7 @@ impl<'s> Curves<'s> {
         Self {
             cells,
             set,
+            periodic,
             inertia: part(true),
             spare: part(true),
             load: part(has(set, curves::LOAD)),
@@ -157,43 +109,32 @@ impl<'s> Curves<'s> {
         }
     }
 
-    fn sample(&mut self, machine: &impl Reducible, scale: &Scale) -> Result<Parts, Error> {
-        let domain = machine.domain();
-        let periodic = domain == Domain::Turn;
+    fn sample(
+        &mut self,
+        samples: &Samples<impl Fn(f64) -> Result<Sample, Error>>,
+    ) -> Result<Parts, Error> {
+        let periodic = self.periodic;
         let cells = f64::from(self.cells);
-        let (torque, speed) = (f64::from(scale.torque()), f64::from(scale.speed()));
-        let viscous = |point: &Reduction| point.viscous * speed / torque;
-        let coulomb = |point: &Reduction| point.coulomb / torque;
-
-        let start = machine.reduction(domain.position(0.0))?;
-        let part = |of: u8, value: f64| if has(self.set, of) { value } else { 0.0 };
-        let mut parts = Parts {
-            viscous: part(curves::CONSTANT_VISCOUS, viscous(&start)),
-            coulomb: part(curves::CONSTANT_COULOMB, coulomb(&start)),
+        let start = samples.at_cell(0.0)?;
+        let part = |of: Set, value: f64| if has(self.set, of) { value } else { 0.0 };
+        let parts = Parts {
+            viscous: part(curves::CONSTANT_VISCOUS, start.viscous),
+            coulomb: part(curves::CONSTANT_COULOMB, start.coulomb),
         };
-        let mut least = f64::INFINITY;
         if has(self.set, curves::VISCOUS | curves::COULOMB) {
-            for knot in 0..=self.cells {
-                let place = f64::from(knot) / cells;
-                // The last knot of a turn is the first.
-                let place = if periodic && knot == self.cells {
-                    0.0
-                } else {
-                    place
-                };
-                let point = machine.reduction(domain.position(place))?;
-                put(self.viscous, knot as usize, viscous(&point) - parts.viscous);
-                put(self.coulomb, knot as usize, coulomb(&point));
-                least = least.min(coulomb(&point));
+            let knots = self.cells as usize + usize::from(!periodic);
+            for knot in 0..knots {
+                let point = samples.at_cell(knot as f64)?;
+                put(self.viscous, knot, point.viscous);
+                put(self.coulomb, knot, point.coulomb);
             }
-            if has(self.set, curves::COULOMB) {
-                parts.coulomb = part(curves::CONSTANT_COULOMB, least);
-                self.coulomb.iter_mut().for_each(|c| *c -= parts.coulomb);
-                let knots = self.cells as usize + usize::from(!periodic);
-                unfold(self.coulomb.get_mut(..knots).unwrap_or_default(), periodic);
-                if periodic {
-                    put(self.coulomb, knots, at(self.coulomb, 0));
-                }
+            if let Some(coulomb) = self.coulomb.get_mut(..knots) {
+                unfold(coulomb, periodic);
+            }
+            // The last knot of a turn is the first.
+            if periodic {
+                put(self.viscous, knots, at(self.viscous, 0));
+                put(self.coulomb, knots, at(self.coulomb, 0));
             }
         }
 
@@ -205,13 +146,9 @@ impl<'s> Curves<'s> {
             } else {
                 (k as f64 - 0.5).clamp(0.0, cells)
             };
-            let point = machine.reduction(domain.position(knot / cells))?;
-            put(
-                self.inertia,
-                k,
-                point.inertia[0] / f64::from(scale.inertia()),
-            );
-            put(self.load, k, point.load_torque() / torque);
+            let point = samples.at_cell(knot)?;
+            put(self.inertia, k, point.inertia);
+            put(self.load, k, point.load);
         }
         for control in [&mut *self.inertia, &mut *self.load] {
             if control.is_empty() {
@@ -229,7 +166,7 @@ impl<'s> Curves<'s> {
     }
 
     /// 1/J at a knot, lowered by half of what a straight line lies above 1/J in the cells beside it.
-    fn reciprocal(&self, knot: usize, domain: Domain) -> f64 {
+    fn reciprocal(&self, knot: usize) -> f64 {
         let cells = self.cells as usize;
         let inverse = |cell: usize, u: f64| {
             let [p0, p1, p2] = quadratic(self.inertia, cell);
@@ -238,27 +175,24 @@ impl<'s> Curves<'s> {
         let above =
             |cell: usize| 0.5 * (inverse(cell, 0.0) + inverse(cell, 1.0)) - inverse(cell, 0.5);
         let (last, beyond) = (knot.min(cells - 1), knot == cells);
-        let before = match (knot.checked_sub(1), domain) {
-            (Some(before), _) => before,
-            (None, Domain::Turn) => cells - 1,
-            (None, Domain::Stroke { .. }) => 0,
+        let before = match knot.checked_sub(1) {
+            Some(before) => before,
+            None if self.periodic => cells - 1,
+            None => 0,
         };
-        let after = match domain {
-            Domain::Turn => knot % cells,
-            Domain::Stroke { .. } => last,
-        };
+        let after = if self.periodic { knot % cells } else { last };
         let value = inverse(last, if beyond { 1.0 } else { 0.0 });
         value - 0.25 * (above(before) + above(after))
     }
 
     /// k of the units of 1/J: the largest of them uses half of its range or more.
-    fn shift(&self, domain: Domain) -> Result<u32, Error> {
+    fn shift(&self) -> Result<u32, Error> {
         if !has(self.set, curves::RECIPROCAL) {
             return Ok(0);
         }
         let (mut most, mut place) = (0.0f64, 0);
         for knot in 0..=self.cells {
-            let here = self.reciprocal(knot as usize, domain);
+            let here = self.reciprocal(knot as usize);
             if here.is_nan() || here > most {
                 (most, place) = (here, knot);
             }
@@ -274,14 +208,7 @@ impl<'s> Curves<'s> {
     }
 
     /// Writes a row.
-    fn pack(
-        &self,
-        cell: u32,
-        factor: f64,
-        shift: u32,
-        domain: Domain,
-        row: &mut [u32],
-    ) -> Result<(), Error> {
+    fn pack(&self, cell: u32, factor: f64, shift: u32, row: &mut [u32]) -> Result<(), Error> {
         const Q15: f64 = 32_768.0;
         const Q16: f64 = 65_536.0;
         let index = cell as usize;
@@ -331,7 +258,7 @@ impl<'s> Curves<'s> {
         }
         if has(self.set, curves::RECIPROCAL) {
             let unit = f64::from(1u32 << shift);
-            let [start, end] = [0, 1].map(|k| unit * self.reciprocal(index + k, domain));
+            let [start, end] = [0, 1].map(|k| unit * self.reciprocal(index + k));
             let line = fit::line([start, end - start]).ok_or(inertia_base)?;
             set(row::reciprocal(self.set), line);
         }

@@ -1,14 +1,15 @@
 //! Images of tables of 16-bit rows: word by word, back again, and refused.
 
-use jred::short::{encode, image_words};
-use jred::table::{Spline, curves};
-use jred::{Domain, Error, HEADER_WORDS, Image, ImageError, Phase, Q15, Scale, TableError};
+use jred::image::{HEADER_WORDS, encode, image_len};
+use jred::{
+    Domain, Error, Image, ImageError, Phase, Q15, Rows16, Scale, Set, Spline, TableError, curves,
+};
 
-use super::{Short, q15};
+use super::{Short, model, q15};
 use crate::support::images::{VALIDITY, sealed, small};
 use crate::support::machines::Wave;
 
-const SET: u8 = curves::EVERY;
+const SET: Set = super::CONSTANT;
 
 fn wave(domain: Domain) -> Wave {
     Wave {
@@ -31,16 +32,10 @@ fn stroke() -> Domain {
 }
 
 fn encoded(rows: &Short) -> Vec<u32> {
-    let mut buffer = vec![u32::MAX; image_words(rows.cells, rows.set) + 3];
-    encode(
-        &rows.table(),
-        rows.domain,
-        &rows.scale,
-        VALIDITY,
-        &mut buffer,
-    )
-    .unwrap()
-    .to_vec()
+    let mut buffer = vec![u32::MAX; image_len::<Rows16>(rows.cells, rows.set) + 3];
+    encode(&rows.table(), VALIDITY, &mut buffer)
+        .unwrap()
+        .to_vec()
 }
 
 #[test]
@@ -48,7 +43,7 @@ fn words_are_where_the_document_says() {
     let rows = rows(stroke());
     let image = encoded(&rows);
     assert_eq!(image.len(), HEADER_WORDS + rows.words.len() + 1);
-    assert_eq!(image[3].to_le_bytes(), [3, SET, 5, 1]);
+    assert_eq!(image[3].to_le_bytes(), [3, SET as u8, 5, 1]);
     assert_eq!(image[4], 40);
     let constants = [
         rows.constants.shift,
@@ -70,10 +65,10 @@ fn an_image_gives_the_same_bits() {
         let image = encoded(&rows);
         let image = Image::new(&image).unwrap();
         assert_eq!(*image.scale(), rows.scale);
-        assert_eq!((image.curves(), image.cells()), (SET, 40));
-        let [before, after] = [rows.model::<SET>(), image.short_model::<SET>().unwrap()];
+        assert_eq!((image.set(), image.cells()), (SET, 40));
+        let [before, after] = [model::<SET>(&rows), image.model::<Rows16, SET>().unwrap()];
         assert_eq!(after.table().words(), rows.words);
-        assert_eq!(after.table().constants(), rows.constants);
+        assert_eq!(*after.table().constants(), rows.constants);
         for k in 0..1000u32 {
             let phase = Phase::from_bits(k.wrapping_mul(0x9E37_79B9));
             let [omega, alpha] = [0x3C6E_F372, 0xDAA6_6D2B].map(|m| q15(k.wrapping_mul(m) as i16));
@@ -91,15 +86,18 @@ fn an_image_gives_the_same_bits() {
 fn other_images_are_refused() {
     let f32_image = small();
     let other = Image::new(&f32_image).unwrap();
-    assert_eq!(other.short_table().unwrap_err(), ImageError::NumberType(1));
+    assert_eq!(
+        other.table::<Rows16>().unwrap_err(),
+        ImageError::NumberType(1)
+    );
     let image = encoded(&rows(stroke()));
     let read = Image::new(&image).unwrap();
     assert_eq!(
-        read.model::<f32, SET, Spline>().unwrap_err(),
+        read.model::<Spline<f32>, SET>().unwrap_err(),
         ImageError::NumberType(3)
     );
     assert_eq!(
-        read.short_model::<{ curves::LOAD }>().unwrap_err(),
+        read.model::<Rows16, { curves::LOAD }>().unwrap_err(),
         ImageError::Table(TableError::Curves(SET))
     );
     let with = |word: usize, value: u32| {
@@ -108,11 +106,11 @@ fn other_images_are_refused() {
         let image = sealed(image);
         Image::new(&image)
             .unwrap()
-            .short_model::<SET>()
+            .model::<Rows16, SET>()
             .unwrap_err()
     };
     assert_eq!(
-        with(3, u32::from_le_bytes([3, SET, 3, 1])),
+        with(3, u32::from_le_bytes([3, SET as u8, 3, 1])),
         ImageError::Layout(3)
     );
     let table = ImageError::Table;
@@ -124,8 +122,8 @@ fn other_images_are_refused() {
     assert_eq!(
         with(4, 39),
         table(TableError::Length {
-            needed: 39 * 7,
-            given: 40 * 7
+            needed: 39 * 5,
+            given: 40 * 5
         })
     );
     // Another speed base: V is not the slope of J then.
@@ -138,15 +136,9 @@ fn other_images_are_refused() {
 #[test]
 fn a_buffer_too_short_is_refused() {
     let rows = rows(Domain::Turn);
-    let needed = image_words(rows.cells, rows.set);
+    let needed = image_len::<Rows16>(rows.cells, rows.set);
     let mut buffer = vec![0; needed - 1];
-    let found = encode(
-        &rows.table(),
-        rows.domain,
-        &rows.scale,
-        VALIDITY,
-        &mut buffer,
-    );
+    let found = encode(&rows.table(), VALIDITY, &mut buffer);
     let given = needed - 1;
     assert_eq!(found.unwrap_err(), Error::BufferTooShort { needed, given });
 }

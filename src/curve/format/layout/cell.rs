@@ -1,0 +1,141 @@
+//! One cell of a table and the place in it: the curves there, and the terms of the equation of motion.
+
+use super::{Constants, Fraction, Layout, More, Raw, Word};
+use crate::Phase;
+use crate::curve::Table;
+use crate::curve::curves::{self, Set, has};
+use crate::number::{Kernel, Ring, Role};
+
+/// One cell's words and the place in it.
+pub(super) struct Cell<'a, L: Layout> {
+    words: &'a [Word<L>],
+    set: Set,
+    constants: &'a Constants<Word<L>>,
+    u: Fraction<L>,
+}
+
+impl<'a, L: Layout> Cell<'a, L> {
+    /// The cell around `phase`, of a table whose set is `set`: a model knows it when it is compiled. Always `Some`: the
+    /// length was checked when the table was built, but saying so costs a compare, not a panic path.
+    #[inline]
+    pub(super) fn at(table: &'a Table<'_, L>, phase: Phase, set: Set) -> Option<Self> {
+        let (index, u) = L::locate(phase.to_bits(), table.cells());
+        Some(Self {
+            words: L::cell(table.words(), index as usize, set)?,
+            set,
+            constants: table.constants(),
+            u,
+        })
+    }
+
+    /// Coefficients of a curve of the set.
+    #[inline]
+    fn coefficients(&self, role: Role, column: usize) -> [Raw<L>; 4] {
+        let more = self.constants.more::<L>(role);
+        L::coefficients(self.words, column, self.set, more, L::Scalar::raw)
+    }
+
+    /// J, and its slope a cell times the layout's step.
+    #[inline]
+    pub(super) fn inertia(&self) -> (Raw<L>, Raw<L>) {
+        L::value_and_slope(self.coefficients(Role::Inertia, 0), self.u)
+    }
+
+    /// A curve that the table may have.
+    #[inline]
+    pub(super) fn curve(&self, role: Role) -> Option<Raw<L>> {
+        let column = role.column(self.set)?;
+        Some(L::value(self.coefficients(role, column), self.u))
+    }
+
+    /// b
+    #[inline]
+    pub(super) fn viscous(&self) -> Option<Raw<L>> {
+        if has(self.set, curves::CONSTANT_VISCOUS) {
+            return Some(L::Scalar::raw(self.constants.viscous));
+        }
+        self.curve(Role::Viscous)
+    }
+
+    /// |c|
+    #[inline]
+    pub(super) fn coulomb(&self) -> Option<Raw<L>> {
+        if has(self.set, curves::CONSTANT_COULOMB) {
+            return Some(L::Scalar::raw(self.constants.coulomb));
+        }
+        self.curve(Role::Coulomb).map(L::Scalar::magnitude)
+    }
+
+    /// ½·J′·ω + b
+    #[inline]
+    pub(super) fn speed_coefficient(
+        &self,
+        slope: Raw<L>,
+        factor: <L::Scalar as Kernel>::Factor,
+        omega: L::Scalar,
+    ) -> Raw<L> {
+        let velocity = L::Scalar::velocity(slope, factor, omega);
+        self.viscous().map_or(velocity, |b| velocity + b)
+    }
+
+    /// sum − load + c·sgn ω, of the curves that the machine has.
+    #[inline]
+    pub(super) fn with_load_and_friction(&self, sum: Raw<L>, omega: L::Scalar) -> Raw<L> {
+        let sum = self.curve(Role::Load).map_or(sum, |load| sum - load);
+        let coulomb = self.coulomb();
+        coulomb.map_or(sum, |c| L::Scalar::add_signed(sum, c, omega))
+    }
+}
+
+impl<W: Copy> Constants<W> {
+    #[inline]
+    fn more<L: Layout>(&self, role: Role) -> More<Raw<L>>
+    where
+        L::Scalar: Kernel<Word = W>,
+    {
+        let [inertia, load, viscous, coulomb, reciprocal] = self.gains;
+        let gain = match role {
+            Role::Inertia => inertia,
+            Role::Load => load,
+            Role::Viscous => viscous,
+            Role::Coulomb => coulomb,
+            Role::Reciprocal => reciprocal,
+        };
+        More {
+            offset: match role {
+                Role::Inertia => L::Scalar::raw(self.inertia),
+                _ => Raw::<L>::default(),
+            },
+            gain: Ring::whole(gain),
+        }
+    }
+}
+
+/// Coefficients of a curve of the set, wide.
+pub(super) fn wide<L: Layout>(
+    table: &Table<'_, L>,
+    cell: u32,
+    role: Role,
+) -> [<L::Scalar as Kernel>::Wide; 4] {
+    let set = table.set();
+    let words = L::cell(table.words(), cell as usize, set).unwrap_or_default();
+    let column = role.column(set).unwrap_or(0);
+    let more = table.constants().more::<L>(role);
+    let more = More {
+        offset: L::Scalar::widen(more.offset),
+        gain: L::Scalar::widen(more.gain),
+    };
+    let read = |word| L::Scalar::widen(L::Scalar::raw(word));
+    L::coefficients(words, column, set, more, read)
+}
+
+/// p0…p3 of a curve of the set in machine units, in single precision.
+pub(super) fn polynomial<L: Layout>(table: &Table<'_, L>, cell: u32, role: Role) -> [f32; 4] {
+    let mut scale = 1.0;
+    let centred = wide(table, cell, role).map(|coefficient| {
+        let unscaled = L::Scalar::approximate(role, coefficient) / scale;
+        scale *= f32::from(L::STEP);
+        unscaled
+    });
+    super::about(centred, -L::CENTRE as f32)
+}

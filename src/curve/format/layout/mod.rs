@@ -1,0 +1,294 @@
+//! Formats that hold a polynomial for each curve and cell.
+
+mod cell;
+mod check;
+mod fill;
+mod rounding;
+mod rows;
+mod spline;
+
+pub use rows::{Cubic, Quadratic};
+pub use spline::{Spline, Spline16};
+
+use cell::Cell;
+
+use super::{CONSTANTS, Format, Row};
+use crate::curve::curves::{self, Set};
+use crate::curve::samples::{Sample, Samples};
+use crate::curve::table::{CurveValues, Table};
+use crate::curve::{TableError, Usage};
+use crate::number::{Kernel, Number, Ring, Role, Scalar};
+use crate::{Error, Outcome, Phase};
+
+/// What a table of polynomials has beside its rows; in machine units, zero where there is none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Constants<W> {
+    /// Added to every J of a [`Spline`], so that its control points are small and lose little to rounding.
+    pub inertia: W,
+    /// b, if it is constant.
+    pub viscous: W,
+    /// c, if it is constant.
+    pub coulomb: W,
+    /// What the points of J, load, b, c and 1/J are multiplied by in a [`Spline16`].
+    pub gains: [u16; 5],
+}
+
+/// What a curve's coefficients need besides its words.
+#[derive(Clone, Copy, Default)]
+pub struct More<R> {
+    /// Added to the value.
+    offset: R,
+    /// Multiplies 16-bit points.
+    gain: R,
+}
+
+pub(crate) type Word<L> = <<L as Layout>::Scalar as Kernel>::Word;
+type Raw<L> = <<L as Layout>::Scalar as Kernel>::Raw;
+type Fraction<L> = <<L as Layout>::Scalar as Kernel>::Fraction;
+
+/// Polynomials in memory. Not nameable outside the crate.
+pub trait Layout: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 'static {
+    /// The number type.
+    type Scalar: Scalar;
+    const NAME: &'static str;
+    /// Code in the image header.
+    const CODE: u8;
+    /// How long a row is.
+    const ROW: Row;
+    /// Degree of the spline that the curves are made from.
+    const DEGREE: u8;
+    /// Whether the curve of 1/J is only a seed, for one step of Newton's iteration. Quadratics have so many cells that it is as
+    /// exact as J itself.
+    const NEWTON: bool = Self::DEGREE == 3;
+    /// Words from one curve of a row to the next.
+    const COLUMN: usize;
+    /// Coefficient k is stored times the power k of this, because a product with the place divides by it.
+    const STEP: i8 = 1;
+    /// The place in a cell that the polynomial is about, 0 to 1.
+    const CENTRE: f64 = <Self::Scalar as Kernel>::ROW_CENTRE;
+    /// Whether a word holds two numbers of 16 bits.
+    const HALVES: bool = false;
+
+    /// The words that a cell reads.
+    fn cell<T>(words: &[T], index: usize, set: Set) -> Option<&[T]>;
+    /// The coefficients of one curve, as computed in R.
+    fn coefficients<R: Ring>(
+        cell: &[Word<Self>],
+        column: usize,
+        set: Set,
+        more: More<R>,
+        read: impl Fn(Word<Self>) -> R,
+    ) -> [R; 4];
+    fn locate(phase: u32, cells: u32) -> (u32, Fraction<Self>);
+    /// x·u
+    fn times(x: Raw<Self>, u: Fraction<Self>) -> Raw<Self>;
+    #[inline]
+    fn value([p0, p1, p2, p3]: [Raw<Self>; 4], u: Fraction<Self>) -> Raw<Self> {
+        let times = Self::times;
+        p0 + times(p1 + times(p2 + times(p3, u), u), u)
+    }
+    /// Value, and slope a cell times `STEP`. Horner's scheme twice over (the second row is that of the derivative) shares two of
+    /// its products.
+    #[inline]
+    fn value_and_slope(
+        [p0, p1, p2, p3]: [Raw<Self>; 4],
+        u: Fraction<Self>,
+    ) -> (Raw<Self>, Raw<Self>) {
+        let t3 = Self::times(p3, u);
+        let b2 = p2 + t3;
+        let b1 = p1 + Self::times(b2, u);
+        (p0 + Self::times(b1, u), b1 + Self::times(b2 + t3, u))
+    }
+    /// What is stored for a cell of one curve, of control points c₀…c₃ (or c₀…c₂) divided so that their sum is the value: the
+    /// coefficients, or the point c₀ first; `COLUMN` of them count.
+    fn stored(points: [f64; 4]) -> [f64; 4];
+    /// A number of 16 bits, the upper or lower half of a word, if words hold halves.
+    #[inline]
+    fn half(word: Word<Self>, _upper: bool) -> Word<Self> {
+        word
+    }
+    /// One unit of a half, in machine units.
+    fn unit(_: Role) -> f64 {
+        1.0
+    }
+    /// `word` with one half replaced, if that fits into 16 bits.
+    fn with_half(_: Word<Self>, _upper: bool, half: Word<Self>) -> Option<Word<Self>> {
+        Some(half)
+    }
+}
+
+impl<L: Layout> Format for L {
+    type Number = L::Scalar;
+    type Word = Word<L>;
+    type Constants = Constants<Word<L>>;
+    type Tick<'a> = check::Proven<L::Scalar>;
+
+    const NAME: &'static str = L::NAME;
+    const CODES: Option<[u8; 2]> = match <L::Scalar as Kernel>::CODE {
+        Some(number) => Some([number, L::CODE]),
+        None => None,
+    };
+    const ROW: Row = L::ROW;
+    const WHOLE_FACTOR: bool = L::Scalar::FIXED;
+
+    fn accepts(set: Set) -> bool {
+        curves::is_known(set) && (L::Scalar::FIXED || !curves::has(set, curves::RECIPROCAL))
+    }
+
+    fn check(table: &Table<'_, L>) -> Result<(), TableError> {
+        check::table(table)
+    }
+
+    fn read(table: &Table<'_, L>, phase: Phase) -> CurveValues {
+        let Some(cell) = Cell::at(table, phase, table.set()) else {
+            return CurveValues::default();
+        };
+        let (inertia, slope) = cell.inertia();
+        let number = |role, raw: Option<Raw<L>>| raw.map_or(0.0, |raw| L::Scalar::exact(role, raw));
+        CurveValues {
+            inertia: L::Scalar::exact(Role::Inertia, inertia),
+            inertia_slope: L::Scalar::exact(Role::Inertia, slope) / f64::from(L::STEP),
+            load: number(Role::Load, cell.curve(Role::Load)),
+            viscous: number(Role::Viscous, cell.viscous()),
+            coulomb: number(Role::Coulomb, cell.coulomb()),
+        }
+    }
+
+    fn reciprocal(table: &Table<'_, L>, phase: Phase) -> Option<f64> {
+        let (constants, _) = check::reciprocal(table).ok()?;
+        let unit = f64::from(L::Scalar::reciprocal_unit(constants));
+        let raw = Cell::at(table, phase, table.set())?.curve(Role::Reciprocal)?;
+        Some(L::Scalar::exact(Role::Reciprocal, raw) / unit)
+    }
+
+    fn reciprocal_error(table: &Table<'_, L>) -> f32 {
+        check::reciprocal(table).map_or(0.0, |(_, error)| error)
+    }
+
+    fn fill(
+        samples: &Samples<impl Fn(f64) -> Result<Sample, Error>>,
+        scratch: &mut [f64],
+        words: &mut [Word<L>],
+    ) -> Result<Self::Constants, Error> {
+        fill::fill::<L>(samples, scratch, words)
+    }
+
+    fn base(curve: u8, set: Set) -> &'static str {
+        let mut roles = curves::roles(set);
+        let found = roles.find(|(column, _)| *column == usize::from(curve));
+        found.map_or("torque", |(_, role)| role.base())
+    }
+
+    fn header(constants: &Self::Constants) -> [u32; CONSTANTS] {
+        // 64 bits do not fit, and are not stored.
+        let bits = |word: Word<L>| bytemuck::try_cast(word).unwrap_or(0);
+        let [j, load, b, c, reciprocal] = constants.gains.map(u32::from);
+        [
+            bits(constants.inertia),
+            bits(constants.viscous),
+            bits(constants.coulomb),
+            j | load << 16,
+            b | c << 16,
+            reciprocal,
+            0,
+            0,
+            0,
+            0,
+            0,
+        ]
+    }
+
+    fn from_header(header: &[u32; CONSTANTS]) -> Self::Constants {
+        let word = |bits: u32| bytemuck::try_cast(bits).unwrap_or_default();
+        let &[inertia, viscous, coulomb, j_load, b_c, reciprocal, ..] = header;
+        Constants {
+            inertia: word(inertia),
+            viscous: word(viscous),
+            coulomb: word(coulomb),
+            gains: [j_load, j_load >> 16, b_c, b_c >> 16, reciprocal].map(|gain| gain as u16),
+        }
+    }
+
+    fn usage(table: &Table<'_, L>) -> Result<Usage, TableError> {
+        check::usage(table)
+    }
+
+    fn prepare<'a>(table: &Table<'a, L>) -> Result<Self::Tick<'a>, TableError> {
+        check::model(table)
+    }
+
+    #[inline]
+    fn torque(
+        table: &Table<'_, L>,
+        tick: &Self::Tick<'_>,
+        set: Set,
+        phase: Phase,
+        [omega, alpha]: [L::Scalar; 2],
+    ) -> L::Scalar {
+        let Some(cell) = Cell::at(table, phase, set) else {
+            return L::Scalar::default();
+        };
+        let (inertia, slope) = cell.inertia();
+        let sum = L::Scalar::product(cell.speed_coefficient(slope, tick.factor, omega), omega);
+        let sum = L::Scalar::accumulate(sum, inertia, alpha);
+        L::Scalar::torque(cell.with_load_and_friction(sum, omega))
+    }
+
+    #[inline]
+    fn accelerations<const N: usize>(
+        table: &Table<'_, L>,
+        tick: &Self::Tick<'_>,
+        set: Set,
+        phase: Phase,
+        omega: L::Scalar,
+        torques: [L::Scalar; N],
+    ) -> [Outcome<L::Scalar>; N] {
+        let Some(cell) = Cell::at(table, phase, set) else {
+            return [Outcome::default(); N];
+        };
+        let (inertia, slope) = cell.inertia();
+        let resisting =
+            L::Scalar::product(cell.speed_coefficient(slope, tick.factor, omega), omega);
+        let resisting = cell.with_load_and_friction(resisting, omega);
+        let reciprocal = cell.curve(Role::Reciprocal);
+        torques.map(|torque| match reciprocal {
+            Some(reciprocal) => {
+                let inertia = L::NEWTON.then_some(inertia);
+                L::Scalar::by_reciprocal(torque, resisting, reciprocal, tick.reciprocal, inertia)
+            }
+            None => L::Scalar::quotient(torque, resisting, inertia),
+        })
+    }
+}
+
+/// The cubic of a cell from the control points (in sixths) of a uniform cubic B-spline; coefficient k times stepᵏ.
+pub(crate) fn cubic<R: Ring>([c0, c1, c2, c3]: [R; 4], step: i8) -> [R; 4] {
+    // Differences of neighbours are exact in floating point, sums of points are not: the slope would lose digits.
+    let (d0, d1, d2) = (c1 - c0, c2 - c1, c3 - c2);
+    let (s0, s1) = (d1 - d0, d2 - d1);
+    [
+        c1.times(6) + s0,
+        (d0 + d1).times(3 * step),
+        s0.times(3 * step * step),
+        (s1 - s0).times(step * step * step),
+    ]
+}
+
+/// The same polynomial in powers of u − centre.
+fn about<R>([p0, p1, p2, p3]: [R; 4], centre: R) -> [R; 4]
+where
+    R: Copy + core::ops::Add<Output = R> + core::ops::Mul<Output = R>,
+{
+    let (two, three) = (p2 + p2, p3 + p3 + p3);
+    [
+        p0 + centre * (p1 + centre * (p2 + centre * p3)),
+        p1 + centre * (two + centre * three),
+        p2 + centre * three,
+        p3,
+    ]
+}
+
+#[inline]
+fn word<T: Copy, R: Ring>(cell: &[T], index: usize, read: impl Fn(T) -> R) -> R {
+    cell.get(index).map_or(R::default(), |w| read(*w))
+}

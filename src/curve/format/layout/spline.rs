@@ -1,0 +1,147 @@
+//! Control points of a uniform cubic B-spline.
+
+use core::marker::PhantomData;
+
+use super::{Fraction, Layout, More, Raw, Row, Word, cubic, word};
+use crate::Q31;
+use crate::curve::curves::{Set, width};
+use crate::number::{Kernel, Ring, Role, Scalar};
+
+/// Control points of a uniform cubic B-spline, one a knot and curve: see [`CubicSpline`](crate::table::CubicSpline).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Spline<S>(PhantomData<S>);
+
+/// As [`Spline<Q31>`](Spline), with 16 bits a control point, two of them in a word. The arithmetic stays that of 32 bits: a curve's
+/// points are multiplied by a whole number of its own ([`Constants::gains`](crate::table::Constants::gains)), so that they
+/// use all of their bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Spline16;
+
+/// Rows that close a turn.
+const MORE: usize = 3;
+
+/// Four rows of W words each, from the index-th on.
+#[inline]
+fn rows<T, const W: usize>(words: &[T], index: usize) -> Option<&[T]> {
+    let rows = words.as_chunks::<W>().0.get(index..)?;
+    rows.first_chunk::<4>().map(|rows| rows.as_flattened())
+}
+
+impl<S: Scalar> Layout for Spline<S> {
+    type Scalar = S;
+    const NAME: &'static str = "spline";
+    const CODE: u8 = 1;
+    const ROW: Row = Row {
+        head: 0,
+        halves: 2,
+        multiple: 1,
+        more: MORE,
+    };
+    const DEGREE: u8 = 3;
+    const COLUMN: usize = 1;
+    const STEP: i8 = S::STEP;
+    const CENTRE: f64 = 0.0;
+
+    #[inline]
+    fn cell<T>(words: &[T], index: usize, set: Set) -> Option<&[T]> {
+        match width(set) {
+            1 => rows::<T, 1>(words, index),
+            2 => rows::<T, 2>(words, index),
+            3 => rows::<T, 3>(words, index),
+            4 => rows::<T, 4>(words, index),
+            _ => rows::<T, 5>(words, index),
+        }
+    }
+    #[inline]
+    fn coefficients<R: Ring>(
+        cell: &[Word<Self>],
+        column: usize,
+        set: Set,
+        more: More<R>,
+        read: impl Fn(Word<Self>) -> R,
+    ) -> [R; 4] {
+        let point = |row: usize| word(cell, row * width(set) + column, &read);
+        let [p0, p1, p2, p3] = cubic([0, 1, 2, 3].map(point), S::STEP);
+        [p0 + more.offset, p1, p2, p3]
+    }
+    #[inline]
+    fn locate(phase: u32, cells: u32) -> (u32, Fraction<Self>) {
+        S::locate(phase, cells)
+    }
+    #[inline]
+    fn times(x: Raw<Self>, u: Fraction<Self>) -> Raw<Self> {
+        S::step(x, u)
+    }
+    fn stored(points: [f64; 4]) -> [f64; 4] {
+        points
+    }
+}
+
+impl Layout for Spline16 {
+    type Scalar = Q31;
+    const NAME: &'static str = "spline16";
+    const CODE: u8 = 4;
+    const ROW: Row = Row {
+        head: 0,
+        halves: 1,
+        multiple: 1,
+        more: MORE,
+    };
+    const DEGREE: u8 = 3;
+    const COLUMN: usize = 1;
+    const STEP: i8 = Q31::STEP;
+    const CENTRE: f64 = 0.0;
+    const HALVES: bool = true;
+
+    #[inline]
+    fn cell<T>(words: &[T], index: usize, set: Set) -> Option<&[T]> {
+        match Self::ROW.pitch(set) {
+            1 => rows::<T, 1>(words, index),
+            2 => rows::<T, 2>(words, index),
+            _ => rows::<T, 3>(words, index),
+        }
+    }
+    #[inline]
+    fn coefficients<R: Ring>(
+        cell: &[i32],
+        column: usize,
+        set: Set,
+        more: More<R>,
+        read: impl Fn(i32) -> R,
+    ) -> [R; 4] {
+        let half = |word| read(Self::half(word, column % 2 == 1));
+        let point = |row: usize| word(cell, row * Self::ROW.pitch(set) + column / 2, half);
+        let [p0, p1, p2, p3] = cubic([0, 1, 2, 3].map(point), Q31::STEP).map(|p| p * more.gain);
+        [p0 + more.offset, p1, p2, p3]
+    }
+    #[inline]
+    fn locate(phase: u32, cells: u32) -> (u32, Fraction<Self>) {
+        Q31::locate(phase, cells)
+    }
+    #[inline]
+    fn times(x: Raw<Self>, u: Fraction<Self>) -> Raw<Self> {
+        Q31::step(x, u)
+    }
+    fn stored(points: [f64; 4]) -> [f64; 4] {
+        points
+    }
+    #[inline]
+    fn half(word: i32, upper: bool) -> i32 {
+        if upper {
+            word >> 16
+        } else {
+            i32::from(word as i16)
+        }
+    }
+    fn unit(role: Role) -> f64 {
+        Q31::exact(role, Q31::raw(1))
+    }
+    fn with_half(word: i32, upper: bool, half: i32) -> Option<i32> {
+        let half = i32::from(i16::try_from(half).ok()?);
+        Some(if upper {
+            half << 16 | word & 0xffff
+        } else {
+            word & !0xffff | half & 0xffff
+        })
+    }
+}

@@ -1,0 +1,142 @@
+//! How a table's curves lie in memory, and how they are evaluated.
+//!
+//! The polynomial formats hold in each cell
+//!
+//! ```text
+//! f(u) = p0 + u·(p1 + u·(p2 + u·p3)),   u in [0, 1) within the cell
+//! ```
+//!
+//! whose value and slope come from the same coefficients. All curves of a cell lie side by side: one index, one contiguous
+//! read.
+//!
+//! | format | words a curve and cell | continuous | for |
+//! |---|---|---|---|
+//! | [`Spline`] | 1 | value, slope, curvature | the smallest table |
+//! | [`Spline16`] | ½ | as [`Spline`] | less than half of that, to about 1e-4 |
+//! | [`Cubic`] | 4 | as the curve it was made from | the fastest tick |
+//! | [`Quadratic`] | 3, rows padded to 4 | value, slope | the fastest tick without a long multiplication |
+//! | [`Rows16`] | 1, and 2 a cell | value, slope, but for the rounding of 16 bits | processors without a long multiplication |
+
+mod layout;
+mod row;
+mod rows16;
+
+pub(crate) use layout::cubic;
+pub use layout::{Constants, Cubic, Quadratic, Spline, Spline16};
+pub(crate) use row::Row;
+pub use rows16::{RowConstants, Rows16};
+
+use super::curves::Set;
+use super::samples::{Sample, Samples};
+use super::table::{CurveValues, Table};
+use super::{TableError, Usage};
+use crate::{Error, Number, Outcome, Phase, Scale};
+
+/// Words of the image's header for what a table has beside its rows.
+pub(crate) const CONSTANTS: usize = 11;
+
+/// A way to store and evaluate curves. Sealed: [`Spline`], [`Spline16`], [`Cubic`], [`Quadratic`], [`Rows16`].
+pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 'static {
+    /// Numbers that a tick takes and gives.
+    type Number: Number;
+    /// A word of the table.
+    type Word: bytemuck::Pod + Default + core::fmt::Debug + PartialEq;
+    /// What a table has beside its rows.
+    type Constants: Copy + core::fmt::Debug + Default + PartialEq;
+    /// What a tick takes beside the table: made once, by [`prepare`](Self::prepare).
+    #[doc(hidden)]
+    type Tick<'a>: Copy + core::fmt::Debug;
+
+    /// Name as the command line writes it.
+    const NAME: &'static str;
+    /// Codes of number type and format in the image's header; `None`: not stored in images.
+    #[doc(hidden)]
+    const CODES: Option<[u8; 2]>;
+    /// How long a row is.
+    #[doc(hidden)]
+    const ROW: Row;
+    /// Whether the machine units must suit the number of cells ([`Scale::for_cells`]).
+    const WHOLE_FACTOR: bool;
+    /// What a tick rounds away beside the curves, in units of the torque base, where it counts.
+    #[doc(hidden)]
+    const TICK_ROUNDING: f64 = 0.0;
+
+    /// Whether a table of this format can have this set of [`curves`](crate::curves).
+    fn accepts(set: Set) -> bool;
+    /// Whether the words are sound: checked once, when the table is built.
+    #[doc(hidden)]
+    fn check(table: &Table<'_, Self>) -> Result<(), TableError>;
+    /// All curves in machine units, the slope a cell.
+    #[doc(hidden)]
+    fn read(table: &Table<'_, Self>, phase: Phase) -> CurveValues;
+    /// All curves in SI units.
+    #[doc(hidden)]
+    fn si(table: &Table<'_, Self>, phase: Phase, cells_per_position: f64) -> CurveValues {
+        let read = Self::read(table, phase);
+        let [torque, speed, inertia] = bases(table.scale());
+        CurveValues {
+            inertia: read.inertia * inertia,
+            inertia_slope: read.inertia_slope * inertia * cells_per_position,
+            load: read.load * torque,
+            viscous: read.viscous * torque / speed,
+            coulomb: read.coulomb * torque,
+        }
+    }
+    /// 1/J in machine units.
+    #[doc(hidden)]
+    fn reciprocal(table: &Table<'_, Self>, phase: Phase) -> Option<f64>;
+    /// What of 1/J is not that of J, of a table that has it.
+    #[doc(hidden)]
+    fn reciprocal_error(table: &Table<'_, Self>) -> f32;
+
+    /// Fills all words of a table, and says what it has beside them.
+    #[doc(hidden)]
+    fn fill(
+        samples: &Samples<impl Fn(f64) -> Result<Sample, Error>>,
+        scratch: &mut [f64],
+        words: &mut [Self::Word],
+    ) -> Result<Self::Constants, Error>;
+    /// The base to enlarge when this curve of a row does not fit.
+    #[doc(hidden)]
+    fn base(curve: u8, set: Set) -> &'static str;
+
+    /// The constants, as the image's header holds them, and back.
+    #[doc(hidden)]
+    fn header(constants: &Self::Constants) -> [u32; CONSTANTS];
+    #[doc(hidden)]
+    fn from_header(header: &[u32; CONSTANTS]) -> Self::Constants;
+
+    /// What a table uses of the number range.
+    ///
+    /// # Errors
+    /// The first cell in which something does not fit.
+    #[doc(hidden)]
+    fn usage(table: &Table<'_, Self>) -> Result<Usage, TableError>;
+    /// Whether a table can be ticked, and what a tick takes beside it.
+    #[doc(hidden)]
+    fn prepare<'a>(table: &Table<'a, Self>) -> Result<Self::Tick<'a>, TableError>;
+    /// Inverse dynamics, of a table whose set is `set`: a model knows it when it is compiled.
+    #[doc(hidden)]
+    fn torque(
+        table: &Table<'_, Self>,
+        tick: &Self::Tick<'_>,
+        set: Set,
+        phase: Phase,
+        motion: [Self::Number; 2],
+    ) -> Self::Number;
+    /// Forward dynamics for several torques, as [`torque`](Self::torque).
+    #[doc(hidden)]
+    fn accelerations<const N: usize>(
+        table: &Table<'_, Self>,
+        tick: &Self::Tick<'_>,
+        set: Set,
+        phase: Phase,
+        omega: Self::Number,
+        torques: [Self::Number; N],
+    ) -> [Outcome<Self::Number>; N];
+}
+
+/// The bases of torque, speed and inertia in double precision.
+pub(crate) fn bases(scale: &Scale) -> [f64; 3] {
+    [scale.torque(), scale.speed(), scale.inertia()].map(f64::from)
+}

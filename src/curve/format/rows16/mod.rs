@@ -1,0 +1,212 @@
+//! Rows of 16-bit numbers, for processors without a long multiplication (Cortex-M0, M0+).
+//!
+//! The same equation as everywhere, in per-unit numbers [`Q15`]:
+//!
+//! ```text
+//! inverse:  T = J(φ)·α + (V(φ)·ω + b(φ))·ω − load(φ) + c(φ)·sgn ω,      V = ½·J′·ω_b²/T_b
+//! forward:  α = (T − (V(φ)·ω + b(φ))·ω + load(φ) − c(φ)·sgn ω)/J(φ)
+//! ```
+//!
+//! J and load are quadratics in every cell, made from uniform quadratic splines, V is the slope of J's: all three are
+//! continuous but for the rounding of their numbers, a unit of 2⁻¹⁵ or two. b, c and 1/J are straight lines from knot to knot. A
+//! [`Scale::limited_to`](crate::Scale::limited_to) makes the best of 16 bits.
+
+mod check;
+mod fill;
+mod fit;
+#[deny(clippy::float_arithmetic)]
+mod kernel;
+#[deny(clippy::float_arithmetic)]
+mod row;
+#[deny(clippy::float_arithmetic)]
+mod tick;
+
+use super::{CONSTANTS, Format, Row, bases};
+use crate::curve::curves::{self, Set, has};
+use crate::curve::samples::{Sample, Samples};
+use crate::curve::{CurveValues, Table, TableError, Usage};
+use crate::{Error, Outcome, Phase, Q15};
+
+/// Rows of packed 16-bit numbers: 12 bytes a cell, and 4 more for each of load, b(φ), c(φ) and 1/J. The words of a row are
+/// listed in `docs/table-image.md`.
+///
+/// 16 bits cannot go below an error of about three units of 2⁻¹⁵ of the torque base; with more cells the numbers of a cell become
+/// smaller, and the error does not. Forward dynamics takes one multiplication with [`curves::RECIPROCAL`], without it one division
+/// of 32 bits, which processors without a divider do in software.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rows16;
+
+/// What a table of [`Rows16`] has beside its rows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RowConstants {
+    /// b in units of 2⁻³⁰. Only with [`curves::CONSTANT_VISCOUS`].
+    pub viscous: i32,
+    /// c in units of 2⁻³¹. Only with [`curves::CONSTANT_COULOMB`].
+    pub coulomb: i32,
+    /// k: 1/J is stored in units of 2⁻ᵏ, k = 0 … 15. Only with [`curves::RECIPROCAL`].
+    pub shift: u32,
+}
+
+const ONE_Q15: f64 = 1.0 / 32_768.0;
+const ONE_Q31: f64 = 1.0 / 2_147_483_648.0;
+
+/// The words of a cell.
+fn row_of<'a>(table: &Table<'a, Rows16>, cell: u32) -> &'a [u32] {
+    let words = row::length(table.set());
+    let mut rows = table.words().chunks_exact(words);
+    rows.nth(cell as usize).unwrap_or_default()
+}
+
+/// What a line of the row at `phase` reads, if the set has this curve.
+fn line(table: &Table<'_, Rows16>, phase: Phase, curve: Set, index: usize) -> f64 {
+    if !has(table.set(), curve) {
+        return 0.0;
+    }
+    let (cell, u) = kernel::locate(phase, table.cells());
+    f64::from(kernel::line(row::at(row_of(table, cell as u32), index), u))
+}
+
+/// V
+fn velocity(table: &Table<'_, Rows16>, phase: Phase) -> f64 {
+    let (cell, u) = kernel::locate(phase, table.cells());
+    let word = row::at(row_of(table, cell as u32), row::velocity(table.set()));
+    f64::from(kernel::line(word, u)) * ONE_Q15
+}
+
+impl Format for Rows16 {
+    type Number = Q15;
+    type Word = u32;
+    type Constants = RowConstants;
+    type Tick<'a> = tick::Tick<'a>;
+
+    const NAME: &'static str = "rows";
+    const CODES: Option<[u8; 2]> = Some([3, 5]);
+    const ROW: Row = Row {
+        head: 2,
+        halves: 2,
+        multiple: 1,
+        more: 0,
+    };
+    const WHOLE_FACTOR: bool = false;
+    /// Half a unit of the result, and half a unit of 2⁻¹⁶ of V·ω + b.
+    const TICK_ROUNDING: f64 = 0.75 / 32_768.0;
+
+    fn accepts(set: Set) -> bool {
+        curves::is_known(set)
+    }
+
+    fn check(table: &Table<'_, Self>) -> Result<(), TableError> {
+        check::all(table)
+    }
+
+    fn read(table: &Table<'_, Self>, phase: Phase) -> CurveValues {
+        let set = table.set();
+        let (cell, u) = kernel::locate(phase, table.cells());
+        let row = row_of(table, cell as u32);
+        let word = |index| row::at(row, index);
+        let start = word(row::start(set));
+        let load = if has(set, curves::LOAD) {
+            // Half a unit of 2⁻¹⁵ rounds the torque.
+            32_768.0 - f64::from(kernel::minus_load(0, word(0), start, u))
+        } else {
+            0.0
+        };
+        let constant = |of: Set, number: i32| f64::from(if has(set, of) { number } else { 0 });
+        let constants = table.constants();
+        let [torque, speed, inertia] = bases(table.scale());
+        let span = table.domain().to::<f64>().span();
+        CurveValues {
+            inertia: f64::from(kernel::inertia(word(row::inertia(set)), start, u)) / 65_536.0,
+            inertia_slope: 2.0 * velocity(table, phase) * torque / (speed * speed) / inertia * span
+                / f64::from(table.cells()),
+            load: load * ONE_Q31,
+            viscous: line(table, phase, curves::VISCOUS, row::viscous(set)) * ONE_Q15
+                + 2.0 * constant(curves::CONSTANT_VISCOUS, constants.viscous) * ONE_Q31,
+            coulomb: line(table, phase, curves::COULOMB, row::coulomb(set)).abs() * ONE_Q15
+                + constant(curves::CONSTANT_COULOMB, constants.coulomb) * ONE_Q31,
+        }
+    }
+
+    fn si(table: &Table<'_, Self>, phase: Phase, _: f64) -> CurveValues {
+        let read = Self::read(table, phase);
+        let [torque, speed, inertia] = bases(table.scale());
+        CurveValues {
+            inertia: read.inertia * inertia,
+            inertia_slope: 2.0 * velocity(table, phase) * torque / (speed * speed),
+            load: read.load * torque,
+            viscous: read.viscous * torque / speed,
+            coulomb: read.coulomb * torque,
+        }
+    }
+
+    fn reciprocal(table: &Table<'_, Self>, phase: Phase) -> Option<f64> {
+        let index = row::reciprocal(table.set());
+        let unit = f64::from(1u32 << table.constants().shift.min(15));
+        Some(line(table, phase, curves::RECIPROCAL, index) / unit)
+    }
+
+    fn reciprocal_error(table: &Table<'_, Self>) -> f32 {
+        check::reciprocal_error(table)
+    }
+
+    fn fill(
+        samples: &Samples<impl Fn(f64) -> Result<Sample, Error>>,
+        scratch: &mut [f64],
+        words: &mut [u32],
+    ) -> Result<RowConstants, Error> {
+        fill::fill(samples, scratch, words)
+    }
+
+    fn base(curve: u8, set: Set) -> &'static str {
+        if usize::from(curve) == row::inertia(set) {
+            "inertia"
+        } else {
+            "torque"
+        }
+    }
+
+    fn header(constants: &RowConstants) -> [u32; CONSTANTS] {
+        let [viscous, coulomb] = [constants.viscous, constants.coulomb].map(i32::cast_unsigned);
+        [constants.shift, viscous, coulomb, 0, 0, 0, 0, 0, 0, 0, 0]
+    }
+
+    fn from_header(&[shift, viscous, coulomb, ..]: &[u32; CONSTANTS]) -> RowConstants {
+        RowConstants {
+            viscous: viscous.cast_signed(),
+            coulomb: coulomb.cast_signed(),
+            shift,
+        }
+    }
+
+    fn usage(table: &Table<'_, Self>) -> Result<Usage, TableError> {
+        Ok(check::usage(table))
+    }
+
+    fn prepare<'a>(table: &Table<'a, Self>) -> Result<tick::Tick<'a>, TableError> {
+        check::velocity(table)?;
+        tick::Tick::new(table)
+    }
+
+    #[inline]
+    fn torque(
+        _: &Table<'_, Self>,
+        tick: &tick::Tick<'_>,
+        set: Set,
+        phase: Phase,
+        [omega, alpha]: [Q15; 2],
+    ) -> Q15 {
+        tick.torque(set, phase, omega, alpha)
+    }
+
+    #[inline]
+    fn accelerations<const N: usize>(
+        _: &Table<'_, Self>,
+        tick: &tick::Tick<'_>,
+        set: Set,
+        phase: Phase,
+        omega: Q15,
+        torques: [Q15; N],
+    ) -> [Outcome<Q15>; N] {
+        tick.accelerations(set, phase, omega, torques)
+    }
+}

@@ -1,0 +1,141 @@
+//! Tables: words and what they stand for, checked.
+
+use super::curves::{self, Set};
+use super::{Format, MIN_CELLS, TableError};
+use crate::{Domain, Number, Phase, Scale};
+
+/// Most cells of a table: an index has 16 bits.
+pub const MAX_CELLS: u32 = 65_535;
+
+/// Words of a table of `cells` cells: for buffers whose length is known when the program is compiled.
+#[must_use]
+pub const fn words_len<F: Format>(cells: u32, set: Set) -> usize {
+    F::ROW.words(cells as usize, set)
+}
+
+/// What the words of a table stand for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape<F: Format> {
+    /// The set of [`curves`].
+    pub set: Set,
+    /// Number of cells.
+    pub cells: u32,
+    /// Range of the drive link.
+    pub domain: Domain<<F::Number as Number>::Real>,
+    /// Machine units.
+    pub scale: Scale,
+    /// What a table has beside its rows.
+    pub constants: F::Constants,
+}
+
+/// The curves of a reduced machine, in RAM or in flash, checked.
+#[derive(Clone, Copy, Debug)]
+pub struct Table<'a, F: Format> {
+    words: &'a [F::Word],
+    shape: Shape<F>,
+}
+
+/// All curves at one phase; zero where the machine has none.
+///
+/// In double precision: for checks, not for the tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CurveValues {
+    /// J_red
+    pub inertia: f64,
+    /// dJ_red/dφ
+    pub inertia_slope: f64,
+    /// −U′ + process
+    pub load: f64,
+    /// b
+    pub viscous: f64,
+    /// c
+    pub coulomb: f64,
+}
+
+impl<'a, F: Format> Table<'a, F> {
+    /// Checks `words`, as [`tabulate`](crate::tabulate) makes them.
+    ///
+    /// # Errors
+    /// What [`TableError`] lists. A table that passes can be read at any phase.
+    pub fn new(words: &'a [F::Word], shape: Shape<F>) -> Result<Self, TableError> {
+        if !F::accepts(shape.set) {
+            return Err(TableError::Curves(shape.set));
+        }
+        if shape.cells < MIN_CELLS as u32 || shape.cells > MAX_CELLS {
+            return Err(TableError::Cells(shape.cells));
+        }
+        let (needed, given) = (words_len::<F>(shape.cells, shape.set), words.len());
+        if given != needed {
+            return Err(TableError::Length {
+                needed: needed as u32,
+                given: given as u32,
+            });
+        }
+        let table = Self { words, shape };
+        F::check(&table)?;
+        Ok(table)
+    }
+
+    /// What the words stand for.
+    pub const fn shape(&self) -> Shape<F> {
+        self.shape
+    }
+
+    /// Number of cells.
+    pub const fn cells(&self) -> u32 {
+        self.shape.cells
+    }
+
+    /// The set of [`curves`].
+    pub const fn set(&self) -> Set {
+        self.shape.set
+    }
+
+    /// Range of the drive link.
+    pub const fn domain(&self) -> Domain<<F::Number as Number>::Real> {
+        self.shape.domain
+    }
+
+    /// Machine units.
+    pub const fn scale(&self) -> &Scale {
+        &self.shape.scale
+    }
+
+    /// What it has beside its rows.
+    pub const fn constants(&self) -> &F::Constants {
+        &self.shape.constants
+    }
+
+    /// The rows, as they are stored.
+    pub const fn words(&self) -> &'a [F::Word] {
+        self.words
+    }
+
+    /// All curves at `phase` in machine units, in the arithmetic of the tick; the slope is that by rad (or m).
+    pub fn at(&self, phase: Phase) -> CurveValues {
+        let mut read = F::read(self, phase);
+        read.inertia_slope *= f64::from(self.cells()) / self.domain().to::<f64>().span();
+        read
+    }
+
+    /// All curves at `phase` in SI units. `domain` is the range in double precision, which a table holds only in its own.
+    pub fn si(&self, phase: Phase, domain: Domain) -> CurveValues {
+        F::si(self, phase, f64::from(self.cells()) / domain.span())
+    }
+
+    /// 1/J_red at `phase` in machine units; `None` without [`curves::RECIPROCAL`].
+    pub fn reciprocal(&self, phase: Phase) -> Option<f64> {
+        curves::has(self.set(), curves::RECIPROCAL).then(|| F::reciprocal(self, phase))?
+    }
+
+    /// How far forward and inverse dynamics disagree, as a part of the acceleration: what is left of 1/J's own curve. 0 without
+    /// [`curves::RECIPROCAL`], where forward dynamics divides.
+    pub fn reciprocal_error(&self) -> f32 {
+        if curves::has(self.set(), curves::RECIPROCAL) {
+            F::reciprocal_error(self)
+        } else {
+            0.0
+        }
+    }
+}

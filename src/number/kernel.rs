@@ -1,0 +1,230 @@
+//! The arithmetic behind polynomials and the equation of motion, for each number type.
+
+use core::fmt;
+use core::ops::{Add, Mul, Sub};
+
+use super::{Number, Outcome, Role, Scale};
+
+/// What coefficients of a cell are computed in.
+pub trait Ring:
+    Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+{
+    /// A small multiple.
+    fn times(self, factor: i8) -> Self;
+    /// A whole number.
+    fn whole(number: u16) -> Self;
+}
+
+/// The arithmetic behind a tick. Not nameable outside the crate: it may change with every release.
+///
+/// A curve is evaluated in [`Raw`](Self::Raw) numbers, in a format that its [`Role`] fixes; see `fixed` for those of the
+/// fixed-point types. For floating point every format is the plain number.
+pub trait Kernel: Number {
+    /// A number as it lies in a table image.
+    type Word: bytemuck::Pod + Default + fmt::Debug + PartialEq;
+    /// What polynomials are evaluated and torques are summed in.
+    type Raw: Ring;
+    /// As `Raw`, wide enough that no check overflows.
+    type Wide: Ring;
+    /// A constant to multiply slopes by, of any size.
+    type Factor: Copy + fmt::Debug + PartialEq;
+    /// Constants of forward dynamics without a division.
+    type Reciprocal: Copy + Default + fmt::Debug + PartialEq;
+    /// A place within a cell, 0 to 1.
+    type Fraction: Copy;
+    /// Code in the image header; `None`: not stored in images.
+    const CODE: Option<u8>;
+    /// What [`step`](Self::step) divides by.
+    const STEP: i8;
+    /// The place in a cell that the polynomials of rows are about.
+    const ROW_CENTRE: f64;
+
+    fn raw(word: Self::Word) -> Self::Raw;
+    /// The nearest word for a coefficient in machine units, if it is in range.
+    fn word(role: Role, coefficient: f64) -> Option<Self::Word>;
+    fn widen(raw: Self::Raw) -> Self::Wide;
+    /// A coefficient or sum in machine units, in single precision: for checks without double precision in firmware.
+    fn approximate(role: Role, wide: Self::Wide) -> f32;
+    /// A coefficient in machine units.
+    fn exact(role: Role, raw: Self::Raw) -> f64;
+    /// Whether a cell can be evaluated anywhere without overflow, NaN or infinity.
+    fn is_sound(coefficients: [Self::Wide; 4]) -> bool;
+
+    /// ½·cells/span·J_b·ω_b²/T_b: the velocity torque at the speed base is this times dJ/du. For a slope that is stored
+    /// times `step`.
+    fn velocity_factor(
+        cells: u32,
+        span: Self::Real,
+        scale: &Scale,
+        step: i8,
+    ) -> Option<Self::Factor>;
+
+    /// The cell that a phase lies in, and where.
+    fn locate(phase: u32, cells: u32) -> (u32, Self::Fraction);
+    /// As `locate`, the place from `ROW_CENTRE` on.
+    #[inline]
+    fn locate_row(phase: u32, cells: u32) -> (u32, Self::Fraction) {
+        Self::locate(phase, cells)
+    }
+    /// As `locate_row`, to 2⁻¹⁶ of a cell.
+    #[inline]
+    fn locate_row_short(phase: u32, cells: u32) -> (u32, Self::Fraction) {
+        Self::locate_row(phase, cells)
+    }
+    /// x·u/STEP, for a place of `locate`.
+    fn step(x: Self::Raw, u: Self::Fraction) -> Self::Raw;
+    /// x·u, for a place of `locate_row`.
+    #[inline]
+    fn row_step(x: Self::Raw, u: Self::Fraction) -> Self::Raw {
+        Self::step(x, u)
+    }
+    /// x·u, for a place of `locate_row_short`.
+    #[inline]
+    fn row_step_short(x: Self::Raw, u: Self::Fraction) -> Self::Raw {
+        Self::row_step(x, u)
+    }
+
+    fn magnitude(raw: Self::Raw) -> Self::Raw;
+    /// ½·J′·ω_b²/T_b·ω from the slope: a coefficient that adds to b.
+    fn velocity(slope: Self::Raw, factor: Self::Factor, omega: Self) -> Self::Raw;
+    /// a·b: J·α, or (½·J′·ω + b)·ω.
+    fn product(a: Self::Raw, b: Self) -> Self::Raw;
+    /// sum + a·b
+    #[inline]
+    fn accumulate(sum: Self::Raw, a: Self::Raw, b: Self) -> Self::Raw {
+        sum + Self::product(a, b)
+    }
+    /// sum + c·sgn ω; nothing for ω = 0.
+    fn add_signed(sum: Self::Raw, c: Self::Raw, omega: Self) -> Self::Raw;
+    /// The sum as a torque. It fits: `Model::new` saw to it.
+    fn torque(sum: Self::Raw) -> Self;
+    /// (torque − resisting)/J
+    fn quotient(torque: Self, resisting: Self::Raw, inertia: Self::Raw) -> Outcome<Self>;
+    /// What `by_reciprocal` needs, from J and J_m/J at one place, and |1 − J·(1/J)|; `None` if they do not belong together.
+    fn reciprocal_of(inertia: Self::Raw, reciprocal: Self::Raw) -> Option<(Self::Reciprocal, f32)>;
+    /// J_m, in machine units.
+    fn reciprocal_unit(constants: Self::Reciprocal) -> f32;
+    /// As `quotient`, with J_m/J; with one step of Newton's iteration if J is given.
+    fn by_reciprocal(
+        torque: Self,
+        resisting: Self::Raw,
+        reciprocal: Self::Raw,
+        constants: Self::Reciprocal,
+        inertia: Option<Self::Raw>,
+    ) -> Outcome<Self>;
+}
+
+macro_rules! float {
+    ($float:ident, $code:expr) => {
+        impl Ring for $float {
+            #[inline]
+            fn times(self, factor: i8) -> Self {
+                self * $float::from(factor)
+            }
+            #[inline]
+            fn whole(number: u16) -> Self {
+                $float::from(number)
+            }
+        }
+
+        impl Kernel for $float {
+            type Word = $float;
+            type Raw = $float;
+            type Wide = $float;
+            type Factor = $float;
+            type Reciprocal = ();
+            type Fraction = $float;
+            const CODE: Option<u8> = $code;
+            const STEP: i8 = 1;
+            const ROW_CENTRE: f64 = 0.0;
+
+            #[inline]
+            fn raw(word: $float) -> $float {
+                word
+            }
+            fn word(_: Role, coefficient: f64) -> Option<$float> {
+                <Self as Number>::from_f64(coefficient)
+            }
+            fn widen(raw: $float) -> $float {
+                raw
+            }
+            fn approximate(_: Role, wide: $float) -> f32 {
+                wide as f32
+            }
+            fn exact(_: Role, raw: $float) -> f64 {
+                raw as f64
+            }
+            fn is_sound(coefficients: [$float; 4]) -> bool {
+                // Far below the largest number, no sum of a few such products overflows.
+                coefficients.iter().all(|c| c.abs() < 1e30)
+            }
+            fn velocity_factor(cells: u32, span: $float, scale: &Scale, _: i8) -> Option<$float> {
+                let bases = scale.velocity_base() as $float;
+                let factor = 0.5 * cells as $float / span * bases;
+                (factor.is_finite() && factor > 0.0).then_some(factor)
+            }
+            #[inline]
+            fn locate(phase: u32, cells: u32) -> (u32, $float) {
+                let (cell, fraction) = crate::number::phase::cell(phase, cells);
+                (cell, fraction as $float * (1.0 / 4_294_967_296.0))
+            }
+            #[inline]
+            fn step(x: $float, u: $float) -> $float {
+                x * u
+            }
+            #[inline]
+            fn magnitude(raw: $float) -> $float {
+                raw.abs()
+            }
+            #[inline]
+            fn velocity(slope: $float, factor: $float, omega: $float) -> $float {
+                slope * factor * omega
+            }
+            #[inline]
+            fn product(a: $float, b: $float) -> $float {
+                a * b
+            }
+            #[inline]
+            fn add_signed(sum: $float, c: $float, omega: $float) -> $float {
+                if omega > 0.0 {
+                    sum + c
+                } else if omega < 0.0 {
+                    sum - c
+                } else {
+                    sum
+                }
+            }
+            #[inline]
+            fn torque(sum: $float) -> $float {
+                sum
+            }
+            #[inline]
+            fn quotient(torque: $float, resisting: $float, inertia: $float) -> Outcome<$float> {
+                Outcome {
+                    value: (torque - resisting) / inertia,
+                    saturated: false,
+                }
+            }
+            fn reciprocal_of(_: $float, _: $float) -> Option<((), f32)> {
+                None
+            }
+            fn reciprocal_unit((): ()) -> f32 {
+                1.0
+            }
+            #[inline]
+            fn by_reciprocal(
+                torque: $float,
+                resisting: $float,
+                reciprocal: $float,
+                (): (),
+                _: Option<$float>,
+            ) -> Outcome<$float> {
+                // Not reached: `Table::new` refuses a reciprocal in floating point.
+                Self::quotient(torque * reciprocal, resisting * reciprocal, 1.0)
+            }
+        }
+    };
+}
+
+float!(f32, Some(1));
+float!(f64, None);

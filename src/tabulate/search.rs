@@ -1,0 +1,158 @@
+//! The smallest table that meets a torque error.
+
+use super::measure::{measure, measure_until};
+use super::near::{Look, meets_near, search_near};
+use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, Tabulated, fill};
+use crate::curve::{Format, MAX_CELLS, MIN_CELLS, Set, Table};
+use crate::machine::Reducible;
+use crate::{Error, Scale};
+
+/// Finds the table with the fewest cells that meets the request, fills `words` with it, and says how exact it is.
+///
+/// Sizes that grow by a quarter each are tried until one meets the request; then the sizes below it: every one of them from
+/// the smallest on, up to [`EXHAUSTIVE`] cells, and beyond by bisection, which takes for granted that more cells err less. A
+/// candidate is dropped at its first position that misses, which is looked for first where the one before it was worst. In the
+/// bisection only the cells near the worst position are looked at; the size that comes out is checked at all places, and
+/// larger ones after it if it misses. In fixed point the machine units of the table are those in [`Tabulated::scale`].
+///
+/// # Errors
+/// [`Error::TorqueErrorNotReached`] if none of the growing sizes up to `max_cells` does, with the best of them;
+/// [`Error::Table`] if a fixed-point model cannot be made of the largest; otherwise as [`fill`](fill()).
+pub fn tabulate<F: Format>(
+    machine: &impl Reducible,
+    set: Set,
+    request: &Request,
+    scale: &Scale,
+    scratch: &mut [f64],
+    words: &mut [F::Word],
+) -> Result<Tabulated, Error> {
+    request.check()?;
+    let (mut worst, mut near) = (0.0, None);
+    let found = search_near(request, |cells, look| {
+        let Ok(table) = candidate::<F>(machine, set, cells, scale, scratch, words) else {
+            return Ok(None);
+        };
+        // Where the roundings of 16 bits make most of the error, it is worst now here, now there.
+        if look == Look::Near && cells > EXHAUSTIVE && F::TICK_ROUNDING == 0.0 {
+            return meets_near(machine, &table, request, &mut near);
+        }
+        meets(request, &mut worst, |from| {
+            measure_until(machine, &table, request, from, true)
+        })
+    })?;
+    let Some(found) = found else {
+        return Err(not_reached(request, |cells| {
+            let table = candidate::<F>(machine, set, cells, scale, scratch, words)?;
+            measure(machine, &table, request)
+        }));
+    };
+    candidate::<F>(machine, set, found.cells, scale, scratch, words)?;
+    Ok(found)
+}
+
+/// The table of so many cells, in machine units that suit it, if a model can be made of it.
+fn candidate<'w, F: Format>(
+    machine: &impl Reducible,
+    set: Set,
+    cells: u32,
+    scale: &Scale,
+    scratch: &mut [f64],
+    words: &'w mut [F::Word],
+) -> Result<Table<'w, F>, Error> {
+    let mut scale = *scale;
+    if F::WHOLE_FACTOR {
+        scale = scale.for_cells(cells, machine.domain().span());
+    }
+    let table = fill::<F>(machine, set, cells, &scale, scratch, words)?;
+    F::prepare(&table).map_err(Error::Table)?;
+    Ok(table)
+}
+
+/// The sizes of a table from few cells to `request.max_cells`, growing by a quarter.
+fn sizes(request: &Request) -> impl Iterator<Item = u32> {
+    let least = MIN_CELLS as u32;
+    let most = request.max_cells.clamp(least, MAX_CELLS);
+    core::iter::successors(Some(least), move |cells| {
+        (*cells < most).then(|| (cells + cells.div_ceil(4)).min(most))
+    })
+}
+
+/// The smallest size that `meets` says yes to, as [`tabulate`] looks for it.
+pub(super) fn search(
+    request: &Request,
+    mut meets: impl FnMut(u32) -> Result<Option<Tabulated>, Error>,
+) -> Result<Option<Tabulated>, Error> {
+    let mut below = 0; // the largest size known to miss
+    let mut best = None;
+    for cells in sizes(request) {
+        best = meets(cells)?;
+        if best.is_some() {
+            break;
+        }
+        below = cells;
+    }
+    let Some(mut best) = best else {
+        return Ok(None);
+    };
+    for cells in MIN_CELLS as u32..best.cells.min(EXHAUSTIVE) {
+        if let Some(found) = meets(cells)? {
+            return Ok(Some(found));
+        }
+    }
+    below = below.max(EXHAUSTIVE.min(best.cells) - 1);
+    while below + 1 < best.cells {
+        let middle = below.midpoint(best.cells);
+        match meets(middle)? {
+            Some(found) => best = found,
+            None => below = middle,
+        }
+    }
+    Ok(Some(best))
+}
+
+/// What `measure` says of a candidate that meets the request, looked at first in few places, and where the one before it was
+/// worst.
+fn meets(
+    request: &Request,
+    worst: &mut f64,
+    measure: impl Fn((f64, u32)) -> Result<Tabulated, Error>,
+) -> Result<Option<Tabulated>, Error> {
+    let mut found = Tabulated::default();
+    for checks in [COARSE_CHECKS, CHECKS_PER_CELL] {
+        found = measure((*worst, checks))?;
+        *worst = found.worst;
+        if found.torque_error > request.torque_error {
+            return Ok(None);
+        }
+    }
+    Ok(Some(found))
+}
+
+/// The best that any of the growing sizes reaches, or why the largest is no table at all.
+fn not_reached(
+    request: &Request,
+    mut measured: impl FnMut(u32) -> Result<Tabulated, Error>,
+) -> Error {
+    let mut best = Tabulated {
+        torque_error: f64::INFINITY,
+        ..Tabulated::default()
+    };
+    let mut refused = None;
+    for cells in sizes(request) {
+        // A coarse curve may dip below zero or overshoot: more cells cure it. What the largest size says counts.
+        refused = match measured(cells) {
+            Ok(found) => {
+                if found.torque_error < best.torque_error {
+                    best = found;
+                }
+                None
+            }
+            Err(error) => Some(error),
+        };
+    }
+    refused.unwrap_or(Error::TorqueErrorNotReached {
+        asked: request.torque_error,
+        reached: best.torque_error,
+        cells: best.cells,
+    })
+}

@@ -1,0 +1,138 @@
+//! One size of a table of one format: looked at, made, and ticked.
+
+use jred::image::{encode, image_len};
+use jred::table::words_len;
+use jred::tabulate::{self, Request, Tabulated};
+use jred::{Error, Format, Image, Reducible as _, Scale, Set, Table, Usage, Validity};
+
+use super::search::Search;
+use super::ticks::{self, Ticks};
+
+/// A size to look at.
+pub(super) struct Size<'s> {
+    pub(super) search: &'s Search<'s>,
+    pub(super) set: Set,
+    pub(super) cells: u32,
+    pub(super) scale: Scale,
+}
+
+/// A table with its image.
+pub(super) struct Made {
+    pub(super) found: Tabulated,
+    /// The largest torque error: of what was measured place by place, and of the ticks.
+    pub(super) error: f64,
+    pub(super) usage: Usage,
+    pub(super) ticks: Ticks,
+    pub(super) row_bytes: usize,
+    pub(super) words: Vec<u32>,
+}
+
+/// Numbers that a table is made of.
+pub(super) struct Buffers<F: Format> {
+    scratch: Vec<f64>,
+    words: Vec<F::Word>,
+}
+
+impl<F: Format> Default for Buffers<F> {
+    fn default() -> Self {
+        Self {
+            scratch: Vec::new(),
+            words: Vec::new(),
+        }
+    }
+}
+
+/// Bytes of an image.
+pub(super) fn bytes<F: Format>(cells: u32, set: Set) -> usize {
+    4 * image_len::<F>(cells, set)
+}
+
+impl Size<'_> {
+    /// The table of this size.
+    fn fill<'w, F: Format>(&self, buffers: &'w mut Buffers<F>) -> Result<Table<'w, F>, Error> {
+        let Self {
+            search,
+            set,
+            cells,
+            scale,
+        } = self;
+        let Buffers { scratch, words } = buffers;
+        scratch.resize(tabulate::scratch_len(*cells, *set), 0.0);
+        words.resize(words_len::<F>(*cells, *set), F::Word::default());
+        tabulate::fill::<F>(&search.knots, *set, *cells, scale, scratch, words)
+    }
+
+    /// The largest torque error at the places of the reference, and where: see [`Reference::error`](super::reference::Reference).
+    pub(super) fn look<F: Format>(
+        &self,
+        buffers: &mut Buffers<F>,
+        from: (usize, f64),
+    ) -> Result<(f64, usize), Error> {
+        let table = self.fill(buffers)?;
+        // No tick leaves the number range.
+        Usage::of(&table).map_err(Error::Table)?;
+        let Search {
+            reference, domain, ..
+        } = self.search;
+        let read = |phase| table.si(phase, *domain);
+        Ok(reference.error(read, self.search.goal.range, from))
+    }
+
+    /// The table and its image, if the table meets the request everywhere, its ticks included; `looked` is what
+    /// [`look`](Self::look) has found.
+    pub(super) fn make<F: Format>(
+        &self,
+        buffers: &mut Buffers<F>,
+        request: &Request,
+        looked: f64,
+    ) -> Result<Option<Made>, Error> {
+        let search = self.search;
+        let table = self.fill(buffers)?;
+        let usage = Usage::of(&table).map_err(Error::Table)?;
+        let found = tabulate::measure(search.machine, &table, request)?;
+        if found.bound > request.torque_error {
+            return Ok(None);
+        }
+        let mut words = vec![0; image_len::<F>(self.cells, self.set)];
+        let mut image = |error: f64| {
+            encode(&table, validity(&found, request, error), &mut words).map(<[u32]>::to_vec)
+        };
+        let made = image(found.bound)?;
+        let made = Image::new(&made).map_err(ticks::refusal)?;
+        let ticks = ticks::measure::<F>(&made, &search.reference, search.goal.range)?;
+        let error = found.bound.max(looked).max(ticks.torque);
+        if error > request.torque_error {
+            return Ok(None);
+        }
+        let words = image(error)?;
+        Ok(Some(Made {
+            found,
+            error,
+            usage,
+            ticks,
+            row_bytes: size_of_val(table.words()),
+            words,
+        }))
+    }
+
+    /// The torque error of a table in double precision, which is what is left without roundings, and where it is largest.
+    pub(super) fn without_rounding<F: Format>(&self) -> Result<(f64, f64), Error> {
+        let (error, index) = self.look::<F>(&mut Buffers::default(), (0, f64::INFINITY))?;
+        let worst = self.search.reference.places.get(index);
+        Ok((error, worst.map_or(0.0, |place| place.phi)))
+    }
+}
+
+/// What the image says of itself: the error in single precision, not rounded down.
+fn validity(found: &Tabulated, request: &Request, error: f64) -> Validity {
+    let nearest = error as f32;
+    let torque_error = if f64::from(nearest) < error {
+        nearest.next_up()
+    } else {
+        nearest
+    };
+    Validity {
+        torque_error,
+        ..found.validity(request)
+    }
+}
