@@ -1,5 +1,10 @@
 //! One cell of a table and the place in it: the curves there, and the terms of the equation of motion.
 
+#![allow(
+    clippy::inline_always,
+    reason = "the set of curves is a constant of the tick that all of this is part of"
+)]
+
 use super::{Constants, Fraction, Layout, More, Raw, Word};
 use crate::Phase;
 use crate::curve::Table;
@@ -17,7 +22,7 @@ pub(super) struct Cell<'a, L: Layout> {
 impl<'a, L: Layout> Cell<'a, L> {
     /// The cell around `phase`, of a table whose set is `set`: a model knows it when it is compiled. Always `Some`: the
     /// length was checked when the table was built, but saying so costs a compare, not a panic path.
-    #[inline]
+    #[inline(always)]
     pub(super) fn at(table: &'a Table<'_, L>, phase: Phase, set: Set) -> Option<Self> {
         let (index, u) = L::locate(phase.to_bits(), table.cells());
         Some(Self {
@@ -29,27 +34,27 @@ impl<'a, L: Layout> Cell<'a, L> {
     }
 
     /// Coefficients of a curve of the set.
-    #[inline]
+    #[inline(always)]
     fn coefficients(&self, role: Role, column: usize) -> [Raw<L>; 4] {
         let more = self.constants.more::<L>(role);
         L::coefficients(self.words, column, self.set, more, L::Scalar::raw)
     }
 
     /// J, and its slope a cell times the layout's step.
-    #[inline]
+    #[inline(always)]
     pub(super) fn inertia(&self) -> (Raw<L>, Raw<L>) {
         L::value_and_slope(self.coefficients(Role::Inertia, 0), self.u)
     }
 
     /// A curve that the table may have.
-    #[inline]
+    #[inline(always)]
     pub(super) fn curve(&self, role: Role) -> Option<Raw<L>> {
         let column = role.column(self.set)?;
         Some(L::value(self.coefficients(role, column), self.u))
     }
 
     /// b
-    #[inline]
+    #[inline(always)]
     pub(super) fn viscous(&self) -> Option<Raw<L>> {
         if has(self.set, curves::CONSTANT_VISCOUS) {
             return Some(L::Scalar::raw(self.constants.viscous));
@@ -58,7 +63,7 @@ impl<'a, L: Layout> Cell<'a, L> {
     }
 
     /// |c|
-    #[inline]
+    #[inline(always)]
     pub(super) fn coulomb(&self) -> Option<Raw<L>> {
         if has(self.set, curves::CONSTANT_COULOMB) {
             return Some(L::Scalar::raw(self.constants.coulomb));
@@ -67,7 +72,7 @@ impl<'a, L: Layout> Cell<'a, L> {
     }
 
     /// ½·J′·ω + b
-    #[inline]
+    #[inline(always)]
     pub(super) fn speed_coefficient(
         &self,
         slope: Raw<L>,
@@ -79,7 +84,7 @@ impl<'a, L: Layout> Cell<'a, L> {
     }
 
     /// sum − load + c·sgn ω, of the curves that the machine has.
-    #[inline]
+    #[inline(always)]
     pub(super) fn with_load_and_friction(&self, sum: Raw<L>, omega: L::Scalar) -> Raw<L> {
         let sum = self.curve(Role::Load).map_or(sum, |load| sum - load);
         let coulomb = self.coulomb();
@@ -88,7 +93,7 @@ impl<'a, L: Layout> Cell<'a, L> {
 }
 
 impl<W: Copy> Constants<W> {
-    #[inline]
+    #[inline(always)]
     fn more<L: Layout>(&self, role: Role) -> More<Raw<L>>
     where
         L::Scalar: Kernel<Word = W>,

@@ -1,5 +1,10 @@
 //! Formats that hold a polynomial for each curve and cell.
 
+#![allow(
+    clippy::inline_always,
+    reason = "the set of curves is a constant of the tick that all of this is part of"
+)]
+
 mod cell;
 mod check;
 mod fill;
@@ -217,7 +222,7 @@ impl<L: Layout> Format for L {
         check::model(table)
     }
 
-    #[inline]
+    #[inline(always)]
     fn torque(
         table: &Table<'_, L>,
         tick: &Self::Tick<'_>,
@@ -234,7 +239,7 @@ impl<L: Layout> Format for L {
         L::Scalar::torque(cell.with_load_and_friction(sum, omega))
     }
 
-    #[inline]
+    #[inline(always)]
     fn accelerations<const N: usize>(
         table: &Table<'_, L>,
         tick: &Self::Tick<'_>,

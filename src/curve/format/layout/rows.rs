@@ -16,7 +16,7 @@ pub struct Cubic<S>(PhantomData<S>);
 pub struct Quadratic<S>(PhantomData<S>);
 
 /// The index-th run of N words. The compiler knows the length of what comes back, so that reads from it need no check.
-#[inline]
+#[inline(always)]
 fn run<T, const N: usize>(words: &[T], index: usize) -> Option<&[T]> {
     words.as_chunks::<N>().0.get(index).map(<[T; N]>::as_slice)
 }
@@ -34,7 +34,7 @@ impl<S: Scalar> Layout for Cubic<S> {
     const DEGREE: u8 = 3;
     const COLUMN: usize = 4;
 
-    #[inline]
+    #[inline(always)]
     fn cell<T>(words: &[T], index: usize, set: Set) -> Option<&[T]> {
         match width(set) {
             1 => run::<T, 4>(words, index),
@@ -44,7 +44,7 @@ impl<S: Scalar> Layout for Cubic<S> {
             _ => run::<T, 20>(words, index),
         }
     }
-    #[inline]
+    #[inline(always)]
     fn coefficients<R: Ring>(
         cell: &[Word<Self>],
         column: usize,
@@ -80,7 +80,7 @@ impl<S: Scalar> Layout for Quadratic<S> {
     const DEGREE: u8 = 2;
     const COLUMN: usize = 3;
 
-    #[inline]
+    #[inline(always)]
     fn cell<T>(words: &[T], index: usize, set: Set) -> Option<&[T]> {
         match Self::ROW.pitch(set) {
             4 => run::<T, 4>(words, index),
@@ -89,7 +89,7 @@ impl<S: Scalar> Layout for Quadratic<S> {
             _ => run::<T, 16>(words, index),
         }
     }
-    #[inline]
+    #[inline(always)]
     fn coefficients<R: Ring>(
         cell: &[Word<Self>],
         column: usize,

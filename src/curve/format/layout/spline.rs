@@ -21,7 +21,7 @@ pub struct Spline16;
 const MORE: usize = 3;
 
 /// Four rows of W words each, from the index-th on.
-#[inline]
+#[inline(always)]
 fn rows<T, const W: usize>(words: &[T], index: usize) -> Option<&[T]> {
     let rows = words.as_chunks::<W>().0.get(index..)?;
     rows.first_chunk::<4>().map(|rows| rows.as_flattened())
@@ -42,7 +42,7 @@ impl<S: Scalar> Layout for Spline<S> {
     const STEP: i8 = S::STEP;
     const CENTRE: f64 = 0.0;
 
-    #[inline]
+    #[inline(always)]
     fn cell<T>(words: &[T], index: usize, set: Set) -> Option<&[T]> {
         match width(set) {
             1 => rows::<T, 1>(words, index),
@@ -52,7 +52,7 @@ impl<S: Scalar> Layout for Spline<S> {
             _ => rows::<T, 5>(words, index),
         }
     }
-    #[inline]
+    #[inline(always)]
     fn coefficients<R: Ring>(
         cell: &[Word<Self>],
         column: usize,
@@ -93,7 +93,7 @@ impl Layout for Spline16 {
     const CENTRE: f64 = 0.0;
     const HALVES: bool = true;
 
-    #[inline]
+    #[inline(always)]
     fn cell<T>(words: &[T], index: usize, set: Set) -> Option<&[T]> {
         match Self::ROW.pitch(set) {
             1 => rows::<T, 1>(words, index),
@@ -101,7 +101,7 @@ impl Layout for Spline16 {
             _ => rows::<T, 3>(words, index),
         }
     }
-    #[inline]
+    #[inline(always)]
     fn coefficients<R: Ring>(
         cell: &[i32],
         column: usize,

@@ -187,7 +187,7 @@ impl Format for Rows16 {
         tick::Tick::new(table)
     }
 
-    #[inline]
+    #[inline(always)]
     fn torque(
         _: &Table<'_, Self>,
         tick: &tick::Tick<'_>,
@@ -198,7 +198,7 @@ impl Format for Rows16 {
         tick.torque(set, phase, omega, alpha)
     }
 
-    #[inline]
+    #[inline(always)]
     fn accelerations<const N: usize>(
         _: &Table<'_, Self>,
         tick: &tick::Tick<'_>,
