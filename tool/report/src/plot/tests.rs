@@ -109,7 +109,7 @@ fn everything_is_on_the_sheet() {
         assert!(
             (0.0..=WIDTH).contains(&x) && (0.0..=HEIGHT).contains(&y),
             "{x} {y}"
-        )
+        );
     };
     for node in document.descendants() {
         if let Some(d) = node.attribute("d") {
