@@ -9,7 +9,7 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::read;
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::catalogue::Drive;
-use jred_sizing::explain::{Alteration, Altered, Breakdown, Cells, Share};
+use jred_sizing::explain::{Alteration, Altered, Breakdown, Cells, Effect, Share};
 
 use crate::support::{budget, edited, near, press_text, within};
 
@@ -283,7 +283,7 @@ fn springs_keep_their_torque_without_masses() {
     let mut catalogue = catalogue();
     let drive = lossy(&mut catalogue);
     let cells = Cells::new(&file, &duty, &drive).unwrap();
-    let springs = cells.cells.iter().filter(|c| c.effect == "springs");
+    let springs = cells.cells.iter().filter(|c| c.effect == Effect::Springs);
     let ratio = drive.ratio() * file.drive_train.ratio();
     let springs: Vec<&Vec<f64>> = springs.map(|c| &c.torque).collect();
     let mut largest = 0.0f64;

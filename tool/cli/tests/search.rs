@@ -14,7 +14,7 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Limit;
 use jred_machine::read;
-use jred_sizing::catalogue::Catalogue;
+use jred_sizing::catalogue::{Catalogue, MotorKind};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::select::pareto::Front;
 use jred_sizing::select::rank::{Objective, rank};
@@ -144,9 +144,10 @@ fn ranked_by_what_was_asked_for() {
         let fit = selection.first_fit(usize::MAX);
         fit.iter().map(|c| c.drive.name()).collect::<Vec<_>>()
     };
-    let (before, words) = (names(&selection), selection.ranking);
+    let words = |selection: &Selection| selection.ranking(MotorKind::Rotary.vocabulary());
+    let (before, ranking) = (names(&selection), words(&selection));
     assert_eq!(rank(&mut selection, Objective::Price), before.len());
-    assert_eq!((names(&selection), selection.ranking), (before, words));
+    assert_eq!((names(&selection), words(&selection)), (before, ranking));
 }
 
 /// The front against its definition: every pair compared.

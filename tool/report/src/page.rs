@@ -12,10 +12,10 @@ use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::columns::Columns;
 use jred_machine::number::rounding::{rounded, short};
+use jred_machine::units::Vocabulary;
 use jred_sizing::catalogue::MotorKind;
 use jred_sizing::explain::{Breakdown, Cells, Lever, Remedies};
 use jred_sizing::judge::Context;
-use jred_sizing::judge::vocabulary::Units;
 use jred_sizing::select::size::{Candidate, Selection};
 
 mod chart;
@@ -47,8 +47,8 @@ struct Figure {
 }
 
 impl Figure {
-    fn new(chart: Chart, units: Units, caption: &str) -> Self {
-        let caption = units.words(caption);
+    fn new(chart: Chart, caption: impl Into<String>) -> Self {
+        let caption = caption.into();
         Self { chart, caption }
     }
 }
@@ -124,7 +124,10 @@ impl Page {
     ) -> Result<Self, Error> {
         let found = !selection.fit.is_empty();
         let best = &selection.judged(candidate);
-        let units = Units::of(best.drive.motor.kind);
+        let words = best.drive.motor.kind.vocabulary();
+        let Vocabulary {
+            torque, inertia, ..
+        } = words;
         let explanation = Explanation::new(file, duty, selection, candidate, CHANGED)?;
         let cells = Cells::new(file, duty, &best.drive)?;
         let breakdown = Breakdown::of(duty, &best.drive, &cells);
@@ -148,30 +151,33 @@ impl Page {
             file: name.to_owned(),
             found,
             answer: notes::answer(best, found),
-            cards: cards(best, duty, units),
+            cards: cards(best, duty, words),
             drive: best.drive.name(),
             checks: checked,
             open,
             plane: vec![Figure::new(
                 subject.plane(),
-                units,
-                "Torque and speed of the motor over the cycle in all four quadrants; where their signs differ, it brakes. Dashed: what the rules allow.",
+                format!(
+                    "{} and speed of the motor over the cycle in all four quadrants; where their signs differ, it brakes. Dashed: what the rules allow.",
+                    torque.capital()
+                ),
             )],
-            over_time: over_time(&subject, units),
+            over_time: over_time(&subject, words),
             drawing: crate::drawing::still(file.machine.mechanism())?,
             machine: machine(&subject, file, mean_speed)?,
-            torque_word: units.torque_word,
-            torque_unit: units.torque,
+            torque_word: torque.word,
+            torque_unit: torque.unit,
             effects: rows::share_rows(&breakdown.effects, &breakdown),
             parts: rows::share_rows(&breakdown.parts, &breakdown),
-            inertia_word: units.inertia_word,
-            inertia_unit: units.shown_inertia().0,
+            inertia_word: inertia.word,
+            inertia_unit: inertia.unit,
             inertias: rows::inertia_rows(&breakdown),
             peak_time: short(breakdown.peak_time),
             effects_chart: vec![Figure::new(
                 subject.effects(&cells),
-                units,
-                "Motor torque over the cycle, effect by effect; at every instant they add up to the motor torque.",
+                format!(
+                    "Motor {torque} over the cycle, effect by effect; at every instant they add up to the motor {torque}."
+                ),
             )],
             ratio: ratio(&subject, explanation.change.as_ref()),
             change: explanation
@@ -183,7 +189,7 @@ impl Page {
                 .iter()
                 .map(|refused| ChangeRow::of(refused, duty.duration))
                 .collect(),
-            duty: rows::duty_rows(best, duty, units),
+            duty: rows::duty_rows(best, duty, words),
             energy: format!(
                 "Over a cycle the motor puts in {} J and takes back {} J; what the brake resistor or the DC bus has to \
                  take is at most the latter.",
@@ -195,14 +201,14 @@ impl Page {
             partly: selection.partly_checked(),
             fit: ranked(selection),
             fit_more: selection.fit.len().saturating_sub(LISTED),
-            ranking: units.words(selection.ranking),
+            ranking: selection.ranking(words),
             refused_count: selection.refused.len(),
             refused: (selection.first_refused(REFUSED))
                 .iter()
                 .map(|c| (c.drive.name(), selection.judged(c).reasons()))
                 .collect(),
             rule_set: format!("{}: {}", selection.rules.name, selection.rules.title),
-            rules: rows::rule_rows(selection.rules, units),
+            rules: rows::rule_rows(selection.rules, words),
             notes: notes::notes(best, duty),
         })
     }
@@ -228,9 +234,13 @@ fn split_checks(best: &jred_sizing::judge::Judged) -> (Vec<CheckRow>, Vec<(&'sta
     (checked, open.collect())
 }
 
-fn cards(best: &jred_sizing::judge::Judged, duty: &Duty, units: Units) -> Vec<(String, String)> {
+fn cards(
+    best: &jred_sizing::judge::Judged,
+    duty: &Duty,
+    words: &Vocabulary,
+) -> Vec<(String, String)> {
     let motor = &best.duty;
-    let (word, unit) = (units.torque_word, units.torque);
+    let (word, unit) = (words.torque, words.torque.unit);
     let card = |name: String, value: String| (name, value);
     vec![
         card("cycle".to_owned(), format!("{} s", rounded(duty.duration))),
@@ -246,12 +256,12 @@ fn cards(best: &jred_sizing::judge::Judged, duty: &Duty, units: Units) -> Vec<(S
             "largest speed".to_owned(),
             format!(
                 "{} {}",
-                short(motor.speed.peak() / units.speed_scale),
-                units.speed
+                short(motor.speed.peak() / words.speed.scale),
+                words.speed.unit
             ),
         ),
         card(
-            format!("{} ratio λ", units.inertia_word),
+            format!("{} ratio λ", words.inertia),
             format!(
                 "{} to {}",
                 short(motor.inertia_ratio.min),
@@ -265,31 +275,30 @@ fn cards(best: &jred_sizing::judge::Judged, duty: &Duty, units: Units) -> Vec<(S
     ]
 }
 
-fn over_time(subject: &Subject, units: Units) -> Vec<Figure> {
+fn over_time(subject: &Subject, words: &Vocabulary) -> Vec<Figure> {
     let mut figures = vec![
         Figure::new(
             subject.torque(),
-            units,
-            "Motor torque, and what the rotor itself takes of it.",
+            format!(
+                "Motor {}, and what the {} itself takes of it.",
+                words.torque, words.rotor
+            ),
         ),
-        Figure::new(subject.speed(), units, "Motor speed."),
+        Figure::new(subject.speed(), "Motor speed."),
         Figure::new(
             subject.power(),
-            units,
             "Mechanical power at the motor shaft; below zero it flows back.",
         ),
     ];
     figures.extend(subject.rises().map(|chart| {
         Figure::new(
             chart,
-            units,
             "Temperature rise once the cycle repeats without end.",
         )
     }));
     figures.extend(subject.bus_voltage().map(|chart| {
         Figure::new(
             chart,
-            units,
             "Voltage of the DC bus once the cycle repeats without end.",
         )
     }));
@@ -297,7 +306,7 @@ fn over_time(subject: &Subject, units: Units) -> Vec<Figure> {
 }
 
 fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec<Figure>, Error> {
-    let units = subject.units();
+    let words = subject.words();
     let (what, term) = match Coordinate::of(file.machine.mechanism())? {
         Coordinate::Angle => (
             "Reduced inertia",
@@ -312,23 +321,26 @@ fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec
         "{what} with flywheel and drive train, and its derivative. Where {term} at every speed."
     );
     Ok(vec![
-        Figure::new(figures::reduced_inertia(file)?, units, &reduced),
+        Figure::new(figures::reduced_inertia(file)?, reduced),
         Figure::new(
             figures::reduced_torque(file, mean_speed)?,
-            units,
-            "Parts of the reduced torque that do not depend on the motion: weight, process loads, and the sizes of the viscous and motion-opposing loads at the mean speed.",
+            format!(
+                "Parts of the reduced {} that do not depend on the motion: weight, process loads, and the sizes of the viscous and motion-opposing loads at the mean speed.",
+                words.torque
+            ),
         ),
         Figure::new(
             subject.inertia_ratio(file)?,
-            units,
-            "Inertia ratio λ of this drive over the range of the drive link, with the value that is judged.",
+            format!(
+                "{} ratio λ of this drive over the range of the drive link, with the value that is judged.",
+                words.inertia.capital()
+            ),
         ),
     ])
 }
 
 /// Every rule over the gear ratio, wide enough for the range in which all hold.
 fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
-    let units = subject.units();
     if subject.judged.drive.motor.kind == MotorKind::Linear {
         return Vec::new();
     }
@@ -343,8 +355,7 @@ fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
     }
     vec![Figure::new(
         subject.ratios(from, to),
-        units,
-        &format!(
+        format!(
             "What each rule uses of its limit over the gear ratio, the other data of motor and gearbox kept. Where all are below 100 %, the drive holds. A curve ends where it passes {TOP} %, or where the motor has no torque left: the limit is zero beyond its largest speed. Rules that follow time are not drawn."
         ),
     )]

@@ -9,6 +9,6 @@ mod seek;
 mod words;
 
 pub use altered::{Alteration, Altered};
-pub use breakdown::{Breakdown, Cell, Cells, InertiaShare, Share};
+pub use breakdown::{Breakdown, Cell, Cells, Effect, InertiaShare, Share};
 pub use course::ratio_course;
 pub use remedy::{Edge, Lever, Miss, Remedies, Remedy};

@@ -8,11 +8,11 @@ use crate::catalogue::Drive;
 use crate::cycle::Cycle;
 use crate::cycle::form::Coefficients;
 use crate::judge::check::Check;
-use crate::judge::vocabulary::Units;
 use crate::motor::envelope::Prepared;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::{Finding, RuleSet, Verdict};
 use jred_machine::model::site::Site;
+use jred_machine::units::Vocabulary;
 
 pub mod check;
 mod electric;
@@ -24,7 +24,6 @@ pub mod overload;
 mod screen;
 mod stiffness;
 mod thermal;
-pub mod vocabulary;
 
 pub use judged::Judged;
 pub use outcome::Outcome;
@@ -118,21 +117,22 @@ impl<'a> Context<'a> {
         }
     }
 
+    /// What the figures of its motor are called and shown in.
+    pub const fn vocabulary(&self) -> &'static Vocabulary {
+        self.drive.motor.kind.vocabulary()
+    }
+
     /// What was assumed about the drive, and whose figures are not the maker's own.
-    pub fn assumptions(&self) -> Vec<&'static str> {
+    pub fn assumptions(&self) -> Vec<String> {
         let mut assumptions = Vec::new();
         if !self.drive.motor.from_maker {
-            assumptions.push(
-                "motor figures not read in the maker's own document: check them against the data sheet",
-            );
+            assumptions.push("motor figures not read in the maker's own document: check them against the data sheet".to_owned());
         }
         if self.drive.gearbox.is_some_and(|g| !g.from_maker) {
-            assumptions.push(
-                "gearbox figures not read in the maker's own document: check them against the data sheet",
-            );
+            assumptions.push("gearbox figures not read in the maker's own document: check them against the data sheet".to_owned());
         }
         if self.drive.gearbox.is_some_and(|g| g.efficiency_assumed) {
-            assumptions.push("gearbox efficiency not stated: 87 % per stage taken");
+            assumptions.push("gearbox efficiency not stated: 87 % per stage taken".to_owned());
         }
         assumptions.extend(self.motor.envelope.assumptions());
         assumptions
@@ -202,14 +202,8 @@ impl<'a> Context<'a> {
             NaturalFrequency | Backlash => stiffness::words(self, rule, finding),
             _ => electric::words(self, rule, finding),
         };
-        let units = Units::of(self.drive.motor.kind);
-        let words = Words {
-            rating: units.words(&words.rating),
-            place: units.words(&words.place),
-            ..words
-        };
         let mut check = Check::new(rules, rule, finding, words);
-        check.rule = units.rule(rule);
+        check.rule = rule.named(self.vocabulary());
         check
     }
 

@@ -12,13 +12,13 @@ pub use below::{Below, below};
 
 use crate::catalogue::Drive;
 use crate::judge::Judged;
-use crate::judge::vocabulary::Units;
 use crate::judge::{Context, Findings};
 use crate::motor::envelope::Envelope;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Verdict;
 use jred_machine::model::rules::{MeanTorque, RuleSet};
 use jred_machine::number::rounding::{short, significant};
+use jred_machine::units::Vocabulary;
 
 /// A shortfall that needs no mention: the margin for roundings.
 const EXACT: f64 = 1e-5;
@@ -76,10 +76,10 @@ fn end(envelope: &Envelope) -> f64 {
 }
 
 /// The share of a rating that a rule allows; `Err`: why none.
-fn share(rules: &RuleSet, rule: Rule) -> Result<Share, String> {
+fn share(rules: &RuleSet, rule: Rule, kind: &Vocabulary) -> Result<Share, String> {
     let limit = rules.limit(rule);
     let share = limit.fail.or(limit.warn);
-    let share = share.ok_or_else(|| format!("the rule \"{}\" is not judged", rule.name()))?;
+    let share = share.ok_or_else(|| format!("the rule \"{}\" is not judged", rule.named(kind)))?;
     Ok(Share {
         share,
         warns: limit.fail.is_none(),
@@ -107,9 +107,9 @@ impl Share {
 /// The limit of a figure: the smallest of those that the rules give.
 fn figure(
     field: &'static str,
-    rules: &RuleSet,
+    (rules, kind): (&RuleSet, &Vocabulary),
     findings: &Findings,
-    judged: &[(Rule, &'static str)],
+    judged: &[(Rule, &str)],
 ) -> Entry {
     let mut least: Option<(f64, String)> = None;
     let mut open = Vec::new();
@@ -117,7 +117,7 @@ fn figure(
         let Some(finding) = findings.get(rule) else {
             continue;
         };
-        match share(rules, rule) {
+        match share(rules, rule, kind) {
             Err(why) => open.push(why),
             Ok(_) if !finding.rating.is_finite() => open.push(format!("{rating} is not known")),
             Ok(share) => {
@@ -142,12 +142,12 @@ fn figure(
 
 fn curve(
     field: &'static str,
-    rules: &RuleSet,
+    (rules, kind): (&RuleSet, &Vocabulary),
     rule: Rule,
     rating: &str,
     of: impl Fn(f64) -> Option<Below>,
 ) -> Entry {
-    let (bound, words) = match share(rules, rule) {
+    let (bound, words) = match share(rules, rule, kind) {
         Err(why) => (Bound::Open, why),
         Ok(share) => match of(share.share) {
             None => (Bound::Open, format!("the {rating} is not known")),
@@ -173,7 +173,9 @@ impl<'a> MeterLimits<'a> {
     pub fn new(context: &'a Context<'a>, rules: &'a RuleSet) -> Self {
         let findings = context.findings(rules);
         let envelope = &context.motor.envelope;
-        let of = |field, judged: &[_]| figure(field, rules, &findings, judged);
+        let kind = context.vocabulary();
+        let torque = kind.torque;
+        let of = |field, judged: &[_]| figure(field, (rules, kind), &findings, judged);
         let mut output_mean = of(
             "output_mean",
             &[(Rule::GearboxCubicMean, "gearbox's rated torque T2N")],
@@ -184,12 +186,20 @@ impl<'a> MeterLimits<'a> {
                 .clone_into(&mut output_mean.words);
         }
         let entries = vec![
-            curve("continuous", rules, Rule::RmsTorque, "S1 torque", |share| {
-                continuous(envelope, share)
-            }),
-            curve("peak", rules, Rule::PeakTorque, "peak torque", |share| {
-                peak(envelope, share)
-            }),
+            curve(
+                "continuous",
+                (rules, kind),
+                Rule::RmsTorque,
+                &format!("S1 {torque}"),
+                |share| continuous(envelope, share),
+            ),
+            curve(
+                "peak",
+                (rules, kind),
+                Rule::PeakTorque,
+                &format!("peak {torque}"),
+                |share| peak(envelope, share),
+            ),
             of(
                 "speed",
                 &[
@@ -240,12 +250,11 @@ impl<'a> MeterLimits<'a> {
 
     /// The rules that the drive breaks, each with its figure, its limit and the share of it that is used.
     pub fn broken(&self) -> Vec<String> {
-        let units = Units::of(self.context.drive.motor.kind);
         let judged = Judged::new(self.context, self.rules);
         let broken = judged.checks.iter();
         let broken = broken.filter(|check| check.verdict == Verdict::Fail);
         let words = broken.map(|check| {
-            let rule = units.rule(check.id);
+            let rule = check.rule;
             match check.limit {
                 Some(limit) => format!(
                     "{rule} {} of {}, {}",
@@ -270,7 +279,7 @@ impl<'a> MeterLimits<'a> {
 fn regenerative_power(context: &Context, rules: &RuleSet, findings: &Findings) -> Entry {
     let mut entry = figure(
         "regenerative_power",
-        rules,
+        (rules, context.vocabulary()),
         findings,
         &[(
             Rule::ResistorPower,

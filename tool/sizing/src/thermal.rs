@@ -24,6 +24,7 @@ use crate::cycle::Cycle;
 use crate::cycle::form::Coefficients;
 use crate::motor::envelope::Prepared;
 use crate::motor::winding::{COPPER, REFERENCE_TEMPERATURE};
+use jred_machine::units::{Sentence, Vocabulary};
 
 use course::{Course, Hottest, Point};
 use jred_machine::model::operation::Operation;
@@ -105,7 +106,7 @@ impl Model {
         prepared: &Prepared,
         surroundings: &Surroundings,
         cycle_time: f64,
-    ) -> Result<Self, &'static str> {
+    ) -> Result<Self, Sentence> {
         let thermal = &motor.thermal;
         let reference = surroundings.resistance_at.unwrap_or(surroundings.ambient);
         let resistance = usable(motor.winding.loss_resistance(reference));
@@ -145,13 +146,17 @@ impl Model {
             });
         }
         if motor.rated_torque.is_none() && motor.continuous_curve.is_empty() {
-            return Err("S1 torque over speed, for want of thermal resistances and winding data");
+            return Err(|Vocabulary { torque, .. }| {
+                format!("S1 {torque} over speed, for want of thermal resistances and winding data")
+            });
         }
         let standstill = prepared.envelope.standstill();
         if !(standstill.is_finite() && standstill > 0.0) {
-            return Err(
-                "S1 torque, or resistance, torque constant and thermal resistances of the winding",
-            );
+            return Err(|Vocabulary { torque, .. }| {
+                format!(
+                    "S1 {torque}, or resistance, {torque} constant and thermal resistances of the winding"
+                )
+            });
         }
         let [winding, whole] = times;
         Ok(Self::Relative {
@@ -220,7 +225,7 @@ impl Model {
         load: &Load,
         operation: &Operation,
         rest: Losses,
-    ) -> Result<Heating, &'static str> {
+    ) -> Result<Heating, Sentence> {
         let from_cold = matches!(operation, Operation::Short { .. });
         let mean = || {
             let running = operation.running().unwrap_or(1.0);
@@ -240,13 +245,16 @@ impl Model {
                 follows_housing: false,
                 ..
             } if from_cold => {
-                return Err(
-                    "thermal time constant of the housing, to follow an operation from cold",
-                );
+                return Err(|_| {
+                    "thermal time constant of the housing, to follow an operation from cold"
+                        .to_owned()
+                });
             }
             Self::Bodies { network, .. } => (hottest(&network), true),
             Self::Steady { .. } | Self::Relative { time: None, .. } if from_cold => {
-                return Err("thermal time constants, to follow an operation from cold");
+                return Err(|_| {
+                    "thermal time constants, to follow an operation from cold".to_owned()
+                });
             }
             Self::Steady {
                 resistances,

@@ -7,8 +7,8 @@ use crate::commands::vary::study;
 use crate::commands::{Done, print};
 use crate::options::search::Sensitivity as Options;
 use jred_machine::number::rounding::{short, significant};
+use jred_machine::units::Vocabulary;
 use jred_report::table::sheet::{Reading, Sheet};
-use jred_sizing::judge::vocabulary::Units;
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::common::Study;
 use jred_sizing::study::one::One;
@@ -48,7 +48,7 @@ pub fn sensitivity(options: &Options) -> Result<Done> {
 }
 
 fn sheet(study: &Study, one: &One, found: &Sensitivity, reach: Reach) -> Sheet {
-    let units = Units::of(one.drive().motor.kind);
+    let words = one.drive().motor.kind.vocabulary();
     let mut columns: Vec<String> = [
         "quantity",
         "value",
@@ -66,16 +66,16 @@ fn sheet(study: &Study, one: &One, found: &Sensitivity, reach: Reach) -> Sheet {
         found
             .shares
             .iter()
-            .map(|(rule, _)| format!("{} [% of limit per +1 %]", units.rule(*rule))),
+            .map(|(rule, _)| format!("{} [% of limit per +1 %]", rule.named(words))),
     );
     let row = |dependence: &Dependence| -> Vec<Cell> {
         let quantity = study.document.quantities().get(dependence.quantity);
         let steepest = dependence.steepest().filter(|slope| slope.slope != 0.0);
-        let [down, up] = dependence.room.each_ref().map(|r| room(r, units));
+        let [down, up] = dependence.room.each_ref().map(|r| room(r, words));
         let mut cells: Vec<Cell> = vec![
             quantity.map_or(Cell::Empty, |q| q.path.as_str().into()),
             quantity.map_or(Cell::Empty, |q| q.shown().into()),
-            steepest.map_or("nothing".into(), |slope| units.rule(slope.rule).into()),
+            steepest.map_or("nothing".into(), |slope| slope.rule.named(words).into()),
             steepest.map(|slope| slope.slope).into(),
             steepest.map(|slope| slope.uncertainty).into(),
         ];
@@ -88,7 +88,7 @@ fn sheet(study: &Study, one: &One, found: &Sensitivity, reach: Reach) -> Sheet {
         cells
     };
     let shares: Vec<String> = (found.shares.iter())
-        .map(|(rule, used)| format!("{} {:.1} %", units.rule(*rule), used * 100.0))
+        .map(|(rule, used)| format!("{} {:.1} %", rule.named(words), used * 100.0))
         .collect();
     Sheet {
         schema: "jred-sensitivity/1",
@@ -100,13 +100,13 @@ fn sheet(study: &Study, one: &One, found: &Sensitivity, reach: Reach) -> Sheet {
         ),
         columns,
         rows: found.dependences.iter().map(row).collect(),
-        reading: Some(reading(study, found, units)),
-        notes: notes(study, found, reach, units),
+        reading: Some(reading(study, found, words)),
+        notes: notes(study, found, reach, words),
     }
 }
 
 /// What breaks first, what is left out of the table, and why quantities were not moved.
-fn notes(study: &Study, found: &Sensitivity, reach: Reach, units: Units) -> Vec<String> {
+fn notes(study: &Study, found: &Sensitivity, reach: Reach, words: &Vocabulary) -> Vec<String> {
     let path = |index: usize| {
         let quantity = study.document.quantities().get(index);
         quantity.map_or("", |q| q.path.as_str())
@@ -115,7 +115,7 @@ fn notes(study: &Study, found: &Sensitivity, reach: Reach, units: Units) -> Vec<
     notes.push(match found.first_to_break() {
         Some((quantity, Room::UpTo(change, rule))) => format!(
             "first to break: {} by {:+.2} % of {}",
-            units.rule(*rule),
+            rule.named(words),
             change * 100.0,
             path(quantity)
         ),
@@ -163,7 +163,7 @@ fn notes(study: &Study, found: &Sensitivity, reach: Reach, units: Units) -> Vec<
 }
 
 /// What moves a rule, for reading: how sure a slope is only where its digits leave that open.
-fn reading(study: &Study, found: &Sensitivity, units: Units) -> Reading {
+fn reading(study: &Study, found: &Sensitivity, words: &Vocabulary) -> Reading {
     let columns = [
         "quantity",
         "value",
@@ -187,10 +187,10 @@ fn reading(study: &Study, found: &Sensitivity, units: Units) -> Reading {
         let mut cells: Vec<Cell> = vec![
             quantity.map_or(Cell::Empty, |q| q.path.as_str().into()),
             quantity.map_or(Cell::Empty, |q| q.shown().into()),
-            steepest.map_or("nothing".into(), |slope| units.rule(slope.rule).into()),
+            steepest.map_or("nothing".into(), |slope| slope.rule.named(words).into()),
             slope.map_or(Cell::Empty, Cell::from),
         ];
-        cells.extend(dependence.room.iter().map(|room| room_words(room, units)));
+        cells.extend(dependence.room.iter().map(|room| room_words(room, words)));
         cells
     };
     let moving = found.dependences.iter().filter(|d| !d.is_idle());
@@ -202,22 +202,22 @@ fn reading(study: &Study, found: &Sensitivity, units: Units) -> Reading {
 }
 
 /// The same as words; why a machine file is refused stands in a note.
-fn room_words(room: &Room, units: Units) -> Cell {
+fn room_words(room: &Room, words: &Vocabulary) -> Cell {
     let change = significant(room.change() * 100.0, 3);
     match room {
         Room::AtLeast(_) => format!("holds at {change} %").into(),
-        Room::UpTo(_, rule) => format!("{change} %, then {}", units.rule(*rule)).into(),
+        Room::UpTo(_, rule) => format!("{change} %, then {}", rule.named(words)).into(),
         Room::Refused(..) => format!("{change} %, then refused").into(),
         Room::Broken => Cell::Empty,
     }
 }
 
 /// How far, in per cent, and what comes then.
-fn room(room: &Room, units: Units) -> [Cell; 2] {
+fn room(room: &Room, words: &Vocabulary) -> [Cell; 2] {
     let percent = Cell::from(room.change() * 100.0);
     match room {
         Room::AtLeast(_) => [percent, "holds still".into()],
-        Room::UpTo(_, rule) => [percent, units.rule(*rule).into()],
+        Room::UpTo(_, rule) => [percent, rule.named(words).into()],
         Room::Refused(_, why) => [percent, format!("refused: {why}").into()],
         Room::Broken => [Cell::Empty, Cell::Empty],
     }

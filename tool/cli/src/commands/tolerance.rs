@@ -11,7 +11,6 @@ use jred_machine::read::Tolerance;
 use jred_report::table::output::Format;
 use jred_report::table::rows::Form;
 use jred_report::table::sheet::Sheet;
-use jred_sizing::judge::vocabulary::Units;
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::common::Study;
 use jred_sizing::study::one::One;
@@ -47,11 +46,11 @@ pub fn tolerance(options: &Options) -> Result<Done> {
         count: options.samples,
         seed: options.seed,
     };
-    let units = Units::of(one.drive().motor.kind);
+    let words = one.drive().motor.kind.vocabulary();
     let unknown: Vec<&str> = findings
         .iter()
         .filter(|(_, f)| !f.is_known())
-        .map(|(rule, _)| units.rule(rule))
+        .map(|(rule, _)| rule.named(words))
         .collect();
     let mut plan = options.rows.plan();
     // Without a file the summary is what is printed; rows go to a file.
@@ -139,7 +138,7 @@ fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
         "largest use",
     ];
     let built = summary.built();
-    let units = Units::of(samples.one.drive().motor.kind);
+    let words = samples.one.drive().motor.kind.vocabulary();
     let probability = |k: u64| -> Vec<Cell> {
         let p = Probability::new(k, built);
         let percent = |x: Option<f64>| Cell::from(x.map(|x| x * 100.0));
@@ -161,9 +160,9 @@ fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
         let within = sorted.iter().filter(|used| **used <= 1.0).count() as u64;
         let warns = rules.limit(*rule).fail.is_none();
         let name = if warns {
-            format!("{} (warning)", units.rule(*rule))
+            format!("{} (warning)", rule.named(words))
         } else {
-            units.rule(*rule).to_owned()
+            rule.named(words).to_owned()
         };
         let mut cells = vec![name.into()];
         cells.extend(probability(within));

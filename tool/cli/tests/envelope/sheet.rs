@@ -244,7 +244,7 @@ fn a_supply_of_another_class_is_remarked_upon() {
             ..Site::default()
         };
         let envelope = Envelope::at(&motor, None, &site);
-        let remarks = envelope.assumptions().iter();
+        let remarks = envelope.assumptions().into_iter();
         remarks
             .filter(|a| a.contains("more than 4/3 of the voltage"))
             .count()

@@ -146,15 +146,23 @@ fn no_value_helps_where_the_rotor_alone_is_too_heavy() {
         alpha * 800.0 / 10.0,
         budget::SAME_SUMS,
     );
-    assert!(found.sentence(1.0).contains("no value helps"));
+    assert!(
+        found
+            .sentence(1.0, remedies.words)
+            .contains("no value helps")
+    );
     assert_eq!(found.change(), None);
     // As in the table of checks, digits beyond ten times the limit say nothing.
-    let words = remedies.misses[0].sentence();
+    let words = remedies.misses[0].sentence(remedies.words);
     assert!(
         words.contains("RMS torque uses > 1000 % of its limit"),
         "{words}"
     );
-    assert!(found.sentence(1.0).contains("> 1000 % of its limit"));
+    assert!(
+        found
+            .sentence(1.0, remedies.words)
+            .contains("> 1000 % of its limit")
+    );
 }
 
 /// The temperature of a motor that is far too small is beyond all measure, but it is not what the drive is refused for: the

@@ -90,16 +90,19 @@ fn piece_end(file: &MachineFile, coordinate: Coordinate, at: f64, near: f64) -> 
     })
 }
 
+/// What messages call a curve.
+type Name = fn(Coordinate) -> String;
+
 /// A curve of the reduced machine.
 type Curve = fn(&Reduction) -> f64;
 
 /// The curves that a table follows.
-const CURVES: [(&str, Curve); 5] = [
-    ("J", |r| r.inertia[0]),
-    ("J'", |r| r.inertia[1]),
-    ("load", |r| r.load_torque()),
-    ("viscous", |r| r.viscous),
-    ("coulomb", |r| r.coulomb),
+const CURVES: [(Name, Curve); 5] = [
+    (|c| c.inertia().to_owned(), |r| r.inertia[0]),
+    (|c| format!("{}'", c.inertia()), |r| r.inertia[1]),
+    (|_| "the curve of load".to_owned(), |r| r.load_torque()),
+    (|_| "the curve of viscous".to_owned(), |r| r.viscous),
+    (|_| "the curve of coulomb".to_owned(), |r| r.coulomb),
 ];
 
 fn jump_or_kink(
@@ -128,12 +131,7 @@ fn jump_or_kink(
             ("has a kink", narrow(&slope, ends, 2.0 * step)?),
         ] {
             if let Some(phi) = found {
-                let name = if name.starts_with('J') {
-                    name.replace('J', coordinate.inertia())
-                } else {
-                    format!("the curve of {name}")
-                };
-                let words = format!("{name} {what} at {}", coordinate.place(phi));
+                let words = format!("{} {what} at {}", name(coordinate), coordinate.place(phi));
                 return Ok(Some(Feature { words, cure: None }));
             }
         }

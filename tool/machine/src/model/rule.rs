@@ -2,9 +2,11 @@
 
 use serde::Serialize;
 
-/// One table for all rules: what each is, its variant, its name in reports, its key in `[rules]`.
+use crate::units::Vocabulary;
+
+/// One table for all rules: what each is, its variant, its name in reports (and that of a linear motor's), its key in `[rules]`.
 macro_rules! rules {
-    ($($(#[$doc:meta])+ $rule:ident, $name:literal, $key:literal;)+) => {
+    ($($(#[$doc:meta])+ $rule:ident, $name:literal $(/ $linear:literal)?, $key:literal;)+) => {
         /// One rule. A rule compares a figure of the duty with a share of a rating.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
         #[serde(rename_all = "kebab-case")]
@@ -20,6 +22,14 @@ macro_rules! rules {
             pub const fn name(self) -> &'static str {
                 match self {
                     $(Self::$rule => $name,)+
+                }
+            }
+
+            /// Its name in reports about a kind of motor: "RMS torque" or "RMS force".
+            pub const fn named(self, words: &Vocabulary) -> &'static str {
+                match self {
+                    $($(Self::$rule if words.slides() => $linear,)?)+
+                    _ => self.name(),
                 }
             }
 
@@ -42,19 +52,19 @@ macro_rules! rules {
 
 rules! {
     /// RMS torque against the S1 torque at mean speed.
-    RmsTorque, "RMS torque", "rms_torque";
+    RmsTorque, "RMS torque" / "RMS force", "rms_torque";
     /// Torque against the torque-speed envelope, at the instant that comes closest.
-    PeakTorque, "peak torque", "peak_torque";
+    PeakTorque, "peak torque" / "peak force", "peak_torque";
     /// Largest speed against the motor's largest speed.
     Speed, "speed", "speed";
     /// Torque that holds the machine at rest against the standstill torque.
-    HoldingTorque, "holding torque", "gravity_hold";
+    HoldingTorque, "holding torque" / "holding force", "gravity_hold";
     /// Torque of weight and friction, without acceleration and process loads, against the standstill torque.
-    ConstantTorque, "constant torque", "constant_torque";
+    ConstantTorque, "constant torque" / "constant force", "constant_torque";
     /// Torque that holds the machine at rest against the motor's brake.
-    BrakeTorque, "brake torque", "brake_torque";
+    BrakeTorque, "brake torque" / "brake force", "brake_torque";
     /// Inertia ratio λ.
-    InertiaRatio, "inertia ratio", "inertia_ratio";
+    InertiaRatio, "inertia ratio" / "mass ratio", "inertia_ratio";
     /// Hottest point of the winding over the cycle, as a rise above the ambient temperature.
     WindingTemperature, "winding temperature", "winding_temperature";
     /// Hottest point of the housing, as a rise above the ambient temperature.

@@ -1,7 +1,8 @@
 //! Quantities: the units they are written in, what each kind of them is called, and how a figure is named and shown.
 //!
 //! A [`unit`] is made of words with powers; a [`quantity`] is a number with a unit, of the [`kind`] that is asked for; a
-//! [`literal`] is one of any kind. What cannot be read is a [`Fault`] with its cure. Nothing here knows files, machines or catalogues.
+//! [`literal`] is one of any kind. What cannot be read is a [`Fault`] with its cure. A [`Vocabulary`] says whether a figure is a torque or a
+//! force, an inertia or a mass. Nothing here knows files, machines or catalogues.
 
 use std::f64::consts::PI;
 
@@ -10,8 +11,10 @@ pub mod kind;
 pub mod literal;
 pub mod quantity;
 pub mod unit;
+mod vocabulary;
 
 pub use fault::{Fault, closest};
+pub use vocabulary::{Sentence, Term, Vocabulary};
 
 /// rad/s of one revolution per minute.
 pub const RPM: f64 = PI / 30.0;

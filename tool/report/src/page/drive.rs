@@ -10,10 +10,10 @@ use jred_machine::model::coordinate::{Coordinate, whole_range};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
-use jred_sizing::explain::{Cells, ratio_course};
+use jred_machine::units::Vocabulary;
+use jred_sizing::explain::{Cells, Effect, ratio_course};
 use jred_sizing::judge::Context;
 use jred_sizing::judge::Judged;
-use jred_sizing::judge::vocabulary::Units;
 use jred_sizing::motor::envelope::Envelope;
 
 /// Use of a limit beyond which the curves over the gear ratio are not drawn (%).
@@ -31,13 +31,13 @@ pub(super) struct Subject<'a> {
 }
 
 impl Subject<'_> {
-    pub(super) fn units(&self) -> Units {
-        Units::of(self.judged.drive.motor.kind)
+    pub(super) const fn words(&self) -> &'static Vocabulary {
+        self.context.vocabulary()
     }
 
     fn torque_axis(&self, what: &str) -> String {
-        let units = self.units();
-        format!("{what} {} [{}]", units.torque_word, dotted(units.torque))
+        let torque = self.words().torque;
+        format!("{what} {torque} [{}]", dotted(torque.unit))
     }
 
     /// (time, value) at every instant.
@@ -58,9 +58,9 @@ impl Subject<'_> {
     /// The torque-speed plane in all four quadrants: peak and S1 torque, what the rules allow of them, the duty, its RMS point,
     /// and the point that comes closest to the peak torque.
     pub(super) fn plane(&self) -> Chart {
-        let units = self.units();
+        let words = self.words();
         let envelope = &self.context.motor.envelope;
-        let scale = units.speed_scale;
+        let scale = words.speed.scale;
         let points = self.duty.instants.iter().map(|i| {
             let point = self.judged.drive.motor_point(i);
             (point.speed / scale, point.torque)
@@ -89,15 +89,15 @@ impl Subject<'_> {
                 .peak(&self.context.coefficients, self.context.ratio, envelope);
         let axes = Axes {
             title: "",
-            x: &format!("motor speed [{}]", units.speed),
+            x: &format!("motor speed [{}]", words.speed.unit),
             y: &self.torque_axis("motor"),
         };
-        let name = |text: &str| units.words(text);
+        let torque = words.torque;
         let names = [
-            name("peak torque"),
-            name("S1 torque"),
-            name("allowed peak torque"),
-            name("allowed RMS torque"),
+            format!("peak {torque}"),
+            format!("S1 {torque}"),
+            format!("allowed peak {torque}"),
+            format!("allowed RMS {torque}"),
             "RMS at mean speed".to_owned(),
             "closest to the peak".to_owned(),
         ];
@@ -137,11 +137,11 @@ impl Subject<'_> {
         let ratio = self.context.ratio;
         let rotor = self.duty.instants.iter();
         let rotor = rotor.map(|i| (i.t, motor.rotor_inertia * i.input_alpha * ratio));
-        let units = self.units();
-        let own = format!("of which the {} itself", units.rotor_word);
+        let words = self.words();
+        let own = format!("of which the {} itself", words.rotor);
         let axis = self.torque_axis("motor");
         let series = [
-            line(units.torque_word, self.over_time(|torque, _| torque)),
+            line(words.torque.word, self.over_time(|torque, _| torque)),
             line(&own, rotor.collect()),
             dashed("RMS", self.level(self.judged.duty.torque.rms)),
         ];
@@ -150,7 +150,7 @@ impl Subject<'_> {
 
     /// Motor torque, effect by effect.
     pub(super) fn effects(&self, cells: &Cells) -> Chart {
-        let mut sums: Vec<(&str, Vec<f64>)> = Vec::new();
+        let mut sums: Vec<(Effect, Vec<f64>)> = Vec::new();
         for cell in &cells.cells {
             match sums.iter_mut().find(|(name, _)| *name == cell.effect) {
                 Some((_, sum)) => {
@@ -162,19 +162,24 @@ impl Subject<'_> {
             }
         }
         let times = || self.duty.instants.iter().map(|i| i.t);
-        let series: Vec<Series> = sums
+        let acting = sums
             .into_iter()
-            .filter(|(_, values)| values.iter().any(|value| *value != 0.0))
-            .map(|(name, values)| line(name, times().zip(values).collect()))
+            .filter(|(_, values)| values.iter().any(|value| *value != 0.0));
+        let named: Vec<(String, Vec<f64>)> = acting
+            .map(|(effect, values)| (effect.name(self.words()), values))
+            .collect();
+        let series: Vec<Series> = named
+            .iter()
+            .map(|(name, values)| line(name, times().zip(values.iter().copied()).collect()))
             .collect();
         Chart::new(Form::Time, &time_axes(&self.torque_axis("motor")), &series)
     }
 
     /// Motor speed.
     pub(super) fn speed(&self) -> Chart {
-        let units = self.units();
-        let scale = units.speed_scale;
-        let axis = format!("motor speed [{}]", units.speed);
+        let words = self.words();
+        let scale = words.speed.scale;
+        let axis = format!("motor speed [{}]", words.speed.unit);
         let speed = self.over_time(|_, speed| speed / scale);
         Chart::new(Form::Time, &time_axes(&axis), &[line("speed", speed)])
     }
@@ -246,7 +251,7 @@ impl Subject<'_> {
         let axes = Axes {
             title: "",
             x: coordinate.axis(),
-            y: &format!("{} ratio λ", self.units().inertia_word),
+            y: &format!("{} ratio λ", self.words().inertia),
         };
         Ok(Chart::new(Form::Course, &axes, &series))
     }
@@ -256,14 +261,14 @@ impl Subject<'_> {
         let step = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(INTERVALS));
         let ratios: Vec<f64> = (0..=INTERVALS).map(step).collect();
         let courses = ratio_course(&self.context, self.rules, &ratios);
-        let units = self.units();
+        let words = self.words();
         let mut series: Vec<Series> = courses
             .iter()
             .map(|(rule, uses)| {
                 let shown = |used: f64| Some(used * 100.0).filter(|used| *used <= TOP);
                 let uses = uses.iter().map(|used| shown(*used).unwrap_or(f64::NAN));
                 line(
-                    units.rule(*rule),
+                    rule.named(words),
                     ratios.iter().copied().zip(uses).collect(),
                 )
             })

@@ -88,11 +88,10 @@ pub(super) fn notes(best: &Judged, duty: &Duty) -> Vec<String> {
     if let Some(amplifier) = drive.amplifier {
         source(&amplifier.model, &amplifier.source);
     }
-    let units = jred_sizing::judge::vocabulary::Units::of(best.drive.motor.kind);
     notes.extend(
         best.assumptions
             .iter()
-            .map(|a| format!("Mind: {}.", units.words(a))),
+            .map(|assumed| format!("Mind: {assumed}.")),
     );
     notes
 }

@@ -6,10 +6,10 @@ use jred_machine::model::rules::RuleSet;
 use jred_machine::model::rules::Verdict;
 use jred_machine::number::figures::Figures;
 use jred_machine::number::rounding::{rounded, short, shown, significant};
+use jred_machine::units::Vocabulary;
 use jred_sizing::explain::{Breakdown, InertiaShare, Remedies, Share};
 use jred_sizing::judge::Judged;
 use jred_sizing::judge::check::Check;
-use jred_sizing::judge::vocabulary::Units;
 
 /// A rule, how it came out, and a bar for what it uses of its limit.
 pub(super) struct CheckRow {
@@ -117,7 +117,7 @@ pub(super) struct ShareRow {
 pub(super) fn share_rows(shares: &[Share], breakdown: &Breakdown) -> Vec<ShareRow> {
     let total = &breakdown.total;
     let rows = shares.iter().chain([total]).map(|share| ShareRow {
-        name: breakdown.units.words(&share.name),
+        name: share.name.clone(),
         rms: short(share.torque.rms),
         peak: short(share.torque.peak()),
         at_peak: shown(share.at_peak, total.at_peak),
@@ -138,9 +138,9 @@ pub(super) struct InertiaRow {
 }
 
 pub(super) fn inertia_rows(breakdown: &Breakdown) -> Vec<InertiaRow> {
-    let (_, scale) = breakdown.units.shown_inertia();
+    let scale = breakdown.words.inertia.scale;
     let row = |share: &InertiaShare| InertiaRow {
-        name: breakdown.units.words(&share.name),
+        name: share.name.clone(),
         figures: [share.inertia.min, share.inertia.mean, share.inertia.max]
             .map(|x| shown(x / scale, share.inertia.max / scale)),
         share: format!("{:.1} %", share.of_mean * 100.0),
@@ -164,18 +164,16 @@ impl ChangeRow {
         let changes = remedies.remedies.iter();
         Self {
             drive: remedies.drive.clone(),
-            misses: misses
-                .map(|m| remedies.units.words(&m.sentence()))
-                .collect(),
+            misses: misses.map(|m| m.sentence(remedies.words)).collect(),
             changes: changes
-                .map(|r| remedies.units.words(&r.sentence(duration)))
+                .map(|r| r.sentence(duration, remedies.words))
                 .collect(),
         }
     }
 }
 
 /// A rule of the set: name, limit, warning, source.
-pub(super) fn rule_rows(rules: &RuleSet, units: Units) -> Vec<[String; 4]> {
+pub(super) fn rule_rows(rules: &RuleSet, words: &Vocabulary) -> Vec<[String; 4]> {
     let limit_of = |share: Option<f64>| share.map_or(String::new(), short);
     Rule::ALL
         .into_iter()
@@ -189,7 +187,7 @@ pub(super) fn rule_rows(rules: &RuleSet, units: Units) -> Vec<[String; 4]> {
             };
             let source = rules.source(rule).to_owned();
             [
-                units.rule(rule).to_owned(),
+                rule.named(words).to_owned(),
                 fail,
                 limit_of(limit.warn),
                 source,
@@ -199,13 +197,17 @@ pub(super) fn rule_rows(rules: &RuleSet, units: Units) -> Vec<[String; 4]> {
 }
 
 /// Minima, means, maxima and RMS values along the way from the drive link to the motor.
-pub(super) fn duty_rows(best: &Judged, duty: &Duty, units: Units) -> Vec<(String, Vec<String>)> {
+pub(super) fn duty_rows(
+    best: &Judged,
+    duty: &Duty,
+    words: &Vocabulary,
+) -> Vec<(String, Vec<String>)> {
     let row = |name: String, figures: Figures, unit: f64| {
         let cells = figures.values().map(|x| rounded(x / unit));
         (name, cells.to_vec())
     };
-    let (word, torque) = (units.torque_word, units.torque);
-    let (speed, scale) = (units.speed, units.speed_scale);
+    let (word, torque) = (words.torque, words.torque.unit);
+    let (speed, scale) = (words.speed.unit, words.speed.scale);
     vec![
         row(
             format!("{word} at the drive link [{torque}], without drive train"),
@@ -226,7 +228,7 @@ pub(super) fn duty_rows(best: &Judged, duty: &Duty, units: Units) -> Vec<(String
         row(format!("motor speed [{speed}]"), best.duty.speed, scale),
         row("motor power [W]".to_owned(), best.duty.power, 1.0),
         row(
-            format!("{} ratio λ", units.inertia_word),
+            format!("{} ratio λ", words.inertia),
             best.duty.inertia_ratio,
             1.0,
         ),

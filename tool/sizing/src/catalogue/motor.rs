@@ -1,6 +1,7 @@
 //! A motor of the catalogue.
 
 use crate::motor::winding::Commutation;
+use jred_machine::units::Vocabulary;
 
 /// A servo motor; SI units. `None`: the data sheet does not say. Of a linear motor read force (N) for torque, m/s for
 /// speed, and the mass of the moving part (kg) for the rotor's inertia.
@@ -66,6 +67,16 @@ pub enum MotorKind {
     Rotary,
     /// It slides.
     Linear,
+}
+
+impl MotorKind {
+    /// What its figures are called and shown in.
+    pub const fn vocabulary(self) -> &'static Vocabulary {
+        match self {
+            Self::Rotary => &Vocabulary::ROTARY,
+            Self::Linear => &Vocabulary::LINEAR,
+        }
+    }
 }
 
 /// A motor's winding. For a three-phase motor currents are RMS values, voltages line to line; for a direct-current motor

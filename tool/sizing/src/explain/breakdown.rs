@@ -20,10 +20,10 @@ use serde::Serialize;
 
 use crate::catalogue::Drive;
 use crate::cycle::form::loads;
-use crate::judge::vocabulary::Units;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::figures::Figures;
+use jred_machine::units::Vocabulary;
 
 /// What one part or one effect gives to the motor torque.
 #[derive(Clone, Debug, Serialize)]
@@ -62,9 +62,9 @@ pub struct InertiaShare {
 pub struct Breakdown {
     /// Name of the drive.
     pub drive: String,
-    /// Units of its figures.
+    /// What its figures are called and shown in.
     #[serde(skip)]
-    pub units: Units,
+    pub words: &'static Vocabulary,
     /// When the motor torque is largest (s).
     #[serde(rename = "peak at [s]")]
     pub peak_time: f64,
@@ -90,41 +90,78 @@ pub struct Cell {
     /// Name of the part.
     pub part: String,
     /// What it does.
-    pub effect: &'static str,
+    pub effect: Effect,
     /// Torque at the motor at every instant of the duty (N·m).
     pub torque: Vec<f64>,
 }
 
-const ACCELERATION: &str = "acceleration J·α";
-const VELOCITY: &str = "velocity ½·J′·ω²";
-const WEIGHT: &str = "weight";
-const SPRINGS: &str = "springs";
-const PROCESS: &str = "process";
-const VISCOUS: &str = "viscous";
-const COULOMB: &str = "Coulomb";
-const TRAIN: &str = "drive train, inertia";
-const TRAIN_LOSS: &str = "drive train, losses";
-const GEARBOX: &str = "gearbox, inertia";
-const GEARBOX_LOSS: &str = "gearbox, losses";
-const ROTOR: &str = "rotor";
-const FRICTION: &str = "motor friction";
+/// What a part does to the motor torque, in the order of reports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effect {
+    /// J·α of the machine.
+    Acceleration,
+    /// ½·J′·ω² of the machine.
+    Velocity,
+    /// Its weight.
+    Weight,
+    /// Its springs.
+    Springs,
+    /// Process loads.
+    Process,
+    /// Viscous loads.
+    Viscous,
+    /// Loads against the motion.
+    Coulomb,
+    /// Inertia of the drive train.
+    Train,
+    /// Losses of the drive train.
+    TrainLoss,
+    /// Inertia of the gearbox.
+    Gearbox,
+    /// Losses of the gearbox.
+    GearboxLoss,
+    /// Inertia of rotor and brake.
+    Rotor,
+    /// Friction of the motor.
+    Friction,
+}
 
-/// Effects, in the order of reports.
-const EFFECTS: [&str; 13] = [
-    ACCELERATION,
-    VELOCITY,
-    WEIGHT,
-    SPRINGS,
-    PROCESS,
-    VISCOUS,
-    COULOMB,
-    TRAIN,
-    TRAIN_LOSS,
-    GEARBOX,
-    GEARBOX_LOSS,
-    ROTOR,
-    FRICTION,
-];
+impl Effect {
+    const ALL: [Self; 13] = [
+        Self::Acceleration,
+        Self::Velocity,
+        Self::Weight,
+        Self::Springs,
+        Self::Process,
+        Self::Viscous,
+        Self::Coulomb,
+        Self::Train,
+        Self::TrainLoss,
+        Self::Gearbox,
+        Self::GearboxLoss,
+        Self::Rotor,
+        Self::Friction,
+    ];
+
+    /// Its name for a kind of motor.
+    pub fn name(self, Vocabulary { inertia, rotor, .. }: &Vocabulary) -> String {
+        match self {
+            Self::Acceleration => "acceleration J·α".to_owned(),
+            Self::Velocity => "velocity ½·J′·ω²".to_owned(),
+            Self::Weight => "weight".to_owned(),
+            Self::Springs => "springs".to_owned(),
+            Self::Process => "process".to_owned(),
+            Self::Viscous => "viscous".to_owned(),
+            Self::Coulomb => "Coulomb".to_owned(),
+            Self::Train => format!("drive train, {inertia}"),
+            Self::TrainLoss => "drive train, losses".to_owned(),
+            Self::Gearbox => format!("gearbox, {inertia}"),
+            Self::GearboxLoss => "gearbox, losses".to_owned(),
+            Self::Rotor => (*rotor).to_owned(),
+            Self::Friction => "motor friction".to_owned(),
+        }
+    }
+}
 
 /// What a part is: a link and a load may have the same name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -161,7 +198,7 @@ impl Cells {
         Ok(cells)
     }
 
-    fn add(&mut self, (kind, part): (Kind, &str), effect: &'static str, torque: f64) {
+    fn add(&mut self, (kind, part): (Kind, &str), effect: Effect, torque: f64) {
         if self.next == self.cells.len() {
             self.cells.push(Cell {
                 kind,
@@ -202,6 +239,7 @@ impl Breakdown {
 
     /// The figures of cells that are there already.
     pub fn of(duty: &Duty, drive: &Drive, cells: &Cells) -> Self {
+        let words = drive.motor.kind.vocabulary();
         let coefficients = drive.coefficients();
         let whole: Vec<f64> = duty
             .instants
@@ -244,8 +282,10 @@ impl Breakdown {
             let own = sum_of(&|cell| cell.kind == kind && cell.part == part);
             share(part, &own)
         });
-        let effects = EFFECTS.into_iter();
-        let effects = effects.map(|effect| share(effect, &sum_of(&|cell| cell.effect == effect)));
+        let effects = Effect::ALL.into_iter().map(|effect| {
+            let own = sum_of(&|cell| cell.effect == effect);
+            share(&effect.name(words), &own)
+        });
         let mut inertia_whole = vec![0.0; whole.len()];
         for (_, values) in &cells.inertias {
             for (sum, value) in inertia_whole.iter_mut().zip(values) {
@@ -265,13 +305,13 @@ impl Breakdown {
         let inertias = inertias.map(|(name, values)| inertia(name, values));
         Self {
             drive: drive.name(),
-            units: Units::of(drive.motor.kind),
+            words,
             peak_time: duty.instants.get(peak).map_or(0.0, |i| i.t),
             stored: {
                 let power = duty.instants.iter().zip(&whole);
                 duty.integral_of(power.map(|(i, torque)| (torque * i.input_speed * ratio).abs()))
             },
-            total: share("motor torque", &whole),
+            total: share(&format!("motor {}", words.torque), &whole),
             effects: effects.filter(acts).collect(),
             parts: parts.filter(acts).collect(),
             inertia: inertias.filter(|i| i.inertia.max > 0.0).collect(),
@@ -298,18 +338,22 @@ fn machine(
     for ((link, frame), name) in links {
         let [inertia, slope, _] = Link::reduced_inertia(link, frame);
         let [_, weight] = link.potential_energy(frame, machine.gravity());
-        cells.add((Kind::Link, name), ACCELERATION, inertia * alpha / total);
         cells.add(
             (Kind::Link, name),
-            VELOCITY,
+            Effect::Acceleration,
+            inertia * alpha / total,
+        );
+        cells.add(
+            (Kind::Link, name),
+            Effect::Velocity,
             0.5 * slope * omega * omega / total,
         );
-        cells.add((Kind::Link, name), WEIGHT, weight / total);
+        cells.add((Kind::Link, name), Effect::Weight, weight / total);
         cells.add_inertia(name, inertia / (total * total));
     }
     cells.add(
         (Kind::Drive, "flywheel"),
-        ACCELERATION,
+        Effect::Acceleration,
         machine.flywheel() * alpha / total,
     );
     cells.add_inertia("flywheel", machine.flywheel() / (total * total));
@@ -319,13 +363,13 @@ fn machine(
         let curves = curves.unwrap_or_default();
         let part = (Kind::Load, named.name.as_str());
         let effect = if mechanism.is_weight(load) {
-            WEIGHT
+            Effect::Weight
         } else {
-            PROCESS
+            Effect::Process
         };
         cells.add(part, effect, -curves.process / total);
-        cells.add(part, VISCOUS, curves.viscous * omega / total);
-        cells.add(part, COULOMB, curves.coulomb * sign / total);
+        cells.add(part, Effect::Viscous, curves.viscous * omega / total);
+        cells.add(part, Effect::Coulomb, curves.coulomb * sign / total);
     }
     for (element, named) in machine.elements().iter().zip(&file.elements) {
         let slope = element.length(&frames).d1;
@@ -333,8 +377,8 @@ fn machine(
         let moving = element.effort(&frames, omega);
         // The effort acts on the element's end; the drive gives the opposite.
         let part = (Kind::Element, named.name.as_str());
-        cells.add(part, SPRINGS, -still * slope / total);
-        cells.add(part, VISCOUS, (still - moving) * slope / total);
+        cells.add(part, Effect::Springs, -still * slope / total);
+        cells.add(part, Effect::Viscous, (still - moving) * slope / total);
     }
     Ok(())
 }
@@ -354,35 +398,40 @@ fn drive_parts(
     let loss = (instant.input_torque - lossless) / ratio;
     cells.add(
         (Kind::Drive, "drive train"),
-        TRAIN,
+        Effect::Train,
         behind * instant.input_alpha / ratio,
     );
-    cells.add((Kind::Drive, "drive train"), TRAIN_LOSS, loss);
+    cells.add((Kind::Drive, "drive train"), Effect::TrainLoss, loss);
     cells.add_inertia("drive train", behind / (ratio * ratio));
     let [_, driving, back, speed, sign] = loads(instant);
     let [_, to_machine, from_machine, viscous, coulomb] = drive.coefficients().0;
     let losses = driving * (to_machine - 1.0 / ratio) + back * (from_machine - 1.0 / ratio);
     let [own_coulomb, _] = drive.motor.friction;
     let gearbox = drive.gearbox.map_or(0.0, |g| g.inertia);
-    cells.add((Kind::Drive, "gearbox"), GEARBOX, gearbox * alpha);
+    cells.add((Kind::Drive, "gearbox"), Effect::Gearbox, gearbox * alpha);
     cells.add(
         (Kind::Drive, "gearbox"),
-        GEARBOX_LOSS,
+        Effect::GearboxLoss,
         losses + (coulomb - own_coulomb) * sign,
     );
     cells.add_inertia("gearbox", gearbox);
+    let rotor = drive.motor.kind.vocabulary().rotor;
     let brake = drive.motor.brake.map_or(0.0, |brake| brake.inertia);
     cells.add(
-        (Kind::Drive, "rotor"),
-        ROTOR,
+        (Kind::Drive, rotor),
+        Effect::Rotor,
         drive.motor.rotor_inertia * alpha,
     );
-    cells.add_inertia("rotor", drive.motor.rotor_inertia);
-    cells.add((Kind::Drive, "brake of the motor"), ROTOR, brake * alpha);
+    cells.add_inertia(rotor, drive.motor.rotor_inertia);
+    cells.add(
+        (Kind::Drive, "brake of the motor"),
+        Effect::Rotor,
+        brake * alpha,
+    );
     cells.add_inertia("brake of the motor", brake);
     cells.add(
         (Kind::Drive, "motor friction"),
-        FRICTION,
+        Effect::Friction,
         viscous * speed + own_coulomb * sign,
     );
 }

@@ -15,13 +15,13 @@ use crate::catalogue::Drive;
 use crate::catalogue::{Gearbox, MotorKind};
 use crate::cycle::Cycle;
 use crate::judge::Context;
-use crate::judge::vocabulary::Units;
 use crate::motor::envelope::Prepared;
 use crate::select::size::Selection;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::model::rules::Verdict;
 use jred_machine::model::site::Site;
+use jred_machine::units::Vocabulary;
 
 /// What is changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -118,9 +118,9 @@ pub struct Miss {
 pub struct Remedies {
     /// The drive.
     pub drive: String,
-    /// Units and words of its figures.
+    /// What its figures are called and shown in.
     #[serde(skip)]
-    pub units: Units,
+    pub words: &'static Vocabulary,
     /// Whether it holds as it is: then the ranges say how far each quantity may go.
     pub holds: bool,
     /// The rules that it breaks.
@@ -172,7 +172,7 @@ impl Remedies {
         });
         Self {
             drive: drive.name(),
-            units: Units::of(drive.motor.kind),
+            words: drive.motor.kind.vocabulary(),
             holds: misses.is_empty(),
             remedies: remedies.collect(),
             misses,

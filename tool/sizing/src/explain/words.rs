@@ -1,8 +1,8 @@
 //! Remedies in words.
 
 use super::remedy::{Edge, Lever, Miss, Remedy};
-use jred_machine::model::rule::Rule;
 use jred_machine::number::rounding::short;
+use jred_machine::units::Vocabulary;
 
 impl Remedy {
     /// The nearest value at which every rule holds, and what is at its limit there; `None` where no value helps, or where the
@@ -19,7 +19,7 @@ impl Remedy {
     }
 
     /// In words; `duration` is the cycle time as it is (s).
-    pub fn sentence(&self, duration: f64) -> String {
+    pub fn sentence(&self, duration: f64, words: &Vocabulary) -> String {
         let shown = |value: f64| match self.lever {
             Lever::GearRatio | Lever::IdealGearbox => short(value),
             Lever::CycleTime => format!("{} s", short(value * duration)),
@@ -28,7 +28,7 @@ impl Remedy {
         let at = |edge: &Edge| {
             let rule = edge
                 .rule
-                .map_or(String::new(), |r| format!(" ({})", r.name()));
+                .map_or(String::new(), |r| format!(" ({})", r.named(words)));
             format!("{}{rule}", shown(edge.value))
         };
         let (name, now) = (self.lever.name(), shown(self.now));
@@ -48,7 +48,7 @@ impl Remedy {
         let Some(best) = &self.best else {
             return format!("{name} {now}: no value helps");
         };
-        let rule = best.rule.map_or("a rule", Rule::name);
+        let rule = best.rule.map_or("a rule", |rule| rule.named(words));
         let used = self.best_use.map_or(String::new(), |used| {
             format!(" with {} of its limit", percent(used))
         });
@@ -61,8 +61,8 @@ impl Remedy {
 
 impl Miss {
     /// In words: what is used, and what limit would do.
-    pub fn sentence(&self) -> String {
-        let name = self.rule.name();
+    pub fn sentence(&self, words: &Vocabulary) -> String {
+        let name = self.rule.named(words);
         match (self.used, self.needed) {
             (Some(used), Some(needed)) => format!(
                 "{name} uses {} of its limit (it would hold with {} instead of {})",

@@ -185,11 +185,10 @@ fn figures(context: &Context, data: &BusData) -> Option<BusFigures> {
 pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
     let amplifier = context.drive.amplifier;
     let known = |text: &str| text.to_owned();
+    let constant = || format!("{} constant of the motor", context.vocabulary().torque);
     let (unit, rating) = match rule {
         Rule::RmsCurrent if amplifier.is_none() => ("A", known("amplifier: none is chosen")),
-        Rule::RmsCurrent | Rule::PeakCurrent if finding.value.is_nan() => {
-            ("A", known("torque constant of the motor"))
-        }
+        Rule::RmsCurrent | Rule::PeakCurrent if finding.value.is_nan() => ("A", constant()),
         Rule::RmsCurrent => ("A", known("rated current of the amplifier")),
         Rule::PeakCurrent => {
             let motor = context.drive.motor.winding.peak_current;
@@ -200,15 +199,15 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
         Rule::Overload => {
             let rating = match amplifier {
                 _ if finding.rating.is_infinite() => {
-                    "the current never exceeds the amplifier's rated one"
+                    known("the current never exceeds the amplifier's rated one")
                 }
                 Some(a) if a.peak_time.is_none() => {
-                    "time for which the amplifier bears its peak current"
+                    known("time for which the amplifier bears its peak current")
                 }
-                _ if finding.value.is_nan() => "torque constant of the motor",
-                _ => "(peak current² − rated current²)·peak time of the amplifier",
+                _ if finding.value.is_nan() => constant(),
+                _ => known("(peak current² − rated current²)·peak time of the amplifier"),
             };
-            ("A^2 s", known(rating))
+            ("A^2 s", rating)
         }
         Rule::BusVoltage => {
             let missing = missing(&data(context)).filter(|_| !finding.is_known());

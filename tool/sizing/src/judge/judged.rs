@@ -17,7 +17,7 @@ pub struct Judged<'c> {
     /// Every rule.
     pub checks: Vec<Check>,
     /// What was assumed about motor and gearbox, and whose figures are second-hand.
-    pub assumptions: Vec<&'static str>,
+    pub assumptions: Vec<String>,
 }
 
 impl<'c> Judged<'c> {

@@ -2,12 +2,12 @@
 
 use super::{Context, Take, Words};
 use crate::cycle::Cycle;
-use crate::judge::vocabulary::Units;
 use crate::motor::envelope::Prepared;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Finding;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::number::rounding::short;
+use jred_machine::units::Vocabulary;
 
 /// Seconds of a minute.
 const MINUTE: f64 = 60.0;
@@ -119,16 +119,26 @@ fn constant(context: &Context) -> f64 {
 }
 
 pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Finding) -> Words {
-    let units = Units::of(context.drive.motor.kind);
-    let (unit, scale, rating) = match rule {
-        Rule::RmsTorque => (units.torque, 1.0, "S1 torque at mean speed"),
-        Rule::PeakTorque => (units.torque, 1.0, "peak torque at that speed"),
-        Rule::Speed => (units.speed, units.speed_scale, "maximum speed"),
-        Rule::HoldingTorque | Rule::ConstantTorque => (units.torque, 1.0, "standstill torque"),
-        Rule::BrakeTorque => (units.torque, 1.0, "brake torque"),
-        _ => ("", 1.0, "times the rotor's inertia"),
+    let words = context.vocabulary();
+    let Vocabulary {
+        torque,
+        inertia,
+        rotor,
+        ..
+    } = words;
+    let (unit, scale) = match rule {
+        Rule::Speed => (words.speed.unit, words.speed.scale),
+        Rule::InertiaRatio => ("", 1.0),
+        _ => (torque.unit, torque.scale),
     };
-    let mut rating = units.words(rating);
+    let mut rating = match rule {
+        Rule::RmsTorque => format!("S1 {torque} at mean speed"),
+        Rule::PeakTorque => format!("peak {torque} at that speed"),
+        Rule::Speed => "maximum speed".to_owned(),
+        Rule::HoldingTorque | Rule::ConstantTorque => format!("standstill {torque}"),
+        Rule::BrakeTorque => format!("brake {torque}"),
+        _ => format!("times the {rotor}'s {inertia}"),
+    };
     let place = match rule {
         Rule::PeakTorque => {
             let envelope = &context.motor.envelope;
@@ -137,17 +147,17 @@ pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Fin
                 .peak(&context.coefficients, context.ratio, envelope);
             format!(
                 "at {}, where the cycle comes closest to the envelope",
-                units.speed(peak.speed)
+                words.speed(peak.speed)
             )
         }
         Rule::HoldingTorque | Rule::BrakeTorque if locks(context) => {
             "the gearbox locks and holds by itself".to_owned()
         }
         Rule::HoldingTorque if finding.value > 0.0 => {
-            units.words("torque at rest with friction against it")
+            format!("{torque} at rest with friction against it")
         }
-        Rule::ConstantTorque => units.words("torque of weight and friction alone"),
-        Rule::BrakeTorque => units.words("torque at rest without the help of friction"),
+        Rule::ConstantTorque => format!("{torque} of weight and friction alone"),
+        Rule::BrakeTorque => format!("{torque} at rest without the help of friction"),
         Rule::InertiaRatio => {
             let choices = &rules.choices;
             let judged = choices.inertia_ratio_of.words();

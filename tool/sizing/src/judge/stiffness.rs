@@ -12,6 +12,7 @@ use jred_machine::model::rules::Finding;
 use jred_machine::model::site::ToolPlace;
 use jred_machine::number::rounding::short;
 use jred_machine::units::DEGREE;
+use jred_machine::units::Vocabulary;
 
 /// Both depend on gearbox, machine and cycle alone, whatever the motor.
 pub(super) fn measure(context: &Context, findings: &mut impl Take) {
@@ -79,8 +80,9 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
             _ => "",
         };
         let free = short(free);
+        let Vocabulary { inertia, rotor, .. } = context.vocabulary();
         let place = format!(
-            "the motor holding its position at the largest inertia of the cycle ({free} Hz with a free rotor){shafts}"
+            "the motor holding its position at the largest {inertia} of the cycle ({free} Hz with a free {rotor}){shafts}"
         );
         ("drive frequency", place)
     } else if context.drive.gearbox.is_some() {

@@ -7,6 +7,7 @@ use crate::thermal::{Heating, Load, Model, allowed_rise};
 use jred_machine::model::operation::Operation;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Finding;
+use jred_machine::units::{Sentence, Vocabulary};
 
 pub(super) fn follow(context: &Context, findings: &mut impl Take) {
     let Ok(heating) = heating(context) else {
@@ -31,7 +32,7 @@ pub(super) fn follow(context: &Context, findings: &mut impl Take) {
 }
 
 /// What the motor's data allow to say of its temperature.
-fn heating(context: &Context) -> Result<Heating, &'static str> {
+fn heating(context: &Context) -> Result<Heating, Sentence> {
     let (site, prepared) = (context.site, context.motor);
     let load = load(context);
     let surroundings = &site.surroundings;
@@ -58,21 +59,22 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
     let found = heating(context);
     let relative = found.as_ref().is_ok_and(|found| found.relative);
     let surroundings = &context.site.surroundings;
+    let Vocabulary { torque, .. } = context.vocabulary();
     let unknown = match &found {
-        Err(missing) => Some(*missing),
+        Err(missing) => Some(missing(context.vocabulary())),
         Ok(found) if rule == Rule::HousingTemperature && !found.housing => {
-            Some("thermal resistances of winding and housing")
+            Some("thermal resistances of winding and housing".to_owned())
         }
-        Ok(_) if finding.rating.is_nan() => Some("highest temperature of the winding"),
+        Ok(_) if finding.rating.is_nan() => Some("highest temperature of the winding".to_owned()),
         Ok(_) => None,
     };
     let rating = match (unknown, rule) {
-        (Some(missing), _) => missing.to_owned(),
+        (Some(missing), _) => missing,
         (None, Rule::HousingTemperature) => format!(
             "rise from {} °C to the housing's highest temperature",
             surroundings.ambient
         ),
-        (None, _) if relative => "rise at the S1 torque".to_owned(),
+        (None, _) if relative => format!("rise at the S1 {torque}"),
         (None, _) => {
             let thin = if surroundings.altitude_factor() < 1.0 {
                 format!(
@@ -110,9 +112,10 @@ fn place(context: &Context, found: Heating) -> String {
         parts.push("thermal runaway: the copper loss grows faster with the temperature than the heat that flows off".to_owned());
     }
     if found.relative {
-        parts.push(
-            "from the squared torque, for want of thermal resistances and winding data".to_owned(),
-        );
+        parts.push(format!(
+            "from the squared {}, for want of thermal resistances and winding data",
+            context.vocabulary().torque
+        ));
     }
     if !found.ripple {
         parts.push(

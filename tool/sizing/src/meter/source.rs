@@ -3,7 +3,6 @@
 use std::fmt::Write as _;
 
 use super::{Bound, Entry, MeterLimits, below};
-use crate::judge::vocabulary::Units;
 
 impl MeterLimits<'_> {
     /// The source. `machine`: where the drive was sized for, in words.
@@ -54,14 +53,15 @@ impl MeterLimits<'_> {
         );
         let unseen = self.unseen();
         if !unseen.is_empty() {
-            let names: Vec<&str> = unseen.iter().map(|rule| rule.name()).collect();
+            let words = self.context.vocabulary();
+            let names: Vec<&str> = unseen.iter().map(|rule| rule.named(words)).collect();
             lines.push(format!("not seen by the meter: {}", names.join(", ")));
         }
         lines.push(String::new());
-        lines.push(
-            "SI units. Speed and torque are those of the motor; output is that of the gearbox."
-                .to_owned(),
-        );
+        lines.push(format!(
+            "SI units. Speed and {} are those of the motor; output is that of the gearbox.",
+            self.context.vocabulary().torque
+        ));
         let mut text = String::new();
         for line in lines {
             // Names of a catalogue may hold anything but must not leave the comment.
@@ -92,15 +92,14 @@ impl MeterLimits<'_> {
     }
 
     fn unit(&self, field: &str) -> String {
-        let units = Units::of(self.drive().motor.kind);
-        let turns = units.torque == "N m";
-        let speed = if turns { "rad/s" } else { "m/s" };
+        let words = self.context.vocabulary();
+        let (torque, speed) = (words.torque.unit, words.speed_si);
         match field {
-            "continuous" | "peak" => format!("{} over {speed}", units.torque),
+            "continuous" | "peak" => format!("{torque} over {speed}"),
             "speed" | "mean_speed" => speed.to_owned(),
             "regenerative_power" => "W".to_owned(),
             "cycles_per_hour" => "1/h".to_owned(),
-            _ => units.torque.to_owned(),
+            _ => torque.to_owned(),
         }
     }
 

@@ -4,6 +4,7 @@ use crate::judge::Context;
 use crate::select::size::{Candidate, Group, Selection};
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Finding;
+use jred_machine::units::{Sentence, Vocabulary};
 
 jred_machine::words! {
     /// What a drive is to have little of, or of its margin much.
@@ -49,26 +50,28 @@ impl Objective {
     }
 
     /// How drives are ranked by it, in words for reports.
-    pub const fn words(self) -> &'static str {
+    pub const fn ranking(self) -> Sentence {
         match self {
-            Self::Power => {
-                "drives that break no rule, the smallest motor first (rated torque times rated speed)"
-            }
-            Self::Mass => {
-                "drives that break no rule, the lightest first (motor, gearbox and amplifier), those of unknown mass last"
-            }
-            Self::Price => {
-                "drives that break no rule, the cheapest first (motor, gearbox and amplifier), those of unknown price last"
-            }
-            Self::Energy => {
-                "drives that break no rule, the least energy put in per cycle first (what comes back is not deducted)"
-            }
-            Self::Margin => {
-                "drives that break no rule, the largest margin first (what is left of the limit that is used most)"
-            }
-            Self::Temperature => {
-                "drives that break no rule, the coolest winding first, those of unknown temperature last"
-            }
+            Self::Power => |Vocabulary { torque, .. }| {
+                format!(
+                    "drives that break no rule, the smallest motor first (rated {torque} times rated speed)"
+                )
+            },
+            Self::Mass => |_| {
+                "drives that break no rule, the lightest first (motor, gearbox and amplifier), those of unknown mass last".to_owned()
+            },
+            Self::Price => |_| {
+                "drives that break no rule, the cheapest first (motor, gearbox and amplifier), those of unknown price last".to_owned()
+            },
+            Self::Energy => |_| {
+                "drives that break no rule, the least energy put in per cycle first (what comes back is not deducted)".to_owned()
+            },
+            Self::Margin => |_| {
+                "drives that break no rule, the largest margin first (what is left of the limit that is used most)".to_owned()
+            },
+            Self::Temperature => |_| {
+                "drives that break no rule, the coolest winding first, those of unknown temperature last".to_owned()
+            },
         }
     }
 
@@ -145,7 +148,7 @@ pub fn rank(selection: &mut Selection, objective: Objective) -> usize {
             .cmp(&is_unknown(b))
             .then_with(|| cost(a).total_cmp(&cost(b)))
     });
-    selection.ranking = objective.words();
+    selection.ranking = Some(objective.ranking());
     let ranked = order
         .iter()
         .filter_map(|k| selection.fit.known().get(*k).copied());

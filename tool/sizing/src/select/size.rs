@@ -10,6 +10,7 @@ use crate::judge::{Context, Outcome, Screen};
 use crate::motor::envelope::Prepared;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::model::site::Site;
+use jred_machine::units::{Sentence, Vocabulary};
 
 mod group;
 mod order;
@@ -18,9 +19,13 @@ pub use group::{FIRST, Group};
 use group::{Placed, Unranked};
 use order::{Order, Place};
 
-/// How drives are ranked, in words for reports.
-pub const RANKING: &str = "drives that break no rule, the smallest motor first (rated torque times rated speed), \
-     among equal motors without warnings first, then by the largest share of a limit used";
+/// How drives are ranked unless something else was asked for.
+fn by_size(Vocabulary { torque, .. }: &Vocabulary) -> String {
+    format!(
+        "drives that break no rule, the smallest motor first (rated {torque} times rated speed), among equal motors \
+         without warnings first, then by the largest share of a limit used"
+    )
+}
 
 /// Motors whose drives a thread takes at a time, at least.
 const SHARE: usize = 16;
@@ -51,9 +56,9 @@ pub struct Selection<'c> {
     pub site: &'c Site,
     /// The rules they were judged by.
     pub rules: &'c RuleSet,
-    /// How the drives that fit are ranked, in words; [`RANKING`] unless something else was asked for.
-    pub ranking: &'static str,
-    /// Drives that break no rule, best first; see [`RANKING`].
+    /// How the drives that fit are ranked, if not by the size of their motors.
+    pub ranking: Option<Sentence>,
+    /// Drives that break no rule, best first: see [`Selection::ranking`].
     pub fit: Group<'c>,
     /// Drives that break a rule, those that miss by least first.
     pub refused: Group<'c>,
@@ -122,11 +127,16 @@ impl<'c> Selection<'c> {
             cycle,
             site,
             rules,
-            ranking: RANKING,
+            ranking: None,
             fit: Group::none(),
             refused: Group::none(),
             motors,
         }
+    }
+
+    /// How the drives that fit are ranked, for a kind of motor.
+    pub fn ranking(&self, words: &Vocabulary) -> String {
+        self.ranking.unwrap_or(by_size)(words)
     }
 
     fn screen(&self, catalogue: &'c Catalogue) -> Screen<'c> {

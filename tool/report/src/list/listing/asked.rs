@@ -7,8 +7,7 @@ use miette::Result;
 use super::explained;
 use jred_machine::model::rules::Verdict;
 use jred_machine::number::rounding::significant;
-use jred_sizing::judge::vocabulary::Units;
-use jred_sizing::select::size::{Candidate, RANKING, Selection};
+use jred_sizing::select::size::{Candidate, Selection};
 
 /// A drive and its place.
 #[derive(Clone, Copy, Debug)]
@@ -46,7 +45,7 @@ impl<'c> Asked<'c> {
     /// Why it stands where it does: the rules that it breaks, or what the drives before it have that it has not.
     pub fn place(&self, selection: &Selection) -> String {
         let all = selection.fit.len() + selection.refused.len();
-        let units = Units::of(self.candidate.drive.motor.kind);
+        let kind = self.candidate.drive.motor.kind;
         let Some(rank) = self.rank else {
             // The figures stand in the table of its rules.
             let judged = selection.judged(&self.candidate);
@@ -63,10 +62,10 @@ impl<'c> Asked<'c> {
         let mut words = format!(
             "breaks no rule: rank {rank} of {} that fit, of {all} drives; ranked: {}",
             selection.fit.len(),
-            units.words(selection.ranking)
+            selection.ranking(kind.vocabulary())
         );
         // Only the default ranking goes by figures that every drive has.
-        if rank > 1 && selection.ranking == RANKING {
+        if rank > 1 && selection.ranking.is_none() {
             let before = selection.first_fit(rank - 1);
             let others = before
                 .first()
@@ -84,7 +83,7 @@ impl<'c> Asked<'c> {
 /// What the default ranking goes by.
 fn figures(candidate: &Candidate) -> String {
     let outcome = &candidate.outcome;
-    let units = Units::of(candidate.drive.motor.kind);
+    let words = candidate.drive.motor.kind.vocabulary();
     let power = candidate.drive.motor.rated_power();
     let power = power.map_or_else(
         || "rated power not known".to_owned(),
@@ -97,7 +96,7 @@ fn figures(candidate: &Candidate) -> String {
     };
     let most = outcome.worst_rule.map_or_else(String::new, |rule| {
         let used = significant(outcome.worst_use * 100.0, 3);
-        format!(", most of a limit: {} {used} %", units.rule(rule))
+        format!(", most of a limit: {} {used} %", rule.named(words))
     });
     format!("{}, {power}, {warnings}{most}", candidate.drive.name())
 }

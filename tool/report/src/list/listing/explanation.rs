@@ -9,6 +9,7 @@ use crate::table::output::text_table;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::rounding::{short, shown};
+use jred_machine::units::Vocabulary;
 use jred_sizing::explain::{Altered, Breakdown, InertiaShare, Remedies, Share};
 use jred_sizing::select::size::{Candidate, Selection};
 
@@ -109,7 +110,7 @@ fn contributions_text(breakdown: &Breakdown) -> String {
         ]);
         for share in shares.iter().chain([&breakdown.total]) {
             table.add_row([
-                breakdown.units.words(&share.name),
+                share.name.clone(),
                 short(share.torque.rms),
                 short(share.torque.peak()),
                 shown(share.at_peak, breakdown.total.at_peak),
@@ -119,25 +120,26 @@ fn contributions_text(breakdown: &Breakdown) -> String {
         }
         table.to_string()
     };
-    let units = breakdown.units;
-    let (unit, scale) = units.shown_inertia();
-    let heading = format!("{} at the motor [{unit}]", units.inertia_word);
+    let Vocabulary {
+        torque, inertia, ..
+    } = breakdown.words;
+    let scale = inertia.scale;
+    let heading = format!("{inertia} at the motor [{}]", inertia.unit);
     let mut inertias = text_table(&[heading.as_str(), "min", "mean", "max", "share"]);
     let row = |share: &InertiaShare| {
         let figures = share.inertia;
         let [min, mean, max] = [figures.min, figures.mean, figures.max];
         let [min, mean, max] = [min, mean, max].map(|x| shown(x / scale, figures.max / scale));
         let part = format!("{:.1} %", share.of_mean * 100.0);
-        [units.words(&share.name), min, mean, max, part]
+        [share.name.clone(), min, mean, max, part]
     };
     for share in breakdown.inertia.iter().chain([&breakdown.total_inertia]) {
         inertias.add_row(row(share));
     }
     format!(
-        "\nWhat the motor {} of {} is made of [{}]; the peak is at {} s\n{}\n\n{}\n\n{inertias}\n",
-        units.torque_word,
+        "\nWhat the motor {torque} of {} is made of [{}]; the peak is at {} s\n{}\n\n{}\n\n{inertias}\n",
         breakdown.drive,
-        units.torque,
+        torque.unit,
         short(breakdown.peak_time),
         shares("effect", &breakdown.effects),
         shares("part", &breakdown.parts)
@@ -150,18 +152,14 @@ fn remedies_text(remedies: &Remedies, duration: f64) -> String {
     let misses: Vec<String> = remedies
         .misses
         .iter()
-        .map(|miss| remedies.units.words(&miss.sentence()))
+        .map(|miss| miss.sentence(remedies.words))
         .collect();
     if !misses.is_empty() {
         let _ = write!(text, ": {}", misses.join("; "));
     }
     text += "\n";
     for remedy in &remedies.remedies {
-        let _ = writeln!(
-            text,
-            "    {}",
-            remedies.units.words(&remedy.sentence(duration))
-        );
+        let _ = writeln!(text, "    {}", remedy.sentence(duration, remedies.words));
     }
     text
 }

@@ -6,6 +6,7 @@ use super::{Asked, Explanation, List};
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rule::Rule;
+use jred_sizing::catalogue::MotorKind;
 use jred_sizing::select::size::{Candidate, Selection};
 
 /// Name and version of the form. The number is raised whenever a key is removed or changes its meaning.
@@ -20,6 +21,9 @@ pub fn json(
     asked: Option<&Asked>,
     explanation: Option<&Explanation>,
 ) -> Value {
+    let first = selection.fit.first().or(selection.refused.first());
+    let shown = asked.map(|asked| &asked.candidate).or(first);
+    let kind = shown.map_or(MotorKind::Rotary, |c| c.drive.motor.kind);
     let drives = |candidates: &[Candidate]| -> Vec<Value> {
         candidates.iter().map(|c| drive(selection, c)).collect()
     };
@@ -45,7 +49,7 @@ pub fn json(
         "input inertia [kg m^2]": duty.figures(|i| i.input_inertia),
         "holding torque [N m]": duty.hold_torque,
         "rules": { "set": selection.rules.name, "title": selection.rules.title, "limits": limits },
-        "ranking": selection.ranking,
+        "ranking": selection.ranking(kind.vocabulary()),
         "counts": {
             "drives": selection.fit.len() + selection.refused.len(),
             "fit": selection.fit.len(),

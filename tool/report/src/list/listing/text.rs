@@ -10,10 +10,10 @@ use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Verdict;
 use jred_machine::number::figures::Figures;
 use jred_machine::number::rounding::{rounded, short, significant};
+use jred_machine::units::Vocabulary;
 use jred_sizing::catalogue::MotorKind;
 use jred_sizing::judge::Judged;
 use jred_sizing::judge::check::Check;
-use jred_sizing::judge::vocabulary::Units;
 use jred_sizing::select::size::Selection;
 
 /// Widest line of what a limit is.
@@ -32,19 +32,20 @@ pub fn text(
     let input_power = |i: &Instant| i.input_torque * i.input_speed;
     let first = selection.fit.first().or(selection.refused.first());
     let shown = asked.map(|asked| &asked.candidate).or(first);
-    let units = Units::of(shown.map_or(MotorKind::Rotary, |c| c.drive.motor.kind));
+    let kind = shown.map_or(MotorKind::Rotary, |c| c.drive.motor.kind);
+    let words = kind.vocabulary();
     let input = figures_table(&[
-        (units.torque_label(), duty.figures(|i| i.input_torque), 1.0),
+        (words.torque.label(), duty.figures(|i| i.input_torque), 1.0),
         (
-            units.speed_label(),
+            words.speed.label(),
             duty.figures(|i| i.input_speed),
-            units.speed_scale,
+            words.speed.scale,
         ),
         ("power [W]".to_owned(), duty.figures(input_power), 1.0),
         (
-            units.inertia_label(),
+            words.inertia.label(),
             duty.figures(|i| i.input_inertia),
-            units.inertia_scale,
+            words.inertia.scale,
         ),
     ]);
     let mut parts = vec![format!(
@@ -72,7 +73,7 @@ pub fn text(
             "\n{} of {all} drives break no rule{open}",
             selection.fit.len()
         ));
-        parts.push(ranking(list, selection, units));
+        parts.push(ranking(list, selection, words));
     } else if let Some(nearest) = selection.refused.first() {
         let nearest = &selection.judged(nearest);
         parts.push(format!(
@@ -119,7 +120,7 @@ fn asked_text(asked: &Asked, selection: &Selection) -> String {
     )
 }
 
-fn ranking(list: List, selection: &Selection, units: Units) -> String {
+fn ranking(list: List, selection: &Selection, words: &Vocabulary) -> String {
     let mut table = text_table(&[
         "rank",
         "motor",
@@ -133,7 +134,7 @@ fn ranking(list: List, selection: &Selection, units: Units) -> String {
     for (k, candidate) in list.fit(selection).iter().enumerate() {
         table.add_row(rank_row(k + 1, &selection.judged(candidate)));
     }
-    format!("{table}\nranked: {}", units.words(selection.ranking))
+    format!("{table}\nranked: {}", selection.ranking(words))
 }
 
 /// Rows of min, mean, max and RMS, each in its unit.
@@ -153,17 +154,17 @@ fn figures_table(rows: &[(String, Figures, f64)]) -> String {
 /// A drive's duty and how every rule came out.
 fn drive_text(judged: &Judged) -> String {
     let duty = &judged.duty;
-    let units = Units::of(judged.drive.motor.kind);
+    let words = judged.drive.motor.kind.vocabulary();
     let figures = figures_table(&[
-        (format!("motor {}", units.torque_label()), duty.torque, 1.0),
+        (format!("motor {}", words.torque.label()), duty.torque, 1.0),
         (
-            format!("motor {}", units.speed_label()),
+            format!("motor {}", words.speed.label()),
             duty.speed,
-            units.speed_scale,
+            words.speed.scale,
         ),
         ("motor power [W]".to_owned(), duty.power, 1.0),
         (
-            format!("{} ratio λ", units.inertia_word),
+            format!("{} ratio λ", words.inertia),
             duty.inertia_ratio,
             1.0,
         ),
@@ -215,7 +216,7 @@ fn rules_table(judged: &Judged) -> String {
     }
     for assumed in &judged.assumptions {
         text += "\nmind: ";
-        text += &Units::of(judged.drive.motor.kind).words(assumed);
+        text += assumed;
     }
     text
 }

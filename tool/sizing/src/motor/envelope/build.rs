@@ -7,6 +7,7 @@ use super::{Envelope, voltage};
 use crate::catalogue::{Amplifier, Motor};
 use crate::motor::winding::{Commutation, CurrentCurve, REFERENCE_TEMPERATURE};
 use jred_machine::model::site::Site;
+use jred_machine::units::{Sentence, Vocabulary};
 
 /// A motor's figures on their way to an envelope.
 pub(super) struct Builder<'a> {
@@ -21,7 +22,7 @@ pub(super) struct Builder<'a> {
     peak: f64,
     /// What the amplifier's peak current makes (N·m).
     cap: f64,
-    assumptions: Vec<&'static str>,
+    assumptions: Vec<Sentence>,
 }
 
 /// A supply is of the same class as the voltage of a motor's figures up to this share: 325 V for 282 V, 680 V for 540 V.
@@ -55,7 +56,7 @@ fn falling(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 
 impl<'a> Builder<'a> {
     pub(super) fn new(motor: &'a Motor, amplifier: Option<&Amplifier>, site: &Site) -> Self {
-        let mut assumptions = Vec::new();
+        let mut assumptions: Vec<Sentence> = Vec::new();
         let torques = CurrentCurve::of(motor);
         let sheet = finite(motor.bus_voltage);
         let actual = finite(site.bus_voltage).or(finite(amplifier.and_then(|a| a.bus_voltage)));
@@ -69,27 +70,30 @@ impl<'a> Builder<'a> {
             && let (Some(torques), Some(current)) = (torques, finite(motor.winding.peak_current))
         {
             peak = torques.torque(current);
-            assumptions.push("peak torque not stated: that of the peak current");
+            assumptions.push(|Vocabulary { torque, .. }| {
+                format!("peak {torque} not stated: that of the peak current")
+            });
         }
         let cap = match (amplifier, torques) {
             (Some(amplifier), Some(torques)) => torques.torque(known(Some(amplifier.peak_current))),
             (Some(_), None) => {
                 assumptions.push(
-                    "torque constant not stated: peak torque not limited by the amplifier's current",
+                    |Vocabulary { torque, .. }| format!("{torque} constant not stated: peak {torque} not limited by the amplifier's current"),
                 );
                 f64::INFINITY
             }
             (None, _) => f64::INFINITY,
         };
         if actual.is_some() && sheet.is_none() && line.is_none() {
-            assumptions.push(
-                "bus voltage of the motor's figures not stated: they are taken at any supply",
-            );
+            assumptions.push(|_| {
+                "bus voltage of the motor's figures not stated: they are taken at any supply"
+                    .to_owned()
+            });
         }
         if share > VOLTAGE_CLASS {
             assumptions.push(
-                "the supply has more than 4/3 of the voltage that the motor's figures hold for: whether its insulation and its \
-                 bearings stand that is not checked",
+                |_| "the supply has more than 4/3 of the voltage that the motor's figures hold for: whether its insulation and its \
+                 bearings stand that is not checked".to_owned(),
             );
         }
         Self {
@@ -149,12 +153,13 @@ impl<'a> Builder<'a> {
         let rated = known(motor.rated_torque);
         let points = falling(&motor.continuous_curve);
         if motor.standstill_torque.is_none() && rated.is_finite() && points.is_empty() {
-            self.assumptions
-                .push("standstill torque not stated: the rated torque is taken");
+            self.assumptions.push(|Vocabulary { torque, .. }| {
+                format!("standstill {torque} not stated: the rated {torque} is taken")
+            });
         }
         if motor.rated_speed.is_none() && rated.is_finite() && points.is_empty() {
             self.assumptions.push(
-                "rated speed not stated: the rated torque is taken as S1 torque at every speed",
+                |Vocabulary { torque, .. }| format!("rated speed not stated: the rated {torque} is taken as S1 {torque} at every speed"),
             );
         }
         Envelope {
@@ -163,32 +168,37 @@ impl<'a> Builder<'a> {
             braking,
             continuous: Continuous::of(motor, known, points),
             assumptions: self.assumptions,
+            words: motor.kind.vocabulary(),
         }
     }
 
     fn by_winding(&mut self, circuit: &Circuit, torques: &CurrentCurve) -> [Limit; 2] {
         let motor = self.motor;
         if motor.max_speed.is_none() {
-            self.assumptions
-                .push("maximum speed not stated: the no-load speed of the winding is taken");
+            self.assumptions.push(|_| {
+                "maximum speed not stated: the no-load speed of the winding is taken".to_owned()
+            });
         }
         self.assumptions.push(if motor.corner_speed.is_some() {
-            "peak torque at maximum speed not stated: the winding's voltage line through the corner"
+            |Vocabulary { torque, .. }| format!("peak {torque} at maximum speed not stated: the winding's voltage line through the corner")
         } else {
-            "corner of the peak torque not stated: peak torque up to the winding's voltage line"
+            |Vocabulary { torque, .. }| format!("corner of the peak {torque} not stated: peak {torque} up to the winding's voltage line")
         });
         self.assumptions
             .push(if finite(motor.thermal.max_temperature).is_some() {
-                "resistance of the winding at its highest temperature"
+                |_| "resistance of the winding at its highest temperature".to_owned()
             } else {
-                "resistance of the winding at 20 °C: its highest temperature is not stated"
+                |_| {
+                    "resistance of the winding at 20 °C: its highest temperature is not stated"
+                        .to_owned()
+                }
             });
         match motor.winding.commutation {
             Commutation::Block => {}
-            Commutation::Sine if circuit.weakens => self
-                .assumptions
-                .push("field weakening: the maximum speed lies beyond the no-load speed"),
-            Commutation::Sine => self.assumptions.push("no field weakening"),
+            Commutation::Sine if circuit.weakens => self.assumptions.push(|_| {
+                "field weakening: the maximum speed lies beyond the no-load speed".to_owned()
+            }),
+            Commutation::Sine => self.assumptions.push(|_| "no field weakening".to_owned()),
         }
         // The circuit's largest current is that of the peak torque, the amplifier's included.
         let end = circuit.largest_speed(known(motor.max_speed));
@@ -204,7 +214,7 @@ impl<'a> Builder<'a> {
         let last = points.last().map(|p| p[0]);
         if motor.max_speed.is_none() && last.is_none() && rated_speed.is_finite() {
             self.assumptions
-                .push("maximum speed not stated: the rated speed is taken");
+                .push(|_| "maximum speed not stated: the rated speed is taken".to_owned());
         }
         let stated = known(motor.max_speed.or(last).or(Some(rated_speed)));
         let mut is_assumed = false;
@@ -214,7 +224,7 @@ impl<'a> Builder<'a> {
             let corner = corner.unwrap_or_else(|| {
                 if self.peak.is_finite() && rated_speed.is_finite() {
                     self.assumptions.push(
-                        "corner of the peak torque not stated: peak torque up to rated speed",
+                        |Vocabulary { torque, .. }| format!("corner of the peak {torque} not stated: peak {torque} up to rated speed"),
                     );
                 }
                 rated_speed
@@ -223,7 +233,7 @@ impl<'a> Builder<'a> {
             let end = if stated > corner && self.peak.is_finite() {
                 finite(motor.torque_at_max_speed).unwrap_or_else(|| {
                     self.assumptions.push(
-                        "peak torque at maximum speed not stated: straight line to the rated torque",
+                        |Vocabulary { torque, .. }| format!("peak {torque} at maximum speed not stated: straight line to the rated {torque}"),
                     );
                     rated_torque
                 })
@@ -254,14 +264,16 @@ impl<'a> Builder<'a> {
             return 1.0;
         }
         if self.share > 1.0 && is_assumed {
-            self.assumptions
-                .push("bus voltage above that of the data sheet: the assumed corner is not raised");
+            self.assumptions.push(|_| {
+                "bus voltage above that of the data sheet: the assumed corner is not raised"
+                    .to_owned()
+            });
             return 1.0;
         }
         self.assumptions.push(if self.line.is_some() {
-            "bus voltage not that of the data sheet: the envelope's speeds moved along the winding's voltage line"
+            |_| "bus voltage not that of the data sheet: the envelope's speeds moved along the winding's voltage line".to_owned()
         } else {
-            "bus voltage not that of the data sheet: the envelope's speeds moved in proportion to it, as resistance and voltage constant are not stated"
+            |_| "bus voltage not that of the data sheet: the envelope's speeds moved in proportion to it, as resistance and voltage constant are not stated".to_owned()
         });
         self.share
     }

@@ -14,6 +14,7 @@
 use crate::catalogue::{Amplifier, Catalogue, Motor};
 use crate::motor::winding::CurrentCurve;
 use jred_machine::model::site::Site;
+use jred_machine::units::{Sentence, Vocabulary};
 
 mod bound;
 mod build;
@@ -38,7 +39,8 @@ pub struct Envelope {
     braking: Limit,
     continuous: Continuous,
     max_speed: f64,
-    assumptions: Vec<&'static str>,
+    assumptions: Vec<Sentence>,
+    words: &'static Vocabulary,
 }
 
 impl Envelope {
@@ -64,8 +66,9 @@ impl Envelope {
     }
 
     /// What was assumed because the data sheet does not say.
-    pub fn assumptions(&self) -> &[&'static str] {
-        &self.assumptions
+    pub fn assumptions(&self) -> Vec<String> {
+        let sentences = self.assumptions.iter();
+        sentences.map(|sentence| sentence(self.words)).collect()
     }
 
     /// The limit of the short-time torque in the quadrants where power flows to the shaft, or, `braking`, from it.
