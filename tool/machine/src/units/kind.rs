@@ -1,6 +1,6 @@
 //! The kinds of quantities: what each is called, measured in, and how large it may be.
 
-use super::unit::Dimension;
+use super::word::Dimension;
 
 /// What a quantity measures, and which units and sizes it may have.
 #[derive(Debug)]

@@ -12,9 +12,11 @@ pub mod literal;
 pub mod quantity;
 pub mod unit;
 mod vocabulary;
+mod word;
 
 pub use fault::{Fault, closest};
 pub use vocabulary::{Sentence, Term, Vocabulary};
+pub use word::{Dimension, scale};
 
 /// rad/s of one revolution per minute.
 pub const RPM: f64 = PI / 30.0;

@@ -2,7 +2,8 @@
 
 use super::fault::Fault;
 use super::kind::{ANGULAR_SPEED, FREQUENCY, Kind, SHARE, describe};
-use super::unit::{self, Dimension, Unit};
+use super::unit::{self, Unit};
+use super::word::Dimension;
 use crate::number::rounding::figure;
 
 /// A quantity as read.

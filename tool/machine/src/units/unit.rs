@@ -1,43 +1,7 @@
-//! Units: which words they are made of, and what one of each is in SI.
-//!
-//! An angle has a dimension of its own here, so that "rad" is told from a plain number and "rpm" from "Hz".
+//! Units as they are written: words with powers, at most one "/"; and what to write instead of one that cannot be read.
 
 use super::fault::{Fault, closest};
-use super::{ARCMIN, DEGREE, RPM};
-
-/// Powers of m, kg, s, of the angle, of A and K.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Dimension {
-    /// Power of m.
-    pub length: i8,
-    /// Power of kg.
-    pub mass: i8,
-    /// Power of s.
-    pub time: i8,
-    /// Power of an angle.
-    pub angle: i8,
-    /// Power of A.
-    pub current: i8,
-    /// Power of K.
-    pub temperature: i8,
-}
-
-impl Dimension {
-    /// Multiplied by a power of another one.
-    const fn times(self, other: Self, power: i8) -> Self {
-        const fn sum(one: i8, other: i8, power: i8) -> i8 {
-            one.saturating_add(other.saturating_mul(power))
-        }
-        Self {
-            length: sum(self.length, other.length, power),
-            mass: sum(self.mass, other.mass, power),
-            time: sum(self.time, other.time, power),
-            angle: sum(self.angle, other.angle, power),
-            current: sum(self.current, other.current, power),
-            temperature: sum(self.temperature, other.temperature, power),
-        }
-    }
-}
+use super::word::{Dimension, Product, WORDS, Word};
 
 /// A unit as read.
 #[derive(Clone, Debug)]
@@ -49,116 +13,6 @@ pub struct Unit {
     /// What it measures.
     pub dimension: Dimension,
 }
-
-/// A unit word: one of it is 10^`tens` · `size` in SI.
-struct Word {
-    text: &'static str,
-    tens: i32,
-    size: f64,
-    dimension: Dimension,
-}
-
-/// A word whose size is a power of ten.
-const fn ten(text: &'static str, tens: i32, dimension: Dimension) -> Word {
-    Word {
-        text,
-        tens,
-        size: 1.0,
-        dimension,
-    }
-}
-
-/// A word of another size.
-const fn sized(text: &'static str, size: f64, dimension: Dimension) -> Word {
-    Word {
-        text,
-        tens: 0,
-        size,
-        dimension,
-    }
-}
-
-/// Powers of m, kg, s, of the angle, of A and K.
-const fn powers([length, mass, time, angle, current, temperature]: [i8; 6]) -> Dimension {
-    Dimension {
-        length,
-        mass,
-        time,
-        angle,
-        current,
-        temperature,
-    }
-}
-
-const LENGTH: Dimension = powers([1, 0, 0, 0, 0, 0]);
-const MASS: Dimension = powers([0, 1, 0, 0, 0, 0]);
-const TIME: Dimension = powers([0, 0, 1, 0, 0, 0]);
-const FORCE: Dimension = powers([1, 1, -2, 0, 0, 0]);
-const TORQUE: Dimension = powers([2, 1, -2, 0, 0, 0]);
-const ANGLE: Dimension = powers([0, 0, 0, 1, 0, 0]);
-const ANGULAR_SPEED: Dimension = powers([0, 0, -1, 1, 0, 0]);
-const FREQUENCY: Dimension = powers([0, 0, -1, 0, 0, 0]);
-const POWER: Dimension = powers([2, 1, -3, 0, 0, 0]);
-const NUMBER: Dimension = powers([0; 6]);
-const VOLTAGE: Dimension = powers([2, 1, -3, 0, -1, 0]);
-const CURRENT: Dimension = powers([0, 0, 0, 0, 1, 0]);
-const RESISTANCE: Dimension = powers([2, 1, -3, 0, -2, 0]);
-const CAPACITANCE: Dimension = powers([-2, -1, 4, 0, 2, 0]);
-const INDUCTANCE: Dimension = powers([2, 1, -2, 0, -2, 0]);
-const TEMPERATURE: Dimension = powers([0, 0, 0, 0, 0, 1]);
-
-/// Every unit word. A degree Celsius is as large as a kelvin; where it begins to count is the affair of who asks for a
-/// temperature.
-const WORDS: [Word; 48] = [
-    ten("mm", -3, LENGTH),
-    ten("m", 0, LENGTH),
-    ten("km", 3, LENGTH),
-    ten("dm", -1, LENGTH),
-    ten("cm", -2, LENGTH),
-    ten("um", -6, LENGTH),
-    ten("kg", 0, MASS),
-    ten("g", -3, MASS),
-    ten("mg", -6, MASS),
-    ten("t", 3, MASS),
-    ten("s", 0, TIME),
-    ten("ms", -3, TIME),
-    ten("us", -6, TIME),
-    ten("N", 0, FORCE),
-    ten("kN", 3, FORCE),
-    ten("MN", 6, FORCE),
-    ten("mN", -3, FORCE),
-    ten("Nm", 0, TORQUE),
-    ten("kNm", 3, TORQUE),
-    ten("MNm", 6, TORQUE),
-    ten("mNm", -3, TORQUE),
-    ten("rad", 0, ANGLE),
-    ten("mrad", -3, ANGLE),
-    sized("deg", DEGREE, ANGLE),
-    sized("degree", DEGREE, ANGLE),
-    sized("arcmin", ARCMIN, ANGLE),
-    sized("rpm", RPM, ANGULAR_SPEED),
-    ten("Hz", 0, FREQUENCY),
-    ten("kHz", 3, FREQUENCY),
-    ten("W", 0, POWER),
-    ten("kW", 3, POWER),
-    ten("%", -2, NUMBER),
-    ten("V", 0, VOLTAGE),
-    ten("mV", -3, VOLTAGE),
-    ten("kV", 3, VOLTAGE),
-    ten("A", 0, CURRENT),
-    ten("mA", -3, CURRENT),
-    ten("Ohm", 0, RESISTANCE),
-    ten("mOhm", -3, RESISTANCE),
-    ten("kOhm", 3, RESISTANCE),
-    ten("F", 0, CAPACITANCE),
-    ten("mF", -3, CAPACITANCE),
-    ten("uF", -6, CAPACITANCE),
-    ten("H", 0, INDUCTANCE),
-    ten("mH", -3, INDUCTANCE),
-    ten("uH", -6, INDUCTANCE),
-    ten("K", 0, TEMPERATURE),
-    ten("degC", 0, TEMPERATURE),
-];
 
 /// Words that are units elsewhere, and what to write instead.
 const FOREIGN: [(&[&str], &str); 18] = [
@@ -193,16 +47,14 @@ const FOREIGN: [(&[&str], &str); 18] = [
 /// # Errors
 /// An unknown word, or powers and divisions that can be read in more than one way.
 pub fn read(text: &str) -> Result<Unit, Fault> {
-    let (mut tens, mut size, mut dimension) = (0, 1.0, NUMBER);
+    let mut product = Product::ONE;
     for (word, power) in factors(text)? {
-        tens += word.tens * i32::from(power);
-        size *= word.size.powi(i32::from(power));
-        dimension = dimension.times(word.dimension, power);
+        product = product.times(word, power);
     }
     Ok(Unit {
         text: text.to_owned(),
-        scale: 10_f64.powi(tens) * size,
-        dimension,
+        scale: product.scale(),
+        dimension: product.dimension,
     })
 }
 

@@ -1,8 +1,6 @@
 //! The columns of jred's own catalogue format: name, units, and the tables that have them.
 
-use std::f64::consts::SQRT_2;
-
-use jred_machine::units::{ARCMIN, DEGREE, RPM};
+use jred_machine::units::scale;
 
 /// A table of the catalogue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -63,125 +61,116 @@ pub(super) struct Unit {
     pub(super) motors: For,
 }
 
-const fn unit(text: &'static str, si: f64) -> Unit {
+const fn unit(text: &'static str) -> Unit {
+    of(text, For::Any)
+}
+
+const fn rotary(text: &'static str) -> Unit {
+    of(text, For::Rotary)
+}
+
+const fn linear(text: &'static str) -> Unit {
+    of(text, For::Linear)
+}
+
+const fn of(text: &'static str, motors: For) -> Unit {
     Unit {
         text,
-        si,
+        si: scale(text),
+        motors,
+    }
+}
+
+/// What is counted.
+const fn count(text: &'static str) -> Unit {
+    Unit {
+        text,
+        si: 1.0,
         motors: For::Any,
     }
 }
 
-const fn rotary(text: &'static str, si: f64) -> Unit {
-    Unit {
-        text,
-        si,
-        motors: For::Rotary,
-    }
-}
-
-const fn linear(text: &'static str, si: f64) -> Unit {
-    Unit {
-        text,
-        si,
-        motors: For::Linear,
-    }
-}
-
 /// Cells are words, or quantities that carry their units themselves.
-const WORDS: &[Unit] = &[unit("", 1.0)];
-const NUMBER: &[Unit] = &[unit("", 1.0)];
+const WORDS: &[Unit] = &[unit("")];
+const NUMBER: &[Unit] = &[unit("")];
 const TORQUE: &[Unit] = &[
-    unit("N m", 1.0),
-    unit("Nm", 1.0),
-    unit("mN m", 1e-3),
-    unit("mNm", 1e-3),
-    unit("kN m", 1e3),
+    unit("N m"),
+    unit("Nm"),
+    unit("mN m"),
+    unit("mNm"),
+    unit("kN m"),
 ];
-const FORCE: &[Unit] = &[linear("N", 1.0), linear("kN", 1e3)];
+const FORCE: &[Unit] = &[linear("N"), linear("kN")];
 pub(super) const SPEED: &[Unit] = &[
-    rotary("rpm", RPM),
-    rotary("rad/s", 1.0),
-    linear("m/s", 1.0),
-    linear("mm/s", 1e-3),
+    rotary("rpm"),
+    rotary("rad/s"),
+    linear("m/s"),
+    linear("mm/s"),
 ];
-const TURNING: &[Unit] = &[unit("rpm", RPM), unit("rad/s", 1.0)];
+const TURNING: &[Unit] = &[unit("rpm"), unit("rad/s")];
 /// Torque or force, for the points of a curve.
 pub(super) const EFFORT: &[Unit] = &[
-    rotary("N m", 1.0),
-    rotary("Nm", 1.0),
-    rotary("mN m", 1e-3),
-    rotary("mNm", 1e-3),
-    rotary("kN m", 1e3),
-    linear("N", 1.0),
-    linear("kN", 1e3),
+    rotary("N m"),
+    rotary("Nm"),
+    rotary("mN m"),
+    rotary("mNm"),
+    rotary("kN m"),
+    linear("N"),
+    linear("kN"),
 ];
 /// Cycles per hour, for shock factors.
-pub(super) const CYCLES: &[Unit] = &[unit("/h", 1.0), unit("1/h", 1.0), unit("per hour", 1.0)];
-pub(super) const FACTOR: &[Unit] = &[unit("", 1.0), unit("%", 0.01)];
+pub(super) const CYCLES: &[Unit] = &[count("/h"), count("1/h"), count("per hour")];
+pub(super) const FACTOR: &[Unit] = &[unit(""), unit("%")];
 const INERTIA: &[Unit] = &[
-    unit("kg cm^2", 1e-4),
-    unit("kg m^2", 1.0),
-    unit("g cm^2", 1e-7),
-    unit("kg mm^2", 1e-6),
+    unit("kg cm^2"),
+    unit("kg m^2"),
+    unit("g cm^2"),
+    unit("kg mm^2"),
 ];
-const MASS: &[Unit] = &[unit("kg", 1.0), unit("g", 1e-3), unit("t", 1e3)];
-const VOLTAGE: &[Unit] = &[unit("V", 1.0)];
+const MASS: &[Unit] = &[unit("kg"), unit("g"), unit("t")];
+const VOLTAGE: &[Unit] = &[unit("V")];
 /// An alternating current is stated by its RMS value or by its amplitude.
-const CURRENT: &[Unit] = &[
-    unit("A", 1.0),
-    unit("A rms", 1.0),
-    unit("A peak", 1.0 / SQRT_2),
-    unit("mA", 1e-3),
-];
+const CURRENT: &[Unit] = &[unit("A"), unit("A rms"), unit("A peak"), unit("mA")];
 const TORQUE_CONSTANT: &[Unit] = &[
-    rotary("N m/A", 1.0),
-    rotary("N m/A rms", 1.0),
-    rotary("N m/A peak", SQRT_2),
-    rotary("mN m/A", 1e-3),
-    linear("N/A", 1.0),
-    linear("N/A rms", 1.0),
-    linear("N/A peak", SQRT_2),
+    rotary("N m/A"),
+    rotary("N m/A rms"),
+    rotary("N m/A peak"),
+    rotary("mN m/A"),
+    linear("N/A"),
+    linear("N/A rms"),
+    linear("N/A peak"),
 ];
 const VOLTAGE_CONSTANT: &[Unit] = &[
-    rotary("V s/rad", 1.0),
-    rotary("V/krpm", 1e-3 / RPM),
-    rotary("mV/rpm", 1e-3 / RPM),
-    linear("V s/m", 1.0),
+    rotary("V s/rad"),
+    rotary("V/krpm"),
+    rotary("mV/rpm"),
+    linear("V s/m"),
 ];
-const RESISTANCE: &[Unit] = &[
-    unit("Ohm", 1.0),
-    unit("ohm", 1.0),
-    unit("Ω", 1.0),
-    unit("mOhm", 1e-3),
-];
-const INDUCTANCE: &[Unit] = &[unit("H", 1.0), unit("mH", 1e-3), unit("uH", 1e-6)];
-const CAPACITANCE: &[Unit] = &[unit("F", 1.0), unit("mF", 1e-3), unit("uF", 1e-6)];
-const POWER: &[Unit] = &[unit("W", 1.0), unit("kW", 1e3)];
-const ENERGY: &[Unit] = &[unit("J", 1.0), unit("kJ", 1e3)];
-const TIME: &[Unit] = &[unit("s", 1.0), unit("ms", 1e-3), unit("min", 60.0)];
-const THERMAL: &[Unit] = &[unit("K/W", 1.0)];
-const TEMPERATURE: &[Unit] = &[unit("C", 1.0), unit("°C", 1.0), unit("degC", 1.0)];
+const RESISTANCE: &[Unit] = &[unit("Ohm"), unit("ohm"), unit("Ω"), unit("mOhm")];
+const INDUCTANCE: &[Unit] = &[unit("H"), unit("mH"), unit("uH")];
+const CAPACITANCE: &[Unit] = &[unit("F"), unit("mF"), unit("uF")];
+const POWER: &[Unit] = &[unit("W"), unit("kW")];
+const ENERGY: &[Unit] = &[unit("J"), unit("kJ")];
+const TIME: &[Unit] = &[unit("s"), unit("ms"), unit("min")];
+const THERMAL: &[Unit] = &[unit("K/W")];
+const TEMPERATURE: &[Unit] = &[unit("C"), unit("°C"), unit("degC")];
 const VISCOUS: &[Unit] = &[
-    rotary("N m s/rad", 1.0),
-    rotary("N m s", 1.0),
-    rotary("N m/krpm", 1e-3 / RPM),
-    linear("N s/m", 1.0),
+    rotary("N m s/rad"),
+    rotary("N m s"),
+    rotary("N m/krpm"),
+    linear("N s/m"),
 ];
-const SHARE: &[Unit] = &[unit("%", 0.01), unit("", 1.0)];
-const PLAY: &[Unit] = &[
-    unit("arcmin", ARCMIN),
-    unit("deg", DEGREE),
-    unit("rad", 1.0),
-];
+const SHARE: &[Unit] = &[unit("%"), unit("")];
+const PLAY: &[Unit] = &[unit("arcmin"), unit("deg"), unit("rad")];
 const STIFFNESS: &[Unit] = &[
-    unit("N m/arcmin", 1.0 / ARCMIN),
-    unit("N m/rad", 1.0),
-    unit("kN m/rad", 1e3),
-    unit("N m/deg", 1.0 / DEGREE),
+    unit("N m/arcmin"),
+    unit("N m/rad"),
+    unit("kN m/rad"),
+    unit("N m/deg"),
 ];
-const LOSS: &[Unit] = &[unit("W/A", 1.0), unit("V", 1.0)];
+const LOSS: &[Unit] = &[unit("W/A"), unit("V")];
 /// The currency is a word of the user's; it is only compared.
-const PRICE: &[Unit] = &[unit("", 1.0)];
+const PRICE: &[Unit] = &[unit("")];
 
 macro_rules! columns {
     ($($column:ident $name:literal $units:ident [$($kind:ident)*];)*) => {

@@ -1,0 +1,296 @@
+//! The words that units are made of, and what one of each is in SI.
+//!
+//! An angle has a dimension of its own here, so that "rad" is told from a plain number and "rpm" from "Hz".
+
+use std::f64::consts::SQRT_2;
+
+use super::{ARCMIN, DEGREE, RPM};
+
+/// Powers of m, kg, s, of the angle, of A and K.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Dimension {
+    /// Power of m.
+    pub length: i8,
+    /// Power of kg.
+    pub mass: i8,
+    /// Power of s.
+    pub time: i8,
+    /// Power of an angle.
+    pub angle: i8,
+    /// Power of A.
+    pub current: i8,
+    /// Power of K.
+    pub temperature: i8,
+}
+
+impl Dimension {
+    /// Multiplied by a power of another one.
+    const fn times(self, other: Self, power: i8) -> Self {
+        const fn sum(one: i8, other: i8, power: i8) -> i8 {
+            one.saturating_add(other.saturating_mul(power))
+        }
+        Self {
+            length: sum(self.length, other.length, power),
+            mass: sum(self.mass, other.mass, power),
+            time: sum(self.time, other.time, power),
+            angle: sum(self.angle, other.angle, power),
+            current: sum(self.current, other.current, power),
+            temperature: sum(self.temperature, other.temperature, power),
+        }
+    }
+}
+
+/// A unit word: one of it is 10^`tens` · `size` in SI.
+pub(super) struct Word {
+    pub(super) text: &'static str,
+    tens: i32,
+    size: f64,
+    pub(super) dimension: Dimension,
+}
+
+/// A word whose size is a power of ten.
+const fn ten(text: &'static str, tens: i32, dimension: Dimension) -> Word {
+    Word {
+        text,
+        tens,
+        size: 1.0,
+        dimension,
+    }
+}
+
+/// A word of another size.
+const fn sized(text: &'static str, size: f64, dimension: Dimension) -> Word {
+    Word {
+        text,
+        tens: 0,
+        size,
+        dimension,
+    }
+}
+
+/// Powers of m, kg, s, of the angle, of A and K.
+const fn powers([length, mass, time, angle, current, temperature]: [i8; 6]) -> Dimension {
+    Dimension {
+        length,
+        mass,
+        time,
+        angle,
+        current,
+        temperature,
+    }
+}
+
+const LENGTH: Dimension = powers([1, 0, 0, 0, 0, 0]);
+const MASS: Dimension = powers([0, 1, 0, 0, 0, 0]);
+const TIME: Dimension = powers([0, 0, 1, 0, 0, 0]);
+const FORCE: Dimension = powers([1, 1, -2, 0, 0, 0]);
+const TORQUE: Dimension = powers([2, 1, -2, 0, 0, 0]);
+const ANGLE: Dimension = powers([0, 0, 0, 1, 0, 0]);
+const ANGULAR_SPEED: Dimension = powers([0, 0, -1, 1, 0, 0]);
+const FREQUENCY: Dimension = powers([0, 0, -1, 0, 0, 0]);
+const POWER: Dimension = powers([2, 1, -3, 0, 0, 0]);
+const NUMBER: Dimension = powers([0; 6]);
+const VOLTAGE: Dimension = powers([2, 1, -3, 0, -1, 0]);
+const CURRENT: Dimension = powers([0, 0, 0, 0, 1, 0]);
+const RESISTANCE: Dimension = powers([2, 1, -3, 0, -2, 0]);
+const CAPACITANCE: Dimension = powers([-2, -1, 4, 0, 2, 0]);
+const INDUCTANCE: Dimension = powers([2, 1, -2, 0, -2, 0]);
+const TEMPERATURE: Dimension = powers([0, 0, 0, 0, 0, 1]);
+
+/// Every unit word. A degree Celsius is as large as a kelvin; where it begins to count is the affair of who asks for a
+/// temperature.
+pub(super) const WORDS: [Word; 48] = [
+    ten("mm", -3, LENGTH),
+    ten("m", 0, LENGTH),
+    ten("km", 3, LENGTH),
+    ten("dm", -1, LENGTH),
+    ten("cm", -2, LENGTH),
+    ten("um", -6, LENGTH),
+    ten("kg", 0, MASS),
+    ten("g", -3, MASS),
+    ten("mg", -6, MASS),
+    ten("t", 3, MASS),
+    ten("s", 0, TIME),
+    ten("ms", -3, TIME),
+    ten("us", -6, TIME),
+    ten("N", 0, FORCE),
+    ten("kN", 3, FORCE),
+    ten("MN", 6, FORCE),
+    ten("mN", -3, FORCE),
+    ten("Nm", 0, TORQUE),
+    ten("kNm", 3, TORQUE),
+    ten("MNm", 6, TORQUE),
+    ten("mNm", -3, TORQUE),
+    ten("rad", 0, ANGLE),
+    ten("mrad", -3, ANGLE),
+    sized("deg", DEGREE, ANGLE),
+    sized("degree", DEGREE, ANGLE),
+    sized("arcmin", ARCMIN, ANGLE),
+    sized("rpm", RPM, ANGULAR_SPEED),
+    ten("Hz", 0, FREQUENCY),
+    ten("kHz", 3, FREQUENCY),
+    ten("W", 0, POWER),
+    ten("kW", 3, POWER),
+    ten("%", -2, NUMBER),
+    ten("V", 0, VOLTAGE),
+    ten("mV", -3, VOLTAGE),
+    ten("kV", 3, VOLTAGE),
+    ten("A", 0, CURRENT),
+    ten("mA", -3, CURRENT),
+    ten("Ohm", 0, RESISTANCE),
+    ten("mOhm", -3, RESISTANCE),
+    ten("kOhm", 3, RESISTANCE),
+    ten("F", 0, CAPACITANCE),
+    ten("mF", -3, CAPACITANCE),
+    ten("uF", -6, CAPACITANCE),
+    ten("H", 0, INDUCTANCE),
+    ten("mH", -3, INDUCTANCE),
+    ten("uH", -6, INDUCTANCE),
+    ten("K", 0, TEMPERATURE),
+    ten("degC", 0, TEMPERATURE),
+];
+
+/// Words that only the columns of a catalogue have. An alternating current is stated by its RMS value or by its peak.
+const LISTED: [Word; 10] = [
+    ten("J", 0, TORQUE),
+    ten("kJ", 3, TORQUE),
+    sized("min", 60.0, TIME),
+    sized("krpm", 1e3 * RPM, ANGULAR_SPEED),
+    ten("ohm", 0, RESISTANCE),
+    ten("Ω", 0, RESISTANCE),
+    ten("C", 0, TEMPERATURE),
+    ten("°C", 0, TEMPERATURE),
+    ten("rms", 0, NUMBER),
+    sized("peak", 1.0 / SQRT_2, NUMBER),
+];
+
+/// Words multiplied. Powers of ten are added up as exponents: "g mm^2" is exactly 1e-9.
+pub(super) struct Product {
+    tens: i32,
+    size: f64,
+    pub(super) dimension: Dimension,
+}
+
+impl Product {
+    pub(super) const ONE: Self = Self {
+        tens: 0,
+        size: 1.0,
+        dimension: NUMBER,
+    };
+
+    /// Multiplied by a power of a word.
+    pub(super) const fn times(self, word: &Word, power: i8) -> Self {
+        Self {
+            tens: self.tens + word.tens * power as i32,
+            size: self.size * raised(word.size, power as i32),
+            dimension: self.dimension.times(word.dimension, power),
+        }
+    }
+
+    /// Its value in SI.
+    pub(super) const fn scale(&self) -> f64 {
+        raised(10.0, self.tens) * self.size
+    }
+}
+
+/// x^power.
+const fn raised(x: f64, power: i32) -> f64 {
+    let (mut product, mut left) = (1.0, power.unsigned_abs());
+    while left > 0 {
+        product *= x;
+        left -= 1;
+    }
+    if power < 0 { 1.0 / product } else { product }
+}
+
+/// One of a unit in SI, for units that stand in the source; those of a catalogue's columns are known as well. A word that
+/// there is not does not compile.
+pub const fn scale(unit: &str) -> f64 {
+    let text = unit.as_bytes();
+    let (mut product, mut at, mut below) = (Product::ONE, 0, false);
+    while at < text.len() {
+        if matches!(text[at], b' ' | b'/') {
+            below |= text[at] == b'/';
+            at += 1;
+            continue;
+        }
+        let from = at;
+        while at < text.len() && !matches!(text[at], b' ' | b'/' | b'^') {
+            at += 1;
+        }
+        let word = find(text, from, at);
+        let mut power = 1;
+        if at + 1 < text.len() && text[at] == b'^' {
+            power = (text[at + 1] - b'0') as i8;
+            at += 2;
+        }
+        product = product.times(word, if below { -power } else { power });
+    }
+    product.scale()
+}
+
+/// The word that stands in a text.
+const fn find(text: &[u8], from: usize, to: usize) -> &'static Word {
+    const ALL: [&[Word]; 2] = [&WORDS, &LISTED];
+    let mut list = 0;
+    while list < ALL.len() {
+        let mut at = 0;
+        while at < ALL[list].len() {
+            let word = &ALL[list][at];
+            if stands(word.text.as_bytes(), text, from, to) {
+                return word;
+            }
+            at += 1;
+        }
+        list += 1;
+    }
+    panic!("a unit word that is in no list")
+}
+
+/// Whether a word is what stands in a text.
+const fn stands(word: &[u8], text: &[u8], from: usize, to: usize) -> bool {
+    let mut at = 0;
+    while at < word.len() && from + at < to && word[at] == text[from + at] {
+        at += 1;
+    }
+    at == word.len() && from + at == to
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{PI, SQRT_2};
+
+    use super::scale;
+
+    #[test]
+    fn the_compiler_works_out_units() {
+        let exact = [
+            ("kg cm^2", 1e-4),
+            ("g cm^2", 1e-7),
+            ("N m", 1.0),
+            ("mN m/A", 1e-3),
+            ("m/s", 1.0),
+            ("%", 1e-2),
+            ("kJ", 1e3),
+            ("Ω", 1.0),
+            ("°C", 1.0),
+            ("", 1.0),
+        ];
+        for (unit, expected) in exact {
+            assert_eq!(scale(unit).to_bits(), f64::to_bits(expected), "{unit}");
+        }
+        let near = [
+            ("rpm", PI / 30.0),
+            ("N m/deg", 180.0 / PI),
+            ("N m/arcmin", 10_800.0 / PI),
+            ("V/krpm", 30e-3 / PI),
+            ("mV/rpm", 30e-3 / PI),
+            ("A peak", 1.0 / SQRT_2),
+            ("N m/A peak", SQRT_2),
+        ];
+        for (unit, expected) in near {
+            let away = scale(unit).to_bits().abs_diff(f64::to_bits(expected));
+            assert!(away <= 1, "{unit}: {away} doubles away");
+        }
+    }
+}
