@@ -22,6 +22,7 @@ impl Fault {
     }
 
     /// The same fault with a label for its place.
+    #[must_use]
     pub fn label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();
         self

@@ -23,6 +23,9 @@ impl Quantity {
 }
 
 /// Reads `text` as a quantity of the `kind`.
+///
+/// # Errors
+/// No number, no unit or another one, or a value that no machine has.
 pub fn read(text: &str, kind: &Kind) -> Result<Quantity, Fault> {
     let tidy = unit::tidy(text);
     if tidy.is_empty() {
@@ -66,6 +69,9 @@ fn plain() -> Unit {
 }
 
 /// A share written as a plain number.
+///
+/// # Errors
+/// A number that is not finite or far too large.
 pub fn share(number: String) -> Result<Quantity, Fault> {
     finish(number, plain(), &SHARE)
 }
@@ -121,6 +127,9 @@ fn scaled(number: &str, scale: f64) -> f64 {
 }
 
 /// Splits "1.2e-3 kg m^2" into its number and its unit.
+///
+/// # Errors
+/// No number, more than one, or one that is not written with digits and a decimal point.
 pub fn split_number<'t>(text: &'t str, kind: &Kind) -> Result<(String, &'t str), Fault> {
     let bytes = text.as_bytes();
     let is = |index: usize, set: &[u8]| bytes.get(index).is_some_and(|b| set.contains(b));
