@@ -13,7 +13,7 @@ const LAYERS: [(&str, &[&str]); 7] = [
     ("curve", &["number"]),
     ("machine", &["number"]),
     ("friction", &["number", "curve", "machine"]),
-    ("mechanism", &["number", "machine", "friction"]),
+    ("mechanism", &["number", "machine"]),
     ("tick", &["number", "curve", "machine"]),
     ("tabulate", &["number", "curve", "machine", "tick"]),
 ];
