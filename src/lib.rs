@@ -47,7 +47,8 @@
 //!                                                └─► encode ─► Image (flash) ─┘
 //! ```
 //!
-//! A layer knows the one before it and nothing after it; each can be used alone.
+//! The folders of the source are the layers: `number`; `curve` (tables and their formats) and `machine`; [`mechanism`],
+//! [`friction`] and the tick; [`tabulate`]. A layer uses those before it and nothing after it; each can be used alone.
 //!
 //! # From dimensions to a tick
 //!

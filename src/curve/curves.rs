@@ -1,4 +1,4 @@
-//! Which curves a table has beside the reduced inertia, as a bit set.
+//! Which curves a table has in addition to the reduced inertia, as a bit set.
 //!
 //! The set is part of a [`Model`](crate::Model)'s type: curves that a machine does not have cost neither memory nor instructions.
 //! A friction is a curve or a constant, not both.

@@ -19,7 +19,7 @@ pub enum TableError {
         /// Words given.
         given: u32,
     },
-    /// A cell of this curve holds a number that is not finite, or leaves the fixed-point range.
+    /// A cell of this curve contains a number that is not finite, or leaves the fixed-point range.
     Range {
         /// Position of the curve in a row.
         curve: u8,
@@ -66,7 +66,7 @@ pub enum TableError {
         /// Index of the cell.
         cell: u32,
     },
-    /// The velocity torque in this cell, which a table of 16-bit rows holds, is not that of the slope of its inertia.
+    /// The velocity torque in this cell, stored in a table of 16-bit rows, does not belong to the slope of its inertia.
     Slope {
         /// Index of the cell.
         cell: u32,

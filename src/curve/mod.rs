@@ -1,4 +1,4 @@
-//! The curves of the reduced machine as words in RAM or in flash: what a word is, how curves are made, proven and evaluated.
+//! The curves of the reduced machine as words in RAM or in flash: what a word is, and how curves are made, checked and evaluated.
 //!
 //! A [`Table`] is a run of words and their [`Shape`]; its [`Format`] says how they are evaluated, its set of [`curves`] which
 //! curves they hold.

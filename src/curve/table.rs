@@ -1,4 +1,4 @@
-//! Tables: words and what they stand for, checked.
+//! Tables: words and their meaning, checked.
 
 use super::curves::{self, Set};
 use super::{Format, MIN_CELLS, TableError};
@@ -13,7 +13,7 @@ pub const fn words_len<F: Format>(cells: u32, set: Set) -> usize {
     F::ROW.words(cells as usize, set)
 }
 
-/// What the words of a table stand for.
+/// The meaning of a table's words.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape<F: Format> {
     /// The set of [`curves`].
@@ -24,7 +24,7 @@ pub struct Shape<F: Format> {
     pub domain: Domain<<F::Number as Number>::Real>,
     /// Machine units.
     pub scale: Scale,
-    /// What a table has beside its rows.
+    /// Constants of a table, in addition to its rows.
     pub constants: F::Constants,
 }
 
@@ -77,7 +77,7 @@ impl<'a, F: Format> Table<'a, F> {
         Ok(table)
     }
 
-    /// What the words stand for.
+    /// The meaning of the words.
     pub const fn shape(&self) -> Shape<F> {
         self.shape
     }
@@ -102,7 +102,7 @@ impl<'a, F: Format> Table<'a, F> {
         &self.shape.scale
     }
 
-    /// What it has beside its rows.
+    /// Its constants, in addition to its rows.
     pub const fn constants(&self) -> &F::Constants {
         &self.shape.constants
     }
@@ -119,7 +119,7 @@ impl<'a, F: Format> Table<'a, F> {
         read
     }
 
-    /// All curves at `phase` in SI units. `domain` is the range in double precision, which a table holds only in its own.
+    /// All curves at `phase` in SI units. `domain` is the range in double precision; a table has it only in its own precision.
     pub fn si(&self, phase: Phase, domain: Domain) -> CurveValues {
         F::si(self, phase, f64::from(self.cells()) / domain.span())
     }
@@ -129,7 +129,7 @@ impl<'a, F: Format> Table<'a, F> {
         curves::has(self.set(), curves::RECIPROCAL).then(|| F::reciprocal(self, phase))?
     }
 
-    /// How far forward and inverse dynamics disagree, as a part of the acceleration: what is left of 1/J's own curve. 0 without
+    /// How far forward and inverse dynamics disagree, as a share of the acceleration: the remaining error of the curve of 1/J. 0 without
     /// [`curves::RECIPROCAL`], where forward dynamics divides.
     pub fn reciprocal_error(&self) -> f32 {
         if curves::has(self.set(), curves::RECIPROCAL) {

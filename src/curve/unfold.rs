@@ -44,7 +44,7 @@ pub(crate) fn unfold(samples: &mut [f64], periodic: bool) {
         return;
     }
     for step in [1isize, -1] {
-        // At an end of the stroke the greatest stands for those that are not there.
+        // At an end of the stroke the largest value replaces those beyond it.
         let mut before = [3isize, 2, 1, 0].map(|back| {
             let neighbour = start.checked_add_signed(-step * back);
             magnitude(samples, neighbour.filter(|k| *k < count).unwrap_or(start))

@@ -1,7 +1,8 @@
-//! Numbers: what everything else computes with.
+//! Numbers: the types that everything else computes with.
 //!
-//! Fixed point numbers are per-unit, in [−1, 1). What 1 stands for is said by the [`Scale`](crate::Scale) of the model. Formats are chosen so that every product of a
-//! tick is the upper half of a 32 × 32-bit product (one instruction on a Cortex-M4 and up) and nothing can wrap:
+//! Fixed point numbers are per-unit, in [−1, 1). The [`Scale`](crate::Scale) of the model says what 1 means. Formats are chosen
+//! so that every product of a tick is the upper half of a 32 × 32-bit product (one instruction on a Cortex-M4 and up) and
+//! nothing can wrap:
 //!
 //! | | [`Q31`] | 1 is |
 //! |---|---|---|
@@ -10,8 +11,8 @@
 //! | seed of 1/J | Q31 | 2³¹ |
 //! | ω, α, T: arguments and results | Q31 | 2³¹ |
 //!
-//! Products round towards −∞. What could overflow inside a cell, or in a sum of torques at full speed and
-//! acceleration, is refused when table and model are built; so inverse dynamics cannot saturate. Forward dynamics can, and says so.
+//! Products round towards −∞. An overflow inside a cell, or in a sum of torques at full speed and acceleration, is refused when
+//! table and model are built; so inverse dynamics cannot saturate. Forward dynamics can, and reports it.
 
 mod kernel;
 #[allow(

@@ -29,10 +29,10 @@ impl Phase {
         self.0
     }
 
-    /// From an encoder count with `per_turn` counts a turn (or a stroke). Any number of whole turns drops out
-    /// exactly, and no error builds up: the result is floor(count·2³²/per_turn) modulo 2³².
+    /// From an encoder count with `per_turn` counts a turn (or a stroke). Whole turns drop out exactly, and no error
+    /// accumulates: the result is floor(count·2³²/per_turn) modulo 2³².
     ///
-    /// A counter that overflows keeps its angle only if 2³² is a multiple of `per_turn` (a power of two); let others
+    /// A counter that overflows keeps its angle only if 2³² is a multiple of `per_turn` (a power of two); let other counters
     /// wrap at a whole number of turns.
     #[must_use]
     pub const fn from_counts(count: u32, per_turn: NonZeroU32) -> Self {
@@ -206,7 +206,7 @@ impl<R: Real> Domain<R> {
         }
     }
 
-    /// The same range in another precision: tables and images in `f32` hold it in single precision.
+    /// The same range in another precision: tables and images in `f32` store it in single precision.
     #[must_use]
     pub fn to<T: Real>(self) -> Domain<T> {
         match self {

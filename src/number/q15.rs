@@ -5,7 +5,7 @@ use crate::number::{Number, Outcome};
 
 /// A per-unit number in [−1, 1): an `i16` in units of 2⁻¹⁵, for tables of [`Rows16`](crate::curve::Rows16).
 ///
-/// What 1 stands for is said by the [`Scale`](crate::Scale) of the model it is used with. Conversions round to the nearest
+/// The [`Scale`](crate::Scale) of its model says what 1 means. Conversions round to the nearest
 /// number, halves away from zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

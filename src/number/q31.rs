@@ -9,7 +9,7 @@ use crate::math;
 
 /// A per-unit number in [−1, 1): an `i32` in units of 2⁻³¹.
 ///
-/// What 1 stands for is said by the [`Scale`] of the model it is used with.
+/// The [`Scale`] of its model says what 1 means.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Q31(i32);

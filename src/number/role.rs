@@ -1,6 +1,6 @@
-//! What a curve stands for: in fixed point each has a format of its own.
+//! The role of a curve: in fixed point each role has its own format.
 
-/// What a curve of a table stands for.
+/// The role of a curve of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// J_red

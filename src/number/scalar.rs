@@ -11,7 +11,7 @@ use crate::Real;
 pub trait Number:
     Copy + Default + PartialEq + PartialOrd + fmt::Debug + crate::sealed::Sealed + 'static
 {
-    /// What lengths and spans are computed in beside it: `f64` for `f64`, else `f32`.
+    /// The type for lengths and spans: `f64` for `f64`, otherwise `f32`.
     type Real: Real;
     /// Name as the command line and the generated sources use it.
     const NAME: &'static str;
@@ -28,10 +28,10 @@ pub trait Number:
     fn si(self, base: f32) -> f32;
 }
 
-/// A number that tables of polynomials hold: `f32`, `f64`, [`Q31`](crate::Q31). Sealed.
+/// A number in tables of polynomials: `f32`, `f64`, [`Q31`](crate::Q31). Sealed.
 pub trait Scalar: Number + Kernel {}
 
-/// A result, and whether it had to be limited to the number's range.
+/// A result, and whether it was limited to the number's range.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Outcome<S> {

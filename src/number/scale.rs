@@ -4,11 +4,11 @@ use crate::error::positive;
 use crate::number::{Number, Outcome};
 use crate::{Error, math};
 
-/// The bases of the per-unit system: what the number 1 stands for.
+/// The bases of the per-unit system: the SI values of the number 1.
 ///
 /// Three bases are free; the others follow, so that the equation of motion has the same form in machine units:
-/// acceleration T_b/J_b, viscous coefficient T_b/ω_b. They are single-precision numbers, exactly as a table image
-/// holds them, so that host and firmware convert with the same bits.
+/// acceleration T_b/J_b, viscous coefficient T_b/ω_b. They are single-precision numbers, exactly as in a table image, so that
+/// host and firmware convert with the same bits.
 ///
 /// For a sliding drive link read force (N), speed (m/s), mass (kg).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,7 +67,7 @@ impl Scale {
         );
         let per_square = 0.5 * f64::from(cells) / span * inertia / torque;
         let factor = per_square * speed * speed;
-        // A scale that is whole already stays as it is.
+        // A scale that is already whole does not change.
         let nearest = math::floor(factor + 0.5);
         if nearest >= 1.0 && math::abs(factor - nearest) < 5e-7 * factor {
             return self;

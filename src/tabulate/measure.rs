@@ -19,7 +19,7 @@ pub fn measure<F: Format>(
     measure_until(machine, table, request, (0.0, CHECKS_PER_CELL), false)
 }
 
-/// As [`measure`], from `start` on round the range at so many places a cell; if `stop`, only up to the first that
+/// As [`measure`], from `start` on round the range at `places` places a cell; if `stop`, only up to the first that
 /// misses.
 pub(super) fn measure_until<F: Format>(
     machine: &impl Reducible,
@@ -73,7 +73,7 @@ pub(super) struct Places {
     pub(super) checks: u32,
 }
 
-/// As [`scan`], of a table of so many cells. The ends of a stroke are looked at as well: no neighbour makes them
+/// As [`scan`], of a table of so many cells. The ends of a stroke are checked as well: no neighbour makes them
 /// continuous, so the slope errs most there.
 pub(super) fn scan_places(
     domain: Domain,

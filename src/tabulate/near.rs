@@ -1,9 +1,9 @@
-//! Finds large tables without looking at every place of every candidate.
+//! Finds large tables without checking every place of every candidate.
 //!
-//! Where a table errs most hardly changes from one size to the next. So sizes beyond [`EXHAUSTIVE`] are narrowed down by the
-//! cells around that place alone: a miss there is a miss, wherever else one looks. Only the size that comes out is looked at in
-//! all places. If it misses after all, as it may where roundings make most of the error, larger sizes are searched with
-//! all places of every candidate.
+//! The place of a table's largest error hardly changes from one size to the next. So for sizes beyond [`EXHAUSTIVE`] the search
+//! checks only the cells around that place: a table that misses there misses. Only the resulting size is checked in all places.
+//! If it misses after all, which is possible if rounding is most of the error, larger sizes are searched with all places of
+//! every candidate.
 
 use super::measure::{Places, measure_until, scan_places, torque_error};
 use super::search::search;
@@ -49,7 +49,7 @@ pub(super) fn search_near(
 /// Where a table errs most, and its number of cells.
 pub(super) type Worst = Option<(f64, u32)>;
 
-/// What is found of a table near its worst place, if it meets the request there. That place is looked for all round, in few
+/// The error of a table near its worst place, if it meets the request there. That place is searched for all round, in few
 /// places, in the first table, and again in one that meets the request and is much larger.
 pub(super) fn meets_near<F: Format>(
     machine: &impl Reducible,

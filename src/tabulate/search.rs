@@ -50,7 +50,7 @@ pub fn tabulate<F: Format>(
     Ok(found)
 }
 
-/// The table of so many cells, in machine units that suit it, if a model can be made of it.
+/// The table of `cells` cells, in machine units that suit it, if a model can be made of it.
 fn candidate<'w, F: Format>(
     machine: &impl Reducible,
     set: Set,

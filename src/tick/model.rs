@@ -7,8 +7,8 @@
 //!
 //! (7.12) of Nazarenko, *Dynamics of mechanisms* (2002); for a sliding drive link (7.10), with m_red for J, F for T
 //! and v for ω. T acts on the drive link: a motor behind a gear ratio i gives T/i, and its rotor belongs into J as
-//! i²·J_M (`Machine::with_flywheel`). sgn 0 = 0: at standstill the model states no friction, because friction there is whatever holds the
-//! machine.
+//! i²·J_M (`Machine::with_flywheel`). sgn 0 = 0: at standstill the model has no friction, because friction then balances the
+//! other forces.
 
 use crate::curve::{Format, Set, Table, TableError};
 use crate::{Outcome, Phase};
@@ -21,7 +21,7 @@ use crate::{Outcome, Phase};
 #[derive(Clone, Copy, Debug)]
 pub struct Model<'a, F: Format, const SET: Set>(AnyModel<'a, F>);
 
-/// As [`Model`], with a set of [`curves`](crate::curves) that is known when the program runs: for hosts, which tick whatever table
+/// As [`Model`], with a set of [`curves`](crate::curves) that is known when the program runs: for hosts, which tick any table
 /// they are given. The same bits.
 #[derive(Clone, Copy, Debug)]
 pub struct AnyModel<'a, F: Format> {
@@ -126,7 +126,7 @@ macro_rules! dynamics {
                 F::accelerations(&$any.table, &$any.tick, $curves, phase, omega, [torque])[0]
             }
 
-            /// The accelerations that torques from `least` to `greatest` can give: the limits for whatever plans the motion.
+            /// The accelerations that torques from `least` to `greatest` can give: the limits for planning the motion.
             #[inline]
             pub fn acceleration_range(
                 &self,

@@ -63,8 +63,8 @@ impl<M: Reducible> Reducible for Part<'_, M> {
 /// A turn (or a stroke, whose first piece starts at phase 0) of N pieces, each with a model of its own; they share the machine
 /// units and the set of curves.
 ///
-/// The place within a piece is right to 2⁻³¹ of its length (test `phases_are_mapped_to_2_31_of_a_piece`). Costs beside the
-/// model's tick: N comparisons and one long multiplication.
+/// The place within a piece is right to 2⁻³¹ of its length (test `phases_are_mapped_to_2_31_of_a_piece`). Costs in addition to
+/// the model's tick: N comparisons and one long multiplication.
 ///
 /// In fixed point the machine units of a model go with the width of its cells ([`Scale::for_cells`](crate::Scale::for_cells)).
 /// Pieces share them if all their cells are equally wide: then `for_cells` of all cells together and 2π suits every piece. So

@@ -1,13 +1,13 @@
 //! How a table's curves lie in memory, and how they are evaluated.
 //!
-//! The polynomial formats hold in each cell
+//! The polynomial formats have in each cell
 //!
 //! ```text
 //! f(u) = p0 + u·(p1 + u·(p2 + u·p3)),   u in [0, 1) within the cell
 //! ```
 //!
-//! whose value and slope come from the same coefficients. All curves of a cell lie side by side: one index, one contiguous
-//! read.
+//! whose value and slope come from the same coefficients. All curves of a cell are stored side by side: one index, one
+//! contiguous read.
 //!
 //! | format | words a curve and cell | continuous | for |
 //! |---|---|---|---|
@@ -32,7 +32,7 @@ use super::table::{CurveValues, Table};
 use super::{TableError, Usage};
 use crate::{Error, Number, Outcome, Phase, Scale};
 
-/// Words of the image's header for what a table has beside its rows.
+/// Words of the image's header for the constants of a table.
 pub(crate) const CONSTANTS: usize = 11;
 
 /// A way to store and evaluate curves. Sealed: [`Spline`], [`Spline16`], [`Cubic`], [`Quadratic`], [`Rows16`].
@@ -41,9 +41,9 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     type Number: Number;
     /// A word of the table.
     type Word: bytemuck::Pod + Default + core::fmt::Debug + PartialEq;
-    /// What a table has beside its rows.
+    /// Constants of a table, in addition to its rows.
     type Constants: Copy + core::fmt::Debug + Default + PartialEq;
-    /// What a tick takes beside the table: made once, by [`prepare`](Self::prepare).
+    /// What a tick needs in addition to the table: made once, by [`prepare`](Self::prepare).
     #[doc(hidden)]
     type Tick<'a>: Copy + core::fmt::Debug;
 
@@ -57,7 +57,7 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     const ROW: Row;
     /// Whether the machine units must suit the number of cells ([`Scale::for_cells`]).
     const WHOLE_FACTOR: bool;
-    /// What a tick rounds away beside the curves, in units of the torque base, where it counts.
+    /// Rounding of a tick in addition to that of the curves, in units of the torque base, if it counts.
     #[doc(hidden)]
     const TICK_ROUNDING: f64 = 0.0;
 
@@ -89,7 +89,7 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     #[doc(hidden)]
     fn reciprocal_error(table: &Table<'_, Self>) -> f32;
 
-    /// Fills all words of a table, and says what it has beside them.
+    /// Fills all words of a table, and returns its constants.
     #[doc(hidden)]
     fn fill(
         samples: &Samples<impl Fn(f64) -> Result<Sample, Error>>,
@@ -100,7 +100,7 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     #[doc(hidden)]
     fn base(curve: u8, set: Set) -> &'static str;
 
-    /// The constants, as the image's header holds them, and back.
+    /// The constants as words of the image's header, and back.
     #[doc(hidden)]
     fn header(constants: &Self::Constants) -> [u32; CONSTANTS];
     #[doc(hidden)]
@@ -112,7 +112,7 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     /// The first cell in which something does not fit.
     #[doc(hidden)]
     fn usage(table: &Table<'_, Self>) -> Result<Usage, TableError>;
-    /// Whether a table can be ticked, and what a tick takes beside it.
+    /// Checks that a table can be ticked, and makes what a tick needs in addition to it.
     #[doc(hidden)]
     fn prepare<'a>(table: &Table<'a, Self>) -> Result<Self::Tick<'a>, TableError>;
     /// Inverse dynamics, of a table whose set is `set`: a model knows it when it is compiled.

@@ -5,7 +5,7 @@ use crate::curve::curves::{Set, width};
 /// The words of a row.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
-    /// Words beside those of the curves.
+    /// Words in addition to those of the curves.
     pub(super) head: usize,
     /// Half-words of a curve.
     pub(super) halves: usize,

@@ -4,9 +4,9 @@
 //! |δT| ≤ Σ over what was left out or rounded of  |δJₖ|·(α_max + ½·k·ω_max²) + |δloadₖ| + |δbₖ|·ω_max + |δcₖ|
 //! ```
 //!
-//! with δₖ the size √(aₖ² + bₖ²) of a harmonic left out, or the rounding of a coefficient kept: a bound for all φ, not
-//! for places looked at. What lies behind the last harmonic that the samples tell is bounded from the fall of the terms
-//! before it.
+//! with δₖ the size √(aₖ² + bₖ²) of a harmonic left out, or the rounding of a coefficient kept: a bound for all φ, not only for
+//! sampled places. The harmonics beyond the last one that the samples determine are bounded by the decay of the terms before
+//! it.
 
 use super::spectrum::Spectrum;
 use super::word::{Coefficient, Curve, Kind, in_use, words_len};
@@ -67,7 +67,7 @@ pub const fn scratch_len(max_harmonics: u32) -> usize {
 }
 
 /// The terms that the machine's curves of this set need, of up to `max_harmonics` harmonics: a curve without cosines is
-/// odd but for its mean, one without sines even. What is below 1e-12 of a curve's size counts as rounding. `scratch` is
+/// odd except for its mean, one without sines even. Terms below 1e-12 of a curve's size count as rounding. `scratch` is
 /// that of [`fit`].
 ///
 /// # Errors
@@ -182,7 +182,7 @@ pub fn fit<T: Circular, const CURVES: Set, const TERMS: Set>(
                     samples: samples as u32,
                 });
             }
-            // What is off by so much more than its bound is so by rounding, or by a term that the samples did not show.
+            // An error this much larger than its bound comes from rounding, or from a term that the samples did not show.
             if torque_error > 16.0 * bound {
                 break;
             }

@@ -8,9 +8,9 @@
 //!   + Σ (aₖ·cos kφ + bₖ·sin kφ)·ω + Σ (aₖ·cos kφ + bₖ·sin kφ)·sgn ω         b, c
 //! ```
 //!
-//! with the Coulomb friction c not negative, so that measured φ, ω, α and T give them by least squares. Each sample is
-//! taken into a triangle R with RᵀR = ΦᵀΦ by Givens' rotations: memory does not grow with the samples, and the error is
-//! that of the measurements' condition, not of its square as with normal equations (Å. Björck, *Numerical Methods for
+//! with the Coulomb friction c not negative, so that measured φ, ω, α and T determine them by least squares. Each sample is added to
+//! a triangular matrix R with RᵀR = ΦᵀΦ by Givens rotations: memory does not grow with the samples, and the error depends on
+//! the condition of the measurements, not on its square as with normal equations (Å. Björck, *Numerical Methods for
 //! Least Squares Problems*, SIAM 1996, 2.4 and 3.2).
 
 use super::word::{Coefficient, Curve, Kind, means, row, words_len};

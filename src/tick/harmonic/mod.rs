@@ -85,9 +85,9 @@ const PLACES: [u32; 2] = [64, 4096];
 /// A reduced machine ready for the tick, as harmonics in RAM or in flash. The counterpart of [`Model`](crate::Model),
 /// in SI units.
 ///
-/// `CURVES` are the curves that the machine has beside J ([`curves`](crate::curve::curves)); `TERMS` are the cosines
-/// and sines that they consist of ([`terms`]; those of curves that are not in `CURVES` do not count). What is in
-/// neither costs no memory and no instruction.
+/// `CURVES` are the curves that the machine has in addition to J ([`curves`](crate::curve::curves)); `TERMS` are the cosines
+/// and sines that they consist of ([`terms`]; those of curves that are not in `CURVES` do not count). Curves and terms in
+/// neither cost no memory and no instruction.
 ///
 /// Everything was checked when it was built: [`torque`](Self::torque) and [`acceleration`](Self::acceleration) neither
 /// fail nor panic nor allocate, and take the same path for every phase.

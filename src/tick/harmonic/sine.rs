@@ -2,7 +2,7 @@
 //!
 //! `libm` and the other crates for single precision take radians: the phase would be rounded to radians and reduced to
 //! an octant again, with a number for π of more than single precision (`libm::sinf` computes in double precision for
-//! that). A binary angle is reduced by integers, exactly; what is left are two short polynomials, best approximations
+//! that). A binary angle is reduced by integers, exactly; two short polynomials remain, best approximations
 //! by Remez' algorithm on |x| ≤ π/4. They are those of κ·x, where κ − 1 = −2.8e-8 makes up for the rounding of 2π in x:
 //!
 //! ```text
@@ -16,7 +16,7 @@ use crate::{Phase, Real, math};
 pub trait Circular: Real {
     /// 0, ½ and 1.
     const CONSTANTS: [Self; 3];
-    /// Eight units of rounding: what a coefficient's share of a sum may be off, for every order of its harmonic.
+    /// Eight units of rounding: the error allowed in a coefficient's share of a sum, for every order of its harmonic.
     const ROUNDINGS: Self;
 
     /// Sine and cosine of a phase of one turn.

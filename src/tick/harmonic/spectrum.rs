@@ -4,7 +4,7 @@
 //! aₖ = 2/N·Σ f(φⱼ)·cos kφⱼ,   bₖ = 2/N·Σ f(φⱼ)·sin kφⱼ,   φⱼ = 2π·j/N
 //! ```
 //!
-//! The trapezoidal rule: for a periodic curve its only error is that aₖ also holds a₍N±k₎, a₍2N±k₎ and so on, which
+//! The trapezoidal rule: for a periodic curve its only error is that aₖ also contains a₍N±k₎, a₍2N±k₎ and so on, which
 //! fall like a geometric series (L. N. Trefethen, J. A. C. Weideman, *SIAM Review* 56, 2014). The sums are written out:
 //! N is some tens, and there is no transform in `f64` without an allocator to take from elsewhere.
 

@@ -5,7 +5,7 @@ use core::fmt;
 
 use crate::curve::curves;
 
-/// The cosines and sines that curves consist of beside their means, as a bit set.
+/// The cosines and sines of the curves, in addition to their means, as a bit set.
 ///
 /// A curve without terms is constant and takes one number. A machine that is its own mirror image at φ = 0 (a
 /// slider-crank without offset whose centres of mass are on the links' lines and whose weight acts along the guide) has
@@ -66,7 +66,7 @@ pub(super) const fn row(set: Set, terms: Set) -> usize {
     in_use(set, terms).count_ones() as usize
 }
 
-/// Number of coefficients of so many harmonics.
+/// Number of coefficients of this many harmonics.
 #[must_use]
 pub const fn words_len(harmonics: u32, set: Set, terms: Set) -> usize {
     means(set) + harmonics as usize * row(set, terms)

@@ -38,7 +38,7 @@ pub enum ImageError {
     },
     /// A header field has a value that this version does not know or that is out of range; the word's index.
     Header(u8),
-    /// The image holds another number type; its code (1 = f32, 2 = i32, 3 = i16).
+    /// The image contains another number type; its code (1 = f32, 2 = i32, 3 = i16).
     NumberType(u8),
     /// The image has another layout; its code (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16, 5 = rows of 16 bits).
     Layout(u8),

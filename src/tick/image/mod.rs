@@ -2,7 +2,7 @@
 //!
 //! The layout is documented word by word in `docs/table-image.md`. Everything is a little-endian 32-bit word, so an
 //! image needs 4-byte alignment and nothing else; no number is copied or converted on loading. A CRC-32 covers all
-//! of it. [`Image::new`] checks header and CRC, [`Image::model`] the table itself: what passes both can be ticked.
+//! of it. [`Image::new`] checks header and CRC, [`Image::model`] the table itself: an image that passes both can be ticked.
 
 mod error;
 
@@ -209,7 +209,7 @@ impl<'a> Image<'a> {
         self.domain
     }
 
-    /// The set of [`curves`](crate::curves) beside the inertia.
+    /// The set of [`curves`](crate::curves) in addition to the inertia.
     pub const fn set(&self) -> Set {
         self.set
     }

@@ -1,4 +1,4 @@
-//! What is proven of a table when it is built: no quantity leaves its number range in a tick.
+//! Proofs about a table, made when it is built: no quantity leaves its number range in a tick.
 //!
 //! Every polynomial stays within its Bézier points, so the bounds hold everywhere in a cell, not only at the knots.
 

@@ -11,7 +11,7 @@ use crate::curve::{
 use crate::number::{Kernel, Role};
 use crate::{Error, math};
 
-/// Fills `words`, and says what the table has beside them.
+/// Fills `words`, and returns the table's constants.
 pub(super) fn fill<L: Layout>(
     samples: &Samples<impl Fn(f64) -> Result<Sample, Error>>,
     scratch: &mut [f64],
@@ -139,7 +139,7 @@ fn sample<L: Layout>(
     Ok(count)
 }
 
-/// What a table has beside its curves.
+/// Constants of a table, in addition to its curves.
 fn constants<'v, L: Layout>(
     samples: &Samples<impl Fn(f64) -> Result<Sample, Error>>,
     values: impl Fn(usize) -> &'v [f64],

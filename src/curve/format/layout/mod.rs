@@ -1,4 +1,4 @@
-//! Formats that hold a polynomial for each curve and cell.
+//! Formats with a polynomial for each curve and cell.
 
 #![allow(
     clippy::inline_always,
@@ -25,7 +25,7 @@ use crate::curve::{TableError, Usage};
 use crate::number::{Kernel, Number, Ring, Role, Scalar};
 use crate::{Error, Outcome, Phase};
 
-/// What a table of polynomials has beside its rows; in machine units, zero where there is none.
+/// Constants of a table of polynomials, in addition to its rows; in machine units, zero if there is none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Constants<W> {
     /// Added to every J of a [`Spline`], so that its control points are small and lose little to rounding.
@@ -62,7 +62,7 @@ pub trait Layout: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     const ROW: Row;
     /// Degree of the spline that the curves are made from.
     const DEGREE: u8;
-    /// Whether the curve of 1/J is only a seed, for one step of Newton's iteration. Quadratics have so many cells that it is as
+    /// Whether the curve of 1/J is only a seed, for one step of Newton's iteration. Quadratics have enough cells that it is as
     /// exact as J itself.
     const NEWTON: bool = Self::DEGREE == 3;
     /// Words from one curve of a row to the next.
@@ -71,7 +71,7 @@ pub trait Layout: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     const STEP: i8 = 1;
     /// The place in a cell that the polynomial is about, 0 to 1.
     const CENTRE: f64 = <Self::Scalar as Kernel>::ROW_CENTRE;
-    /// Whether a word holds two numbers of 16 bits.
+    /// Whether a word contains two numbers of 16 bits.
     const HALVES: bool = false;
 
     /// The words that a cell reads.
@@ -107,7 +107,7 @@ pub trait Layout: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     /// What is stored for a cell of one curve, of control points c₀…c₃ (or c₀…c₂) divided so that their sum is the value: the
     /// coefficients, or the point c₀ first; `COLUMN` of them count.
     fn stored(points: [f64; 4]) -> [f64; 4];
-    /// A number of 16 bits, the upper or lower half of a word, if words hold halves.
+    /// A number of 16 bits, the upper or lower half of a word, if words contain halves.
     #[inline]
     fn half(word: Word<Self>, _upper: bool) -> Word<Self> {
         word

@@ -1,20 +1,20 @@
 //! Rounds the control points of a spline together.
 //!
-//! A point rounded by itself is off by up to half a unit, and the slope takes differences of neighbours: their errors add up,
-//! and are divided by the width of a cell. Points may be rounded the other way instead, where that makes the error of the slope
-//! smaller. Over the turn its square is
+//! A point rounded by itself is wrong by up to half a unit. The slope is a difference of neighbours, so their errors add up and
+//! are divided by the width of a cell. A point may be rounded the other way if that makes the error of the slope smaller. Over
+//! the turn the square of that error is
 //!
 //! ```text
 //! ∫ (Σ eₖ·Bₖ′)² du = Σ eₖ·Mₖⱼ·eⱼ,   M = (2/3, −1/8, −1/5, −1/120) by |k − j|
 //! ```
 //!
-//! with the errors e and the slopes B′ of the cubic B-spline. Sweeps over the points take each to the unit that is nearest to
-//! the minimum for its neighbours as they are.
+//! with the errors e and the slopes B′ of the cubic B-spline. Sweeps over the points set each to the unit nearest to the
+//! minimum for its present neighbours.
 
 use super::{Layout, Word};
 use crate::number::{Kernel, Role};
 
-/// The products of slopes beside the diagonal.
+/// The products of slopes next to the diagonal.
 const BESIDE: [f64; 3] = [-1.0 / 8.0, -1.0 / 5.0, -1.0 / 120.0];
 /// The diagonal, and a little more for the value: errors that are all the same do not change the slope.
 const DIAGONAL: f64 = 2.0 / 3.0 + 0.02;
@@ -28,7 +28,7 @@ pub(super) struct Points<'w, L: Layout> {
     pub(super) first: usize,
     /// Words from one to the next.
     pub(super) pitch: usize,
-    /// Which half of a word it is, if words hold halves.
+    /// Which half of a word it is, if words contain halves.
     pub(super) upper: bool,
     /// What the stored number is multiplied by.
     pub(super) gain: f64,
@@ -42,7 +42,7 @@ impl<L: Layout> Points<'_, L> {
         Some(L::Scalar::exact(self.role, L::Scalar::raw(stored)) * self.gain)
     }
 
-    /// Stores what is nearest to `value`; `None` if it is out of range.
+    /// Stores the number nearest to `value`; `None` if it is out of range.
     pub(super) fn set(&mut self, point: usize, value: f64) -> Option<()> {
         let stored = L::Scalar::word(self.role, value / self.gain)?;
         let slot = self.words.get_mut(self.first + point * self.pitch)?;
@@ -72,7 +72,7 @@ impl<L: Layout> Points<'_, L> {
                     .zip(BESIDE)
                     .map(|(step, product)| product * (error(step) + error(-step)))
                     .sum();
-                // Out of range it stays as it is.
+                // Out of range it does not change.
                 let _ = self.set(point, exact(point) - pull / DIAGONAL);
             }
         }

@@ -1,4 +1,4 @@
-//! What is proven of a table when it is built: no number leaves its range in a tick.
+//! Proofs about a table, made when it is built: no number leaves its range in a tick.
 //!
 //! A line is greatest at an end of its cell, a quadratic stays within its Bézier points: the bounds hold everywhere in a cell. They
 //! are integers, for arguments −1 … 1, both ends included, and count every rounding of the tick.

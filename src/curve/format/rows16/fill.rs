@@ -9,7 +9,7 @@ use crate::curve::{
 };
 use crate::{Error, math};
 
-/// Fills `words`, and says what the table has beside them.
+/// Fills `words`, and returns the table's constants.
 pub(super) fn fill(
     samples: &Samples<impl Fn(f64) -> Result<Sample, Error>>,
     scratch: &mut [f64],
@@ -165,7 +165,7 @@ impl<'s> Curves<'s> {
         Ok(parts)
     }
 
-    /// 1/J at a knot, lowered by half of what a straight line lies above 1/J in the cells beside it.
+    /// 1/J at a knot, lowered by half the height of a straight line above 1/J in the neighbouring cells.
     fn reciprocal(&self, knot: usize) -> f64 {
         let cells = self.cells as usize;
         let inverse = |cell: usize, u: f64| {

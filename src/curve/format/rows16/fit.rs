@@ -6,7 +6,7 @@
 use super::row::word;
 use crate::math;
 
-/// A word, and the start of its curve beside it: 0 for a line, which has its own.
+/// A word, and the start of its curve: 0 for a line, which contains its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Halves {
     pub(super) start: i32,

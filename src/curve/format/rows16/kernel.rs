@@ -77,7 +77,7 @@ pub(super) fn of_speed_alone(velocity: i32, omega: i32) -> i32 {
 #[inline(always)]
 #[allow(clippy::comparison_chain, reason = "the three ways of sgn")]
 pub(super) fn add_signed(sum: i32, c: impl FnOnce() -> i32, omega: i32) -> i32 {
-    // c comes as a function, so that it is read within the branch: one register less is alive beside it.
+    // c comes as a function, so that it is read within the branch: one register less is in use.
     if omega > 0 {
         sum.wrapping_add(c())
     } else if omega < 0 {

@@ -36,7 +36,7 @@ use crate::{Error, Outcome, Phase, Q15};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rows16;
 
-/// What a table of [`Rows16`] has beside its rows.
+/// Constants of a table of [`Rows16`], in addition to its rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RowConstants {
     /// b in units of 2⁻³⁰. Only with [`curves::CONSTANT_VISCOUS`].

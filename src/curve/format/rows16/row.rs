@@ -10,10 +10,10 @@
 //! | v₀ : v₁ | always | V(u) = v₀ + v₁·u, the velocity torque at ω = 1 | 2⁻¹⁵ |
 //! | J₀ : g₀ | always | J₀ unsigned; g₀ is 0 without `LOAD` | 2⁻¹⁶, 2⁻¹⁵ |
 //! | b₀ : b₁ | `VISCOUS` | b(u) = b₀ + b₁·u | 2⁻¹⁵ |
-//! | c₀ : c₁ | `COULOMB` | c(u) = c₀ + c₁·u, of which the tick takes the magnitude | 2⁻¹⁵ |
+//! | c₀ : c₁ | `COULOMB` | c(u) = c₀ + c₁·u, whose magnitude the tick takes | 2⁻¹⁵ |
 //! | r₀ : r₁ | `RECIPROCAL` | 1/J(u) = (r₀ + r₁·u)/2ᵏ | 1 |
 //!
-//! u is the place in the cell, 0 to 1. Every lower half also adds to the upper half beside it as the fraction of a unit that
+//! u is the place in the cell, 0 to 1. Every lower half also adds to the upper half of its word the fraction of a unit that
 //! it is when it is read as an unsigned number.
 
 use super::Rows16;
