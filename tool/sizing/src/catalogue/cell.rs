@@ -1,5 +1,7 @@
 //! Quantities in cells: a number whose unit stands in the header, a number with its unit, points of a curve.
 
+use jred_machine::units::Fault;
+
 use super::column::{For, Unit};
 
 /// What stands in a column of a row.
@@ -60,8 +62,8 @@ pub(super) fn split(text: &str) -> (&str, &str) {
     (number, unit.trim())
 }
 
-/// A number with its unit, in SI; the error says what is wrong with it and what to do.
-pub(super) fn quantity(text: &str, units: &'static [Unit]) -> Result<(f64, For), [String; 2]> {
+/// A number with its unit, in SI.
+pub(super) fn quantity(text: &str, units: &'static [Unit]) -> Result<(f64, For), Fault> {
     let (number, word) = split(text.trim());
     let Some(unit) = find_unit(word, units) else {
         let message = if word.is_empty() {
@@ -69,11 +71,11 @@ pub(super) fn quantity(text: &str, units: &'static [Unit]) -> Result<(f64, For),
         } else {
             format!("has the unit \"{word}\"")
         };
-        return Err([message, unit_cure(word, units)]);
+        return Err(Fault::new(message, unit_cure(word, units)));
     };
     match number.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok((value * unit.si, unit.motors)),
-        _ => Err(["is not a number".to_owned(), NUMBER_CURE.to_owned()]),
+        _ => Err(Fault::new("is not a number", NUMBER_CURE)),
     }
 }
 
@@ -86,7 +88,7 @@ pub(super) fn points(
     text: &str,
     [x_units, y_units]: [&'static [Unit]; 2],
     motors: For,
-) -> Result<Vec<[f64; 2]>, [String; 2]> {
+) -> Result<Vec<[f64; 2]>, Fault> {
     let mut points: Vec<[f64; 2]> = Vec::new();
     for part in text
         .split(';')
@@ -94,43 +96,45 @@ pub(super) fn points(
         .filter(|part| !part.is_empty())
     {
         let Some((x, y)) = part.split_once(':') else {
-            return Err([
+            return Err(Fault::new(
                 format!("has the point \"{part}\", which has no colon"),
-                "write points as \"0 rpm: 12 N m; 3000 rpm: 10 N m\"".to_owned(),
-            ]);
+                "write points as \"0 rpm: 12 N m; 3000 rpm: 10 N m\"",
+            ));
         };
-        let of = |[message, cure]: [String; 2], what: &str| {
-            [
-                format!(
-                    "has the point \"{part}\", where \"{}\" {message}",
-                    what.trim()
-                ),
-                cure,
-            ]
+        let of = |fault: Fault, what: &str| {
+            let message = format!(
+                "has the point \"{part}\", where \"{}\" {}",
+                what.trim(),
+                fault.message
+            );
+            Fault::new(message, fault.help)
         };
         let (x_value, x_for) = quantity(x, x_units).map_err(|e| of(e, x))?;
         let (y_value, y_for) = quantity(y, y_units).map_err(|e| of(e, y))?;
         for found in [x_for, y_for] {
             if found != For::Any && found != motors {
-                return Err([
-                    format!("has the point \"{part}\", whose unit is that of a {} motor", words(found)),
-                    "a motor that turns has rpm and N m, one that slides m/s and N; see the column \"kind\"".to_owned(),
-                ]);
+                return Err(Fault::new(
+                    format!(
+                        "has the point \"{part}\", whose unit is that of a {} motor",
+                        words(found)
+                    ),
+                    "a motor that turns has rpm and N m, one that slides m/s and N; see the column \"kind\"",
+                ));
             }
         }
         if x_value < 0.0 || y_value < 0.0 {
-            return Err([
+            return Err(Fault::new(
                 format!("has the point \"{part}\", which is below zero"),
-                "give the first quadrant only: it holds in both directions".to_owned(),
-            ]);
+                "give the first quadrant only: it holds in both directions",
+            ));
         }
         if points.last().is_some_and(|last| x_value <= last[0]) {
-            return Err([
+            return Err(Fault::new(
                 format!(
                     "has the point \"{part}\", which does not lie to the right of the one before"
                 ),
-                "write the points in rising order, each once".to_owned(),
-            ]);
+                "write the points in rising order, each once",
+            ));
         }
         points.push([x_value, y_value]);
     }

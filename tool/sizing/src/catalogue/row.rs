@@ -242,7 +242,7 @@ impl<'t> Row<'t> {
             return Vec::new();
         };
         let points = cell::points(text, units, self.motors)
-            .map_err(|[message, cure]| self.fault(column, &message, "here", cure));
+            .map_err(|wrong| self.fault(column, &wrong.message, "here", wrong.help));
         self.keep(points, Vec::new())
     }
 
