@@ -244,7 +244,7 @@ fn just_beyond_its_room_a_quantity_breaks_the_rule() {
                     unit: quantity.unit(),
                 };
                 let machine = study.machine(&[edit]).unwrap();
-                jred_sizing::study::one::broken(&machine.file.rules, &one.findings(&machine))
+                jred_sizing::judge::broken(&machine.file.rules, &one.findings(&machine))
             };
             let step = 3e-5 * change.signum();
             assert_eq!(judge(*change), None, "{}", quantity.path);

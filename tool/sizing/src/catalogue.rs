@@ -30,7 +30,7 @@ pub use drive::Drive;
 pub use fault::{CatalogueError, Misplaced, SHOWN, Several};
 pub use gearbox::Gearbox;
 pub use load::Sources;
-pub use motor::{Brake, Motor, MotorKind, Thermal, Winding};
+pub use motor::{Brake, Commutation, Motor, MotorKind, Thermal, Winding};
 pub use pairing::{Drives, Pairing};
 
 /// What a drive is chosen from.

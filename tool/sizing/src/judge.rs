@@ -240,3 +240,13 @@ pub struct Words {
     /// Where or how the figure was found, or nothing.
     pub place: String,
 }
+
+/// The rule that is broken; of several that of which most of the limit is used.
+pub fn broken(rules: &RuleSet, findings: &Findings) -> Option<Rule> {
+    let broken = findings
+        .iter()
+        .filter(|(rule, finding)| rules.verdict(*rule, *finding) == Verdict::Fail);
+    let used = broken.map(|(rule, finding)| (rules.use_of_limit(rule, finding), rule));
+    used.max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, rule)| rule)
+}

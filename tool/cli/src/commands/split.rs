@@ -1,7 +1,7 @@
 //! `jred split`: the division of a total gear ratio over stages that makes the reduced inertia smallest.
 
+use jred::Error;
 use jred::synthesis::{Driven, OpenStage, RatioSplit, Split};
-use jred::{Error, synthesis};
 use miette::{Result, miette};
 use serde_json::{Map, Value, json};
 
@@ -151,6 +151,3 @@ fn summary(train: &RatioSplit, options: &options::Split, best: &Split, equal: &S
         rounded((more * 100.0).round() / 100.0),
     )
 }
-
-/// The most stages, for the command line.
-pub const MAX_STAGES: u8 = synthesis::MAX_STAGES as u8;

@@ -7,7 +7,7 @@ use crate::commands::{Done, print};
 use crate::options::search::Tolerance as Options;
 use crate::rows::run::run;
 use jred_machine::model::rules::{Limit, RuleSet};
-use jred_machine::read::Tolerance;
+use jred_machine::model::tolerance::Tolerance;
 use jred_report::table::output::Format;
 use jred_report::table::rows::Form;
 use jred_report::table::sheet::Sheet;

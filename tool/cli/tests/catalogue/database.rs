@@ -1,8 +1,8 @@
 //! Files of the Motor-Gearbox Database, read as they are. The rows here are invented; the database itself is read where the
 //! environment variable `JRED_MGDB` names its folder.
 
+use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Catalogue, Motor, Sources};
-use jred_sizing::motor::winding::Commutation;
 
 use crate::support::{Folder, near};
 

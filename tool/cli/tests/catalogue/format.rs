@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, SQRT_2};
 
+use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Brake, Catalogue, MotorKind, Sources};
-use jred_sizing::motor::winding::Commutation;
 
 use crate::support::{Folder, near};
 

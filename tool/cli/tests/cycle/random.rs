@@ -5,10 +5,10 @@ use std::sync::LazyLock;
 use jred::TorqueTerms;
 use jred_machine::analysis::duty::{Duty, Instant};
 use jred_machine::analysis::mechanics::Mechanics;
+use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Catalogue, Motor, Winding};
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::Envelope;
-use jred_sizing::motor::winding::Commutation;
 use proptest::prelude::*;
 
 /// A stretch of a motion: what the quantities do, and for how many instants.

@@ -1,9 +1,9 @@
 //! The winding's limits against a search over all currents.
 
 use jred_machine::model::site::Site;
+use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Motor, Winding};
 use jred_sizing::motor::envelope::Envelope;
-use jred_sizing::motor::winding::Commutation;
 
 use super::{RPM, bare, budget, near, servo, site};
 

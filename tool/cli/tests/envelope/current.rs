@@ -3,9 +3,10 @@
 use std::f64::consts::TAU;
 
 use jred_machine::model::site::Site;
+use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::Winding;
 use jred_sizing::motor::envelope::Prepared;
-use jred_sizing::motor::winding::{Commutation, CurrentCurve};
+use jred_sizing::motor::winding::CurrentCurve;
 
 use super::{RPM, bare, budget, near, servo};
 

@@ -3,9 +3,9 @@
 use std::ops::RangeInclusive;
 
 use jred_machine::model::site::Site;
+use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Motor, Thermal, Winding};
 use jred_sizing::motor::envelope::{Envelope, Prepared};
-use jred_sizing::motor::winding::Commutation;
 
 use super::{RPM, bare, budget, near};
 

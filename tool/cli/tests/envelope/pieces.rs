@@ -1,8 +1,8 @@
 //! What the pieces of a limit promise.
 
+use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Motor, Winding};
 use jred_sizing::motor::envelope::{Envelope, Limit, Piece, Shape};
-use jred_sizing::motor::winding::Commutation;
 use proptest::prelude::*;
 
 use super::{bare, budget};

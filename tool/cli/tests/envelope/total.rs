@@ -1,8 +1,8 @@
 //! Any figures at all: no panic, no NaN.
 
+use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Motor, Winding};
 use jred_sizing::motor::envelope::{Envelope, Prepared};
-use jred_sizing::motor::winding::Commutation;
 use proptest::prelude::*;
 
 use super::{amplifier, bare, site};

@@ -1,10 +1,10 @@
 //! Curves below the limits of motors of every kind: never above, and not needlessly low.
 
 use jred::duty::{Curve, MAX_POINTS};
+use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Catalogue, Motor, Winding};
 use jred_sizing::meter::{Below, continuous, peak};
 use jred_sizing::motor::envelope::Envelope;
-use jred_sizing::motor::winding::Commutation;
 use proptest::prelude::*;
 
 use crate::support::budget;

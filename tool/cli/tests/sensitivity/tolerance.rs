@@ -5,7 +5,7 @@ use std::path::Path;
 use super::{RACK, study};
 use crate::support::{Folder, jred, near, press_text, within};
 use jred_machine::model::rule::Rule;
-use jred_machine::read::Tolerance;
+use jred_machine::model::tolerance::Tolerance;
 use jred_machine::units::RPM;
 use jred_sizing::select::filter::Filter;
 use jred_sizing::study::cell::Cell;

@@ -2,11 +2,11 @@
 
 use jred_machine::model::site::Site;
 use jred_machine::model::surroundings::Surroundings;
+use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Motor, Winding};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::motor::envelope::Prepared;
-use jred_sizing::motor::winding::Commutation;
 use jred_sizing::thermal::mean::rms_current;
 use jred_sizing::thermal::{Load, Model};
 use proptest::prelude::*;

@@ -12,8 +12,8 @@ use crate::model::motion::Motion;
 use crate::model::rules::RuleSet;
 use crate::model::site::Site;
 use crate::model::tabulated::{Course, StandIn, Tabulated};
+use crate::model::tolerance::Tolerance;
 use crate::model::variator::Variator;
-use crate::read::Tolerance;
 
 /// A mechanism that knows its joints and can be kept in a machine.
 pub trait Inner: Jointed + fmt::Debug + Send + Sync {}

@@ -10,4 +10,5 @@ pub mod site;
 pub mod supply;
 pub mod surroundings;
 pub mod tabulated;
+pub mod tolerance;
 pub mod variator;

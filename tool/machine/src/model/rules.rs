@@ -142,11 +142,3 @@ fn use_of(share: Option<f64>, rule: Rule, finding: Finding) -> f64 {
         0.0
     }
 }
-
-impl Default for RuleSet {
-    /// The set `general`.
-    fn default() -> Self {
-        // The file is part of the tool, and a test reads it.
-        crate::read::built_in_rules("general").unwrap_or_else(|| Self::empty("general", ""))
-    }
-}

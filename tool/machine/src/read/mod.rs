@@ -31,7 +31,6 @@ pub use argument::{
     largest_speed, mass_argument,
 };
 pub use mechanism::mechanism_types;
-pub use tolerance::{Shape, Tolerance};
 
 use std::path::Path;
 

@@ -318,3 +318,13 @@ fn by_moves(item: &Item) -> Result<Vec<Moves>> {
     }
     Ok(bands)
 }
+
+impl Default for RuleSet {
+    /// The set `general`.
+    fn default() -> Self {
+        // The file is part of the tool, and a test reads it.
+        built_in("general")
+            .and_then(std::result::Result::ok)
+            .unwrap_or_else(|| Self::empty("general", ""))
+    }
+}

@@ -1,7 +1,7 @@
 //! A catalogue of the size and the statistics of the public Motor-Gearbox Database, for where that is not at hand.
 
+use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Catalogue, Gearbox, Motor, Thermal, Winding};
-use jred_sizing::motor::winding::Commutation;
 use rand::SeedableRng as _;
 use rand::rngs::ChaCha8Rng;
 use rand_distr::{Distribution as _, LogNormal, Uniform};

@@ -8,7 +8,7 @@ use super::gearbox::Gearbox;
 use super::lists::Listing;
 use super::motor::{Motor, Thermal, Winding};
 use super::table::{cell_start, csv_fault};
-use crate::motor::winding::Commutation;
+use crate::catalogue::Commutation;
 
 /// What a stage passes on where the database gives no efficiency: 608 of the 613 gearboxes of the maker in question that state
 /// one have at least as much.

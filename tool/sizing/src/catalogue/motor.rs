@@ -1,7 +1,18 @@
 //! A motor of the catalogue.
 
-use crate::motor::winding::Commutation;
 use jred_machine::units::Vocabulary;
+use serde::Serialize;
+
+/// How a winding is fed, and so what its figures mean.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Commutation {
+    /// Three phases, sine currents: RMS currents, line-to-line resistance, inductance and voltage constant.
+    #[default]
+    Sine,
+    /// Direct current, or a brushless motor with block commutation: plain figures between two terminals.
+    Block,
+}
 
 /// A servo motor; SI units. `None`: the data sheet does not say. Of a linear motor read force (N) for torque, m/s for
 /// speed, and the mass of the moving part (kg) for the rotor's inertia.

@@ -15,26 +15,13 @@
 //! (Schröder, *Elektrische Antriebe – Regelung von Antriebssystemen*). A motor on direct current, block commutation included
 //! (the data sheets of small brushless motors state it so), has T = k_t·I, k_t = k_e, V = k_e·n + R·I ≤ U, P = R·I².
 
-use serde::Serialize;
-
-use crate::catalogue::{Motor, Winding};
+use crate::catalogue::{Commutation, Motor, Winding};
 
 /// Temperature coefficient of copper's resistance, from its value at 20 °C (1/K).
 pub const COPPER: f64 = 0.00393;
 
 /// Temperature that the catalogue's resistances hold for (°C).
 pub const REFERENCE_TEMPERATURE: f64 = 20.0;
-
-/// How a winding is fed, and so what its figures mean.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Commutation {
-    /// Three phases, sine currents: RMS currents, line-to-line resistance, inductance and voltage constant.
-    #[default]
-    Sine,
-    /// Direct current, or a brushless motor with block commutation: plain figures between two terminals.
-    Block,
-}
 
 impl Commutation {
     /// k_t/k_e: what power balance asks for.

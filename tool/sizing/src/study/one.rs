@@ -10,9 +10,6 @@ use crate::select::filter::Filter;
 use crate::select::rank::{Objective, rank};
 use crate::select::size::Selection;
 use crate::study::common::{Prepared as Machine, Study};
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::RuleSet;
-use jred_machine::model::rules::Verdict;
 
 /// A drive of the catalogue.
 #[derive(Clone, Debug)]
@@ -77,14 +74,4 @@ impl One {
         let limits = Prepared::new(&self.motor, self.amplifier.as_ref(), site);
         Context::new(&machine.cycle, site, self.drive(), &limits).findings(&machine.file.rules)
     }
-}
-
-/// The rule that is broken; of several that of which most of the limit is used.
-pub fn broken(rules: &RuleSet, findings: &Findings) -> Option<Rule> {
-    let broken = findings
-        .iter()
-        .filter(|(rule, finding)| rules.verdict(*rule, *finding) == Verdict::Fail);
-    let used = broken.map(|(rule, finding)| (rules.use_of_limit(rule, finding), rule));
-    used.max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, rule)| rule)
 }

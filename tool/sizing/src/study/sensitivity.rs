@@ -10,9 +10,10 @@
 use rayon::prelude::*;
 
 use crate::judge::Findings;
+use crate::judge::broken;
 use crate::study::common::{Study, sentence};
 use crate::study::edit::Edit;
-use crate::study::one::{One, broken};
+use crate::study::one::One;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::{Limit, RuleSet};
 

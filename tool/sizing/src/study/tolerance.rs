@@ -15,14 +15,15 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 use rand_distr::{Distribution as _, StandardNormal};
 
+use crate::judge::broken;
 use crate::study::cell::Cell;
 use crate::study::common::{Study, sentence};
 use crate::study::edit::Edit;
 use crate::study::header::{Header, digest};
-use crate::study::one::{One, broken};
+use crate::study::one::One;
 use crate::study::task::Task;
 use jred_machine::model::rule::Rule;
-use jred_machine::read::{Shape, Tolerance};
+use jred_machine::model::tolerance::{Shape, Tolerance};
 
 /// One quantity that scatters.
 #[derive(Clone, Debug)]

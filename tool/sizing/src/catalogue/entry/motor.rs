@@ -4,7 +4,7 @@ use super::super::column::{Column, EFFORT, For, SPEED};
 use super::super::motor::{Brake, Motor, MotorKind, Thermal, Winding};
 use super::super::row::{Read, Row};
 use super::from_maker;
-use crate::motor::winding::Commutation;
+use crate::catalogue::Commutation;
 
 /// The columns of a motor that depend on its kind: torque and inertia, or force and mass.
 struct Efforts {

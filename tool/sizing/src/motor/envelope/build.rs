@@ -4,8 +4,9 @@ use super::circuit::Circuit;
 use super::continuous::Continuous;
 use super::limit::{Limit, Piece};
 use super::{Envelope, voltage};
+use crate::catalogue::Commutation;
 use crate::catalogue::{Amplifier, Motor};
-use crate::motor::winding::{Commutation, CurrentCurve, REFERENCE_TEMPERATURE};
+use crate::motor::winding::{CurrentCurve, REFERENCE_TEMPERATURE};
 use jred_machine::model::site::Site;
 use jred_machine::units::{Sentence, Vocabulary};
 
