@@ -62,6 +62,7 @@ pub fn run(command: &options::Command) -> Result<Done> {
         options::Command::Export(options) => run_export(options),
         options::Command::Rules(options) => print(&jred_report::list::rule_list::show(
             options.set.as_deref(),
+            Path::new(""),
             options.format,
         )?),
         options::Command::Split(options) => print(&split::run(options)?),
@@ -104,7 +105,7 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
     };
     let columns = reduce(&file, &request).into_diagnostic()?;
     if let Some(state) = state {
-        mind(&file, state)?;
+        warn(&file, state)?;
     }
     if let Some(path) = &options.report {
         let name = options.file.display().to_string();
@@ -159,8 +160,8 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
 }
 
 /// Says on the standard error what comes apart at this speed and acceleration, though the result is computed all the same.
-fn mind(file: &MachineFile, state: [f64; 2]) -> Result<()> {
-    if let Some(words) = OneWay::mind(&file.machine, state).into_diagnostic()? {
+fn warn(file: &MachineFile, state: [f64; 2]) -> Result<()> {
+    if let Some(words) = OneWay::warning(&file.machine, state).into_diagnostic()? {
         eprintln!("{words}");
     }
     Ok(())
@@ -276,7 +277,7 @@ fn run_export(options: &options::Export) -> Result<Done> {
     if let Some(out) = &options.out {
         write(out, &export.write(options.format), &options.file)?;
     }
-    mind(&file, [omega, 0.0])?;
+    warn(&file, [omega, 0.0])?;
     match (&options.out, options.format) {
         (None, Form::Json) => print(&format!("{:#}\n", export.json())),
         (None, _) => print(&format!(

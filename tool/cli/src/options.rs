@@ -130,7 +130,7 @@ pub struct Size {
     pub file: PathBuf,
     /// What drives are made of, rules and time steps.
     #[command(flatten)]
-    pub supply: search::Supply,
+    pub supply: search::SizingOptions,
     /// Instead of the ranking: the drives that no other beats in everything, over two or three of power, mass, price, energy,
     /// margin and temperature, e.g. "mass,energy".
     #[arg(long, value_name = "OBJECTIVES", value_parser = Objectives::read, conflicts_with_all = [

@@ -45,7 +45,7 @@ fn strong() -> Catalogue {
 fn study(text: &str, steps: usize) -> (Folder, Study) {
     let folder = Folder::new();
     let file = folder.file("machine.toml", text);
-    let study = Study::new(&file, strong(), None, steps).unwrap();
+    let study = Study::open(&file, strong(), None, steps).unwrap();
     (folder, study)
 }
 
@@ -218,7 +218,7 @@ fn just_beyond_its_room_a_quantity_breaks_the_rule() {
     let folder = Folder::new();
     let file = folder.file("press.toml", press_text());
     let catalogue = Catalogue::load(None, None).unwrap();
-    let study = Study::new(&file, catalogue, None, 200).unwrap();
+    let study = Study::open(&file, catalogue, None, 200).unwrap();
     let one = One::choose(&study, None, &Filter::default(), None).unwrap();
     let found = Sensitivity::new(
         &study,

@@ -4,11 +4,11 @@
 //! Motor-Gearbox Database; docs/catalogue.md describes both. A row that cannot be used is an error that names file, row and
 //! column; a row whose figures can hardly be right is used, and remarked upon in [`Catalogue::warnings`].
 
-use std::path::Path;
-
 mod amplifier;
 mod cell;
 mod column;
+#[cfg(feature = "fs")]
+mod disk;
 mod drive;
 mod entry;
 mod fault;
@@ -26,12 +26,17 @@ mod table;
 mod toml_table;
 
 pub use amplifier::{Amplifier, Resistor};
+#[cfg(feature = "fs")]
+pub use disk::Sources;
 pub use drive::Drive;
 pub use fault::{CatalogueError, Misplaced, SHOWN, Several};
 pub use gearbox::Gearbox;
-pub use load::Sources;
+
 pub use motor::{Brake, Commutation, Motor, MotorKind, Thermal, Winding};
 pub use pairing::{Drives, Pairing};
+
+use fault::{Remarks, Text};
+use load::Loader;
 
 /// What a drive is chosen from.
 #[derive(Clone, Debug, Default)]
@@ -78,11 +83,35 @@ impl Catalogue {
         self.keep(|motor| motor.kind == kind, |_| true);
     }
 
+    /// The built-in catalogue.
+    ///
+    /// # Errors
+    /// None: a test reads it.
+    pub fn built_in() -> Result<Self, CatalogueError> {
+        Loader::load(vec![files::built_in(|_| true)], Remarks::default(), false)
+    }
+
+    /// The catalogue of these files, each a name, which says what it holds, and a text; `skip_broken_rows`: broken rows are left
+    /// out instead of refusing it.
+    ///
+    /// # Errors
+    /// Columns missing or unknown, broken rows, keys that are there twice, lists that name what is not there.
+    pub fn of_texts<N: Into<String>, T: Into<String>>(
+        texts: impl IntoIterator<Item = (N, T)>,
+        skip_broken_rows: bool,
+    ) -> Result<Self, CatalogueError> {
+        let texts = texts.into_iter();
+        let group = texts.map(|(name, text)| files::formatted(Text::new(name, text)));
+        let group = group.collect::<Result<Vec<_>, _>>()?;
+        Loader::load(vec![group], Remarks::default(), skip_broken_rows)
+    }
+
     /// The catalogue of these sources; without any, the built-in one.
     ///
     /// # Errors
     /// A file that cannot be read, a column missing or unknown, broken rows (all of them in one error), a key that is there
     /// twice, a list that names what is not there.
+    #[cfg(feature = "fs")]
     pub fn open(sources: &Sources) -> Result<Self, CatalogueError> {
         sources.load()
     }
@@ -91,10 +120,14 @@ impl Catalogue {
     ///
     /// # Errors
     /// As [`Catalogue::open`].
-    pub fn load(motors: Option<&Path>, gearboxes: Option<&Path>) -> Result<Self, CatalogueError> {
+    #[cfg(feature = "fs")]
+    pub fn load(
+        motors: Option<&std::path::Path>,
+        gearboxes: Option<&std::path::Path>,
+    ) -> Result<Self, CatalogueError> {
         Self::open(&Sources {
-            motors: motors.map(Path::to_owned),
-            gearboxes: gearboxes.map(Path::to_owned),
+            motors: motors.map(std::path::Path::to_owned),
+            gearboxes: gearboxes.map(std::path::Path::to_owned),
             ..Sources::default()
         })
     }

@@ -49,12 +49,12 @@ impl Default for Findings {
 }
 
 /// What takes findings as they are measured: [`Findings`] keeps them, an outcome weighs them and forgets them.
-trait Take {
+trait Record {
     /// Takes the finding of a rule, which thereby applies. Each rule is found once.
     fn set(&mut self, rule: Rule, finding: Finding);
 }
 
-impl Take for Findings {
+impl Record for Findings {
     fn set(&mut self, rule: Rule, finding: Finding) {
         Self::set(self, rule, finding);
     }

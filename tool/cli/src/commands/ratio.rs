@@ -31,8 +31,8 @@ use jred_sizing::study::common::sizeable;
 /// Bad input.
 pub fn ratio(options: &Ratio) -> Result<Done> {
     let mut file = read::read(&options.file)?;
-    if let Some(word) = &options.supply.rules {
-        file.rules = read::rules_based_on(&file.rules, word)?;
+    if let Some(set) = options.supply.rule_set()? {
+        file.rules = read::rules_based_on(&file.rules, set)?;
     }
     sizeable(&file)?;
     let motion = file

@@ -30,8 +30,8 @@ pub fn size(options: &Size) -> Result<Done> {
         distinct(["--report", "--meter"], [report, meter])?;
     }
     let mut file = read::read(&options.file)?;
-    if let Some(word) = &options.supply.rules {
-        file.rules = read::rules_based_on(&file.rules, word)?;
+    if let Some(set) = options.supply.rule_set()? {
+        file.rules = read::rules_based_on(&file.rules, set)?;
     }
     variator::refuse(&file, "size")?;
     let motion = motion(&file, &options.file)?;

@@ -5,23 +5,24 @@ use std::path::Path;
 use miette::{Result, miette};
 
 use crate::commands::{Done, print};
-use crate::options::search::{Merge, Rows, Supply, Vary};
+use crate::options::search::{Merge, Rows, SizingOptions, Vary};
 use crate::rows::merge::merge;
 use crate::rows::run::{Ended, Plan, run};
+use jred_machine::number::words::Word as _;
 use jred_report::table::rows::{Form, table};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::select::filter::Filter;
 use jred_sizing::study::axis::{Axis, Grid};
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::common::Study;
-use jred_sizing::study::sized::Sized;
+use jred_sizing::study::grid::{GridStudy, Verdict};
 use jred_sizing::study::task::Task as _;
 
 /// The catalogue that the options name, thinned by a filter.
 ///
 /// # Errors
 /// Files that cannot be used; nothing left.
-pub fn catalogue(supply: &Supply, filter: &Filter) -> Result<Catalogue> {
+pub fn catalogue(supply: &SizingOptions, filter: &Filter) -> Result<Catalogue> {
     let mut catalogue = supply.catalogue.open()?;
     filter.thin(&mut catalogue)?;
     Ok(catalogue)
@@ -31,14 +32,9 @@ pub fn catalogue(supply: &Supply, filter: &Filter) -> Result<Catalogue> {
 ///
 /// # Errors
 /// Files that cannot be used; a machine that cannot be sized; nothing left.
-pub fn study(file: &Path, supply: &Supply, filter: &Filter) -> Result<Study> {
+pub fn study(file: &Path, supply: &SizingOptions, filter: &Filter) -> Result<Study> {
     let catalogue = catalogue(supply, filter)?;
-    Study::new(
-        file,
-        catalogue,
-        supply.rules.as_deref(),
-        supply.steps as usize,
-    )
+    Study::open(file, catalogue, supply.rule_set()?, supply.steps as usize)
 }
 
 impl Rows {
@@ -66,7 +62,7 @@ pub fn vary(options: &Vary) -> Result<Done> {
         .iter()
         .map(|text| Axis::parse(&study.document, text));
     let grid = Grid::new(axes.collect::<Result<_>>()?)?;
-    let task = Sized {
+    let task = GridStudy {
         study: &study,
         grid,
         filter,
@@ -113,10 +109,10 @@ struct Counts {
 
 impl Counts {
     fn add(&mut self, verdict: Option<&Cell>) {
-        match verdict.and_then(Cell::text) {
-            Some("fits") => self.fit += 1,
-            Some("none fits") => self.none += 1,
-            _ => self.refused += 1,
+        match verdict.and_then(Cell::text).and_then(Verdict::of_word) {
+            Some(Verdict::Fits) => self.fit += 1,
+            Some(Verdict::NoneFits) => self.none += 1,
+            Some(Verdict::Refused) | None => self.refused += 1,
         }
     }
 

@@ -1,13 +1,15 @@
 //! The options of searching: what is considered, what comes first, and studies of many machines.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use glob::Pattern;
 
 use super::catalogue::CatalogueFiles;
 use super::word::word;
+use jred_machine::model::rules::RuleSet;
 use jred_machine::number::words::Word as _;
+use jred_machine::read;
 use jred_report::table::output::Format;
 use jred_report::table::rows::Form;
 use jred_sizing::catalogue::{Catalogue, CatalogueError};
@@ -18,7 +20,7 @@ use jred_sizing::study::shard::Shard;
 
 /// Which catalogue.
 #[derive(Clone, Debug, Args)]
-pub struct Supply {
+pub struct SizingOptions {
     /// What drives are made of.
     #[command(flatten)]
     pub catalogue: CatalogueFiles,
@@ -58,6 +60,19 @@ pub struct Search {
     /// Only drives up to this price, in the currency of the catalogue.
     #[arg(long, value_name = "PRICE", value_parser = price)]
     pub max_price: Option<f64>,
+}
+
+impl SizingOptions {
+    /// The rule set that is named instead of the machine file's.
+    ///
+    /// # Errors
+    /// There is no such set, or its file is wrong.
+    pub fn rule_set(&self) -> miette::Result<Option<RuleSet>> {
+        let named = self.rules.as_deref();
+        named
+            .map(|word| read::rule_set(word, Path::new("")))
+            .transpose()
+    }
 }
 
 impl Search {
@@ -232,7 +247,7 @@ pub struct Vary {
     pub vary: Vec<String>,
     /// Catalogue and time steps.
     #[command(flatten)]
-    pub supply: Supply,
+    pub supply: SizingOptions,
     /// Rows.
     #[command(flatten)]
     pub rows: Rows,
@@ -262,7 +277,7 @@ pub struct Ratio {
     pub file: PathBuf,
     /// Catalogue and time steps.
     #[command(flatten)]
-    pub supply: Supply,
+    pub supply: SizingOptions,
     /// Efficiency of the gearbox that is looked for, 0 to 1.
     #[arg(long, default_value_t = 1.0, value_parser = efficiency)]
     pub efficiency: f64,
@@ -313,7 +328,7 @@ pub struct Sensitivity {
     pub most: f64,
     /// Catalogue and time steps.
     #[command(flatten)]
-    pub supply: Supply,
+    pub supply: SizingOptions,
     /// Which drives.
     #[command(flatten)]
     pub search: Search,
@@ -355,7 +370,7 @@ pub struct Tolerance {
     pub drive: Option<String>,
     /// Catalogue and time steps.
     #[command(flatten)]
-    pub supply: Supply,
+    pub supply: SizingOptions,
     /// Which drives.
     #[command(flatten)]
     pub search: Search,

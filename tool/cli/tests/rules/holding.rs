@@ -122,7 +122,7 @@ fn constant_torque() {
         .fold(0.0, f64::max);
     let motor_speed = fastest * 3.0 * 5.0;
     let own = 0.3 + 0.15 + 0.002 * motor_speed;
-    let fanuc = jred_machine::read::rule_set("fanuc").unwrap();
+    let fanuc = jred_machine::read::rule_set("fanuc", std::path::Path::new("")).unwrap();
     let found = stand.finding(true, &fanuc, Rule::ConstantTorque).unwrap();
     // A process moment is not a constant load: what resists is friction alone, at its largest at full speed.
     let resisting = (7.0 + 0.5 * fastest) / (3.0 * 0.96);

@@ -64,7 +64,7 @@ fn the_judged_figure_is_chosen() {
 /// 3 above 100 moves a minute, 5 above 60, and below that the data sheet's, which is not here.
 #[test]
 fn limits_by_moves_per_minute() {
-    let set = jred_machine::read::rule_set("mitsubishi-mr-j2s").unwrap();
+    let set = jred_machine::read::rule_set("mitsubishi-mr-j2s", std::path::Path::new("")).unwrap();
     for (pause, moves, limit) in [
         ("100 ms", 120.0, Some(3.0)),
         ("400 ms", 75.0, Some(5.0)),

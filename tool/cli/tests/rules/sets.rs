@@ -18,7 +18,8 @@ pub(super) fn with_rules(rules: &str) -> String {
 }
 
 pub(super) fn set(name: &str) -> RuleSet {
-    machine_file::rule_set(name).unwrap_or_else(|report| panic!("{name}: {report:?}"))
+    machine_file::rule_set(name, Path::new(""))
+        .unwrap_or_else(|report| panic!("{name}: {report:?}"))
 }
 
 /// Every file of the folder is a set, every set reads, and says where each limit comes from.

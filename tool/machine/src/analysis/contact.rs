@@ -69,7 +69,7 @@ impl OneWay {
     ///
     /// # Errors
     /// Those of the machine.
-    pub fn mind(
+    pub fn warning(
         machine: &Machine<AnyMechanism>,
         [omega, alpha]: [f64; 2],
     ) -> Result<Option<String>, Error> {

@@ -1,7 +1,5 @@
 //! `[[load]] table = "loads.csv"`: payload, thrust and torque over the drive link's position.
 
-use std::path::Path;
-
 use jred::MAX_LOADS;
 
 use super::curve_file::Positions;
@@ -12,6 +10,7 @@ use crate::model::tabulated::{Course, StandIn};
 use crate::number::spline::{MIN_POINTS, Way};
 use crate::text::columns;
 use crate::text::columns::{CsvFile, Format, Known, known};
+use crate::text::file::Files;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::{ANGLE, FORCE, INERTIA, LENGTH, MASS, TORQUE};
@@ -72,13 +71,13 @@ pub(super) fn read(
     mut mechanism: AnyMechanism,
     drive: DriveLink,
     gravity: [f64; 2],
-    folder: &Path,
+    files: &dyn Files,
 ) -> Result<AnyMechanism> {
     let Some(item) = root.get("load") else {
         return Ok(mechanism);
     };
     for section in item.sections("[[load]]")?.iter().filter(|s| is_table(s)) {
-        let stand_ins = table(section, &mechanism, drive, gravity, folder)?;
+        let stand_ins = table(section, &mechanism, drive, gravity, files)?;
         mechanism = mechanism.with_stand_ins(&stand_ins).map_err(|error| {
             section.problem(format!("{}: {error}", section.title()), "this table")
         })?;
@@ -96,7 +95,7 @@ fn table(
     mechanism: &AnyMechanism,
     drive: DriveLink,
     gravity: [f64; 2],
-    folder: &Path,
+    files: &dyn Files,
 ) -> Result<Vec<StandIn>> {
     let name = match section.get("name") {
         Some(item) => item.text("pressing force")?,
@@ -114,7 +113,7 @@ fn table(
         "at" => Some("a table acts at the origin of its link's frame"),
         _ => None,
     })?;
-    let file = CsvFile::open(&item, "loads.csv", folder)?;
+    let file = CsvFile::open(&item, "loads.csv", files)?;
     let target = Target {
         link,
         gravity,

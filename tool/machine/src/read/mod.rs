@@ -40,7 +40,7 @@ use toml::de::DeTable;
 
 use crate::model::machine::MachineFile;
 use crate::model::rules::RuleSet;
-use crate::text::file;
+use crate::text::file::{self, Files};
 use crate::units::kind::ACCELERATION;
 
 use crate::text::problem::{Problem, Result};
@@ -64,16 +64,16 @@ pub fn rule_set_names() -> impl Iterator<Item = &'static str> {
 ///
 /// # Errors
 /// A name that does not exist, a file that cannot be read, or whatever is wrong in it, with its place.
-pub fn rule_set(word: &str) -> std::result::Result<RuleSet, Report> {
-    rules::named_or_file(word, Path::new("")).map_err(|problem| problem.into_report(word, ""))
+pub fn rule_set(word: &str, files: impl Files) -> std::result::Result<RuleSet, Report> {
+    rules::named_or_file(word, &files).map_err(|problem| problem.into_report(word, ""))
 }
 
-/// What a machine file says, on top of another set: `word` is its name or a file.
+/// What a machine file says of its rules, on top of another set.
 ///
 /// # Errors
-/// There is no such set, its file is wrong, or what the machine file says contradicts it.
-pub fn rules_based_on(rules: &RuleSet, word: &str) -> std::result::Result<RuleSet, Report> {
-    let set = rule_set(word)?;
+/// What the machine file says contradicts the set.
+pub fn rules_based_on(rules: &RuleSet, set: RuleSet) -> std::result::Result<RuleSet, Report> {
+    let word = set.name.clone();
     rules.based_on(set).map_err(|contradiction| {
         miette!(
             help = contradiction.help,
@@ -87,6 +87,7 @@ pub fn rules_based_on(rules: &RuleSet, word: &str) -> std::result::Result<RuleSe
 ///
 /// # Errors
 /// A file that cannot be read, or anything that [`parse`] reports.
+#[cfg(feature = "fs")]
 pub fn read(path: &Path) -> std::result::Result<MachineFile, Report> {
     parse(&path.display().to_string(), &text(path)?, folder(path))
 }
@@ -95,9 +96,10 @@ pub fn read(path: &Path) -> std::result::Result<MachineFile, Report> {
 ///
 /// # Errors
 /// A file that cannot be read.
+#[cfg(feature = "fs")]
 pub fn text(path: &Path) -> std::result::Result<String, Report> {
     let name = path.display().to_string();
-    file::read(path, MAX_SIZE).map_err(|fault| {
+    crate::text::disk::read(path, MAX_SIZE).map_err(|fault| {
         Problem::new(format!(
             "cannot read the machine file {name}: {}",
             fault.message
@@ -112,16 +114,20 @@ pub fn folder(path: &Path) -> &Path {
     path.parent().unwrap_or(Path::new(""))
 }
 
-/// Reads a machine file from its `text`. The `name` is used in messages; a profile's CSV file is looked for in
-/// `folder`.
+/// Reads a machine file from its `text`. The `name` is used in messages; the files that it names, such as a profile's CSV, are
+/// taken from `files`.
 ///
 /// # Errors
 /// Whatever is wrong with the file: the first thing found, with its place and what to do.
-pub fn parse(name: &str, text: &str, folder: &Path) -> std::result::Result<MachineFile, Report> {
-    machine(name, text, folder).map_err(|problem| problem.into_report(name, text))
+pub fn parse(
+    name: &str,
+    text: &str,
+    files: impl Files,
+) -> std::result::Result<MachineFile, Report> {
+    machine(name, text, &files).map_err(|problem| problem.into_report(name, text))
 }
 
-fn machine(name: &str, text: &str, folder: &Path) -> Result<MachineFile> {
+fn machine(name: &str, text: &str, files: &dyn Files) -> Result<MachineFile> {
     if text.len() as u64 > MAX_SIZE {
         let fault = file::too_large(&file::size(text.len() as u64), MAX_SIZE);
         return Err(Problem::new(format!(
@@ -152,7 +158,7 @@ fn machine(name: &str, text: &str, folder: &Path) -> Result<MachineFile> {
         .pair([&ACCELERATION, &ACCELERATION])?
         .map(|value| value.si);
     let section = root.section("mechanism")?;
-    let (mechanism, flywheel) = mechanism::read(&section, folder)?;
+    let (mechanism, flywheel) = mechanism::read(&section, files)?;
     let drive_link = DriveLink::of(&mechanism)
         .map_err(|error| section.problem(error.to_string(), "in this mechanism"))?;
     if let (true, Some(item)) = (
@@ -163,14 +169,14 @@ fn machine(name: &str, text: &str, folder: &Path) -> Result<MachineFile> {
             .problem("turns, but the drive link of this mechanism slides", "nothing turns with it")
             .help("give a mass that slides with the drive link to its body; what turns belongs to a stage of [[drive_train]]"));
     }
-    let mechanism = load_table::read(&root, mechanism, drive_link, gravity, folder)?;
+    let mechanism = load_table::read(&root, mechanism, drive_link, gravity, files)?;
     let loads = loads::read(&root, &mechanism, drive_link)?;
     let elements = elements::read(&root, &mechanism, drive_link.coordinate)?;
     let drive_train = drive_train::read(&root, drive_link)?;
     let variator = variator::read(&root, drive_link)?;
-    let motion = motion::read(&root, folder, drive_link)?;
+    let motion = motion::read(&root, files, drive_link)?;
     let simulation = simulation::read(&root, drive_link, &drive_train)?;
-    let rules = rules::read(&root, folder)?;
+    let rules = rules::read(&root, files)?;
     let stiffness = stiffness::read(&root, drive_link, &drive_train)?;
     let tool = tool::read(&root, &mechanism)?;
     let tolerances = tolerance::read(&root)?;

@@ -1,12 +1,11 @@
 //! `[motion]`: how the drive link is to go.
 
-use std::f64::consts::TAU;
-use std::path::Path;
-
 use jred::Domain;
 use jred::motion::Law;
+use std::f64::consts::TAU;
 
 use crate::model::motion::{Motion, Segment};
+use crate::text::file::Files;
 
 use super::drive_link::DriveLink;
 use super::profile;
@@ -32,8 +31,8 @@ pub(super) const LAWS: [&str; 7] = [
     "simple-sine",
 ];
 
-/// The prescribed motion, if the file has one. A profile's file is looked for in `folder`.
-pub(super) fn read(root: &Section, folder: &Path, drive: DriveLink) -> Result<Option<Motion>> {
+/// The prescribed motion, if the file has one. A profile's file is looked for among `files`.
+pub(super) fn read(root: &Section, files: &dyn Files, drive: DriveLink) -> Result<Option<Motion>> {
     let Some(item) = root.get("motion") else {
         return Ok(None);
     };
@@ -46,7 +45,7 @@ pub(super) fn read(root: &Section, folder: &Path, drive: DriveLink) -> Result<Op
         0 => constant_speed(&section, drive)?,
         1 => segments(&section, true, drive)?,
         2 => segments(&section, false, drive)?,
-        _ => profile::read(&section, folder, drive)?,
+        _ => profile::read(&section, files, drive)?,
     };
     Ok(Some(motion))
 }

@@ -1,13 +1,12 @@
 //! `[motion] type = "profile"`: positions or speeds over time from a CSV file, as a drive or a motion program records them.
 
-use std::f64::consts::TAU;
-use std::path::Path;
-
 use jred::Domain;
+use std::f64::consts::TAU;
 
 use crate::model::coordinate::Coordinate;
 use crate::model::motion::{Closing, Motion, Recording};
 use crate::number::spline::MIN_POINTS;
+use crate::text::file::Files;
 
 use super::drive_link::DriveLink;
 use super::motion;
@@ -69,7 +68,7 @@ struct Request {
 }
 
 /// The motion of the file named in `section`.
-pub(super) fn read(section: &Section, folder: &Path, drive: DriveLink) -> Result<Motion> {
+pub(super) fn read(section: &Section, files: &dyn Files, drive: DriveLink) -> Result<Motion> {
     let item = section.require("file", "file = \"profile.csv\"")?;
     let request = Request {
         cyclic: section.get("cyclic").map_or(Ok(true), |item| item.flag())?,
@@ -85,7 +84,7 @@ pub(super) fn read(section: &Section, folder: &Path, drive: DriveLink) -> Result
     {
         value.check_positive()?;
     }
-    let file = CsvFile::open(&item, "profile.csv", folder)?;
+    let file = CsvFile::open(&item, "profile.csv", files)?;
     let columns = read_columns(&file.text, drive).map_err(|problem| file.shows(problem))?;
     check_request(&request, &columns, drive)?;
     curve(&columns, &request, drive, &file.text).map_err(|fault| match fault {

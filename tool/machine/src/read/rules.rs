@@ -9,8 +9,8 @@ use crate::model::rule::Rule;
 use crate::model::rules::{
     Change, Changes, Contradiction, InertiaOf, Limit, MeanTorque, Moves, RuleSet, What,
 };
+use crate::text::file::Files;
 
-use crate::text::file;
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result, quoted};
 use crate::text::section::Section;
@@ -61,14 +61,14 @@ const MAX_RATIO: f64 = 1000.0;
 /// The largest file of a rule set (bytes).
 const MAX_SIZE: u64 = 1 << 16;
 
-/// The rule set of a machine file in `folder`: the set that it names, or the general one, with what it changes.
-pub(super) fn read(root: &Section, folder: &Path) -> Result<RuleSet> {
+/// The rule set of a machine file among `files`: the set that it names, or the general one, with what it changes.
+pub(super) fn read(root: &Section, files: &dyn Files) -> Result<RuleSet> {
     let Some(item) = root.get("rules") else {
         return named(GENERAL);
     };
     let section = item.section("[rules]".into())?;
     let set = match section.get("set") {
-        Some(word) => chosen(&word, folder)?,
+        Some(word) => chosen(&word, files)?,
         None => named(GENERAL)?,
     };
     let changes = changes(&section, "[rules] of the machine file")?;
@@ -87,13 +87,12 @@ fn is_file(word: &str) -> bool {
 }
 
 /// The set of a name, or of a file: what ends in ".toml" or holds a "/" is a file.
-pub(super) fn named_or_file(word: &str, folder: &Path) -> Result<RuleSet> {
+pub(super) fn named_or_file(word: &str, files: &dyn Files) -> Result<RuleSet> {
     if !is_file(word) {
         return named(word);
     }
-    let path = folder.join(word);
-    let name = path.display().to_string();
-    let text = file::read(&path, MAX_SIZE).map_err(|fault| {
+    let name = files.shown(word);
+    let text = files.text(word, MAX_SIZE).map_err(|fault| {
         Problem::new(format!(
             "cannot read the rule set {name}: {}",
             fault.message
@@ -118,11 +117,11 @@ fn unknown(name: &str) -> Problem {
 }
 
 /// The set that the key `set` names, with the place where it does.
-fn chosen(word: &Item, folder: &Path) -> Result<RuleSet> {
+fn chosen(word: &Item, files: &dyn Files) -> Result<RuleSet> {
     let name = word.text(GENERAL)?;
     let is_known = BUILT_IN.iter().any(|(known, _)| *known == name);
     if is_known || is_file(name) {
-        return named_or_file(name, folder);
+        return named_or_file(name, files);
     }
     Err(unknown(name).at(word.span(), "unknown"))
 }

@@ -3,16 +3,14 @@
 //! Commas, semicolons or tabs between the values, a byte order mark, comments (`#`), and, where no comma separates, decimal
 //! commas. Every mistake is shown in the CSV file.
 
-use std::ops::Range;
-use std::path::Path;
-
-use super::file;
+use super::file::Files;
 use super::item::Item;
 use super::problem::{Problem, Result};
 use crate::number::rounding::figure;
 use crate::units::closest;
 use crate::units::kind::Kind;
 use crate::units::unit;
+use std::ops::Range;
 
 /// The largest CSV file (bytes).
 const MAX_SIZE: u64 = 64 << 20;
@@ -43,20 +41,20 @@ pub(crate) struct Format<'f> {
     pub(crate) min_rows: usize,
 }
 
-/// The file that `item` names, in `folder`.
+/// The file that `item` names, among `files`.
 pub(crate) struct CsvFile {
     pub(crate) text: String,
     name: String,
 }
 
 impl CsvFile {
-    pub(crate) fn open(item: &Item, example: &str, folder: &Path) -> Result<Self> {
-        let path = folder.join(item.text(example)?);
-        let text = file::read(&path, MAX_SIZE).map_err(|fault| {
+    pub(crate) fn open(item: &Item, example: &str, files: &dyn Files) -> Result<Self> {
+        let file = item.text(example)?;
+        let text = files.text(file, MAX_SIZE).map_err(|fault| {
             item.problem(&format!("cannot be read: {}", fault.message), "this file")
                 .help(fault.help)
         })?;
-        let name = path.display().to_string();
+        let name = files.shown(file);
         let text = text.trim_start_matches('\u{feff}').to_owned();
         Ok(Self { text, name })
     }

@@ -1,61 +1,51 @@
-//! Reading text files with a limit on their size.
+//! Where the files come from that a text names, and the limit on their size.
 
-use std::fs::File;
-use std::io::{ErrorKind, Read};
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::fmt::Debug;
 
 use crate::number::rounding::figure;
 use crate::units::Fault;
 
-/// The text of the file at `path`, which may have up to `limit` bytes.
-pub(crate) fn read(path: &Path, limit: u64) -> Result<String, Fault> {
-    let failed = |error: std::io::Error| match error.kind() {
-        ErrorKind::NotFound => Fault::new(
-            "there is no such file",
-            format!(
-                "check the name and the folder; looked for {}",
-                absolute(path)
-            ),
-        ),
-        ErrorKind::PermissionDenied => Fault::new(
-            "reading it is not permitted",
-            format!("allow reading of {}", absolute(path)),
-        ),
-        _ => Fault::new(error.to_string(), format!("check {}", absolute(path))),
-    };
-    let file = File::open(path).map_err(failed)?;
-    let metadata = file.metadata().map_err(failed)?;
-    if metadata.is_dir() {
-        return Err(Fault::new(
-            "it is a folder, not a file",
-            "name the file in it",
-        ));
+/// Where the files come from that a machine file names: a folder (feature `fs`), or texts at hand, by their names.
+pub trait Files: Debug {
+    /// What a file is called in messages.
+    fn shown(&self, file: &str) -> String;
+
+    /// Its text, of at most `limit` bytes.
+    ///
+    /// # Errors
+    /// There is no such file, or it cannot be read.
+    fn text(&self, file: &str, limit: u64) -> Result<String, Fault>;
+}
+
+impl<F: Files + ?Sized> Files for &F {
+    fn shown(&self, file: &str) -> String {
+        (**self).shown(file)
     }
-    if metadata.len() > limit {
-        return Err(too_large(&size(metadata.len()), limit));
+
+    fn text(&self, file: &str, limit: u64) -> Result<String, Fault> {
+        (**self).text(file, limit)
     }
-    // The size of a device or a pipe is not known beforehand.
-    let mut bytes = Vec::new();
-    file.take(limit + 1)
-        .read_to_end(&mut bytes)
-        .map_err(failed)?;
-    if bytes.len() as u64 > limit {
-        return Err(too_large(&format!("more than {}", size(limit)), limit));
+}
+
+impl Files for BTreeMap<String, String> {
+    fn shown(&self, file: &str) -> String {
+        file.to_owned()
     }
-    String::from_utf8(bytes).map_err(|error| {
-        let valid = error.utf8_error().valid_up_to();
-        let line = error
-            .as_bytes()
-            .iter()
-            .take(valid)
-            .filter(|b| **b == b'\n')
-            .count()
-            + 1;
-        Fault::new(
-            format!("it is not a text in UTF-8: line {line} has a byte that is not allowed there"),
-            "save it as UTF-8 text; spreadsheets and pictures cannot be read",
-        )
-    })
+
+    fn text(&self, file: &str, limit: u64) -> Result<String, Fault> {
+        let text = self.get(file).ok_or_else(|| {
+            Fault::new(
+                "there is no such file",
+                format!("give the text of {file} beside that of the machine file"),
+            )
+        })?;
+        let length = text.len() as u64;
+        if length > limit {
+            return Err(too_large(&size(length), limit));
+        }
+        Ok(text.clone())
+    }
 }
 
 /// The fault of a file of `size`.
@@ -76,12 +66,4 @@ pub(crate) fn size(bytes: u64) -> String {
             figure((bytes as f64 / f64::from(1 << 20) * 100.0).round() / 100.0)
         )
     }
-}
-
-fn absolute(path: &Path) -> String {
-    std::path::absolute(path)
-        .as_deref()
-        .unwrap_or(path)
-        .display()
-        .to_string()
 }

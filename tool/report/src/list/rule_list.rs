@@ -8,17 +8,18 @@ use jred_machine::model::rule::{Rule, Sense};
 use jred_machine::model::rules::{Moves, RuleSet, shown};
 use jred_machine::number::csv;
 use jred_machine::read;
+use jred_machine::text::file::Files;
 
 /// The list of all sets, or one of them in full.
 ///
 /// # Errors
 /// There is no such set, or its file is wrong.
-pub fn show(word: Option<&str>, format: Format) -> Result<String> {
+pub fn show(word: Option<&str>, files: impl Files, format: Format) -> Result<String> {
     let Some(word) = word else {
         let sets = read::rule_set_names().filter_map(read::built_in_rules);
         return Ok(list(&sets.collect::<Vec<_>>(), format));
     };
-    let set = read::rule_set(word)?;
+    let set = read::rule_set(word, files)?;
     Ok(match format {
         Format::Json => format!("{:#}\n", json(&set)),
         Format::Csv => csv(&set),

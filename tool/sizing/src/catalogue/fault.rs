@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 use std::ops::Range;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use miette::{Diagnostic, NamedSource, SourceSpan};
@@ -110,14 +111,24 @@ pub struct Misplaced {
 pub(super) struct Text {
     pub(super) name: String,
     pub(super) text: Arc<String>,
+    /// What tells it from others, by whatever name it is called.
+    pub(super) place: PathBuf,
 }
 
 impl Text {
     pub(super) fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
+        let name = name.into();
         Self {
-            name: name.into(),
+            place: PathBuf::from(&name),
+            name,
             text: Arc::new(text.into()),
         }
+    }
+
+    /// With where it really is.
+    #[cfg(feature = "fs")]
+    pub(super) fn at(self, place: PathBuf) -> Self {
+        Self { place, ..self }
     }
 
     /// The fault at its place in this text.

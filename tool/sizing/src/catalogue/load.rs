@@ -8,25 +8,12 @@ use std::path::{Path, PathBuf};
 use super::column::{Column, Kind};
 use super::entry::Entry;
 use super::fault::{CatalogueError, Fault, Faults, Remarks, Text};
-use super::files::{Format, built_in, file, folder, format_of, read};
+use super::files::Format;
 use super::lists::Listing;
 use super::pairing::Partners;
 use super::row::{Read, Row};
 use super::table::Table;
 use super::{Catalogue, Pairing, mgdb, plausible, toml_table};
-
-/// What to load.
-#[derive(Clone, Debug, Default)]
-pub struct Sources {
-    /// Folders or files, each a catalogue of its own.
-    pub catalogues: Vec<PathBuf>,
-    /// A file of motors.
-    pub motors: Option<PathBuf>,
-    /// A file of gearboxes.
-    pub gearboxes: Option<PathBuf>,
-    /// Whether broken rows are left out instead of refusing the catalogue.
-    pub skip_broken_rows: bool,
-}
 
 /// The files of one catalogue: they share a compatibility list.
 #[derive(Debug, Default)]
@@ -56,43 +43,18 @@ pub(super) struct Loader {
     pub(super) gear_motors: Vec<(u32, String, usize, Range<usize>)>,
 }
 
-impl Sources {
-    /// Reads everything.
-    pub(super) fn load(&self) -> Result<Catalogue, CatalogueError> {
-        self.given_once()?;
-        let mut loader = Loader {
-            skip: self.skip_broken_rows,
-            ..Loader::default()
+impl Loader {
+    /// The catalogue of these groups of files.
+    pub(super) fn load(
+        groups: Vec<Vec<(Format, Text)>>,
+        remarks: Remarks,
+        skip: bool,
+    ) -> Result<Catalogue, CatalogueError> {
+        let mut loader = Self {
+            skip,
+            remarks,
+            ..Self::default()
         };
-        let mut groups = Vec::new();
-        let single = |path: &PathBuf, kind| {
-            let text = read(path)?;
-            Ok(vec![(format_of(kind, &text), text)])
-        };
-        // A file of motors goes with the built-in gearboxes, and the other way round.
-        let halves = [
-            (&self.motors, Kind::Motors),
-            (&self.gearboxes, Kind::Gearboxes),
-        ];
-        for (path, kind) in halves {
-            match path {
-                Some(path) => groups.push(single(path, kind)?),
-                None if self.catalogues.is_empty() => groups.push(built_in(|k| k == kind)),
-                None => {}
-            }
-        }
-        if self.catalogues.is_empty() {
-            groups.push(built_in(|k| !matches!(k, Kind::Motors | Kind::Gearboxes)));
-        }
-        for path in &self.catalogues {
-            groups.push(if path.as_os_str() == "built-in" {
-                built_in(|_| true)
-            } else if path.is_dir() {
-                folder(path, &mut loader.remarks)?
-            } else {
-                file(path)?
-            });
-        }
         let mut read_groups = Vec::new();
         for files in groups {
             read_groups.push(loader.group(files)?);
@@ -100,20 +62,6 @@ impl Sources {
         loader.finish(read_groups)
     }
 
-    /// No folder and no file twice: all its keys would clash.
-    fn given_once(&self) -> Result<(), CatalogueError> {
-        let files = self.motors.iter().chain(&self.gearboxes);
-        let mut seen: HashMap<PathBuf, &PathBuf> = HashMap::new();
-        for path in self.catalogues.iter().chain(files) {
-            if let Some(before) = seen.insert(real(path), path) {
-                return Err(twice(path, before));
-            }
-        }
-        Ok(())
-    }
-}
-
-impl Loader {
     /// Reads the files of one catalogue.
     fn group(&mut self, files: Vec<(Format, Text)>) -> Result<Group, CatalogueError> {
         let first = self.catalogue.motors.len();
@@ -121,7 +69,7 @@ impl Loader {
         for (format, text) in files {
             // A file of a folder that is named beside the folder, or a folder within a folder.
             let path = PathBuf::from(&text.name);
-            if let Some(before) = self.read.insert(real(&path), path.clone()) {
+            if let Some(before) = self.read.insert(text.place.clone(), path.clone()) {
                 return Err(twice(&path, &before));
             }
             self.texts.push(text.clone());
@@ -365,12 +313,7 @@ impl Loader {
     }
 }
 
-/// Where a path leads, by whatever way it is written.
-fn real(path: &Path) -> PathBuf {
-    path.canonicalize().unwrap_or_else(|_| path.to_owned())
-}
-
-fn twice(path: &Path, before: &Path) -> CatalogueError {
+pub(super) fn twice(path: &Path, before: &Path) -> CatalogueError {
     CatalogueError::Twice {
         path: path.display().to_string(),
         before: before.display().to_string(),

@@ -1,6 +1,6 @@
 //! Current of the amplifier, energy of the DC bus, brake resistor.
 
-use super::{Context, Take, Words};
+use super::{Context, Record, Words};
 use crate::bus::store::BusFigures;
 use crate::bus::supply::BusData;
 use crate::bus::{self, Need};
@@ -11,7 +11,7 @@ use jred_machine::model::rules::Finding;
 use jred_machine::number::rounding::short;
 
 /// Currents; returns the largest (A), if the rules need it; NaN where the motor's data do not say which current makes a torque.
-pub(super) fn measure(context: &Context, findings: &mut impl Take) -> Option<f64> {
+pub(super) fn measure(context: &Context, findings: &mut impl Record) -> Option<f64> {
     let motor_peak = context.drive.motor.winding.peak_current;
     let Some(amplifier) = context.drive.amplifier else {
         findings.set(Rule::RmsCurrent, Finding::UNKNOWN);
@@ -62,7 +62,7 @@ fn peak_current(context: &Context) -> f64 {
 }
 
 /// Overload, bus and brake resistor; the largest current (A) is known from [`measure`].
-pub(super) fn follow(context: &Context, peak_current: Option<f64>, findings: &mut impl Take) {
+pub(super) fn follow(context: &Context, peak_current: Option<f64>, findings: &mut impl Record) {
     overload(context, peak_current.unwrap_or(f64::NAN), findings);
     let data = data(context);
     if data.regenerative {
@@ -120,7 +120,7 @@ pub(super) fn only_misses_figures(context: &Context) -> bool {
     context.drive.amplifier.is_none() && data.max_voltage.is_none() && !resistance
 }
 
-fn overload(context: &Context, peak: f64, findings: &mut impl Take) {
+fn overload(context: &Context, peak: f64, findings: &mut impl Record) {
     let Some(amplifier) = context.drive.amplifier else {
         return;
     };

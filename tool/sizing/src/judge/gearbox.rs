@@ -1,6 +1,6 @@
 //! The gearbox's torques, speeds and cycles.
 
-use super::{Context, Take, Words};
+use super::{Context, Record, Words};
 use crate::catalogue::Gearbox;
 use jred_machine::analysis::mechanics::Braking;
 use jred_machine::model::rule::Rule;
@@ -16,7 +16,7 @@ const CYCLES: f64 = 1000.0;
 const HOUR: f64 = 3600.0;
 
 /// The rules that depend on gearbox and cycle alone, whatever the motor.
-pub(super) fn measure_alone(context: &Context, rules: &RuleSet, findings: &mut impl Take) {
+pub(super) fn measure_alone(context: &Context, rules: &RuleSet, findings: &mut impl Record) {
     let Some(gearbox) = context.drive.gearbox else {
         return;
     };
@@ -52,7 +52,7 @@ pub(super) fn measure_alone(context: &Context, rules: &RuleSet, findings: &mut i
 }
 
 /// The emergency stop, in which the motor brakes.
-pub(super) fn measure_stop(context: &Context, findings: &mut impl Take) {
+pub(super) fn measure_stop(context: &Context, findings: &mut impl Record) {
     let Some(gearbox) = context.drive.gearbox else {
         return;
     };

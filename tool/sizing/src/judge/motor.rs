@@ -1,6 +1,6 @@
 //! The motor's torque, speed, holding torque and inertia ratio.
 
-use super::{Context, Take, Words};
+use super::{Context, Record, Words};
 use crate::cycle::Cycle;
 use crate::motor::envelope::Prepared;
 use jred_machine::model::rule::Rule;
@@ -18,7 +18,12 @@ fn known(rating: f64) -> f64 {
 }
 
 /// The largest speed; nothing but the ratio is needed of the drive.
-pub(super) fn measure_speed(cycle: &Cycle, motor: &Prepared, ratio: f64, findings: &mut impl Take) {
+pub(super) fn measure_speed(
+    cycle: &Cycle,
+    motor: &Prepared,
+    ratio: f64,
+    findings: &mut impl Record,
+) {
     let rating = known(motor.envelope.max_speed());
     findings.set(
         Rule::Speed,
@@ -27,7 +32,7 @@ pub(super) fn measure_speed(cycle: &Cycle, motor: &Prepared, ratio: f64, finding
 }
 
 /// The inertia ratio.
-pub(super) fn measure_inertia(context: &Context, rules: &RuleSet, findings: &mut impl Take) {
+pub(super) fn measure_inertia(context: &Context, rules: &RuleSet, findings: &mut impl Record) {
     let inertia = rules
         .choices
         .inertia_ratio_of
@@ -38,7 +43,7 @@ pub(super) fn measure_inertia(context: &Context, rules: &RuleSet, findings: &mut
 }
 
 /// Torques that need no search over the cycle.
-pub(super) fn measure_torques(context: &Context, findings: &mut impl Take) {
+pub(super) fn measure_torques(context: &Context, findings: &mut impl Record) {
     let cycle = context.cycle;
     let envelope = &context.motor.envelope;
     let s1 = envelope.continuous_torque(cycle.mean_speed() * context.ratio);
@@ -58,7 +63,7 @@ pub(super) fn measure_torques(context: &Context, findings: &mut impl Take) {
 }
 
 /// The torque where the cycle comes closest to the envelope.
-pub(super) fn measure_peak(context: &Context, findings: &mut impl Take) {
+pub(super) fn measure_peak(context: &Context, findings: &mut impl Record) {
     let envelope = &context.motor.envelope;
     let peak = context
         .cycle
@@ -71,7 +76,7 @@ pub(super) fn measure_peak(context: &Context, findings: &mut impl Take) {
 }
 
 /// A peak torque of which it is only known that it uses at least this share of the envelope.
-pub(super) fn set_peak_use(used: f64, findings: &mut impl Take) {
+pub(super) fn set_peak_use(used: f64, findings: &mut impl Record) {
     findings.set(Rule::PeakTorque, Finding::new(used, 1.0));
 }
 

@@ -1,6 +1,6 @@
 //! How a drive comes out, in numbers.
 
-use super::{Findings, Take};
+use super::{Findings, Record};
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Finding;
 use jred_machine::model::rules::RuleSet;
@@ -71,7 +71,7 @@ impl<'r> Tally<'r> {
     }
 }
 
-impl Take for Tally<'_> {
+impl Record for Tally<'_> {
     #[inline]
     fn set(&mut self, rule: Rule, finding: Finding) {
         let outcome = &mut self.outcome;

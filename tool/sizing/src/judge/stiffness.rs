@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{Context, Take, Words};
+use super::{Context, Record, Words};
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Finding;
 use jred_machine::model::site::ToolPlace;
@@ -15,7 +15,7 @@ use jred_machine::units::DEGREE;
 use jred_machine::units::Vocabulary;
 
 /// Both depend on gearbox, machine and cycle alone, whatever the motor.
-pub(super) fn measure(context: &Context, findings: &mut impl Take) {
+pub(super) fn measure(context: &Context, findings: &mut impl Record) {
     let frequency = stiffness(context).map_or(Finding::UNKNOWN, |stiffness| {
         let fixed = frequency(stiffness, 1.0 / context.cycle.inertia().max);
         Finding::new(fixed, context.cycle.mechanics().drive_frequency)

@@ -1,6 +1,6 @@
 //! Temperature of winding and housing.
 
-use super::{Context, Take, Words};
+use super::{Context, Record, Words};
 use crate::thermal::classify::Features;
 use crate::thermal::course::Hottest;
 use crate::thermal::{Heating, Load, Model, allowed_rise};
@@ -9,7 +9,7 @@ use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Finding;
 use jred_machine::units::{Sentence, Vocabulary};
 
-pub(super) fn follow(context: &Context, findings: &mut impl Take) {
+pub(super) fn follow(context: &Context, findings: &mut impl Record) {
     let Ok(heating) = heating(context) else {
         findings.set(Rule::WindingTemperature, Finding::UNKNOWN);
         return;

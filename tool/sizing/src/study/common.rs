@@ -1,7 +1,5 @@
 //! What every machine of a study shares: the machine file that is changed, the catalogue, the time steps.
 
-use std::path::{Path, PathBuf};
-
 use miette::{IntoDiagnostic as _, Report, Result, miette};
 
 use super::edit::{Document, Edit};
@@ -12,7 +10,9 @@ use crate::select::fit::fit_input;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
+use jred_machine::model::rules::RuleSet;
 use jred_machine::read;
+use jred_machine::text::file::Files;
 use jred_machine::units::closest;
 
 /// The common part of a study.
@@ -20,7 +20,8 @@ use jred_machine::units::closest;
 pub struct Study {
     /// Name of the machine file, for messages.
     pub name: String,
-    folder: PathBuf,
+    /// The files that the machine file names.
+    files: Box<dyn Files + Send + Sync>,
     /// The file with the places of its quantities.
     pub document: Document,
     /// The machine as the file says.
@@ -28,7 +29,7 @@ pub struct Study {
     /// What drives are chosen from.
     pub catalogue: Catalogue,
     /// Rule set instead of the file's.
-    rules: Option<String>,
+    rules: Option<RuleSet>,
     /// Time steps of a cycle.
     pub steps: usize,
 }
@@ -43,29 +44,44 @@ pub struct Prepared {
 }
 
 impl Study {
-    /// Reads the machine file, which must be one that can be sized; `rules` names a rule set to judge by instead of its own.
+    /// The study of the machine file at `path`: see [`Study::new`].
     ///
     /// # Errors
     /// A file that cannot be read, or whose machine cannot be sized.
-    pub fn new(
-        path: &Path,
-        mut catalogue: Catalogue,
-        rules: Option<&str>,
+    #[cfg(feature = "fs")]
+    pub fn open(
+        path: &std::path::Path,
+        catalogue: Catalogue,
+        rules: Option<RuleSet>,
         steps: usize,
     ) -> Result<Self> {
-        let text = read::text(path)?;
         let name = path.display().to_string();
-        let folder = read::folder(path).to_owned();
-        let mut nominal = read::parse(&name, &text, &folder)?;
-        let rules = rules.map(ToOwned::to_owned);
-        if let Some(word) = &rules {
-            nominal.rules = read::rules_based_on(&nominal.rules, word)?;
+        let files = Box::new(read::folder(path).to_owned());
+        Self::new(name, read::text(path)?, files, catalogue, rules, steps)
+    }
+
+    /// Reads the `text` of a machine file, which must be one that can be sized, and what it names from `files`; `rules` are a set
+    /// to judge by instead of its own. The `name` is for messages.
+    ///
+    /// # Errors
+    /// A machine file that is wrong, or whose machine cannot be sized.
+    pub fn new(
+        name: String,
+        text: String,
+        files: Box<dyn Files + Send + Sync>,
+        mut catalogue: Catalogue,
+        rules: Option<RuleSet>,
+        steps: usize,
+    ) -> Result<Self> {
+        let mut nominal = read::parse(&name, &text, &*files)?;
+        if let Some(set) = &rules {
+            nominal.rules = read::rules_based_on(&nominal.rules, set.clone())?;
         }
         sizeable(&nominal)?;
         fit_input(&mut catalogue, &nominal)?;
         Ok(Self {
             name,
-            folder,
+            files,
             document: Document::parse(text)?,
             nominal,
             catalogue,
@@ -142,9 +158,9 @@ impl Study {
     /// What is wrong with that machine.
     pub fn machine(&self, edits: &[Edit]) -> Result<Prepared> {
         let text = self.document.with(edits);
-        let mut file = read::parse(&self.name, &text, &self.folder)?;
-        if let Some(word) = &self.rules {
-            file.rules = read::rules_based_on(&file.rules, word)?;
+        let mut file = read::parse(&self.name, &text, &*self.files)?;
+        if let Some(set) = &self.rules {
+            file.rules = read::rules_based_on(&file.rules, set.clone())?;
         }
         sizeable(&file)?;
         let cycle = cycle(&file, self.steps)?;

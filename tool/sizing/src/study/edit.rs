@@ -6,10 +6,8 @@
 //!
 //! A changed file is the text with other numbers in the same places, so that a message shows the line that the user knows.
 
-use std::ops::Range;
-use std::path::Path;
-
 use miette::{Result, miette};
+use std::ops::Range;
 use toml_edit::{Document as Toml, Item, Table, TableLike, Value};
 
 use jred_machine::units::closest;
@@ -314,12 +312,4 @@ impl Finder {
 
 fn name_of(table: &dyn TableLike) -> Option<String> {
     table.get("name")?.as_str().map(ToOwned::to_owned)
-}
-
-/// Reads the text of a machine file.
-///
-/// # Errors
-/// A file that cannot be read.
-pub fn read(path: &Path) -> Result<Document> {
-    Document::parse(jred_machine::read::text(path)?)
 }

@@ -19,11 +19,10 @@ mod slider_crank;
 mod toggle_press;
 mod train;
 
-use std::path::Path;
-
 use jred::{Error, Link};
 
 use crate::model::machine::AnyMechanism;
+use crate::text::file::Files;
 
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
@@ -53,7 +52,7 @@ const REDUCED_CURVES: &str = "reduced-curves";
 type Reader = fn(&Section) -> Result<AnyMechanism>;
 
 /// A reader of one that names a file in the machine file's folder.
-type FileReader = fn(&Section, &Path) -> Result<AnyMechanism>;
+type FileReader = fn(&Section, &dyn Files) -> Result<AnyMechanism>;
 
 /// Every type with its reader.
 const TYPES: [(&str, Reader); 17] = [
@@ -86,7 +85,7 @@ pub fn mechanism_types() -> impl Iterator<Item = &'static str> {
 }
 
 /// The mechanism and the inertia of its flywheel (kg·m²).
-pub(super) fn read(section: &Section, folder: &Path) -> Result<(AnyMechanism, f64)> {
+pub(super) fn read(section: &Section, files: &dyn Files) -> Result<(AnyMechanism, f64)> {
     let kind = section
         .require("type", "type = \"slider-crank\"")?
         .choice(&mechanism_types().collect::<Vec<_>>())?;
@@ -95,7 +94,7 @@ pub(super) fn read(section: &Section, folder: &Path) -> Result<(AnyMechanism, f6
         None => 0.0,
     };
     let mechanism = match (TYPES.get(kind), kind.checked_sub(TYPES.len())) {
-        (None, Some(file)) => FILE_TYPES[file].1(section, folder)?,
+        (None, Some(file)) => FILE_TYPES[file].1(section, files)?,
         (reader, _) => reader.unwrap_or(&TYPES[0]).1(section)?,
     };
     let elsewhere = |key: &str| match key {

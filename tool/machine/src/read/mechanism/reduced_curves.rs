@@ -1,7 +1,5 @@
 //! `type = "reduced-curves"`: J(φ) and torques from a CSV file.
 
-use std::path::Path;
-
 use jred::Domain;
 
 use super::core;
@@ -14,6 +12,7 @@ use crate::read::curve_file::Positions;
 use crate::read::drive_link::DriveLink;
 use crate::text::columns;
 use crate::text::columns::{Columns, CsvFile, Format, Known, known};
+use crate::text::file::Files;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::{
@@ -68,7 +67,7 @@ fn of_reduce(name: &str) -> bool {
         || prefixes.iter().any(|prefix| name.starts_with(prefix))
 }
 
-pub(super) fn read(section: &Section, folder: &Path) -> Result<AnyMechanism> {
+pub(super) fn read(section: &Section, files: &dyn Files) -> Result<AnyMechanism> {
     let item = section.require("file", "file = \"curves.csv\"")?;
     let turn = section
         .require(
@@ -77,7 +76,7 @@ pub(super) fn read(section: &Section, folder: &Path) -> Result<AnyMechanism> {
         )?
         .choice(&["turn", "stroke"])?
         == 0;
-    let file = CsvFile::open(&item, "curves.csv", folder)?;
+    let file = CsvFile::open(&item, "curves.csv", files)?;
     let curves = Curves::read(&file.text, turn).map_err(|problem| file.shows(problem))?;
     let slides = curves.drive.slides();
     let alone =

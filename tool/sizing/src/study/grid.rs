@@ -12,7 +12,7 @@ use crate::study::task::Task;
 
 /// Machines of a grid, to be sized.
 #[derive(Debug)]
-pub struct Sized<'s> {
+pub struct GridStudy<'s> {
     /// What they share.
     pub study: &'s Study,
     /// What differs.
@@ -21,6 +21,18 @@ pub struct Sized<'s> {
     pub filter: Filter,
     /// What comes first; `None`: the ranking of `jred size`.
     pub rank: Option<Objective>,
+}
+
+jred_machine::words! {
+    /// How a machine of a study came out: the words of the column `verdict`.
+    pub enum Verdict {
+        /// A drive satisfies every rule.
+        Fits = "fits",
+        /// No drive does.
+        NoneFits = "none fits",
+        /// The machine cannot be built as described.
+        Refused = "machine refused",
+    }
 }
 
 /// Columns behind those of the axes.
@@ -38,7 +50,7 @@ const COLUMNS: [&str; 11] = [
     "note",
 ];
 
-impl Task for Sized<'_> {
+impl Task for GridStudy<'_> {
     fn header(&self) -> Header {
         let axes = self.grid.axes.iter();
         let own = axes.clone().map(super::axis::Axis::column);
@@ -87,14 +99,14 @@ impl Task for Sized<'_> {
     }
 }
 
-impl Sized<'_> {
+impl GridStudy<'_> {
     fn sized(&self, edits: &[Edit]) -> Vec<Cell> {
         let machine = match self.study.machine(edits) {
             Ok(machine) => machine,
             Err(report) => {
                 let mut cells = vec![Cell::Empty; COLUMNS.len()];
                 if let [verdict, .., note] = cells.as_mut_slice() {
-                    *verdict = "machine refused".into();
+                    *verdict = Verdict::Refused.word().into();
                     *note = sentence(&report).into();
                 }
                 return cells;
@@ -111,7 +123,7 @@ impl Sized<'_> {
         let fit = selection.fit.len();
         match (selection.fit.first(), selection.refused.first()) {
             (Some(best), _) => {
-                let mut cells = vec!["fits".into(), (fit as f64).into()];
+                let mut cells = vec![Verdict::Fits.word().into(), (fit as f64).into()];
                 cells.extend(drive_cells(&selection, best));
                 cells.push(match best.outcome.not_checked {
                     0 => Cell::Empty,
@@ -123,13 +135,13 @@ impl Sized<'_> {
                 cells
             }
             (None, Some(nearest)) => {
-                let mut cells = vec!["none fits".into(), 0.0.into()];
+                let mut cells = vec![Verdict::NoneFits.word().into(), 0.0.into()];
                 cells.extend(drive_cells(&selection, nearest));
                 cells.push("this drive misses by least".into());
                 cells
             }
             (None, None) => {
-                let mut cells = vec!["none fits".into(), 0.0.into()];
+                let mut cells = vec![Verdict::NoneFits.word().into(), 0.0.into()];
                 cells.resize(COLUMNS.len() - 1, Cell::Empty);
                 cells.push("no drive passes the filter".into());
                 cells

@@ -1,0 +1,88 @@
+//! Files of a disk: the one place of this package that opens any.
+
+use std::fs::File;
+use std::io::{ErrorKind, Read};
+use std::path::{Path, PathBuf};
+
+use super::file::{Files, size, too_large};
+use crate::units::Fault;
+
+/// A folder, in which files are looked for by their names.
+impl Files for Path {
+    fn shown(&self, file: &str) -> String {
+        self.join(file).display().to_string()
+    }
+
+    fn text(&self, file: &str, limit: u64) -> Result<String, Fault> {
+        read(&self.join(file), limit)
+    }
+}
+
+impl Files for PathBuf {
+    fn shown(&self, file: &str) -> String {
+        self.as_path().shown(file)
+    }
+
+    fn text(&self, file: &str, limit: u64) -> Result<String, Fault> {
+        self.as_path().text(file, limit)
+    }
+}
+
+/// The text of the file at `path`, which may have up to `limit` bytes.
+pub(crate) fn read(path: &Path, limit: u64) -> Result<String, Fault> {
+    let failed = |error: std::io::Error| match error.kind() {
+        ErrorKind::NotFound => Fault::new(
+            "there is no such file",
+            format!(
+                "check the name and the folder; looked for {}",
+                absolute(path)
+            ),
+        ),
+        ErrorKind::PermissionDenied => Fault::new(
+            "reading it is not permitted",
+            format!("allow reading of {}", absolute(path)),
+        ),
+        _ => Fault::new(error.to_string(), format!("check {}", absolute(path))),
+    };
+    let file = File::open(path).map_err(failed)?;
+    let metadata = file.metadata().map_err(failed)?;
+    if metadata.is_dir() {
+        return Err(Fault::new(
+            "it is a folder, not a file",
+            "name the file in it",
+        ));
+    }
+    if metadata.len() > limit {
+        return Err(too_large(&size(metadata.len()), limit));
+    }
+    // The size of a device or a pipe is not known beforehand.
+    let mut bytes = Vec::new();
+    file.take(limit + 1)
+        .read_to_end(&mut bytes)
+        .map_err(failed)?;
+    if bytes.len() as u64 > limit {
+        return Err(too_large(&format!("more than {}", size(limit)), limit));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let line = error
+            .as_bytes()
+            .iter()
+            .take(valid)
+            .filter(|b| **b == b'\n')
+            .count()
+            + 1;
+        Fault::new(
+            format!("it is not a text in UTF-8: line {line} has a byte that is not allowed there"),
+            "save it as UTF-8 text; spreadsheets and pictures cannot be read",
+        )
+    })
+}
+
+fn absolute(path: &Path) -> String {
+    std::path::absolute(path)
+        .as_deref()
+        .unwrap_or(path)
+        .display()
+        .to_string()
+}

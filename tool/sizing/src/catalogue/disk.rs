@@ -1,0 +1,185 @@
+//! Catalogues on a disk: folders and files, the one place of this package that opens any.
+
+use std::collections::HashMap;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use super::Catalogue;
+use super::cell::nearest;
+use super::column::Kind;
+use super::fault::{CatalogueError, Remarks, Text};
+use super::files::{Format, NAMES, built_in, format_of, formatted, is_toml, kind_of, unreadable};
+use super::load::{Loader, twice};
+
+/// What to load.
+#[derive(Clone, Debug, Default)]
+pub struct Sources {
+    /// Folders or files, each a catalogue of its own.
+    pub catalogues: Vec<PathBuf>,
+    /// A file of motors.
+    pub motors: Option<PathBuf>,
+    /// A file of gearboxes.
+    pub gearboxes: Option<PathBuf>,
+    /// Whether broken rows are left out instead of refusing the catalogue.
+    pub skip_broken_rows: bool,
+}
+
+impl Sources {
+    /// Reads everything.
+    pub(super) fn load(&self) -> Result<Catalogue, CatalogueError> {
+        self.given_once()?;
+        let mut remarks = Remarks::default();
+        let mut groups = Vec::new();
+        let single = |path: &PathBuf, kind| {
+            let text = read(path)?;
+            Ok(vec![(format_of(kind, &text), text)])
+        };
+        // A file of motors goes with the built-in gearboxes, and the other way round.
+        let halves = [
+            (&self.motors, Kind::Motors),
+            (&self.gearboxes, Kind::Gearboxes),
+        ];
+        for (path, kind) in halves {
+            match path {
+                Some(path) => groups.push(single(path, kind)?),
+                None if self.catalogues.is_empty() => groups.push(built_in(|k| k == kind)),
+                None => {}
+            }
+        }
+        if self.catalogues.is_empty() {
+            groups.push(built_in(|k| !matches!(k, Kind::Motors | Kind::Gearboxes)));
+        }
+        for path in &self.catalogues {
+            groups.push(if path.as_os_str() == "built-in" {
+                built_in(|_| true)
+            } else if path.is_dir() {
+                folder(path, &mut remarks)?
+            } else {
+                file(path)?
+            });
+        }
+        Loader::load(groups, remarks, self.skip_broken_rows)
+    }
+
+    /// No folder and no file twice: all its keys would clash.
+    fn given_once(&self) -> Result<(), CatalogueError> {
+        let files = self.motors.iter().chain(&self.gearboxes);
+        let mut seen: HashMap<PathBuf, &PathBuf> = HashMap::new();
+        for path in self.catalogues.iter().chain(files) {
+            if let Some(before) = seen.insert(real(path), path) {
+                return Err(twice(path, before));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What the system says, in words of the task, and what to do about it.
+fn cannot_read(path: &Path, error: &std::io::Error) -> CatalogueError {
+    const CURE: &str = "check the path given with --catalogue, --motors or --gearboxes";
+    match error.kind() {
+        ErrorKind::NotFound => {
+            let near = beside(path).map_or_else(String::new, |near| {
+                format!("; did you mean {}?", near.display())
+            });
+            let cure = format!("{CURE}{near}");
+            unreadable(path, "there is no such file or folder", &cure)
+        }
+        ErrorKind::PermissionDenied => unreadable(
+            path,
+            "it may not be read",
+            "let this user read it, or name another one",
+        ),
+        ErrorKind::IsADirectory => unreadable(
+            path,
+            "it is a folder",
+            "name folders with --catalogue, one CSV file with --motors or --gearboxes",
+        ),
+        _ => unreadable(path, error.to_string(), CURE),
+    }
+}
+
+/// The file or folder at the same place whose name is most alike, if any is.
+fn beside(path: &Path) -> Option<PathBuf> {
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    let entries = std::fs::read_dir(folder.unwrap_or_else(|| Path::new("."))).ok()?;
+    let names: Vec<String> = entries
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let near = nearest(path.file_name()?.to_str()?, &names)?;
+    Some(path.with_file_name(near))
+}
+
+fn read(path: &Path) -> Result<Text, CatalogueError> {
+    let bytes = std::fs::read(path).map_err(|error| cannot_read(path, &error))?;
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let before = error.as_bytes().iter().take(valid);
+        let line = before.filter(|b| **b == b'\n').count() + 1;
+        unreadable(
+            path,
+            format!("it is not a text in UTF-8: line {line} has a byte that is not allowed there"),
+            "save the sheet as CSV in UTF-8, and name that file with --catalogue, --motors or --gearboxes",
+        )
+    })?;
+    Ok(Text::new(path.display().to_string(), text).at(real(path)))
+}
+
+fn file(path: &Path) -> Result<Vec<(Format, Text)>, CatalogueError> {
+    Ok(vec![formatted(read(path)?)?])
+}
+
+/// How many folders deep tables are looked for.
+const DEPTH: usize = 4;
+
+fn folder(path: &Path, remarks: &mut Remarks) -> Result<Vec<(Format, Text)>, CatalogueError> {
+    let mut found = Vec::new();
+    search(path, DEPTH, &mut found, remarks)?;
+    if found.is_empty() {
+        return Err(unreadable(path, "there is no table in this folder", NAMES));
+    }
+    let mut files = Vec::new();
+    for path in found {
+        files.extend(file(&path)?);
+    }
+    Ok(files)
+}
+
+fn search(
+    folder: &Path,
+    depth: usize,
+    found: &mut Vec<PathBuf>,
+    remarks: &mut Remarks,
+) -> Result<(), CatalogueError> {
+    let failed = |error: std::io::Error| cannot_read(folder, &error);
+    let mut paths = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        paths.push(entry.map_err(failed)?.path());
+    }
+    paths.sort();
+    for path in paths {
+        if path.is_dir() {
+            if depth > 0 {
+                search(&path, depth - 1, found, remarks)?;
+            }
+        } else if is_toml(&path) || kind_of(&path).is_some() {
+            found.push(path);
+        } else if path
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("csv"))
+        {
+            remarks.add("CSV files that are not read", || {
+                format!("{} is not read: {NAMES}", path.display())
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Where a path leads, by whatever way it is written.
+fn real(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| path.to_owned())
+}
