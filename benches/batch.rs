@@ -27,7 +27,7 @@ use jred::mechanism::{Branch, SliderCrank};
 use jred::table::{Shape, words_len};
 use jred::tabulate::{Request, fill, scratch_len, tabulate};
 use jred::{
-    Action, Cubic, Domain, Error, Format, Link, Load, Machine, Model, Number, Phase, Q31,
+    Action, Cubic, Domain, Error, Format, Harmonic, Link, Load, Machine, Model, Number, Phase, Q31,
     Quadratic, Reducible, Reduction, Scale, Set, Spline, Spline16, Table, curves,
 };
 
@@ -304,25 +304,28 @@ fn table<F: Format>(
 }
 
 /// The fewest harmonics for an error.
-fn harmonics<T: harmonic::Circular>(
+fn harmonics<T>(
     bench: &mut Bench,
     name: &str,
     machine: &impl Reducible,
     peak: f64,
     share: f64,
-) -> Result<(), Error> {
-    const SET: Set = curves::LOAD;
-    const TERMS: Set = terms::SYMMETRIC;
+) -> Result<(), Error>
+where
+    T: harmonic::Circular + Number,
+    Harmonic<T>: Format<Number = T, Word = T, Constants = ()>,
+{
+    const SET: Set = curves::LOAD | terms::SYMMETRIC;
     const MOST: u32 = 16;
-    let request = harmonic::Request {
+    let request = Request {
         torque_error: share * peak,
         omega: OMEGA,
         alpha: ALPHA,
-        max_harmonics: MOST,
+        max_cells: MOST,
     };
     let mut scratch = [0.0; harmonic::scratch_len(MOST)];
-    let mut words = vec![T::from_f64(0.0); harmonic::words_len(MOST, SET, TERMS)];
-    let mut run = || harmonic::fit::<T, SET, TERMS>(machine, &request, &mut scratch, &mut words);
+    let mut words = vec![T::default(); words_len::<Harmonic<T>>(MOST, SET)];
+    let mut run = || harmonic::fit(machine, SET, &request, &mut scratch, &mut words);
     let found = run()?.harmonics;
     bench.cost(
         &format!("harmonics-{name}-{share:e}"),

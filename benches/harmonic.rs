@@ -4,16 +4,21 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use jred::harmonic::{
-    HarmonicModel, Identification, Request, Sample, fit, scratch_len, terms, words_len,
-};
+use jred::harmonic::{Identification, Sample, fit, scratch_len, terms};
 use jred::mechanism::{Branch, SliderCrank};
-use jred::{Error, Link, Machine, Phase, Set, curves};
+use jred::table::{Shape, words_len};
+use jred::tabulate::Request;
+use jred::{Error, Harmonic, Link, Machine, Model, Phase, Set, Table, curves};
 
-const SET: Set = curves::LOAD;
-const TERMS: Set = terms::SYMMETRIC;
+const SET: Set = curves::LOAD | terms::SYMMETRIC;
 /// J and load, eleven harmonics.
-const WORDS: usize = words_len(11, SET, TERMS);
+const WORDS: usize = words_len::<Harmonic<f64>>(11, SET);
+
+/// The model of these coefficients.
+fn model(words: &[f32], harmonics: u32) -> Result<Model<'_, Harmonic<f32>, SET>, Error> {
+    let table = Table::new(words, Shape::harmonics(harmonics, SET)).map_err(Error::Table)?;
+    Model::new(table).map_err(Error::Table)
+}
 
 /// Shortest of many runs, in µs.
 fn time(what: &str, runs: u32, mut work: impl FnMut()) {
@@ -34,22 +39,22 @@ fn main() -> Result<(), Error> {
         .with_gravity([9.81, 0.0])?
         .with_flywheel(0.0063)?;
     let mut scratch = [0.0; scratch_len(16)];
-    let mut words = [0.0f64; words_len(16, SET, TERMS)];
-    let mut single = [0.0f32; words_len(16, SET, TERMS)];
+    let mut words = [0.0f64; words_len::<Harmonic<f64>>(16, SET)];
+    let mut single = [0.0f32; words_len::<Harmonic<f64>>(16, SET)];
     for torque_error in [1e-3, 1e-5, 1e-7] {
         let request = Request {
             torque_error,
             omega: 60.0,
             alpha: 400.0,
-            max_harmonics: 16,
+            max_cells: 16,
         };
-        let found = fit::<f64, SET, TERMS>(&machine, &request, &mut scratch, &mut words)?;
+        let found = fit(&machine, SET, &request, &mut scratch, &mut words)?;
         let what = format!(
             "fit f64 to {torque_error:e} N m: {} harmonics, {} samples",
             found.harmonics, found.samples
         );
         time(&what, 200, || {
-            let found = fit::<f64, SET, TERMS>(&machine, &request, &mut scratch, &mut words);
+            let found = fit(&machine, SET, &request, &mut scratch, &mut words);
             black_box(found).ok();
         });
     }
@@ -57,15 +62,15 @@ fn main() -> Result<(), Error> {
         torque_error: 1e-4,
         omega: 60.0,
         alpha: 400.0,
-        max_harmonics: 16,
+        max_cells: 16,
     };
-    let found = fit::<f32, SET, TERMS>(&machine, &request, &mut scratch, &mut single)?;
+    let found = fit(&machine, SET, &request, &mut scratch, &mut single)?;
     let single = single.get(..found.words).unwrap_or_default();
     let what = format!("show J positive, f32, {} harmonics", found.harmonics);
     time(&what, 200, || {
-        black_box(HarmonicModel::<f32, SET, TERMS>::new(single)).ok();
+        black_box(model(single, found.harmonics)).ok();
     });
-    let model = HarmonicModel::<f32, SET, TERMS>::new(single)?;
+    let model = model(single, found.harmonics)?;
     time("1000 torques, f32", 200, || {
         for k in 0..1000u32 {
             let phase = Phase::from_bits(k.wrapping_mul(0x9e37_79b9));
@@ -90,7 +95,7 @@ fn main() -> Result<(), Error> {
         &format!("identify {WORDS} coefficients from 1000 samples"),
         50,
         || {
-            let mut kept = Identification::<WORDS, SET, TERMS>::new().expect("whole harmonics");
+            let mut kept = Identification::<WORDS, SET>::new().expect("whole harmonics");
             for sample in &samples {
                 kept.add(sample).expect("finite");
             }

@@ -133,11 +133,11 @@ pub use number::{Domain, Number, Outcome, Phase, Q15, Q31, Scalar, Scale, Transf
 
 // Tables and the tick.
 pub use curve::{
-    Cubic, Format, Quadratic, Rows16, Set, Spline, Spline16, Table, TableError, Usage, curves,
+    Cubic, Format, Harmonic, Quadratic, Rows16, Set, Spline, Spline16, Table, TableError, Usage,
+    curves,
 };
 pub use tick::{
     AccelerationRange, Aligned, AnyModel, Image, ImageError, Model, Part, Pieces, Validity, duty,
-    harmonic,
 };
 
 /// What tables are made of, for those who make or keep their own.
@@ -148,6 +148,47 @@ pub mod table {
         words_len,
     };
     pub use crate::number::Role;
+}
+
+/// Harmonics: a smooth machine as short Fourier series instead of a table of cells.
+///
+/// Found from its mechanism ([`fit`](harmonic::fit)) or from measurements ([`identify`](harmonic::identify)); ticked by [`Model`], as
+/// the format [`Harmonic`].
+///
+/// ```
+/// use jred::harmonic::{fit, scratch_len, terms};
+/// use jred::mechanism::{Branch, SliderCrank};
+/// use jred::table::{Shape, words_len};
+/// use jred::tabulate::Request;
+/// use jred::{Error, Harmonic, Link, Machine, Model, Phase, Reducible, Set, Table, curves};
+///
+/// fn main() -> Result<(), Error> {
+///     // Crank 30 mm, rod 120 mm, ram 42 kg: weight acts along the guide, so J is even and the load odd in φ.
+///     let links = [Link::new(9.0, 0.018, [0.006, 0.0])?, Link::new(6.5, 0.03, [0.055, 0.0])?, Link::new(42.0, 0.0, [0.0, 0.0])?];
+///     let mechanism = SliderCrank::new(0.03, 0.12, 0.0, Branch::Right, links)?;
+///     let machine = Machine::new(mechanism).with_gravity([9.81, 0.0])?;
+///
+///     const MOST: u32 = 16;
+///     const SET: Set = curves::LOAD | terms::SYMMETRIC;
+///     let request = Request { torque_error: 0.001, omega: 12.0, alpha: 60.0, max_cells: MOST };
+///     let (mut scratch, mut words) = ([0.0; scratch_len(MOST)], [0.0; words_len::<Harmonic<f32>>(MOST, SET)]);
+///     let found = fit(&machine, SET, &request, &mut scratch, &mut words)?;
+///     assert!(found.torque_error <= 0.001 && found.bytes <= 80);
+///
+///     let table = Table::new(&words[..found.words], Shape::harmonics(found.harmonics, SET)).map_err(Error::Table)?;
+///     let model = Model::<Harmonic<f32>, SET>::new(table).map_err(Error::Table)?;
+///     let torque = model.torque(Phase::from_radians(0.5), 10.0, 50.0);
+///     let exact = machine.reduction(0.5)?.torque(10.0, 50.0).total();
+///     assert!((f64::from(torque) - exact).abs() < 0.001);
+///     Ok(())
+/// }
+/// ```
+pub mod harmonic {
+    pub use crate::curve::{Circular, Coefficient, Curve, Kind, MAX_HARMONICS, terms};
+    pub use crate::tabulate::harmonic::{
+        EXCITED, Fitted, HarmonicError, Identification, Identified, Sample, fit, identify, measure,
+        scratch_len, terms_in_use,
+    };
 }
 
 /// Table images: a machine's curves as the tool exports them and firmware uses them, in place from flash.
@@ -167,6 +208,8 @@ mod sealed {
     impl<S: crate::Scalar> Sealed for crate::Cubic<S> {}
     impl<S: crate::Scalar> Sealed for crate::Quadratic<S> {}
     impl Sealed for crate::Rows16 {}
+    impl Sealed for crate::Harmonic<f32> {}
+    impl Sealed for crate::Harmonic<f64> {}
 }
 
 /// The README's program is compiled and run with the documentation tests.

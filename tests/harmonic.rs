@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use crate::support::harmonics::{Waves, fitted, phases, press, request, series, waves, words_of};
+use crate::support::harmonics::{Waves, fitted, model, phases, press, request, series, waves, words_of};
 use crate::support::{assert_near, budget, config, largest};
-use jred::harmonic::{Circular, HarmonicModel, terms};
-use jred::{Phase, Reducible, curves};
+use jred::harmonic::{Circular, terms};
+use jred::{Format, Harmonic, Number, Phase, Real, Reducible, curves};
 use proptest::prelude::*;
 
 #[test]
@@ -50,14 +50,18 @@ fn sine_and_cosine_keep_their_bounds() {
     }
 }
 
-/// Relative to the sum of the sizes that `HarmonicModel::at` names.
-fn rounding<T: Circular>(waves: &Waves) -> f64 {
-    let words: Vec<T> = words_of(waves).into_iter().map(T::from_f64).collect();
-    let model = HarmonicModel::<T, { curves::ALL }, { terms::GENERAL }>::new(&words).unwrap();
+/// Relative to the sum of the sizes of the coefficients.
+fn rounding<T>(waves: &Waves) -> f64
+where
+    T: Circular + Number,
+    Harmonic<T>: Format<Number = T, Word = T, Constants = ()>,
+{
+    let words: Vec<T> = words_of(waves).into_iter().map(<T as Real>::from_f64).collect();
+    let model = model::<T, { curves::ALL | terms::GENERAL }>(&words).unwrap();
     // Of the coefficients as the type holds them.
     let held = |c: &[[f64; 2]]| -> Vec<[f64; 2]> {
         c.iter()
-            .map(|p| p.map(|x| T::from_f64(x).to_f64()))
+            .map(|p| p.map(|x| Real::to_f64(<T as Real>::from_f64(x))))
             .collect()
     };
     let held = [held(&waves.inertia), held(&waves.load)];
@@ -68,13 +72,13 @@ fn rounding<T: Circular>(waves: &Waves) -> f64 {
             .sum()
     };
     largest(phases(500).flat_map(|phase| {
-        let read = model.at(phase);
+        let read = model.table().at(phase);
         let [j, dj, _] = series(&held[0], phase.radians());
         let load = series(&held[1], phase.radians())[0];
         [
-            (read.inertia.to_f64() - j) / size(&held[0], &|_| 1.0),
-            (read.inertia_slope.to_f64() - dj) / size(&held[0], &|k| k as f64),
-            (read.load.to_f64() - load) / size(&held[1], &|_| 1.0),
+            (read.inertiReal::to_f64(a) - j) / size(&held[0], &|_| 1.0),
+            (read.inertia_slope - dj) / size(&held[0], &|k| k as f64),
+            (read.load - load) / size(&held[1], &|_| 1.0),
         ]
     }))
 }
@@ -104,10 +108,14 @@ proptest! {
 }
 
 /// There and back, the torque against the terms of the reduction, and the range of accelerations.
-fn both_ways<T: Circular>(waves: &Waves, omega: f64, alpha: f64, phase: Phase, epsilon: f64) {
-    let words: Vec<T> = words_of(waves).into_iter().map(T::from_f64).collect();
-    let model = HarmonicModel::<T, { curves::ALL }, { terms::GENERAL }>::new(&words).unwrap();
-    let (w, a) = (T::from_f64(omega), T::from_f64(alpha));
+fn both_ways<T>(waves: &Waves, omega: f64, alpha: f64, phase: Phase, epsilon: f64)
+where
+    T: Circular + Number,
+    Harmonic<T>: Format<Number = T, Word = T, Constants = ()>,
+{
+    let words: Vec<T> = words_of(waves).into_iter().map(<T as Real>::from_f64).collect();
+    let model = model::<T, { curves::ALL | terms::GENERAL }>(&words).unwrap();
+    let (w, a) = (<T as Real>::from_f64(omega), <T as Real>::from_f64(alpha));
     let torque = model.torque(phase, w, a);
     let terms = waves
         .reduction(phase.radians())
@@ -118,22 +126,22 @@ fn both_ways<T: Circular>(waves: &Waves, omega: f64, alpha: f64, phase: Phase, e
     // Some tens of roundings of coefficients, waves and the motion.
     assert_near(
         "torque",
-        torque.to_f64(),
+        Real::to_f64(torque),
         terms.total(),
         10.0 * budget::TICK_ROUNDINGS * epsilon * size,
     );
-    let inertia = model.at(phase).inertia.to_f64();
+    let inertia = model.table().at(phase).inertiReal::to_f64(a);
     let back = model.acceleration(phase, w, torque).value;
     let rounding = budget::TICK_ROUNDINGS * epsilon * size / inertia;
-    assert_near("alpha", back.to_f64(), a.to_f64(), rounding);
-    let more = torque + T::from_f64(10.0);
+    assert_near("alpha", Real::to_f64(back), Real::to_f64(a), rounding);
+    let more = torque + <T as Real>::from_f64(10.0);
     let range = model.acceleration_range(phase, w, torque, more);
     assert_eq!(range.least.value, back);
     assert_eq!(
         range.greatest.value,
         model.acceleration(phase, w, more).value
     );
-    let gained = range.greatest.value.to_f64() - range.least.value.to_f64();
+    let gained = Real::to_f64(range.greatest.value) - Real::to_f64(range.least.value);
     assert_near(
         "range",
         gained,
@@ -145,15 +153,15 @@ fn both_ways<T: Circular>(waves: &Waves, omega: f64, alpha: f64, phase: Phase, e
 /// A free machine keeps ½·J·ω²: the slope is that of the same J, in f32 coefficients as well.
 #[test]
 fn free_machine_keeps_its_energy() {
-    let (_, words) = fitted::<f64, { curves::INERTIA }, { terms::INERTIA_COS }>(
+    let (_, words) = fitted::<f64, { curves::INERTIA | terms::INERTIA_COS }>(
         &press().with_gravity([0.0, 0.0]).unwrap(),
         &request(1.0, 16),
     )
     .unwrap();
     let model =
-        HarmonicModel::<f64, { curves::INERTIA }, { terms::INERTIA_COS }>::new(&words).unwrap();
+        model::<f64, { curves::INERTIA | terms::INERTIA_COS }>(&words).unwrap();
     let energy =
-        |phi: f64, omega: f64| 0.5 * model.at(Phase::from_radians(phi)).inertia * omega * omega;
+        |phi: f64, omega: f64| 0.5 * model.table().at(Phase::from_radians(phi)).inertia * omega * omega;
     let step = TAU / 4096.0;
     let mut omega = 10.0;
     let start = energy(0.0, omega);
@@ -171,6 +179,6 @@ fn free_machine_keeps_its_energy() {
     }
     // And it did exchange: the speed is not constant.
     let quarter =
-        model.at(Phase::from_radians(TAU / 4.0)).inertia / model.at(Phase::default()).inertia;
+        model.table().at(Phase::from_radians(TAU / 4.0)).inertia / model.table().at(Phase::default()).inertia;
     assert!(quarter > 4.0, "{quarter}");
 }

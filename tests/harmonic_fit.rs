@@ -3,11 +3,12 @@
 use std::f64::consts::TAU;
 
 use crate::support::harmonics::{
-    ALPHA, OMEGA, Waves, fitted, peak, phases, press, request, rubbing, terms_of, waves, words_of,
+    ALPHA, OMEGA, Waves, fitted, model, peak, phases, press, request, rubbing, terms_of, waves, words_of,
 };
 use crate::support::machines::{Wave, spec};
 use crate::support::{assert_near, budget, config};
-use jred::harmonic::{HarmonicError, HarmonicModel, Request, measure, terms};
+use jred::harmonic::{HarmonicError, measure, terms};
+use jred::tabulate::Request;
 use jred::mechanism::SliderCrank;
 use jred::{Action, Domain, Error, Load, Phase, Reducible, Reduction, Set, curves};
 use proptest::prelude::*;
@@ -18,7 +19,7 @@ proptest! {
     #[test]
     fn a_series_comes_back(waves in waves()) {
         let asked = 1e-10 * peak(&waves);
-        let (found, words) = fitted::<f64, { curves::ALL }, { terms::GENERAL }>(&waves, &request(asked, 32)).unwrap();
+        let (found, words) = fitted::<f64, { curves::ALL | terms::GENERAL }>(&waves, &request(asked, 32)).unwrap();
         prop_assert!(found.harmonics < waves.inertia.len() as u32, "{found:?}");
         let size = 10.0 * waves.load.len() as f64;
         let made = words_of(&waves);
@@ -36,16 +37,16 @@ proptest! {
         let machine = spec.heavy();
         let asked = peak(&machine) * 10f64.powf(-exponent);
         let request = request(asked, 64);
-        let (found, words) = fitted::<f64, { curves::LOAD }, { terms::GENERAL }>(&machine, &request).unwrap();
+        let (found, words) = fitted::<f64, { curves::LOAD | terms::GENERAL }>(&machine, &request).unwrap();
         prop_assert!(found.bound <= asked && found.torque_error <= asked);
-        let model = HarmonicModel::new(&words).unwrap();
-        let (dense, _) = measure::<f64, { curves::LOAD }, { terms::GENERAL }>(&machine, &model, &request, 4001).unwrap();
+        let model = model::<f64, { curves::LOAD | terms::GENERAL }>(&words).unwrap();
+        let (dense, _) = measure(&machine, model.table(), &request, 4001).unwrap();
         prop_assert!(dense <= found.bound, "{dense:e} {found:?}");
         prop_assert!(dense >= found.bound * budget::HARMONIC_BOUND_SLACK, "{dense:e} {found:?}");
         // One harmonic less misses.
         if found.harmonics > 0 {
-            let fewer = Request { max_harmonics: found.harmonics - 1, ..request };
-            let missed = fitted::<f64, { curves::LOAD }, { terms::GENERAL }>(&machine, &fewer);
+            let fewer = Request { max_cells: found.harmonics - 1, ..request };
+            let missed = fitted::<f64, { curves::LOAD | terms::GENERAL }>(&machine, &fewer);
             prop_assert!(matches!(missed, Err(Error::Harmonic(HarmonicError::NotConverged { .. }))), "{missed:?}");
         }
     }
@@ -55,10 +56,10 @@ proptest! {
     fn slope_is_that_of_the_machine(spec in spec(), bits: u32) {
         let machine = spec.heavy();
         let asked = 1e-10 * peak(&machine);
-        let (_, words) = fitted::<f64, { curves::LOAD }, { terms::GENERAL }>(&machine, &request(asked, 128)).unwrap();
-        let model = HarmonicModel::<f64, { curves::LOAD }, { terms::GENERAL }>::new(&words).unwrap();
+        let (_, words) = fitted::<f64, { curves::LOAD | terms::GENERAL }>(&machine, &request(asked, 128)).unwrap();
+        let model = model::<f64, { curves::LOAD | terms::GENERAL }>(&words).unwrap();
         let phase = Phase::from_bits(bits);
-        let (read, exact) = (model.at(phase), machine.reduction(phase.radians()).unwrap());
+        let (read, exact) = (model.table().at(phase), machine.reduction(phase.radians()).unwrap());
         let torque = peak(&machine);
         assert_near("J", read.inertia, exact.inertia[0], budget::HARMONIC_CURVE * torque / ALPHA);
         assert_near("J'", read.inertia_slope, exact.inertia[1], budget::HARMONIC_CURVE * 2.0 * torque / (OMEGA * OMEGA));
@@ -73,7 +74,7 @@ fn the_press_fits_in_200_bytes() {
     assert_eq!(terms_of(&machine, curves::ALL).unwrap(), terms::SYMMETRIC);
     let asked = 1e-6 * peak(&machine);
     let (half, words) =
-        fitted::<f32, { curves::LOAD }, { terms::SYMMETRIC }>(&machine, &request(asked, 16))
+        fitted::<f32, { curves::LOAD | terms::SYMMETRIC }>(&machine, &request(asked, 16))
             .unwrap();
     println!("press, f32, symmetric: {half:?} of {:e}", peak(&machine));
     assert!(
@@ -81,10 +82,10 @@ fn the_press_fits_in_200_bytes() {
         "{half:?}"
     );
     let (whole, _) =
-        fitted::<f32, { curves::LOAD }, { terms::GENERAL }>(&machine, &request(asked, 16)).unwrap();
+        fitted::<f32, { curves::LOAD | terms::GENERAL }>(&machine, &request(asked, 16)).unwrap();
     println!("press, f32, general: {whole:?}");
     assert!(whole.bytes <= 200, "{whole:?}");
-    let model = HarmonicModel::<f32, { curves::LOAD }, { terms::SYMMETRIC }>::new(&words).unwrap();
+    let model = model::<f32, { curves::LOAD | terms::SYMMETRIC }>(&words).unwrap();
     for phase in phases(5000) {
         let exact = machine.reduction(phase.radians()).unwrap();
         for (omega, alpha) in [
@@ -105,10 +106,10 @@ fn the_press_fits_in_200_bytes() {
     for exponent in 3..=9 {
         let asked = peak(&machine) * 10f64.powi(-exponent);
         let (double, _) =
-            fitted::<f64, { curves::LOAD }, { terms::SYMMETRIC }>(&machine, &request(asked, 16))
+            fitted::<f64, { curves::LOAD | terms::SYMMETRIC }>(&machine, &request(asked, 16))
                 .unwrap();
         let single =
-            fitted::<f32, { curves::LOAD }, { terms::SYMMETRIC }>(&machine, &request(asked, 16))
+            fitted::<f32, { curves::LOAD | terms::SYMMETRIC }>(&machine, &request(asked, 16))
                 .map(|f| f.0);
         println!(
             "1e-{exponent}: {} harmonics, {} words, f32 {:?}",
@@ -134,7 +135,7 @@ fn constant_curves_cost_one_number() {
     assert_eq!(terms_of(&machine, curves::ALL).unwrap(), terms::SYMMETRIC);
     let asked = 1e-6 * peak(&machine);
     let (found, words) =
-        fitted::<f64, { curves::ALL }, { terms::SYMMETRIC }>(&machine, &request(asked, 16))
+        fitted::<f64, { curves::ALL | terms::SYMMETRIC }>(&machine, &request(asked, 16))
             .unwrap();
     assert_eq!(found.words, 4 + 2 * found.harmonics as usize);
     assert_near("b", words[2], 0.1, budget::COEFFICIENT);
@@ -150,7 +151,7 @@ fn constant_curves_cost_one_number() {
         (found.harmonics, words.as_slice()),
         (0, [0.3f32].as_slice())
     );
-    let model = HarmonicModel::<f32, { curves::INERTIA }, 0>::new(&words).unwrap();
+    let model = model::<f32, { curves::INERTIA }>(&words).unwrap();
     assert_eq!(
         (
             model.harmonics(),
@@ -178,7 +179,7 @@ fn terms_are_told_from_the_curves() {
     }
     // What the terms leave out counts as error.
     let sine = on([0.0, 0.1], [0.0, 0.0]);
-    let missed = fitted::<f64, { curves::ALL }, { terms::INERTIA_COS }>(&sine, &request(1e-3, 8));
+    let missed = fitted::<f64, { curves::ALL | terms::INERTIA_COS }>(&sine, &request(1e-3, 8));
     let Err(Error::Harmonic(HarmonicError::NotConverged { reached, .. })) = missed else {
         panic!("{missed:?}");
     };
@@ -188,7 +189,7 @@ fn terms_are_told_from_the_curves() {
         "{reached}"
     );
     // So does a curve that is not in the set.
-    let missed = fitted::<f64, { curves::LOAD }, { terms::GENERAL }>(&sine, &request(1e-3, 8));
+    let missed = fitted::<f64, { curves::LOAD | terms::GENERAL }>(&sine, &request(1e-3, 8));
     assert!(
         matches!(missed, Err(Error::Harmonic(HarmonicError::NotConverged { reached, .. })) if (reached - 0.1 * OMEGA).abs() < 1e-3),
         "{missed:?}"
@@ -223,11 +224,11 @@ fn what_no_sample_shows_is_in_the_bound() {
         for step in 0..30 {
             let asked = 1e-2 * 0.8f64.powi(step);
             let (found, words) =
-                fitted::<f64, { curves::LOAD }, { terms::GENERAL }>(&machine, &request(asked, 64))
+                fitted::<f64, { curves::LOAD | terms::GENERAL }>(&machine, &request(asked, 64))
                     .unwrap();
             let model =
-                HarmonicModel::<f64, { curves::LOAD }, { terms::GENERAL }>::new(&words).unwrap();
-            let (dense, _) = measure(&machine, &model, &request(asked, 0), 4096).unwrap();
+                model::<f64, { curves::LOAD | terms::GENERAL }>(&words).unwrap();
+            let (dense, _) = measure(&machine, model.table(), &request(asked, 0), 4096).unwrap();
             assert!(
                 dense <= found.bound && found.bound <= asked,
                 "{dense:e} {found:?}"
@@ -246,10 +247,10 @@ fn friction_of_the_ram_is_smooth() {
         let machine = rubbing().with_load(load).unwrap();
         assert_eq!(terms_of(&machine, SET).unwrap(), TERMS);
         let asked = 1e-9 * peak(&machine);
-        let (found, words) = fitted::<f64, SET, TERMS>(&machine, &request(asked, 16)).unwrap();
+        let (found, words) = fitted::<f64, { SET | TERMS }>(&machine, &request(asked, 16)).unwrap();
         assert!(found.harmonics <= 12, "{found:?}");
         assert_near("constant", words[3], constant, budget::COEFFICIENT);
-        let model = HarmonicModel::<f64, SET, TERMS>::new(&words).unwrap();
+        let model = model::<f64, { SET | TERMS }>(&words).unwrap();
         for phase in phases(1000) {
             let exact = machine.reduction(phase.radians()).unwrap();
             for omega in [-OMEGA, 0.0, OMEGA] {

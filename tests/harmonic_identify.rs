@@ -4,11 +4,13 @@ use std::f64::consts::TAU;
 
 use crate::support::{assert_near, budget, config, largest};
 use jred::harmonic::{
-    Coefficient, CoefficientError, Curve, HarmonicError, HarmonicModel, Identification, Identified,
-    Kind, Request, Sample, fit, identify, scratch_len, terms,
+    Coefficient, Curve, HarmonicError, Identification, Identified, Kind, Sample, fit, identify, scratch_len, terms,
 };
 use jred::mechanism::{Branch, SliderCrank};
-use jred::{Error, Link, Machine, Phase, Reducible, Set, curves};
+use crate::support::harmonics::model;
+use jred::table::words_len;
+use jred::tabulate::Request;
+use jred::{Error, Harmonic, Link, Machine, Phase, Reducible, Set, TableError, curves};
 use proptest::prelude::*;
 
 const SET: Set = curves::ALL;
@@ -37,11 +39,11 @@ fn truth() -> [f64; WORDS] {
         torque_error: 1e-6,
         omega: 15.0,
         alpha: 200.0,
-        max_harmonics: 10,
+        max_cells: 10,
     };
     let mut scratch = vec![0.0; scratch_len(10)];
     let mut words = [0.0; WORDS];
-    let found = fit::<f64, SET, TERMS>(&press(), &request, &mut scratch, &mut words).unwrap();
+    let found = fit(&press(), SET | TERMS, &request, &mut scratch, &mut words).unwrap();
     assert!(found.harmonics >= 6, "{found:?}");
     words[found.words..].fill(0.0);
     (words[2], words[3]) = (0.2, 3.0);
@@ -69,14 +71,14 @@ fn samples(count: u32, torque: impl Fn(Phase, f64, f64) -> f64) -> Vec<Sample> {
 
 fn from_truth(count: u32) -> Vec<Sample> {
     let words = truth();
-    let model = HarmonicModel::<f64, SET, TERMS>::new(&words).unwrap();
+    let model = model::<f64, { SET | TERMS }>(&words).unwrap();
     samples(count, |phase, omega, alpha| {
         model.torque(phase, omega, alpha)
     })
 }
 
 fn found(samples: &[Sample]) -> Result<Identified<WORDS>, Error> {
-    identify::<WORDS, SET, TERMS>(samples)
+    identify::<WORDS, { SET | TERMS }>(samples)
 }
 
 #[test]
@@ -121,7 +123,7 @@ fn a_press_is_identified_from_its_motion() {
         exact.torque(omega, alpha).total() + 0.2 * omega + 3.0 * omega.signum()
     });
     let found = found(&samples).unwrap();
-    let model = HarmonicModel::<f64, SET, TERMS>::new(&found.words).unwrap();
+    let model = model::<f64, { SET | TERMS }>(&found.words).unwrap();
     let size = largest((0..360).map(|k| {
         machine
             .reduction(TAU * f64::from(k) / 360.0)
@@ -130,7 +132,7 @@ fn a_press_is_identified_from_its_motion() {
     }));
     for k in 0..360 {
         let phi = TAU * f64::from(k) / 360.0;
-        let read = model.at(Phase::from_radians(phi));
+        let read = model.table().at(Phase::from_radians(phi));
         let exact = machine.reduction(phi).unwrap();
         assert_near(
             "J",
@@ -257,7 +259,7 @@ fn bad_samples_are_named() {
         .into()
     );
     assert!(found(&all).is_ok());
-    let mut kept = Identification::<WORDS, SET, TERMS>::new().unwrap();
+    let mut kept = Identification::<WORDS, { SET | TERMS }>::new().unwrap();
     for (bad, what) in [
         (
             Sample {
@@ -288,19 +290,18 @@ fn bad_samples_are_named() {
         kept.add(sample).unwrap();
     }
     assert_eq!(kept.solve(), found(&all));
-    let length = Identification::<23, SET, TERMS>::new().unwrap_err();
-    let expected = CoefficientError::Length {
+    let length = Identification::<23, { SET | TERMS }>::new().unwrap_err();
+    let expected = TableError::Length {
+        needed: 22,
         given: 23,
-        means: 4,
-        row: 2,
     };
-    assert_eq!(length, expected.into());
+    assert_eq!(length, Error::Table(expected));
 }
 
 proptest! {
     #![proptest_config(config(256, 0x4b02))]
 
-    /// Words and their names are in the order in which `HarmonicModel` reads them: ∂T/∂word by differences.
+    /// Words and their names are in the order in which the tick reads them: ∂T/∂word by differences.
     #[test]
     fn names_are_those_of_the_words(
         set in 0usize..10, word in 0usize..24, bits: u32, omega in 1f64..9.0, alpha in -50f64..50.0,
@@ -308,13 +309,13 @@ proptest! {
         fn check<const SET: Set>(word: usize, phase: Phase, omega: f64, alpha: f64) {
             const TERMS: Set = terms::ALL & !terms::LOAD_COS;
             let harmonics = 3;
-            let len = jred::harmonic::words_len(harmonics, SET, TERMS);
-            assert!(Coefficient::of_word(len, SET, TERMS).is_some(), "of the next harmonic");
-            let Some(name) = Coefficient::of_word(word, SET, TERMS).filter(|_| word < len) else { return };
+            let len = words_len::<Harmonic<f64>>(harmonics, SET | TERMS);
+            assert!(Coefficient::of_word(len, SET | TERMS).is_some(), "of the next harmonic");
+            let Some(name) = Coefficient::of_word(word, SET | TERMS).filter(|_| word < len) else { return };
             let mut words = vec![0.0; len];
             words[..=SET.count_ones() as usize].fill(20.0);
             let torque = |words: &[f64]| {
-                HarmonicModel::<f64, SET, TERMS>::new(words).unwrap().torque(phase, omega, alpha)
+                model::<f64, { SET | TERMS }>(words).unwrap().torque(phase, omega, alpha)
             };
             let before = torque(&words);
             words[word] += 1.0;

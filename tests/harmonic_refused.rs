@@ -3,13 +3,15 @@
 use std::f64::consts::TAU;
 
 use crate::support::assert_near;
-use crate::support::harmonics::{Waves, fitted, press, request, rubbing, terms_of};
+use crate::support::harmonics::{Waves, fitted, model, press, request, rubbing, terms_of};
 use crate::support::machines::Wave;
-use jred::harmonic::{
-    CoefficientError, HarmonicError, HarmonicModel, Request, fit, scratch_len, terms,
-};
+use jred::harmonic::{HarmonicError, fit, scratch_len, terms};
+use jred::tabulate::Request;
 use jred::mechanism::SliderCrank;
-use jred::{Action, Domain, Error, Load, Phase, Set, Window, curves};
+use jred::table::Shape;
+use jred::{
+    Action, Domain, Error, Harmonic, Load, Phase, Set, Table, TableError, Window, curves,
+};
 
 #[test]
 fn kinks_and_hidden_harmonics_are_refused() {
@@ -23,7 +25,7 @@ fn kinks_and_hidden_harmonics_are_refused() {
     ] {
         for max in [8, 32, 256] {
             let found =
-                fitted::<f64, { curves::ALL }, { terms::ALL }>(&machine, &request(1e-3, max));
+                fitted::<f64, { curves::ALL | terms::ALL }>(&machine, &request(1e-3, max));
             let Err(error) = found else {
                 panic!("{found:?}")
             };
@@ -45,7 +47,7 @@ fn kinks_and_hidden_harmonics_are_refused() {
         };
         waves.inertia[0] = [1.0, 0.0];
         waves.inertia[order] = [1e-3, 0.0];
-        let found = fitted::<f64, { curves::LOAD }, { terms::GENERAL }>(&waves, &request(1e-3, 8));
+        let found = fitted::<f64, { curves::LOAD | terms::GENERAL }>(&waves, &request(1e-3, 8));
         assert!(
             matches!(
                 found,
@@ -55,13 +57,13 @@ fn kinks_and_hidden_harmonics_are_refused() {
         );
         if order <= 128 {
             let (found, _) =
-                fitted::<f64, { curves::LOAD }, { terms::GENERAL }>(&waves, &request(1e-3, 256))
+                fitted::<f64, { curves::LOAD | terms::GENERAL }>(&waves, &request(1e-3, 256))
                     .unwrap();
             assert_eq!(found.harmonics as usize, order);
         }
     }
     // Less than f64 can: named with what was reached.
-    let found = fitted::<f64, { curves::LOAD }, { terms::GENERAL }>(&press(), &request(1e-20, 16));
+    let found = fitted::<f64, { curves::LOAD | terms::GENERAL }>(&press(), &request(1e-20, 16));
     assert!(
         matches!(found, Err(Error::Harmonic(HarmonicError::NotConverged { reached, .. })) if reached < 1e-9),
         "{found:?}"
@@ -75,7 +77,7 @@ fn bad_requests_are_named() {
         domain: Domain::stroke(0.0, 1.0).unwrap(),
         ..Wave::bare(1.0, 0.1)
     };
-    let error = fitted::<f64, 0, 1>(&stroke, &request(1e-3, 8)).unwrap_err();
+    let error = fitted::<f64, { terms::INERTIA_COS }>(&stroke, &request(1e-3, 8)).unwrap_err();
     assert_eq!(error, Error::Harmonic(HarmonicError::Stroke));
     assert!(error.to_string().contains("use a table"));
     assert_eq!(terms_of(&stroke, curves::ALL).unwrap_err(), error);
@@ -102,7 +104,7 @@ fn bad_requests_are_named() {
             "largest acceleration",
         ),
     ] {
-        let error = fitted::<f64, 0, 1>(&machine, &bad).unwrap_err();
+        let error = fitted::<f64, { terms::INERTIA_COS }>(&machine, &bad).unwrap_err();
         assert!(
             matches!(error, Error::NotPositive(name, _) if name == what),
             "{error:?}"
@@ -113,10 +115,10 @@ fn bad_requests_are_named() {
         ..request(1.0, 8)
     };
     assert_eq!(
-        fitted::<f64, 0, 1>(&machine, &nan).unwrap_err(),
+        fitted::<f64, { terms::INERTIA_COS }>(&machine, &nan).unwrap_err(),
         Error::NotFinite("largest acceleration")
     );
-    let many = fitted::<f64, 0, 1>(&machine, &request(1.0, 257)).unwrap_err();
+    let many = fitted::<f64, { terms::INERTIA_COS }>(&machine, &request(1.0, 257)).unwrap_err();
     assert!(
         matches!(
             many,
@@ -129,7 +131,7 @@ fn bad_requests_are_named() {
     );
     let (mut scratch, mut words) = (vec![0.0; scratch_len(8)], vec![0.0; 9]);
     let short = |scratch: &mut [f64], words: &mut [f64]| {
-        fit::<f64, 0, 1>(&machine, &request(1.0, 8), scratch, words).unwrap_err()
+        fit(&machine, terms::INERTIA_COS, &request(1.0, 8), scratch, words).unwrap_err()
     };
     let needed = scratch_len(8);
     assert_eq!(
@@ -147,7 +149,7 @@ fn bad_requests_are_named() {
         }
     );
     // J negative in a part of the turn.
-    let negative = fitted::<f64, 0, 1>(&Wave::bare(1.0, 1.1), &request(1.0, 8)).unwrap_err();
+    let negative = fitted::<f64, { terms::INERTIA_COS }>(&Wave::bare(1.0, 1.1), &request(1.0, 8)).unwrap_err();
     assert!(
         matches!(negative, Error::NoInertia { phi } if (phi - TAU / 2.0).abs() < 0.5),
         "{negative:?}"
@@ -161,58 +163,65 @@ fn bad_requests_are_named() {
     };
     (waves.inertia[0], waves.inertia[32]) = ([0.1, 0.0], [1.1, 0.0]);
     let between =
-        fitted::<f64, { curves::LOAD }, { terms::GENERAL }>(&waves, &request(1.0, 64)).unwrap_err();
+        fitted::<f64, { curves::LOAD | terms::GENERAL }>(&waves, &request(1.0, 64)).unwrap_err();
     assert!(matches!(between, Error::NoInertia { .. }), "{between:?}");
 }
 
 #[test]
 fn bad_coefficients_are_named() {
-    fn check<const CURVES: Set, const TERMS: Set>(words: &[f32]) -> Option<CoefficientError> {
-        HarmonicModel::<f32, CURVES, TERMS>::new(words).err()
+    fn check<const SET: Set>(words: &[f32]) -> Option<TableError> {
+        model::<f32, SET>(words).err()
     }
-    let length = |given, means, row| Some(CoefficientError::Length { given, means, row });
-    assert_eq!(check::<1, { terms::SYMMETRIC }>(&[]), length(0, 2, 2));
+    const LOADED: Set = curves::LOAD | terms::SYMMETRIC;
+    let length = |needed, given| Some(TableError::Length { needed, given });
+    assert_eq!(check::<LOADED>(&[]), length(2, 0));
+    assert_eq!(check::<LOADED>(&[1.0, 0.0, 0.1]), length(2, 3));
+    assert_eq!(check::<0>(&[1.0, 0.0]), length(1, 2));
     assert_eq!(
-        check::<1, { terms::SYMMETRIC }>(&[1.0, 0.0, 0.1]),
-        length(3, 2, 2)
+        check::<{ terms::INERTIA_COS }>(&[1.0; 258]),
+        Some(TableError::Cells(257))
     );
-    assert_eq!(check::<0, 0>(&[1.0, 0.0]), length(2, 1, 0));
-    assert_eq!(
-        check::<0, { terms::INERTIA_COS }>(&[1.0; 258]),
-        length(258, 1, 1)
-    );
+    // 1/J is for fixed point.
+    assert_eq!(check::<8>(&[1.0]), Some(TableError::Curves(8)));
+    // Harmonics are of a turn.
+    let stroke = Shape::<Harmonic<f32>> {
+        domain: Domain::Stroke { from: 0.0, to: 1.0 },
+        ..Shape::harmonics(0, 0)
+    };
+    let refused = Table::new(&[1.0], stroke).map(|_| ());
+    assert_eq!(refused, Err(TableError::Stroke));
     for bad in [f32::NAN, f32::INFINITY, -1e30] {
         assert_eq!(
-            check::<0, { terms::INERTIA_COS }>(&[1.0, 0.1, bad]),
-            Some(CoefficientError::Range { word: 2 })
+            check::<{ terms::INERTIA_COS }>(&[1.0, 0.1, bad]),
+            Some(TableError::Range { curve: 0, cell: 2 })
         );
     }
     let at = |bits| {
-        Some(CoefficientError::NoInertia {
+        Some(TableError::NoInertiaAt {
             phase: Phase::from_bits(bits),
         })
     };
-    assert_eq!(check::<0, 0>(&[0.0]), at(0));
+    assert_eq!(check::<0>(&[0.0]), at(0));
     assert_eq!(
-        check::<0, { terms::INERTIA_COS }>(&[1.0, 1.5]),
+        check::<{ terms::INERTIA_COS }>(&[1.0, 1.5]),
         at(0x6000_0000)
     );
     // 2.2 at the 64 places looked at first, −0.2 half way between them.
     let mut hidden = [0.0f32; 65];
     (hidden[0], hidden[64]) = (1.0, 1.2);
-    assert_eq!(check::<0, { terms::INERTIA_COS }>(&hidden), at(1 << 25));
+    assert_eq!(check::<{ terms::INERTIA_COS }>(&hidden), at(1 << 25));
     // Zero in theory at φ = 0, and at π/3 between all places looked at.
-    let close = check::<0, { terms::INERTIA_COS }>(&[1.0, -0.999_999_9]);
+    let close = check::<{ terms::INERTIA_COS }>(&[1.0, -0.999_999_9]);
     assert_eq!(
         close,
-        Some(CoefficientError::InertiaNotShown {
+        Some(TableError::InertiaNotShown {
             phase: Phase::default()
         })
     );
-    let message = check::<0, { terms::INERTIA_COS }>(&hidden)
+    let message = check::<{ terms::INERTIA_COS }>(&hidden)
         .unwrap()
         .to_string();
     assert!(message.contains("φ = 2.81°"), "{message}");
     // J down to a thousandth of its mean is shown.
-    assert_eq!(check::<0, { terms::INERTIA_COS }>(&[1.0, -0.999]), None);
+    assert_eq!(check::<{ terms::INERTIA_COS }>(&[1.0, -0.999]), None);
 }

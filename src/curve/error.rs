@@ -4,13 +4,14 @@ use core::fmt;
 
 use super::curves::{self, Set};
 use super::{MAX_CELLS, MIN_CELLS};
+use crate::Phase;
 
 /// Why words are not a usable table, or a table not a usable model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum TableError {
-    /// Fewer than [`MIN_CELLS`] or more than [`MAX_CELLS`] cells.
+    /// Fewer than [`MIN_CELLS`] or more than [`MAX_CELLS`] cells; or more harmonics than there may be.
     Cells(u32),
     /// Not the number of words that the cells and curves need.
     Length {
@@ -66,7 +67,22 @@ pub enum TableError {
         /// Index of the cell.
         cell: u32,
     },
-    /// The velocity torque in this cell, stored in a table of 16-bit rows, does not belong to the slope of its inertia.
+    /// The reduced inertia of harmonics is not positive here.
+    NoInertiaAt {
+        /// The phase of the drive link.
+        phase: Phase,
+    },
+    /// At every place looked at the reduced inertia of harmonics is positive, but so little that between two of them its
+    /// curvature may take it to zero.
+    InertiaNotShown {
+        /// Where it is least.
+        phase: Phase,
+    },
+    /// Harmonics of a drive link that has a stroke.
+    Stroke,
+    /// Harmonics are not filled at so many places: `harmonic::fit` finds them.
+    Harmonics,
+    /// The velocity torque in this cell, which a table of 16-bit rows holds, is not that of the slope of its inertia.
     Slope {
         /// Index of the cell.
         cell: u32,
@@ -143,6 +159,26 @@ impl fmt::Display for TableError {
                     " (set {set}): another set than the model's type says, or one that this format cannot have"
                 )
             }
+            Self::NoInertiaAt { phase } => write!(
+                f,
+                "the reduced inertia of the harmonics is not positive at φ = {}: give the drive link an inertia, or use \
+                 more harmonics",
+                Degrees(phase)
+            ),
+            Self::InertiaNotShown { phase } => write!(
+                f,
+                "the reduced inertia of the harmonics comes too close to zero at φ = {} to be shown positive: give the \
+                 drive link an inertia",
+                Degrees(phase)
+            ),
+            Self::Stroke => write!(
+                f,
+                "harmonics need a drive link that turns fully, but this one has a stroke: use a table"
+            ),
+            Self::Harmonics => write!(
+                f,
+                "harmonics are not filled place by place: use harmonic::fit"
+            ),
             Self::Slope { cell } => write!(
                 f,
                 "the velocity torque in cell {cell} is not that of the slope of the inertia: \
@@ -157,3 +193,13 @@ impl fmt::Display for TableError {
 }
 
 impl core::error::Error for TableError {}
+
+/// A phase in degrees, rounded down to hundredths, by integers.
+struct Degrees(Phase);
+
+impl fmt::Display for Degrees {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let hundredths = (u64::from(self.0.to_bits()) * 36_000) >> 32;
+        write!(f, "{}.{:02}°", hundredths / 100, hundredths % 100)
+    }
+}

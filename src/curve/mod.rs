@@ -14,8 +14,11 @@ mod usage;
 
 pub use curves::Set;
 pub use error::TableError;
-pub(crate) use format::{CONSTANTS, cubic};
-pub use format::{Constants, Cubic, Format, Quadratic, RowConstants, Rows16, Spline, Spline16};
+pub(crate) use format::{CONSTANTS, cubic, in_use};
+pub use format::{
+    Circular, Coefficient, Constants, Cubic, Curve, Format, Harmonic, Kind, MAX_HARMONICS,
+    Quadratic, RowConstants, Rows16, Spline, Spline16, terms,
+};
 pub(crate) use samples::{Sample, Samples};
 pub use spline::{
     CubicSpline, MIN_CELLS, control_points, fit_bounded, fit_periodic, fit_quadratic_bounded,

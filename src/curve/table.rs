@@ -1,7 +1,7 @@
 //! Tables: words and their meaning, checked.
 
 use super::curves::{self, Set};
-use super::{Format, MIN_CELLS, TableError};
+use super::{Format, TableError};
 use crate::{Domain, Number, Phase, Scale};
 
 /// Most cells of a table: an index has 16 bits.
@@ -10,7 +10,7 @@ pub const MAX_CELLS: u32 = 65_535;
 /// Words of a table of `cells` cells: for buffers whose length is known when the program is compiled.
 #[must_use]
 pub const fn words_len<F: Format>(cells: u32, set: Set) -> usize {
-    F::ROW.words(cells as usize, set)
+    F::SIZE.words(cells as usize, set)
 }
 
 /// The meaning of a table's words.
@@ -62,7 +62,8 @@ impl<'a, F: Format> Table<'a, F> {
         if !F::accepts(shape.set) {
             return Err(TableError::Curves(shape.set));
         }
-        if shape.cells < MIN_CELLS as u32 || shape.cells > MAX_CELLS {
+        let [fewest, most] = F::CELLS;
+        if shape.cells < fewest || shape.cells > most {
             return Err(TableError::Cells(shape.cells));
         }
         let (needed, given) = (words_len::<F>(shape.cells, shape.set), words.len());
@@ -114,9 +115,7 @@ impl<'a, F: Format> Table<'a, F> {
 
     /// All curves at `phase` in machine units, in the arithmetic of the tick; the slope is that by rad (or m).
     pub fn at(&self, phase: Phase) -> CurveValues {
-        let mut read = F::read(self, phase);
-        read.inertia_slope *= f64::from(self.cells()) / self.domain().to::<f64>().span();
-        read
+        F::read(self, phase)
     }
 
     /// All curves at `phase` in SI units. `domain` is the range in double precision; a table has it only in its own precision.

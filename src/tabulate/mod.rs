@@ -11,6 +11,7 @@
 //! reduction, at [`CHECKS_PER_CELL`] places of every cell, and at both ends of a stroke.
 
 mod fill;
+pub(crate) mod harmonic;
 mod measure;
 mod near;
 mod search;
@@ -18,6 +19,7 @@ mod units;
 
 pub use fill::fill;
 pub use measure::measure;
+pub(crate) use measure::torque_between;
 pub use search::tabulate;
 
 use crate::curve::control_points;
@@ -43,7 +45,7 @@ pub struct Request {
     pub omega: f64,
     /// Largest acceleration (rad/s²).
     pub alpha: f64,
-    /// Most cells to try.
+    /// Most cells, or harmonics, to try.
     pub max_cells: u32,
 }
 

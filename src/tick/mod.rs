@@ -1,7 +1,6 @@
 //! The tick and what belongs to it: models over tables, their images in flash, the duty meter.
 
 pub mod duty;
-pub mod harmonic;
 mod image;
 mod model;
 mod pieces;

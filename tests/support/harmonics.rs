@@ -2,9 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use jred::harmonic::{Circular, Fitted, Request, fit, scratch_len, terms_in_use, words_len};
+use jred::harmonic::{Circular, Fitted, fit, scratch_len, terms_in_use};
+use jred::table::{Shape, words_len};
+use jred::tabulate::Request;
 use jred::mechanism::{Branch, SliderCrank};
-use jred::{Action, Domain, Error, Link, Load, Machine, Phase, Reducible, Reduction, Set};
+use jred::{
+    Action, Domain, Error, Format, Harmonic, Link, Load, Machine, Model, Number, Phase, Reducible,
+    Reduction, Set, Table, TableError,
+};
 use proptest::prelude::*;
 
 use super::largest;
@@ -101,12 +106,12 @@ pub(crate) fn press() -> Machine<SliderCrank> {
 pub(crate) const OMEGA: f64 = 60.0;
 pub(crate) const ALPHA: f64 = 400.0;
 
-pub(crate) fn request(torque_error: f64, max_harmonics: u32) -> Request {
+pub(crate) fn request(torque_error: f64, max_cells: u32) -> Request {
     Request {
         torque_error,
         omega: OMEGA,
         alpha: ALPHA,
-        max_harmonics,
+        max_cells: max_harmonics,
     }
 }
 
@@ -118,15 +123,33 @@ pub(crate) fn peak(machine: &impl Reducible) -> f64 {
     }))
 }
 
-pub(crate) fn fitted<T: Circular + Default, const CURVES: Set, const TERMS: Set>(
+pub(crate) fn fitted<T, const SET: Set>(
     machine: &impl Reducible,
     request: &Request,
-) -> Result<(Fitted, Vec<T>), Error> {
-    let mut scratch = vec![0.0; scratch_len(request.max_harmonics)];
-    let mut words = vec![T::default(); words_len(request.max_harmonics, CURVES, TERMS)];
-    let found = fit::<T, CURVES, TERMS>(machine, request, &mut scratch, &mut words)?;
+) -> Result<(Fitted, Vec<T>), Error>
+where
+    T: Circular + Number,
+    Harmonic<T>: Format<Number = T, Word = T, Constants = ()>,
+{
+    let mut scratch = vec![0.0; scratch_len(request.max_cells)];
+    let mut words = vec![T::default(); words_len::<Harmonic<T>>(request.max_cells, SET)];
+    let found = fit(machine, SET, request, &mut scratch, &mut words)?;
     words.truncate(found.words);
     Ok((found, words))
+}
+
+/// The model of as many harmonics as there are words for.
+pub(crate) fn model<T, const SET: Set>(
+    words: &[T],
+) -> Result<Model<'_, Harmonic<T>, SET>, TableError>
+where
+    T: Circular + Number,
+    Harmonic<T>: Format<Number = T, Word = T, Constants = ()>,
+{
+    let row = words_len::<Harmonic<T>>(1, SET) - words_len::<Harmonic<T>>(0, SET);
+    let more = words.len().saturating_sub(words_len::<Harmonic<T>>(0, SET));
+    let harmonics = more.checked_div(row).unwrap_or(0) as u32;
+    Model::new(Table::new(words, Shape::harmonics(harmonics, SET))?)
 }
 
 pub(crate) fn phases(count: u32) -> impl Iterator<Item = Phase> {

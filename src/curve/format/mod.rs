@@ -16,26 +16,31 @@
 //! | [`Cubic`] | 4 | as the curve it was made from | the fastest tick |
 //! | [`Quadratic`] | 3, rows padded to 4 | value, slope | the fastest tick without a long multiplication |
 //! | [`Rows16`] | 1, and 2 a cell | value, slope, but for the rounding of 16 bits | processors without a long multiplication |
+//!
+//! [`Harmonic`] holds no cells, but a short Fourier series of each curve.
 
+mod harmonic;
 mod layout;
 mod row;
 mod rows16;
 
+pub(crate) use harmonic::in_use;
+pub use harmonic::{Circular, Coefficient, Curve, Harmonic, Kind, MAX_HARMONICS, terms};
 pub(crate) use layout::cubic;
 pub use layout::{Constants, Cubic, Quadratic, Spline, Spline16};
-pub(crate) use row::Row;
+pub(crate) use row::{Row, Size};
 pub use rows16::{RowConstants, Rows16};
 
 use super::curves::Set;
 use super::samples::{Sample, Samples};
 use super::table::{CurveValues, Table};
-use super::{TableError, Usage};
+use super::{MAX_CELLS, MIN_CELLS, TableError, Usage};
 use crate::{Error, Number, Outcome, Phase, Scale};
 
 /// Words of the image's header for the constants of a table.
 pub(crate) const CONSTANTS: usize = 11;
 
-/// A way to store and evaluate curves. Sealed: [`Spline`], [`Spline16`], [`Cubic`], [`Quadratic`], [`Rows16`].
+/// A way to store and evaluate curves. Sealed: [`Spline`], [`Spline16`], [`Cubic`], [`Quadratic`], [`Rows16`], [`Harmonic`].
 pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 'static {
     /// Numbers that a tick takes and gives.
     type Number: Number;
@@ -52,9 +57,12 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     /// Codes of number type and format in the image's header; `None`: not stored in images.
     #[doc(hidden)]
     const CODES: Option<[u8; 2]>;
-    /// How long a row is.
+    /// How many words a table has.
     #[doc(hidden)]
-    const ROW: Row;
+    const SIZE: Size;
+    /// Fewest and most cells.
+    #[doc(hidden)]
+    const CELLS: [u32; 2] = [MIN_CELLS as u32, MAX_CELLS];
     /// Whether the machine units must suit the number of cells ([`Scale::for_cells`]).
     const WHOLE_FACTOR: bool;
     /// Rounding of a tick in addition to that of the curves, in units of the torque base, if it counts.
@@ -66,17 +74,17 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     /// Whether the words are sound: checked once, when the table is built.
     #[doc(hidden)]
     fn check(table: &Table<'_, Self>) -> Result<(), TableError>;
-    /// All curves in machine units, the slope a cell.
+    /// All curves in machine units, the slope by rad (or m).
     #[doc(hidden)]
     fn read(table: &Table<'_, Self>, phase: Phase) -> CurveValues;
     /// All curves in SI units.
     #[doc(hidden)]
-    fn si(table: &Table<'_, Self>, phase: Phase, cells_per_position: f64) -> CurveValues {
+    fn si(table: &Table<'_, Self>, phase: Phase, _cells_per_position: f64) -> CurveValues {
         let read = Self::read(table, phase);
         let [torque, speed, inertia] = bases(table.scale());
         CurveValues {
             inertia: read.inertia * inertia,
-            inertia_slope: read.inertia_slope * inertia * cells_per_position,
+            inertia_slope: read.inertia_slope * inertia,
             load: read.load * torque,
             viscous: read.viscous * torque / speed,
             coulomb: read.coulomb * torque,
@@ -102,9 +110,14 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
 
     /// The constants as words of the image's header, and back.
     #[doc(hidden)]
-    fn header(constants: &Self::Constants) -> [u32; CONSTANTS];
+    fn header(constants: &Self::Constants, set: Set) -> [u32; CONSTANTS];
     #[doc(hidden)]
     fn from_header(header: &[u32; CONSTANTS]) -> Self::Constants;
+    /// The set of a table, of the lower bits that the header has of every format.
+    #[doc(hidden)]
+    fn set(_: &[u32; CONSTANTS], set: Set) -> Set {
+        set
+    }
 
     /// What a table uses of the number range.
     ///

@@ -190,7 +190,7 @@ impl<'a> Image<'a> {
         }
         let words = bytemuck::try_cast_slice(self.rows).map_err(|_| ImageError::Misaligned)?;
         let shape = Shape {
-            set: self.set,
+            set: F::set(&self.constants, self.set),
             cells: self.cells,
             domain: self.domain.to(),
             scale: self.scale,
@@ -271,7 +271,7 @@ pub fn encode<'b, F: Format>(
         validity.alpha.to_bits(),
         validity.torque_error.to_bits(),
     ];
-    let constants = F::header(table.constants());
+    let constants = F::header(table.constants(), table.set());
     image.fill(0);
     for (slot, word) in image.iter_mut().zip(words.iter().chain(&constants)) {
         *slot = *word;

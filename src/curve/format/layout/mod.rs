@@ -17,7 +17,7 @@ pub use spline::{Spline, Spline16};
 
 use cell::Cell;
 
-use super::{CONSTANTS, Format, Row};
+use super::{CONSTANTS, Format, Row, Size, bases};
 use crate::curve::curves::{self, Set};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::table::{CurveValues, Table};
@@ -133,7 +133,7 @@ impl<L: Layout> Format for L {
         Some(number) => Some([number, L::CODE]),
         None => None,
     };
-    const ROW: Row = L::ROW;
+    const SIZE: Size = Size::Rows(L::ROW);
     const WHOLE_FACTOR: bool = L::Scalar::FIXED;
 
     fn accepts(set: Set) -> bool {
@@ -145,17 +145,23 @@ impl<L: Layout> Format for L {
     }
 
     fn read(table: &Table<'_, L>, phase: Phase) -> CurveValues {
-        let Some(cell) = Cell::at(table, phase, table.set()) else {
-            return CurveValues::default();
-        };
-        let (inertia, slope) = cell.inertia();
-        let number = |role, raw: Option<Raw<L>>| raw.map_or(0.0, |raw| L::Scalar::exact(role, raw));
+        let read = per_cell(table, phase);
+        let span = table.domain().to::<f64>().span();
         CurveValues {
-            inertia: L::Scalar::exact(Role::Inertia, inertia),
-            inertia_slope: L::Scalar::exact(Role::Inertia, slope) / f64::from(L::STEP),
-            load: number(Role::Load, cell.curve(Role::Load)),
-            viscous: number(Role::Viscous, cell.viscous()),
-            coulomb: number(Role::Coulomb, cell.coulomb()),
+            inertia_slope: read.inertia_slope * (f64::from(table.cells()) / span),
+            ..read
+        }
+    }
+
+    fn si(table: &Table<'_, L>, phase: Phase, cells_per_position: f64) -> CurveValues {
+        let read = per_cell(table, phase);
+        let [torque, speed, inertia] = bases(table.scale());
+        CurveValues {
+            inertia: read.inertia * inertia,
+            inertia_slope: read.inertia_slope * inertia * cells_per_position,
+            load: read.load * torque,
+            viscous: read.viscous * torque / speed,
+            coulomb: read.coulomb * torque,
         }
     }
 
@@ -184,7 +190,7 @@ impl<L: Layout> Format for L {
         found.map_or("torque", |(_, role)| role.base())
     }
 
-    fn header(constants: &Self::Constants) -> [u32; CONSTANTS] {
+    fn header(constants: &Self::Constants, _: Set) -> [u32; CONSTANTS] {
         // 64 bits do not fit, and are not stored.
         let bits = |word: Word<L>| bytemuck::try_cast(word).unwrap_or(0);
         let [j, load, b, c, reciprocal] = constants.gains.map(u32::from);
@@ -263,6 +269,22 @@ impl<L: Layout> Format for L {
             }
             None => L::Scalar::quotient(torque, resisting, inertia),
         })
+    }
+}
+
+/// All curves in machine units, the slope a cell.
+fn per_cell<L: Layout>(table: &Table<'_, L>, phase: Phase) -> CurveValues {
+    let Some(cell) = Cell::at(table, phase, table.set()) else {
+        return CurveValues::default();
+    };
+    let (inertia, slope) = cell.inertia();
+    let number = |role, raw: Option<Raw<L>>| raw.map_or(0.0, |raw| L::Scalar::exact(role, raw));
+    CurveValues {
+        inertia: L::Scalar::exact(Role::Inertia, inertia),
+        inertia_slope: L::Scalar::exact(Role::Inertia, slope) / f64::from(L::STEP),
+        load: number(Role::Load, cell.curve(Role::Load)),
+        viscous: number(Role::Viscous, cell.viscous()),
+        coulomb: number(Role::Coulomb, cell.coulomb()),
     }
 }
 

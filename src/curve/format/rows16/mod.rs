@@ -21,7 +21,7 @@ mod row;
 #[deny(clippy::float_arithmetic)]
 mod tick;
 
-use super::{CONSTANTS, Format, Row, bases};
+use super::{CONSTANTS, Format, Row, Size, bases};
 use crate::curve::curves::{self, Set, has};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::{CurveValues, Table, TableError, Usage};
@@ -46,6 +46,13 @@ pub struct RowConstants {
     /// k: 1/J is stored in units of 2⁻ᵏ, k = 0 … 15. Only with [`curves::RECIPROCAL`].
     pub shift: u32,
 }
+
+const ROW: Row = Row {
+    head: 2,
+    halves: 2,
+    multiple: 1,
+    more: 0,
+};
 
 const ONE_Q15: f64 = 1.0 / 32_768.0;
 const ONE_Q31: f64 = 1.0 / 2_147_483_648.0;
@@ -81,12 +88,7 @@ impl Format for Rows16 {
 
     const NAME: &'static str = "rows";
     const CODES: Option<[u8; 2]> = Some([3, 5]);
-    const ROW: Row = Row {
-        head: 2,
-        halves: 2,
-        multiple: 1,
-        more: 0,
-    };
+    const SIZE: Size = Size::Rows(ROW);
     const WHOLE_FACTOR: bool = false;
     /// Half a unit of the result, and half a unit of 2⁻¹⁶ of V·ω + b.
     const TICK_ROUNDING: f64 = 0.75 / 32_768.0;
@@ -114,11 +116,9 @@ impl Format for Rows16 {
         let constant = |of: Set, number: i32| f64::from(if has(set, of) { number } else { 0 });
         let constants = table.constants();
         let [torque, speed, inertia] = bases(table.scale());
-        let span = table.domain().to::<f64>().span();
         CurveValues {
             inertia: f64::from(kernel::inertia(word(row::inertia(set)), start, u)) / 65_536.0,
-            inertia_slope: 2.0 * velocity(table, phase) * torque / (speed * speed) / inertia * span
-                / f64::from(table.cells()),
+            inertia_slope: 2.0 * velocity(table, phase) * torque / (speed * speed) / inertia,
             load: load * ONE_Q31,
             viscous: line(table, phase, curves::VISCOUS, row::viscous(set)) * ONE_Q15
                 + 2.0 * constant(curves::CONSTANT_VISCOUS, constants.viscous) * ONE_Q31,
@@ -165,7 +165,7 @@ impl Format for Rows16 {
         }
     }
 
-    fn header(constants: &RowConstants) -> [u32; CONSTANTS] {
+    fn header(constants: &RowConstants, _: Set) -> [u32; CONSTANTS] {
         let [viscous, coulomb] = [constants.viscous, constants.coulomb].map(i32::cast_unsigned);
         [constants.shift, viscous, coulomb, 0, 0, 0, 0, 0, 0, 0, 0]
     }

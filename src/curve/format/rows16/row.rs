@@ -16,13 +16,11 @@
 //! u is the place in the cell, 0 to 1. Every lower half also adds to the upper half of its word the fraction of a unit that
 //! it is when it is read as an unsigned number.
 
-use super::Rows16;
-use crate::curve::Format as _;
 use crate::curve::curves::{self, Set, has};
 
 /// Words of a row.
 pub(super) const fn length(set: Set) -> usize {
-    Rows16::ROW.pitch(set)
+    super::ROW.pitch(set)
 }
 
 /// Index of the line of J.

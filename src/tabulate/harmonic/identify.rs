@@ -13,9 +13,11 @@
 //! the condition of the measurements, not on its square as with normal equations (Å. Björck, *Numerical Methods for
 //! Least Squares Problems*, SIAM 1996, 2.4 and 3.2).
 
-use super::word::{Coefficient, Curve, Kind, means, row, words_len};
-use super::{Circular, HarmonicError, MAX_HARMONICS};
+use super::HarmonicError;
 use crate::Set;
+use crate::curve::{
+    Circular, Coefficient, Curve, Harmonic, Kind, MAX_HARMONICS, TableError, words_len,
+};
 use crate::error::finite;
 use crate::{Error, Phase, math};
 
@@ -39,7 +41,7 @@ pub struct Sample {
 /// What was identified; every array in the order of [`Coefficient::of_word`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Identified<const WORDS: usize> {
-    /// The coefficients, for [`HarmonicModel::new`](super::HarmonicModel::new), which shows J positive.
+    /// The coefficients: the words of a table of [`Harmonic`](crate::Harmonic).
     pub words: [f64; WORDS],
     /// Standard error of each, in its own unit, if the errors of the measured torques are independent of each other and
     /// of the motion, and of one size.
@@ -61,7 +63,7 @@ pub struct Identified<const WORDS: usize> {
 ///
 /// **Cost** of a sample: 3·WORDS² multiplications in `f64`; 8·WORDS² bytes.
 #[derive(Clone, Debug)]
-pub struct Identification<const WORDS: usize, const CURVES: Set, const TERMS: Set> {
+pub struct Identification<const WORDS: usize, const SET: Set> {
     /// R, row by row.
     triangle: [[f64; WORDS]; WORDS],
     right: [f64; WORDS],
@@ -69,21 +71,20 @@ pub struct Identification<const WORDS: usize, const CURVES: Set, const TERMS: Se
     samples: u32,
 }
 
-impl<const WORDS: usize, const CURVES: Set, const TERMS: Set> Identification<WORDS, CURVES, TERMS> {
+impl<const WORDS: usize, const SET: Set> Identification<WORDS, SET> {
     /// No samples yet.
     ///
     /// # Errors
     /// `WORDS` is not the number of means and of coefficients of a whole number of harmonics:
-    /// [`HarmonicError::Coefficients`].
+    /// [`TableError::Length`].
     pub fn new() -> Result<Self, Error> {
-        let whole = (0..=MAX_HARMONICS).any(|n| words_len(n, CURVES, TERMS) == WORDS);
-        if !whole {
-            let error = super::CoefficientError::Length {
+        let lengths = (0..=MAX_HARMONICS).map(|n| words_len::<Harmonic<f64>>(n, SET));
+        let enough = lengths.take_while(|words| *words <= WORDS).last();
+        if enough != Some(WORDS) {
+            return Err(Error::Table(TableError::Length {
+                needed: enough.unwrap_or(words_len::<Harmonic<f64>>(0, SET)) as u32,
                 given: WORDS as u32,
-                means: means(CURVES) as u32,
-                row: row(CURVES, TERMS) as u32,
-            };
-            return Err(HarmonicError::Coefficients(error).into());
+            }));
         }
         Ok(Self {
             triangle: [[0.0; WORDS]; WORDS],
@@ -129,8 +130,7 @@ impl<const WORDS: usize, const CURVES: Set, const TERMS: Set> Identification<WOR
         let (omega, alpha) = (sample.omega, sample.alpha);
         let (mut order, mut c, mut s) = (0, 1.0, 0.0);
         core::array::from_fn(|word| {
-            let Some(Coefficient { curve, kind }) = Coefficient::of_word(word, CURVES, TERMS)
-            else {
+            let Some(Coefficient { curve, kind }) = Coefficient::of_word(word, SET) else {
                 return 0.0;
             };
             let k = match kind {
@@ -210,7 +210,7 @@ impl<const WORDS: usize, const CURVES: Set, const TERMS: Set> Identification<WOR
                 curve: Curve::Inertia,
                 kind: Kind::Mean,
             };
-            Coefficient::of_word(word, CURVES, TERMS).unwrap_or(fallback)
+            Coefficient::of_word(word, SET).unwrap_or(fallback)
         };
         HarmonicError::NotExcited {
             coefficient: name(word),
@@ -246,29 +246,31 @@ fn norm(values: impl IntoIterator<Item = f64>) -> f64 {
 /// The coefficients of a machine from samples of its motion: [`Identification`] in one call.
 ///
 /// ```
-/// use jred::harmonic::{HarmonicModel, Sample, identify, terms};
-/// use jred::{Phase, table::curves};
+/// use jred::harmonic::{Sample, identify, terms};
+/// use jred::table::Shape;
+/// use jred::{Error, Harmonic, Model, Phase, Set, Table, curves};
 ///
 /// // J = 0.5 − 0.2·cos 2φ kg·m², 3 N·m of Coulomb friction.
-/// const TERMS: Set = terms::INERTIA_COS;
+/// const SET: Set = curves::COULOMB | terms::INERTIA_COS;
 /// let made = [0.5, 3.0, 0.0, -0.2];
-/// let machine = HarmonicModel::<f64, { curves::COULOMB }, TERMS>::new(&made)?;
+/// let table = Table::new(&made, Shape::harmonics(2, SET)).map_err(Error::Table)?;
+/// let machine = Model::<Harmonic<f64>, SET>::new(table).map_err(Error::Table)?;
 /// let samples = core::array::from_fn::<_, 50, _>(|k| {
 ///     let time = k as f64 * 0.1;
 ///     let (phase, omega, alpha) = (Phase::from_radians(time + time.sin()), 1.0 + 2.0 * time.cos(), -2.0 * time.sin());
 ///     Sample { phase, omega, alpha, torque: machine.torque(phase, omega, alpha) }
 /// });
-/// let found = identify::<4, { curves::COULOMB }, TERMS>(&samples)?;
+/// let found = identify::<4, SET>(&samples)?;
 /// assert!(found.words.iter().zip(made).all(|(found, made)| (found - made).abs() < 1e-12));
 /// # Ok::<(), jred::Error>(())
 /// ```
 ///
 /// # Errors
 /// As [`Identification::new`], [`add`](Identification::add) and [`solve`](Identification::solve).
-pub fn identify<const WORDS: usize, const CURVES: Set, const TERMS: Set>(
+pub fn identify<const WORDS: usize, const SET: Set>(
     samples: &[Sample],
 ) -> Result<Identified<WORDS>, Error> {
-    let mut identification = Identification::<WORDS, CURVES, TERMS>::new()?;
+    let mut identification = Identification::<WORDS, SET>::new()?;
     for sample in samples {
         identification.add(sample)?;
     }

@@ -5,45 +5,45 @@ use core::fmt;
 
 use crate::curve::curves;
 
-/// The cosines and sines of the curves, in addition to their means, as a bit set.
+/// The cosines and sines that curves consist of beside their means: the upper bits of a set of curves.
 ///
 /// A curve without terms is constant and takes one number. A machine that is its own mirror image at φ = 0 (a
 /// slider-crank without offset whose centres of mass are on the links' lines and whose weight acts along the guide) has
-/// even J and odd load: half the coefficients. [`terms_in_use`](super::terms_in_use) finds the set.
+/// even J and odd load: half the coefficients. [`terms_in_use`](crate::harmonic::terms_in_use) finds the set.
 pub mod terms {
     use crate::Set;
 
     /// Cosines of J.
-    pub const INERTIA_COS: Set = 1;
+    pub const INERTIA_COS: Set = 1 << 8;
     /// Sines of J.
-    pub const INERTIA_SIN: Set = 1 << 1;
+    pub const INERTIA_SIN: Set = 1 << 9;
     /// Cosines of the load.
-    pub const LOAD_COS: Set = 1 << 2;
+    pub const LOAD_COS: Set = 1 << 10;
     /// Sines of the load.
-    pub const LOAD_SIN: Set = 1 << 3;
+    pub const LOAD_SIN: Set = 1 << 11;
     /// Cosines of the viscous coefficient.
-    pub const VISCOUS_COS: Set = 1 << 4;
+    pub const VISCOUS_COS: Set = 1 << 12;
     /// Sines of the viscous coefficient.
-    pub const VISCOUS_SIN: Set = 1 << 5;
+    pub const VISCOUS_SIN: Set = 1 << 13;
     /// Cosines of the Coulomb friction.
-    pub const COULOMB_COS: Set = 1 << 6;
+    pub const COULOMB_COS: Set = 1 << 14;
     /// Sines of the Coulomb friction.
-    pub const COULOMB_SIN: Set = 1 << 7;
+    pub const COULOMB_SIN: Set = 1 << 15;
     /// J and load of any machine; constant viscous and Coulomb friction.
     pub const GENERAL: Set = INERTIA_COS | INERTIA_SIN | LOAD_COS | LOAD_SIN;
     /// J even, load odd; constant viscous and Coulomb friction.
     pub const SYMMETRIC: Set = INERTIA_COS | LOAD_SIN;
     /// All.
-    pub const ALL: Set = 0xff;
+    pub const ALL: Set = 0xff00;
 }
 
 /// The terms of curves that there are.
-pub(super) const fn in_use(set: Set, terms: Set) -> Set {
-    let mut used = terms & 0b11;
+pub(crate) const fn in_use(set: Set) -> Set {
+    let mut used = set & (terms::INERTIA_COS | terms::INERTIA_SIN);
     let mut curve = 1;
     while curve < 4 {
         if set & (1 << (curve - 1)) != 0 {
-            used |= terms & (0b11 << (2 * curve));
+            used |= set & ((terms::INERTIA_COS | terms::INERTIA_SIN) << (2 * curve));
         }
         curve += 1;
     }
@@ -51,7 +51,7 @@ pub(super) const fn in_use(set: Set, terms: Set) -> Set {
 }
 
 /// Means of J and of the curves of the set.
-pub(super) const fn means(set: Set) -> usize {
+pub(crate) const fn means(set: Set) -> usize {
     let mut means = 0;
     let mut curve = 0;
     while curve < Curve::ALL.len() {
@@ -62,14 +62,8 @@ pub(super) const fn means(set: Set) -> usize {
 }
 
 /// Coefficients of each harmonic.
-pub(super) const fn row(set: Set, terms: Set) -> usize {
-    in_use(set, terms).count_ones() as usize
-}
-
-/// Number of coefficients of this many harmonics.
-#[must_use]
-pub const fn words_len(harmonics: u32, set: Set, terms: Set) -> usize {
-    means(set) + harmonics as usize * row(set, terms)
+pub(crate) const fn row(set: Set) -> usize {
+    in_use(set).count_ones() as usize
 }
 
 /// A curve of the reduced machine.
@@ -89,7 +83,7 @@ pub enum Curve {
 }
 
 impl Curve {
-    pub(super) const ALL: [Self; 5] = [
+    pub(crate) const ALL: [Self; 5] = [
         Self::Inertia,
         Self::Load,
         Self::Viscous,
@@ -98,7 +92,7 @@ impl Curve {
     ];
 
     /// Whether machines of this set have it. A constant b is the mean of a curve without terms.
-    pub(super) const fn is_in(self, set: Set) -> bool {
+    pub(crate) const fn is_in(self, set: Set) -> bool {
         let bits = match self {
             Self::Inertia => return true,
             Self::Load => curves::LOAD,
@@ -135,17 +129,17 @@ pub struct Coefficient {
 impl Coefficient {
     /// What the coefficient `word` is, counted from 0. First the means of J and of the curves of `set`, constant
     /// Coulomb friction last; then for each harmonic, the cosine and the sine of J, of the load, of the viscous
-    /// coefficient, of the Coulomb friction, as far as they are in `terms`. `None` behind the last possible one.
+    /// coefficient, of the Coulomb friction, as far as the set has them. `None` behind the last possible one.
     #[must_use]
-    pub fn of_word(word: usize, set: Set, terms: Set) -> Option<Self> {
+    pub fn of_word(word: usize, set: Set) -> Option<Self> {
         let mut present = Curve::ALL.into_iter().filter(|curve| curve.is_in(set));
         let Some(place) = word.checked_sub(means(set)) else {
             let kind = Kind::Mean;
             return present.nth(word).map(|curve| Self { curve, kind });
         };
-        let row = row(set, terms);
+        let row = row(set);
         let order = place.checked_div(row)? as u32 + 1;
-        let used = in_use(set, terms);
+        let used = in_use(set) >> 8;
         let bit = (0..8)
             .filter(|bit| used & (1 << bit) != 0)
             .nth(place % row)?;

@@ -8,35 +8,24 @@
 //! sampled places. The harmonics beyond the last one that the samples determine are bounded by the decay of the terms before
 //! it.
 
+use super::HarmonicError;
 use super::spectrum::Spectrum;
-use super::word::{Coefficient, Curve, Kind, in_use, words_len};
-use super::{Circular, HarmonicError, HarmonicModel, MAX_HARMONICS};
 use crate::Set;
+use crate::curve::{
+    Circular, Coefficient, Curve, Format, Harmonic, Kind, MAX_HARMONICS, Shape, Table, in_use,
+    words_len,
+};
 use crate::error::positive;
 use crate::machine::reduction::Reducible;
-use crate::{Domain, Error, Phase, math};
+use crate::tabulate::{Request, torque_between};
+use crate::{AnyModel, Domain, Error, Number, Phase, math};
 
-/// What the harmonics are for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Request {
-    /// Largest error of the drive torque (N·m).
-    pub torque_error: f64,
-    /// Largest speed (rad/s).
-    pub omega: f64,
-    /// Largest acceleration (rad/s²).
-    pub alpha: f64,
-    /// Most harmonics to try, up to [`MAX_HARMONICS`].
-    pub max_harmonics: u32,
-}
-
-impl Request {
-    /// Torque that one unit of the k-th harmonic of a curve makes at most.
-    fn weight(&self, curve: Curve, k: usize) -> f64 {
-        match curve {
-            Curve::Inertia => self.alpha + 0.5 * k as f64 * self.omega * self.omega,
-            Curve::Viscous => self.omega,
-            Curve::Load | Curve::Coulomb | Curve::Constant => 1.0,
-        }
+/// Torque that one unit of the k-th harmonic of a curve makes at most.
+fn weight(request: &Request, curve: Curve, k: usize) -> f64 {
+    match curve {
+        Curve::Inertia => request.alpha + 0.5 * k as f64 * request.omega * request.omega,
+        Curve::Viscous => request.omega,
+        Curve::Load | Curve::Coulomb | Curve::Constant => 1.0,
     }
 }
 
@@ -84,14 +73,14 @@ pub fn terms_in_use(
         spectrum.grow(machine)?;
     }
     let mut terms = 0;
-    for (curve, bit) in Curve::ALL.into_iter().zip([0, 2, 4, 6]) {
+    for (curve, bit) in Curve::ALL.into_iter().zip([8, 10, 12, 14]) {
         let limit = ROUNDING * spectrum.size(curve);
         for k in 1..=spectrum.samples() / 2 {
             let [a, b] = spectrum.coefficient(curve, k).map(|x| math::abs(x) > limit);
             terms |= (Set::from(a) | Set::from(b) << 1) << bit;
         }
     }
-    Ok(in_use(set, terms))
+    Ok(in_use(set & 0xff | terms))
 }
 
 /// The curves of a machine that turns, not sampled yet.
@@ -117,10 +106,10 @@ fn spectrum<'s>(
 }
 
 /// Finds the fewest harmonics of these curves and terms that meet the request, fills `words` with their coefficients,
-/// and says how exact they are. What the machine has and `CURVES` or `TERMS` leave out counts as error.
+/// and says how exact they are. What the machine has and the set leaves out counts as error.
 ///
 /// Coulomb friction F·|v′| is taken as F·v′, which is smooth, if its magnitude has kinks at zero only; with
-/// `CONSTANT_COULOMB` in `CURVES` the value at φ = 0 is taken off before.
+/// `CONSTANT_COULOMB` in the set the value at φ = 0 is taken off before.
 ///
 /// 32 samples a turn are taken first and doubled until the terms behind the harmonics kept have fallen so far that what
 /// no sample shows is bounded; then the error is measured, in `T`, at 4·N + 1 other places.
@@ -131,20 +120,24 @@ fn spectrum<'s>(
 ///
 /// # Errors
 /// [`HarmonicError::Stroke`]; [`HarmonicError::NotConverged`], for a curve with a kink in particular;
-/// [`HarmonicError::Coefficients`] if J is not shown to be positive between the samples; [`Error::NoInertia`] if it is
+/// [`TableError`](crate::TableError) if J is not shown to be positive between the samples; [`Error::NoInertia`] if it is
 /// not at one; buffers too short; those of the machine.
-pub fn fit<T: Circular, const CURVES: Set, const TERMS: Set>(
+pub fn fit<T: Circular + Number>(
     machine: &impl Reducible,
+    set: Set,
     request: &Request,
     scratch: &mut [f64],
     words: &mut [T],
-) -> Result<Fitted, Error> {
+) -> Result<Fitted, Error>
+where
+    Harmonic<T>: Format<Number = T, Word = T, Constants = ()>,
+{
     positive("torque error", request.torque_error)?;
     positive("largest speed", request.omega)?;
     positive("largest acceleration", request.alpha)?;
-    let max = request.max_harmonics;
-    let mut spectrum = spectrum(machine, CURVES, max, scratch)?;
-    let (needed, given) = (words_len(max, CURVES, TERMS), words.len());
+    let max = request.max_cells;
+    let mut spectrum = spectrum(machine, set, max, scratch)?;
+    let (needed, given) = (words_len::<Harmonic<T>>(max, set), words.len());
     if given < needed {
         return Err(Error::BufferTooShort { needed, given });
     }
@@ -155,23 +148,24 @@ pub fn fit<T: Circular, const CURVES: Set, const TERMS: Set>(
         let unseen = unseen(&spectrum, request).unwrap_or(f64::INFINITY);
         let most = max.min(samples as u32 / 4);
         for harmonics in 0..=most {
-            let left_out = left_out::<T, CURVES, TERMS>(&spectrum, request, harmonics as usize);
+            let left_out = left_out::<T>(&spectrum, request, set, harmonics as usize);
             // Terms that the samples do not tell are missing, and are added to others instead.
             let bound = left_out + 2.0 * unseen;
             let last = harmonics == most && !spectrum.can_grow();
             if bound > request.torque_error && !last {
                 continue;
             }
-            let count = words_len(harmonics, CURVES, TERMS);
+            let count = words_len::<Harmonic<T>>(harmonics, set);
             let words = words.get_mut(..count).unwrap_or_default();
-            fill::<T, CURVES, TERMS>(&spectrum, words);
-            let model = HarmonicModel::<T, CURVES, TERMS>::unproved(words)?;
-            let (torque_error, worst) = measure(machine, &model, request, 4 * samples as u32 + 1)?;
+            fill(&spectrum, set, words);
+            let table = Table::<Harmonic<T>>::new(words, Shape::harmonics(harmonics, set))
+                .map_err(Error::Table)?;
+            let (torque_error, worst) = measure(machine, &table, request, 4 * samples as u32 + 1)?;
             if torque_error < reached.0 {
                 reached = (torque_error, harmonics);
             }
             if torque_error <= request.torque_error && bound <= request.torque_error {
-                model.check_inertia()?;
+                AnyModel::new(table).map_err(Error::Table)?;
                 return Ok(Fitted {
                     harmonics,
                     words: count,
@@ -196,14 +190,14 @@ pub fn fit<T: Circular, const CURVES: Set, const TERMS: Set>(
     .into())
 }
 
-/// The largest error of the drive torque (N·m) within the range of the request, in the model's own arithmetic, at so
+/// The largest error of the drive torque (N·m) within the range of the request, in the table's own arithmetic, at so
 /// many places of a turn (an odd number: not in step with any samples), and where it is (rad).
 ///
 /// # Errors
 /// Those of the machine.
-pub fn measure<T: Circular, const CURVES: Set, const TERMS: Set>(
+pub fn measure<F: Format>(
     machine: &impl Reducible,
-    model: &HarmonicModel<'_, T, CURVES, TERMS>,
+    table: &Table<'_, F>,
     request: &Request,
     places: u32,
 ) -> Result<(f64, f64), Error> {
@@ -211,17 +205,7 @@ pub fn measure<T: Circular, const CURVES: Set, const TERMS: Set>(
     for k in 0..u64::from(places) {
         let phase = Phase::from_bits(((k << 32) / u64::from(places)) as u32);
         let exact = machine.reduction(phase.radians())?;
-        let read = model.at(phase);
-        let error = [
-            (read.inertia.to_f64() - exact.inertia[0]) * request.alpha,
-            0.5 * (read.inertia_slope.to_f64() - exact.inertia[1]) * request.omega * request.omega,
-            read.load.to_f64() - exact.load_torque(),
-            (read.viscous.to_f64() - exact.viscous) * request.omega,
-            read.coulomb.to_f64() - exact.coulomb,
-        ]
-        .iter()
-        .map(|part| math::abs(*part))
-        .sum();
+        let error = torque_between(request, &table.si(phase, Domain::Turn), &exact);
         if error > worst.0 {
             worst = (error, phase.radians());
         }
@@ -235,19 +219,20 @@ fn amplitude([a, b]: [f64; 2]) -> f64 {
 }
 
 /// The bound's share of what the samples tell: harmonics and kinds left out, and the rounding of the rest to `T`.
-fn left_out<T: Circular, const CURVES: Set, const TERMS: Set>(
+fn left_out<T: Circular>(
     spectrum: &Spectrum<'_>,
     request: &Request,
+    set: Set,
     harmonics: usize,
 ) -> f64 {
     let rounding = |x: f64| x - T::from_f64(x).to_f64();
     let mut sum = 0.0;
     for curve in Curve::ALL {
-        let kinds = u16::from(in_use(CURVES, TERMS)) >> (2 * curve as u8);
+        let kinds = in_use(set) >> 8 >> (2 * curve as u8);
         for k in 0..=spectrum.samples() / 2 {
             let [a, b] = spectrum.coefficient(curve, k);
             let (cosine, sine) = if k == 0 {
-                (curve.is_in(CURVES), true)
+                (curve.is_in(set), true)
             } else {
                 let kept = k <= harmonics;
                 (kept && kinds & 1 != 0, kept && kinds & 2 != 0)
@@ -256,7 +241,7 @@ fn left_out<T: Circular, const CURVES: Set, const TERMS: Set>(
                 if cosine { rounding(a) } else { a },
                 if sine { rounding(b) } else { b },
             ];
-            sum += request.weight(curve, k) * amplitude(missing);
+            sum += weight(request, curve, k) * amplitude(missing);
         }
     }
     sum
@@ -271,7 +256,7 @@ fn unseen(spectrum: &Spectrum<'_>, request: &Request) -> Option<f64> {
     const SLOWEST: f64 = 0.27;
     let samples = spectrum.samples();
     let sum = |range: core::ops::RangeInclusive<usize>, term: &dyn Fn(Curve, usize) -> f64| {
-        let terms = range.flat_map(|k| Curve::ALL.map(|c| request.weight(c, k) * term(c, k)));
+        let terms = range.flat_map(|k| Curve::ALL.map(|c| weight(request, c, k) * term(c, k)));
         terms.sum::<f64>()
     };
     let size = |curve, k| amplitude(spectrum.coefficient(curve, k));
@@ -289,12 +274,9 @@ fn unseen(spectrum: &Spectrum<'_>, request: &Request) -> Option<f64> {
 }
 
 /// The coefficients, in the order of [`Coefficient::of_word`].
-fn fill<T: Circular, const CURVES: Set, const TERMS: Set>(
-    spectrum: &Spectrum<'_>,
-    words: &mut [T],
-) {
+fn fill<T: Circular>(spectrum: &Spectrum<'_>, set: Set, words: &mut [T]) {
     for (word, slot) in words.iter_mut().enumerate() {
-        if let Some(Coefficient { curve, kind }) = Coefficient::of_word(word, CURVES, TERMS) {
+        if let Some(Coefficient { curve, kind }) = Coefficient::of_word(word, set) {
             *slot = T::from_f64(match kind {
                 Kind::Mean => spectrum.coefficient(curve, 0)[0],
                 Kind::Cosine(k) => spectrum.coefficient(curve, k as usize)[0],

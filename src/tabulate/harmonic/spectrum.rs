@@ -11,7 +11,7 @@
 use crate::Set;
 use core::f64::consts::TAU;
 
-use super::word::Curve;
+use crate::curve::Curve;
 use crate::curve::unfold;
 use crate::error::finite;
 use crate::machine::reduction::Reducible;

@@ -19,6 +19,9 @@ pub trait Circular: Real {
     /// Eight units of rounding: the error allowed in a coefficient's share of a sum, for every order of its harmonic.
     const ROUNDINGS: Self;
 
+    /// From single precision.
+    fn from_single(value: f32) -> Self;
+
     /// Sine and cosine of a phase of one turn.
     ///
     /// **Accuracy**: 1.05e-7 in `f32`, 2.5e-16 in `f64` (test `sine_and_cosine_keep_their_bounds`). In `f32` there is no
@@ -29,6 +32,10 @@ pub trait Circular: Real {
 impl Circular for f32 {
     const CONSTANTS: [Self; 3] = [0.0, 0.5, 1.0];
     const ROUNDINGS: Self = 8.0 * Self::EPSILON;
+
+    fn from_single(value: f32) -> Self {
+        value
+    }
 
     #[inline]
     fn sin_cos_of(phase: Phase) -> (Self, Self) {
@@ -47,6 +54,10 @@ impl Circular for f32 {
 impl Circular for f64 {
     const CONSTANTS: [Self; 3] = [0.0, 0.5, 1.0];
     const ROUNDINGS: Self = 8.0 * Self::EPSILON;
+
+    fn from_single(value: f32) -> Self {
+        value.into()
+    }
 
     #[inline]
     fn sin_cos_of(phase: Phase) -> (Self, Self) {

@@ -1,0 +1,85 @@
+//! What can be wrong with harmonics.
+
+use core::fmt;
+
+use crate::Error;
+use crate::curve::Coefficient;
+
+/// Why a machine has no harmonics, or why they cannot be identified.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum HarmonicError {
+    /// The drive link has a stroke.
+    Stroke,
+    /// No number of harmonics up to the limit meets the torque error asked for.
+    NotConverged {
+        /// Torque error asked for (N·m).
+        asked: f64,
+        /// Torque error with the most harmonics (N·m), at the places checked.
+        reached: f64,
+        /// How many harmonics that are.
+        harmonics: u32,
+    },
+    /// Fewer samples than coefficients and one.
+    TooFewSamples {
+        /// How many are needed.
+        needed: u32,
+        /// How many there are.
+        given: u32,
+    },
+    /// The samples do not tell this coefficient.
+    NotExcited {
+        /// Which.
+        coefficient: Coefficient,
+        /// The one that has the same effect in these samples; `None` if the first has no effect at all.
+        like: Option<Coefficient>,
+    },
+}
+
+impl fmt::Display for HarmonicError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Stroke => f.write_str(
+                "harmonics need a drive link that turns fully, but this one has a stroke: use a table",
+            ),
+            Self::NotConverged {
+                asked,
+                reached,
+                harmonics,
+            } => write!(
+                f,
+                "{harmonics} harmonics reach a torque error of {reached:.3e} N m, not {asked:e} N m: a curve with a kink, \
+                 a jump or a steep ramp needs a table; of a smooth machine allow more harmonics or a larger error, and see that \
+                 TERMS has all of its cosines and sines (terms::ALL, or what terms_in_use finds)"
+            ),
+            Self::TooFewSamples { needed, given } => write!(
+                f,
+                "{given} samples do not tell the coefficients and their error: at least {needed} are needed"
+            ),
+            Self::NotExcited {
+                coefficient,
+                like: None,
+            } => write!(
+                f,
+                "the samples do not depend on {coefficient}: measure with other speeds and accelerations"
+            ),
+            Self::NotExcited {
+                coefficient,
+                like: Some(other),
+            } => write!(
+                f,
+                "the samples do not tell {coefficient} from {other}: measure with other speeds and accelerations, in both \
+                 directions, or leave one of them out"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for HarmonicError {}
+
+impl From<HarmonicError> for Error {
+    fn from(error: HarmonicError) -> Self {
+        Self::Harmonic(error)
+    }
+}

@@ -1,0 +1,25 @@
+//! Harmonics of a machine: found from its mechanism, or from measurements.
+//!
+//! The coefficients of a smooth machine fall like those of a geometric series: a few give what takes a table of many
+//! cells. A kink (a load with an edge, a dwell) makes them fall like 1/k²: such a machine needs a table. [`fit()`] tells them apart.
+
+mod error;
+#[allow(
+    clippy::indexing_slicing,
+    reason = "runs before a machine does, not in a tick"
+)]
+mod fit;
+#[allow(
+    clippy::indexing_slicing,
+    reason = "runs before a machine does, not in a tick"
+)]
+mod identify;
+#[allow(
+    clippy::indexing_slicing,
+    reason = "runs before a machine does, not in a tick"
+)]
+mod spectrum;
+
+pub use error::HarmonicError;
+pub use fit::{Fitted, fit, measure, scratch_len, terms_in_use};
+pub use identify::{EXCITED, Identification, Identified, Sample, identify};
