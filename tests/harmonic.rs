@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use crate::support::harmonics::{Waves, fitted, model, phases, press, request, series, waves, words_of};
+use crate::support::harmonics::{
+    Waves, fitted, model, phases, press, request, series, waves, words_of,
+};
 use crate::support::{assert_near, budget, config, largest};
 use jred::harmonic::{Circular, terms};
 use jred::{Format, Harmonic, Number, Phase, Real, Reducible, curves};
@@ -56,7 +58,10 @@ where
     T: Circular + Number,
     Harmonic<T>: Format<Number = T, Word = T, Constants = ()>,
 {
-    let words: Vec<T> = words_of(waves).into_iter().map(<T as Real>::from_f64).collect();
+    let words: Vec<T> = words_of(waves)
+        .into_iter()
+        .map(<T as Real>::from_f64)
+        .collect();
     let model = model::<T, { curves::ALL | terms::GENERAL }>(&words).unwrap();
     // Of the coefficients as the type holds them.
     let held = |c: &[[f64; 2]]| -> Vec<[f64; 2]> {
@@ -76,7 +81,7 @@ where
         let [j, dj, _] = series(&held[0], phase.radians());
         let load = series(&held[1], phase.radians())[0];
         [
-            (read.inertiReal::to_f64(a) - j) / size(&held[0], &|_| 1.0),
+            (read.inertia - j) / size(&held[0], &|_| 1.0),
             (read.inertia_slope - dj) / size(&held[0], &|k| k as f64),
             (read.load - load) / size(&held[1], &|_| 1.0),
         ]
@@ -113,7 +118,10 @@ where
     T: Circular + Number,
     Harmonic<T>: Format<Number = T, Word = T, Constants = ()>,
 {
-    let words: Vec<T> = words_of(waves).into_iter().map(<T as Real>::from_f64).collect();
+    let words: Vec<T> = words_of(waves)
+        .into_iter()
+        .map(<T as Real>::from_f64)
+        .collect();
     let model = model::<T, { curves::ALL | terms::GENERAL }>(&words).unwrap();
     let (w, a) = (<T as Real>::from_f64(omega), <T as Real>::from_f64(alpha));
     let torque = model.torque(phase, w, a);
@@ -121,8 +129,8 @@ where
         .reduction(phase.radians())
         .unwrap()
         .torque(omega, alpha);
-    let size =
-        largest(terms.values()).max(largest(words.iter().map(|x| x.to_f64())) * omega * omega);
+    let size = largest(terms.values())
+        .max(largest(words.iter().map(|x| Real::to_f64(*x))) * omega * omega);
     // Some tens of roundings of coefficients, waves and the motion.
     assert_near(
         "torque",
@@ -130,7 +138,7 @@ where
         terms.total(),
         10.0 * budget::TICK_ROUNDINGS * epsilon * size,
     );
-    let inertia = model.table().at(phase).inertiReal::to_f64(a);
+    let inertia = model.table().at(phase).inertia;
     let back = model.acceleration(phase, w, torque).value;
     let rounding = budget::TICK_ROUNDINGS * epsilon * size / inertia;
     assert_near("alpha", Real::to_f64(back), Real::to_f64(a), rounding);
@@ -158,10 +166,10 @@ fn free_machine_keeps_its_energy() {
         &request(1.0, 16),
     )
     .unwrap();
-    let model =
-        model::<f64, { curves::INERTIA | terms::INERTIA_COS }>(&words).unwrap();
-    let energy =
-        |phi: f64, omega: f64| 0.5 * model.table().at(Phase::from_radians(phi)).inertia * omega * omega;
+    let model = model::<f64, { curves::INERTIA | terms::INERTIA_COS }>(&words).unwrap();
+    let energy = |phi: f64, omega: f64| {
+        0.5 * model.table().at(Phase::from_radians(phi)).inertia * omega * omega
+    };
     let step = TAU / 4096.0;
     let mut omega = 10.0;
     let start = energy(0.0, omega);
@@ -178,7 +186,7 @@ fn free_machine_keeps_its_energy() {
         );
     }
     // And it did exchange: the speed is not constant.
-    let quarter =
-        model.table().at(Phase::from_radians(TAU / 4.0)).inertia / model.table().at(Phase::default()).inertia;
+    let quarter = model.table().at(Phase::from_radians(TAU / 4.0)).inertia
+        / model.table().at(Phase::default()).inertia;
     assert!(quarter > 4.0, "{quarter}");
 }

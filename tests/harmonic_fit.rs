@@ -3,13 +3,14 @@
 use std::f64::consts::TAU;
 
 use crate::support::harmonics::{
-    ALPHA, OMEGA, Waves, fitted, model, peak, phases, press, request, rubbing, terms_of, waves, words_of,
+    ALPHA, OMEGA, Waves, fitted, model, peak, phases, press, request, rubbing, terms_of, waves,
+    words_of,
 };
 use crate::support::machines::{Wave, spec};
 use crate::support::{assert_near, budget, config};
 use jred::harmonic::{HarmonicError, measure, terms};
-use jred::tabulate::Request;
 use jred::mechanism::SliderCrank;
+use jred::tabulate::Request;
 use jred::{Action, Domain, Error, Load, Phase, Reducible, Reduction, Set, curves};
 use proptest::prelude::*;
 
@@ -74,8 +75,7 @@ fn the_press_fits_in_200_bytes() {
     assert_eq!(terms_of(&machine, curves::ALL).unwrap(), terms::SYMMETRIC);
     let asked = 1e-6 * peak(&machine);
     let (half, words) =
-        fitted::<f32, { curves::LOAD | terms::SYMMETRIC }>(&machine, &request(asked, 16))
-            .unwrap();
+        fitted::<f32, { curves::LOAD | terms::SYMMETRIC }>(&machine, &request(asked, 16)).unwrap();
     println!("press, f32, symmetric: {half:?} of {:e}", peak(&machine));
     assert!(
         half.bytes <= 100 && half.bytes == 4 * words.len(),
@@ -135,8 +135,7 @@ fn constant_curves_cost_one_number() {
     assert_eq!(terms_of(&machine, curves::ALL).unwrap(), terms::SYMMETRIC);
     let asked = 1e-6 * peak(&machine);
     let (found, words) =
-        fitted::<f64, { curves::ALL | terms::SYMMETRIC }>(&machine, &request(asked, 16))
-            .unwrap();
+        fitted::<f64, { curves::ALL | terms::SYMMETRIC }>(&machine, &request(asked, 16)).unwrap();
     assert_eq!(found.words, 4 + 2 * found.harmonics as usize);
     assert_near("b", words[2], 0.1, budget::COEFFICIENT);
     assert_near("c", words[3], 2.0, budget::COEFFICIENT);
@@ -146,7 +145,7 @@ fn constant_curves_cost_one_number() {
         ..Wave::bare(0.3, 0.0)
     };
     let (found, words) =
-        fitted::<f32, { curves::INERTIA }, 0>(&turntable, &request(1e-3, 8)).unwrap();
+        fitted::<f32, { curves::INERTIA }>(&turntable, &request(1e-3, 8)).unwrap();
     assert_eq!(
         (found.harmonics, words.as_slice()),
         (0, [0.3f32].as_slice())
@@ -154,7 +153,7 @@ fn constant_curves_cost_one_number() {
     let model = model::<f32, { curves::INERTIA }>(&words).unwrap();
     assert_eq!(
         (
-            model.harmonics(),
+            model.table().cells(),
             model.torque(Phase::from_bits(7), 5.0, 2.0)
         ),
         (0, 0.6)
@@ -226,8 +225,7 @@ fn what_no_sample_shows_is_in_the_bound() {
             let (found, words) =
                 fitted::<f64, { curves::LOAD | terms::GENERAL }>(&machine, &request(asked, 64))
                     .unwrap();
-            let model =
-                model::<f64, { curves::LOAD | terms::GENERAL }>(&words).unwrap();
+            let model = model::<f64, { curves::LOAD | terms::GENERAL }>(&words).unwrap();
             let (dense, _) = measure(&machine, model.table(), &request(asked, 0), 4096).unwrap();
             assert!(
                 dense <= found.bound && found.bound <= asked,

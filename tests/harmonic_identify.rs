@@ -2,15 +2,18 @@
 
 use std::f64::consts::TAU;
 
+use crate::support::harmonics::model;
 use crate::support::{assert_near, budget, config, largest};
 use jred::harmonic::{
-    Coefficient, Curve, HarmonicError, Identification, Identified, Kind, Sample, fit, identify, scratch_len, terms,
+    Coefficient, Curve, HarmonicError, Identification, Identified, Kind, Sample, fit, identify,
+    scratch_len, terms,
 };
 use jred::mechanism::{Branch, SliderCrank};
-use crate::support::harmonics::model;
-use jred::table::words_len;
+use jred::table::{Shape, words_len};
 use jred::tabulate::Request;
-use jred::{Error, Harmonic, Link, Machine, Phase, Reducible, Set, TableError, curves};
+use jred::{
+    AnyModel, Error, Harmonic, Link, Machine, Phase, Reducible, Set, Table, TableError, curves,
+};
 use proptest::prelude::*;
 
 const SET: Set = curves::ALL;
@@ -315,7 +318,8 @@ proptest! {
             let mut words = vec![0.0; len];
             words[..=SET.count_ones() as usize].fill(20.0);
             let torque = |words: &[f64]| {
-                model::<f64, { SET | TERMS }>(words).unwrap().torque(phase, omega, alpha)
+                let shape = Shape::<Harmonic<f64>>::harmonics(harmonics, SET | TERMS);
+                AnyModel::new(Table::new(words, shape).unwrap()).unwrap().torque(phase, omega, alpha)
             };
             let before = torque(&words);
             words[word] += 1.0;

@@ -6,12 +6,10 @@ use crate::support::assert_near;
 use crate::support::harmonics::{Waves, fitted, model, press, request, rubbing, terms_of};
 use crate::support::machines::Wave;
 use jred::harmonic::{HarmonicError, fit, scratch_len, terms};
-use jred::tabulate::Request;
 use jred::mechanism::SliderCrank;
 use jred::table::Shape;
-use jred::{
-    Action, Domain, Error, Harmonic, Load, Phase, Set, Table, TableError, Window, curves,
-};
+use jred::tabulate::Request;
+use jred::{Action, Domain, Error, Harmonic, Load, Phase, Set, Table, TableError, Window, curves};
 
 #[test]
 fn kinks_and_hidden_harmonics_are_refused() {
@@ -24,8 +22,7 @@ fn kinks_and_hidden_harmonics_are_refused() {
         press().with_load(pressing).unwrap(),
     ] {
         for max in [8, 32, 256] {
-            let found =
-                fitted::<f64, { curves::ALL | terms::ALL }>(&machine, &request(1e-3, max));
+            let found = fitted::<f64, { curves::ALL | terms::ALL }>(&machine, &request(1e-3, max));
             let Err(error) = found else {
                 panic!("{found:?}")
             };
@@ -131,7 +128,14 @@ fn bad_requests_are_named() {
     );
     let (mut scratch, mut words) = (vec![0.0; scratch_len(8)], vec![0.0; 9]);
     let short = |scratch: &mut [f64], words: &mut [f64]| {
-        fit(&machine, terms::INERTIA_COS, &request(1.0, 8), scratch, words).unwrap_err()
+        fit(
+            &machine,
+            terms::INERTIA_COS,
+            &request(1.0, 8),
+            scratch,
+            words,
+        )
+        .unwrap_err()
     };
     let needed = scratch_len(8);
     assert_eq!(
@@ -149,7 +153,8 @@ fn bad_requests_are_named() {
         }
     );
     // J negative in a part of the turn.
-    let negative = fitted::<f64, { terms::INERTIA_COS }>(&Wave::bare(1.0, 1.1), &request(1.0, 8)).unwrap_err();
+    let negative =
+        fitted::<f64, { terms::INERTIA_COS }>(&Wave::bare(1.0, 1.1), &request(1.0, 8)).unwrap_err();
     assert!(
         matches!(negative, Error::NoInertia { phi } if (phi - TAU / 2.0).abs() < 0.5),
         "{negative:?}"

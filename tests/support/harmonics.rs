@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use jred::harmonic::{Circular, Fitted, fit, scratch_len, terms_in_use};
+use jred::mechanism::{Branch, SliderCrank};
 use jred::table::{Shape, words_len};
 use jred::tabulate::Request;
-use jred::mechanism::{Branch, SliderCrank};
 use jred::{
     Action, Domain, Error, Format, Harmonic, Link, Load, Machine, Model, Number, Phase, Reducible,
     Reduction, Set, Table, TableError,
@@ -111,7 +111,7 @@ pub(crate) fn request(torque_error: f64, max_cells: u32) -> Request {
         torque_error,
         omega: OMEGA,
         alpha: ALPHA,
-        max_cells: max_harmonics,
+        max_cells,
     }
 }
 
