@@ -144,8 +144,7 @@ fn constant_curves_cost_one_number() {
         load: 0.0,
         ..Wave::bare(0.3, 0.0)
     };
-    let (found, words) =
-        fitted::<f32, { curves::INERTIA }>(&turntable, &request(1e-3, 8)).unwrap();
+    let (found, words) = fitted::<f32, { curves::INERTIA }>(&turntable, &request(1e-3, 8)).unwrap();
     assert_eq!(
         (found.harmonics, words.as_slice()),
         (0, [0.3f32].as_slice())

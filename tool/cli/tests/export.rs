@@ -5,6 +5,7 @@
 mod bytes;
 mod document;
 mod forms;
+mod harmonics;
 mod images;
 mod reader;
 mod refusals;

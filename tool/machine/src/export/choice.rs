@@ -1,8 +1,8 @@
 //! Number types and layouts that a table can have, by name.
 
 use jred::{
-    Cubic, Error, Format as _, Number as _, Q15, Q31, Quadratic, Reducible, Rows16, Scale, Spline,
-    Spline16,
+    Cubic, Error, Format as _, Harmonic, Number as _, Q15, Q31, Quadratic, Reducible, Rows16,
+    Scale, Spline, Spline16,
 };
 
 use super::search::{Answer, Search};
@@ -35,6 +35,8 @@ pub enum LayoutName {
     Quadratic,
     /// Packed words of 16-bit tables.
     Rows,
+    /// Coefficients of short Fourier series.
+    Harmonic,
 }
 
 crate::words! {
@@ -52,6 +54,8 @@ crate::words! {
         Quadratic = "quadratic",
         /// The packed rows of i16.
         Rows = "rows",
+        /// Short Fourier series of a smooth machine that turns: the fewest bytes, f32.
+        Harmonic = "harmonic",
     }
 }
 
@@ -95,7 +99,12 @@ impl Number {
     /// The layouts that tables of this type can have.
     pub const fn layouts(self) -> &'static [LayoutName] {
         match self {
-            Self::F32 => &[LayoutName::Spline, LayoutName::Cubic, LayoutName::Quadratic],
+            Self::F32 => &[
+                LayoutName::Spline,
+                LayoutName::Cubic,
+                LayoutName::Quadratic,
+                LayoutName::Harmonic,
+            ],
             Self::I32 => &[
                 LayoutName::Spline,
                 LayoutName::Spline16,
@@ -122,6 +131,7 @@ impl Number {
     /// What the search finds for this type and a layout of it.
     pub(super) fn search(self, layout: LayoutName, search: &Search<'_>) -> Result<Answer, Error> {
         match (self, layout) {
+            (Self::F32, LayoutName::Harmonic) => search.harmonics(),
             (Self::F32, LayoutName::Cubic) => search.run::<Cubic<f32>>(self, layout),
             (Self::F32, LayoutName::Quadratic) => search.run::<Quadratic<f32>>(self, layout),
             (Self::F32, _) => search.run::<Spline<f32>>(self, layout),
@@ -143,6 +153,7 @@ impl LayoutName {
             Self::Cubic => Cubic::<f32>::NAME,
             Self::Quadratic => Quadratic::<f32>::NAME,
             Self::Rows => Rows16::NAME,
+            Self::Harmonic => Harmonic::<f32>::NAME,
         }
     }
 
@@ -155,6 +166,7 @@ impl LayoutName {
             Self::Cubic => format!("Cubic<{number}>"),
             Self::Quadratic => format!("Quadratic<{number}>"),
             Self::Rows => "Rows16".to_owned(),
+            Self::Harmonic => format!("Harmonic<{number}>"),
         }
     }
 }
@@ -168,6 +180,7 @@ impl LayoutChoice {
             LayoutName::Cubic,
             LayoutName::Quadratic,
             LayoutName::Rows,
+            LayoutName::Harmonic,
         ];
         let mut allowed = all.iter().filter(|layout| self.allows(**layout));
         match (self, allowed.next()) {
@@ -179,12 +192,13 @@ impl LayoutChoice {
     /// Whether this layout may be taken.
     pub fn allows(self, layout: LayoutName) -> bool {
         match self {
-            Self::Auto => true,
+            Self::Auto => layout != LayoutName::Harmonic,
             Self::Spline => layout == LayoutName::Spline,
             Self::Spline16 => layout == LayoutName::Spline16,
             Self::Cubic => layout == LayoutName::Cubic,
             Self::Quadratic => layout == LayoutName::Quadratic,
             Self::Rows => layout == LayoutName::Rows,
+            Self::Harmonic => layout == LayoutName::Harmonic,
         }
     }
 }

@@ -40,6 +40,10 @@ impl NotReached<'_> {
             })
             .map(|(_, _, answer)| answer)
             .collect();
+        // What harmonics cannot do, they say themselves.
+        if let Some(Answer::Refused(error @ Error::Harmonic(_))) = own.first() {
+            return Ok(Failure::NotReached(error.to_string()));
+        }
         let misses = own.iter().filter_map(|answer| match answer {
             Answer::Misses(candidate) => Some(candidate.as_ref()),
             _ => None,
@@ -198,7 +202,8 @@ impl NotReached<'_> {
     /// The torque error in double precision, and where it is largest.
     fn without_rounding(&self, layout: LayoutName, cells: u32) -> Result<(f64, f64), Error> {
         match layout {
-            LayoutName::Spline | LayoutName::Spline16 => {
+            // Harmonics never miss: they are refused with what they reach.
+            LayoutName::Spline | LayoutName::Spline16 | LayoutName::Harmonic => {
                 self.search.without_rounding::<Spline<f64>>(cells)
             }
             LayoutName::Cubic => self.search.without_rounding::<Cubic<f64>>(cells),

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use jred::harmonic::terms;
 use jred::{Set, Usage, curves};
 use serde_json::{Value, json};
 
@@ -28,12 +29,26 @@ const CURVES: [(Set, &str, &str); 6] = [
     ),
 ];
 
+/// Bit of a term of harmonics, its name in Rust.
+const TERMS: [(Set, &str); 8] = [
+    (terms::INERTIA_COS, "INERTIA_COS"),
+    (terms::INERTIA_SIN, "INERTIA_SIN"),
+    (terms::LOAD_COS, "LOAD_COS"),
+    (terms::LOAD_SIN, "LOAD_SIN"),
+    (terms::VISCOUS_COS, "VISCOUS_COS"),
+    (terms::VISCOUS_SIN, "VISCOUS_SIN"),
+    (terms::COULOMB_COS, "COULOMB_COS"),
+    (terms::COULOMB_SIN, "COULOMB_SIN"),
+];
+
 /// The set as a constant expression in Rust.
 fn rust_set(set: Set) -> String {
     let names = CURVES.iter().filter(|(bit, _, _)| set & bit != 0);
-    let names: Vec<String> = names
+    let mut names: Vec<String> = names
         .map(|(_, _, name)| format!("curves::{name}"))
         .collect();
+    let terms = TERMS.iter().filter(|(bit, _)| set & bit != 0);
+    names.extend(terms.map(|(_, name)| format!("terms::{name}")));
     if names.is_empty() {
         "curves::INERTIA".to_owned()
     } else {
@@ -98,10 +113,15 @@ impl Export {
         let _ = writeln!(text, "{}: reduced machine at the drive link", self.title);
         let _ = writeln!(
             text,
-            "{}, layout {}, {} cells, curves: {}; {} bytes of rows, {} bytes of image",
+            "{}, layout {}, {} {}, curves: {}; {} bytes of rows, {} bytes of image",
             chosen.number.name(),
             chosen.layout.name(),
             chosen.found.cells,
+            if chosen.layout == LayoutName::Harmonic {
+                "harmonics"
+            } else {
+                "cells"
+            },
             names.join(", "),
             chosen.row_bytes,
             chosen.bytes()

@@ -5,6 +5,7 @@ mod choice;
 mod fault;
 mod figures;
 mod form;
+mod harmonic;
 mod place;
 mod reference;
 mod search;
@@ -103,6 +104,10 @@ impl Export {
         let mut answers = Vec::new();
         for number in Number::ALL {
             for &layout in number.layouts() {
+                // Harmonics are only looked for where they are asked for.
+                if layout == LayoutName::Harmonic && task.layout != LayoutChoice::Harmonic {
+                    continue;
+                }
                 answers.push((number, layout, number.search(layout, &search)?));
             }
         }

@@ -97,7 +97,7 @@ pub(super) struct Search<'m> {
     pub(super) domain: Domain,
     pub(super) reference: Reference,
     pub(super) goal: Goal,
-    set: Set,
+    pub(super) set: Set,
 }
 
 impl<'m> Search<'m> {

@@ -125,14 +125,18 @@ impl Size<'_> {
 
 /// What the image says of itself: the error in single precision, not rounded down.
 fn validity(found: &Tabulated, request: &Request, error: f64) -> Validity {
+    Validity {
+        torque_error: rounded_up(error),
+        ..found.validity(request)
+    }
+}
+
+/// In single precision, not below.
+pub(super) fn rounded_up(error: f64) -> f32 {
     let nearest = error as f32;
-    let torque_error = if f64::from(nearest) < error {
+    if f64::from(nearest) < error {
         nearest.next_up()
     } else {
         nearest
-    };
-    Validity {
-        torque_error,
-        ..found.validity(request)
     }
 }

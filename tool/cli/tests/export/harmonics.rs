@@ -1,0 +1,133 @@
+//! Harmonics: exported, loaded, ticked; and refused where a table is needed.
+
+use jred::harmonic::terms;
+use jred::{Harmonic, Image, ImageError, Phase, Reducible as _, Set, Spline, curves};
+
+use super::images::{machine, random};
+use super::{export, export_of, number_after, words_of};
+use crate::support::{Folder, budget, press_file};
+
+/// The press without its pressing force, whose edges need a table.
+fn smooth(folder: &Folder) -> std::path::PathBuf {
+    let text = std::fs::read_to_string(press_file()).unwrap();
+    let (before, rest) = text.split_once("# Pressing force").unwrap();
+    let (_, after) = rest.split_once("[[load]]").unwrap();
+    let (_, after) = after.split_once("[[load]]").unwrap();
+    folder.file("smooth.toml", format!("{before}[[load]]{after}"))
+}
+
+/// J is even, the weight's load and the friction F·x′ odd.
+const SET: Set = curves::LOAD
+    | curves::COULOMB
+    | curves::CONSTANT_VISCOUS
+    | terms::INERTIA_COS
+    | terms::LOAD_SIN
+    | terms::COULOMB_SIN;
+
+#[test]
+fn an_image_of_harmonics_holds_its_error() {
+    let folder = Folder::new();
+    let path = smooth(&folder);
+    let file = jred_machine::read::read(&path).unwrap();
+    let machine = machine(&file);
+    let mut before = 0;
+    for (allowed, more) in [(2.0, "256"), (0.05, "256"), (0.01, "32")] {
+        let out = folder.path("harmonics.jred");
+        let error = format!("{allowed} N m");
+        let run = export_of(
+            &path,
+            &[
+                "--layout",
+                "harmonic",
+                "--torque-error",
+                &error,
+                "--max-cells",
+                more,
+            ],
+            Some(&out),
+        )
+        .ends(0);
+        let words = words_of(&out);
+        let image = Image::new(&words).unwrap();
+        let stated = f64::from(image.validity().torque_error);
+        assert!(stated <= allowed, "{stated} of {allowed}");
+        assert!(
+            image.cells() > before,
+            "a smaller error needs more harmonics"
+        );
+        before = image.cells();
+        assert!(4 * words.len() < 300, "{} words", words.len());
+        let printed = number_after(&run.out, "f32, layout harmonic, ");
+        assert_eq!(printed, f64::from(image.cells()));
+        assert!(run.out.contains(
+            "image.model::<Harmonic<f32>, { curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS | \
+             terms::INERTIA_COS | terms::LOAD_SIN | terms::COULOMB_SIN }>()"
+        ));
+        let model = image.model::<Harmonic<f32>, SET>().unwrap();
+        let any = image.any_model::<Harmonic<f32>>().unwrap();
+        let mut random = random();
+        let mut worst = 0.0f64;
+        for _ in 0..20_000 {
+            let phase = Phase::from_bits((random() * 4_294_967_296.0) as u32);
+            let mut signed = |most: f32| most * (2.0 * random() - 1.0) as f32;
+            let (omega, alpha) = (
+                signed(image.validity().omega),
+                signed(image.validity().alpha),
+            );
+            let found = model.torque(phase, omega, alpha);
+            assert_eq!(found, any.torque(phase, omega, alpha));
+            let exact = machine.reduction(phase.radians()).unwrap();
+            let exact = exact.torque(omega.into(), alpha.into()).total();
+            worst = worst.max((f64::from(found) - exact).abs());
+        }
+        assert!(
+            worst <= stated * (1.0 + budget::BETWEEN_PLACES),
+            "{worst} above {stated}"
+        );
+        assert!(worst > stated / 10.0, "{worst} far below {stated}");
+        // Another format or set is refused, not misread.
+        assert!(matches!(
+            image.model::<Spline<f32>, { curves::LOAD }>(),
+            Err(ImageError::Layout(6))
+        ));
+        assert!(matches!(
+            image.model::<Harmonic<f32>, { curves::LOAD }>(),
+            Err(ImageError::Table(jred::TableError::Curves(SET)))
+        ));
+    }
+}
+
+#[test]
+fn the_most_exact_harmonics_for_their_bytes() {
+    let folder = Folder::new();
+    let path = smooth(&folder);
+    let mut before = f64::INFINITY;
+    for bytes in ["140", "180"] {
+        let out = folder.path("harmonics.jred");
+        let arguments = ["--layout", "harmonic", "--max-bytes", bytes];
+        export_of(&path, &arguments, Some(&out)).ends(0);
+        let words = words_of(&out);
+        assert!(4 * words.len() <= bytes.parse().unwrap());
+        let image = Image::new(&words).unwrap();
+        let error = f64::from(image.validity().torque_error);
+        assert!(error < 0.5 * before, "{error} after {before}");
+        before = error;
+    }
+}
+
+#[test]
+fn what_has_an_edge_or_a_stroke_is_refused() {
+    let folder = Folder::new();
+    let harmonic = ["--layout", "harmonic", "--torque-error", "2 N m"];
+    let (run, _) = export(&folder, &harmonic);
+    run.ends(1)
+        .says(&["harmonics reach a torque error", "needs a table"]);
+    let stroke = press_file().with_file_name("linear-gripper.toml");
+    let arguments = ["--layout", "harmonic", "--torque-error", "2 N"];
+    export_of(&stroke, &arguments, None)
+        .ends(1)
+        .says(&["stroke", "use a table"]);
+    // Of single precision only.
+    let (run, _) = export(&folder, &[&harmonic[..], &["--type", "i32"]].concat());
+    run.ends(2).says(&["i32 tables have no layout harmonic"]);
+}

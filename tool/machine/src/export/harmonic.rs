@@ -1,0 +1,144 @@
+//! The fewest harmonics that meet a torque error, or the most exact ones for their bytes.
+
+use jred::harmonic::{self, MAX_HARMONICS, fit, scratch_len, terms_in_use};
+use jred::image::{encode, image_len};
+use jred::table::{Shape, words_len};
+use jred::tabulate::{Request, Tabulated};
+use jred::{Error, Harmonic, Image, Reducible as _, Scale, Table, Usage, Validity};
+
+use super::choice::{LayoutName, Number};
+use super::search::{Answer, Candidate, Search};
+use super::size::rounded_up;
+use super::ticks;
+
+type F = Harmonic<f32>;
+
+/// How often a smaller error is asked for, because ticks in single precision miss the one that is allowed.
+const ATTEMPTS: u32 = 8;
+
+impl Search<'_> {
+    /// The harmonics of this machine.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub(super) fn harmonics(&self) -> Result<Answer, Error> {
+        let most = self.goal.max_cells.min(MAX_HARMONICS);
+        let mut scratch = vec![0.0; scratch_len(most)];
+        let set = match terms_in_use(self.machine, self.set, most, &mut scratch) {
+            Ok(terms) => self.set | terms,
+            // A stroke.
+            Err(error @ Error::Harmonic(_)) => return Ok(Answer::Refused(error)),
+            Err(error) => return Err(error),
+        };
+        let bytes = |harmonics: u32| 4 * image_len::<F>(harmonics, set);
+        let fits = |harmonics: &u32| {
+            self.goal
+                .max_bytes
+                .is_none_or(|most| bytes(*harmonics) <= most)
+        };
+        let Some(most) = (0..=most).rev().find(fits) else {
+            return Ok(Answer::TooLarge(bytes(0)));
+        };
+        let attempt = |error: f64| self.fitted(set, most, error);
+        if let Some(allowed) = self.goal.torque_error {
+            let mut asked = allowed;
+            for _ in 0..ATTEMPTS {
+                match attempt(asked) {
+                    Ok(found) if found.error <= allowed => {
+                        return Ok(Answer::Meets(Box::new(found)));
+                    }
+                    Ok(_) => asked *= 0.8,
+                    Err(error @ (Error::Harmonic(_) | Error::Table(_))) => {
+                        return Ok(Answer::Refused(error));
+                    }
+                    Err(error) => return Err(error),
+                }
+            }
+            return Ok(Answer::Refused(Error::TorqueErrorNotReached {
+                asked: allowed,
+                reached: asked,
+                cells: most,
+            }));
+        }
+        // Without a limit each number of harmonics has an error that it just reaches: halves of it, until none do.
+        let [omega, alpha] = self.goal.range;
+        let peak = |place: &super::reference::Place| place.exact.torque(omega, alpha).total().abs();
+        let mut asked = self.reference.places.iter().map(peak).fold(0.0, f64::max);
+        let mut best: Option<Candidate> = None;
+        let mut refused = Error::NotFinite("torque error of the harmonics");
+        loop {
+            match attempt(asked) {
+                Ok(found) => {
+                    if best.as_ref().is_none_or(|best| found.error < best.error) {
+                        best = Some(found);
+                    }
+                }
+                Err(error @ (Error::Harmonic(_) | Error::Table(_))) => {
+                    refused = error;
+                    break;
+                }
+                Err(error) => return Err(error),
+            }
+            asked *= 0.5;
+        }
+        Ok(best.map_or(Answer::Refused(refused), |best| {
+            Answer::Meets(Box::new(best))
+        }))
+    }
+
+    /// The fewest harmonics whose coefficients meet this error, and how exact their ticks are.
+    fn fitted(&self, set: jred::Set, most: u32, torque_error: f64) -> Result<Candidate, Error> {
+        let [omega, alpha] = self.goal.range;
+        let request = Request {
+            torque_error,
+            omega,
+            alpha,
+            max_cells: most,
+        };
+        let mut scratch = vec![0.0; scratch_len(most)];
+        let mut words = vec![0.0; words_len::<F>(most, set)];
+        let fitted = fit::<f32>(self.machine, set, &request, &mut scratch, &mut words)?;
+        words.truncate(fitted.words);
+        let table = Table::<F>::new(&words, Shape::harmonics(fitted.harmonics, set))
+            .map_err(Error::Table)?;
+        let places = 4 * fitted.samples + 1;
+        let (measured, worst) = harmonic::measure(self.machine, &table, &request, places)?;
+        let domain = self.machine.domain();
+        let all = (0, f64::INFINITY);
+        let read = |phase| table.si(phase, domain);
+        let (looked, _) = self.reference.error(read, self.goal.range, all);
+        let mut image = vec![0; image_len::<F>(fitted.harmonics, set)];
+        let mut written = |error: f64| {
+            let validity = Validity {
+                omega: omega as f32,
+                alpha: alpha as f32,
+                torque_error: rounded_up(error),
+            };
+            encode(&table, validity, &mut image).map(<[u32]>::to_vec)
+        };
+        let bound = fitted.bound.max(measured);
+        let made = written(bound)?;
+        let made = Image::new(&made).map_err(ticks::refusal)?;
+        let ticks = ticks::measure::<F>(&made, &self.reference, self.goal.range)?;
+        let error = bound.max(looked).max(ticks.torque);
+        Ok(Candidate {
+            number: Number::F32,
+            layout: LayoutName::Harmonic,
+            curves: set,
+            found: Tabulated {
+                cells: fitted.harmonics,
+                torque_error: measured,
+                bound,
+                worst,
+                ..Tabulated::default()
+            },
+            error,
+            looked,
+            ticks,
+            usage: Usage::of(&table).map_err(Error::Table)?,
+            scale: Scale::SI,
+            row_bytes: fitted.bytes,
+            words: written(error)?,
+        })
+    }
+}
