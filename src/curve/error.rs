@@ -99,6 +99,30 @@ const NAMES: [(Set, &str); 6] = [
     (curves::CONSTANT_COULOMB, "CONSTANT_COULOMB"),
 ];
 
+impl TableError {
+    /// What helps, if it is known.
+    #[must_use]
+    pub const fn cure(&self) -> Option<&'static str> {
+        Some(match self {
+            Self::NoInertia { .. } => "use more cells",
+            Self::VelocityTorque { .. } => "choose a larger torque base or a smaller speed base",
+            Self::SpeedBase => "take Scale::for_cells",
+            Self::TorqueRange { .. } => {
+                "choose a larger torque base, or a larger inertia base for less acceleration"
+            }
+            Self::PieceUnits => {
+                "make them in the same machine units, each over the range from its start to the next"
+            }
+            Self::NoInertiaAt { .. } => "give the drive link an inertia, or use more harmonics",
+            Self::InertiaNotShown { .. } => "give the drive link an inertia",
+            Self::Stroke => "use a table",
+            Self::Harmonics => "use harmonic::fit",
+            Self::Slope { .. } => "take the span and the scale that the table was made with",
+            _ => return None,
+        })
+    }
+}
+
 impl fmt::Display for TableError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
@@ -115,24 +139,18 @@ impl fmt::Display for TableError {
             ),
             Self::NoInertia { cell } => write!(
                 f,
-                "the reduced inertia is not positive everywhere in cell {cell}: use more cells"
+                "the reduced inertia is not positive everywhere in cell {cell}"
             ),
             Self::NotClosed { curve } => {
                 write!(f, "curve {curve} of the table does not close after a turn")
             }
-            Self::VelocityTorque { cell } => write!(
-                f,
-                "the torque of J' leaves the number range in cell {cell}: \
-                 choose a larger torque base or a smaller speed base"
-            ),
-            Self::SpeedBase => write!(
-                f,
-                "the speed base does not suit the number of cells: take Scale::for_cells"
-            ),
+            Self::VelocityTorque { cell } => {
+                write!(f, "the torque of J' leaves the number range in cell {cell}")
+            }
+            Self::SpeedBase => write!(f, "the speed base does not suit the number of cells"),
             Self::TorqueRange { cell } => write!(
                 f,
-                "at full speed and acceleration the torque leaves the number range in cell {cell}: \
-                 choose a larger torque base, or a larger inertia base for less acceleration"
+                "at full speed and acceleration the torque leaves the number range in cell {cell}"
             ),
             Self::Constant => write!(
                 f,
@@ -142,11 +160,7 @@ impl fmt::Display for TableError {
                 f,
                 "the pieces of a turn must start one after another, each at least 1/65536 of a turn long"
             ),
-            Self::PieceUnits => write!(
-                f,
-                "the models of a turn's pieces do not belong together: make them in the same machine units, \
-                 each over the range from its start to the next"
-            ),
+            Self::PieceUnits => write!(f, "the models of a turn's pieces do not belong together"),
             Self::Curves(set) => {
                 write!(f, "the table has J")?;
                 for (bit, name) in NAMES {
@@ -161,33 +175,31 @@ impl fmt::Display for TableError {
             }
             Self::NoInertiaAt { phase } => write!(
                 f,
-                "the reduced inertia of the harmonics is not positive at φ = {}: give the drive link an inertia, or use \
-                 more harmonics",
+                "the reduced inertia of the harmonics is not positive at φ = {}",
                 Degrees(phase)
             ),
             Self::InertiaNotShown { phase } => write!(
                 f,
-                "the reduced inertia of the harmonics comes too close to zero at φ = {} to be shown positive: give the \
-                 drive link an inertia",
+                "the reduced inertia of the harmonics comes too close to zero at φ = {} to be shown positive",
                 Degrees(phase)
             ),
             Self::Stroke => write!(
                 f,
-                "harmonics need a drive link that turns fully, but this one has a stroke: use a table"
+                "harmonics need a drive link that turns fully, but this one has a stroke"
             ),
-            Self::Harmonics => write!(
-                f,
-                "harmonics are not filled place by place: use harmonic::fit"
-            ),
+            Self::Harmonics => write!(f, "harmonics are not filled place by place"),
             Self::Slope { cell } => write!(
                 f,
-                "the velocity torque in cell {cell} is not that of the slope of the inertia: \
-                 take the span and the scale that the table was made with"
+                "the velocity torque in cell {cell} is not that of the slope of the inertia"
             ),
             Self::Reciprocal { cell } => write!(
                 f,
                 "the curve of the reciprocal inertia does not belong to that of the inertia in cell {cell}"
             ),
+        }?;
+        match self.cure() {
+            Some(cure) => write!(f, ": {cure}"),
+            None => Ok(()),
         }
     }
 }

@@ -10,6 +10,7 @@
 //! δ is the table's own value, read in its own arithmetic (quantisation and rounding included), against the exact
 //! reduction, at [`CHECKS_PER_CELL`] places of every cell, and at both ends of a stroke.
 
+mod buffer;
 mod fill;
 pub(crate) mod harmonic;
 mod measure;
@@ -17,6 +18,7 @@ mod near;
 mod search;
 mod units;
 
+pub use buffer::TableBuffer;
 pub use fill::fill;
 pub use measure::measure;
 pub(crate) use measure::torque_between;

@@ -18,6 +18,22 @@ use crate::{Outcome, Phase};
 ///
 /// Everything was checked when it was built: [`torque`](Self::torque), [`acceleration`](Self::acceleration) and
 /// [`acceleration_range`](Self::acceleration_range) neither fail nor panic nor allocate, and take the same path every time.
+///
+/// A model in per-unit takes no SI numbers, and a model of one set of curves is none of another:
+///
+/// ```compile_fail
+/// # use jred::{Model, Phase, Q31, Spline};
+/// fn torque(model: &Model<Spline<Q31>, 0>) -> Q31 {
+///     model.torque(Phase::default(), 10.0, 50.0)
+/// }
+/// ```
+///
+/// ```compile_fail
+/// # use jred::{Model, Spline, curves};
+/// fn narrowed<'a>(model: Model<'a, Spline<f32>, { curves::LOAD }>) -> Model<'a, Spline<f32>, 0> {
+///     model
+/// }
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Model<'a, F: Format, const SET: Set>(AnyModel<'a, F>);
 

@@ -40,10 +40,22 @@ pub enum ImageError {
     Header(u8),
     /// The image contains another number type; its code (1 = f32, 2 = i32, 3 = i16).
     NumberType(u8),
-    /// The image has another layout; its code (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16, 5 = rows of 16 bits).
+    /// The image has another layout; its code (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16, 5 = rows of 16 bits, 6 = harmonics).
     Layout(u8),
     /// The table is not sound.
     Table(TableError),
+}
+
+impl ImageError {
+    /// What helps, if it is known.
+    #[must_use]
+    pub const fn cure(&self) -> Option<&'static str> {
+        match self {
+            Self::Version { .. } => Some("export the table anew"),
+            Self::Table(error) => error.cure(),
+            _ => None,
+        }
+    }
 }
 
 impl fmt::Display for ImageError {
@@ -85,7 +97,7 @@ impl fmt::Display for ImageError {
             }
             Self::Layout(code) => write!(
                 f,
-                "the image has layout {code} (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16, 5 = rows of 16 bits)"
+                "the image has layout {code} (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16, 5 = rows of 16 bits, 6 = harmonics)"
             ),
             Self::Table(error) => error.fmt(f),
         }

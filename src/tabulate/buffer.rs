@@ -1,0 +1,105 @@
+//! A table and the memory it lies in.
+
+use super::{Request, Tabulated, fill, tabulate};
+use crate::curve::{Format, Set, words_len};
+use crate::machine::Reducible;
+use crate::{Error, Model, Scale};
+
+/// Memory for tables of up to `CELLS` cells, `WORDS` words long: for firmware that makes its own tables. What fills it gives the
+/// model over it.
+///
+/// ```
+/// use jred::mechanism::ScotchYoke;
+/// # use core::f64::consts::FRAC_PI_2;
+/// use jred::table::words_len;
+/// use jred::tabulate::{TableBuffer, scratch_len};
+/// use jred::{Error, Link, Machine, Phase, Scale, Set, Spline, curves};
+///
+/// const SET: Set = curves::INERTIA;
+/// const CELLS: u32 = 32;
+/// const WORDS: usize = words_len::<Spline<f32>>(CELLS, SET);
+///
+/// fn main() -> Result<(), Error> {
+///     let yoke = ScotchYoke::new(0.05, FRAC_PI_2, [Link::rotor(0.002)?, Link::new(1.5, 0.0, [0.0, 0.0])?])?;
+///     let machine = Machine::new(yoke);
+///     let mut scratch = [0.0; scratch_len(CELLS, SET)];
+///     let mut buffer = TableBuffer::<Spline<f32>, SET, CELLS, WORDS>::new();
+///     let model = buffer.fill(&machine, CELLS, &Scale::SI, &mut scratch)?;
+///     assert!(model.torque(Phase::default(), 0.0, 1.0) > 0.0);
+///     Ok(())
+/// }
+/// ```
+///
+/// A length that is not that of the table does not compile:
+///
+/// ```compile_fail
+/// use jred::tabulate::TableBuffer;
+/// use jred::{Spline, curves};
+///
+/// let buffer = TableBuffer::<Spline<f32>, { curves::LOAD }, 32, 35>::new();
+/// ```
+#[derive(Clone, Debug)]
+pub struct TableBuffer<F: Format, const SET: Set, const CELLS: u32, const WORDS: usize> {
+    words: [F::Word; WORDS],
+}
+
+impl<F: Format, const SET: Set, const CELLS: u32, const WORDS: usize>
+    TableBuffer<F, SET, CELLS, WORDS>
+{
+    /// Empty.
+    #[must_use]
+    pub fn new() -> Self {
+        const {
+            assert!(
+                WORDS == words_len::<F>(CELLS, SET),
+                "WORDS must be words_len::<F>(CELLS, SET)"
+            );
+        }
+        Self {
+            words: [F::Word::default(); WORDS],
+        }
+    }
+
+    /// The model over the table of exactly `cells` cells.
+    ///
+    /// # Errors
+    /// As [`fill`](fill()), and as [`Model::new`].
+    pub fn fill(
+        &mut self,
+        machine: &impl Reducible,
+        cells: u32,
+        scale: &Scale,
+        scratch: &mut [f64],
+    ) -> Result<Model<'_, F, SET>, Error> {
+        let table = fill::<F>(machine, SET, cells, scale, scratch, &mut self.words)?;
+        Model::new(table).map_err(Error::Table)
+    }
+
+    /// The model over the smallest table that meets the request, of up to `CELLS` cells, and what was found.
+    ///
+    /// # Errors
+    /// As [`tabulate`](tabulate()).
+    pub fn tabulate(
+        &mut self,
+        machine: &impl Reducible,
+        request: &Request,
+        scale: &Scale,
+        scratch: &mut [f64],
+    ) -> Result<(Model<'_, F, SET>, Tabulated), Error> {
+        let request = Request {
+            max_cells: request.max_cells.min(CELLS),
+            ..*request
+        };
+        let found = tabulate::<F>(machine, SET, &request, scale, scratch, &mut self.words)?;
+        let model = self.fill(machine, found.cells, &found.scale, scratch)?;
+        Ok((model, found))
+    }
+}
+
+impl<F: Format, const SET: Set, const CELLS: u32, const WORDS: usize> Default
+    for TableBuffer<F, SET, CELLS, WORDS>
+{
+    fn default() -> Self {
+        Self::new()
+    }
+}
