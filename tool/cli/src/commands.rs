@@ -32,14 +32,14 @@ use jred_report::page;
 use jred_report::table::output;
 use jred_report::table::output::Format;
 
-/// How a command ended, short of an error.
+/// How a command ended without an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Done {
-    /// Everything asked for holds.
+    /// Every requirement is satisfied.
     Holds,
     /// The answer is no: a rule is violated by every drive, or a torque error is not reached.
     Violated,
-    /// Somebody stopped it before it was done.
+    /// Interrupted by the user.
     Stopped,
 }
 
@@ -75,8 +75,8 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
     if options.over == Over::Time {
         if options.speed.is_some() {
             return Err(miette!(
-                help = "leave out --over time, or leave out --speed",
-                "over time the motion of the machine file gives the speed"
+                help = "use either --over time or --speed",
+                "with --over time, the motion of the machine file gives the speed"
             ));
         }
         motion(&file, &options.file)?;
@@ -85,7 +85,7 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
     let moves = file.motion.is_some() || state.is_some();
     if (options.reactions || options.energy) && !moves {
         return Err(miette!(
-            help = "give --speed, for example --speed \"60 rpm\" (\"0 rpm\" for a machine at rest), or add a [motion]",
+            help = "give a speed, for example --speed \"60 rpm\" (\"0 rpm\" for a machine at rest), or add a [motion]",
             "forces and energies need a speed: {} has no [motion]",
             options.file.display()
         ));
@@ -121,11 +121,11 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
         file.title.clone()
     };
     if sets.reactions {
-        title += "\nforce of a joint: what the body named first in `jred check` does to the second; \
-                  flywheel and drive train turn with the drive link";
+        title += "\nforce of a joint: acts from the first on the second body listed by `jred check`; flywheel and \
+                  drive train turn with the drive link";
     }
     if moves && columns.has_empty_cells() {
-        title += "\nthe motion does not pass every position exactly once: --over time shows what it does there";
+        title += "\nthe motion does not pass every position exactly once: use --over time";
     }
     let largest = if sets.reactions {
         reduce::largest(&file, &request).into_diagnostic()?
@@ -159,7 +159,7 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
     }
 }
 
-/// Says on the standard error what comes apart at this speed and acceleration, though the result is computed all the same.
+/// Warns on standard error if a contact separates at this speed and acceleration; the result is computed nevertheless.
 fn warn(file: &MachineFile, state: [f64; 2]) -> Result<()> {
     if let Some(words) = OneWay::warning(&file.machine, state).into_diagnostic()? {
         eprintln!("{words}");
@@ -229,15 +229,15 @@ fn run_export(options: &options::Export) -> Result<Done> {
     let reciprocal = options.reciprocal == Choice::Yes;
     if reciprocal && options.number == Number::F32 {
         return Err(miette!(
-            help = "leave out --reciprocal, or take --type i32",
-            "f32 tables have no curve of 1/J: floating point divides"
+            help = "remove --reciprocal, or use --type i32",
+            "f32 tables have no curve of 1/J: in floating point, the tick divides"
         ));
     }
     let layouts = options.number.layouts();
     if !layouts.iter().any(|layout| options.layout.allows(*layout)) {
         let names: Vec<&str> = layouts.iter().map(|layout| layout.name()).collect();
         return Err(miette!(
-            help = format!("leave out --layout, or take one of: {}", names.join(", ")),
+            help = format!("remove --layout, or use one of: {}", names.join(", ")),
             "{} tables have no layout {}",
             options.number.name(),
             options.layout.name()
@@ -281,7 +281,7 @@ fn run_export(options: &options::Export) -> Result<Done> {
     match (&options.out, options.format) {
         (None, Form::Json) => print(&format!("{:#}\n", export.json())),
         (None, _) => print(&format!(
-            "{}\n{}nothing written: --out names a file\n",
+            "{}\n{}nothing written: use --out to write a file\n",
             export.summary(),
             alternatives::alternatives(&export)
         )),
@@ -305,7 +305,7 @@ fn range(given: [Option<f64>; 2], file: &MachineFile, path: &Path) -> Result<(f6
     let motion = file.motion.as_ref().ok_or_else(|| {
         miette!(
             help = "give --omega, or add a [motion] to the machine file",
-            "the largest speed is not known: {} has no [motion]",
+            "no maximum speed: {} has no [motion]",
             path.display()
         )
     })?;
@@ -341,7 +341,7 @@ pub(crate) fn print(text: &str) -> Result<Done> {
     }
 }
 
-/// Two files to write must not be one.
+/// Refuses two output files with the same path.
 ///
 /// # Errors
 /// They are.
@@ -352,13 +352,13 @@ pub(crate) fn distinct(options: [&str; 2], paths: [&Path; 2]) -> Result<()> {
     }
     let [first, second] = options;
     Err(miette!(
-        help = "name two files",
-        "{first} and {second} both name {}: the one would overwrite the other",
+        help = "use two different files",
+        "{first} and {second} both name {}: one would overwrite the other",
         paths[1].display()
     ))
 }
 
-/// Where a file lies, whether it exists or only its folder does.
+/// Canonical path of a file that may not exist yet.
 fn place(path: &Path) -> PathBuf {
     let of_folder = || {
         let folder = path.parent().filter(|folder| *folder != Path::new(""));
@@ -377,8 +377,8 @@ pub(crate) fn write(path: &Path, bytes: &[u8], machine: &Path) -> Result<()> {
     let same = |a: &Path, b: &Path| Some(a.canonicalize().ok()? == b.canonicalize().ok()?);
     if same(path, machine) == Some(true) {
         return Err(miette!(
-            help = "name another file",
-            "{} is the machine file itself: it is not overwritten",
+            help = "choose another file",
+            "{} is the machine file: not overwritten",
             path.display()
         ));
     }

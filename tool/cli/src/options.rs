@@ -19,7 +19,7 @@ use jred_report::table::output::Format;
 
 /// Reduced inertia, drive sizing, simulation and firmware tables for machines whose inertia depends on the angle.
 #[derive(Debug, Parser)]
-#[command(name = "jred", version, about, after_help = EXIT_CODES)]
+#[command(name = "jred", version, after_help = EXIT_CODES)]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]
@@ -27,45 +27,45 @@ pub struct Cli {
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done, every rule holds; 1 a sizing rule is violated (or a torque error not \
-     reached); 2 bad input.\nMachine files are described in docs/machine-file.md; machines/press.toml is one to start \
+     reached); 2 bad input.\ndocs/machine-file.md describes machine files; machines/press.toml is a good one to start \
      from.";
 
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Reduced inertia J(φ), J′, J″, reduced torque and the motion's drive torque; points, forces and energies.
+    /// Compute reduced inertia J(φ), J′ and J″, reduced torque and drive torque; points, forces, energies.
     Reduce(Reduce),
-    /// Check the mechanism itself: freedoms, closure, dead centres, transmission angle, agreement of the methods.
+    /// Check the mechanism: degrees of freedom, closure, dead centres, transmission angle, agreement of methods.
     Check(Check),
-    /// Check every motor and gearbox of the catalogue against the motion, and rank what fits.
+    /// Check every drive in the catalogue against the motion, and rank the suitable ones.
     Size(Size),
-    /// Vary quantities of the machine file over ranges, and size every machine.
+    /// Size the machine for ranges of quantities in the machine file.
     Vary(search::Vary),
-    /// The gear ratio that suits each motor: best ratio, range, and the gearboxes in it.
+    /// Find the gear ratio for each motor: best ratio, suitable range, and gearboxes in it.
     Ratio(search::Ratio),
-    /// How much of each rule's limit every quantity of the machine file moves, and which breaks a rule first.
+    /// Show how each quantity in the machine file affects the rules, and which violates one first.
     Sensitivity(search::Sensitivity),
-    /// How likely a drive holds its rules when quantities scatter within tolerances.
+    /// Estimate the probability that a drive satisfies its rules when quantities scatter within tolerances.
     Tolerance(search::Tolerance),
-    /// Put the shares of a study that `--shard` wrote together again.
+    /// Merge the shares of a study written with `--shard`.
     Merge(search::Merge),
-    /// The DC bus of one axis or several: power, voltage and brake resistor, and the worst of the phases between the axes.
+    /// Check the DC bus of one or more axes: power, voltage, brake resistor, and the worst phases between axes.
     Bus(bus::Bus),
-    /// Integrate the free motion under the motor torque of `[simulation]`.
+    /// Simulate the free motion under the motor torque in `[simulation]`.
     Simulate(Simulate),
-    /// Write the smallest table for the firmware that meets a torque error.
+    /// Write the smallest firmware table that meets a torque error.
     Export(Export),
-    /// The rule sets that come with the tool, or the limits of one of them, each with its source.
+    /// List the built-in rule sets, or the limits of one set with their sources.
     Rules(Rules),
-    /// Divide a total gear ratio over stages so that the reduced inertia is smallest.
+    /// Divide a total gear ratio over stages for the smallest reduced inertia.
     Split(Split),
 }
 
-/// A file to write. "-" would be taken for stdout, which has the result.
+/// A file to write. "-" is refused: it suggests stdout, which is used for the result.
 pub fn output_file() -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().try_map(|path| {
         if path.as_os_str() == "-" {
-            return Err("stdout has the result itself: name a file (./- if it is to be called so)");
+            return Err("stdout is used for the result: name a file (./- for a file of this name)");
         }
         Ok(path)
     })
@@ -80,32 +80,32 @@ pub struct Reduce {
     /// Number of positions.
     #[arg(long, default_value_t = 36, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     pub positions: u32,
-    /// What the rows run over.
+    /// Variable that the rows run over.
     #[arg(long, value_parser = word::<Over>(), default_value_t)]
     pub over: Over,
-    /// Each link's share of the reduced inertia as well.
+    /// Also list each link's share of the reduced inertia.
     #[arg(long, conflicts_with_all = ["points", "reactions", "energy"])]
     pub links: bool,
-    /// Instead of the curves: every named point, centre of mass and link, with transfer functions, velocities and
+    /// Instead of the curves: list every named point, centre of mass and link with transfer functions, velocities and
     /// accelerations.
     #[arg(long)]
     pub points: bool,
-    /// Instead of the curves: drive, joint forces, shaking force and moment by d'Alembert's principle.
+    /// Instead of the curves: list drive torque, joint forces, shaking force and moment by d'Alembert's principle.
     #[arg(long)]
     pub reactions: bool,
-    /// Instead of the curves: kinetic and potential energy, and the generalised force of every load.
+    /// Instead of the curves: list kinetic and potential energy and the generalised force of every load.
     #[arg(long)]
     pub energy: bool,
-    /// Speed of the drive link at every position instead of the motion's, e.g. "60 rpm" ("0.2 m/s" of a sliding link).
+    /// Constant speed of the drive link instead of the motion, e.g. "60 rpm" ("0.2 m/s" for a sliding link).
     #[arg(long, allow_hyphen_values = true)]
     pub speed: Option<String>,
-    /// Its acceleration, e.g. "120 rad/s^2" ("3 m/s^2"); zero if not given.
+    /// Constant acceleration of the drive link, e.g. "120 rad/s^2" ("3 m/s^2"); zero if not given.
     #[arg(long, allow_hyphen_values = true, requires = "speed")]
     pub accel: Option<String>,
-    /// Write a report about the mechanism: drawing, animation, curves; one self-contained HTML page.
+    /// Write a report on the mechanism as one self-contained HTML page: drawing, animation, curves.
     #[arg(long, value_name = "HTML", value_parser = output_file())]
     pub report: Option<PathBuf>,
-    /// How to write the result.
+    /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
 }
@@ -115,7 +115,7 @@ pub struct Reduce {
 pub struct Check {
     /// Machine file.
     pub file: PathBuf,
-    /// How to write the result.
+    /// Output format.
     #[arg(long, value_parser = word::<CheckFormat>(), default_value_t)]
     pub format: CheckFormat,
 }
@@ -123,27 +123,27 @@ pub struct Check {
 /// `jred size`
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Exit codes: 0 a drive holds every rule; 1 none of the catalogue does; 2 bad input."
+    after_help = "Exit codes: 0 a drive satisfies every rule; 1 no drive in the catalogue does; 2 bad input."
 )]
 pub struct Size {
     /// Machine file, with a `[motion]`.
     pub file: PathBuf,
-    /// What drives are made of, rules and time steps.
+    /// Catalogue, rules and time steps.
     #[command(flatten)]
     pub supply: search::SizingOptions,
-    /// Instead of the ranking: the drives that no other beats in everything, over two or three of power, mass, price, energy,
-    /// margin and temperature, e.g. "mass,energy".
+    /// Instead of the ranking: list the Pareto front over two or three of power, mass, price, energy, margin and
+    /// temperature, e.g. "mass,energy".
     #[arg(long, value_name = "OBJECTIVES", value_parser = Objectives::read, conflicts_with_all = [
         "rank", "top", "nearest", "refused", "all", "explain", "why", "meter", "report"
     ])]
     pub pareto: Option<Objectives>,
-    /// Which drives are considered, and which comes first.
+    /// Which drives are considered and how they are ranked.
     #[command(flatten)]
     pub search: search::Search,
     /// Number of ranked drives to list.
     #[arg(long, default_value_t = 10)]
     pub top: usize,
-    /// Number of refused drives to list in CSV and JSON and to explain with --explain, those that miss by least first.
+    /// Number of refused drives to list in CSV and JSON and to explain with --explain, closest first.
     #[arg(long, default_value_t = 3)]
     pub nearest: usize,
     /// List every refused drive with its reasons.
@@ -152,23 +152,24 @@ pub struct Size {
     /// List every drive, ranked or refused.
     #[arg(long)]
     pub all: bool,
-    /// Say what torque and inertia of the best drive are made of, how far each of gear ratio, cycle time, moving masses and
-    /// process loads may go, and what would have to change for the nearest refused drives to hold.
+    /// Explain the best drive: contributions to its torque and inertia, how far gear ratio, cycle time, moving masses and
+    /// process loads may change, and what would make the closest refused drives suitable.
     #[arg(long)]
     pub explain: bool,
-    /// Show and explain this drive instead of the best, and why it stands where it does: MOTOR+GEARBOX, or MOTOR for a direct
-    /// drive, with " on AMPLIFIER" behind where there are several, or the name as printed. In CSV its rows come first, and not again.
+    /// Show and explain this drive instead of the best one, and the reason for its rank: MOTOR+GEARBOX, or MOTOR for a
+    /// direct drive, followed by " on AMPLIFIER" if there are several, or the name as printed. In CSV its rows come first
+    /// and are not repeated.
     #[arg(long, value_name = "DRIVE")]
     pub why: Option<String>,
-    /// Write the limits of the best drive, or of the one of --why, for the firmware's duty meter: Rust source to include
+    /// Write the limits of the best drive, or of the drive of --why, for the duty meter in the firmware as Rust source
     /// (docs/duty-meter.md).
     #[arg(long, value_name = "RS", value_parser = output_file())]
     pub meter: Option<PathBuf>,
-    /// Write a report: one self-contained HTML page. As PDF: print it from a browser, or
-    /// `chromium --headless --no-pdf-header-footer --print-to-pdf=report.pdf report.html`.
+    /// Write a report as one self-contained HTML page. For PDF, print it from a browser, or run `chromium --headless
+    /// --no-pdf-header-footer --print-to-pdf=report.pdf report.html`.
     #[arg(long, value_name = "HTML", value_parser = output_file())]
     pub report: Option<PathBuf>,
-    /// How to write the result.
+    /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
 }
@@ -176,9 +177,9 @@ pub struct Size {
 /// `jred rules`
 #[derive(Debug, Args)]
 pub struct Rules {
-    /// Name of a set, or a file; without one all sets are listed.
+    /// Name of a set, or a file; lists all sets if not given.
     pub set: Option<String>,
-    /// How to write the result.
+    /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
 }
@@ -188,10 +189,10 @@ pub struct Rules {
 pub struct Simulate {
     /// Machine file, with a `[simulation]`.
     pub file: PathBuf,
-    /// How to write the result.
+    /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
-    /// Write plots of speed, torque and energy: one self-contained HTML page.
+    /// Write plots of speed, torque and energy as one self-contained HTML page.
     #[arg(long, value_name = "HTML", value_parser = output_file())]
     pub plot: Option<PathBuf>,
 }
@@ -207,37 +208,38 @@ pub struct Export {
     /// Number type of the table.
     #[arg(long = "type", value_parser = word::<Number>(), default_value_t)]
     pub number: Number,
-    /// How the curves lie in memory.
+    /// Layout of the curves in memory.
     #[arg(long, value_parser = word::<LayoutChoice>(), default_value_t)]
     pub layout: LayoutChoice,
-    /// A curve of 1/J as well, with which fixed-point forward dynamics does without a division.
+    /// Add a curve of 1/J, which avoids the division in fixed-point forward dynamics.
     #[arg(long, value_parser = word::<Choice>(), default_value_t)]
     pub reciprocal: Choice,
-    /// Largest error of the drive torque, which acts at the drive link, e.g. "0.5 N m" ("5 N" of a sliding link); may be left
-    /// out with --max-bytes.
+    /// Largest error of the drive torque at the drive link, e.g. "0.5 N m" ("5 N" for a sliding link); optional with
+    /// --max-bytes.
     #[arg(
         long,
         required_unless_present = "max_bytes",
         allow_hyphen_values = true
     )]
     pub torque_error: Option<String>,
-    /// Largest speed of the drive link, e.g. "90 rpm" ("0.2 m/s" of a sliding link); from the motion if not given.
+    /// Largest speed of the drive link, e.g. "90 rpm" ("0.2 m/s" for a sliding link); if not given, that of the motion.
     #[arg(long, allow_hyphen_values = true)]
     pub omega: Option<String>,
     /// Largest acceleration of the drive link, e.g. "120 rad/s^2" ("3 m/s^2"); if not given, that of the motion, or omega^2
-    /// where the motion has none.
+    /// if the motion has none.
     #[arg(long, allow_hyphen_values = true)]
     pub alpha: Option<String>,
-    /// Inertia of rotor and gearbox at the input of the drive train, e.g. "90 kg cm^2", to be moved as well.
+    /// Inertia of rotor and gearbox at the input of the drive train, e.g. "90 kg cm^2", to be included.
     #[arg(long, value_parser = jred_machine::read::inertia_argument)]
     pub rotor_inertia: Option<f64>,
-    /// Most cells to try.
+    /// Largest number of cells to try.
     #[arg(long, default_value_t = 4096, value_parser = clap::value_parser!(u32).range(4..=65535))]
     pub max_cells: u32,
-    /// Most bytes of the image, header and CRC included. Without --torque-error: the most exact table of so many bytes.
+    /// Largest size of the image in bytes, including header and CRC. Without --torque-error: write the most accurate table
+    /// of this size.
     #[arg(long)]
     pub max_bytes: Option<u32>,
-    /// File to write; without one only what was found is printed (as JSON with --format json).
+    /// File to write; if not given, only a summary is printed (as JSON with --format json).
     #[arg(long, short, value_parser = output_file())]
     pub out: Option<PathBuf>,
 }
@@ -251,11 +253,11 @@ pub struct Split {
     /// Number of stages.
     #[arg(long, value_parser = clap::value_parser!(u8).range(2..=jred::synthesis::MAX_STAGES as i64))]
     pub stages: u8,
-    /// Inertia of a stage's driver, e.g. "0.2 kg cm^2": once for all stages, or once for each.
+    /// Inertia of the driver of a stage, e.g. "0.2 kg cm^2": once for all stages, or once for each.
     #[arg(long, required = true, value_parser = jred_machine::read::inertia_argument)]
     pub pinion: Vec<f64>,
-    /// Inertia of a stage's driven wheel, once for all stages or once for each; if not given, it grows with the ratio as that
-    /// of a wheel with the pinion's module and width.
+    /// Inertia of the driven wheel of a stage, once for all stages or once for each; if not given, it grows with the ratio
+    /// like that of a wheel with the module and width of the pinion.
     #[arg(long, value_parser = jred_machine::read::inertia_argument)]
     pub driven: Vec<f64>,
     /// Inertia of the load at the output, e.g. "0.5 kg m^2".
@@ -267,10 +269,10 @@ pub struct Split {
     /// Largest ratio of a stage.
     #[arg(long, default_value_t = 10.0)]
     pub max_ratio: f64,
-    /// Points of the curve over the split.
+    /// Number of points of the curve over the split.
     #[arg(long, default_value_t = 25, value_parser = clap::value_parser!(u32).range(2..=10_000))]
     pub points: u32,
-    /// How to write the result.
+    /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
 }

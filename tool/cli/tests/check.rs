@@ -59,8 +59,8 @@ fn the_press() {
         "3·3 links − 8 constraints = 1",
         "slider slides by 60 mm; dead centres at φ = 0 deg, 180 deg",
         "smallest transmission index: 0.986",
-        "kept over the whole range",
-        "every rule holds",
+        "the same over the whole range",
+        "every rule is satisfied",
     ] {
         assert!(text.contains(words), "{words} is not in\n{text}");
     }
@@ -160,20 +160,20 @@ fn too_near_a_dead_point() {
     );
     let violation = found["violations"][0].as_str().unwrap();
     assert!(
-        violation.contains("too near a dead point: transmission index 0.2519 at φ = "),
+        violation.contains("too close to a dead point: transmission index 0.2519 at φ = "),
         "{violation}"
     );
     let text = jred([&"check", &file]).ends(1).out;
-    assert!(text.contains("NEAR A DEAD POINT") && text.contains("violated: too near a dead point"));
+    assert!(
+        text.contains("CLOSE TO A DEAD POINT")
+            && text.contains("violated: too close to a dead point")
+    );
     // In between: poorer than recommended, but no violation.
     let text = edited_press("length = \"180 mm\"", "length = \"36 mm\"");
     let text = jred([&"check", &folder.file("fair.toml", text)])
         .ends(0)
         .out;
-    assert!(
-        text.contains("poorer than the recommended 40 deg"),
-        "{text}"
-    );
+    assert!(text.contains("below the recommended 40 deg"), "{text}");
     jred([&"check", &folder.path("nothing.toml")]).ends(2);
 }
 
@@ -238,7 +238,7 @@ fn a_cam() {
     says(
         "cam-translating.toml",
         &[
-            "rests from 0 deg to 70 deg, 170 deg to 250 deg",
+            "dwells from 0 deg to 70 deg, 170 deg to 250 deg",
             "(follower, roller): ok",
             "largest pressure angle: 25.73 deg at φ = 312.5995 deg",
             "smallest radius of curvature of the profile: 39.56 mm at φ = ",

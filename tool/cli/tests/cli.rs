@@ -86,22 +86,22 @@ fn one_when_no_drive_holds() {
     done_says(
         &done,
         &[
-            "No drive of",
-            "holds every rule. The one that misses by least: ",
+            "None of",
+            "satisfies every rule. The closest one: ",
             "FAIL",
             "refused; --refused lists them with their reasons",
         ],
     );
     let done = jred([&"size", &file, &"--refused"]).ends(1);
-    done_says(&done, &["\nRefused\n", "peak torque", " against "]);
+    done_says(&done, &["\nRefused\n", "peak torque", " limit "]);
     // What to relax, with figures.
     let done = jred([&"size", &file]).ends(1);
     done_says(
         &done,
         &[
-            "Refused by least, and what would have to change, one thing at a time",
-            "it would hold with ",
-            "process loads 100 %: holds with ",
+            "Closest refused drives, and what would have to change, one quantity at a time",
+            "a limit of ",
+            "process loads 100 %: suitable at ",
         ],
     );
     for format in ["csv", "json"] {
@@ -128,7 +128,7 @@ fn one_when_a_torque_error_is_not_reached() {
     done.says(&[
         "no table meets a torque error of 0.5 N m: type f32, up to 32 cells",
         "cells reach",
-        "allow a larger error",
+        "increase the allowed error",
     ]);
     assert!(!out.exists(), "a file was written nevertheless");
 }
@@ -318,7 +318,7 @@ fn a_speed_above_lift_off_is_not_passed_over() {
     let at = |speed: &str| jred([&"reduce", &cam, &"--reactions", &"--speed", &speed]).ends(0);
     let fast = at("600 rpm");
     for words in [
-        "mind: the follower leaves the cam",
+        "warning: the follower leaves the cam",
         "600 rpm",
         "by other means",
     ] {

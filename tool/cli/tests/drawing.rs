@@ -244,7 +244,7 @@ fn without_a_motion() {
     let (_, rest) = rest.split_once("# Start from rest").unwrap();
     let file = folder.file("still.toml", format!("{machine}#{rest}"));
     let page = page(&file, &folder);
-    assert!(page.contains("no --speed was given") && !page.contains("<h2>Forces</h2>"));
+    assert!(page.contains("--speed was not given") && !page.contains("<h2>Forces</h2>"));
     assert!(page.contains("Velocity transfer functions"));
     let report = folder.path("moving.html");
     jred([
@@ -260,5 +260,5 @@ fn without_a_motion() {
     assert!(page.contains("<h2>Forces</h2>") && page.contains("<h2>Largest forces</h2>"));
     jred([&"reduce", &file, &"--report", &file])
         .ends(2)
-        .says(&["is not overwritten"]);
+        .says(&["not overwritten"]);
 }

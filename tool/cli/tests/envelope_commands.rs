@@ -92,7 +92,7 @@ fn a_catalogue_without_the_kind_of_motor_is_refused() {
     let turns = machine_path("press.toml");
     let run = jred([&"size", &slides, &"--motors", &rotary]).ends(2);
     assert!(
-        run.message().contains("no linear motor"),
+        run.message().contains("rotary motors only"),
         "{}",
         run.message()
     );

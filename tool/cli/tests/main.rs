@@ -33,3 +33,4 @@ mod support;
 mod thermal;
 mod variator;
 mod vary;
+mod wording;

@@ -59,31 +59,33 @@ fn without_a_drive_that_holds_nothing_is_written() {
     );
     let out = folder.path("limits.rs");
     let run = jred([&"size", &file, &"--meter", &out]).ends(1);
-    run.says(&["no drive holds", "is not written", "--why"]);
+    run.says(&["no drive satisfies every rule", "is not written", "--why"]);
     assert!(!out.exists());
     // That of a drive that does not hold is written when it is named.
     let run = jred([&"size", &file, &"--why", &DRIVE, &"--meter", &out]).ends(1);
     // Not as one that is approved: file and stderr say what it breaks, and by how much.
-    run.says(&["breaks rules (RMS torque", "does not make it hold"]);
+    run.says(&["violates rules (RMS torque", "does not make it acceptable"]);
     let source = std::fs::read_to_string(&out).unwrap();
     let header: Vec<&str> = source
         .lines()
         .take_while(|line| line.starts_with("//"))
         .collect();
     assert!(
-        header.iter().any(|l| l.contains("THIS DRIVE BREAKS RULES")),
+        header
+            .iter()
+            .any(|l| l.contains("THIS DRIVE VIOLATES RULES")),
         "{source}"
     );
-    let broken: Vec<&&str> = header.iter().filter(|l| l.contains("broken:")).collect();
+    let violated: Vec<&&str> = header.iter().filter(|l| l.contains("violated:")).collect();
     assert!(
-        broken.len() == 1
-            && broken[0].starts_with("// broken: RMS torque ")
-            && broken[0].ends_with(", > 1000 %"),
-        "{broken:?}"
+        violated.len() == 1
+            && violated[0].starts_with("// violated: RMS torque ")
+            && violated[0].ends_with(", > 1000 %"),
+        "{violated:?}"
     );
     // Never over the machine file.
     let run = jred([&"size", &file, &"--why", &DRIVE, &"--meter", &file]).ends(2);
-    run.says(&["is the machine file itself"]);
+    run.says(&["is the machine file"]);
 }
 
 /// Rules that are off give no limit, shares stand in the limits, and where no rule is judged the source still says why.
@@ -105,7 +107,7 @@ fn limits_are_those_of_the_rules() {
         let least = (1.0 - budget::METER_SHORTFALL) * standstill;
         assert!((least..=standstill).contains(&first), "{first}");
         assert_eq!(of("peak").bound, Bound::Open);
-        assert!(of("peak").words.contains("is not judged"));
+        assert!(of("peak").words.contains("is not checked"));
         assert_eq!(of("output_mean").bound, Bound::Open);
         assert!(of("output_mean").words.contains("10/3"));
         let Bound::Figure(speed) = of("speed").bound else {
@@ -116,8 +118,8 @@ fn limits_are_those_of_the_rules() {
         let off = least - f64::from(speed);
         assert!((0.0..1e-4).contains(&off), "{speed} of {least}");
         let source = limits.source("press.toml");
-        assert!(source.contains("// No limit `peak`: the rule \"peak torque\" is not judged."));
-        assert!(source.contains("not seen by the meter:"));
+        assert!(source.contains("// No limit `peak`: the rule \"peak torque\" is not checked."));
+        assert!(source.contains("not monitored by the meter:"));
         assert!(source.contains("peak: None,"));
     });
 }

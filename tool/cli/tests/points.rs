@@ -214,7 +214,7 @@ fn what_cannot_be_asked_for() {
         .says(&["--speed \"0.2 m/s\" cannot be used", "angular speed", "rpm"]);
     jred([&"reduce", &press, &"--speed", &"1 rpm", &"--over", &"time"])
         .ends(2)
-        .says(&["over time the motion of the machine file gives the speed"]);
+        .says(&["the motion of the machine file gives the speed"]);
     let folder = Folder::new();
     let file = folder.file("golden.toml", GOLDEN);
     jred([&"reduce", &file, &"--reactions"])

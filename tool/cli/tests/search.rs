@@ -229,7 +229,7 @@ fn options_of_size() {
         json["ranking"]
             .as_str()
             .unwrap()
-            .contains("least energy put in"),
+            .contains("least energy supplied"),
         "{}",
         json["ranking"]
     );
@@ -278,7 +278,7 @@ fn options_of_size() {
     assert!(
         price
             .message()
-            .contains("the price of no drive that fits is known"),
+            .contains("no suitable drive has data for the price"),
         "{}",
         price.err
     );

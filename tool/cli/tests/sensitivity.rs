@@ -289,7 +289,7 @@ fn the_command_lists_quantities() {
     let run = jred([&"sensitivity", &rack, &"--steps", &"64", &"--most", &"5"]);
     assert!(
         run.out
-            .contains("not moved: motion.segment.0.move: the moves of this cycle add up to"),
+            .contains("not varied: motion.segment.0.move: the moves of this cycle add up to"),
         "{}",
         run.out
     );
@@ -318,7 +318,7 @@ fn the_table_leaves_out_what_moves_nothing() {
     };
     let (table, csv) = (out("table"), out("csv"));
     assert!(
-        table.contains("5 quantities of [simulation] and [tolerance] left out"),
+        table.contains("5 quantities in [simulation] and [tolerance] left out"),
         "{table}"
     );
     assert!(
@@ -326,10 +326,9 @@ fn the_table_leaves_out_what_moves_nothing() {
             && !csv.contains("simulation.")
             && !csv.contains("tolerance.")
     );
-    let rows = table
-        .lines()
-        .skip(3)
-        .take_while(|line| !line.starts_with("first to break") && !line.starts_with("no quantity"));
+    let rows = table.lines().skip(3).take_while(|line| {
+        !line.starts_with("first violation") && !line.starts_with("no single quantity")
+    });
     let rows: Vec<&str> = rows.collect();
     assert!(rows.len() > 3);
     for row in rows {
@@ -354,7 +353,7 @@ fn the_table_leaves_out_what_moves_nothing() {
     );
     let idle = table
         .lines()
-        .find(|line| line.contains("move no rule"))
+        .find(|line| line.contains("affect no rule"))
         .unwrap();
     assert!(idle.contains("gravity.1"), "{idle}");
 }

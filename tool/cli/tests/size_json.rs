@@ -134,7 +134,7 @@ fn a_drive_can_be_named() {
     assert!(change["drive"].as_str().unwrap().contains(motor));
     assert!(!change["misses"].as_array().unwrap().is_empty());
     named("fxm33-30a+npt025mf-33", 2).says(&[
-        "the catalogue has no drive \"fxm33-30a+npt025mf-33\"",
+        "there is no drive \"fxm33-30a+npt025mf-33\" in the catalogue",
         "did you mean \"fxm33-30a + npt025mf-3\"?",
     ]);
 }

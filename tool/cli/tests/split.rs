@@ -142,7 +142,11 @@ fn the_table_says_what_the_equal_split_costs() {
         "{}",
         constant.out
     );
-    assert!(constant.out.contains("driven wheels of given inertia"));
+    assert!(
+        constant
+            .out
+            .contains("driven wheels with the given inertia")
+    );
 }
 
 #[test]
@@ -212,7 +216,7 @@ fn wrong_options_are_refused_with_their_cure() {
         ],
         &[
             "largest stage ratio is 4, outside 5",
-            "--max-ratio is not smaller",
+            "--max-ratio at least",
         ],
     );
 }

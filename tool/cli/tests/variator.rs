@@ -243,11 +243,7 @@ fn commands_that_need_a_table_are_refused() {
     let folder = Folder::new();
     let path = folder.file("machine.toml", PRESS);
     let out = folder.path("table.bin");
-    let why = [
-        "its ratio is shifted in time",
-        "jred simulate",
-        "non-holonomic",
-    ];
+    let why = ["its ratio changes with time", "jred simulate", "holonomic"];
     jred([&"reduce", &path]).ends(2).says(&why);
     jred([&"size", &path]).ends(2).says(&why);
     jred([
@@ -264,7 +260,7 @@ fn commands_that_need_a_table_are_refused() {
     let constant = folder.file("constant.toml", before);
     jred([&"reduce", &constant])
         .ends(2)
-        .says(&["[[drive_train]]", "does not change is a stage"]);
+        .says(&["[[drive_train]]", "constant ratio as a stage"]);
 }
 
 #[test]

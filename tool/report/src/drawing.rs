@@ -1,7 +1,7 @@
-//! The mechanism as a drawing, made from its joints and frames alone: any mechanism can be drawn.
+//! Drawing of a mechanism from its joints and frames only, so that any mechanism can be drawn.
 //!
 //! Links are bars and plates through their joints and named points, or the outlines that they were given; pins are circles,
-//! sliders blocks, guides and slots pairs of lines; what stands still is hatched. Behind them lie the paths of the named points
+//! sliders blocks, guides and slots pairs of lines; fixed parts are hatched. Behind them lie the paths of the named points
 //! over the whole range and faint copies of the links at other positions.
 
 use std::fmt::Write as _;

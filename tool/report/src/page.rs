@@ -1,4 +1,4 @@
-//! The report: one self-contained HTML page about a sizing.
+//! The sizing report: one self-contained HTML page.
 //!
 //! Every chart is on the page twice: as a picture, for paper and for browsers without scripts, and as data that the page's
 //! script draws with uPlot (`templates/vendor/uplot`, MIT licence), to be zoomed and read out.
@@ -38,7 +38,7 @@ const LISTED: usize = 25;
 /// Most refused drives that the page lists.
 const REFUSED: usize = 50;
 
-/// Refused drives of which the page says what would have to change.
+/// Number of refused drives for which the page shows the changes they need.
 const CHANGED: usize = 3;
 
 struct Figure {
@@ -96,7 +96,7 @@ struct Page {
     notes: Vec<String>,
 }
 
-/// The page for a selection. It is about the best drive, or, if none holds, the one that misses by least.
+/// The page for a selection. It describes the best drive, or, if none is suitable, the closest one.
 ///
 /// # Errors
 /// Those of the machine; `None` if the catalogue was empty.
@@ -158,7 +158,7 @@ impl Page {
             plane: vec![Figure::new(
                 subject.plane(),
                 format!(
-                    "{} and speed of the motor over the cycle in all four quadrants; where their signs differ, it brakes. Dashed: what the rules allow.",
+                    "{} and speed of the motor over the cycle in all four quadrants; where their signs differ, it brakes. Dashed: limits by the rules.",
                     torque.capital()
                 ),
             )],
@@ -176,7 +176,7 @@ impl Page {
             effects_chart: vec![Figure::new(
                 subject.effects(&cells),
                 format!(
-                    "Motor {torque} over the cycle, effect by effect; at every instant they add up to the motor {torque}."
+                    "Contributions to the motor {torque} over the cycle; at every instant they add up to the motor {torque}."
                 ),
             )],
             ratio: ratio(&subject, explanation.change.as_ref()),
@@ -191,8 +191,8 @@ impl Page {
                 .collect(),
             duty: rows::duty_rows(best, duty, words),
             energy: format!(
-                "Over a cycle the motor puts in {} J and takes back {} J; what the brake resistor or the DC bus has to \
-                 take is at most the latter.",
+                "Over a cycle the motor supplies {} J and feeds back {} J; the brake resistor or the DC bus takes at \
+                 most the latter.",
                 rounded(best.duty.motoring_energy),
                 rounded(best.duty.regenerative_energy)
             ),
@@ -221,7 +221,7 @@ fn ranked(selection: &Selection) -> Vec<FitRow> {
         .collect()
 }
 
-/// The rules that were checked, and those that were not with what is missing.
+/// The rules that were checked, and the others with their missing data.
 fn split_checks(best: &jred_sizing::judge::Judged) -> (Vec<CheckRow>, Vec<(&'static str, String)>) {
     let (open, checked): (Vec<_>, Vec<_>) = best
         .checks
@@ -280,26 +280,26 @@ fn over_time(subject: &Subject, words: &Vocabulary) -> Vec<Figure> {
         Figure::new(
             subject.torque(),
             format!(
-                "Motor {}, and what the {} itself takes of it.",
+                "Motor {}, and the part of it that accelerates the {}.",
                 words.torque, words.rotor
             ),
         ),
         Figure::new(subject.speed(), "Motor speed."),
         Figure::new(
             subject.power(),
-            "Mechanical power at the motor shaft; below zero it flows back.",
+            "Mechanical power at the motor shaft; negative: it flows back.",
         ),
     ];
     figures.extend(subject.rises().map(|chart| {
         Figure::new(
             chart,
-            "Temperature rise once the cycle repeats without end.",
+            "Temperature rise in the steady state of the repeated cycle.",
         )
     }));
     figures.extend(subject.bus_voltage().map(|chart| {
         Figure::new(
             chart,
-            "Voltage of the DC bus once the cycle repeats without end.",
+            "Voltage of the DC bus in the steady state of the repeated cycle.",
         )
     }));
     figures
@@ -310,11 +310,11 @@ fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec
     let (what, term) = match Coordinate::of(file.machine.mechanism())? {
         Coordinate::Angle => (
             "Reduced inertia",
-            "J_red varies, a drive that knows only a mean value is wrong by ½·J′·ω²",
+            "J_red varies, a drive with a constant mean value makes an error of ½·J′·ω²",
         ),
         Coordinate::Length => (
             "Reduced mass",
-            "m_red varies, a drive that knows only a mean value is wrong by ½·m′·v²",
+            "m_red varies, a drive with a constant mean value makes an error of ½·m′·v²",
         ),
     };
     let reduced = format!(
@@ -332,14 +332,14 @@ fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec
         Figure::new(
             subject.inertia_ratio(file)?,
             format!(
-                "{} ratio λ of this drive over the range of the drive link, with the value that is judged.",
+                "{} ratio λ of this drive over the range of the drive link, with the value that is checked.",
                 words.inertia.capital()
             ),
         ),
     ])
 }
 
-/// Every rule over the gear ratio, wide enough for the range in which all hold.
+/// Every rule over the gear ratio, wide enough for the range that satisfies all.
 fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
     if subject.judged.drive.motor.kind == MotorKind::Linear {
         return Vec::new();
@@ -356,7 +356,7 @@ fn ratio(subject: &Subject, change: Option<&Remedies>) -> Vec<Figure> {
     vec![Figure::new(
         subject.ratios(from, to),
         format!(
-            "What each rule uses of its limit over the gear ratio, the other data of motor and gearbox kept. Where all are below 100 %, the drive holds. A curve ends where it passes {TOP} %, or where the motor has no torque left: the limit is zero beyond its largest speed. Rules that follow time are not drawn."
+            "Share of its limit that each rule uses over the gear ratio, with all other data of motor and gearbox unchanged. Where all are below 100 %, every rule is satisfied. A curve ends where it passes {TOP} %, or where the motor has no torque left (the limit is zero above its maximum speed). Rules that depend on time are not drawn."
         ),
     )]
 }

@@ -67,7 +67,7 @@
     const range = key => (u, low, high) => low == null || holder.dataset.zoomed !== "yes" ? full[key] : [low, high];
     const readout = document.createElement("p"), spot = document.createElement("i");
     readout.className = "readout"; spot.className = "spot";
-    readout.textContent = "Point at a curve for its values; drag to zoom, double-click for the whole.";
+    readout.textContent = "Point at a curve for its values; drag to zoom, double-click to reset.";
     const options = {
       mode: 2, width: holder.clientWidth, height: 420,
       scales: { x: { time: false, range: range("x") }, y: { range: range("y") } },

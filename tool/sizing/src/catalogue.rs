@@ -2,7 +2,7 @@
 //!
 //! It comes from folders and files in jred's own format (CSV whose header carries the units, or TOML) or in that of the
 //! Motor-Gearbox Database; docs/catalogue.md describes both. A row that cannot be used is an error that names file, row and
-//! column; a row whose figures can hardly be right is used, and remarked upon in [`Catalogue::warnings`].
+//! column; a row with implausible values is used, with a warning in [`Catalogue::warnings`].
 
 mod amplifier;
 mod cell;
@@ -38,24 +38,24 @@ pub use pairing::{Drives, Pairing};
 use fault::{Remarks, Text};
 use load::Loader;
 
-/// What a drive is chosen from.
+/// Motors, gearboxes, amplifiers and resistors that drives are chosen from.
 #[derive(Clone, Debug, Default)]
 pub struct Catalogue {
     /// Motors, in the order of the files.
     pub motors: Vec<Motor>,
     /// Gearboxes, in the order of the files.
     pub gearboxes: Vec<Gearbox>,
-    /// Servo amplifiers; a motor that none of them suits is judged without one.
+    /// Servo amplifiers; a motor without a suitable one is checked without amplifier.
     pub amplifiers: Vec<Amplifier>,
     /// Brake resistors.
     pub resistors: Vec<Resistor>,
-    /// What goes with what.
+    /// Allowed combinations.
     pub pairing: Pairing,
     /// The currencies of its prices, as their columns name them ("" where none is named), each with the first file that has it.
     pub currencies: Vec<(String, String)>,
-    /// What can hardly be right in the rows used, in sentences that name file and line.
+    /// Warnings about implausible values, with file and line.
     pub warnings: Vec<String>,
-    /// How many broken rows were left out.
+    /// Number of broken rows skipped.
     pub left_out: usize,
 }
 
@@ -106,11 +106,11 @@ impl Catalogue {
         Loader::load(vec![group], Remarks::default(), skip_broken_rows)
     }
 
-    /// The catalogue of these sources; without any, the built-in one.
+    /// Opens the catalogue of these sources, or the built-in one if there are none.
     ///
     /// # Errors
-    /// A file that cannot be read, a column missing or unknown, broken rows (all of them in one error), a key that is there
-    /// twice, a list that names what is not there.
+    /// A file that cannot be read, a missing or unknown column, broken rows (all in one error), a duplicate key, a list with
+    /// an unknown key.
     #[cfg(feature = "fs")]
     pub fn open(sources: &Sources) -> Result<Self, CatalogueError> {
         sources.load()

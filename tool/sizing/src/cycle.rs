@@ -1,7 +1,7 @@
-//! One cycle of the duty, prepared so that any number of drives can be judged against it.
+//! One cycle of the duty, prepared so that any number of drives can be checked against it.
 //!
 //! The torque of a motor is a linear form c·x of the five [loads](loads_of) x of an instant, its five coefficients c being all that a
-//! drive contributes. What a form does over the cycle is worked out from c without going through the samples:
+//! drive contributes. Its values over the cycle follow from c without iterating over the samples:
 //! - its RMS is ‖R·c‖, R being the triangular factor of the samples ([`Cycle::rms_torque`]);
 //! - its extremes, its peak against an envelope and the signs of its power are found by branch and bound over stretches of
 //!   samples ([`Cycle::peak`], [`Cycle::torque_extremes`], [`Cycle::energies`]).
@@ -92,7 +92,7 @@ pub struct Cycle {
     tree: Tree,
     front: Front,
     cubic_mean: OnceLock<f64>,
-    /// Sorted only when a motor's heat asks for it.
+    /// Sorted only when a thermal model needs it.
     speeds: OnceLock<Speeds>,
     bearing_mean: OnceLock<f64>,
 }
@@ -164,7 +164,7 @@ impl Cycle {
         self.hold_torque
     }
 
-    /// What the mechanical rules need to know of machine and motion.
+    /// Data of machine and motion for the mechanical rules.
     pub const fn mechanics(&self) -> &Mechanics {
         &self.mechanics
     }
@@ -252,12 +252,12 @@ impl Cycle {
         self.stretches().largest_magnitude(coefficients)
     }
 
-    /// Energy that the motor puts in over a cycle and energy that comes back to it (J), neither negative.
+    /// Energy supplied by the motor over a cycle and energy that flows back to it (J), neither negative.
     pub fn energies(&self, coefficients: &Coefficients, ratio: f64) -> [f64; 2] {
         self.stretches().energies(coefficients, ratio)
     }
 
-    /// Whether the motor takes back energy at any instant: cheaper than [`Cycle::energies`].
+    /// Whether energy flows back to the motor at any instant; cheaper than [`Cycle::energies`].
     pub fn regenerates(&self, coefficients: &Coefficients) -> bool {
         self.stretches().regenerates(coefficients)
     }

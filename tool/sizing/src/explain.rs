@@ -1,5 +1,4 @@
-//! Why a drive comes out as it does: what its torque and its inertia are made of, and what would have to change for it to
-//! hold.
+//! Explains the verdict of a drive: contributions to its torque and inertia, and the changes that would make it suitable.
 
 mod altered;
 mod breakdown;

@@ -1,4 +1,4 @@
-//! Judging a drive: every rule's figure and rating, as plain numbers; words come later, for the drives that are shown.
+//! Checking a drive: value and rating of every rule as plain numbers; words are added later, for the drives that are shown.
 //!
 //! Each family of rules is a file of [`judge`](self): it measures ([`Findings::set`]) and says what the rating is made of
 //! (`note`). A rule that does not apply to a drive, such as those of a gearbox to a direct drive, is left out of the
@@ -48,7 +48,7 @@ impl Default for Findings {
     }
 }
 
-/// What takes findings as they are measured: [`Findings`] keeps them, an outcome weighs them and forgets them.
+/// Receiver of findings: [`Findings`] stores them, [`Outcome`] evaluates them at once.
 trait Record {
     /// Takes the finding of a rule, which thereby applies. Each rule is found once.
     fn set(&mut self, rule: Rule, finding: Finding);
@@ -87,16 +87,16 @@ impl Findings {
     }
 }
 
-/// All that judging a drive looks at.
+/// All inputs for checking a drive.
 #[derive(Clone, Copy, Debug)]
 pub struct Context<'a> {
     /// The duty, prepared.
     pub cycle: &'a Cycle,
-    /// Where the drive is to stand: supply, surroundings, stiffness, tool.
+    /// Site of the drive: supply, surroundings, stiffness, tool.
     pub site: &'a Site,
     /// The drive.
     pub drive: Drive<'a>,
-    /// What is known of its motor's limits at this supply.
+    /// Limits of its motor at this supply.
     pub motor: &'a Prepared,
     /// Its ratio.
     pub ratio: f64,
@@ -122,17 +122,17 @@ impl<'a> Context<'a> {
         self.drive.motor.kind.vocabulary()
     }
 
-    /// What was assumed about the drive, and whose figures are not the maker's own.
+    /// Assumptions about the drive, and second-hand data.
     pub fn assumptions(&self) -> Vec<String> {
         let mut assumptions = Vec::new();
         if !self.drive.motor.from_maker {
-            assumptions.push("motor figures not read in the maker's own document: check them against the data sheet".to_owned());
+            assumptions.push("motor data not taken from the maker's own document; check them against the data sheet".to_owned());
         }
         if self.drive.gearbox.is_some_and(|g| !g.from_maker) {
-            assumptions.push("gearbox figures not read in the maker's own document: check them against the data sheet".to_owned());
+            assumptions.push("gearbox data not taken from the maker's own document; check them against the data sheet".to_owned());
         }
         if self.drive.gearbox.is_some_and(|g| g.efficiency_assumed) {
-            assumptions.push("gearbox efficiency not stated: 87 % per stage taken".to_owned());
+            assumptions.push("gearbox efficiency not given; using 87 % per stage".to_owned());
         }
         assumptions.extend(self.motor.envelope.assumptions());
         assumptions
@@ -176,7 +176,7 @@ impl<'a> Context<'a> {
         electric::trace(self)
     }
 
-    /// The findings in words, under a rule set.
+    /// The findings under a rule set, with words.
     pub fn checks(&self, rules: &RuleSet) -> Vec<Check> {
         let findings = self.findings(rules);
         findings
@@ -207,8 +207,8 @@ impl<'a> Context<'a> {
         check
     }
 
-    /// The worst verdict and the largest share of a limit used. The rules that follow time are judged only if the others
-    /// hold: a drive that is refused already is not followed.
+    /// The worst verdict and the largest use of a limit. Rules that follow time are checked only if all others are
+    /// satisfied.
     pub fn outcome(&self, rules: &RuleSet) -> Outcome {
         self.ranked(rules).1
     }
@@ -228,20 +228,20 @@ impl<'a> Context<'a> {
     }
 }
 
-/// What a check says beside its numbers.
+/// Words of a check.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Words {
     /// Unit in which figure and rating are shown.
     pub unit: &'static str,
     /// SI value of that unit; figures are divided by it.
     pub scale: f64,
-    /// What the rating is, such as "S1 torque at mean speed"; of an unknown finding what is missing.
+    /// Description of the rating, such as "S1 torque at mean speed"; for a finding without data, what is missing.
     pub rating: String,
-    /// Where or how the figure was found, or nothing.
+    /// Where or how the value was determined; may be empty.
     pub place: String,
 }
 
-/// The rule that is broken; of several that of which most of the limit is used.
+/// The violated rule; of several, the one with the largest use of its limit.
 pub fn broken(rules: &RuleSet, findings: &Findings) -> Option<Rule> {
     let broken = findings
         .iter()

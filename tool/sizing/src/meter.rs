@@ -1,9 +1,9 @@
 //! The limits of a drive for the firmware's duty meter, [`jred::duty`]: what `jred size --meter` writes.
 //!
-//! The rules' shares are in the limits: where the RMS torque may be 80 % of the S1 torque, that is the limit. Curves are lower
-//! bounds of at most [`jred::duty::MAX_POINTS`] points ([`below()`]), the same in all four quadrants, so the lower of driving
-//! and braking; figures are rounded down to single precision. So the meter allows nothing that `jred size` does not. A rule that is
-//! off, or lacks its rating, gives no limit, and the source says so.
+//! The rules' shares are in the limits: where the RMS torque may be 80 % of the S1 torque, that is the limit. Curves are
+//! lower bounds of at most [`jred::duty::MAX_POINTS`] points ([`below()`]), the same in all four quadrants, so the lower of
+//! driving and braking; figures are rounded down to single precision. So the meter allows nothing that `jred size` does not.
+//! A rule that is off or lacks its rating gives no limit, and the source says so.
 
 mod below;
 mod source;
@@ -20,10 +20,10 @@ use jred_machine::model::rules::{MeanTorque, RuleSet};
 use jred_machine::number::rounding::{short, significant};
 use jred_machine::units::Vocabulary;
 
-/// A shortfall that needs no mention: the margin for roundings.
+/// A shortfall within the margin for rounding, which is not mentioned.
 const EXACT: f64 = 1e-5;
 
-/// What a limit is.
+/// Form of a limit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Bound {
     /// A torque over speed.
@@ -39,9 +39,9 @@ pub enum Bound {
 pub struct Entry {
     /// Name of the field.
     pub field: &'static str,
-    /// What it is.
+    /// Its description.
     pub bound: Bound,
-    /// What it is made of, or why there is none.
+    /// How it is computed, or why there is none.
     pub words: String,
 }
 
@@ -79,14 +79,14 @@ fn end(envelope: &Envelope) -> f64 {
 fn share(rules: &RuleSet, rule: Rule, kind: &Vocabulary) -> Result<Share, String> {
     let limit = rules.limit(rule);
     let share = limit.fail.or(limit.warn);
-    let share = share.ok_or_else(|| format!("the rule \"{}\" is not judged", rule.named(kind)))?;
+    let share = share.ok_or_else(|| format!("the rule \"{}\" is not checked", rule.named(kind)))?;
     Ok(Share {
         share,
         warns: limit.fail.is_none(),
     })
 }
 
-/// What a rule allows.
+/// The value that a rule allows.
 struct Share {
     share: f64,
     /// Whether sizing only warns beyond it.
@@ -119,7 +119,7 @@ fn figure(
         };
         match share(rules, rule, kind) {
             Err(why) => open.push(why),
-            Ok(_) if !finding.rating.is_finite() => open.push(format!("{rating} is not known")),
+            Ok(_) if !finding.rating.is_finite() => open.push(format!("no data for {rating}")),
             Ok(share) => {
                 let limit = share.share * finding.rating;
                 if least.as_ref().is_none_or(|(other, _)| limit < *other) {
@@ -130,7 +130,7 @@ fn figure(
     }
     let (bound, words) = match least {
         Some((limit, words)) => (Bound::Figure(below::rounded_down(limit)), words),
-        None if open.is_empty() => (Bound::Open, "nothing to judge at this drive".to_owned()),
+        None if open.is_empty() => (Bound::Open, "not applicable to this drive".to_owned()),
         None => (Bound::Open, open.join("; ")),
     };
     Entry {
@@ -150,7 +150,7 @@ fn curve(
     let (bound, words) = match share(rules, rule, kind) {
         Err(why) => (Bound::Open, why),
         Ok(share) => match of(share.share) {
-            None => (Bound::Open, format!("the {rating} is not known")),
+            None => (Bound::Open, format!("no data for the {rating}")),
             Some(curve) => {
                 let mut words = share.words(rating);
                 if curve.shortfall > EXACT {
@@ -182,7 +182,7 @@ impl<'a> MeterLimits<'a> {
         );
         if rules.choices.gearbox_mean_exponent != MeanTorque::Cubic {
             output_mean.bound = Bound::Open;
-            "the rule's mean has the exponent 10/3, the meter's 3"
+            "the rule uses a mean with the exponent 10/3, the meter with 3"
                 .clone_into(&mut output_mean.words);
         }
         let entries = vec![
@@ -219,7 +219,10 @@ impl<'a> MeterLimits<'a> {
             regenerative_power(context, rules, &findings),
             of(
                 "cycles_per_hour",
-                &[(Rule::GearboxCycles, "moves an hour up to which T2B holds")],
+                &[(
+                    Rule::GearboxCycles,
+                    "moves per hour up to which T2B is valid",
+                )],
             ),
         ];
         Self {
@@ -229,7 +232,7 @@ impl<'a> MeterLimits<'a> {
         }
     }
 
-    /// The rules that are judged at this drive and that no figure of the meter stands for.
+    /// The rules that are checked for this drive but not monitored by the meter.
     pub fn unseen(&self) -> Vec<Rule> {
         use Rule::{
             GearboxCubicMean, GearboxCycles, GearboxMeanSpeed, GearboxPeak, GearboxSpeed,
@@ -248,7 +251,7 @@ impl<'a> MeterLimits<'a> {
             .collect()
     }
 
-    /// The rules that the drive breaks, each with its figure, its limit and the share of it that is used.
+    /// The rules that the drive violates, each with its value, its limit and the use of it.
     pub fn broken(&self) -> Vec<String> {
         let judged = Judged::new(self.context, self.rules);
         let broken = judged.checks.iter();
@@ -274,8 +277,8 @@ impl<'a> MeterLimits<'a> {
     }
 }
 
-/// What may come back at the shaft: all of it reaches the brake resistor but for the losses on the way and what the capacitor
-/// takes, so a limit on it is on the safe side. Where the cycle itself passes that it says nothing, and there is none.
+/// Limit of the power fed back at the shaft. Apart from losses and the capacitor, all of it reaches the brake resistor, so
+/// the limit is on the safe side. There is none if the cycle itself exceeds it.
 fn regenerative_power(context: &Context, rules: &RuleSet, findings: &Findings) -> Entry {
     let mut entry = figure(
         "regenerative_power",
@@ -292,7 +295,7 @@ fn regenerative_power(context: &Context, rules: &RuleSet, findings: &Findings) -
         && back / cycle.duration() > f64::from(limit)
     {
         entry.bound = Bound::Open;
-        "more comes back at the shaft than the brake resistor takes: losses and capacitor take the rest"
+        "more power comes back at the shaft than the brake resistor can take: losses and the capacitor take the rest"
             .clone_into(&mut entry.words);
     }
     entry

@@ -1,6 +1,6 @@
 //! Temperature of a motor over the cycle.
 //!
-//! Which model is used follows from what the data sheet says:
+//! The data given determine the model:
 //!
 //! | known | model |
 //! |---|---|
@@ -10,9 +10,9 @@
 //! | the same without a time constant | [`Model::Steady`]: mean losses; the ripple over the cycle is not followed |
 //! | S1 torques | [`Model::Relative`]: shares of the rated rise, from the squared torque |
 //!
-//! The relative model: at each speed the S1 torque brings the rated rise, so that p(T, n) = T²/M₀² + max(0, 1 − T_S1(n)²/M₀²) are
-//! the losses as a share of the rated ones, and τ·ϑ′ = p − ϑ. What the S1 curve loses from standstill to a speed stands for
-//! friction and iron losses there. Mean losses, all that counts without time constants: [`mean`].
+//! The relative model: at each speed the S1 torque brings the rated rise, so that p(T, n) = T²/M₀² + max(0, 1 −
+//! T_S1(n)²/M₀²) are the losses as a share of the rated ones, and τ·ϑ′ = p − ϑ. The loss of the S1 curve from standstill to
+//! a speed represents friction and iron losses there. Mean losses, all that counts without time constants: [`mean`].
 
 pub mod classify;
 pub mod course;
@@ -31,7 +31,7 @@ use jred_machine::model::operation::Operation;
 use jred_machine::model::surroundings::{REFERENCE, Surroundings};
 use network::{Losses, Network};
 
-/// How much longer than everything else the time constant of a housing is taken of which none is stated.
+/// Housing time constant assumed when none is given, as a multiple of the longest other one.
 const SLOW: f64 = 1e6;
 
 /// A motor as heated bodies.
@@ -64,7 +64,7 @@ pub enum Model {
     },
 }
 
-/// What heats a motor: a drive on its way through a cycle.
+/// Heat sources of a motor in a drive over a cycle.
 #[derive(Clone, Copy, Debug)]
 pub struct Load<'a> {
     /// The cycle.
@@ -75,11 +75,11 @@ pub struct Load<'a> {
     pub ratio: f64,
     /// Its motor.
     pub motor: &'a Motor,
-    /// What is known of the motor's limits.
+    /// Limits of the motor.
     pub prepared: &'a Prepared,
 }
 
-/// What a model found.
+/// Result of a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Heating {
     /// The hottest rises; in K, or as shares of the rated rise.
@@ -97,10 +97,10 @@ fn usable(figure: Option<f64>) -> Option<f64> {
 }
 
 impl Model {
-    /// The model that a motor's data allow.
+    /// The model for the data given.
     ///
     /// # Errors
-    /// What is missing, in words.
+    /// Message about missing data.
     pub fn of(
         motor: &Motor,
         prepared: &Prepared,
@@ -147,7 +147,7 @@ impl Model {
         }
         if motor.rated_torque.is_none() && motor.continuous_curve.is_empty() {
             return Err(|Vocabulary { torque, .. }| {
-                format!("S1 {torque} over speed, for want of thermal resistances and winding data")
+                format!("S1 {torque} over speed (thermal resistances and winding data not given)")
             });
         }
         let standstill = prepared.envelope.standstill();
@@ -219,7 +219,7 @@ impl Model {
     /// The hottest rises in an operation of a cycle; `rest` are the losses at rest.
     ///
     /// # Errors
-    /// What is missing, in words.
+    /// Message about missing data.
     pub fn heating(
         &self,
         load: &Load,
@@ -246,14 +246,14 @@ impl Model {
                 ..
             } if from_cold => {
                 return Err(|_| {
-                    "thermal time constant of the housing, to follow an operation from cold"
+                    "thermal time constant of the housing, required for operation from cold"
                         .to_owned()
                 });
             }
             Self::Bodies { network, .. } => (hottest(&network), true),
             Self::Steady { .. } | Self::Relative { time: None, .. } if from_cold => {
                 return Err(|_| {
-                    "thermal time constants, to follow an operation from cold".to_owned()
+                    "thermal time constants, required for operation from cold".to_owned()
                 });
             }
             Self::Steady {
@@ -281,7 +281,7 @@ impl Model {
     }
 }
 
-/// The rise that is allowed (K, or as a share of the rated rise). `None`: the data do not say.
+/// Allowed rise (K, or as a share of the rated rise). `None`: no data.
 pub fn allowed_rise(motor: &Motor, surroundings: &Surroundings, relative: bool) -> Option<f64> {
     let limit = usable(motor.thermal.max_temperature);
     let factor = surroundings.altitude_factor();

@@ -76,8 +76,8 @@ pub fn run(options: &Options) -> Result<Done> {
     })
 }
 
-/// The supply of the bus, and with what an axis is judged: all axes hang on the bus that one of the files states; the others
-/// leave their supply out, or say the same. What comes back is judged on the bus of all, and not for each axis alone.
+/// The supply of the bus, and the site for each axis. One file describes the common bus; the others have no supply or the
+/// same one. Regenerated energy is checked on the common bus, not for each axis alone.
 fn supply(options: &Options, files: &[MachineFile]) -> Result<[Site; 2]> {
     let stated = |file: &MachineFile| (file.site.supply, file.site.bus_voltage);
     let mut given = (options.files.iter().zip(files))
@@ -88,8 +88,8 @@ fn supply(options: &Options, files: &[MachineFile]) -> Result<[Site; 2]> {
         && let Some((other, _)) = given.find(|(_, other)| other != stated)
     {
         return Err(miette!(
-            help = "axes on one bus have one supply: leave [supply] out of one of the files, or make them equal",
-            "{} has another [supply] than {}",
+            help = "all axes on a bus share one supply: remove [supply] from one file or make both identical",
+            "[supply] in {} differs from that in {}",
             other.display(),
             path.display()
         ));
@@ -128,7 +128,7 @@ fn named(options: &Options) -> Result<Vec<(usize, String)>> {
         };
         if named.iter().any(|(known, _)| *known == axis) {
             return Err(miette!(
-                help = "leave one of them out",
+                help = "remove one of the two options",
                 "--drive names axis {} twice",
                 axis + 1
             ));
@@ -163,7 +163,7 @@ fn axis(
     let candidate = listing::explained(&selection, name)?.ok_or_else(|| {
         miette!(
             help = "give a catalogue with at least one motor",
-            "there is no drive for {}",
+            "no drive can be built for {}",
             path.display()
         )
     })?;

@@ -46,8 +46,9 @@ pub fn ratio(options: &Ratio) -> Result<Done> {
     let mut catalogue = catalogue(&options.supply, &named)?;
     if jred_sizing::select::fit::input_kind(&file)? == MotorKind::Linear {
         return Err(miette!(
-            help = "`jred size` takes linear motors; a [[drive_train]] makes the input turn",
-            "the drive link slides: a linear motor has no ratio to choose"
+            help =
+                "use `jred size` for linear motors, or add a [[drive_train]] with a rotating input",
+            "the drive link slides: there is no ratio to choose for a linear motor"
         ));
     }
     jred_sizing::select::fit::fit_input(&mut catalogue, &file)?;
@@ -78,11 +79,11 @@ struct Ratios<'a> {
     motors: &'a [Prepared],
     catalogue: &'a Catalogue,
     gear: Gear,
-    /// How many of the motors that hold every rule are listed; all motors with `usize::MAX`.
+    /// Largest number of suitable motors to list; `usize::MAX` lists all motors.
     top: usize,
 }
 
-/// A motor and a range of ratios in which it holds every rule, or the reason why there is none.
+/// A motor and a range of ratios in which it satisfies every rule, or the reason why there is none.
 struct Row<'a> {
     motor: &'a Motor,
     moments: Moments,
@@ -119,7 +120,7 @@ const READING: [&str; 8] = [
     "RMS [N m]",
     "RMS ratio",
     "ratio",
-    "ended by: gearboxes; or why none",
+    "limited by: gearboxes; or why none",
 ];
 
 impl Row<'_> {
@@ -139,7 +140,7 @@ impl Row<'_> {
         match &self.found {
             Ok(_) => String::new(),
             Err(obstacle) => obstacle.as_ref().map_or_else(
-                || "narrower than the ratios that are tried".to_owned(),
+                || "narrower than the step of the search".to_owned(),
                 Obstacle::words,
             ),
         }
@@ -206,8 +207,8 @@ impl Row<'_> {
 }
 
 impl<'a> Ratios<'a> {
-    /// Of every motor, the smallest first, one row for each range of ratios with which it holds every rule; nearly always there
-    /// is one, or none.
+    /// For every motor, smallest first, one row for each range of ratios that satisfies every rule; usually there is one
+    /// range or none.
     fn rows(&self) -> Vec<Row<'a>> {
         let rules = &self.file.rules;
         let share = rules.limit(Rule::RmsTorque).fail.unwrap_or(1.0);
@@ -266,7 +267,7 @@ impl<'a> Ratios<'a> {
         found.into_iter().map(row).collect()
     }
 
-    /// The gearboxes with a ratio in a range; in brackets where the drive breaks a rule.
+    /// The gearboxes with a ratio in a range; in brackets if the drive violates a rule.
     fn gearboxes(
         &self,
         motor: &Motor,
@@ -289,28 +290,29 @@ impl<'a> Ratios<'a> {
     fn sheet(&self, mut rows: Vec<Row>) -> Sheet {
         let share = self.file.rules.limit(Rule::RmsTorque).fail.unwrap_or(1.0);
         let gear = match self.gear {
-            Gear::IDEAL => "no inertia and no losses of the gearbox".to_owned(),
+            Gear::IDEAL => "no inertia and no losses in the gearbox".to_owned(),
             Gear {
                 inertia,
                 efficiency,
             } => format!(
-                "a gearbox of {} % efficiency and {} kg cm^2 at its input",
+                "a gearbox with {} % efficiency and {} kg cm^2 at its input",
                 short(efficiency * 100.0),
                 short(inertia * 1e4)
             ),
         };
         let mut notes = vec![
             format!(
-                "alpha: (rated torque × {})²/J, the accelerating factor; beta: the load factor. A motor with alpha below \
-                 beta is too small with any ratio.",
+                "alpha: (rated torque × {})²/J, the accelerating factor; beta: the load factor. A motor with alpha \
+                 below beta is too small at any ratio.",
                 short(share)
             ),
-            "best ratio: smallest RMS torque, which RMS is. RMS ratio: where that torque is within the limit, for the rated torque. \
-             Ratio: where the motor holds every rule, with the S1 torque of its speed and its peak torque, speed, holding \
-             torque and inertia ratio; ended by: the rule that is broken below and above, or what stands against every ratio."
+            "best ratio: the ratio with the smallest RMS torque, which is listed as RMS. RMS ratio: range in which \
+             that torque is within the limit for the rated torque. Ratio: range in which the motor satisfies every \
+             rule (S1 torque at its speed, peak torque, speed, holding torque and inertia ratio); limited by: the rule \
+             violated below and above the range, or the reason why there is none."
                 .to_owned(),
-            "gearboxes: those of the catalogue with a ratio in the range; in brackets, a drive with it breaks a rule, by \
-             the gearbox's own limits, inertia or losses."
+            "gearboxes: those in the catalogue with a ratio in the range; in brackets: the drive violates a rule \
+             because of the limits, inertia or losses of the gearbox."
                 .to_owned(),
         ];
         if self.top < usize::MAX {
@@ -319,7 +321,7 @@ impl<'a> Ratios<'a> {
             let hold = rows.len();
             rows.truncate(self.top);
             notes.push(format!(
-                "--top: {} of {hold} ranges in which a motor holds every rule; {} motors hold them with no ratio.",
+                "--top: {} of {hold} ranges in which a motor satisfies every rule; motors without a suitable ratio: {}.",
                 rows.len(),
                 all - hold
             ));
@@ -327,7 +329,7 @@ impl<'a> Ratios<'a> {
         Sheet {
             schema: "jred-ratio/1",
             title: format!(
-                "{}: gear ratio for every motor of the catalogue, with {gear}",
+                "{}: gear ratio for every motor in the catalogue, with {gear}",
                 self.file.title
             ),
             columns: COLUMNS.map(str::to_owned).to_vec(),

@@ -105,7 +105,7 @@ fn sheet(study: &Study, one: &One, found: &Sensitivity, reach: Reach) -> Sheet {
     }
 }
 
-/// What breaks first, what is left out of the table, and why quantities were not moved.
+/// The first violation, quantities left out of the table, and reasons why quantities were not varied.
 fn notes(study: &Study, found: &Sensitivity, reach: Reach, words: &Vocabulary) -> Vec<String> {
     let path = |index: usize| {
         let quantity = study.document.quantities().get(index);
@@ -114,7 +114,7 @@ fn notes(study: &Study, found: &Sensitivity, reach: Reach, words: &Vocabulary) -
     let mut notes = Vec::new();
     notes.push(match found.first_to_break() {
         Some((quantity, Room::UpTo(change, rule))) => format!(
-            "first to break: {} by {:+.2} % of {}",
+            "first violation: {}, at {:+.2} % of {}",
             rule.named(words),
             change * 100.0,
             path(quantity)
@@ -124,11 +124,10 @@ fn notes(study: &Study, found: &Sensitivity, reach: Reach, words: &Vocabulary) -
             .iter()
             .any(|d| d.room.contains(&Room::Broken)) =>
         {
-            "the drive breaks a rule as it is: how far quantities may move is not looked for"
-                .to_owned()
+            "the drive already violates a rule, so no margins are computed".to_owned()
         }
         _ => format!(
-            "no quantity alone breaks a rule within ±{} %",
+            "no single quantity causes a violation within ±{} %",
             short(reach.most * 100.0)
         ),
     });
@@ -136,14 +135,14 @@ fn notes(study: &Study, found: &Sensitivity, reach: Reach, words: &Vocabulary) -
     let idle: Vec<&str> = idle.map(|d| path(d.quantity)).collect();
     if !idle.is_empty() {
         notes.push(format!(
-            "{} quantities move no rule: {}",
+            "{} quantities affect no rule: {}",
             idle.len(),
             idle.join(", ")
         ));
     }
     if found.left_out > 0 {
         notes.push(format!(
-            "{} quantities of [simulation] and [tolerance] left out: no rule depends on them",
+            "{} quantities in [simulation] and [tolerance] left out: no rule depends on them",
             found.left_out
         ));
     }
@@ -152,22 +151,22 @@ fn notes(study: &Study, found: &Sensitivity, reach: Reach, words: &Vocabulary) -
             if let Room::Refused(change, why) = room {
                 let change = significant(change * 100.0, 3);
                 let path = path(dependence.quantity);
-                notes.push(format!("refused beyond {change} % of {path}: {why}"));
+                notes.push(format!("invalid beyond {change} % of {path}: {why}"));
             }
         }
     }
     notes.extend(
-        (found.fixed.iter()).map(|(index, why)| format!("not moved: {}: {why}", path(*index))),
+        (found.fixed.iter()).map(|(index, why)| format!("not varied: {}: {why}", path(*index))),
     );
     notes
 }
 
-/// What moves a rule, for reading: how sure a slope is only where its digits leave that open.
+/// The table for reading; shows the uncertainty of a slope only if it affects the digits shown.
 fn reading(study: &Study, found: &Sensitivity, words: &Vocabulary) -> Reading {
     let columns = [
         "quantity",
         "value",
-        "moves most",
+        "affects most",
         "% of limit per +1 %",
         "room down",
         "room up",
@@ -201,22 +200,22 @@ fn reading(study: &Study, found: &Sensitivity, words: &Vocabulary) -> Reading {
     }
 }
 
-/// The same as words; why a machine file is refused stands in a note.
+/// The same as words; a note says why a machine file is refused.
 fn room_words(room: &Room, words: &Vocabulary) -> Cell {
     let change = significant(room.change() * 100.0, 3);
     match room {
-        Room::AtLeast(_) => format!("holds at {change} %").into(),
+        Room::AtLeast(_) => format!("satisfied at {change} %").into(),
         Room::UpTo(_, rule) => format!("{change} %, then {}", rule.named(words)).into(),
-        Room::Refused(..) => format!("{change} %, then refused").into(),
+        Room::Refused(..) => format!("{change} %, then invalid").into(),
         Room::Broken => Cell::Empty,
     }
 }
 
-/// How far, in per cent, and what comes then.
+/// Room in per cent, and what limits it.
 fn room(room: &Room, words: &Vocabulary) -> [Cell; 2] {
     let percent = Cell::from(room.change() * 100.0);
     match room {
-        Room::AtLeast(_) => [percent, "holds still".into()],
+        Room::AtLeast(_) => [percent, "still satisfied".into()],
         Room::UpTo(_, rule) => [percent, rule.named(words).into()],
         Room::Refused(_, why) => [percent, format!("refused: {why}").into()],
         Room::Broken => [Cell::Empty, Cell::Empty],

@@ -50,7 +50,7 @@ pub fn size(options: &Size) -> Result<Done> {
         return Err(none_left(options, catalogue.count(), &gaps));
     }
     for gap in gaps {
-        eprintln!("mind: {gap}");
+        eprintln!("warning: {gap}");
     }
     if let Some(objectives) = &options.pareto {
         let front = Front::new(&selection, &objectives.0);
@@ -58,7 +58,7 @@ pub fn size(options: &Size) -> Result<Done> {
             return Err(obstacle);
         }
         let title = format!(
-            "{}: the Pareto front of the drives that break no rule",
+            "{}: Pareto front of the drives that violate no rule",
             file.title
         );
         print(&jred_report::list::front::write(
@@ -130,13 +130,13 @@ pub fn size(options: &Size) -> Result<Done> {
     })
 }
 
-/// Why there is no drive at all.
+/// Why there is no drive.
 fn none_left(options: &Size, all: usize, gaps: &[String]) -> Report {
     let given = options.search.given();
     if given.is_empty() {
         return miette!(
-            help = "the catalogue says which motor goes with which gearbox and amplifier: docs/catalogue.md",
-            "no motor of the catalogue makes a drive"
+            help = "check which motors, gearboxes and amplifiers the catalogue combines: docs/catalogue.md",
+            "no motor in the catalogue can be combined into a drive"
         );
     }
     let unknown = [&[String::new()], gaps].concat().join("; ");
@@ -146,8 +146,8 @@ fn none_left(options: &Size, all: usize, gaps: &[String]) -> Report {
         "fill in the column of the catalogue (docs/catalogue.md), or ".to_owned()
     };
     miette!(
-        help = format!("{cure}widen or leave out {given}"),
-        "no drive passes the filter, of {all} that can be put together{unknown}"
+        help = format!("{cure}widen or remove {given}"),
+        "none of the {all} possible drives passes the filter{unknown}"
     )
 }
 
@@ -165,16 +165,16 @@ fn asked_for<'c>(
         let help = error.help().map(|help| help.to_string());
         miette!(
             help = format!(
-                "without {given} every drive is considered; {}",
+                "without {given}, every drive is considered; {}",
                 help.unwrap_or_default()
             ),
-            "{error} among the {} that pass the filter",
+            "{error}; {} drives pass the filter",
             selection.fit.len() + selection.refused.len()
         )
     })
 }
 
-/// Writes the limits of the drive that was asked for, else of the best that holds; whether there was one.
+/// Writes the limits of the requested drive, or of the best suitable one; returns whether there was one.
 fn write_meter(
     path: &Path,
     options: &Size,
@@ -185,7 +185,7 @@ fn write_meter(
     let best = || selection.first_fit(1).first().copied();
     let Some(candidate) = asked.map(|asked| asked.candidate).or_else(best) else {
         eprintln!(
-            "no drive holds: {} is not written (--why DRIVE writes the limits of one that does not)",
+            "no drive satisfies every rule: {} is not written (--why DRIVE writes the limits of a drive that does not)",
             path.display()
         );
         return Ok(false);
@@ -203,7 +203,7 @@ fn write_meter(
     let broken = limits.broken();
     if !broken.is_empty() {
         eprintln!(
-            "mind: {} breaks rules ({}): keeping the limits in {} does not make it hold",
+            "warning: {} violates rules ({}): staying within the limits in {} does not make it acceptable",
             candidate.drive.name(),
             broken.join("; "),
             path.display()
@@ -212,7 +212,7 @@ fn write_meter(
     Ok(true)
 }
 
-/// What was asked to be explained; in words, the nearest refused drives also where none holds.
+/// The requested explanation; as text, it also covers the closest refused drives if no drive is suitable.
 fn explanation(
     options: &Size,
     asked: Option<&listing::Asked>,

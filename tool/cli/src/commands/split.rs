@@ -65,7 +65,7 @@ fn train(options: &options::Split) -> Result<RatioSplit> {
                 what: "total ratio",
                 ..
             } => "allow a smaller --min-ratio, or fewer --stages",
-            _ => "ratios are greater than zero, and --max-ratio is not smaller than --min-ratio",
+            _ => "ratios must be greater than zero, and --max-ratio at least --min-ratio",
         };
         miette!(help = help, "the ratio cannot be divided: {error}")
     })
@@ -77,7 +77,7 @@ fn each(given: &[f64], stages: usize, option: &str) -> Result<Vec<f64>> {
         [all] => Ok(vec![*all; stages]),
         _ if given.len() == stages => Ok(given.to_vec()),
         _ => Err(miette!(
-            help = "give it once for all stages, or once for each, from the input on",
+            help = "give it once for all stages, or once for each stage, starting at the input",
             "--{option} is given {} times for {stages} stages",
             given.len()
         )),
@@ -129,9 +129,9 @@ fn summary(train: &RatioSplit, options: &options::Split, best: &Split, equal: &S
         )
     };
     let wheels = if options.driven.is_empty() {
-        "driven wheels of their pinion's module and width, J = J_pinion·i⁴"
+        "driven wheels with the module and width of their pinion, J = J_pinion·i⁴"
     } else {
-        "driven wheels of given inertia"
+        "driven wheels with the given inertia"
     };
     let more = 100.0 * (equal.inertia / best.inertia - 1.0);
     let bounds = if within(equal, options) {
@@ -141,7 +141,7 @@ fn summary(train: &RatioSplit, options: &options::Split, best: &Split, equal: &S
     };
     format!(
         "total ratio {} over {} stages, each from {} to {}; {wheels}\n{}\n{}, {} % more{bounds}\n\
-         over the first stage's ratio, the others divided as is best then:",
+         for each ratio of the first stage, with the best division of the others:",
         rounded(train.ratio()),
         train.stages(),
         rounded(options.min_ratio),

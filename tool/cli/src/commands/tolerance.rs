@@ -10,7 +10,7 @@ use jred_machine::model::rules::{Limit, RuleSet};
 use jred_machine::model::tolerance::Tolerance;
 use jred_report::table::output::Format;
 use jred_report::table::rows::Form;
-use jred_report::table::sheet::Sheet;
+use jred_report::table::sheet::{Reading, Sheet};
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::common::Study;
 use jred_sizing::study::one::One;
@@ -67,14 +67,13 @@ pub fn tolerance(options: &Options) -> Result<Done> {
     let rules = &machine.file.rules;
     let mut sheet = sheet(&samples, &summary, rules);
     if !unknown.is_empty() {
-        sheet.notes.push(format!(
-            "not checked, for want of figures: {}",
-            unknown.join(", ")
-        ));
+        sheet
+            .notes
+            .push(format!("not checked, data missing: {}", unknown.join(", ")));
     }
     if plan.shard.is_some() {
         sheet.notes.push(
-            "this is one share; after `jred merge` the same command with --out and --resume, without --shard, sums up all"
+            "this is one share; after `jred merge`, run the same command with --out and --resume, without --shard, for the summary of all"
                 .to_owned(),
         );
     }
@@ -125,18 +124,32 @@ fn scatters(study: &Study, arguments: &[String]) -> Result<Vec<Scatter>> {
     Ok(scatters)
 }
 
+const COLUMNS: [&str; 9] = [
+    "rule",
+    "machines that hold it [%]",
+    "surely above [%]",
+    "surely below [%]",
+    "5 % of machines use at most",
+    "50 % of machines use at most",
+    "95 % of machines use at most",
+    "99 % of machines use at most",
+    "largest use",
+];
+
+/// The same for a table.
+const READING: [&str; 9] = [
+    "rule",
+    "machines that satisfy it [%]",
+    "95 % interval from [%]",
+    "95 % interval to [%]",
+    "5 % of machines use at most",
+    "50 % of machines use at most",
+    "95 % of machines use at most",
+    "99 % of machines use at most",
+    "largest use",
+];
+
 fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
-    let columns = [
-        "rule",
-        "machines that hold it [%]",
-        "surely above [%]",
-        "surely below [%]",
-        "5 % of machines use at most",
-        "50 % of machines use at most",
-        "95 % of machines use at most",
-        "99 % of machines use at most",
-        "largest use",
-    ];
     let built = summary.built();
     let words = samples.one.drive().motor.kind.vocabulary();
     let probability = |k: u64| -> Vec<Cell> {
@@ -151,7 +164,7 @@ fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
     let mut rows = vec![{
         let mut cells = vec!["every rule".into()];
         cells.extend(probability(summary.hold));
-        cells.resize(columns.len(), Cell::Empty);
+        cells.resize(COLUMNS.len(), Cell::Empty);
         cells
     }];
     for (rule, shares) in samples.rules.iter().zip(&summary.shares) {
@@ -168,7 +181,7 @@ fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
         cells.extend(probability(within));
         cells.extend(
             [0.05, 0.5, 0.95, 0.99, 1.0].map(|part| match quantile(&sorted, part) {
-                Some(used) if used.is_infinite() => "no limit there".into(),
+                Some(used) if used.is_infinite() => "no limit".into(),
                 used => Cell::from(used),
             }),
         );
@@ -188,19 +201,19 @@ fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
     let mut notes = vec![
         format!("scattering: {}", scattering.join("; ")),
         format!(
-            "use: share of the limit, 1 is the limit; surely: the interval that holds the probability with 95 % \
-             confidence (Wilson); shares are of {built} machines"
+            "use: share of the limit, 1 is the limit; 95 % interval: Wilson's confidence interval of the probability; shares are \
+             of {built} machines"
         ),
     ];
     if summary.refused > 0 {
         notes.push(format!(
-            "{} of {} machines drawn cannot be built: they count for no rule; --out FILE has the reason of each",
+            "{} of {} machines drawn cannot be built and are not counted; --out FILE writes the reason for each",
             summary.refused, summary.machines
         ));
     }
     if summary.unchecked > 0 {
         notes.push(format!(
-            "in {} machines a rule cannot be judged: they count as not holding",
+            "in {} machines a rule cannot be checked: they count as violations",
             summary.unchecked
         ));
     }
@@ -213,9 +226,13 @@ fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
             summary.machines,
             samples.seed
         ),
-        columns: columns.map(str::to_owned).to_vec(),
+        reading: Some(Reading {
+            columns: READING.map(str::to_owned).to_vec(),
+            rows: rows.clone(),
+            whole: 1,
+        }),
+        columns: COLUMNS.map(str::to_owned).to_vec(),
         rows,
-        reading: None,
         notes,
     }
 }

@@ -89,7 +89,7 @@ pub fn vary(options: &Vary) -> Result<Done> {
         ))?;
     }
     let done = stopped(ended, &plan)?;
-    // What a share alone holds is no answer, and a scheduler would run a job again that ends with 1.
+    // One share is not the full result, and a scheduler would repeat a job that ends with 1.
     Ok(
         if done == Done::Holds && counts.fit == 0 && plan.shard.is_none() {
             Done::Violated
@@ -99,7 +99,7 @@ pub fn vary(options: &Vary) -> Result<Done> {
     )
 }
 
-/// How the machines of a study came out.
+/// Counts of the results of a study.
 #[derive(Default)]
 struct Counts {
     fit: u64,
@@ -126,7 +126,7 @@ impl Counts {
     }
 }
 
-/// What a run that ended means for the command.
+/// Exit status of a finished run.
 ///
 /// # Errors
 /// None.
@@ -136,10 +136,10 @@ pub fn stopped(ended: Ended, plan: &Plan) -> Result<Done> {
     }
     let cure = match &plan.out {
         Some(path) => format!(
-            "the same command with --resume continues {}",
+            "run the same command with --resume to continue {}",
             path.display()
         ),
-        None => "with --out FILE a run can be continued".to_owned(),
+        None => "use --out FILE to make a run resumable".to_owned(),
     };
     eprintln!("stopped after {} of {} rows; {cure}", ended.rows, ended.of);
     Ok(Done::Stopped)
@@ -152,7 +152,7 @@ pub fn stopped(ended: Ended, plan: &Plan) -> Result<Done> {
 pub fn run_merge(options: &Merge) -> Result<Done> {
     if options.parts.contains(&options.out) {
         return Err(miette!(
-            help = "the first name is the file to write, the shares follow",
+            help = "give the file to write first, then the shares",
             "{} is both written and read",
             options.out.display()
         ));

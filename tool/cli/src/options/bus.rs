@@ -17,17 +17,18 @@ pub struct Bus {
     /// What drives are made of.
     #[command(flatten)]
     pub catalogue: CatalogueFiles,
-    /// Drive of an axis instead of the best that fits: its number from 1 and MOTOR+GEARBOX (or MOTOR), as in
-    /// "2=motor-a+gearbox-b", with " on AMPLIFIER" behind where there are several, or the name as printed; once for each axis.
+    /// Drive of an axis instead of the best suitable one: number of the axis from 1 and MOTOR+GEARBOX (or MOTOR), e.g.
+    /// "2=motor-a+gearbox-b", followed by " on AMPLIFIER" if there are several, or the name as printed; at most once per
+    /// axis.
     #[arg(long, value_name = "N=DRIVE")]
     pub drive: Vec<String>,
-    /// All axes start their cycles together, as in the files: only that is judged.
+    /// All axes start their cycles together, as in the files: check only this case.
     #[arg(long)]
     pub in_step: bool,
-    /// Time steps of a cycle.
+    /// Number of time steps per cycle.
     #[arg(long, default_value_t = jred_machine::analysis::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=1_000_000))]
     pub steps: u32,
-    /// How to write the result; CSV is power and voltage over time with all axes in step.
+    /// Output format; CSV contains power and voltage over time with all axes in step.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
 }

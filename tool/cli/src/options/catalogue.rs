@@ -1,4 +1,4 @@
-//! Which catalogue a command takes its drives from.
+//! The catalogue options of the commands that size drives.
 
 use std::path::PathBuf;
 
@@ -6,12 +6,12 @@ use clap::Args;
 
 use jred_sizing::catalogue::{Catalogue, CatalogueError, Sources};
 
-/// Which catalogue.
+/// Catalogue files.
 #[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Catalogue")]
 pub struct CatalogueFiles {
-    /// Folder or file of motors, gearboxes, servo amplifiers and brake resistors instead of the built-in catalogue, in jred's
-    /// own format or that of the Motor-Gearbox Database; may be repeated, "built-in" is the built-in one.
+    /// Folder or file of motors, gearboxes, servo amplifiers and brake resistors to use instead of the built-in catalogue,
+    /// in jred's own format or that of the Motor-Gearbox Database; may be repeated; "built-in" adds the built-in catalogue.
     #[arg(long, value_name = "DIR|FILE")]
     pub catalogue: Vec<PathBuf>,
     /// Motors from this CSV file instead of the built-in ones.
@@ -20,13 +20,13 @@ pub struct CatalogueFiles {
     /// Gearboxes from this CSV file instead of the built-in ones.
     #[arg(long, value_name = "CSV")]
     pub gearboxes: Option<PathBuf>,
-    /// Leave out rows of the catalogue that cannot be used, and say how many they are.
+    /// Skip rows of the catalogue that cannot be used, and report their number.
     #[arg(long)]
     pub skip_broken_rows: bool,
 }
 
 impl CatalogueFiles {
-    /// The catalogue; what can hardly be right in it is said on the standard error.
+    /// Opens the catalogue and prints warnings about implausible values to standard error.
     ///
     /// # Errors
     /// Those of [`Catalogue::open`].
@@ -38,7 +38,7 @@ impl CatalogueFiles {
             skip_broken_rows: self.skip_broken_rows,
         })?;
         for warning in &catalogue.warnings {
-            eprintln!("{warning}");
+            eprintln!("warning: {warning}");
         }
         Ok(catalogue)
     }

@@ -24,34 +24,35 @@ pub struct SizingOptions {
     /// What drives are made of.
     #[command(flatten)]
     pub catalogue: CatalogueFiles,
-    /// Rule set instead of the machine file's: a name from `jred rules`, or a file; what `[rules]` says beside stays.
+    /// Rule set instead of that in the machine file: a name from `jred rules`, or a file; other entries of `[rules]` still
+    /// apply.
     #[arg(long, value_name = "SET")]
     pub rules: Option<String>,
-    /// Time steps of the cycle.
+    /// Number of time steps per cycle.
     #[arg(long, default_value_t = jred_machine::analysis::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=10_000_000))]
     pub steps: u32,
 }
 
-/// Which drives are considered, and which comes first.
+/// Which drives are considered and how they are ranked.
 #[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Which drives")]
 pub struct Search {
-    /// Rank by this instead of power, margin and warnings.
+    /// Rank by this instead of power, warnings and margin.
     #[arg(long, value_parser = word::<Objective>())]
     pub rank: Option<Objective>,
-    /// Only motors and gearboxes of makers like this; may be repeated.
+    /// Only motors and gearboxes of matching makers; may be repeated.
     #[arg(long, value_name = "GLOB")]
     pub maker: Vec<Pattern>,
-    /// Only motors whose key is like this, e.g. "sgmsh-*"; may be repeated.
+    /// Only motors whose key matches, e.g. "sgmsh-*"; may be repeated.
     #[arg(long, value_name = "GLOB")]
     pub motor: Vec<Pattern>,
-    /// Only gearboxes whose key is like this; may be repeated.
+    /// Only gearboxes whose key matches; may be repeated.
     #[arg(long, value_name = "GLOB")]
     pub gearbox: Vec<Pattern>,
     /// Only ratios in this range, e.g. "3..10"; a direct drive has 1.
     #[arg(long, value_name = "FROM..TO", value_parser = ratio)]
     pub ratio: Option<[f64; 2]>,
-    /// Only motors without gearbox.
+    /// Only direct drives (no gearbox).
     #[arg(long, conflicts_with = "gearbox")]
     pub direct_only: bool,
     /// Only drives up to this mass, e.g. "12 kg".
@@ -66,7 +67,7 @@ impl SizingOptions {
     /// The rule set that is named instead of the machine file's.
     ///
     /// # Errors
-    /// There is no such set, or its file is wrong.
+    /// Unknown set, or an error in its file.
     pub fn rule_set(&self) -> miette::Result<Option<RuleSet>> {
         let named = self.rules.as_deref();
         named
@@ -76,16 +77,13 @@ impl SizingOptions {
 }
 
 impl Search {
-    /// Takes out what does not pass the filter as a whole, and ranks the rest; what could not be told for want of figures, in
-    /// words.
+    /// Removes drives that do not pass the filter and ranks the rest; returns a sentence for each decision that lacked data.
     pub fn apply(&self, filter: &Filter, selection: &mut Selection) -> Vec<String> {
         let unknown = filter.sift(selection);
         let mut gaps = Vec::new();
         for (n, what) in [(unknown.mass, "mass"), (unknown.price, "price")] {
             if n > 0 {
-                gaps.push(format!(
-                    "{n} drives are left out: their {what} is not known"
-                ));
+                gaps.push(format!("{n} drives left out: no data for their {what}"));
             }
         }
         if let Some(objective) = self.rank {
@@ -93,12 +91,12 @@ impl Search {
                 0 => {}
                 n if n == selection.fit.len() => {
                     gaps.push(format!(
-                        "the {} of no drive that fits is known: not ranked by it",
+                        "no suitable drive has data for the {}: not ranked by it",
                         objective.name()
                     ));
                 }
                 n => gaps.push(format!(
-                    "{n} drives that fit are ranked last: their {} is not known",
+                    "{n} suitable drives ranked last: no data for their {}",
                     objective.name()
                 )),
             }
@@ -106,7 +104,7 @@ impl Search {
         gaps
     }
 
-    /// Prices that are to be compared must be in one currency.
+    /// Checks that prices to be compared are in one currency.
     ///
     /// # Errors
     /// They are not.
@@ -126,7 +124,7 @@ impl Search {
         Ok(())
     }
 
-    /// The options that leave drives out, as they are written.
+    /// Names of the given options that exclude drives.
     pub fn given(&self) -> String {
         let given = [
             ("--maker", !self.maker.is_empty()),
@@ -142,7 +140,7 @@ impl Search {
         names.join(", ")
     }
 
-    /// What is considered.
+    /// The filter these options describe.
     pub fn filter(&self) -> Filter {
         Filter {
             makers: self.maker.clone(),
@@ -182,10 +180,10 @@ fn price(text: &str) -> Result<f64, String> {
 pub struct Objectives(pub Vec<Objective>);
 
 impl Objectives {
-    /// Reads objectives with commas between.
+    /// Reads objectives separated by commas.
     ///
     /// # Errors
-    /// Another number of them, or one that does not exist.
+    /// Fewer than two or more than three objectives, or an unknown one.
     pub fn read(text: &str) -> Result<Self, String> {
         objectives(text).map(Self)
     }
@@ -209,20 +207,20 @@ fn objectives(text: &str) -> Result<Vec<Objective>, String> {
     Ok(found)
 }
 
-/// Where the rows of a study go.
+/// Output options of a study.
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Rows")]
 pub struct Rows {
-    /// How rows are written; a file has CSV or JSON lines.
+    /// Format of the rows; a file contains CSV or JSON lines.
     #[arg(long, value_parser = word::<Form>(), default_value_t)]
     pub format: Form,
-    /// File for the rows, written as they come.
+    /// File to write the rows to, as they are computed.
     #[arg(long, short, value_parser = super::output_file())]
     pub out: Option<PathBuf>,
-    /// Continue the file.
+    /// Continue an interrupted file.
     #[arg(long, requires = "out")]
     pub resume: bool,
-    /// Only a share of the rows, INDEX/COUNT from 0: "0/8" to "7/8"; `jred merge` puts the files together.
+    /// Compute only a share of the rows, INDEX/COUNT with INDEX from 0: "0/8" to "7/8"; `jred merge` joins the files.
     #[arg(long, value_name = "INDEX/COUNT", requires = "out")]
     pub shard: Option<Shard>,
 }
@@ -230,14 +228,14 @@ pub struct Rows {
 /// `jred vary`
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Exit codes: 0 at least one machine has a drive that holds every rule; 1 none of the machines has (a \
-                  share, --shard, ends with 0 all the same); 2 bad input; 130 stopped before the last row."
+    after_help = "Exit codes: 0 at least one machine has a drive that satisfies every rule; 1 no machine has one (with \
+                  --shard always 0); 2 bad input; 130 interrupted before the last row."
 )]
 pub struct Vary {
     /// Machine file, with a `[motion]`.
     pub file: PathBuf,
-    /// A quantity and its values: PATH=FROM..TO UNIT:COUNT, with `:log` behind for equal ratios, or PATH=A,B,C UNIT; may be
-    /// repeated: then every combination.
+    /// A quantity and its values: PATH=FROM..TO UNIT:COUNT, followed by `:log` for equal ratios, or PATH=A,B,C UNIT; may be
+    /// repeated for all combinations.
     #[arg(
         long,
         required = true,
@@ -270,7 +268,7 @@ pub struct Merge {
 /// `jred ratio`
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Exit codes: 0 at least one motor holds every rule with some ratio; 1 none does; 2 bad input."
+    after_help = "Exit codes: 0 at least one motor satisfies every rule at some ratio; 1 none does; 2 bad input."
 )]
 pub struct Ratio {
     /// Machine file, with a `[motion]`.
@@ -278,20 +276,19 @@ pub struct Ratio {
     /// Catalogue and time steps.
     #[command(flatten)]
     pub supply: SizingOptions,
-    /// Efficiency of the gearbox that is looked for, 0 to 1.
+    /// Efficiency of the gearbox, above 0 to 1.
     #[arg(long, default_value_t = 1.0, value_parser = efficiency)]
     pub efficiency: f64,
-    /// Its inertia at the input, e.g. "0.5 kg cm^2"; nothing if not given.
+    /// Inertia of the gearbox at its input, e.g. "0.5 kg cm^2"; zero if not given.
     #[arg(long, value_parser = jred_machine::read::inertia_argument)]
     pub gearbox_inertia: Option<f64>,
-    /// Only motors whose key is like this, e.g. "sgmsh-*"; may be repeated.
+    /// Only motors whose key matches, e.g. "sgmsh-*"; may be repeated.
     #[arg(long, value_name = "GLOB")]
     pub motor: Vec<Pattern>,
-    /// List only the first so many of the motors that hold every rule with some ratio, the smallest first; the others are
-    /// counted.
+    /// Show at most N suitable motors, smallest first; the others are counted.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub top: Option<u32>,
-    /// How to write the result.
+    /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
 }
@@ -312,18 +309,18 @@ fn efficiency(text: &str) -> Result<f64, String> {
 /// `jred sensitivity`
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Exit codes: 0 the drive holds every rule as it is; 1 it breaks one; 2 bad input."
+    after_help = "Exit codes: 0 the drive satisfies every rule; 1 it violates one; 2 bad input."
 )]
 pub struct Sensitivity {
     /// Machine file, with a `[motion]`.
     pub file: PathBuf,
-    /// The drive, MOTOR+GEARBOX or MOTOR alone for a direct one; without: the best of the catalogue.
+    /// The drive: MOTOR+GEARBOX, or MOTOR for a direct drive; if not given, the best drive in the catalogue.
     #[arg(long, value_name = "MOTOR+GEARBOX")]
     pub drive: Option<String>,
-    /// Relative change of the differences (%).
+    /// Step of the finite differences (%).
     #[arg(long, default_value_t = 1.0, value_parser = percent)]
     pub change: f64,
-    /// How far each quantity is moved at most in search of the first rule that breaks (%).
+    /// Largest change of each quantity in search of the first violation (%).
     #[arg(long, default_value_t = 50.0, value_parser = percent)]
     pub most: f64,
     /// Catalogue and time steps.
@@ -332,14 +329,14 @@ pub struct Sensitivity {
     /// Which drives.
     #[command(flatten)]
     pub search: Search,
-    /// How to write the result.
+    /// Output format.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]
     pub format: Format,
 }
 
 fn percent(text: &str) -> Result<f64, String> {
     let text = text.trim().trim_end_matches('%').trim_end();
-    let percent: f64 = text.parse().map_err(|_| "write per cent, such as 1")?;
+    let percent: f64 = text.parse().map_err(|_| "write a percentage, such as 1")?;
     if percent > 0.0 && percent < 100.0 {
         Ok(percent)
     } else {
@@ -350,22 +347,22 @@ fn percent(text: &str) -> Result<f64, String> {
 /// `jred tolerance`
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Exit codes: 0 every machine drawn holds every rule; 1 one does not, or cannot be built as drawn; 2 bad \
-                  input; 130 stopped before the last machine."
+    after_help = "Exit codes: 0 every machine drawn satisfies every rule; 1 one does not, or cannot be built as drawn; \
+                  2 bad input; 130 interrupted before the last machine."
 )]
 pub struct Tolerance {
     /// Machine file, with a `[motion]`.
     pub file: PathBuf,
-    /// A tolerance beside those of `[tolerance]`, or instead of one of them: PATH=5%, PATH=0.1mm, PATH=normal:2%.
+    /// A tolerance in addition to those in `[tolerance]`, or in place of one of them: PATH=5%, PATH=0.1mm, PATH=normal:2%.
     #[arg(long, value_name = "PATH=AMOUNT")]
     pub tolerance: Vec<String>,
-    /// Number of machines.
+    /// Number of machines to draw.
     #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
     pub samples: u64,
     /// Seed of the random numbers.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// The drive, MOTOR+GEARBOX or MOTOR alone for a direct one; without: the best of the catalogue.
+    /// The drive: MOTOR+GEARBOX, or MOTOR for a direct drive; if not given, the best drive in the catalogue.
     #[arg(long, value_name = "MOTOR+GEARBOX")]
     pub drive: Option<String>,
     /// Catalogue and time steps.

@@ -1,4 +1,4 @@
-//! Putting the shares of a study together again: the file that one run would have written, byte by byte.
+//! Merges the shares of a study into the file that a single run would have written, byte by byte.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -50,8 +50,8 @@ impl Part {
         let row = whole.and_then(|line| Some((self.form.index(&line)?, line)));
         row.map(Some).ok_or_else(|| {
             miette!(
-                help = "continue the share with --resume: a row that was cut off is computed again",
-                "{} has a line that is no whole row: {:?}",
+                help = "continue the share with --resume: it computes the incomplete row again",
+                "{} contains an incomplete row: {:?}",
                 self.path.display(),
                 line.trim_end().chars().take(60).collect::<String>()
             )
@@ -75,15 +75,15 @@ pub fn merge(out: &Path, paths: &[PathBuf]) -> Result<u64> {
         if let Some(words) = first.header.difference(&part.header) {
             return Err(miette!(
                 help = "merge shares of one study only",
-                "{} and {} do not belong together: not the same are {words}",
+                "{} and {} come from different studies: they differ in {words}",
                 first.path.display(),
                 part.path.display()
             ));
         }
         if part.form != first.form {
             return Err(miette!(
-                help = "write all shares with one --format",
-                "{} and {} are written in different forms",
+                help = "use one --format for all shares",
+                "{} and {} have different formats",
                 first.path.display(),
                 part.path.display()
             ));
@@ -94,14 +94,14 @@ pub fn merge(out: &Path, paths: &[PathBuf]) -> Result<u64> {
         ..first.header.clone()
     };
     let front = store::lines(&header, first.form)?;
-    // What is not complete does not get the name.
+    // An incomplete file does not get the final name.
     let mut unfinished = out.as_os_str().to_owned();
     unfinished.push(".part");
     let unfinished = PathBuf::from(unfinished);
     if out.exists() {
         return Err(miette!(
-            help = "name another file",
-            "{} exists already: it is not overwritten",
+            help = "choose another file",
+            "{} already exists: not overwritten",
             out.display()
         ));
     }
@@ -139,7 +139,7 @@ fn rows(parts: &mut [Part], count: u64, mut out: BufWriter<File>) -> Result<u64>
             let path = parts.get(k).map(|part| part.path.display().to_string());
             return Err(miette!(
                 help = "name every share once",
-                "row {index} is there twice, the second time in {}",
+                "row {index} appears twice, the second time in {}",
                 path.unwrap_or_default()
             ));
         }
@@ -164,12 +164,14 @@ fn rows(parts: &mut [Part], count: u64, mut out: BufWriter<File>) -> Result<u64>
 }
 
 fn missing(from: u64, next: Option<u64>) -> Report {
-    let words = next.map_or("and all after it".to_owned(), |next| match next - from {
-        1 => "alone".to_owned(),
-        _ => format!("to row {}", next - 1),
+    let words = next.map_or("and all rows after it".to_owned(), |next| {
+        match next - from {
+            1 => "alone".to_owned(),
+            _ => format!("to row {}", next - 1),
+        }
     });
     miette!(
-        help = "name all shares, and complete those that were stopped with --resume",
+        help = "name all shares, and complete the interrupted ones with --resume",
         "row {from} {words} is missing"
     )
 }

@@ -1,4 +1,4 @@
-//! Running a study: rows in parallel, written in order, until all are there or somebody stops it.
+//! Runs a study: rows are computed in parallel and written in order, until all are done or the user interrupts.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -15,7 +15,7 @@ use jred_sizing::study::cell::Cell;
 use jred_sizing::study::shard::Shard;
 use jred_sizing::study::task::Task;
 
-/// Where the rows go, and which.
+/// Output of the rows, and which rows.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// File to write; `None`: standard output.
@@ -44,7 +44,7 @@ impl Ended {
     }
 }
 
-/// Set by the first Ctrl-C (or SIGTERM): rows that are begun are finished, no others are begun.
+/// Set by the first Ctrl-C (or SIGTERM): rows in progress are finished, no others are started.
 static STOP: AtomicBool = AtomicBool::new(false);
 
 /// Lets Ctrl-C end a run after the rows that are begun; a second one ends it at once.
@@ -117,7 +117,7 @@ pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) ->
         }
         if let Some(sink) = &mut sink {
             match sink.write_all(text.as_bytes()).and_then(|()| sink.flush()) {
-                // `jred vary … | head` has seen enough.
+                // The reader has closed the pipe (`jred vary … | head`).
                 Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => break,
                 written => written
                     .into_diagnostic()

@@ -1,7 +1,7 @@
-//! The file of a study's rows: a header that says what they are rows of, then one line a row, in order.
+//! The file of a study's rows: a header that identifies the study, then one line per row, in order.
 //!
-//! The header is a JSON object on the first line (in CSV behind `# `). It holds digests of machine and catalogue, so that
-//! rows of different studies never come together. A file that was cut off while it was written is one of fewer rows.
+//! The header is a JSON object on the first line (in CSV behind `# `). It contains digests of machine and catalogue, so that
+//! rows of different studies are never mixed. A file that was cut off while it was written is one of fewer rows.
 
 use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Seek as _, SeekFrom};
@@ -14,8 +14,8 @@ use jred_sizing::study::header::Header;
 
 fn no_rows(path: &Path) -> Report {
     miette!(
-        help = "name files that `jred vary --out` or `jred tolerance --out` wrote",
-        "{} is not a file of rows: its first line is no header",
+        help = "name files written by `jred vary --out` or `jred tolerance --out`",
+        "{} is not a file of rows: its first line is not a header",
         path.display()
     )
 }
@@ -59,8 +59,8 @@ pub fn begin(path: &Path, lines: &str) -> Result<File> {
         .open(path)
         .map_err(|error| match error.kind() {
             std::io::ErrorKind::AlreadyExists => miette!(
-                help = "continue it with --resume, or name another file",
-                "{} exists already: it is not overwritten",
+                help = "continue it with --resume, or choose another file",
+                "{} already exists: not overwritten",
                 path.display()
             ),
             _ => miette!("cannot write {}: {error}", path.display()),
@@ -71,7 +71,7 @@ pub fn begin(path: &Path, lines: &str) -> Result<File> {
     Ok(file)
 }
 
-/// Opens a file of rows to continue it: the file, cut after its last whole row, and the number of rows in it. Each row is
+/// Opens a file of rows to continue it: the file, cut after its last whole row, and number of rows in it. Each row is
 /// shown to `seen`.
 ///
 /// # Errors
@@ -109,21 +109,21 @@ pub fn resume(
             let (found, found_form) = parse(text, path)?;
             if let Some(words) = header.difference(&found) {
                 return Err(miette!(
-                    help = "repeat the command that began the file, or write into another one",
-                    "{shown} cannot be continued: not the same are {words}"
+                    help = "repeat the command that started the file, or write to another file",
+                    "{shown} cannot be continued: it differs in {words}"
                 ));
             }
             if found_form != form || found.share() != header.share() {
                 return Err(miette!(
-                    help = "repeat --format and --shard of the command that began the file",
-                    "{shown} cannot be continued: it has another form, or holds another share"
+                    help = "repeat --format and --shard of the command that started the file",
+                    "{shown} cannot be continued: it has another format or contains another share"
                 ));
             }
         } else if number >= fronts {
             let expected = header.share().row(rows);
             if form.index(text) != Some(expected) {
                 return Err(miette!(
-                    help = "write into another file",
+                    help = "write to another file",
                     "{shown} cannot be continued: line {} should be row {expected}",
                     number + 1
                 ));

@@ -68,17 +68,17 @@ fn two_presses_on_one_bus() {
             "1. Servo press",
             "2. Servo press",
             "in step",
-            "At any phases",
+            "For any phases",
             "bus voltage",
             "against 820 V: ok",
-            "\nAgainst a bus for each axis, with 1/2 of the capacitance and a brake resistor like this, one bus saves ",
+            "\nCompared with a bus for each axis, with 1/2 of the capacitance and the same brake resistor, the common bus saves ",
         ],
     );
     // There is nothing to share with one axis.
     assert!(figure(&two, &["saved by sharing [W]"]) >= 0.0);
     assert_eq!(one["saved by sharing [W]"], Value::Null);
     let alone = jred([&"bus", &file, &steps[0], &steps[1]]).ends(0);
-    assert!(!alone.out.contains("one bus saves"), "{}", alone.out);
+    assert!(!alone.out.contains("the common bus saves"), "{}", alone.out);
     let rows = jred([
         &"bus",
         &file,
@@ -113,13 +113,13 @@ fn one_where_a_limit_is_passed_and_two_for_bad_input() {
     let good = folder.file("good.toml", press_text() + SUPPLY);
     jred([&"bus", &good, &other])
         .ends(2)
-        .says(&["has another [supply] than"]);
+        .says(&["differs from that in"]);
     jred([&"bus", &good, &"--drive", &"2=x"])
         .ends(2)
         .says(&["--drive \"2=x\" cannot be used", "from 1 to 1"]);
     jred([&"bus", &good, &"--drive", &"1=nothing"])
         .ends(2)
-        .says(&["has no drive \"nothing\""]);
+        .says(&["there is no drive \"nothing\""]);
     let still = edited_press(
         "[motion]\ntype = \"cycle\"\nstart = \"180 deg\"",
         "[motion]\ntype = \"cycle\"\nstart = \"180 deg\"\nspeed = 3",
@@ -154,7 +154,7 @@ fn what_is_not_checked_is_said() {
     says(
         &text,
         &[
-            "NOT CHECKED: bus voltage: the highest voltage of the DC bus is not known, and it rises from 565.7 V to",
+            "not checked: bus voltage: no data for the maximum voltage of the DC bus, and it rises from 565.7 V to",
             "without a brake resistor: give max_voltage in [supply]",
         ],
     );
@@ -166,12 +166,12 @@ fn what_is_not_checked_is_said() {
     says(
         &text,
         &[
-            "bus voltage not known, supply ",
+            "bus voltage unknown, supply ",
             "W mean, no brake resistor",
-            "NOT CHECKED: bus voltage: the capacitance of the DC bus is not known",
-            "give in [supply] capacitance, or chopper_voltage and brake_resistor, or regenerative = true",
-            "NOT CHECKED: bus voltage: the highest voltage of the DC bus is not known: give max_voltage in [supply]",
-            "NOT CHECKED: brake resistor: what one would have to bear is known only as at most",
+            "not checked: bus voltage: no data for the capacitance of the DC bus",
+            "in [supply] give capacitance, or chopper_voltage and brake_resistor, or regenerative = true",
+            "not checked: bus voltage: no data for the maximum voltage of the DC bus: give max_voltage in [supply]",
+            "not checked: brake resistor: only bounds of its load are known, at most",
             "give chopper_voltage in [supply]",
         ],
     );

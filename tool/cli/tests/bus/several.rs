@@ -72,7 +72,10 @@ fn three_axes() {
         );
     }
     let text = bus(&files, &[]);
-    says(&text, &["3. Servo press", "Phases that burn most"]);
+    says(
+        &text,
+        &["3. Servo press", "Phases with the highest mean brake power"],
+    );
     assert!(!text.out.contains("More than three axes"));
     // A fourth: found one phase at a time, which is said.
     let four = [&press, &lift(), &third, &press];
@@ -80,7 +83,7 @@ fn three_axes() {
     assert_eq!(answer["worst"]["exhaustive"], Value::Bool(false));
     says(
         &bus(&four, &[]),
-        &["4. Servo press", "a worse phase may exist"],
+        &["4. Servo press", "may miss a worse phase"],
     );
 }
 
@@ -101,9 +104,9 @@ fn whose_supply() {
     }
     let other = folder.file("other.toml", press_text() + &SUPPLY.replace("470", "680"));
     let wrong = bus(&[&lift(), &with, &other], &[]).ends(2);
-    wrong.says(&["other.toml has another [supply] than", "with.toml"]);
+    wrong.says(&["other.toml differs from that in", "with.toml"]);
     bus(&[&press, &lift()], &[]).ends(2).says(&[
-        "the DC bus is not known",
+        "no data for the DC bus",
         "add a [supply] to one of the machine files",
     ]);
 }
@@ -127,12 +130,12 @@ fn periods_that_do_not_meet() {
         (
             &late,
             "too long",
-            "the common period of the cycles is 2504 s (5007, 5000 cycles of axes 1, 2), longer than the 256 cycles that are searched",
+            "the common period of the cycles is 2504 s (5007, 5000 cycles of axes 1, 2), longer than the search limit of 256 cycles",
         ),
         (
             &never,
             "none",
-            "the cycles have no common period of up to 100000 cycles",
+            "the cycles have no common period within 100000 cycles",
         ),
     ] {
         let answer = json(&[&file, path], &[]);
@@ -154,10 +157,8 @@ fn periods_that_do_not_meet() {
         says(
             &text,
             &[
-                &format!("Judged by what holds at any phases: {words}."),
-                &format!(
-                    "NOT CHECKED: brake resistor pulse energy: no bound holds for it, and {words}"
-                ),
+                &format!("Checked against bounds that are valid for any phases: {words}."),
+                &format!("not checked: brake resistor pulse energy: no bound exists, and {words}"),
             ],
         );
         assert!(answer["not checked"].to_string().contains(words));
@@ -296,7 +297,7 @@ fn drives_are_named() {
     ];
     bus(&[&file], &more)
         .ends(2)
-        .says(&["has no drive \"m+g on c\"", "did you mean"]);
+        .says(&["there is no drive \"m+g on c\"", "did you mean"]);
     bus(&[&file], &["--drive", "0=m"])
         .ends(2)
         .says(&["N=MOTOR+GEARBOX on AMPLIFIER"]);
@@ -326,8 +327,8 @@ fn a_resistor_of_the_catalogue() {
     says(
         &text,
         &[
-            "The bus needs a brake resistor of at most",
-            "; enough of the catalogue does",
+            "The bus requires a brake resistor of at most",
+            "; enough from the catalogue is suitable",
         ],
     );
     let answer = json(&files, &more);

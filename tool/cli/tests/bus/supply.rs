@@ -138,11 +138,11 @@ fn what_cannot_be_is_refused() {
         &supply(
             "regenerative = true\nbrake_resistor = { resistance = \"47 Ohm\", power = \"200 W\" }",
         ),
-        &["takes energy back"],
+        &["feeds energy back"],
     );
     refuses(
         "[supply]\ncapacity = \"1 mF\"",
-        &["`capacity` in [supply] is not known"],
+        &["unknown key `capacity` in [supply]"],
     );
     refuses("[surroundings]\nambient = \"313 K\"", &["Celsius"]);
     refuses(
@@ -157,14 +157,14 @@ fn what_cannot_be_is_refused() {
         "[surroundings]\nmax_housing = \"30 degC\"",
         &["above `ambient`"],
     );
-    refuses("[duty]\ntype = \"S10\"", &["does not exist here"]);
+    refuses("[duty]\ntype = \"S10\"", &["is not a valid choice here"]);
     refuses(
         "[duty]\ntype = \"S2\"",
         &["`operating_time` in [duty] is missing"],
     );
     refuses(
         "[duty]\ntype = \"S2\"\noperating_time = \"10 s\"\nrest = \"1 s\"",
-        &["does not belong to S2"],
+        &["is not used with S2"],
     );
     refuses(
         "[duty]\ntype = \"S4\"\noperating_time = \"10 s\"",
@@ -172,10 +172,10 @@ fn what_cannot_be_is_refused() {
     );
     refuses(
         "[duty]\ntype = \"S1\"\nrest = \"10 s\"",
-        &["does not belong to S1", "without end"],
+        &["is not used with S1", "without end"],
     );
     refuses(
         "[duty]\ntype = \"S5\"\nat_rest = \"off\"",
-        &["there is none"],
+        &["which is missing"],
     );
 }

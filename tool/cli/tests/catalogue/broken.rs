@@ -101,8 +101,7 @@ fn each_with_its_place() {
         &"16",
     ]);
     assert!(
-        run.err
-            .contains("13 broken rows of the catalogue are left out"),
+        run.err.contains("13 broken rows of the catalogue skipped"),
         "{}",
         run.err
     );
@@ -134,7 +133,7 @@ fn the_header_again() {
     refuses(
         &format!("{HEADER}\n{FIRST}\n{HEADER}\n"),
         Some((3, 1)),
-        &["the header is there twice", "remove this line"],
+        &["duplicate header", "remove this line"],
     );
 }
 
@@ -169,18 +168,18 @@ fn files_and_folders_that_hold_nothing() {
         &folder.path("none"),
         &[
             "cannot read the catalogue",
-            "there is no such file or folder",
+            "no such file or folder",
             "--catalogue",
         ],
     );
     refused(
         &folder.path(""),
-        &["there is no table in this folder", "motors.csv"],
+        &["this folder contains no table", "motors.csv"],
     );
     let file = folder.file("drives.csv", format!("{HEADER}\n{FIRST}\n"));
     refused(
         &file,
-        &["its name does not say what it holds", "motors.csv"],
+        &["its name does not say what it contains", "motors.csv"],
     );
     folder.file("gearboxes.csv", "key,maker\n");
     refused(&folder.path(""), &["is empty", "gearboxes"]);
@@ -199,5 +198,5 @@ fn files_and_folders_that_hold_nothing() {
         &"--steps",
         &"16",
     ]);
-    assert!(run.err.contains("drives.csv is not read"), "{}", run.err);
+    assert!(run.err.contains("drives.csv was ignored"), "{}", run.err);
 }

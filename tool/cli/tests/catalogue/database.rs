@@ -178,7 +178,7 @@ fn figures_of_gearboxes() {
     assert_eq!((fourth.stages, fourth.mass), (None, None));
     let said = |words: &str| catalogue.warnings.iter().any(|w| w.contains(words));
     assert!(
-        said("\"XX_32S_R16:1\" has no efficiency"),
+        said("efficiency of \"XX_32S_R16:1\" not given"),
         "{:?}",
         catalogue.warnings
     );

@@ -74,7 +74,7 @@ fn units_mixed_up() {
         (
             "rotor_inertia [kg cm^2]",
             "rotor_inertia [g cm^2]",
-            "less than any known motor",
+            "less than for any known motor",
         ),
         (
             "rotor_inertia [kg cm^2]",
@@ -155,11 +155,11 @@ fn many_of_a_kind_are_counted() {
     assert_eq!(
         found
             .iter()
-            .filter(|w| w.contains("less than any known motor"))
+            .filter(|w| w.contains("less than for any known motor"))
             .count(),
         3
     );
-    let counted = "and 47 more rotor inertias that do not suit the torque";
+    let counted = "and 47 more rotor inertias that do not match the torque";
     assert!(found.iter().any(|w| w == counted), "{found:?}");
 }
 
@@ -177,6 +177,10 @@ fn remarks_go_to_the_standard_error() {
         &"16",
     ]);
     assert!(run.code < 2, "{}", run.err);
-    assert!(run.err.contains("less than any known motor"), "{}", run.err);
-    assert!(!run.out.contains("less than any known motor"));
+    assert!(
+        run.err.contains("less than for any known motor"),
+        "{}",
+        run.err
+    );
+    assert!(!run.out.contains("less than for any known motor"));
 }

@@ -27,7 +27,7 @@ fn two_for_bad_input() {
     let large = folder.file("large.toml", "# filler\n".repeat(1_200_000));
     jred([&"reduce", &large])
         .ends(2)
-        .says(&["at most", "are read"]);
+        .says(&["it has", "the maximum is"]);
     jred([&"reduce", &folder.file("binary.toml", [0xffu8, 0xfe, 0, 1])])
         .ends(2)
         .says(&["UTF-8"]);

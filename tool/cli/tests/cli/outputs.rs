@@ -21,9 +21,9 @@ fn a_filter_that_leaves_nothing_is_an_error() {
     ])
     .ends(2);
     run.says(&[
-        "no drive passes the filter",
-        "drives are left out: their mass is not known",
-        "widen or leave out --max-mass",
+        "possible drives passes the filter",
+        "drives left out: no data for their mass",
+        "widen or remove --max-mass",
     ]);
     assert!(run.out.is_empty() && !page.exists(), "{}", run.out);
 }
@@ -72,8 +72,8 @@ fn the_front_names_what_is_known_of_none() {
         .json();
     let fit = &json["counts"]["fit"];
     run.says(&[
-        &format!("{fit} drives fit, but of none the mass is known"),
-        "take another objective",
+        &format!("{fit} drives are suitable, but none has data for the mass"),
+        "use another objective",
     ]);
     assert!(run.out.is_empty(), "{}", run.out);
     assert!(!run.message().contains("energy is"), "{}", run.err);
@@ -136,11 +136,11 @@ fn outputs_are_files_of_their_own() {
     let one = folder.path("one");
     let again = folder.path(".").join("one");
     let run = jred([&"size", &press, &"--report", &one, &"--meter", &again]).ends(2);
-    run.says(&["--report and --meter both name", "name two files"]);
+    run.says(&["--report and --meter both name", "use two different files"]);
     assert!(!one.exists());
     for option in ["--report", "--meter"] {
         let run = jred([&"size", &press, &option, &"-"]).ends(2);
-        run.says(&[option, "stdout has the result itself", "name a file"]);
+        run.says(&[option, "stdout is used for the result", "name a file"]);
     }
     let run = jred([
         &"export",
@@ -151,7 +151,7 @@ fn outputs_are_files_of_their_own() {
         &"-",
     ])
     .ends(2);
-    run.says(&["stdout has the result itself"]);
+    run.says(&["stdout is used for the result"]);
 }
 
 /// A drive that a filter took out is not said to be missing from the catalogue.
@@ -162,9 +162,9 @@ fn a_drive_that_the_filter_took_out() {
     let why = ["size", press, "--steps", "64", "--why", "fxm33-30a"];
     let run = jred_with(&[&why[..], &["--motor", "sgm*"]].concat()).ends(2);
     run.says(&[
-        "no drive \"fxm33-30a\" among the",
-        "that pass the filter",
-        "without --motor every drive is considered",
+        "there is no drive \"fxm33-30a\"",
+        "drives pass the filter",
+        "without --motor, every drive is considered",
     ]);
     assert!(jred_with(&why).ends(0).err.is_empty());
 }

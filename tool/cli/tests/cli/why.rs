@@ -41,12 +41,12 @@ fn the_drive_asked_for_is_shown_and_placed() {
         let own = name(&fit[k], " + ", ", direct");
         let text = why(&own).ends(0).out;
         assert!(
-            text.contains(&format!("Drive asked for: {own}\n")),
+            text.contains(&format!("Requested drive: {own}\n")),
             "{text}"
         );
         assert!(
             text.contains(&format!(
-                "breaks no rule: rank {} of {count} that fit",
+                "violates no rule: rank {} of {count} suitable drives",
                 k + 1
             )),
             "{text}"
@@ -70,7 +70,7 @@ fn the_drive_asked_for_is_shown_and_placed() {
     let text = why(&own).ends(0).out;
     assert!(
         text.contains(&format!(
-            "Drive asked for: {own}\nrefused; used of the limits that it breaks: "
+            "Requested drive: {own}\nrefused; use of the limits that it violates: "
         )),
         "{text}"
     );
@@ -81,7 +81,7 @@ fn the_drive_asked_for_is_shown_and_placed() {
         .collect();
     let place = text
         .lines()
-        .find(|line| line.starts_with("refused; used of the limits"))
+        .find(|line| line.starts_with("refused; use of the limits"))
         .unwrap();
     assert!(
         !broken.is_empty() && broken.iter().all(|rule| place.contains(rule)),
@@ -111,7 +111,7 @@ fn names_as_printed_are_understood() {
             let text = why(&name(drive, between, end)).ends(0).out;
             let own = name(drive, " + ", ", direct");
             assert!(
-                text.contains(&format!("Drive asked for: {own}\n")),
+                text.contains(&format!("Requested drive: {own}\n")),
                 "{between:?} {end:?}: {text}"
             );
         }
@@ -147,15 +147,15 @@ fn asked_for_among_drives_of_which_none_holds() {
     let file = folder.file("heavy.toml", edited_press("\"-10 kN\"", "\"-900 kN\""));
     let run = jred([&"size", &file, &"--why", &"fxm33-30a+direct"]).ends(1);
     for words in [
-        "Drive asked for: fxm33-30a, direct",
-        "refused; used of the limits",
-        "No drive holds every rule",
+        "Requested drive: fxm33-30a, direct",
+        "refused; use of the limits",
+        "No drive satisfies every rule",
     ] {
         assert!(run.out.contains(words), "{words:?} is not in {}", run.out);
     }
     let unknown = why("fxm33-31a+direct").ends(2);
     unknown.says(&[
-        "the catalogue has no drive \"fxm33-31a+direct\"",
+        "there is no drive \"fxm33-31a+direct\" in the catalogue",
         "did you mean",
     ]);
 }

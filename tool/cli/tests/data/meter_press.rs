@@ -1,14 +1,14 @@
 // Limits of sgmsh-30a + npt025mf-3 for the duty meter `jred::duty`.
-// Written by `jred size --meter`; size anew instead of editing.
+// Written by `jred size --meter`. Do not edit: run it again.
 //
 // machine: press.toml, Servo press, 60 mm stroke, 10 kN
 // motor: Yaskawa SGMSH-30A
 // gearbox: Beckhoff AG3400 NPT025 MF i=3
 // rules: general (General practice)
-// assumed: corner of the peak torque not stated: peak torque up to rated speed
-// assumed: peak torque at maximum speed not stated: straight line to the rated torque
-// assumed: standstill torque not stated: the rated torque is taken
-// not seen by the meter: holding torque, inertia ratio, winding temperature, gearbox emergency torque, RMS current, peak current, bus voltage, natural frequency
+// assumed: corner of the peak torque not given; using peak torque up to rated speed
+// assumed: peak torque at maximum speed not given; using a straight line to the rated torque
+// assumed: standstill torque not given; using the rated torque
+// not monitored by the meter: holding torque, inertia ratio, winding temperature, gearbox emergency torque, RMS current, peak current, bus voltage, natural frequency
 //
 // SI units. Speed and torque are those of the motor; output is that of the gearbox.
 
@@ -39,15 +39,15 @@ pub const OUTPUT_PEAK: f32 = 80.0;
 /// 100 % of the gearbox's rated torque T2N (N m).
 pub const OUTPUT_MEAN: f32 = 40.0;
 
-// No limit `regenerative_power`: nothing to judge at this drive.
+// No limit `regenerative_power`: not applicable to this drive.
 
-/// 100 % of the moves an hour up to which T2B holds, beyond which sizing gives a warning (1/h).
+/// 100 % of the moves per hour up to which T2B is valid, beyond which sizing gives a warning (1/h).
 pub const CYCLES_PER_HOUR: f32 = 1_000.0;
 
 /// The cycle (s).
 pub const CYCLE_TIME: f32 = 0.5;
 
-/// What the cycle was sized with: the meter's figures after one cycle, if each move of the drive link is counted as a
+/// Values the cycle was sized with: those of the meter after one cycle, if each move of the drive link counts as a
 /// cycle of the gearbox.
 pub const SIZED: jred::duty::Figures<f32> = jred::duty::Figures {
     rms_torque: 4.197_992,

@@ -110,20 +110,20 @@ fn assumptions_are_reported_exactly_where_a_figure_is_missing() {
         let motor = without(missing);
         let envelope = Envelope::of(&motor);
         let said = |word: &str| envelope.assumptions().iter().any(|a| a.starts_with(word));
-        assert_eq!(said("maximum speed not stated"), motor.max_speed.is_none());
+        assert_eq!(said("maximum speed not given"), motor.max_speed.is_none());
         assert_eq!(
-            said("corner of the peak torque not stated"),
+            said("corner of the peak torque not given"),
             motor.corner_speed.is_none()
         );
         assert_eq!(
-            said("standstill torque not stated"),
+            said("standstill torque not given"),
             motor.standstill_torque.is_none()
         );
         // At a top speed that is the corner speed no such figure is needed.
         let corner = motor.corner_speed.or(motor.rated_speed);
         let needed = motor.max_speed.or(motor.rated_speed) > corner;
         assert_eq!(
-            said("peak torque at maximum speed not stated"),
+            said("peak torque at maximum speed not given"),
             needed && motor.torque_at_max_speed.is_none(),
             "{missing:04b}"
         );

@@ -134,7 +134,7 @@ fn with_its_field_weakened_too() {
         );
         compare(&motor, &Site::default(), 560.0, true);
         let words = envelope.assumptions().join("; ");
-        assert!(words.contains("field weakening: "), "{words}");
+        assert!(words.contains("field weakening assumed: "), "{words}");
     }
 }
 
@@ -205,7 +205,7 @@ fn the_peak_current_cuts_the_line() {
     near(envelope.peak_torque(1.0, 400.0), 0.5, budget::CLOSED_FORM);
     near(envelope.peak_torque(-1.0, 400.0), 1.0, budget::CLOSED_FORM);
     let words = envelope.assumptions().join("; ");
-    assert!(words.contains("peak torque not stated"), "{words}");
+    assert!(words.contains("peak torque not given"), "{words}");
 }
 
 #[test]
@@ -220,7 +220,10 @@ fn a_hot_winding_reaches_less() {
         budget::CLOSED_FORM,
     );
     let words = envelope.assumptions().join("; ");
-    assert!(words.contains("highest temperature"), "{words}");
+    assert!(
+        words.contains("winding resistance at maximum temperature"),
+        "{words}"
+    );
 }
 
 #[test]
@@ -230,5 +233,5 @@ fn without_inductance_a_three_phase_winding_is_not_guessed() {
     let envelope = Envelope::of(&motor);
     near(envelope.max_speed(), 4000.0 * RPM, budget::CLOSED_FORM);
     let words = envelope.assumptions().join("; ");
-    assert!(words.contains("the rated speed is taken"), "{words}");
+    assert!(words.contains("using the rated speed"), "{words}");
 }

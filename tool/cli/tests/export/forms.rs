@@ -157,7 +157,8 @@ fn json_says_everything() {
 fn without_a_file_nothing_is_written() {
     let run = export_of(&press_file(), &["--torque-error", "1 N m"], None).ends(0);
     assert!(
-        run.out.contains("nothing written: --out names a file"),
+        run.out
+            .contains("nothing written: use --out to write a file"),
         "{}",
         run.out
     );
@@ -169,11 +170,11 @@ fn without_a_file_nothing_is_written() {
         assert!(row, "{number} {layout} is not in\n{}", run.out);
     }
     // Bits unused are those of fixed point.
-    assert!(!run.out.contains("bits unused"));
+    assert!(!run.out.contains("unused bits"));
     let fixed = export_of(
         &press_file(),
         &["--torque-error", "1 N m", "--type", "i16"],
         None,
     );
-    assert!(fixed.ends(0).out.contains("bits unused: J_red "));
+    assert!(fixed.ends(0).out.contains("unused bits: J_red "));
 }

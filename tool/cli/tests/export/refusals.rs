@@ -18,13 +18,13 @@ fn too_few_cells_name_the_load_and_the_cures() {
         "no table meets a torque error of 0.5 N m: type f32, up to 60 cells",
         "spline: ",
         " cells reach ",
-        "the error falls with the power ",
-        " of the cells; if it goes on so, about ",
-        " would do",
-        "largest error at φ = ",
+        "the error falls with the number of cells to the power of ",
+        "; at this rate, about ",
+        " would be enough",
+        "the largest error is at φ = ",
         "the load \"pressing force\"",
         "over a ramp of 15 deg",
-        "allow a larger error, or --max-cells ",
+        "increase the allowed error, or --max-cells ",
         "or a longer ramp of the load \"pressing force\" in the machine file",
     ]);
     assert!(run.out.is_empty());
@@ -70,16 +70,16 @@ fn the_floor_of_single_precision_is_named_with_what_is_below_it() {
     run.says(&[
         "no table meets a torque error of 1.00000e-5 N m: type f32, up to 4096 cells",
         "cubic: ",
-        "that is the floor of rounding in f32, more cells do not lower it",
-        "allow a larger error",
-        "or state a smaller range with --omega and --alpha",
+        "this is the rounding floor of f32: more cells do not lower it",
+        "increase the allowed error",
+        "or give a smaller range with --omega and --alpha",
     ]);
     // 16 bits end far above; what the message offers does it.
     let more = ["--torque-error", "0.02 N m", "--type", "i16"];
     let run = export_of(&press_file(), &more, None).ends(1);
     run.says(&[
         "rows: ",
-        "that is the floor of rounding in i16",
+        "this is the rounding floor of i16",
         "or take --type f32 (",
         "or take --type i32 (",
     ]);
@@ -138,7 +138,7 @@ fn a_kink_of_the_mechanism_is_named() {
 fn bytes_that_are_too_few() {
     let run = export_of(&press_file(), &["--max-bytes", "100"], None).ends(2);
     run.says(&[
-        "no f32 table fits into 100 bytes: the smallest image has 184",
+        "no f32 table fits into 100 bytes: the smallest image takes 184 bytes",
         "allow more bytes",
     ]);
 }
@@ -148,8 +148,8 @@ fn a_reciprocal_of_floating_point() {
     let more = ["--torque-error", "1 N m", "--reciprocal", "yes"];
     let run = export_of(&press_file(), &more, None).ends(2);
     run.says(&[
-        "f32 tables have no curve of 1/J: floating point divides",
-        "leave out --reciprocal, or take --type i32",
+        "f32 tables have no curve of 1/J: in floating point, the tick divides",
+        "remove --reciprocal, or use --type i32",
     ]);
 }
 

@@ -220,7 +220,7 @@ fn an_exported_machine_comes_back() {
         assert!(
             facts
                 .iter()
-                .any(|text| text.contains("of the largest slope that the file gives")),
+                .any(|text| text.contains("of the largest slope in the file")),
             "{facts:?}"
         );
     }

@@ -42,11 +42,14 @@ fn curves_that_cannot_be_meant_are_refused() {
     );
     refused(
         turn(curves(header, but(4, "80,0.5"))),
-        &["position does not rise", "row 5 has 80 deg after 90 deg"],
+        &[
+            "position does not increase",
+            "row 5 has 80 deg after 90 deg",
+        ],
     );
     refused(
         turn(curves(header, but(4, "90.00001,0.5"))),
-        &["row 5", "too close", "leave one out"],
+        &["row 5", "too close", "remove one"],
     );
     refused(
         turn(curves(header, but(4, "120,nan"))),
@@ -86,15 +89,15 @@ fn curves_that_cannot_be_meant_are_refused() {
     );
     refused(
         turn(curves("phi [deg],Jot [kg m^2]", plain)),
-        &["\"Jot [kg m^2]\" is not known"],
+        &["unknown column \"Jot [kg m^2]\""],
     );
     refused(
         turn(curves("phi [deg],phi [rad]", plain)),
-        &["\"phi\" is there twice"],
+        &["duplicate column \"phi\""],
     );
     refused(
         turn(curves("phi [deg],T [N m]", plain)),
-        &["no column for the reduced inertia"],
+        &["the column for the reduced inertia is missing"],
     );
     refused(
         turn("phi [deg],J [kg m^2]\n0,1\n90,1\n".to_owned()),
@@ -108,7 +111,7 @@ fn curves_that_cannot_be_meant_are_refused() {
     let steep = |k: i32| format!("{},{}", 30 * k, if k == 5 { 50.0 } else { 0.01 });
     refused(
         turn(curves(header, steep)),
-        &["falls to", "between rows", "more rows"],
+        &["falls to", "between rows", "add rows"],
     );
     // A weight that lifts for nothing.
     let work = |k: i32| format!("{},0.5,3", 30 * k);
@@ -155,11 +158,11 @@ fn tables_of_loads_that_cannot_be_meant_are_refused() {
     );
     refused(
         read("Position [deg]\n0\n90\n180\n270\n300\n", ""),
-        &["no column beside the position"],
+        &["no column other than the position"],
     );
     refused(
         read("", "moment = \"3 N m\""),
-        &["`moment` in [[load]]", "of its own"],
+        &["`moment` in [[load]]", "separate [[load]]"],
     );
     let missing = parse(&machine(""), &[]).map(|_| ());
     refused(missing, &["`table` in [[load]]", "no such file"]);
@@ -183,18 +186,18 @@ fn recordings_that_cannot_be_meant_are_refused() {
             "t [s],omega [rpm]\n0,60\n0.25,60\n0.5,60\n0.75,60\n1,80\n",
             "",
         ),
-        &["begins with 60 rpm and ends with 80 rpm", "cyclic = false"],
+        &["starts with 60 rpm and ends with 80 rpm", "cyclic = false"],
     );
     refused(
         read(
             "t [s],omega [rpm],phi [deg]\n0,1,1\n1,1,1\n2,1,1\n3,1,1\n4,1,1\n",
             "",
         ),
-        &["position or for the speed, and not both"],
+        &["either for the position or for the speed"],
     );
     refused(
         read(&steady.replace("t [s],", "phi [deg],"), ""),
-        &["and not both"],
+        &["either for the position"],
     );
     refused(
         read("omega [rpm]\n60\n60\n60\n60\n60\n", ""),
@@ -210,7 +213,7 @@ fn recordings_that_cannot_be_meant_are_refused() {
     );
     refused(
         read(&steady.replace("0.75,", "0.5,"), ""),
-        &["time does not rise", "row 4 has 0.5 s after 0.5 s"],
+        &["time does not increase", "row 4 has 0.5 s after 0.5 s"],
     );
     refused(
         read(

@@ -88,7 +88,7 @@ joint = [
         text,
         "offset = \"5 mm\"",
         "offset = \"6 mm\"",
-        &["slides 5 mm beside the cam's axis, but its `offset` is 6 mm"],
+        &["slides 5 mm from the cam's axis, but its `offset` is 6 mm"],
     );
     refuses_edit(
         text,
@@ -110,7 +110,7 @@ fn cams_are_refused_with_their_cure() {
         &[
             "`base_radius` in [[mechanism.joint]] number 6 is too small",
             "undercut at φ = ",
-            "make the base radius larger than",
+            "make the base radius greater than",
         ],
     );
     refuses(
@@ -159,7 +159,7 @@ fn cams_are_refused_with_their_cure() {
     refuses(
         "{ name = \"jaw pin\", ",
         "{ name = \"jaw pin\", base_radius = \"1 mm\", ",
-        &["only cams have it"],
+        &["only cams use this"],
     );
     // Without its spring the roller leaves the cam.
     refuses(

@@ -27,7 +27,7 @@ fn bodies_and_points() {
             "[\"crank.A\"",
             "[\"crank.X\"",
             &[
-                "names the point \"X\", which \"crank\" does not have",
+                "refers to the point \"X\", which \"crank\" does not have",
                 "points of \"crank\": A",
                 "\"crank\" alone is the origin",
             ],
@@ -89,7 +89,7 @@ fn names_and_keys() {
             "points = { A = [\"80 mm\", \"0 mm\"] }",
             "length = \"80 mm\"",
             &[
-                "`length` in [[mechanism.body]] number 1 is not known",
+                "unknown key `length` in [[mechanism.body]] number 1",
                 "give its points",
             ],
         ),
@@ -120,7 +120,7 @@ fn names_and_keys() {
             "between = [\"crank.A\", \"coupler\"]",
             "between = [\"crank.A\", \"coupler\"]\nradius = \"1 mm\"",
             &[
-                "`radius` in [[mechanism.joint]] number 2 is not known",
+                "unknown key `radius` in [[mechanism.joint]] number 2",
                 "a rack has the radius",
             ],
         ),
@@ -130,7 +130,7 @@ fn names_and_keys() {
         FOUR_BAR,
         "[[mechanism.joint]]",
         body,
-        &["body \"strut\" is in no joint", "never used"],
+        &["no joint connects body \"strut\"", "never used"],
     );
     let two = "[[mechanism.body]]\nname = \"a\"\nmass = \"1 kg\"\nangle = \"0 deg\"\n\n[[mechanism.body]]\nname = \"b\"\nmass = \"1 kg\"\n\
                angle = \"0 deg\"\n\n[[mechanism.joint]]\nbetween = [\"a\", \"b\"]\n\n[[mechanism.joint]]";
@@ -151,7 +151,7 @@ fn drives() {
         (
             "drive = \"crank bearing\"",
             "drive = [\"crank bearing\", \"rocker bearing\"]",
-            &["is a list, but a linkage has one drive"],
+            &["is a list, but a linkage has only one drive"],
         ),
         (
             "drive = \"crank bearing\"",
@@ -162,7 +162,7 @@ fn drives() {
             "drive = \"crank bearing\"",
             "drive = \"crank\"",
             &[
-                "\"crank\", which does not exist here",
+                "\"crank\", which is not a valid choice here",
                 "\"crank bearing\", \"crank pin\"",
             ],
         ),
@@ -187,7 +187,7 @@ fn drives() {
             "drive = \"crank bearing\"\nstroke = [\"60 deg\", \"-30 deg\"]",
             &[
                 "runs from 60 deg to -30 deg",
-                "the second end is the larger one",
+                "the second end must be the larger one",
             ],
         ),
         (
@@ -209,7 +209,7 @@ fn freedoms_are_counted_joint_by_joint() {
         &[
             "3 degrees of freedom, not one: 3·3 − 6 = 3",
             "\"crank bearing\" 2, \"crank pin\" 2, \"coupler pin\" 2",
-            "can still move by itself",
+            "can still move independently",
         ],
     );
     let twice = format!(
@@ -222,7 +222,7 @@ fn freedoms_are_counted_joint_by_joint() {
         &[
             "-1 degrees of freedom, not one: 3·3 − 10 = -1",
             "\"stay\" 2",
-            "leave one out",
+            "remove one",
         ],
     );
     // As many equations as coordinates, but badly shared out.
@@ -241,8 +241,8 @@ fn freedoms_are_counted_joint_by_joint() {
     refuses(
         &strut,
         &[
-            "joint \"crank bearing\" is driven, but the other joints leave it no freedom, while \"strut\" can still move",
-            "one that holds \"strut\"",
+            "joint \"crank bearing\" is driven, but the other joints leave it no degree of freedom, while \"strut\" can still move",
+            "one that constrains \"strut\"",
         ],
     );
 }
@@ -256,10 +256,10 @@ fn what_cannot_be_assembled_or_driven_round() {
         "points = { B = [\"18 mm\", \"0 mm\"] }",
         &[
             "cannot be assembled at φ = 0 deg",
-            "stays open by",
+            "a gap of",
             " mm",
             "check the angles of \"coupler\" and \"rocker\" in the drawing",
-            "the widest gap in the drawing is",
+            "the largest gap in the drawing is",
         ],
     );
     // A crank of 200 mm: |OC|² + a² − 2·a·|OC|·cos φ = (b + c)² at φ = acos(−0.4575).

@@ -114,7 +114,7 @@ fn loads_in_a_part_of_the_stroke() {
         (
             "[\"500 mm\", \"600 mm\"]",
             "[\"900 mm\", \"1000 mm\"]",
-            &["lies outside the stroke, 400 mm to 800 mm"],
+            &["is outside the stroke, 400 mm to 800 mm"],
         ),
         (
             "between = [\"500 mm\", \"600 mm\"]",
@@ -173,7 +173,7 @@ fn motions_of_a_sliding_drive() {
         (
             "type = \"cycle\"",
             "type = \"constant-speed\"\nspeed = \"0.1 m/s\"",
-            &["cannot go on for ever", "moves there and back"],
+            &["cannot move on forever", "moves forth and back"],
         ),
         (
             "[motion]",
@@ -203,7 +203,7 @@ fn motions_of_a_sliding_drive() {
         "drive = \"cylinder\"",
         "drive = \"cylinder\"\nflywheel = \"1 kg m^2\"",
         &[
-            "`flywheel` in [mechanism] turns, but the drive link",
+            "`flywheel` in [mechanism] is for a rotating drive link",
             "slides",
         ],
     );
@@ -237,7 +237,7 @@ fn recorded_motions_of_a_sliding_drive() {
     assert!(
         outside
             .message()
-            .contains("s = 950 mm lies outside the stroke, 400 mm to 800 mm"),
+            .contains("s = 950 mm is outside the stroke, 400 mm to 800 mm"),
         "{}",
         outside.message()
     );
@@ -347,6 +347,6 @@ fn a_crank_that_swings() {
             "moment = \"-6 N m\"",
             "moment = \"-6 N m\"\nbetween = [\"100 deg\", \"120 deg\"]\nramp = \"5 deg\"",
         ),
-        &["lies outside the stroke, -60 deg to 90 deg"],
+        &["is outside the stroke, -60 deg to 90 deg"],
     );
 }

@@ -24,7 +24,7 @@ joint = [
         "com = [\"5 mm\", \"0 mm\"]",
         "com = [\"0 mm\", \"0 mm\"]",
         &[
-            "joint \"teeth\": the gears' radii 30 mm and 80 mm ask for centres 110 mm apart, but these are 120 mm apart",
+            "joint \"teeth\": the gears' radii 30 mm and 80 mm require a centre distance of 110 mm, but it is 120 mm",
             "32.7273 mm and 87.2727 mm",
         ],
     );
@@ -34,7 +34,7 @@ joint = [
         &[
             "the linkage does not repeat",
             "body \"large\" is",
-            "drive it over as many with `stroke`, or drive the slowest shaft",
+            "give a `stroke` over all of them, or drive the slowest shaft",
         ],
     );
     refuses_edit(
@@ -53,7 +53,7 @@ joint = [
         &fitting,
         "between = [\"small\", \"large\"]",
         "between = [\"small\", \"ground.P\"]",
-        &["`carrier`", "the ground is one of these gears"],
+        &["`carrier`", "one of these gears is the ground"],
     );
     // Three bodies: the belt's second pulley rides on the first.
     let riding = fitting
@@ -87,7 +87,7 @@ joint = [
     refuses(
         rack,
         &[
-            "joint \"teeth\": the pinion has a radius of 30 mm, but its centre lies 0 mm from the rack's pitch line",
+            "joint \"teeth\": the pinion has a radius of 30 mm, but its centre is 0 mm from the rack's pitch line",
         ],
     );
     refuses_edit(
@@ -111,6 +111,9 @@ joint = [
         );
     refuses(
         &slides,
-        &["`stroke` in [mechanism] is missing", "between two ends"],
+        &[
+            "`stroke` in [mechanism] is missing",
+            "two ends of its stroke",
+        ],
     );
 }

@@ -29,7 +29,12 @@ fn files_that_are_no_machine_files_are_refused() {
     std::fs::write(&path, vec![b'#'; 10 << 20]).unwrap();
     refuses_file(
         &path,
-        &["10 MiB", "at most 1 MiB", "CSV file", "`file` in [motion]"],
+        &[
+            "10 MiB",
+            "the maximum is 1 MiB",
+            "CSV file",
+            "`file` in [motion]",
+        ],
     );
     std::fs::write(&path, [b'a', b'\n', 0xff, 0xfe, 0, 1]).unwrap();
     refuses_file(&path, &["UTF-8", "line 2"]);
@@ -59,5 +64,5 @@ fn texts_that_are_no_machine_files_are_refused() {
     let line = format!("{gravity}title = \"{}\" 3", "x".repeat(5000));
     refuses(&line, &["line 2", "not valid TOML"]);
     let long = format!("# {}", "x".repeat(1 << 20));
-    refuses(&long, &["at most 1 MiB"]);
+    refuses(&long, &["the maximum is 1 MiB"]);
 }

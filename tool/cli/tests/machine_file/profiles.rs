@@ -99,7 +99,7 @@ fn wrong_profiles_are_shown_in_the_csv_file() {
         (
             turn(header, at(4, "0.3,180")),
             "",
-            &["does not rise", "row 5", "profile.csv:6"],
+            &["does not increase", "row 5", "profile.csv:6"],
         ),
         (
             turn(header, at(4, "0.4,abc")),
@@ -139,7 +139,7 @@ fn wrong_profiles_are_shown_in_the_csv_file() {
         (
             turn("t [s],t [ms]", |_| None),
             "",
-            &["the column \"t\" is there twice"],
+            &["duplicate column \"t\""],
         ),
         (
             format!("{header}\n0,0\n1,90\n2,180\n3,360\n"),

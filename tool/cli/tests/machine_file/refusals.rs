@@ -34,7 +34,7 @@ fn wrong_quantities_are_shown_with_their_cure() {
         (
             length,
             "length = \"1e-9 mm\"",
-            &["smaller than any machine"],
+            &["too small for any machine"],
         ),
         (length, "length = nan", &["not a finite number"]),
         (length, "length = \"nan mm\"", &["not a finite number"]),
@@ -62,7 +62,7 @@ fn wrong_quantities_are_shown_with_their_cure() {
         (
             "mass = \"42 kg\"",
             "mass = \"42000 t\"",
-            &["larger than any machine", "at most 1000 t"],
+            &["too large for any machine", "at most 1000 t"],
         ),
         (
             "com = [\"6 mm\", \"0 mm\"]",
@@ -83,7 +83,7 @@ fn wrong_quantities_are_shown_with_their_cure() {
         PRESS,
         "efficiency = \"97 %\"",
         "efficiency = 97",
-        &["must not be larger than 1", "\"97 %\""],
+        &["must not be greater than 1", "\"97 %\""],
     );
 }
 
@@ -190,7 +190,7 @@ fn loads_that_make_no_sense_are_refused() {
         (
             "viscous_moment",
             "at = [\"1 mm\", \"0 mm\"]\nviscous_moment",
-            &["`at` has no meaning", "remove"],
+            &["`at` is not used", "remove"],
         ),
         (
             "ramp = \"15 deg\"",
@@ -289,7 +289,7 @@ fn motions_and_simulations_that_make_no_sense_are_refused() {
         (
             "\"polynomial-345\"",
             "\"trapezoid\"\naccelerate = \"80 %\"",
-            &["113.333 %", "together at most 100 %"],
+            &["113.333 %", "at most 100 % in total"],
         ),
         (
             "\"polynomial-345\"",
@@ -304,12 +304,12 @@ fn motions_and_simulations_that_make_no_sense_are_refused() {
         (
             "type = \"cycle\"",
             "type = \"constant-speed\"\nspeed = \"0 rpm\"",
-            &["`segment`", "segments belong to the types"],
+            &["`segment`", "segments are for the types"],
         ),
         (
             "type = \"cycle\"",
             "type = \"profile\"\nfile = \"turn.csv\"",
-            &["`segment`", "segments belong to the types"],
+            &["`segment`", "segments are for the types"],
         ),
         (
             "at = \"motor\"",
@@ -321,7 +321,7 @@ fn motions_and_simulations_that_make_no_sense_are_refused() {
             "\"3500 rpm\"",
             &[
                 "is 3000 rpm",
-                "larger than the speed of the point before, 3500 rpm",
+                "greater than the speed of the previous point, 3500 rpm",
             ],
         ),
         (
@@ -359,7 +359,7 @@ fn a_force_that_does_not_repeat_with_the_drive_link_is_refused() {
         &[
             "`force`",
             "shaft-3",
-            "does not move alike in every turn",
+            "does not move in the same way in every turn",
             "moment",
         ],
     );

@@ -72,14 +72,14 @@ fn wrong_entries_are_refused_with_their_cure() {
         (
             "\"20 mm\"",
             "\"0 mm\"",
-            &["`lead` in [mechanism] is 0 mm", "travel a turn"],
+            &["`lead` in [mechanism] is 0 mm", "per turn"],
         ),
         ("\"20 mm\"", "\"20 mm/rad\"", &["`lead` in [mechanism]"]),
         ("lead =", "pitch =", &["`lead` in [mechanism] is missing"]),
         (
             "inertia = \"6.4 kg cm^2\"",
             "inertia = \"6.4 kg cm^2\"\ncom = [\"1 mm\", \"0 mm\"]",
-            &["`com` in [mechanism.screw] is not known", "balanced"],
+            &["unknown key `com` in [mechanism.screw]", "balanced"],
         ),
     ];
     for (from, to, words) in edits {

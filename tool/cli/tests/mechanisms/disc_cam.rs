@@ -205,7 +205,7 @@ fn wrong_entries_are_refused_with_their_cure() {
             "offset = \"5 mm\"",
             "offset = \"70 mm\"",
             &[
-                "is too small for the guide's offset of 70 mm",
+                "is too small for the offset of the guide, 70 mm",
                 "larger than 55 mm",
             ],
         ),
@@ -258,7 +258,7 @@ fn wrong_entries_are_refused_with_their_cure() {
         (
             "angle = \"90 deg\"",
             "angle = \"90 deg\"\nend_velocity = \"2 mm/rad\"",
-            &["only the law \"polynomial-5\" has these ends"],
+            &["only the law \"polynomial-5\" uses these end values"],
         ),
         (
             "angle = \"90 deg\"",
@@ -273,7 +273,7 @@ fn wrong_entries_are_refused_with_their_cure() {
         (
             "type = \"translating-roller\"",
             "type = \"translating-flat-face\"",
-            &["`roller` in [mechanism] is not known"],
+            &["unknown key `roller` in [mechanism]"],
         ),
         (
             "type = \"translating-roller\"",
@@ -313,7 +313,7 @@ fn wrong_entries_are_refused_with_their_cure() {
         "return = \"21 mm\"",
         &[
             "needs `end_velocity`",
-            "number 2, does not say the velocity",
+            "number 2, does not give the velocity",
         ],
     );
     let reversal = two

@@ -90,7 +90,7 @@ fn a_swinging_crank_is_driven_over_a_stroke() {
         &text,
         "pivot =",
         "stroke = [\"20 deg\", \"80 deg\"]\npivot =",
-        &["`stroke`", "starts at φ = 20.00°", "do not meet"],
+        &["`stroke`", "starts at φ = 20.00°", "cannot be connected"],
     );
     refuses_edit(
         &text,

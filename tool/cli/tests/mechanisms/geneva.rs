@@ -87,14 +87,14 @@ fn wrong_entries_are_refused_with_their_cure() {
             "[mechanism.crank]",
             "[mechanism.crank]\nlength = \"80 mm\"",
             &[
-                "`length` in [mechanism.crank] is not known",
+                "`length` in [mechanism.crank] is not used",
                 "sin(180°/slots)",
             ],
         ),
         (
             "inertia = \"1.15 kg m^2\"",
             "inertia = \"1.15 kg m^2\"\ncom = [\"1 mm\", \"0 mm\"]",
-            &["`com` in [mechanism.wheel] is not known", "balanced"],
+            &["unknown key `com` in [mechanism.wheel]", "balanced"],
         ),
         ("\"160 mm\"", "\"0 mm\"", &["greater than zero"]),
     ];

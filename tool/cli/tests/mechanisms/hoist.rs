@@ -87,7 +87,7 @@ fn wrong_entries_are_refused_with_their_cure() {
         (
             "mass = \"260 kg\"",
             "mass = \"260 kg\"\ninertia = \"1 kg m^2\"",
-            &["`inertia` in [mechanism.counterweight] is not known"],
+            &["unknown key `inertia` in [mechanism.counterweight]"],
         ),
     ];
     for (from, to, words) in edits {

@@ -57,8 +57,8 @@ fn wrong_entries_are_refused_with_their_cure() {
             "\"-80 mm\"",
             &[
                 "`pivot` in [mechanism.lever] is 80 mm from the crank's pivot",
-                "farther than crank + |offset| = 80 mm",
-                "nearer than crank − |offset| = 80 mm",
+                "farther away than crank + |offset| = 80 mm",
+                "closer than crank − |offset| = 80 mm",
             ],
         ),
         (

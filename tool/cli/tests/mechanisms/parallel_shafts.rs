@@ -56,12 +56,12 @@ fn wrong_entries_are_refused_with_their_cure() {
         (
             "ratio = -0.8",
             "name = \"rollers\"\nratio = -0.8",
-            &["is \"rollers\", which another shaft is called"],
+            &["is \"rollers\", the name of another shaft"],
         ),
         (
             "name = \"rollers\"",
             "name = \"drive\"",
-            &["is \"drive\", which another shaft is called"],
+            &["is \"drive\", the name of another shaft"],
         ),
         (
             "inertia = \"0.004 kg m^2\"",

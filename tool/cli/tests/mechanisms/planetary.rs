@@ -74,19 +74,19 @@ fn wrong_entries_are_refused_with_their_cure() {
             &[
                 "4 equally spaced planets do not mesh",
                 "90",
-                "another number",
+                "change the number",
             ],
         ),
         (
             "count = 3",
             "count = 9",
-            &["9 planets of this size overlap: at most 4", "choose fewer"],
+            &["9 planets of this size overlap: at most 4", "use fewer"],
         ),
         ("count = 3", "count = 1", &["number of planets is 1"]),
         (
             "count = 3",
             "count = 3\nteeth = 20",
-            &["planets with 20 teeth do not fill", "leave out `teeth`"],
+            &["planets with 20 teeth do not fill", "remove `teeth`"],
         ),
         (
             "teeth = 18",
@@ -115,7 +115,7 @@ fn a_force_on_the_planets_does_not_repeat() {
     let load = "[[load]]\non = \"planets\"\nforce = [\"5 N\", \"0 N\"]\n\n[mechanism]";
     let words = [
         "acts in a fixed direction on \"planets\"",
-        "does not move alike in every turn",
+        "does not move in the same way in every turn",
     ];
     refuses_edit(&base, "[mechanism]", load, &words);
 }

@@ -112,7 +112,7 @@ fn the_press_stops() {
     stand.gearbox.back_efficiency = 2.0 - 1.0 / 0.1;
     assert!(!stand.found(true, Rule::GearboxEmergency).is_known());
     let check = stand.check(true, &stand.file.rules, Rule::GearboxEmergency);
-    assert!(check.note.contains("locks"), "{}", check.note);
+    assert!(check.note.contains("self-locking"), "{}", check.note);
     stand.gearbox.back_efficiency = 0.9;
     stand.gearbox.emergency_torque = None;
     assert!(!stand.found(true, Rule::GearboxEmergency).is_known());

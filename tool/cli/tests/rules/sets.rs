@@ -166,7 +166,7 @@ fn a_warning_names_its_limit() {
         let finding = Finding::new(value, 1.0);
         Check::new(&RuleSet::default(), Rule::InertiaRatio, finding, words).note
     };
-    assert_eq!(note(6.0), "10 times the rotor's inertia; a warning above 5");
+    assert_eq!(note(6.0), "10 times the rotor's inertia; warning above 5");
     assert_eq!(note(4.0), "10 times the rotor's inertia");
 }
 

@@ -155,7 +155,7 @@ fn the_table_of_ratios_is_narrow_and_can_be_cut() {
     );
     let notes = cut["notes"].to_string();
     assert!(
-        notes.contains(&format!("{reasons} motors hold them with no ratio")),
+        notes.contains(&format!("motors without a suitable ratio: {reasons}")),
         "{notes}"
     );
     let some = jred([&"ratio", &press, &"--motor", &"FXM*", &"--format", &"json"])

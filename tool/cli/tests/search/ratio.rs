@@ -310,5 +310,5 @@ fn the_command_lists_ratios() {
     }
     jred([&"ratio", &press_file(), &"--efficiency", &"120%"])
         .ends(2)
-        .says(&["not above 1"]);
+        .says(&["at most 1"]);
 }

@@ -109,7 +109,7 @@ fn a_rope_that_would_push() {
             let message = refused(&text);
             for words in [
                 "at t = 0.000000 s the rope of the load goes slack: at φ = 0.00°, 95.493 rpm",
-                "accelerate or brake more slowly, or hang more weight on this rope",
+                "accelerate or brake more gently, or hang more weight on this rope",
             ] {
                 assert!(message.contains(words), "{words} is not in\n{message}");
             }
@@ -128,7 +128,7 @@ fn a_rope_in_too_fast_a_cycle() {
             "goes slack in the prescribed motion: at φ = ",
             "it would have to push with",
             "a rope can only pull",
-            "accelerate or brake more slowly",
+            "accelerate or brake more gently",
         ]);
         assert!(run.message().contains("the rope of the "), "{}", run.err);
     }

@@ -132,7 +132,7 @@ fn every_model_that_data_allow() {
     let found = winding(&steady, &site);
     near("mean losses", found.value.unwrap(), mean, budget::SIMPSON);
     assert!(
-        found.note.contains("ripple over the cycle not followed"),
+        found.note.contains("temperature ripple ignored"),
         "{}",
         found.note
     );
@@ -169,7 +169,7 @@ fn every_model_that_data_allow() {
         found.note
     );
     assert!(
-        found.note.contains("from the squared torque"),
+        found.note.contains("estimated from the RMS torque"),
         "{}",
         found.note
     );
@@ -190,7 +190,7 @@ fn what_is_missing_is_said() {
     let found = winding(&open, &site);
     assert_eq!(found.verdict, Verdict::NotChecked);
     assert!(
-        found.note.contains("highest temperature of the winding"),
+        found.note.contains("maximum temperature of the winding"),
         "{}",
         found.note
     );

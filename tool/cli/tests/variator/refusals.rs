@@ -29,7 +29,7 @@ fn wrong_variators_are_refused_with_their_cure() {
         (
             "slip = \"3 %\"",
             "slip = \"120 %\"",
-            &["must be below 100 %", "begins to slide"],
+            &["must be below 100 %", "starts to slide"],
         ),
         (
             "slip = \"3 %\", ",
@@ -49,14 +49,14 @@ fn wrong_variators_are_refused_with_their_cure() {
         (
             "creep = {",
             "power_flow = \"input-drives\"\ncreep = {",
-            &["has a meaning only beside a constant `slip`"],
+            &["is only used together with a constant `slip`"],
         ),
         (
             "at = \"3.4 s\"",
             "at = \"2.2 s\"",
             &[
                 "is 2.2 s, but must not be before 2.3 s",
-                "follow one another",
+                "after the previous one has ended",
             ],
         ),
         (
@@ -100,10 +100,10 @@ fn wrong_friction_drives_are_refused_with_their_cure() {
             "",
             &[
                 "`power_flow` in [mechanism] is missing",
-                "slip makes the driven shaft slower",
+                "slip always slows down the driven shaft",
             ],
         ),
-        ("ratio = -1.5", "ratio = 0.0", &["too near to zero"]),
+        ("ratio = -1.5", "ratio = 0.0", &["too close to zero"]),
         (
             "slip = \"1.5 %\"",
             "slip = \"100 %\"",

@@ -69,10 +69,10 @@ fn shares_merge_to_the_whole() {
             .says(&["row 1 alone is missing"]);
         jred([&"merge", &again, &parts[0], &parts[1], &parts[1], &parts[2]])
             .ends(2)
-            .says(&["row 1 is there twice"]);
+            .says(&["row 1 appears twice"]);
         jred([&"merge", &out, &parts[0], &parts[1], &parts[2]])
             .ends(2)
-            .says(&["exists already"]);
+            .says(&["already exists"]);
         assert!(!again.exists() && !folder.path("again.part").exists());
 
         // A share that was cut off in its last row.
@@ -80,7 +80,7 @@ fn shares_merge_to_the_whole() {
         folder.file("part-1", &text[..text.len() - 9]);
         jred([&"merge", &again, &parts[0], &parts[1], &parts[2]])
             .ends(2)
-            .says(&["no whole row", "--resume"]);
+            .says(&["an incomplete row", "--resume"]);
         folder.file(
             "part-1",
             text.lines()
@@ -104,7 +104,7 @@ fn shares_of_other_studies_are_refused() {
     );
     let [a, b, out] = ["a", "b", "out"].map(|name| folder.path(name));
     let run = jred([&"merge", &out, &a, &b]).ends(2);
-    run.says(&["do not belong together", "the catalogue", "the options"]);
+    run.says(&["come from different studies", "the catalogue", "options"]);
     let run = jred([&"merge", &out, &press_file()]).ends(2);
     run.says(&["is not a file of rows"]);
 }
@@ -143,16 +143,13 @@ fn a_run_that_was_cut_off_is_continued() {
     let (code, message) = study(&folder, "new", &[]);
     assert_eq!(code, 2);
     assert!(
-        message.contains("exists already") && message.contains("--resume"),
+        message.contains("already exists") && message.contains("--resume"),
         "{message}"
     );
     // Another study is refused, the file stays.
     let (code, message) = study(&folder, "new", &["--resume", "--rank", "margin"]);
     assert_eq!(code, 2);
-    assert!(
-        message.contains("not the same are the options"),
-        "{message}"
-    );
+    assert!(message.contains("it differs in the options"), "{message}");
     let (code, message) = study(&folder, "new", &["--resume", "--shard", "0/2"]);
     assert_eq!(code, 2);
     assert!(message.contains("another share"), "{message}");

@@ -1,5 +1,5 @@
-//! What holds on one side only: a follower presses on its cam, a rope pulls. Where the motion asks for the opposite, the
-//! equations still have an answer, but the machine has come apart.
+//! One-sided contacts: a follower presses on its cam, a rope pulls. Where the motion requires the opposite, the equations
+//! still have a solution, but the real machine has lost contact.
 
 use std::f64::consts::TAU;
 
@@ -10,31 +10,31 @@ use crate::model::coordinate::{Coordinate, positions};
 use crate::model::machine::AnyMechanism;
 use crate::number::rounding::figure;
 
-/// A rope that is pushed with less than this (N) is slack: nothing but rounding.
+/// A rope force above minus this value (N) is a rounding error, not slack.
 const ROUNDING: f64 = 1e-6;
 
-/// Positions at which a whole range is looked at.
+/// Number of positions at which a whole range is examined.
 const SCANNED: usize = 1440;
 
-/// A joint that can let go.
+/// A joint that can separate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OneWay {
     /// Index of the joint.
     pub joint: usize,
-    /// Whether it is a rope, which pulls; else a cam's contact, which presses.
+    /// Whether it is a rope, which pulls; otherwise a cam contact, which presses.
     pub rope: bool,
 }
 
-/// A machine that has come apart: where, and what helps.
+/// A contact that has separated: where, and the cure.
 #[derive(Clone, Debug)]
 pub struct Parted {
-    /// What lets go.
+    /// The contact that separates.
     pub what: String,
     /// Position and speed.
     pub state: String,
     /// The force that would be needed.
     pub force: String,
-    /// What helps.
+    /// Cure.
     pub cure: String,
 }
 
@@ -52,7 +52,7 @@ impl OneWay {
         contacts.chain(ropes).collect()
     }
 
-    /// The force (N) of contact or rope at φ, ω, α; positive when it holds.
+    /// Force (N) of contact or rope at φ, ω, α; positive while contact is maintained.
     ///
     /// # Errors
     /// Those of [`contact_force`].
@@ -64,8 +64,8 @@ impl OneWay {
         contact_force(machine, self.joint, phi, omega, alpha)
     }
 
-    /// What comes apart somewhere in the drive link's range at this speed and acceleration (rad/s, rad/s²; or m), in words for
-    /// a figure that is computed as if it did not.
+    /// Warning about a contact that separates somewhere in the range of the drive link at this speed and acceleration
+    /// (rad/s, rad/s²; or m/s, m/s²), for results computed as if it did not.
     ///
     /// # Errors
     /// Those of the machine.
@@ -85,7 +85,7 @@ impl OneWay {
             if !joint.holds(force) {
                 let parted = joint.parted(machine, [phi, omega], force)?;
                 return Ok(Some(format!(
-                    "mind: {} ({}): {}; the figures hold only if it is held by other means",
+                    "warning: {} ({}): {}; results are valid only if contact is maintained by other means",
                     parted.what, parted.state, parted.force
                 )));
             }
@@ -93,7 +93,7 @@ impl OneWay {
         Ok(None)
     }
 
-    /// Whether a joint with this force holds.
+    /// Whether contact is maintained at this force.
     pub fn holds(self, force: f64) -> bool {
         if self.rope {
             force >= -ROUNDING
@@ -102,7 +102,7 @@ impl OneWay {
         }
     }
 
-    /// Why it does not hold, at the state φ, ω with this force.
+    /// Why contact is lost at the state φ, ω with this force.
     ///
     /// # Errors
     /// Those of the machine.
@@ -127,10 +127,10 @@ impl OneWay {
                 what: format!("the {} goes slack", name.map_or("rope", String::as_str)),
                 state,
                 force: format!(
-                    "it would have to push with {} N, and a rope can only pull",
+                    "it would have to push with {} N, but a rope can only pull",
                     figure(-force)
                 ),
-                cure: "accelerate or brake more slowly, or hang more weight on this rope"
+                cure: "accelerate or brake more gently, or hang more weight on this rope"
                     .to_owned(),
             });
         }
@@ -152,7 +152,7 @@ impl OneWay {
         coordinate: Coordinate,
         omega: f64,
     ) -> Result<String, Error> {
-        const FORM: &str = "write closure = \"form\" for a grooved or conjugate cam, which holds the follower on both sides";
+        const FORM: &str = "write closure = \"form\" for a grooved or conjugate cam, which guides the follower on both sides";
         if coordinate == Coordinate::Length {
             return Ok(format!(
                 "use a stiffer spring, more preload or a slower motion; {FORM}"
@@ -165,7 +165,7 @@ impl OneWay {
         let pieces = contact.pieces.iter().copied();
         let limit = lift_off(machine, self.joint, pieces, omega)?;
         let cure = limit.map_or_else(
-            || "it would not: accelerate more slowly, or add preload".to_owned(),
+            || "the follower would not lift off: accelerate more gently, or add preload".to_owned(),
             |limit| limit.to_string(),
         );
         Ok(format!("at constant speed: {cure}; {FORM}"))

@@ -1,4 +1,4 @@
-//! The duty: what one cycle of the motion asks of the drive, independent of any motor.
+//! The duty: the load that one cycle of the motion puts on the drive, independent of any motor.
 
 use jred::{Domain, Error, Reducible as _, TorqueTerms};
 
@@ -43,18 +43,18 @@ pub struct Duty {
     pub instants: Vec<Instant>,
     /// Length of the cycle (s).
     pub duration: f64,
-    /// Largest torque (N·m) that holds the machine at the input, without losses and without the help of friction: against
-    /// the weight anywhere in the turn, and against weight and process loads where the motion stands still.
+    /// Largest torque (N·m) at the input that holds the machine at rest, without losses or the help of friction: against the
+    /// weight at any position, and against weight and process loads at standstill.
     pub hold_torque: f64,
-    /// What the mechanical rules need to know.
+    /// Data for the mechanical rules.
     pub mechanics: Mechanics,
 }
 
 /// Default number of time steps of a cycle.
 pub const STEPS: usize = 2000;
 
-/// The stretches of the motion, cut as well where the drive link passes an edge of a load's window: a load that acts for
-/// a moment only gets instants of its own.
+/// The stretches of the motion, also cut where the drive link passes an edge of a load's window, so that a short load has
+/// its own instants.
 pub(crate) fn smooth_stretches(
     file: &MachineFile,
     motion: &Motion,
@@ -116,8 +116,8 @@ pub(crate) fn smooth_stretches(
 /// Share of the largest input torque by which a peak between two instants may be missed.
 const PEAK_MISSED: f64 = 1e-5;
 
-/// Puts instants of no weight where the input torque bends sharply from index `first` on. Between instants at a distance h
-/// any peak stands out by at most T″·h²/8, whatever a motor's own inertia, which bends little, adds to it.
+/// Inserts instants of zero weight where the input torque bends sharply, starting at index `first`. Between instants at a
+/// distance h any peak stands out by at most T″·h²/8, whatever a motor's own inertia, which bends little, adds to it.
 fn refine_bends(
     file: &MachineFile,
     motion: &Motion,

@@ -1,4 +1,4 @@
-//! `jred check`: is this mechanism what it is meant to be, and is it far enough from its dead points?
+//! `jred check`: checks that the mechanism is as intended and far enough from its dead points.
 //!
 //! Limits of the transmission index (see `inspect/transmission.rs`): the classical rule keeps the transmission angle above
 //! 40° (H. Alt, *Der Übertragungswinkel und seine Bedeutung für das Konstruieren periodischer Getriebe*, Werkstattstechnik
@@ -25,22 +25,22 @@ pub use agreement::{Agreement, Inertia};
 pub use centres::Travel;
 use transmission::{Index, Structure};
 
-/// Below this index a mechanism is near a dead point.
+/// Below this index a mechanism is too close to a dead point.
 pub const NEAR_DEAD_POINT: f64 = 0.3;
 
-/// sin 40°: below it the transmission is poorer than textbooks recommend.
+/// sin 40°: textbooks recommend at least this transmission index.
 pub const RECOMMENDED: f64 = 0.642_787_609_686_539_3;
 
 /// An index that changes by less is constant.
 const CONSTANT: f64 = 1e-9;
 
-/// How far the links' speeds may be off after a turn, as a share of the mechanism's size (or of the drive's speed).
+/// Allowed difference of the links' speeds after a turn, as a share of the size of the mechanism (or of the drive speed).
 const CLOSED: f64 = 1e-9;
 
-/// How far the two ways to the drive torque may be apart, as a share of its largest term.
+/// Allowed difference of the two drive torques, as a share of the largest term.
 const AGREED: f64 = 1e-10;
 
-/// How far work and energy may be apart, as a share of the energy that the drive moves.
+/// Allowed difference of work and energy, as a share of the energy that the drive moves.
 const BALANCED: f64 = 1e-9;
 
 /// One joint.
@@ -52,7 +52,7 @@ pub struct JointFinding {
     pub kind: &'static str,
     /// The two bodies: the first acts on the second.
     pub bodies: [String; 2],
-    /// Freedoms that it takes.
+    /// Degrees of freedom that it removes.
     pub constraints: usize,
     /// Whether the drive moves it.
     pub driven: bool,
@@ -75,7 +75,7 @@ pub struct Transmission {
 }
 
 impl Transmission {
-    /// Where the index is smallest, in words.
+    /// Place of the smallest index as text.
     pub fn place(&self, coordinate: Coordinate) -> String {
         self.at.map_or_else(
             || "everywhere".to_owned(),
@@ -84,7 +84,7 @@ impl Transmission {
     }
 }
 
-/// What the check found.
+/// Result of the check.
 #[derive(Clone, Debug)]
 pub struct Findings {
     /// Title of the machine file.
@@ -99,15 +99,15 @@ pub struct Findings {
     pub links: usize,
     /// Its joints.
     pub joints: Vec<JointFinding>,
-    /// How far the links' speeds are off after a turn; `None` of a stroke.
+    /// Difference of the links' speeds after a turn; `None` for a stroke.
     pub closure: Option<f64>,
-    /// Where its links travel.
+    /// Travels of its links.
     pub travels: Vec<Travel>,
     /// The smallest transmission index; `None` without a group of links.
     pub transmission: Option<Transmission>,
     /// Its inertia.
     pub inertia: Inertia,
-    /// How far the methods agree.
+    /// Agreement of the methods.
     pub agreement: Agreement,
     /// Figures of its kind.
     pub facts: Vec<Fact>,
@@ -165,42 +165,43 @@ impl Findings {
             ));
         }
         if let Some(gap) = self.closure.filter(|gap| *gap > CLOSED) {
-            violations.push(format!("the mechanism does not close: after a turn the speeds of its links are {gap:.1e} off"));
+            violations.push(format!("the mechanism does not close: after a turn, the speeds of its links differ by {gap:.1e}"));
         }
         if let Some(transmission) = &self.transmission {
             if transmission.index < NEAR_DEAD_POINT {
                 violations.push(format!(
-                    "too near a dead point: transmission index {} {}, at least {NEAR_DEAD_POINT} is asked for",
+                    "too close to a dead point: transmission index {} {}, at least {NEAR_DEAD_POINT} is required",
                     short(transmission.index),
                     transmission.place(self.coordinate)
                 ));
             }
             if !transmission.branch_kept {
-                violations
-                    .push("the mechanism changes its branch: it passes a dead point".to_owned());
+                violations.push(
+                    "the mechanism changes its branch: it passes through a dead point".to_owned(),
+                );
             }
         }
         if self.agreement.dalembert > AGREED {
             violations.push(format!(
-                "drive torque by d'Alembert and by reduction are {:.1e} apart",
+                "drive torques by d'Alembert's principle and by reduction differ by {:.1e}",
                 self.agreement.dalembert
             ));
         }
         if let Some(off) = self.agreement.energy.filter(|off| *off > BALANCED) {
             violations.push(format!(
-                "work and energy over the motion are {off:.1e} of what the drive moves apart"
+                "work and energy over the motion differ by {off:.1e} of the energy that the drive moves"
             ));
         }
         violations
     }
 
-    /// Whether every rule holds.
+    /// Whether every rule is satisfied.
     pub fn holds(&self) -> bool {
         self.violations().is_empty()
     }
 }
 
-/// The figures of the mechanism's kind, and the speeds at which its followers leave their cams.
+/// Properties of this kind of mechanism, and the speeds at which its followers lift off.
 fn facts(file: &MachineFile) -> Result<Vec<Fact>, Error> {
     let mechanism = file.machine.mechanism();
     let mut facts = mechanism.facts().to_vec();
@@ -219,7 +220,7 @@ fn facts(file: &MachineFile) -> Result<Vec<Fact>, Error> {
         };
         let pieces = contact.pieces.iter().copied();
         let text = match lift_off(&file.machine, contact.joint, pieces, direction)? {
-            None => "none: it holds at any constant speed".to_owned(),
+            None => "none: contact is maintained at any constant speed".to_owned(),
             Some(limit) => format!(
                 "{} rpm at {}",
                 short(limit.omega * 60.0 / std::f64::consts::TAU),
@@ -288,7 +289,7 @@ fn points(joint: &Joint, frames: &Frames) -> Vec<[f64; 2]> {
     }
 }
 
-/// How far the speeds of the links are from what they were a turn before: |r_c′| by the size of the mechanism, ψ′. Positions
+/// Difference of the speeds of the links from those one turn earlier: |r_c′| by the size of the mechanism, ψ′. Positions
 /// may go on, as those of a rack, a nut or a planet do, but then the reduced curves still repeat.
 fn closure(mechanism: &AnyMechanism) -> Result<Option<f64>, Error> {
     use std::f64::consts::TAU;

@@ -1,4 +1,4 @@
-//! What the mechanical rules need to know of machine and motion. It does not depend on the drive and is worked out once.
+//! Data of machine and motion for the mechanical rules, computed once since they do not depend on the drive.
 
 use jred::{Domain, Mechanism as _, Reducible as _};
 
@@ -18,8 +18,8 @@ pub struct Mechanics {
     pub moves: u32,
     /// Moves per second.
     pub move_rate: f64,
-    /// Highest frequency with which the motion excites the machine (Hz): that of a turning drive link at its largest speed, or
-    /// one over the time of the shortest move, whichever is higher.
+    /// Highest frequency with which the motion excites the machine (Hz): that of a turning drive link at its largest speed,
+    /// or one over the time of the shortest move; the higher of the two.
     pub drive_frequency: f64,
     /// Largest torque at rest (N·m), at which the machine would begin to move on: the friction of the drive train may point
     /// either way.

@@ -1,5 +1,5 @@
 //! `jred reduce`: the reduced link over a turn or a stroke, the motion of every point and link, the force in every joint,
-//! and what the file's motion asks of the drive.
+//! and the drive torque of the motion.
 
 use jred::mechanism::Frames;
 use jred::motion::State;
@@ -19,16 +19,16 @@ mod reactions;
 pub use largest::{Largest, largest};
 
 crate::words! {
-    /// What the rows run over.
+    /// Variable that the rows run over.
     pub enum Over default Angle {
-        /// Equal steps of the drive link's angle over one turn, or of its position over its stroke.
+        /// Equal steps of the drive link's position over one turn or over its stroke.
         Angle = "angle",
-        /// Equal steps of time over the motion.
+        /// Equal time steps over the motion.
         Time = "time",
     }
 }
 
-/// Which columns there are beside the position.
+/// Columns other than the position.
 #[derive(Clone, Copy, Debug, Default)]
 #[expect(
     clippy::struct_excessive_bools,
@@ -47,10 +47,10 @@ pub struct Sets {
     pub energy: bool,
 }
 
-/// What to compute.
+/// The request.
 #[derive(Clone, Copy, Debug)]
 pub struct Request {
-    /// What the rows run over.
+    /// Variable that the rows run over.
     pub over: Over,
     /// Number of rows.
     pub positions: usize,
@@ -68,7 +68,7 @@ struct Place {
     state: Option<State<f64>>,
 }
 
-/// What the columns are made from.
+/// Data for the columns.
 struct Source<'f> {
     file: &'f MachineFile,
     /// The machine with its drive train.

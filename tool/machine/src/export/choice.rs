@@ -17,12 +17,12 @@ crate::words! {
         F32 = "f32",
         /// Fixed point with 32 bits, per-unit.
         I32 = "i32",
-        /// Fixed point with 16 bits, per-unit: for processors without a long multiplication.
+        /// Fixed point with 16 bits, per-unit: for processors without long multiplication.
         I16 = "i16",
     }
 }
 
-/// How the curves lie in memory.
+/// Layout of the curves in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LayoutName {
     /// One word a curve and cell.
@@ -42,17 +42,17 @@ pub enum LayoutName {
 crate::words! {
     /// Which layout is asked for.
     pub enum LayoutChoice default Auto {
-        /// The one that takes the fewest bytes.
+        /// The layout with the fewest bytes.
         Auto = "auto",
-        /// Control points of a cubic B-spline: the smallest table.
+        /// Control points of a cubic B-spline: smallest table.
         Spline = "spline",
-        /// The same in 16 bits, of i32: half of that.
+        /// Control points in 16 bits, for i32: half that size.
         Spline16 = "spline16",
-        /// The coefficients of each cell's cubic: a faster tick.
+        /// Coefficients of a cubic per cell: faster tick.
         Cubic = "cubic",
-        /// The coefficients of each cell's quadratic: the fastest tick without a long multiplication.
+        /// Coefficients of a quadratic per cell: fastest tick without long multiplication.
         Quadratic = "quadratic",
-        /// The packed rows of i16.
+        /// Packed rows, for i16.
         Rows = "rows",
         /// Short Fourier series of a smooth machine that turns: the fewest bytes, f32.
         Harmonic = "harmonic",
@@ -115,7 +115,7 @@ impl Number {
         }
     }
 
-    /// The machine units, but for what the number of cells asks for.
+    /// Machine units, before adaptation to the number of cells.
     pub(super) fn scale(
         self,
         machine: &impl Reducible,
@@ -128,7 +128,7 @@ impl Number {
         }
     }
 
-    /// What the search finds for this type and a layout of it.
+    /// Result of the search for this type and one of its layouts.
     pub(super) fn search(self, layout: LayoutName, search: &Search<'_>) -> Result<Answer, Error> {
         match (self, layout) {
             (Self::F32, LayoutName::Harmonic) => search.harmonics(),

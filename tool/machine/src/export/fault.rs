@@ -1,4 +1,4 @@
-//! Why no table meets what was asked for: what each layout reaches, what is in the way, and what helps.
+//! Why no table meets the request: what each layout reaches, the obstacle, and the cure.
 
 use std::fmt::Write as _;
 
@@ -13,7 +13,7 @@ use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
 use crate::number::rounding::{rounded, short};
 
-/// A search that found nothing.
+/// A search without a result.
 pub(super) struct NotReached<'f> {
     pub(super) file: &'f MachineFile,
     pub(super) coordinate: Coordinate,
@@ -22,7 +22,7 @@ pub(super) struct NotReached<'f> {
     pub(super) answers: &'f [(Number, LayoutName, Answer)],
 }
 
-/// What keeps a table from being more exact.
+/// Obstacles to a more accurate table.
 enum Limit {
     /// The number type.
     Rounding,
@@ -100,26 +100,26 @@ impl NotReached<'_> {
                 Limit::Rounding => {
                     let _ = write!(
                         text,
-                        "; that is the floor of rounding in {number}, more cells do not lower it"
+                        "; this is the rounding floor of {number}: more cells do not lower it"
                     );
                 }
                 Limit::Cells(Some(order)) => {
                     let _ = write!(
                         text,
-                        "; the error falls with the power {order:.1} of the cells"
+                        "; the error falls with the number of cells to the power of {order:.1}"
                     );
                     let needed = f64::from(cells) * (candidate.error / allowed).powf(1.0 / order);
                     // Where less than what was tried would do by this, there is more to the error than its order.
                     if round_up(needed.min(1e9)) <= self.task.max_cells {
-                        text += " so far, but not to the error asked for";
+                        text += " so far, but does not reach the error asked for";
                     } else if needed <= f64::from(MAX_CELLS) {
                         let needed = round_up(needed);
                         if most_cells.is_none_or(|most| needed < most) {
                             most_cells = Some(needed);
                         }
-                        let _ = write!(text, "; if it goes on so, about {needed} would do");
+                        let _ = write!(text, "; at this rate, about {needed} would be enough");
                     } else {
-                        let _ = write!(text, "; if it goes on so, {MAX_CELLS} are too few");
+                        let _ = write!(text, "; at this rate, even {MAX_CELLS} are too few");
                     }
                 }
                 Limit::Cells(None) => text += "; more cells hardly lower it",
@@ -128,23 +128,27 @@ impl NotReached<'_> {
         }
         let rounding = matches!(self.limit(best)?, Limit::Rounding);
         let worst = best.found.worst;
-        let _ = write!(text, "largest error at {}", self.coordinate.place(worst));
+        let _ = write!(
+            text,
+            "the largest error is at {}",
+            self.coordinate.place(worst)
+        );
         let mut found = None;
         if !rounding {
             found = self.feature(worst, best.found.cells)?;
             if let Some(found) = &found {
                 let _ = write!(text, ": {}", found.words);
             } else {
-                // What is smooth grows small with more cells, and what is not stands out.
+                // With more cells the error decreases where the curve is smooth, so that a kink stands out.
                 let finer = (4 * best.found.cells).min(MAX_CELLS);
                 let (_, worst) = self.without_rounding(best.layout, finer)?;
                 found = self.feature(worst, finer)?;
                 if let Some(found) = &found {
-                    let _ = write!(text, "; with more cells, where {}", found.words);
+                    let _ = write!(text, "; with more cells, it is where {}", found.words);
                 }
             }
         }
-        text += "\nallow a larger error";
+        text += "\nincrease the allowed error";
         for cure in self.cures() {
             text += ", or take ";
             text += &cure;
@@ -157,18 +161,18 @@ impl NotReached<'_> {
             text += &cure;
         }
         if rounding {
-            text += ", or state a smaller range with --omega and --alpha";
+            text += ", or give a smaller range with --omega and --alpha";
         }
         Ok(text)
     }
 
-    /// What is within a cell and a half of a position.
+    /// The feature within one and a half cells of a position.
     fn feature(&self, at: f64, cells: u32) -> Result<Option<Feature>, Error> {
         let near = 1.5 * self.search.domain.span() / f64::from(cells);
         feature(self.file, self.search.machine, self.coordinate, at, near)
     }
 
-    /// What other layouts and types do: each was tried.
+    /// Results of the other layouts and types; each was tried.
     fn cures(&self) -> Vec<String> {
         let meets = |number: Number, layouts: bool| {
             let found = self
@@ -258,7 +262,7 @@ impl NotReached<'_> {
         });
         let message = match (best, self.task.torque_error, smallest.min()) {
             (Some(best), Some(allowed), _) => format!(
-                "no {number} table of {most} bytes meets a {} error of {} {}: the least within them is {}, layout {}, {} cells",
+                "no {number} table of {most} bytes meets a {} error of {} {}: the smallest error in that size is {}, with layout {} and {} cells",
                 self.effort(),
                 rounded(allowed),
                 self.coordinate.effort_unit(),
@@ -267,9 +271,9 @@ impl NotReached<'_> {
                 best.found.cells
             ),
             (_, _, Some(smallest)) => format!(
-                "no {number} table fits into {most} bytes: the smallest image has {smallest}"
+                "no {number} table fits into {most} bytes: the smallest image takes {smallest} bytes"
             ),
-            _ => format!("no {number} table of {most} bytes is sound: it takes more cells"),
+            _ => format!("no {number} table of {most} bytes is usable: more cells are needed"),
         };
         let mut help = "allow more bytes".to_owned();
         if self.task.torque_error.is_some() {

@@ -1,4 +1,4 @@
-//! What a table is, how exact it is, and what its alternatives would be: for the terminal, for source comments, as JSON.
+//! Properties, accuracy and alternatives of a table: for the terminal, for source comments, as JSON.
 
 use std::fmt::Write as _;
 
@@ -56,7 +56,7 @@ fn rust_set(set: Set) -> String {
     }
 }
 
-/// What loads the image in Rust.
+/// Rust expression that loads the image.
 fn rust_call(table: &Candidate) -> String {
     let format = table.layout.type_name(table.number);
     let set = rust_set(table.curves);
@@ -68,7 +68,7 @@ fn headroom(usage: f32) -> Option<f64> {
     (usage > 0.0).then(|| -f64::from(usage).log2())
 }
 
-/// Names and shares of the quantities that a fixed-point tick holds.
+/// Names and shares of the quantities in a fixed-point tick.
 fn quantities(usage: &Usage, coordinate: Coordinate) -> [(&'static str, f32); 6] {
     let derivative = match coordinate {
         Coordinate::Angle => "J'·omega^2/2",
@@ -96,7 +96,7 @@ impl Export {
         }
     }
 
-    /// What the table is and how exact it is, for the terminal and for source comments.
+    /// Properties and accuracy of the table, for the terminal and for source comments.
     pub fn summary(&self) -> String {
         let chosen = self.chosen();
         let coordinate = self.coordinate;
@@ -162,7 +162,7 @@ impl Export {
                 headroom(*usage).map(|bits| format!("{name} {bits:.1}"))
             });
             let unused: Vec<String> = unused.collect();
-            let _ = writeln!(text, "bits unused: {}", unused.join(", "));
+            let _ = writeln!(text, "unused bits: {}", unused.join(", "));
         }
         text
     }

@@ -1,11 +1,11 @@
-//! The files that an export is written as.
+//! Output formats of an export.
 
 use std::fmt::Write as _;
 
 use super::Export;
 
 crate::words! {
-    /// What an export is written as.
+    /// Output format of an export.
     pub enum Form default Image {
         /// The binary image, for `include_image!` or a flash region.
         Image = "image",
@@ -13,7 +13,7 @@ crate::words! {
         Rust = "rust",
         /// A C source file with the image as a `const` array of words.
         C = "c",
-        /// JSON: the words, everything that is known of the table, and its alternatives.
+        /// JSON: the words, all properties of the table, and its alternatives.
         Json = "json",
     }
 }

@@ -24,7 +24,7 @@ use crate::model::machine::MachineFile;
 use fault::NotReached;
 use search::{Goal, Search};
 
-/// What is asked for. At least one of torque error and bytes is given.
+/// The request. At least one of torque error and bytes is given.
 #[derive(Clone, Copy, Debug)]
 pub struct Task {
     /// Number type.
@@ -37,7 +37,7 @@ pub struct Task {
     pub torque_error: Option<f64>,
     /// Most bytes of the image.
     pub max_bytes: Option<u32>,
-    /// Most cells to try.
+    /// Largest number of cells to try.
     pub max_cells: u32,
     /// Largest speed (rad/s, or m/s).
     pub omega: f64,
@@ -47,14 +47,14 @@ pub struct Task {
     pub rotor: f64,
 }
 
-/// A table, ready to be written, beside those of the other types and layouts.
+/// A table ready to be written, and those of the other types and layouts.
 #[derive(Clone, Debug)]
 pub struct Export {
     title: String,
     /// Whether the drive link turns or slides.
     pub coordinate: Coordinate,
     task: Task,
-    /// What every number type and layout takes.
+    /// Size of every number type and layout.
     pub answers: Vec<(Number, LayoutName, Answer)>,
     /// Which of them was chosen.
     pub chosen: usize,
@@ -65,13 +65,13 @@ pub struct Export {
 pub enum Failure {
     /// The machine cannot be tabulated.
     Machine(Error),
-    /// No table meets the torque error: what is in the way, and what helps.
+    /// No table meets the torque error: the obstacle and the cure.
     NotReached(String),
-    /// No table within so many bytes does: the least error within them, and what helps.
+    /// No table within the given bytes meets the error: the least error in that size, and the cure.
     NoneFits {
-        /// What is the case.
+        /// Message.
         message: String,
-        /// What helps.
+        /// Cure.
         help: String,
     },
 }
@@ -83,7 +83,7 @@ impl From<Error> for Failure {
 }
 
 impl Export {
-    /// Looks for the table that is asked for, and for its alternatives.
+    /// Searches for the requested table and its alternatives.
     ///
     /// # Errors
     /// A machine that cannot be tabulated; no table that meets what is asked for.
@@ -148,7 +148,7 @@ impl Export {
     }
 }
 
-/// The fewest bytes that meet the error; without one, the least error. Of equals the more exact one.
+/// The fewest bytes that meet the error; without a required error, the least error. Of equal ones, the more accurate.
 fn choose(task: &Task, answers: &[(Number, LayoutName, Answer)]) -> Option<usize> {
     let rank = |candidate: &Candidate| {
         let bytes = match task.torque_error {

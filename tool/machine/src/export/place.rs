@@ -1,4 +1,5 @@
-//! What makes a curve hard to follow at one position: the edge of a load's window, the end of a piece of a cam, a jump, a kink.
+//! Features that make a curve hard to approximate at one position: the edge of a load's window, the end of a cam segment, a
+//! jump, a kink.
 
 use std::f64::consts::TAU;
 
@@ -8,7 +9,7 @@ use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
 use crate::number::rounding::rounded;
 
-/// What is found, and what would help if anything in the machine file does.
+/// The feature, and a change in the machine file that would help, if any.
 pub(super) struct Feature {
     pub(super) words: String,
     pub(super) cure: Option<String>,
@@ -26,7 +27,7 @@ fn distance(domain: Domain, a: f64, b: f64) -> f64 {
     }
 }
 
-/// What is within `near` (rad, or m) of a position.
+/// The feature within `near` (rad, or m) of a position.
 pub(super) fn feature(
     file: &MachineFile,
     machine: &impl Reducible,
@@ -50,7 +51,7 @@ pub(super) fn feature(
 }
 
 fn window_edge(file: &MachineFile, coordinate: Coordinate, at: f64, near: f64) -> Option<Feature> {
-    const WHAT: [&str; 4] = ["begins", "is fully there", "begins to fall", "ends"];
+    const WHAT: [&str; 4] = ["begins", "reaches its full value", "begins to fall", "ends"];
     let domain = file.machine.mechanism().domain();
     let edges = file.loads.iter().filter_map(|load| {
         let edges = load.load.window()?.edges();
@@ -69,8 +70,8 @@ fn window_edge(file: &MachineFile, coordinate: Coordinate, at: f64, near: f64) -
         coordinate.place(edge)
     );
     let cure = Some(format!(
-        "a longer ramp of the load {name:?} in the machine file (or tables of the pieces between its edges: \
-         Part and Pieces of the library)"
+        "a longer ramp of the load {name:?} in the machine file (or one table for each piece between its edges: Part \
+         and Pieces of the library)"
     ));
     Some(Feature { words, cure })
 }
@@ -167,7 +168,7 @@ fn narrow(
         let Some((k, step)) = best.max_by(|a: &(u32, f64), b| a.1.total_cmp(&b.1)) else {
             return Ok(None);
         };
-        // Nothing but roundings, or smooth.
+        // Only rounding errors, or smooth.
         if step <= 1e-6 * size || step < KEPT * *first.get_or_insert(step) {
             return Ok(None);
         }

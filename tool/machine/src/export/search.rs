@@ -25,13 +25,13 @@ pub struct Candidate {
     pub layout: LayoutName,
     /// Set of [`curves`].
     pub curves: Set,
-    /// How exact its curves are.
+    /// Accuracy of its curves.
     pub found: Tabulated,
     /// The largest error of the drive torque (N·m, or N): of the curves and of the ticks.
     pub error: f64,
     /// Its torque error at the places of the search alone (N·m, or N).
     pub looked: f64,
-    /// How exact its ticks are.
+    /// Accuracy of its ticks.
     pub ticks: Ticks,
     /// How much of the number range each quantity uses.
     pub usage: Usage,
@@ -50,14 +50,14 @@ impl Candidate {
     }
 }
 
-/// What was found for one number type and layout.
+/// Result for one number type and layout.
 #[derive(Clone, Debug)]
 pub enum Answer {
-    /// It meets what was asked for.
+    /// Meets the request.
     Meets(Box<Candidate>),
-    /// The best there is does not.
+    /// Even the best one does not meet the request.
     Misses(Box<Candidate>),
-    /// No size gives a sound table; why the last one did not.
+    /// No size gives a usable table; the reason for the last one.
     Refused(Error),
     /// The smallest image does not fit; its bytes.
     TooLarge(usize),
@@ -69,20 +69,20 @@ impl Answer {
         match self {
             Self::Meets(_) => "",
             Self::Misses(_) => "misses",
-            Self::Refused(_) => "no size is sound",
+            Self::Refused(_) => "no size is usable",
             Self::TooLarge(_) => "does not fit",
         }
     }
 }
 
-/// What is looked for.
+/// The request.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Goal {
     /// Largest error of the drive torque (N·m); without one, the least possible.
     pub(super) torque_error: Option<f64>,
     /// Largest speed and acceleration.
     pub(super) range: [f64; 2],
-    /// Most cells to try.
+    /// Largest number of cells to try.
     pub(super) max_cells: u32,
     /// Most bytes of the image.
     pub(super) max_bytes: Option<usize>,
@@ -90,7 +90,7 @@ pub(super) struct Goal {
     pub(super) reciprocal: bool,
 }
 
-/// A search for one machine.
+/// Searches for tables of one machine.
 pub(super) struct Search<'m> {
     pub(super) machine: &'m Machine<AnyMechanism>,
     pub(super) knots: Remembered<'m, Machine<AnyMechanism>>,

@@ -123,7 +123,7 @@ impl Size<'_> {
     }
 }
 
-/// What the image says of itself: the error in single precision, not rounded down.
+/// The error as written in the image: in single precision, not rounded down.
 fn validity(found: &Tabulated, request: &Request, error: f64) -> Validity {
     Validity {
         torque_error: rounded_up(error),

@@ -8,11 +8,11 @@ use super::reference::{Place, Reference};
 /// roundings of the sum and of the quotient, all of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ticks {
-    /// Of the torque (N·m, or N).
+    /// Error of the torque (N·m, or N).
     pub torque: f64,
-    /// Where it is (rad, or m).
+    /// Position of this error (rad, or m).
     pub worst: f64,
-    /// Of the acceleration that such a torque gives (rad/s², or m/s²), where it fits the number range.
+    /// Error of the acceleration (rad/s², or m/s²), where it is within the number range.
     pub acceleration: f64,
     /// The largest torque (N·m, or N).
     pub peak_torque: f64,

@@ -6,12 +6,12 @@ use jred::{Domain, Error, Joint, Jointed as _, Mechanism as _};
 
 use crate::model::machine::AnyMechanism;
 
-/// What the drive link does.
+/// Type of motion of the drive link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coordinate {
-    /// It turns or swings: φ in rad, torque in N·m.
+    /// Rotates or swings: φ in rad, torque in N·m.
     Angle,
-    /// It slides: s in m, force in N; J_red is a reduced mass.
+    /// Slides: s in m, force in N; J_red is a reduced mass.
     Length,
 }
 
@@ -109,7 +109,7 @@ impl Coordinate {
         self.pick("kg m^2", "kg")
     }
 
-    /// Unit by which derivatives are taken.
+    /// Unit of the position in derivatives.
     pub const fn per(self) -> &'static str {
         self.pick("rad", "m")
     }

@@ -1,4 +1,4 @@
-//! A machine as the tool knows it: what a machine file describes, in SI units, checked.
+//! A machine as described by a machine file, checked and in SI units.
 
 use std::fmt;
 use std::sync::Arc;
@@ -40,10 +40,10 @@ pub struct Contact {
     pub pieces: Vec<jred::cam::Piece>,
 }
 
-/// A figure that one kind of mechanism has, such as the largest pressure angle of a cam.
+/// A property of one kind of mechanism, such as the largest pressure angle of a cam.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct Fact {
-    /// What it is.
+    /// Its name.
     pub label: String,
     /// The figure, its unit and where it is.
     pub text: String,
@@ -168,7 +168,7 @@ impl AnyMechanism {
         &self.loads
     }
 
-    /// With one more contact that must not open.
+    /// With one more contact that must not separate.
     #[must_use]
     pub fn with_contact(mut self, contact: Contact) -> Self {
         self.contacts.push(contact);
@@ -182,7 +182,7 @@ impl AnyMechanism {
         self
     }
 
-    /// With one more figure of its kind that `jred check` shows.
+    /// With one more property for `jred check` to show.
     #[must_use]
     pub fn with_fact(mut self, label: impl Into<String>, text: impl Into<String>) -> Self {
         let (label, text) = (label.into(), text.into());
@@ -195,7 +195,7 @@ impl AnyMechanism {
         &self.elements
     }
 
-    /// The contacts that must not open.
+    /// The contacts that must not separate.
     pub fn contacts(&self) -> &[Contact] {
         &self.contacts
     }
@@ -281,7 +281,7 @@ pub struct NamedElement {
     pub element: Element,
 }
 
-/// Everything that a machine file says.
+/// The content of a machine file.
 #[derive(Clone, Debug)]
 pub struct MachineFile {
     /// Title for reports.
@@ -300,11 +300,11 @@ pub struct MachineFile {
     pub variator: Option<Variator>,
     /// The prescribed motion, if the file has one.
     pub motion: Option<Motion>,
-    /// What `jred simulate` runs, if the file says.
+    /// The simulation for `jred simulate`, if the file has one.
     pub simulation: Option<Simulation>,
     /// Sizing rules, defaults unless the file overrides them.
     pub rules: RuleSet,
-    /// How far quantities of the file may lie from what it says, of `[tolerance]`.
+    /// Tolerances of quantities, from `[tolerance]`.
     pub tolerances: Vec<Tolerance>,
     /// Supply, surroundings, stiffness and tool.
     pub site: Site,

@@ -1,4 +1,4 @@
-//! How the cycle is run: without end, for a while from cold, or with rests.
+//! Operation: continuous, short-time or intermittent.
 
 /// How long the machine runs through its cycle, and how long it rests.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -17,7 +17,7 @@ pub enum Operation {
         operating: f64,
         /// Rest (s).
         rest: f64,
-        /// Whether the motor holds the machine at rest; else it is without current.
+        /// Whether the motor holds the machine at rest; otherwise it is without current.
         holding: bool,
     },
 }
@@ -25,7 +25,7 @@ pub enum Operation {
 /// Operation and duty type of the machine file.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Duty {
-    /// How the cycle is run.
+    /// Operation.
     pub operation: Operation,
     /// Number of the duty type, 1 to 9, if the file names one.
     pub kind: Option<u8>,

@@ -1,4 +1,4 @@
-//! The rules of sizing: what each judges, and in which sense.
+//! The sizing rules: the value that each checks, and the sense of its limit.
 
 use serde::Serialize;
 
@@ -130,7 +130,7 @@ impl Rule {
     }
 
     /// Whether judging it means following the time course of a state (temperature, charge), sample by sample. Such rules
-    /// are judged only for drives that hold all the others.
+    /// are checked only for drives that satisfy all others.
     pub const fn follows_time(self) -> bool {
         matches!(
             self,

@@ -1,4 +1,4 @@
-//! A rule set: which rules are judged, with what limits, and who says so.
+//! A rule set: the rules that are checked, with their limits and sources.
 //!
 //! The sets that come with the tool are files of `tool/machine/rules`; `docs/sizing-rules.md` lists them with their sources.
 
@@ -24,7 +24,7 @@ pub struct Limit {
 }
 
 impl Limit {
-    /// Whether the rule is judged at all.
+    /// Whether the rule is checked.
     pub const fn is_set(&self) -> bool {
         self.fail.is_some() || self.warn.is_some()
     }
@@ -35,19 +35,19 @@ impl Limit {
 pub struct RuleSet {
     /// Name of the set that was chosen.
     pub name: String,
-    /// What the set is, in a few words.
+    /// Short description of the set.
     pub title: String,
-    /// Figures that a rule may be judged by, where there is more than one.
+    /// Values that a rule may check, where there is a choice.
     pub choices: Choices,
     limits: [Limit; Rule::COUNT],
     off: [bool; Rule::COUNT],
     sources: [String; Rule::COUNT],
-    /// What the machine file changed; kept so that the same changes can be made to another set.
+    /// Changes by the machine file, kept so that they can be applied to another set.
     own: Changes,
 }
 
 impl RuleSet {
-    /// A set that judges nothing.
+    /// A set without limits.
     pub fn empty(name: impl Into<String>, title: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -85,7 +85,7 @@ impl RuleSet {
         &self.sources[rule as usize]
     }
 
-    /// How a finding comes out under a rule.
+    /// Verdict of a finding under a rule.
     pub fn verdict(&self, rule: Rule, finding: Finding) -> Verdict {
         let limit = self.limit(rule);
         if !limit.is_set() {
@@ -112,13 +112,12 @@ impl RuleSet {
         }
     }
 
-    /// How much of the limit whose passing violates the rule a finding uses; zero where there is no such limit, infinite
-    /// where the limit is zero and something is asked for.
+    /// Use of the limit by a finding; zero if there is no limit, infinite if the limit is zero and the value is not.
     pub fn use_of_limit(&self, rule: Rule, finding: Finding) -> f64 {
         use_of(self.limit(rule).fail, rule, finding)
     }
 
-    /// The same of the limit that is shown: that of the warning, where there is no other.
+    /// Use of the limit that is shown: that of the warning if there is no other.
     pub fn use_shown(&self, rule: Rule, finding: Finding) -> f64 {
         let limit = self.limit(rule);
         use_of(limit.fail.or(limit.warn), rule, finding)

@@ -1,5 +1,4 @@
-//! Where the drive is to stand: supply, surroundings, and what the machine says about its stiffness and its tool. All of it
-//! comes from the machine file.
+//! Site of the drive from the machine file: supply, surroundings, stiffness and tool.
 
 use crate::model::operation::Duty;
 use crate::model::supply::Supply;
@@ -12,32 +11,32 @@ pub struct Site {
     pub bus_voltage: Option<f64>,
     /// The rest of the supply.
     pub supply: Supply,
-    /// What the motor is cooled by.
+    /// Ambient conditions of the motor.
     pub surroundings: Surroundings,
-    /// How the cycle is run: without end, or with rests.
+    /// Operation: continuous, short-time or intermittent.
     pub duty: Duty,
     /// Torsional stiffness of shafts and couplings, at the input of the drive train (N·m/rad); `None`: not given.
     pub shaft_stiffness: Option<f64>,
     /// Play of the drive train at the drive link (rad, or m of a link that slides); `None`: not given.
     pub train_play: Option<f64>,
-    /// Where play matters; `None`: nowhere.
+    /// The tool, where backlash matters; `None`: none.
     pub tool: Option<Tool>,
 }
 
-/// Where play matters, and how much of it is allowed.
+/// The tool: where backlash matters, and how much is allowed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tool {
     /// Name of the point or link.
     pub name: String,
     /// Index of the link.
     pub link: usize,
-    /// What of the link moves.
+    /// The part of the link whose motion matters.
     pub place: ToolPlace,
     /// Largest play (m, or rad where the link turns).
     pub play: f64,
 }
 
-/// What of the tool's link moves.
+/// The part of the tool's link whose motion matters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ToolPlace {
     /// A point of its frame (m).

@@ -1,4 +1,4 @@
-//! What feeds the DC bus, and what takes up the energy that comes back, as the machine file says.
+//! The supply of the DC bus and everything that takes regenerated energy, from the machine file.
 
 /// The supply of the machine file. What is not given is taken from the amplifier.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

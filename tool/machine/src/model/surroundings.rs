@@ -1,4 +1,4 @@
-//! What a motor is cooled by.
+//! Ambient conditions of the motor.
 
 /// Temperature of the surroundings for which S1 torques are stated, and up to which none are reduced (°C): IEC 60034-1.
 pub const REFERENCE: f64 = 40.0;

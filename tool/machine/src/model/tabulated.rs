@@ -1,8 +1,8 @@
-//! Curves from elsewhere as links of a mechanism.
+//! Tabulated curves as links of a mechanism.
 //!
-//! What a machine's file gives as a curve over the drive link's position is carried by a *stand-in*: a rotor on a bearing of
-//! its own, geared to the drive link with a ratio ψ′(φ) that the curve makes. The method of reduction then gives the curve back,
-//! with consistent derivatives, and d'Alembert's principle finds the same torque through the gearing:
+//! A curve in a machine file over the position of the drive link is represented by a *stand-in*: a rotor on its own bearing,
+//! geared to the drive link with a ratio ψ′(φ) that follows from the curve. The method of reduction then gives the curve
+//! back, with consistent derivatives, and d'Alembert's principle finds the same torque through the gearing:
 //!
 //! ```text
 //! inertia J(φ)            rotor of 1 kg·m²                ψ′ = √J        J_red = ψ′², J_red′ = 2·ψ′·ψ″
@@ -29,7 +29,7 @@ use jred::{
 use crate::model::machine::Inner;
 use crate::number::spline::Spline;
 
-/// What a stand-in carries.
+/// Kind of curve that a stand-in represents.
 #[derive(Clone, Debug)]
 pub enum Course {
     /// A reduced inertia (kg·m², or kg of a drive link that slides).
@@ -40,7 +40,7 @@ pub enum Course {
     Potential {
         /// The torque.
         torque: Spline,
-        /// What is added to −∫T, so that the energy is never near zero.
+        /// Offset added to −∫T, so that the energy is never near zero.
         offset: f64,
     },
     /// A torque against the motion, not negative.
@@ -79,7 +79,7 @@ pub enum Course {
 pub struct StandIn {
     /// Its name in tables.
     pub name: String,
-    /// What it carries.
+    /// The curve it represents.
     pub course: Course,
 }
 
@@ -169,7 +169,7 @@ impl Course {
             Self::Thrust { force, link } => {
                 let [x, y] = origin(*link).map(rate);
                 let speed = x[0].hypot(y[0]);
-                // Where the point stands still the magnitude has a bend; nothing with a mass needs its slope.
+                // The magnitude has a bend where the point is at rest; no mass needs its slope there.
                 let bend = if speed > 0.0 {
                     (x[0] * x[1] + y[0] * y[1]) / speed
                 } else {
@@ -299,7 +299,7 @@ impl Jointed for Tabulated {
     }
 }
 
-/// A drive link without mass, alone: what tabulated curves alone are hung on.
+/// A single massless drive link that carries tabulated curves.
 #[derive(Clone, Debug)]
 pub(crate) struct DriveLinkAlone {
     domain: Domain,

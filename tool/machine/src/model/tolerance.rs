@@ -21,7 +21,7 @@ impl Shape {
     }
 }
 
-/// How far one quantity may lie from what the file says.
+/// How far one quantity may deviate from its value in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tolerance {
     /// Path of the quantity.

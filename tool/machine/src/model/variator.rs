@@ -121,7 +121,7 @@ impl Variator {
         }
     }
 
-    /// What slip does to torques; a creeping contact passes on what the radii say.
+    /// Factor of slip on torques; a creeping contact transmits torque by the ratio of the radii.
     pub const fn contact(&self) -> Contact {
         match self.slip {
             Slip::Constant { contact, .. } => contact,
@@ -135,8 +135,8 @@ pub fn integrability_text(file: &MachineFile) -> Option<String> {
     let variator = file.variator.as_ref()?;
     if let Slip::Creep(_) = variator.slip {
         return Some(
-            "variator: not a constraint: its slip depends on the load, so its shafts are coupled by the force of the \
-             contact and have a freedom each"
+            "variator: not a constraint: its slip depends on the load, so the contact force couples its shafts, and \
+             each keeps its degree of freedom"
                 .to_owned(),
         );
     }
@@ -166,15 +166,14 @@ pub fn refuse(file: &MachineFile, command: &str) -> Result<(), Report> {
     };
     let (why, help) = if variator.ratio.is_constant() {
         (
-            "with slip or without, it is simulated only",
-            "a ratio that does not change is a stage: write it as a belt under [[drive_train]], with its efficiency, \
-             and leave [variator] out",
+            "a variator can only be simulated, with or without slip",
+            "write a constant ratio as a stage: a belt with its efficiency under [[drive_train]], without [variator]",
         )
     } else {
         (
-            "its ratio is shifted in time, so the angle of the drive link is no function of the motor's angle \
+            "its ratio changes with time, so the angle of the drive link is not a function of the motor angle \
              (non-holonomic), and no single table of reduced inertia exists for the motor",
-            "`jred simulate` integrates the motion; for the machine behind the variator alone, leave [variator] out",
+            "use `jred simulate` to integrate the motion; for the machine behind the variator alone, remove [variator]",
         )
     };
     Err(miette!(

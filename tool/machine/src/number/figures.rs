@@ -1,6 +1,6 @@
 //! Extremes and means of a quantity over a cycle.
 
-/// Root mean square, extremes and the rest of a quantity over the cycle.
+/// Extremes, mean and RMS of a quantity over the cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Figures {
     /// Smallest value.

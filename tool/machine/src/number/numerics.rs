@@ -141,7 +141,7 @@ mod tests {
         assert!((found - (2f64.exp() - (-1f64).exp())).abs() < 1e-13);
     }
 
-    /// What only rounds up and down ends after a limited number of halvings.
+    /// A function that is only rounding noise ends after a limited number of bisections.
     #[test]
     fn noise_ends() {
         let calls = Cell::new(0u32);

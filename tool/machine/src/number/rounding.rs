@@ -1,11 +1,12 @@
-//! Numbers in words: rounded for reading.
+//! Numbers as text, rounded for reading.
 
 /// A number with four significant digits.
 pub fn short(x: f64) -> String {
     significant(x, 4)
 }
 
-/// A number with so many significant digits, six at most; plain between 1e-4 and 1e6, else with an exponent.
+/// A number with the given number of significant digits, at most six; plain between 1e-4 and 1e6, otherwise with an
+/// exponent.
 pub fn significant(x: f64, digits: i32) -> String {
     if x == 0.0 || !x.is_finite() {
         return rounded(x);
@@ -19,7 +20,7 @@ pub fn significant(x: f64, digits: i32) -> String {
     format!("{x:.places$e}")
 }
 
-/// A number with four significant digits; zero where it is nothing but rounding beside `largest`.
+/// A number with four significant digits; zero if it is only a rounding error compared with `largest`.
 pub fn shown(x: f64, largest: f64) -> String {
     if x.abs() <= 1e-9 * largest.abs() {
         return "0".to_owned();

@@ -20,7 +20,7 @@ use std::fmt;
 /// Fewest points of a curve; of a period one less, for its first point is its last as well.
 pub const MIN_POINTS: usize = 5;
 
-/// What is wrong with points.
+/// Faults of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// Fewer than [`MIN_POINTS`].
@@ -35,7 +35,7 @@ impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::TooFew => write!(f, "a curve needs at least {MIN_POINTS} points"),
-            Self::NotRising => f.write_str("the points must be finite and in rising order"),
+            Self::NotRising => f.write_str("the points must be finite and in increasing order"),
             Self::BeyondPeriod => f.write_str("the points must lie within one period"),
         }
     }
@@ -43,7 +43,7 @@ impl fmt::Display for Fault {
 
 impl std::error::Error for Fault {}
 
-/// How a curve is laid through points.
+/// How a curve fits its points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Way {
     /// Through every point, twice continuously differentiable.

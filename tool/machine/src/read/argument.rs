@@ -6,13 +6,13 @@ use crate::units::kind::{
 };
 use crate::units::quantity;
 
-/// What reads a quantity of the drive link, which turns or slides.
+/// Reader of a quantity of a drive link that turns or slides.
 pub type Reader = fn(&str, Coordinate) -> Result<f64, String>;
 
 /// A torque at the drive link greater than zero, such as "0.5 N m", or a force, "5 N", of one that slides.
 ///
 /// # Errors
-/// In words for the command line.
+/// A message for the command line.
 pub fn drive_effort(text: &str, coordinate: Coordinate) -> Result<f64, String> {
     positive(
         text,
@@ -26,7 +26,7 @@ pub fn drive_effort(text: &str, coordinate: Coordinate) -> Result<f64, String> {
 /// A speed of the drive link greater than zero.
 ///
 /// # Errors
-/// In words for the command line.
+/// A message for the command line.
 pub fn largest_speed(text: &str, coordinate: Coordinate) -> Result<f64, String> {
     above_zero(drive_speed(text, coordinate)?)
 }
@@ -34,7 +34,7 @@ pub fn largest_speed(text: &str, coordinate: Coordinate) -> Result<f64, String> 
 /// An acceleration of the drive link greater than zero.
 ///
 /// # Errors
-/// In words for the command line.
+/// A message for the command line.
 pub fn largest_acceleration(text: &str, coordinate: Coordinate) -> Result<f64, String> {
     above_zero(drive_acceleration(text, coordinate)?)
 }
@@ -42,7 +42,7 @@ pub fn largest_acceleration(text: &str, coordinate: Coordinate) -> Result<f64, S
 /// An inertia greater than zero, such as "8.5 kg cm^2" (kg·m²).
 ///
 /// # Errors
-/// In words for the command line.
+/// A message for the command line.
 pub fn inertia_argument(text: &str) -> Result<f64, String> {
     positive(text, &INERTIA)
 }
@@ -50,7 +50,7 @@ pub fn inertia_argument(text: &str) -> Result<f64, String> {
 /// A mass greater than zero, such as "12 kg" (kg).
 ///
 /// # Errors
-/// In words for the command line.
+/// A message for the command line.
 pub fn mass_argument(text: &str) -> Result<f64, String> {
     positive(text, &MASS)
 }
@@ -58,7 +58,7 @@ pub fn mass_argument(text: &str) -> Result<f64, String> {
 /// A speed of the drive link of either sign, such as "-60 rpm", or "0.2 m/s" of one that slides.
 ///
 /// # Errors
-/// In words for the command line.
+/// A message for the command line.
 pub fn drive_speed(text: &str, coordinate: Coordinate) -> Result<f64, String> {
     any(
         text,
@@ -72,7 +72,7 @@ pub fn drive_speed(text: &str, coordinate: Coordinate) -> Result<f64, String> {
 /// An acceleration of the drive link of either sign, such as "120 rad/s^2", or "3 m/s^2" of one that slides.
 ///
 /// # Errors
-/// In words for the command line.
+/// A message for the command line.
 pub fn drive_acceleration(text: &str, coordinate: Coordinate) -> Result<f64, String> {
     any(
         text,

@@ -1,4 +1,4 @@
-//! What can only be checked on the whole machine.
+//! Checks that need the whole machine.
 
 use std::f64::consts::TAU;
 

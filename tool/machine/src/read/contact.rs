@@ -1,4 +1,4 @@
-//! Whether followers stay on their cams and ropes stay taut in the prescribed motion.
+//! Checks that followers stay on their cams and ropes stay taut during the prescribed motion.
 
 use std::f64::consts::TAU;
 
@@ -19,8 +19,8 @@ const FEWEST: f64 = 128.0;
 /// The most samples of a stretch: a hoist's drum may make a thousand turns.
 const MOST: f64 = 60_000.0;
 
-/// Checks that every cam's contact presses and every rope pulls over the whole motion. A cam that holds its follower on both
-/// sides has no contact to check.
+/// Checks that every cam's contact presses and every rope pulls over the whole motion. A cam that guides its follower on
+/// both sides has no contact to check.
 pub(super) fn check(file: &MachineFile, mechanism: &Section) -> Result<()> {
     let Some(motion) = &file.motion else {
         return Ok(());

@@ -10,13 +10,13 @@ use crate::number::spline::{MIN_POINTS, Spline, Way};
 use crate::text::columns::Columns;
 use crate::text::problem::{Problem, Result};
 
-/// Rows nearer than this share of the range are one row too many.
+/// Rows closer than this share of the range are refused.
 const CLOSEST: f64 = 1e-6;
 
 /// Largest difference between the first and the last row of a turn, as a share of the column's largest magnitude.
 const CLOSED: f64 = 1e-6;
 
-/// A turn whose last row is not given may be open by so many of its largest steps.
+/// If the last row of a turn is not given, the turn may be open by this many of its largest steps.
 const OPEN: f64 = 2.0;
 
 /// Share of a range by which its rows may miss its ends: rounding.
@@ -39,7 +39,7 @@ impl<'c> Positions<'c> {
         columns.check_rising(
             0,
             "position",
-            "give one row for each position, in rising order, and every position once",
+            "give one row for each position, in increasing order, and each position once",
         )?;
         let x = columns.get(0).unwrap_or_default();
         let (Some(&first), Some(&last)) = (x.first(), x.last()) else {
@@ -51,7 +51,7 @@ impl<'c> Positions<'c> {
             return Err(columns
                 .problem(0, row + 1, "is too close to the row before")
                 .help(format!(
-                    "rows that are nearer than a millionth of the range, {}, make slopes of their rounding: leave one out",
+                    "rows closer than a millionth of the range, {}, turn rounding errors into slopes: remove one",
                     columns.shown(0, CLOSEST * span)
                 )));
         }
@@ -61,7 +61,7 @@ impl<'c> Positions<'c> {
             let slack = ROUNDING * span;
             if first > from + slack || last < to - slack {
                 return Err(Problem::new(format!(
-                    "the rows run from {} to {}, but the drive link from {} to {}",
+                    "the rows run from {} to {}, but the drive link moves from {} to {}",
                     shown(first),
                     shown(last),
                     shown(from),
@@ -70,7 +70,7 @@ impl<'c> Positions<'c> {
                 .at(columns.place(0), "first row")
                 .at(columns.place(columns.rows() - 1), "last row")
                 .help(
-                    "give rows over the whole stroke of the drive link; rows beyond it do no harm",
+                    "give rows over the whole stroke of the drive link; rows beyond it are allowed",
                 ));
             }
             return Ok(Self {
@@ -96,14 +96,14 @@ impl<'c> Positions<'c> {
             .at(columns.place(0), "first row")
             .at(columns.place(columns.rows() - 1), "last row")
             .help(
-                "a drive link that turns fully needs rows over one turn, and no more: up to the first position plus a turn, or one \
-                 step before it; for a part of a turn write range = \"stroke\"",
+                "for a drive link that turns fully, give rows over exactly one turn: up to the first position plus one \
+                 turn, or one step before it; for a part of a turn write range = \"stroke\"",
             ));
         }
         let count = x.len() - usize::from(closing);
         if count < MIN_POINTS {
             return Err(Problem::new(format!(
-                "{count} different rows in a turn are too few: at least {MIN_POINTS}"
+                "{count} different rows in a turn are too few: at least {MIN_POINTS} are required"
             ))
             .at(columns.place(0), "first row")
             .help("give a row every few degrees"));
@@ -135,13 +135,13 @@ impl<'c> Positions<'c> {
                         index,
                         values.len() - 1,
                         &format!(
-                            "a turn after row 1, which has {}",
+                            "one turn after row 1, which has {}",
                             self.columns.shown(index, *first)
                         ),
                     )
                     .help(format!(
-                        "after a turn the machine is where it was: make the two rows equal to {} of the largest value, or leave \
-                         the last row out",
+                        "after a turn the machine is back where it was: make the two rows equal to within {} of the \
+                         largest value, or remove the last row",
                         figure(CLOSED)
                     )));
             }
@@ -149,7 +149,7 @@ impl<'c> Positions<'c> {
         Ok(Some(values[..self.x.len()].to_vec()))
     }
 
-    /// The column's values, none of which may be negative (`zero`: nor zero).
+    /// The values of the column, which must not be negative (nor zero, unless `zero`).
     pub(super) fn magnitudes(
         &self,
         index: usize,
@@ -177,7 +177,7 @@ impl<'c> Positions<'c> {
             Spline::bounded(self.x, values, way)
         };
         spline.map_err(|fault| {
-            Problem::new(format!("no curve can be laid through these rows: {fault}"))
+            Problem::new(format!("no curve fits these rows: {fault}"))
                 .at(self.columns.place(0), "first row")
         })
     }

@@ -1,4 +1,4 @@
-//! The drive link as the rest of the file sees it: whether it turns, swings or slides, and how far.
+//! The drive link for the rest of the file: whether it turns, swings or slides, and how far.
 
 use std::f64::consts::TAU;
 
@@ -12,7 +12,7 @@ use crate::units::kind::{ANGLE, ANGULAR_SPEED, FORCE, Kind, LENGTH, TORQUE, VELO
 /// Share of a stroke by which a motion may pass its ends: rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// What the drive link does.
+/// Type of motion of the drive link.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DriveLink {
     pub(super) coordinate: Coordinate,

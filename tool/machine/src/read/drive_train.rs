@@ -8,7 +8,7 @@ use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 
-/// The types of stage; those from `FIRST_LINEAR` on turn a rotation into a displacement.
+/// The types of stage; those from `FIRST_LINEAR` on convert rotation into displacement.
 const TYPES: [&str; 4] = ["gear-train", "belt", "ball-screw", "rack"];
 const FIRST_LINEAR: usize = 2;
 
@@ -26,7 +26,7 @@ pub(super) fn read(root: &Section, drive: DriveLink) -> Result<Train> {
                         &format!("comes after a {name}, whose output slides"),
                         "nothing turns here",
                     )
-                    .at(before.span(), "slides from here on")
+                    .at(before.span(), "it slides from here on")
                     .help(format!("the {name} is the last stage: put it at the end")));
             }
             match kind {
@@ -53,17 +53,17 @@ fn fits(item: &Item, linear: Option<&(Item, &str)>, drive: DriveLink, empty: boo
     match (linear, drive.slides()) {
         (Some((word, _)), false) => Err(word
             .problem(
-                "turns a rotation into a displacement, but the drive link of this mechanism turns",
+                "converts rotation into displacement, but the drive link of this mechanism turns",
                 "slides",
             )
-            .help("use belts and gear trains; a screw or a rack belongs to a mechanism whose drive slides")),
+            .help("use belts and gear trains; a screw or a rack is for a mechanism whose drive link slides")),
         (None, true) if !empty => Err(Problem::new(
             "the drive link slides, but every stage of [[drive_train]] turns",
         )
-        .at(item.key_span(), "ends with a shaft that turns")
+        .at(item.key_span(), "ends with a rotating shaft")
         .help(
-            "end it with the stage that turns the rotation into a displacement: type = \"ball-screw\" with lead = \
-             \"10 mm\", or type = \"rack\" with radius = \"30 mm\" of its pinion",
+            "end it with a stage that converts rotation into displacement: type = \"ball-screw\" with lead = \"10 \
+             mm\", or type = \"rack\" with radius = \"30 mm\" of its pinion",
         )),
         _ => Ok(()),
     }

@@ -26,13 +26,16 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
     let at_rest = section.get("at_rest");
     let unused = |value: &Value, why: &str| {
         value
-            .problem(&format!("does not belong to S{number}: {why}"), "not used")
-            .help("leave it out, or name the type that is meant: S2 runs once from cold, S3 to S5 run and rest")
+            .problem(&format!("is not used with S{number}: {why}"), "not used")
+            .help("remove it, or choose the type that uses it: S2 runs once from cold, S3 to S5 alternate operation and rest")
     };
     let operation = match number {
         2 => {
             if let Some(rest) = &rest {
-                return Err(unused(rest, "after its run all is cold again"));
+                return Err(unused(
+                    rest,
+                    "after each run, the motor cools down completely",
+                ));
             }
             let operating = operating.ok_or_else(|| {
                 section.missing(
@@ -45,7 +48,7 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
             }
         }
         3..=5 if operating.is_some() || rest.is_some() => {
-            let both = "operating_time and rest of a period, such as \"360 s\" and \"240 s\"; neither of them where the rests are part of the motion";
+            let both = "operating_time and rest of a period, such as \"360 s\" and \"240 s\"; neither of them if the motion contains the rests";
             let operating = operating.ok_or_else(|| section.missing("operating_time", both))?;
             let rest = rest.ok_or_else(|| section.missing("rest", both))?;
             let holding = match &at_rest {
@@ -69,8 +72,11 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
         && !matches!(operation, Operation::Intermittent { .. })
     {
         return Err(item
-            .problem("belongs to a `rest`, and there is none", "not used")
-            .help("leave it out, or give operating_time and rest"));
+            .problem(
+                "is only used together with `rest`, which is missing",
+                "not used",
+            )
+            .help("remove it, or give operating_time and rest"));
     }
     section.finish()?;
     site.duty = Duty {

@@ -1,4 +1,4 @@
-//! `[[spring]]` and `[[damper]]`: what stores energy between two bodies, and what takes it out.
+//! `[[spring]]` and `[[damper]]` between two bodies.
 
 use std::f64::consts::TAU;
 
@@ -16,10 +16,10 @@ use crate::units::kind::{
     ANGLE, LENGTH, STIFFNESS, TORSION_STIFFNESS, VISCOUS_FORCE, VISCOUS_MOMENT,
 };
 
-/// What joints and elements call the fixed frame.
+/// Name of the fixed frame in joints and elements.
 const GROUND: &str = "ground";
 
-/// Places at which an element is looked at.
+/// Number of positions at which an element is checked.
 const PLACES: u32 = 720;
 
 /// All springs, then all dampers of the file.
@@ -37,10 +37,10 @@ pub(super) fn read(
             if elements.len() == MAX_ELEMENTS {
                 return Err(section
                     .problem(
-                        format!("more than {MAX_ELEMENTS} springs and dampers together"),
+                        format!("more than {MAX_ELEMENTS} springs and dampers in total"),
                         "one too many",
                     )
-                    .help("combine parallel ones: add up their stiffnesses"));
+                    .help("combine parallel ones: add their stiffnesses"));
             }
             elements.push(element(&section, key, mechanism, coordinate)?);
         }
@@ -48,7 +48,7 @@ pub(super) fn read(
     Ok(elements)
 }
 
-/// One end, with the words that it was given in.
+/// One end, with its text in the file.
 struct End {
     marker: Marker,
     text: String,
@@ -124,7 +124,7 @@ fn element(
     Ok(NamedElement { name, element })
 }
 
-/// What an element does, before it is known where.
+/// Law of an element, before its ends are known.
 enum Law {
     Spring(f64, f64),
     TorsionSpring(f64, f64),
@@ -189,7 +189,7 @@ fn damper(section: &Section) -> Result<(Law, bool)> {
         ))
         .at(force.key_span(), "along a line")
         .at(moment.key_span(), "in torsion")
-        .help("write a [[damper]] of its own for each")),
+        .help("write a separate [[damper]] for each")),
         (None, None) => Err(section.missing(
             "viscous_force",
             "viscous_force = \"300 N s/m\", or viscous_moment = \"0.4 N m s/rad\" for a damper in torsion",
@@ -281,13 +281,13 @@ fn unknown(item: &Item, text: &str, mechanism: &AnyMechanism) -> Problem {
         "unknown",
     )
     .help(format!(
-        "{near}possible: {}; any other point as {{ on = \"{}\", at = [\"30 mm\", \"0 mm\"] }}",
+        "{near}possible: {}; for any other point write {{ on = \"{}\", at = [\"30 mm\", \"0 mm\"] }}",
         quoted(&names),
         links.last().map_or(GROUND, String::as_str)
     ))
 }
 
-/// What can only be checked over the whole range of the drive link.
+/// Checks over the whole range of the drive link.
 struct Survey<'a> {
     section: &'a Section<'a>,
     between: &'a Item<'a>,
@@ -343,9 +343,9 @@ impl Survey<'_> {
                 "does nothing",
             )
             .help(if self.torsion {
-                "the two bodies never turn against each other: name others, or give a spring along a line"
+                "the two bodies never turn relative to each other: choose others, or give a spring along a line"
             } else {
-                "the two points keep their distance: give points that move, such as { on = \"crank\", at = [\"30 mm\", \"0 mm\"] }"
+                "the distance of the two points never changes: choose points that move, such as { on = \"crank\", at = [\"30 mm\", \"0 mm\"] }"
             })
     }
 
@@ -353,16 +353,16 @@ impl Survey<'_> {
         self.between
             .problem(
                 &format!(
-                    "has ends that meet at {}: in which direction the {} acts there is not known",
+                    "has ends that coincide at {}: the direction of the {} is undefined there",
                     self.coordinate.place(phi),
                     self.key
                 ),
-                "these points meet",
+                "these points coincide",
             )
-            .help("move one of the two points a little aside")
+            .help("move one of the two points aside slightly")
     }
 
-    /// What the element does must be the same after each turn.
+    /// The element must have the same effect after each turn.
     fn repeats(&self, length: impl Fn(f64) -> Result<Transfer>) -> Result<()> {
         for phi in [0.4, 2.9, 5.1] {
             let (now, later) = (length(phi)?, length(phi + TAU)?);
@@ -373,7 +373,7 @@ impl Survey<'_> {
             if (a - b).abs() > 1e-9 * (1.0 + a.abs()) {
                 let what = if self.torsion {
                     format!(
-                        "is wound up by {} deg with every turn of the drive link",
+                        "is wound up by {} deg in every turn of the drive link",
                         ((later.value - now.value).to_degrees() * 1e3).round() / 1e3
                     )
                 } else {
@@ -383,8 +383,8 @@ impl Survey<'_> {
                     .between
                     .problem(&format!("names a {} that {what}", self.key), "does not repeat")
                     .help(
-                        "every force must repeat with the turn of the drive link: attach it to bodies that come back, \
-                         or limit the drive by a stroke where the mechanism has one",
+                        "every force must repeat with each turn of the drive link: attach it to bodies that return, or \
+                         limit the drive with `stroke` if the mechanism has one",
                     ));
             }
         }

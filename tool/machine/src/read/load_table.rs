@@ -30,7 +30,7 @@ const fn on_drive(coordinate: Coordinate) -> ([Known; 4], &'static str) {
                 known(&["Thrust"], &TORQUE),
                 known(&["Torque"], &TORQUE),
             ],
-            "\"Position [deg],Payload [kg m^2],Thrust [N m],Torque [N m]\", of which the position and one more",
+            "\"Position [deg],Payload [kg m^2],Thrust [N m],Torque [N m]\" (the position and at least one other)",
         ),
         Coordinate::Length => (
             [
@@ -39,7 +39,7 @@ const fn on_drive(coordinate: Coordinate) -> ([Known; 4], &'static str) {
                 known(&["Thrust"], &FORCE),
                 known(&["Torque", "Force"], &FORCE),
             ],
-            "\"Position [mm],Payload [kg],Thrust [N],Force [N]\", of which the position and one more",
+            "\"Position [mm],Payload [kg],Thrust [N],Force [N]\" (the position and at least one other)",
         ),
     }
 }
@@ -51,10 +51,10 @@ const fn on_link(coordinate: Coordinate) -> ([Known; 4], &'static str) {
     columns[THRUST].kind = &FORCE;
     let example = match coordinate {
         Coordinate::Angle => {
-            "\"Position [deg],Payload [kg],Thrust [N],Torque [N m]\", of which the position and one more"
+            "\"Position [deg],Payload [kg],Thrust [N],Torque [N m]\" (the position and at least one other)"
         }
         Coordinate::Length => {
-            "\"Position [mm],Payload [kg],Thrust [N],Force [N]\", of which the position and one more"
+            "\"Position [mm],Payload [kg],Thrust [N],Force [N]\" (the position and at least one other)"
         }
     };
     (columns, example)
@@ -84,7 +84,7 @@ pub(super) fn read(
         if mechanism.own_loads().len() > MAX_LOADS {
             return Err(section
                 .problem(format!("more than {MAX_LOADS} loads"), "one too many")
-                .help("put what acts on the same link into one table"));
+                .help("combine loads on the same link into one table"));
         }
     }
     Ok(mechanism)
@@ -107,9 +107,9 @@ fn table(
     section.finish_with(|key| match key {
         "force" | "moment" | "opposing_force" | "opposing_moment" | "viscous_force"
         | "viscous_moment" => {
-            Some("a table says itself what acts; write this in a [[load]] of its own")
+            Some("a table already says what acts; write this in a separate [[load]]")
         }
-        "between" | "ramp" => Some("the rows of a table say where it acts"),
+        "between" | "ramp" => Some("the rows of a table already say where it acts"),
         "at" => Some("a table acts at the origin of its link's frame"),
         _ => None,
     })?;
@@ -145,11 +145,11 @@ fn curves(text: &str, drive: DriveLink, target: &Target) -> Result<Vec<StandIn>>
         Problem::new(message)
             .at(columns::header_place(text), "header")
             .help(format!(
-                "the first line names columns with their units: {example}"
+                "the first line gives column names with units: {example}"
             ))
     };
     if columns.get(POSITION).is_none() {
-        return Err(header("there is no column for the position"));
+        return Err(header("the column for the position is missing"));
     }
     let positions = Positions::of(&columns, drive)?;
     let mut stand_ins = Vec::new();
@@ -160,7 +160,7 @@ fn curves(text: &str, drive: DriveLink, target: &Target) -> Result<Vec<StandIn>>
     if let Some(payload) = positions.magnitudes(
         PAYLOAD,
         true,
-        "a payload is a mass or an inertia: zero where there is none",
+        "a payload is a mass or an inertia: write zero where there is none",
     )? {
         let mass = positions.curve(&payload, Way::Monotone)?;
         match target.link {
@@ -190,7 +190,7 @@ fn curves(text: &str, drive: DriveLink, target: &Target) -> Result<Vec<StandIn>>
     if let Some(thrust) = positions.magnitudes(
         THRUST,
         true,
-        "a thrust opposes the motion whichever way it goes: give its size; a force with a sign belongs in the column Torque",
+        "a thrust always opposes the motion: give its magnitude; a force with a sign belongs in the column Torque",
     )? {
         let force = positions.curve(&thrust, Way::Monotone)?;
         let course = match target.link {
@@ -204,7 +204,7 @@ fn curves(text: &str, drive: DriveLink, target: &Target) -> Result<Vec<StandIn>>
         add("torque", Course::Torque(torque));
     }
     if stand_ins.is_empty() {
-        return Err(header("there is no column beside the position"));
+        return Err(header("there is no column other than the position"));
     }
     Ok(stand_ins)
 }

@@ -13,7 +13,7 @@ use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::{ANGLE, FORCE, Kind, LENGTH, TORQUE, VISCOUS_FORCE, VISCOUS_MOMENT};
 
-/// What a load can do, as keys.
+/// Keys for the action of a load.
 const ACTIONS: [&str; 6] = [
     "force",
     "moment",
@@ -69,7 +69,7 @@ fn load(section: &Section, mechanism: &AnyMechanism, drive: DriveLink) -> Result
     let of_a_force = key.ends_with("force");
     if let (Some(at), false) = (&at, of_a_force) {
         return Err(Problem::new(format!(
-            "`at` has no meaning for `{key}` in {}",
+            "`at` is not used with `{key}` in {}",
             section.title()
         ))
         .at(at.key_span(), "remove this")
@@ -83,16 +83,16 @@ fn load(section: &Section, mechanism: &AnyMechanism, drive: DriveLink) -> Result
                 "acts on a link that only slides",
             )
             .help(format!(
-                "use force, opposing_force or viscous_force for \"{link_name}\", or name another link in `on`"
+                "use force, opposing_force or viscous_force for \"{link_name}\", or choose another link in `on`"
             )));
     }
     if key == "force" && !movement.closes {
         return Err(item
             .problem(
                 &format!(
-                    "acts in a fixed direction on \"{link_name}\", which does not move alike in every turn of the drive link"
+                    "acts in a fixed direction on \"{link_name}\", which does not move in the same way in every turn of the drive link"
                 ),
-                "does not repeat with the drive link",
+                "does not repeat with each turn",
             )
             .help("a load must repeat with every turn of the drive link: use moment, or opposing_force"));
     }
@@ -102,7 +102,7 @@ fn load(section: &Section, mechanism: &AnyMechanism, drive: DriveLink) -> Result
                 &format!("does nothing: it acts on the fixed pivot of \"{link_name}\""),
                 "acts on the pivot",
             )
-            .help("give the point it acts on, in the link's frame: at = [\"30 mm\", \"0 mm\"], or use a moment"));
+            .help("give the point where it acts, in the link's frame: at = [\"30 mm\", \"0 mm\"], or use a moment"));
     }
     let mut load = Load::new(link, action)
         .and_then(|load| load.at(point))
@@ -117,13 +117,13 @@ fn load(section: &Section, mechanism: &AnyMechanism, drive: DriveLink) -> Result
     Ok(NamedLoad { name, load })
 }
 
-/// How a link moves, as far as loads care.
+/// Motion of a link, as far as loads depend on it.
 struct Movement {
     /// It never turns.
     slides: bool,
     /// The origin of its frame never moves.
     pivots: bool,
-    /// It stands as it stood and moves as it moved after every turn of the drive link.
+    /// After every turn of the drive link, it has the same position and motion.
     closes: bool,
 }
 
@@ -154,7 +154,7 @@ impl Movement {
     }
 }
 
-/// The one key that says what the load does.
+/// The one key with the action of the load.
 fn action_key<'a>(section: &Section<'a>) -> Result<(&'static str, Item<'a>)> {
     let mut found = ACTIONS
         .into_iter()
@@ -180,7 +180,7 @@ fn action_key<'a>(section: &Section<'a>) -> Result<(&'static str, Item<'a>)> {
         ))
         .at(item.key_span(), "one action")
         .at(other.key_span(), "another action")
-        .help("write a [[load]] of its own for each"));
+        .help("write a separate [[load]] for each"));
     }
     Ok((key, item))
 }
@@ -191,8 +191,8 @@ fn action(key: &str, item: &Item) -> Result<Action> {
         if value.si < 0.0 {
             let what = format!("is {}, but must not be negative", value.shown());
             return Err(value.problem(&what, "negative").help(
-                "it always acts against the motion, so only its size is given; \
-                 a load with a direction is a `force` or a `moment`",
+                "it always acts against the motion: give only its magnitude; for a load with a direction use `force` \
+                 or `moment`",
             ));
         }
         Ok(value.si)
@@ -232,10 +232,10 @@ fn window(section: &Section) -> Result<Option<Window>> {
     let width = end - from.si;
     if width <= 0.0 || width > TAU * (1.0 + 1e-12) {
         return Err(between
-            .problem("must span more than nothing and at most one turn", "check these angles")
+            .problem("must span more than zero and at most one turn", "check these angles")
             .help(format!(
-                "the load acts from the first angle on to the second, which may be smaller: then it lies one turn later; \
-                 here that is {}",
+                "the load acts from the first angle to the second; a smaller second angle means one turn later: here \
+                 the span is {}",
                 to.show(width)
             )));
     }
@@ -249,7 +249,7 @@ fn window(section: &Section) -> Result<Option<Window>> {
             from.show(width)
         );
         let help = format!(
-            "the load rises over one ramp and falls over another: at most {}",
+            "the load rises over one ramp and falls over another: write at most {}",
             ramp.show(width / 2.0)
         );
         // Rounding may leave two ramps a hair wider than the range.
@@ -298,7 +298,7 @@ fn stretch(section: &Section, drive: DriveLink) -> Result<Option<Window>> {
                 &format!("runs from {} to {}", from.shown(), to.shown()),
                 "check these ends",
             )
-            .help("on a stroke the second position is the larger one"));
+            .help("on a stroke, the second position must be the larger one"));
     }
     let Domain::Stroke {
         from: start,
@@ -310,10 +310,10 @@ fn stretch(section: &Section, drive: DriveLink) -> Result<Option<Window>> {
     if to.si <= start || from.si >= end {
         return Err(between
             .problem(
-                &format!("lies outside the stroke, {}", drive.range()),
+                &format!("is outside the stroke, {}", drive.range()),
                 "never reached",
             )
-            .help("give positions within the stroke; those beyond its ends do no harm"));
+            .help("give positions within the stroke; positions beyond its ends are allowed"));
     }
     if width < 2.0 * ramp.si * (1.0 - 1e-12) {
         return Err(ramp
@@ -327,7 +327,7 @@ fn stretch(section: &Section, drive: DriveLink) -> Result<Option<Window>> {
             )
             .at(between.span(), "range")
             .help(format!(
-                "the load rises over one ramp and falls over another: at most {}",
+                "the load rises over one ramp and falls over another: write at most {}",
                 ramp.show(width / 2.0)
             )));
     }

@@ -77,7 +77,7 @@ pub fn rules_based_on(rules: &RuleSet, set: RuleSet) -> std::result::Result<Rule
     rules.based_on(set).map_err(|contradiction| {
         miette!(
             help = contradiction.help,
-            "[rules] of the machine file does not go with the set \"{word}\": {}",
+            "[rules] in the machine file contradicts the set \"{word}\": {}",
             contradiction.message
         )
     })
@@ -152,8 +152,8 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<MachineFile> {
     let gravity = root
         .require(
             "gravity",
-            "gravity = [\"9.81 m/s^2\", \"0 m/s^2\"], its x and y component; \
-             gravity = [\"0 m/s^2\", \"0 m/s^2\"] for a machine that moves in a horizontal plane",
+            "gravity = [\"9.81 m/s^2\", \"0 m/s^2\"], its x and y components; gravity = [\"0 m/s^2\", \"0 m/s^2\"] for \
+             a machine that moves in a horizontal plane",
         )?
         .pair([&ACCELERATION, &ACCELERATION])?
         .map(|value| value.si);
@@ -166,8 +166,8 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<MachineFile> {
         section.peek("flywheel"),
     ) {
         return Err(item
-            .problem("turns, but the drive link of this mechanism slides", "nothing turns with it")
-            .help("give a mass that slides with the drive link to its body; what turns belongs to a stage of [[drive_train]]"));
+            .problem("is for a rotating drive link, but the drive link of this mechanism slides", "nothing turns with it")
+            .help("add a mass that slides with the drive link to its body; rotating parts belong to a stage of [[drive_train]]"));
     }
     let mechanism = load_table::read(&root, mechanism, drive_link, gravity, files)?;
     let loads = loads::read(&root, &mechanism, drive_link)?;
@@ -243,11 +243,11 @@ fn syntax(error: &toml::de::Error, text: &str) -> Problem {
         Some((key, value)) if !value.trim().is_empty() => {
             let value = value.split('#').next().unwrap_or_default().trim();
             format!(
-                "texts and quantities are written in quotes: {} = \"{value}\"",
+                "write texts and quantities in quotes: {} = \"{value}\"",
                 key.trim()
             )
         }
-        _ => "a line is key = \"value\", a [table] or a [[table of a list]]; texts stand in quotes"
+        _ => "a line is key = \"value\", a [table] or a [[table of a list]]; write texts in quotes"
             .to_owned(),
     };
     Problem::new(format!("the file is not valid TOML: {message}"))

@@ -1,4 +1,4 @@
-//! `[motion]`: how the drive link is to go.
+//! `[motion]`: the prescribed motion of the drive link.
 
 use jred::Domain;
 use jred::motion::Law;
@@ -53,10 +53,10 @@ pub(super) fn read(root: &Section, files: &dyn Files, drive: DriveLink) -> Resul
 /// Reports keys that the type of motion does not have.
 pub(super) fn finish(section: &Section) -> Result<()> {
     section.finish_with(|key| match key {
-        "segment" => Some("segments belong to the types \"cycle\" and \"point-to-point\""),
-        "speed" => Some("a speed belongs to the type \"constant-speed\""),
+        "segment" => Some("segments are for the types \"cycle\" and \"point-to-point\""),
+        "speed" => Some("a speed is for the type \"constant-speed\""),
         "file" | "cyclic" | "step" | "smoothing" | "close_within" => {
-            Some("a file, and how it is read, belongs to the type \"profile\"")
+            Some("a file and its options are for the type \"profile\"")
         }
         _ => None,
     })
@@ -89,12 +89,12 @@ fn constant_speed(section: &Section, drive: DriveLink) -> Result<Motion> {
         return Err(kind
             .problem(
                 &format!(
-                    "is \"constant-speed\", but the drive link has a stroke, {}: it cannot go on for ever",
+                    "is \"constant-speed\", but the drive link has a stroke, {}: it cannot move on forever",
                     drive.range()
                 ),
                 "not on a stroke",
             )
-            .help("use type = \"cycle\" with moves there and back, or \"point-to-point\""));
+            .help("use type = \"cycle\" with moves forth and back, or \"point-to-point\""));
     }
     let start = start(section, drive)?;
     let speed = section.quantity("speed", drive.speed())?;
@@ -105,7 +105,7 @@ fn constant_speed(section: &Section, drive: DriveLink) -> Result<Motion> {
                 &format!("is {}, but must not be zero", speed.shown()),
                 "standstill",
             )
-            .help("a negative speed turns clockwise; for a machine at rest leave [motion] out"));
+            .help("a negative speed turns clockwise; for a machine at rest, remove [motion]"));
     }
     Ok(Motion::constant_speed(start, speed.si))
 }
@@ -127,7 +127,7 @@ fn segments(section: &Section, cyclic: bool, drive: DriveLink) -> Result<Motion>
                 ),
                 "segments",
             )
-            .help("give a long motion as recorded positions: type = \"profile\" with a CSV file"));
+            .help("give a long motion as positions in a CSV file: type = \"profile\""));
     }
     let segments = parts
         .iter()
@@ -160,15 +160,14 @@ fn segment(section: &Section, drive: DriveLink) -> Result<Segment> {
     if let Some(dwell) = dwell {
         let duration = dwell.quantity(&TIME)?.positive()?;
         if let Some(law) = law_key {
-            return Err(Problem::new(format!(
-                "`law` has no meaning in {}, a dwell",
-                section.title()
-            ))
-            .at(law.key_span(), "remove this")
-            .help("a dwell is only dwell = \"0.25 s\""));
+            return Err(
+                Problem::new(format!("`law` is not used in {}, a dwell", section.title()))
+                    .at(law.key_span(), "remove this")
+                    .help("a dwell has only dwell = \"0.25 s\""),
+            );
         }
         section.finish_with(|key| {
-            (key == "duration").then_some("the duration of a pause is written dwell = \"0.25 s\"")
+            (key == "duration").then_some("give the duration of a pause as dwell = \"0.25 s\"")
         })?;
         return Ok(Segment {
             distance: 0.0,
@@ -193,7 +192,7 @@ fn segment(section: &Section, drive: DriveLink) -> Result<Segment> {
     let law = law(section)?;
     section.finish_with(|key| {
         matches!(key, "accelerate" | "decelerate")
-            .then_some("only the law \"trapezoid\" has these shares")
+            .then_some("only the law \"trapezoid\" uses these shares")
     })?;
     Ok(Segment {
         distance: distance.si,
@@ -223,13 +222,13 @@ pub(super) fn law(section: &Section) -> Result<Law> {
             };
             if law.check().is_err() {
                 return Err(Problem::new(format!(
-                    "`accelerate` and `decelerate` in {} are together {} % of the duration",
+                    "`accelerate` and `decelerate` in {} add up to {} % of the duration",
                     section.title(),
                     figure((accelerate + decelerate) * 100.0)
                 ))
                 .at(place, "too large")
                 .help(format!(
-                    "together at most 100 %: here {} % + {} % (a share that is not given is 1/3)",
+                    "at most 100 % in total: here {} % + {} % (a share not given is 1/3)",
                     figure(accelerate * 100.0),
                     figure(decelerate * 100.0)
                 )));
@@ -296,7 +295,7 @@ fn check_returns(
     };
     let mut problem = section.problem(
         format!(
-            "the moves of this cycle add up to {}, so it does not end where it began",
+            "the moves of this cycle add up to {}, so it does not end where it started",
             shown(sum)
         ),
         "a cycle must close",

@@ -25,7 +25,7 @@ const CLOSED: f64 = 1e-5;
 /// Share of the largest speed by which the first and the last speed of a cycle may differ.
 const SPEED_CLOSED: f64 = 0.01;
 
-/// A time step so many times the usual one is a gap in the recording.
+/// A time step this many times the usual one is a gap in the recording.
 const GAP: f64 = 20.0;
 
 /// The fewest rows in a period of the cut-off frequency, and the fewest such periods in a recording.
@@ -50,11 +50,11 @@ const LENGTHS: [Known; 3] = [
     known(&["v", "speed"], &VELOCITY),
 ];
 
-/// The cure of most things that are wrong with the time column.
+/// Cure for most faults of the time column.
 const TIMES: &str =
-    "give one row for each instant, in order, and the times with enough digits to tell them apart";
+    "give one row for each instant, in order, with enough digits in the times to tell them apart";
 
-/// What `[motion]` says about the file.
+/// Entries of `[motion]` about the file.
 struct Request {
     cyclic: bool,
     /// Where a recorded speed starts (rad or m).
@@ -125,17 +125,17 @@ fn read_columns(text: &str, drive: DriveLink) -> Result<Columns> {
     let columns = columns::read(text, &format)?;
     if columns.get(POSITION).is_some() == columns.get(SPEED).is_some() {
         return Err(Problem::new(
-            "the header must have one column for the position or for the speed, and not both",
+            "the header must have a column either for the position or for the speed",
         )
         .at(columns::header_place(text), "header")
         .help(format!(
-            "the first line names columns with their units: {example}"
+            "the first line gives column names with units: {example}"
         )));
     }
     Ok(columns)
 }
 
-/// Whether the keys of `[motion]` go with the columns of the file.
+/// Checks that the keys of `[motion]` match the columns of the file.
 fn check_request(request: &Request, columns: &Columns, drive: DriveLink) -> Result<()> {
     let of_positions = columns.get(POSITION).is_some();
     if let (Some(start), true) = (&request.start, of_positions) {
@@ -184,7 +184,7 @@ fn curve(
         }
     };
     let unmade = |fault| {
-        Problem::new(format!("no motion can be made of these rows: {fault}"))
+        Problem::new(format!("no motion fits these rows: {fault}"))
             .at(columns::header_place(text), "in this file")
     };
     let most = |default: f64| {
@@ -246,13 +246,13 @@ fn curve(
     let outside = times.iter().position(|t| !drive.reaches(motion.at(*t).phi));
     if let Some(row) = outside {
         return Err(Problem::new(format!(
-            "row {}: the position {} lies outside the stroke, {}",
+            "row {}: the position {} is outside the stroke, {}",
             row + 1,
             drive.coordinate.place(motion.at(times[row]).phi),
             drive.range()
         ))
         .at(columns.place(row), "leaves the stroke")
-        .help("record a motion that stays within the stroke of the mechanism")
+        .help("give a motion that stays within the stroke of the mechanism")
         .into());
     }
     Ok(motion)
@@ -272,14 +272,14 @@ fn times(columns: &Columns, request: &Request) -> Result<Vec<f64>> {
     let usual = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
     if let Some(row) = steps.iter().position(|step| *step > GAP * usual) {
         return Err(Problem::new(format!(
-            "there is a gap in the times: row {} comes {} s after the row before, usual are {} s",
+            "there is a gap in the times: row {} is {} s after the previous row; the usual step is {} s",
             row + 2,
             figure(steps[row]),
             figure(usual)
         ))
         .at(columns.place(row + 1), "this row")
         .help(format!(
-            "a curve through a gap of more than {GAP} steps would be invented: fill the rows in, also those of a standstill"
+            "a curve through a gap of more than {GAP} steps would be guesswork: add the missing rows, including those at standstill"
         )));
     }
     let first = times.first().copied().unwrap_or_default();
@@ -302,14 +302,14 @@ fn cutoff(request: &Request, times: &[f64]) -> std::result::Result<Option<f64>, 
             )
         } else {
             format!(
-                "is {}, but these rows can be smoothed at {} to {}",
+                "is {}, but these rows can be smoothed at {} to {} only",
                 smoothing.shown(),
                 smoothing.show(low),
                 smoothing.show(high)
             )
         };
         return Err(Place::Machine(
-            smoothing.problem(&what, "cannot be done").help(
+            smoothing.problem(&what, "not possible").help(
                 "take a frequency well above that of the motion and well below that of the rows; without `smoothing` the curve \
                  goes through every row",
             ),
@@ -329,12 +329,13 @@ fn check_speed_closes(columns: &Columns, speeds: &[f64]) -> Result<()> {
     }
     let [first, last] = [*first, *last].map(|v| columns.shown(SPEED, v));
     Err(
-        Problem::new(format!("the cycle begins with {first} and ends with {last}"))
+        Problem::new(format!("the cycle starts with {first} and ends with {last}"))
             .at(columns.place(0), "first speed")
             .at(columns.place(columns.rows() - 1), "last speed")
             .help(
-                "a cyclic motion ends as it began, with the last row at the end of the cycle: cut the recording at a place where \
-                 they meet; for a motion that does not repeat write cyclic = false in [motion]",
+                "a cyclic motion ends with the speed it starts with, and its last row is at the end of the cycle: cut \
+                 the recording where the speeds match; for a motion that does not repeat write cyclic = false in \
+                 [motion]",
             ),
     )
 }
@@ -355,10 +356,13 @@ fn closed(way: f64, most: f64, columns: &Columns, drive: DriveLink) -> Result<f6
     };
     let message = match drive.domain {
         Domain::Stroke { .. } => {
-            format!("the last position lies {} from the first one", shown(gap))
+            format!(
+                "the last position is {} away from the first one",
+                shown(gap)
+            )
         }
         Domain::Turn => format!(
-            "the last position lies {} {} a whole number of turns from the first one",
+            "the last position is {} {} a whole number of turns from the first one",
             shown(gap.abs()),
             if gap > 0.0 { "beyond" } else { "short of" }
         ),
@@ -367,9 +371,9 @@ fn closed(way: f64, most: f64, columns: &Columns, drive: DriveLink) -> Result<f6
         .at(columns.place(0), "first position")
         .at(columns.place(columns.rows() - 1), "last position")
         .help(format!(
-            "a cyclic motion ends where it began or whole turns further on, with the last row at the end of the cycle; for a motion \
-             that does not repeat write cyclic = false in [motion]; if this is what the measurement is worth, write \
-             close_within = \"{}\": it is then spread over the cycle as a constant speed",
+            "a cyclic motion ends where it started or whole turns further, and its last row is at the end of the \
+             cycle; for a motion that does not repeat write cyclic = false in [motion]; if the difference is \
+             measurement error, write close_within = \"{}\": it is then spread over the cycle as a constant speed",
             format_args!("{} {}", figure(rounded_up(drive.coordinate.shown(gap.abs()))), drive.coordinate.unit())
         )))
 }

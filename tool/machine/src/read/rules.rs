@@ -53,7 +53,7 @@ const GENERAL: &str = "general";
 
 /// The largest share that makes sense as a limit.
 const MAX_SHARE: f64 = 2.0;
-/// The same of the cycles per hour, of which T2B holds for 1000.
+/// The same for the cycles per hour; T2B is valid for 1000.
 const MAX_CYCLES: f64 = 1000.0;
 /// The same of a ratio of inertias or frequencies.
 const MAX_RATIO: f64 = 1000.0;
@@ -176,10 +176,10 @@ fn contradicts(contradiction: Contradiction) -> Problem {
 
 fn explain(key: &str) -> Option<&'static str> {
     key.ends_with("_warning")
-        .then_some("a warning has the key of its rule and _warning")
+        .then_some("the key of a warning is that of its rule followed by _warning")
 }
 
-/// Every change that a table holds.
+/// Every change in a table.
 fn changes(section: &Section, source: &str) -> Result<Changes> {
     section.expects(&Rule::ALL.map(Rule::key));
     let mut changes = Vec::new();
@@ -234,7 +234,7 @@ fn changes(section: &Section, source: &str) -> Result<Changes> {
                 .problem("is given together with `inertia_ratio`", "here")
                 .at(other.span(), "and here")
                 .help(
-                    "limits by moves per minute replace the one limit: leave one of the two out",
+                    "limits by moves per minute replace the single limit: remove one of the two",
                 ));
         }
         change(What::InertiaByMoves(bands), source, item.span());
@@ -251,7 +251,7 @@ fn limit(item: &Item, rule: Rule) -> Result<f64> {
     }
 }
 
-/// `{ limit = …, warning = …, source = "…" }`: limits and who says so.
+/// `{ limit = …, warning = …, source = "…" }`: limits and their source.
 fn both(item: &Item, rule: Rule) -> Result<(Limit, Option<String>)> {
     let section = item.section(format!("[rules.{}]", rule.key()))?;
     let read = |key: &'static str| section.get(key).map(|item| limit(&item, rule)).transpose();
@@ -310,8 +310,8 @@ fn by_moves(item: &Item) -> Result<Vec<Moves>> {
             .is_some_and(|before| before.above >= moves.above)
         {
             return Err(above
-                .problem("is not above that of the band before", "here")
-                .help("write the bands with rising moves per minute"));
+                .problem("is not above that of the previous band", "here")
+                .help("write the bands in order of increasing moves per minute"));
         }
         bands.push(moves);
     }

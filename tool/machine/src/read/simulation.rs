@@ -18,7 +18,7 @@ const MAX_STEPS: f64 = 100_000.0;
 /// The most points of a torque-speed curve.
 const MAX_POINTS: usize = 1000;
 
-/// What `jred simulate` is to run, if the file says.
+/// The simulation for `jred simulate`, if the file has one.
 pub(super) fn read(
     root: &Section,
     drive: DriveLink,
@@ -64,7 +64,7 @@ pub(super) fn read(
         Some(item) if item.choice(&words)? == 1 => Shaft::DriveLink,
         _ => Shaft::Motor,
     };
-    // What drives directly a link that slides is a linear motor or a cylinder.
+    // A sliding link is driven directly by a linear motor or a cylinder.
     let linear = drive.slides() && (at == Shaft::DriveLink || drive_train.stages().is_empty());
     let torque = if linear {
         effort(
@@ -170,22 +170,22 @@ fn points(curve: &Item, drive: DriveLink, example: &str) -> Result<Vec<(f64, f64
     let list = curve.list("point", example)?;
     if list.is_empty() || list.len() > MAX_POINTS {
         let what = format!("has {} points, but must have 1 to {MAX_POINTS}", list.len());
-        return Err(curve
-            .problem(&what, "here")
-            .help(format!("a point is [speed, effort], as in {example}")));
+        return Err(curve.problem(&what, "here").help(format!(
+            "a point is [speed, torque or force], as in {example}"
+        )));
     }
     let mut points: Vec<(f64, f64)> = Vec::with_capacity(list.len());
     for item in list {
         let [speed, effort] = item.pair([drive.speed(), drive.effort()])?;
         if let Some((before, _)) = points.last().filter(|(before, _)| speed.si <= *before) {
             let what = format!(
-                "is {}, but must be larger than the speed of the point before, {}",
+                "is {}, but must be greater than the speed of the previous point, {}",
                 speed.shown(),
                 speed.show(*before)
             );
             return Err(speed
-                .problem(&what, "not rising")
-                .help("sort the points by rising speed"));
+                .problem(&what, "not increasing")
+                .help("sort the points by increasing speed"));
         }
         points.push((speed.si, effort.si));
     }

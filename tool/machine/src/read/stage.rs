@@ -143,7 +143,7 @@ fn pulley(section: &Section, key: &'static str) -> Result<(f64, f64)> {
     if let Some(diameter) = pulley.peek("diameter") {
         return Err(diameter
             .problem(
-                "is not known: a pulley is given by its radius",
+                "is not used: a pulley is given by its radius",
                 "remove this",
             )
             .help("give half the pitch diameter: radius = \"40 mm\""));
@@ -182,7 +182,7 @@ pub(super) fn train(stages: Vec<Placed>) -> Result<Train> {
                     format!("stage {} of {}", most + 1, stages.len()),
                 )
                 .help(
-                    "combine stages: multiply their ratios and reduce their inertias to one shaft",
+                    "combine stages: multiply their ratios and refer their inertias to one shaft",
                 ),
         );
     }

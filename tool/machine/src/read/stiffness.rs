@@ -1,4 +1,4 @@
-//! `[stiffness]`: how stiff the shafts between gearbox and machine are, and the play of the drive train.
+//! `[stiffness]`: stiffness of the shafts between gearbox and machine, and backlash of the drive train.
 
 use jred::mechanism::Train;
 
@@ -8,15 +8,15 @@ use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::{ANGLE, Kind, LENGTH, STIFFNESS, TORSION_STIFFNESS};
 
-/// Where the figures hold.
+/// Reference points of the values.
 const PLACES: [&str; 2] = ["input", "drive-link"];
 
-/// What the section gives.
+/// Values of the section.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Stiffness {
-    /// Of the shafts, at the input of the drive train (N·m/rad).
+    /// Stiffness of the shafts, at the input of the drive train (N·m/rad).
     pub(super) shaft: Option<f64>,
-    /// Of the drive train, at the drive link (rad or m).
+    /// Backlash of the drive train, at the drive link (rad or m).
     pub(super) play: Option<f64>,
 }
 
@@ -43,7 +43,7 @@ pub(super) fn read(root: &Section, drive: DriveLink, train: &Train) -> Result<St
         return Err(section
             .problem("[stiffness] gives neither `shaft` nor `backlash`", "empty")
             .help(
-                "add shaft = \"12 kN m/rad\" or backlash = \"0.05 deg\", or leave the section out",
+                "add shaft = \"12 kN m/rad\" or backlash = \"0.05 deg\", or remove the section",
             ));
     }
     let ratio = train.ratio().abs();

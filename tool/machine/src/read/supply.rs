@@ -1,4 +1,4 @@
-//! `[supply]`: what feeds the DC bus and what takes up the energy that comes back.
+//! `[supply]`: the supply of the DC bus and everything that takes regenerated energy.
 
 use std::f64::consts::SQRT_2;
 
@@ -23,7 +23,7 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
             return Err(Problem::new("`bus_voltage` and `mains_voltage` in [supply] are both given")
                 .at(bus.span(), "one")
                 .at(mains.span(), "the other")
-                .help("give one of them: the DC bus of a rectifier has √2 times the mains voltage, such as 565 V at 400 V"));
+                .help("give one of them: the DC bus behind a rectifier has √2 times the mains voltage, such as 565 V at 400 V"));
         }
         (Some(bus), None) => Some((bus.shown(), bus.positive()?)),
         (None, Some(mains)) => {
@@ -58,7 +58,7 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
         return Err(Problem::new(message)
             .at(chopper.span(), "here")
             .at(max.span(), "here")
-            .help("the brake resistor must come on before the highest voltage of the bus is reached: raise max_voltage or lower chopper_voltage to what the amplifier's manual says"));
+            .help("the brake resistor must switch on below the maximum bus voltage: raise max_voltage or lower chopper_voltage to the values in the amplifier's manual"));
     }
     let capacitance = positive(section.optional("capacitance", &CAPACITANCE)?)?;
     let least = section.optional("min_resistance", &RESISTANCE)?;
@@ -113,8 +113,8 @@ fn resistor(
     };
     if regenerative {
         return Err(item
-            .problem("is given, but the supply takes energy back", "never on")
-            .help("leave out one of the two: brake_resistor or regenerative = true"));
+            .problem("is given, but the supply feeds energy back", "never on")
+            .help("remove one of the two: brake_resistor or regenerative = true"));
     }
     let table = item.section("[supply.brake_resistor]".into())?;
     let resistance = table.quantity("resistance", &RESISTANCE)?;
@@ -129,7 +129,7 @@ fn resistor(
         );
         return Err(resistance
             .problem(&what, "too small")
-            .help("the chopper cannot switch the current: take a larger resistance"));
+            .help("the chopper cannot switch the current: use a larger resistance"));
     }
     let power = table.quantity("power", &POWER)?;
     power.check_positive()?;
@@ -144,7 +144,7 @@ fn resistor(
         );
         return Err(peak
             .problem(&what, "too small")
-            .help("`power` is what the resistor bears without end, `peak_power` for a short time: check which is which"));
+            .help("`power` is the continuous power of the resistor, `peak_power` its short-time power: check whether they are interchanged"));
     }
     let pulse = table.optional("pulse_energy", &ENERGY)?;
     table.finish()?;

@@ -1,4 +1,4 @@
-//! `[surroundings]`: what a motor is cooled by.
+//! `[surroundings]`: ambient conditions of the motor.
 
 use crate::model::site::Site;
 use crate::model::surroundings::Surroundings;
@@ -36,19 +36,19 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
         );
         return Err(item
             .problem(&what, "too low")
-            .help("no motor is colder than what surrounds it: correct one of the two"));
+            .help("a motor is never colder than its surroundings: correct one of the two"));
     }
     if let Some(altitude) = section.optional("altitude", &ALTITUDE)? {
         found.altitude = altitude.si;
         if !(-500.0..=HIGHEST).contains(&altitude.si) {
             let what = format!(
-                "is {}, but must lie between -500 m and {}",
+                "is {}, but must be between -500 m and {}",
                 altitude.shown(),
                 altitude.show(HIGHEST)
             );
-            return Err(altitude
-                .problem(&what, "out of range")
-                .help("above 4000 m ask the maker for the motor's figures, and put those into the catalogue"));
+            return Err(altitude.problem(&what, "out of range").help(
+                "above 4000 m, ask the maker for motor data and put them into the catalogue",
+            ));
         }
     }
     section.finish()?;
@@ -61,13 +61,13 @@ fn celsius(item: &Item) -> Result<f64> {
     let value = item.quantity(&TEMPERATURE)?;
     if !value.shown().ends_with("degC") {
         return Err(item
-            .problem("is not on the Celsius scale", "which scale?")
+            .problem("is not in degrees Celsius", "which unit?")
             .help("write a temperature in degrees Celsius, such as \"40 degC\""));
     }
     let [low, high] = TEMPERATURES;
     if !(low..=high).contains(&value.si) {
         let what = format!(
-            "is {}, but must lie between {low} degC and {high} degC",
+            "is {}, but must be between {low} degC and {high} degC",
             value.shown()
         );
         return Err(value

@@ -1,4 +1,4 @@
-//! `[tolerance]`: how far quantities of the file may lie from what it says.
+//! `[tolerance]`: how far quantities may deviate from their values in the file.
 
 use crate::model::tolerance::{Shape, Tolerance};
 use crate::text::problem::Result;

@@ -1,4 +1,4 @@
-//! `[tool]`: where play matters, and how much of it is allowed.
+//! `[tool]`: where backlash matters, and how much is allowed.
 
 use jred::Mechanism as _;
 
@@ -11,10 +11,10 @@ use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::{ANGLE, LENGTH};
 
-/// Slower than this (m or rad, per rad or m of the drive link) a tool does not move at all.
+/// A tool slower than this (m or rad, per rad or m of the drive link) does not move.
 const STANDS: f64 = 1e-9;
 
-/// Positions at which it is looked whether the tool moves.
+/// Number of positions at which the motion of the tool is checked.
 const POSITIONS: usize = 64;
 
 /// The section, if the file has it.
@@ -29,7 +29,9 @@ pub(super) fn read(root: &Section, mechanism: &AnyMechanism) -> Result<Option<To
             return Err(link
                 .problem("is given together with `point`", "here")
                 .at(point.span(), "and here")
-                .help("name the point whose position matters, or the link whose angle matters, not both"));
+                .help(
+                    "give either the point whose position matters or the link whose angle matters",
+                ));
         }
         (Some(point), None) => of_point(&section, point, mechanism)?,
         (None, Some(link)) => {
@@ -51,12 +53,16 @@ pub(super) fn read(root: &Section, mechanism: &AnyMechanism) -> Result<Option<To
     section.finish()?;
     if let Some(named) = point.or(link).filter(|_| !moves(&tool, mechanism)) {
         let what = match tool.place {
-            ToolPlace::Point(_) => "does not move with the drive link: play is not seen there",
-            ToolPlace::Turning => "does not turn with the drive link: play is not seen there",
+            ToolPlace::Point(_) => {
+                "does not move with the drive link, so backlash has no effect there"
+            }
+            ToolPlace::Turning => {
+                "does not turn with the drive link, so backlash has no effect there"
+            }
         };
         return Err(named
             .problem(what, "stands")
-            .help("name the point or link that does the machine's work; of a link, at = [\"40 mm\", \"0 mm\"] says which of its points"));
+            .help("name the point or link that does the machine's work; for a link, at = [\"40 mm\", \"0 mm\"] gives the point on it"));
     }
     Ok(Some(tool))
 }
@@ -74,10 +80,10 @@ fn of_point(section: &Section, item: &Item, mechanism: &AnyMechanism) -> Result<
         (Some(_), Some(at)) => {
             return Err(at
                 .problem(
-                    "is given for a point that has a place already",
+                    "is given for a point whose place is already defined",
                     "remove this",
                 )
-                .help("`at` says which point of a link is meant"));
+                .help("`at` gives a point on a link"));
         }
         (None, _) => (index - points.len(), section.point("at", &LENGTH)?),
     };

@@ -11,7 +11,7 @@ use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::{INERTIA, SHARE, TIME, TORQUE};
 
-/// Ratios outside can only be a slip of the pen.
+/// Ratios outside this range are refused as mistakes.
 const RATIOS: [f64; 2] = [1e-3, 1e3];
 
 /// The most shifts.
@@ -32,10 +32,12 @@ pub(super) fn read(root: &Section, drive_link: DriveLink) -> Result<Option<Varia
     if drive_link.slides() {
         return Err(section
             .problem(
-                "a variator turns its output shaft, but the drive link of this mechanism slides",
+                "the output of a variator is a shaft, but the drive link of this mechanism slides",
                 "no shaft to drive",
             )
-            .help("put the screw, rack or crank that moves the drive link into the mechanism"));
+            .help(
+                "make the screw, rack or crank that moves the drive link part of the mechanism",
+            ));
     }
     section.expects(&[
         "ratio",
@@ -75,7 +77,10 @@ pub(super) fn read(root: &Section, drive_link: DriveLink) -> Result<Option<Varia
 
 fn ratio(section: &Section) -> Result<f64> {
     section
-        .require("ratio", "ratio = 0.5, the output's speed over the input's")?
+        .require(
+            "ratio",
+            "ratio = 0.5, the output speed over the input speed",
+        )?
         .number(RATIOS, "0.5")
 }
 
@@ -93,17 +98,18 @@ fn slip(section: &Section) -> Result<Slip> {
             share: share(&constant)?,
             flow: self::flow(
                 section,
-                "the same slip makes the driven shaft slower, whichever that is",
+                "slip always slows down the driven shaft: say which shaft drives",
             )?,
             contact: Contact::Slipping,
         }),
         (None, other) => {
             if let Some(flow) = flow {
                 return Err(flow
-                    .problem("has a meaning only beside a constant `slip`", "remove this")
-                    .help(
-                        "without slip, and with creep, the contact does not ask which shaft drives",
-                    ));
+                    .problem(
+                        "is only used together with a constant `slip`",
+                        "remove this",
+                    )
+                    .help("without slip, and with creep, it does not matter which shaft drives"));
             }
             match other {
                 Some(creep) => self::creep(&creep),
@@ -124,12 +130,12 @@ pub(super) fn share(item: &Item) -> Result<f64> {
         let what = format!("is {}, but must be below 100 %", value.shown());
         return Err(value
             .problem(&what, "nothing is coupled")
-            .help("slip of a friction contact is some 0.5 % to 5 %: \"2 %\""));
+            .help("write the slip of the friction contact, usually 0.5 % to 5 %: \"2 %\""));
     }
     value.not_negative()
 }
 
-/// Which way power flows, which must be said; `why` says why.
+/// Direction of power flow, which is required for the reason `why`.
 pub(super) fn flow(section: &Section, why: &str) -> Result<Flow> {
     let item = section.get("power_flow").ok_or_else(|| {
         section.missing(
@@ -151,7 +157,7 @@ fn creep(item: &Item) -> Result<Slip> {
     if slip.si >= 1.0 {
         let what = format!("is {}, but must be below 100 %", slip.shown());
         return Err(slip.problem(&what, "nothing is coupled").help(
-            "slip at the torque at which the contact begins to slide, some 1 % to 5 %: \"3 %\"",
+            "write the slip at the torque at which the contact starts to slide, usually 1 % to 5 %: \"3 %\"",
         ));
     }
     let torque = section.quantity("torque", &TORQUE)?.positive()?;
@@ -174,7 +180,7 @@ fn add(course: &mut Ratio, section: &Section) -> Result<()> {
             at.show(before.max(0.0))
         );
         return Err(at.problem(&what, "too early").help(
-            "shifts follow one another: each begins after the one before has ended, the first at 0 s or later",
+            "each shift must start after the previous one has ended, the first at 0 s or later",
         ));
     }
     let to = ratio(section)?;

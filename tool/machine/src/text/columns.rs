@@ -1,4 +1,4 @@
-//! CSV files of other programs: columns of numbers with units in the header.
+//! CSV files from other programs: columns of numbers with units in the header.
 //!
 //! Commas, semicolons or tabs between the values, a byte order mark, comments (`#`), and, where no comma separates, decimal
 //! commas. Every mistake is shown in the CSV file.
@@ -29,11 +29,11 @@ pub(crate) const fn known(names: &'static [&'static str], kind: &'static Kind) -
     Known { names, kind }
 }
 
-/// What a kind of file may hold.
+/// Columns that a kind of file may have.
 pub(crate) struct Format<'f> {
     /// Its columns.
     pub(crate) known: &'f [Known],
-    /// Whether a column with another name is passed over.
+    /// Whether columns with other names are ignored.
     pub(crate) ignored: fn(&str) -> bool,
     /// A header to suggest.
     pub(crate) example: &'f str,
@@ -91,7 +91,7 @@ impl Columns {
         self.places.get(row).cloned().unwrap_or_default()
     }
 
-    /// A value in the unit of its column, with that unit.
+    /// A value with the unit of its column.
     pub(crate) fn shown(&self, index: usize, value: f64) -> String {
         let Some((header, scale)) = self.headers.get(index) else {
             return figure(value);
@@ -121,7 +121,7 @@ impl Columns {
         let [before, after] = [row, row + 1]
             .map(|row| self.shown(index, values.get(row).copied().unwrap_or_default()));
         Err(Problem::new(format!(
-            "the {what} does not rise: row {} has {after} after {before}",
+            "the {what} does not increase: row {} has {after} after {before}",
             row + 2
         ))
         .at(self.place(row + 1), "this row")
@@ -150,7 +150,7 @@ pub(crate) fn header_place(text: &str) -> Range<usize> {
     start..start + header.len()
 }
 
-/// What separates the values: the first of tab and semicolon that the header has, else the comma.
+/// Separator of the values: tab or semicolon, whichever the header contains first, otherwise the comma.
 fn delimiter(text: &str) -> u8 {
     let header = header_of(text);
     if header.contains('\t') {
@@ -173,7 +173,7 @@ pub(crate) fn read(text: &str, format: &Format) -> Result<Columns> {
         .from_reader(text.as_bytes());
     let broken = |error: &csv::Error| {
         let start = error.position().map_or(0, |p| p.byte() as usize);
-        Problem::new(format!("not a readable CSV file: {error}"))
+        Problem::new(format!("invalid CSV: {error}"))
             .at(line_at(text, start), "here")
             .help(format!(
                 "give columns of numbers under the header {}",
@@ -218,7 +218,7 @@ pub(crate) fn read(text: &str, format: &Format) -> Result<Columns> {
                     number + 1
                 ))
                 .at(place.clone(), "this row")
-                .help("write plain numbers with a decimal point, without units, such as 12.5; leave no cell empty")
+                .help("write plain numbers with a decimal point and no units, such as 12.5; leave no cell empty")
             })? * scale;
             let kind = format.known[index].kind;
             if value.abs() > kind.largest {
@@ -229,7 +229,7 @@ pub(crate) fn read(text: &str, format: &Format) -> Result<Columns> {
                 ))
                 .at(place, "this row")
                 .help(format!(
-                    "at most {} {name} are read: check the number and the unit in the header",
+                    "at most {} {name} is accepted: check the number and the unit in the header",
                     figure(kind.largest / scale)
                 )));
             }
@@ -246,7 +246,7 @@ pub(crate) fn read(text: &str, format: &Format) -> Result<Columns> {
         ))
         .at(end..end, "ends here")
         .help(format!(
-            "give the columns {} and a row for each point",
+            "add the columns {} and one row for each point",
             format.example
         )));
     }
@@ -275,7 +275,7 @@ fn header_columns(
 ) -> Result<Vec<Option<(usize, f64)>>> {
     let place = header_place(text);
     let help = format!(
-        "the first line names columns with their units: {}",
+        "the first line gives column names with units: {}",
         format.example
     );
     let fault = |message: String, help: String| {
@@ -293,10 +293,7 @@ fn header_columns(
             let names: Vec<&str> = format.known.iter().flat_map(|k| k.names).copied().collect();
             let near = closest(name, &names)
                 .map_or_else(String::new, |near| format!("did you mean \"{near}\"? "));
-            return Err(fault(
-                format!("the column \"{whole}\" is not known"),
-                near + &help,
-            ));
+            return Err(fault(format!("unknown column \"{whole}\""), near + &help));
         };
         let kind = format.known[index].kind;
         let Some((_, unit)) = split_header(whole) else {

@@ -39,8 +39,8 @@ pub(crate) fn read(path: &Path, limit: u64) -> Result<String, Fault> {
             ),
         ),
         ErrorKind::PermissionDenied => Fault::new(
-            "reading it is not permitted",
-            format!("allow reading of {}", absolute(path)),
+            "permission denied",
+            format!("make {} readable", absolute(path)),
         ),
         _ => Fault::new(error.to_string(), format!("check {}", absolute(path))),
     };
@@ -73,8 +73,8 @@ pub(crate) fn read(path: &Path, limit: u64) -> Result<String, Fault> {
             .count()
             + 1;
         Fault::new(
-            format!("it is not a text in UTF-8: line {line} has a byte that is not allowed there"),
-            "save it as UTF-8 text; spreadsheets and pictures cannot be read",
+            format!("it is not UTF-8 text: line {line} contains an invalid byte"),
+            "save it as UTF-8 text; spreadsheets and images are not supported",
         )
     })
 }

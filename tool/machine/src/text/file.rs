@@ -51,8 +51,8 @@ impl Files for BTreeMap<String, String> {
 /// The fault of a file of `size`.
 pub(crate) fn too_large(size: &str, limit: u64) -> Fault {
     Fault::new(
-        format!("it has {size}, but at most {} are read", self::size(limit)),
-        "recorded motions belong in a CSV file of their own, named by `file` in [motion]",
+        format!("it has {size}; the maximum is {}", self::size(limit)),
+        "put recorded motions into a separate CSV file and name it with `file` in [motion]",
     )
 }
 

@@ -1,4 +1,4 @@
-//! One value of the machine file, with its place, turned into what its key asks for.
+//! One value of the machine file with its place, converted to the type of its key.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use crate::units::kind::Kind;
 use crate::units::quantity::{self, Quantity};
 use crate::units::{Fault, closest};
 
-/// A value with the words that messages call it by.
+/// A value with its name for messages.
 #[derive(Clone, Debug)]
 pub(crate) struct Item<'a> {
     /// "`length` in [mechanism.crank]"
@@ -136,7 +136,7 @@ impl<'a> Item<'a> {
             Some(number) if number.is_finite() => Err(self
                 .problem(
                     &format!(
-                        "is {number}, but must lie between {} and {}",
+                        "is {number}, but must be between {} and {}",
                         figure(min),
                         figure(max)
                     ),
@@ -159,7 +159,7 @@ impl<'a> Item<'a> {
             Ok(count) if (1..=max).contains(&count) => Ok(count),
             _ => Err(self
                 .problem(
-                    &format!("is {integer}, but must lie between 1 and {max}"),
+                    &format!("is {integer}, but must be between 1 and {max}"),
                     "here",
                 )
                 .help(format!("write for instance {example}"))),
@@ -204,7 +204,7 @@ impl<'a> Item<'a> {
             .map_or_else(String::new, |near| format!("did you mean \"{near}\"? "));
         Err(self
             .problem(
-                &format!("is \"{text}\", which does not exist here"),
+                &format!("is \"{text}\", which is not a valid choice here"),
                 "unknown",
             )
             .help(format!("{near}possible: {}", quoted(words))))
@@ -314,7 +314,7 @@ impl Value {
             return Ok(());
         }
         let what = if self.si > 0.0 {
-            format!("is {}, smaller than any machine needs", self.shown())
+            format!("is {}, too small for any machine", self.shown())
         } else {
             format!("is {}, but must be greater than zero", self.shown())
         };
@@ -336,9 +336,9 @@ impl Value {
             return Ok(self.si);
         }
         let (max, shown) = (self.show(max), self.shown());
-        let what = format!("is {shown}, but must not be larger than {max}");
+        let what = format!("is {shown}, but must not be greater than {max}");
         let help = if self.kind.unit == "%" && self.quantity.unit.text.is_empty() {
-            format!("a plain number 1 means 100 %; write it with the sign: \"{shown} %\"")
+            format!("the plain number 1 means 100 %; write \"{shown} %\"")
         } else {
             format!("write {} of {max} or less", self.kind.name)
         };

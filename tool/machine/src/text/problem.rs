@@ -1,13 +1,13 @@
-//! One thing that is wrong with a machine file: what, where, and what to do about it.
+//! One fault of a machine file: message, place and cure.
 
 use std::ops::Range;
 
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 
-/// What reading a part of the file gives.
+/// Result of reading a part of the file.
 pub(crate) type Result<T> = std::result::Result<T, Problem>;
 
-/// A diagnostic on its way to the text it belongs to.
+/// A diagnostic that is not yet attached to its text.
 pub(crate) struct Problem(Box<Parts>);
 
 struct Parts {
@@ -32,7 +32,7 @@ impl Problem {
         self
     }
 
-    /// Says what to do.
+    /// Adds the cure.
     pub(crate) fn help(mut self, help: impl Into<String>) -> Self {
         self.0.diagnostic.help = Some(help.into());
         self

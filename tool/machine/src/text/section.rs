@@ -1,4 +1,4 @@
-//! A table of the machine file. It remembers which keys were asked for, so that the others can be reported.
+//! A table of the machine file. It records which keys were read, so that the others can be reported.
 
 use std::cell::RefCell;
 use std::ops::Range;
@@ -10,7 +10,7 @@ use super::problem::{Problem, Result};
 use crate::units::closest;
 use crate::units::kind::Kind;
 
-/// A table with the words that messages call it by.
+/// A table with its name for messages.
 #[derive(Debug)]
 pub(crate) struct Section<'a> {
     /// "[mechanism.crank]"; empty for the top of the file.
@@ -55,7 +55,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// Makes `keys` known before they are asked for, so that none is taken for a slip of the pen for another.
+    /// Registers `keys` as valid so that they are not suggested as typos of one another.
     pub(crate) fn expects(&self, keys: &[&'static str]) {
         for key in keys {
             self.get(key);
@@ -71,7 +71,7 @@ impl<'a> Section<'a> {
         self.peek(key)
     }
 
-    /// The value of `key`, which stays unknown: for keys that only a message is to be made of.
+    /// The value of `key` without marking it as read; for messages.
     pub(crate) fn peek(&self, key: &'static str) -> Option<Item<'a>> {
         let (found, value) = self.table.get_key_value(key)?;
         Some(Item::new(self.name(key), key, found.span(), value))
@@ -82,7 +82,7 @@ impl<'a> Section<'a> {
         self.get(key).ok_or_else(|| self.missing(key, example))
     }
 
-    /// The problem of a key that is not there. A key that looks like a slip of the pen for it is named.
+    /// The problem of a missing key; names a key that looks like a misspelling of it.
     pub(crate) fn missing(&self, key: &'static str, example: &str) -> Problem {
         let known = self.known.borrow();
         let others = self
@@ -91,7 +91,7 @@ impl<'a> Section<'a> {
             .filter(|(k, _)| !known.contains(&k.get_ref().as_ref()));
         for (other, _) in others {
             if closest(other.get_ref(), &[key]).is_some() {
-                return Problem::new(format!("{} is not known", self.name(other.get_ref())))
+                return Problem::new(format!("unknown key {}", self.name(other.get_ref())))
                     .at(other.span(), format!("did you mean \"{key}\"?"))
                     .help(format!("write {example}"));
             }
@@ -114,7 +114,7 @@ impl<'a> Section<'a> {
         self.get(key).map(|item| item.quantity(kind)).transpose()
     }
 
-    /// Two quantities that may be left out: then zero.
+    /// Two optional quantities; zero if missing.
     pub(crate) fn point(&self, key: &'static str, kind: &'static Kind) -> Result<[f64; 2]> {
         let Some(item) = self.get(key) else {
             return Ok([0.0, 0.0]);
@@ -148,7 +148,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// Reports a key that nobody asked for.
+    /// Reports a key that was not read.
     pub(crate) fn finish(&self) -> Result<()> {
         self.finish_with(|_| None)
     }
@@ -164,13 +164,13 @@ impl<'a> Section<'a> {
         let word = key.get_ref().as_ref();
         let label = match closest(word, &known) {
             Some(near) => format!("did you mean \"{near}\"?"),
-            None => "unknown key".to_owned(),
+            None => "not a key of this table".to_owned(),
         };
         let help = explain(word).map_or_else(
             || format!("known here: {}", known.join(", ")),
             |reason| format!("{reason}; known here: {}", known.join(", ")),
         );
-        Err(Problem::new(format!("{} is not known", self.name(word)))
+        Err(Problem::new(format!("unknown key {}", self.name(word)))
             .at(key.span(), label)
             .help(help))
     }

@@ -1,13 +1,13 @@
 //! What is wrong with a value as it was written, and what to do about it.
 
-/// What is wrong with a value, before it is known which key it belongs to.
+/// The fault of a value, before its key is known.
 #[derive(Debug)]
 pub struct Fault {
     /// Continues "`length` in [mechanism.crank] …".
     pub message: String,
-    /// What to do.
+    /// Cure.
     pub help: String,
-    /// What stands at the place of the fault.
+    /// Label at the place of the fault.
     pub label: String,
 }
 
@@ -29,7 +29,7 @@ impl Fault {
     }
 }
 
-/// The word that `wrong` was most likely meant to be.
+/// The word that `wrong` is most likely a misspelling of.
 pub fn closest<S: AsRef<str>>(wrong: &str, words: &[S]) -> Option<String> {
     let lower = wrong.to_lowercase();
     let allowed = (lower.chars().count() / 3).clamp(1, 3);

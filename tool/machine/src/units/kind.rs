@@ -1,8 +1,8 @@
-//! The kinds of quantities: what each is called, measured in, and how large it may be.
+//! Kinds of quantities: name, units and largest value.
 
 use super::word::Dimension;
 
-/// What a quantity measures, and which units and sizes it may have.
+/// Kind of a quantity, with its units and range.
 #[derive(Debug)]
 pub struct Kind {
     /// With its article: "a length".
@@ -17,9 +17,9 @@ pub struct Kind {
     pub dimension: Dimension,
     /// Whether the angle may be left out of the unit ("N m s" for "N m s/rad").
     pub angle_optional: bool,
-    /// Larger values (SI) can only be a slip.
+    /// Larger values (SI) are refused as mistakes.
     pub largest: f64,
-    /// Where zero makes no sense, smaller values (SI) do not either.
+    /// If zero is not allowed, smaller values (SI) are not either.
     pub smallest: f64,
 }
 
@@ -292,7 +292,7 @@ pub const CUTOFF: Kind = kind(
     [1e-6, 1e6],
 );
 
-/// Kinds that no key asks for but that people write.
+/// Kinds that no key uses but that users write.
 const OTHERS: [(&str, [i8; 4]); 5] = [
     ("a frequency", [0, 0, -1, 0]),
     ("a speed", [1, 0, -1, 0]),
@@ -315,7 +315,7 @@ const fn dimension_of([length, mass, time, angle]: [i8; 4]) -> Dimension {
     }
 }
 
-/// What a quantity of this dimension is called.
+/// Name of a quantity of this dimension.
 pub fn describe(found: Dimension) -> String {
     let kinds = [
         &LENGTH,

@@ -1,5 +1,5 @@
-//! A number with a unit of any kind, as texts of a machine file hold it: for those who change quantities without knowing
-//! what each means.
+//! A number with a unit of any kind, as in texts of a machine file, for code that changes quantities without knowing their
+//! meaning.
 
 use super::kind::SHARE;
 use super::quantity::split_number;
@@ -29,7 +29,7 @@ impl Literal {
         }
     }
 
-    /// Whether the two measure the same; whether an angle belongs to the unit is left open ("N m s" for "N m s/rad").
+    /// Whether both have the same dimension; an angle in the unit is optional ("N m s" for "N m s/rad").
     pub fn is_like(&self, other: &Self) -> bool {
         self.dimension
             .iter()
@@ -49,7 +49,7 @@ impl Literal {
 /// Reads "1.2e-3 kg m^2", "12 %" or "0.8".
 ///
 /// # Errors
-/// In words that continue "\"…\" ".
+/// A message that continues "\"…\" ".
 pub fn read(text: &str) -> Result<Literal, String> {
     let tidy = unit::tidy(text);
     let words = |fault: super::fault::Fault| format!("{}; {}", fault.message, fault.help);

@@ -89,7 +89,7 @@ fn finish(number: String, unit: Unit, kind: &Kind) -> Result<Quantity, Fault> {
             format!("{number} {}", quantity.unit.text)
         };
         return Err(Fault::new(
-            format!("is {shown}, larger than any machine needs"),
+            format!("is {shown}, too large for any machine"),
             format!(
                 "at most {} is accepted here; check the number and its unit",
                 quantity.in_its_unit(kind.largest).trim_end()
@@ -193,14 +193,14 @@ pub fn split_number<'t>(text: &'t str, kind: &Kind) -> Result<(String, &'t str),
     if rest.starts_with(['+', '-']) || rest.contains(" +") || rest.contains(" -") {
         return Err(Fault::new(
             format!("is a sum or a difference: \"{text}\""),
-            "write one number and its unit; sums are not worked out",
+            "write one number and its unit; sums are not evaluated",
         ));
     }
     let per_second = rest.strip_prefix(' ').is_some_and(|r| r.starts_with("1/"));
     if second.starts_with(|c: char| c.is_ascii_digit() || ".,_'".contains(c)) && !per_second {
         return Err(Fault::new(
             format!("contains more than one number: \"{text}\""),
-            "write one number without separators, then its unit; products and fractions are not worked out",
+            "write one number without separators, then its unit; products and fractions are not evaluated",
         ));
     }
     Ok((number, rest.trim_start_matches([' ', '*'])))
@@ -219,8 +219,8 @@ fn check_dimension(unit: &Unit, text: &str, kind: &Kind) -> Result<(), Fault> {
         return Ok(());
     }
     let help = if found == FREQUENCY && kind.dimension == ANGULAR_SPEED.dimension {
-        "whether turns or radians are counted is not clear from \"Hz\" or \"1/s\": write \"rpm\" or \"rad/s\" \
-         (1 turn per second = 60 rpm = 6.2832 rad/s)"
+        "\"Hz\" and \"1/s\" do not say whether they count turns or radians: write \"rpm\" or \"rad/s\" (1 turn per \
+         second = 60 rpm = 6.2832 rad/s)"
             .to_owned()
     } else if found == SHARE.dimension && kind.dimension.angle == 1 {
         format!(

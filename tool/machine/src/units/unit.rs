@@ -8,13 +8,13 @@ use super::word::{Dimension, Product, WORDS, Word};
 pub struct Unit {
     /// How it was written, tidied up.
     pub text: String,
-    /// One of it in SI.
+    /// Its value in SI.
     pub scale: f64,
     /// What it measures.
     pub dimension: Dimension,
 }
 
-/// Words that are units elsewhere, and what to write instead.
+/// Units that are not accepted, and what to write instead.
 const FOREIGN: [(&[&str], &str); 18] = [
     (&["min"], "1 min = 60 s; turns per minute are \"rpm\""),
     (&["h", "hr", "hour"], "1 h = 3600 s"),
@@ -59,8 +59,8 @@ pub fn read(text: &str) -> Result<Unit, Fault> {
 }
 
 /// How a unit is written.
-const SHAPE: &str = "write units one after another with blanks between, powers with ^, and at most one \"/\": \
-                     \"N m\", \"kg cm^2\", \"m/s^2\", \"N m s/rad\"";
+const SHAPE: &str = "separate units by blanks, write powers with ^ and at most one \"/\": \"N m\", \"kg cm^2\", \
+                     \"m/s^2\", \"N m s/rad\"";
 
 /// The words of a unit with their powers.
 fn factors(text: &str) -> Result<Vec<(&'static Word, i8)>, Fault> {
@@ -89,7 +89,7 @@ fn factors(text: &str) -> Result<Vec<(&'static Word, i8)>, Fault> {
         return Err(Fault::new(
             format!("has the unit \"{text}\", which can be read in two ways"),
             format!(
-                "put what is divided by in brackets: \"{}/({})\", or write it in front of the \"/\"",
+                "put the denominator in brackets: \"{}/({})\", or write it in front of the \"/\"",
                 above.trim(),
                 divisors.join(" ")
             ),
@@ -106,7 +106,7 @@ fn factors(text: &str) -> Result<Vec<(&'static Word, i8)>, Fault> {
         factors.push((word, -power));
     }
     if factors.len() > 8 {
-        return Err(Fault::new("has a unit of more than eight words", SHAPE));
+        return Err(Fault::new("has a unit with more than eight parts", SHAPE));
     }
     Ok(factors)
 }
@@ -120,7 +120,7 @@ fn factor(token: &str) -> Result<(&'static Word, i8), Fault> {
     if token.starts_with(|c: char| c.is_ascii_digit() || ".+-".contains(c)) {
         return Err(Fault::new(
             format!("contains more than one number (\"{token}\" is the second)"),
-            "write one number and its unit, and work out sums and fractions beforehand",
+            "write one number and its unit; evaluate sums and fractions beforehand",
         ));
     }
     if let Some(sign) = token.chars().find(|c| "()+,;=".contains(*c)) {
@@ -149,7 +149,7 @@ fn factor(token: &str) -> Result<(&'static Word, i8), Fault> {
     Err(Fault::new(format!("has the unknown unit \"{word}\""), cure).label("unknown unit"))
 }
 
-/// What to write instead of an unknown unit, which stands with this exponent ("^2" or nothing).
+/// What to write instead of an unknown unit with this exponent ("^2" or nothing).
 fn cure(word: &str, exponent: &str) -> String {
     if let Some((_, cure)) = FOREIGN.iter().find(|(words, _)| words.contains(&word)) {
         return format!("this unit is not accepted here: {cure}");

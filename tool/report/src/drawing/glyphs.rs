@@ -1,4 +1,4 @@
-//! How each part looks.
+//! The look of each part.
 
 use super::QUIET;
 use super::sketch::Part;
@@ -101,7 +101,7 @@ impl Pen<'_> {
                 let [a, b] = overrun(ends.map(page), 2.0 * BLOCK[0] - 8.0);
                 let ([x, y], length) = unit(a, b);
                 let side = BLOCK[1] + 1.0;
-                // Hatched below where it lies, beside where it stands.
+                // Hatched below if it is horizontal, at the side if it is vertical.
                 let down = if x < 0.0 { -1.0 } else { 1.0 };
                 let (n_x, n_y) = (-y * side * down, x * side * down);
                 let shift = |at: [f64; 2], k: f64| [at[0] + k * n_x, at[1] + k * n_y];

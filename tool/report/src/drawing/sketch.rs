@@ -1,4 +1,4 @@
-//! What is drawn, in metres: parts of links in their own frames, parts of the ground, paths, poses.
+//! Content of a drawing, in metres: parts of links in their own frames, parts of the ground, paths, poses.
 
 use jred::joint::Joints;
 use jred::mechanism::Frames;
@@ -34,7 +34,7 @@ impl Part {
         matches!(self, Self::Pin(_))
     }
 
-    /// Whether faint copies of it help: wheels and outlines look alike everywhere.
+    /// Whether copies at other positions are useful; wheels and outlines look the same in every position.
     pub(super) const fn leaves_ghosts(&self) -> bool {
         matches!(self, Self::Bar(_) | Self::Plate(_) | Self::Block(..))
     }
@@ -66,7 +66,7 @@ pub(super) struct Sketch {
     pub(super) poses: Vec<Pose>,
     /// Whether shafts that the mechanism has at one point were drawn apart.
     pub(super) schematic: bool,
-    /// How far each link is drawn from where the mechanism has it (m).
+    /// Offset of each link in the drawing from its place in the mechanism (m).
     apart: Vec<[f64; 2]>,
 }
 

@@ -5,7 +5,7 @@ use crate::plot::WIDTH;
 use crate::plot::svg::{Anchor, Ink, Svg};
 use jred_machine::number::rounding::rounded;
 
-/// Room around the drawing (px): bearings, blocks and labels reach beyond what they stand for.
+/// Margin around the drawing (px) for bearings, blocks and labels.
 const MARGIN: f64 = 48.0;
 /// Most and least height (px).
 const HEIGHT: [f64; 2] = [220.0, 560.0];

@@ -6,7 +6,7 @@ use crate::table::output::text_table;
 use jred_machine::export::{Answer, Export};
 use jred_machine::number::rounding::short;
 
-/// What every number type and layout takes; the one chosen has a star.
+/// Size of every number type and layout; the one chosen is starred.
 pub fn alternatives(export: &Export) -> String {
     let effort = export.coordinate.effort_unit();
     let mut table = text_table(&[

@@ -49,7 +49,7 @@ pub fn text(answer: &Answer) -> String {
     };
     let _ = writeln!(
         text,
-        "At any phases: peak drawn at most {} W, peak fed back at most {} W, {voltage}, a brake resistor at most {} W mean",
+        "For any phases: peak drawn at most {} W, peak fed back at most {} W, {voltage}, brake resistor at most {} W mean",
         short(drawn),
         short(back),
         short(resistor),
@@ -57,14 +57,14 @@ pub fn text(answer: &Answer) -> String {
     if let Some(saved) = answer.saved() {
         let _ = writeln!(
             text,
-            "Against a bus for each axis, with 1/{} of the capacitance and a brake resistor like this, one bus saves {} W mean in step",
+            "Compared with a bus for each axis, with 1/{} of the capacitance and the same brake resistor, the common bus saves {} W mean in step",
             answer.axes.len(),
             short(saved)
         );
     }
     text += &resistor_text(answer);
     if answer.data.capacitance.is_none() && answer.data.resistor.is_some() {
-        text += "Capacitance of the DC bus not known (capacitance in [supply]): all that comes back goes into the brake resistor\n";
+        text += "DC bus capacitance not given (capacitance in [supply]): all regenerated energy goes into the brake resistor\n";
     }
     text.push('\n');
     text + &verdicts(answer) + &cures_text(answer)
@@ -78,7 +78,7 @@ fn axes_text(answer: &Answer) -> String {
         let broken = if axis.holds {
             ""
         } else {
-            ", breaks a rule: see `jred size`"
+            ", violates a rule: see `jred size`"
         };
         let _ = writeln!(
             text,
@@ -105,30 +105,28 @@ fn worst_text(answer: &Answer) -> String {
         return text;
     }
     let names = [
-        "Phases with the highest voltage",
-        "Phases that burn most",
-        "Phases with the largest power burnt",
-        "Phases with the largest pulse",
+        "the highest voltage",
+        "the highest mean brake power",
+        "the highest peak brake power",
+        "the largest brake pulse",
     ];
     let count = if answer.data.resistor.is_some() { 4 } else { 1 };
-    for (k, (name, phases)) in names.into_iter().zip(worst).enumerate().take(count) {
-        // Phases that are the worst in several ways are printed once.
-        let same = |other: &&jred_sizing::bus::axes::Worst| other.phases == phases.phases;
-        if worst[..k].iter().any(|other| same(&other)) {
+    for (k, phases) in worst.iter().enumerate().take(count) {
+        // Phases that are the worst for several goals are printed once.
+        let same = |other: &jred_sizing::bus::axes::Worst| other.phases == phases.phases;
+        if worst[..k].iter().any(same) {
             continue;
         }
-        text += name;
-        for (other, also) in names.iter().zip(worst).take(count).skip(k + 1) {
-            if same(&also) {
-                let rest = other.trim_start_matches("Phases ");
-                let _ = write!(text, " and {}", rest.trim_start_matches("with "));
-            }
-        }
+        let goals = names.into_iter().zip(worst).take(count).skip(k);
+        let goals = goals.filter(|(_, other)| same(other));
+        let goals: Vec<&str> = goals.map(|(name, _)| name).collect();
+        text += "Phases with ";
+        text += &goals.join(" and ");
         let _ = write!(text, ", {}: ", shown(&phases.phases));
         text += &line(answer, &phases.figures, power);
     }
     if answer.axes.len() > 3 {
-        text += "More than three axes: searched from several starts, a worse phase may exist; the bounds hold.\n";
+        text += "More than three axes: the search starts from several points and may miss a worse phase; the bounds are always valid.\n";
     }
     text
 }
@@ -150,27 +148,31 @@ fn resistor_text(answer: &Answer) -> String {
                 format!("{} {unit} {of}", short(*by))
             })
             .collect();
-        let _ = writeln!(text, "The brake resistor lacks {}", each.join(", "));
+        let _ = writeln!(text, "The brake resistor is short of {}", each.join(", "));
     }
     if let Some(conflict) = answer.conflict() {
-        let _ = writeln!(text, "NO BRAKE RESISTOR DOES: {}", conflict.words());
+        let _ = writeln!(
+            text,
+            "No brake resistor can work here: {}",
+            conflict.words()
+        );
     }
     if let Some(need) = &answer.need {
         let proposal = match &answer.proposal {
-            Some(key) => format!("; {key} of the catalogue does"),
-            None => "; the catalogue has none of which it is known".to_owned(),
+            Some(key) => format!("; {key} from the catalogue is suitable"),
+            None => "; no resistor in the catalogue is known to be suitable".to_owned(),
         };
         let needs = if answer.data.resistor.is_some() {
-            "A brake resistor that does: "
+            "A suitable brake resistor: "
         } else {
-            "The bus needs a brake resistor of "
+            "The bus requires a brake resistor of "
         };
         let _ = writeln!(text, "{needs}{}{proposal}", need.figures());
     }
     text
 }
 
-/// A line for every check, and for every one that could not be done.
+/// One line for each check, including those without data.
 fn verdicts(answer: &Answer) -> String {
     let mut text = String::new();
     for check in &answer.checks() {
@@ -191,7 +193,7 @@ fn verdicts(answer: &Answer) -> String {
         );
     }
     for open in answer.open() {
-        let _ = writeln!(text, "NOT CHECKED: {}: {}", open.figure, open.words);
+        let _ = writeln!(text, "not checked: {}: {}", open.figure, open.words);
     }
     text
 }
@@ -199,7 +201,7 @@ fn verdicts(answer: &Answer) -> String {
 fn cures_text(answer: &Answer) -> String {
     let mut text = String::new();
     if !answer.cures.is_empty() {
-        text += "\nAny one of these would do:\n";
+        text += "\nAny one of these changes is sufficient:\n";
     }
     for cure in &answer.cures {
         let _ = writeln!(text, "- {}", cure.words);
@@ -214,8 +216,8 @@ fn cures_text(answer: &Answer) -> String {
 pub fn csv(answer: &Answer) -> Result<String> {
     let power = answer.power.as_ref().ok_or_else(|| {
         miette!(
-            help = "use --format table or json, which give bounds",
-            "power and voltage over a common period cannot be written: {}",
+            help = "use --format table or json to get bounds",
+            "there is no common period to write power and voltage over: {}",
             answer.no_search()
         )
     })?;
@@ -247,7 +249,7 @@ fn line(answer: &Answer, figures: &BusFigures, power: &PowerCurve) -> String {
             short((figures.supplied - figures.returned) / period)
         )
     } else {
-        // All that comes back is drawn again, or nothing of it.
+        // All or nothing of the regenerated energy is drawn again.
         let [drawn, back] = power.energies();
         format!(
             "{} to {} W mean",
@@ -270,7 +272,7 @@ fn line(answer: &Answer, figures: &BusFigures, power: &PowerCurve) -> String {
     format!("{voltage}, supply {supply}{resistor}\n")
 }
 
-/// A figure that may have no bound.
+/// A value that may be unbounded.
 fn volts(x: f64) -> String {
     if x.is_infinite() {
         "without bound".to_owned()

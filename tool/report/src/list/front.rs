@@ -36,14 +36,16 @@ pub fn write(front: &Front, format: Format, title: &str) -> String {
             let gaps: Vec<String> = front
                 .gaps()
                 .iter()
-                .map(|gap| format!("mind: {gap}\n"))
+                .map(|gap| format!("warning: {gap}\n"))
                 .collect();
             let gaps = gaps.concat();
             if front.compared == 0 && gaps.is_empty() {
-                return format!("{title}\nno drive breaks no rule: there is none to compare\n");
+                return format!(
+                    "{title}\nno drive satisfies the rules: there is nothing to compare\n"
+                );
             }
             format!(
-                "{title}\n{table}\n{} of {} drives: no other that fits is as good in all of these and better in one\n{gaps}",
+                "{title}\n{table}\n{} of {} drives: no other suitable drive is as good in all of these and better in one\n{gaps}",
                 front.points.len(),
                 front.compared
             )

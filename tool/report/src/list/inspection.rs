@@ -66,14 +66,14 @@ pub fn text(findings: &Findings) -> String {
         let gap = exponent(gap);
         let _ = writeln!(
             text,
-            "closure: the speeds of all links repeat after a turn to {gap}"
+            "closure: the speeds of all links repeat after a turn to within {gap}"
         );
     }
     write_motion(findings, &mut text);
     let [min, mean, max] = findings.inertia.reduced;
     let _ = writeln!(
         text,
-        "{}: {} to {} {}, mean {}; flywheel and drive train {} of it",
+        "{}: {} to {} {}, mean {}, of which flywheel and drive train {}",
         c.inertia(),
         short(min),
         short(max),
@@ -88,7 +88,7 @@ pub fn text(findings: &Findings) -> String {
     );
     let _ = writeln!(
         text,
-        "drive {} by d'Alembert against the reduced equation: {} of its largest term{}",
+        "drive {} by d'Alembert's principle and by the reduced equation differ by {} of the largest term{}",
         if c == Coordinate::Angle {
             "torque"
         } else {
@@ -104,7 +104,7 @@ pub fn text(findings: &Findings) -> String {
     if let Some(balance) = findings.agreement.energy {
         let _ = writeln!(
             text,
-            "energy balance over the motion: {} of the energy that the drive moves",
+            "energy balance over the motion: error {} of the energy that the drive moves",
             exponent(balance)
         );
     }
@@ -113,7 +113,7 @@ pub fn text(findings: &Findings) -> String {
     }
     let violations = findings.violations();
     if violations.is_empty() {
-        text += "\nevery rule holds\n";
+        text += "\nevery rule is satisfied\n";
     }
     for violation in violations {
         let _ = writeln!(text, "\nviolated: {violation}");
@@ -129,9 +129,9 @@ fn write_motion(findings: &Findings, text: &mut String) {
     }
     if let Some(transmission) = &findings.transmission {
         let verdict = if transmission.index < NEAR_DEAD_POINT {
-            "NEAR A DEAD POINT"
+            "CLOSE TO A DEAD POINT"
         } else if transmission.index < RECOMMENDED {
-            "poorer than the recommended 40 deg"
+            "below the recommended 40 deg"
         } else {
             "ok"
         };
@@ -146,7 +146,7 @@ fn write_motion(findings: &Findings, text: &mut String) {
             transmission.links.join(", ")
         );
         let branch = if transmission.branch_kept {
-            "kept over the whole range"
+            "the same over the whole range"
         } else {
             "CHANGES"
         };

@@ -13,7 +13,7 @@ use jred_machine::text::file::Files;
 /// The list of all sets, or one of them in full.
 ///
 /// # Errors
-/// There is no such set, or its file is wrong.
+/// Unknown set, or an error in its file.
 pub fn show(word: Option<&str>, files: impl Files, format: Format) -> Result<String> {
     let Some(word) = word else {
         let sets = read::rule_set_names().filter_map(read::built_in_rules);
@@ -62,7 +62,7 @@ fn list(sets: &[RuleSet], format: Format) -> String {
                 .iter()
                 .map(|set| vec![set.name.clone(), set.title.clone()]);
             format!(
-                "{}\n`jred rules NAME` shows the limits of a set with their sources; [rules] set = \"NAME\" or --rules NAME chooses it\n",
+                "{}\n`jred rules NAME` shows the limits of a set and their sources; choose a set with [rules] set = \"NAME\" or --rules NAME\n",
                 table(&["set", "what it is"], rows)
             )
         }
@@ -100,7 +100,7 @@ impl Line {
     }
 }
 
-/// The rules that are judged or were switched off, in words.
+/// The rules that are checked or switched off, as text.
 pub fn lines(set: &RuleSet) -> Vec<Line> {
     let rules = Rule::ALL.into_iter().filter(|rule| set.shows(*rule));
     let line = |rule: Rule| {
@@ -131,7 +131,7 @@ pub fn lines(set: &RuleSet) -> Vec<Line> {
     rules.map(line).collect()
 }
 
-/// What the set chooses beside its limits, one sentence each.
+/// Choices of the set other than limits, one sentence each.
 pub fn choice_words(set: &RuleSet) -> Vec<String> {
     let choices = &set.choices;
     let mut words = vec![

@@ -8,11 +8,11 @@ use crate::plot::{Axes, Series, Style, colour, dashes, lines, lines_two_axes};
 pub(super) struct Chart {
     /// The picture.
     pub(super) svg: String,
-    /// What the script draws it from.
+    /// Data for the script.
     data: Value,
 }
 
-/// How the script draws it.
+/// Kind of chart in the script.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Form {
     /// Curves over a common axis.

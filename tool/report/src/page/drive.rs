@@ -211,7 +211,7 @@ impl Subject<'_> {
         if course.iter().any(|(_, rise)| rise[1] != 0.0) {
             series.push(line("housing", body(1)));
         }
-        let axes = time_axes("rise above the surroundings [K]");
+        let axes = time_axes("temperature rise above ambient [K]");
         Some(Chart::new(Form::Time, &axes, &series))
     }
 
@@ -223,7 +223,7 @@ impl Subject<'_> {
         (!points.is_empty()).then(|| Chart::new(Form::Time, &axes, &[line("bus", points)]))
     }
 
-    /// λ over the range of the drive link, and what of it is judged.
+    /// λ over the range of the drive link, and the value that is checked.
     pub(super) fn inertia_ratio(&self, file: &MachineFile) -> Result<Chart, Error> {
         let machine = file.with_drive_train()?;
         let coordinate = Coordinate::of(machine.mechanism())?;
@@ -256,7 +256,8 @@ impl Subject<'_> {
         Ok(Chart::new(Form::Course, &axes, &series))
     }
 
-    /// How much of its limit every rule uses over the gear ratio, all else kept; time courses are not followed.
+    /// Use of the limit of every rule over the gear ratio, with everything else unchanged; rules that follow time are left
+    /// out.
     pub(super) fn ratios(&self, from: f64, to: f64) -> Chart {
         let step = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(INTERVALS));
         let ratios: Vec<f64> = (0..=INTERVALS).map(step).collect();

@@ -144,7 +144,7 @@ pub(super) fn simulation(run: &Columns) -> Vec<(&'static str, String)> {
         (effort, motor),
         ("Energies", plot("energy [J]", &energies)),
         (
-            "Energy balance: zero but for the integrator's error",
+            "Energy balance: zero except for the integration error",
             plot("energy [J]", &["energy balance [J]"]),
         ),
     ]

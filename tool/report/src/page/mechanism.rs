@@ -175,11 +175,11 @@ fn sections(source: &Source) -> Result<Vec<Section>, Error> {
         figures: vec![
             figure(
                 figures::reduced_inertia(source.file)?.svg,
-                "Reduced inertia with flywheel and drive train, and its derivative by the drive link's position.",
+                "Reduced inertia with flywheel and drive train, and its derivative with respect to the position of the drive link.",
             ),
             figure(
                 figures::reduced_torque(source.file, speed)?.svg,
-                "Parts of the reduced torque: weight and springs, process loads, and the sizes of viscous and motion-opposing loads.",
+                "Parts of the reduced torque: weight and springs, process loads, and the magnitudes of viscous and motion-opposing loads.",
             ),
         ],
     }];
@@ -198,11 +198,11 @@ fn sections(source: &Source) -> Result<Vec<Section>, Error> {
     if source.moves() {
         add(
             source.plot(&points, "speed [m/s]", &[" v [m/s]"]),
-            "Speed of every point, its magnitude.",
+            "Speed of every point (magnitude).",
         );
         add(
             source.plot(&points, "acceleration [m/s²]", &[" a [m/s^2]"]),
-            "Acceleration of every point, its magnitude.",
+            "Acceleration of every point (magnitude).",
         );
         add(
             source.plot(&points, "angular speed [rad/s]", &[" omega [rad/s]"]),
@@ -223,7 +223,7 @@ fn sections(source: &Source) -> Result<Vec<Section>, Error> {
                 &format!("x′ [m/{per}]"),
                 &[&format!(" x' [m/{per}]")],
             ),
-            "Velocity transfer functions of every point, x: times the drive's speed they are the velocity.",
+            "Velocity transfer functions of every point, x; multiplied by the speed of the drive link they give the velocity.",
         );
         add(
             source.plot(
@@ -267,7 +267,7 @@ fn forces(source: &Source) -> Result<Section, Error> {
     let plots = [
         (
             source.plot(&reactions, drive, &[unit]),
-            "What the drive must give at the drive link, by d'Alembert's principle, drive train included.",
+            "Required drive torque or force at the drive link by d'Alembert's principle, drive train included.",
         ),
         (
             source.plot(&reactions, "force [N]", &[" F [N]"]),
@@ -292,28 +292,29 @@ fn forces(source: &Source) -> Result<Section, Error> {
 
 fn notes(source: &Source) -> Vec<String> {
     let mut notes = vec![match (source.over, source.state) {
-        (Over::Time, _) => "Motions and forces are those of the machine file's motion.".to_owned(),
+        (Over::Time, _) => "Motions and forces are for the motion in the machine file.".to_owned(),
         (Over::Angle, Some([speed, acceleration])) => {
             let [rate, change] = source.coordinate.rates();
             format!(
-                "Motions and forces are those at {rate} = {} and {change} = {} at every position.",
+                "Motions and forces are for {rate} = {} and {change} = {} at every position.",
                 short(speed),
                 short(acceleration)
             )
         }
         (Over::Angle, None) => {
-            "The machine file has no motion, and no --speed was given: there are transfer functions, and no forces."
+            "The machine file has no motion and --speed was not given: transfer functions only, no forces."
                 .to_owned()
         }
     }];
     notes.push(
-        "Forces by d'Alembert's principle, link by link; they use neither J_red nor its derivative. Flywheel and drive \
-         train turn with the drive link: they change what the drive must give and no force in a joint. What a belt or a \
-         pinion pulls at the drive link's bearing is not in the machine file."
+        "Forces are computed link by link with d'Alembert's principle, without J_red or its derivative. Flywheel and \
+         drive train turn with the drive link: they change the drive torque but no joint force. The pull of a belt or \
+         a pinion on the bearing of the drive link is not in the machine file."
             .to_owned(),
     );
     notes.push(
-        "Whole tables: jred reduce --points, --reactions, --energy, each with --format csv or json.".to_owned(),
+        "Full tables: jred reduce --points, --reactions, --energy, each with --format csv or json."
+            .to_owned(),
     );
     notes
 }

@@ -1,4 +1,4 @@
-//! What the report says beside its figures: the answer, self-check, assumptions, sources.
+//! Texts of the report: result, self-check, assumptions, sources.
 
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::rules::Verdict;
@@ -11,7 +11,7 @@ pub(super) fn answer(best: &Judged, found: bool) -> String {
     let gearbox = best
         .drive
         .gearbox
-        .map_or("coupled directly".to_owned(), |g| {
+        .map_or("directly coupled".to_owned(), |g| {
             format!("with {} {} (i = {})", g.maker, g.model, rounded(g.ratio))
         });
     let amplifier = best.drive.amplifier;
@@ -24,15 +24,11 @@ pub(super) fn answer(best: &Judged, found: bool) -> String {
             let names: Vec<&str> = checks.map(|c| c.rule).collect();
             names.join(", ")
         };
-        let mut answer = format!(
-            "<b>{drive}</b><br>comes first of the drives of the catalogue that break no rule."
-        );
+        let mut answer =
+            format!("<b>{drive}</b><br>is the best drive in the catalogue that violates no rule.");
         for (what, names) in [
             ("Warning", named(Verdict::Warn)),
-            (
-                "Not checked for want of figures",
-                named(Verdict::NotChecked),
-            ),
+            ("Not checked, data missing", named(Verdict::NotChecked)),
         ] {
             if !names.is_empty() {
                 answer = format!("{answer}<br>{what}: {names}.");
@@ -42,7 +38,7 @@ pub(super) fn answer(best: &Judged, found: bool) -> String {
     } else {
         let reasons = escape(&best.reasons());
         format!(
-            "<b>No drive of the catalogue holds every rule.</b><br>{drive} misses by least: {reasons}."
+            "<b>No drive in the catalogue satisfies every rule.</b><br>{drive} comes closest: {reasons}."
         )
     }
 }
@@ -60,8 +56,8 @@ pub(super) fn notes(best: &Judged, duty: &Duty) -> Vec<String> {
     let potential = duty.integral(|i| i.terms.potential * i.omega);
     let mut notes = vec![
         format!(
-            "Self-check over the cycle: work at the drive link {} J; of it into kinetic energy {} J and potential \
-             energy {} J (zero for a cycle that closes, but for a payload that varies with the position).",
+            "Self-check over the cycle: work at the drive link {} J, of which {} J into kinetic energy and {} J into \
+             potential energy (zero for a closed cycle, unless a payload varies with the position).",
             rounded(work),
             short(kinetic),
             short(potential)
@@ -70,11 +66,11 @@ pub(super) fn notes(best: &Judged, duty: &Duty) -> Vec<String> {
          back."
             .to_owned(),
         format!(
-            "The cycle is evaluated exactly at {} instants; integrals by Simpson's rule on each smooth stretch.",
+            "The cycle is evaluated exactly at {} instants, with Simpson's rule for integrals on each smooth section.",
             duty.instants.len()
         ),
-        "Share of mean square: mean of (part × whole) over mean of (whole × whole); the shares add up to 100 %. A negative \
-         one makes the RMS smaller."
+        "Share of mean square: mean of (part × whole) over mean of (whole × whole); the shares add up to 100 %. A \
+         negative share reduces the RMS."
             .to_owned(),
     ];
     let drive = &best.drive;

@@ -11,7 +11,7 @@ use jred_sizing::explain::{Breakdown, InertiaShare, Remedies, Share};
 use jred_sizing::judge::Judged;
 use jred_sizing::judge::check::Check;
 
-/// A rule, how it came out, and a bar for what it uses of its limit.
+/// A rule, its verdict, and a bar for the use of its limit.
 pub(super) struct CheckRow {
     pub(super) rule: &'static str,
     pub(super) value: String,
@@ -150,7 +150,7 @@ pub(super) fn inertia_rows(breakdown: &Breakdown) -> Vec<InertiaRow> {
     all.map(row).collect()
 }
 
-/// A drive and what would have to change for it to hold, or how far it may change.
+/// A drive with the changes that would make it suitable, or how far each quantity may change.
 #[derive(Default)]
 pub(super) struct ChangeRow {
     pub(super) drive: String,

@@ -53,7 +53,7 @@ fn table(columns: &Columns) -> String {
             .map(|n| narrow(n))
             .collect::<Vec<_>>(),
     );
-    // What is nothing but rounding beside the column's largest number reads as zero.
+    // Rounding errors compared with the largest number of the column are shown as zero.
     let mut largest = vec![0.0f64; columns.names().len()];
     for row in columns.rows() {
         for (most, value) in largest.iter_mut().zip(row) {

@@ -20,7 +20,7 @@ jred_machine::words! {
 }
 
 impl Form {
-    /// What stands in front of the header object of a file.
+    /// Prefix of the header object in a file.
     pub const fn mark(self) -> &'static str {
         match self {
             Self::Csv => "# ",
@@ -69,7 +69,7 @@ impl Form {
         }
     }
 
-    /// The cells of a line; `None`: the line is no row of so many columns.
+    /// The cells of a line; `None` if the line is not a row with this number of columns.
     pub fn cells(self, line: &str, columns: &[String]) -> Option<Vec<Cell>> {
         if self == Self::Json {
             let map: Map<String, Value> = serde_json::from_str(line).ok()?;

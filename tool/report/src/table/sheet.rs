@@ -8,7 +8,7 @@ use crate::table::output::{Format, text_table};
 use jred_machine::number::rounding::significant;
 use jred_sizing::study::cell::Cell;
 
-/// Widest table: more is broken into lines within the cells.
+/// Largest width of a table: wider cells are broken into lines.
 pub const WIDEST: u16 = 120;
 
 /// Named columns of cells under a title.
@@ -16,15 +16,15 @@ pub const WIDEST: u16 = 120;
 pub struct Sheet {
     /// Name and version of its form in JSON.
     pub schema: &'static str,
-    /// What it is, for tables and JSON.
+    /// Title, for tables and JSON.
     pub title: String,
     /// Names of the columns, with their units.
     pub columns: Vec<String>,
     /// The rows.
     pub rows: Vec<Vec<Cell>>,
-    /// What a table for reading has instead; `None`: the same columns and rows.
+    /// Columns and rows of a table for reading; `None`: the same ones.
     pub reading: Option<Reading>,
-    /// What is to be minded: below a table, and in JSON.
+    /// Notes and warnings: below a table, and in JSON.
     pub notes: Vec<String>,
 }
 

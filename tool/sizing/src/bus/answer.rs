@@ -20,20 +20,20 @@ pub struct Axis {
     pub drive: String,
     /// Power that it draws over its cycle.
     pub curve: PowerCurve,
-    /// What its own amplifier and motor say of the bus.
+    /// Bus data of its own amplifier and motor.
     pub data: BusData,
     /// Whether its drive violates no rule.
     pub holds: bool,
 }
 
-/// What the axes do on their bus.
+/// The result for the axes on their bus.
 #[derive(Debug)]
 pub struct Answer {
     /// Whether all axes start their cycles together, and only that is judged.
     pub only_in_step: bool,
     /// The axes.
     pub axes: Vec<Axis>,
-    /// What is known of the bus.
+    /// Data of the bus.
     pub data: BusData,
     /// All of them.
     pub shared: Axes,
@@ -43,20 +43,20 @@ pub struct Answer {
     pub power: Option<PowerCurve>,
     /// Worst phases, in the order of [`Goal::ALL`](super::axes::Goal::ALL).
     pub worst: Option<[Worst; 4]>,
-    /// The phases that take the smallest share of the limits.
+    /// Phases with the smallest use of the limits.
     pub calmest: Option<Worst>,
-    /// What holds at any phases.
+    /// Bounds for any phases.
     pub bounds: Bounds,
-    /// The brake resistor that is needed where there is none, or none that does.
+    /// Requirements for a brake resistor if there is none or it is not suitable.
     pub need: Option<Need>,
     /// A resistor of the catalogue that meets it.
     pub proposal: Option<String>,
-    /// What would make it hold.
+    /// Changes that would satisfy every limit.
     pub cures: Vec<Cure>,
 }
 
 impl Answer {
-    /// What the axes do; `only_in_step`: only with all of them in step.
+    /// Computes the result; `only_in_step`: only with all axes in step.
     ///
     /// # Errors
     /// The DC bus is not known.
@@ -73,7 +73,7 @@ impl Answer {
             miette!(
                 help = "add a [supply] to one of the machine files, for example mains_voltage = \"400 V\", capacitance = \"470 uF\", \
                         chopper_voltage = \"780 V\", max_voltage = \"820 V\"; docs/thermal-and-bus.md has all keys",
-                "the DC bus is not known: {missing} is missing"
+                "no data for the DC bus: {missing} is missing"
             )
         })?;
         let curves: Vec<PowerCurve> = axes.iter().map(|axis| axis.curve.clone()).collect();
@@ -135,13 +135,13 @@ impl Answer {
         }
     }
 
-    /// Whether what comes back goes beyond what the bus, with the resistor that it has, may do.
+    /// Whether the regenerated energy exceeds the limits of the bus with its resistor.
     fn asks_for_a_resistor(&self) -> bool {
         if self.data.resistor.is_some() {
             return !self.failed().is_empty();
         }
         let voltage = self.judged()[0];
-        // Not known: more than the capacitor of which nothing is known can be said to take.
+        // Unknown: without a capacitance, no storage can be assumed.
         let top = self.data.max_voltage.or(self.data.chopper_voltage);
         top.is_some_and(|top| voltage.is_nan() || voltage > top)
     }

@@ -18,11 +18,11 @@ pub struct Axes {
     bus: Bus,
     curves: Vec<PowerCurve>,
     common: Common,
-    /// The curves over the common period; empty where that is not searched.
+    /// Power curves over the common period; empty if it is not searched.
     whole: Vec<PowerCurve>,
 }
 
-/// What a search over the phases looks for: the phases at which it is largest.
+/// Quantity that a search over the phases maximises.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Goal {
     /// Highest voltage of the bus.
@@ -56,11 +56,11 @@ pub struct Worst {
     /// How much later each axis starts than the first (s).
     #[serde(rename = "phases [s]")]
     pub phases: Vec<f64>,
-    /// What the bus does then, over the common period.
+    /// Result for the bus over the common period.
     pub figures: BusFigures,
 }
 
-/// What no phases and no periods exceed.
+/// Bounds that are valid for any phases and periods.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Bounds {
     /// Largest power drawn (W): the sum of the axes' own. It is reached.
@@ -72,7 +72,7 @@ pub struct Bounds {
     /// Highest voltage (V).
     #[serde(rename = "highest voltage [V]")]
     pub highest: f64,
-    /// Mean power of a brake resistor (W): all that comes back.
+    /// Mean power of a brake resistor (W): all regenerated energy.
     #[serde(rename = "resistor mean [W]")]
     pub resistor: f64,
 }
@@ -101,7 +101,7 @@ impl Axes {
         &self.bus
     }
 
-    /// The same axes on another bus.
+    /// These axes on another bus.
     #[must_use]
     pub fn on(&self, bus: Bus) -> Self {
         Self {
@@ -123,7 +123,7 @@ impl Axes {
         (!self.whole.is_empty()).then(|| self.phases(&reach).all(&phases))
     }
 
-    /// What the bus does at these phases.
+    /// Result for the bus at these phases.
     pub fn at(&self, phases: &[f64]) -> Option<BusFigures> {
         Some(self.bus.run(&self.power(phases)?))
     }
@@ -164,7 +164,7 @@ impl Axes {
         }))
     }
 
-    /// Whether the phases matter beyond whether anything comes back at all.
+    /// Whether the result depends on the phases.
     fn depends_on_phases(&self) -> bool {
         let [drawn, back] = self.mean();
         let bare = self.bus.resistor.is_none();
@@ -180,7 +180,7 @@ impl Axes {
         })
     }
 
-    /// What no phases exceed, nor any periods. The energy stored is at most the sum of what each axis alone would store:
+    /// Bounds for any phases and periods. The energy stored is at most the sum of what each axis alone would store:
     /// it is the largest energy that came back in any span of time, and that of a sum is at most the sum of the largest.
     pub fn bounds(&self) -> Bounds {
         let mut bounds = Bounds {

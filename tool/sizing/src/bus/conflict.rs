@@ -1,4 +1,4 @@
-//! Voltages of a bus that stand in the wrong order.
+//! Contradictory bus voltages.
 //!
 //! The machine file refuses such an order among its own keys. The voltages of one bus may come from several places, though:
 //! the machine file, the amplifier, the motor's data sheet.
@@ -6,17 +6,18 @@
 use super::supply::BusData;
 use jred_machine::number::rounding::short;
 
-/// What no brake resistor mends: the supply must hold less than the chopper's voltage, and that must be less than the highest.
+/// A conflict that no brake resistor resolves: the supply voltage must be below the chopper voltage, and that below the
+/// maximum voltage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Conflict {
-    /// The supply holds the highest voltage already, or more (V).
+    /// The supply voltage is at or above the maximum voltage (V).
     Supply {
-        /// What it holds.
+        /// Supply voltage.
         supply: f64,
         /// The highest voltage.
         highest: f64,
     },
-    /// The brake resistor comes on at the highest voltage, or above it (V).
+    /// The brake resistor switches on at or above the maximum voltage (V).
     LateChopper {
         /// Voltage at which it comes on.
         chopper: f64,
@@ -27,13 +28,13 @@ pub enum Conflict {
     EarlyChopper {
         /// Voltage at which it comes on.
         chopper: f64,
-        /// What the supply holds.
+        /// Supply voltage.
         supply: f64,
     },
 }
 
 impl Conflict {
-    /// The keys of `[supply]` of which one is to be changed.
+    /// Keys of `[supply]`, one of which must be changed.
     pub const fn keys(&self) -> &'static [&'static str] {
         match self {
             Self::Supply { .. } => &["max_voltage", "bus_voltage"],
@@ -42,30 +43,32 @@ impl Conflict {
         }
     }
 
-    /// In words, with what is to be changed.
+    /// Message with the cure.
     pub fn words(&self) -> String {
         match *self {
             Self::Supply { supply, highest } if supply > highest => format!(
-                "the bus already stands above its highest voltage, {} V: its supply holds {} V, and no brake resistor, capacitance or \
-                 regenerative supply lowers that; correct max_voltage or bus_voltage in [supply], or what the amplifier and the motor \
-                 state for them",
+                "the bus voltage is always above its maximum of {} V: the supply keeps it at {} V, and no brake \
+                 resistor, capacitance or regenerative supply lowers that; correct max_voltage or bus_voltage in \
+                 [supply], or the values of the amplifier and the motor",
                 short(highest),
                 short(supply)
             ),
             Self::Supply { highest, .. } => format!(
-                "the supply holds the bus at its highest voltage, {} V: there is no room for what comes back, nor for a brake resistor to \
-                 come on; correct max_voltage or bus_voltage in [supply], or what the amplifier and the motor state for them",
+                "the supply keeps the bus at its maximum voltage, {} V: no energy can be stored, and no brake resistor \
+                 can switch on; correct max_voltage or bus_voltage in [supply], or the values of the amplifier and the \
+                 motor",
                 short(highest)
             ),
             Self::LateChopper { chopper, highest } => format!(
-                "the brake resistor comes on only at {} V, not below the highest voltage of the bus, {} V, and none keeps it there: \
-                 lower chopper_voltage or raise max_voltage in [supply], as the amplifier allows",
+                "the brake resistor switches on at {} V, which is not below the maximum bus voltage of {} V, so no \
+                 resistor can limit the voltage: lower chopper_voltage or raise max_voltage in [supply], as the \
+                 amplifier allows",
                 short(chopper),
                 short(highest)
             ),
             Self::EarlyChopper { chopper, supply } => format!(
-                "a brake resistor would always be on: it comes on at {} V, and the supply holds {} V; raise chopper_voltage or lower \
-                 bus_voltage in [supply], as the amplifier allows",
+                "a brake resistor would always be on: it switches on at {} V, and the supply keeps the bus at {} V; \
+                 raise chopper_voltage or lower bus_voltage in [supply], as the amplifier allows",
                 short(chopper),
                 short(supply)
             ),

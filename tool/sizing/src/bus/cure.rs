@@ -1,4 +1,4 @@
-//! What would have to change for a bus that passes a limit.
+//! Changes that would bring a bus within its limits.
 
 use std::fmt::Write as _;
 
@@ -10,12 +10,12 @@ use super::verdict::Judged;
 use super::{Need, Watch};
 use jred_machine::number::rounding::short;
 
-/// Something that does alone.
+/// A single change that is sufficient.
 #[derive(Clone, Debug)]
 pub struct Cure {
-    /// What is to be changed.
+    /// The key to change.
     pub changes: Vec<Change>,
-    /// How much later each axis is to start than the first (s), if it is that which is to be changed.
+    /// Delay of each axis relative to the first (s), if the phases are to be changed.
     pub phases: Option<Vec<f64>>,
     /// In words.
     pub words: String,
@@ -26,13 +26,13 @@ pub struct Cure {
 pub struct Change {
     /// The key of `[supply]`.
     pub key: &'static str,
-    /// How far it must go.
+    /// The required value.
     pub bound: Bound,
     /// Unit of the bound.
     pub unit: &'static str,
 }
 
-/// How far a figure must go.
+/// A required value.
 #[derive(Clone, Copy, Debug)]
 pub enum Bound {
     /// Not below.
@@ -59,7 +59,7 @@ impl Change {
     }
 
     fn words(&self) -> String {
-        // On the safe side of the figure.
+        // Rounded to the safe side.
         let (word, value) = match self.bound {
             Bound::AtLeast(value) => ("at least", rounded(value, f64::ceil)),
             Bound::AtMost(value) => ("at most", rounded(value, f64::floor)),
@@ -84,7 +84,7 @@ fn rounded(value: f64, towards: fn(f64) -> f64) -> f64 {
     }
 }
 
-/// How much of its limits a bus takes: the largest share of voltage, mean power, largest power and pulse.
+/// Largest use of the limits of a bus: voltage, mean power, peak power and pulse energy.
 pub fn share(limits: [Option<f64>; 4], figures: &BusFigures, period: f64) -> f64 {
     let figures = [
         figures.highest,
@@ -110,7 +110,7 @@ impl Answer {
         ]
     }
 
-    /// Each of these alone makes a bus hold that does not. Nothing where it holds.
+    /// Changes each of which is sufficient by itself. Empty if every limit is satisfied.
     pub fn cures(&self, watch: &dyn Watch) -> Vec<Cure> {
         if self.failed().is_empty() {
             return Vec::new();
@@ -128,7 +128,7 @@ impl Answer {
         self.failed().iter().any(|check| check.what == what)
     }
 
-    /// Largest power that comes back (W).
+    /// Largest regenerated power (W).
     fn back(&self) -> f64 {
         match &self.power {
             Some(power) if self.only_in_step => (-power.extremes()[0]).max(0.0),
@@ -164,7 +164,7 @@ impl Answer {
         if self.data.regenerative || self.data.conflict().is_some() {
             return None;
         }
-        // Without a search: what is enough whatever comes back when.
+        // Without a search: sufficient for any phases.
         let back = self.back();
         let mut changes = Vec::new();
         let top = self.data.max_voltage.or(self.data.chopper_voltage);
@@ -195,8 +195,8 @@ impl Answer {
         Some(cure)
     }
 
-    /// A capacitor that takes all that comes back: ½·C·(U² − U₀²) is the most that is ever stored, whatever C is. With a brake
-    /// resistor U is the voltage at which that would come on, if that is not above the highest.
+    /// A capacitor that stores all regenerated energy: ½·C·(U² − U₀²) is the most that is ever stored, whatever C is. With a
+    /// brake resistor U is the voltage at which that would come on, if that is not above the highest.
     fn capacitance_cure(&self, watch: &dyn Watch) -> Option<Cure> {
         let u0 = self.data.voltage?;
         let chopper = self.data.resistor.and(self.data.chopper_voltage);
@@ -228,9 +228,10 @@ impl Answer {
         };
         let mut cure = Cure::of(vec![change]);
         if self.data.resistor.is_some() {
-            cure.words += ", which takes all that comes back: the brake resistor never comes on";
+            cure.words +=
+                ", which stores all regenerated energy: the brake resistor never switches on";
         }
-        // What is too small for the chopper stays so.
+        // A resistance that is too small for the chopper stays too small.
         (!self.fails(Judged::Resistance)).then_some(cure)
     }
 
@@ -250,7 +251,7 @@ impl Answer {
         let starts = starts.map(|(k, phase)| format!("axis {} {} s", k + 1, short(*phase)));
         let starts: Vec<String> = starts.collect();
         let mut words = format!(
-            "axes kept in step, {} later than axis 1: bus up to {} V",
+            "axes synchronised, {} after axis 1: bus up to {} V",
             starts.join(", "),
             short(figures.highest)
         );
@@ -285,7 +286,7 @@ impl Answer {
             changes: Vec::new(),
             phases: None,
             words: format!(
-                "regenerative = true without a brake resistor: a supply that takes back {} W, at most {} W mean",
+                "regenerative = true without a brake resistor: a supply that feeds back {} W peak, at most {} W mean",
                 short(rounded(self.back(), f64::ceil)),
                 short(rounded(self.bounds.resistor, f64::ceil))
             ),

@@ -9,8 +9,8 @@ pub struct PowerCurve {
 }
 
 impl PowerCurve {
-    /// A curve through points in order of time; before the first its power holds, and from the last to the period's end the
-    /// last one's.
+    /// A curve through points in order of time; constant before the first point, and from the last one to the end of the
+    /// period.
     pub fn new(inner: impl IntoIterator<Item = [f64; 2]>, period: f64) -> Self {
         let mut points: Vec<[f64; 2]> = Vec::new();
         for [t, power] in inner {
@@ -87,7 +87,7 @@ impl PowerCurve {
         moved
     }
 
-    /// The same into a curve that is there already: a search over phases moves one many times.
+    /// Writes the shifted curve into an existing one, since a search over phases shifts a curve many times.
     pub(super) fn shift_into(&self, shift: f64, moved: &mut Self) {
         let cut = (self.period - shift).rem_euclid(self.period);
         // What begins at `cut` comes first.
@@ -138,7 +138,7 @@ impl PowerCurve {
         sum
     }
 
-    /// The same into a curve that is there already.
+    /// Writes the sum into an existing curve.
     pub(super) fn sum_into(&self, other: &Self, sum: &mut Self) {
         let (a, b) = (&self.points, &other.points);
         sum.period = self.period;

@@ -9,7 +9,7 @@ use crate::catalogue::Resistor;
 use jred_machine::model::supply::BrakeResistor;
 use jred_machine::number::rounding::short;
 
-/// What a brake resistor must bear that the chopper's voltage alone bounds.
+/// Requirements for a brake resistor that by itself limits the bus to the chopper voltage.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Need {
     /// Mean power (W).
@@ -30,8 +30,8 @@ pub struct Need {
 }
 
 impl Need {
-    /// The need of a power. `None`: the chopper's voltage is not known, or not between those of the supply and of the limit
-    /// ([`BusData::conflict`]), or the capacitor takes all that comes back.
+    /// Requirements for a power curve. `None`: no data for the chopper voltage, or it is not between supply voltage and
+    /// limit ([`BusData::conflict`]), or the capacitor stores all regenerated energy.
     pub fn of(data: &BusData, curve: &PowerCurve) -> Option<Self> {
         let [least, _] = curve.extremes();
         let figures = Self::bus(data, -least)?.run(curve);
@@ -49,8 +49,8 @@ impl Need {
         Self::new(data, [mean[0] / period, peak[1], pulse[2]])
     }
 
-    /// The bus with a resistor that takes the largest power which ever comes back, `back`, and so never lets the voltage rise
-    /// above the chopper's.
+    /// The bus with a resistor that takes the largest regenerated power `back`, so that the voltage never exceeds the
+    /// chopper voltage.
     fn bus(data: &BusData, back: f64) -> Option<Bus> {
         let on = data.chopper_voltage?;
         if data.regenerative || back <= 0.0 || data.conflict().is_some() {
@@ -80,13 +80,13 @@ impl Need {
         })
     }
 
-    /// Whether there is a resistance at all: what the chopper may switch, and what takes the power.
+    /// Whether any resistance is both allowed for the chopper and able to take the power.
     pub fn is_possible(&self) -> bool {
         self.smallest_resistance
             .is_none_or(|least| least <= self.largest_resistance)
     }
 
-    /// Whether a resistor bears it.
+    /// Whether a resistor meets these requirements.
     pub fn is_met(&self, resistor: &Resistor) -> bool {
         let least = self.smallest_resistance.unwrap_or(0.0);
         (least..=self.largest_resistance).contains(&resistor.resistance)
@@ -97,7 +97,7 @@ impl Need {
                 .is_none_or(|energy| energy >= self.pulse)
     }
 
-    /// The smallest resistor (rated power, then price) of a catalogue that bears it.
+    /// The smallest suitable resistor of a catalogue (by rated power, then price).
     pub fn proposal<'c>(&self, resistors: &'c [Resistor]) -> Option<&'c Resistor> {
         let price = |r: &Resistor| r.price.unwrap_or(f64::INFINITY);
         let met = resistors.iter().filter(|resistor| self.is_met(resistor));
@@ -108,7 +108,7 @@ impl Need {
 
     /// In words.
     pub fn words(&self) -> String {
-        format!("needs a brake resistor of {}", self.figures())
+        format!("requires a brake resistor of {}", self.figures())
     }
 
     /// Its figures in words.
@@ -117,7 +117,7 @@ impl Need {
         let range = match self.smallest_resistance.map(short) {
             Some(least) if self.is_possible() => format!("{least} to {largest} Ω"),
             Some(least) => {
-                format!("at most {largest} Ω, where the chopper may switch no less than {least} Ω,")
+                format!("at most {largest} Ω (but the chopper requires at least {least} Ω)")
             }
             None => format!("at most {largest} Ω"),
         };

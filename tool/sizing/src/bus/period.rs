@@ -1,8 +1,8 @@
 //! The common period of cycles.
 //!
-//! Periods are decimal numbers of data, or quotients of them, as floating-point numbers. Two of them fit when so many of the
-//! one are as long as so many of the other, to within what the search over phases tolerates; for long common periods to within
-//! rounding, as any two numbers are nearly in the ratio of large enough integers.
+//! Periods are decimal numbers of data, or quotients of them, as floating-point numbers. Two periods match if integer
+//! multiples of them agree to within the tolerance of the search over phases; for long common periods to within rounding,
+//! since any two numbers are nearly in the ratio of large enough integers.
 
 use super::curve::PowerCurve;
 

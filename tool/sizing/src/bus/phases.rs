@@ -9,15 +9,15 @@ use rayon::prelude::*;
 
 use super::curve::PowerCurve;
 
-/// Somebody who waits for a search.
+/// Receives the progress of a search.
 pub trait Watch: Sync {
-    /// So many phases more are to be tried.
+    /// Adds `count` phases to be tried.
     fn planned(&self, count: u64);
-    /// So many have been.
+    /// Reports `count` phases as done.
     fn done(&self, count: u64);
 }
 
-/// Nobody waits.
+/// Ignores progress.
 impl Watch for () {
     fn planned(&self, _: u64) {}
     fn done(&self, _: u64) {}
@@ -33,7 +33,7 @@ const LEAST: [f64; 2] = [16.0, 32.0];
 const PARTS: u32 = 8;
 const HALVINGS: u32 = 12;
 
-/// Where all values around a phase are equal to this share, nothing is closed in on.
+/// If all values around a phase agree to this share, the search is not refined there.
 const FLAT: f64 = 1e-9;
 
 /// Starts of a search one phase at a time, besides the one with all largest powers fed back at once.
@@ -76,19 +76,19 @@ impl Found {
         }
     }
 
-    /// With what another search found.
+    /// Merges the result of another search.
     fn with(&mut self, other: &Self) {
         self.or(&other.phases, other.value);
         self.least = self.least.min(other.least);
     }
 
-    /// Whether nothing is gained by looking on.
+    /// Whether continuing cannot improve the result.
     fn is_flat(&self) -> bool {
         self.value.is_infinite() || self.value - self.least <= FLAT * self.value.abs()
     }
 }
 
-/// Looks at all goals at one place.
+/// Evaluates all goals at one set of phases.
 fn offer<const N: usize>(best: &mut [Found; N], phases: &[f64], values: [f64; N]) {
     for (found, value) in best.iter_mut().zip(values) {
         found.or(phases, value);
@@ -270,12 +270,12 @@ impl Phases<'_> {
         }
     }
 
-    /// Phases that a climb is expected to try: each goal is looked for twice around.
+    /// Number of phases that a climb is expected to try: two rounds for each goal.
     const fn climbs(&self, goals: usize, grid: f64) -> u64 {
         (2 * goals * (self.whole.len() - 1)) as u64 * grid as u64
     }
 
-    /// One phase at a time, until none gets any better; for each goal from the best that was seen for it on the way so far.
+    /// Coordinate ascent: one phase at a time until no goal improves, for each goal from the best phases found so far.
     fn climb<const N: usize>(
         &self,
         start: &[f64],

@@ -4,17 +4,17 @@
 //! E = ½·C·U²,   E′ = P_supply − P − P_R
 //! ```
 //!
-//! P is the power that the axes draw. A supply of diodes holds U ≥ U₀ and takes nothing back; one that feeds back holds U = U₀.
-//! From the chopper's voltage on, the brake resistor takes what comes back, at most U²/R: what is more raises the voltage
-//! further. The chopper's switching and the ripple of the mains are not followed. Power runs in straight lines; between
-//! its events (empty, chopper on, resistor at its most) the course is exact.
+//! P is the power that the axes draw. A diode supply keeps U ≥ U₀ and takes nothing back; a regenerative supply keeps U =
+//! U₀. Above the chopper voltage, the brake resistor takes the regenerated power, at most U²/R; any excess raises the
+//! voltage further. The chopper's switching and the ripple of the mains are not followed. Power runs in straight lines;
+//! between its events (empty, chopper on, resistor at its most) the course is exact.
 
 use super::curve::{PowerCurve, split};
 
-/// The bus and what holds its voltage.
+/// The bus and everything that determines its voltage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bus {
-    /// Voltage that the supply holds (V).
+    /// Supply voltage (V).
     pub voltage: f64,
     /// Capacitance (F); zero: none is known, and nothing is stored.
     pub capacitance: f64,
@@ -24,7 +24,7 @@ pub struct Bus {
     pub resistor: Option<[f64; 2]>,
 }
 
-/// What happens on the bus in one period, once it repeats.
+/// Result for one period in the steady state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct BusFigures {
     /// Energy from the supply (J); NaN where nothing bounds the voltage.
@@ -51,7 +51,7 @@ pub struct BusFigures {
 }
 
 impl BusFigures {
-    /// Of a bus that nothing bounds: no period is like the one before. What the supply gives depends on what was stored.
+    /// Figures of a bus without a voltage bound, where no period repeats the previous one.
     pub const UNBOUNDED: Self = Self {
         supplied: f64::NAN,
         returned: 0.0,
@@ -70,15 +70,15 @@ const PERIODIC: f64 = 1e-13;
 const MOST_PERIODS: u32 = 10_000;
 
 impl Bus {
-    /// What a power does to the bus when it repeats without end.
+    /// Steady state of the bus under a repeated power curve.
     pub fn run(&self, curve: &PowerCurve) -> BusFigures {
         let pieces: Vec<Piece> = curve
             .pieces()
             .flat_map(|(h, ends)| split(h, ends, 0.0))
             .collect();
         let [mut drawn, mut back] = [0.0; 2];
-        // Where most has been drawn so far the capacitor is empty, if more is drawn than comes back: what was stored before
-        // is less than what was drawn since. A period from there needs no other one to begin with.
+        // If more is drawn than fed back, the capacitor is empty where the energy drawn so far is largest. A period from
+        // there needs no other one to begin with.
         let (mut from, mut most) = (0, 0.0);
         for (k, (h, [a, b])) in pieces.iter().enumerate() {
             let area = 0.5 * h * (a + b);
@@ -99,7 +99,7 @@ impl Bus {
             return BusFigures::UNBOUNDED;
         }
         let scale = 0.5 * self.capacitance * self.voltage * self.voltage + back;
-        // The course nears its period from where it must end up: full if more comes back than is drawn, else empty.
+        // Start close to the periodic state: full if more is fed back than drawn, otherwise empty.
         let (from, mut start) = match self.resistor {
             Some(_) if back > drawn => (0, Walk::new(self, 0.0, 0.0).full),
             _ => (from, 0.0),
@@ -120,7 +120,7 @@ impl Bus {
         BusFigures::UNBOUNDED
     }
 
-    /// Voltage over a period: \[time (s), voltage (V)\]; nothing where nothing bounds it.
+    /// Voltage over a period: \[time (s), voltage (V)\]; empty if it is unbounded.
     pub fn trace(&self, curve: &PowerCurve) -> Vec<[f64; 2]> {
         let figures = self.run(curve);
         if figures.highest.is_infinite() {
@@ -303,7 +303,7 @@ impl<'b> Walk<'b> {
         time
     }
 
-    /// Without capacitance: all that comes back goes into the resistor, and raises the voltage to √(P·R).
+    /// Without capacitance, all regenerated power goes into the resistor and raises the voltage to √(P·R).
     fn burns_at_once(&mut self, area: f64, a: f64, b: f64) {
         let peak = a.min(b).abs();
         self.burn(-area, peak);
@@ -327,7 +327,7 @@ impl<'b> Walk<'b> {
         let bound = self.base + self.full;
         let mut time = h;
         if !overloaded && energy(h) < bound {
-            // Where the resistor can take all that comes back, the energy only falls.
+            // If the resistor can take all regenerated power, the stored energy only falls.
             let (mut above, mut below) = (0.0, h);
             for _ in 0..200 {
                 let middle = f64::midpoint(above, below);

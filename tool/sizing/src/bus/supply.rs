@@ -5,10 +5,10 @@ use jred_machine::model::supply::{BrakeResistor, Supply};
 
 use super::store::Bus;
 
-/// The bus of one drive, as far as it is known.
+/// The bus of one drive; `None` where data are missing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BusData {
-    /// Voltage that the supply holds (V).
+    /// Supply voltage (V).
     pub voltage: Option<f64>,
     /// Capacitance (F).
     pub capacitance: Option<f64>,
@@ -44,8 +44,8 @@ impl BusData {
         }
     }
 
-    /// The bus of several drives, each with what its own amplifier adds to `supply`: the strictest of what they say, and the
-    /// sum of their capacitances, if each is known.
+    /// The bus of several drives, each with the data of its own amplifier: the strictest limits, and the sum of the
+    /// capacitances if all are known.
     pub fn shared(supply: &Supply, each: &[Self]) -> Self {
         let of = |figure: fn(&Self) -> Option<f64>, stricter: fn(f64, f64) -> f64| {
             each.iter().filter_map(figure).reduce(stricter)
@@ -63,22 +63,24 @@ impl BusData {
         }
     }
 
-    /// The bus with its resistor, if it has both that and a voltage at which it comes on. A missing capacitance stores
-    /// nothing: all that comes back goes into the resistor.
+    /// The bus with its resistor, if it has both that and a voltage at which it comes on. Without capacitance nothing is
+    /// stored: all regenerated energy goes into the resistor.
     ///
     /// # Errors
-    /// What is missing, in words.
+    /// Message about missing data.
     pub fn bus(&self) -> Result<Bus, &'static str> {
         let voltage = self.voltage.ok_or("voltage of the DC bus")?;
         let resistor = match (self.resistor, self.chopper_voltage) {
             (Some(resistor), Some(on)) => Some([on, resistor.resistance]),
-            (Some(_), None) => return Err("voltage at which the brake resistor comes on"),
+            (Some(_), None) => return Err("voltage at which the brake resistor switches on"),
             (None, _) => None,
         };
         if let Some([on, _]) = resistor
             && on <= voltage
         {
-            return Err("voltage at which the brake resistor comes on, above that of the supply");
+            return Err(
+                "voltage at which the brake resistor switches on, above the supply voltage",
+            );
         }
         Ok(Bus {
             voltage,

@@ -1,4 +1,4 @@
-//! What `jred bus` judges, and what it cannot.
+//! The checks of `jred bus`, and the reasons for those without data.
 
 use super::answer::Answer;
 use super::conflict::Conflict;
@@ -8,7 +8,7 @@ use super::store::BusFigures;
 use jred_machine::model::rule::Sense;
 use jred_machine::number::rounding::short;
 
-/// What is judged.
+/// The value that is checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Judged {
     /// Highest voltage of the bus.
@@ -23,14 +23,14 @@ pub enum Judged {
     Pulse,
 }
 
-/// A figure of the bus beside its limit.
+/// A value of the bus and its limit.
 #[derive(Clone, Copy, Debug)]
 pub struct BusCheck {
-    /// What is judged.
+    /// The value that is checked.
     pub what: Judged,
     /// NaN: not known.
     pub figure: f64,
-    /// `None`: none is stated, but the figure is beyond any.
+    /// `None`: no limit given, but the value exceeds any limit.
     pub limit: Option<f64>,
 }
 
@@ -64,7 +64,7 @@ impl BusCheck {
         }
     }
 
-    /// Whether the figure keeps its limit; `None`: it is not known.
+    /// Whether the limit is satisfied; `None`: no data.
     pub fn holds(&self) -> Option<bool> {
         (!self.figure.is_nan()).then(|| {
             self.limit.is_some_and(|limit| match self.sense() {
@@ -75,22 +75,22 @@ impl BusCheck {
     }
 }
 
-/// What is not known, and which keys of `[supply]` would say it: all of one of these lists.
+/// Missing data and the keys of `[supply]` that would provide them: all keys of one of these lists.
 pub struct Open {
     /// Name of the figure.
     pub figure: &'static str,
     /// Lists of keys; all of one list say it.
     pub keys: &'static [&'static [&'static str]],
-    /// What is missing, in words.
+    /// Message about missing data.
     pub words: String,
 }
 
 impl Answer {
-    /// The figures that are judged, each at the phases where it is worst: highest voltage, mean power, largest power and pulse of
-    /// the resistor; NaN where one is not known.
+    /// The values to check, each at its worst phases: maximum voltage, mean power, peak power and pulse of the resistor; NaN
+    /// if unknown.
     pub fn judged(&self) -> [f64; 4] {
         let mut judged = self.found();
-        // Nothing takes up what comes back, or nobody said what does.
+        // Nothing takes the regenerated energy, or there are no data.
         if judged[0].is_infinite() && self.data.capacitance.is_none() {
             judged[0] = f64::NAN;
         }
@@ -123,7 +123,7 @@ impl Answer {
         }
     }
 
-    /// What is judged; only where there is a limit.
+    /// The checks for which there is a limit.
     pub fn checks(&self) -> Vec<BusCheck> {
         let [voltage, mean, peak, pulse] = self.judged();
         let resistor = self.data.resistor.as_ref();
@@ -150,21 +150,21 @@ impl Answer {
         .collect()
     }
 
-    /// The checks that do not hold.
+    /// The checks that are violated.
     pub fn failed(&self) -> Vec<BusCheck> {
         let mut checks = self.checks();
         checks.retain(|check| check.holds() == Some(false));
         checks
     }
 
-    /// Voltages in an order in which no brake resistor does what is needed; where nothing is needed they are not looked at.
+    /// A conflict of voltages that makes every brake resistor useless; `None` if no resistor is needed.
     pub fn conflict(&self) -> Option<Conflict> {
         let asked = |check: &BusCheck| matches!(check.what, Judged::Voltage | Judged::Resistance);
         let needed = self.judged()[0].is_nan() || self.failed().iter().any(asked);
         self.data.conflict().filter(|_| needed)
     }
 
-    /// What could not be checked, what is missing for it, and where it would be said.
+    /// Checks without data: what is missing, and which keys would provide it.
     pub fn open(&self) -> Vec<Open> {
         let [voltage, _, peak, pulse] = self.judged();
         let data = &self.data;
@@ -177,8 +177,8 @@ impl Answer {
                     &["chopper_voltage", "brake_resistor"],
                     &["regenerative"],
                 ],
-                words: "the capacitance of the DC bus is not known, and there is no brake resistor for what comes back: give in [supply] \
-                        capacitance, or chopper_voltage and brake_resistor, or regenerative = true"
+                words: "no data for the capacitance of the DC bus, and no brake resistor for the regenerated energy: \
+                        in [supply] give capacitance, or chopper_voltage and brake_resistor, or regenerative = true"
                     .to_owned(),
             });
         }
@@ -200,7 +200,7 @@ impl Answer {
                 figure: "bus voltage",
                 keys: &[&["max_voltage"]],
                 words: format!(
-                    "the highest voltage of the DC bus is not known{rise}: give max_voltage in [supply]"
+                    "no data for the maximum voltage of the DC bus{rise}: give max_voltage in [supply]"
                 ),
             });
         }
@@ -209,7 +209,7 @@ impl Answer {
                 figure: "brake resistor",
                 keys: &[&["chopper_voltage"]],
                 words: format!(
-                    "what one would have to bear is known only as at most {} W mean and {} W peak: give chopper_voltage in [supply]",
+                    "only bounds of its load are known, at most {} W mean and {} W peak: give chopper_voltage in [supply]",
                     short(self.bounds.resistor),
                     short(self.bounds.back)
                 ),
@@ -231,57 +231,56 @@ impl Answer {
             data.min_resistance.is_some(),
             "brake resistance",
             &[&["min_resistance"]],
-            "the smallest resistance that the chopper may switch is not known: give min_resistance in [supply]".to_owned(),
+            "no data for the minimum resistance of the chopper: give min_resistance in [supply]"
+                .to_owned(),
         );
         without(
             resistor.peak_power.is_some(),
             "brake resistor peak power",
             &[&["brake_resistor.peak_power"]],
-            "that of the resistor is not known: give brake_resistor.peak_power in [supply]"
-                .to_owned(),
+            "not given for the resistor: give brake_resistor.peak_power in [supply]".to_owned(),
         );
         without(
             resistor.pulse_energy.is_some(),
             "brake resistor pulse energy",
             &[&["brake_resistor.pulse_energy"]],
-            "that of the resistor is not known: give brake_resistor.pulse_energy in [supply]"
-                .to_owned(),
+            "not given for the resistor: give brake_resistor.pulse_energy in [supply]".to_owned(),
         );
         without(
             !pulse.is_nan() || resistor.pulse_energy.is_none(),
             "brake resistor pulse energy",
             &[],
-            format!("no bound holds for it, and {}", self.no_search()),
+            format!("no bound exists, and {}", self.no_search()),
         );
         open
     }
 
-    /// Why the phases are not searched, in words.
+    /// Why the phases were not searched.
     pub fn no_search(&self) -> String {
         match self.shared.common() {
-            Common::Searched { .. } => "the phases are searched".to_owned(),
+            Common::Searched { .. } => "the phases were searched".to_owned(),
             Common::TooLong { period, cycles } => {
                 let each: Vec<String> = cycles.iter().map(u32::to_string).collect();
                 let axes: Vec<String> = (1..=each.len()).map(|k| k.to_string()).collect();
                 format!(
-                    "the common period of the cycles is {} s ({} cycles of axes {}), longer than the {MOST_CYCLES} cycles that are searched",
+                    "the common period of the cycles is {} s ({} cycles of axes {}), longer than the search limit of {MOST_CYCLES} cycles",
                     short(*period),
                     each.join(", "),
                     axes.join(", "),
                 )
             }
             Common::None => {
-                format!("the cycles have no common period of up to {LOOKED_AT} cycles")
+                format!("the cycles have no common period within {LOOKED_AT} cycles")
             }
         }
     }
 
-    /// Whether nothing that was checked is violated; what was not is [named](Self::open).
+    /// Whether every check with data is satisfied; [`open`](Self::open) lists the others.
     pub fn holds(&self) -> bool {
         self.axes.iter().all(|axis| axis.holds) && self.failed().is_empty()
     }
 
-    /// By how much the brake resistor misses what is asked of it.
+    /// How far the brake resistor is from meeting the requirements.
     pub fn lacks(&self) -> Vec<(Judged, f64)> {
         let failed = self.failed().into_iter();
         let own = failed.filter(|check| check.what != Judged::Voltage);

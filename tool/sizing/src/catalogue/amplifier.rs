@@ -3,7 +3,7 @@
 /// A servo amplifier (drive controller); SI units, currents RMS.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Amplifier {
-    /// Short name, unique in the catalogue.
+    /// Key, unique in the catalogue.
     pub key: String,
     /// Maker.
     pub maker: String,
@@ -31,16 +31,16 @@ pub struct Amplifier {
     pub mass: Option<f64>,
     /// Price, in the currency of the catalogue.
     pub price: Option<f64>,
-    /// Whether the figures were read in the maker's own document.
+    /// Whether the data were taken from the maker's own document.
     pub from_maker: bool,
-    /// Where the figures are from.
+    /// Source of the data.
     pub source: String,
 }
 
 /// A brake resistor; SI units.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Resistor {
-    /// Short name, unique in the catalogue.
+    /// Key, unique in the catalogue.
     pub key: String,
     /// Maker.
     pub maker: String,
@@ -56,8 +56,8 @@ pub struct Resistor {
     pub pulse_energy: Option<f64>,
     /// Price, in the currency of the catalogue.
     pub price: Option<f64>,
-    /// Whether the figures were read in the maker's own document.
+    /// Whether the data were taken from the maker's own document.
     pub from_maker: bool,
-    /// Where the figures are from.
+    /// Source of the data.
     pub source: String,
 }

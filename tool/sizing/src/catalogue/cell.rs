@@ -1,10 +1,10 @@
-//! Quantities in cells: a number whose unit stands in the header, a number with its unit, points of a curve.
+//! Quantities in cells: a number with its unit in the header, a number with its own unit, points of a curve.
 
 use jred_machine::units::Fault;
 
 use super::column::{For, Unit};
 
-/// What stands in a column of a row.
+/// Content of a cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cell<'t> {
     pub(super) text: &'t str,
@@ -12,7 +12,7 @@ pub(super) struct Cell<'t> {
     pub(super) unit: Option<&'static Unit>,
 }
 
-/// The unit written `text`, however its product signs, blanks and powers are set.
+/// Finds the unit `text`, whatever its product signs, blanks and notation of powers.
 pub(super) fn find_unit(text: &str, units: &'static [Unit]) -> Option<&'static Unit> {
     let same = |unit: &&Unit| unit.text == text;
     let alike = |unit: &&Unit| folded(unit.text).eq(folded(text));
@@ -29,7 +29,7 @@ fn folded(text: &str) -> impl Iterator<Item = char> {
     })
 }
 
-/// What is wrong with the unit `text`, and what to do: the units accepted, the nearest first.
+/// The fault of the unit `text`, with the accepted units as its cure, the most similar first.
 pub(super) fn unit_cure(text: &str, units: &[Unit]) -> String {
     let names: Vec<&str> = units
         .iter()
@@ -79,7 +79,7 @@ pub(super) fn quantity(text: &str, units: &'static [Unit]) -> Result<(f64, For),
     }
 }
 
-/// What to do about a text that is not a number.
+/// Cure for a text that is not a number.
 pub(super) const NUMBER_CURE: &str =
     "write a plain number with a decimal point and no separator for thousands";
 
@@ -98,7 +98,7 @@ pub(super) fn points(
         let Some((x, y)) = part.split_once(':') else {
             return Err(Fault::new(
                 format!("has the point \"{part}\", which has no colon"),
-                "write points as \"0 rpm: 12 N m; 3000 rpm: 10 N m\"",
+                "write the points as \"0 rpm: 12 N m; 3000 rpm: 10 N m\"",
             ));
         };
         let of = |fault: Fault, what: &str| {
@@ -115,25 +115,25 @@ pub(super) fn points(
             if found != For::Any && found != motors {
                 return Err(Fault::new(
                     format!(
-                        "has the point \"{part}\", whose unit is that of a {} motor",
+                        "has the point \"{part}\", whose unit is for a {} motor",
                         words(found)
                     ),
-                    "a motor that turns has rpm and N m, one that slides m/s and N; see the column \"kind\"",
+                    "a rotary motor uses rpm and N m, a linear motor m/s and N; see the column \"kind\"",
                 ));
             }
         }
         if x_value < 0.0 || y_value < 0.0 {
             return Err(Fault::new(
-                format!("has the point \"{part}\", which is below zero"),
-                "give the first quadrant only: it holds in both directions",
+                format!("has the point \"{part}\", which is negative"),
+                "give the first quadrant only: it applies in both directions",
             ));
         }
         if points.last().is_some_and(|last| x_value <= last[0]) {
             return Err(Fault::new(
                 format!(
-                    "has the point \"{part}\", which does not lie to the right of the one before"
+                    "has the point \"{part}\", whose speed is not above that of the previous point"
                 ),
-                "write the points in rising order, each once",
+                "write the points in order of increasing speed, each once",
             ));
         }
         points.push([x_value, y_value]);
@@ -150,7 +150,7 @@ pub(super) const fn words(motors: For) -> &'static str {
     }
 }
 
-/// The word that `wrong` was most likely meant to be, if any is near.
+/// The word that `wrong` is most likely a misspelling of, if any is similar.
 pub(super) fn nearest<'n>(wrong: &str, names: &[&'n str]) -> Option<&'n str> {
     let alike = |name: &str| strsim::jaro_winkler(wrong, name);
     let best = names.iter().max_by(|a, b| alike(a).total_cmp(&alike(b)))?;

@@ -21,7 +21,7 @@ impl Kind {
         Self::Compatibility,
     ];
 
-    /// What a file with such a table ends in before ".csv", and what its rows are called.
+    /// Ending of the name of such a file before ".csv", and name of its rows.
     pub(super) const fn plural(self) -> &'static str {
         match self {
             Self::Motors => "motors",
@@ -44,7 +44,7 @@ impl Kind {
     }
 }
 
-/// Which motors a unit is for.
+/// Kind of motor that a unit is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum For {
     Any,
@@ -56,7 +56,7 @@ pub(super) enum For {
 #[derive(Debug)]
 pub(super) struct Unit {
     pub(super) text: &'static str,
-    /// One of it in SI.
+    /// Its value in SI.
     pub(super) si: f64,
     pub(super) motors: For,
 }
@@ -129,7 +129,7 @@ const INERTIA: &[Unit] = &[
 ];
 const MASS: &[Unit] = &[unit("kg"), unit("g"), unit("t")];
 const VOLTAGE: &[Unit] = &[unit("V")];
-/// An alternating current is stated by its RMS value or by its amplitude.
+/// An alternating current is given by its RMS value or by its amplitude.
 const CURRENT: &[Unit] = &[unit("A"), unit("A rms"), unit("A peak"), unit("mA")];
 const TORQUE_CONSTANT: &[Unit] = &[
     rotary("N m/A"),
@@ -169,7 +169,7 @@ const STIFFNESS: &[Unit] = &[
     unit("N m/deg"),
 ];
 const LOSS: &[Unit] = &[unit("W/A"), unit("V")];
-/// The currency is a word of the user's; it is only compared.
+/// The currency is any word chosen by the user; it is only compared.
 const PRICE: &[Unit] = &[unit("")];
 
 macro_rules! columns {

@@ -20,7 +20,7 @@ pub struct Sources {
     pub motors: Option<PathBuf>,
     /// A file of gearboxes.
     pub gearboxes: Option<PathBuf>,
-    /// Whether broken rows are left out instead of refusing the catalogue.
+    /// Whether broken rows are skipped instead of refusing the catalogue.
     pub skip_broken_rows: bool,
 }
 
@@ -34,7 +34,7 @@ impl Sources {
             let text = read(path)?;
             Ok(vec![(format_of(kind, &text), text)])
         };
-        // A file of motors goes with the built-in gearboxes, and the other way round.
+        // A file of motors is combined with the built-in gearboxes, and vice versa.
         let halves = [
             (&self.motors, Kind::Motors),
             (&self.gearboxes, Kind::Gearboxes),
@@ -61,7 +61,7 @@ impl Sources {
         Loader::load(groups, remarks, self.skip_broken_rows)
     }
 
-    /// No folder and no file twice: all its keys would clash.
+    /// Refuses a folder or file given twice, since all its keys would be duplicates.
     fn given_once(&self) -> Result<(), CatalogueError> {
         let files = self.motors.iter().chain(&self.gearboxes);
         let mut seen: HashMap<PathBuf, &PathBuf> = HashMap::new();
@@ -74,7 +74,7 @@ impl Sources {
     }
 }
 
-/// What the system says, in words of the task, and what to do about it.
+/// Message and cure for an error of the file system.
 fn cannot_read(path: &Path, error: &std::io::Error) -> CatalogueError {
     const CURE: &str = "check the path given with --catalogue, --motors or --gearboxes";
     match error.kind() {
@@ -83,23 +83,23 @@ fn cannot_read(path: &Path, error: &std::io::Error) -> CatalogueError {
                 format!("; did you mean {}?", near.display())
             });
             let cure = format!("{CURE}{near}");
-            unreadable(path, "there is no such file or folder", &cure)
+            unreadable(path, "no such file or folder", &cure)
         }
         ErrorKind::PermissionDenied => unreadable(
             path,
             "it may not be read",
-            "let this user read it, or name another one",
+            "allow this user to read it, or name another one",
         ),
         ErrorKind::IsADirectory => unreadable(
             path,
             "it is a folder",
-            "name folders with --catalogue, one CSV file with --motors or --gearboxes",
+            "pass folders with --catalogue, a single CSV file with --motors or --gearboxes",
         ),
         _ => unreadable(path, error.to_string(), CURE),
     }
 }
 
-/// The file or folder at the same place whose name is most alike, if any is.
+/// The file or folder in the same place with the most similar name, if any.
 fn beside(path: &Path) -> Option<PathBuf> {
     let folder = path
         .parent()
@@ -121,8 +121,8 @@ fn read(path: &Path) -> Result<Text, CatalogueError> {
         let line = before.filter(|b| **b == b'\n').count() + 1;
         unreadable(
             path,
-            format!("it is not a text in UTF-8: line {line} has a byte that is not allowed there"),
-            "save the sheet as CSV in UTF-8, and name that file with --catalogue, --motors or --gearboxes",
+            format!("it is not UTF-8 text: line {line} contains an invalid byte"),
+            "save the sheet as CSV in UTF-8 and pass that file with --catalogue, --motors or --gearboxes",
         )
     })?;
     Ok(Text::new(path.display().to_string(), text).at(real(path)))
@@ -132,14 +132,14 @@ fn file(path: &Path) -> Result<Vec<(Format, Text)>, CatalogueError> {
     Ok(vec![formatted(read(path)?)?])
 }
 
-/// How many folders deep tables are looked for.
+/// Depth of folders in which tables are searched.
 const DEPTH: usize = 4;
 
 fn folder(path: &Path, remarks: &mut Remarks) -> Result<Vec<(Format, Text)>, CatalogueError> {
     let mut found = Vec::new();
     search(path, DEPTH, &mut found, remarks)?;
     if found.is_empty() {
-        return Err(unreadable(path, "there is no table in this folder", NAMES));
+        return Err(unreadable(path, "this folder contains no table", NAMES));
     }
     let mut files = Vec::new();
     for path in found {
@@ -171,15 +171,15 @@ fn search(
             .extension()
             .is_some_and(|e| e.eq_ignore_ascii_case("csv"))
         {
-            remarks.add("CSV files that are not read", || {
-                format!("{} is not read: {NAMES}", path.display())
+            remarks.add("ignored CSV files", || {
+                format!("{} was ignored: {NAMES}", path.display())
             });
         }
     }
     Ok(())
 }
 
-/// Where a path leads, by whatever way it is written.
+/// Canonical form of a path.
 fn real(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }

@@ -2,12 +2,12 @@
 
 use super::{Amplifier, Gearbox, Motor};
 
-/// A candidate: motor and, unless it is coupled directly, gearbox.
+/// A candidate: motor and, unless it is directly coupled, gearbox.
 #[derive(Clone, Copy, Debug)]
 pub struct Drive<'c> {
     /// The motor.
     pub motor: &'c Motor,
-    /// The gearbox; `None`: coupled directly.
+    /// The gearbox; `None`: directly coupled.
     pub gearbox: Option<&'c Gearbox>,
     /// The servo amplifier; `None`: not chosen.
     pub amplifier: Option<&'c Amplifier>,

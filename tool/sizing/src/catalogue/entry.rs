@@ -1,4 +1,4 @@
-//! A row of jred's own format as an entry of the catalogue, with what must hold within the row.
+//! Reads a row of jred's own format as an entry of the catalogue, and checks it for consistency.
 
 mod motor;
 
@@ -21,7 +21,7 @@ pub(super) enum Entry {
 }
 
 impl Entry {
-    /// Reads a row as what its table holds.
+    /// Reads a row as an entry of its table.
     pub(super) fn read(row: &mut Row) -> Read<Self> {
         // What is known to be wrong with its keys and units already: figures are looked at once these can be read.
         row.checked()?;
@@ -57,7 +57,7 @@ fn gearbox(row: &Row) -> Read<Gearbox> {
             Column::Efficiency,
             "is above 1",
             "too large",
-            "check the figure and the unit in the header: 97 needs [%], 0.97 no unit",
+            "check the value and the unit in the header: 97 needs [%], 0.97 no unit",
         ));
     }
     let gearbox = Gearbox {
@@ -103,16 +103,16 @@ fn gearbox(row: &Row) -> Read<Gearbox> {
     if factors.windows(2).any(falling) || factors.iter().any(|f| f[1] < 1.0) {
         row.add(row.fault(
             Column::ShockFactors,
-            "falls, or is below 1",
+            "decreases, or is below 1",
             "here",
-            "a shock factor is at least 1 and rises with the cycles per hour: \"1000/h: 1; 2000/h: 1.2\"",
+            "a shock factor is at least 1 and increases with the cycles per hour: \"1000/h: 1; 2000/h: 1.2\"",
         ));
     }
     row.checked()?;
     Ok(gearbox)
 }
 
-/// What reaches the motor of a torque that drives back: η again (the default), 2 − 1/η for friction, or a share.
+/// Factor of the torque where power flows back to the motor: η (the default), 2 − 1/η for friction, or a share.
 fn back_efficiency(row: &Row, efficiency: f64) -> f64 {
     let column = Column::BackDriving;
     match row.words(column) {
@@ -124,7 +124,7 @@ fn back_efficiency(row: &Row, efficiency: f64) -> f64 {
                 column,
                 &format!("is \"{word}\""),
                 "not known",
-                "write \"same\" (the efficiency again), \"friction\" (2 - 1/efficiency), \"self-locking\", or a share",
+                "write \"same\" (equal to the efficiency), \"friction\" (2 - 1/efficiency), \"self-locking\", or a share",
             ));
             efficiency
         }
@@ -135,7 +135,7 @@ fn back_efficiency(row: &Row, efficiency: f64) -> f64 {
                     column,
                     "is above 1",
                     "too large",
-                    "check the figure and the unit in the header: 90 needs [%], 0.9 no unit",
+                    "check the value and the unit in the header: 90 needs [%], 0.9 no unit",
                 ));
             }
             share
@@ -203,7 +203,7 @@ fn resistor(row: &Row) -> Read<Resistor> {
     Ok(resistor)
 }
 
-/// Whether the figures were read in the maker's own document; so if there is no such column or the cell is empty.
+/// Whether the data were taken from the maker's own document; true if the column is missing or the cell empty.
 fn from_maker(row: &Row) -> bool {
     let from = row.choice(Column::FiguresFrom, &[("maker", true), ("other", false)]);
     from.unwrap_or(true)

@@ -1,4 +1,5 @@
-//! What can be wrong with a catalogue, and how it is shown: all broken rows in one pass, the first few with their places.
+//! Faults of a catalogue and their messages: all broken rows are found in one pass, and the first few are shown with their
+//! places.
 
 use std::fmt::Write as _;
 use std::ops::Range;
@@ -8,7 +9,7 @@ use std::sync::Arc;
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use thiserror::Error;
 
-/// How many broken rows are shown with their places; the rest are counted.
+/// Number of broken rows shown with their places; the others are counted.
 pub const SHOWN: usize = 10;
 
 /// A catalogue that cannot be used.
@@ -20,9 +21,9 @@ pub enum CatalogueError {
     Unreadable {
         /// Path of the file.
         path: String,
-        /// What is wrong with it.
+        /// Message.
         reason: String,
-        /// What to do.
+        /// Cure.
         cure: String,
     },
     /// One place is wrong.
@@ -39,23 +40,23 @@ pub enum CatalogueError {
     Twice {
         /// Path of the file or folder.
         path: String,
-        /// What it was called before.
+        /// Its path the first time.
         before: String,
     },
     /// Prices that cannot be compared.
     #[error("prices in {first} cannot be compared with prices in {second}")]
     #[diagnostic(help(
-        "state all prices in one currency, written into the header as price [EUR]; without --rank price, --max-price and \
-         the objective price the catalogue can be used as it is"
+        "give all prices in one currency, named in the header as price [EUR]; the catalogue can be used as it is \
+         without --rank price, --max-price and the objective price"
     ))]
     Currencies {
         /// A currency and the file that has it.
         first: String,
-        /// Another one.
+        /// Another currency and the file that has it.
         second: String,
     },
-    /// No row at all.
-    #[error("the catalogue {0} is empty: it holds no {1}")]
+    /// The catalogue has no rows.
+    #[error("the catalogue {0} is empty: it contains no {1}")]
     #[diagnostic(help(
         "add at least one row below the header; docs/catalogue.md shows the columns"
     ))]
@@ -65,11 +66,11 @@ pub enum CatalogueError {
 /// Several broken rows.
 #[derive(Debug, Error, Diagnostic)]
 #[error("{}", self.words())]
-#[diagnostic(help("correct them, or use the other rows with --skip-broken-rows"))]
+#[diagnostic(help("correct them, or skip them with --skip-broken-rows"))]
 pub struct Several {
-    /// How many rows are broken.
+    /// Number of broken rows.
     pub rows: usize,
-    /// How many faults they have.
+    /// Number of their faults.
     pub faults: usize,
     /// The first of the faults.
     #[related]
@@ -92,7 +93,7 @@ impl Several {
     }
 }
 
-/// What is wrong at a place of a catalogue file.
+/// A fault at a place in a catalogue file.
 #[derive(Debug, Error, Diagnostic)]
 #[error("{message}")]
 pub struct Misplaced {
@@ -143,14 +144,14 @@ impl Text {
     }
 }
 
-/// What is wrong, where in its text, and what to do about it.
+/// Message, place in the text, and cure.
 #[derive(Clone, Debug)]
 pub(super) struct Fault {
     pub(super) message: String,
     pub(super) at: Range<usize>,
     pub(super) label: &'static str,
     pub(super) help: String,
-    /// Whether it is the same for every row of the file, as that of a column that is missing.
+    /// Whether the fault is the same for every row of the file, such as a missing column.
     pub(super) whole_file: bool,
 }
 
@@ -202,12 +203,12 @@ impl Faults {
         }
     }
 
-    /// How many rows are broken.
+    /// Number of broken rows.
     pub(super) const fn rows(&self) -> usize {
         self.rows
     }
 
-    /// Fine if there are none.
+    /// `Ok` if there are no faults.
     pub(super) fn into_result(mut self) -> Result<(), CatalogueError> {
         match self.shown.pop() {
             None => Ok(()),
@@ -224,17 +225,17 @@ impl Faults {
     }
 }
 
-/// Remarks about rows that are used all the same, gathered by kind: the first few with their places, the rest counted.
+/// Warnings about rows that are used, collected by kind: the first few with their places, the others counted.
 #[derive(Debug, Default)]
 pub(super) struct Remarks {
     kinds: Vec<(&'static str, Vec<String>, usize)>,
 }
 
-/// How many remarks of a kind are written out.
+/// Number of warnings of a kind that are shown.
 const REMARKS_SHOWN: usize = 3;
 
 impl Remarks {
-    /// `kind` says what is remarkable, in the plural: "motors whose …".
+    /// Adds a warning; `kind` is its subject in the plural: "motors whose …".
     pub(super) fn add(&mut self, kind: &'static str, remark: impl FnOnce() -> String) {
         let index = self.kinds.iter().position(|known| known.0 == kind);
         let index = index.unwrap_or_else(|| {

@@ -1,4 +1,4 @@
-//! Which files make a catalogue, and what each of them holds.
+//! Which files make up a catalogue, and what each of them contains.
 
 use std::path::Path;
 
@@ -69,7 +69,7 @@ pub(super) fn format_of(kind: Kind, text: &Text) -> Format {
     }
 }
 
-/// What a file holds, by its name.
+/// Content of a file, by its name.
 pub(super) fn kind_of(path: &Path) -> Option<Kind> {
     let stem = path.file_stem()?.to_str()?.to_lowercase();
     let csv = path.extension()?.eq_ignore_ascii_case("csv");
@@ -82,8 +82,8 @@ pub(super) fn is_toml(path: &Path) -> bool {
         .is_some_and(|e| e.eq_ignore_ascii_case("toml"))
 }
 
-pub(super) const NAMES: &str = "tables are files whose names end in motors.csv, gearboxes.csv, amplifiers.csv, resistors.csv or \
-     compatibility.csv, or in .toml";
+pub(super) const NAMES: &str = "file names of tables end in motors.csv, gearboxes.csv, amplifiers.csv, resistors.csv \
+     or compatibility.csv, or in .toml";
 
 /// What a text holds, by its name.
 pub(super) fn formatted(text: Text) -> Result<(Format, Text), CatalogueError> {
@@ -93,6 +93,6 @@ pub(super) fn formatted(text: Text) -> Result<(Format, Text), CatalogueError> {
     }
     let kind = kind_of(path);
     let kind =
-        kind.ok_or_else(|| unreadable(path, "its name does not say what it holds", NAMES))?;
+        kind.ok_or_else(|| unreadable(path, "its name does not say what it contains", NAMES))?;
     Ok((format_of(kind, &text), text))
 }

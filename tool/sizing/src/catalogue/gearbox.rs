@@ -3,7 +3,7 @@
 /// A gearbox; SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gearbox {
-    /// Short name, unique in the catalogue.
+    /// Key, unique in the catalogue.
     pub key: String,
     /// Maker.
     pub maker: String,
@@ -33,11 +33,11 @@ pub struct Gearbox {
     pub efficiency_assumed: bool,
     /// Factor of the torque where power flows back: η again, or 2 − 1/η for friction; negative: self-locking.
     pub back_efficiency: f64,
-    /// Torque to turn it without load, at the input (N·m); zero where the data sheet does not say.
+    /// No-load torque at the input (N·m); zero if not given.
     pub no_load_torque: f64,
     /// Torsional stiffness at the output (N·m/rad).
     pub stiffness: Option<f64>,
-    /// Play at the output (rad).
+    /// Backlash at the output (rad).
     pub backlash: Option<f64>,
     /// Shock factors of the maker: (cycles per hour, factor), cycles rising; empty: not given.
     pub shock_factors: Vec<[f64; 2]>,
@@ -45,14 +45,14 @@ pub struct Gearbox {
     pub mass: Option<f64>,
     /// Price, in the currency of the catalogue.
     pub price: Option<f64>,
-    /// Whether the figures were read in the maker's own document.
+    /// Whether the data were taken from the maker's own document.
     pub from_maker: bool,
-    /// Where the figures are from.
+    /// Source of the data.
     pub source: String,
 }
 
 impl Default for Gearbox {
-    /// A shaft: ratio 1, no inertia, no losses, no limits stated.
+    /// A plain shaft: ratio 1, no inertia, no losses, no limits.
     fn default() -> Self {
         Self {
             key: String::new(),

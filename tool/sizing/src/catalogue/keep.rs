@@ -1,9 +1,9 @@
-//! A smaller catalogue: some motors and gearboxes of a larger one, paired as they were.
+//! A subset of a catalogue: some of its motors and gearboxes, with their pairing.
 
 use super::{Catalogue, Gearbox, Motor};
 
 impl Catalogue {
-    /// Keeps only the motors and gearboxes for which the tests hold.
+    /// Keeps only the motors and gearboxes that pass the tests.
     pub fn keep(&mut self, motor: impl Fn(&Motor) -> bool, gearbox: impl Fn(&Gearbox) -> bool) {
         let mut next = 0;
         let places: Vec<Option<u32>> = (self.gearboxes.iter())

@@ -1,4 +1,4 @@
-//! Who goes with whom: gear motors, and the compatibility lists of the catalogues.
+//! Allowed combinations: gear motors, and the compatibility lists of the catalogues.
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -15,18 +15,18 @@ use super::row::{Read, Row};
 #[derive(Debug)]
 pub(super) struct Listing {
     pub(super) at: Range<usize>,
-    /// Key of a motor, or with "*" the beginning of several keys.
+    /// Key of a motor, or the start of several keys followed by "*".
     pub(super) motor: String,
     /// Keys of gearboxes; `None`: any.
     pub(super) gearboxes: Option<Vec<String>>,
-    /// Whether the motor may be coupled directly.
+    /// Whether the motor may be directly coupled.
     pub(super) direct: bool,
     /// Keys of amplifiers; `None`: any that suits.
     pub(super) amplifiers: Option<Vec<String>>,
 }
 
 impl Loader {
-    /// Gear motors go with their own gearbox only, and it with no other motor.
+    /// Combines each gear motor with its own gearbox only, and this gearbox with no other motor.
     pub(super) fn pair_gear_motors(&mut self, pairing: &mut Pairing) {
         let keys = Keys::new(self.catalogue.gearboxes.iter().map(|g| g.key.as_str()));
         for (motor, key, index, at) in &self.gear_motors {
@@ -65,7 +65,7 @@ impl Loader {
         let lists_gearboxes = group.listings.iter().any(|(_, l)| l.gearboxes.is_some());
         let gear_motors: HashSet<u32> = self.gear_motors.iter().map(|g| g.0).collect();
         if lists_gearboxes {
-            // A motor that its own catalogue's list leaves out is coupled directly only.
+            // A motor that its own catalogue's list leaves out is directly coupled only.
             for motor in group.motors.iter().filter(|m| !gear_motors.contains(m)) {
                 if let Some(partners) = pairing.motors.get_mut(*motor as usize) {
                     partners.gearboxes = Some(Box::default());
@@ -99,7 +99,7 @@ impl Loader {
                             },
                             listing.at.clone(),
                             "in this list",
-                            format!("{near}correct the key; a \"*\" at its end stands for all that begin so"),
+                            format!("{near}correct the key; a \"*\" at its end matches all keys that start like this"),
                         ),
                     );
                 }

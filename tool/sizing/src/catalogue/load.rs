@@ -1,5 +1,4 @@
-//! Gathers catalogue files into one catalogue: which file holds what, keys that clash, rows that are broken, who goes with
-//! whom.
+//! Loads catalogue files into one catalogue: content of each file, duplicate keys, broken rows, allowed combinations.
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -15,7 +14,7 @@ use super::row::{Read, Row};
 use super::table::Table;
 use super::{Catalogue, Pairing, mgdb, plausible, toml_table};
 
-/// The files of one catalogue: they share a compatibility list.
+/// The files of one catalogue; they share a compatibility list.
 #[derive(Debug, Default)]
 pub(super) struct Group {
     pub(super) listings: Vec<(usize, Listing)>,
@@ -29,17 +28,17 @@ pub(super) struct Loader {
     pub(super) texts: Vec<Text>,
     pub(super) faults: Faults,
     remarks: Remarks,
-    /// Kind and key of each entry, with the file that holds it.
+    /// Kind and key of each entry, with its file.
     keys: HashMap<(Kind, String), usize>,
-    /// The files read: where they really are, and as what.
+    /// The files read so far, with canonical path and name.
     read: HashMap<PathBuf, PathBuf>,
-    /// Whether broken rows are left out.
+    /// Whether broken rows are skipped.
     skip: bool,
-    /// What is wrong with every row of the present file.
+    /// Faults that every row of the current file has.
     whole_file: Option<Fault>,
-    /// Keys of broken rows, which lists may go on naming.
+    /// Keys of broken rows, which lists may still contain.
     pub(super) broken: HashSet<String>,
-    /// Gear motors: index of the motor, key of its gearbox, and where it says so.
+    /// Gear motors: index of the motor, key of its gearbox, and the place of this entry.
     pub(super) gear_motors: Vec<(u32, String, usize, Range<usize>)>,
 }
 
@@ -67,7 +66,7 @@ impl Loader {
         let first = self.catalogue.motors.len();
         let mut group = Group::default();
         for (format, text) in files {
-            // A file of a folder that is named beside the folder, or a folder within a folder.
+            // A file given in addition to its folder, or a folder within a folder.
             let path = PathBuf::from(&text.name);
             if let Some(before) = self.read.insert(text.place.clone(), path.clone()) {
                 return Err(twice(&path, &before));
@@ -179,7 +178,7 @@ impl Loader {
                 faults
             }
         };
-        // A missing column is missing in every row: that is one fault, not many.
+        // A missing column affects every row, but is reported once.
         let (of_file, of_row): (Vec<Fault>, Vec<Fault>) =
             faults.into_iter().partition(|fault| fault.whole_file);
         if let Some(fault) = of_file.into_iter().next() {
@@ -190,7 +189,7 @@ impl Loader {
         }
     }
 
-    /// The key of a row must be new, be the row broken or not; broken rows that are left out anyway hold no key.
+    /// The key of a row must be unique, even if the row is broken; skipped rows do not claim a key.
     fn key(&mut self, index: usize, row: &Row, broken: bool) -> Option<Fault> {
         let key = row
             .words(Column::Key)
@@ -245,7 +244,7 @@ impl Loader {
         Ok(())
     }
 
-    /// Notes the currency of a price with the file that has it; the first file of each.
+    /// Records the currency of a price with the first file that uses it.
     fn price(&mut self, row: &Row, text: &Text) {
         let currency = row.currency();
         let known = self.catalogue.currencies.iter();
@@ -258,7 +257,7 @@ impl Loader {
         }
     }
 
-    /// Whether a key is new; if not, that is a fault.
+    /// Reports a duplicate key.
     fn claim(&mut self, kind: Kind, key: &str, index: usize, at: Range<usize>) -> bool {
         let Some(before) = self.keys.insert((kind, key.to_owned()), index) else {
             return true;
@@ -273,15 +272,15 @@ impl Loader {
     fn clash(&self, key: &str, before: usize, index: usize, at: Range<usize>) -> Fault {
         let name = |index: usize| self.texts.get(index).map_or("", |text| text.name.as_str());
         let message = if before == index {
-            format!("the key \"{key}\" is there twice")
+            format!("duplicate key \"{key}\"")
         } else {
             format!(
-                "the key \"{key}\" is in {} as well as in {}",
+                "duplicate key \"{key}\": in {} and in {}",
                 name(before),
                 name(index)
             )
         };
-        Fault::new(message, at, "again here", "give every row a key of its own")
+        Fault::new(message, at, "again here", "give every row a unique key")
     }
 
     fn finish(mut self, groups: Vec<Group>) -> Result<Catalogue, CatalogueError> {
@@ -297,8 +296,8 @@ impl Loader {
         if !self.skip {
             self.faults.into_result()?;
         } else if broken > 0 {
-            self.remarks.add("rows left out", || {
-                format!("{broken} broken rows of the catalogue are left out")
+            self.remarks.add("skipped rows", || {
+                format!("{broken} broken rows of the catalogue skipped")
             });
         }
         let mut catalogue = self.catalogue;

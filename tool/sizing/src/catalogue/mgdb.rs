@@ -1,5 +1,5 @@
 //! Reader for files of the Motor-Gearbox Database (github.com/ekrimsk/MGDB) as they are: figures in SI, columns by name,
-//! "inf", "nan" or nothing where the data sheet does not say. The mapping is tabulated in docs/catalogue.md.
+//! "inf", "nan" or an empty cell if the data sheet gives no value. The mapping is tabulated in docs/catalogue.md.
 
 use std::ops::Range;
 
@@ -10,8 +10,8 @@ use super::motor::{Motor, Thermal, Winding};
 use super::table::{cell_start, csv_fault};
 use crate::catalogue::Commutation;
 
-/// What a stage passes on where the database gives no efficiency: 608 of the 613 gearboxes of the maker in question that state
-/// one have at least as much.
+/// Efficiency of a stage if the database gives none: 608 of the 613 gearboxes of this maker with a given efficiency have at
+/// least this one.
 const STAGE_EFFICIENCY: f64 = 0.87;
 
 /// Whether a header is that of the database.
@@ -55,8 +55,7 @@ impl Sheet<'_> {
         format!("{}:{}", self.text.name, self.line())
     }
 
-    /// A figure above zero; nothing where the data sheet does not say. What is no number at all is taken for not stated,
-    /// and remarked upon.
+    /// A value above zero; `None` if not given. A cell that is not a number counts as not given, with a warning.
     fn figure(&self, title: &str, remarks: &mut Remarks) -> Option<f64> {
         let word = self.word(title);
         if word.is_empty() {
@@ -64,9 +63,9 @@ impl Sheet<'_> {
         }
         let value = word.parse::<f64>();
         if !matches!(value, Ok(value) if value >= 0.0 || value.is_nan()) {
-            remarks.add("cells that are not numbers from zero up, taken for not stated", || {
+            remarks.add("cells that are not numbers of zero or more, treated as not given", || {
                 format!(
-                    "{}: {title} of \"{}\" is \"{word}\", not a number from zero up: taken for not stated",
+                    "{}: {title} of \"{}\" is \"{word}\", not a number of zero or more: treated as not given",
                     self.at_line(),
                     self.word("key")
                 )
@@ -75,14 +74,14 @@ impl Sheet<'_> {
         value.ok().filter(|value| value.is_finite() && *value > 0.0)
     }
 
-    /// A figure that no drive can be judged without.
+    /// A value that is required for every drive.
     fn needed(&self, title: &str) -> Result<f64, Fault> {
         let value = self.word(title).parse::<f64>().ok();
         value.filter(|v| v.is_finite() && *v > 0.0).ok_or_else(|| {
             self.fault(
                 title,
                 "not a number greater than zero",
-                format!("{title} is needed in every row, in SI units"),
+                format!("{title} is required in every row, in SI units"),
             )
         })
     }
@@ -100,7 +99,7 @@ impl Sheet<'_> {
         match self.word("key") {
             "" => Err(self.fault(
                 "key",
-                "needed in every row",
+                "required in every row",
                 "give the row a key".to_owned(),
             )),
             key => Ok(key.to_owned()),
@@ -116,7 +115,7 @@ impl Sheet<'_> {
     }
 }
 
-/// An entry as read: its line, its place, and itself.
+/// An entry with its line and place.
 type Take<'a, T> = &'a mut dyn FnMut(Result<(T, usize, Range<usize>), Fault>);
 
 fn each<T>(
@@ -232,7 +231,8 @@ fn gearbox(sheet: &Sheet, remarks: &mut Remarks) -> Result<Gearbox, Fault> {
         Ok(direction) => direction < 0.0,
         Err(_) if sheet.word("direction").is_empty() => false,
         Err(_) => {
-            let help = "write 1 if the output turns with the input, -1 if against it".to_owned();
+            let help =
+                "write 1 if output and input turn in the same direction, -1 if not".to_owned();
             return Err(sheet.fault("direction", "not a number", help));
         }
     };
@@ -245,7 +245,7 @@ fn gearbox(sheet: &Sheet, remarks: &mut Remarks) -> Result<Gearbox, Fault> {
     let efficiency = stated.unwrap_or_else(|| {
         remarks.add("gearboxes without an efficiency", || {
             format!(
-                "{}: \"{}\" has no efficiency: {STAGE_EFFICIENCY} per stage is taken",
+                "{}: efficiency of \"{}\" not given; using {STAGE_EFFICIENCY} per stage",
                 sheet.at_line(),
                 sheet.word("key")
             )

@@ -3,7 +3,7 @@
 use jred_machine::units::Vocabulary;
 use serde::Serialize;
 
-/// How a winding is fed, and so what its figures mean.
+/// Commutation of a winding, which determines the meaning of its data.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Commutation {
@@ -14,17 +14,17 @@ pub enum Commutation {
     Block,
 }
 
-/// A servo motor; SI units. `None`: the data sheet does not say. Of a linear motor read force (N) for torque, m/s for
+/// A servo motor; SI units. `None`: not given. Of a linear motor read force (N) for torque, m/s for
 /// speed, and the mass of the moving part (kg) for the rotor's inertia.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motor {
-    /// Short name, unique in the catalogue.
+    /// Key, unique in the catalogue.
     pub key: String,
     /// Maker.
     pub maker: String,
     /// Maker's type designation.
     pub model: String,
-    /// Whether it turns or slides.
+    /// Rotary or linear.
     pub kind: MotorKind,
     /// S1 torque at rated speed (N·m).
     pub rated_torque: Option<f64>,
@@ -40,17 +40,17 @@ pub struct Motor {
     pub max_power: Option<f64>,
     /// Inertia of the rotor without brake (kg·m²).
     pub rotor_inertia: f64,
-    /// Speed up to which the peak torque is there (rad/s).
+    /// Speed up to which the peak torque is available (rad/s).
     pub corner_speed: Option<f64>,
     /// Peak torque at the largest speed (N·m).
     pub torque_at_max_speed: Option<f64>,
-    /// Speed without load at the voltage of the figures (rad/s).
+    /// No-load speed at `bus_voltage` (rad/s).
     pub no_load_speed: Option<f64>,
     /// Peak torque over speed as points (rad/s, N·m), speeds rising; empty: not given.
     pub peak_curve: Vec<[f64; 2]>,
     /// S1 torque over speed as points; empty: not given.
     pub continuous_curve: Vec<[f64; 2]>,
-    /// Coulomb (N·m) and viscous (N·m·s/rad) friction at the shaft; zero where the data sheet does not say.
+    /// Coulomb (N·m) and viscous (N·m·s/rad) friction at the shaft; zero if not given.
     pub friction: [f64; 2],
     /// The winding.
     pub winding: Winding,
@@ -58,25 +58,25 @@ pub struct Motor {
     pub thermal: Thermal,
     /// Its holding brake.
     pub brake: Option<Brake>,
-    /// DC-bus voltage that the figures hold for (V).
+    /// DC-bus voltage that the data are valid for (V).
     pub bus_voltage: Option<f64>,
     /// Mass (kg).
     pub mass: Option<f64>,
     /// Price, in the currency of the catalogue.
     pub price: Option<f64>,
-    /// Whether the figures were read in the maker's own document.
+    /// Whether the data were taken from the maker's own document.
     pub from_maker: bool,
-    /// Where the figures are from.
+    /// Source of the data.
     pub source: String,
 }
 
-/// Whether a motor turns or slides.
+/// Rotary or linear motor.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MotorKind {
-    /// It turns.
+    /// Rotary.
     #[default]
     Rotary,
-    /// It slides.
+    /// Linear.
     Linear,
 }
 
@@ -94,7 +94,7 @@ impl MotorKind {
 /// both are plain.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Winding {
-    /// How it is fed, and so what the figures below mean.
+    /// Commutation, which determines the meaning of the following values.
     pub commutation: Commutation,
     /// Torque constant k_t (N·m/A).
     pub torque_constant: Option<f64>,

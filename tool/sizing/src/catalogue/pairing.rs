@@ -1,4 +1,4 @@
-//! Which gearboxes and amplifiers go with which motor.
+//! Which gearboxes and amplifiers can be combined with which motor.
 
 use std::collections::HashMap;
 
@@ -7,39 +7,40 @@ use super::motor::{Motor, MotorKind};
 use super::{Catalogue, Gearbox};
 use crate::catalogue::Drive;
 
-/// Which gearboxes and amplifiers go with each motor, as indices into the lists of the catalogue.
+/// Gearboxes and amplifiers that can be combined with each motor, as indices into the lists of the catalogue.
 ///
-/// The default: every motor goes with every gearbox, without a gearbox, and with every amplifier that suits it
+/// By default every motor is combined with every gearbox, without a gearbox, and with every suitable amplifier
 /// ([`Pairing::suits`]).
 #[derive(Clone, Debug, Default)]
 pub struct Pairing {
-    /// By index of the motor; a motor beyond the end goes with everything.
+    /// By index of the motor; a motor beyond the end is combined with everything.
     pub(super) motors: Vec<Partners>,
-    /// By index of the gearbox: whether it is part of gear motors and goes with no other motor.
+    /// By index of the gearbox: whether it is part of gear motors and used with no other motor.
     pub(super) built_in: Vec<bool>,
 }
 
-/// What goes with one motor.
+/// Combinations of one motor.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Partners {
-    /// Gearboxes in rising order; `None`: all that are not part of gear motors.
+    /// Gearboxes in increasing order; `None`: all that are not part of gear motors.
     pub(super) gearboxes: Option<Box<[u32]>>,
-    /// Whether it may not be coupled directly.
+    /// Whether it may not be directly coupled.
     pub(super) never_direct: bool,
-    /// Amplifiers in rising order; `None`: all that suit.
+    /// Amplifiers in increasing order; `None`: all suitable ones.
     pub(super) amplifiers: Option<Box<[u32]>>,
 }
 
-/// Voltages of one class: 24 and 28 V, 282 and 325 V, 540 and 680 V are; 48 and 325 V, or 325 and 560 V, are not.
+/// Largest ratio of voltages of one class: 24 and 28 V, 282 and 325 V, 540 and 680 V are in one class; 48 and 325 V, or 325
+/// and 560 V, are not.
 const VOLTAGE_CLASS: f64 = 4.0 / 3.0;
 
 /// Rated current of an amplifier in units of the motor's: smaller ones starve the motor, larger ones regulate it coarsely.
 const CURRENTS: [f64; 2] = [0.5, 4.0];
 
 impl Pairing {
-    /// Whether an amplifier goes with a motor where no list says: its bus voltage lies within a factor of 4/3 of the one the
-    /// motor's figures hold for, and its rated current is half to four times that of the motor (standstill, else rated). What
-    /// is not stated does not exclude.
+    /// Whether an amplifier is suitable for a motor if no list decides: its bus voltage is within a factor of 4/3 of that of
+    /// the motor data, and its rated current is half to four times that of the motor (standstill, else rated). Missing data
+    /// do not exclude an amplifier.
     pub fn suits(motor: &Motor, amplifier: &Amplifier) -> bool {
         let voltage = motor.bus_voltage.zip(amplifier.bus_voltage);
         let same_class = voltage.is_none_or(|(motor, amplifier)| {
@@ -59,7 +60,7 @@ impl Pairing {
     }
 }
 
-/// Finds entries by key, and by the beginning of a key.
+/// Finds entries by key or by the start of a key.
 pub(super) struct Keys<'k> {
     exact: HashMap<&'k str, u32>,
     sorted: Vec<(&'k str, u32)>,
@@ -73,7 +74,7 @@ impl<'k> Keys<'k> {
         Self { exact, sorted }
     }
 
-    /// The entries that `pattern` names: one by its key, or with "*" at the end all whose key begins so.
+    /// The entries that match `pattern`: one by its key, or, with "*" at the end, all whose key starts with it.
     pub(super) fn find(&self, pattern: &str, mut take: impl FnMut(u32)) {
         if let Some(start) = pattern.strip_suffix('*') {
             let first = self.sorted.partition_point(|(key, _)| *key < start);
@@ -90,15 +91,15 @@ impl<'k> Keys<'k> {
     }
 }
 
-/// Every drive of a catalogue, or those of one of its motors: gearbox by gearbox, first coupled directly, with each
+/// Every drive of a catalogue, or those of one of its motors: gearbox by gearbox, first directly coupled, with each
 /// amplifier in turn. Each step costs a few nanoseconds.
 #[derive(Clone, Debug)]
 pub struct Drives<'c> {
     catalogue: &'c Catalogue,
-    /// Motors still to come, the present one not among them.
+    /// Remaining motors, without the current one.
     motors: std::ops::Range<usize>,
     motor: Option<(usize, &'c Motor)>,
-    /// Gearboxes of the present motor still to come.
+    /// Remaining gearboxes of the current motor.
     gearboxes: Gearboxes<'c>,
     amplifiers: Vec<&'c Amplifier>,
     gearbox: Option<&'c Gearbox>,
@@ -125,7 +126,7 @@ impl<'c> Drives<'c> {
         }
     }
 
-    /// Goes on to the next motor that has any drive.
+    /// Advances to the next motor that has any drive.
     fn advance_motor(&mut self) -> Option<()> {
         loop {
             let index = self.motors.next()?;
@@ -167,7 +168,7 @@ impl<'c> Iterator for Drives<'c> {
     type Item = (usize, Drive<'c>);
 
     fn next(&mut self) -> Option<Self::Item> {
-        // Without amplifiers a drive stands once all the same.
+        // Without amplifiers, each drive is returned once.
         let ways = self.amplifiers.len().max(1);
         let done = self.motor.is_none() || self.next >= ways && !self.advance_gearbox();
         if done {
@@ -183,7 +184,7 @@ impl<'c> Iterator for Drives<'c> {
         Some((index, drive))
     }
 
-    /// The same drives in plain loops: what is the same for all drives of a motor is not asked for at each.
+    /// The same drives in plain loops, so that values common to all drives of a motor are computed once.
     fn fold<B, F: FnMut(B, Self::Item) -> B>(mut self, start: B, mut take: F) -> B {
         let mut folded = start;
         // Those of a motor that is begun.
@@ -224,7 +225,7 @@ impl Catalogue {
         Drives::new(self, motors)
     }
 
-    /// The amplifiers that a motor goes with, by its index; each of its gearboxes goes with all of them.
+    /// The amplifiers that a motor is combined with, by its index; each of its gearboxes is combined with all of them.
     pub fn amplifiers_of(&self, motor: usize) -> Vec<&Amplifier> {
         let partners = self.pairing.partners(motor);
         if let Some(these) = partners.and_then(|p| p.amplifiers.as_deref()) {
@@ -240,7 +241,7 @@ impl Catalogue {
         all.filter(|a| Pairing::suits(motor, a)).collect()
     }
 
-    /// How many drives can be put together, worked out without going through them.
+    /// Number of possible drives, computed without iterating over them.
     pub fn count(&self) -> usize {
         let bound = self.pairing.built_in.iter().filter(|b| **b).count();
         let free = self.gearboxes.len() - bound.min(self.gearboxes.len());

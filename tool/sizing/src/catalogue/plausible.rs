@@ -1,5 +1,4 @@
-//! Figures that can hardly be right, mostly units mixed up. They are remarked upon, never refused: a catalogue may hold a
-//! motor that nobody thought of.
+//! Implausible values, mostly wrong units. They cause warnings, never errors: a catalogue may contain an unusual motor.
 //!
 //! The limits are set beyond what the built-in catalogue and the 1037 motors and 2543 gearboxes of the Motor-Gearbox Database
 //! span, from a 2 mm micromotor to a 16 kW servo motor; see docs/catalogue.md.
@@ -51,7 +50,7 @@ fn of_cylinder(inertia: f64, mass: Option<f64>) -> f64 {
     mass.map_or(0.0, |mass| inertia / (CYLINDER * mass.powf(5.0 / 3.0)))
 }
 
-/// Remarks upon more inertia than the mass can have.
+/// Warns of an inertia that is too large for the mass.
 fn mass(
     remarks: &mut Remarks,
     place: &dyn Fn() -> String,
@@ -61,7 +60,7 @@ fn mass(
 ) {
     let share = of_cylinder(inertia, mass);
     if share > most {
-        remarks.add("inertias that the mass cannot have", || {
+        remarks.add("inertias that do not match the mass", || {
             format!(
                 "{}: {column} of \"{key}\" is {} kg cm^2 at {} kg, {} times that of a solid cylinder of this mass: are the units \
                  right (kg cm^2, kg m^2, g cm^2)?",
@@ -90,10 +89,10 @@ pub(super) fn motor(remarks: &mut Remarks, place: &dyn Fn() -> String, motor: &M
         if let Some(torque) = rated {
             let slimness = motor.rotor_inertia / torque.powf(5.0 / 3.0);
             if outside(slimness, SLIMNESS) {
-                remarks.add("rotor inertias that do not suit the torque", || {
+                remarks.add("rotor inertias that do not match the torque", || {
                     format!(
-                        "{}: rotor_inertia of \"{key}\" is {} kg cm^2 at {} N m rated torque, {} than any known motor: are the \
-                         units right (kg cm^2, kg m^2, g cm^2)?",
+                        "{}: rotor_inertia of \"{key}\" is {} kg cm^2 at {} N m rated torque, {} than for any known \
+                         motor: are the units right (kg cm^2, kg m^2, g cm^2)?",
                         place(),
                         figure(motor.rotor_inertia * 1e4),
                         figure(torque),
@@ -114,8 +113,8 @@ pub(super) fn motor(remarks: &mut Remarks, place: &dyn Fn() -> String, motor: &M
             if outside(time, RUN_UP) {
                 remarks.add("motors with an implausible run-up time", || {
                     format!(
-                        "{}: \"{key}\" would reach its rated speed in {} s at rated torque, without load: check torque, speed and \
-                         inertia with their units",
+                        "{}: \"{key}\" would reach its rated speed in {} s at rated torque without load: check torque, \
+                         speed and inertia and their units",
                         place(),
                         figure(time)
                     )
@@ -125,7 +124,7 @@ pub(super) fn motor(remarks: &mut Remarks, place: &dyn Fn() -> String, motor: &M
         if speed.is_some_and(|speed| outside(speed, SPEED)) {
             remarks.add("motors with an implausible speed", || {
                 format!(
-                    "{}: the speed of \"{key}\" is {} rpm: rpm and rad/s mixed up?",
+                    "{}: the speed of \"{key}\" is {} rpm: are rpm and rad/s mixed up?",
                     place(),
                     figure(speed.unwrap_or(0.0) / jred_machine::units::RPM)
                 )
@@ -135,7 +134,7 @@ pub(super) fn motor(remarks: &mut Remarks, place: &dyn Fn() -> String, motor: &M
         if density.is_some_and(|density| outside(density, TORQUE_DENSITY)) {
             remarks.add("motors with an implausible torque for their mass", || {
                 format!(
-                    "{}: \"{key}\" has {} N m of rated torque per kg: check torque and mass with their units",
+                    "{}: \"{key}\" has {} N m of rated torque per kg: check torque and mass and their units",
                     place(),
                     figure(density.unwrap_or(0.0))
                 )
@@ -164,10 +163,10 @@ fn winding(remarks: &mut Remarks, place: &dyn Fn() -> String, motor: &Motor) {
             continue;
         };
         if outside(k_t * current / torque, CURRENT_AND_TORQUE) {
-            remarks.add("motors whose torque constant, current and torque do not agree", || {
+            remarks.add("motors whose torque constant, current and torque contradict each other", || {
                 format!(
-                    "{}: torque_constant times {what}_current of \"{key}\" is {}, but its {what} torque is {}: are currents RMS \
-                     values and amplitudes mixed up, or the units?",
+                    "{}: torque_constant times {what}_current of \"{key}\" is {}, but its {what} torque is {}: are RMS \
+                     values and amplitudes, or units, mixed up?",
                     place(),
                     figure(k_t * current),
                     figure(torque)
@@ -180,10 +179,10 @@ fn winding(remarks: &mut Remarks, place: &dyn Fn() -> String, motor: &Motor) {
     };
     let due = k_t / winding.commutation.torque_per_voltage_constant();
     if outside(k_e / due, [1.0 - CONSTANTS, 1.0 + CONSTANTS]) {
-        remarks.add("motors whose voltage constant does not suit the torque constant", || {
+        remarks.add("motors whose voltage constant does not match the torque constant", || {
             format!(
-                "{}: voltage_constant of \"{key}\" is {} V s/rad, but its torque_constant makes it {} V s/rad: RMS value or \
-                 amplitude, line to line or to the star point?",
+                "{}: voltage_constant of \"{key}\" is {} V s/rad, but {} V s/rad follows from its torque_constant: RMS \
+                 value or amplitude, line to line or line to neutral?",
                 place(),
                 figure(k_e),
                 figure(due)
@@ -200,7 +199,7 @@ fn curves(remarks: &mut Remarks, place: &dyn Fn() -> String, motor: &Motor) {
     {
         remarks.add("motors whose peak curve and peak torque differ", || {
             format!(
-                "{}: peak_curve of \"{}\" begins at {}, but its peak torque is {}: the curve holds",
+                "{}: peak_curve of \"{}\" starts at {}, but its peak torque is {}: using the curve",
                 place(),
                 motor.key,
                 figure(curve),
@@ -224,7 +223,7 @@ pub(super) fn gearbox(remarks: &mut Remarks, place: &dyn Fn() -> String, gearbox
     if gearbox.efficiency.powf(1.0 / stages) < EFFICIENCY {
         remarks.add("gearboxes with an implausible efficiency", || {
             format!(
-                "{}: efficiency of \"{key}\" is {} %: [%] and plain share mixed up?",
+                "{}: efficiency of \"{key}\" is {} %: are [%] and a plain share mixed up?",
                 place(),
                 figure(gearbox.efficiency * 100.0)
             )
@@ -244,7 +243,7 @@ pub(super) fn gearbox(remarks: &mut Remarks, place: &dyn Fn() -> String, gearbox
     if density.is_some_and(|density| outside(density, GEARBOX_DENSITY)) {
         remarks.add("gearboxes with an implausible torque for their mass", || {
             format!(
-                "{}: \"{key}\" has {} N m of output torque per kg: check torque and mass with their units",
+                "{}: \"{key}\" has {} N m of output torque per kg: check torque and mass and their units",
                 place(),
                 figure(density.unwrap_or(0.0))
             )

@@ -1,4 +1,4 @@
-//! One row of a catalogue table, from whatever kind of file: its cells by column, as quantities in SI or as words.
+//! One row of a catalogue table from any kind of file: its cells by column, as quantities in SI or as words.
 
 use std::cell::RefCell;
 use std::ops::Range;
@@ -9,25 +9,25 @@ use super::fault::Fault;
 
 /// Where the cells of a row come from.
 pub(super) trait Cells {
-    /// What stands in a column; `None`: nothing, or there is no such column.
+    /// Content of a column; `None`: empty, or there is no such column.
     fn cell(&self, column: Column) -> Option<Cell<'_>>;
     /// The place of the cell, or of the row if there is no such cell.
     fn place(&self, column: Column) -> Range<usize>;
     /// Whether the row could have such a cell.
     fn has(&self, column: Column) -> bool;
-    /// Whether the file says anything in this column, be it only that there is nothing.
+    /// Whether the file has an entry in this column, even an empty one.
     fn given(&self, column: Column) -> bool;
     /// The place of the header, for columns that are missing.
     fn header(&self) -> Range<usize>;
-    /// The currency of its price, if the file says.
+    /// The currency of its price, if given.
     fn currency(&self) -> &str;
 }
 
-/// The result of reading a row: all that is wrong with it.
+/// All faults of a row.
 pub(super) type Read<T> = Result<T, Vec<Fault>>;
 
-/// One row. What is wrong with a cell is kept, and a stand-in read instead, so that all faults of a row are known at once;
-/// [`Row::checked`] hands them over.
+/// One row. A faulty cell is recorded and read as a substitute value, so that all faults of a row are found at once;
+/// [`Row::checked`] returns them.
 pub(super) struct Row<'t> {
     pub(super) kind: Kind,
     cells: &'t dyn Cells,
@@ -51,7 +51,7 @@ impl<'t> Row<'t> {
         self.faults.borrow_mut().push(fault);
     }
 
-    /// Keeps the fault, if any, and reads a stand-in for it.
+    /// Records the fault, if any, and returns a substitute value.
     fn keep<T>(&self, read: Result<T, Fault>, stand_in: T) -> T {
         read.unwrap_or_else(|fault| {
             self.add(fault);
@@ -69,12 +69,12 @@ impl<'t> Row<'t> {
         }
     }
 
-    /// From here on units of the other kind of motor are faults.
+    /// From now on, units of the other kind of motor are faults.
     pub(super) const fn expect(&mut self, motors: For) {
         self.motors = motors;
     }
 
-    /// What the row is called in messages.
+    /// Name of the row in messages.
     pub(super) fn name(&self) -> &'t str {
         let column = match self.kind {
             Kind::Compatibility => Column::ListedMotor,
@@ -83,12 +83,12 @@ impl<'t> Row<'t> {
         self.cells.cell(column).map_or("?", |cell| cell.text)
     }
 
-    /// Where a column of this row stands.
+    /// Place of a column in this row.
     pub(super) fn place(&self, column: Column) -> Range<usize> {
         self.cells.place(column)
     }
 
-    /// Whether the file says anything in this column, be it only that there is nothing.
+    /// Whether the file has an entry in this column, even an empty one.
     pub(super) fn given(&self, column: Column) -> bool {
         self.cells.given(column)
     }
@@ -110,7 +110,7 @@ impl<'t> Row<'t> {
         self.cells.cell(column).map(|cell| cell.text)
     }
 
-    /// The currency of its price, if the file says.
+    /// The currency of its price, if given.
     pub(super) fn currency(&self) -> &'t str {
         self.cells.currency()
     }
@@ -124,7 +124,7 @@ impl<'t> Row<'t> {
         )
     }
 
-    /// The fault of a cell that is needed; one of `instead` would do as well.
+    /// The fault of a missing cell; one of `instead` would also be sufficient.
     pub(super) fn missing(&self, column: Column, instead: &[Column]) -> Fault {
         let name = column.name();
         let mut or = String::new();
@@ -136,8 +136,8 @@ impl<'t> Row<'t> {
             return self.fault(
                 column,
                 "is empty",
-                "needed in every row",
-                format!("fill in {name}{or}, or leave the row out"),
+                "required in every row",
+                format!("fill in {name}{or}, or remove the row"),
             );
         }
         let units = column.unit_list();
@@ -170,12 +170,12 @@ impl<'t> Row<'t> {
             return Err(self.fault(
                 column,
                 &format!(
-                    "is in [{}], a unit of {} motors, but the motor is {}",
+                    "is in [{}], a unit for {} motors, but the motor is {}",
                     unit.map_or("", |u| u.text),
                     cell::words(*motors),
                     cell::words(self.motors)
                 ),
-                "the unit does not fit the motor",
+                "wrong unit for this motor",
                 "set the column \"kind\" to \"rotary\" or \"linear\", or correct the unit",
             ));
         }
@@ -187,7 +187,7 @@ impl<'t> Row<'t> {
                     format!("{NUMBER_CURE}: \"{}\"", text.replace(',', "."))
                 } else {
                     format!(
-                        "{NUMBER_CURE}; its unit stands in the header; leave the cell empty if the data sheet does not say"
+                        "{NUMBER_CURE}; its unit is in the header; leave the cell empty if the data sheet gives no value"
                     )
                 };
                 Err(self.fault(column, &format!("is \"{text}\""), label, cure))
@@ -231,7 +231,7 @@ impl<'t> Row<'t> {
             column,
             &format!("is {value}"),
             "not a whole number from 1 to 1000",
-            "write how many there are",
+            "write their number",
         ));
         None
     }
@@ -295,7 +295,7 @@ impl<'t> Row<'t> {
 }
 
 const ABOVE_ZERO: &str = "not a number greater than zero";
-const FROM_ZERO: &str = "not a number from zero up";
+const FROM_ZERO: &str = "not a number of zero or more";
 
 /// The unit of a plain number.
 const PLAIN: Unit = Unit {

@@ -12,7 +12,7 @@ pub(super) struct Table<'t> {
     text: &'t str,
     kind: Kind,
     columns: [Option<(usize, &'static Unit)>; Column::COUNT],
-    /// What stands between the cells.
+    /// Separator of the cells.
     separator: char,
     currency: String,
     header: csv::StringRecord,
@@ -75,7 +75,7 @@ impl<'t> Table<'t> {
                 match column.unit_list() {
                     none if none.is_empty() => format!("write \"{name}\" without a unit"),
                     list => format!(
-                        "write the unit into the header as one of {list}; {}",
+                        "write the unit in the header as one of {list}; {}",
                         unit_cure(unit, column.units())
                     ),
                 },
@@ -86,7 +86,7 @@ impl<'t> Table<'t> {
             .is_some()
         {
             return Err(Fault::new(
-                format!("the column \"{name}\" is there twice"),
+                format!("duplicate column \"{name}\""),
                 at,
                 "twice in this header",
                 "keep one of the two",
@@ -95,7 +95,7 @@ impl<'t> Table<'t> {
         Ok(())
     }
 
-    /// Where a title of the header stands.
+    /// Place of a title in the header.
     fn place_of(&self, index: usize, title: &str) -> Range<usize> {
         let from = cell_start(self.text, 0, index, self.separator);
         find(self.text, from, title)
@@ -127,10 +127,10 @@ impl<'t> Table<'t> {
                     if record == self.header {
                         let start = cells.place_at(0);
                         take(Err(Fault::new(
-                            "the header is there twice",
+                            "duplicate header",
                             start,
                             "again here",
-                            "remove this line; a table has one header",
+                            "remove this line: a table has one header",
                         )));
                     } else {
                         take(Ok((Row::new(self.kind, &cells), line)));
@@ -149,7 +149,7 @@ pub(super) fn unknown(name: &str, kind: Kind, at: Range<usize>) -> Fault {
     let elsewhere = Column::ALL.iter().find(|column| column.name() == name);
     let elsewhere = elsewhere.and_then(|column| column.kinds().first());
     let elsewhere = elsewhere.map_or(String::new(), |kind| {
-        format!("it is a column of {}. ", kind.plural())
+        format!("It is a column of {}. ", kind.plural())
     });
     Fault::new(
         format!("unknown column \"{name}\""),
@@ -163,7 +163,7 @@ pub(super) fn unknown(name: &str, kind: Kind, at: Range<usize>) -> Fault {
     )
 }
 
-/// What the CSV reader does not like.
+/// Message for an error of the CSV reader.
 pub(super) fn csv_fault(text: &str, error: &csv::Error, separator: char) -> Fault {
     let from = error.position().map_or(0, |p| p.byte() as usize);
     let at = cell_start(text, from, 0, separator);
@@ -178,13 +178,15 @@ pub(super) fn csv_fault(text: &str, error: &csv::Error, separator: char) -> Faul
         } => {
             format!("this row has {len} cells, but the header has {expected_len}")
         }
-        _ => format!("not readable as CSV: {error}"),
+        _ => format!("invalid CSV: {error}"),
     };
     Fault::new(
         message,
         at..at,
         "in this row",
-        format!("every row needs as many cells as the header; quote cells that hold a {name}"),
+        format!(
+            "every row must have as many cells as the header; quote cells that contain a {name}"
+        ),
     )
 }
 
@@ -233,7 +235,7 @@ impl Cells for CsvRow<'_> {
     }
 }
 
-/// What separates the cells: tabs or semicolons where the header has them, else commas.
+/// Separator of the cells: tab or semicolon if the header contains one, otherwise comma.
 pub(super) fn separator(text: &str) -> char {
     let start = cell_start(text, 0, 0, ',');
     let header = text

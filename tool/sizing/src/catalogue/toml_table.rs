@@ -17,7 +17,7 @@ struct TomlRow {
     at: Range<usize>,
     cells: Vec<TomlCell>,
     currency: String,
-    /// What is wrong with keys and units.
+    /// Faults of keys and units.
     faults: Vec<Fault>,
 }
 
@@ -67,11 +67,11 @@ pub(super) fn each(
 ) -> Result<usize, Fault> {
     let tree = DeTable::parse(&text.text).map_err(|error| {
         Fault::new(
-            format!("not readable as TOML: {}", error.message()),
+            format!("invalid TOML: {}", error.message()),
             error.span().unwrap_or(0..0),
             "here",
-            "tables are [[motor]], [[gearbox]], [[amplifier]], [[resistor]], [[compatibility]]; values with a unit are texts: \
-             rated_torque = \"3.2 N m\"",
+            "tables are [[motor]], [[gearbox]], [[amplifier]], [[resistor]], [[compatibility]]; values with a unit are \
+             written in quotes: rated_torque = \"3.2 N m\"",
         )
     })?;
     if let Some((name, _)) = tree
@@ -83,8 +83,7 @@ pub(super) fn each(
             "this is a machine file, not a catalogue",
             name.span(),
             "a machine has a [mechanism]",
-            "name the machine file without --catalogue, as `jred size MACHINE --catalogue FOLDER`, and a folder of motors and \
-             gearboxes behind it",
+            "use --catalogue for a folder of motors and gearboxes only: `jred size MACHINE --catalogue FOLDER`",
         ));
     }
     let mut tables: Vec<(Kind, &Spanned<DeValue>)> = Vec::new();
@@ -137,7 +136,10 @@ pub(super) fn each(
 fn read_row(kind: Kind, row: &Spanned<DeValue>) -> Result<TomlRow, Fault> {
     let DeValue::Table(table) = row.get_ref() else {
         return Err(Fault::new(
-            format!("\"{}\" holds something that is no table", kind.singular()),
+            format!(
+                "\"{}\" contains something that is not a table",
+                kind.singular()
+            ),
             row.span(),
             "here",
             format!("write [[{}]] and its keys below", kind.singular()),
@@ -182,10 +184,10 @@ fn read_cell(column: Column, value: &Spanned<DeValue>) -> Result<TomlCell, Fault
             let words: Option<Vec<&str>> = words.collect();
             let words = words.ok_or_else(|| {
                 Fault::new(
-                    format!("{} holds something that is no text", column.name()),
+                    format!("{} contains something that is not a text", column.name()),
                     at.clone(),
                     "here",
-                    "write a list of texts: [\"…\", \"…\"]",
+                    "write a list of quoted texts: [\"…\", \"…\"]",
                 )
             })?;
             Cow::Owned(words.join("; "))
@@ -195,7 +197,7 @@ fn read_cell(column: Column, value: &Spanned<DeValue>) -> Result<TomlCell, Fault
                 format!("{} is neither a text nor a number", column.name()),
                 at,
                 "here",
-                "write a text or a number",
+                "write a quoted text or a number",
             ));
         }
     };
@@ -230,7 +232,7 @@ fn read_cell(column: Column, value: &Spanned<DeValue>) -> Result<TomlCell, Fault
             at.clone(),
             "not a unit of this quantity",
             format!(
-                "write the value as a text with its unit; {}",
+                "write the value with its unit in quotes; {}",
                 unit_cure(word, units)
             ),
         )

@@ -1,25 +1,26 @@
-//! Whether the peak of a cycle keeps within a share of an envelope, where bounds tell: without a search for the peak itself.
+//! Whether the peak of a cycle stays within a share of an envelope, as far as bounds can decide it without a search for the
+//! peak.
 
 use super::Sample;
 use super::search::Stretches;
 use crate::cycle::form::Coefficients;
 use crate::motor::envelope::Envelope;
 
-/// How the peak of a cycle stands against shares of an envelope.
+/// The peak of a cycle relative to two shares of an envelope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Against {
-    /// It keeps within the lower share at every instant.
+    /// Within the lower share at every instant.
     Below,
-    /// It passes the upper share: an instant uses at least this much.
+    /// Above the upper share: an instant uses at least this much.
     Beyond {
         /// |T| as a share of the envelope's torque there, rounding allowed for.
         used: f64,
     },
-    /// Bounds do not tell.
+    /// Bounds cannot decide.
     Open,
 }
 
-/// What rounding may make of a share.
+/// Allowance for rounding of a share.
 const NEAR: f64 = 1e-9;
 
 impl Stretches<'_> {
@@ -73,7 +74,7 @@ impl Stretches<'_> {
         let [driving, braking] = [floor(true), floor(false)];
         let [start, end] = [driving[0].min(braking[0]), driving[1].min(braking[1])];
         let slope = (end - start) / fastest;
-        // An infinite limit is one that is not known.
+        // An infinite limit means that no limit is known.
         let known = driving[0].max(braking[0]).is_finite() && slope.is_finite();
         let usable = known && start > 0.0 && end > 0.0;
         usable.then_some([start, slope])

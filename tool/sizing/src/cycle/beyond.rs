@@ -1,11 +1,11 @@
-//! The samples at which a torque is large, without looking at the others.
+//! Finds the samples with a large torque without visiting the others.
 
 use super::Sample;
 use super::search::Stretches;
 use crate::cycle::form::{Coefficients, LOADS};
 
 impl Stretches<'_> {
-    /// Every sample at which |c·x| exceeds a bound, with c·x. Stretches that cannot hold one are passed over.
+    /// Every sample at which |c·x| exceeds a bound, with c·x. Stretches that cannot contain one are skipped.
     pub(super) fn beyond(self, c: &Coefficients, bound: f64, mut take: impl FnMut(&Sample, f64)) {
         if !self.tree.nodes.is_empty() {
             self.look_beyond(c, bound, 0, &mut take);

@@ -1,5 +1,4 @@
-//! Lower bounds of a torque limit over speed, as the search for the peak needs them: of a limit that is level, of one that is
-//! straight, and of any.
+//! Lower bounds of a torque limit over speed for the peak search: for a constant limit, a straight one, and any other.
 
 use crate::motor::envelope::Envelope;
 

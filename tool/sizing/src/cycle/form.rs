@@ -76,10 +76,10 @@ pub struct MotorDuty {
     /// Mechanical power at the motor shaft (W).
     #[serde(rename = "power [W]")]
     pub power: Figures,
-    /// Energy that the motor puts in over a cycle (J).
+    /// Energy supplied by the motor over a cycle (J).
     #[serde(rename = "motoring energy [J]")]
     pub motoring_energy: f64,
-    /// Energy that comes back to the motor over a cycle (J).
+    /// Energy that flows back to the motor over a cycle (J).
     #[serde(rename = "regenerative energy [J]")]
     pub regenerative_energy: f64,
     /// Inertia ratio λ = (load and gearbox at the motor)/(rotor), over the cycle.
@@ -105,7 +105,7 @@ impl Drive<'_> {
         }
     }
 
-    /// What the motor does at an instant.
+    /// State of the motor at an instant.
     pub fn motor_point(&self, instant: &Instant) -> MotorPoint {
         MotorPoint {
             torque: self.coefficients().torque(&loads(instant)),

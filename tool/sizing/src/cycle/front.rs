@@ -1,4 +1,4 @@
-//! A few stretches that cover the cycle, side by side in memory: one look tells which of them can hold a peak.
+//! A few stretches that cover the cycle, contiguous in memory, so that one pass finds those that can contain a peak.
 
 use pulp::Arch;
 
@@ -19,7 +19,7 @@ pub(super) struct Front {
     vectors: Arch,
     /// Indices of the nodes in the order of time; those beyond `len` are not used.
     pub(super) nodes: [u32; WIDTH],
-    /// How many there are.
+    /// Number of stretches.
     pub(super) len: usize,
     pub(super) middle: [[f64; WIDTH]; LOADS],
     pub(super) half: [[f64; WIDTH]; LOADS],
@@ -52,7 +52,7 @@ impl Front {
                 .map(|(r, x)| if *x > 0.0 { r / x } else { 0.0 })
                 .sum()
         };
-        // The stretch whose loads stray most from its chord is cut, again and again.
+        // Repeatedly splits the stretch whose loads deviate most from its chord.
         while chosen.len() < WIDTH {
             let cut = |k: &u32| tree.nodes[*k as usize].second > 0;
             let open = chosen.iter().enumerate().filter(|(_, k)| cut(k));
@@ -90,7 +90,7 @@ impl Front {
         front
     }
 
-    /// What |c·x| does not exceed on each stretch; zero beyond `len`.
+    /// Upper bound of |c·x| on each stretch; zero beyond `len`.
     pub(super) fn bounds(&self, c: &[f64; LOADS]) -> [f64; WIDTH] {
         let mut bounds = [0.0; WIDTH];
         self.vectors.dispatch(Bounds {
@@ -123,7 +123,7 @@ impl Front {
         if open == 0 { Ok(false) } else { Err(open) }
     }
 
-    /// What |c·x| less a line over the speed, its value at rest and its slope, does not exceed on any stretch.
+    /// Upper bound over all stretches of |c·x| minus a line over speed, given by its value at rest and its slope.
     pub(super) fn most_above(&self, c: &[f64; LOADS], line: [f64; 2]) -> f64 {
         self.vectors.dispatch(Above {
             front: self,

@@ -80,7 +80,7 @@ impl NullaryFnOnce for Signs<'_> {
     }
 }
 
-/// What |c·x| does not exceed on a stretch: the larger magnitude of middle ± half is the sum of theirs.
+/// Upper bound of |c·x| on a stretch: the larger magnitude of middle ± half is the sum of both magnitudes.
 #[inline(always)]
 fn bound_on(front: &Front, c: &[f64; LOADS], magnitude: &[f64; LOADS], k: usize) -> f64 {
     form(c, &front.middle, k).abs()

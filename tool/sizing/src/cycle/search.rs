@@ -173,7 +173,7 @@ impl<'s, F: Floor> Search<'s, F> {
         self.best
     }
 
-    /// Weighs both ends of a stretch: what they hold may spare much of the search.
+    /// Evaluates both ends of a stretch, which may save much of the search.
     fn weigh_ends(&mut self, node: u32) {
         let node = &self.stretches.tree.nodes[node as usize];
         for end in [node.first, node.last] {
@@ -181,7 +181,7 @@ impl<'s, F: Floor> Search<'s, F> {
         }
     }
 
-    /// Looks at a stretch if it may hold more than the best.
+    /// Examines a stretch if it may contain more than the best.
     fn look(&mut self, index: usize) {
         let node = &self.stretches.tree.nodes[index];
         let excess = self.excess(node);
@@ -204,7 +204,7 @@ impl<'s, F: Floor> Search<'s, F> {
         }
         let second = node.second as usize;
         let [one, two] = [index + 1, second].map(|k| self.excess(&nodes[k]));
-        // The more promising half first: what it holds may spare the other, whose bound is worked out anew.
+        // The more promising half first: its result may exclude the other, whose bound is recomputed.
         if one >= two {
             self.look_into(index + 1, one);
             self.look(second);
@@ -214,13 +214,13 @@ impl<'s, F: Floor> Search<'s, F> {
         }
     }
 
-    /// What the limit does not fall below on a stretch.
+    /// Lower bound of the limit on a stretch.
     fn least_on(&self, node: &Node) -> f64 {
         let [start, slope] = self.floor.line();
         (start + slope * node.speed[0]).min(start + slope * node.speed[1])
     }
 
-    /// Takes a sample for the best if it is; `least`: what its limit does not fall below.
+    /// Keeps a sample if it is the best so far; `least` is a lower bound of its limit.
     fn weigh(&mut self, sample: &Sample, least: f64) {
         let torque = self.c.torque(&sample.loads());
         if torque.abs() <= self.best.used * least {
@@ -228,7 +228,7 @@ impl<'s, F: Floor> Search<'s, F> {
         }
         let speed = sample.speed() * self.ratio;
         let limit = self.floor.limit(torque, speed);
-        // Most samples are told apart without a division.
+        // Most samples are decided without a division.
         if torque.abs() > self.best.used * limit {
             let used = if limit > 0.0 {
                 torque.abs() / limit
@@ -284,7 +284,7 @@ impl<'s, F: Floor> Search<'s, F> {
             let slope = (high - low) / (largest - least);
             if slope == 0.0 || !slope.is_finite() {
                 let limit = low.min(high);
-                // One that is not known is infinite, and nothing is beyond it.
+                // An unknown limit is infinite, and nothing exceeds it.
                 return if limit.is_infinite() {
                     f64::NEG_INFINITY
                 } else {

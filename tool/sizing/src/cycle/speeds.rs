@@ -1,4 +1,4 @@
-//! At which speeds the cycle runs, and for how long: sums of a function of the speed without going through the samples.
+//! Distribution of speed over the cycle: sums of a function of speed without iterating over the samples.
 //!
 //! The samples in order of |n|, halved again and again. Of each part are known its weight W = ∑w, its mean speed c = ∑w·|n|/W, and
 //! ∑w·(|n| − c)² and ∑w/n². The square of a straight line l then sums up to W·l(c)² + l′²·∑w·(|n| − c)², in which nothing
@@ -11,7 +11,7 @@ use super::Sample;
 /// Most samples of a part that is not halved.
 const LEAF: usize = 16;
 
-/// What a function of the speed is between two speeds.
+/// Form of a function of speed between two speeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Form {
     /// Nothing.
@@ -40,7 +40,7 @@ struct Part {
     sums: Sums,
 }
 
-/// What is known of samples together.
+/// Sums over a group of samples.
 #[derive(Clone, Copy, Debug)]
 struct Sums {
     weight: f64,

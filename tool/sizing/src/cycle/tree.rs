@@ -1,4 +1,4 @@
-//! The samples of a cycle in stretches of stretches: what is known of a stretch without looking at its samples.
+//! The samples of a cycle as a tree of stretches, with bounds for each stretch.
 
 use super::Sample;
 use crate::cycle::form::LOADS;
@@ -6,8 +6,8 @@ use crate::cycle::form::LOADS;
 /// Most samples of a stretch that is not cut further.
 const LEAF: usize = 16;
 
-/// A sample stands apart from the one before where the step is so many times the steps beside it: an acceleration jumps, a
-/// motion stops. A stretch is cut there, for no chord follows a jump.
+/// A step this many times larger than its neighbours is a jump (of an acceleration, or at a stop). Stretches are cut at
+/// jumps, since no chord follows a jump.
 const JUMP: f64 = 4.0;
 
 /// Smallest step that can be a jump, as a share of the largest loads.
@@ -37,7 +37,7 @@ pub(super) struct Node {
     pub(super) second: u32,
     /// Directions of speed.
     pub(super) direction: Direction,
-    /// How far the loads stray from the chord.
+    /// Largest deviation of the loads from the chord.
     pub(super) reach: [f64; LOADS],
     /// Least and largest magnitude of the speed.
     pub(super) speed: [f64; 2],
@@ -93,7 +93,7 @@ impl Tree {
     }
 }
 
-/// The samples that stand apart from the one before, in order.
+/// The samples after a jump, in order.
 fn jumps(samples: &[Sample], largest: &[f64; LOADS]) -> Vec<u32> {
     let scale = largest.map(|x| if x > 0.0 { 1.0 / x } else { 0.0 });
     let step = |a: &Sample, b: &Sample| -> f64 {

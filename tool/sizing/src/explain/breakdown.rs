@@ -1,4 +1,4 @@
-//! What the motor torque and the inertia at the motor are made of.
+//! Contributions to the motor torque and to the inertia at the motor.
 //!
 //! At every instant the motor torque is a sum of cells, one for each part of the machine and each effect that it has:
 //!
@@ -25,7 +25,7 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::number::figures::Figures;
 use jred_machine::units::Vocabulary;
 
-/// What one part or one effect gives to the motor torque.
+/// Contribution of one part or effect to the motor torque.
 #[derive(Clone, Debug, Serialize)]
 pub struct Share {
     /// Name.
@@ -44,7 +44,7 @@ pub struct Share {
     pub energy: f64,
 }
 
-/// What one part gives to the inertia at the motor.
+/// Contribution of one part to the inertia at the motor.
 #[derive(Clone, Debug, Serialize)]
 pub struct InertiaShare {
     /// Name of the part.
@@ -57,7 +57,7 @@ pub struct InertiaShare {
     pub of_mean: f64,
 }
 
-/// The motor torque and the inertia at the motor, taken apart.
+/// The contributions to the motor torque and to the inertia at the motor.
 #[derive(Clone, Debug, Serialize)]
 pub struct Breakdown {
     /// Name of the drive.
@@ -68,10 +68,10 @@ pub struct Breakdown {
     /// When the motor torque is largest (s).
     #[serde(rename = "peak at [s]")]
     pub peak_time: f64,
-    /// Energy that flows to and fro in a cycle (J).
+    /// Energy that flows forth and back in a cycle (J).
     #[serde(skip)]
     stored: f64,
-    /// The whole.
+    /// Total.
     pub total: Share,
     /// By effect.
     pub effects: Vec<Share>,
@@ -89,7 +89,7 @@ pub struct Cell {
     kind: Kind,
     /// Name of the part.
     pub part: String,
-    /// What it does.
+    /// Its effect.
     pub effect: Effect,
     /// Torque at the motor at every instant of the duty (N·m).
     pub torque: Vec<f64>,
@@ -163,7 +163,7 @@ impl Effect {
     }
 }
 
-/// What a part is: a link and a load may have the same name.
+/// Kind of a part, since a link and a load may have the same name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Link,
@@ -184,7 +184,7 @@ pub struct Cells {
 }
 
 impl Cells {
-    /// Takes the torque of a drive apart. Costs one evaluation of the mechanism for each instant.
+    /// Divides the torque of a drive into cells. Cost: one evaluation of the mechanism per instant.
     ///
     /// # Errors
     /// Those of the machine.
@@ -229,7 +229,7 @@ impl Breakdown {
         Ok(Self::of(duty, drive, &Cells::new(file, duty, drive)?))
     }
 
-    /// Energy (J) beside which a rounding error is seen as one.
+    /// Reference energy (J) for recognising rounding errors.
     pub fn turned_over(&self) -> f64 {
         let energies = self.effects.iter().map(|share| share.energy.abs());
         energies

@@ -1,10 +1,10 @@
-//! What would have to change for a drive to hold every rule, or how far it may change before it no longer does.
+//! The changes that would make a drive satisfy every rule, or how far each quantity may change before it violates one.
 //!
 //! One quantity is changed at a time, all else kept: the gear ratio (the gearbox's other data as they are), the cycle time,
-//! the moving masses, the process loads. The range in which every rule holds is sought on a grid, outwards from the
-//! present value, and its ends by bisection to 1e-10; the duty at every value is exact ([`Altered`]). A range narrower than the
-//! grid's step (3 % of the ratio, a tenth of the others) is found if it lies around the value at which the worst rule uses
-//! least. Cost: up to some hundred judgements of one drive for each quantity.
+//! the moving masses, the process loads. The range in which every rule is satisfied is searched on a grid, outwards from the
+//! current value, and its ends by bisection to 1e-10; the duty at every value is exact ([`Altered`]). A range narrower than
+//! the grid's step (3 % of the ratio, a tenth of the others) is found if it lies around the value at which the worst rule
+//! uses least. Cost: up to some hundred judgements of one drive for each quantity.
 
 use jred::Error;
 use serde::Serialize;
@@ -23,7 +23,7 @@ use jred_machine::model::rules::Verdict;
 use jred_machine::model::site::Site;
 use jred_machine::units::Vocabulary;
 
-/// What is changed.
+/// The quantity that is changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Lever {
@@ -75,7 +75,7 @@ impl Lever {
     }
 }
 
-/// An end of the range in which every rule holds.
+/// An end of the range in which every rule is satisfied.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Edge {
     /// The value.
@@ -84,23 +84,23 @@ pub struct Edge {
     pub rule: Option<Rule>,
 }
 
-/// One quantity, changed by itself.
+/// The result of changing one quantity by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Remedy {
-    /// What is changed.
+    /// The quantity that is changed.
     pub lever: Lever,
     /// Its value as it is: the ratio, or 1.
     pub now: f64,
-    /// From where to where every rule holds: the range that the present value is in, or the nearest to it. `None`: no value
+    /// Range in which every rule is satisfied: the one that contains the current value, or the closest one. `None`: no value
     /// helps.
     pub range: Option<[Edge; 2]>,
-    /// Where no value helps: the best value tried, and the rule that is violated there.
+    /// If no value helps: the best value tried, and the rule violated there.
     pub best: Option<Edge>,
     /// The share of its limit that this rule uses there.
     pub best_use: Option<f64>,
 }
 
-/// A rule that a drive breaks.
+/// A rule that a drive violates.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Miss {
     /// The rule.
@@ -109,11 +109,11 @@ pub struct Miss {
     pub used: Option<f64>,
     /// The limit as a share of the rating.
     pub limit: f64,
-    /// The limit that the drive would hold; `None`: no limit would do.
+    /// The limit that the drive would satisfy; `None`: no limit would be sufficient.
     pub needed: Option<f64>,
 }
 
-/// What would have to change for one drive to hold.
+/// Changes that would make one drive suitable.
 #[derive(Clone, Debug, Serialize)]
 pub struct Remedies {
     /// The drive.
@@ -121,16 +121,16 @@ pub struct Remedies {
     /// What its figures are called and shown in.
     #[serde(skip)]
     pub words: &'static Vocabulary,
-    /// Whether it holds as it is: then the ranges say how far each quantity may go.
+    /// Whether it already satisfies every rule; the ranges then show how far each quantity may change.
     pub holds: bool,
-    /// The rules that it breaks.
+    /// The rules that it violates.
     pub misses: Vec<Miss>,
-    /// One quantity after the other.
+    /// One entry for each quantity.
     pub remedies: Vec<Remedy>,
 }
 
 impl Remedies {
-    /// What would have to change for `drive`, or how far it may.
+    /// Computes the changes for `drive`.
     pub fn new(
         altered: &Altered,
         site: &Site,
@@ -179,7 +179,7 @@ impl Remedies {
         }
     }
 
-    /// The nearest refused drives of a selection, `count` of them, each with what would have to change.
+    /// The `count` closest refused drives of a selection, each with its changes.
     ///
     /// # Errors
     /// Those of the machine.
@@ -209,8 +209,8 @@ impl Lever {
     }
 }
 
-/// The rules that a drive breaks, those that it misses furthest first. As in the ranking, temperatures and the like are not
-/// followed where another rule is violated: they would say nothing more.
+/// The rules that a drive violates, the most violated first. As in the ranking, rules that follow time are not evaluated if
+/// another rule is violated.
 fn misses(context: &Context, rules: &RuleSet) -> Vec<Miss> {
     let (findings, _) = context.ranked(rules);
     let broken = findings
@@ -234,7 +234,7 @@ fn misses(context: &Context, rules: &RuleSet) -> Vec<Miss> {
     misses
 }
 
-/// The gearbox with another ratio; without one, a gearbox that has nothing but its ratio.
+/// The gearbox with another ratio; for a direct drive, an ideal gearbox of this ratio.
 pub(super) fn with_ratio(gearbox: Option<&Gearbox>, ratio: f64) -> Gearbox {
     let bare = || Gearbox {
         key: "ideal".to_owned(),

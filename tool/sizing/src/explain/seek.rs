@@ -1,4 +1,4 @@
-//! Where the rules hold: the search over the values of one quantity.
+//! Search over the values of one quantity for the range in which every rule is satisfied.
 
 use super::remedy::{Edge, Lever, Remedy};
 use crate::judge::{Context, Findings};
@@ -6,10 +6,10 @@ use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::model::rules::Verdict;
 
-/// How a drive comes out at one value.
+/// Result of a drive at one value.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct State {
-    /// The violated rule that is missed furthest.
+    /// The rule violated by most.
     rule: Option<Rule>,
     /// The share of its limit that it uses; without a violated rule the largest share of all.
     used: f64,
@@ -57,7 +57,7 @@ impl State {
         self.rule.is_none()
     }
 
-    /// Grows with the distance from holding.
+    /// Increases with the distance from satisfying every rule.
     const fn score(&self) -> f64 {
         self.used + if self.beyond { 1e6 } else { 0.0 }
     }
@@ -123,7 +123,7 @@ impl Remedy {
     }
 }
 
-/// Where the rules stop to hold between `inside`, where they do, and `outside`, where they do not.
+/// Bisection for the end of the range between `inside`, where every rule is satisfied, and `outside`, where one is violated.
 fn bisect(judge: &impl Fn(f64) -> State, mut inside: f64, mut outside: f64) -> Edge {
     let mut rule = judge(outside).rule;
     for _ in 0..50 {

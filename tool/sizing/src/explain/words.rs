@@ -5,8 +5,8 @@ use jred_machine::number::rounding::short;
 use jred_machine::units::Vocabulary;
 
 impl Remedy {
-    /// The nearest value at which every rule holds, and what is at its limit there; `None` where no value helps, or where the
-    /// present one holds.
+    /// The closest value at which every rule is satisfied, and the rule at its limit there; `None` if no value helps or the
+    /// current one is suitable.
     pub fn change(&self) -> Option<Edge> {
         let [low, high] = self.range?;
         if self.now < low.value {
@@ -34,13 +34,13 @@ impl Remedy {
         let (name, now) = (self.lever.name(), shown(self.now));
         if let Some([low, high]) = &self.range {
             let range = match (low.rule, high.rule) {
-                (None, None) => "any value that was tried".to_owned(),
+                (None, None) => "any value within the range tried".to_owned(),
                 (Some(_), None) => format!("{} or more", at(low)),
                 (None, Some(_)) => format!("{} or less", at(high)),
                 (Some(_), Some(_)) => format!("{} to {}", at(low), at(high)),
             };
             return if self.change().is_some() {
-                format!("{name} {now}: holds with {range}")
+                format!("{name} {now}: suitable at {range}")
             } else {
                 format!("{name} {now}: may be {range}")
             };
@@ -50,27 +50,27 @@ impl Remedy {
         };
         let rule = best.rule.map_or("a rule", |rule| rule.named(words));
         let used = self.best_use.map_or(String::new(), |used| {
-            format!(" with {} of its limit", percent(used))
+            format!(" at {} of its limit", percent(used))
         });
         format!(
-            "{name} {now}: no value helps; at {}, the best, {rule} fails{used}",
+            "{name} {now}: no value helps; at {}, the best, {rule} is still violated{used}",
             shown(best.value)
         )
     }
 }
 
 impl Miss {
-    /// In words: what is used, and what limit would do.
+    /// Sentence on the use of the limit and on a sufficient limit.
     pub fn sentence(&self, words: &Vocabulary) -> String {
         let name = self.rule.named(words);
         match (self.used, self.needed) {
             (Some(used), Some(needed)) => format!(
-                "{name} uses {} of its limit (it would hold with {} instead of {})",
+                "{name} uses {} of its limit (a limit of {} instead of {} would be satisfied)",
                 percent(used),
                 short(needed),
                 short(self.limit)
             ),
-            _ => format!("{name} is asked for where there is none"),
+            _ => format!("{name} is required, but there is none"),
         }
     }
 }

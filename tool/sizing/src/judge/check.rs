@@ -7,34 +7,34 @@ use jred_machine::model::rule::{Rule, Sense};
 use jred_machine::model::rules::{Finding, RuleSet, Verdict};
 use jred_machine::number::rounding::short;
 
-/// A rule, what it judged, and how it came out.
+/// A rule with its value, limit and verdict.
 #[derive(Clone, Debug, Serialize)]
 pub struct Check {
     /// Name of the rule.
     pub rule: &'static str,
     /// The rule.
     pub id: Rule,
-    /// The figure judged, in `unit`; `None` if it cannot be had.
+    /// The value, in `unit`; `None` if unknown.
     pub value: Option<f64>,
-    /// Its limit, in `unit`; `None` if the catalogue does not hold what it is made of.
+    /// Its limit, in `unit`; `None` if the catalogue lacks data for it.
     pub limit: Option<f64>,
     /// Unit of figure and limit.
     pub unit: &'static str,
     /// The share of the limit that is used; zero without a limit. JSON has it as the margin.
     #[serde(skip)]
     pub used: f64,
-    /// What is left of the limit, as a share of it; `None` where there is no limit.
+    /// Margin as a share of the limit; `None` if there is no limit.
     pub margin: Option<f64>,
-    /// How it came out.
+    /// Verdict.
     pub verdict: Verdict,
-    /// What the limit is made of, or what is missing.
+    /// How the limit is computed, or what is missing.
     pub note: String,
     /// Where the limit comes from.
     pub source: String,
 }
 
 impl Check {
-    /// A finding under a rule set, in words.
+    /// Describes a finding under a rule set.
     pub fn new(rules: &RuleSet, rule: Rule, finding: Finding, words: Words) -> Self {
         let verdict = rules.verdict(rule, finding);
         let limit = rules.limit(rule);
@@ -51,8 +51,8 @@ impl Check {
         let bound = bound.filter(|bound| finding.is_known() && bound.is_finite());
         let mut note = match share {
             None if rules.is_off(rule) => "switched off".to_owned(),
-            _ if !finding.is_known() => format!("not known: {rating}"),
-            None => "no limit set".to_owned(),
+            _ if !finding.is_known() => format!("no data: {rating}"),
+            None => "no limit given".to_owned(),
             Some(_) if !finding.rating.is_finite() => format!("no limit: {rating}"),
             Some(share) if unit.is_empty() => {
                 format!("{} {rating}", short(share * shown(finding.rating)))
@@ -78,7 +78,7 @@ impl Check {
                 Sense::AtLeast => "below",
             };
             let warn = short(shown(warn * finding.rating));
-            note += format!("; a warning {beyond} {warn} {unit}").trim_end();
+            note += format!("; warning {beyond} {warn} {unit}").trim_end();
         }
         if !place.is_empty() {
             note += ", ";
@@ -104,7 +104,7 @@ impl Check {
         self.used
     }
 
-    /// What is left of the limit, as a share of it; nothing where there is no limit.
+    /// Margin as a share of the limit; `None` if there is no limit.
     pub const fn margin(&self) -> Option<f64> {
         self.margin
     }
@@ -116,7 +116,7 @@ impl Check {
             .to_owned()
     }
 
-    /// How much of the limit is used, in words.
+    /// Use of the limit as text.
     pub fn used(&self) -> String {
         match self.use_of_limit() * 100.0 {
             _ if self.limit.is_none() => String::new(),
@@ -135,7 +135,7 @@ impl Check {
         let value = self.figure();
         match self.limit {
             Some(limit) => format!(
-                "{} {value} against {} ({})",
+                "{} {value}, limit {} ({})",
                 self.rule,
                 self.with_unit(limit),
                 self.note

@@ -10,7 +10,7 @@ use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Finding;
 use jred_machine::number::rounding::short;
 
-/// Currents; returns the largest (A), if the rules need it; NaN where the motor's data do not say which current makes a torque.
+/// Currents; returns the largest (A), if the rules need it; NaN if the current of a torque is unknown.
 pub(super) fn measure(context: &Context, findings: &mut impl Record) -> Option<f64> {
     let motor_peak = context.drive.motor.winding.peak_current;
     let Some(amplifier) = context.drive.amplifier else {
@@ -37,7 +37,7 @@ pub(super) fn measure(context: &Context, findings: &mut impl Record) -> Option<f
     Some(peak)
 }
 
-/// Largest current (A); NaN where the motor's data do not say which current makes a torque. It is that of the largest torque,
+/// Largest current (A); NaN if the current of a torque is unknown. It is that of the largest torque,
 /// unless the field is weakened.
 fn peak_current(context: &Context) -> f64 {
     let Context {
@@ -98,7 +98,7 @@ pub(super) fn follow(context: &Context, peak_current: Option<f64>, findings: &mu
         let mean = figures.burnt / context.cycle.duration();
         let peak = figures.burnt_peak;
         findings.set(Rule::ResistorPower, Finding::new(mean, resistor.power));
-        // What never comes on needs no figures of short pulses.
+        // A resistor that never switches on needs no pulse ratings.
         if figures.burnt > 0.0 || resistor.peak_power.is_some() {
             findings.set(
                 Rule::ResistorPeak,
@@ -154,14 +154,14 @@ fn data(context: &Context) -> BusData {
     BusData::new(&site.supply, site.bus_voltage, drive.amplifier, drive.motor)
 }
 
-/// What is missing to say how high the voltage of the bus rises.
+/// Data missing for the voltage rise of the bus.
 fn missing(data: &BusData) -> Option<&'static str> {
     match data.bus() {
         Err(missing) => Some(missing),
         Ok(bus) if bus.resistor.is_none() && data.capacitance.is_none() => {
             Some("capacitance of the DC bus")
         }
-        Ok(_) if data.max_voltage.is_none() => Some("highest voltage of the DC bus"),
+        Ok(_) if data.max_voltage.is_none() => Some("maximum voltage of the DC bus"),
         Ok(_) => None,
     }
 }
@@ -187,7 +187,7 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
     let known = |text: &str| text.to_owned();
     let constant = || format!("{} constant of the motor", context.vocabulary().torque);
     let (unit, rating) = match rule {
-        Rule::RmsCurrent if amplifier.is_none() => ("A", known("amplifier: none is chosen")),
+        Rule::RmsCurrent if amplifier.is_none() => ("A", known("amplifier (none chosen)")),
         Rule::RmsCurrent | Rule::PeakCurrent if finding.value.is_nan() => ("A", constant()),
         Rule::RmsCurrent => ("A", known("rated current of the amplifier")),
         Rule::PeakCurrent => {
@@ -199,10 +199,10 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
         Rule::Overload => {
             let rating = match amplifier {
                 _ if finding.rating.is_infinite() => {
-                    known("the current never exceeds the amplifier's rated one")
+                    known("the current never exceeds the rated current of the amplifier")
                 }
                 Some(a) if a.peak_time.is_none() => {
-                    known("time for which the amplifier bears its peak current")
+                    known("time for which the amplifier can supply its peak current")
                 }
                 _ if finding.value.is_nan() => constant(),
                 _ => known("(peak current² − rated current²)·peak time of the amplifier"),
@@ -213,13 +213,10 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
             let missing = missing(&data(context)).filter(|_| !finding.is_known());
             (
                 "V",
-                known(missing.unwrap_or("highest voltage of the DC bus")),
+                known(missing.unwrap_or("maximum voltage of the DC bus")),
             )
         }
-        Rule::BrakeResistance => (
-            "Ohm",
-            known("smallest resistance that the chopper may switch"),
-        ),
+        Rule::BrakeResistance => ("Ohm", known("minimum resistance of the chopper")),
         Rule::ResistorPower => ("W", known("continuous power of the brake resistor")),
         Rule::ResistorPeak => ("W", known("peak power of the brake resistor")),
         _ => ("J", known("pulse energy of the brake resistor")),
@@ -235,17 +232,17 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
     }
 }
 
-/// What comes back, and what the brake resistor that is not there would have to be.
+/// Regenerated energy, and the brake resistor it would require.
 fn bus_place(context: &Context, finding: Finding) -> String {
     let data = data(context);
     let curve = power(context);
     let [_, back] = curve.energies();
     if back == 0.0 {
-        return "nothing comes back".to_owned();
+        return "no energy is fed back".to_owned();
     }
-    let mut words = format!("{} J come back in a cycle", short(back));
+    let mut words = format!("{} J are fed back per cycle", short(back));
     if finding.is_known() && finding.value.is_infinite() {
-        words += ", more than is drawn: without a brake resistor nothing bounds the voltage";
+        words += ", more than is drawn: without a brake resistor the voltage rises without limit";
     }
     if data.resistor.is_none()
         && let Some(need) = Need::of(&data, &curve)
@@ -257,7 +254,7 @@ fn bus_place(context: &Context, finding: Finding) -> String {
     words
 }
 
-/// Voltage of the bus over a cycle once it repeats, \[time (s), voltage (V)\]; nothing where what it takes is not known.
+/// Voltage of the bus over a cycle once it repeats, \[time (s), voltage (V)\]; empty if data are missing.
 pub(super) fn trace(context: &Context) -> Vec<[f64; 2]> {
     let bus = data(context).bus();
     bus.map_or_else(|_| Vec::new(), |bus| bus.trace(&power(context)))

@@ -9,7 +9,7 @@ use jred_machine::model::rules::{MeanTorque, RuleSet};
 use jred_machine::number::rounding::short;
 use jred_machine::units::RPM;
 
-/// Acceleration torques T2B hold for up to 1000 cycles per hour (WITTENSTEIN, engineering glossary).
+/// Acceleration torques T2B are valid up to 1000 cycles per hour (WITTENSTEIN, engineering glossary).
 const CYCLES: f64 = 1000.0;
 
 /// Seconds of an hour.
@@ -68,8 +68,8 @@ fn cycles_per_hour(context: &Context) -> f64 {
     context.cycle.mechanics().move_rate * HOUR
 }
 
-/// The maker's factor by which T2B is divided at so many cycles an hour: on straight lines between the maker's points, at the
-/// ends as there. One where the maker gives none.
+/// The maker's shock factor, which divides T2B at a number of cycles per hour: linear between the maker's points, constant
+/// beyond them; one if the maker gives none.
 fn shock_factor(gearbox: &Gearbox, cycles: f64) -> f64 {
     let points = &gearbox.shock_factors;
     let above = points.partition_point(|[at, _]| *at <= cycles);
@@ -83,9 +83,9 @@ fn shock_factor(gearbox: &Gearbox, cycles: f64) -> f64 {
     }
 }
 
-/// Torque through the gearbox (N·m) in the worst emergency stop, and the inertia at its output (kg·m²) there: the motor brakes
-/// with its peak torque at standstill, or its brake closes, whichever is more. `None` where that torque is not known, or
-/// where the gearbox locks: what stops the machine then is its stiffness.
+/// Torque through the gearbox (N·m) in the worst emergency stop, and the inertia at its output (kg·m²) there: the motor
+/// brakes with its peak torque at standstill or its brake torque, whichever is larger. `None` if that torque is unknown, or
+/// if the gearbox is self-locking: then its stiffness stops the machine.
 fn emergency(context: &Context, gearbox: &Gearbox) -> Option<[f64; 2]> {
     let motor = context.drive.motor;
     let mechanics = context.cycle.mechanics();
@@ -114,7 +114,7 @@ pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Fin
         _ => (
             "per hour",
             1.0,
-            "number up to which T2B holds; above, it is to be reduced by the maker's shock factor",
+            "number up to which T2B is valid; above it, T2B is reduced by the maker's shock factor",
         ),
     };
     let mut words = Words {
@@ -132,7 +132,7 @@ pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Fin
             let factor = shock_factor(gearbox, cycles);
             if factor > 1.0 {
                 words.rating = format!(
-                    "{rating} by the maker's shock factor of {} for {} cycles an hour",
+                    "{rating} reduced by the maker's shock factor of {} for {} cycles per hour",
                     short(factor),
                     short(cycles)
                 );
@@ -145,7 +145,7 @@ pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Fin
         }
         Rule::GearboxEmergency if gearbox.emergency_torque.is_some() && !finding.is_known() => {
             words.rating = if gearbox.back_efficiency <= 0.0 {
-                "the gearbox locks, and its stiffness decides".to_owned()
+                "the gearbox is self-locking: its stiffness decides".to_owned()
             } else {
                 "peak torque of the motor".to_owned()
             };
@@ -153,7 +153,7 @@ pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Fin
         Rule::GearboxEmergency if finding.is_known() => {
             if let Some([_, inertia]) = emergency(context, gearbox) {
                 words.place = format!(
-                    "the motor braking with all it has where the machine has {} kg m^2 at the gearbox",
+                    "if the motor brakes with its peak torque where the machine has {} kg m^2 at the gearbox",
                     short(inertia)
                 );
             }

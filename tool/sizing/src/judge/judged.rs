@@ -1,4 +1,4 @@
-//! A drive judged by every rule, in words.
+//! A drive checked against every rule, with words.
 
 use super::Context;
 use crate::catalogue::Drive;
@@ -7,7 +7,7 @@ use crate::judge::check::Check;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::{RuleSet, Verdict};
 
-/// A drive judged.
+/// A drive with the verdict of every rule.
 #[derive(Clone, Debug)]
 pub struct Judged<'c> {
     /// The drive.
@@ -16,12 +16,12 @@ pub struct Judged<'c> {
     pub duty: MotorDuty,
     /// Every rule.
     pub checks: Vec<Check>,
-    /// What was assumed about motor and gearbox, and whose figures are second-hand.
+    /// Assumptions about motor and gearbox, and second-hand data.
     pub assumptions: Vec<String>,
 }
 
 impl<'c> Judged<'c> {
-    /// Judges a drive by every rule, in words.
+    /// Checks a drive against every rule, with words for reports.
     pub fn new(context: &Context<'c>, rules: &RuleSet) -> Self {
         Self {
             drive: context.drive,
@@ -42,19 +42,19 @@ impl<'c> Judged<'c> {
         self.verdict() != Verdict::Fail
     }
 
-    /// The rules that are broken, in one sentence each.
+    /// One sentence for each violated rule.
     pub fn reasons(&self) -> String {
         let broken = self.checks.iter().filter(|c| c.verdict == Verdict::Fail);
         broken.map(Check::sentence).collect::<Vec<_>>().join("; ")
     }
 
-    /// How much of a rule's limit is used, in words; nothing if the rule was not applied.
+    /// Use of the limit of a rule as text; empty if the rule does not apply.
     pub fn used(&self, rule: Rule) -> String {
         let check = self.checks.iter().find(|c| c.id == rule);
         check.map_or(String::new(), Check::used)
     }
 
-    /// Installed power (W); nothing where the catalogue does not say.
+    /// Installed power (W); `None` if not given.
     pub fn rated_power(&self) -> Option<f64> {
         self.drive.motor.rated_power()
     }

@@ -75,7 +75,7 @@ pub(super) fn measure_peak(context: &Context, findings: &mut impl Record) {
     );
 }
 
-/// A peak torque of which it is only known that it uses at least this share of the envelope.
+/// A peak torque that is only known to use at least this share of the envelope.
 pub(super) fn set_peak_use(used: f64, findings: &mut impl Record) {
     findings.set(Rule::PeakTorque, Finding::new(used, 1.0));
 }
@@ -84,7 +84,7 @@ fn moves_per_minute(context: &Context) -> f64 {
     context.cycle.mechanics().move_rate * MINUTE
 }
 
-/// Whether the gearbox cannot be driven back: the machine then rests on its friction.
+/// Whether the gearbox is self-locking.
 fn locks(context: &Context) -> bool {
     context
         .drive
@@ -92,9 +92,9 @@ fn locks(context: &Context) -> bool {
         .is_some_and(|g| g.back_efficiency <= 0.0)
 }
 
-/// Torque at rest that the motor may have to hold (N·m). Friction lets it lie anywhere from τ·η_back/i, where the machine would
-/// begin to drive back, to τ/(i·η), where it would begin to move on: the larger end is taken, as the time course does. A
-/// gearbox that locks holds by itself.
+/// Torque at rest that the motor may have to hold (N·m). Friction lets it lie anywhere from τ·η_back/i, where the machine
+/// would begin to drive back, to τ/(i·η), where it would begin to move on: the larger end is taken, as the time course does.
+/// A self-locking gearbox needs no torque.
 pub(super) fn holding(context: &Context) -> f64 {
     if locks(context) {
         return 0.0;
@@ -156,13 +156,13 @@ pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Fin
             )
         }
         Rule::HoldingTorque | Rule::BrakeTorque if locks(context) => {
-            "the gearbox locks and holds by itself".to_owned()
+            "the gearbox is self-locking and holds by itself".to_owned()
         }
         Rule::HoldingTorque if finding.value > 0.0 => {
-            format!("{torque} at rest with friction against it")
+            format!("{torque} at standstill with friction against the motor")
         }
-        Rule::ConstantTorque => format!("{torque} of weight and friction alone"),
-        Rule::BrakeTorque => format!("{torque} at rest without the help of friction"),
+        Rule::ConstantTorque => format!("{torque} of weight and friction only"),
+        Rule::BrakeTorque => format!("{torque} at standstill without the help of friction"),
         Rule::InertiaRatio => {
             let choices = &rules.choices;
             let judged = choices.inertia_ratio_of.words();
@@ -171,7 +171,9 @@ pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Fin
             } else {
                 let moves = short(moves_per_minute(context));
                 if !finding.is_known() {
-                    rating = format!("a limit for {moves} moves per minute; take the data sheet's");
+                    rating = format!(
+                        "a limit for {moves} moves per minute; prefer the value from the data sheet"
+                    );
                 }
                 format!("{judged}, for {moves} moves per minute")
             }

@@ -1,4 +1,4 @@
-//! How a drive comes out, in numbers.
+//! Result of a drive in numbers.
 
 use super::{Findings, Record};
 use jred_machine::model::rule::Rule;
@@ -6,7 +6,7 @@ use jred_machine::model::rules::Finding;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::model::rules::Verdict;
 
-/// How a drive comes out, in numbers.
+/// Result of a drive in numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
     /// The worst verdict.
@@ -14,18 +14,18 @@ pub struct Outcome {
     /// The largest finite share of a limit that is used. Where a limit is zero (no torque beyond the maximum speed) the
     /// rule for the speed says by how much.
     pub worst_use: f64,
-    /// The rule of which that share is used; of several the first in the order of reports.
+    /// The rule with this use of its limit; of several, the first in the order of reports.
     pub worst_rule: Option<Rule>,
-    /// How many rules give a warning.
+    /// Number of rules with a warning.
     pub warnings: u8,
-    /// How many rules could not be judged for want of a figure.
+    /// Number of rules that could not be checked: data missing.
     pub not_checked: u8,
-    /// How many rules ask for something where the limit is zero: by how much they are missed cannot be said.
+    /// Number of rules violated with a limit of zero, where no share of the limit can be given.
     pub beyond_all_limits: u8,
 }
 
 impl Outcome {
-    /// That of no findings at all.
+    /// Outcome without findings.
     pub const NOTHING: Self = Self {
         verdict: Verdict::Pass,
         worst_use: 0.0,
@@ -35,7 +35,7 @@ impl Outcome {
         beyond_all_limits: 0,
     };
 
-    /// How these findings come out under a rule set.
+    /// Outcome of these findings under a rule set.
     pub fn of(rules: &RuleSet, findings: &Findings) -> Self {
         let mut tally = Tally::new(rules, Self::NOTHING);
         for (rule, finding) in findings.iter() {
@@ -58,14 +58,14 @@ impl Outcome {
     }
 }
 
-/// Weighs findings as they come; each adds to an outcome, in whatever order.
+/// Evaluates findings one by one, in any order, and adds them to an outcome.
 pub(super) struct Tally<'r> {
     rules: &'r RuleSet,
     pub(super) outcome: Outcome,
 }
 
 impl<'r> Tally<'r> {
-    /// Goes on from an outcome.
+    /// Continues from an outcome.
     pub(super) const fn new(rules: &'r RuleSet, outcome: Outcome) -> Self {
         Self { rules, outcome }
     }

@@ -36,7 +36,7 @@ pub fn largest(points: &[Point], duration: f64, rated: f64) -> f64 {
     most
 }
 
-/// What the amplifier allows: (I_p² − I_r²)·t_p (A²·s).
+/// Limit of the amplifier: (I_p² − I_r²)·t_p (A²·s).
 pub fn allowed(rated: f64, peak: f64, time: f64) -> f64 {
     (peak * peak - rated * rated) * time
 }

@@ -1,9 +1,9 @@
-//! Judging many drives against one cycle, each only as far as is asked.
+//! Checking many drives against one cycle, each only as far as necessary.
 //!
-//! Whether a drive fits must be known of each. By how much it misses, or of which limit it uses most, is asked only of the few
-//! that stand first in their list: what is known of a drive after the rules that settle its verdict bounds its place there. The
-//! rules of a gearbox do not depend on the motor and are judged once for all drives that have it; whether the peak
-//! torque fits is mostly settled by [bounds](crate::cycle::Cycle::peak_against) without a search for where the peak is.
+//! Every drive needs a verdict, but only the few that rank first need the exact use of their limits. The rules that settle
+//! the verdict of a drive also bound its rank. The rules of a gearbox do not depend on the motor and are judged once for all
+//! drives that have it; whether the peak torque fits is mostly settled by [bounds](crate::cycle::Cycle::peak_against)
+//! without a search for where the peak is.
 //!
 //! The verdicts are those of [`Context::outcome`], and so is the order of the first (`tests/cycle/screen.rs`).
 
@@ -19,14 +19,14 @@ use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::model::site::Site;
 
-/// What is asked of every drive.
+/// Data common to all drives.
 #[derive(Clone, Debug)]
 pub(crate) struct Screen<'c> {
     cycle: &'c Cycle,
     site: &'c Site,
     rules: &'c RuleSet,
     gearboxes: &'c [Gearbox],
-    /// How the rules of each gearbox alone come out, and those of none.
+    /// Outcome of the gearbox rules for each gearbox, and for none.
     alone: Vec<Outcome>,
     direct: Outcome,
 }
@@ -91,14 +91,14 @@ impl<'c> Screen<'c> {
             return tally.outcome;
         }
         thermal::follow(&context, &mut tally);
-        // One figure that is missing is as many as are asked for here.
+        // One missing value is enough here.
         if tally.outcome.not_checked == 0 || !electric::only_misses_figures(&context) {
             electric::follow(&context, current, &mut tally);
         }
         tally.outcome
     }
 
-    /// How the peak torque stands against the lower of its limits, failure and warning, as far as bounds tell.
+    /// The peak torque relative to the lower of its limits (failure, warning), as far as bounds can decide.
     fn peak(&self, context: &Context) -> Against {
         let limit = self.rules.limit(Rule::PeakTorque);
         let [low, high] = match (limit.warn, limit.fail) {
@@ -111,7 +111,7 @@ impl<'c> Screen<'c> {
         (context.cycle).peak_against(&context.coefficients, context.ratio, envelope, [low, high])
     }
 
-    /// How the rules of the gearbox alone come out.
+    /// Outcome of the rules for the gearbox alone.
     fn of_gearbox(&self, drive: &Drive<'c>, limits: &'c Prepared) -> Outcome {
         let Some(gearbox) = drive.gearbox else {
             return self.direct;
@@ -129,7 +129,7 @@ impl<'c> Screen<'c> {
     }
 }
 
-/// How the rules come out that do not depend on the motor.
+/// Outcome of the rules that do not depend on the motor.
 fn by_itself(context: &Context, rules: &RuleSet) -> Outcome {
     let mut tally = Tally::new(rules, Outcome::NOTHING);
     gearbox::measure_alone(context, rules, &mut tally);

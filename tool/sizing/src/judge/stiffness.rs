@@ -2,7 +2,7 @@
 //!
 //! The gearbox and the shafts are springs in series between two masses, the rotor and the machine. A motor that holds its
 //! position is a fixed end, and the machine swings with f_1 = √(c/J)/2π; with a free rotor it is higher, √(c/J + c/(i²·J_1))/2π.
-//! The first is judged: it is the lower one, and J the largest of the cycle, where it is lowest.
+//! The first one is checked, since it is lower, at the largest J of the cycle, where it is lowest.
 
 use std::f64::consts::TAU;
 
@@ -76,7 +76,7 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
     }
     let (rating, place) = if let Some([_, free]) = frequencies(context) {
         let shafts = match (context.drive.gearbox, context.site.shaft_stiffness) {
-            (Some(_), None) => ", shafts taken as rigid",
+            (Some(_), None) => ", shafts assumed rigid",
             _ => "",
         };
         let free = short(free);
@@ -107,12 +107,12 @@ fn backlash(context: &Context, finding: Finding) -> Words {
     };
     let name = tool.map_or("", |tool| tool.name.as_str());
     let rating = if finding.is_known() {
-        format!("play allowed at {name}")
+        format!("backlash allowed at {name}")
     } else {
-        "play of the gearbox".to_owned()
+        "backlash of the gearbox".to_owned()
     };
     let train = match context.site.train_play {
-        None if finding.is_known() => "; drive train taken as free of play",
+        None if finding.is_known() => "; drive train assumed free of backlash",
         _ => "",
     };
     Words {

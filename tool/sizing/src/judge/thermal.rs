@@ -31,7 +31,7 @@ pub(super) fn follow(context: &Context, findings: &mut impl Record) {
     }
 }
 
-/// What the motor's data allow to say of its temperature.
+/// Temperatures, as far as the motor data allow.
 fn heating(context: &Context) -> Result<Heating, Sentence> {
     let (site, prepared) = (context.site, context.motor);
     let load = load(context);
@@ -65,13 +65,13 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
         Ok(found) if rule == Rule::HousingTemperature && !found.housing => {
             Some("thermal resistances of winding and housing".to_owned())
         }
-        Ok(_) if finding.rating.is_nan() => Some("highest temperature of the winding".to_owned()),
+        Ok(_) if finding.rating.is_nan() => Some("maximum temperature of the winding".to_owned()),
         Ok(_) => None,
     };
     let rating = match (unknown, rule) {
         (Some(missing), _) => missing,
         (None, Rule::HousingTemperature) => format!(
-            "rise from {} °C to the housing's highest temperature",
+            "rise from {} °C to the maximum temperature of the housing",
             surroundings.ambient
         ),
         (None, _) if relative => format!("rise at the S1 {torque}"),
@@ -85,7 +85,7 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
                 String::new()
             };
             format!(
-                "rise from {} °C to the winding's highest temperature{thin}",
+                "rise from {} °C to the maximum temperature of the winding{thin}",
                 surroundings.ambient
             )
         }
@@ -98,7 +98,7 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
     }
 }
 
-/// How the temperature was found, and in which duty.
+/// How the temperature was determined, and the duty type.
 fn place(context: &Context, found: Heating) -> String {
     let Context {
         cycle,
@@ -109,18 +109,17 @@ fn place(context: &Context, found: Heating) -> String {
     } = context;
     let mut parts = Vec::new();
     if found.hottest == Hottest::Runaway {
-        parts.push("thermal runaway: the copper loss grows faster with the temperature than the heat that flows off".to_owned());
+        parts.push("thermal runaway: copper losses rise faster with temperature than the heat flow to the surroundings".to_owned());
     }
     if found.relative {
         parts.push(format!(
-            "from the squared {}, for want of thermal resistances and winding data",
+            "estimated from the RMS {} (thermal resistances and winding data not given)",
             context.vocabulary().torque
         ));
     }
     if !found.ripple {
         parts.push(
-            "at mean losses, the ripple over the cycle not followed for want of time constants"
-                .to_owned(),
+            "based on mean losses; temperature ripple ignored (no time constants given)".to_owned(),
         );
     }
     parts.push(match site.duty.operation {
@@ -128,13 +127,13 @@ fn place(context: &Context, found: Heating) -> String {
             let found = Features::of(cycle, coefficients, *ratio).duty_type();
             match site.duty.kind {
                 Some(stated) if stated != found.number => {
-                    format!("{found} (stated: S{stated})")
+                    format!("{found} (given: S{stated})")
                 }
                 _ => found.to_string(),
             }
         }
         Operation::Short { operating } => {
-            format!("duty type S2, at the end of {operating} s from cold")
+            format!("duty type S2, after {operating} s from cold")
         }
         Operation::Intermittent {
             operating, rest, ..

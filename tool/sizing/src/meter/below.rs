@@ -1,4 +1,4 @@
-//! A curve of few points below a limit: what the firmware's meter holds.
+//! A curve with few points below a limit, for the meter in the firmware.
 
 use jred::duty::MAX_POINTS;
 
@@ -9,13 +9,13 @@ const EVEN: u32 = 32;
 /// … by more than this share of the largest torque …
 const LOOSE: f64 = 2e-4;
 
-/// … and there are fewer than so many.
+/// … and there are fewer than this many.
 const MOST_SPEEDS: usize = 192;
 
 /// Parts of the way between two such speeds that are bounded one by one.
 const PARTS: u32 = 16;
 
-/// Torques that are tried at each speed: the limit, and so many steps below it.
+/// Number of steps below the limit that are tried as torques at each speed.
 const STEPS: usize = 4;
 
 /// A shortfall that no further point is spent on, as a share of the largest torque.
@@ -24,7 +24,7 @@ const ENOUGH: f64 = 1e-3;
 /// The least shortfall that is asked for: roundings.
 const ROUNDING: f64 = 1e-7;
 
-/// What is taken off at last, as a share: more than a line in `f32` can round to, 4 units of its last place.
+/// Final reduction as a share: more than the rounding of a line in `f32`, 4 units in the last place.
 const MARGIN: f64 = 1e-6;
 
 /// A curve of straight lines that never rises and never exceeds a limit.
@@ -36,7 +36,7 @@ pub struct Below {
     pub shortfall: f64,
 }
 
-/// What is known of the limit between two speeds.
+/// Bounds of the limit between two speeds.
 struct Interval {
     /// The line that the limit does not fall below, at both ends.
     ends: [f64; 2],
@@ -176,7 +176,7 @@ impl Tunnel {
         let mut most = self.most.first().copied().unwrap_or(0.0);
         let mut missed = 0.0f64;
         let mut look = |speed: f64| {
-            // What it does not follow when it rises is not missed.
+            // A rise of the limit that the curve does not follow is no shortfall.
             most = most.min(floor([speed; 2])[0]);
             missed = missed.max(most - at(points, speed));
         };
@@ -317,7 +317,7 @@ impl Interval {
         let ends = if lowered.iter().all(is_limit) {
             lowered
         } else {
-            // What is not known, or steep and bent.
+            // An unknown limit, or a steep and curved one.
             let least = floors.iter().flat_map(|(_, torques)| *torques);
             [least.fold(f64::INFINITY, f64::min).max(0.0); 2]
         };

@@ -24,16 +24,16 @@ impl MeterLimits<'_> {
                 "Limits of {} for the duty meter `jred::duty`.",
                 drive.name()
             ),
-            "Written by `jred size --meter`; size anew instead of editing.".to_owned(),
+            "Written by `jred size --meter`. Do not edit: run it again.".to_owned(),
             String::new(),
         ];
         let broken = self.broken();
         if !broken.is_empty() {
             lines.push(
-                "THIS DRIVE BREAKS RULES at this machine: it is not approved by these limits."
+                "THIS DRIVE VIOLATES RULES in this machine: these limits do not make it acceptable."
                     .to_owned(),
             );
-            lines.extend(broken.iter().map(|rule| format!("broken: {rule}")));
+            lines.extend(broken.iter().map(|rule| format!("violated: {rule}")));
             lines.push(String::new());
         }
         lines.push(format!("machine: {machine}"));
@@ -55,7 +55,7 @@ impl MeterLimits<'_> {
         if !unseen.is_empty() {
             let words = self.context.vocabulary();
             let names: Vec<&str> = unseen.iter().map(|rule| rule.named(words)).collect();
-            lines.push(format!("not seen by the meter: {}", names.join(", ")));
+            lines.push(format!("not monitored by the meter: {}", names.join(", ")));
         }
         lines.push(String::new());
         lines.push(format!(
@@ -64,7 +64,7 @@ impl MeterLimits<'_> {
         ));
         let mut text = String::new();
         for line in lines {
-            // Names of a catalogue may hold anything but must not leave the comment.
+            // Names from a catalogue may contain anything, but must not end the comment.
             let line = line.replace(|c: char| c.is_control(), " ");
             let _ = writeln!(text, "{}", format!("// {line}").trim_end());
         }
@@ -151,7 +151,7 @@ impl MeterLimits<'_> {
             ("output_peak", cycle.peak_output_torque()),
         ];
         text.push_str(
-            "\n/// What the cycle was sized with: the meter's figures after one cycle, if each move of the drive link is counted as a\n\
+            "\n/// Values the cycle was sized with: those of the meter after one cycle, if each move of the drive link counts as a\n\
              /// cycle of the gearbox.\n\
              pub const SIZED: jred::duty::Figures<f32> = jred::duty::Figures {\n",
         );

@@ -1,4 +1,4 @@
-//! What a motor's winding does: current of a torque, copper loss, and the voltage that current and speed need.
+//! The winding of a motor: current of a torque, copper loss, and the voltage for current and speed.
 //!
 //! Two kinds of data sheet are in use, told apart by [`Commutation`]. For a three-phase motor on sine currents the catalogue
 //! holds RMS currents and line-to-line figures, and per phase of the star R/2, L/2 and k_e/√3 hold. With i_q the current in
@@ -20,7 +20,7 @@ use crate::catalogue::{Commutation, Motor, Winding};
 /// Temperature coefficient of copper's resistance, from its value at 20 °C (1/K).
 pub const COPPER: f64 = 0.00393;
 
-/// Temperature that the catalogue's resistances hold for (°C).
+/// Temperature at which the catalogue gives resistances (°C).
 pub const REFERENCE_TEMPERATURE: f64 = 20.0;
 
 impl Commutation {
@@ -40,7 +40,7 @@ impl Commutation {
         }
     }
 
-    /// What the current's voltage drop in the voltage equation is, as a multiple of R·I.
+    /// Voltage drop of the current in the voltage equation, as a multiple of R·I.
     pub const fn drop_factor(self) -> f64 {
         match self {
             Self::Sine => 0.5 * SQRT_3,

@@ -1,4 +1,4 @@
-//! Which drives of a catalogue are considered at all.
+//! Filter for the drives of a catalogue.
 
 use glob::{MatchOptions, Pattern};
 use miette::{Result, miette};
@@ -7,7 +7,7 @@ use crate::catalogue::Catalogue;
 use crate::select::rank::Objective;
 use crate::select::size::{Candidate, Group, Selection};
 
-/// What a drive must be to be considered; nothing set: every drive is.
+/// Conditions for a drive; if none is set, every drive passes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Filter {
     /// Makers of motor and gearbox, as patterns; empty: any.
@@ -26,7 +26,7 @@ pub struct Filter {
     pub max_price: Option<f64>,
 }
 
-/// What a filter took out because the catalogue does not say.
+/// Drives removed by a filter because the catalogue lacks data.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Unknown {
     /// Drives of unknown mass.
@@ -45,7 +45,7 @@ fn matches(patterns: &[Pattern], text: &str) -> bool {
 }
 
 impl Filter {
-    /// Leaves only those motors and gearboxes of a catalogue that a drive may have.
+    /// Removes the motors and gearboxes that no drive may have.
     ///
     /// # Errors
     /// Nothing left.
@@ -63,14 +63,14 @@ impl Filter {
         );
         if catalogue.motors.is_empty() {
             return Err(miette!(
-                help = "patterns have * for any text and ? for any letter; without --maker and --motor all are considered",
-                "none of the {motors} motors of the catalogue passes the filter"
+                help = "in patterns, * matches any text and ? any character; without --maker and --motor all motors are considered",
+                "none of the {motors} motors in the catalogue passes the filter"
             ));
         }
         if catalogue.gearboxes.is_empty() && !self.allows_direct() {
             return Err(miette!(
-                help = "patterns have * for any text and ? for any letter; a direct drive has the ratio 1",
-                "none of the {gearboxes} gearboxes of the catalogue passes the filter"
+                help = "in patterns, * matches any text and ? any character; a direct drive has the ratio 1",
+                "none of the {gearboxes} gearboxes in the catalogue passes the filter"
             ));
         }
         Ok(())
@@ -82,15 +82,15 @@ impl Filter {
         self.gearboxes.is_empty() && (least..=most).contains(&1.0)
     }
 
-    /// Takes out drives that do not pass as a whole: direct ones, too heavy and too dear ones, and those of which mass or
-    /// price is asked for but not known.
+    /// Removes drives that do not pass as a whole: direct drives, drives that are too heavy or too expensive, and those
+    /// without data for a limited mass or price.
     pub fn sift(&self, selection: &mut Selection) -> Unknown {
         let mut unknown = Unknown::default();
         if self.allows_direct() && self.max_mass.is_none() && self.max_price.is_none() {
             return unknown;
         }
         let mut sifted = [Vec::new(), Vec::new()];
-        // Only the first stand in order so far: which of them are left is not known before.
+        // Only the first drives are sorted so far, and which of them remain is not known in advance.
         selection.complete();
         for (kept, from) in sifted.iter_mut().zip([&selection.fit, &selection.refused]) {
             for candidate in from.known() {

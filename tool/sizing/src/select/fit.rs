@@ -6,7 +6,7 @@ use crate::catalogue::{Catalogue, MotorKind};
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
 
-/// What the machine is driven by at its input: a drive link that slides, without a drive train, takes a linear motor.
+/// Kind of motor at the input: a sliding drive link without a drive train needs a linear motor.
 ///
 /// # Errors
 /// The mechanism cannot be placed.
@@ -19,7 +19,7 @@ pub fn input_kind(file: &MachineFile) -> Result<MotorKind> {
     }
 }
 
-/// Leaves the motors that fit the machine's input: turning ones, or linear ones.
+/// Keeps only the motors for the input of the machine: rotary or linear.
 ///
 /// # Errors
 /// There are none.
@@ -31,14 +31,15 @@ pub fn fit_input(catalogue: &mut Catalogue, file: &MachineFile) -> Result<()> {
     }
     Err(match kind {
         MotorKind::Linear => miette!(
-            help = "give a catalogue with linear motors (docs/catalogue.md: kind = linear), or add what turns the rotation \
-                    into a displacement: [[drive_train]] with type = \"ball-screw\" and lead = \"10 mm\", or type = \"rack\" \
-                    and the radius of its pinion; `jred reduce --over time` gives the force itself",
-            "the drive link slides, and the motors of the catalogue turn: it holds no linear motor"
+            help = "give a catalogue with linear motors (docs/catalogue.md: kind = linear), or add a stage that \
+                    converts rotation into displacement: [[drive_train]] with type = \"ball-screw\" and lead = \"10 \
+                    mm\", or type = \"rack\" and the radius of its pinion; `jred reduce --over time` shows the \
+                    required force",
+            "the drive link slides, but the catalogue contains rotary motors only"
         ),
         MotorKind::Rotary => miette!(
-            help = "give a catalogue with motors that turn",
-            "the input of the machine turns, and the catalogue holds linear motors only"
+            help = "give a catalogue with rotary motors",
+            "the input of the machine turns, but the catalogue contains linear motors only"
         ),
     })
 }

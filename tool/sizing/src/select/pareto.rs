@@ -1,4 +1,4 @@
-//! The drives that no other beats in everything: the Pareto front over two or three objectives.
+//! The Pareto front of the suitable drives over two or three objectives.
 
 use miette::{Report, miette};
 
@@ -21,17 +21,17 @@ pub struct Front<'c> {
     pub objectives: Vec<Objective>,
     /// Its drives, by the first objective.
     pub points: Vec<Point<'c>>,
-    /// How many drives fit.
+    /// Number of suitable drives.
     pub fit: usize,
-    /// How many of them were compared.
+    /// Number of drives compared.
     pub compared: usize,
-    /// For each objective, of how many drives it is not known; they are not compared.
+    /// For each objective, the number of drives without data, which are not compared.
     pub unknown: Vec<usize>,
 }
 
 impl<'c> Front<'c> {
-    /// The drives that fit and that no other drive that fits beats: is as good in every objective and better in one. Of
-    /// drives that are equal in all of them each is kept.
+    /// The suitable drives for which no other suitable drive is as good in every objective and better in one. Drives that
+    /// are equal in all objectives are all kept.
     pub fn new(selection: &Selection<'c>, objectives: &[Objective]) -> Self {
         let mut unknown = vec![0; objectives.len()];
         let mut points = Vec::new();
@@ -81,7 +81,7 @@ impl<'c> Front<'c> {
         }
     }
 
-    /// What could not be compared, in words.
+    /// Sentences about drives that could not be compared.
     pub fn gaps(&self) -> Vec<String> {
         let pairs = self
             .objectives
@@ -91,14 +91,14 @@ impl<'c> Front<'c> {
         pairs
             .map(|(objective, n)| {
                 format!(
-                    "{n} drives that fit are left out: the catalogue does not say their {}; fill in the column, or take another objective",
+                    "{n} suitable drives left out: no data for their {} in the catalogue; fill in the column, or use another objective",
                     objective.name()
                 )
             })
             .collect()
     }
 
-    /// Why drives fit and yet none of them could be compared; nothing where one was, or none fits.
+    /// Why no suitable drive could be compared; `None` if one was, or if no drive is suitable.
     pub fn obstacle(&self) -> Option<Report> {
         if self.compared > 0 || self.fit == 0 {
             return None;
@@ -107,20 +107,21 @@ impl<'c> Front<'c> {
         let missing: Vec<String> = missing
             .filter(|(_, n)| **n > 0)
             .map(|(objective, n)| match *n {
-                n if n == self.fit => format!("of none the {} is known", objective.name()),
-                n => format!("of {n} the {} is not known", objective.name()),
+                n if n == self.fit => format!("none has data for the {}", objective.name()),
+                n => format!("{n} have no data for the {}", objective.name()),
             })
             .collect();
         Some(miette!(
-            help = "fill in the column of the catalogue (docs/catalogue.md), or take another objective",
-            "{} drives fit, but {}: there is nothing to compare",
+            help =
+                "fill in the column of the catalogue (docs/catalogue.md), or use another objective",
+            "{} drives are suitable, but {}: there is nothing to compare",
             self.fit,
             missing.join(", ")
         ))
     }
 }
 
-/// Whether `a` costs no more than `b` in anything and less in something.
+/// Whether `a` is at most `b` in every value and below it in one.
 fn beats(a: &[f64], b: &[f64]) -> bool {
     let pairs = || a.iter().zip(b);
     pairs().all(|(a, b)| a <= b) && pairs().any(|(a, b)| a < b)

@@ -1,4 +1,4 @@
-//! Objectives by which drives are ranked and weighed against each other.
+//! Objectives for ranking and comparing drives.
 
 use crate::judge::Context;
 use crate::select::size::{Candidate, Group, Selection};
@@ -7,7 +7,7 @@ use jred_machine::model::rules::Finding;
 use jred_machine::units::{Sentence, Vocabulary};
 
 jred_machine::words! {
-    /// What a drive is to have little of, or of its margin much.
+    /// An objective: to be minimised, except for the margin.
     pub enum Objective {
         /// Rated torque times rated speed of the motor.
         Power = "power",
@@ -15,11 +15,11 @@ jred_machine::words! {
         Mass = "mass",
         /// Price of motor, gearbox and amplifier, in the currency of the catalogue.
         Price = "price",
-        /// Energy that the motor puts in over a cycle; what comes back is not deducted.
+        /// Energy supplied by the motor over a cycle; regenerated energy is not deducted.
         Energy = "energy",
-        /// What is left of the limit that is used most.
+        /// Margin of the limit that is closest.
         Margin = "margin",
-        /// Rise of the winding's temperature at its hottest.
+        /// Largest temperature rise of the winding.
         Temperature = "temperature",
     }
 }
@@ -45,7 +45,7 @@ impl Objective {
             Self::Price => "price",
             Self::Energy => "energy [J]",
             Self::Margin => "margin",
-            Self::Temperature => "share of the winding's allowed rise",
+            Self::Temperature => "share of the winding's allowed temperature rise",
         }
     }
 
@@ -53,29 +53,29 @@ impl Objective {
     pub const fn ranking(self) -> Sentence {
         match self {
             Self::Power => |Vocabulary { torque, .. }| {
-                format!(
-                    "drives that break no rule, the smallest motor first (rated {torque} times rated speed)"
-                )
+                format!("suitable drives, smallest motor first (rated {torque} times rated speed)")
             },
             Self::Mass => |_| {
-                "drives that break no rule, the lightest first (motor, gearbox and amplifier), those of unknown mass last".to_owned()
+                "suitable drives, lightest first (motor, gearbox and amplifier), unknown mass last"
+                    .to_owned()
             },
             Self::Price => |_| {
-                "drives that break no rule, the cheapest first (motor, gearbox and amplifier), those of unknown price last".to_owned()
+                "suitable drives, cheapest first (motor, gearbox and amplifier), unknown price last"
+                    .to_owned()
             },
             Self::Energy => |_| {
-                "drives that break no rule, the least energy put in per cycle first (what comes back is not deducted)".to_owned()
+                "suitable drives, least energy supplied per cycle first (regenerated energy is not deducted)".to_owned()
             },
             Self::Margin => |_| {
-                "drives that break no rule, the largest margin first (what is left of the limit that is used most)".to_owned()
+                "suitable drives, largest margin first (of the limit that is closest)".to_owned()
             },
-            Self::Temperature => |_| {
-                "drives that break no rule, the coolest winding first, those of unknown temperature last".to_owned()
-            },
+            Self::Temperature => {
+                |_| "suitable drives, coolest winding first, unknown temperature last".to_owned()
+            }
         }
     }
 
-    /// Its value for a drive; `None` where the catalogue does not hold what it is made of.
+    /// Its value for a drive; `None` if the catalogue lacks data.
     pub fn value(self, selection: &Selection, candidate: &Candidate) -> Option<f64> {
         let drive = &candidate.drive;
         let known = match self {
@@ -107,7 +107,7 @@ impl Objective {
         known.filter(|value| !value.is_nan())
     }
 
-    /// Its value as something to have little of.
+    /// Its value as a cost to minimise.
     pub(crate) const fn cost(self, value: f64) -> f64 {
         match self {
             Self::Margin => -value,
@@ -116,18 +116,18 @@ impl Objective {
     }
 }
 
-/// What a part has, nothing at all where the drive is without it; `None` if it does not say.
+/// Value of a part, zero if the drive does not have it; `None` if not given.
 fn part<T>(part: Option<&T>, of: impl Fn(&T) -> Option<f64>) -> Option<f64> {
     part.map_or(Some(0.0), of)
 }
 
-/// The sum; `None` as soon as one part does not say.
+/// The sum; `None` if one part has no data.
 fn sum(parts: [Option<f64>; 3]) -> Option<f64> {
     parts.into_iter().sum()
 }
 
-/// Ranks the drives that fit by an objective. Those of which it is not known come last, in their order; equal ones keep
-/// theirs; if it is known of none, the ranking stays. Returns of how many it is not known.
+/// Ranks the suitable drives by an objective. Drives without data come last in their previous order; equal ones keep their
+/// order; if no drive has data, the ranking does not change. Returns the number of drives without data.
 pub fn rank(selection: &mut Selection, objective: Objective) -> usize {
     selection.complete();
     let fit = selection.fit.known().iter();

@@ -1,4 +1,4 @@
-//! The gear ratio that suits a motor and a duty, in closed form.
+//! The suitable gear ratio for a motor and a duty, in closed form.
 //!
 //! With a gearbox of ratio i in front of the load the motor torque of an instant is
 //!
@@ -29,7 +29,7 @@ use crate::cycle::form::loads;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::number::numerics::edge;
 
-/// What is known of the gearbox that is looked for, beside its ratio.
+/// Properties of the gearbox other than its ratio.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gear {
     /// Inertia at its input (kg·m²).
@@ -60,7 +60,7 @@ pub struct Moments {
     bb: f64,
 }
 
-/// Ratios between which a rule holds.
+/// Range of ratios that satisfies a rule.
 pub type Range = [f64; 2];
 
 impl Moments {

@@ -1,4 +1,4 @@
-//! Sizing: every drive of a catalogue, judged and ranked.
+//! Sizing: checks and ranks every drive of a catalogue.
 
 use rayon::prelude::*;
 
@@ -22,45 +22,45 @@ use order::{Order, Place};
 /// How drives are ranked unless something else was asked for.
 fn by_size(Vocabulary { torque, .. }: &Vocabulary) -> String {
     format!(
-        "drives that break no rule, the smallest motor first (rated {torque} times rated speed), among equal motors \
-         without warnings first, then by the largest share of a limit used"
+        "suitable drives, smallest motor first (rated {torque} times rated speed); equal motors: without warnings \
+         first, then by largest margin"
     )
 }
 
-/// Motors whose drives a thread takes at a time, at least.
+/// Smallest number of motors per unit of parallel work.
 const SHARE: usize = 16;
 
-/// A drive and how it came out, in numbers.
+/// A drive and its result in numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Candidate<'c> {
     /// The drive.
     pub drive: Drive<'c>,
-    /// What is known of its motor's limits.
+    /// Limits of its motor.
     pub motor: &'c Prepared,
-    /// How it came out.
+    /// Result.
     pub outcome: Outcome,
-    /// Its place in the catalogue: equal drives stand in this order.
+    /// Its place in the catalogue, which is the order of equal drives.
     place: Place,
 }
 
-/// All drives, judged.
+/// All drives with their results.
 ///
-/// Which of them fit is known of every one, by every rule. The figures by which drives are ordered are worked out for those
-/// only that stand among the first [`FIRST`] of those that fit, or of those refused: of a large catalogue that is a small part
-/// of the work. [`Selection::complete`] works them out for all.
+/// Every drive is checked against every rule. The values that drives are sorted by are computed only for the first [`FIRST`]
+/// suitable and refused drives, which is a small part of the work for a large catalogue. [`Selection::complete`] computes
+/// them for all.
 #[derive(Clone, Debug)]
 pub struct Selection<'c> {
     /// The prepared duty.
     pub cycle: &'c Cycle,
-    /// Where the drives are to stand.
+    /// Site of the drives.
     pub site: &'c Site,
-    /// The rules they were judged by.
+    /// The rules they were checked against.
     pub rules: &'c RuleSet,
     /// How the drives that fit are ranked, if not by the size of their motors.
     pub ranking: Option<Sentence>,
     /// Drives that break no rule, best first: see [`Selection::ranking`].
     pub fit: Group<'c>,
-    /// Drives that break a rule, those that miss by least first.
+    /// Drives that violate a rule, closest first.
     pub refused: Group<'c>,
     motors: &'c [Prepared],
 }
@@ -160,7 +160,7 @@ impl<'c> Selection<'c> {
         });
     }
 
-    /// A drive with what it does not stand before.
+    /// A drive with a lower bound on its rank.
     fn bound(&self, screen: &Screen<'c>, drive: &Placed<'c>) -> (Unranked<'c>, Outcome) {
         let Placed { drive, place } = *drive;
         let outcome = screen.judge(drive, &self.motors[place.motor()]);
@@ -234,7 +234,7 @@ impl<'c> Selection<'c> {
         }
     }
 
-    /// A drive of the selection, judged in full; of several the one that stands first.
+    /// A fully evaluated drive of the selection; the first one if there are several.
     pub fn find(&self, wanted: impl Fn(&Drive<'c>) -> bool) -> Option<Candidate<'c>> {
         [&self.fit, &self.refused].into_iter().find_map(|group| {
             let known = group.known().iter().find(|c| wanted(&c.drive)).copied();
@@ -246,7 +246,7 @@ impl<'c> Selection<'c> {
         })
     }
 
-    /// How many of the drives that fit have a rule that could not be checked.
+    /// Number of suitable drives that are not fully checked.
     pub fn partly_checked(&self) -> usize {
         self.fit.partly_checked()
     }

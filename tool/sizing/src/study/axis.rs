@@ -1,4 +1,4 @@
-//! What `--vary` says: a quantity, and the values that it takes.
+//! The option `--vary`: a quantity and its values.
 //!
 //! ```text
 //! slider.mass=50..120kg:8        eight values in equal steps, ends included
@@ -28,8 +28,8 @@ pub struct Axis {
 }
 
 /// How to write `--vary`, for messages.
-const SHAPE: &str = "write --vary slider.mass=50..120kg:8 for eight values in equal steps, …:8:log for equal ratios, or a \
-                     list: slider.mass=50,60,80kg";
+const SHAPE: &str = "write --vary slider.mass=50..120kg:8 for eight values in equal steps, …:8:log for equal ratios, \
+                     or a list: slider.mass=50,60,80kg";
 
 impl Axis {
     /// Reads one `--vary`.
@@ -45,10 +45,10 @@ impl Axis {
         let own = document
             .quantities()
             .get(quantity)
-            .ok_or_else(|| wrong("there is no such quantity".to_owned()))?;
+            .ok_or_else(|| wrong("no such quantity".to_owned()))?;
         let (values, unit, unit_like) = if let Some((from, rest)) = range.split_once("..") {
             let (to, steps) = rest.split_once(':').ok_or_else(|| {
-                wrong("it does not say how many values: end it with \":8\"".to_owned())
+                wrong("the number of values is missing: add for example \":8\"".to_owned())
             })?;
             let to = literal::read(to).map_err(|why| wrong(format!("the end {to:?} {why}")))?;
             let from = start(from, &to).map_err(wrong)?;
@@ -97,7 +97,7 @@ fn start(text: &str, end: &literal::Literal) -> Result<f64, String> {
         Ok(from.number)
     } else {
         Err(format!(
-            "its ends are in \"{}\" and \"{}\"; write both in one unit",
+            "its ends are in \"{}\" and \"{}\"; use one unit",
             from.unit, end.unit
         ))
     }
@@ -110,7 +110,7 @@ fn spread(from: f64, to: f64, steps: &str) -> Result<Vec<f64>, String> {
         Some((steps, "log")) => (steps, true),
         Some((_, other)) => {
             return Err(format!(
-                "{other:?} is not known after the number of values; it can be \"log\""
+                "{other:?} is not valid after the number of values; only \"log\" is"
             ));
         }
     };
@@ -119,19 +119,19 @@ fn spread(from: f64, to: f64, steps: &str) -> Result<Vec<f64>, String> {
         .parse()
         .map_err(|_| format!("{steps:?} is not a number of values"))?;
     if !(1..=MOST_STEPS).contains(&steps) {
-        return Err(format!("{steps} values: it must be 1 to {MOST_STEPS}"));
+        return Err(format!("{steps} values, but it must be 1 to {MOST_STEPS}"));
     }
     let empty = from.total_cmp(&to).is_eq();
     if empty && steps > 1 {
         return Err(format!(
-            "its range is empty, from {from} to {to}, but {steps} values are asked for"
+            "its range from {from} to {to} is empty, but {steps} values are requested"
         ));
     }
     if !empty && steps == 1 {
-        return Err("one value of a range: write that value alone".to_owned());
+        return Err("for one value, write the value instead of a range".to_owned());
     }
     if log && !(from > 0.0 && to > 0.0) {
-        return Err("steps of equal ratio need ends greater than zero".to_owned());
+        return Err("equal ratios require ends greater than zero".to_owned());
     }
     let last = f64::from(steps - 1).max(1.0);
     let at = |k: u32| {
@@ -146,7 +146,7 @@ fn spread(from: f64, to: f64, steps: &str) -> Result<Vec<f64>, String> {
     Ok((0..steps).map(at).collect())
 }
 
-/// The number with twelve digits, which is what stands in the file and in the row.
+/// The number with twelve digits, as written in the file and in the row.
 fn tidy(x: f64) -> f64 {
     format!("{x:.11e}").parse().unwrap_or(x)
 }
@@ -187,7 +187,7 @@ impl Grid {
                 .any(|other| other.quantity == axis.quantity)
             {
                 return Err(miette!(
-                    help = "leave one of the two out",
+                    help = "remove one of the two",
                     "{} is varied twice",
                     axis.path
                 ));
@@ -199,15 +199,15 @@ impl Grid {
         let count = product.filter(|n| *n <= MOST_MACHINES).ok_or_else(|| {
             let counts: Vec<String> = axes.iter().map(|a| a.values.len().to_string()).collect();
             miette!(
-                help = "take fewer values of a quantity, or vary fewer quantities",
-                "{} machines are too many: at most {MOST_MACHINES} are sized in one study",
+                help = "use fewer values, or vary fewer quantities",
+                "{} machines are too many: one study sizes at most {MOST_MACHINES}",
                 counts.join(" × ")
             )
         })?;
         Ok(Self { axes, count })
     }
 
-    /// How many there are.
+    /// Number of combinations.
     pub const fn count(&self) -> u64 {
         self.count
     }

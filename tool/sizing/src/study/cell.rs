@@ -5,7 +5,7 @@ use serde_json::Value;
 /// A cell of a row.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
-    /// Nothing to say.
+    /// Empty.
     Empty,
     /// A number, written with every digit.
     Number(f64),
@@ -41,7 +41,7 @@ impl Cell {
 }
 
 impl From<Option<f64>> for Cell {
-    /// A number that is not finite is no number.
+    /// A number that is not finite is written as null.
     fn from(x: Option<f64>) -> Self {
         x.filter(|x| x.is_finite())
             .map_or(Self::Empty, |x| Self::Number(x + 0.0))

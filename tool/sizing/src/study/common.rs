@@ -1,4 +1,4 @@
-//! What every machine of a study shares: the machine file that is changed, the catalogue, the time steps.
+//! Data common to all machines of a study: the machine file, the catalogue, the time steps.
 
 use miette::{IntoDiagnostic as _, Report, Result, miette};
 
@@ -30,7 +30,7 @@ pub struct Study {
     pub catalogue: Catalogue,
     /// Rule set instead of the file's.
     rules: Option<RuleSet>,
-    /// Time steps of a cycle.
+    /// Number of time steps per cycle.
     pub steps: usize,
 }
 
@@ -148,14 +148,14 @@ impl Study {
         );
         Err(miette!(
             help = near,
-            "the catalogue has no \"{word}\" to make the drive {text:?} of"
+            "the catalogue has no \"{word}\" for the drive {text:?}"
         ))
     }
 
     /// The machine with some of its quantities changed.
     ///
     /// # Errors
-    /// What is wrong with that machine.
+    /// The errors of that machine.
     pub fn machine(&self, edits: &[Edit]) -> Result<Prepared> {
         let text = self.document.with(edits);
         let mut file = read::parse(&self.name, &text, &*self.files)?;

@@ -17,7 +17,7 @@ use jred_machine::units::literal::Literal;
 /// Tables and keys whose texts are never quantities of the machine.
 const NOT_VARIED: [&str; 3] = ["title", "name", "tolerance"];
 
-/// How a quantity stands in the file.
+/// Notation of a quantity in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Written {
     /// A text in quotes.
@@ -196,8 +196,8 @@ impl Document {
             .map(|q| format!("\"{}\"", q.path))
             .collect();
         if same.is_empty() {
-            "a quantity that the file leaves to its default must be written there first; `jred sensitivity` lists those \
-             that it has"
+            "write a quantity with a default value into the file first; `jred sensitivity` lists the quantities in the \
+             file"
                 .to_owned()
         } else {
             format!("there is {}", same.join(", "))

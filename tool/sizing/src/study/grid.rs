@@ -19,7 +19,7 @@ pub struct GridStudy<'s> {
     pub grid: Grid,
     /// Which drives are considered.
     pub filter: Filter,
-    /// What comes first; `None`: the ranking of `jred size`.
+    /// Ranking objective; `None`: the ranking of `jred size`.
     pub rank: Option<Objective>,
 }
 
@@ -128,7 +128,7 @@ impl GridStudy<'_> {
                 cells.push(match best.outcome.not_checked {
                     0 => Cell::Empty,
                     n => format!(
-                        "{n} rules not checked: the catalogue or the machine file does not say"
+                        "{n} rules not checked: data missing in the catalogue or the machine file"
                     )
                     .into(),
                 });
@@ -137,7 +137,7 @@ impl GridStudy<'_> {
             (None, Some(nearest)) => {
                 let mut cells = vec![Verdict::NoneFits.word().into(), 0.0.into()];
                 cells.extend(drive_cells(&selection, nearest));
-                cells.push("this drive misses by least".into());
+                cells.push("closest drive".into());
                 cells
             }
             (None, None) => {

@@ -7,7 +7,7 @@ use sha2::{Digest as _, Sha256};
 
 use super::shard::Shard;
 
-/// What the rows of a file are rows of.
+/// Identity of the study that a file of rows belongs to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Header {
     /// Kind of study and version of the form, such as "vary/1".
@@ -26,11 +26,11 @@ pub struct Header {
     pub rows: u64,
     /// Names of the columns after `row`.
     pub columns: Vec<String>,
-    /// The share that this file holds; `null`: all rows.
+    /// The share in this file; `null`: all rows.
     pub shard: Option<Shard>,
 }
 
-/// A digest of what a value's `Debug` form says, which is every digit of it.
+/// A digest of a value's `Debug` form, which contains every digit.
 pub fn digest(value: &dyn std::fmt::Debug) -> String {
     struct Sink(Sha256);
     impl std::fmt::Write for Sink {
@@ -49,10 +49,10 @@ pub fn digest(value: &dyn std::fmt::Debug) -> String {
 }
 
 impl Header {
-    /// How another header differs, in words; `None`: it does not, the share apart.
+    /// How another header differs; `None` if it differs at most in the share.
     pub fn difference(&self, other: &Self) -> Option<String> {
         let parts = [
-            (self.jred != other.jred, "the kind of study"),
+            (self.jred != other.jred, "kind of study"),
             (self.version != other.version, "the version of jred"),
             (self.machine_digest != other.machine_digest, "the machine"),
             (

@@ -1,4 +1,5 @@
-//! Many machines instead of one: quantities of a machine file varied over ranges, every machine sized over the catalogue.
+//! Studies of many machines: quantities of a machine file are varied over ranges, and every machine is sized with the
+//! catalogue.
 //!
 //! A machine file is changed as a text ([`edit`]) and read by the ordinary reader, so that every check of a machine file
 //! applies to every machine of a study; one that is refused is a row with the reason. Rows are computed in parallel and

@@ -1,4 +1,4 @@
-//! One drive, judged in any machine of a study.
+//! One drive, checked in any machine of a study.
 
 use miette::{Result, miette};
 
@@ -20,7 +20,7 @@ pub struct One {
 }
 
 impl One {
-    /// The drive of this name; without a name the best for the machine as the file says, or the one that misses by least.
+    /// The drive of this name; without a name the best one for the nominal machine, or the closest one.
     ///
     /// # Errors
     /// No such drive.
@@ -42,7 +42,7 @@ impl One {
             rank(&mut selection, objective);
         }
         let first = selection.fit.first().or(selection.refused.first());
-        let first = first.ok_or_else(|| miette!("no drive of the catalogue passes the filter"))?;
+        let first = first.ok_or_else(|| miette!("no drive in the catalogue passes the filter"))?;
         Ok(Self::of(&first.drive))
     }
 
@@ -68,7 +68,7 @@ impl One {
         self.drive().name()
     }
 
-    /// What every rule finds in a machine.
+    /// Findings of every rule in a machine.
     pub fn findings(&self, machine: &Machine) -> Findings {
         let site = &machine.file.site;
         let limits = Prepared::new(&self.motor, self.amplifier.as_ref(), site);

@@ -1,5 +1,5 @@
-//! What a drive's rules depend on: how much of each limit every quantity of the machine file moves, and how far each may
-//! move until a rule is broken.
+//! How the rules of a drive depend on the quantities of the machine file: derivative of each use of a limit, and how far
+//! each quantity may change until a rule is violated.
 //!
 //! Every number with a unit, and every plain number, is moved by its relative change ε with all else as it is; the machine
 //! is read and judged anew. The derivative of a rule's share of its limit u is the central difference
@@ -30,16 +30,16 @@ pub struct Slope {
     pub uncertainty: f64,
 }
 
-/// How far a quantity may move in one direction.
+/// How far a quantity may change in one direction.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Room {
-    /// As far as was looked: this relative change.
+    /// No violation within the search range: this relative change.
     AtLeast(f64),
-    /// Up to this relative change; beyond, the rule is broken.
+    /// Up to this relative change; beyond it, the rule is violated.
     UpTo(f64, Rule),
-    /// Up to this relative change; beyond, the machine file is refused for this reason.
+    /// Up to this relative change; beyond it, the machine file is invalid for this reason.
     Refused(f64, String),
-    /// A rule is broken as it is.
+    /// A rule is already violated.
     Broken,
 }
 
@@ -53,14 +53,14 @@ impl Room {
     }
 }
 
-/// What depends on one quantity.
+/// Dependence on one quantity.
 #[derive(Clone, Debug)]
 pub struct Dependence {
     /// Index of the quantity in the document.
     pub quantity: usize,
-    /// The slopes of the rules that can be judged.
+    /// The slopes of the rules that can be checked.
     pub slopes: Vec<Slope>,
-    /// How far it may become smaller, and larger.
+    /// Room to smaller and to larger values.
     pub room: [Room; 2],
 }
 
@@ -86,7 +86,7 @@ impl Dependence {
     }
 }
 
-/// What depends on what.
+/// Result of a sensitivity analysis.
 #[derive(Clone, Debug)]
 pub struct Sensitivity {
     /// The shares of the limits as they are.
@@ -95,20 +95,21 @@ pub struct Sensitivity {
     pub dependences: Vec<Dependence>,
     /// Quantities that were not moved, and why.
     pub fixed: Vec<(usize, String)>,
-    /// How many quantities of `[simulation]` and `[tolerance]` were left out: no rule can depend on them.
+    /// Number of quantities in `[simulation]` and `[tolerance]` that were left out, since no rule depends on them.
     pub left_out: usize,
 }
 
-/// How a sensitivity is looked for.
+/// Settings of a sensitivity analysis.
 #[derive(Clone, Copy, Debug)]
 pub struct Reach {
     /// Relative change of the differences.
     pub change: f64,
-    /// Largest relative change in search of the first broken rule.
+    /// Largest relative change in search of the first violation.
     pub most: f64,
 }
 
-/// Share of the limit (of the warning, where there is no other) of every rule that can be judged and has one. A share without bound (the limit is zero) is left out.
+/// Share of the limit (or of the warning limit, if there is no other) of every rule that can be checked and has one, except
+/// where the limit is zero.
 pub fn shares(rules: &RuleSet, findings: &Findings) -> Vec<(Rule, f64)> {
     let known = findings
         .iter()
@@ -126,7 +127,7 @@ struct Mover<'a> {
     unit: &'a str,
 }
 
-/// Shares of the limits and the rule that is broken; or why the file was refused.
+/// Shares of the limits and the violated rule; or why the file was refused.
 type Judged = Result<(Vec<(Rule, f64)>, Option<Rule>), String>;
 
 impl Mover<'_> {
@@ -175,7 +176,7 @@ impl Mover<'_> {
         Ok(fine.iter().filter_map(slope).collect())
     }
 
-    /// How far the quantity may move in the direction of `sign`: steps that double, then halving.
+    /// Room of the quantity in the direction of `sign`, by doubling steps, then bisection.
     fn room(&self, sign: f64, reach: Reach) -> Room {
         const HALVINGS: u32 = 16;
         let (mut held, mut tried) = (0.0, reach.change);
@@ -281,7 +282,7 @@ impl Sensitivity {
         })
     }
 
-    /// The quantity whose least move breaks a rule, with the room that it has there.
+    /// The quantity with the smallest change that violates a rule, and its room.
     pub fn first_to_break(&self) -> Option<(usize, &Room)> {
         let rooms = self
             .dependences

@@ -5,9 +5,9 @@ use std::str::FromStr;
 /// Share number `index` of `count`, from 0: rows index, index + count, …
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Shard {
-    /// Which, from 0.
+    /// Index, from 0.
     pub index: u64,
-    /// Of how many.
+    /// Number of shares.
     pub count: u64,
 }
 
@@ -34,7 +34,7 @@ impl FromStr for Shard {
         let parts = text.split_once('/');
         let parsed =
             parts.and_then(|(i, n)| Some((i.trim().parse().ok()?, n.trim().parse().ok()?)));
-        let (index, count) = parsed.ok_or_else(|| format!("it is not a share; {shape}"))?;
+        let (index, count) = parsed.ok_or_else(|| format!("not a share; {shape}"))?;
         if count == 0 || index >= count {
             return Err(format!("there is no share {index} of {count}; {shape}"));
         }

@@ -5,7 +5,7 @@ use super::header::Header;
 
 /// A study: rows that are computed one by one, in any order.
 pub trait Task: Sync {
-    /// What the rows are rows of.
+    /// Identity of the study.
     fn header(&self) -> Header;
 
     /// One row.

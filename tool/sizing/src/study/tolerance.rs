@@ -1,8 +1,8 @@
-//! How likely a drive holds its rules when quantities of the machine file scatter: Monte Carlo.
+//! Monte Carlo estimate of the probability that a drive satisfies its rules when quantities of the machine file scatter.
 //!
 //! Sample k draws the deviation of every quantity that has a tolerance, in the order of their list, from stream k of ChaCha8
 //! with the seed: a sample is the same whichever thread, share or run computes it. A machine that the reader refuses is
-//! counted apart and for no rule. Of n others, k hold: Wilson's interval is stated for the probability,
+//! counted separately. If k of n others satisfy a rule, the probability is given with Wilson's interval,
 //!
 //! ```text
 //! (k + z²/2 ± z·√(k(n − k)/n + z²/4)) / (n + z²),   z = 1.96 for 95 %
@@ -34,7 +34,7 @@ pub struct Scatter {
     pub path: String,
     /// Unit of its figures.
     pub unit: String,
-    /// What the file says, in the unit.
+    /// The nominal value, in the unit.
     nominal: f64,
     /// Half the width, or the standard deviation, in the unit.
     pub amount: f64,
@@ -66,7 +66,7 @@ impl Scatter {
             given.number * given.scale / own.literal.scale
         } else {
             return Err(miette!(
-                help = "write a share, such as \"5 %\", or an amount in a unit of the same kind",
+                help = "write a share, such as \"5 %\", or an amount with a matching unit",
                 "the tolerance of {}, which is {}, cannot be {}",
                 own.path,
                 own.shown(),
@@ -96,15 +96,15 @@ impl Scatter {
 /// Machines that scatter about the one of the file.
 #[derive(Debug)]
 pub struct Samples<'s> {
-    /// What they share.
+    /// Common data.
     pub study: &'s Study,
-    /// The drive that is judged.
+    /// The drive that is checked.
     pub one: &'s One,
-    /// What scatters.
+    /// Quantities that scatter.
     pub scatters: Vec<Scatter>,
-    /// The rules that can be judged.
+    /// The rules that can be checked.
     pub rules: Vec<Rule>,
-    /// Number of machines.
+    /// Number of machines to draw.
     pub count: u64,
     /// Seed of the random numbers.
     pub seed: u64,

@@ -17,7 +17,7 @@ use std::fmt;
 use crate::cycle::Cycle;
 use crate::cycle::form::Coefficients;
 
-/// What the motor does in the cycle.
+/// Features of the motor's operation in the cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(
     clippy::struct_excessive_bools,
@@ -45,11 +45,11 @@ pub struct Features {
 pub struct DutyType {
     /// 1 to 9.
     pub number: u8,
-    /// What it follows from.
+    /// Reason.
     pub features: Features,
 }
 
-/// What a figure may change by and still be constant, as a share of its largest magnitude.
+/// Largest variation of a value that counts as constant, as a share of its largest magnitude.
 const CONSTANT: f64 = 1e-3;
 
 /// A speed below this share of the largest is a stop for an instant.
@@ -62,7 +62,7 @@ const ROUNDING: f64 = 1e-9;
 const NEGLIGIBLE: f64 = 0.05;
 
 impl Features {
-    /// What the motor of a drive does.
+    /// Features of the motor of a drive.
     pub fn of(cycle: &Cycle, coefficients: &Coefficients, ratio: f64) -> Self {
         let samples = cycle.samples();
         let [mut slowest, mut fastest] = [f64::INFINITY, f64::NEG_INFINITY];
@@ -148,7 +148,7 @@ impl fmt::Display for DutyType {
             1 => write!(f, "duty type S1, constant load"),
             3 => write!(
                 f,
-                "duty type S3, at rest {:.0} % of the time, starts do not count thermally",
+                "duty type S3, at rest {:.0} % of the time, starts thermally negligible",
                 100.0 * rest
             ),
             4 | 5 => {

@@ -107,7 +107,7 @@ impl Course {
         self.stretches(until, |a, b| take(between(a, b), b.t - a.t));
     }
 
-    /// Pieces so short that constant losses stand for changing ones.
+    /// Pieces so short that their losses can be taken as constant.
     fn parts(&self, network: &Network, until: f64, mut take: impl FnMut(Losses, f64)) {
         let longest = PART * network.fastest();
         self.stretches(until, |a, b| {
@@ -131,7 +131,7 @@ impl Course {
         });
     }
 
-    /// What the cycle does to the rises, up to `until` (s).
+    /// Change of the rises by the cycle up to `until` (s).
     pub fn change(&self, network: &Network, until: f64) -> Change {
         let mut change = Change::default();
         self.parts(network, until, |losses, time| {

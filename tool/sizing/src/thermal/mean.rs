@@ -1,4 +1,4 @@
-//! Mean losses over a cycle, for motors without time constants: all that can be said of their temperature.
+//! Mean losses over a cycle, for motors without time constants.
 //!
 //! The mean is the sum over the instants with their weights in the integral over the cycle, as that of the RMS torque is: where
 //! the S1 torque loses nothing to speed the relative model's mean is (T_rms/M₀)² to the last digits. Parts:

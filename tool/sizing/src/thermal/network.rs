@@ -110,7 +110,7 @@ impl Network {
         }
     }
 
-    /// What `time` (s) of constant losses does.
+    /// Change of the rises by `time` (s) of constant losses.
     pub fn change(&self, losses: Losses, time: f64) -> Change {
         let linear = self.linear(losses);
         let m = linear.integral(time);

@@ -1,4 +1,4 @@
-//! Two ways to every figure: d'Alembert's principle against the reduced equation, work against energy.
+//! Independent checks: d'Alembert's principle against the reduced equation, work against energy.
 
 use jred::{Error, Mechanism as _, Reducible as _};
 use serde::Serialize;
@@ -18,7 +18,7 @@ const PANELS: u32 = 96;
 /// Tolerance of the work, as a share of the energy that the drive moves.
 const SHARE: f64 = 1e-11;
 
-/// What moves.
+/// The moving masses.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Inertia {
     /// J_red (or m_red): smallest, mean over the range, largest, flywheel and drive train included.
@@ -29,7 +29,7 @@ pub struct Inertia {
     pub mass: f64,
 }
 
-/// How well the two ways agree.
+/// Agreement of the two methods.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Agreement {
     /// Largest difference of the two drive torques as a share of their largest term.

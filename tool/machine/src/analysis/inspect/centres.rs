@@ -10,7 +10,7 @@ use crate::number::numerics::edge;
 /// Places that are sampled over the range.
 const SAMPLES: usize = 1440;
 
-/// Share of the largest transfer function below which a link stands still.
+/// Share of the largest transfer function below which a link is at rest.
 const STILL: f64 = 1e-9;
 
 /// Places (rad) nearer to a whole turn than this are its start.
@@ -25,7 +25,7 @@ pub struct Travel {
     pub way: &'static str,
     /// Stroke, swing, or advance over a turn of the drive (m or rad).
     pub stroke: f64,
-    /// How far a link that advances or turns on goes back in between, over a turn of the drive (m or rad).
+    /// Distance that an advancing or turning link goes back in between, over a turn of the drive (m or rad).
     pub back: f64,
     /// Dead centres: position of the drive link (rad or m), and the link's own there (m or rad).
     pub dead_centres: Vec<[f64; 2]>,
@@ -339,15 +339,15 @@ impl Travel {
         let rests = if dwells.is_empty() {
             String::new()
         } else {
-            format!("; rests from {}", dwells.join(", "))
+            format!("; dwells from {}", dwells.join(", "))
         };
         let stroke = format!("{} {}", number(own.shown(self.stroke)), own.unit());
         let way = match self.way {
             way @ ("turns" | "advances") if self.dead_centres.is_empty() => {
-                format!("{way} by {stroke} a turn")
+                format!("{way} by {stroke} per turn")
             }
             way @ ("turns" | "advances") => format!(
-                "{way} by {stroke} a turn and goes back by {} {} of it",
+                "{way} by {stroke} per turn and goes back by {} {} in between",
                 number(own.shown(self.back)),
                 own.unit()
             ),

@@ -1,4 +1,4 @@
-//! How well the mechanism transmits: the transmission index, and with it the distance from a dead point.
+//! The transmission index, a measure of the distance from a dead point.
 //!
 //! With its drive held, a mechanism is a rigid structure of *Assur groups*: smallest sets of links that are held by the links
 //! before them. For each group take the velocities that it is free to have, one after another: each link's angular velocity

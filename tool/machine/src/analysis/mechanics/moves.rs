@@ -9,7 +9,7 @@ const AT_REST: f64 = 1e-6;
 /// positions swings a little where the machine stood.
 const SWING: f64 = 1e-2;
 
-/// How often the drive link sets out, and how long the shortest move takes.
+/// Number of moves and duration of the shortest one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Moves {
     /// Number of moves that begin at rest or with a reversal.
@@ -41,7 +41,7 @@ impl Moves {
         for instant in instants {
             let now = direction(instant);
             let t = instant.t;
-            // Between two instants of opposite directions it turned round.
+            // The motion reversed between two instants of opposite directions.
             let turned = if was == 0 { at } else { 0.5 * (at + t) };
             if let Some(run) = runs.last_mut().filter(|_| was != 0) {
                 run.to = if now == was || now == 0 { t } else { turned };
@@ -64,7 +64,7 @@ impl Moves {
             .zip(instants.last().map(direction));
         if cyclic && ends.is_some_and(|(first, last)| first != 0 && first == last) {
             if runs.len() == 1 {
-                // It never stands.
+                // No instant at rest.
                 runs.clear();
             } else if let Some(last) = runs.pop()
                 && let Some(first) = runs.first_mut()

@@ -8,7 +8,7 @@ use jred::{Error, Joint, Jointed as _, Mechanism as _};
 
 use super::{Place, Set, Source};
 
-/// What the joints carry.
+/// Kinds of load in the joints.
 pub(super) struct Reactions {
     /// For each joint: whether it carries a force, and whether a moment.
     carries: Vec<[bool; 2]>,

@@ -11,12 +11,10 @@ pub enum SimulationError {
     #[error(transparent)]
     Machine(#[from] Error),
     /// The drive link has passed the end of its stroke.
-    #[error(
-        "the drive link runs against the end of its stroke, {end}, before t = {t:.6} s, at {speed}"
-    )]
+    #[error("the drive link hits the end of its stroke, {end}, before t = {t:.6} s, at {speed}")]
     #[diagnostic(help(
-        "what stops it there is not in the machine file: shorten `duration` in [simulation], start elsewhere, or give a \
-         spring or a damper as a buffer and a longer stroke"
+        "the machine file does not describe a stop: reduce `duration` in [simulation], start elsewhere, or add a \
+         spring or damper as a buffer and a longer stroke"
     ))]
     EndOfStroke {
         /// Time reached (s).
@@ -29,22 +27,22 @@ pub enum SimulationError {
     /// The integrator gave up.
     #[error("the integrator stopped at t = {t} s: {reason}")]
     #[diagnostic(help(
-        "loosen `tolerance` in [simulation], or look for a torque that grows without bound"
+        "increase `tolerance` in [simulation], or look for a torque that grows without limit"
     ))]
     Integrator {
         /// Time reached (s).
         t: f64,
-        /// What the integrator says.
+        /// Message of the integrator.
         reason: &'static str,
     },
     /// A constant slip in a contact whose power has turned round.
     #[error(
-        "at t = {t:.6} s power flows through the variator against its `power_flow`: a constant slip would give {power:.3e} W \
-         there, which no contact does"
+        "at t = {t:.6} s power flows through the variator against its `power_flow`: with a constant slip, the contact \
+         would generate {power:.3e} W, which is impossible"
     )]
     #[diagnostic(help(
-        "let the slip turn round with the load: creep = {{ slip = \"2 %\", torque = \"80 N m\" }} instead of `slip`; or turn \
-         `power_flow` round"
+        "use a slip that follows the load: creep = {{ slip = \"2 %\", torque = \"80 N m\" }} instead of `slip`; or \
+         reverse `power_flow`"
     ))]
     PowerFlowsBack {
         /// When (s).
@@ -58,11 +56,11 @@ pub enum SimulationError {
     Parted {
         /// When (s).
         t: f64,
-        /// What lets go.
+        /// The contact that separates.
         what: String,
         /// Position and speed.
         state: String,
-        /// What helps.
+        /// Cure.
         cure: String,
     },
 }
@@ -72,7 +70,9 @@ pub(super) fn stopped(t: f64, error: Stopped<Error>) -> SimulationError {
     let (x, reason) = match error {
         Stopped::Function(error) => return error.into(),
         Stopped::TooManySteps { x } => (x, "too many steps would be needed"),
-        Stopped::StepTooSmall { x } => (x, "the step has become too small for the numbers"),
+        Stopped::StepTooSmall { x } => {
+            (x, "the step size has become too small for double precision")
+        }
     };
     SimulationError::Integrator { t: t + x, reason }
 }

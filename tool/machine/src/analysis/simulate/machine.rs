@@ -17,7 +17,7 @@ pub(super) struct Plant<'a> {
     coordinate: Coordinate,
 }
 
-/// What happens at one state.
+/// Derivatives and forces at one state.
 struct Instant {
     alpha: f64,
     motor_power: f64,

@@ -24,7 +24,7 @@ pub(super) struct Plant<'a> {
     stage: Stage<'a>,
 }
 
-/// What happens at one state.
+/// Derivatives and forces at one state.
 #[derive(Clone, Copy, Default)]
 struct Instant {
     /// ω̇ of the input shaft, the output shaft and the drive link.
@@ -45,7 +45,7 @@ struct Instant {
     potential: f64,
 }
 
-/// What the mechanism and its drive train ask for at the output shaft: torque at no acceleration of the drive link, and
+/// Load of the mechanism and its drive train on the output shaft: torque at no acceleration of the drive link, and
 /// by how much each unit of it adds.
 struct Behind<'a> {
     plant: &'a Plant<'a>,

@@ -1,5 +1,4 @@
-//! Changes to a rule set: what a set says on top of the one that it is based on, and what a machine file says on top of its
-//! set.
+//! Changes to a rule set: by a set based on another one, or by a machine file.
 
 use std::fmt;
 use std::ops::Range;
@@ -8,18 +7,18 @@ use crate::model::rule::{Rule, Sense};
 
 use super::{InertiaOf, Limit, MeanTorque, Moves, RuleSet};
 
-/// What is changed.
+/// The change.
 #[derive(Clone, Debug, PartialEq)]
 pub enum What {
     /// The limit beyond which the rule is violated.
     Fail(Rule, f64),
     /// The limit beyond which a warning is given.
     Warn(Rule, f64),
-    /// The rule is not judged.
+    /// The rule is not checked.
     Off(Rule),
     /// Both limits at once, so that none of the set below remains.
     Both(Rule, Limit),
-    /// Which λ is judged.
+    /// Which λ is checked.
     InertiaOf(InertiaOf),
     /// Limits of λ by moves per minute.
     InertiaByMoves(Vec<Moves>),
@@ -43,9 +42,9 @@ impl What {
 /// One change, with its source and its place in the text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
-    /// What is changed.
+    /// The change.
     pub what: What,
-    /// Who says so.
+    /// Source.
     pub source: String,
     /// Where it is written.
     pub place: Range<usize>,
@@ -55,14 +54,14 @@ pub struct Change {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes(pub Vec<Change>);
 
-/// Two limits that cannot both be meant.
+/// Two contradictory limits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contradiction {
-    /// What is wrong.
+    /// Message.
     pub message: String,
-    /// What to do.
+    /// Cure.
     pub help: String,
-    /// The changes that make it.
+    /// The changes that contradict each other.
     pub places: Vec<Range<usize>>,
 }
 
@@ -158,8 +157,8 @@ impl RuleSet {
             let off = own().any(|change| matches!(change.what, What::Off(_)));
             if off && own().any(|change| limited(&change.what)) {
                 return Err(fault(
-                    format!("`{key}` is \"off\", and the rule has a limit as well"),
-                    "a rule that is off has no limit and no warning: leave one of the two out"
+                    format!("`{key}` is \"off\", but the rule also has a limit"),
+                    "a rule that is off has no limit and no warning: remove one of the two"
                         .to_owned(),
                 ));
             }
@@ -169,9 +168,9 @@ impl RuleSet {
             if by_moves && warn.is_some() {
                 return Err(fault(
                     format!(
-                        "`{warning}` is given, but the limits of the set go by moves per minute"
+                        "`{warning}` is given, but the limits of the set depend on the moves per minute"
                     ),
-                    format!("give `{key}` as well: it replaces the limits by moves per minute"),
+                    format!("also give `{key}`: it replaces the limits by moves per minute"),
                 ));
             }
             let (Some(fail), Some(warn)) = (fail, warn) else {
@@ -189,7 +188,7 @@ impl RuleSet {
                         shown(rule, fail)
                     ),
                     format!(
-                        "the warning must come before the limit: give both, such as {key} = {}",
+                        "the warning must be reached before the limit: give both, such as {key} = {}",
                         example(rule)
                     ),
                 ));

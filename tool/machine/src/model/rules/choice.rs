@@ -1,10 +1,10 @@
-//! Figures that a rule may be judged by, where there is more than one.
+//! Values that a rule may check, where there is a choice.
 
 use serde::Serialize;
 
 use crate::number::figures::Figures;
 
-/// Which λ of the cycle is judged. With J(φ) the inertia ratio is a curve.
+/// Which λ of the cycle is checked. With J(φ) the inertia ratio is a curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum InertiaOf {
@@ -47,10 +47,10 @@ impl InertiaOf {
     /// In words for reports.
     pub const fn words(self) -> &'static str {
         match self {
-            Self::Min => "judged at the smallest λ over the cycle",
-            Self::Mean => "judged at the mean λ over the cycle",
-            Self::Rms => "judged at the RMS of λ over the cycle",
-            Self::Max => "judged at the largest λ over the cycle",
+            Self::Min => "checked at the smallest λ over the cycle",
+            Self::Mean => "checked at the mean λ over the cycle",
+            Self::Rms => "checked at the RMS of λ over the cycle",
+            Self::Max => "checked at the largest λ over the cycle",
         }
     }
 }
@@ -89,7 +89,7 @@ impl MeanTorque {
     }
 }
 
-/// The largest inertia ratio of machines that make more than so many moves a minute.
+/// Largest inertia ratio of machines with more than a given number of moves per minute.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Moves {
     /// Moves per minute.
@@ -99,10 +99,10 @@ pub struct Moves {
     pub limit: f64,
 }
 
-/// What a rule set chooses beside its limits.
+/// Choices of a rule set other than limits.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Choices {
-    /// Which λ is judged.
+    /// Which λ is checked.
     pub inertia_ratio_of: InertiaOf,
     /// Exponent of the mean torque of a gearbox.
     pub gearbox_mean_exponent: MeanTorque,
@@ -111,8 +111,8 @@ pub struct Choices {
 }
 
 impl Choices {
-    /// What the limits of λ are multiplied with at so many moves a minute: one without a table, else the table's figure,
-    /// NaN where it holds none.
+    /// Factor of the limits of λ at a number of moves per minute: one without a table, otherwise the value of the table, NaN
+    /// if it has none.
     pub fn inertia_rating(&self, moves_per_minute: f64) -> f64 {
         let mut rating = if self.inertia_ratio_by_moves.is_empty() {
             1.0

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// A figure and the rating that it is compared with, in the same unit (SI).
+/// A value and the rating it is compared with, in the same unit (SI).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finding {
     /// The figure.
@@ -22,7 +22,7 @@ impl Finding {
         Self::new(value, rating.unwrap_or(f64::NAN))
     }
 
-    /// Nothing known: neither figure nor rating.
+    /// No data: neither value nor rating.
     pub const UNKNOWN: Self = Self::new(f64::NAN, f64::NAN);
 
     /// Whether both figure and rating are known. An infinite rating, no limit at all, is known.
@@ -31,17 +31,17 @@ impl Finding {
     }
 }
 
-/// How a rule came out.
+/// Verdict of a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// The rule set does not judge it.
+    /// Not checked by this rule set.
     Off,
-    /// The rule holds.
+    /// The rule is satisfied.
     Pass,
-    /// The rule holds, but its warning limit is passed.
+    /// The rule is satisfied, but its warning limit is exceeded.
     Warn,
-    /// The catalogue does not hold the figure that the rule needs.
+    /// The catalogue lacks data that the rule needs.
     NotChecked,
     /// The rule is violated.
     Fail,

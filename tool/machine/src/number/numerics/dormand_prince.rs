@@ -203,7 +203,7 @@ const C: [f64; STAGES] = [
     0.857_142_857_142_857_1,
     1.0,
 ];
-/// What each stage is made of.
+/// Coefficients of each stage.
 const A: [&[f64]; STAGES] = [
     &[],
     &[0.052_600_151_958_767_73],

@@ -11,9 +11,9 @@ use crate::units::kind::LENGTH;
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let lead = section.quantity("lead", &LENGTH)?;
     if lead.si.abs() < LENGTH.smallest {
-        let what = format!("is {}, with which the nut would not move", lead.shown());
+        let what = format!("is {}, so the nut would not move", lead.shown());
         return Err(lead.problem(&what, "too small").help(
-            "write the nut's travel a turn, such as \"10 mm\"; negative, if it moves along -x",
+            "write the travel of the nut per turn, such as \"10 mm\"; negative if it moves along -x",
         ));
     }
     let (screw, nut) = (section.section("screw")?, section.section("nut")?);

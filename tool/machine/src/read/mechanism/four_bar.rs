@@ -102,7 +102,7 @@ fn stopped(section: &Section, stroke: &Item, error: &Error) -> Problem {
         Error::DeadPoint { phi, .. } => stroke
             .problem(
                 &format!(
-                    "reaches a dead point at {}: coupler and rocker are in line there",
+                    "reaches a dead point at {}, where coupler and rocker are in line",
                     degrees(*phi)
                 ),
                 "goes too far",
@@ -111,13 +111,13 @@ fn stopped(section: &Section, stroke: &Item, error: &Error) -> Problem {
         Error::CannotAssemble { phi, gap, .. } => stroke
             .problem(
                 &format!(
-                    "starts at {}, where coupler and rocker do not meet: they are {:.6} m apart",
+                    "starts at {}, where coupler and rocker cannot be connected: they are {:.6} m apart",
                     degrees(*phi),
                     gap
                 ),
                 "cannot be assembled here",
             )
-            .help("start the stroke where the linkage can be assembled, or change the lengths"),
+            .help("start the stroke at a position where the linkage can be assembled, or change the lengths"),
         Error::NotPositive(..) => stroke
             .problem(
                 "is empty: its end must be larger than its start",

@@ -9,7 +9,7 @@ use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::INERTIA;
 
-/// Ratios outside can only be a slip of the pen.
+/// Ratios outside this range are refused as mistakes.
 const RATIOS: [f64; 2] = [-1e3, 1e3];
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
@@ -48,13 +48,13 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         stage.expects(&["ratio", "slip", "inertia"]);
         let item = stage.require(
             "ratio",
-            "ratio = 0.5, the second shaft's speed over the first's",
+            "ratio = 0.5, the speed of the second shaft over that of the first",
         )?;
         let ratio = item.number(RATIOS, "0.5")?;
         if ratio.abs() < 1e-3 {
             return Err(item
-                .problem(&format!("is {ratio}, too near to zero"), "nothing turns")
-                .help("the second shaft's speed over the first's; negative where the direction reverses"));
+                .problem(&format!("is {ratio}, too close to zero"), "nothing turns")
+                .help("write the speed of the second shaft over that of the first; negative if the direction reverses"));
         }
         let slip = stage.get("slip").map_or(Ok(0.0), |item| share(&item))?;
         slips |= slip > 0.0;
@@ -65,7 +65,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let flow = if slips || section.peek("power_flow").is_some() {
         flow(
             section,
-            "slip makes the driven shaft slower, whichever that is",
+            "slip always slows down the driven shaft: say which shaft drives",
         )?
     } else {
         Flow::default()

@@ -14,13 +14,13 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     if slots < Geneva::MIN_SLOTS {
         return Err(item
             .problem(&format!("is {slots}, but must be at least 3"), "too few")
-            .help("with fewer slots the pin would have to pass the wheel's axis"));
+            .help("with fewer slots the pin would have to cross the axis of the wheel"));
     }
     let centres = section.quantity("centre_distance", &LENGTH)?.positive()?;
     if let Some(radius) = section.section("crank")?.peek("length") {
         return Err(radius
-            .problem("is not known: it follows from the slots", "remove this")
-            .help("the pin enters the slots without shock at r = centre_distance·sin(180°/slots) only"));
+            .problem("is not used: it follows from the number of slots", "remove this")
+            .help("the pin enters the slots without shock only at r = centre_distance·sin(180°/slots)"));
     }
     let crank = link(&section.section("crank")?)?;
     let wheel = parts::wheel(&section.section("wheel")?)?;

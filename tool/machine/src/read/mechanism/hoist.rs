@@ -38,7 +38,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         .with_rope(4))
 }
 
-/// What hangs on a rope, and the rope.
+/// A rope and the mass that hangs on it.
 fn hanging(section: &Section) -> Result<(Rope, Link)> {
     let radius = section.quantity("radius", &LENGTH)?.positive()?;
     let falls = section

@@ -37,16 +37,16 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
                 return core(section, &error);
             };
             let what = format!(
-                "is {} from the crank's pivot, where the slot cannot follow the crank pin through a whole turn",
+                "is {} from the crank's pivot, where the slot cannot follow the crank pin through a full turn",
                 length.show(centres)
             );
             let rocks = format!(
-                "move it farther than crank + |offset| = {} for a lever that rocks",
+                "move it farther away than crank + |offset| = {} for a lever that rocks",
                 length.show(rocking)
             );
             let turns = if turning > 0.0 {
                 format!(
-                    ", or nearer than crank − |offset| = {} for one that turns",
+                    ", or closer than crank − |offset| = {} for a lever that turns",
                     length.show(turning)
                 )
             } else {

@@ -123,8 +123,13 @@ fn drive(section: &Section, joints: &[Held]) -> Result<usize> {
     )?;
     if item.is_list() {
         return Err(item
-            .problem("is a list, but a linkage has one drive", "more than one")
-            .help("name the one joint that is driven; a second drive would move a second degree of freedom"));
+            .problem(
+                "is a list, but a linkage has only one drive",
+                "more than one",
+            )
+            .help(
+                "name the one driven joint; a second drive would need a second degree of freedom",
+            ));
     }
     let drive = item.choice(&names)?;
     let Some(joint) = joints.get(drive) else {
@@ -140,7 +145,7 @@ fn drive(section: &Section, joints: &[Held]) -> Result<usize> {
                 "cannot be driven",
             )
             .at(joint.place.clone(), "this joint")
-            .help("a drive turns a revolute joint or moves a prismatic one"));
+            .help("choose a revolute or a prismatic joint as the drive"));
     }
     Ok(drive)
 }
@@ -155,7 +160,7 @@ fn domain(section: &Section, coordinate: Coordinate) -> Result<Domain> {
         if coordinate == Coordinate::Length {
             return Err(section.missing(
                 "stroke",
-                &format!("{example}: a drive that slides does so between two ends"),
+                &format!("{example}: a sliding drive needs two ends of its stroke"),
             ));
         }
         return Ok(Domain::Turn);
@@ -163,19 +168,19 @@ fn domain(section: &Section, coordinate: Coordinate) -> Result<Domain> {
     let [from, to] = item.pair([kind, kind])?;
     if to.si - from.si < kind.smallest {
         return Err(stroke_problem(&item, &from.shown(), &to.shown())
-            .help(format!("the second end is the larger one: {example}")));
+            .help(format!("the second end must be the larger one: {example}")));
     }
     Domain::stroke(from.si, to.si).map_err(|error| super::core(section, &error))
 }
 
 fn stroke_problem(item: &Item, from: &str, to: &str) -> crate::text::problem::Problem {
     item.problem(
-        &format!("runs from {from} to {to}, which is no way at all or goes backwards"),
+        &format!("runs from {from} to {to}, which is zero or backwards"),
         "check these ends",
     )
 }
 
-/// A body that turns needs a moment of inertia, be it zero.
+/// A body that turns needs a moment of inertia, even if it is zero.
 fn inertias(assembly: &Boxed, bodies: &Bodies) -> Result<()> {
     let open: Vec<usize> = (0..bodies.moving.len())
         .filter(|k| bodies.moving.get(*k).is_some_and(|body| !body.has_inertia))
@@ -196,8 +201,8 @@ fn inertias(assembly: &Boxed, bodies: &Bodies) -> Result<()> {
                     body.name
                 ))
                 .at(body.place.clone(), "`inertia` belongs here")
-                .help("add its moment of inertia about its own centre of mass, such as inertia = \"0.02 kg m^2\"; \
-                       only a body that never turns has none"));
+                .help("add the moment of inertia about its own centre of mass, such as inertia = \"0.02 kg m^2\"; only \
+                       a body that never turns needs none"));
             }
         }
     }

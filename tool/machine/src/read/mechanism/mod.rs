@@ -1,4 +1,4 @@
-//! `[mechanism]`: what moves.
+//! `[mechanism]`: the moving links.
 
 mod ball_screw;
 mod disc_cam;
@@ -48,7 +48,7 @@ const PLANETARY: &str = "planetary";
 const PARALLEL_SHAFTS: &str = "parallel-shafts";
 const REDUCED_CURVES: &str = "reduced-curves";
 
-/// A reader of one type of mechanism: it takes every key that it knows and leaves the rest to be refused.
+/// A reader of one type of mechanism; keys that it does not read are refused.
 type Reader = fn(&Section) -> Result<AnyMechanism>;
 
 /// A reader of one that names a file in the machine file's folder.

@@ -55,10 +55,10 @@ fn shaft(section: &Section, names: &[String]) -> Result<(String, (f64, Link))> {
         Some(item) => {
             let name = item.text("fan")?;
             if names.iter().any(|other| other == name) {
-                let what = format!("is \"{name}\", which another shaft is called");
+                let what = format!("is \"{name}\", the name of another shaft");
                 return Err(item
                     .problem(&what, "twice")
-                    .help("give every shaft a name of its own"));
+                    .help("give every shaft a unique name"));
             }
             name.to_owned()
         }
@@ -67,9 +67,9 @@ fn shaft(section: &Section, names: &[String]) -> Result<(String, (f64, Link))> {
     let item = section.require("ratio", "ratio = 2.5")?;
     let ratio = item.number([-LARGEST, LARGEST], "2.5")?;
     if ratio.abs() < 1.0 / LARGEST {
-        let what = format!("is {ratio}, so that the shaft could not turn");
+        let what = format!("is {ratio}, so the shaft could not turn");
         return Err(item.problem(&what, "too small").help(
-            "write speed of the drive shaft over speed of this one; negative, if it turns the other way",
+            "write the speed of the drive shaft over the speed of this shaft; negative if it turns the other way",
         ));
     }
     Ok((name, (ratio, parts::wheel(section)?)))

@@ -8,7 +8,7 @@ use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::{INERTIA, LENGTH, MASS};
 
-/// Mass and centre of mass of a link that slides without turning. The section may hold other keys that are known by now.
+/// Mass and centre of mass of a link that slides without turning. The section may contain other keys that were already read.
 pub(super) fn slide(section: &Section) -> Result<Link> {
     let mass = section.quantity("mass", &MASS)?.not_negative()?;
     let com = section.point("com", &LENGTH)?;
@@ -20,12 +20,12 @@ pub(super) fn slide(section: &Section) -> Result<Link> {
 }
 
 /// Moment of inertia and, for the forces in its bearings, mass of a part that turns about its own axis, on which its centre
-/// of mass lies. The section may hold other keys that are known by now.
+/// of mass lies. The section may contain other keys that were already read.
 pub(super) fn wheel(section: &Section) -> Result<Link> {
     let mass = mass(section)?;
     let inertia = section.quantity("inertia", &INERTIA)?.not_negative()?;
     let balanced = |key: &str| {
-        (key == "com").then_some("this part is balanced: its centre of mass lies on its axis")
+        (key == "com").then_some("this part is balanced: its centre of mass is on its axis")
     };
     section.finish_with(balanced)?;
     Link::new(mass, inertia, [0.0, 0.0]).map_err(|error| core(section, &error))

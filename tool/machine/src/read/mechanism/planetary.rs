@@ -104,12 +104,12 @@ fn teeth(section: &Section) -> Result<u32> {
 fn unfit(section: &Section, planets: &Section, error: &Error) -> Problem {
     let help = match error {
         Error::Misfit(Misfit::PlanetTeeth { .. }) => {
-            "correct one of the three numbers of teeth, or leave out `teeth` of the planets"
+            "correct one of the three numbers of teeth, or remove `teeth` of the planets"
         }
         Error::Misfit(Misfit::PlanetSpacing { .. }) => {
-            "choose another number of planets, or other numbers of teeth"
+            "change the number of planets or the numbers of teeth"
         }
-        Error::Misfit(Misfit::PlanetsOverlap { .. }) => "choose fewer planets, or smaller ones",
+        Error::Misfit(Misfit::PlanetsOverlap { .. }) => "use fewer or smaller planets",
         _ => return core(section, error),
     };
     planets

@@ -32,7 +32,7 @@ const SLOPE: usize = 6;
 /// as a constant torque.
 const CONSERVED: f64 = 1e-3;
 
-/// Less is rounding of the file's digits, and not worth a word.
+/// Smaller values are rounding errors of the file and not reported.
 const ROUNDING: f64 = 1e-6;
 
 const ANGLES: [Known; 7] = [
@@ -55,7 +55,7 @@ const LENGTHS: [Known; 7] = [
     known(&["m'", "m_red'"], &MASS_SLOPE),
 ];
 
-/// What `jred reduce` writes beside: derived from the columns that are read, or parts of them, or those of a motion.
+/// Other columns that `jred reduce` writes: derived from those that are read, or parts of them, or for a motion.
 fn of_reduce(name: &str) -> bool {
     let prefixes = [
         "J_red ", "m_red ", "T_drive", "F_drive", "T_input", "F_input",
@@ -148,7 +148,7 @@ impl Curves {
                 columns.shown(POSITION, at)
             ))
             .at(columns.place(row), "after this row")
-            .help("the curve must stay positive: give more rows where it is steep"));
+            .help("the curve must stay positive: add rows where it is steep"));
         }
         facts.extend(agreement(&positions, &columns, &curve, &inertia));
         add("inertia", Course::Inertia(curve));
@@ -165,7 +165,7 @@ impl Curves {
             add("weight", Course::potential(torque));
         }
         let why =
-            "friction takes power whichever way the machine moves, so its size is never negative";
+            "friction dissipates power in both directions of motion: its value is never negative";
         if let Some(viscous) = positions.magnitudes(VISCOUS, true, why)? {
             add(
                 "viscous",
@@ -180,7 +180,8 @@ impl Curves {
         }
         facts.push((
             "weight",
-            "that of the column T_potential or F_potential; `gravity` of the file acts on nothing here".to_owned(),
+            "from the column T_potential or F_potential; `gravity` in the file has no effect here"
+                .to_owned(),
         ));
         Ok(Self {
             drive,
@@ -190,7 +191,7 @@ impl Curves {
     }
 }
 
-/// The columns, of a drive link that turns or of one that slides: whichever its position says.
+/// The columns, for a rotating or a sliding drive link, depending on its position column.
 fn read_columns(text: &str, turn: bool) -> Result<(Columns, Coordinate)> {
     let format = |known: &'static [Known], example: &'static str| Format {
         known,
@@ -221,17 +222,19 @@ fn read_columns(text: &str, turn: bool) -> Result<(Columns, Coordinate)> {
     let columns = columns::read(text, &format)?;
     for (index, what) in [(POSITION, "position"), (INERTIA_COLUMN, "reduced inertia")] {
         if columns.get(index).is_none() {
-            return Err(Problem::new(format!("there is no column for the {what}"))
-                .at(columns::header_place(text), "header")
-                .help(format!(
-                    "the first line names columns with their units: {}",
-                    format.example
-                )));
+            return Err(
+                Problem::new(format!("the column for the {what} is missing"))
+                    .at(columns::header_place(text), "header")
+                    .help(format!(
+                        "the first line gives column names with units: {}",
+                        format.example
+                    )),
+            );
         }
     }
     if slides && turn {
         return Err(
-            Problem::new("the drive link slides, so its range is no turn")
+            Problem::new("the drive link slides, so its range is not a turn")
                 .at(columns::header_place(text), "s is a displacement")
                 .help("write range = \"stroke\" in [mechanism]"),
         );
@@ -251,8 +254,8 @@ fn agreement(
         facts.push((
             "curve through the rows",
             format!(
-                "through every second row it misses the rows between by {} % of the largest inertia; through all of them, where \
-                 they are smooth, about a sixteenth of that",
+                "a curve through every second row misses the rows between by {} % of the largest inertia; the curve \
+                 through all rows by about a sixteenth of that, where they are smooth",
                 figure(missed * 100.0)
             ),
         ));
@@ -267,7 +270,7 @@ fn agreement(
             facts.push((
                 "slope of the curve",
                 format!(
-                    "within {} % of the largest slope that the file gives",
+                    "within {} % of the largest slope in the file",
                     figure(off / most * 100.0)
                 ),
             ));
@@ -298,14 +301,14 @@ fn conserved(
             figure(size)
         ))
         .at(columns.place(0), "first row")
-        .help("what is lifted in a turn must come down in it; a torque that does not give back its work belongs in the column T"));
+        .help("a mass lifted in a turn must come down in the same turn; a torque whose work is not returned belongs in the column T"));
     }
     let mean = work / (to - from);
     for value in &mut torque {
         *value -= mean;
     }
     let fact = format!(
-        "{} N m were taken off its torque, so that it does no work over a turn",
+        "{} N m were subtracted from its torque so that its work over a turn is zero",
         figure(mean)
     );
     // The curve is linear in its values: without the mean its integral is nothing but rounding.

@@ -21,13 +21,10 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         let (Error::OutOfRange { min, max, .. }, Some(given)) = (error, &slot_angle) else {
             return core(section, &error);
         };
-        let what = format!(
-            "is {}, so that the slot would lock the crank",
-            given.shown()
-        );
+        let what = format!("is {}, so the slot would lock the crank", given.shown());
         let range = format!("{} to {}", given.show(min), given.show(max));
         given.problem(&what, "too flat").help(format!(
-            "write an angle from the direction of motion of {range}; a straight yoke has 90 deg"
+            "write an angle of {range} to the direction of motion; a straight yoke has 90 deg"
         ))
     })?;
     let joints = ["crank pivot", "pin in the slot", "guide"];

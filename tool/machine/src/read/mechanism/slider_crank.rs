@@ -35,16 +35,23 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     slider.finish_with(turns)?;
     let slider = Link::new(mass, 0.0, com).map_err(|error| core(section, &error))?;
     let offset_si = offset.as_ref().map_or(0.0, |value| value.si);
-    let mechanism = SliderCrank::new(length, rod_length.si, offset_si, branch, [crank, rod, slider]).map_err(|error| {
+    let mechanism = SliderCrank::new(
+        length,
+        rod_length.si,
+        offset_si,
+        branch,
+        [crank, rod, slider],
+    )
+    .map_err(|error| {
         let Error::CannotTurn { phi, shortest_rod } = error else {
             return core(section, &error);
         };
         let what = format!(
-            "is too short for a full turn of the crank: it no longer reaches the guide at φ = {:.2}°",
+            "is too short for a full turn of the crank: it does not reach the guide at φ = {:.2}°",
             phi.to_degrees()
         );
         rod_length.problem(&what, "too short").help(format!(
-            "make the rod longer than crank + |offset| = {}, or shorten the crank or the offset",
+            "make the rod longer than crank + |offset| = {}, or reduce the crank or the offset",
             rod_length.show(shortest_rod)
         ))
     })?;

@@ -129,7 +129,7 @@ fn what_is_wrong_is_said_with_its_cure() {
         ("3 m/", &LENGTH, "not clear", "at most one"),
         ("3 m^99", &LENGTH, "power", "from -4 to 4"),
         ("3 m^", &LENGTH, "power", "from -4 to 4"),
-        ("30 km", &LENGTH, "larger than any machine", "1 km"),
+        ("30 km", &LENGTH, "too large for any machine", "1 km"),
         ("3 bananas", &LENGTH, "\"bananas\"", "mm, m"),
     ];
     for (text, kind, message, cure) in cases {

@@ -1,4 +1,4 @@
-//! The drive that was asked for by name, and why it stands where it does.
+//! The drive requested by name, and the reason for its rank.
 
 use std::fmt::Write as _;
 
@@ -42,12 +42,12 @@ impl<'c> Asked<'c> {
         }
     }
 
-    /// Why it stands where it does: the rules that it breaks, or what the drives before it have that it has not.
+    /// The reason for its rank: the rules it violates, or a comparison with the drives ranked above it.
     pub fn place(&self, selection: &Selection) -> String {
         let all = selection.fit.len() + selection.refused.len();
         let kind = self.candidate.drive.motor.kind;
         let Some(rank) = self.rank else {
-            // The figures stand in the table of its rules.
+            // The values are in the table of its rules.
             let judged = selection.judged(&self.candidate);
             let broken = judged
                 .checks
@@ -55,16 +55,16 @@ impl<'c> Asked<'c> {
                 .filter(|check| check.verdict == Verdict::Fail);
             let broken: Vec<String> = broken.map(|c| format!("{} {}", c.rule, c.used())).collect();
             return format!(
-                "refused; used of the limits that it breaks: {}",
+                "refused; use of the limits that it violates: {}",
                 broken.join(", ")
             );
         };
         let mut words = format!(
-            "breaks no rule: rank {rank} of {} that fit, of {all} drives; ranked: {}",
+            "violates no rule: rank {rank} of {} suitable drives ({all} in total); ranked: {}",
             selection.fit.len(),
             selection.ranking(kind.vocabulary())
         );
-        // Only the default ranking goes by figures that every drive has.
+        // Only the default ranking uses values that every drive has.
         if rank > 1 && selection.ranking.is_none() {
             let before = selection.first_fit(rank - 1);
             let others = before
@@ -80,13 +80,13 @@ impl<'c> Asked<'c> {
     }
 }
 
-/// What the default ranking goes by.
+/// The values that the default ranking uses.
 fn figures(candidate: &Candidate) -> String {
     let outcome = &candidate.outcome;
     let words = candidate.drive.motor.kind.vocabulary();
     let power = candidate.drive.motor.rated_power();
     let power = power.map_or_else(
-        || "rated power not known".to_owned(),
+        || "rated power unknown".to_owned(),
         |power| format!("{} kW", significant(power / 1000.0, 3)),
     );
     let warnings = match outcome.warnings {
@@ -96,7 +96,7 @@ fn figures(candidate: &Candidate) -> String {
     };
     let most = outcome.worst_rule.map_or_else(String::new, |rule| {
         let used = significant(outcome.worst_use * 100.0, 3);
-        format!(", most of a limit: {} {used} %", rule.named(words))
+        format!(", closest limit: {} {used} %", rule.named(words))
     });
     format!("{}, {power}, {warnings}{most}", candidate.drive.name())
 }

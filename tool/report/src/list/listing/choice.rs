@@ -5,7 +5,7 @@ use miette::{Result, miette};
 use jred_sizing::catalogue::Drive;
 use jred_sizing::select::size::{Candidate, Selection};
 
-/// How much of a selection is listed.
+/// Extent of a listing.
 #[derive(Clone, Copy, Debug)]
 pub struct List {
     /// Number of ranked drives.
@@ -34,8 +34,8 @@ impl List {
     }
 }
 
-/// The drive that is to be explained: the one that `name` says; without a name the best, or, if none holds, the one that misses by
-/// least. `None` if there is no drive at all.
+/// The drive to be explained: the one called `name`, or the best one, or, if none is suitable, the closest one. `None` if
+/// there is no drive.
 ///
 /// A name has the keys of the catalogue, in capitals or not: MOTOR+GEARBOX, MOTOR or MOTOR+direct, or as tables have it, "MOTOR, direct" and
 /// "MOTOR + GEARBOX on AMPLIFIER". Without amplifier it is the first of the drives that differ in nothing else.
@@ -73,9 +73,9 @@ pub fn explained<'c>(
     });
     Err(miette!(
         help = format!(
-            "write MOTOR+GEARBOX, or MOTOR alone for a direct drive, with the keys that `jred size --all` lists{closest}"
+            "write MOTOR+GEARBOX, or MOTOR for a direct drive, with the keys that `jred size --all` lists{closest}"
         ),
-        "the catalogue has no drive \"{name}\""
+        "there is no drive \"{name}\" in the catalogue"
     ))
 }
 

@@ -1,4 +1,4 @@
-//! What one drive is made of and what would have to change, for all forms of output.
+//! Contributions to one drive and the changes it would need, for all output formats.
 
 use std::fmt::Write as _;
 
@@ -18,7 +18,7 @@ use jred_sizing::select::size::{Candidate, Selection};
 pub struct Explanation {
     /// Torque and inertia of the drive, part by part; `None` if only refused drives were asked for.
     pub contributions: Option<Breakdown>,
-    /// How far the drive may change, or what would have to change.
+    /// How far each quantity may change, or the changes it would need.
     pub change: Option<Remedies>,
     /// The same of the nearest refused drives.
     #[serde(rename = "nearest refused")]
@@ -56,7 +56,7 @@ impl Explanation {
         })
     }
 
-    /// What would have to change for one of the `nearest` refused drives.
+    /// Changes for the `nearest` refused drives.
     ///
     /// # Errors
     /// Those of the machine.
@@ -82,14 +82,15 @@ impl Explanation {
         }
         if let Some(change) = &self.change {
             let heading = if change.holds {
-                "How far it may change, one thing at a time, before a rule is broken"
+                "How far each quantity may change by itself before a rule is violated"
             } else {
-                "What would have to change, one thing at a time"
+                "What would have to change, one quantity at a time"
             };
             let _ = write!(text, "\n{heading}\n{}", remedies_text(change, duration));
         }
         if !self.nearest.is_empty() {
-            text += "\nRefused by least, and what would have to change, one thing at a time\n";
+            text +=
+                "\nClosest refused drives, and what would have to change, one quantity at a time\n";
             for refused in &self.nearest {
                 text += &remedies_text(refused, duration);
             }
@@ -137,7 +138,7 @@ fn contributions_text(breakdown: &Breakdown) -> String {
         inertias.add_row(row(share));
     }
     format!(
-        "\nWhat the motor {torque} of {} is made of [{}]; the peak is at {} s\n{}\n\n{}\n\n{inertias}\n",
+        "\nContributions to the motor {torque} of {} [{}]; the peak is at {} s\n{}\n\n{}\n\n{inertias}\n",
         breakdown.drive,
         torque.unit,
         short(breakdown.peak_time),
@@ -146,7 +147,7 @@ fn contributions_text(breakdown: &Breakdown) -> String {
     )
 }
 
-/// A drive, what it breaks, and every way out.
+/// A drive, the rules it violates, and all remedies.
 fn remedies_text(remedies: &Remedies, duration: f64) -> String {
     let mut text = format!("  {}", remedies.drive);
     let misses: Vec<String> = remedies

@@ -1,4 +1,4 @@
-//! A selection for reading.
+//! A selection as text.
 
 use comfy_table::{ColumnConstraint, ContentArrangement, Width};
 
@@ -16,7 +16,7 @@ use jred_sizing::judge::Judged;
 use jred_sizing::judge::check::Check;
 use jred_sizing::select::size::Selection;
 
-/// Widest line of what a limit is.
+/// Width of the column "limit is".
 const NOTE_WIDTH: u16 = 72;
 
 /// Duty, best drive with every rule, ranking, and the refused ones if asked for; a drive that was asked for by name instead of the
@@ -66,18 +66,18 @@ pub fn text(
         let open = match selection.partly_checked() {
             0 => String::new(),
             open => {
-                format!("; {open} of them have rules that could not be checked for want of figures")
+                format!("; not fully checked (data missing): {open}")
             }
         };
         parts.push(format!(
-            "\n{} of {all} drives break no rule{open}",
+            "\n{} of {all} drives violate no rule{open}",
             selection.fit.len()
         ));
         parts.push(ranking(list, selection, words));
     } else if let Some(nearest) = selection.refused.first() {
         let nearest = &selection.judged(nearest);
         parts.push(format!(
-            "No drive of {all} holds every rule. The one that misses by least: {}\n{}",
+            "None of {all} drives satisfies every rule. The closest one: {}\n{}",
             nearest.drive.name(),
             drive_text(nearest)
         ));
@@ -95,10 +95,10 @@ pub fn text(
         let explain = if explanation.is_some() {
             ""
         } else {
-            "; --explain says what would have to change"
+            "; --explain shows what would have to change"
         };
         parts.push(format!(
-            "{} refused; --refused lists them with their reasons{explain}",
+            "{} drives refused; --refused lists them with their reasons{explain}",
             selection.refused.len()
         ));
     }
@@ -112,10 +112,10 @@ fn asked_text(asked: &Asked, selection: &Selection) -> String {
     let best = match selection.fit.first() {
         Some(best) if asked.rank != Some(1) => format!("\nThe best drive is {}", best.drive.name()),
         Some(_) => String::new(),
-        None => "\nNo drive holds every rule".to_owned(),
+        None => "\nNo drive satisfies every rule".to_owned(),
     };
     format!(
-        "Drive asked for: {name}\n{place}\n\n{}\n{best}",
+        "Requested drive: {name}\n{place}\n\n{}\n{best}",
         drive_text(judged)
     )
 }
@@ -141,7 +141,7 @@ fn ranking(list: List, selection: &Selection, words: &Vocabulary) -> String {
 fn figures_table(rows: &[(String, Figures, f64)]) -> String {
     let mut table = text_table(&["", "min", "mean", "max", "RMS"]);
     for (name, figures, unit) in rows {
-        // What is nothing but rounding beside the largest reads as zero.
+        // Rounding errors compared with the largest value are shown as zero.
         let noise = 1e-12 * figures.peak();
         let cells = figures
             .values()
@@ -151,7 +151,7 @@ fn figures_table(rows: &[(String, Figures, f64)]) -> String {
     table.to_string()
 }
 
-/// A drive's duty and how every rule came out.
+/// Duty of a drive and the verdict of every rule.
 fn drive_text(judged: &Judged) -> String {
     let duty = &judged.duty;
     let words = judged.drive.motor.kind.vocabulary();
@@ -170,7 +170,7 @@ fn drive_text(judged: &Judged) -> String {
         ),
     ]);
     format!(
-        "{figures}\nper cycle {} J put in, {} J regenerated\n\n{}",
+        "{figures}\nper cycle: {} J supplied, {} J regenerated\n\n{}",
         rounded(duty.motoring_energy),
         rounded(duty.regenerative_energy),
         rules_table(judged)
@@ -215,13 +215,13 @@ fn rules_table(judged: &Judged) -> String {
         text += &missing.join("; ");
     }
     for assumed in &judged.assumptions {
-        text += "\nmind: ";
+        text += "\nwarning: ";
         text += assumed;
     }
     text
 }
 
-/// What is left of the limit, in percent.
+/// Margin in percent.
 pub(crate) fn margin(check: &Check) -> String {
     match check.margin() {
         Some(margin) if margin > -9.995 => format!("{:+.0} %", margin * 100.0),

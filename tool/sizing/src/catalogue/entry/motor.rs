@@ -1,4 +1,4 @@
-//! A row of motors, with what must hold within it.
+//! Reads a row of motors and checks it for consistency.
 
 use super::super::column::{Column, EFFORT, For, SPEED};
 use super::super::motor::{Brake, Motor, MotorKind, Thermal, Winding};
@@ -76,9 +76,9 @@ pub(super) fn motor(row: &mut Row) -> Read<(Motor, Option<String>)> {
         };
         row.add(row.fault(
             column,
-            &format!("is given, but its kind is {have}"),
-            "a figure of the other kind of motor",
-            format!("write \"{instead}\" into the column \"kind\", or leave this cell empty"),
+            &format!("is given, but the motor is {have}"),
+            "only for the other kind of motor",
+            format!("set the column \"kind\" to \"{instead}\", or leave this cell empty"),
         ));
     }
     row.checked()?;
@@ -118,7 +118,7 @@ pub(super) fn motor(row: &mut Row) -> Read<(Motor, Option<String>)> {
         from_maker: from_maker(row),
         source: row.text(Column::Source),
     };
-    // What figures say together is looked at only where each can be read.
+    // Values are compared with each other only if each of them can be read.
     row.checked()?;
     torque_and_speed(row, &motor, &own);
     let built_in = row.words(Column::BuiltInGearbox).map(ToOwned::to_owned);
@@ -134,7 +134,7 @@ pub(super) fn motor(row: &mut Row) -> Read<(Motor, Option<String>)> {
     Ok((motor, built_in))
 }
 
-/// What a motor cannot be judged without, and which figures cannot be below which.
+/// Checks the values that every motor needs, and the order of its ratings.
 fn torque_and_speed(row: &Row, motor: &Motor, own: &Efforts) {
     let continuous = motor.rated_torque.or(motor.standstill_torque);
     if continuous.is_none() && motor.continuous_curve.is_empty() {
@@ -160,7 +160,7 @@ fn torque_and_speed(row: &Row, motor: &Motor, own: &Efforts) {
     row.at_least(current, (Column::RatedCurrent, motor.winding.rated_current));
 }
 
-/// Points of torque over speed: the torque must not rise.
+/// Points of torque over speed; the torque must not increase.
 fn curve(row: &Row, column: Column) -> Vec<[f64; 2]> {
     let points = row.points(column, [SPEED, EFFORT]);
     let falls = points.windows(2).all(|two| match two {
@@ -170,16 +170,16 @@ fn curve(row: &Row, column: Column) -> Vec<[f64; 2]> {
     let help = match points.as_slice() {
         [] => return points,
         [_] => "give at least two points, the first at standstill",
-        [[speed, _], ..] if *speed != 0.0 => "begin with the point at standstill, speed 0",
+        [[speed, _], ..] if *speed != 0.0 => "start with the point at standstill (speed 0)",
         [[_, torque], ..] if *torque == 0.0 => "the torque at standstill must be above zero",
         _ if !falls => {
-            "the torque may not rise with the speed: check the points against the data sheet"
+            "the torque must not increase with the speed: check the points against the data sheet"
         }
         _ => return points,
     };
     row.add(row.fault(
         column,
-        "is not a falling curve from standstill on",
+        "is not a decreasing curve that starts at standstill",
         "here",
         help,
     ));

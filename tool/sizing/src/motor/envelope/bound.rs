@@ -94,7 +94,7 @@ impl Limit {
         if to > self.end() {
             return [0.0; 2];
         }
-        // Over several pieces the chord holds if no corner lies below it.
+        // Over several pieces the chord is valid if no corner lies below it.
         let covered = &pieces[place..];
         let mut least = f64::INFINITY;
         let mut bends_down = true;

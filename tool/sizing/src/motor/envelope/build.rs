@@ -1,4 +1,4 @@
-//! Which figures an envelope is made of, and what is assumed instead of those that are missing.
+//! Data that an envelope is built from, and assumptions for those that are missing.
 
 use super::circuit::Circuit;
 use super::continuous::Continuous;
@@ -10,7 +10,7 @@ use crate::motor::winding::{CurrentCurve, REFERENCE_TEMPERATURE};
 use jred_machine::model::site::Site;
 use jred_machine::units::{Sentence, Vocabulary};
 
-/// A motor's figures on their way to an envelope.
+/// Motor data from which an envelope is built.
 pub(super) struct Builder<'a> {
     motor: &'a Motor,
     /// Actual bus voltage over that of the data sheet.
@@ -21,7 +21,7 @@ pub(super) struct Builder<'a> {
     line: Option<Circuit>,
     /// Peak torque (N·m).
     peak: f64,
-    /// What the amplifier's peak current makes (N·m).
+    /// Torque at the peak current of the amplifier (N·m).
     cap: f64,
     assumptions: Vec<Sentence>,
 }
@@ -29,7 +29,7 @@ pub(super) struct Builder<'a> {
 /// A supply is of the same class as the voltage of a motor's figures up to this share: 325 V for 282 V, 680 V for 540 V.
 const VOLTAGE_CLASS: f64 = 4.0 / 3.0;
 
-/// A figure that can be reckoned with: what no motor has would overflow.
+/// Whether a value is usable: values far beyond any motor would overflow.
 fn finite(figure: Option<f64>) -> Option<f64> {
     figure.filter(|x| PLAUSIBLE.contains(x))
 }
@@ -37,12 +37,12 @@ fn finite(figure: Option<f64>) -> Option<f64> {
 /// Far beyond any motor, in SI units.
 const PLAUSIBLE: std::ops::RangeInclusive<f64> = 1e-15..=1e15;
 
-/// A figure, infinite where there is none that can be reckoned with.
+/// A value; infinite if there is no usable one.
 fn known(figure: Option<f64>) -> f64 {
     finite(figure).unwrap_or(f64::INFINITY)
 }
 
-/// The points that can be reckoned with: speeds rising, torques never rising.
+/// The usable points: increasing speeds, non-increasing torques.
 fn falling(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut kept: Vec<[f64; 2]> = Vec::with_capacity(points.len());
     for &[speed, torque] in points {
@@ -72,14 +72,14 @@ impl<'a> Builder<'a> {
         {
             peak = torques.torque(current);
             assumptions.push(|Vocabulary { torque, .. }| {
-                format!("peak {torque} not stated: that of the peak current")
+                format!("peak {torque} not given; using the {torque} at peak current")
             });
         }
         let cap = match (amplifier, torques) {
             (Some(amplifier), Some(torques)) => torques.torque(known(Some(amplifier.peak_current))),
             (Some(_), None) => {
                 assumptions.push(
-                    |Vocabulary { torque, .. }| format!("{torque} constant not stated: peak {torque} not limited by the amplifier's current"),
+                    |Vocabulary { torque, .. }| format!("{torque} constant not given; peak {torque} not limited by the amplifier's current"),
                 );
                 f64::INFINITY
             }
@@ -87,14 +87,14 @@ impl<'a> Builder<'a> {
         };
         if actual.is_some() && sheet.is_none() && line.is_none() {
             assumptions.push(|_| {
-                "bus voltage of the motor's figures not stated: they are taken at any supply"
+                "bus voltage of the motor data not given; using the data at any supply voltage"
                     .to_owned()
             });
         }
         if share > VOLTAGE_CLASS {
             assumptions.push(
-                |_| "the supply has more than 4/3 of the voltage that the motor's figures hold for: whether its insulation and its \
-                 bearings stand that is not checked".to_owned(),
+                |_| "the supply voltage is more than 4/3 of the voltage that the motor data are for; the effect on \
+                 insulation and bearings is not checked".to_owned(),
             );
         }
         Self {
@@ -108,7 +108,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// The winding's voltage line, where enough is stated and the data sheet does not state the envelope itself.
+    /// The voltage line of the winding, if enough data are given and the data sheet does not give the envelope itself.
     pub(super) fn circuit(&self) -> Option<Circuit> {
         let motor = self.motor;
         let points = !motor.peak_curve.is_empty();
@@ -123,7 +123,7 @@ impl<'a> Builder<'a> {
         let torques = self.torques?;
         let mut circuit = self.line.filter(|_| whole)?;
         let peak = self.peak.min(self.cap);
-        // The data sheet's corner says how much of the voltage the drive makes use of.
+        // The corner in the data sheet shows how much of the voltage the drive uses.
         if let Some(corner) = finite(motor.corner_speed).filter(|_| self.peak.is_finite()) {
             let current = torques.current(self.peak);
             let along = circuit.drop * current + circuit.flux * corner;
@@ -133,7 +133,7 @@ impl<'a> Builder<'a> {
         let stated = known(motor.max_speed);
         let beyond = stated.is_finite() && stated > circuit.no_load_speed() / self.share;
         circuit.weakens = beyond && circuit.reactance > 0.0 && circuit.current.is_finite();
-        // A data sheet that goes beyond what the winding explains is believed.
+        // If the data sheet exceeds what the winding explains, the data sheet is used.
         let explained = circuit.weakens || !beyond || motor.corner_speed.is_none();
         let plausible = circuit.voltage.is_finite() && circuit.no_load_speed() > 0.0;
         (explained && plausible).then_some(circuit)
@@ -155,13 +155,15 @@ impl<'a> Builder<'a> {
         let points = falling(&motor.continuous_curve);
         if motor.standstill_torque.is_none() && rated.is_finite() && points.is_empty() {
             self.assumptions.push(|Vocabulary { torque, .. }| {
-                format!("standstill {torque} not stated: the rated {torque} is taken")
+                format!("standstill {torque} not given; using the rated {torque}")
             });
         }
         if motor.rated_speed.is_none() && rated.is_finite() && points.is_empty() {
-            self.assumptions.push(
-                |Vocabulary { torque, .. }| format!("rated speed not stated: the rated {torque} is taken as S1 {torque} at every speed"),
-            );
+            self.assumptions.push(|Vocabulary { torque, .. }| {
+                format!(
+                    "rated speed not given; using the rated {torque} as S1 {torque} at every speed"
+                )
+            });
         }
         Envelope {
             max_speed: driving.end(),
@@ -177,29 +179,31 @@ impl<'a> Builder<'a> {
         let motor = self.motor;
         if motor.max_speed.is_none() {
             self.assumptions.push(|_| {
-                "maximum speed not stated: the no-load speed of the winding is taken".to_owned()
+                "maximum speed not given; using the no-load speed of the winding".to_owned()
             });
         }
         self.assumptions.push(if motor.corner_speed.is_some() {
-            |Vocabulary { torque, .. }| format!("peak {torque} at maximum speed not stated: the winding's voltage line through the corner")
+            |Vocabulary { torque, .. }| format!("peak {torque} at maximum speed not given; using the winding's voltage line through the corner")
         } else {
-            |Vocabulary { torque, .. }| format!("corner of the peak {torque} not stated: peak {torque} up to the winding's voltage line")
+            |Vocabulary { torque, .. }| format!("corner of the peak {torque} not given; using peak {torque} up to the winding's voltage line")
         });
         self.assumptions
             .push(if finite(motor.thermal.max_temperature).is_some() {
-                |_| "resistance of the winding at its highest temperature".to_owned()
+                |_| "using the winding resistance at maximum temperature".to_owned()
             } else {
                 |_| {
-                    "resistance of the winding at 20 °C: its highest temperature is not stated"
+                    "maximum winding temperature not given; using the winding resistance at 20 °C"
                         .to_owned()
                 }
             });
         match motor.winding.commutation {
             Commutation::Block => {}
             Commutation::Sine if circuit.weakens => self.assumptions.push(|_| {
-                "field weakening: the maximum speed lies beyond the no-load speed".to_owned()
+                "field weakening assumed: the maximum speed is above the no-load speed".to_owned()
             }),
-            Commutation::Sine => self.assumptions.push(|_| "no field weakening".to_owned()),
+            Commutation::Sine => self
+                .assumptions
+                .push(|_| "no field weakening assumed".to_owned()),
         }
         // The circuit's largest current is that of the peak torque, the amplifier's included.
         let end = circuit.largest_speed(known(motor.max_speed));
@@ -215,7 +219,7 @@ impl<'a> Builder<'a> {
         let last = points.last().map(|p| p[0]);
         if motor.max_speed.is_none() && last.is_none() && rated_speed.is_finite() {
             self.assumptions
-                .push(|_| "maximum speed not stated: the rated speed is taken".to_owned());
+                .push(|_| "maximum speed not given; using the rated speed".to_owned());
         }
         let stated = known(motor.max_speed.or(last).or(Some(rated_speed)));
         let mut is_assumed = false;
@@ -225,7 +229,7 @@ impl<'a> Builder<'a> {
             let corner = corner.unwrap_or_else(|| {
                 if self.peak.is_finite() && rated_speed.is_finite() {
                     self.assumptions.push(
-                        |Vocabulary { torque, .. }| format!("corner of the peak {torque} not stated: peak {torque} up to rated speed"),
+                        |Vocabulary { torque, .. }| format!("corner of the peak {torque} not given; using peak {torque} up to rated speed"),
                     );
                 }
                 rated_speed
@@ -234,7 +238,7 @@ impl<'a> Builder<'a> {
             let end = if stated > corner && self.peak.is_finite() {
                 finite(motor.torque_at_max_speed).unwrap_or_else(|| {
                     self.assumptions.push(
-                        |Vocabulary { torque, .. }| format!("peak {torque} at maximum speed not stated: straight line to the rated {torque}"),
+                        |Vocabulary { torque, .. }| format!("peak {torque} at maximum speed not given; using a straight line to the rated {torque}"),
                     );
                     rated_torque
                 })
@@ -259,22 +263,22 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// By how much the voltage moves the speeds; says so.
+    /// Factor by which the voltage changes the speeds; adds an assumption.
     fn share(&mut self, is_assumed: bool) -> f64 {
         if is_one(self.share) {
             return 1.0;
         }
         if self.share > 1.0 && is_assumed {
             self.assumptions.push(|_| {
-                "bus voltage above that of the data sheet: the assumed corner is not raised"
+                "bus voltage above that of the data sheet; the assumed corner is not raised"
                     .to_owned()
             });
             return 1.0;
         }
         self.assumptions.push(if self.line.is_some() {
-            |_| "bus voltage not that of the data sheet: the envelope's speeds moved along the winding's voltage line".to_owned()
+            |_| "bus voltage differs from the data sheet; speeds of the envelope shifted along the winding's voltage line".to_owned()
         } else {
-            |_| "bus voltage not that of the data sheet: the envelope's speeds moved in proportion to it, as resistance and voltage constant are not stated".to_owned()
+            |_| "bus voltage differs from the data sheet; speeds of the envelope scaled in proportion (resistance and voltage constant not given)".to_owned()
         });
         self.share
     }
@@ -334,7 +338,7 @@ fn through(vertices: &[[f64; 2]]) -> Limit {
     Limit::new(pieces)
 }
 
-/// The winding of a motor at a bus voltage, as far as the data sheet says.
+/// The winding of a motor at a bus voltage, as far as data are given.
 fn circuit(
     motor: &Motor,
     torques: Option<&CurrentCurve>,

@@ -141,7 +141,8 @@ impl Circuit {
         along.hypot(across)
     }
 
-    /// The largest speed (rad/s), up to `stated`, at which any current at all is possible: no torque, but held by the amplifier.
+    /// The largest speed (rad/s), up to `stated`, at which any current at all is possible: no torque, but controlled by the
+    /// amplifier.
     pub fn largest_speed(&self, stated: f64) -> f64 {
         if !self.weakens {
             return self.no_load_speed().min(stated);

@@ -1,4 +1,4 @@
-//! The S1 torque over speed, as far as the motor's heat limits it.
+//! S1 torque over speed by the thermal limit.
 
 use crate::catalogue::Motor;
 
@@ -13,7 +13,7 @@ pub(super) struct Continuous {
 }
 
 impl Continuous {
-    /// Infinite figures say that no limit is known.
+    /// Infinite values mean that no limit is known.
     pub(super) fn of(
         motor: &Motor,
         known: impl Fn(Option<f64>) -> f64,

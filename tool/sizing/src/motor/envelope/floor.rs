@@ -1,4 +1,4 @@
-//! Lower bounds of all limits together between two speeds, for those who must not promise more than the motor gives.
+//! Lower bounds of all limits between two speeds, for callers that must never exceed what the motor delivers.
 
 use super::continuous::Continuous;
 use super::{Envelope, Limit, Segment};

@@ -1,13 +1,13 @@
-//! A limit over speed as a row of pieces.
+//! A limit over speed as a sequence of pieces.
 
 use super::circuit::Circuit;
 use crate::motor::winding::CurrentCurve;
 
 /// A torque limit over the magnitude of the speed, from zero up to the largest speed; beyond that it is zero.
 ///
-/// A short row of [`Piece`]s without gaps, in rising order. Where the motor drives the limit never rises with speed; where it
-/// brakes it may, since the voltage drop of the current then helps. It may jump down from one piece to the next. An infinite
-/// value says that no limit is known.
+/// A short row of [`Piece`]s without gaps, in rising order. Where the motor drives the limit never rises with speed; where
+/// it brakes it may, since the voltage drop of the current then helps. It may jump down from one piece to the next. An
+/// infinite value means that no limit is known.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
     pieces: Box<[Piece]>,
@@ -18,11 +18,11 @@ pub struct Limit {
 pub struct Piece {
     /// Speed at which it begins (rad/s), finite.
     pub from: f64,
-    /// Speed up to which it holds, end included (rad/s); may be infinite in the last piece if it is level.
+    /// End of the piece, included (rad/s); may be infinite in the last piece if it is constant.
     pub to: f64,
-    /// What the torque is.
+    /// Form of the torque.
     pub curve: Curve,
-    /// How the curve is bent between `from` and `to`.
+    /// Curvature between `from` and `to`.
     pub shape: Shape,
 }
 
@@ -36,7 +36,7 @@ pub enum Curve {
         /// Slope (N·m·s/rad).
         slope: f64,
     },
-    /// What the winding's circuit allows.
+    /// The limit by the circuit of the winding.
     Winding {
         /// The circuit.
         circuit: Circuit,
@@ -47,14 +47,14 @@ pub enum Curve {
     },
 }
 
-/// How a curve is bent: what bounds it from below between two speeds.
+/// Curvature of a curve, which determines its lower bound between two speeds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// Straight: the chord is the curve.
     Straight,
     /// Concave: no point lies below the chord.
     Concave,
-    /// Falling or rising all along, convex or not known: no point lies below the lower end.
+    /// Monotonic, convex or unknown: no point is below the lower end.
     Monotone,
 }
 
@@ -92,7 +92,7 @@ impl Piece {
         match &self.curve {
             // Level: an infinite piece stays free of 0·∞.
             Curve::Line { start, slope } if *slope == 0.0 => *start,
-            // A line that ends at nothing may round to less.
+            // A line that ends at zero may round below it.
             Curve::Line { start, slope } => (start + slope * (speed - self.from)).max(0.0),
             Curve::Winding {
                 circuit,
@@ -169,7 +169,7 @@ impl Limit {
         let mut pieces = Vec::with_capacity(cuts.len());
         for pair in cuts.windows(2) {
             let &[from, to] = pair else { continue };
-            // A piece holds up to its end, the next from there on.
+            // A piece includes its end; the next one starts after it.
             let at = |limit: &Self| limit.pieces.iter().find(|p| p.to > from).copied();
             if let (Some(a), Some(b)) = (at(self), at(other)) {
                 lower(&a, &b, from, to, &mut pieces);
@@ -207,7 +207,7 @@ const fn is_bent(piece: &Piece) -> bool {
     !matches!(piece.shape, Shape::Straight)
 }
 
-/// Where a difference changes its sign, by halving.
+/// Bisection for a change of sign.
 fn crossings(difference: &impl Fn(f64) -> f64, from: f64, to: f64, bent: bool) -> Vec<f64> {
     // Straight lines cross once; of curves, two crossings closer than this are not told apart.
     let parts = if bent { 32 } else { 1 };

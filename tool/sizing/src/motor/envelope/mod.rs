@@ -1,4 +1,4 @@
-//! Torque-speed limits of a motor at the supply and the amplifier that it gets, in four quadrants.
+//! Torque-speed limits of a motor on a given supply and amplifier, in four quadrants.
 //!
 //! In order of preference the limit of the short-time torque comes from points (`peak_curve`), from the data sheet's corner
 //! speed and torque at the largest speed, or from the winding ([`Circuit`]). Where a figure is missing, a stated assumption
@@ -32,7 +32,7 @@ pub(crate) use segment::Segment;
 use build::Builder;
 use continuous::Continuous;
 
-/// Peak and continuous torque over speed. An infinite torque says that no limit is known.
+/// Peak and continuous torque over speed. An infinite torque means that no limit is known.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Envelope {
     driving: Limit,
@@ -49,8 +49,8 @@ impl Envelope {
         Self::at(motor, None, &Site::default())
     }
 
-    /// The envelope of a motor on an amplifier at a supply. The bus voltage is the site's, else the amplifier's, else that of
-    /// the motor's data sheet.
+    /// The envelope of a motor on an amplifier at a supply. The bus voltage is the site's, else the amplifier's, else that
+    /// of the motor's data sheet.
     pub fn at(motor: &Motor, amplifier: Option<&Amplifier>, site: &Site) -> Self {
         Builder::new(motor, amplifier, site).build()
     }
@@ -65,7 +65,7 @@ impl Envelope {
         self.capped(self.continuous.standstill, 0.0)
     }
 
-    /// What was assumed because the data sheet does not say.
+    /// Assumptions for data that are not given.
     pub fn assumptions(&self) -> Vec<String> {
         let sentences = self.assumptions.iter();
         sentences.map(|sentence| sentence(self.words)).collect()
@@ -119,7 +119,7 @@ impl Envelope {
     }
 }
 
-/// A motor's limits on one amplifier at the supply that it gets, worked out once for all drives with that pair.
+/// Limits of a motor on one amplifier at its supply, computed once for all drives with this pair.
 #[derive(Clone, Debug)]
 pub struct Prepared {
     /// Peak and continuous torque over speed.
@@ -128,7 +128,7 @@ pub struct Prepared {
     pub torques: Option<CurrentCurve>,
     /// The circuit that the envelope is made of; `None`: it comes from the data sheet's speeds and torques.
     pub circuit: Option<Circuit>,
-    /// The same on the amplifiers that the motor goes with, by their keys.
+    /// Limits of the motor on each of its amplifiers, by key.
     amplified: Box<[(String, Self)]>,
 }
 

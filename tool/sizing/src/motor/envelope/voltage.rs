@@ -7,7 +7,7 @@ use crate::motor::winding::CurrentCurve;
 /// Steps in which a smooth stretch is looked at.
 const STEPS: u32 = 128;
 
-/// What the circuit allows up to the speed `end` (rad/s), along or against the speed.
+/// Limit by the circuit up to the speed `end` (rad/s), in or against the direction of speed.
 pub(super) fn limit(circuit: &Circuit, torques: &CurrentCurve, braking: bool, end: f64) -> Limit {
     if !(end > 0.0 && end.is_finite()) {
         return Limit::new([]);
@@ -112,7 +112,7 @@ fn place(from: f64, to: f64, k: u32) -> f64 {
     }
 }
 
-/// Where a yes turns into a no or back, by halving between equal steps.
+/// Changes of a condition, by bisection between equal steps.
 fn changes(yes: &impl Fn(f64) -> bool, from: f64, to: f64) -> Vec<f64> {
     let place = |k: u32| place(from, to, k);
     let mut found = Vec::new();

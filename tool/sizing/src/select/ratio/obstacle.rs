@@ -1,4 +1,4 @@
-//! Why a motor holds every rule with no ratio at all.
+//! Why a motor satisfies the rules at no ratio.
 
 use std::convert::Infallible;
 
@@ -13,10 +13,10 @@ use jred_machine::number::rounding::significant;
 /// Parts into which a step of the tried ratios is cut where a use of a limit is least.
 const FINER: u32 = 200;
 
-/// What stands against every ratio.
+/// The obstacle at every ratio.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Obstacle {
-    /// A rule that is broken with every ratio: the least share of its limit that it uses, and the ratio with which it does.
+    /// A rule violated at every ratio: the least share of its limit, and the ratio there.
     Always {
         /// The rule; of several that which is missed by most.
         rule: Rule,
@@ -25,16 +25,16 @@ pub enum Obstacle {
         /// The ratio.
         ratio: f64,
     },
-    /// Two rules that hold with different ratios only.
+    /// Two rules that are satisfied at different ratios only.
     Apart {
         /// The rule that needs a large ratio, and the least that will do.
         least: (Rule, f64),
         /// The rule that needs a small one, and the largest that will do.
         most: (Rule, f64),
     },
-    /// No ratio holds all rules together, although each holds with some; the ratio that misses by least.
+    /// No ratio satisfies all rules together, although each is satisfied at some ratio; the closest ratio.
     Together {
-        /// The rule that is broken there.
+        /// The rule violated there.
         rule: Rule,
         /// The share of its limit.
         used: f64,
@@ -49,7 +49,7 @@ impl Obstacle {
         let shown = |x: f64| significant(x, 3);
         match *self {
             Self::Always { rule, used, ratio } => format!(
-                "{}: {} % of its limit at best, with ratio {}",
+                "{}: {} % of its limit at best, at ratio {}",
                 rule.name(),
                 shown(used * 100.0),
                 shown(ratio)
@@ -62,7 +62,7 @@ impl Obstacle {
                 shown(most.1)
             ),
             Self::Together { rule, used, ratio } => format!(
-                "not all rules at once: with ratio {}, the best, {} uses {} % of its limit",
+                "not all rules at once: at ratio {}, the best, {} uses {} % of its limit",
                 shown(ratio),
                 rule.name(),
                 shown(used * 100.0)
@@ -71,15 +71,15 @@ impl Obstacle {
     }
 }
 
-/// How one rule comes out over the ratios that are tried.
+/// Result of one rule over the ratios tried.
 struct Course {
     rule: Rule,
-    /// Of each ratio: whether the rule holds, and the share of its limit.
+    /// For each ratio: whether the rule is satisfied, and the share of its limit.
     points: Vec<(bool, f64)>,
 }
 
 impl Trial<'_> {
-    /// What stands against every ratio; `None` if one holds every rule. `best` is tried beside the others.
+    /// The obstacle; `None` if a ratio satisfies every rule. `best` is tried in addition to the grid.
     pub fn obstacle(&self, best: Option<f64>) -> Option<Obstacle> {
         let ratios = tried(best);
         let findings: Vec<Findings> = ratios.iter().map(|ratio| self.findings(*ratio)).collect();
@@ -100,7 +100,7 @@ impl Trial<'_> {
         }
         let never = courses.iter().filter(|c| c.points.iter().all(|p| !p.0));
         let never = never.map(|c| (c.rule, minimum(&ratios, |ratio| self.one(c.rule, ratio).1)));
-        // Between the tried ratios it may hold after all.
+        // Between the tried ratios it may still be satisfied.
         let never = never.filter(|(_, (_, used))| *used > 1.0);
         if let Some((rule, (ratio, used))) = never.max_by(|a, b| a.1.1.total_cmp(&b.1.1)) {
             return Some(Obstacle::Always { rule, used, ratio });
@@ -133,7 +133,7 @@ impl Trial<'_> {
         Some(Obstacle::Together { rule, used, ratio })
     }
 
-    /// Whether a rule holds, and the share of its limit; a rule that does not apply holds.
+    /// Whether a rule is satisfied, and the share of its limit; a rule that does not apply is satisfied.
     fn point(&self, rule: Rule, findings: &Findings) -> (bool, f64) {
         findings.get(rule).map_or((true, 0.0), |finding| {
             let holds = self.rules.verdict(rule, finding) != Verdict::Fail;
@@ -146,7 +146,7 @@ impl Trial<'_> {
         self.point(rule, &self.findings(ratio))
     }
 
-    /// The smallest and the largest ratio with which a rule holds.
+    /// The smallest and the largest ratio that satisfies a rule.
     fn bounds(&self, course: &Course, ratios: &[f64]) -> Option<Range> {
         let first = course.points.iter().position(|p| p.0)?;
         let last = course.points.iter().rposition(|p| p.0)?;

@@ -1,5 +1,5 @@
-//! Between which ratios a motor holds every rule of its own, as the rules themselves judge it: a gearbox of any ratio is put
-//! in front of the motor, and the places where a rule begins or ceases to hold are closed in.
+//! Ranges of ratios in which a motor satisfies its rules: a gearbox of any ratio is combined with the motor, and bisection
+//! finds the ratios at which a rule changes its verdict.
 
 use super::{Gear, Range};
 use crate::catalogue::Drive;
@@ -16,8 +16,8 @@ use jred_machine::number::numerics::edge;
 /// The ratios that are looked at.
 const LOOKED_AT: Range = [0.01, 10_000.0];
 
-/// Ratios that are tried from one end to the other, in equal ratios: neighbours differ by 2.3 %. Of ratios that hold, a range
-/// narrower than that is found if i* lies in it.
+/// Ratios that are tried from one end to the other, in equal ratios: neighbours differ by 2.3 %. A narrower suitable range
+/// is found only if it contains i*.
 const TRIED: u32 = 600;
 
 /// The ratios that are tried, rising; `best` among them.
@@ -30,14 +30,14 @@ pub(super) fn tried(best: Option<f64>) -> Vec<f64> {
     ratios
 }
 
-/// A range of ratios, and what ends it.
+/// A range of ratios, and the rules that limit it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
     /// The ratios.
     pub range: Range,
-    /// The rule that is broken below; `None`: the range goes on.
+    /// The rule that is violated below; `None`: the range continues.
     pub below: Option<Rule>,
-    /// The rule that is broken above; `None`: the range goes on.
+    /// The rule that is violated above; `None`: the range continues.
     pub above: Option<Rule>,
 }
 
@@ -46,7 +46,7 @@ pub struct Found {
 pub struct Trial<'a> {
     /// The duty.
     pub cycle: &'a Cycle,
-    /// Where the drive is to stand.
+    /// Site of the drive.
     pub site: &'a Site,
     /// The limits.
     pub rules: &'a RuleSet,
@@ -54,12 +54,12 @@ pub struct Trial<'a> {
     pub motor: &'a Motor,
     /// Its limits.
     pub prepared: &'a Prepared,
-    /// What is known of the gearbox.
+    /// Data of the gearbox.
     pub gear: Gear,
 }
 
 impl Trial<'_> {
-    /// What the rules that need no time course find with a ratio.
+    /// Findings at a ratio of the rules that need no time course.
     pub fn findings(&self, ratio: f64) -> Findings {
         let gearbox = self.gear.with_ratio(ratio);
         let drive = Drive {
@@ -73,12 +73,12 @@ impl Trial<'_> {
         findings
     }
 
-    /// The rule that is broken with a ratio; of several that of which most of the limit is used.
+    /// The rule that is violated at a ratio; of several, the one with the largest use of its limit.
     pub fn broken(&self, ratio: f64) -> Option<Rule> {
         broken(self.rules, &self.findings(ratio))
     }
 
-    /// The ranges in which no rule is broken; `best` is a ratio that is tried beside the others.
+    /// The ranges without a violation; `best` is tried in addition to the grid.
     pub fn ranges(&self, best: Option<f64>) -> Vec<Found> {
         let mut found: Vec<Found> = Vec::new();
         let mut open: Option<Found> = None;
@@ -112,7 +112,7 @@ impl Trial<'_> {
         found
     }
 
-    /// The last ratio from `inside`, where every rule holds, towards `outside`, where one is broken.
+    /// The last ratio from `inside`, where every rule is satisfied, towards `outside`, where one is violated.
     fn edge(&self, inside: f64, outside: f64) -> f64 {
         let holds = |ratio: f64| Ok::<_, std::convert::Infallible>(self.broken(ratio).is_none());
         edge(holds, inside, outside).unwrap_or(inside)

@@ -1,26 +1,25 @@
-//! Drives of one kind, those that fit or those that are refused, of which the first stand in order.
+//! Drives of one kind, suitable or refused, of which the first are sorted.
 
 use super::order::{Order, Place};
 use super::{Candidate, is_open};
 use crate::catalogue::Drive;
 
-/// So many drives are judged in full and put in order, of those that fit and of those refused; see
-/// [`Selection`](super::Selection).
+/// Number of suitable and of refused drives that are fully evaluated and sorted; see [`Selection`](super::Selection).
 pub const FIRST: usize = 64;
 
-/// So many of the smallest bounds are kept apart while drives are judged: mostly they contain the first.
+/// Number of smallest bounds kept separately while drives are checked; they usually contain the first.
 const NEAR: usize = 2 * FIRST;
 
 /// Drives of one kind.
 #[derive(Clone, Debug, Default)]
 pub struct Group<'c> {
     first: Vec<Candidate<'c>>,
-    /// Those that may be among the first, while drives are judged.
+    /// Candidates for the first ranks while drives are checked.
     near: Vec<Unranked<'c>>,
-    /// What no bound of the rest is below; none: there is no rest.
+    /// Lower bound on the rank of every drive in `rest`; `None` if `rest` is empty.
     limit: Option<Order>,
     pub(super) rest: Vec<Placed<'c>>,
-    /// How many of the rest fit, but have a rule that could not be checked.
+    /// Number of drives in `rest` that are suitable but not fully checked.
     partly_checked: usize,
 }
 
@@ -31,7 +30,7 @@ pub(super) struct Placed<'c> {
     pub(super) place: Place,
 }
 
-/// A drive that is not judged in full, and what it does not stand before.
+/// A drive that is not fully evaluated, and a lower bound on its rank.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unranked<'c> {
     pub(super) drive: Drive<'c>,
@@ -59,12 +58,12 @@ impl<'c> Group<'c> {
         }
     }
 
-    /// None so far; without allocation.
+    /// An empty group, without allocation.
     pub(super) const fn none() -> Self {
         Self::of(Vec::new())
     }
 
-    /// Adds a drive that is not judged in full, and whether it fits with a rule that could not be checked.
+    /// Adds a drive that is not fully evaluated, and whether it is suitable but not fully checked.
     pub(super) fn add(&mut self, drive: Unranked<'c>, partly_checked: bool) {
         self.partly_checked += usize::from(partly_checked);
         self.put(drive);
@@ -85,7 +84,7 @@ impl<'c> Group<'c> {
         }
     }
 
-    /// Two groups as one, of which none is in order yet.
+    /// Joins two unsorted groups.
     pub(super) fn join(&mut self, other: Self) {
         self.partly_checked += other.partly_checked;
         for drive in other.near {
@@ -95,7 +94,7 @@ impl<'c> Group<'c> {
         self.rest.extend(other.rest);
     }
 
-    /// Puts the first in order, judging only those in full whose bounds do not keep them from being among the first. Bounds of the
+    /// Sorts the first drives, evaluating fully only those whose bounds allow them to be among the first. Bounds of the
     /// rest are worked out once more if need be.
     pub(super) fn rank(
         &mut self,
@@ -121,7 +120,7 @@ impl<'c> Group<'c> {
                     .extend(self.near.drain(more..).map(|d| d.placed()));
             }
         }
-        // Beyond the limit others may stand between those that happen to be judged.
+        // Beyond the limit, drives that are not evaluated may rank between those that are.
         if let Some(limit) = self.limit {
             let known = self.first.partition_point(|c| Order::of(c) <= limit);
             self.rest.extend(self.first.drain(known..).map(|c| Placed {
@@ -133,7 +132,7 @@ impl<'c> Group<'c> {
         self.partly_checked -= first.count();
     }
 
-    /// How many there are.
+    /// Number of drives.
     pub const fn len(&self) -> usize {
         self.first.len() + self.rest.len()
     }
@@ -159,7 +158,7 @@ impl<'c> Group<'c> {
         first.chain(self.rest.iter().map(|u| u.drive))
     }
 
-    /// How many fit, but have a rule that could not be checked for want of a figure.
+    /// Number of suitable drives that are not fully checked: data missing.
     pub fn partly_checked(&self) -> usize {
         let first = self.first.iter().filter(|c| is_open(&c.outcome));
         self.partly_checked + first.count()

@@ -1,4 +1,4 @@
-//! What drives are ordered by.
+//! Sort key of drives.
 
 use super::Candidate;
 use crate::catalogue::Drive;
@@ -19,9 +19,9 @@ impl Place {
     }
 }
 
-/// What drives are ordered by: those that fit by power, warnings and the largest share of a limit used; those refused by the
-/// number of limits of zero that they pass, then by that share. Equal ones stay in the order of the catalogue, so that the
-/// result does not depend on how the work was shared out.
+/// Sort key of drives: suitable ones by power, warnings and the largest use of a limit; refused ones by the number of limits
+/// of zero that they exceed, then by the largest use. Equal ones stay in the order of the catalogue, so that the result does
+/// not depend on the division of the work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Order {
     /// Of those that fit the bits of the power, then one for a warning; of those refused the number of limits.

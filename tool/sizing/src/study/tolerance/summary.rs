@@ -1,4 +1,4 @@
-//! What the machines of a Monte Carlo study say together.
+//! Summary of a Monte Carlo study.
 
 use crate::study::cell::Cell;
 
@@ -15,7 +15,7 @@ pub struct Probability {
 }
 
 impl Probability {
-    /// Of `k` out of `n`; `None` of none.
+    /// The probability of `k` out of `n`; `None` if `n` is zero.
     pub fn new(k: u64, n: u64) -> Option<Self> {
         if n == 0 {
             return None;
@@ -53,9 +53,9 @@ pub struct Summary {
     verdict: usize,
     /// Machines.
     pub machines: u64,
-    /// Machines in which every rule holds.
+    /// Machines in which every rule is satisfied.
     pub hold: u64,
-    /// Machines in which no rule is broken, but one cannot be judged that the machine as the file says can be.
+    /// Machines without a violation, but with a rule that cannot be checked although it can be for the nominal machine.
     pub unchecked: u64,
     /// Machines that the reader refused.
     pub refused: u64,
@@ -64,7 +64,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Of rows whose verdict stands in this column, before so many rules.
+    /// For rows with the verdict in this column, followed by this number of rules.
     pub fn new(verdict: usize, rules: usize) -> Self {
         Self {
             verdict,

@@ -23,7 +23,7 @@ fn a_link_that_turns_on_and_goes_back() {
     }
     let sentence = found.sentence(Coordinate::Angle);
     assert!(
-        sentence.contains("turns by 360 deg a turn and goes back by 31.7379 deg of it"),
+        sentence.contains("turns by 360 deg per turn and goes back by 31.7379 deg in between"),
         "{sentence}"
     );
 }

@@ -1,4 +1,4 @@
-//! What designers ask of a cam's shape.
+//! Properties of the shape of a cam that designers need.
 
 use jred::cam::Extreme;
 use jred::mechanism::DiscCam;
@@ -32,9 +32,9 @@ pub(super) fn of(cam: &DiscCam) -> Vec<[String; 2]> {
     }
     if hollow.value < 0.0 {
         facts.push([
-            "smallest radius of a hollow of the profile".to_owned(),
+            "smallest radius of the concave profile".to_owned(),
             format!(
-                "{} mm at {}: cutter and grinding wheel must be smaller",
+                "{} mm at {}: cutter and grinding wheel must have a smaller radius",
                 short(-1e3 / hollow.value),
                 at(&hollow)
             ),

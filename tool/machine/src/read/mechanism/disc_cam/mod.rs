@@ -114,7 +114,7 @@ fn roller(section: &Section) -> Result<Roller> {
     let mass = section.quantity("mass", &MASS)?.not_negative()?;
     let inertia = section.quantity("inertia", &INERTIA)?.not_negative()?;
     section.finish_with(|key| {
-        (key == "com").then_some("a roller is balanced: its centre of mass lies on its axis")
+        (key == "com").then_some("a roller is balanced: its centre of mass is on its axis")
     })?;
     Roller::new(radius, mass, inertia).map_err(|error| core(&section, &error))
 }

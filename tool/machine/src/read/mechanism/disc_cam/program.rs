@@ -18,7 +18,7 @@ const POLYNOMIAL: &str = "polynomial-5";
 
 /// A segment as it is written.
 enum Written<'a> {
-    /// All that there is to know.
+    /// A complete segment.
     Known(Segment),
     /// A polynomial with [s′, s″] at its start and end, as far as given.
     Polynomial {
@@ -37,7 +37,7 @@ pub(in crate::read::mechanism) fn read(
 ) -> Result<Program> {
     let item = section.require(
         "segment",
-        &format!("{header} once for each rise = \"…\", each return = \"…\" and each dwell = \"…\""),
+        &format!("{header} once for each rise = \"…\", return = \"…\" and dwell = \"…\""),
     )?;
     let parts = item.sections(header)?;
     if parts.is_empty() || parts.len() > MAX_SEGMENTS {
@@ -83,13 +83,13 @@ fn segment<'a>(
             ))
             .at(one.key_span(), *first)
             .at(other.key_span(), *second)
-            .help("write one segment for each"));
+            .help("write a separate segment for each"));
         }
     };
     if *key == "dwell" {
         let angle = item.quantity(&ANGLE)?.positive()?;
         section.finish_with(|key| match key {
-            "angle" => Some("the angle of a dwell is written dwell = \"60 deg\""),
+            "angle" => Some("give the angle of a dwell as dwell = \"60 deg\""),
             "law" => Some("a dwell has no law"),
             _ => None,
         })?;
@@ -120,11 +120,11 @@ fn segment<'a>(
         }
     };
     section.finish_with(|key| match key {
-        "accelerate" | "decelerate" => Some("only the law \"trapezoid\" has these shares"),
+        "accelerate" | "decelerate" => Some("only the law \"trapezoid\" uses these shares"),
         "start_velocity" | "end_velocity" | "start_acceleration" | "end_acceleration" => {
-            Some("only the law \"polynomial-5\" has these ends")
+            Some("only the law \"polynomial-5\" uses these end values")
         }
-        "duration" => Some("a cam program is written over angles of the cam"),
+        "duration" => Some("a cam program is defined over the angle of the cam"),
         _ => None,
     })?;
     Ok(read)
@@ -183,7 +183,7 @@ fn resolved(parts: &[Section], written: &[Written]) -> Result<Vec<Segment>> {
                         let what = format!("needs `{key}` in {}", parts[index].title());
                         let problem = law.problem(&what, "this end is open");
                         return Err(problem.help(format!(
-                            "the neighbour, {}, does not say the velocity either: give it in one of the two",
+                            "the neighbour, {}, does not give the velocity either: give it in one of the two",
                             parts[neighbour].title()
                         )));
                     }
@@ -210,7 +210,7 @@ fn end_of(written: &Written, side: usize) -> [Option<f64>; 2] {
     }
 }
 
-/// What is wrong with the program, at its segments.
+/// Faults of the program, shown at its segments.
 fn problem(
     section: &Section,
     parts: &[Section],
@@ -245,9 +245,12 @@ fn problem(
                 .help(format!("{verb} {}", degrees((TAU - sum).abs())))
         }
         Error::Cam(CamError::NotClosed { segment, gap }) => {
-            let message = format!("after a turn of the cam the follower is {} off", shown(gap));
+            let message = format!(
+                "after a turn of the cam, the follower is {} off",
+                shown(gap)
+            );
             labelled(Problem::new(message), &|segment| shown(segment.rise)).help(format!(
-                "rises and returns must be equal: change the rise in {} by {}",
+                "rises and returns must add up to the same stroke: change the rise in {} by {}",
                 part(segment).title(),
                 shown(-gap)
             ))
@@ -266,7 +269,7 @@ fn problem(
             ))
             .at(part(segment).header(), label(from))
             .at(part(next).header(), label(to))
-            .help("put a segment with law = \"polynomial-5\" between them, which takes the velocities at its ends from its neighbours")
+            .help("put a segment with law = \"polynomial-5\" between them: it takes its end velocities from its neighbours")
         }
         _ => section.problem(error.to_string(), "in this cam program"),
     }

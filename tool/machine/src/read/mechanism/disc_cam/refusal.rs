@@ -1,4 +1,4 @@
-//! What the core finds wrong with a cam, in the words of the machine file.
+//! Errors of the core about a cam, in terms of the machine file.
 
 use jred::Error;
 use jred::cam::CamError;
@@ -8,7 +8,7 @@ use crate::text::item::Value;
 use crate::text::problem::Problem;
 use crate::text::section::Section;
 
-/// What is wrong with the cam, at the key that cures it.
+/// The fault of the cam, shown at the key that cures it.
 pub(in crate::read::mechanism) fn problem(
     section: &Section,
     follower: &Section,
@@ -28,8 +28,8 @@ pub(in crate::read::mechanism) fn problem(
         } => {
             let found = base_radius.problem(
                 &format!(
-                    "is too small: the cam is undercut at φ = {}, where the radius of curvature is {}, \
-                     but must be larger than {}",
+                    "is too small: the cam is undercut at φ = {}, where the radius of curvature is {}, but must be \
+                     greater than {}",
                     deg(phi),
                     base_radius.show(radius),
                     base_radius.show(limit)
@@ -38,11 +38,11 @@ pub(in crate::read::mechanism) fn problem(
             );
             match cure {
                 Some(least) => found.help(format!(
-                    "make the base radius larger than {}, or the rise smaller, or its angle longer",
+                    "make the base radius greater than {}, or the rise smaller, or its angle longer",
                     base_radius.show(least)
                 )),
                 None => found
-                    .help("no base radius cures it: make the rise smaller, its angle longer, or the roller smaller"),
+                    .help("no base radius is large enough: make the rise smaller, its angle longer, or the roller smaller"),
             }
         }
         CamError::Offset {
@@ -51,13 +51,13 @@ pub(in crate::read::mechanism) fn problem(
         } => base_radius
             .problem(
                 &format!(
-                    "is too small for the guide's offset of {}",
+                    "is too small for the offset of the guide, {}",
                     base_radius.show(offset)
                 ),
                 "too small",
             )
             .help(format!(
-                "make it larger than {}, or the offset smaller",
+                "make it greater than {}, or the offset smaller",
                 base_radius.show(least)
             )),
         CamError::Arm {
@@ -72,7 +72,7 @@ pub(in crate::read::mechanism) fn problem(
                 "this follower",
             )
             .help(format!(
-                "with the pivot {} from the cam's, base radius + roller radius must lie between {} and {}",
+                "with the pivot {} from the cam axis, base radius + roller radius must be between {} and {}",
                 base_radius.show(pivot_distance),
                 base_radius.show(reach[0]),
                 base_radius.show(reach[1])
@@ -89,14 +89,14 @@ pub(in crate::read::mechanism) fn problem(
                 "this follower",
             )
             .help(format!(
-                "its pivot is {} from the cam's, but must be farther than base radius + offset = {}",
+                "its pivot is {} from the cam axis, but must be farther away than base radius + offset = {}",
                 base_radius.show(pivot_distance),
                 base_radius.show(least)
             )),
         CamError::CoversPivot { phi, reach, pivot } => base_radius
             .problem(
                 &format!(
-                    "is too large: the cam reaches {} from its axis at φ = {} and covers the follower's pivot, {} away",
+                    "is too large: at φ = {1} the cam reaches {0} from its axis and covers the follower's pivot, {2} away",
                     base_radius.show(reach),
                     deg(phi),
                     base_radius.show(pivot)

@@ -1,4 +1,4 @@
-//! The bodies of a linkage: mass, approximate drawing, and the points by which joints hold them.
+//! The bodies of a linkage: mass, approximate drawing, and the points that joints connect.
 
 use std::ops::Range;
 
@@ -11,7 +11,7 @@ use crate::text::section::Section;
 use crate::units::closest;
 use crate::units::kind::{ANGLE, INERTIA, LENGTH, MASS};
 
-/// What joints call the fixed frame.
+/// Name of the fixed frame in joints.
 pub(super) const GROUND: &str = "ground";
 
 /// The most bodies of a linkage.
@@ -84,7 +84,7 @@ impl Bodies {
                     ),
                     "one too many",
                 )
-                .help("bodies that are rigidly connected are one body: add up their masses"));
+                .help("bodies that are rigidly connected are one body: add their masses"));
         }
         let mut bodies = Self {
             ground,
@@ -93,13 +93,12 @@ impl Bodies {
         for section in &sections {
             let body = drawn(section)?;
             if let Some(first) = bodies.moving.iter().find(|b| b.name == body.name) {
-                return Err(Problem::new(format!(
-                    "two bodies have the name \"{}\"",
-                    body.name
-                ))
-                .at(first.place.clone(), "the first")
-                .at(body.place, "the second")
-                .help("give each body a name of its own: joints and loads find it by the name"));
+                return Err(
+                    Problem::new(format!("two bodies have the name \"{}\"", body.name))
+                        .at(first.place.clone(), "the first")
+                        .at(body.place, "the second")
+                        .help("give each body a unique name: joints and loads refer to it by name"),
+                );
             }
             bodies.moving.push(body);
         }
@@ -131,7 +130,7 @@ impl Bodies {
             .map_or_else(String::new, |near| format!("did you mean \"{near}\"? "));
         Err(item
             .problem(
-                &format!("names \"{name}\", but there is no such body"),
+                &format!("refers to \"{name}\", but there is no such body"),
                 "unknown body",
             )
             .help(format!("{near}bodies: {}", quoted(&names))))
@@ -173,7 +172,7 @@ impl Bodies {
         };
         Err(item
             .problem(
-                &format!("names the point \"{point}\", which \"{name}\" does not have"),
+                &format!("refers to the point \"{point}\", which \"{name}\" does not have"),
                 "unknown point",
             )
             .help(format!(
@@ -215,9 +214,9 @@ fn drawn(section: &Section) -> Result<Drawn> {
     };
     section.finish_with(|key| match key {
         "length" => Some(
-            "a body has no length: give its points, such as points = { A = [\"80 mm\", \"0 mm\"] }",
+            "a body has no `length`: give its points instead, such as points = { A = [\"80 mm\", \"0 mm\"] }",
         ),
-        "at" => Some("where the body is drawn is its position"),
+        "at" => Some("use `position` for the place of the body in the drawing"),
         _ => None,
     })?;
     let link = Link::new(mass, inertia, com).map_err(|error| core(section, &error))?;
@@ -237,7 +236,7 @@ fn points(section: &Section) -> Result<Vec<Point>> {
     let point = |(name, item): (&str, Item)| {
         if name.contains('.') || name.trim().is_empty() {
             return Err(item
-                .problem("has a name that joints cannot write", "this point")
+                .problem("has a name that joints cannot use", "this point")
                 .help("joints write \"body.point\": choose a name without \".\", such as A"));
         }
         Ok(Point {

@@ -29,12 +29,12 @@ const STILL: f64 = 1e-6;
 /// Points of the profile for drawings.
 const OUTLINE: u32 = 720;
 
-/// What the file says of a cam, beside its pair.
+/// Data of a cam in the file, in addition to its pair.
 pub(super) struct Cam {
     pub(super) placed: PlacedCam,
-    /// A groove or a second cam holds the follower on both sides.
+    /// A groove or a second cam guides the follower on both sides.
     by_form: bool,
-    /// Where the axis and the follower stand in the file.
+    /// Places of the axis and the follower in the file.
     axis: Range<usize>,
     follower: Range<usize>,
 }
@@ -49,7 +49,7 @@ pub(super) fn read(
     if place >= MOST {
         return Err(section
             .problem(format!("the linkage has more than {MOST} cams"), "one too many")
-            .help("cams that press on the same follower one after the other are one cam with one program"));
+            .help("combine cams that act on the same follower one after the other into one cam with one program"));
     }
     let angle = |key| Ok(section.optional(key, &ANGLE)?.map_or(0.0, |value| value.si));
     let axis = section.require(
@@ -63,7 +63,7 @@ pub(super) fn read(
                 &format!("is on {}, which this joint moves", bodies.name(end.body)),
                 "not the body of the bearings",
             )
-            .help("name the point on the body that carries the bearings of both, mostly the ground: axis = \"ground.O\""));
+            .help("name the point on the body that carries the bearings of both, usually the ground: axis = \"ground.O\""));
     }
     let base = end.marker().with_angle(angle("axis_direction")?);
     let by_form = match section.get("closure") {
@@ -116,9 +116,9 @@ fn roller(section: &Section) -> Result<Roller> {
         "mass" | "com" => {
             Some("in a linkage the roller is part of the follower: add its mass to that body")
         }
-        "inertia" => {
-            Some("the roller's own turning is left out in a linkage; type = \"disc-cam\" has it")
-        }
+        "inertia" => Some(
+            "the rotation of the roller is neglected in a linkage; type = \"disc-cam\" includes it",
+        ),
         _ => None,
     })?;
     Roller::new(radius, 0.0, 0.0).map_err(|error| core(&section, &error))
@@ -162,7 +162,7 @@ fn stands(joint: &Held, cam: &Cam, bodies: &Bodies, frames: &[jred::Frame]) -> R
     if u.hypot(v) > allowed {
         return Err(misfit(
             &format!(
-                "the point of the cam {} lies {} mm from the axis",
+                "the point of the cam {} is {} mm from the axis",
                 bodies.name(on_cam.body),
                 mm(u.hypot(v))
             ),
@@ -194,7 +194,7 @@ fn stands(joint: &Held, cam: &Cam, bodies: &Bodies, frames: &[jred::Frame]) -> R
         if (u - offset).abs() > allowed {
             return Err(misfit(
                 &format!(
-                    "the follower {name} slides {} mm beside the cam's axis, but its `offset` is {} mm",
+                    "the follower {name} slides {} mm from the cam's axis, but its `offset` is {} mm",
                     mm(u),
                     mm(offset)
                 ),
@@ -205,10 +205,10 @@ fn stands(joint: &Held, cam: &Cam, bodies: &Bodies, frames: &[jred::Frame]) -> R
         let turn = on_follower.direction(frames).d1 - base.direction(frames).d1;
         if turn.abs() > STILL {
             return Err(misfit(
-                &format!("the follower {name} turns, but its type is that of one that translates"),
+                &format!("the follower {name} turns, but its type is for a translating follower"),
                 &cam.follower,
             )
-            .help("guide it by a prismatic joint, or give it an oscillating type"));
+            .help("guide it with a prismatic joint, or give it an oscillating type"));
         }
     }
     Ok(())

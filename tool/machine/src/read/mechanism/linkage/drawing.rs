@@ -11,7 +11,7 @@ use crate::text::problem::{Problem, Result};
 use super::bodies::Bodies;
 use super::joints::Held;
 
-/// What is known of a body.
+/// Known position and angle of a body.
 #[derive(Clone, Copy, Default)]
 struct Known {
     angle: Option<f64>,
@@ -40,11 +40,11 @@ pub(super) fn poses(
     for (body, known) in bodies.moving.iter().zip(&drawing.known) {
         if known.angle.is_none() {
             return Err(Problem::new(format!(
-                "`angle` of body \"{}\" is missing, and no guide gives it",
+                "`angle` of body \"{}\" is missing, and no guide determines it",
                 body.name
             ))
             .at(body.place.clone(), "`angle` belongs here")
-            .help("add its approximate angle in the drawing, such as angle = \"30 deg\": 10 deg more or less do no harm"));
+            .help("add its approximate angle in the drawing, such as angle = \"30 deg\"; an error of 10 deg does not matter"));
         }
     }
     drawing.origins(joints, drive);
@@ -52,11 +52,11 @@ pub(super) fn poses(
     for (body, known) in bodies.moving.iter().zip(&drawing.known) {
         let (Some(psi), Some([x, y])) = (known.angle, known.origin) else {
             return Err(Problem::new(format!(
-                "where body \"{}\" lies does not follow from its joints",
+                "the position of body \"{}\" does not follow from its joints",
                 body.name
             ))
             .at(body.place.clone(), "`position` belongs here")
-            .help("add the approximate place of its frame's origin: position = [\"120 mm\", \"40 mm\"]"));
+            .help("add the approximate position of its frame's origin: position = [\"120 mm\", \"40 mm\"]"));
         };
         poses.push(Pose { x, y, psi });
     }

@@ -34,7 +34,7 @@ pub(super) struct Held {
     pub(super) kind: &'static str,
     pub(super) pair: Pair,
     pub(super) place: Range<usize>,
-    /// Where the radii stand, of a joint that rolls.
+    /// Place of the radii of a rolling joint.
     pub(super) radii: Option<Range<usize>>,
     pub(super) cam: Option<Cam>,
 }
@@ -72,7 +72,7 @@ pub(super) fn read(section: &Section, bodies: &Bodies) -> Result<Vec<Held>> {
                 "one too many",
             )
             .help(
-                "bodies that are rigidly connected are one body: leave out the joint between them",
+                "bodies that are rigidly connected are one body: remove the joint between them",
             ));
     }
     let mut joints: Vec<Held> = Vec::with_capacity(sections.len());
@@ -84,7 +84,7 @@ pub(super) fn read(section: &Section, bodies: &Bodies) -> Result<Vec<Held>> {
                 Problem::new(format!("two joints have the name \"{}\"", joint.name))
                     .at(first.place.clone(), "the first")
                     .at(joint.place, "the second")
-                    .help("give each joint a name of its own, such as name = \"crank pin\""),
+                    .help("give each joint a unique name, such as name = \"crank pin\""),
             );
         }
         joints.push(joint);
@@ -109,7 +109,7 @@ fn joint(section: &Section, bodies: &Bodies, cams: usize) -> Result<Held> {
                 &format!("has {count} ends, but a joint connects two"),
                 "here",
             )
-            .help("a pin that holds three bodies is two joints at the same point"));
+            .help("a pin that connects three bodies is two joints at the same point"));
     };
     let ends = [bodies.end(first)?, bodies.end(second)?];
     if ends[0].body == ends[1].body {
@@ -139,8 +139,8 @@ fn joint(section: &Section, bodies: &Bodies, cams: usize) -> Result<Held> {
             "radius" => "gears and belts have radii = [\"40 mm\", \"80 mm\"], a rack has the radius of its pinion",
             "radii" | "mesh" | "carrier" => "only gears and belts have radii, only gears mesh and carrier",
             "crossed" => "only belts can be crossed",
-            "axis" | "base_radius" | "follower" | "roller" | "segment" => "only cams have it",
-            "at" => "the points that a joint connects are its ends: between = [\"crank.A\", \"rod\"]",
+            "axis" | "base_radius" | "follower" | "roller" | "segment" => "only cams use this",
+            "at" => "give the points that a joint connects as its ends: between = [\"crank.A\", \"rod\"]",
             _ => return None,
         })
     })?;
@@ -154,7 +154,7 @@ fn joint(section: &Section, bodies: &Bodies, cams: usize) -> Result<Held> {
     })
 }
 
-/// The pair, and where its radii stand.
+/// The pair, and the place of its radii.
 fn pair(
     kind: &str,
     section: &Section,
@@ -199,7 +199,7 @@ fn pair(
             let direction = section
                 .require(
                     "direction",
-                    "direction = \"0 deg\": that of the rack's pitch line on the second body",
+                    "direction = \"0 deg\": the direction of the rack's pitch line on the second body",
                 )?
                 .quantity(&ANGLE)?;
             let rack = Pair::Rack {
@@ -243,7 +243,7 @@ fn carrier(section: &Section, bodies: &Bodies, ends: [End; 2]) -> Result<Body> {
         if ends.iter().any(|end| end.body == Body::Ground) {
             return Err(section.missing(
                 "carrier",
-                "carrier = \"arm\": the ground is one of these gears, so the other one is carried by a body that turns",
+                "carrier = \"arm\": one of these gears is the ground, so a rotating body carries the other one",
             ));
         }
         return Ok(Body::Ground);
@@ -252,7 +252,10 @@ fn carrier(section: &Section, bodies: &Bodies, ends: [End; 2]) -> Result<Body> {
     if ends.iter().any(|end| end.body == carrier) {
         return Err(item
             .problem(
-                &format!("names {}, which is one of the gears", bodies.name(carrier)),
+                &format!(
+                    "refers to {}, which is one of the gears",
+                    bodies.name(carrier)
+                ),
                 "a gear",
             )
             .help("the carrier is the body that holds the bearings of both gears"));
@@ -273,7 +276,7 @@ fn meshing(section: &Section, item: &Item, radii: [f64; 2]) -> Result<[f64; 2]> 
     if (a - b).abs() <= 1e-9 * a.max(b) {
         return Err(item
             .problem(
-                "are equal, but one of two gears that mesh internally is a ring, larger than the other",
+                "are equal, but in an internal mesh one gear is a ring and larger than the other",
                 "equal radii",
             )
             .help("give the ring gear its larger pitch radius"));

@@ -1,4 +1,4 @@
-//! What the core finds wrong with a linkage, in the words of the machine file.
+//! Errors of the core about a linkage, in terms of the machine file.
 
 use jred::mechanism::{Assembly, Linkage, Pair};
 use jred::{Body, Domain, Error, Frame, Joint, mechanism::Pose};
@@ -13,7 +13,7 @@ use super::bodies::{self, Bodies};
 use super::cam;
 use super::joints::{self, Held};
 
-/// Everything that messages speak of.
+/// Data for messages.
 pub(super) struct Context<'a> {
     pub(super) section: &'a Section<'a>,
     pub(super) bodies: &'a Bodies,
@@ -24,7 +24,7 @@ pub(super) struct Context<'a> {
     pub(super) frames: &'a [Frame],
 }
 
-/// Refuses bodies without a joint, bodies that nothing connects with the ground, and any number of freedoms but one.
+/// Refuses bodies without a joint, bodies not connected to the ground, and linkages with other than one degree of freedom.
 pub(super) fn check_topology(section: &Section, bodies: &Bodies, joints: &[Held]) -> Result<()> {
     let count = bodies.moving.len();
     // Connected with the ground, found by going round as often as there are bodies.
@@ -47,9 +47,9 @@ pub(super) fn check_topology(section: &Section, bodies: &Bodies, joints: &[Held]
     for (k, body) in bodies.moving.iter().enumerate() {
         if !used.get(k).copied().unwrap_or_default() {
             return Err(
-                Problem::new(format!("body \"{}\" is in no joint", body.name))
+                Problem::new(format!("no joint connects body \"{}\"", body.name))
                     .at(body.place.clone(), "never used")
-                    .help("remove it, or add the [[mechanism.joint]] that holds it"),
+                    .help("remove it, or add the missing [[mechanism.joint]]"),
             );
         }
         if !held.get(k).copied().unwrap_or_default() {
@@ -71,9 +71,9 @@ pub(super) fn check_topology(section: &Section, bodies: &Bodies, joints: &[Held]
         .map(|joint| format!("\"{}\" {}", joint.name, joint.pair.constraints()))
         .collect();
     let cure = if freedoms > 1 {
-        "some body can still move by itself: hold it by another joint, or leave it out"
+        "some body can still move independently: add a joint, or remove the body"
     } else {
-        "some joints hold what others hold already: leave one out, or use a pin-in-slot, which takes 1, for a pin"
+        "some joints are redundant: remove one, or replace a pin by a pin-in-slot, which removes only 1 degree of freedom"
     };
     Err(section
         .problem(
@@ -82,7 +82,7 @@ pub(super) fn check_topology(section: &Section, bodies: &Bodies, joints: &[Held]
             ),
             "in this linkage",
         )
-        .help(format!("{cure}. Freedoms taken by each joint: {}", each.join(", "))))
+        .help(format!("{cure}. Degrees of freedom removed by each joint: {}", each.join(", "))))
 }
 
 impl Context<'_> {
@@ -95,14 +95,14 @@ impl Context<'_> {
                 .at_joint(
                     joint,
                     &format!(
-                        "is where the linkage changes to another branch, at {}",
+                        "is where the linkage can change to another branch, at {}",
                         self.place(phi)
                     ),
-                    "stretched or folded here",
+                    "extended or folded here",
                 )
                 .help(
-                    "two bodies come into line there and may go on either way: change the lengths, or end the stroke \
-                     before it",
+                    "two bodies come into line there and may continue either way: change the lengths, or end the \
+                     stroke before this position",
                 ),
             Error::NotClosed { link, gap } => self.not_closed(link, gap),
             Error::OverConstrained { joint, free } => self.held_twice(joint, free),
@@ -137,18 +137,18 @@ impl Context<'_> {
         self.at_joint(
             joint,
             &format!(
-                "cannot be closed: the linkage cannot be assembled at {}, this joint stays open by {size}",
+                "cannot be closed: the linkage cannot be assembled at {}, a gap of {size} remains at this joint",
                 self.place(phi)
             ),
             "stays open",
         )
         .help(format!(
-            "check the angles of {a} and {b} in the drawing, and whether their points can meet{}",
+            "check the angles of {a} and {b} in the drawing, and whether their points can coincide{}",
             self.widest_gap()
         ))
     }
 
-    /// Where the drawing itself is open.
+    /// The largest gap in the drawing.
     fn widest_gap(&self) -> String {
         let gap = |held: &Held| match held.pair {
             Pair::Joint(Joint::Revolute([a, b])) => {
@@ -164,32 +164,32 @@ impl Context<'_> {
             .max_by(|a, b| a.0.total_cmp(&b.0));
         match widest {
             Some((gap, name)) if gap > 0.0 => format!(
-                "; the widest gap in the drawing is {} mm, at \"{name}\"",
+                "; the largest gap in the drawing is {} mm, at \"{name}\"",
                 figure(gap * 1e3)
             ),
             _ => String::new(),
         }
     }
 
-    /// As many equations as coordinates, but some joints hold the same.
+    /// As many equations as coordinates, but some constraints are redundant.
     fn held_twice(&self, joint: usize, free: usize) -> Problem {
         let free = self.bodies.name(Body::Link(free));
         let what = if joint == self.drive {
-            "is driven, but the other joints leave it no freedom"
+            "is driven, but the other joints leave it no degree of freedom"
         } else {
-            "holds bodies that other joints hold already"
+            "constrains bodies that other joints already constrain"
         };
         self.at_joint(
             joint,
             &format!("{what}, while {free} can still move"),
-            "held twice",
+            "redundant",
         )
         .help(format!(
-            "leave out one of the joints between the bodies of this loop, and add one that holds {free}"
+            "remove one of the joints between the bodies of this loop, and add one that constrains {free}"
         ))
     }
 
-    /// The end of what the drive can reach.
+    /// The end of the drive's range.
     fn dead(&self, phi: f64, joint: usize) -> Problem {
         let drive = self.joints.get(self.drive).map_or("", |j| j.name.as_str());
         let problem = self.at_joint(
@@ -202,15 +202,15 @@ impl Context<'_> {
         );
         let Some([from, to]) = self.reach() else {
             return problem.help(
-                "the drawing itself stands at a dead point, or two joints hold the same: check its angles, or draw it \
-                 in another position",
+                "the drawing itself is at a dead point, or two joints impose the same constraint: check its angles, or \
+                 draw it in another position",
             );
         };
         let unit = self.coordinate.unit();
         let shown = |position: f64| (self.coordinate.shown(position) * 1e2).round() / 1e2 + 0.0;
         problem.help(format!(
-            "from the drawing the drive can move from {} {unit} to {} {unit}: give a stroke within, such as stroke = \
-             [\"{} {unit}\", \"{} {unit}\"], or change the lengths",
+            "from the drawn position the drive can move from {} {unit} to {} {unit}: give a stroke within this range, \
+             such as stroke = [\"{} {unit}\", \"{} {unit}\"], or change the lengths",
             shown(from),
             shown(to),
             figure(shown(from + 0.1 * (to - from)).round()),
@@ -218,7 +218,7 @@ impl Context<'_> {
         ))
     }
 
-    /// How far the drive can move from the drawing to either side.
+    /// Range of the drive on both sides of the drawn position.
     fn reach(&self) -> Option<[f64; 2]> {
         let drawn = self.drawn_at()?;
         let mut ends = [0.0; 2];
@@ -268,17 +268,17 @@ impl Context<'_> {
 
     fn not_closed(&self, link: usize, gap: f64) -> Problem {
         let message = format!(
-            "the linkage does not repeat: after a turn of the drive link, body {} is {} mm from where it was, or turned \
-             as much at the linkage's size",
+            "the linkage does not repeat: after a turn of the drive link, body {} is {} mm from where it was (a \
+             rotation counts as an arc at the size of the linkage)",
             self.bodies.name(Body::Link(link)),
             figure(gap * 1e3)
         );
         let problem = match self.bodies.moving.get(link) {
-            Some(body) => Problem::new(message).at(body.place.clone(), "not where it was"),
+            Some(body) => Problem::new(message).at(body.place.clone(), "not back in place"),
             None => self.section.problem(message, "in this linkage"),
         };
         problem.help(
-            "with gears the whole may repeat after several turns only: drive it over as many with `stroke`, or drive the \
+            "with gears, a linkage may repeat only after several turns: give a `stroke` over all of them, or drive the \
              slowest shaft",
         )
     }

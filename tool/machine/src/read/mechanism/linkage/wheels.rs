@@ -1,4 +1,4 @@
-//! What gears, racks and belts ask of their bearings, checked on the assembled linkage.
+//! Requirements of gears, racks and belts on their bearings, checked on the assembled linkage.
 
 use jred::mechanism::Pair;
 use jred::{Body, Domain, Frame, Marker, Mechanism};
@@ -55,7 +55,7 @@ pub(super) fn check(mechanism: &impl Mechanism, bodies: &Bodies, joints: &[Held]
                         return Err(misfit(
                             joint,
                             &format!(
-                                "the pinion has a radius of {} mm, but its centre lies {} mm from the rack's pitch line",
+                                "the pinion has a radius of {} mm, but its centre is {} mm from the rack's pitch line",
                                 figure(radius.abs() * 1e3),
                                 figure(found * 1e3)
                             ),
@@ -100,7 +100,7 @@ fn gears(
         return Err(misfit(
             joint,
             &format!(
-                "the gears' radii {} mm and {} mm ask for centres {} mm apart, but these are {} mm apart",
+                "the gears' radii {} mm and {} mm require a centre distance of {} mm, but it is {} mm",
                 figure(r_a.abs() * 1e3),
                 figure(r_b.abs() * 1e3),
                 figure(needed * 1e3),
@@ -108,7 +108,7 @@ fn gears(
             ),
         )
         .help(format!(
-            "the {} of the pitch radii is the distance of the centres: with this ratio {} mm and {} mm",
+            "the {} of the pitch radii must equal the centre distance: with this ratio, {} mm and {} mm",
             if internal { "difference" } else { "sum" },
             figure(first * 1e3),
             figure(first * ratio * 1e3)
@@ -122,7 +122,7 @@ fn gears(
             joint,
             &format!("{} does not carry both gears", bodies.name(carrier)),
         )
-        .help("the centres of both gears turn in one body: name it, such as carrier = \"arm\""));
+        .help("the centres of both gears must be fixed on one body: name it, such as carrier = \"arm\""));
     }
     Ok(())
 }
@@ -134,7 +134,7 @@ fn belt(joint: &Held, bodies: &Bodies, centres: &[Marker; 2], frames: &[Frame]) 
             let name = bodies.name(centre.body);
             return Err(
                 misfit(joint, &format!("the centre of the pulley {name} moves")).help(
-                    "a belt runs between pulleys that turn about fixed points; between moving centres use gears",
+                    "a belt needs pulleys that turn about fixed points; use gears between moving centres",
                 ),
             );
         }

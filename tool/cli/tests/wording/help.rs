@@ -1,0 +1,34 @@
+//! Help of the command and of each of its commands.
+
+use super::{Desk, compare};
+
+#[test]
+fn help_of_every_command() {
+    let desk = Desk::new();
+    compare("help", &desk.runs(&[&["-h"], &["--help"]]));
+    for command in [
+        "reduce",
+        "check",
+        "size",
+        "vary",
+        "ratio",
+        "sensitivity",
+        "tolerance",
+        "merge",
+        "bus",
+        "simulate",
+        "export",
+        "rules",
+        "split",
+    ] {
+        compare(&format!("help-{command}"), &desk.run(&[command, "--help"]));
+    }
+}
+
+/// A command that is added must be added above.
+#[test]
+fn no_command_is_left_out() {
+    use clap::CommandFactory as _;
+    let commands = jred_cli::options::Cli::command();
+    assert_eq!(commands.get_subcommands().count(), 13);
+}

@@ -1,0 +1,347 @@
+//! What is said of mistakes in machine files.
+
+use std::fmt::Write as _;
+
+use super::{Desk, compare};
+
+/// `machine` with `from` replaced by `to`, one message for each edit.
+fn mistakes(name: &str, machine: &str, command: &str, edits: &[(&str, &str)]) {
+    let original = Desk::machine(machine);
+    let mut text = String::new();
+    for (from, to) in edits {
+        assert!(original.contains(from), "{machine} has no {from:?}");
+        let desk = Desk::new()
+            .with_machines(&["load-table.csv", "reduced-curves.csv", "drive-log.csv"])
+            .with("short.csv", "Position [deg],Thrust [N]\n0,1\n10\n")
+            .with(
+                "twice.csv",
+                "Position [deg],Thrust [N],Thrust [kN]\n0,1,1\n10,1,1\n20,1,1\n",
+            )
+            .with("unknown.csv", "Position [deg],Thrst [N]\n0,1\n10,1\n20,1\n")
+            .with("bare.csv", "Position,Thrust [N]\n0,1\n10,1\n20,1\n")
+            .with("back.csv", "Position [deg],Thrust [N]\n0,1\n20,1\n10,1\n")
+            .with("word.csv", "Position [deg],Thrust [N]\n0,1\n10,one\n20,1\n")
+            .with("m.toml", original.replacen(from, to, 1));
+        let message = desk.run(&[command, "m.toml"]);
+        let (_, message) = message.split_once('\n').unwrap();
+        writeln!(text, "{} -> {}\n{message}", quoted(from), quoted(to)).unwrap();
+    }
+    compare(name, &text);
+}
+
+fn quoted(text: &str) -> String {
+    format!("`{}`", text.replace('\n', " ⏎ "))
+}
+
+#[test]
+fn quantities() {
+    let length = "length = \"30 mm\"";
+    mistakes(
+        "machine-quantities",
+        "press.toml",
+        "reduce",
+        &[
+            (length, ""),
+            (length, "length = 30"),
+            (length, "length = \"30\""),
+            (length, "length = \"30 kg\""),
+            (length, "length = \"30 bananas\""),
+            (length, "length = \"30 inch\""),
+            (length, "length = \"30 mm/s/s\""),
+            (length, "length = \"1,5 mm\""),
+            (length, "length = \"1 m + 2 m\""),
+            (length, "length = \"long\""),
+            (length, "length = \"0 mm\""),
+            (length, "length = \"1e-9 mm\""),
+            (length, "length = \"30 km\""),
+            (length, "length = nan"),
+            (length, "length = [\"30 mm\"]"),
+            (length, "length = 30 mm"),
+            (length, "length = \"30 mm\"\nlength = \"31 mm\""),
+            ("mass = \"42 kg\"", "mass = \"-42 kg\""),
+            ("com = [\"6 mm\", \"0 mm\"]", "com = [\"6 mm\"]"),
+            ("97 %", "103 %"),
+            ("duration = \"2 s\"", "duration = \"2 Hz\""),
+        ],
+    );
+}
+
+#[test]
+fn keys_and_words() {
+    mistakes(
+        "machine-keys",
+        "press.toml",
+        "reduce",
+        &[
+            ("length = \"30 mm\"", "lenght = \"30 mm\""),
+            ("offset = \"0 mm\"", "offset = \"0 mm\"\ncolour = \"red\""),
+            ("[simulation]", "[simulaton]"),
+            ("\"slider-crank\"", "\"slidercrank\""),
+            ("\"right\"", "\"up\""),
+            (
+                "driver = { radius = \"40 mm\",",
+                "driver = { diameter = \"80 mm\",",
+            ),
+            ("gravity =", "# gravity ="),
+            ("flywheel =", "efficiency = 0.9\nflywheel ="),
+            (
+                "mass = \"42 kg\"",
+                "mass = \"42 kg\"\ninertia = \"1 kg m^2\"",
+            ),
+            ("[mechanism]", "[[mechanism]]"),
+            ("[motion]", "[motion"),
+        ],
+    );
+}
+
+#[test]
+fn mechanisms() {
+    mistakes(
+        "machine-mechanisms",
+        "press.toml",
+        "reduce",
+        &[
+            ("180 mm", "25 mm"),
+            ("offset = \"0 mm\"", "offset = \"-200 mm\""),
+            ("type = \"belt\"", "type = \"ball-screw\"\nlead = \"10 mm\""),
+        ],
+    );
+    mistakes(
+        "machine-cams",
+        "cam-translating.toml",
+        "reduce",
+        &[
+            ("rise = \"30 mm\"", "rise = \"20 mm\""),
+            ("rise = \"30 mm\"", "rise = \"30 mm\"\nreturn = \"30 mm\""),
+            ("dwell = \"80 deg\"", "dwell = \"60 deg\""),
+            (
+                "dwell = \"80 deg\"",
+                "dwell = \"80 deg\"\nlaw = \"cycloidal\"",
+            ),
+            (
+                "law = \"modified-sine\"",
+                "law = \"polynomial-5\"\nend_velocity = \"20 mm/rad\"",
+            ),
+            ("base_radius = \"45 mm\"", "base_radius = \"5 mm\""),
+            ("base_radius = \"45 mm\"", "base_radius = \"20 mm\""),
+        ],
+    );
+    mistakes(
+        "machine-four-bars",
+        "four-bar.toml",
+        "reduce",
+        &[
+            ("length = \"60 mm\"", "length = \"160 mm\""),
+            (
+                "pivot = [\"210 mm\", \"-40 mm\"]",
+                "pivot = [\"210 mm\", \"-40 mm\"]\nstroke = [\"0 deg\", \"0 deg\"]",
+            ),
+            ("length = \"220 mm\"", "length = \"20 mm\""),
+        ],
+    );
+    mistakes(
+        "machine-planetary-gears",
+        "planetary.toml",
+        "reduce",
+        &[
+            ("fixed = \"ring\"", "fixed = \"sun\""),
+            ("teeth = 27", "teeth = 28"),
+            ("count = 3", "count = 4"),
+            ("count = 3", "count = 7"),
+            ("teeth = 18", "teeth = 0"),
+        ],
+    );
+    mistakes(
+        "machine-friction-drives",
+        "friction-fan.toml",
+        "reduce",
+        &[
+            ("power_flow = \"input-drives\"", ""),
+            ("slip = \"1.5 %\"", "slip = \"100 %\""),
+            ("ratio = -1.5", "ratio = 0.0"),
+        ],
+    );
+}
+
+#[test]
+fn linkages() {
+    mistakes(
+        "machine-linkages",
+        "linkage-press.toml",
+        "reduce",
+        &[
+            ("[\"crank.A\"", "[\"krank.A\""),
+            ("[\"crank.A\"", "[\"crank.X\""),
+            ("[\"ground.C\", \"rocker\"]", "[\"rocker.B\", \"rocker\"]"),
+            ("[\"ground.C\", \"rocker\"]", "[\"rocker\"]"),
+            ("name = \"coupler\"", "name = \"crank\""),
+            ("name = \"ram\"", "name = \"ground\""),
+            ("angle = \"65 deg\"", ""),
+            ("angle = \"65 deg\"", "angle = \"20 deg\""),
+            ("inertia = \"0.18 kg m^2\"", ""),
+            ("drive = \"crank bearing\"", "drive = \"crank\""),
+            ("type = \"prismatic\"", "type = \"fixed\""),
+            ("type = \"prismatic\"", "type = \"pin-in-slot\""),
+            ("direction = \"90 deg\"", ""),
+            (
+                "{ A = [\"60 mm\", \"0 mm\"] }",
+                "{ A = [\"360 mm\", \"0 mm\"] }",
+            ),
+            ("name = \"ram\" ", "length = \"1 m\"\nname = \"ram\" "),
+        ],
+    );
+}
+
+#[test]
+fn loads() {
+    let opposing = "opposing_force = \"150 N\"";
+    mistakes(
+        "machine-loads",
+        "press.toml",
+        "reduce",
+        &[
+            ("on = \"crank\"", "on = \"shaft\""),
+            ("opposing_force", "opposing_moment"),
+            (opposing, "opposing_moment = \"150 N m\""),
+            (opposing, "opposing_force = \"-150 N\""),
+            (opposing, "opposing_force = \"150 N\"\nmoment = \"1 N m\""),
+            (opposing, ""),
+            (
+                "viscous_moment = \"0.4 N m s/rad\"",
+                "opposing_force = \"3 N\"",
+            ),
+            (
+                "viscous_moment",
+                "at = [\"1 mm\", \"0 mm\"]\nviscous_moment",
+            ),
+            ("ramp = \"15 deg\"", "ramp = \"25 deg\""),
+            ("\"360 deg\"]", "\"315 deg\"]"),
+            (
+                "[[load]]",
+                "[[mechanism.spring]]\nbetween = [\"slider\", \"ground\"]\nstiffness = \"1 N/mm\"\nfree_length = \"1 m\"\n\
+                 free_angle = \"0 deg\"\n[[load]]",
+            ),
+        ],
+    );
+    let table = "table = \"load-table.csv\"";
+    mistakes(
+        "machine-load-tables",
+        "load-table.toml",
+        "reduce",
+        &[
+            (table, "table = \"none.csv\""),
+            (table, "table = \"short.csv\""),
+            (table, "table = \"twice.csv\""),
+            (table, "table = \"unknown.csv\""),
+            (table, "table = \"bare.csv\""),
+            (table, "table = \"back.csv\""),
+            (table, "table = \"word.csv\""),
+            (
+                table,
+                "table = \"load-table.csv\"\nforce = [\"1 N\", \"0 N\"]",
+            ),
+        ],
+    );
+    mistakes(
+        "machine-curves",
+        "reduced-curves.toml",
+        "reduce",
+        &[
+            ("range = \"turn\"", "range = \"stroke\""),
+            ("range = \"turn\"", ""),
+            ("file = \"reduced-curves.csv\"", "file = \"load-table.csv\""),
+            ("close_within = \"1 deg\"", ""),
+            ("smoothing = \"20 Hz\"", "smoothing = \"20 kHz\""),
+        ],
+    );
+}
+
+#[test]
+fn motions_and_rules() {
+    mistakes(
+        "machine-motions",
+        "press.toml",
+        "size",
+        &[
+            ("\"360 deg\"\nduration", "\"350 deg\"\nduration"),
+            ("dwell = \"0.1 s\"", "dwell = \"0.1 s\"\nmove = \"10 deg\""),
+            ("dwell = \"0.1 s\"", "dwell = \"0 s\""),
+            (
+                "dwell = \"0.1 s\"",
+                "dwell = \"0.1 s\"\nlaw = \"cycloidal\"",
+            ),
+            ("move = \"360 deg\"", "move = \"0 deg\""),
+            ("\"polynomial-345\"", "\"trapezoid\"\naccelerate = \"80 %\""),
+            ("\"polynomial-345\"", "\"cycloidal\"\naccelerate = \"80 %\""),
+            ("\"polynomial-345\"", "\"poly5\""),
+            (
+                "type = \"cycle\"",
+                "type = \"constant-speed\"\nspeed = \"0 rpm\"",
+            ),
+            (
+                "type = \"cycle\"",
+                "type = \"profile\"\nfile = \"turn.csv\"",
+            ),
+            ("type = \"cycle\"", "type = \"cycle\"\nduty_type = \"S4\""),
+        ],
+    );
+    let rules = |text: &'static str| ("[simulation]", text);
+    mistakes(
+        "machine-rules",
+        "press.toml",
+        "size",
+        &[
+            rules("[rules]\nset = \"generl\"\n[simulation]"),
+            rules("[rules]\nrms_torqe = 0.9\n[simulation]"),
+            rules("[rules]\nspeed = 0.9\nspeed_warning = 0.95\n[simulation]"),
+            rules("[rules]\nspeed = \"off\"\nspeed_warning = 0.95\n[simulation]"),
+            rules("[rules]\ninertia_ratio = 3\n[simulation]"),
+            rules("[duty]\ntype = \"S3\"\n[simulation]"),
+            rules("[duty]\ntype = \"S1\"\noperating_time = \"3 s\"\n[simulation]"),
+            rules("[surroundings]\nambient = \"300 degC\"\n[simulation]"),
+            rules("[surroundings]\naltitude = \"5 km\"\n[simulation]"),
+            rules("[stiffness]\n[simulation]"),
+            rules("[tool]\n[simulation]"),
+            rules("[supply]\nbus_voltage = \"565 V\"\nmains_voltage = \"400 V\"\n[simulation]"),
+            rules("[supply]\nmains_voltage = \"400 V\"\nmax_voltage = \"500 V\"\n[simulation]"),
+            rules("[supply]\nchopper_voltage = \"900 V\"\nmax_voltage = \"800 V\"\n[simulation]"),
+            rules("[tolerance]\n\"slider.mass\" = \"5\"\n[simulation]"),
+        ],
+    );
+    mistakes(
+        "machine-simulations",
+        "press.toml",
+        "simulate",
+        &[
+            ("at = \"motor\"", "at = \"motor\"\ntorque = \"3 N m\""),
+            ("[\"500 rpm\"", "[\"900 rpm\""),
+            ("output_step = \"5 ms\"", "output_step = \"5 us\""),
+            ("rotor_inertia", "tolerance = 1\nrotor_inertia"),
+            ("[simulation]", "[motion.simulation]"),
+        ],
+    );
+    mistakes(
+        "machine-variators",
+        "variator-press.toml",
+        "simulate",
+        &[
+            (
+                "creep = { slip = \"3 %\", torque = \"45 N m\" }",
+                "creep = { slip = \"3 %\", torque = \"45 N m\" }\nslip = \"2 %\"",
+            ),
+            (
+                "creep = { slip = \"3 %\", torque = \"45 N m\" }",
+                "slip = \"2 %\"",
+            ),
+            (
+                "creep = { slip = \"3 %\", torque = \"45 N m\" }",
+                "power_flow = \"input-drives\"",
+            ),
+            ("at = \"3.4 s\"", "at = \"1.6 s\""),
+            (
+                "creep = { slip = \"3 %\", torque = \"45 N m\" }",
+                "slip = \"2 %\"\npower_flow = \"output-drives\"",
+            ),
+        ],
+    );
+}

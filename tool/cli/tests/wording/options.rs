@@ -1,0 +1,158 @@
+//! What is said of wrong or contradictory options, and of files that cannot be read or written.
+
+use super::{Desk, compare};
+
+fn desk() -> Desk {
+    let press = Desk::machine("press.toml");
+    let (rest, simulation) = press.split_once("[motion]").unwrap();
+    let (_, simulation) = simulation.split_once("[simulation]").unwrap();
+    Desk::new()
+        .with("press.toml", &press)
+        .with("no-motion.toml", format!("{rest}[simulation]{simulation}"))
+        .with(
+            "no-simulation.toml",
+            press.split("[simulation]").next().unwrap(),
+        )
+        .with("empty.toml", "")
+        .with("binary.toml", [0xff_u8, 0xfe, 0, 1])
+        .with_machines(&[
+            "variator-press.toml",
+            "linear-gripper.toml",
+            "ball-screw.toml",
+        ])
+}
+
+#[test]
+fn files() {
+    compare(
+        "option-files",
+        &desk().runs(&[
+            &["reduce", "none.toml"],
+            &["reduce", "."],
+            &["reduce", "empty.toml"],
+            &["reduce", "binary.toml"],
+            &["size", "no-motion.toml"],
+            &["reduce", "no-motion.toml", "--over", "time"],
+            &["reduce", "no-motion.toml", "--reactions"],
+            &["simulate", "no-simulation.toml"],
+            &["export", "no-motion.toml", "--torque-error", "1 N m"],
+            &["ratio", "no-motion.toml"],
+            &["bus", "no-motion.toml"],
+            &["vary", "no-motion.toml", "--vary", "slider.mass=1,2kg"],
+            &["reduce", "variator-press.toml"],
+            &["size", "linear-gripper.toml"],
+            &["size", "press.toml", "--report", "none/out.html"],
+            &["size", "press.toml", "--report", "press.toml"],
+            &["size", "press.toml", "--report", "-"],
+            &["size", "press.toml", "--report", "out", "--meter", "out"],
+            &["size", "press.toml", "--catalogue", "none"],
+            &["size", "press.toml", "--motors", "."],
+            &["size", "press.toml", "--catalogue", "press.toml"],
+            &[
+                "size",
+                "press.toml",
+                "--catalogue",
+                "drives",
+                "--catalogue",
+                "drives",
+            ],
+        ]),
+    );
+}
+
+#[test]
+fn values() {
+    let size =
+        |more: &[&'static str]| [&["size", "press.toml", "--catalogue", "drives"], more].concat();
+    let export = |more: &[&'static str]| [&["export", "press.toml"], more].concat();
+    compare(
+        "option-values",
+        &desk().runs(&[
+            &size(&["--steps", "15"]),
+            &size(&["--fromat", "csv"]),
+            &size(&["--ratio", "3"]),
+            &size(&["--ratio", "5..3"]),
+            &size(&["--max-mass", "3"]),
+            &size(&["--max-price", "cheap"]),
+            &size(&["--max-price", "-3"]),
+            &size(&["--pareto", "mass"]),
+            &size(&["--pareto", "mass,beauty"]),
+            &size(&["--why", "sgmsh-15"]),
+            &size(&["--rules", "generl"]),
+            &size(&["--meter", "out.rs", "--motor", "none*"]),
+            &size(&["--gearbox", "g*", "--direct-only"]),
+            &["ratio", "press.toml", "--efficiency", "1.1"],
+            &["ratio", "press.toml", "--efficiency", "good"],
+            &["sensitivity", "press.toml", "--change", "0"],
+            &["sensitivity", "press.toml", "--drive", "none"],
+            &["vary", "press.toml", "--vary", "slider.mass"],
+            &["vary", "press.toml", "--vary", "slider.mass=1..2kg"],
+            &["vary", "press.toml", "--vary", "slider.mass=1..2mm:3"],
+            &["vary", "press.toml", "--vary", "slider.mass=0..2kg:3:log"],
+            &["vary", "press.toml", "--vary", "slider.mass=2..2kg:3"],
+            &["vary", "press.toml", "--vary", "slider.mass=1..2kg:3:lin"],
+            &["vary", "press.toml", "--vary", "slider.mas=1,2kg"],
+            &["vary", "press.toml", "--vary", "mass=1,2kg"],
+            &[
+                "vary",
+                "press.toml",
+                "--vary",
+                "slider.mass=1,2kg",
+                "--vary",
+                "slider.mass=1,2kg",
+            ],
+            &[
+                "vary",
+                "press.toml",
+                "--vary",
+                "slider.mass=1..2kg:3",
+                "--out",
+                "o",
+                "--shard",
+                "3/3",
+            ],
+            &[
+                "vary",
+                "press.toml",
+                "--vary",
+                "slider.mass=1..2kg:3",
+                "--out",
+                "o",
+                "--shard",
+                "3",
+            ],
+            &["bus", "press.toml", "--drive", "sgmsh-15a"],
+            &[
+                "bus",
+                "press.toml",
+                "--drive",
+                "1=sgmsh-15a",
+                "--drive",
+                "1=sgmsh-20a",
+            ],
+            &["bus", "press.toml", "--drive", "1=none"],
+            &["reduce", "press.toml", "--over", "time", "--speed", "3 rpm"],
+            &["reduce", "press.toml", "--speed", "3"],
+            &["reduce", "press.toml", "--speed", "3 m/s"],
+            &["rules", "generl"],
+            &export(&["--torque-error", "0.5"]),
+            &export(&["--torque-error", "-1 N m"]),
+            &export(&["--torque-error", "1 N"]),
+            &export(&["--torque-error", "1 N m", "--omega", "90 Hz"]),
+            &export(&["--torque-error", "1 N m", "--omega", "-90 rpm"]),
+            &export(&["--torque-error", "1 N m", "--reciprocal", "yes"]),
+            &export(&[
+                "--torque-error",
+                "1 N m",
+                "--type",
+                "i16",
+                "--layout",
+                "cubic",
+            ]),
+            &export(&["--max-cells", "3", "--torque-error", "1 N m"]),
+            &[
+                "split", "--ratio", "30", "--stages", "2", "--pinion", "1 kg",
+            ],
+        ]),
+    );
+}
