@@ -1,6 +1,6 @@
 //! Quantities: the units they are written in, what each kind of them is called, and how a figure is named and shown.
 //!
-//! A [`unit`] is made of words with powers; a [`quantity`] is a number with a unit, of the [`kind`] that is asked for; a
+//! A [`unit`](mod@unit) is made of words with powers; a [`quantity`] is a number with a unit, of the [`kind`] that is asked for; a
 //! [`literal`] is one of any kind. What cannot be read is a [`Fault`] with its cure. A [`Vocabulary`] says whether a figure is a torque or a
 //! force, an inertia or a mass. Nothing here knows files, machines or catalogues.
 

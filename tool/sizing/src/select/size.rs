@@ -58,7 +58,7 @@ pub struct Selection<'c> {
     pub rules: &'c RuleSet,
     /// How the drives that fit are ranked, if not by the size of their motors.
     pub ranking: Option<Sentence>,
-    /// Drives that break no rule, best first: see [`Selection::ranking`].
+    /// Drives that break no rule, best first: see [`Selection::ranking()`].
     pub fit: Group<'c>,
     /// Drives that violate a rule, closest first.
     pub refused: Group<'c>,
