@@ -14,6 +14,7 @@ pub enum Size {
 
 impl Size {
     /// Words of a whole table.
+    #[inline]
     pub(crate) const fn words(&self, cells: usize, set: Set) -> usize {
         match self {
             Self::Rows(row) => (cells + row.more) * row.pitch(set),
@@ -29,15 +30,18 @@ pub struct Row {
     pub(super) head: usize,
     /// Half-words of a curve.
     pub(super) halves: usize,
-    /// Rows are padded to a multiple of this.
-    pub(super) multiple: usize,
+    /// Rows are padded to a multiple of four words.
+    pub(super) padded: bool,
     /// Rows beyond the cells.
     pub(super) more: usize,
 }
 
 impl Row {
-    /// Words from one row to the next.
+    /// Words from one row to the next: never 0.
+    #[inline]
     pub(crate) const fn pitch(&self, set: Set) -> usize {
-        (self.head + (width(set) * self.halves).div_ceil(2)).next_multiple_of(self.multiple)
+        let words = self.head + (width(set) * self.halves).div_ceil(2);
+        // Without a division, which would have to fear a zero.
+        if self.padded { (words + 3) & !3 } else { words }
     }
 }

@@ -23,25 +23,26 @@
 
 #[allow(clippy::indexing_slicing, reason = "lengths known at compile time")]
 mod coefficient;
+mod series;
 mod sine;
 
 pub use coefficient::{Coefficient, Curve, Kind, terms};
 pub(crate) use coefficient::{in_use, means, row};
+
 pub use sine::Circular;
+
+use series::{Series, pair, size};
 
 use core::marker::PhantomData;
 
 use super::{CONSTANTS, Format, Size};
-use crate::curve::curves::{self, Set, has};
+use crate::curve::curves::{self, Set};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::{CurveValues, Shape, Table, TableError, Usage};
 use crate::{Domain, Error, Number, Outcome, Phase, Scale};
 
 /// Most harmonics of a series.
 pub const MAX_HARMONICS: u32 = 256;
-
-/// Places looked at to show the inertia positive: at first, and at most.
-const PLACES: [u32; 2] = [64, 4096];
 
 /// Harmonics, `f32` or `f64`, instead of cells: of a smooth machine that turns, a few give what takes a table of many cells.
 ///
@@ -54,25 +55,6 @@ const PLACES: [u32; 2] = [64, 4096];
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Harmonic<T>(PhantomData<T>);
 
-/// What a tick takes of a table.
-#[derive(Clone, Copy, Debug)]
-pub struct Series<'a, T> {
-    means: [T; 5],
-    rows: &'a [T],
-    /// ½·J_b·ω_b²/T_b
-    velocity: T,
-}
-
-/// All curves at one phase.
-#[derive(Clone, Copy, Debug)]
-struct Values<T> {
-    inertia: T,
-    slope: T,
-    load: T,
-    viscous: T,
-    coulomb: T,
-}
-
 impl<F: Format> Shape<F> {
     /// The shape of so many harmonics, in SI units.
     #[must_use]
@@ -83,134 +65,6 @@ impl<F: Format> Shape<F> {
             domain: Domain::Turn,
             scale: Scale::SI,
             constants: F::Constants::default(),
-        }
-    }
-}
-
-impl<'a, T: Circular> Series<'a, T> {
-    fn new(words: &'a [T], set: Set, scale: &Scale) -> Self {
-        let [zero, half, _] = T::CONSTANTS;
-        let (head, rows) = words.split_at_checked(means(set)).unwrap_or_default();
-        let mut given = head.iter().copied();
-        let means = Curve::ALL.map(|curve| {
-            let there = curve.is_in(set);
-            there.then(|| given.next()).flatten().unwrap_or(zero)
-        });
-        let velocity = half * T::from_single(scale.velocity_base());
-        Self {
-            means,
-            rows,
-            velocity,
-        }
-    }
-
-    /// Coefficients, harmonic after harmonic.
-    #[inline(always)]
-    fn rows(&self, set: Set) -> core::slice::ChunksExact<'a, T> {
-        // Without terms there is nothing to divide.
-        self.rows.chunks_exact(row(set).max(1))
-    }
-
-    #[inline(always)]
-    fn at(&self, set: Set, phase: Phase) -> Values<T> {
-        let [zero, _, one] = T::CONSTANTS;
-        let (sin, cos) = T::sin_cos_of(phase);
-        let (mut s, mut c, mut order) = (sin, cos, one);
-        let [mut inertia, mut load, mut viscous, mut coulomb, constant] = self.means;
-        let mut slope = zero;
-        let mut sums = [zero; 4];
-        for row in self.rows(set) {
-            let mut words = row.iter().copied();
-            let mut next = |curve| pair(&mut words, set, curve);
-            let of_inertia = next(0);
-            slope = match of_inertia {
-                [Some(a), Some(b)] => slope + order * (b * c - a * s),
-                [Some(a), None] => slope - order * (a * s),
-                [None, Some(b)] => slope + order * (b * c),
-                [None, None] => slope,
-            };
-            let wave = [c, s];
-            let [j, l, v, m] = &mut sums;
-            add(j, of_inertia, wave);
-            add(l, next(1), wave);
-            add(v, next(2), wave);
-            add(m, next(3), wave);
-            (s, c) = (s * cos + c * sin, c * cos - s * sin);
-            order = order + one;
-        }
-        let [j, l, v, m] = sums;
-        inertia = inertia + j;
-        load = load + l;
-        viscous = viscous + v;
-        coulomb = size(coulomb + m) + constant;
-        Values {
-            inertia,
-            slope,
-            load,
-            viscous,
-            coulomb,
-        }
-    }
-
-    /// ½·J′·ω² − load + b·ω + c·sgn ω, of the curves that the machine has; sgn 0 = 0.
-    #[inline(always)]
-    fn resisting(&self, values: &Values<T>, set: Set, omega: T) -> T {
-        let [zero, ..] = T::CONSTANTS;
-        let mut sum = self.velocity * values.slope * (omega * omega);
-        if Curve::Load.is_in(set) {
-            sum = sum - values.load;
-        }
-        if Curve::Viscous.is_in(set) {
-            sum = sum + values.viscous * omega;
-        }
-        if Curve::Coulomb.is_in(set) || Curve::Constant.is_in(set) {
-            if omega > zero {
-                sum = sum + values.coulomb;
-            } else if omega < zero {
-                sum = sum - values.coulomb;
-            }
-        }
-        sum
-    }
-
-    /// Shows J positive everywhere: at 64 places its least value must exceed what J″ can take off between two of them,
-    /// h²/8·Σ k²·(|aₖ| + |bₖ|), and the rounding; else 128, up to 4096 places are looked at.
-    fn check_inertia(&self, set: Set) -> Result<(), TableError> {
-        let [zero, half, one] = T::CONSTANTS;
-        let [mean, ..] = self.means;
-        let (mut rounding, mut curvature, mut order) = (size(mean), zero, one);
-        for row in self.rows(set) {
-            let [a, b] = pair(&mut row.iter().copied(), set, 0);
-            let amplitude = size(a.unwrap_or(zero)) + size(b.unwrap_or(zero));
-            rounding = rounding + order * amplitude;
-            curvature = curvature + order * order * amplitude;
-            order = order + one;
-        }
-        rounding = rounding * T::ROUNDINGS;
-        let [first, last] = PLACES;
-        // (2π/places)²/8
-        let mut share = T::from_f64(4.934_802_200_544_679 / (64.0 * 64.0));
-        let mut places = first;
-        loop {
-            let (mut least, mut place) = (T::from_f64(1e38), Phase::default());
-            for k in 0..places {
-                let phase = Phase::from_bits(k * (u32::MAX / places + 1));
-                let inertia = self.at(set, phase).inertia;
-                if inertia <= zero {
-                    return Err(TableError::NoInertiaAt { phase });
-                }
-                if inertia < least {
-                    (least, place) = (inertia, phase);
-                }
-            }
-            if least > curvature * share + rounding {
-                return Ok(());
-            }
-            if places >= last {
-                return Err(TableError::InertiaNotShown { phase: place });
-            }
-            places *= 2;
-            share = share * half * half;
         }
     }
 }
@@ -256,40 +110,6 @@ fn usage<T: Circular>(series: &Series<'_, T>, set: Set) -> Usage {
         coulomb: coulomb + constant,
         torque: inertia + velocity + load + viscous + coulomb + constant,
     }
-}
-
-#[inline(always)]
-fn size<T: Circular>(x: T) -> T {
-    let [zero, ..] = T::CONSTANTS;
-    if x < zero { -x } else { x }
-}
-
-/// The next coefficients of a curve, [cosine, sine], where it has them.
-#[inline(always)]
-fn pair<T>(words: &mut impl Iterator<Item = T>, set: Set, curve: u8) -> [Option<T>; 2] {
-    let used = in_use(set);
-    let a = if has(used, terms::INERTIA_COS << (2 * curve)) {
-        words.next()
-    } else {
-        None
-    };
-    let b = if has(used, terms::INERTIA_SIN << (2 * curve)) {
-        words.next()
-    } else {
-        None
-    };
-    [a, b]
-}
-
-/// `sum` + a·c + b·s of the coefficients there are: a zero times an angle is not left out by the compiler.
-#[inline(always)]
-fn add<T: Circular>(sum: &mut T, [a, b]: [Option<T>; 2], [c, s]: [T; 2]) {
-    *sum = match (a, b) {
-        (Some(a), Some(b)) => *sum + (a * c + b * s),
-        (Some(a), None) => *sum + a * c,
-        (None, Some(b)) => *sum + b * s,
-        (None, None) => *sum,
-    };
 }
 
 macro_rules! harmonic {

@@ -44,7 +44,7 @@ fn constant<L: Layout>(table: &Table<'_, L>, role: Role) -> f32 {
 
 /// Rows beyond the cells repeat the first ones.
 fn check_closed<L: Layout>(table: &Table<'_, L>) -> Result<(), TableError> {
-    let pitch = <L as Layout>::ROW.pitch(table.set());
+    let pitch = <L as Layout>::ROW.pitch(table.set()).max(1);
     let end = table.cells() as usize * pitch;
     for k in 0..<L as Layout>::ROW.more * pitch {
         if table.words().get(k) != table.words().get(end + k) {

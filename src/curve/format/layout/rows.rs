@@ -28,7 +28,7 @@ impl<S: Scalar> Layout for Cubic<S> {
     const ROW: Row = Row {
         head: 0,
         halves: 8,
-        multiple: 1,
+        padded: false,
         more: 0,
     };
     const DEGREE: u8 = 3;
@@ -74,7 +74,7 @@ impl<S: Scalar> Layout for Quadratic<S> {
     const ROW: Row = Row {
         head: 0,
         halves: 6,
-        multiple: 4,
+        padded: true,
         more: 0,
     };
     const DEGREE: u8 = 2;

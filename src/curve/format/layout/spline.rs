@@ -34,7 +34,7 @@ impl<S: Scalar> Layout for Spline<S> {
     const ROW: Row = Row {
         head: 0,
         halves: 2,
-        multiple: 1,
+        padded: false,
         more: MORE,
     };
     const DEGREE: u8 = 3;
@@ -84,7 +84,7 @@ impl Layout for Spline16 {
     const ROW: Row = Row {
         head: 0,
         halves: 1,
-        multiple: 1,
+        padded: false,
         more: MORE,
     };
     const DEGREE: u8 = 3;

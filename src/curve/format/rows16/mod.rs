@@ -50,7 +50,7 @@ pub struct RowConstants {
 const ROW: Row = Row {
     head: 2,
     halves: 2,
-    multiple: 1,
+    padded: false,
     more: 0,
 };
 
@@ -59,7 +59,7 @@ const ONE_Q31: f64 = 1.0 / 2_147_483_648.0;
 
 /// The words of a cell.
 fn row_of<'a>(table: &Table<'a, Rows16>, cell: u32) -> &'a [u32] {
-    let words = row::length(table.set());
+    let words = row::length(table.set()).max(1);
     let mut rows = table.words().chunks_exact(words);
     rows.nth(cell as usize).unwrap_or_default()
 }

@@ -1,0 +1,191 @@
+//! The sums of a tick over harmonics.
+
+use super::coefficient::{Curve, in_use, means, row, terms};
+use super::sine::Circular;
+use crate::curve::TableError;
+use crate::curve::curves::{Set, has};
+use crate::{Phase, Scale};
+
+/// Places looked at to show the inertia positive: at first, and at most.
+const PLACES: [u32; 2] = [64, 4096];
+
+/// What a tick takes of a table.
+#[derive(Clone, Copy, Debug)]
+pub struct Series<'a, T> {
+    pub(super) means: [T; 5],
+    rows: &'a [T],
+    /// ½·J_b·ω_b²/T_b
+    pub(super) velocity: T,
+}
+
+/// All curves at one phase.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Values<T> {
+    pub(super) inertia: T,
+    pub(super) slope: T,
+    pub(super) load: T,
+    pub(super) viscous: T,
+    pub(super) coulomb: T,
+}
+
+impl<'a, T: Circular> Series<'a, T> {
+    pub(super) fn new(words: &'a [T], set: Set, scale: &Scale) -> Self {
+        let [zero, half, _] = T::CONSTANTS;
+        let (head, rows) = words.split_at_checked(means(set)).unwrap_or_default();
+        let mut given = head.iter().copied();
+        let means = Curve::ALL.map(|curve| {
+            let there = curve.is_in(set);
+            there.then(|| given.next()).flatten().unwrap_or(zero)
+        });
+        let velocity = half * T::from_single(scale.velocity_base());
+        Self {
+            means,
+            rows,
+            velocity,
+        }
+    }
+
+    /// Coefficients, harmonic after harmonic.
+    #[inline(always)]
+    pub(super) fn rows(&self, set: Set) -> core::slice::ChunksExact<'a, T> {
+        // Without terms there is nothing to divide.
+        self.rows.chunks_exact(row(set).max(1))
+    }
+
+    #[inline(always)]
+    pub(super) fn at(&self, set: Set, phase: Phase) -> Values<T> {
+        let [zero, _, one] = T::CONSTANTS;
+        let (sin, cos) = T::sin_cos_of(phase);
+        let (mut s, mut c, mut order) = (sin, cos, one);
+        let [mut inertia, mut load, mut viscous, mut coulomb, constant] = self.means;
+        let mut slope = zero;
+        let mut sums = [zero; 4];
+        for row in self.rows(set) {
+            let mut words = row.iter().copied();
+            let mut next = |curve| pair(&mut words, set, curve);
+            let of_inertia = next(0);
+            slope = match of_inertia {
+                [Some(a), Some(b)] => slope + order * (b * c - a * s),
+                [Some(a), None] => slope - order * (a * s),
+                [None, Some(b)] => slope + order * (b * c),
+                [None, None] => slope,
+            };
+            let wave = [c, s];
+            let [j, l, v, m] = &mut sums;
+            add(j, of_inertia, wave);
+            add(l, next(1), wave);
+            add(v, next(2), wave);
+            add(m, next(3), wave);
+            (s, c) = (s * cos + c * sin, c * cos - s * sin);
+            order = order + one;
+        }
+        let [j, l, v, m] = sums;
+        inertia = inertia + j;
+        load = load + l;
+        viscous = viscous + v;
+        coulomb = size(coulomb + m) + constant;
+        Values {
+            inertia,
+            slope,
+            load,
+            viscous,
+            coulomb,
+        }
+    }
+
+    /// ½·J′·ω² − load + b·ω + c·sgn ω, of the curves that the machine has; sgn 0 = 0.
+    #[inline(always)]
+    pub(super) fn resisting(&self, values: &Values<T>, set: Set, omega: T) -> T {
+        let [zero, ..] = T::CONSTANTS;
+        let mut sum = self.velocity * values.slope * (omega * omega);
+        if Curve::Load.is_in(set) {
+            sum = sum - values.load;
+        }
+        if Curve::Viscous.is_in(set) {
+            sum = sum + values.viscous * omega;
+        }
+        if Curve::Coulomb.is_in(set) || Curve::Constant.is_in(set) {
+            if omega > zero {
+                sum = sum + values.coulomb;
+            } else if omega < zero {
+                sum = sum - values.coulomb;
+            }
+        }
+        sum
+    }
+
+    /// Shows J positive everywhere: at 64 places its least value must exceed what J″ can take off between two of them,
+    /// h²/8·Σ k²·(|aₖ| + |bₖ|), and the rounding; else 128, up to 4096 places are looked at.
+    pub(super) fn check_inertia(&self, set: Set) -> Result<(), TableError> {
+        let [zero, half, one] = T::CONSTANTS;
+        let [mean, ..] = self.means;
+        let (mut rounding, mut curvature, mut order) = (size(mean), zero, one);
+        for row in self.rows(set) {
+            let [a, b] = pair(&mut row.iter().copied(), set, 0);
+            let amplitude = size(a.unwrap_or(zero)) + size(b.unwrap_or(zero));
+            rounding = rounding + order * amplitude;
+            curvature = curvature + order * order * amplitude;
+            order = order + one;
+        }
+        rounding = rounding * T::ROUNDINGS;
+        let [first, last] = PLACES;
+        // (2π/places)²/8
+        let mut share = T::from_f64(4.934_802_200_544_679 / (64.0 * 64.0));
+        let mut places = first;
+        loop {
+            let (mut least, mut place) = (T::from_f64(1e38), Phase::default());
+            for k in 0..places {
+                let phase = Phase::from_bits(k * (u32::MAX / places + 1));
+                let inertia = self.at(set, phase).inertia;
+                if inertia <= zero {
+                    return Err(TableError::NoInertiaAt { phase });
+                }
+                if inertia < least {
+                    (least, place) = (inertia, phase);
+                }
+            }
+            if least > curvature * share + rounding {
+                return Ok(());
+            }
+            if places >= last {
+                return Err(TableError::InertiaNotShown { phase: place });
+            }
+            places *= 2;
+            share = share * half * half;
+        }
+    }
+}
+
+#[inline(always)]
+pub(super) fn size<T: Circular>(x: T) -> T {
+    let [zero, ..] = T::CONSTANTS;
+    if x < zero { -x } else { x }
+}
+
+/// The next coefficients of a curve, [cosine, sine], where it has them.
+#[inline(always)]
+pub(super) fn pair<T>(words: &mut impl Iterator<Item = T>, set: Set, curve: u8) -> [Option<T>; 2] {
+    let used = in_use(set);
+    let a = if has(used, terms::INERTIA_COS << (2 * curve)) {
+        words.next()
+    } else {
+        None
+    };
+    let b = if has(used, terms::INERTIA_SIN << (2 * curve)) {
+        words.next()
+    } else {
+        None
+    };
+    [a, b]
+}
+
+/// `sum` + a·c + b·s of the coefficients there are: a zero times an angle is not left out by the compiler.
+#[inline(always)]
+fn add<T: Circular>(sum: &mut T, [a, b]: [Option<T>; 2], [c, s]: [T; 2]) {
+    *sum = match (a, b) {
+        (Some(a), Some(b)) => *sum + (a * c + b * s),
+        (Some(a), None) => *sum + a * c,
+        (None, Some(b)) => *sum + b * s,
+        (None, None) => *sum,
+    };
+}
