@@ -31,7 +31,7 @@ fn an_image_of_harmonics_holds_its_error() {
     let file = jred_machine::read::read(&path).unwrap();
     let machine = machine(&file);
     let mut before = 0;
-    for (allowed, more) in [(2.0, "256"), (0.05, "256"), (0.01, "32")] {
+    for (allowed, more) in [(2.0, "256"), (0.05, "256"), (0.001, "32")] {
         let out = folder.path("harmonics.jred");
         let error = format!("{allowed} N m");
         let run = export_of(
@@ -118,8 +118,8 @@ fn the_most_exact_harmonics_for_their_bytes() {
 #[test]
 fn what_has_an_edge_or_a_stroke_is_refused() {
     let folder = Folder::new();
-    let harmonic = ["--layout", "harmonic", "--torque-error", "2 N m"];
-    let (run, _) = export(&folder, &harmonic);
+    let harmonic = ["--layout", "harmonic", "--torque-error", "0.05 N m"];
+    let (run, _) = export(&folder, &[&harmonic[..], &["--max-cells", "8"]].concat());
     run.ends(1)
         .says(&["harmonics reach a torque error", "needs a table"]);
     let stroke = press_file().with_file_name("linear-gripper.toml");

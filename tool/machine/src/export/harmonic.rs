@@ -65,8 +65,7 @@ impl Search<'_> {
         let peak = |place: &super::reference::Place| place.exact.torque(omega, alpha).total().abs();
         let mut asked = self.reference.places.iter().map(peak).fold(0.0, f64::max);
         let mut best: Option<Candidate> = None;
-        let mut refused = Error::NotFinite("torque error of the harmonics");
-        loop {
+        let refused = loop {
             match attempt(asked) {
                 Ok(found) => {
                     if best.as_ref().is_none_or(|best| found.error < best.error) {
@@ -74,13 +73,12 @@ impl Search<'_> {
                     }
                 }
                 Err(error @ (Error::Harmonic(_) | Error::Table(_))) => {
-                    refused = error;
-                    break;
+                    break error;
                 }
                 Err(error) => return Err(error),
             }
             asked *= 0.5;
-        }
+        };
         Ok(best.map_or(Answer::Refused(refused), |best| {
             Answer::Meets(Box::new(best))
         }))

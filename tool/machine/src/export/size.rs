@@ -3,7 +3,7 @@
 use jred::image::{encode, image_len};
 use jred::table::words_len;
 use jred::tabulate::{self, Request, Tabulated};
-use jred::{Error, Format, Image, Reducible as _, Scale, Set, Table, Usage, Validity};
+use jred::{Error, Format, Image, Scale, Set, Table, Usage, Validity};
 
 use super::search::Search;
 use super::ticks::{self, Ticks};
