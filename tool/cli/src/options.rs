@@ -26,7 +26,7 @@ pub struct Cli {
     pub command: Command,
 }
 
-const EXIT_CODES: &str = "Exit codes: 0 done, every rule holds; 1 a sizing rule is violated (or a torque error not \
+const EXIT_CODES: &str = "Exit codes: 0 done, every rule satisfied; 1 a sizing rule is violated (or a torque error not \
      reached); 2 bad input.\ndocs/machine-file.md describes machine files; machines/press.toml is a good one to start \
      from.";
 

@@ -202,7 +202,7 @@ fn objectives(text: &str) -> Result<Vec<Objective>, String> {
         .enumerate()
         .any(|(k, o)| found.iter().take(k).any(|other| other == o));
     if !(2..=3).contains(&found.len()) || twice {
-        return Err("name two or three different objectives, such as mass,energy".to_owned());
+        return Err("give two or three different objectives, such as mass,energy".to_owned());
     }
     Ok(found)
 }
@@ -302,7 +302,7 @@ fn efficiency(text: &str) -> Result<f64, String> {
     if efficiency > 0.0 && efficiency <= 1.0 {
         Ok(efficiency)
     } else {
-        Err("it must lie above 0 and not above 1".to_owned())
+        Err("it must be above 0 and at most 1".to_owned())
     }
 }
 
@@ -340,7 +340,7 @@ fn percent(text: &str) -> Result<f64, String> {
     if percent > 0.0 && percent < 100.0 {
         Ok(percent)
     } else {
-        Err("it must lie between 0 and 100 %".to_owned())
+        Err("it must be between 0 and 100 %".to_owned())
     }
 }
 

@@ -323,7 +323,7 @@ fn header_columns(
         }
         if columns.iter().flatten().any(|(other, _)| *other == index) {
             return Err(fault(
-                format!("the column \"{name}\" is there twice"),
+                format!("duplicate column \"{name}\""),
                 format!("remove one of the two; {help}"),
             ));
         }

@@ -32,7 +32,7 @@ impl Files for PathBuf {
 pub(crate) fn read(path: &Path, limit: u64) -> Result<String, Fault> {
     let failed = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound => Fault::new(
-            "there is no such file",
+            "no such file",
             format!(
                 "check the name and the folder; looked for {}",
                 absolute(path)

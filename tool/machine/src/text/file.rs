@@ -36,7 +36,7 @@ impl Files for BTreeMap<String, String> {
     fn text(&self, file: &str, limit: u64) -> Result<String, Fault> {
         let text = self.get(file).ok_or_else(|| {
             Fault::new(
-                "there is no such file",
+                "no such file",
                 format!("give the text of {file} beside that of the machine file"),
             )
         })?;

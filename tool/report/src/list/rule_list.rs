@@ -63,7 +63,7 @@ fn list(sets: &[RuleSet], format: Format) -> String {
                 .map(|set| vec![set.name.clone(), set.title.clone()]);
             format!(
                 "{}\n`jred rules NAME` shows the limits of a set and their sources; choose a set with [rules] set = \"NAME\" or --rules NAME\n",
-                table(&["set", "what it is"], rows)
+                table(&["set", "description"], rows)
             )
         }
     }
