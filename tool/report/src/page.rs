@@ -15,7 +15,6 @@ use jred_machine::number::rounding::{rounded, short};
 use jred_machine::units::Vocabulary;
 use jred_sizing::catalogue::MotorKind;
 use jred_sizing::explain::{Breakdown, Cells, Lever, Remedies};
-use jred_sizing::judge::Context;
 use jred_sizing::select::size::{Candidate, Selection};
 
 mod chart;
@@ -132,12 +131,7 @@ impl Page {
         let cells = Cells::new(file, duty, &best.drive)?;
         let breakdown = Breakdown::of(duty, &best.drive, &cells);
         let subject = Subject {
-            context: Context::new(
-                selection.cycle,
-                selection.site,
-                candidate.drive,
-                candidate.motor,
-            ),
+            context: selection.context(candidate),
             judged: best,
             duty,
             rules: selection.rules,

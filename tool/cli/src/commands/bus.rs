@@ -6,7 +6,7 @@ use miette::{IntoDiagnostic as _, Result, miette};
 
 use indicatif::ProgressBar;
 
-use crate::commands::{Done, print};
+use crate::commands::{Done, motion, print};
 use crate::options::bus::Bus as Options;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
@@ -147,13 +147,7 @@ fn axis(
     steps: u32,
 ) -> Result<Axis> {
     variator::refuse(file, "bus")?;
-    let motion = file.motion.as_ref().ok_or_else(|| {
-        miette!(
-            help = "add a [motion], for example type = \"constant-speed\", speed = \"60 rpm\"",
-            "{} has no [motion]",
-            path.display()
-        )
-    })?;
+    let motion = motion(file, path)?;
     let mut own = catalogue.clone();
     fit_input(&mut own, file)?;
     let duty = Duty::new(file, motion, steps as usize).into_diagnostic()?;

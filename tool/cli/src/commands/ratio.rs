@@ -6,7 +6,7 @@ use miette::{IntoDiagnostic as _, Result, miette};
 use rayon::prelude::*;
 
 use crate::commands::vary::catalogue;
-use crate::commands::{Done, print};
+use crate::commands::{Done, motion, print};
 use crate::options::search::Ratio;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
@@ -35,10 +35,7 @@ pub fn ratio(options: &Ratio) -> Result<Done> {
         file.rules = read::rules_based_on(&file.rules, set)?;
     }
     sizeable(&file)?;
-    let motion = file
-        .motion
-        .as_ref()
-        .ok_or_else(|| miette!("the machine file has no [motion]"))?;
+    let motion = motion(&file, &options.file)?;
     let named = Filter {
         motors: options.motor.clone(),
         ..Filter::default()

@@ -15,7 +15,6 @@ use jred_report::list::listing;
 use jred_report::page;
 use jred_report::table::output::Format;
 use jred_sizing::cycle::Cycle;
-use jred_sizing::judge::Context;
 use jred_sizing::meter::MeterLimits;
 use jred_sizing::select::fit::fit_input;
 use jred_sizing::select::pareto::Front;
@@ -190,12 +189,7 @@ fn write_meter(
         );
         return Ok(false);
     };
-    let context = Context::new(
-        selection.cycle,
-        selection.site,
-        candidate.drive,
-        candidate.motor,
-    );
+    let context = selection.context(&candidate);
     let limits = MeterLimits::new(&context, selection.rules);
     let name = options.file.file_name().unwrap_or_default();
     let machine = format!("{}, {}", name.display(), file.title);

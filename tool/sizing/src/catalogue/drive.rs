@@ -34,6 +34,6 @@ impl Drive<'_> {
 
     /// Inertia of the rotor with its brake (kg·m²).
     pub fn rotor(&self) -> f64 {
-        self.motor.rotor_inertia + self.motor.brake.map_or(0.0, |brake| brake.inertia)
+        self.motor.rotor_with_brake()
     }
 }

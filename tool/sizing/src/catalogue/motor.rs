@@ -141,6 +141,16 @@ pub struct Brake {
 }
 
 impl Motor {
+    /// Inertia of the brake (kg·m²); zero without one.
+    pub fn brake_inertia(&self) -> f64 {
+        self.brake.map_or(0.0, |brake| brake.inertia)
+    }
+
+    /// Inertia of the rotor with its brake (kg·m²).
+    pub fn rotor_with_brake(&self) -> f64 {
+        self.rotor_inertia + self.brake_inertia()
+    }
+
     /// Rated torque times rated speed (W). Where no rated speed is stated, it is that of the nominal point of a motor fed with
     /// direct current: n = (V − R·I)/k_e at the rated current.
     pub fn rated_power(&self) -> Option<f64> {

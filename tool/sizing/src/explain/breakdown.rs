@@ -416,7 +416,7 @@ fn drive_parts(
     );
     cells.add_inertia("gearbox", gearbox);
     let rotor = drive.motor.kind.vocabulary().rotor;
-    let brake = drive.motor.brake.map_or(0.0, |brake| brake.inertia);
+    let brake = drive.motor.brake_inertia();
     cells.add(
         (Kind::Drive, rotor),
         Effect::Rotor,

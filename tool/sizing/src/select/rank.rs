@@ -1,6 +1,5 @@
 //! Objectives for ranking and comparing drives.
 
-use crate::judge::Context;
 use crate::select::size::{Candidate, Group, Selection};
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Finding;
@@ -94,9 +93,8 @@ impl Objective {
             Self::Margin if candidate.outcome.beyond_all_limits > 0 => Some(f64::NEG_INFINITY),
             Self::Margin => Some(1.0 - candidate.outcome.worst_use),
             Self::Temperature => {
-                let context =
-                    Context::new(selection.cycle, selection.site, *drive, candidate.motor);
-                let finding = context
+                let finding = selection
+                    .context(candidate)
                     .findings(selection.rules)
                     .get(Rule::WindingTemperature);
                 finding

@@ -66,8 +66,7 @@ pub type Range = [f64; 2];
 impl Moments {
     /// The moments of a duty with a motor and a gear.
     pub fn new(duty: &Duty, motor: &Motor, gear: Gear) -> Self {
-        let brake = motor.brake.map_or(0.0, |brake| brake.inertia);
-        let inertia = motor.rotor_inertia + brake + gear.inertia;
+        let inertia = motor.rotor_with_brake() + gear.inertia;
         let [coulomb, viscous] = motor.friction;
         let mut sums = [0.0; 6];
         for instant in &duty.instants {

@@ -253,7 +253,11 @@ impl<'c> Selection<'c> {
 
     /// A candidate by every rule, in words.
     pub fn judged(&self, candidate: &Candidate<'c>) -> Judged<'c> {
-        let context = Context::new(self.cycle, self.site, candidate.drive, candidate.motor);
-        Judged::new(&context, self.rules)
+        Judged::new(&self.context(candidate), self.rules)
+    }
+
+    /// What judging a candidate looks at.
+    pub fn context(&self, candidate: &Candidate<'c>) -> Context<'c> {
+        Context::new(self.cycle, self.site, candidate.drive, candidate.motor)
     }
 }
