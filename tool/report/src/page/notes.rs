@@ -87,7 +87,7 @@ pub(super) fn notes(best: &Judged, duty: &Duty) -> Vec<String> {
     notes.extend(
         best.assumptions
             .iter()
-            .map(|assumed| format!("Mind: {assumed}.")),
+            .map(|assumed| format!("Warning: {assumed}.")),
     );
     notes
 }
