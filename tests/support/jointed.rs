@@ -159,6 +159,7 @@ pub(crate) fn dalembert<M: Jointed>(machine: &Machine<M>, phi: f64, omega: f64, 
 
 /// Every link is in equilibrium: forces, and moments about the point of each reaction on it.
 #[track_caller]
+#[allow(clippy::float_cmp, reason = "the same point, not one close to it")]
 pub(crate) fn forces_balance<M: Jointed>(machine: &Machine<M>, phi: f64, omega: f64, alpha: f64) {
     let mechanism = machine.mechanism();
     let frames = mechanism.frames(phi).unwrap();

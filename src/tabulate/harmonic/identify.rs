@@ -221,6 +221,10 @@ impl<const WORDS: usize, const SET: Set> Identification<WORDS, SET> {
 }
 
 /// The inverse of an upper triangle without zeros on its diagonal, column by column from below.
+#[expect(
+    clippy::needless_range_loop,
+    reason = "rows and columns of two matrices"
+)]
 fn inverse_of_triangle<const N: usize>(triangle: &[[f64; N]; N]) -> [[f64; N]; N] {
     let mut inverse = [[0.0; N]; N];
     for column in 0..N {

@@ -237,6 +237,7 @@ fn ready(instants: usize) -> (Ready, MachineFile, String) {
     (ready, file, name)
 }
 
+#[expect(clippy::unnecessary_wraps, reason = "as every benchmark does")]
 fn run(bench: &mut Bench) -> Result<(), String> {
     let (mut ready, file, name) = ready(INSTANTS);
     let Ready {

@@ -24,6 +24,10 @@ use jred_sizing::select::size::Selection;
 ///
 /// # Errors
 /// Bad input, or a file that cannot be written.
+#[expect(
+    clippy::too_many_lines,
+    reason = "one command, from its options to its outputs"
+)]
 pub fn size(options: &Size) -> Result<Done> {
     if let (Some(report), Some(meter)) = (&options.report, &options.meter) {
         distinct(["--report", "--meter"], [report, meter])?;

@@ -48,7 +48,7 @@ fn table(header: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
 fn list(sets: &[RuleSet], format: Format) -> String {
     match format {
         Format::Json => {
-            let sets: Vec<Value> = sets.iter().map(|set| json(set)).collect();
+            let sets: Vec<Value> = sets.iter().map(json).collect();
             format!("{:#}\n", json!({ "rule sets": sets }))
         }
         Format::Csv => {
