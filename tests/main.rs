@@ -26,6 +26,7 @@ mod image;
 mod image_damage;
 mod image_refused;
 mod inverted_slider_crank;
+mod layers;
 mod layouts;
 mod library_as_linkages;
 mod lift_off;
