@@ -125,3 +125,67 @@ fn a_layer_uses_those_before_it_only() {
     assert!(used_layers.contains(&("tabulate", "machine")));
     assert!(used_layers.contains(&("mechanism", "number")));
 }
+
+/// The packages of the tool, and the modules of each in the order of its data: each uses those before it only.
+const TOOL: [(&str, &[&str]); 4] = [
+    (
+        "machine",
+        &[
+            "number", "units", "text", "model", "analysis", "read", "export",
+        ],
+    ),
+    (
+        "sizing",
+        &[
+            "catalogue",
+            "motor",
+            "cycle",
+            "thermal",
+            "bus",
+            "judge",
+            "select",
+            "study",
+            "explain",
+            "meter",
+        ],
+    ),
+    ("report", &["table", "list", "plot", "drawing", "page"]),
+    ("cli", &["options", "rows", "commands"]),
+];
+
+#[test]
+fn a_module_of_the_tool_uses_those_before_it_only() {
+    let tool = Path::new(env!("CARGO_MANIFEST_DIR")).join("tool");
+    // The library's own package is published without the tool.
+    if !tool.exists() {
+        return;
+    }
+    let mut upward = Vec::new();
+    for (package, order) in TOOL {
+        let root = tool.join(package).join("src");
+        let entries = fs::read_dir(&root).unwrap();
+        let paths = entries.map(|entry| entry.unwrap().path());
+        let modules: BTreeSet<_> = paths
+            .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
+            .filter(|name| name != "lib" && name != "main")
+            .collect();
+        let known: BTreeSet<_> = order.iter().map(|name| (*name).to_owned()).collect();
+        assert_eq!(modules, known, "{package}: a module without a place");
+        for (place, module) in order.iter().enumerate() {
+            let mut text = String::new();
+            let file = root.join(module).with_extension("rs");
+            if file.exists() {
+                text += &without_comments(&file);
+            }
+            if root.join(module).exists() {
+                sources(&root.join(module), &mut text);
+            }
+            for used in text.split("crate::").skip(1).flat_map(names) {
+                if order.iter().skip(place + 1).any(|later| *later == used) {
+                    upward.push(format!("{package}: {module} uses {used}"));
+                }
+            }
+        }
+    }
+    assert!(upward.is_empty(), "{}", upward.join("\n"));
+}
