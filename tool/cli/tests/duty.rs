@@ -178,7 +178,7 @@ fn a_recorded_move_gives_the_torque_of_its_law() {
         let text = format!(
             "{TABLE}\n[motion]\ntype = \"profile\"\nfile = \"move.csv\"\ncyclic = {cyclic}\n"
         );
-        let file = read::parse("m.toml", &text, &folder.path("")).unwrap();
+        let file = read::parse("m.toml", &text, folder.path("")).unwrap();
         let duty = duty_of(&file, 4000);
         near("cycle", duty.duration, duration, 1e-12);
         duty.figures(|i| i.input_torque).rms
@@ -247,7 +247,7 @@ fn a_recorded_dwell_stands_still() {
     let friction = "\n[[load]]\non = \"shaft-1\"\nopposing_moment = \"3 N m\"\n";
     let text = format!("{TABLE}{friction}[motion]\ntype = \"profile\"\nfile = \"dwell.csv\"\n");
     let duty = duty_of(
-        &read::parse("m.toml", &text, &folder.path("")).unwrap(),
+        &read::parse("m.toml", &text, folder.path("")).unwrap(),
         2000,
     );
     // The curve swings on for some samples after the move: 10 of 5 ms, and as many before the next.

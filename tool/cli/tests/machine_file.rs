@@ -24,7 +24,7 @@ fn parse(text: &str) -> Result<MachineFile, Report> {
 }
 
 fn parse_as(name: &str, text: &str) -> Result<MachineFile, Report> {
-    read::parse(name, text, &data())
+    read::parse(name, text, data())
 }
 
 /// The report as a user sees it, without colours.

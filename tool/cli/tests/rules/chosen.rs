@@ -38,7 +38,7 @@ fn a_set_of_ones_own() {
         "title = \"Rules of our house\"\nsource = \"house standard 7\"\nbased_on = \"fanuc\"\n[rules]\nrms_torque = \"60 %\"\ngearbox_cycles = \"off\"\n",
     );
     let text = with_rules("set = \"house.toml\"");
-    let rules = machine_file::parse("m.toml", &text, &folder.path(""))
+    let rules = machine_file::parse("m.toml", &text, folder.path(""))
         .unwrap()
         .rules;
     assert_eq!(

@@ -136,7 +136,7 @@ fn a_move_over_the_end_of_the_cycle_is_one() {
     }
     folder.file("over.csv", csv);
     let text = format!("{TABLE}\n[motion]\ntype = \"profile\"\nfile = \"over.csv\"\n");
-    let file = jred_machine::read::parse("m.toml", &text, &folder.path("")).unwrap();
+    let file = jred_machine::read::parse("m.toml", &text, folder.path("")).unwrap();
     let duty = jred_machine::analysis::duty::Duty::new(&file, file.motion.as_ref().unwrap(), 2000)
         .unwrap();
     assert_eq!(duty.mechanics.moves, 1);

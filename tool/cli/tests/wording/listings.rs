@@ -387,11 +387,8 @@ fn csv_and_json() {
             match serde_json::from_str(out) {
                 Ok(value) if format == "json" => keys(&value, "  ", &mut text),
                 _ => {
-                    text += &out
-                        .lines()
-                        .take(3)
-                        .map(|l| l.to_owned() + "\n")
-                        .collect::<String>()
+                    let head = out.lines().take(3).flat_map(|line| [line, "\n"]);
+                    text.extend(head);
                 }
             }
         }
@@ -404,7 +401,7 @@ fn keys(value: &serde_json::Value, indent: &str, text: &mut String) {
     match value {
         serde_json::Value::Object(object) => {
             for (key, value) in object {
-                *text += &format!("{indent}{key}\n");
+                text.extend([indent, key, "\n"]);
                 keys(value, &format!("{indent}  "), text);
             }
         }

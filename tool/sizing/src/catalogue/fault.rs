@@ -109,6 +109,7 @@ pub struct Misplaced {
 
 /// A catalogue file: its name for messages and its text.
 #[derive(Clone, Debug)]
+#[expect(clippy::struct_field_names, reason = "a file has a name and a text")]
 pub(super) struct Text {
     pub(super) name: String,
     pub(super) text: Arc<String>,

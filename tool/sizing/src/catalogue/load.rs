@@ -50,8 +50,8 @@ impl Loader {
         skip: bool,
     ) -> Result<Catalogue, CatalogueError> {
         let mut loader = Self {
-            skip,
             remarks,
+            skip,
             ..Self::default()
         };
         let mut read_groups = Vec::new();
