@@ -57,6 +57,7 @@ kernels! {
 }
 
 /// Calls a kernel over the model that the image holds.
+#[expect(clippy::type_complexity, reason = "a kernel is told by its type")]
 fn over<F: Format<Number: Word>, const SET: Set>(
     image: &[u32],
     points: &mut [Point],

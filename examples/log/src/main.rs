@@ -21,7 +21,7 @@ mod target {
     use cortex_m_semihosting::debug;
     use defmt_semihosting as _;
     use jred::motion::{Law, Move};
-    use jred::{Error, Format, Image, ImageError, Model, Q31, Set, Spline, curves, include_image};
+    use jred::{Error, Image, ImageError, Model, Q31, Set, Spline, curves, include_image};
 
     /// The curves of the press, as `jred export` prints them.
     const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
