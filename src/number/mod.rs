@@ -1,6 +1,6 @@
 //! Numbers: the types that everything else computes with.
 //!
-//! Fixed point numbers are per-unit, in [−1, 1). The [`Scale`](crate::Scale) of the model says what 1 means. Formats are chosen
+//! Fixed point numbers are per-unit, in [−1, 1). The [`Scale`] of the model says what 1 means. Formats are chosen
 //! so that every product of a tick is the upper half of a 32 × 32-bit product (one instruction on a Cortex-M4 and up) and
 //! nothing can wrap:
 //!

@@ -41,7 +41,7 @@ pub struct Sample {
 /// What was identified; every array in the order of [`Coefficient::of_word`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Identified<const WORDS: usize> {
-    /// The coefficients: the words of a table of [`Harmonic`](crate::Harmonic).
+    /// The coefficients: the words of a table of [`Harmonic`].
     pub words: [f64; WORDS],
     /// Standard error of each, in its own unit, if the errors of the measured torques are independent of each other and
     /// of the motion, and of one size.

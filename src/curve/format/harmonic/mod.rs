@@ -46,7 +46,7 @@ pub const MAX_HARMONICS: u32 = 256;
 
 /// Harmonics, `f32` or `f64`, instead of cells: of a smooth machine that turns, a few give what takes a table of many cells.
 ///
-/// The set says which cosines and sines a curve consists of ([`terms`](crate::harmonic::terms)) beside the curves themselves. The
+/// The set says which cosines and sines a curve consists of ([`terms`]) beside the curves themselves. The
 /// number of cells is that of harmonics, 0 to [`MAX_HARMONICS`]. The words lie as
 /// [`Coefficient::of_word`](crate::harmonic::Coefficient::of_word) says: the means, then harmonic after harmonic.
 ///

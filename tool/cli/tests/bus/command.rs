@@ -166,7 +166,7 @@ fn what_is_not_checked_is_said() {
     says(
         &text,
         &[
-            "bus voltage unknown, supply ",
+            "bus voltage not known, supply ",
             "W mean, no brake resistor",
             "not checked: bus voltage: no data for the capacitance of the DC bus",
             "in [supply] give capacitance, or chopper_voltage and brake_resistor, or regenerative = true",

@@ -31,7 +31,7 @@ pub fn text(answer: &Answer) -> String {
     } else {
         let _ = writeln!(
             text,
-            "Judged by what holds at any phases: {}.",
+            "Checked against bounds that are valid for any phases: {}.",
             answer.no_search()
         );
     }
@@ -142,7 +142,7 @@ fn resistor_text(answer: &Answer) -> String {
                 let (unit, of) = match what {
                     Judged::Mean => ("W", "mean power"),
                     Judged::Peak => ("W", "peak power"),
-                    Judged::Pulse => ("J", "energy of a pulse"),
+                    Judged::Pulse => ("J", "pulse energy"),
                     _ => ("Ohm", "resistance"),
                 };
                 format!("{} {unit} {of}", short(*by))
