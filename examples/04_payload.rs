@@ -17,7 +17,6 @@
 
 mod support;
 
-use jred::mechanism::FourBarDimensions;
 use jred::mechanism::{Assembly, FourBar, Linkage, Pair, Pose, Side};
 use jred::table::words_len;
 use jred::tabulate::{Request, fill, measure, scratch_len};
@@ -27,13 +26,10 @@ use jred::{
 };
 use support::{Failure, milli, println, program};
 
-/// Dimensions (m).
-const DIMENSIONS: FourBarDimensions = FourBarDimensions {
-    crank: 0.08,
-    coupler: 0.32,
-    rocker: 0.24,
-    pivot: [0.3, 0.05],
-};
+/// Crank, coupler and arm from pin to pin (m).
+const LENGTHS: [f64; 3] = [0.08, 0.32, 0.24];
+/// The arm's bearing (m).
+const PIVOT: [f64; 2] = [0.3, 0.05];
 /// The gripper's distance from that bearing (m).
 const REACH: f64 = 0.4;
 /// What it takes up (kg), and that mass' own inertia (kg·m²).
@@ -79,32 +75,23 @@ fn loaded(arm: &Link) -> Result<Link, Error> {
     let com = [(arm.mass() * u + mass * REACH) / sum, arm.mass() * v / sum];
     let apart = (REACH - u) * (REACH - u) + v * v;
     let reduced_mass = arm.mass() * mass / sum;
-    Ok(Link::new(
-        sum,
-        arm.inertia() + inertia + reduced_mass * apart,
-        com,
-    )?)
+    Link::new(sum, arm.inertia() + inertia + reduced_mass * apart, com)
 }
 
 /// The linkage by its pins alone, assembled from a rough drawing and followed round a turn.
 fn assemble(links: &[Link; 3]) -> Result<Assembly<3, 4, 32>, Error> {
-    let FourBarDimensions {
-        crank,
-        coupler,
-        rocker: arm,
-        pivot,
-    } = DIMENSIONS;
+    let [crank, coupler, arm] = LENGTHS;
     let origin = [0.0, 0.0];
     let pin = |a, b| Pair::Joint(Joint::Revolute([a, b]));
     let pins = [
         pin(Marker::ground(origin), Marker::on(0, origin)),
         pin(Marker::on(0, [crank, 0.0]), Marker::on(1, origin)),
         pin(Marker::on(1, [coupler, 0.0]), Marker::on(2, [arm, 0.0])),
-        pin(Marker::ground(pivot), Marker::on(2, origin)),
+        pin(Marker::ground(PIVOT), Marker::on(2, origin)),
     ];
     let drawing = [[0.0, 0.0, 0.0], [0.1, 0.0, 0.8], [0.3, 0.05, 1.7]];
     let drawing = drawing.map(|[x, y, psi]| Pose { x, y, psi });
-    Ok(Linkage::new(links, &pins, 0)?.assemble(Domain::Turn, 0.0, &drawing)?)
+    Linkage::new(links, &pins, 0)?.assemble(Domain::Turn, 0.0, &drawing)
 }
 
 /// Fills a table from a mechanism.
@@ -126,10 +113,8 @@ fn tabulate<'w>(
 
 /// Checks a table against the closed form, and prints how exact it is.
 fn check(table: &Table<'_, Spline<f32>>, links: [Link; 3]) -> Result<(), Failure> {
-    let four_bar = FourBar::new(DIMENSIONS, Side::Left, links).map_err(Error::from)?;
-    let machine = Machine::new(&four_bar)
-        .with_gravity(GRAVITY)
-        .map_err(Error::from)?;
+    let four_bar = FourBar::new(LENGTHS, PIVOT, Side::Left, links)?;
+    let machine = Machine::new(&four_bar).with_gravity(GRAVITY)?;
     let found = measure(&machine, table, &DESIGN)?;
     let sum = table.words().iter().fold(0u32, |sum, word| {
         (sum ^ word.to_bits()).wrapping_mul(16_777_619)
@@ -152,7 +137,7 @@ fn run() -> Result<(), Failure> {
 
     // The gripper closes. The linkage's positions do not change, only a mass does.
     let arm = loaded(&arm)?;
-    linkage.set_link(2, arm).map_err(Error::from)?;
+    linkage.set_link(2, arm)?;
     let spare = tabulate(&linkage, &mut spare)?;
     println!("with {} g", milli(PAYLOAD[0] as f32));
     check(&spare, [crank, coupler, arm])?;

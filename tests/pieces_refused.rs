@@ -6,7 +6,8 @@ use crate::support::machines::Wave;
 use crate::support::rows::Rows;
 use crate::support::{budget, config};
 use jred::{
-    Domain, Part, Phase, Pieces, Reducible, Reduction, Scale, Set, Spline, TableError, curves,
+    Domain, Error, Part, Phase, Pieces, Reducible, Reduction, Scale, Set, Spline, TableError,
+    curves,
 };
 use proptest::prelude::*;
 
@@ -24,7 +25,7 @@ impl Reducible for Ruler {
         }
     }
 
-    fn reduction(&self, x: f64) -> Result<Reduction, jred::PoseError> {
+    fn reduction(&self, x: f64) -> Result<Reduction, Error> {
         Ok(Reduction {
             inertia: [1.0, 0.0, 0.0],
             process: x / self.0,

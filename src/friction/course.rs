@@ -1,14 +1,13 @@
 //! Quantities that vary: a ratio that is shifted in time, a slip that grows with the load.
 
-use crate::number::error::RangeError;
 use core::f64::consts::TAU;
 use core::fmt;
 
 use super::Dual;
 use crate::curve::CubicSpline;
+use crate::error::{finite, positive};
 use crate::machine::motion::Law;
-use crate::math;
-use crate::number::error::{finite, positive};
+use crate::{Error, math};
 
 /// What a course may depend on: time, angle and load of one friction stage, with derivatives by these three.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -142,7 +141,7 @@ impl Ramp {
         length: f64,
         values: [f64; 2],
         law: Law,
-    ) -> Result<Self, RangeError> {
+    ) -> Result<Self, Error> {
         law.check()?;
         Ok(Self {
             law: Some(law),
@@ -160,7 +159,7 @@ impl Ramp {
         start: f64,
         length: f64,
         values: [f64; 2],
-    ) -> Result<Self, RangeError> {
+    ) -> Result<Self, Error> {
         Ok(Self {
             over,
             start: finite("start of the ramp", start)?,
@@ -212,7 +211,7 @@ impl Sine {
         amplitude: f64,
         frequency: f64,
         phase: f64,
-    ) -> Result<Self, RangeError> {
+    ) -> Result<Self, Error> {
         Ok(Self {
             over,
             mean: finite("mean of the sine", mean)?,
@@ -251,7 +250,7 @@ impl<C: AsRef<[f64]>> Curve<C> {
         start: f64,
         length: f64,
         spline: CubicSpline<C>,
-    ) -> Result<Self, RangeError> {
+    ) -> Result<Self, Error> {
         Ok(Self {
             over,
             start: finite("start of the curve", start)?,
@@ -302,7 +301,7 @@ impl Creep {
     ///
     /// # Errors
     /// A slip outside [0, 1), or a limit that is not positive.
-    pub fn new(slip: f64, limit: f64) -> Result<Self, RangeError> {
+    pub fn new(slip: f64, limit: f64) -> Result<Self, Error> {
         super::stage::slip_share(slip)?;
         Ok(Self {
             slip,

@@ -2,9 +2,8 @@
 
 use super::Dual;
 use super::course::{Coefficient, Place};
-use crate::math;
-use crate::number::error::RangeError;
-use crate::number::error::{finite, positive};
+use crate::error::{finite, positive};
+use crate::{Error, math};
 
 /// Which way power flows through the contact, and so which shaft slip makes slower.
 ///
@@ -47,7 +46,7 @@ impl<'a> Stage<'a> {
     ///
     /// # Errors
     /// A constant ratio of zero or not finite.
-    pub fn new(ratio: impl Into<Coefficient<'a>>) -> Result<Self, RangeError> {
+    pub fn new(ratio: impl Into<Coefficient<'a>>) -> Result<Self, Error> {
         let ratio = ratio.into();
         if let Coefficient::Constant(i) = ratio {
             check_ratio(i)?;
@@ -63,11 +62,7 @@ impl<'a> Stage<'a> {
     ///
     /// # Errors
     /// A constant slip outside [0, 1): with ε = 1 nothing is coupled.
-    pub fn with_slip(
-        self,
-        slip: impl Into<Coefficient<'a>>,
-        flow: Flow,
-    ) -> Result<Self, RangeError> {
+    pub fn with_slip(self, slip: impl Into<Coefficient<'a>>, flow: Flow) -> Result<Self, Error> {
         let slip = slip.into();
         if let Coefficient::Constant(share) = slip {
             slip_share(share)?;
@@ -96,14 +91,14 @@ impl<'a> Stage<'a> {
     ///
     /// # Errors
     /// A course that is not finite there, a ratio of zero, or a slip outside (−1, 1).
-    pub fn at(&self, at: Place) -> Result<Ratios, RangeError> {
+    pub fn at(&self, at: Place) -> Result<Ratios, Error> {
         let (geometric, slip) = (self.ratio.at(at), self.slip.at(at));
         check_ratio(geometric.value)?;
         if !geometric.is_finite() {
-            return Err(RangeError::NotFinite("rate of the friction stage's ratio"));
+            return Err(Error::NotFinite("rate of the friction stage's ratio"));
         }
         if math::abs(finite("slip of the friction stage", slip.value)?) >= 1.0 {
-            return Err(RangeError::OutOfRange {
+            return Err(Error::OutOfRange {
                 what: "slip of the friction stage",
                 value: slip.value,
                 min: -1.0,
@@ -111,7 +106,7 @@ impl<'a> Stage<'a> {
             });
         }
         if !slip.is_finite() {
-            return Err(RangeError::NotFinite("rate of the friction stage's slip"));
+            return Err(Error::NotFinite("rate of the friction stage's slip"));
         }
         let kept = -slip + 1.0;
         let speed = match self.flow {
@@ -132,23 +127,23 @@ impl<'a> Stage<'a> {
     ///
     /// # Errors
     /// Those of [`at`](Self::at).
-    pub fn angle(&self, t: f64, from: f64, to: f64) -> Result<f64, RangeError> {
+    pub fn angle(&self, t: f64, from: f64, to: f64) -> Result<f64, Error> {
         crate::number::quadrature::integrate(from, to, 64, |phi| {
             Ok(self.at(Place::new(t, phi, 0.0))?.speed.value)
         })
     }
 }
 
-fn check_ratio(i: f64) -> Result<(), RangeError> {
+fn check_ratio(i: f64) -> Result<(), Error> {
     positive("size of the friction stage's ratio", math::abs(i)).map(|_| ())
 }
 
 /// A constant slip in [0, 1).
-pub(super) fn slip_share(slip: f64) -> Result<f64, RangeError> {
+pub(super) fn slip_share(slip: f64) -> Result<f64, Error> {
     if (0.0..1.0).contains(&finite("slip", slip)?) {
         Ok(slip)
     } else {
-        Err(RangeError::OutOfRange {
+        Err(Error::OutOfRange {
             what: "slip",
             value: slip,
             min: 0.0,

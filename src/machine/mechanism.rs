@@ -2,8 +2,7 @@
 
 use super::joint::Joints;
 use super::link::{Frame, Link};
-use crate::Domain;
-use crate::machine::error::PoseError;
+use crate::{Domain, Error};
 
 /// The most links that a mechanism may have.
 pub const MAX_LINKS: usize = 16;
@@ -25,7 +24,7 @@ pub trait Mechanism {
     ///
     /// # Errors
     /// A dead point or a position that cannot be assembled; a mechanism checked when built returns none within its domain.
-    fn frames(&self, phi: f64) -> Result<Frames, PoseError>;
+    fn frames(&self, phi: f64) -> Result<Frames, Error>;
 }
 
 /// A mechanism that knows its joints, so that the force in every joint can be calculated
@@ -36,7 +35,7 @@ pub trait Jointed: Mechanism {
     ///
     /// # Errors
     /// Those of [`frames`](Mechanism::frames).
-    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError>;
+    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, Error>;
 
     /// Index of the joint that the drive moves: its coordinate is φ up to a constant.
     fn drive(&self) -> usize {
@@ -45,7 +44,7 @@ pub trait Jointed: Mechanism {
 }
 
 impl<M: Jointed + ?Sized> Jointed for &M {
-    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
+    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, Error> {
         (**self).joints(phi, frames)
     }
     fn drive(&self) -> usize {
@@ -60,7 +59,7 @@ impl<M: Mechanism + ?Sized> Mechanism for &M {
     fn domain(&self) -> Domain {
         (**self).domain()
     }
-    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
+    fn frames(&self, phi: f64) -> Result<Frames, Error> {
         (**self).frames(phi)
     }
 }

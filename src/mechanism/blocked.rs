@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use super::grashof::{Cause, Remedy};
-use crate::number::error::{Curable, error};
+use super::grashof::Reason;
+use crate::Error;
 
 /// Why the drive link of a library mechanism cannot turn fully, with the angle where it stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,14 +43,13 @@ pub enum Blocked {
     },
 }
 
-error!(Blocked);
-
 impl fmt::Display for Blocked {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+        let cause = match self {
             Self::Apart { .. } => "the links cannot be joined: ",
             _ => "the crank cannot turn fully: ",
-        })?;
+        };
+        f.write_str(cause)?;
         match *self {
             Self::Apart {
                 link,
@@ -58,41 +57,36 @@ impl fmt::Display for Blocked {
                 others,
             } => write!(
                 f,
-                "the {link} of {length:.6} m is not shorter than the other three together, {others:.6} m"
+                "the {link} of {length:.6} m is not shorter than the other three together, {others:.6} m; shorten it, or make \
+                 the others longer"
             ),
-            Self::FourBar { lengths, .. } => Cause(lengths).fmt(f),
+            Self::FourBar { lengths, reach } => write!(
+                f,
+                "{}, or drive it over a stroke that stays inside φ = {:.2}° and {:.2}°, its dead points",
+                Reason(lengths),
+                reach[0].to_degrees(),
+                reach[1].to_degrees()
+            ),
             Self::PinMeetsPivot { length } => write!(
                 f,
                 "it is as long as the distance of the pivots, {length} m, so its pin passes through the rocker's pivot at φ = \
-                 180°"
+                 180°; make it shorter for a rocker that swings, or longer for one that turns"
             ),
-            Self::TooShort { link, phi, .. } => write!(
+            Self::TooShort {
+                link,
+                phi,
+                shortest,
+            } => write!(
                 f,
-                "the {link} no longer reaches the guide at φ = {:.2}°",
+                "the {link} no longer reaches the guide at φ = {:.2}°; make it longer than {shortest:.6} m",
                 phi.to_degrees()
             ),
         }
     }
 }
 
-impl Curable for Blocked {
-    fn write_cure(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::Apart { .. } => f.write_str("shorten it, or make the others longer"),
-            Self::FourBar { lengths, reach } => write!(
-                f,
-                "{}, or drive it over a stroke that stays inside φ = {:.2}° and {:.2}°, its dead points",
-                Remedy(lengths),
-                reach[0].to_degrees(),
-                reach[1].to_degrees()
-            ),
-            Self::PinMeetsPivot { .. } => f.write_str(
-                "make it shorter for a rocker that swings, or longer for one that turns",
-            ),
-            Self::TooShort { link, shortest, .. } => write!(
-                f,
-                "make the {link} longer than {shortest:.6} m, or shorten the crank"
-            ),
-        }
+impl From<Blocked> for Error {
+    fn from(blocked: Blocked) -> Self {
+        Self::Blocked(blocked)
     }
 }

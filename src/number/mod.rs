@@ -14,7 +14,6 @@
 //! Products round towards −∞. An overflow inside a cell, or in a sum of torques at full speed and acceleration, is refused when
 //! table and model are built; so inverse dynamics cannot saturate. Forward dynamics can, and reports it.
 
-pub(crate) mod error;
 mod kernel;
 #[allow(
     clippy::indexing_slicing,
@@ -32,7 +31,6 @@ mod scalar;
 mod scale;
 pub(crate) mod transfer;
 
-pub use error::{Cure, RangeError};
 pub(crate) use kernel::{Kernel, Ring};
 pub use phase::{Domain, Phase};
 pub use q15::Q15;

@@ -1,7 +1,6 @@
 //! The commands: read, compute, write.
 
 pub mod bus;
-mod core_error;
 pub mod ratio;
 pub mod sensitivity;
 pub mod size;
@@ -14,7 +13,6 @@ use std::path::{Path, PathBuf};
 
 use miette::{IntoDiagnostic as _, Result, WrapErr as _, miette};
 
-use crate::commands::core_error::core_report;
 use crate::options;
 use jred_machine::analysis::contact::OneWay;
 use jred_machine::analysis::duty::Duty;
@@ -105,13 +103,13 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
         sets,
         state,
     };
-    let columns = reduce(&file, &request).map_err(core_report)?;
+    let columns = reduce(&file, &request).into_diagnostic()?;
     if let Some(state) = state {
         warn(&file, state)?;
     }
     if let Some(path) = &options.report {
         let name = options.file.display().to_string();
-        let page = page::mechanism_page(&name, &file, state).map_err(core_report)?;
+        let page = page::mechanism_page(&name, &file, state).into_diagnostic()?;
         write(path, page.as_bytes(), &options.file)?;
     }
     let mut title = if sets.curves {
@@ -130,7 +128,7 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
         title += "\nthe motion does not pass every position exactly once: use --over time";
     }
     let largest = if sets.reactions {
-        reduce::largest(&file, &request).map_err(core_report)?
+        reduce::largest(&file, &request).into_diagnostic()?
     } else {
         Vec::new()
     };
@@ -163,7 +161,7 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
 
 /// Warns on standard error if a contact separates at this speed and acceleration; the result is computed nevertheless.
 fn warn(file: &MachineFile, state: [f64; 2]) -> Result<()> {
-    if let Some(words) = OneWay::warning(&file.machine, state).map_err(core_report)? {
+    if let Some(words) = OneWay::warning(&file.machine, state).into_diagnostic()? {
         eprintln!("{words}");
     }
     Ok(())
@@ -174,7 +172,7 @@ fn state(options: &options::Reduce, file: &MachineFile) -> Result<Option<[f64; 2
     let Some(speed) = &options.speed else {
         return Ok(None);
     };
-    let coordinate = Coordinate::of(file.machine.mechanism()).map_err(core_report)?;
+    let coordinate = Coordinate::of(file.machine.mechanism()).into_diagnostic()?;
     let refused =
         |name: &str, text: &str, why: &str| miette!("--{name} {text:?} cannot be used: {why}");
     let omega =
@@ -189,7 +187,7 @@ fn state(options: &options::Reduce, file: &MachineFile) -> Result<Option<[f64; 2
 
 fn run_check(options: &options::Check) -> Result<Done> {
     let file = read::read(&options.file)?;
-    let findings = Findings::of(&file).map_err(core_report)?;
+    let findings = Findings::of(&file).into_diagnostic()?;
     match options.format {
         inspection::Format::Table => print(&inspection::text(&findings))?,
         inspection::Format::Json => print(&format!("{:#}\n", inspection::json(&findings)))?,
@@ -245,7 +243,7 @@ fn run_export(options: &options::Export) -> Result<Done> {
             options.layout.name()
         ));
     }
-    let coordinate = Coordinate::of(file.machine.mechanism()).map_err(core_report)?;
+    let coordinate = Coordinate::of(file.machine.mechanism()).into_diagnostic()?;
     let quantity = |name: &str, text: &Option<String>, read: read::Reader| {
         let value = text.as_deref().map(|text| {
             read(text, coordinate).map_err(|why| miette!("--{name} {text:?} cannot be used: {why}"))
@@ -274,7 +272,7 @@ fn run_export(options: &options::Export) -> Result<Done> {
             return Ok(Done::Violated);
         }
         Err(Failure::NoneFits { message, help }) => return Err(miette!(help = help, "{message}")),
-        Err(Failure::Machine(error)) => return Err(core_report(error)),
+        Err(Failure::Machine(error)) => return Err(error).into_diagnostic(),
     };
     if let Some(out) = &options.out {
         write(out, &export.write(options.format), &options.file)?;
@@ -311,7 +309,7 @@ fn range(given: [Option<f64>; 2], file: &MachineFile, path: &Path) -> Result<(f6
             path.display()
         )
     })?;
-    let duty = Duty::new(file, motion, jred_machine::analysis::duty::STEPS).map_err(core_report)?;
+    let duty = Duty::new(file, motion, jred_machine::analysis::duty::STEPS).into_diagnostic()?;
     let [omega, alpha] = given;
     let omega = omega.unwrap_or(duty.figures(|i| i.omega).peak());
     let moved = duty.figures(|i| i.alpha).peak();

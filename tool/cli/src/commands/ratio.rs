@@ -2,10 +2,9 @@
 
 use std::collections::HashSet;
 
-use miette::{Result, miette};
+use miette::{IntoDiagnostic as _, Result, miette};
 use rayon::prelude::*;
 
-use crate::commands::core_error::core_report;
 use crate::commands::vary::catalogue;
 use crate::commands::{Done, motion, print};
 use crate::options::search::Ratio;
@@ -50,7 +49,7 @@ pub fn ratio(options: &Ratio) -> Result<Done> {
         ));
     }
     jred_sizing::select::fit::fit_input(&mut catalogue, &file)?;
-    let duty = Duty::new(&file, motion, options.supply.steps as usize).map_err(core_report)?;
+    let duty = Duty::new(&file, motion, options.supply.steps as usize).into_diagnostic()?;
     let gear = Gear {
         inertia: options.gearbox_inertia.unwrap_or(0.0),
         efficiency: options.efficiency,

@@ -2,7 +2,6 @@
 
 use std::fmt::Write as _;
 
-use jred::RangeError;
 use jred::table::MAX_CELLS;
 use jred::{Cubic, Error, Quadratic, Spline};
 
@@ -60,9 +59,9 @@ impl NotReached<'_> {
                 Answer::Refused(error) => Some(*error),
                 _ => None,
             });
-            return Ok(Failure::Machine(refused.unwrap_or(
-                RangeError::NotFinite("torque error of the table").into(),
-            )));
+            return Ok(Failure::Machine(
+                refused.unwrap_or(Error::NotFinite("torque error of the table")),
+            ));
         };
         self.not_reached(&misses, best).map(Failure::NotReached)
     }

@@ -76,9 +76,9 @@ pub enum Failure {
     },
 }
 
-impl<E: Into<Error>> From<E> for Failure {
-    fn from(error: E) -> Self {
-        Self::Machine(error.into())
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self::Machine(error)
     }
 }
 

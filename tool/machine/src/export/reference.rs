@@ -1,6 +1,5 @@
 //! The exact curves, computed once and compared with every table that is tried.
 
-use jred::PoseError;
 use std::cell::{OnceCell, RefCell};
 use std::collections::HashMap;
 
@@ -15,7 +14,7 @@ const PLACES: u32 = 16_381;
 pub(super) struct Remembered<'m, M> {
     machine: &'m M,
     knots: RefCell<HashMap<u64, Reduction>>,
-    repeats: OnceCell<Result<(), PoseError>>,
+    repeats: OnceCell<Result<(), Error>>,
 }
 
 impl<'m, M: Reducible> Remembered<'m, M> {
@@ -33,7 +32,7 @@ impl<M: Reducible> Reducible for Remembered<'_, M> {
         self.machine.domain()
     }
 
-    fn reduction(&self, phi: f64) -> Result<Reduction, PoseError> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
         if let Some(known) = self.knots.borrow().get(&phi.to_bits()) {
             return Ok(*known);
         }
@@ -42,7 +41,7 @@ impl<M: Reducible> Reducible for Remembered<'_, M> {
         Ok(found)
     }
 
-    fn check_repeats(&self) -> Result<(), PoseError> {
+    fn check_repeats(&self) -> Result<(), Error> {
         *self.repeats.get_or_init(|| self.machine.check_repeats())
     }
 }

@@ -1,6 +1,5 @@
 //! A machine as described by a machine file, checked and in SI units.
 
-use jred::PoseError;
 use std::fmt;
 use std::sync::Arc;
 
@@ -250,13 +249,13 @@ impl Mechanism for AnyMechanism {
     fn domain(&self) -> Domain {
         self.inner.domain()
     }
-    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
+    fn frames(&self, phi: f64) -> Result<Frames, Error> {
         self.inner.frames(phi)
     }
 }
 
 impl Jointed for AnyMechanism {
-    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
+    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, Error> {
         self.inner.joints(phi, frames)
     }
     fn drive(&self) -> usize {
@@ -391,6 +390,6 @@ impl MachineFile {
     pub fn with_drive_train(&self) -> Result<Machine<AnyMechanism>, Error> {
         let ratio = self.drive_train.ratio();
         let train = self.drive_train.inertia_at_input() * ratio * ratio;
-        Ok(self.machine.clone().with_flywheel(train)?)
+        self.machine.clone().with_flywheel(train)
     }
 }

@@ -31,11 +31,7 @@ pub(super) fn check(file: &MachineFile, mechanism: &Section) -> Result<()> {
 }
 
 fn holds(file: &MachineFile, mechanism: &Section, motion: &Motion, joint: OneWay) -> Result<()> {
-    let report = |error: Error| {
-        mechanism
-            .problem(error.to_string(), "in this mechanism")
-            .help(error.cure().to_string())
-    };
+    let report = |error: Error| mechanism.problem(error.to_string(), "in this mechanism");
     let force = |t: f64| {
         let state = motion.at(t);
         joint.force(&file.machine, [state.phi, state.omega, state.alpha])

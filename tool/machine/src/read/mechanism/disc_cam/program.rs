@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use jred::Error;
 use jred::cam::{CamError, MAX_SEGMENTS, Program, Segment, Shape};
 
 use crate::number::rounding::figure;
@@ -215,7 +216,7 @@ fn problem(
     parts: &[Section],
     segments: &[Segment],
     way: &Kind,
-    error: &CamError,
+    error: &Error,
 ) -> Problem {
     let degrees = |phi: f64| format!("{} deg", figure(phi.to_degrees()));
     // Rises in the unit that the key suggests.
@@ -234,7 +235,7 @@ fn problem(
         problem
     };
     match *error {
-        CamError::NotOneTurn { sum } => {
+        Error::Cam(CamError::NotOneTurn { sum }) => {
             let message = format!(
                 "the segments of the cam cover {}, but must cover exactly one turn",
                 degrees(sum)
@@ -243,7 +244,7 @@ fn problem(
             labelled(Problem::new(message), &|segment| degrees(segment.angle))
                 .help(format!("{verb} {}", degrees((TAU - sum).abs())))
         }
-        CamError::NotClosed { segment, gap } => {
+        Error::Cam(CamError::NotClosed { segment, gap }) => {
             let message = format!(
                 "after a turn of the cam, the follower is {} off",
                 shown(gap)
@@ -254,12 +255,12 @@ fn problem(
                 shown(-gap)
             ))
         }
-        CamError::VelocityJump {
+        Error::Cam(CamError::VelocityJump {
             segment,
             phi,
             from,
             to,
-        } => {
+        }) => {
             let next = (segment + 1) % parts.len();
             let label = |v: f64| format!("{} per rad", shown(v));
             Problem::new(format!(
@@ -270,7 +271,6 @@ fn problem(
             .at(part(next).header(), label(to))
             .help("put a segment with law = \"polynomial-5\" between them: it takes its end velocities from its neighbours")
         }
-        _ => (section.problem(error.to_string(), "in this cam program"))
-            .help(error.cure().to_string()),
+        _ => section.problem(error.to_string(), "in this cam program"),
     }
 }

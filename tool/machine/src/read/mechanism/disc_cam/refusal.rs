@@ -1,5 +1,6 @@
 //! Errors of the core about a cam, in terms of the machine file.
 
+use jred::Error;
 use jred::cam::CamError;
 
 use crate::read::mechanism::core;
@@ -12,10 +13,13 @@ pub(in crate::read::mechanism) fn problem(
     section: &Section,
     follower: &Section,
     base_radius: &Value,
-    error: CamError,
+    error: &Error,
 ) -> Problem {
+    let Error::Cam(cam) = error else {
+        return core(section, error);
+    };
     let deg = |phi: f64| format!("{:.2}°", phi.to_degrees());
-    match error {
+    match *cam {
         CamError::Undercut {
             phi,
             radius,
@@ -100,6 +104,6 @@ pub(in crate::read::mechanism) fn problem(
                 "too large",
             )
             .help("make the base radius or the rise smaller, or move the pivot outwards"),
-        _ => core(section, error),
+        _ => section.problem(error.to_string(), "in this cam"),
     }
 }
