@@ -116,7 +116,7 @@ fn cams_are_refused_with_their_cure() {
     refuses(
         "axis = \"ground.O\"",
         "axis = \"ground.A\"",
-        &["joint \"cam contact\": the point of the cam \"cam\" lies 120 mm from the axis"],
+        &["joint \"cam contact\": the point of the cam \"cam\" is 120 mm from the axis"],
     );
     refuses(
         "pivot = [\"120 mm\", \"0 mm\"]",

@@ -206,7 +206,7 @@ fn wrong_entries_are_refused_with_their_cure() {
             "offset = \"70 mm\"",
             &[
                 "is too small for the offset of the guide, 70 mm",
-                "larger than 55 mm",
+                "greater than 55 mm",
             ],
         ),
         (
