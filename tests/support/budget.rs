@@ -273,7 +273,7 @@ pub(crate) const SIN_COS_F32: f64 = 1.05e-7;
 /// The same in f64: `libm`'s and the angle's rounding.
 pub(crate) const SIN_COS_F64: f64 = 2.5e-16;
 
-/// `HarmonicModel::at` in f32 promises this, of the sum of the coefficients' sizes: k times the errors of sine and cosine, and
+/// A model of `Harmonic<f32>` in f32 promises this, of the sum of the coefficients' sizes: k times the errors of sine and cosine, and
 /// of k rotations.
 pub(crate) const HARMONIC_F32: f64 = 4e-7;
 

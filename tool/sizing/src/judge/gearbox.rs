@@ -84,7 +84,7 @@ fn shock_factor(gearbox: &Gearbox, cycles: f64) -> f64 {
 }
 
 /// Torque through the gearbox (N·m) in the worst emergency stop, and the inertia at its output (kg·m²) there: the motor
-/// brakes with its peak torque at standstill or its brake torque, whichever is larger. `None` if that torque is unknown, or
+/// brakes with the larger of its peak torque at standstill and its brake torque. `None` if that torque is unknown, or
 /// if the gearbox is self-locking: then its stiffness stops the machine.
 fn emergency(context: &Context, gearbox: &Gearbox) -> Option<[f64; 2]> {
     let motor = context.drive.motor;
