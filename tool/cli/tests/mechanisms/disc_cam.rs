@@ -294,7 +294,7 @@ fn wrong_entries_are_refused_with_their_cure() {
     let undercut: &[&str] = &[
         "`base_radius` in [mechanism] is too small",
         "undercut at φ = ",
-        "make the base radius larger than",
+        "make the base radius greater than",
     ];
     refuses_edit(&large, "\"40 mm\"", "\"5 mm\"", undercut);
     // Two polynomials that both leave the velocity between them open.
