@@ -14,6 +14,7 @@ mod bench;
 #[path = "support/ceilings.rs"]
 mod ceilings;
 
+use jred::mechanism::SliderCrankDimensions;
 use std::cell::Cell;
 use std::f64::consts::TAU;
 use std::hint::black_box;
@@ -49,18 +50,26 @@ fn slider_crank() -> Result<Machine<SliderCrank>, Error> {
     let massless = Link::new(0.0, 0.0, [0.0, 0.0])?;
     let slider = Link::new(10.0, 0.0, [0.0, 0.0])?;
     let links = [massless, massless, slider];
-    let mechanism = SliderCrank::new(0.05, 0.2, 0.0, Branch::Right, links)?;
-    Machine::new(mechanism)
+    let mechanism = SliderCrank::new(
+        SliderCrankDimensions {
+            crank: 0.05,
+            rod: 0.2,
+            offset: 0.0,
+        },
+        Branch::Right,
+        links,
+    )?;
+    Ok(Machine::new(mechanism)
         .with_gravity([9.81, 0.0])?
-        .with_flywheel(0.0063)
+        .with_flywheel(0.0063)?)
 }
 
 /// With friction at the crank.
 fn with_friction() -> Result<Machine<SliderCrank>, Error> {
     let crank = SliderCrank::CRANK;
-    slider_crank()?
+    Ok(slider_crank()?
         .with_load(Load::new(crank, Action::ViscousMoment(0.02))?)?
-        .with_load(Load::new(crank, Action::OpposingMoment(0.3))?)
+        .with_load(Load::new(crank, Action::OpposingMoment(0.3))?)?)
 }
 
 /// The largest torque in the range (N·m).
@@ -255,12 +264,12 @@ impl<M: Reducible> Reducible for Counted<'_, M> {
         self.0.domain()
     }
 
-    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
         self.1.set(self.1.get() + 1);
         self.0.reduction(phi)
     }
 
-    fn check_repeats(&self) -> Result<(), Error> {
+    fn check_repeats(&self) -> Result<(), jred::PoseError> {
         self.0.check_repeats()
     }
 }

@@ -1,6 +1,7 @@
 //! Time of the way from a machine to its harmonics on this computer: `cargo bench -p jred --bench harmonic`. Figures for
 //! `docs/harmonics.md`; judges nothing.
 
+use jred::mechanism::SliderCrankDimensions;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -34,7 +35,15 @@ fn time(what: &str, runs: u32, mut work: impl FnMut()) {
 fn main() -> Result<(), Error> {
     let massless = Link::new(0.0, 0.0, [0.0, 0.0])?;
     let ram = Link::new(10.0, 0.0, [0.0, 0.0])?;
-    let mechanism = SliderCrank::new(0.05, 0.2, 0.0, Branch::Right, [massless, massless, ram])?;
+    let mechanism = SliderCrank::new(
+        SliderCrankDimensions {
+            crank: 0.05,
+            rod: 0.2,
+            offset: 0.0,
+        },
+        Branch::Right,
+        [massless, massless, ram],
+    )?;
     let machine = Machine::new(mechanism)
         .with_gravity([9.81, 0.0])?
         .with_flywheel(0.0063)?;

@@ -18,6 +18,7 @@ mod memory;
 mod shapes;
 mod support;
 
+use jred::mechanism::SixLinkDimensions;
 use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::process::ExitCode;
@@ -128,7 +129,17 @@ fn run(bench: &mut Bench) -> Result<(), Error> {
     let six_link = Machine::new(shapes::six_link()?).with_gravity(gravity)?;
     let [crank, rocker, rod, centres, guide] = shapes::SIX_LINK;
     let lengths = [crank, rocker, rod];
-    let closed = SixLink::new(lengths, centres, guide, Branch::Right, shapes::six_links()?)?;
+    let closed = SixLink::new(
+        SixLinkDimensions {
+            crank: lengths[0],
+            rocker: lengths[1],
+            rod: lengths[2],
+            centres,
+            below: guide,
+        },
+        Branch::Right,
+        shapes::six_links()?,
+    )?;
     let closed = Machine::new(closed).with_gravity(gravity)?;
     let four_bar = Machine::new(support::four_bar()?).with_gravity(gravity)?;
     let four_bar_linkage =

@@ -17,6 +17,7 @@
 
 mod support;
 
+use jred::mechanism::FourBarDimensions;
 use jred::mechanism::{Assembly, FourBar, Linkage, Pair, Pose, Side};
 use jred::table::words_len;
 use jred::tabulate::{Request, fill, measure, scratch_len};
@@ -26,10 +27,13 @@ use jred::{
 };
 use support::{Failure, milli, println, program};
 
-/// Crank, coupler and arm from pin to pin (m).
-const LENGTHS: [f64; 3] = [0.08, 0.32, 0.24];
-/// The arm's bearing (m).
-const PIVOT: [f64; 2] = [0.3, 0.05];
+/// Dimensions (m).
+const DIMENSIONS: FourBarDimensions = FourBarDimensions {
+    crank: 0.08,
+    coupler: 0.32,
+    rocker: 0.24,
+    pivot: [0.3, 0.05],
+};
 /// The gripper's distance from that bearing (m).
 const REACH: f64 = 0.4;
 /// What it takes up (kg), and that mass' own inertia (kg·m²).
@@ -75,23 +79,32 @@ fn loaded(arm: &Link) -> Result<Link, Error> {
     let com = [(arm.mass() * u + mass * REACH) / sum, arm.mass() * v / sum];
     let apart = (REACH - u) * (REACH - u) + v * v;
     let reduced_mass = arm.mass() * mass / sum;
-    Link::new(sum, arm.inertia() + inertia + reduced_mass * apart, com)
+    Ok(Link::new(
+        sum,
+        arm.inertia() + inertia + reduced_mass * apart,
+        com,
+    )?)
 }
 
 /// The linkage by its pins alone, assembled from a rough drawing and followed round a turn.
 fn assemble(links: &[Link; 3]) -> Result<Assembly<3, 4, 32>, Error> {
-    let [crank, coupler, arm] = LENGTHS;
+    let FourBarDimensions {
+        crank,
+        coupler,
+        rocker: arm,
+        pivot,
+    } = DIMENSIONS;
     let origin = [0.0, 0.0];
     let pin = |a, b| Pair::Joint(Joint::Revolute([a, b]));
     let pins = [
         pin(Marker::ground(origin), Marker::on(0, origin)),
         pin(Marker::on(0, [crank, 0.0]), Marker::on(1, origin)),
         pin(Marker::on(1, [coupler, 0.0]), Marker::on(2, [arm, 0.0])),
-        pin(Marker::ground(PIVOT), Marker::on(2, origin)),
+        pin(Marker::ground(pivot), Marker::on(2, origin)),
     ];
     let drawing = [[0.0, 0.0, 0.0], [0.1, 0.0, 0.8], [0.3, 0.05, 1.7]];
     let drawing = drawing.map(|[x, y, psi]| Pose { x, y, psi });
-    Linkage::new(links, &pins, 0)?.assemble(Domain::Turn, 0.0, &drawing)
+    Ok(Linkage::new(links, &pins, 0)?.assemble(Domain::Turn, 0.0, &drawing)?)
 }
 
 /// Fills a table from a mechanism.
@@ -113,8 +126,10 @@ fn tabulate<'w>(
 
 /// Checks a table against the closed form, and prints how exact it is.
 fn check(table: &Table<'_, Spline<f32>>, links: [Link; 3]) -> Result<(), Failure> {
-    let four_bar = FourBar::new(LENGTHS, PIVOT, Side::Left, links)?;
-    let machine = Machine::new(&four_bar).with_gravity(GRAVITY)?;
+    let four_bar = FourBar::new(DIMENSIONS, Side::Left, links).map_err(Error::from)?;
+    let machine = Machine::new(&four_bar)
+        .with_gravity(GRAVITY)
+        .map_err(Error::from)?;
     let found = measure(&machine, table, &DESIGN)?;
     let sum = table.words().iter().fold(0u32, |sum, word| {
         (sum ^ word.to_bits()).wrapping_mul(16_777_619)
@@ -137,7 +152,7 @@ fn run() -> Result<(), Failure> {
 
     // The gripper closes. The linkage's positions do not change, only a mass does.
     let arm = loaded(&arm)?;
-    linkage.set_link(2, arm)?;
+    linkage.set_link(2, arm).map_err(Error::from)?;
     let spare = tabulate(&linkage, &mut spare)?;
     println!("with {} g", milli(PAYLOAD[0] as f32));
     check(&spare, [crank, coupler, arm])?;

@@ -53,7 +53,7 @@
 //! # From dimensions to a tick
 //!
 //! ```
-//! use jred::mechanism::{Branch, SliderCrank};
+//! use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 //! use jred::table::words_len;
 //! use jred::tabulate::{Request, fill, scratch_len, tabulate};
 //! use jred::{Error, Link, Machine, Model, Phase, Reducible, Scale, Spline, curves};
@@ -63,7 +63,8 @@
 //!     let crank = Link::new(0.8, 0.0006, [0.015, 0.0])?;
 //!     let rod = Link::new(0.45, 0.0021, [0.075, 0.0])?;
 //!     let slider = Link::new(0.6, 0.0, [0.0, 0.0])?;
-//!     let mechanism = SliderCrank::new(0.05, 0.2, 0.0, Branch::Right, [crank, rod, slider])?;
+//!     let dimensions = SliderCrankDimensions { crank: 0.05, rod: 0.2, offset: 0.0 };
+//!     let mechanism = SliderCrank::new(dimensions, Branch::Right, [crank, rod, slider])?;
 //!     let machine = Machine::new(mechanism).with_gravity([0.0, -9.81])?;
 //!
 //!     // The smallest f32 table whose drive torque is right to 0.01 N·m up to 60 rad/s and 400 rad/s².
@@ -122,14 +123,16 @@ mod tick;
 pub use error::Error;
 pub use machine::{
     Action, Body, Element, Forces, Frame, Joint, Jointed, Link, Load, LoadCurves, MAX_ELEMENTS,
-    MAX_LOADS, Machine, Marker, Mechanism, Reaction, Reducible, Reduction, TorqueTerms, Window,
-    Wrench, joint, motion,
+    MAX_LOADS, Machine, MachineError, Marker, Mechanism, PoseError, Reaction, Reducible, Reduction,
+    TorqueTerms, Window, Wrench, joint, motion,
 };
 pub use math::Real;
 pub use mechanism::{cam, synthesis};
 
 // Numbers.
-pub use number::{Domain, Number, Outcome, Phase, Q15, Q31, Scalar, Scale, Transfer};
+pub use number::{
+    Cure, Domain, Number, Outcome, Phase, Q15, Q31, RangeError, Scalar, Scale, Transfer,
+};
 
 // Tables and the tick.
 pub use curve::{
@@ -157,7 +160,7 @@ pub mod table {
 ///
 /// ```
 /// use jred::harmonic::{fit, scratch_len, terms};
-/// use jred::mechanism::{Branch, SliderCrank};
+/// use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 /// use jred::table::{Shape, words_len};
 /// use jred::tabulate::Request;
 /// use jred::{Error, Harmonic, Link, Machine, Model, Phase, Reducible, Set, Table, curves};
@@ -165,7 +168,8 @@ pub mod table {
 /// fn main() -> Result<(), Error> {
 ///     // Crank 30 mm, rod 120 mm, ram 42 kg: weight acts along the guide, so J is even and the load odd in φ.
 ///     let links = [Link::new(9.0, 0.018, [0.006, 0.0])?, Link::new(6.5, 0.03, [0.055, 0.0])?, Link::new(42.0, 0.0, [0.0, 0.0])?];
-///     let mechanism = SliderCrank::new(0.03, 0.12, 0.0, Branch::Right, links)?;
+///     let dimensions = SliderCrankDimensions { crank: 0.03, rod: 0.12, offset: 0.0 };
+///     let mechanism = SliderCrank::new(dimensions, Branch::Right, links)?;
 ///     let machine = Machine::new(mechanism).with_gravity([9.81, 0.0])?;
 ///
 ///     const MOST: u32 = 16;

@@ -1,11 +1,13 @@
 //! Cam programs: segments that make one turn, their transfer functions, and what is wrong with others.
 
+use crate::support::spoken;
+use jred::RangeError;
 use std::f64::consts::{PI, TAU};
 
 use crate::support::{assert_near, budget, config, derivative};
+use jred::Transfer;
 use jred::cam::{CamError, Program, Segment};
 use jred::motion::Law;
-use jred::{Error, Transfer};
 use proptest::prelude::*;
 
 const LAWS: [Law; 6] = [
@@ -201,7 +203,7 @@ fn velocity_and_reversal_transitions() {
 }
 
 fn refused(segments: &[Segment]) -> String {
-    Program::new(segments).unwrap_err().to_string()
+    spoken(Program::new(segments).unwrap_err())
 }
 
 #[test]
@@ -211,7 +213,7 @@ fn wrong_programs_are_refused_with_their_segment() {
     assert!(Program::new(&[rise, back]).is_ok());
     assert_eq!(
         refused(&[]),
-        "the cam program has no segment: give rises, dwells and returns over one turn"
+        "the cam program has no segment; give rises, dwells and returns over one turn"
     );
     assert_eq!(
         refused(&[
@@ -221,7 +223,7 @@ fn wrong_programs_are_refused_with_their_segment() {
                 ..back
             }
         ]),
-        "segment 2: a value is not a finite number"
+        "segment 2: a value is not a finite number; give numbers that are neither NaN nor infinite"
     );
     assert_eq!(
         refused(&[
@@ -231,7 +233,7 @@ fn wrong_programs_are_refused_with_their_segment() {
                 ..back
             }
         ]),
-        "segment 2: its angle is -28.647890°, but must be greater than zero"
+        "segment 2: its angle is -28.647890°, but must be greater than zero; give it an angle, or leave it out"
     );
     assert_eq!(
         refused(&[Segment {
@@ -246,7 +248,7 @@ fn wrong_programs_are_refused_with_their_segment() {
     };
     assert_eq!(
         refused(&[Segment::law(shares, PI, 0.01), back]),
-        "segment 1: the shares of the trapezoid must be greater than zero and together at most 1"
+        "segment 1: the shares of the trapezoid must be greater than zero and together at most 1; make them smaller"
     );
     assert_eq!(
         refused(&[
@@ -256,11 +258,11 @@ fn wrong_programs_are_refused_with_their_segment() {
                 ..back
             }
         ]),
-        "the segments cover 350.000000°, but must cover exactly one turn: add 10.000000°"
+        "the segments cover 350.000000°, but must cover exactly one turn; add 10.000000°"
     );
     assert_eq!(
         refused(&[rise, back, Segment::dwell(deg(3.0))]),
-        "the segments cover 363.000000°, but must cover exactly one turn: remove 3.000000°"
+        "the segments cover 363.000000°, but must cover exactly one turn; remove 3.000000°"
     );
     assert_eq!(
         refused(&[
@@ -281,10 +283,10 @@ fn wrong_programs_are_refused_with_their_segment() {
     let many = [Segment::dwell(TAU / 17.0); 17];
     assert_eq!(
         Program::new(&many).unwrap_err(),
-        Error::TooMany {
+        CamError::Range(RangeError::TooMany {
             what: "segments of a cam program",
             capacity: 16
-        }
+        })
     );
 }
 
@@ -308,10 +310,7 @@ fn roundings_are_forgiven() {
         if let Ok(program) = found {
             assert_near("closed", program.displacement(TAU - 1e-9).value, 0.0, 1e-17);
         } else {
-            assert!(matches!(
-                found,
-                Err(Error::Cam(CamError::NotClosed { segment: 1, .. }))
-            ));
+            assert!(matches!(found, Err(CamError::NotClosed { segment: 1, .. })));
         }
     }
 }

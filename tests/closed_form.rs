@@ -1,5 +1,6 @@
 //! Kinematics and reduction against textbook formulas, symmetry, and differences of their own values.
 
+use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::{PI, TAU};
 
 use crate::support::machines::{Spec, spec};
@@ -21,7 +22,18 @@ fn slider_only(r: f64, l: f64, mass: f64) -> Machine<SliderCrank> {
         massless(),
         Link::new(mass, 0.0, [0.0, 0.0]).unwrap(),
     ];
-    Machine::new(SliderCrank::new(r, l, 0.0, Branch::Right, links).unwrap())
+    Machine::new(
+        SliderCrank::new(
+            SliderCrankDimensions {
+                crank: r,
+                rod: l,
+                offset: 0.0,
+            },
+            Branch::Right,
+            links,
+        )
+        .unwrap(),
+    )
 }
 
 /// Two frames of the angle's neighbourhood differ by at most this: the largest derivative seen over a turn.
@@ -93,7 +105,15 @@ fn long_rod_is_a_scotch_yoke() {
 fn crank_as_a_disc_off_its_centre_follows_steiner() {
     let (mass, radius, [u, v]) = (3.0, 0.25, [0.04, -0.03]);
     let disc = Link::new(mass, 0.5 * mass * radius * radius, [u, v]).unwrap();
-    let mechanism = SliderCrank::new(0.1, 0.4, 0.05, Branch::Left, [disc, massless(), massless()]);
+    let mechanism = SliderCrank::new(
+        SliderCrankDimensions {
+            crank: 0.1,
+            rod: 0.4,
+            offset: 0.05,
+        },
+        Branch::Left,
+        [disc, massless(), massless()],
+    );
     let machine = Machine::new(mechanism.unwrap())
         .with_gravity([0.0, -9.81])
         .unwrap();
@@ -243,7 +263,7 @@ proptest! {
         let links = [flip(crank, mirrored(&spec, [u1, v1])), flip(rod, mirrored(&spec, [u2, v2])), slider];
         let branch = if spec.left { Branch::Right } else { Branch::Left };
         let offset = spec.offset_ratio * spec.crank;
-        let image = SliderCrank::new(spec.crank, spec.rod(), offset, branch, links).unwrap();
+        let image = SliderCrank::new(SliderCrankDimensions { crank: spec.crank, rod: spec.rod(), offset }, branch, links).unwrap();
         let image = Machine::new(image).with_gravity([-spec.gravity()[0], spec.gravity()[1]]).unwrap();
         let machine = Machine::new(spec.mechanism()).with_gravity(spec.gravity()).unwrap();
         let [a, b] = [machine.reduction(phi).unwrap(), image.reduction(PI - phi).unwrap()];

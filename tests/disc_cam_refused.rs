@@ -1,10 +1,10 @@
 //! Cams that cannot be made: what is wrong with them, and what cures it.
 
+use crate::support::spoken;
 use std::f64::consts::{PI, TAU};
 
 use crate::support::assert_near;
 use crate::support::cams::{follower, four, links};
-use jred::Error;
 use jred::cam::{CamError, Program, Segment};
 use jred::mechanism::{DiscCam, Follower, Roller, Swing};
 use jred::motion::Law;
@@ -23,12 +23,12 @@ fn undercut_is_cured_by_the_radius_told() {
         .fold(0.0, f64::min);
     assert!(least < -0.01, "{least} of a rise over {beta}");
     let face = Follower::TranslatingFace { offset: 0.0 };
-    let Err(Error::Cam(CamError::Undercut {
+    let Err(CamError::Undercut {
         phi,
         radius,
         limit,
         base_radius,
-    })) = DiscCam::new(program.clone(), 0.01, face, links())
+    }) = DiscCam::new(program.clone(), 0.01, face, links())
     else {
         panic!("not refused")
     };
@@ -53,12 +53,12 @@ fn undercut_is_cured_by_the_radius_told() {
         let Err(error) = DiscCam::new(steep.clone(), 0.012, follower, links()) else {
             panic!("{kind} is not refused")
         };
-        let Error::Cam(CamError::Undercut {
+        let CamError::Undercut {
             base_radius: Some(cure),
             radius,
             limit,
             ..
-        }) = error
+        } = error
         else {
             panic!("{kind}: {error}")
         };
@@ -66,7 +66,7 @@ fn undercut_is_cured_by_the_radius_told() {
         let fits = |base| {
             !matches!(
                 DiscCam::new(steep.clone(), base, follower, links()),
-                Err(Error::Cam(CamError::Undercut { .. }))
+                Err(CamError::Undercut { .. })
             )
         };
         assert!(
@@ -77,9 +77,7 @@ fn undercut_is_cured_by_the_radius_told() {
 }
 
 fn refused(program: Program, base_radius: f64, follower: Follower) -> String {
-    DiscCam::new(program, base_radius, follower, links())
-        .unwrap_err()
-        .to_string()
+    spoken(DiscCam::new(program, base_radius, follower, links()).unwrap_err())
 }
 
 #[test]
@@ -118,12 +116,12 @@ fn impossible_cams_are_refused() {
     );
     assert_eq!(
         refused(four(0.01), 0.03, sliding(-0.04)),
-        "the base radius is too small for the guide's offset of -0.04 m: make it larger than 0.03 m, or reduce the offset"
+        "the base radius is too small for the guide's offset of -0.04 m; make it larger than 0.03 m, or reduce the offset"
     );
     assert_eq!(
         refused(four(0.1), 0.03, arm([0.1, 0.0], 0.05)),
         "the arm cannot hold the roller on the base circle: with its pivot 0.1 m from the cam's, base radius + roller \
-         radius must lie between 0.05 m and 0.15000000000000002 m"
+         radius must lie between 0.05 m and 0.15000000000000002 m; change the base radius, or move the pivot"
     );
     assert_eq!(
         refused(four(0.1), 0.03, arm([0.0, 0.0], 0.05)),
@@ -136,7 +134,7 @@ fn impossible_cams_are_refused() {
     assert_eq!(
         refused(four(0.1), 0.03, swinging(0.04, 0.02)),
         "the face cannot lie on the base circle: its pivot is 0.04 m from the cam's, but must be farther than base radius \
-         + face offset = 0.05 m"
+         + face offset = 0.05 m; move the pivot outwards, or make the base radius smaller"
     );
     assert_eq!(
         refused(four(2.9), 0.03, arm([0.1, 0.0], 0.09)),
@@ -154,7 +152,7 @@ fn impossible_cams_are_refused() {
     ]);
     assert_eq!(
         refused(below.unwrap(), 0.02, face),
-        "the follower goes down to the cam's axis at φ = 180.00°: make the base radius larger"
+        "the follower goes down to the cam's axis at φ = 180.00°; make the base radius larger"
     );
     // A rise of 1 rad within 0.9 rad by a law with C_v = 2: twice as fast as the cam.
     let fast = Program::new(&[

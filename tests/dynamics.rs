@@ -7,8 +7,8 @@ use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, config, derivative, largest, rk4};
 use jred::mechanism::{Mesh, SliderCrank, Stage, Train};
 use jred::{
-    Cubic, Domain, Error, Format, Machine, Mechanism, Phase, Quadratic, Reducible, Reduction,
-    Scale, Set, Spline, Table, curves,
+    Cubic, Domain, Format, Machine, Mechanism, Phase, Quadratic, Reducible, Reduction, Scale, Set,
+    Spline, Table, curves,
 };
 use proptest::prelude::*;
 
@@ -210,7 +210,7 @@ impl Reducible for AtTheSlider {
         Domain::stroke(near, far).unwrap()
     }
 
-    fn reduction(&self, place: f64) -> Result<Reduction, Error> {
+    fn reduction(&self, place: f64) -> Result<Reduction, jred::PoseError> {
         let phi = self.phi(place);
         let (x, by_phi) = (self.slider(phi), self.machine.reduction(phi)?);
         let [j, j1, _] = by_phi.inertia;

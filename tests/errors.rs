@@ -1,5 +1,10 @@
 //! Every error of the core: some input produces it, and its text names quantity, value and cure.
 
+use jred::MachineError;
+use jred::PoseError;
+use jred::RangeError;
+use jred::mechanism::SliderCrankDimensions;
+use jred::mechanism::{Blocked, BuildError};
 use std::f64::consts::PI;
 
 use crate::support::machines::Wave;
@@ -16,9 +21,12 @@ use jred::{
 
 /// The error, after checking that its text holds every part.
 #[track_caller]
-fn says<T: std::fmt::Debug>(result: Result<T, Error>, parts: &[&str]) -> Error {
-    let error = result.unwrap_err();
-    let text = error.to_string();
+fn says<T: std::fmt::Debug, E: Into<Error> + std::fmt::Debug>(
+    result: Result<T, E>,
+    parts: &[&str],
+) -> Error {
+    let error = result.unwrap_err().into();
+    let text = format!("{error}; {}", error.cure());
     for part in parts {
         assert!(text.contains(part), "\"{text}\" does not say \"{part}\"");
     }
@@ -29,8 +37,16 @@ fn links() -> [Link; 3] {
     [0.1, 0.2, 0.3].map(|mass| Link::new(mass, 0.001, [0.0, 0.0]).unwrap())
 }
 
-fn slider_crank(r: f64, l: f64, e: f64) -> Result<SliderCrank, Error> {
-    SliderCrank::new(r, l, e, Branch::Right, links())
+fn slider_crank(r: f64, l: f64, e: f64) -> Result<SliderCrank, BuildError> {
+    SliderCrank::new(
+        SliderCrankDimensions {
+            crank: r,
+            rod: l,
+            offset: e,
+        },
+        Branch::Right,
+        links(),
+    )
 }
 
 /// The table of a machine, or why there is none.
@@ -53,7 +69,10 @@ fn values_out_of_bounds_are_named() {
         slider_crank(-0.1, 0.3, 0.0),
         &["crank length", "-0.1", "greater than zero"],
     );
-    assert_eq!(error, Error::NotPositive("crank length", -0.1));
+    assert_eq!(
+        error,
+        Error::Range(RangeError::NotPositive("crank length", -0.1))
+    );
     says(
         slider_crank(0.1, 0.0, 0.0),
         &["rod length", "0", "greater than zero"],
@@ -62,7 +81,7 @@ fn values_out_of_bounds_are_named() {
         Link::new(-2.5, 0.0, [0.0; 2]),
         &["mass", "-2.5", "not be negative"],
     );
-    assert_eq!(error, Error::Negative("mass", -2.5));
+    assert_eq!(error, Error::Range(RangeError::Negative("mass", -2.5)));
     says(Link::rotor(-0.5), &["inertia", "-0.5"]);
     says(Link::rotor(f64::NAN), &["inertia", "not a finite number"]);
     says(
@@ -195,10 +214,11 @@ fn short_rod_names_its_angle() {
             slider_crank(r, l, e),
             &["make the rod longer than", "shorten the crank"],
         );
-        let Error::CannotTurn { phi, shortest_rod } = error else {
+        let Error::Build(BuildError::Blocked(Blocked::TooShort { phi, shortest, .. })) = error
+        else {
             panic!("{error:?}")
         };
-        assert_near("shortest rod", shortest_rod, r + e.abs(), f64::EPSILON);
+        assert_near("shortest rod", shortest, r + e.abs(), f64::EPSILON);
         let degrees = format!("φ = {:.2}°", phi.to_degrees());
         assert!(
             error.to_string().contains(&degrees),
@@ -223,14 +243,13 @@ fn short_rod_names_its_angle() {
         );
     }
     // A guide further away than the rod is long is not reached at φ = 0.
-    let error = says(slider_crank(0.1, 0.3, -0.4), &["φ = 0.00°", "0.5 m"]);
-    assert_eq!(
-        error,
-        Error::CannotTurn {
-            phi: 0.0,
-            shortest_rod: 0.5
-        }
-    );
+    let error = says(slider_crank(0.1, 0.3, -0.4), &["φ = 0.00°", "0.500000 m"]);
+    let blocked = Blocked::TooShort {
+        link: "rod",
+        phi: 0.0,
+        shortest: 0.5,
+    };
+    assert_eq!(error, Error::Build(BuildError::Blocked(blocked)));
 }
 
 /// l = r + |e| exactly, but for a rounding: the angle is 270°, not a full turn.
@@ -238,7 +257,7 @@ fn short_rod_names_its_angle() {
 fn rod_of_the_limit_length_names_its_angle() {
     let (r, e) = (0.1, 0.2);
     let error = slider_crank(r, r + e, e).unwrap_err();
-    let Error::CannotTurn { phi, .. } = error else {
+    let BuildError::Blocked(Blocked::TooShort { phi, .. }) = error else {
         panic!("{error:?}")
     };
     assert_near("φ", phi, 1.5 * PI, budget::LIMIT_ANGLE);
@@ -249,7 +268,10 @@ fn rod_of_the_limit_length_names_its_angle() {
 fn a_rod_of_a_hair_more_than_the_limit_turns_fully_or_is_refused() {
     let r = 0.807_812_5; // one for which l·(1/l) rounds to r/l = 1
     let refused = slider_crank(r, f64::next_up(r), 0.0).unwrap_err();
-    assert!(matches!(refused, Error::CannotTurn { .. }), "{refused:?}");
+    assert!(
+        matches!(refused, BuildError::Blocked(Blocked::TooShort { .. })),
+        "{refused:?}"
+    );
     let mechanism = slider_crank(r, r * (1.0 + 2e-12), 0.0).unwrap();
     for phi in [0.5 * PI, 1.5 * PI] {
         let frames = mechanism.frames(phi).unwrap();
@@ -261,7 +283,10 @@ fn a_rod_of_a_hair_more_than_the_limit_turns_fully_or_is_refused() {
 fn capacities_and_indices_are_named() {
     let load = Load::new(3, Action::Moment(1.0)).unwrap();
     let error = says(machine().with_load(load), &["no link 3", "0 to 2"]);
-    assert_eq!(error, Error::NoSuchLink { link: 3, links: 3 });
+    assert_eq!(
+        error,
+        Error::Machine(MachineError::NoSuchLink { link: 3, links: 3 })
+    );
     let mut full = machine();
     for _ in 0..jred::MAX_LOADS {
         full = full
@@ -284,7 +309,16 @@ fn capacities_and_indices_are_named() {
 #[test]
 fn tables_that_cannot_be_made_say_why() {
     let nothing = Link::rotor(0.0).unwrap();
-    let massless = SliderCrank::new(0.1, 0.3, 0.0, Branch::Right, [nothing; 3]).unwrap();
+    let massless = SliderCrank::new(
+        SliderCrankDimensions {
+            crank: 0.1,
+            rod: 0.3,
+            offset: 0.0,
+        },
+        Branch::Right,
+        [nothing; 3],
+    )
+    .unwrap();
     says(
         Machine::new(massless).reduction(1.0),
         &["reduced inertia", "57.30°", "give the drive link"],
@@ -328,10 +362,10 @@ fn tables_that_cannot_be_made_say_why() {
     );
     assert_eq!(
         error,
-        Error::BufferTooShort {
+        Error::Range(RangeError::BufferTooShort {
             needed: 38,
             given: 37
-        }
+        })
     );
     says(
         fill::<Spline<f32>>(&wave, 0, 16, &Scale::SI, &mut [0.0; 38], &mut rows[..18]),
@@ -377,8 +411,8 @@ fn a_load_that_does_not_repeat_is_not_tabulated() {
     let spring = Element::spring(between, 500.0, 0.4).unwrap();
     let sprung = machine.with_element(spring).unwrap();
     let refused = rows::<f64>(&sprung, curves::LOAD, 16, &Scale::SI).unwrap_err();
-    assert_eq!(refused, Error::NotPeriodic { phi: 0.4 });
-    says::<()>(
+    assert_eq!(refused, Error::Pose(PoseError::NotPeriodic { phi: 0.4 }));
+    says::<(), _>(
         Err(refused),
         &[
             "inertia or load at φ = 22.92°",

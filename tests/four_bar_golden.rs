@@ -2,6 +2,7 @@
 
 use crate::support::golden::Case;
 use crate::support::{budget, jointed};
+use jred::mechanism::FourBarDimensions;
 use jred::mechanism::{FourBar, Side};
 use jred::{Action, Link, Load, Machine, Mechanism, Reducible};
 
@@ -22,7 +23,17 @@ fn golden() -> (Case, Machine<FourBar>) {
         Side::Right
     };
     let lengths = [input("/a"), input("/b"), input("/c")];
-    let mechanism = FourBar::new(lengths, [input("/C/0"), input("/C/1")], side, links).unwrap();
+    let mechanism = FourBar::new(
+        FourBarDimensions {
+            crank: lengths[0],
+            coupler: lengths[1],
+            rocker: lengths[2],
+            pivot: [input("/C/0"), input("/C/1")],
+        },
+        side,
+        links,
+    )
+    .unwrap();
     let moment = |link, path| Load::new(link, Action::Moment(input(path))).unwrap();
     let machine = Machine::new(mechanism)
         .with_gravity([input("/gravity/0"), input("/gravity/1")])

@@ -7,7 +7,6 @@ mod creep;
 mod integrability;
 mod motion;
 mod newton;
-mod rheonomic;
 
 /// One step of the classical Runge-Kutta method for several states.
 fn rk4<const N: usize>(

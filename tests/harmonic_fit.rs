@@ -203,7 +203,7 @@ impl Reducible for SlowFall {
     fn domain(&self) -> Domain {
         Domain::Turn
     }
-    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
         Ok(Reduction {
             inertia: [1.0, 0.0, 0.0],
             process: (phi - self.from).sin().abs().powi(3),

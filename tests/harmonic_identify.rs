@@ -1,5 +1,7 @@
 //! Harmonics from measurements.
 
+use jred::RangeError;
+use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
 use crate::support::harmonics::model;
@@ -29,7 +31,16 @@ fn press() -> Machine<SliderCrank> {
         Link::new(42.0, 0.0, [0.0, 0.0]),
     ]
     .map(Result::unwrap);
-    let mechanism = SliderCrank::new(0.03, 0.12, 0.0, Branch::Right, links).unwrap();
+    let mechanism = SliderCrank::new(
+        SliderCrankDimensions {
+            crank: 0.03,
+            rod: 0.12,
+            offset: 0.0,
+        },
+        Branch::Right,
+        links,
+    )
+    .unwrap();
     Machine::new(mechanism)
         .with_gravity([9.81, 0.0])
         .and_then(|m| m.with_flywheel(0.05))
@@ -286,7 +297,7 @@ fn bad_samples_are_named() {
             "measured torque",
         ),
     ] {
-        assert_eq!(kept.add(&bad), Err(Error::NotFinite(what)));
+        assert_eq!(kept.add(&bad), Err(RangeError::NotFinite(what).into()));
     }
     // They left no trace.
     for sample in &all {

@@ -1,5 +1,7 @@
 //! Harmonics that are refused, and why.
 
+use jred::PoseError;
+use jred::RangeError;
 use std::f64::consts::TAU;
 
 use crate::support::assert_near;
@@ -68,6 +70,7 @@ fn kinks_and_hidden_harmonics_are_refused() {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "one request after another")]
 fn bad_requests_are_named() {
     let machine = press();
     let stroke = Wave {
@@ -103,7 +106,7 @@ fn bad_requests_are_named() {
     ] {
         let error = fitted::<f64, { terms::INERTIA_COS }>(&machine, &bad).unwrap_err();
         assert!(
-            matches!(error, Error::NotPositive(name, _) if name == what),
+            matches!(error, Error::Range(RangeError::NotPositive(name, _)) if name == what),
             "{error:?}"
         );
     }
@@ -113,16 +116,16 @@ fn bad_requests_are_named() {
     };
     assert_eq!(
         fitted::<f64, { terms::INERTIA_COS }>(&machine, &nan).unwrap_err(),
-        Error::NotFinite("largest acceleration")
+        Error::Range(RangeError::NotFinite("largest acceleration"))
     );
     let many = fitted::<f64, { terms::INERTIA_COS }>(&machine, &request(1.0, 257)).unwrap_err();
     assert!(
         matches!(
             many,
-            Error::OutOfRange {
+            Error::Range(RangeError::OutOfRange {
                 what: "most harmonics",
                 ..
-            }
+            })
         ),
         "{many:?}"
     );
@@ -140,23 +143,23 @@ fn bad_requests_are_named() {
     let needed = scratch_len(8);
     assert_eq!(
         short(&mut scratch[1..], &mut words),
-        Error::BufferTooShort {
+        Error::Range(RangeError::BufferTooShort {
             needed,
             given: needed - 1
-        }
+        })
     );
     assert_eq!(
         short(&mut scratch, &mut words[1..]),
-        Error::BufferTooShort {
+        Error::Range(RangeError::BufferTooShort {
             needed: 9,
             given: 8
-        }
+        })
     );
     // J negative in a part of the turn.
     let negative =
         fitted::<f64, { terms::INERTIA_COS }>(&Wave::bare(1.0, 1.1), &request(1.0, 8)).unwrap_err();
     assert!(
-        matches!(negative, Error::NoInertia { phi } if (phi - TAU / 2.0).abs() < 0.5),
+        matches!(negative, Error::Pose(PoseError::NoInertia { phi }) if (phi - TAU / 2.0).abs() < 0.5),
         "{negative:?}"
     );
     // And between the 32 samples only: J is 1.2 at all of them.
@@ -169,7 +172,10 @@ fn bad_requests_are_named() {
     (waves.inertia[0], waves.inertia[32]) = ([0.1, 0.0], [1.1, 0.0]);
     let between =
         fitted::<f64, { curves::LOAD | terms::GENERAL }>(&waves, &request(1.0, 64)).unwrap_err();
-    assert!(matches!(between, Error::NoInertia { .. }), "{between:?}");
+    assert!(
+        matches!(between, Error::Pose(PoseError::NoInertia { .. })),
+        "{between:?}"
+    );
 }
 
 #[test]

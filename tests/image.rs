@@ -4,6 +4,7 @@ use crate::support::images::{VALIDITY, crc32, small, stroke, stroke_in};
 use crate::support::machines::{Spec, Wave, spec};
 use crate::support::rows::Rows;
 use crate::support::{config, number, samples};
+use jred::RangeError;
 use jred::image::{HEADER_WORDS, VERSION, encode, image_len};
 use jred::tabulate::{Request, Tabulated};
 use jred::{
@@ -98,16 +99,16 @@ fn encoding_needs_room_and_a_stored_number_type() {
     let rows = Rows::<Spline<f64>>::of(&machine, 0, 4, &Scale::SI).unwrap();
     let error = encode(&rows.table(), VALIDITY, &mut buffer).unwrap_err();
     assert_eq!(error, Error::NoImage("f64"));
-    assert!(error.to_string().contains("use f32"), "{error}");
+    assert!(error.cure().to_string().contains("use f32"), "{error}");
     let rows = Rows::<Spline<f32>>::of(&machine, 0, 4, &Scale::SI).unwrap();
     let short = &mut buffer[..SMALL as usize - 1];
     let error = encode(&rows.table(), VALIDITY, short).unwrap_err();
     assert_eq!(
         error,
-        Error::BufferTooShort {
+        Error::Range(RangeError::BufferTooShort {
             needed: 32,
             given: 31
-        }
+        })
     );
     assert!(encode(&rows.table(), VALIDITY, &mut buffer).is_ok());
 }

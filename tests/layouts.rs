@@ -6,8 +6,8 @@ use crate::support::machines::spec;
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, config, largest};
 use jred::{
-    Cubic, Domain, Error, Format, Number, Phase, Q31, Quadratic, Reducible, Reduction, Scalar,
-    Scale, Set, Spline, curves,
+    Cubic, Domain, Format, Number, Phase, Q31, Quadratic, Reducible, Reduction, Scalar, Scale, Set,
+    Spline, curves,
 };
 use proptest::prelude::*;
 
@@ -21,7 +21,7 @@ impl Reducible for Smooth {
         self.0
     }
 
-    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
         let (sin, cos) = phi.sin_cos();
         let inertia = 0.2 * sin.exp();
         Ok(Reduction {

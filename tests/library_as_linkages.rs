@@ -2,9 +2,16 @@
 //! same motion.
 
 use crate::support::{assert_near, budget, config, jointed};
+use jred::mechanism::FourBarDimensions;
+use jred::mechanism::InvertedSliderCrankDimensions;
+use jred::mechanism::PlanetaryDimensions;
+use jred::mechanism::ScotchYokeDimensions;
+use jred::mechanism::SixLinkDimensions;
+use jred::mechanism::Suspended;
+use jred::mechanism::TogglePressDimensions;
 use jred::mechanism::{
-    Assembly, Branch, FourBar, Geneva, Hoist, InvertedSliderCrank, Linkage, Member, Pair,
-    ParallelShafts, Planetary, PlanetaryGears, Pose, RackAndPinion, Rope, ScotchYoke, Side,
+    Assembly, Branch, DrivenShaft, FourBar, Geneva, Hoist, InvertedSliderCrank, Linkage, Member,
+    Pair, ParallelShafts, Planetary, PlanetaryGears, Pose, RackAndPinion, Rope, ScotchYoke, Side,
     SixLink, Stage, TogglePress, Train,
 };
 use jred::{Body, Domain, Frame, Joint, Jointed, Link, Machine, Marker, Mechanism, Reducible};
@@ -56,7 +63,7 @@ proptest! {
         phi in 0.0..6.3,
     ) {
         let side = if left { Side::Left } else { Side::Right };
-        let four_bar = FourBar::new(lengths, pivot, side, links());
+        let four_bar = FourBar::new(FourBarDimensions { crank: lengths[0], coupler: lengths[1], rocker: lengths[2], pivot }, side, links());
         prop_assume!(four_bar.is_ok());
         let four_bar = four_bar.unwrap();
         // Near a dead point every rounding grows.
@@ -81,7 +88,7 @@ proptest! {
         prop_assume!(f64::abs(centres / crank - 1.0) > 0.2);
         let rod = (rocker + f64::abs(below)) * (1.0 + slack);
         let branch = if left { Branch::Left } else { Branch::Right };
-        let six_link = SixLink::new([crank, rocker, rod], centres, below, branch, links()).unwrap();
+        let six_link = SixLink::new(SixLinkDimensions { crank, rocker, rod, centres, below }, branch, links()).unwrap();
         same_motion(&six_link, phi);
     }
 
@@ -94,7 +101,7 @@ proptest! {
     ) {
         let centres = f64::hypot(pivot[0], pivot[1]);
         prop_assume!(f64::abs(centres / crank - 1.0) > 0.2 + f64::abs(offset) / crank);
-        let mechanism = InvertedSliderCrank::new(crank, pivot, offset, links());
+        let mechanism = InvertedSliderCrank::new(InvertedSliderCrankDimensions { crank, pivot, offset }, links());
         prop_assume!(mechanism.is_ok());
         same_motion(&mechanism.unwrap(), phi);
     }
@@ -117,7 +124,7 @@ proptest! {
             if left { Side::Left } else { Side::Right },
             if backward { Branch::Left } else { Branch::Right },
         );
-        let press = TogglePress::new([crank, rod, upper, lower], pivot, 0.0, sides, links());
+        let press = TogglePress::new(TogglePressDimensions { crank, rod, upper, lower, pivot, guide: 0.0 }, sides.0, sides.1, links());
         prop_assume!(press.is_ok());
         same_motion(&press.unwrap(), phi);
     }
@@ -137,7 +144,10 @@ proptest! {
         };
         same_shafts(&train, &[belt(0, 1, a), belt(1, 2, b), belt(2, 3, c)], phi);
         // Side by side.
-        let driven = [(a, rotors[1]), (b, rotors[2]), (c, rotors[3])];
+        let driven = [(a, 1), (b, 2), (c, 3)].map(|(ratio, k)| DrivenShaft {
+            ratio,
+            link: rotors[k],
+        });
         let shafts = ParallelShafts::new(rotors[0], &driven).unwrap();
         same_shafts(&shafts, &[belt(0, 1, a), belt(0, 2, b), belt(0, 3, c)], phi);
     }
@@ -147,7 +157,7 @@ proptest! {
         let rope = |k: usize| Rope::new(radii[k], falls[k]).unwrap();
         let mass = |k: usize| Link::new(masses[k], 0.0, O).unwrap();
         let drum = Link::rotor(0.5).unwrap();
-        let hoist = Hoist::with_counterweight(drum, (rope(0), mass(0)), (rope(1), mass(1)));
+        let hoist = Hoist::with_counterweight(drum, Suspended { rope: rope(0), link: mass(0) }, Suspended { rope: rope(1), link: mass(1) });
         let frames = hoist.frames(0.0).unwrap();
         let joints = hoist.joints(0.0, &frames).unwrap();
         // A rope is a rack that the drum winds up; a tackle moves its load by a share of it.
@@ -172,7 +182,7 @@ proptest! {
 
     #[test]
     fn scotch_yokes(crank in 0.02..0.2, slot in 0.5..2.6, phi in 0.0..6.3) {
-        same_motion(&ScotchYoke::new(crank, slot, links()).unwrap(), phi);
+        same_motion(&ScotchYoke::new(ScotchYokeDimensions { crank, slot_angle: slot }, links()).unwrap(), phi);
     }
 }
 
@@ -278,7 +288,14 @@ fn a_rack_and_a_planetary_gear() {
     let [sun, planet, ring] = teeth.map(|z| 0.5 * module * f64::from(z));
     let member = Link::rotor(0.002).unwrap();
     let one_planet = Link::new(0.1, 0.00002, O).unwrap();
-    let gears = PlanetaryGears::new(teeth, 3, centres).unwrap();
+    let gears = PlanetaryGears::new(PlanetaryDimensions {
+        sun: teeth[0],
+        planet: teeth[1],
+        ring: teeth[2],
+        planets: 3,
+        centres,
+    })
+    .unwrap();
     let closed = Planetary::new(
         gears,
         Member::Sun,

@@ -1,12 +1,13 @@
 //! The contact force of a cam, and the speed at which it vanishes.
 
+use jred::MachineError;
 use std::f64::consts::{PI, TAU};
 
 use crate::support::cams::{cam, eccentric};
 use crate::support::{assert_near, budget, config};
 use jred::cam::{LiftOff, Piece, contact_force, lift_off};
 use jred::mechanism::{DiscCam, Follower};
-use jred::{Action, Element, Error, Link, Load, Machine, Marker, Window};
+use jred::{Action, Element, Link, Load, Machine, Marker, Window};
 use proptest::prelude::*;
 
 const MASS: f64 = 0.8;
@@ -160,7 +161,7 @@ fn other_joints_are_no_contacts() {
     for joint in [0, 1, 3] {
         assert_eq!(
             contact_force(&machine, joint, 1.0, 1.0, 0.0).unwrap_err(),
-            Error::NoSuchJoint { joint, joints: 3 }
+            MachineError::NoSuchJoint { joint, joints: 3 }
         );
         let turn = Piece { from: 0.0, to: TAU };
         assert!(lift_off(&machine, joint, std::iter::once(turn), 1.0).is_err());

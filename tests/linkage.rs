@@ -3,8 +3,10 @@
 use crate::support::golden::Case;
 use crate::support::machines::spec;
 use crate::support::{budget, config, jointed};
+use jred::PoseError;
+use jred::mechanism::linkage::LinkageError;
 use jred::mechanism::{Assembly, Linkage, Pair, Pose};
-use jred::{Action, Body, Domain, Error, Joint, Link, Load, Machine, Marker, Mechanism, Reducible};
+use jred::{Action, Body, Domain, Joint, Link, Load, Machine, Marker, Mechanism, Reducible};
 use proptest::prelude::*;
 
 const O: [f64; 2] = [0.0, 0.0];
@@ -196,7 +198,7 @@ fn gears_a_rack_and_a_belt_roll_without_slip() {
         .assemble::<9>(Domain::Turn, 0.0, &drawing)
         .unwrap_err();
     assert!(
-        matches!(refused, Error::NotClosed { link: 1, .. }),
+        matches!(refused, LinkageError::NotClosed { link: 1, .. }),
         "{refused}"
     );
 }
@@ -309,7 +311,9 @@ fn a_guide_can_be_driven() {
     let refused = linkage
         .assemble::<64>(too_far, at(1.0), &drawing)
         .unwrap_err();
-    let (Error::DeadPoint { phi, .. } | Error::BranchChange { phi, .. }) = refused else {
+    let LinkageError::Pose(PoseError::DeadPoint { phi, .. } | PoseError::BranchChange { phi, .. }) =
+        refused
+    else {
         panic!("{refused}")
     };
     let end = crate::support::largest((0..2000).map(|k| at(f64::from(k) * 1e-3 - 1.0)));

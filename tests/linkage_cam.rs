@@ -1,5 +1,8 @@
 //! A cam as a pair of a linkage: against the disc cam in closed form, and as the first of a chain of links.
 
+use crate::support::spoken;
+use jred::PoseError;
+use jred::mechanism::linkage::LinkageError;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::support::{assert_near, budget, cams, config, jointed};
@@ -7,9 +10,7 @@ use jred::cam::contact_force;
 use jred::mechanism::{
     Assembly, CamProfile, DiscCam, Follower, Frames, Linkage, Pair, PlacedCam, Pose, Roller, Swing,
 };
-use jred::{
-    Body, Domain, Error, Frame, Joint, Link, Machine, Marker, Mechanism, Reducible, Transfer,
-};
+use jred::{Body, Domain, Frame, Joint, Link, Machine, Marker, Mechanism, Reducible, Transfer};
 use proptest::prelude::*;
 
 const O: [f64; 2] = [0.0, 0.0];
@@ -76,7 +77,7 @@ impl Mechanism for Standing<'_> {
         Domain::Turn
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         let place = self.1;
         let (sin, cos) = place.turn.sin_cos();
         let stands = |(link, frame): (usize, &Frame)| {
@@ -367,7 +368,10 @@ fn the_follower_may_be_the_drive() {
     // Where the program dwells the cam does not move on.
     let beyond = Domain::stroke(rest + 0.001, rest + 0.013).unwrap();
     let refused = linkage.assemble::<65>(beyond, rest + 0.006, &drawing);
-    let Err(Error::DeadPoint { phi, .. } | Error::BranchChange { phi, .. }) = refused else {
+    let Err(LinkageError::Pose(
+        PoseError::DeadPoint { phi, .. } | PoseError::BranchChange { phi, .. },
+    )) = refused
+    else {
         panic!("{refused:?}")
     };
     assert_near("end of the rise", phi, rest + 0.012, 1e-6);
@@ -386,18 +390,16 @@ fn refused() {
     let links = cams::links();
     let at = |base| PlacedCam::new(profile(&cam), base);
     let message = |cams: &[PlacedCam]| {
-        Linkage::<2, 3, 1>::with_cams(&links, &pairs, cams, 0)
-            .unwrap_err()
-            .to_string()
+        spoken(Linkage::<2, 3, 1>::with_cams(&links, &pairs, cams, 0).unwrap_err())
     };
     assert_eq!(
         message(&[]),
-        "there is no cam 0: the linkage has 0 cams, counted from 0"
+        "there is no cam 0: the linkage has 0 cams, counted from 0; take the index of a cam that the linkage was given"
     );
     for body in [0, 1] {
         assert_eq!(
             message(&[at(Marker::on(body, O))]),
-            "the base of cam 0 is on the cam or its follower: put it on the body that carries both"
+            "the base of cam 0 is on the cam or its follower; put it on the body that carries both"
         );
     }
     let fixed = at(Marker::ground(O));
@@ -407,14 +409,14 @@ fn refused() {
     );
     assert_eq!(
         message(&[at(Marker::on(2, O))]),
-        "there is no link 2: the mechanism has links 0 to 1"
+        "there is no link 2: the mechanism has links 0 to 1; take an index from the mechanism's list of links"
     );
     assert!(message(&[at(Marker::ground([f64::NAN, 0.0]))]).contains("marker u"));
     let refused = Linkage::<2, 3>::new(&links, &pairs, 0).unwrap_err();
-    assert_eq!(refused, Error::NoSuchCam { cam: 0, cams: 0 });
+    assert_eq!(refused, LinkageError::NoSuchCam { cam: 0, cams: 0 });
     // The shape of the cam is checked as that of the disc cam.
     let small = CamProfile::new(cams::four(0.03), 0.004, follower).unwrap_err();
-    assert!(small.to_string().contains("base radius"), "{small}");
+    assert!(spoken(small).contains("base radius"), "{small}");
     // The whole is a machine like any other.
     let machine = Machine::new(assembled(&cam, place, 0.0));
     assert!(machine.reduction(1.0).unwrap().inertia[0] > 0.0);

@@ -1,8 +1,10 @@
 //! What is not a linkage: refused with its place, and never taken for one that closes.
 
 use crate::support::budget;
+use jred::PoseError;
+use jred::mechanism::linkage::LinkageError;
 use jred::mechanism::{Assembly, Linkage, Pair, Pose};
-use jred::{Body, Domain, Error, Joint, Link, Marker, Mechanism};
+use jred::{Body, Domain, Joint, Link, Marker, Mechanism};
 
 const O: [f64; 2] = [0.0, 0.0];
 
@@ -10,7 +12,7 @@ fn pin(a: Marker, b: Marker) -> Pair {
     Pair::Joint(Joint::Revolute([a, b]))
 }
 
-fn four_bar(lengths: [f64; 4], domain: Domain) -> Result<Assembly<3, 4, 64>, Error> {
+fn four_bar(lengths: [f64; 4], domain: Domain) -> Result<Assembly<3, 4, 64>, LinkageError> {
     let [a, b, c, d] = lengths;
     let link = Link::new(1.0, 0.01, O).unwrap();
     let pairs = [
@@ -29,7 +31,10 @@ fn what_cannot_be_a_mechanism_is_refused_with_its_place() {
     // Not Grashof: the crank stops where coupler and rocker are stretched, |AC| = b + c.
     let [a, b, c, d] = [0.25, 0.2, 0.18, 0.3_f64];
     let refused = four_bar([a, b, c, d], Domain::Turn).unwrap_err();
-    let (Error::DeadPoint { phi, joint } | Error::BranchChange { phi, joint }) = refused else {
+    let LinkageError::Pose(
+        PoseError::DeadPoint { phi, joint } | PoseError::BranchChange { phi, joint },
+    ) = refused
+    else {
         panic!("{refused}")
     };
     let limit = ((a * a + d * d - (b + c) * (b + c)) / (2.0 * a * d)).acos();
@@ -40,7 +45,7 @@ fn what_cannot_be_a_mechanism_is_refused_with_its_place() {
 
     // Too short to meet at all.
     let refused = four_bar([0.05, 0.05, 0.05, 0.3], Domain::Turn).unwrap_err();
-    let Error::CannotAssemble { phi, gap, .. } = refused else {
+    let LinkageError::Pose(PoseError::CannotAssemble { phi, gap, .. }) = refused else {
         panic!("{refused}")
     };
     crate::support::assert_near("φ", phi, 1.5, 0.0);
@@ -67,7 +72,7 @@ fn what_cannot_be_a_mechanism_is_refused_with_its_place() {
         pin(Marker::on(0, [0.05, 0.0]), Marker::on(1, O)),
     ];
     let refused = Linkage::<2, 4>::new(&[link; 2], &held, 0).unwrap_err();
-    let Error::OverConstrained { free: 1, .. } = refused else {
+    let LinkageError::OverConstrained { free: 1, .. } = refused else {
         panic!("{refused}")
     };
     let refuse = |pairs: &[Pair], drive, words: &str| {
@@ -154,7 +159,7 @@ fn what_repeats_after_two_turns_does_not_close_after_one() {
             .assemble::<256>(Domain::Turn, 0.0, &drawing)
             .unwrap_err();
         assert!(
-            matches!(refused, Error::NotClosed { .. }),
+            matches!(refused, LinkageError::NotClosed { .. }),
             "{start}: {refused}"
         );
         let two = Domain::stroke(0.0, 4.0 * std::f64::consts::PI).unwrap();

@@ -3,6 +3,7 @@
 mod ball_screw;
 mod cam;
 mod closed_form;
+mod conformance;
 mod disc_cam;
 mod disc_cam_closed_form;
 mod disc_cam_refused;

@@ -1,6 +1,7 @@
 //! Tables at the edge of what a model may be made of: a table that is let in never wraps, whatever its numbers.
 
 use crate::support::rows::Rows;
+use jred::RangeError;
 use jred::tabulate::{Request, tabulate};
 use jred::{
     Cubic, Domain, Error, Phase, Q31, Reducible, Reduction, Scale, Set, Spline, TableError, curves,
@@ -109,7 +110,7 @@ fn a_search_without_a_limit_ends() {
         fn domain(&self) -> Domain {
             Domain::Turn
         }
-        fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+        fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
             Ok(Reduction {
                 inertia: [1.0, 0.0, 0.0],
                 process: (37.0 * phi).sin(),
@@ -128,7 +129,7 @@ fn a_search_without_a_limit_ends() {
     let found =
         tabulate::<Spline<f32>>(&Ripple, set, &request, &Scale::SI, &mut scratch, &mut words);
     assert!(
-        matches!(found, Err(Error::BufferTooShort { .. })),
+        matches!(found, Err(Error::Range(RangeError::BufferTooShort { .. }))),
         "{found:?}"
     );
 }

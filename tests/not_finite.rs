@@ -1,7 +1,9 @@
 //! Nothing that is not a finite number gets into the core.
 
 use crate::support::machines::Wave;
-use jred::mechanism::{Branch, Mesh, SliderCrank, Stage, Train};
+use jred::RangeError;
+use jred::mechanism::SliderCrankDimensions;
+use jred::mechanism::{Branch, BuildError, Mesh, SliderCrank, Stage, Train};
 use jred::motion::{Law, Move};
 use jred::table::CubicSpline;
 use jred::tabulate::{Request, tabulate};
@@ -9,9 +11,17 @@ use jred::{
     Action, Domain, Error, Link, Load, Machine, Mechanism, Reducible, Scale, Spline, Window, curves,
 };
 
-fn slider_crank(r: f64, l: f64, e: f64) -> Result<SliderCrank, Error> {
+fn slider_crank(r: f64, l: f64, e: f64) -> Result<SliderCrank, BuildError> {
     let link = Link::new(0.1, 0.001, [0.0, 0.0])?;
-    SliderCrank::new(r, l, e, Branch::Right, [link; 3])
+    SliderCrank::new(
+        SliderCrankDimensions {
+            crank: r,
+            rod: l,
+            offset: e,
+        },
+        Branch::Right,
+        [link; 3],
+    )
 }
 
 fn machine() -> Machine<SliderCrank> {
@@ -22,62 +32,148 @@ type Case = (&'static str, fn(f64) -> Result<(), Error>);
 
 /// NaN and infinity in every argument of every constructor.
 #[test]
+#[expect(clippy::too_many_lines, reason = "a table of cases")]
 fn nothing_that_is_not_finite_gets_into_a_machine() {
     let cases: &[Case] = &[
-        ("mass", |x| Link::new(x, 0.0, [0.0; 2]).map(drop)),
-        ("inertia", |x| Link::new(0.0, x, [0.0; 2]).map(drop)),
-        ("com u", |x| Link::new(0.0, 0.0, [x, 0.0]).map(drop)),
-        ("com v", |x| Link::new(0.0, 0.0, [0.0, x]).map(drop)),
-        ("rotor", |x| Link::rotor(x).map(drop)),
-        ("crank", |x| slider_crank(x, 0.3, 0.0).map(drop)),
-        ("rod", |x| slider_crank(0.1, x, 0.0).map(drop)),
-        ("offset", |x| slider_crank(0.1, 0.3, x).map(drop)),
-        ("crank angle", |x| machine().reduction(x).map(drop)),
-        ("input angle", |x| Train::new(&[])?.frames(x).map(drop)),
-        ("ratio", |x| Stage::new(x, [0.0; 2]).map(drop)),
-        ("driver", |x| Stage::new(1.0, [x, 0.0]).map(drop)),
-        ("driven", |x| Stage::new(1.0, [0.0, x]).map(drop)),
-        ("gears", |x| {
-            Stage::gears([9, 9], [x, 0.0], Mesh::Internal).map(drop)
+        ("mass", |x| {
+            Link::new(x, 0.0, [0.0; 2]).map(drop).map_err(Into::into)
+        }),
+        ("inertia", |x| {
+            Link::new(0.0, x, [0.0; 2]).map(drop).map_err(Into::into)
+        }),
+        ("com u", |x| {
+            Link::new(0.0, 0.0, [x, 0.0]).map(drop).map_err(Into::into)
+        }),
+        ("com v", |x| {
+            Link::new(0.0, 0.0, [0.0, x]).map(drop).map_err(Into::into)
+        }),
+        ("rotor", |x| Link::rotor(x).map(drop).map_err(Into::into)),
+        ("crank", |x| {
+            slider_crank(x, 0.3, 0.0).map(drop).map_err(Into::into)
+        }),
+        ("rod", |x| {
+            slider_crank(0.1, x, 0.0).map(drop).map_err(Into::into)
+        }),
+        ("offset", |x| {
+            slider_crank(0.1, 0.3, x).map(drop).map_err(Into::into)
+        }),
+        ("crank angle", |x| {
+            machine().reduction(x).map(drop).map_err(Into::into)
+        }),
+        ("input angle", |x| {
+            Train::new(&[])?.frames(x).map(drop).map_err(Into::into)
+        }),
+        ("ratio", |x| {
+            Stage::new(x, [0.0; 2]).map(drop).map_err(Into::into)
+        }),
+        ("driver", |x| {
+            Stage::new(1.0, [x, 0.0]).map(drop).map_err(Into::into)
+        }),
+        ("driven", |x| {
+            Stage::new(1.0, [0.0, x]).map(drop).map_err(Into::into)
         }),
         ("gears", |x| {
-            Stage::gears([9, 9], [0.0, x], Mesh::Internal).map(drop)
+            Stage::gears([9, 9], [x, 0.0], Mesh::Internal)
+                .map(drop)
+                .map_err(Into::into)
         }),
-        ("pulley", |x| Stage::belt([x, 0.1], [0.0; 2], 0.0).map(drop)),
-        ("pulley", |x| Stage::belt([0.1, x], [0.0; 2], 0.0).map(drop)),
+        ("gears", |x| {
+            Stage::gears([9, 9], [0.0, x], Mesh::Internal)
+                .map(drop)
+                .map_err(Into::into)
+        }),
         ("pulley", |x| {
-            Stage::belt([0.1, 0.1], [x, 0.0], 0.0).map(drop)
+            Stage::belt([x, 0.1], [0.0; 2], 0.0)
+                .map(drop)
+                .map_err(Into::into)
         }),
         ("pulley", |x| {
-            Stage::belt([0.1, 0.1], [0.0, x], 0.0).map(drop)
+            Stage::belt([0.1, x], [0.0; 2], 0.0)
+                .map(drop)
+                .map_err(Into::into)
         }),
-        ("belt", |x| Stage::belt([0.1, 0.1], [0.0; 2], x).map(drop)),
+        ("pulley", |x| {
+            Stage::belt([0.1, 0.1], [x, 0.0], 0.0)
+                .map(drop)
+                .map_err(Into::into)
+        }),
+        ("pulley", |x| {
+            Stage::belt([0.1, 0.1], [0.0, x], 0.0)
+                .map(drop)
+                .map_err(Into::into)
+        }),
+        ("belt", |x| {
+            Stage::belt([0.1, 0.1], [0.0; 2], x)
+                .map(drop)
+                .map_err(Into::into)
+        }),
         ("efficiency", |x| {
-            Stage::new(1.0, [0.0; 2])?.with_efficiency(x).map(drop)
+            Stage::new(1.0, [0.0; 2])?
+                .with_efficiency(x)
+                .map(drop)
+                .map_err(Into::into)
         }),
-        ("gravity", |x| machine().with_gravity([x, 0.0]).map(drop)),
-        ("gravity", |x| machine().with_gravity([0.0, x]).map(drop)),
-        ("flywheel", |x| machine().with_flywheel(x).map(drop)),
-        ("force", |x| Load::new(0, Action::Force([x, 0.0])).map(drop)),
-        ("force", |x| Load::new(0, Action::Force([0.0, x])).map(drop)),
-        ("moment", |x| Load::new(0, Action::Moment(x)).map(drop)),
-        ("friction", |x| {
-            Load::new(0, Action::OpposingForce(x)).map(drop)
+        ("gravity", |x| {
+            machine()
+                .with_gravity([x, 0.0])
+                .map(drop)
+                .map_err(Into::into)
+        }),
+        ("gravity", |x| {
+            machine()
+                .with_gravity([0.0, x])
+                .map(drop)
+                .map_err(Into::into)
+        }),
+        ("flywheel", |x| {
+            machine().with_flywheel(x).map(drop).map_err(Into::into)
+        }),
+        ("force", |x| {
+            Load::new(0, Action::Force([x, 0.0]))
+                .map(drop)
+                .map_err(Into::into)
+        }),
+        ("force", |x| {
+            Load::new(0, Action::Force([0.0, x]))
+                .map(drop)
+                .map_err(Into::into)
+        }),
+        ("moment", |x| {
+            Load::new(0, Action::Moment(x))
+                .map(drop)
+                .map_err(Into::into)
         }),
         ("friction", |x| {
-            Load::new(0, Action::OpposingMoment(x)).map(drop)
+            Load::new(0, Action::OpposingForce(x))
+                .map(drop)
+                .map_err(Into::into)
+        }),
+        ("friction", |x| {
+            Load::new(0, Action::OpposingMoment(x))
+                .map(drop)
+                .map_err(Into::into)
         }),
         ("viscous", |x| {
-            Load::new(0, Action::ViscousForce(x)).map(drop)
+            Load::new(0, Action::ViscousForce(x))
+                .map(drop)
+                .map_err(Into::into)
         }),
         ("viscous", |x| {
-            Load::new(0, Action::ViscousMoment(x)).map(drop)
+            Load::new(0, Action::ViscousMoment(x))
+                .map(drop)
+                .map_err(Into::into)
         }),
         ("point", |x| {
-            Load::new(0, Action::Moment(1.0))?.at([x, 0.0]).map(drop)
+            Load::new(0, Action::Moment(1.0))?
+                .at([x, 0.0])
+                .map(drop)
+                .map_err(Into::into)
         }),
         ("point", |x| {
-            Load::new(0, Action::Moment(1.0))?.at([0.0, x]).map(drop)
+            Load::new(0, Action::Moment(1.0))?
+                .at([0.0, x])
+                .map(drop)
+                .map_err(Into::into)
         }),
     ];
     refused(cases);
@@ -86,25 +182,59 @@ fn nothing_that_is_not_finite_gets_into_a_machine() {
 #[test]
 fn nothing_that_is_not_finite_gets_into_motions_scales_and_requests() {
     let cases: &[Case] = &[
-        ("window", |x| Window::new(x, 1.0, 0.1).map(drop)),
-        ("window", |x| Window::new(0.0, x, 0.1).map(drop)),
-        ("window", |x| Window::new(0.0, 1.0, x).map(drop)),
-        ("scale", |x| Scale::new(x as f32, 1.0, 1.0).map(drop)),
-        ("scale", |x| Scale::new(1.0, x as f32, 1.0).map(drop)),
-        ("scale", |x| Scale::new(1.0, 1.0, x as f32).map(drop)),
-        ("covering", |x| {
-            Scale::covering(&machine(), x, 1.0, 4).map(drop)
+        ("window", |x| {
+            Window::new(x, 1.0, 0.1).map(drop).map_err(Into::into)
+        }),
+        ("window", |x| {
+            Window::new(0.0, x, 0.1).map(drop).map_err(Into::into)
+        }),
+        ("window", |x| {
+            Window::new(0.0, 1.0, x).map(drop).map_err(Into::into)
+        }),
+        ("scale", |x| {
+            Scale::new(x as f32, 1.0, 1.0).map(drop).map_err(Into::into)
+        }),
+        ("scale", |x| {
+            Scale::new(1.0, x as f32, 1.0).map(drop).map_err(Into::into)
+        }),
+        ("scale", |x| {
+            Scale::new(1.0, 1.0, x as f32).map(drop).map_err(Into::into)
         }),
         ("covering", |x| {
-            Scale::covering(&machine(), 1.0, x, 4).map(drop)
+            Scale::covering(&machine(), x, 1.0, 4)
+                .map(drop)
+                .map_err(Into::into)
         }),
-        ("stroke", |x| Domain::stroke(x, 1.0).map(drop)),
-        ("stroke", |x| Domain::stroke(0.0, x).map(drop)),
-        ("move", |x| Move::new(Law::Cycloidal, x, 1.0, 1.0).map(drop)),
-        ("move", |x| Move::new(Law::Cycloidal, 0.0, x, 1.0).map(drop)),
-        ("move", |x| Move::new(Law::Cycloidal, 0.0, 1.0, x).map(drop)),
+        ("covering", |x| {
+            Scale::covering(&machine(), 1.0, x, 4)
+                .map(drop)
+                .map_err(Into::into)
+        }),
+        ("stroke", |x| {
+            Domain::stroke(x, 1.0).map(drop).map_err(Into::into)
+        }),
+        ("stroke", |x| {
+            Domain::stroke(0.0, x).map(drop).map_err(Into::into)
+        }),
+        ("move", |x| {
+            Move::new(Law::Cycloidal, x, 1.0, 1.0)
+                .map(drop)
+                .map_err(Into::into)
+        }),
+        ("move", |x| {
+            Move::new(Law::Cycloidal, 0.0, x, 1.0)
+                .map(drop)
+                .map_err(Into::into)
+        }),
+        ("move", |x| {
+            Move::new(Law::Cycloidal, 0.0, 1.0, x)
+                .map(drop)
+                .map_err(Into::into)
+        }),
         ("move f32", |x| {
-            Move::new(Law::Cycloidal, 0.0, 1.0, x as f32).map(drop)
+            Move::new(Law::Cycloidal, 0.0, 1.0, x as f32)
+                .map(drop)
+                .map_err(Into::into)
         }),
         ("law", |x| {
             Law::Trapezoid {
@@ -112,6 +242,7 @@ fn nothing_that_is_not_finite_gets_into_motions_scales_and_requests() {
                 decelerate: 0.1,
             }
             .check()
+            .map_err(Into::into)
         }),
         ("law", |x| {
             Law::Trapezoid {
@@ -119,9 +250,12 @@ fn nothing_that_is_not_finite_gets_into_motions_scales_and_requests() {
                 decelerate: x,
             }
             .check()
+            .map_err(Into::into)
         }),
         ("spline", |x| {
-            CubicSpline::new([0.0, 0.0, 0.0, x, 0.0, 0.0, 0.0]).map(drop)
+            CubicSpline::new([0.0, 0.0, 0.0, x, 0.0, 0.0, 0.0])
+                .map(drop)
+                .map_err(Into::into)
         }),
         ("request", |x| request(x, 1.0, 1.0)),
         ("request", |x| request(1.0, x, 1.0)),
@@ -135,7 +269,7 @@ fn refused(cases: &[Case]) {
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let found = build(value);
             assert!(
-                matches!(found, Err(Error::NotFinite(_))),
+                matches!(found, Err(Error::Range(RangeError::NotFinite(_)))),
                 "{name} {value}: {found:?}"
             );
         }

@@ -1,5 +1,6 @@
 //! A turn in pieces: curves with jumps.
 
+use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
 use crate::support::rows::Rows;
@@ -10,8 +11,8 @@ use jred::motion::Law;
 use jred::table::words_len;
 use jred::tabulate::{Request, scratch_len, tabulate};
 use jred::{
-    Cubic, Domain, Error, Format, Link, Machine, Number, Part, Phase, Pieces, Q31, Quadratic,
-    Reducible, Reduction, Scale, Set, Spline, curves,
+    Cubic, Domain, Format, Link, Machine, Number, Part, Phase, Pieces, Q31, Quadratic, Reducible,
+    Reduction, Scale, Set, Spline, curves,
 };
 
 const SET: Set = curves::LOAD;
@@ -26,7 +27,7 @@ impl<M: Reducible> Reducible for Switched<M> {
         self.0.domain()
     }
 
-    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
         let mut reduction = self.0.reduction(phi)?;
         let [on, off] = self.2;
         if (phi - on).rem_euclid(TAU) < off - on {
@@ -39,7 +40,16 @@ impl<M: Reducible> Reducible for Switched<M> {
 fn press() -> Machine<SliderCrank> {
     let links = [(0.8, 0.0006), (0.45, 0.0021), (3.0, 0.0)]
         .map(|(mass, inertia)| Link::new(mass, inertia, [0.0, 0.0]).unwrap());
-    let mechanism = SliderCrank::new(0.05, 0.2, 0.0, Branch::Right, links).unwrap();
+    let mechanism = SliderCrank::new(
+        SliderCrankDimensions {
+            crank: 0.05,
+            rod: 0.2,
+            offset: 0.0,
+        },
+        Branch::Right,
+        links,
+    )
+    .unwrap();
     let machine = Machine::new(mechanism).with_gravity([-9.81, 0.0]).unwrap();
     machine.with_flywheel(0.004).unwrap()
 }

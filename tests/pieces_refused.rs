@@ -6,8 +6,7 @@ use crate::support::machines::Wave;
 use crate::support::rows::Rows;
 use crate::support::{budget, config};
 use jred::{
-    Domain, Error, Part, Phase, Pieces, Reducible, Reduction, Scale, Set, Spline, TableError,
-    curves,
+    Domain, Part, Phase, Pieces, Reducible, Reduction, Scale, Set, Spline, TableError, curves,
 };
 use proptest::prelude::*;
 
@@ -25,7 +24,7 @@ impl Reducible for Ruler {
         }
     }
 
-    fn reduction(&self, x: f64) -> Result<Reduction, Error> {
+    fn reduction(&self, x: f64) -> Result<Reduction, jred::PoseError> {
         Ok(Reduction {
             inertia: [1.0, 0.0, 0.0],
             process: x / self.0,

@@ -1,10 +1,13 @@
 //! Rack and pinion: formula, joints, forces.
 
+use jred::PoseError;
+use jred::RangeError;
+use jred::mechanism::BuildError;
 use std::f64::consts::TAU;
 
-use crate::support::{assert_near, budget, config, jointed};
+use crate::support::{assert_near, budget, config};
 use jred::mechanism::RackAndPinion;
-use jred::{Action, Error, Link, Load, Machine, Mechanism, Reducible};
+use jred::{Action, Link, Load, Machine, Mechanism, Reducible};
 use proptest::prelude::*;
 
 const RACK: usize = RackAndPinion::RACK;
@@ -91,7 +94,7 @@ fn rack_textbook() {
 }
 
 prop_compose! {
-    fn machines()(
+    pub(crate) fn machines()(
         r in 0.005..0.3_f64,
         mass in [0.1..5.0, 0.1..50.0],
         com in [-0.5..1.0, -0.3..0.3, -1.0..1.0, -1.0..1.0],
@@ -117,14 +120,7 @@ proptest! {
     #![proptest_config(config(150, 44))]
 
     #[test]
-    fn joints_close_and_forces_balance(
-        machine in machines(),
-        phi in -20.0..20.0_f64,
-        omega in -15.0..15.0_f64,
-        alpha in -100.0..100.0_f64,
-    ) {
-        jointed::holds(&machine, phi, omega, alpha);
-        jointed::turns(machine.mechanism(), 100);
+    fn what_is_reduced_repeats(machine in machines(), phi in -20.0..20.0_f64) {
         // All that the reduced equation needs repeats, though the rack does not come back.
         let (now, later) = (machine.reduction(phi).unwrap(), machine.reduction(phi + TAU).unwrap());
         prop_assert!((now.inertia[0] - later.inertia[0]).abs() <= budget::A_TURN_LATER * now.inertia[0]);
@@ -139,10 +135,13 @@ fn wrong_dimensions_are_refused() {
         new(0.0).to_string(),
         "pitch radius is 0, but must be greater than zero"
     );
-    assert_eq!(new(f64::NAN), Error::NotFinite("pitch radius"));
+    assert_eq!(
+        new(f64::NAN),
+        BuildError::Range(RangeError::NotFinite("pitch radius"))
+    );
     let rack = RackAndPinion::new(0.1, links(1.0, 1.0)).unwrap();
     assert_eq!(
         rack.frames(f64::NAN).unwrap_err(),
-        Error::NotFinite("pinion angle")
+        PoseError::Range(RangeError::NotFinite("pinion angle"))
     );
 }

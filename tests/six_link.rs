@@ -1,5 +1,8 @@
 //! The six-link quick-return mechanism: the printed equations, geometry, forces, and what it refuses.
 
+use crate::support::spoken;
+use jred::mechanism::BuildError;
+use jred::mechanism::SixLinkDimensions;
 use std::f64::consts::{PI, TAU};
 
 use crate::support::{assert_near, budget, config, derivative, jointed, largest};
@@ -9,7 +12,7 @@ use proptest::prelude::*;
 
 /// A random six-link mechanism.
 #[derive(Clone, Debug)]
-struct Spec {
+pub(crate) struct Spec {
     lengths: [f64; 3],
     centres: f64,
     below: f64,
@@ -19,7 +22,7 @@ struct Spec {
 }
 
 prop_compose! {
-    fn spec()(
+    pub(crate) fn spec()(
         crank in 0.03..0.2_f64,
         turns in any::<bool>(),
         share in 0.1..0.9_f64,
@@ -45,10 +48,21 @@ impl Spec {
             let com = [self.com[k] * size[k], 0.1 * self.com[k] * size[k]];
             Link::new(self.mass[k], 0.1 * self.mass[k] * size[k] * size[k], com).unwrap()
         });
-        SixLink::new(self.lengths, self.centres, self.below, self.branch, links).unwrap()
+        SixLink::new(
+            SixLinkDimensions {
+                crank: self.lengths[0],
+                rocker: self.lengths[1],
+                rod: self.lengths[2],
+                centres: self.centres,
+                below: self.below,
+            },
+            self.branch,
+            links,
+        )
+        .unwrap()
     }
 
-    fn machine(&self) -> Machine<SixLink> {
+    pub(crate) fn machine(&self) -> Machine<SixLink> {
         let load = |link, action| Load::new(link, action).unwrap();
         Machine::new(self.mechanism())
             .with_gravity([1.0, -9.7])
@@ -110,14 +124,6 @@ proptest! {
         ]);
     }
 
-    #[test]
-    fn joints_close_and_forces_balance(
-        spec in spec(), phi in -7.0..7.0, omega in -40.0..40.0, alpha in -500.0..500.0,
-    ) {
-        let machine = spec.machine();
-        jointed::holds(&machine, phi, omega, alpha);
-    }
-
     /// The slider by the loop O₁-O₂-B-C, on the side asked for, and its velocity by differences.
     #[test]
     fn slider_is_where_the_loop_puts_it(spec in spec(), phi in -7.0..7.0_f64) {
@@ -163,7 +169,18 @@ proptest! {
 /// constant speed.
 #[test]
 fn shaper_returns_quickly() {
-    let mechanism = SixLink::new([0.1, 0.5, 0.6], 0.2, -0.3, Branch::Right, rotors()).unwrap();
+    let mechanism = SixLink::new(
+        SixLinkDimensions {
+            crank: 0.1,
+            rocker: 0.5,
+            rod: 0.6,
+            centres: 0.2,
+            below: -0.3,
+        },
+        Branch::Right,
+        rotors(),
+    )
+    .unwrap();
     jointed::turns(&mechanism, 720);
     let speed = |phi: f64| mechanism.frames(phi).unwrap()[SixLink::ROCKER].psi.d1;
     let count = 36_000;
@@ -171,7 +188,18 @@ fn shaper_returns_quickly() {
         (0..count).filter(|k| speed(TAU * (f64::from(*k) + 0.5) / f64::from(count)) > 0.0);
     let share = forward.count() as f64 / f64::from(count);
     assert_near("share of the forward stroke", share, 240.0 / 360.0, 1e-4);
-    let whitworth = SixLink::new([0.2, 0.3, 0.9], 0.1, 0.2, Branch::Left, rotors()).unwrap();
+    let whitworth = SixLink::new(
+        SixLinkDimensions {
+            crank: 0.2,
+            rocker: 0.3,
+            rod: 0.9,
+            centres: 0.1,
+            below: 0.2,
+        },
+        Branch::Left,
+        rotors(),
+    )
+    .unwrap();
     jointed::turns(&whitworth, 720);
     // Fastest and slowest at φ = 180° and 0°: ω₂/ω = l₁/(l₁ ∓ b).
     let speed = |phi: f64| whitworth.frames(phi).unwrap()[SixLink::ROCKER].psi.d1;
@@ -186,7 +214,18 @@ fn reduction_of_the_rocker_alone() {
     for link in [0, 1, 3, 4] {
         links[link] = Link::rotor(0.0).unwrap();
     }
-    let machine = SixLink::new([0.1, 0.5, 0.6], 0.25, -0.3, Branch::Right, links).unwrap();
+    let machine = SixLink::new(
+        SixLinkDimensions {
+            crank: 0.1,
+            rocker: 0.5,
+            rod: 0.6,
+            centres: 0.25,
+            below: -0.3,
+        },
+        Branch::Right,
+        links,
+    )
+    .unwrap();
     let machine = Machine::new(machine).with_flywheel(1e-3).unwrap();
     for k in 0..40 {
         let phi = 0.17 * f64::from(k);
@@ -220,9 +259,20 @@ fn rotors() -> [Link; 5] {
 }
 
 fn refused(lengths: [f64; 3], centres: f64, below: f64) -> String {
-    SixLink::new(lengths, centres, below, Branch::Right, rotors())
-        .unwrap_err()
-        .to_string()
+    spoken(
+        SixLink::new(
+            SixLinkDimensions {
+                crank: lengths[0],
+                rocker: lengths[1],
+                rod: lengths[2],
+                centres,
+                below,
+            },
+            Branch::Right,
+            rotors(),
+        )
+        .unwrap_err(),
+    )
 }
 
 #[test]
@@ -235,16 +285,16 @@ fn what_cannot_turn_is_refused_with_its_reason() {
     // sin φ₂ = l₃/l₂ = 0.4 is reached at φ = φ₂ + asin(b·sin φ₂/l₁) = 23.578° + 53.130°.
     assert_eq!(
         refused([0.1, 0.5, 0.2], 0.2, 0.0),
-        "the crank cannot turn fully: the rod no longer reaches the guide at φ = 76.71°; make it longer than 0.250000 m"
+        "the crank cannot turn fully: the rod no longer reaches the guide at φ = 76.71°; make the rod longer than 0.250000 m, or shorten the crank"
     );
     assert_eq!(
         refused([0.1, 0.5, 0.3], 0.2, -0.35),
-        "the crank cannot turn fully: the rod no longer reaches the guide at φ = 0.00°; make it longer than 0.600000 m"
+        "the crank cannot turn fully: the rod no longer reaches the guide at φ = 0.00°; make the rod longer than 0.600000 m, or shorten the crank"
     );
     // Whitworth, guide above: the rocker points down too far first, at φ₂ = 180° + asin(2/3).
     assert_eq!(
         refused([0.2, 0.3, 0.4], 0.1, -0.2),
-        "the crank cannot turn fully: the rod no longer reaches the guide at φ = 202.34°; make it longer than 0.500000 m"
+        "the crank cannot turn fully: the rod no longer reaches the guide at φ = 202.34°; make the rod longer than 0.500000 m, or shorten the crank"
     );
     assert_eq!(
         refused([0.1, 0.0, 0.3], 0.2, 0.0),
@@ -272,8 +322,8 @@ proptest! {
         let centres = if turns { share * crank } else { crank / share };
         let rise = if turns { rocker } else { rocker * crank / centres };
         let rod = short * (rise + below.abs());
-        let error = SixLink::new([crank, rocker, rod], centres, below, Branch::Right, rotors()).unwrap_err();
-        let jred::Error::Blocked(jred::mechanism::Blocked::TooShort { phi, shortest, .. }) = error else {
+        let error = SixLink::new(SixLinkDimensions { crank, rocker, rod, centres, below }, Branch::Right, rotors()).unwrap_err();
+        let BuildError::Blocked(jred::mechanism::Blocked::TooShort { phi, shortest, .. }) = error else {
             panic!("{error:?}")
         };
         assert_near("shortest", shortest, rise + below.abs(), budget::CLOSED_FORM);

@@ -1,9 +1,9 @@
 //! The quadratic spline: through its samples, smooth at the knots, closed, of the stated order.
 
+use jred::RangeError;
 use std::f64::consts::TAU;
 
 use crate::support::{assert_near, budget, config, largest};
-use jred::Error;
 use jred::table::{control_points, fit_quadratic_bounded, fit_quadratic_periodic};
 use proptest::prelude::*;
 
@@ -143,13 +143,13 @@ fn value_converges_with_order_3_and_slope_with_2() {
 
 #[test]
 fn too_few_samples_and_buffers_of_another_length_are_refused() {
-    let range = |given: f64, min: f64| Error::OutOfRange {
+    let range = |given: f64, min: f64| RangeError::OutOfRange {
         what: "number of samples",
         value: given,
         min,
         max: f64::INFINITY,
     };
-    let length = Err(Error::BufferTooShort {
+    let length = Err(RangeError::BufferTooShort {
         needed: 7,
         given: 6,
     });

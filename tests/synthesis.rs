@@ -1,7 +1,7 @@
 //! Gear ratio synthesis: the optimum against textbook conditions, its derivatives, a grid, and the train of (6.9).
 
 use crate::support::{assert_near, budget, config, derivative, largest};
-use jred::Error;
+use jred::RangeError;
 use jred::mechanism::{Stage, Train};
 use jred::synthesis::{Driven, OpenStage, RatioSplit};
 use proptest::prelude::*;
@@ -332,7 +332,7 @@ fn what_cannot_be_split_is_refused() {
     let split = equal_pinions(20.0, 2, [1.0, 10.0]);
     assert_eq!(
         split.with_first(1.5).unwrap_err(),
-        Error::OutOfRange {
+        RangeError::OutOfRange {
             what: "ratio of the first stage",
             value: 1.5,
             min: 2.0,

@@ -1,5 +1,6 @@
 //! Friction in tables: magnitudes with kinks become smooth curves with a sign, and constants are numbers, not curves.
 
+use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
 use crate::support::rows::Rows;
@@ -7,8 +8,8 @@ use crate::support::{assert_near, budget, config, largest};
 use jred::mechanism::{Branch, SliderCrank};
 use jred::tabulate::curves_in_use;
 use jred::{
-    Action, Cubic, Domain, Error, Format, Link, Load, Machine, Number, Phase, Q31, Quadratic,
-    Reducible, Reduction, Scale, Set, Spline, curves,
+    Action, Cubic, Domain, Format, Link, Load, Machine, Number, Phase, Q31, Quadratic, Reducible,
+    Reduction, Scale, Set, Spline, curves,
 };
 use proptest::prelude::*;
 
@@ -23,7 +24,7 @@ impl<V: Fn(f64) -> f64> Reducible for Friction<V> {
         self.domain
     }
 
-    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
         Ok(Reduction {
             inertia: [1.0, 0.0, 0.0],
             potential_energy: [0.0, 0.0],
@@ -57,7 +58,16 @@ fn press() -> Machine<SliderCrank> {
         link(0.5),
         Link::new(0.6, 0.0, [0.0, 0.0]).unwrap(),
     ];
-    let mechanism = SliderCrank::new(0.05, 0.2, 0.01, Branch::Right, links).unwrap();
+    let mechanism = SliderCrank::new(
+        SliderCrankDimensions {
+            crank: 0.05,
+            rod: 0.2,
+            offset: 0.01,
+        },
+        Branch::Right,
+        links,
+    )
+    .unwrap();
     let friction = Load::new(SliderCrank::SLIDER, Action::OpposingForce(40.0)).unwrap();
     Machine::new(mechanism).with_load(friction).unwrap()
 }
@@ -174,7 +184,7 @@ impl Reducible for Constant {
         self.domain
     }
 
-    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
         Ok(Reduction {
             inertia: [1.0 + 0.2 * phi.cos(), -0.2 * phi.sin(), -0.2 * phi.cos()],
             potential_energy: [0.0, 0.0],

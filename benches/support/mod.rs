@@ -1,6 +1,7 @@
 //! What the benchmarks share: the four-bar linkage in two descriptions.
 #![allow(dead_code, reason = "every benchmark uses its own part")]
 
+use jred::mechanism::FourBarDimensions;
 use jred::mechanism::{Assembly, FourBar, Linkage, Pair, Pose, Side};
 use jred::{Domain, Error, Joint, Link, Marker};
 
@@ -10,10 +11,13 @@ pub(crate) const fn pin(a: Marker, b: Marker) -> Pair {
     Pair::Joint(Joint::Revolute([a, b]))
 }
 
-/// Crank, coupler, rocker (m).
-const LENGTHS: [f64; 3] = [0.08, 0.32, 0.24];
-/// The rocker's pivot (m).
-const PIVOT: [f64; 2] = [0.3, 0.05];
+/// Dimensions (m).
+const DIMENSIONS: FourBarDimensions = FourBarDimensions {
+    crank: 0.08,
+    coupler: 0.32,
+    rocker: 0.24,
+    pivot: [0.3, 0.05],
+};
 
 fn links() -> Result<[Link; 3], Error> {
     Ok([
@@ -25,19 +29,24 @@ fn links() -> Result<[Link; 3], Error> {
 
 /// The four-bar in closed form.
 pub(crate) fn four_bar() -> Result<FourBar, Error> {
-    FourBar::new(LENGTHS, PIVOT, Side::Left, links()?)
+    Ok(FourBar::new(DIMENSIONS, Side::Left, links()?)?)
 }
 
 /// The same, known by its links and pins alone.
 pub(crate) fn four_bar_linkage<const STATIONS: usize>() -> Result<Assembly<3, 4, STATIONS>, Error> {
-    let [crank, coupler, rocker] = LENGTHS;
+    let FourBarDimensions {
+        crank,
+        coupler,
+        rocker,
+        pivot,
+    } = DIMENSIONS;
     let pairs = [
         pin(Marker::ground(O), Marker::on(0, O)),
         pin(Marker::on(0, [crank, 0.0]), Marker::on(1, O)),
         pin(Marker::on(1, [coupler, 0.0]), Marker::on(2, [rocker, 0.0])),
-        pin(Marker::ground(PIVOT), Marker::on(2, O)),
+        pin(Marker::ground(pivot), Marker::on(2, O)),
     ];
     let drawing = [[0.0, 0.0, 0.0], [0.08, 0.0, 0.8], [0.3, 0.05, 1.7]];
     let drawing = drawing.map(|[x, y, psi]| Pose { x, y, psi });
-    Linkage::new(&links()?, &pairs, 0)?.assemble(Domain::Turn, 0.0, &drawing)
+    Ok(Linkage::new(&links()?, &pairs, 0)?.assemble(Domain::Turn, 0.0, &drawing)?)
 }

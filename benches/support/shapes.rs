@@ -6,7 +6,7 @@ use jred::{Domain, Error, Joint, Link, Marker};
 use crate::support::{O, pin};
 
 fn link(mass: f64) -> Result<Link, Error> {
-    Link::new(mass, mass * 0.01, [0.03, 0.01])
+    Ok(Link::new(mass, mass * 0.01, [0.03, 0.01])?)
 }
 
 /// The six-link mechanism of equations (81): crank 0.1, rocker 0.45 about (−0.25, 0), rod 0.6, guide y = −0.35 m.
@@ -38,7 +38,7 @@ pub(crate) fn six_link() -> Result<Assembly<5, 7, 256>, Error> {
         [0.7, -guide, 0.0],
     ];
     let drawing = drawing.map(|[x, y, psi]| Pose { x, y, psi });
-    Linkage::new(&six_links()?, &pairs, 0)?.assemble(Domain::Turn, 0.0, &drawing)
+    Ok(Linkage::new(&six_links()?, &pairs, 0)?.assemble(Domain::Turn, 0.0, &drawing)?)
 }
 
 /// So many positions are kept of the linkages that grow.
@@ -122,5 +122,5 @@ fn assemble<const LINKS: usize, const PAIRS: usize>(
         .iter()
         .map(|&[x, y, psi]| Pose { x, y, psi })
         .collect();
-    Linkage::new(links, pairs, 0)?.assemble(Domain::Turn, phi, &drawing)
+    Ok(Linkage::new(links, pairs, 0)?.assemble(Domain::Turn, phi, &drawing)?)
 }

@@ -12,7 +12,8 @@
 //! Interpolation of periodic samples by two recursive filters: M. Unser, *Splines: a perfect fit for signal and
 //! image processing*, IEEE Signal Processing Magazine 16 (1999), equations (19)-(20).
 
-use crate::{Error, math};
+use crate::math;
+use crate::number::error::RangeError;
 
 /// Control points that a curve of `cells` cells has: one a cell and three more, so that the four of any cell lie
 /// side by side.
@@ -28,7 +29,7 @@ pub const MIN_CELLS: usize = 4;
 ///
 /// # Errors
 /// Fewer than [`MIN_CELLS`] samples, or a buffer of another length than samples + 3.
-pub fn fit_periodic(samples: &[f64], control: &mut [f64]) -> Result<(), Error> {
+pub fn fit_periodic(samples: &[f64], control: &mut [f64]) -> Result<(), RangeError> {
     check_lengths(samples.len(), samples.len(), control.len())?;
     solve_periodic(4.0, samples, control);
     // The rows that close the turn.
@@ -85,7 +86,7 @@ fn solve_periodic(a: f64, f: &[f64], control: &mut [f64]) {
 ///
 /// # Errors
 /// As [`fit_periodic`].
-pub fn fit_quadratic_periodic(samples: &[f64], control: &mut [f64]) -> Result<(), Error> {
+pub fn fit_quadratic_periodic(samples: &[f64], control: &mut [f64]) -> Result<(), RangeError> {
     let cells = samples.len();
     check_lengths(cells, cells, control.len())?;
     // (h₀ + 6·h₁ + h₂)/4 is the value in the middle.
@@ -106,7 +107,7 @@ pub fn fit_quadratic_periodic(samples: &[f64], control: &mut [f64]) -> Result<()
 ///
 /// # Errors
 /// As [`fit_bounded`].
-pub fn fit_quadratic_bounded(samples: &[f64], control: &mut [f64]) -> Result<(), Error> {
+pub fn fit_quadratic_bounded(samples: &[f64], control: &mut [f64]) -> Result<(), RangeError> {
     let cells = samples.len().saturating_sub(2);
     check_lengths(samples.len(), cells, control.len())?;
     let f = |k: usize| samples.get(k).copied().unwrap_or(0.0);
@@ -155,7 +156,7 @@ fn quadratic_pivot(k: usize) -> f64 {
 ///
 /// # Errors
 /// Fewer than [`MIN_CELLS`] cells, or a buffer of another length than samples + 2.
-pub fn fit_bounded(samples: &[f64], control: &mut [f64]) -> Result<(), Error> {
+pub fn fit_bounded(samples: &[f64], control: &mut [f64]) -> Result<(), RangeError> {
     let cells = samples.len().saturating_sub(1);
     check_lengths(samples.len(), cells, control.len())?;
     let f = |k: usize| samples.get(k).copied().unwrap_or(0.0);
@@ -203,9 +204,9 @@ fn pivot(k: usize) -> f64 {
     (1..k.min(21)).fold(0.0, |before, _| 1.0 / (4.0 - before))
 }
 
-fn check_lengths(samples: usize, cells: usize, control: usize) -> Result<(), Error> {
+fn check_lengths(samples: usize, cells: usize, control: usize) -> Result<(), RangeError> {
     if cells < MIN_CELLS {
-        return Err(Error::OutOfRange {
+        return Err(RangeError::OutOfRange {
             what: "number of samples",
             value: samples as f64,
             min: (MIN_CELLS + samples - cells) as f64,
@@ -213,7 +214,7 @@ fn check_lengths(samples: usize, cells: usize, control: usize) -> Result<(), Err
         });
     }
     if control != control_points(cells) {
-        return Err(Error::BufferTooShort {
+        return Err(RangeError::BufferTooShort {
             needed: control_points(cells),
             given: control,
         });
@@ -236,16 +237,16 @@ impl<C: AsRef<[f64]>> CubicSpline<C> {
     ///
     /// # Errors
     /// Too few control points, or one that is not finite.
-    pub fn new(control: C) -> Result<Self, Error> {
+    pub fn new(control: C) -> Result<Self, RangeError> {
         let points = control.as_ref();
         if points.len() < control_points(MIN_CELLS) {
-            return Err(Error::BufferTooShort {
+            return Err(RangeError::BufferTooShort {
                 needed: control_points(MIN_CELLS),
                 given: points.len(),
             });
         }
         if !points.iter().all(|c| c.is_finite()) {
-            return Err(Error::NotFinite("a sample of the curve"));
+            return Err(RangeError::NotFinite("a sample of the curve"));
         }
         Ok(Self { control })
     }

@@ -1,13 +1,14 @@
 //! Quantities that vary: a ratio that is shifted in time, a slip that grows with the load.
 
+use crate::number::error::RangeError;
 use core::f64::consts::TAU;
 use core::fmt;
 
 use super::Dual;
 use crate::curve::CubicSpline;
-use crate::error::{finite, positive};
 use crate::machine::motion::Law;
-use crate::{Error, math};
+use crate::math;
+use crate::number::error::{finite, positive};
 
 /// What a course may depend on: time, angle and load of one friction stage, with derivatives by these three.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -141,7 +142,7 @@ impl Ramp {
         length: f64,
         values: [f64; 2],
         law: Law,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, RangeError> {
         law.check()?;
         Ok(Self {
             law: Some(law),
@@ -159,7 +160,7 @@ impl Ramp {
         start: f64,
         length: f64,
         values: [f64; 2],
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, RangeError> {
         Ok(Self {
             over,
             start: finite("start of the ramp", start)?,
@@ -211,7 +212,7 @@ impl Sine {
         amplitude: f64,
         frequency: f64,
         phase: f64,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, RangeError> {
         Ok(Self {
             over,
             mean: finite("mean of the sine", mean)?,
@@ -250,7 +251,7 @@ impl<C: AsRef<[f64]>> Curve<C> {
         start: f64,
         length: f64,
         spline: CubicSpline<C>,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, RangeError> {
         Ok(Self {
             over,
             start: finite("start of the curve", start)?,
@@ -301,7 +302,7 @@ impl Creep {
     ///
     /// # Errors
     /// A slip outside [0, 1), or a limit that is not positive.
-    pub fn new(slip: f64, limit: f64) -> Result<Self, Error> {
+    pub fn new(slip: f64, limit: f64) -> Result<Self, RangeError> {
         super::stage::slip_share(slip)?;
         Ok(Self {
             slip,

@@ -1,8 +1,9 @@
 //! The creeping contact: two shafts coupled only by the force that slip causes.
 
 use super::stage::slip_share;
-use crate::error::positive;
-use crate::{Error, math};
+use crate::math;
+use crate::number::error::RangeError;
+use crate::number::error::positive;
 
 /// A friction contact whose torque grows with its slip up to the limit of friction:
 ///
@@ -44,7 +45,7 @@ impl CreepContact {
     ///
     /// # Errors
     /// A slip outside (0, 1), or a limit that is not positive.
-    pub fn new(slip: f64, limit: f64) -> Result<Self, Error> {
+    pub fn new(slip: f64, limit: f64) -> Result<Self, RangeError> {
         Ok(Self {
             slip: positive("slip", slip_share(slip)?)?,
             limit: positive("torque limit of the contact", limit)?,

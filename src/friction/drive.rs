@@ -10,15 +10,17 @@
 //! ```
 //!
 //! The factor ½ is that of the power balance d(½Jω²)/dt = T·ω. With a ratio that is shifted in time the constraint cannot
-//! be integrated ([`integrability`](super::integrability)), and Lagrange's equation for the reduced kinetic energy would
+//! be integrated ([`Drive::integrability`]), and Lagrange's equation for the reduced kinetic energy would
 //! give a factor 1 and a free run with ω·J constant; the machine keeps ω·√J. The literature treats the shifted variator
 //! as non-holonomic, too: M. Čavić, M. Penčić, M. Zlokolica, *Thermal Science* 20 (2016) S525-S536.
 
 use super::course::Place;
+use super::error::FrictionError;
 use super::stage::{Flow, Ratios, Stage};
 use super::state::{ContactMotion, Motion, Shaft, ShaftMotion, State};
-use crate::error::finite;
-use crate::{Error, math};
+use crate::math;
+use crate::number::error::RangeError;
+use crate::number::error::finite;
 
 /// The most stages of a friction drive.
 pub const MAX_STAGES: usize = 8;
@@ -94,11 +96,11 @@ impl<'a> Drive<'a> {
         arrangement: Arrangement,
         contact: Contact,
         stages: &[Stage<'a>],
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, FrictionError> {
         if stages.is_empty() {
-            return Err(Error::NotPositive("number of friction stages", 0.0));
+            return Err(RangeError::NotPositive("number of friction stages", 0.0).into());
         }
-        let stages = heapless::Vec::from_slice(stages).map_err(|_| Error::TooMany {
+        let stages = heapless::Vec::from_slice(stages).map_err(|_| RangeError::TooMany {
             what: "friction stages",
             capacity: MAX_STAGES,
         })?;
@@ -140,7 +142,7 @@ impl<'a> Drive<'a> {
     /// # Errors
     /// Numbers of angles or shafts that do not fit; a course that leaves its range; no inertia; load and slip that do not
     /// settle, because the slip grows too fast with the load.
-    pub fn forward(&self, state: State, shafts: &[Shaft]) -> Result<Motion, Error> {
+    pub fn forward(&self, state: State, shafts: &[Shaft]) -> Result<Motion, FrictionError> {
         self.solve(state, shafts, Given::Torques)
     }
 
@@ -149,24 +151,30 @@ impl<'a> Drive<'a> {
     ///
     /// # Errors
     /// Those of [`forward`](Self::forward), or an acceleration that is not finite.
-    pub fn inverse(&self, state: State, alpha: f64, shafts: &[Shaft]) -> Result<Motion, Error> {
+    pub fn inverse(
+        &self,
+        state: State,
+        alpha: f64,
+        shafts: &[Shaft],
+    ) -> Result<Motion, FrictionError> {
         let alpha = finite("acceleration", alpha)?;
         self.solve(state, shafts, Given::Alpha(alpha))
     }
 
-    fn solve(&self, state: State, shafts: &[Shaft], given: Given) -> Result<Motion, Error> {
+    fn solve(&self, state: State, shafts: &[Shaft], given: Given) -> Result<Motion, FrictionError> {
         let expected = self.stages.len() + 1;
         for (what, count) in [
             ("number of angles", state.angles.len()),
             ("number of shafts", shafts.len()),
         ] {
             if count != expected {
-                return Err(Error::OutOfRange {
+                return Err(RangeError::OutOfRange {
                     what,
                     value: count as f64,
                     min: expected as f64,
                     max: expected as f64,
-                });
+                }
+                .into());
             }
         }
         finite("time", state.t)?;
@@ -182,9 +190,7 @@ impl<'a> Drive<'a> {
                 return Ok(motion);
             }
         }
-        Err(Error::NotSettled {
-            what: "load and slip of the friction drive",
-        })
+        Err(FrictionError::NotSettled)
     }
 
     /// Puts the loads found into `loads`; whether they are those that the coefficients were made with.
@@ -218,7 +224,11 @@ impl<'a> Drive<'a> {
         settled
     }
 
-    fn kinematics(&self, state: &State, loads: &[f64; MAX_STAGES]) -> Result<Kinematics, Error> {
+    fn kinematics(
+        &self,
+        state: &State,
+        loads: &[f64; MAX_STAGES],
+    ) -> Result<Kinematics, FrictionError> {
         let mut shafts = heapless::Vec::new();
         let mut stages = heapless::Vec::new();
         // Pushes cannot fail: the capacities are those of the stages, and one more.
@@ -256,7 +266,7 @@ impl<'a> Drive<'a> {
         shafts: &[Shaft],
         given: Given,
         kinematics: &Kinematics,
-    ) -> Result<Motion, Error> {
+    ) -> Result<Motion, FrictionError> {
         let omega = state.omega;
         // Σ h·J·j, Σ h·J·j̇·ω, Σ h·(M − ½·J′·ω_k²)
         let (mut mass, mut drag, mut torque) = (0.0, 0.0, 0.0);
@@ -271,7 +281,7 @@ impl<'a> Drive<'a> {
             motion.inertia[1] += (2.0 * inertia * c.rate + slope * own * c.speed) * c.speed;
         }
         if finite("inertia of the friction drive", mass)? <= 0.0 {
-            return Err(Error::NotPositive("inertia of the friction drive", mass));
+            return Err(RangeError::NotPositive("inertia of the friction drive", mass).into());
         }
         finite("torques of the friction drive", torque)?;
         (motion.alpha, motion.drive) = match given {

@@ -8,8 +8,7 @@
 //! |---|---|
 //! | how does it move? | [`Drive::forward`], [`Drive::inverse`]: factor ½ on dJ/dt·ω |
 //! | slip that grows with the load, as a separate degree of freedom | [`CreepContact`] |
-//! | a *position*, not a ratio, prescribed in time | [`Rheonomic`]: factor 1, and the actuator's power |
-//! | can the constraint be written between angles? | [`Drive::integrability`], and [`integrability`] for any constraint |
+//! | can the constraint be written between angles? | [`Drive::integrability`] |
 //!
 //! Equations (III.1)-(III.19): the chapter on holonomic and non-holonomic constraints of friction drives. In the sense of
 //! its figure, shaft 1 is the drive shaft.
@@ -18,8 +17,9 @@ mod course;
 mod creep;
 mod drive;
 mod dual;
-pub mod integrability;
-mod rheonomic;
+pub(crate) mod error;
+mod integrability;
+mod mechanism;
 mod stage;
 mod state;
 
@@ -27,6 +27,8 @@ pub use course::{Coefficient, Course, Creep, Curve, Place, Ramp, Sine, Variable}
 pub use creep::{CreepContact, Traction};
 pub use drive::{Arrangement, Contact, Drive, MAX_SHAFTS, MAX_STAGES};
 pub use dual::Dual;
-pub use rheonomic::{Coordinate, Rheonomic};
+pub use error::FrictionError;
+pub use integrability::StageConstraint;
+pub use mechanism::FrictionDrive;
 pub use stage::{Flow, Ratios, Stage};
 pub use state::{ContactMotion, Motion, Shaft, ShaftMotion, State};

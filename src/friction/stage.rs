@@ -2,8 +2,9 @@
 
 use super::Dual;
 use super::course::{Coefficient, Place};
-use crate::error::{finite, positive};
-use crate::{Error, math};
+use crate::math;
+use crate::number::error::RangeError;
+use crate::number::error::{finite, positive};
 
 /// Which way power flows through the contact, and so which shaft slip makes slower.
 ///
@@ -46,7 +47,7 @@ impl<'a> Stage<'a> {
     ///
     /// # Errors
     /// A constant ratio of zero or not finite.
-    pub fn new(ratio: impl Into<Coefficient<'a>>) -> Result<Self, Error> {
+    pub fn new(ratio: impl Into<Coefficient<'a>>) -> Result<Self, RangeError> {
         let ratio = ratio.into();
         if let Coefficient::Constant(i) = ratio {
             check_ratio(i)?;
@@ -62,7 +63,11 @@ impl<'a> Stage<'a> {
     ///
     /// # Errors
     /// A constant slip outside [0, 1): with ε = 1 nothing is coupled.
-    pub fn with_slip(self, slip: impl Into<Coefficient<'a>>, flow: Flow) -> Result<Self, Error> {
+    pub fn with_slip(
+        self,
+        slip: impl Into<Coefficient<'a>>,
+        flow: Flow,
+    ) -> Result<Self, RangeError> {
         let slip = slip.into();
         if let Coefficient::Constant(share) = slip {
             slip_share(share)?;
@@ -91,14 +96,14 @@ impl<'a> Stage<'a> {
     ///
     /// # Errors
     /// A course that is not finite there, a ratio of zero, or a slip outside (−1, 1).
-    pub fn at(&self, at: Place) -> Result<Ratios, Error> {
+    pub fn at(&self, at: Place) -> Result<Ratios, RangeError> {
         let (geometric, slip) = (self.ratio.at(at), self.slip.at(at));
         check_ratio(geometric.value)?;
         if !geometric.is_finite() {
-            return Err(Error::NotFinite("rate of the friction stage's ratio"));
+            return Err(RangeError::NotFinite("rate of the friction stage's ratio"));
         }
         if math::abs(finite("slip of the friction stage", slip.value)?) >= 1.0 {
-            return Err(Error::OutOfRange {
+            return Err(RangeError::OutOfRange {
                 what: "slip of the friction stage",
                 value: slip.value,
                 min: -1.0,
@@ -106,7 +111,7 @@ impl<'a> Stage<'a> {
             });
         }
         if !slip.is_finite() {
-            return Err(Error::NotFinite("rate of the friction stage's slip"));
+            return Err(RangeError::NotFinite("rate of the friction stage's slip"));
         }
         let kept = -slip + 1.0;
         let speed = match self.flow {
@@ -127,23 +132,23 @@ impl<'a> Stage<'a> {
     ///
     /// # Errors
     /// Those of [`at`](Self::at).
-    pub fn angle(&self, t: f64, from: f64, to: f64) -> Result<f64, Error> {
+    pub fn angle(&self, t: f64, from: f64, to: f64) -> Result<f64, RangeError> {
         crate::number::quadrature::integrate(from, to, 64, |phi| {
             Ok(self.at(Place::new(t, phi, 0.0))?.speed.value)
         })
     }
 }
 
-fn check_ratio(i: f64) -> Result<(), Error> {
+fn check_ratio(i: f64) -> Result<(), RangeError> {
     positive("size of the friction stage's ratio", math::abs(i)).map(|_| ())
 }
 
 /// A constant slip in [0, 1).
-pub(super) fn slip_share(slip: f64) -> Result<f64, Error> {
+pub(super) fn slip_share(slip: f64) -> Result<f64, RangeError> {
     if (0.0..1.0).contains(&finite("slip", slip)?) {
         Ok(slip)
     } else {
-        Err(Error::OutOfRange {
+        Err(RangeError::OutOfRange {
             what: "slip",
             value: slip,
             min: 0.0,

@@ -6,11 +6,12 @@
 //! damper          b = d·l′²                torsion damper  b = d·θ′²
 //! ```
 
-use crate::error::{finite, not_negative, positive};
 use crate::machine::joint::{Marker, Wrench};
 use crate::machine::link::Frame;
+use crate::math;
+use crate::number::error::RangeError;
+use crate::number::error::{finite, not_negative, positive};
 use crate::number::transfer::Transfer;
-use crate::{Error, math};
 
 /// The most force elements of a machine.
 pub const MAX_ELEMENTS: usize = 8;
@@ -48,7 +49,11 @@ impl Element {
     ///
     /// # Errors
     /// A stiffness that is not positive, a free length that is negative, or a marker that is not finite.
-    pub fn spring(between: [Marker; 2], stiffness: f64, free_length: f64) -> Result<Self, Error> {
+    pub fn spring(
+        between: [Marker; 2],
+        stiffness: f64,
+        free_length: f64,
+    ) -> Result<Self, RangeError> {
         let law = Law::Spring {
             stiffness: positive("spring stiffness", stiffness)?,
             free_length: not_negative("free length of the spring", free_length)?,
@@ -65,7 +70,7 @@ impl Element {
         between: [Marker; 2],
         stiffness: f64,
         free_angle: f64,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, RangeError> {
         let law = Law::TorsionSpring {
             stiffness: positive("torsion spring stiffness", stiffness)?,
             free_angle: finite("free angle of the torsion spring", free_angle)?,
@@ -77,7 +82,7 @@ impl Element {
     ///
     /// # Errors
     /// A coefficient that is negative, or anything not finite.
-    pub fn damper(between: [Marker; 2], coefficient: f64) -> Result<Self, Error> {
+    pub fn damper(between: [Marker; 2], coefficient: f64) -> Result<Self, RangeError> {
         let coefficient = not_negative("damper coefficient", coefficient)?;
         Self::new(between, Law::Damper { coefficient })
     }
@@ -86,12 +91,12 @@ impl Element {
     ///
     /// # Errors
     /// A coefficient that is negative, or anything not finite.
-    pub fn torsion_damper(between: [Marker; 2], coefficient: f64) -> Result<Self, Error> {
+    pub fn torsion_damper(between: [Marker; 2], coefficient: f64) -> Result<Self, RangeError> {
         let coefficient = not_negative("torsion damper coefficient", coefficient)?;
         Self::new(between, Law::TorsionDamper { coefficient })
     }
 
-    fn new(between: [Marker; 2], law: Law) -> Result<Self, Error> {
+    fn new(between: [Marker; 2], law: Law) -> Result<Self, RangeError> {
         between[0].check()?;
         between[1].check()?;
         Ok(Self { between, law })

@@ -3,11 +3,12 @@
 //! A joint connects two *markers*, each a point with a direction on a link or on the ground. The number of a link's three
 //! freedoms that it takes is the number of its unknown reactions: two forces in a pin, a force and a moment in a guide.
 
-use crate::error::finite;
 use crate::machine::link::Frame;
 use crate::machine::mechanism::MAX_LINKS;
+use crate::math;
+use crate::number::error::RangeError;
+use crate::number::error::finite;
 use crate::number::transfer::Transfer;
-use crate::{Error, math};
 
 /// The most joints of a mechanism: every one of the links' freedoms but the drive's may be taken by a joint of its own.
 pub const MAX_JOINTS: usize = 2 * MAX_LINKS;
@@ -102,7 +103,7 @@ impl Marker {
     ///
     /// # Errors
     /// A coordinate or the direction that is not finite.
-    pub fn check(&self) -> Result<(), Error> {
+    pub fn check(&self) -> Result<(), RangeError> {
         finite("marker u", self.at[0])?;
         finite("marker v", self.at[1])?;
         finite("marker direction", self.angle)?;

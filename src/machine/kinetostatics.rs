@@ -12,12 +12,14 @@
 //!
 //! V. G. Nazarenko, *Dynamics of mechanisms*, Minsk 2002, chapters 1 and 2.
 
-use crate::error::finite;
+use crate::Machine;
+use crate::machine::error::MachineError;
+use crate::machine::error::PoseError;
 use crate::machine::joint::{Body, Joint, MAX_JOINTS, Wrench};
 use crate::machine::link::{Frame, Link};
 use crate::machine::mechanism::{Frames, Jointed, MAX_LINKS};
+use crate::number::error::finite;
 use crate::number::linear;
-use crate::{Error, Machine};
 
 /// Most unknowns: three equations a link.
 const MOST: usize = 3 * MAX_LINKS;
@@ -68,7 +70,7 @@ impl<M: Jointed> Machine<M> {
     /// # Errors
     /// The mechanism cannot be placed at `phi`; ω or α not finite; joints that leave not exactly one freedom, or are at a
     /// dead point.
-    pub fn forces(&self, phi: f64, omega: f64, alpha: f64) -> Result<Forces, Error> {
+    pub fn forces(&self, phi: f64, omega: f64, alpha: f64) -> Result<Forces, MachineError> {
         let (omega, alpha) = (finite("speed", omega)?, finite("acceleration", alpha)?);
         let mechanism = self.mechanism();
         let frames = mechanism.frames(phi)?;
@@ -77,13 +79,13 @@ impl<M: Jointed> Machine<M> {
         let equations = 3 * links.len();
         let unknowns = 1 + joints.iter().map(Joint::constraints).sum::<usize>();
         if unknowns != equations {
-            return Err(Error::Mobility {
+            return Err(MachineError::Mobility {
                 links: links.len(),
                 constraints: unknowns - 1,
             });
         }
         let Some(driven) = joints.get(mechanism.drive()) else {
-            return Err(Error::NoSuchJoint {
+            return Err(MachineError::NoSuchJoint {
                 joint: mechanism.drive(),
                 joints: joints.len(),
             });
@@ -125,10 +127,11 @@ impl<M: Jointed> Machine<M> {
             &mut pivots[..equations],
         );
         if linear::factor(matrix, pivots) == 0.0 {
-            return Err(Error::DeadPoint {
+            return Err(PoseError::DeadPoint {
                 phi,
                 joint: mechanism.drive(),
-            });
+            }
+            .into());
         }
         linear::solve(matrix, pivots, &mut solution[..equations]);
 
@@ -159,7 +162,12 @@ impl<M: Jointed> Machine<M> {
     }
 
     /// Gravity, loads and force elements.
-    fn add_active_forces(&self, balance: &mut Balance, phi: f64, omega: f64) -> Result<(), Error> {
+    fn add_active_forces(
+        &self,
+        balance: &mut Balance,
+        phi: f64,
+        omega: f64,
+    ) -> Result<(), PoseError> {
         for (k, (link, frame)) in balance.links.iter().zip(balance.frames).enumerate() {
             let point = frame.point(link.com()).map(|c| c.value);
             let weight = self.gravity().map(|g| link.mass() * g);
@@ -172,7 +180,7 @@ impl<M: Jointed> Machine<M> {
         }
         for element in self.elements() {
             let wrenches = element.wrenches(balance.frames, omega);
-            for wrench in wrenches.ok_or(Error::EndsMeet { phi })? {
+            for wrench in wrenches.ok_or(PoseError::EndsMeet { phi })? {
                 balance.add(&wrench);
             }
         }

@@ -1,8 +1,9 @@
 //! One rigid link: its mass, and how it moves.
 
-use crate::error::{finite, not_negative};
+use crate::math;
+use crate::number::error::RangeError;
+use crate::number::error::{finite, not_negative};
 use crate::number::transfer::Transfer;
-use crate::{Error, math};
 
 /// Mass properties of a rigid link.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,7 +19,7 @@ impl Link {
     ///
     /// # Errors
     /// Mass or inertia negative, or anything not finite.
-    pub fn new(mass: f64, inertia: f64, com: [f64; 2]) -> Result<Self, Error> {
+    pub fn new(mass: f64, inertia: f64, com: [f64; 2]) -> Result<Self, RangeError> {
         Ok(Self {
             mass: not_negative("mass", mass)?,
             inertia: not_negative("inertia", inertia)?,
@@ -33,7 +34,7 @@ impl Link {
     ///
     /// # Errors
     /// Inertia negative or not finite.
-    pub fn rotor(inertia: f64) -> Result<Self, Error> {
+    pub fn rotor(inertia: f64) -> Result<Self, RangeError> {
         Self::new(0.0, inertia, [0.0, 0.0])
     }
 

@@ -1,10 +1,11 @@
 //! Forces and moments that act on the links, other than gravity.
 
-use crate::error::{finite, not_negative, positive};
 use crate::machine::joint::{Body, Wrench};
 use crate::machine::link::Frame;
 use crate::machine::motion::Law;
-use crate::{Error, math};
+use crate::math;
+use crate::number::error::RangeError;
+use crate::number::error::{finite, not_negative, positive};
 
 /// What a load does to its link.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +45,7 @@ impl Window {
     ///
     /// # Errors
     /// A window wider than a turn or narrower than its two ramps; a ramp that is not positive.
-    pub fn new(from: f64, to: f64, ramp: f64) -> Result<Self, Error> {
+    pub fn new(from: f64, to: f64, ramp: f64) -> Result<Self, RangeError> {
         use core::f64::consts::TAU;
         let from = finite("start of the load's window", from)?;
         let ramp = positive("ramp of the load's window", ramp)?;
@@ -53,7 +54,7 @@ impl Window {
             finite("end of the load's window", to)? - from,
         )?;
         if width > TAU || width < 2.0 * ramp {
-            return Err(Error::OutOfRange {
+            return Err(RangeError::OutOfRange {
                 what: "width of the load's window (rad)",
                 value: width,
                 min: 2.0 * ramp,
@@ -73,7 +74,7 @@ impl Window {
     ///
     /// # Errors
     /// A window narrower than its two ramps; a ramp that is not positive.
-    pub fn on_stroke(from: f64, to: f64, ramp: f64) -> Result<Self, Error> {
+    pub fn on_stroke(from: f64, to: f64, ramp: f64) -> Result<Self, RangeError> {
         let from = finite("start of the load's window", from)?;
         let ramp = positive("ramp of the load's window", ramp)?;
         let width = positive(
@@ -81,7 +82,7 @@ impl Window {
             finite("end of the load's window", to)? - from,
         )?;
         if width < 2.0 * ramp {
-            return Err(Error::OutOfRange {
+            return Err(RangeError::OutOfRange {
                 what: "width of the load's window (m or rad)",
                 value: width,
                 min: 2.0 * ramp,
@@ -139,7 +140,7 @@ impl Load {
     ///
     /// # Errors
     /// A value that is not finite; a motion-opposing or viscous size that is negative.
-    pub fn new(link: usize, action: Action) -> Result<Self, Error> {
+    pub fn new(link: usize, action: Action) -> Result<Self, RangeError> {
         match action {
             Action::Force([x, y]) => {
                 finite("force x", x)?;
@@ -170,7 +171,7 @@ impl Load {
     ///
     /// # Errors
     /// A coordinate that is not finite.
-    pub fn at(self, point: [f64; 2]) -> Result<Self, Error> {
+    pub fn at(self, point: [f64; 2]) -> Result<Self, RangeError> {
         finite("point of the load u", point[0])?;
         finite("point of the load v", point[1])?;
         Ok(Self { at: point, ..self })

@@ -2,7 +2,8 @@
 
 use super::joint::Joints;
 use super::link::{Frame, Link};
-use crate::{Domain, Error};
+use crate::Domain;
+use crate::machine::error::PoseError;
 
 /// The most links that a mechanism may have.
 pub const MAX_LINKS: usize = 16;
@@ -24,7 +25,7 @@ pub trait Mechanism {
     ///
     /// # Errors
     /// A dead point or a position that cannot be assembled; a mechanism checked when built returns none within its domain.
-    fn frames(&self, phi: f64) -> Result<Frames, Error>;
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError>;
 }
 
 /// A mechanism that knows its joints, so that the force in every joint can be calculated
@@ -35,7 +36,7 @@ pub trait Jointed: Mechanism {
     ///
     /// # Errors
     /// Those of [`frames`](Mechanism::frames).
-    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, Error>;
+    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError>;
 
     /// Index of the joint that the drive moves: its coordinate is φ up to a constant.
     fn drive(&self) -> usize {
@@ -44,7 +45,7 @@ pub trait Jointed: Mechanism {
 }
 
 impl<M: Jointed + ?Sized> Jointed for &M {
-    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
         (**self).joints(phi, frames)
     }
     fn drive(&self) -> usize {
@@ -59,7 +60,7 @@ impl<M: Mechanism + ?Sized> Mechanism for &M {
     fn domain(&self) -> Domain {
         (**self).domain()
     }
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         (**self).frames(phi)
     }
 }

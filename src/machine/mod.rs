@@ -1,6 +1,7 @@
 //! Machines: links and joints, loads on them, and their reduction to the drive link.
 
 pub(crate) mod element;
+pub(crate) mod error;
 pub mod joint;
 pub(crate) mod kinetostatics;
 pub(crate) mod link;
@@ -10,6 +11,7 @@ pub mod motion;
 pub(crate) mod reduction;
 
 pub use element::{Element, MAX_ELEMENTS};
+pub use error::{MachineError, PoseError};
 pub use joint::{Body, Joint, Marker, Wrench};
 pub use kinetostatics::{Forces, Reaction};
 pub use link::{Frame, Link};

@@ -9,13 +9,16 @@
 //!
 //! V. G. Nazarenko, *Dynamics of mechanisms*, Minsk 2002. For a sliding drive link read m_red for J, F for T (7.10).
 
+use crate::machine::error::MachineError;
+use crate::machine::error::PoseError;
+use crate::number::error::RangeError;
 use core::f64::consts::TAU;
 
-use crate::error::{finite, not_negative};
 use crate::machine::element::{Element, MAX_ELEMENTS};
 use crate::machine::load::Load;
 use crate::machine::mechanism::{Frames, MAX_LINKS, Mechanism};
-use crate::{Domain, Error, math};
+use crate::number::error::{finite, not_negative};
+use crate::{Domain, math};
 
 /// The most loads of a machine.
 pub const MAX_LOADS: usize = 16;
@@ -29,14 +32,14 @@ pub trait Reducible {
     ///
     /// # Errors
     /// The mechanism cannot be placed there, or the reduced inertia is not positive.
-    fn reduction(&self, phi: f64) -> Result<Reduction, Error>;
+    fn reduction(&self, phi: f64) -> Result<Reduction, PoseError>;
 
     /// Whether a table of one turn represents every turn: inertia and loads are the same a turn later. Used for a drive link
     /// that turns fully, before a table is made. This default checks three places.
     ///
     /// # Errors
-    /// [`Error::NotPeriodic`], with a place where they differ; those of [`reduction`](Self::reduction).
-    fn check_repeats(&self) -> Result<(), Error> {
+    /// [`PoseError::NotPeriodic`], with a place where they differ; those of [`reduction`](Self::reduction).
+    fn check_repeats(&self) -> Result<(), PoseError> {
         for phi in SAMPLES {
             let [now, later] = [self.reduction(phi)?, self.reduction(phi + TAU)?];
             for (a, b) in [
@@ -48,7 +51,7 @@ pub trait Reducible {
                 // U′ and the process may cancel in the load torque.
                 let size = math::abs(a) + math::abs(b) + math::abs(now.process);
                 if math::abs(a - b) > REPEATS * size {
-                    return Err(Error::NotPeriodic { phi });
+                    return Err(PoseError::NotPeriodic { phi });
                 }
             }
         }
@@ -187,7 +190,7 @@ impl<M: Mechanism> Machine<M> {
     ///
     /// # Errors
     /// A component that is not finite.
-    pub fn with_gravity(mut self, gravity: [f64; 2]) -> Result<Self, Error> {
+    pub fn with_gravity(mut self, gravity: [f64; 2]) -> Result<Self, MachineError> {
         self.gravity = [
             finite("gravity x", gravity[0])?,
             finite("gravity y", gravity[1])?,
@@ -200,7 +203,7 @@ impl<M: Mechanism> Machine<M> {
     ///
     /// # Errors
     /// An inertia negative or not finite.
-    pub fn with_flywheel(mut self, inertia: f64) -> Result<Self, Error> {
+    pub fn with_flywheel(mut self, inertia: f64) -> Result<Self, MachineError> {
         self.flywheel += not_negative("flywheel inertia", inertia)?;
         Ok(self)
     }
@@ -209,9 +212,9 @@ impl<M: Mechanism> Machine<M> {
     ///
     /// # Errors
     /// A link that does not exist, or more than [`MAX_LOADS`] loads.
-    pub fn with_load(mut self, load: Load) -> Result<Self, Error> {
+    pub fn with_load(mut self, load: Load) -> Result<Self, MachineError> {
         self.check_link(Some(load.link()))?;
-        self.loads.push(load).map_err(|_| Error::TooMany {
+        self.loads.push(load).map_err(|_| RangeError::TooMany {
             what: "loads",
             capacity: MAX_LOADS,
         })?;
@@ -222,21 +225,23 @@ impl<M: Mechanism> Machine<M> {
     ///
     /// # Errors
     /// A link that does not exist, or more than [`MAX_ELEMENTS`] elements.
-    pub fn with_element(mut self, element: Element) -> Result<Self, Error> {
+    pub fn with_element(mut self, element: Element) -> Result<Self, MachineError> {
         for marker in element.between() {
             self.check_link(marker.body.link())?;
         }
-        self.elements.push(element).map_err(|_| Error::TooMany {
-            what: "springs and dampers",
-            capacity: MAX_ELEMENTS,
-        })?;
+        self.elements
+            .push(element)
+            .map_err(|_| RangeError::TooMany {
+                what: "springs and dampers",
+                capacity: MAX_ELEMENTS,
+            })?;
         Ok(self)
     }
 
-    fn check_link(&self, link: Option<usize>) -> Result<(), Error> {
+    fn check_link(&self, link: Option<usize>) -> Result<(), MachineError> {
         let links = self.mechanism.links().len();
         match link {
-            Some(link) if link >= links => Err(Error::NoSuchLink { link, links }),
+            Some(link) if link >= links => Err(MachineError::NoSuchLink { link, links }),
             _ => Ok(()),
         }
     }
@@ -270,7 +275,7 @@ impl<M: Mechanism> Machine<M> {
     ///
     /// # Errors
     /// The mechanism cannot be placed at `phi`.
-    pub fn link_inertias(&self, phi: f64) -> Result<heapless::Vec<[f64; 3], MAX_LINKS>, Error> {
+    pub fn link_inertias(&self, phi: f64) -> Result<heapless::Vec<[f64; 3], MAX_LINKS>, PoseError> {
         let frames = self.mechanism.frames(phi)?;
         Ok(self.each_link(&frames).collect())
     }
@@ -279,7 +284,7 @@ impl<M: Mechanism> Machine<M> {
     ///
     /// # Errors
     /// The mechanism cannot be placed at `phi`.
-    pub fn bare_reduction(&self, phi: f64) -> Result<Reduction, Error> {
+    pub fn bare_reduction(&self, phi: f64) -> Result<Reduction, PoseError> {
         let frames = self.mechanism.frames(phi)?;
         let mut reduction = Reduction {
             inertia: [self.flywheel, 0.0, 0.0],
@@ -304,7 +309,7 @@ impl<M: Mechanism> Machine<M> {
             }
         }
         for element in &self.elements {
-            let share = element.reduce(&frames).ok_or(Error::EndsMeet { phi })?;
+            let share = element.reduce(&frames).ok_or(PoseError::EndsMeet { phi })?;
             reduction.potential_energy[0] += share.potential_energy[0];
             reduction.potential_energy[1] += share.potential_energy[1];
             reduction.viscous += share.viscous;
@@ -325,18 +330,18 @@ impl<M: Mechanism> Reducible for Machine<M> {
         self.mechanism.domain()
     }
 
-    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, PoseError> {
         let reduction = self.bare_reduction(phi)?;
         if reduction.inertia[0] > 0.0 {
             Ok(reduction)
         } else {
-            Err(Error::NoInertia { phi })
+            Err(PoseError::NoInertia { phi })
         }
     }
 
     /// Decided by where the links are a turn later, not by the size of the loads, which may act in a part of the turn only:
     /// a force or a weight of fixed direction needs a link that points the same way again, a spring the same length.
-    fn check_repeats(&self) -> Result<(), Error> {
+    fn check_repeats(&self) -> Result<(), PoseError> {
         let links = self.mechanism.links();
         for phi in SAMPLES {
             let [now, later] = [
@@ -363,7 +368,7 @@ impl<M: Mechanism> Reducible for Machine<M> {
                 math::abs(a - b) <= REPEATS * (math::abs(a) + math::abs(b))
             });
             if !(forced && weighed && sprung) {
-                return Err(Error::NotPeriodic { phi });
+                return Err(PoseError::NotPeriodic { phi });
             }
         }
         Ok(())

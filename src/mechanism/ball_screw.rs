@@ -11,15 +11,17 @@
 //! turn. U grows with every turn when gravity has a component along the screw. A spring on the nut does not repeat: with a
 //! spring, the reduction is right at every φ, but must not be tabulated over a turn.
 
+use crate::machine::error::PoseError;
+use crate::mechanism::error::BuildError;
 use core::f64::consts::TAU;
 
 use super::misfit::centred;
 use super::{Frames, Jointed, Mechanism};
-use crate::error::{finite, positive};
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link};
+use crate::number::error::{finite, positive};
 use crate::number::transfer::Transfer;
-use crate::{Domain, Error, math};
+use crate::{Domain, math};
 
 /// A screw drive, driven at the screw.
 ///
@@ -43,7 +45,7 @@ impl BallScrew {
     ///
     /// # Errors
     /// A lead of zero or not finite; a screw whose centre of mass is off its axis.
-    pub fn new(lead: f64, links: [Link; 2]) -> Result<Self, Error> {
+    pub fn new(lead: f64, links: [Link; 2]) -> Result<Self, BuildError> {
         positive("size of the lead", math::abs(lead))?;
         centred("screw", &links[0])?;
         Ok(Self { lead, links })
@@ -65,7 +67,7 @@ impl Jointed for BallScrew {
     /// Bearings: ground and screw, which carry the thrust as a force along x; guide: ground and nut, its moment about the
     /// origin of the nut's frame; thread: the axial force on the nut. The guide also takes the thread's torque F·h/2π about
     /// the screw's axis, which is not in the plane of the forces.
-    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let origin = [0.0, 0.0];
         let on_nut = Wrench::force(Body::Link(Self::NUT), origin, [1.0, 0.0]);
         let on_screw = Wrench {
@@ -89,7 +91,7 @@ impl Mechanism for BallScrew {
         Domain::Turn
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         let angle = Transfer::variable(finite("screw angle", phi)?);
         let nut = [angle * self.transmission(), Transfer::constant(0.0)];
         Ok(Frames::from_iter([

@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use super::grashof::Reason;
-use crate::Error;
+use super::grashof::{Cause, Remedy};
+use crate::number::error::{Curable, error};
 
 /// Why the drive link of a library mechanism cannot turn fully, with the angle where it stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,13 +43,14 @@ pub enum Blocked {
     },
 }
 
+error!(Blocked);
+
 impl fmt::Display for Blocked {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let cause = match self {
+        f.write_str(match self {
             Self::Apart { .. } => "the links cannot be joined: ",
             _ => "the crank cannot turn fully: ",
-        };
-        f.write_str(cause)?;
+        })?;
         match *self {
             Self::Apart {
                 link,
@@ -57,36 +58,41 @@ impl fmt::Display for Blocked {
                 others,
             } => write!(
                 f,
-                "the {link} of {length:.6} m is not shorter than the other three together, {others:.6} m; shorten it, or make \
-                 the others longer"
+                "the {link} of {length:.6} m is not shorter than the other three together, {others:.6} m"
             ),
-            Self::FourBar { lengths, reach } => write!(
-                f,
-                "{}, or drive it over a stroke that stays inside φ = {:.2}° and {:.2}°, its dead points",
-                Reason(lengths),
-                reach[0].to_degrees(),
-                reach[1].to_degrees()
-            ),
+            Self::FourBar { lengths, .. } => Cause(lengths).fmt(f),
             Self::PinMeetsPivot { length } => write!(
                 f,
                 "it is as long as the distance of the pivots, {length} m, so its pin passes through the rocker's pivot at φ = \
-                 180°; make it shorter for a rocker that swings, or longer for one that turns"
+                 180°"
             ),
-            Self::TooShort {
-                link,
-                phi,
-                shortest,
-            } => write!(
+            Self::TooShort { link, phi, .. } => write!(
                 f,
-                "the {link} no longer reaches the guide at φ = {:.2}°; make it longer than {shortest:.6} m",
+                "the {link} no longer reaches the guide at φ = {:.2}°",
                 phi.to_degrees()
             ),
         }
     }
 }
 
-impl From<Blocked> for Error {
-    fn from(blocked: Blocked) -> Self {
-        Self::Blocked(blocked)
+impl Curable for Blocked {
+    fn write_cure(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Apart { .. } => f.write_str("shorten it, or make the others longer"),
+            Self::FourBar { lengths, reach } => write!(
+                f,
+                "{}, or drive it over a stroke that stays inside φ = {:.2}° and {:.2}°, its dead points",
+                Remedy(lengths),
+                reach[0].to_degrees(),
+                reach[1].to_degrees()
+            ),
+            Self::PinMeetsPivot { .. } => f.write_str(
+                "make it shorter for a rocker that swings, or longer for one that turns",
+            ),
+            Self::TooShort { link, shortest, .. } => write!(
+                f,
+                "make the {link} longer than {shortest:.6} m, or shorten the crank"
+            ),
+        }
     }
 }

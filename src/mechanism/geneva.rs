@@ -17,15 +17,17 @@
 //! J′ = 2·J₂·ψ′·ψ″ are continuous, J″ = 2·J₂·(ψ″² + ψ′·ψ‴) jumps by 2·J₂·tan²(π/n). The torque on the crank has no
 //! step, the force on the pin has one: its lever arm about C is not zero.
 
+use crate::machine::error::PoseError;
+use crate::mechanism::error::BuildError;
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::misfit::centred;
 use super::{Frames, Jointed, Mechanism};
-use crate::error::{finite, positive};
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link};
+use crate::number::error::{finite, positive, within};
 use crate::number::transfer::Transfer;
-use crate::{Domain, Error, math};
+use crate::{Domain, math};
 
 /// An external Geneva drive, driven at the crank, which turns fully.
 ///
@@ -59,15 +61,9 @@ impl Geneva {
     /// # Errors
     /// A number of slots outside 3 to 24; a distance that is not positive; a wheel whose centre of mass is off its axis:
     /// its weight would repeat only after n turns of the crank.
-    pub fn new(slots: u32, centres: f64, links: [Link; 2]) -> Result<Self, Error> {
-        if !(Self::MIN_SLOTS..=Self::MAX_SLOTS).contains(&slots) {
-            return Err(Error::OutOfRange {
-                what: "number of slots",
-                value: f64::from(slots),
-                min: f64::from(Self::MIN_SLOTS),
-                max: f64::from(Self::MAX_SLOTS),
-            });
-        }
+    pub fn new(slots: u32, centres: f64, links: [Link; 2]) -> Result<Self, BuildError> {
+        let [min, max] = [Self::MIN_SLOTS, Self::MAX_SLOTS].map(f64::from);
+        within("number of slots", f64::from(slots), [min, max])?;
         let centres = positive("centre distance", centres)?;
         centred("wheel", &links[1])?;
         let (sin, _) = math::sin_cos(PI / f64::from(slots));
@@ -139,7 +135,7 @@ impl Jointed for Geneva {
     /// O: ground and crank; C: ground and wheel; and the lock of the wheel: the pin in the engaged slot, or in the dwell the
     /// crank's locking arc, with a moment. The arc is round O, so it takes no moment from the crank; the pair of bearing
     /// forces that belongs to the wheel's moment depends on where in its play the arc touches, and is left out.
-    fn joints(&self, phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let origin = [0.0, 0.0];
         let (turn, dwell) = self.place(finite("crank angle", phi)?);
         let hold = if dwell.is_some() {
@@ -173,7 +169,7 @@ impl Mechanism for Geneva {
         Domain::Turn
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         let angle = Transfer::variable(finite("crank angle", phi)?);
         let crank = Frame::turning([0.0, 0.0], angle);
         let (turn, dwell) = self.place(phi);

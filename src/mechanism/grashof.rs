@@ -67,10 +67,13 @@ fn order(lengths: [f64; 4]) -> [usize; 4] {
     order
 }
 
-/// Why the crank of the four-bar with these lengths does not turn fully, and what to do, in words.
-pub(crate) struct Reason(pub(crate) [f64; 4]);
+/// Why the crank of the four-bar with these lengths does not turn fully, in words.
+pub(crate) struct Cause(pub(crate) [f64; 4]);
 
-impl fmt::Display for Reason {
+/// What to do about it.
+pub(crate) struct Remedy(pub(crate) [f64; 4]);
+
+impl fmt::Display for Cause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let lengths = self.0;
         let [s, p, q, l] = order(lengths);
@@ -80,17 +83,16 @@ impl fmt::Display for Reason {
             Grashof::TripleRocker => write!(
                 f,
                 "by Grashof's condition no link can: {shortest} + {longest} (shortest and longest) = {ends:.6} m, but must \
-                 be less than {middle} + {other} = {others:.6} m; shorten the {shortest} or the {longest}"
+                 be less than {middle} + {other} = {others:.6} m"
             ),
             Grashof::ChangePoint => write!(
                 f,
                 "{shortest} + {longest} = {middle} + {other} = {ends:.6} m, so the linkage flattens into one line, a dead \
-                 point where its motion is not determined (parallelogram, kite); shorten the {shortest} or the {longest}"
+                 point where its motion is not determined (parallelogram, kite)"
             ),
             Grashof::RockerCrank | Grashof::DoubleRocker => write!(
                 f,
-                "by Grashof's condition only the shortest link can, the {shortest} of {:.6} m; make the crank or the \
-                 ground the shortest link",
+                "by Grashof's condition only the shortest link can, the {shortest} of {:.6} m",
                 lengths[s]
             ),
             // Not a reason; said as it is.
@@ -98,6 +100,18 @@ impl fmt::Display for Reason {
                 f,
                 "{shortest} + {longest} = {ends:.6} m is within a rounding of {middle} + {other} = {others:.6} m"
             ),
+        }
+    }
+}
+
+impl fmt::Display for Remedy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [shortest, .., longest] = order(self.0).map(|k| NAMES[k]);
+        match Grashof::of(self.0) {
+            Grashof::RockerCrank | Grashof::DoubleRocker => {
+                f.write_str("make the crank or the ground the shortest link")
+            }
+            _ => write!(f, "shorten the {shortest} or the {longest}"),
         }
     }
 }

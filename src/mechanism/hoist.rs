@@ -17,11 +17,13 @@
 //! the belt over pulleys of Nazarenko, *Dynamics of mechanisms* (2002), (5.9)-(5.16) among them.
 
 use super::{Frames, Jointed, Mechanism};
-use crate::error::{finite, positive};
+use crate::Domain;
+use crate::machine::error::PoseError;
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link};
+use crate::number::error::RangeError;
+use crate::number::error::{finite, positive, within};
 use crate::number::transfer::Transfer;
-use crate::{Domain, Error};
 
 /// One rope of a hoist: where it runs on the drum, and by how many falls it carries its load.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,16 +41,10 @@ impl Rope {
     ///
     /// # Errors
     /// A radius that is not positive; falls outside 1 to [`MAX_FALLS`](Self::MAX_FALLS).
-    pub fn new(radius: f64, falls: u32) -> Result<Self, Error> {
+    pub fn new(radius: f64, falls: u32) -> Result<Self, RangeError> {
         let radius = positive("drum radius", radius)?;
-        if !(1..=Self::MAX_FALLS).contains(&falls) {
-            return Err(Error::OutOfRange {
-                what: "number of falls",
-                value: f64::from(falls),
-                min: 1.0,
-                max: f64::from(Self::MAX_FALLS),
-            });
-        }
+        let most = f64::from(Self::MAX_FALLS);
+        within("number of falls", f64::from(falls), [1.0, most])?;
         Ok(Self { radius, falls })
     }
 
@@ -67,6 +63,15 @@ impl Rope {
     pub fn transmission(&self) -> f64 {
         self.radius / f64::from(self.falls)
     }
+}
+
+/// What hangs on a rope of a hoist: the load, with hook and lower block, or the counterweight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Suspended {
+    /// The rope.
+    pub rope: Rope,
+    /// Its mass properties.
+    pub link: Link,
 }
 
 /// A hoist, driven at the drum. φ > 0 lifts the load.
@@ -95,19 +100,19 @@ impl Hoist {
 
     /// A hoist of a `drum` with a load on its rope and no counterweight.
     #[must_use]
-    pub fn new(drum: Link, load: (Rope, Link)) -> Self {
+    pub fn new(drum: Link, load: Suspended) -> Self {
         Self {
-            ropes: heapless::Vec::from_iter([load.0]),
-            links: heapless::Vec::from_iter([drum, load.1]),
+            ropes: heapless::Vec::from_iter([load.rope]),
+            links: heapless::Vec::from_iter([drum, load.link]),
         }
     }
 
     /// A hoist of a `drum` with a load and a counterweight, each on its rope: an elevator, a differential drum.
     #[must_use]
-    pub fn with_counterweight(drum: Link, load: (Rope, Link), counterweight: (Rope, Link)) -> Self {
+    pub fn with_counterweight(drum: Link, load: Suspended, counterweight: Suspended) -> Self {
         Self {
-            ropes: heapless::Vec::from_iter([load.0, counterweight.0]),
-            links: heapless::Vec::from_iter([drum, load.1, counterweight.1]),
+            ropes: heapless::Vec::from_iter([load.rope, counterweight.rope]),
+            links: heapless::Vec::from_iter([drum, load.link, counterweight.link]),
         }
     }
 
@@ -127,7 +132,7 @@ impl Jointed for Hoist {
     /// O: ground and drum; the guide of the load and that of the counterweight; the rope of the load and that of the
     /// counterweight. A rope's force is that with which it pulls the drum down where it leaves it, so a negative y component
     /// is a taut rope; its load hangs from n times as much.
-    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let bearing = Joint::Revolute([
             Marker::ground([0.0, 0.0]),
             Marker::on(Self::DRUM, [0.0, 0.0]),
@@ -164,7 +169,7 @@ impl Mechanism for Hoist {
         Domain::Turn
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         let angle = Transfer::variable(finite("drum angle", phi)?);
         let drum = Frame::turning([0.0, 0.0], angle);
         let hanging = self.ropes.iter().enumerate().map(|(k, rope)| {

@@ -15,14 +15,16 @@
 //! The inversion of the slider-crank and its time ratio for e = 0 are in any textbook of mechanisms, such as Norton,
 //! *Design of machinery*, chapter 3; the formulas with e are derived at [`InvertedSliderCrank::swing`].
 
+use crate::machine::error::PoseError;
+use crate::mechanism::error::BuildError;
 use core::f64::consts::PI;
 
 use super::{Frames, Jointed, Mechanism, Misfit};
-use crate::error::{finite, positive};
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};
+use crate::number::error::{finite, positive};
 use crate::number::transfer::Transfer;
-use crate::{Domain, Error, math};
+use crate::{Domain, math};
 
 /// How the slotted lever moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +34,19 @@ pub enum LeverMotion {
     Rocking,
     /// It turns fully, once with every turn of the crank: |OC| < r − |e|.
     Turning,
+}
+
+/// Dimensions of an inverted slider-crank (m).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct InvertedSliderCrankDimensions {
+    /// Crank length r > 0.
+    pub crank: f64,
+    /// Pivot C = [x, y] of the lever, the crank's being [0, 0]: farther than r + |e| for a lever that rocks, nearer than
+    /// r − |e| for one that turns.
+    pub pivot: [f64; 2],
+    /// Offset e of the slot from C, towards the lever's +v.
+    pub offset: f64,
 }
 
 /// An inverted slider-crank, driven at the crank, which turns fully.
@@ -45,9 +60,7 @@ pub enum LeverMotion {
 /// Accuracy: 1e-12 against the half-angle and inverse forms (tests `rocking_lever_textbook`, `turning_lever_textbook`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct InvertedSliderCrank {
-    crank: f64,
-    pivot: [f64; 2],
-    offset: f64,
+    dimensions: InvertedSliderCrankDimensions,
     centres: f64,
     /// Direction from C to O (rad).
     towards_crank: f64,
@@ -63,19 +76,24 @@ impl InvertedSliderCrank {
     /// Index of the slotted lever.
     pub const LEVER: usize = 2;
 
-    /// An inverted slider-crank with a `crank` of length r (m), a lever that turns about `pivot` C (m), the slot's
-    /// `offset` e from C (m, towards the lever's +v) and the links crank, block, lever.
+    /// An inverted slider-crank of these dimensions, with the links crank, block, lever.
     ///
     /// # Errors
     /// A crank that is not positive; a length not finite; a pivot between the two ranges of distance, where the slot
     /// cannot follow the pin through the whole turn.
-    pub fn new(crank: f64, pivot: [f64; 2], offset: f64, links: [Link; 3]) -> Result<Self, Error> {
-        let crank = positive("crank length", crank)?;
-        let pivot = [
-            finite("lever pivot x", pivot[0])?,
-            finite("lever pivot y", pivot[1])?,
-        ];
-        let offset = finite("slot offset", offset)?;
+    pub fn new(
+        dimensions: InvertedSliderCrankDimensions,
+        links: [Link; 3],
+    ) -> Result<Self, BuildError> {
+        let InvertedSliderCrankDimensions {
+            crank,
+            pivot,
+            offset,
+        } = dimensions;
+        positive("crank length", crank)?;
+        finite("lever pivot x", pivot[0])?;
+        finite("lever pivot y", pivot[1])?;
+        finite("slot offset", offset)?;
         let centres = math::sqrt(pivot[0] * pivot[0] + pivot[1] * pivot[1]);
         let width = math::abs(offset);
         // A hair of distance, so that rounding of |d|² − e² makes no angle fail later.
@@ -94,9 +112,7 @@ impl InvertedSliderCrank {
             .into());
         };
         Ok(Self {
-            crank,
-            pivot,
-            offset,
+            dimensions,
             centres,
             towards_crank: math::atan2(-pivot[1], -pivot[0]),
             motion,
@@ -104,19 +120,9 @@ impl InvertedSliderCrank {
         })
     }
 
-    /// Crank length r (m).
-    pub const fn crank(&self) -> f64 {
-        self.crank
-    }
-
-    /// Pivot C of the lever (m).
-    pub const fn pivot(&self) -> [f64; 2] {
-        self.pivot
-    }
-
-    /// Offset e of the slot from the lever's pivot (m).
-    pub const fn offset(&self) -> f64 {
-        self.offset
+    /// The dimensions (m).
+    pub const fn dimensions(&self) -> InvertedSliderCrankDimensions {
+        self.dimensions
     }
 
     /// Whether the lever rocks or turns.
@@ -138,10 +144,11 @@ impl InvertedSliderCrank {
     #[must_use]
     pub fn swing(&self) -> f64 {
         let (short, long) = match self.motion {
-            LeverMotion::Rocking => (self.crank, self.centres),
-            LeverMotion::Turning => (self.centres, self.crank),
+            LeverMotion::Rocking => (self.dimensions.crank, self.centres),
+            LeverMotion::Turning => (self.centres, self.dimensions.crank),
         };
-        math::asin((short + self.offset) / long) + math::asin((short - self.offset) / long)
+        math::asin((short + self.dimensions.offset) / long)
+            + math::asin((short - self.dimensions.offset) / long)
     }
 
     /// Quick-return ratio (π + S)/(π − S) at constant crank speed, time of the slow stroke over time of the quick one,
@@ -158,19 +165,22 @@ impl InvertedSliderCrank {
 
 impl Jointed for InvertedSliderCrank {
     /// O: ground and crank; A: crank and block; slot: lever and block; C: ground and lever.
-    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let origin = [0.0, 0.0];
         Ok(Joints::from_iter([
             Joint::Revolute([Marker::ground(origin), Marker::on(Self::CRANK, origin)]),
             Joint::Revolute([
-                Marker::on(Self::CRANK, [self.crank, 0.0]),
+                Marker::on(Self::CRANK, [self.dimensions.crank, 0.0]),
                 Marker::on(Self::BLOCK, origin),
             ]),
             Joint::Prismatic([
-                Marker::on(Self::LEVER, [0.0, self.offset]),
+                Marker::on(Self::LEVER, [0.0, self.dimensions.offset]),
                 Marker::on(Self::BLOCK, origin),
             ]),
-            Joint::Revolute([Marker::ground(self.pivot), Marker::on(Self::LEVER, origin)]),
+            Joint::Revolute([
+                Marker::ground(self.dimensions.pivot),
+                Marker::on(Self::LEVER, origin),
+            ]),
         ]))
     }
 }
@@ -184,10 +194,10 @@ impl Mechanism for InvertedSliderCrank {
         Domain::Turn
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         let angle = Transfer::variable(finite("crank angle", phi)?);
         let crank = Frame::turning([0.0, 0.0], angle);
-        let pin = crank.point([self.crank, 0.0]);
+        let pin = crank.point([self.dimensions.crank, 0.0]);
         // ψ is counted from a direction that it never leaves by 180°, so that no arctangent jumps.
         let reference = match self.motion {
             LeverMotion::Rocking => Transfer::constant(self.towards_crank),
@@ -195,23 +205,24 @@ impl Mechanism for InvertedSliderCrank {
         };
         let (sin, cos) = reference.sin_cos();
         let [x, y] = [
-            pin[0] - Transfer::constant(self.pivot[0]),
-            pin[1] - Transfer::constant(self.pivot[1]),
+            pin[0] - Transfer::constant(self.dimensions.pivot[0]),
+            pin[1] - Transfer::constant(self.dimensions.pivot[1]),
         ];
         let [along, across] = [cos * x + sin * y, cos * y - sin * x];
         let distance_squared = x * x + y * y;
-        let under_root = distance_squared - Transfer::constant(self.offset * self.offset);
+        let under_root =
+            distance_squared - Transfer::constant(self.dimensions.offset * self.dimensions.offset);
         if under_root.value <= 0.0 {
-            return Err(Error::DeadPoint { phi, joint: 2 });
+            return Err(PoseError::DeadPoint { phi, joint: 2 });
         }
         let s = under_root.sqrt();
         let turned = Transfer::angle(
-            (s * across - along * self.offset).over(distance_squared),
-            (s * along + across * self.offset).over(distance_squared),
+            (s * across - along * self.dimensions.offset).over(distance_squared),
+            (s * along + across * self.dimensions.offset).over(distance_squared),
         );
         let psi = reference + turned;
         let block = Frame::turned(pin, psi);
-        let lever = Frame::turning(self.pivot, psi);
+        let lever = Frame::turning(self.dimensions.pivot, psi);
         Ok(Frames::from_iter([crank, block, lever]))
     }
 }

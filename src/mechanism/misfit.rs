@@ -2,7 +2,9 @@
 
 use core::fmt;
 
-use crate::{Error, Link, math};
+use crate::machine::Link;
+use crate::math;
+use crate::number::error::{Curable, error};
 
 /// Why dimensions that are possible one by one do not make a mechanism of the library.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,31 +52,19 @@ pub enum Misfit {
     FixedInput(&'static str),
 }
 
+error!(Misfit);
+
 impl fmt::Display for Misfit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::ChangePoint {
-                centres,
-                rocking,
-                turning,
-            } => {
-                write!(
-                    f,
-                    "the slot cannot follow the crank pin through a whole turn: the pivots are {centres} m apart; \
-                     make it more than crank + |offset| = {rocking} m for a lever that rocks"
-                )?;
-                if turning > 0.0 {
-                    write!(
-                        f,
-                        ", or less than crank − |offset| = {turning} m for one that turns"
-                    )?;
-                }
-                Ok(())
-            }
+            Self::ChangePoint { centres, .. } => write!(
+                f,
+                "the slot cannot follow the crank pin through a whole turn: the pivots are {centres} m apart"
+            ),
             Self::OffAxis { link, distance } => write!(
                 f,
                 "the centre of mass of the {link} is {distance} m off its axis, so its weight does not repeat with every \
-                 turn of the drive link; balance it: centre of mass [0, 0]"
+                 turn of the drive link"
             ),
             Self::PlanetTeeth { planet, gap } => write!(
                 f,
@@ -90,22 +80,42 @@ impl fmt::Display for Misfit {
                 f,
                 "{planets} planets of this size overlap: at most {most} fit round the sun"
             ),
-            Self::FixedInput(member) => write!(
-                f,
-                "the {member} is fixed and cannot be the input as well: choose another member for one of the two"
-            ),
+            Self::FixedInput(member) => {
+                write!(f, "the {member} is fixed and cannot be the input as well")
+            }
         }
     }
 }
 
-impl From<Misfit> for Error {
-    fn from(misfit: Misfit) -> Self {
-        Self::Misfit(misfit)
+impl Curable for Misfit {
+    fn write_cure(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::ChangePoint {
+                rocking, turning, ..
+            } => {
+                write!(
+                    f,
+                    "make it more than crank + |offset| = {rocking} m for a lever that rocks"
+                )?;
+                if turning > 0.0 {
+                    write!(
+                        f,
+                        ", or less than crank − |offset| = {turning} m for one that turns"
+                    )?;
+                }
+                Ok(())
+            }
+            Self::OffAxis { .. } => f.write_str("balance it: centre of mass [0, 0]"),
+            Self::PlanetTeeth { gap, .. } => write!(f, "give the planets {} teeth", gap / 2),
+            Self::PlanetSpacing { .. } => f.write_str("change the teeth or the number of planets"),
+            Self::PlanetsOverlap { .. } => f.write_str("choose fewer planets, or smaller ones"),
+            Self::FixedInput(_) => f.write_str("choose another member for one of the two"),
+        }
     }
 }
 
 /// Checks that a link's centre of mass lies on its axis, the origin of its frame.
-pub(super) fn centred(name: &'static str, link: &Link) -> Result<(), Error> {
+pub(super) fn centred(name: &'static str, link: &Link) -> Result<(), Misfit> {
     if link.is_centred() {
         return Ok(());
     }
@@ -114,6 +124,5 @@ pub(super) fn centred(name: &'static str, link: &Link) -> Result<(), Error> {
     Err(Misfit::OffAxis {
         link: name,
         distance,
-    }
-    .into())
+    })
 }

@@ -9,11 +9,24 @@
 
 use super::misfit::centred;
 use super::{Frames, Jointed, MAX_LINKS, Mechanism};
-use crate::error::{finite, positive};
+use crate::machine::error::PoseError;
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link};
+use crate::mechanism::error::BuildError;
+use crate::number::error::RangeError;
+use crate::number::error::{finite, positive};
 use crate::number::transfer::Transfer;
-use crate::{Domain, Error, math};
+use crate::{Domain, math};
+
+/// A driven shaft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DrivenShaft {
+    /// Signed ratio i = ω_drive/ω_driven, not zero; negative: it turns against the drive shaft, as with a pair of external
+    /// gears.
+    pub ratio: f64,
+    /// The shaft with all that turns with it, balanced.
+    pub link: Link,
+}
 
 /// A drive shaft with driven shafts: a line shaft, the rollers of a table, a timing belt round several pulleys.
 ///
@@ -33,25 +46,27 @@ impl ParallelShafts {
     /// Most driven shafts.
     pub const MAX_DRIVEN: usize = MAX_LINKS - 1;
 
-    /// A `drive` shaft with `driven` shafts, each with its signed ratio i = ω_drive/ω_driven (negative: it turns against the
-    /// drive shaft, as with a pair of external gears).
+    /// A `drive` shaft with `driven` shafts.
     ///
     /// # Errors
     /// A ratio of zero or not finite; a driven shaft whose centre of mass is off its axis; none, or more than
     /// [`MAX_DRIVEN`](Self::MAX_DRIVEN), driven shafts.
-    pub fn new(drive: Link, driven: &[(f64, Link)]) -> Result<Self, Error> {
+    pub fn new(drive: Link, driven: &[DrivenShaft]) -> Result<Self, BuildError> {
         positive("number of driven shafts", driven.len() as f64)?;
         let mut shafts = Self {
             ratios: heapless::Vec::new(),
             links: heapless::Vec::from_iter([drive]),
         };
-        for (ratio, link) in driven {
+        for DrivenShaft { ratio, link } in driven {
             positive("size of the ratio", math::abs(*ratio))?;
             centred("driven shaft", link)?;
-            shafts.ratios.push(*ratio).map_err(|_| Error::TooMany {
-                what: "driven shafts",
-                capacity: Self::MAX_DRIVEN,
-            })?;
+            shafts
+                .ratios
+                .push(*ratio)
+                .map_err(|_| RangeError::TooMany {
+                    what: "driven shafts",
+                    capacity: Self::MAX_DRIVEN,
+                })?;
             // Cannot fail: one place more than ratios.
             let _ = shafts.links.push(*link);
         }
@@ -67,7 +82,7 @@ impl ParallelShafts {
 impl Jointed for ParallelShafts {
     /// The bearing of every shaft, then the transmission to every driven shaft: a moment on either; the ground takes the
     /// difference.
-    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let bearing =
             |shaft| Joint::Revolute([Marker::ground([0.0, 0.0]), Marker::on(shaft, [0.0, 0.0])]);
         let transmission = |(k, ratio): (usize, &f64)| {
@@ -92,7 +107,7 @@ impl Mechanism for ParallelShafts {
         Domain::Turn
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         let angle = Transfer::variable(finite("drive shaft angle", phi)?);
         let turning = |angle| Frame::turning([0.0, 0.0], angle);
         let driven = self

@@ -12,15 +12,17 @@
 //!
 //! R. Willis, *Principles of mechanism* (1841); the energy sum is (6.4) of Nazarenko, *Dynamics of mechanisms* (2002).
 
+use crate::machine::error::PoseError;
+use crate::mechanism::error::BuildError;
 use core::f64::consts::PI;
 
 use super::misfit::centred;
 use super::{Frames, Jointed, Mechanism, Misfit};
-use crate::error::{finite, positive};
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link};
+use crate::number::error::{finite, positive, within};
 use crate::number::transfer::Transfer;
-use crate::{Domain, Error, math};
+use crate::{Domain, math};
 
 /// A central member of a planetary gear.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,13 +56,25 @@ impl Member {
     }
 }
 
+/// Teeth and places of a planetary gear.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PlanetaryDimensions {
+    /// Teeth z_s of the sun.
+    pub sun: u32,
+    /// Teeth z_p of a planet: (z_r − z_s)/2 or, with profile shift, one more or less: the ratios do not depend on them.
+    pub planet: u32,
+    /// Teeth z_r of the ring.
+    pub ring: u32,
+    /// Number N of planets, equally spaced, at least 2.
+    pub planets: u32,
+    /// Distance a > 0 of the planets' axes from the central one (m).
+    pub centres: f64,
+}
+
 /// The gears of a planetary gear, checked to fit together.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlanetaryGears {
-    teeth: [u32; 3],
-    planets: u32,
-    centres: f64,
-}
+pub struct PlanetaryGears(PlanetaryDimensions);
 
 impl PlanetaryGears {
     /// Fewest teeth of a gear.
@@ -68,37 +82,27 @@ impl PlanetaryGears {
     /// Most teeth of a gear.
     pub const MAX_TEETH: u32 = 100_000;
 
-    /// Numbers of `teeth` [sun, planet, ring], the number of `planets`, equally spaced, and the distance `centres` a of their
-    /// axes from the central one (m).
-    ///
-    /// The planet's teeth are (z_r − z_s)/2 or, with profile shift, one more or less: the ratios do not depend on them.
+    /// Checks that the gears mesh and fit.
     ///
     /// # Errors
     /// Fewer than [`MIN_TEETH`](Self::MIN_TEETH) or more than [`MAX_TEETH`](Self::MAX_TEETH) teeth; fewer than two planets,
     /// which would not balance; a distance that is not positive; planets that do not fill the gap, that cannot be put in
     /// equally spaced ((z_s + z_r)/N is not whole), or that overlap (sin(π/N) ≤ z_p/(z_s + z_p)).
-    pub fn new(teeth: [u32; 3], planets: u32, centres: f64) -> Result<Self, Error> {
-        let names = ["teeth of the sun", "teeth of a planet", "teeth of the ring"];
-        for (what, count) in names.into_iter().zip(teeth) {
-            if !(Self::MIN_TEETH..=Self::MAX_TEETH).contains(&count) {
-                return Err(Error::OutOfRange {
-                    what,
-                    value: f64::from(count),
-                    min: f64::from(Self::MIN_TEETH),
-                    max: f64::from(Self::MAX_TEETH),
-                });
-            }
-        }
-        if planets < 2 {
-            return Err(Error::OutOfRange {
-                what: "number of planets",
-                value: f64::from(planets),
-                min: 2.0,
-                max: f64::from(teeth[0] + teeth[2]),
-            });
-        }
-        let centres = positive("centre distance", centres)?;
-        let [sun, planet, ring] = teeth;
+    pub fn new(dimensions: PlanetaryDimensions) -> Result<Self, BuildError> {
+        let PlanetaryDimensions {
+            sun,
+            planet,
+            ring,
+            planets,
+            centres,
+        } = dimensions;
+        let teeth = [Self::MIN_TEETH, Self::MAX_TEETH].map(f64::from);
+        within("teeth of the sun", f64::from(sun), teeth)?;
+        within("teeth of a planet", f64::from(planet), teeth)?;
+        within("teeth of the ring", f64::from(ring), teeth)?;
+        let most = f64::from(sun + ring);
+        within("number of planets", f64::from(planets), [2.0, most])?;
+        positive("centre distance", centres)?;
         let gap = ring.saturating_sub(sun);
         if gap.abs_diff(2 * planet) > 2 {
             return Err(Misfit::PlanetTeeth { planet, gap }.into());
@@ -115,35 +119,27 @@ impl PlanetaryGears {
             let most = (2..planets).rev().find(fits).unwrap_or(2);
             return Err(Misfit::PlanetsOverlap { planets, most }.into());
         }
-        Ok(Self {
-            teeth,
-            planets,
-            centres,
-        })
+        Ok(Self(dimensions))
     }
 
-    /// Numbers of teeth [sun, planet, ring].
-    pub const fn teeth(&self) -> [u32; 3] {
-        self.teeth
+    /// Teeth of sun, planet and ring, as numbers to compute with.
+    fn teeth(&self) -> [f64; 3] {
+        [self.0.sun, self.0.planet, self.0.ring].map(f64::from)
     }
 
-    /// Number of planets N.
-    pub const fn planets(&self) -> u32 {
-        self.planets
-    }
-
-    /// Distance a of the planets' axes from the central one (m).
-    pub const fn centres(&self) -> f64 {
-        self.centres
+    /// Teeth and places.
+    pub const fn dimensions(&self) -> PlanetaryDimensions {
+        self.0
     }
 
     /// Radius of the working pitch circle of the sun, a·z_s/(z_s + z_p), and of the ring, a·z_r/(z_r − z_p) (m).
     #[must_use]
     pub fn pitch_radii(&self) -> [f64; 2] {
-        let [sun, planet, ring] = self.teeth.map(f64::from);
+        let [sun, planet, ring] = self.teeth();
+        let centres = self.0.centres;
         [
-            self.centres * sun / (sun + planet),
-            self.centres * ring / (ring - planet),
+            centres * sun / (sun + planet),
+            centres * ring / (ring - planet),
         ]
     }
 }
@@ -188,7 +184,7 @@ impl Planetary {
         input: Member,
         fixed: Member,
         links: [Link; 4],
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, BuildError> {
         if input == fixed {
             return Err(Misfit::FixedInput(fixed.name()).into());
         }
@@ -196,9 +192,12 @@ impl Planetary {
         for (name, link) in ["sun", "carrier", "ring", "planet"].into_iter().zip(&links) {
             centred(name, link)?;
         }
-        let count = f64::from(gears.planets);
+        let PlanetaryDimensions {
+            planets, centres, ..
+        } = gears.0;
+        let count = f64::from(planets);
         let mass = count * planet.mass();
-        let orbital = mass * gears.centres * gears.centres;
+        let orbital = mass * centres * centres;
         let carrier = Link::new(
             carrier.mass() + mass,
             carrier.inertia() + orbital,
@@ -240,7 +239,7 @@ impl Planetary {
     /// Speeds of sun, carrier, ring and planets for an input of 1, by Willis' equation.
     #[must_use]
     pub fn speeds(&self) -> [f64; 4] {
-        let [sun, planet, ring] = self.gears.teeth.map(f64::from);
+        let [sun, planet, ring] = self.gears.teeth();
         let k = ring / sun;
         let [s, c, r] = match (self.fixed, self.input) {
             (Member::Ring, Member::Sun) => [1.0, 1.0 / (1.0 + k), 0.0],
@@ -275,7 +274,7 @@ impl Jointed for Planetary {
     /// forces are tangential; the pressure angle's radial forces of a planet's two meshes balance except for profile shift. A
     /// planet's own inertia forces, m_p·a·ω_c² outwards and m_p·a·α_c, and its weight act on its pin in addition: its mass
     /// belongs to the carrier here.
-    fn joints(&self, _phi: f64, frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, _phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
         let origin = [0.0, 0.0];
         let bearing = |member: Member| {
             let markers = [Marker::ground(origin), Marker::on(member.link(), origin)];
@@ -297,7 +296,7 @@ impl Jointed for Planetary {
             ])
         };
         let [sun, ring] = self.gears.pitch_radii();
-        let centres = self.gears.centres;
+        let centres = self.gears.0.centres;
         Ok(Joints::from_iter([
             bearing(Member::Sun),
             bearing(Member::Carrier),
@@ -323,12 +322,12 @@ impl Mechanism for Planetary {
         Domain::Turn
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         let input = Transfer::variable(finite("input angle", phi)?);
         let [sun, carrier, ring, planets] = self.speeds().map(|speed| input * speed);
         let central = |angle| Frame::turning([0.0, 0.0], angle);
         let (sin, cos) = carrier.sin_cos();
-        let axis = [cos * self.gears.centres, sin * self.gears.centres];
+        let axis = [cos * self.gears.0.centres, sin * self.gears.0.centres];
         Ok(Frames::from_iter([
             central(sun),
             central(carrier),

@@ -10,14 +10,16 @@
 //! drive link's range is a turn. U grows with every turn when gravity has a component along the rack. A spring on the rack does
 //! not repeat: with a spring, the reduction is right at every φ, but must not be tabulated over a turn.
 
+use crate::machine::error::PoseError;
+use crate::mechanism::error::BuildError;
 use core::f64::consts::TAU;
 
 use super::{Frames, Jointed, Mechanism};
-use crate::error::{finite, positive};
+use crate::Domain;
 use crate::machine::joint::{Body, Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};
+use crate::number::error::{finite, positive};
 use crate::number::transfer::Transfer;
-use crate::{Domain, Error};
 
 /// A rack driven by a pinion.
 ///
@@ -42,7 +44,7 @@ impl RackAndPinion {
     ///
     /// # Errors
     /// A radius that is not positive.
-    pub fn new(radius: f64, links: [Link; 2]) -> Result<Self, Error> {
+    pub fn new(radius: f64, links: [Link; 2]) -> Result<Self, BuildError> {
         Ok(Self {
             radius: positive("pitch radius", radius)?,
             links,
@@ -65,7 +67,7 @@ impl Jointed for RackAndPinion {
     /// O: ground and pinion; guide: ground and rack, its moment about the origin of the rack's frame; mesh: the tangential
     /// tooth force on the rack, at the pitch point. The force that the pressure angle adds across the rack pushes it away from
     /// the pinion for both directions of the load; it does no work, and is left to the design of the bearings.
-    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let pitch_point = [0.0, -self.radius];
         let bodies = [Body::Link(Self::PINION), Body::Link(Self::RACK)];
         Ok(Joints::from_iter([
@@ -91,7 +93,7 @@ impl Mechanism for RackAndPinion {
         Domain::Turn
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         let angle = Transfer::variable(finite("pinion angle", phi)?);
         let rack = [angle * self.radius, Transfer::constant(-self.radius)];
         Ok(Frames::from_iter([

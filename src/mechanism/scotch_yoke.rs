@@ -11,11 +11,24 @@
 //! Nazarenko, *Dynamics of mechanisms* (2002), for an infinitely long rod.
 
 use super::{Frames, Jointed, Mechanism};
-use crate::error::{finite, positive};
+use crate::machine::error::PoseError;
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};
+use crate::mechanism::error::BuildError;
+use crate::number::error::{finite, positive, within};
 use crate::number::transfer::Transfer;
-use crate::{Domain, Error, math};
+use crate::{Domain, math};
+
+/// Dimensions of a Scotch yoke.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ScotchYokeDimensions {
+    /// Crank length r > 0 (m).
+    pub crank: f64,
+    /// Angle β of the slot with the direction of motion (rad), [`ScotchYoke::FLATTEST`] to π − `FLATTEST`; π/2 for the usual
+    /// yoke.
+    pub slot_angle: f64,
+}
 
 /// A Scotch yoke, driven at the crank, which turns fully.
 ///
@@ -27,8 +40,7 @@ use crate::{Domain, Error, math};
 /// `yoke_is_a_harmonic_motion`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScotchYoke {
-    crank: f64,
-    slot_angle: f64,
+    dimensions: ScotchYokeDimensions,
     /// cot β.
     cotangent: f64,
     links: [Link; 2],
@@ -42,60 +54,50 @@ impl ScotchYoke {
     /// Flattest slot (rad): the yoke's stroke is then 115 times the crank's length.
     pub const FLATTEST: f64 = core::f64::consts::PI / 180.0;
 
-    /// A Scotch yoke with a `crank` of length r (m), whose slot makes the angle `slot_angle` β (rad) with the direction
-    /// of motion, and the links crank, yoke.
+    /// A Scotch yoke of these dimensions, with the links crank, yoke.
     ///
     /// # Errors
     /// A crank that is not positive; a slot angle outside [`FLATTEST`](Self::FLATTEST) to π − `FLATTEST`: along the
     /// direction of motion the slot would lock the crank.
-    pub fn new(crank: f64, slot_angle: f64, links: [Link; 2]) -> Result<Self, Error> {
-        let crank = positive("crank length", crank)?;
-        let slot_angle = finite("slot angle", slot_angle)?;
-        let (min, max) = (Self::FLATTEST, core::f64::consts::PI - Self::FLATTEST);
-        if !(min..=max).contains(&slot_angle) {
-            return Err(Error::OutOfRange {
-                what: "slot angle (rad, from the direction of motion)",
-                value: slot_angle,
-                min,
-                max,
-            });
-        }
+    pub fn new(dimensions: ScotchYokeDimensions, links: [Link; 2]) -> Result<Self, BuildError> {
+        let ScotchYokeDimensions { crank, slot_angle } = dimensions;
+        positive("crank length", crank)?;
+        finite("slot angle", slot_angle)?;
+        within(
+            "slot angle (rad, from the direction of motion)",
+            slot_angle,
+            [Self::FLATTEST, core::f64::consts::PI - Self::FLATTEST],
+        )?;
         let (sin, cos) = math::sin_cos(slot_angle);
         Ok(Self {
-            crank,
-            slot_angle,
+            dimensions,
             cotangent: cos / sin,
             links,
         })
     }
 
-    /// Crank length r (m).
-    pub const fn crank(&self) -> f64 {
-        self.crank
-    }
-
-    /// Angle β of the slot from the direction of motion (rad).
-    pub const fn slot_angle(&self) -> f64 {
-        self.slot_angle
+    /// The dimensions.
+    pub const fn dimensions(&self) -> ScotchYokeDimensions {
+        self.dimensions
     }
 
     /// Stroke of the yoke 2r/sin β (m).
     #[must_use]
     pub fn stroke(&self) -> f64 {
-        2.0 * self.crank / math::sin_cos(self.slot_angle).0
+        2.0 * self.dimensions.crank / math::sin_cos(self.dimensions.slot_angle).0
     }
 }
 
 impl Jointed for ScotchYoke {
     /// O: ground and crank; A: the crank's pin in the yoke's slot; guide: ground and yoke, its moment about the origin of
     /// the yoke's frame.
-    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let origin = [0.0, 0.0];
         Ok(Joints::from_iter([
             Joint::Revolute([Marker::ground(origin), Marker::on(Self::CRANK, origin)]),
             Joint::PinInSlot([
-                Marker::on(Self::CRANK, [self.crank, 0.0]),
-                Marker::on(Self::YOKE, origin).with_angle(self.slot_angle),
+                Marker::on(Self::CRANK, [self.dimensions.crank, 0.0]),
+                Marker::on(Self::YOKE, origin).with_angle(self.dimensions.slot_angle),
             ]),
             Joint::Prismatic([Marker::ground(origin), Marker::on(Self::YOKE, origin)]),
         ]))
@@ -111,10 +113,10 @@ impl Mechanism for ScotchYoke {
         Domain::Turn
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         let angle = Transfer::variable(finite("crank angle", phi)?);
         let crank = Frame::turning([0.0, 0.0], angle);
-        let [x_a, y_a] = crank.point([self.crank, 0.0]);
+        let [x_a, y_a] = crank.point([self.dimensions.crank, 0.0]);
         let x = x_a - y_a * self.cotangent;
         let yoke = Frame::translating([x, Transfer::constant(0.0)]);
         Ok(Frames::from_iter([crank, yoke]))

@@ -18,15 +18,33 @@
 //!
 //! Equations (80)-(84) of the kinematics of plane mechanisms, Example 32; the signs of (81) are lost in the print.
 
+use crate::machine::error::PoseError;
+use crate::mechanism::error::BuildError;
 use core::f64::consts::PI;
 
 use super::four_bar::beyond;
 use super::{Blocked, Branch, Frames, Jointed, Mechanism, dyad};
-use crate::error::{finite, positive};
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};
+use crate::number::error::{finite, positive};
 use crate::number::transfer::Transfer;
-use crate::{Domain, Error, math};
+use crate::{Domain, math};
+
+/// Dimensions of the six-link mechanism (m).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SixLinkDimensions {
+    /// Crank length l₁ > 0, other than b.
+    pub crank: f64,
+    /// Rocker length l₂ > 0.
+    pub rocker: f64,
+    /// Rod length l₃ > 0, long enough to reach the guide all the turn.
+    pub rod: f64,
+    /// Distance b > 0 of the pivots: b > l₁ for a rocker that swings, b < l₁ for one that turns (Whitworth).
+    pub centres: f64,
+    /// How far a the guide lies below the crank's pivot, either sign.
+    pub below: f64,
+}
 
 /// The six-link mechanism, driven at the crank, which turns fully.
 ///
@@ -37,12 +55,8 @@ use crate::{Domain, Error, math};
 /// Accuracy: (81) and its derivatives (82), (84) are satisfied to 1e-12 of their largest term (test `printed_equations_hold`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct SixLink {
-    crank: f64,
-    rocker: f64,
-    rod: f64,
-    centres: f64,
-    guide: f64,
-    sign: f64,
+    dimensions: SixLinkDimensions,
+    branch: Branch,
     links: [Link; 5],
 }
 
@@ -58,38 +72,31 @@ impl SixLink {
     /// Index of the slider.
     pub const SLIDER: usize = 4;
 
-    /// A six-link mechanism with `lengths` l₁ of crank, l₂ of rocker and l₃ of rod (m), distance of the pivots
-    /// `centres` b (m), the guide `below` the crank pivot by a (m, either sign), and the links crank, block, rocker, rod,
-    /// slider.
+    /// A six-link mechanism of these dimensions, with the links crank, block, rocker, rod, slider.
     ///
     /// # Errors
     /// A length or b not positive; b = l₁; a rod too short for a full turn, with the angle where it fails.
     pub fn new(
-        lengths: [f64; 3],
-        centres: f64,
-        below: f64,
+        dimensions: SixLinkDimensions,
         branch: Branch,
         links: [Link; 5],
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, BuildError> {
+        let l1 = positive("crank length", dimensions.crank)?;
+        let l2 = positive("rocker length", dimensions.rocker)?;
+        let l3 = positive("rod length", dimensions.rod)?;
+        let b = positive("distance of the pivots", dimensions.centres)?;
+        let guide = finite("distance of the guide", dimensions.below)?;
         let six_link = Self {
-            crank: positive("crank length", lengths[0])?,
-            rocker: positive("rocker length", lengths[1])?,
-            rod: positive("rod length", lengths[2])?,
-            centres: positive("distance of the pivots", centres)?,
-            guide: -finite("distance of the guide", below)?,
-            sign: match branch {
-                Branch::Right => 1.0,
-                Branch::Left => -1.0,
-            },
+            dimensions,
+            branch,
             links,
         };
-        let (l1, b) = (six_link.crank, six_link.centres);
         // Nearer than this, s comes within roundings of zero at φ = 180°.
         if math::abs(l1 - b) <= 1e-9 * b {
             return Err(Blocked::PinMeetsPivot { length: l1 }.into());
         }
-        let shortest = six_link.rocker * six_link.largest_sine() + math::abs(six_link.guide);
-        if six_link.rod <= shortest * (1.0 + 1e-12) {
+        let shortest = l2 * six_link.largest_sine() + math::abs(guide);
+        if l3 <= shortest * (1.0 + 1e-12) {
             let phi = six_link.first_unreachable();
             return Err(Blocked::TooShort {
                 link: "rod",
@@ -104,17 +111,22 @@ impl SixLink {
     /// Whether the rocker turns fully (b < l₁, Whitworth) or swings.
     #[must_use]
     pub fn rocker_turns(&self) -> bool {
-        self.centres < self.crank
+        self.dimensions.centres < self.dimensions.crank
     }
 
-    /// Lengths of crank, rocker and rod (m).
-    pub const fn lengths(&self) -> [f64; 3] {
-        [self.crank, self.rocker, self.rod]
+    /// The dimensions (m).
+    pub const fn dimensions(&self) -> SixLinkDimensions {
+        self.dimensions
+    }
+
+    /// y of the guide (m).
+    const fn guide(&self) -> f64 {
+        -self.dimensions.below
     }
 
     /// Pivot O₂ of the rocker (m).
     pub const fn pivot(&self) -> [f64; 2] {
-        [-self.centres, 0.0]
+        [-self.dimensions.centres, 0.0]
     }
 
     /// Largest sin φ₂ of a turn.
@@ -122,21 +134,21 @@ impl SixLink {
         if self.rocker_turns() {
             1.0
         } else {
-            self.crank / self.centres
+            self.dimensions.crank / self.dimensions.centres
         }
     }
 
     /// The smallest φ ≥ 0 (rad) at which the rod is perpendicular to the guide: |l₂·sin φ₂ + a| = l₃.
     fn first_unreachable(&self) -> f64 {
-        let (l1, b) = (self.crank, self.centres);
+        let (l1, b) = (self.dimensions.crank, self.dimensions.centres);
         // At φ = 0 the rocker lies along x.
-        if math::abs(self.guide) >= self.rod {
+        if math::abs(self.guide()) >= self.dimensions.rod {
             return 0.0;
         }
         let largest = self.largest_sine();
         let mut first = f64::INFINITY;
-        for end in [self.rod, -self.rod] {
-            let sin = (self.guide + end) / self.rocker;
+        for end in [self.dimensions.rod, -self.dimensions.rod] {
+            let sin = (self.guide() + end) / self.dimensions.rocker;
             // At equality a rounding may leave it just outside.
             if math::abs(sin) > largest * (1.0 + 1e-9) {
                 continue;
@@ -159,13 +171,13 @@ impl SixLink {
 impl Jointed for SixLink {
     /// O₁: ground and crank; A: crank and block; slot: rocker and block; O₂: ground and rocker; B: rocker and rod; C: rod
     /// and slider; guide: ground and slider. The slot's coordinate is s.
-    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let origin = [0.0, 0.0];
         let pin = |first, second| Joint::Revolute([first, second]);
         Ok(Joints::from_iter([
             pin(Marker::ground(origin), Marker::on(Self::CRANK, origin)),
             pin(
-                Marker::on(Self::CRANK, [self.crank, 0.0]),
+                Marker::on(Self::CRANK, [self.dimensions.crank, 0.0]),
                 Marker::on(Self::BLOCK, origin),
             ),
             Joint::Prismatic([
@@ -177,15 +189,15 @@ impl Jointed for SixLink {
                 Marker::on(Self::ROCKER, origin),
             ),
             pin(
-                Marker::on(Self::ROCKER, [self.rocker, 0.0]),
+                Marker::on(Self::ROCKER, [self.dimensions.rocker, 0.0]),
                 Marker::on(Self::ROD, origin),
             ),
             pin(
-                Marker::on(Self::ROD, [self.rod, 0.0]),
+                Marker::on(Self::ROD, [self.dimensions.rod, 0.0]),
                 Marker::on(Self::SLIDER, origin),
             ),
             Joint::Prismatic([
-                Marker::ground([0.0, self.guide]),
+                Marker::ground([0.0, self.guide()]),
                 Marker::on(Self::SLIDER, origin),
             ]),
         ]))
@@ -201,10 +213,10 @@ impl Mechanism for SixLink {
         Domain::Turn
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         let angle = Transfer::variable(finite("crank angle", phi)?);
         let crank = Frame::turning([0.0, 0.0], angle);
-        let a = crank.point([self.crank, 0.0]);
+        let a = crank.point([self.dimensions.crank, 0.0]);
         let pivot = self.pivot().map(Transfer::constant);
         let (x, y) = (a[0] - pivot[0], a[1] - pivot[1]);
         let s = (x * x + y * y).sqrt();
@@ -213,9 +225,9 @@ impl Mechanism for SixLink {
         let (sin, cos) = (y.over(s), x.over(s));
         let rocker = Frame::moving(pivot, sin, cos).unwrapped(near);
         let block = Frame::moving(a, sin, cos).unwrapped(near);
-        let b = rocker.point([self.rocker, 0.0]);
-        let [rod, slider] = dyad::sliding(b, self.rod, self.guide, self.sign)
-            .ok_or(Error::DeadPoint { phi, joint: 6 })?;
+        let b = rocker.point([self.dimensions.rocker, 0.0]);
+        let [rod, slider] = dyad::sliding(b, self.dimensions.rod, self.guide(), self.branch.sign())
+            .ok_or(PoseError::DeadPoint { phi, joint: 6 })?;
         Ok(Frames::from_iter([crank, block, rocker, rod, slider]))
     }
 }

@@ -10,12 +10,14 @@
 //! from A to B. The machine's real orientation is given by the direction of gravity: for a press whose ram
 //! moves down as x_B grows, gravity points along +x.
 
-use super::{Frames, Jointed, Mechanism};
-use crate::error::{finite, positive};
+use super::{Blocked, Frames, Jointed, Mechanism};
+use crate::machine::error::PoseError;
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};
+use crate::mechanism::error::BuildError;
+use crate::number::error::{finite, positive};
 use crate::number::transfer::Transfer;
-use crate::{Domain, Error, math};
+use crate::{Domain, math};
 
 /// Which of the two positions of the slider: on the right (cos ψ > 0) or on the left (cos ψ < 0) of the crank pin.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,6 +30,28 @@ pub enum Branch {
     Left,
 }
 
+impl Branch {
+    /// Sign of cos ψ.
+    pub(super) const fn sign(self) -> f64 {
+        match self {
+            Self::Right => 1.0,
+            Self::Left => -1.0,
+        }
+    }
+}
+
+/// Dimensions of a slider-crank (m).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SliderCrankDimensions {
+    /// Crank length r > 0.
+    pub crank: f64,
+    /// Rod length l > r + |e|.
+    pub rod: f64,
+    /// Offset e of the guide from the crank's pivot, either sign; zero for an in-line slider-crank.
+    pub offset: f64,
+}
+
 /// A slider-crank with offset, driven at the crank, which turns fully.
 ///
 /// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`ROD`](Self::ROD) (frame at A along AB),
@@ -37,10 +61,8 @@ pub enum Branch {
 /// 1e-12 of the column's largest value (test `slider_crank_golden`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct SliderCrank {
-    crank: f64,
-    rod: f64,
-    offset: f64,
-    sign: f64,
+    dimensions: SliderCrankDimensions,
+    branch: Branch,
     links: [Link; 3],
 }
 
@@ -52,49 +74,40 @@ impl SliderCrank {
     /// Index of the slider.
     pub const SLIDER: usize = 2;
 
-    /// A slider-crank with `crank` and `rod` lengths r, l (m), guide `offset` e (m) and the links crank, rod, slider.
+    /// A slider-crank of these dimensions, with the links crank, rod, slider.
     ///
     /// # Errors
     /// A length that is not positive; a rod too short for a full turn, l ≤ r + |e|, with the angle where it fails.
     pub fn new(
-        crank: f64,
-        rod: f64,
-        offset: f64,
+        dimensions: SliderCrankDimensions,
         branch: Branch,
         links: [Link; 3],
-    ) -> Result<Self, Error> {
-        let crank = positive("crank length", crank)?;
-        let rod = positive("rod length", rod)?;
-        let offset = finite("offset", offset)?;
-        let shortest_rod = crank + math::abs(offset);
+    ) -> Result<Self, BuildError> {
+        let crank = positive("crank length", dimensions.crank)?;
+        let rod = positive("rod length", dimensions.rod)?;
+        let offset = finite("offset", dimensions.offset)?;
+        let shortest = crank + math::abs(offset);
         // A hair of distance keeps cos ψ away from the roundings of 1 − sin²ψ, so that no angle fails later.
-        if rod <= shortest_rod * (1.0 + 1e-12) {
+        if rod <= shortest * (1.0 + 1e-12) {
             // The distance |e − r·sin φ| to be spanned is largest at φ = 90° (e < 0) or 270°; the first φ > 0 at
             // which it exceeds the rod is where the turn ends.
-            let phi = first_unreachable(crank, rod, offset);
-            return Err(Error::CannotTurn { phi, shortest_rod });
+            return Err(Blocked::TooShort {
+                link: "rod",
+                phi: first_unreachable(crank, rod, offset),
+                shortest,
+            }
+            .into());
         }
-        let sign = match branch {
-            Branch::Right => 1.0,
-            Branch::Left => -1.0,
-        };
         Ok(Self {
-            crank,
-            rod,
-            offset,
-            sign,
+            dimensions,
+            branch,
             links,
         })
     }
 
-    /// Crank length (m).
-    pub const fn crank(&self) -> f64 {
-        self.crank
-    }
-
-    /// Rod length (m).
-    pub const fn rod(&self) -> f64 {
-        self.rod
+    /// The dimensions (m).
+    pub const fn dimensions(&self) -> SliderCrankDimensions {
+        self.dimensions
     }
 }
 
@@ -116,20 +129,21 @@ fn first_unreachable(crank: f64, rod: f64, offset: f64) -> f64 {
 
 impl Jointed for SliderCrank {
     /// O: ground and crank; A: crank and rod; B: rod and slider; guide: ground and slider.
-    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
+        let SliderCrankDimensions { crank, rod, offset } = self.dimensions;
         let origin = [0.0, 0.0];
         Ok(Joints::from_iter([
             Joint::Revolute([Marker::ground(origin), Marker::on(Self::CRANK, origin)]),
             Joint::Revolute([
-                Marker::on(Self::CRANK, [self.crank, 0.0]),
+                Marker::on(Self::CRANK, [crank, 0.0]),
                 Marker::on(Self::ROD, origin),
             ]),
             Joint::Revolute([
-                Marker::on(Self::ROD, [self.rod, 0.0]),
+                Marker::on(Self::ROD, [rod, 0.0]),
                 Marker::on(Self::SLIDER, origin),
             ]),
             Joint::Prismatic([
-                Marker::ground([0.0, self.offset]),
+                Marker::ground([0.0, offset]),
                 Marker::on(Self::SLIDER, origin),
             ]),
         ]))
@@ -145,24 +159,25 @@ impl Mechanism for SliderCrank {
         Domain::Turn
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         let angle = Transfer::variable(finite("crank angle", phi)?);
+        let lengths = self.dimensions;
+        let offset = Transfer::constant(lengths.offset);
         let crank = Frame::turning([0.0, 0.0], angle);
-        let [x_a, y_a] = crank.point([self.crank, 0.0]);
-        let sin = (Transfer::constant(self.offset) - y_a) * (1.0 / self.rod);
+        let [x_a, y_a] = crank.point([lengths.crank, 0.0]);
+        let sin = (offset - y_a) * (1.0 / lengths.rod);
         let under_root = Transfer::constant(1.0) - sin * sin;
         if under_root.value <= 0.0 {
-            return Err(Error::DeadPoint { phi, joint: 3 });
+            return Err(PoseError::DeadPoint { phi, joint: 3 });
         }
-        let cos = under_root.sqrt() * self.sign;
+        let cos = under_root.sqrt() * self.branch.sign();
         // On the left branch the rod points to the left: ψ stays within a quarter turn of π.
-        let rod = Frame::moving([x_a, y_a], sin, cos).unwrapped(if self.sign > 0.0 {
-            0.0
-        } else {
-            core::f64::consts::PI
+        let rod = Frame::moving([x_a, y_a], sin, cos).unwrapped(match self.branch {
+            Branch::Right => 0.0,
+            Branch::Left => core::f64::consts::PI,
         });
-        let [x_b, _] = rod.point([self.rod, 0.0]);
-        let slider = Frame::translating([x_b, Transfer::constant(self.offset)]);
+        let [x_b, _] = rod.point([lengths.rod, 0.0]);
+        let slider = Frame::translating([x_b, offset]);
         Ok(Frames::from_iter([crank, rod, slider]))
     }
 }

@@ -26,8 +26,9 @@
 //! i_2² = (i_1⁴ − 1)/2; for large ratios and n stages i_k = √2·(i/2^(n/2))^(2^(k−1)/(2ⁿ − 1)). See *Minimization of
 //! Gear-Train Inertia*, Transactions of the ASME 76 (1954), p. 493.
 
-use crate::error::{finite, not_negative, positive};
-use crate::{Error, math};
+use crate::math;
+use crate::number::error::RangeError;
+use crate::number::error::{finite, not_negative, positive};
 
 /// The most stages that a ratio is split over.
 pub const MAX_STAGES: usize = 4;
@@ -107,12 +108,12 @@ impl RatioSplit {
         stages: &[OpenStage],
         output: f64,
         bounds: [f64; 2],
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, RangeError> {
         let count = stages.len();
         let what = "number of stages";
         if !(2..=MAX_STAGES).contains(&count) {
             let (value, min, max) = (count as f64, 2.0, MAX_STAGES as f64);
-            return Err(Error::OutOfRange {
+            return Err(RangeError::OutOfRange {
                 what,
                 value,
                 min,
@@ -134,7 +135,7 @@ impl RatioSplit {
         positive("smallest stage ratio", low)?;
         if finite("largest stage ratio", high)? < low {
             let (what, value, min, max) = ("largest stage ratio", high, low, f64::INFINITY);
-            return Err(Error::OutOfRange {
+            return Err(RangeError::OutOfRange {
                 what,
                 value,
                 min,
@@ -146,7 +147,7 @@ impl RatioSplit {
         let (min, max) = (power(low), power(high));
         if ratio < min * (1.0 - 1e-12) || ratio > max * (1.0 + 1e-12) {
             let (what, value) = ("total ratio", ratio);
-            return Err(Error::OutOfRange {
+            return Err(RangeError::OutOfRange {
                 what,
                 value,
                 min,
@@ -238,14 +239,14 @@ impl RatioSplit {
     ///
     /// # Errors
     /// A ratio outside [`first_range`](Self::first_range).
-    pub fn with_first(&self, first: f64) -> Result<Split, Error> {
+    pub fn with_first(&self, first: f64) -> Result<Split, RangeError> {
         let [min, max] = self.first_range();
         let (what, value) = (
             "ratio of the first stage",
             finite("ratio of the first stage", first)?,
         );
         if value < min * (1.0 - 1e-12) || value > max * (1.0 + 1e-12) {
-            return Err(Error::OutOfRange {
+            return Err(RangeError::OutOfRange {
                 what,
                 value,
                 min,

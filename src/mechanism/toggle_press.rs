@@ -18,14 +18,16 @@
 //!
 //! K. Luck, K.-H. Modler, *Getriebetechnik*; the closed forms are those of the four-bar and of the slider-crank in series.
 
+use crate::machine::error::PoseError;
+use crate::mechanism::error::BuildError;
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::four_bar::beyond;
-use super::{Blocked, Branch, FourBar, Frames, Jointed, Mechanism, Side, dyad};
-use crate::error::{finite, positive};
+use super::{Blocked, Branch, FourBar, FourBarDimensions, Frames, Jointed, Mechanism, Side, dyad};
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::Link;
-use crate::{Domain, Error, math};
+use crate::number::error::{finite, positive};
+use crate::{Domain, math};
 
 /// Why the ram stands still at a dead centre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,6 +57,24 @@ pub type DeadCentres = heapless::Vec<DeadCentre, 8>;
 /// Dead centres nearer than this (rad) are one: where the links are in line just as the upper link reverses.
 const SAME: f64 = 1e-6;
 
+/// Dimensions of a toggle press (m).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct TogglePressDimensions {
+    /// Crank length r > 0.
+    pub crank: f64,
+    /// Rod length l > 0, from the crank to the knuckle.
+    pub rod: f64,
+    /// Upper link length p > 0, from its pivot to the knuckle.
+    pub upper: f64,
+    /// Lower link length q > 0, from the knuckle to the ram, long enough to reach the guide all the turn.
+    pub lower: f64,
+    /// Pivot P = [x, y] of the upper link, the crank's being [0, 0].
+    pub pivot: [f64; 2],
+    /// y of the ram's guide e.
+    pub guide: f64,
+}
+
 /// A toggle press, driven at the crank, which turns fully.
 ///
 /// Links: [`CRANK`](Self::CRANK) (frame at O along OA), [`ROD`](Self::ROD) (frame at A along AK), [`UPPER`](Self::UPPER)
@@ -65,10 +85,9 @@ const SAME: f64 = 1e-6;
 /// `ram_follows_the_slider_crank_of_the_upper_link`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct TogglePress {
+    dimensions: TogglePressDimensions,
     four_bar: FourBar,
-    lower: f64,
-    guide: f64,
-    sign: f64,
+    branch: Branch,
     links: [Link; 5],
 }
 
@@ -84,37 +103,30 @@ impl TogglePress {
     /// Index of the ram.
     pub const RAM: usize = 4;
 
-    /// A toggle press with `lengths` of crank r, rod l, upper link p and lower link q (m), `pivot` P of the upper link (m),
-    /// the ram's `guide` e (m), on which sides knuckle and ram lie, and the links crank, rod, upper, lower, ram.
+    /// A toggle press of these dimensions, with the side on which the knuckle lies, the branch of the ram, and the links
+    /// crank, rod, upper, lower, ram.
     ///
     /// # Errors
     /// Those of [`FourBar::new`] for crank, coupler (here the rod), rocker (the upper link) and P; a lower link or guide
     /// that is not possible; a lower link too short for a full turn, with the angle where it fails.
     pub fn new(
-        lengths: [f64; 4],
-        pivot: [f64; 2],
-        guide: f64,
-        (knee, branch): (Side, Branch),
+        dimensions: TogglePressDimensions,
+        knuckle: Side,
+        branch: Branch,
         links: [Link; 5],
-    ) -> Result<Self, Error> {
-        let [crank, rod, upper, lower] = lengths;
-        let lower = positive("lower link length", lower)?;
-        let guide = finite("guide", guide)?;
-        let four_bar = FourBar::new(
-            [crank, rod, upper],
-            pivot,
-            knee,
-            [links[0], links[1], links[2]],
-        )?;
-        let sign = match branch {
-            Branch::Right => 1.0,
-            Branch::Left => -1.0,
+    ) -> Result<Self, BuildError> {
+        let lower = positive("lower link length", dimensions.lower)?;
+        finite("guide", dimensions.guide)?;
+        let four_bar = FourBarDimensions {
+            crank: dimensions.crank,
+            coupler: dimensions.rod,
+            rocker: dimensions.upper,
+            pivot: dimensions.pivot,
         };
         let press = Self {
-            four_bar,
-            lower,
-            guide,
-            sign,
+            dimensions,
+            four_bar: FourBar::new(four_bar, knuckle, [links[0], links[1], links[2]])?,
+            branch,
             links,
         };
         let shortest = press.farthest_knuckle()?;
@@ -135,14 +147,13 @@ impl TogglePress {
         &self.four_bar
     }
 
-    /// Lengths of crank, rod, upper and lower link (m).
-    pub const fn lengths(&self) -> [f64; 4] {
-        let [crank, rod, upper, _] = self.four_bar.lengths();
-        [crank, rod, upper, self.lower]
+    /// The dimensions (m).
+    pub const fn dimensions(&self) -> TogglePressDimensions {
+        self.dimensions
     }
 
     /// Largest distance of the knuckle from the guide's line (m) over a turn.
-    fn farthest_knuckle(&self) -> Result<f64, Error> {
+    fn farthest_knuckle(&self) -> Result<f64, PoseError> {
         let height = |sin: f64| math::abs(self.knuckle_off_guide(sin));
         let Some(dead) = self.four_bar.rocker_dead_centres() else {
             return Ok(height(1.0).max(height(-1.0)));
@@ -161,11 +172,16 @@ impl TogglePress {
 
     /// e − y_K (m) for an upper link of this sine.
     fn knuckle_off_guide(&self, sin: f64) -> f64 {
-        let [_, _, upper, _] = self.lengths();
-        self.guide - self.four_bar.pivot()[1] - upper * sin
+        let TogglePressDimensions {
+            upper,
+            pivot,
+            guide,
+            ..
+        } = self.dimensions;
+        guide - pivot[1] - upper * sin
     }
 
-    fn upper_angle(&self, phi: f64) -> Result<f64, Error> {
+    fn upper_angle(&self, phi: f64) -> Result<f64, PoseError> {
         let frames = self.four_bar.frames(phi)?;
         Ok(frames
             .get(FourBar::ROCKER)
@@ -173,9 +189,9 @@ impl TogglePress {
     }
 
     /// The smallest φ ≥ 0 (rad) at which the lower link is perpendicular to the guide.
-    fn first_unreachable(&self) -> Result<f64, Error> {
-        let [_, _, upper, lower] = self.lengths();
-        let off = |phi: f64| -> Result<f64, Error> {
+    fn first_unreachable(&self) -> Result<f64, PoseError> {
+        let TogglePressDimensions { upper, lower, .. } = self.dimensions;
+        let off = |phi: f64| -> Result<f64, PoseError> {
             let sin = math::sin_cos(self.upper_angle(phi)?).0;
             Ok(math::abs(self.knuckle_off_guide(sin)))
         };
@@ -210,9 +226,9 @@ impl TogglePress {
     ///
     /// # Errors
     /// None for a press that was built.
-    pub fn dead_centres(&self) -> Result<DeadCentres, Error> {
+    pub fn dead_centres(&self) -> Result<DeadCentres, PoseError> {
         let mut found = DeadCentres::new();
-        let mut add = |phi: f64, cause| -> Result<(), Error> {
+        let mut add = |phi: f64, cause| -> Result<(), PoseError> {
             let frames = self.frames(phi)?;
             let ram = frames.get(Self::RAM).map_or(0.0, |frame| frame.x.value);
             let near = |other: &DeadCentre| {
@@ -228,11 +244,14 @@ impl TogglePress {
         for phi in self.four_bar.rocker_dead_centres().into_iter().flatten() {
             add(phi, Standstill::Reversal)?;
         }
-        let [_, _, upper, lower] = self.lengths();
+        let TogglePressDimensions { upper, lower, .. } = self.dimensions;
         let height = self.knuckle_off_guide(0.0);
         // Stretched R = P + (p + q)·u and folded R = P + (p − q)·u, u along the upper link; the lower link points to the
         // ram's side.
-        for (length, sign) in [(upper + lower, self.sign), (upper - lower, -self.sign)] {
+        for (length, sign) in [
+            (upper + lower, self.branch.sign()),
+            (upper - lower, -self.branch.sign()),
+        ] {
             let sin = height / length;
             if math::abs(sin) < 1.0 {
                 let psi = math::atan2(sin, sign * math::sqrt(1.0 - sin * sin));
@@ -250,9 +269,9 @@ impl TogglePress {
     ///
     /// # Errors
     /// None for a press that was built.
-    pub fn stroke(&self) -> Result<[DeadCentre; 2], Error> {
+    pub fn stroke(&self) -> Result<[DeadCentre; 2], PoseError> {
         let centres = self.dead_centres()?;
-        let down = |centre: &&DeadCentre| self.sign * centre.ram;
+        let down = |centre: &&DeadCentre| self.branch.sign() * centre.ram;
         let order = |a: &&DeadCentre, b: &&DeadCentre| down(a).total_cmp(&down(b));
         let top = centres.iter().min_by(order);
         // Of equals the first.
@@ -269,8 +288,8 @@ impl TogglePress {
 impl Jointed for TogglePress {
     /// O: ground and crank; A: crank and rod; K: rod and upper link; P: ground and upper link; K: upper and lower link; R:
     /// lower link and ram; guide: ground and ram.
-    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, Error> {
-        let [_, _, upper, lower] = self.lengths();
+    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
+        let TogglePressDimensions { upper, lower, .. } = self.dimensions;
         let origin = [0.0, 0.0];
         let mut joints = self.four_bar.joints(phi, frames)?;
         let rest = [
@@ -283,7 +302,7 @@ impl Jointed for TogglePress {
                 Marker::on(Self::RAM, origin),
             ]),
             Joint::Prismatic([
-                Marker::ground([0.0, self.guide]),
+                Marker::ground([0.0, self.dimensions.guide]),
                 Marker::on(Self::RAM, origin),
             ]),
         ];
@@ -301,14 +320,16 @@ impl Mechanism for TogglePress {
         Domain::Turn
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         let mut frames = self.four_bar.frames(phi)?;
-        let [_, _, upper, lower] = self.lengths();
+        let TogglePressDimensions { upper, lower, .. } = self.dimensions;
         let knuckle = frames
             .get(Self::UPPER)
             .map(|frame| frame.point([upper, 0.0]))
-            .and_then(|knuckle| dyad::sliding(knuckle, lower, self.guide, self.sign));
-        let rest = knuckle.ok_or(Error::DeadPoint { phi, joint: 6 })?;
+            .and_then(|knuckle| {
+                dyad::sliding(knuckle, lower, self.dimensions.guide, self.branch.sign())
+            });
+        let rest = knuckle.ok_or(PoseError::DeadPoint { phi, joint: 6 })?;
         frames.extend(rest);
         Ok(frames)
     }

@@ -1,11 +1,14 @@
 //! Gear trains and belt drives: shafts coupled by constant ratios.
 
 use super::{Frames, Jointed, Mechanism};
-use crate::error::{not_negative, positive};
+use crate::Domain;
+use crate::machine::error::PoseError;
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link};
+use crate::mechanism::error::BuildError;
+use crate::number::error::RangeError;
+use crate::number::error::{not_negative, positive};
 use crate::number::transfer::Transfer;
-use crate::{Domain, Error};
 
 /// How two gears mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -32,7 +35,7 @@ impl Stage {
     ///
     /// # Errors
     /// No teeth, or an inertia negative or not finite.
-    pub fn gears(teeth: [u32; 2], inertia: [f64; 2], mesh: Mesh) -> Result<Self, Error> {
+    pub fn gears(teeth: [u32; 2], inertia: [f64; 2], mesh: Mesh) -> Result<Self, RangeError> {
         let driver = positive("teeth of the driver", f64::from(teeth[0]))?;
         let driven = positive("teeth of the driven gear", f64::from(teeth[1]))?;
         let sign = match mesh {
@@ -47,7 +50,7 @@ impl Stage {
     ///
     /// # Errors
     /// A radius not positive, or an inertia or the mass negative or not finite.
-    pub fn belt(radius: [f64; 2], inertia: [f64; 2], mass: f64) -> Result<Self, Error> {
+    pub fn belt(radius: [f64; 2], inertia: [f64; 2], mass: f64) -> Result<Self, RangeError> {
         let driver = positive("radius of the driver pulley", radius[0])?;
         let driven = positive("radius of the driven pulley", radius[1])?;
         let pulley = not_negative("inertia of the driver", inertia[0])?;
@@ -59,7 +62,7 @@ impl Stage {
     ///
     /// # Errors
     /// A ratio of zero, an inertia negative, or anything not finite.
-    pub fn new(ratio: f64, inertia: [f64; 2]) -> Result<Self, Error> {
+    pub fn new(ratio: f64, inertia: [f64; 2]) -> Result<Self, RangeError> {
         positive("ratio", crate::math::abs(ratio))?;
         Ok(Self {
             ratio,
@@ -73,9 +76,9 @@ impl Stage {
     ///
     /// # Errors
     /// An efficiency outside (0, 1].
-    pub fn with_efficiency(self, efficiency: f64) -> Result<Self, Error> {
+    pub fn with_efficiency(self, efficiency: f64) -> Result<Self, RangeError> {
         if positive("efficiency", efficiency)? > 1.0 {
-            return Err(Error::OutOfRange {
+            return Err(RangeError::OutOfRange {
                 what: "efficiency",
                 value: efficiency,
                 min: 0.0,
@@ -117,10 +120,10 @@ impl Train {
     ///
     /// # Errors
     /// More than [`MAX_STAGES`](Self::MAX_STAGES) stages.
-    pub fn new(stages: &[Stage]) -> Result<Self, Error> {
+    pub fn new(stages: &[Stage]) -> Result<Self, BuildError> {
         let stages =
             heapless::Vec::<Stage, { Self::MAX_STAGES }>::from_slice(stages).map_err(|_| {
-                Error::TooMany {
+                RangeError::TooMany {
                     what: "stages",
                     capacity: Self::MAX_STAGES,
                 }
@@ -209,7 +212,7 @@ pub struct TrainInput {
 impl Jointed for Train {
     /// The bearing of every shaft, then the mesh or belt of every stage. A train has ratios and no geometry: what a mesh
     /// transmits is a moment on either shaft, and the ground takes the difference.
-    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let bearing =
             |shaft| Joint::Revolute([Marker::ground([0.0, 0.0]), Marker::on(shaft, [0.0, 0.0])]);
         let mesh = |(k, stage): (usize, &Stage)| {
@@ -233,8 +236,8 @@ impl Mechanism for Train {
         Domain::Turn
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
-        let input = Transfer::variable(crate::error::finite("input angle", phi)?);
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
+        let input = Transfer::variable(crate::number::error::finite("input angle", phi)?);
         let mut frames = Frames::new();
         let mut ratio = 1.0;
         for k in 0..self.shafts.len() {

@@ -14,6 +14,7 @@
 //! Products round towards −∞. An overflow inside a cell, or in a sum of torques at full speed and acceleration, is refused when
 //! table and model are built; so inverse dynamics cannot saturate. Forward dynamics can, and reports it.
 
+pub(crate) mod error;
 mod kernel;
 #[allow(
     clippy::indexing_slicing,
@@ -31,6 +32,7 @@ mod scalar;
 mod scale;
 pub(crate) mod transfer;
 
+pub use error::{Cure, RangeError};
 pub(crate) use kernel::{Kernel, Ring};
 pub use phase::{Domain, Phase};
 pub use q15::Q15;

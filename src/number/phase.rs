@@ -1,11 +1,12 @@
 //! The angle of the drive link as a binary fraction of its range.
 
+use crate::number::error::RangeError;
 use core::f64::consts::TAU;
 use core::num::NonZeroU32;
 use core::ops::{Add, Sub};
 
-use crate::error::finite;
-use crate::{Error, Real, math};
+use crate::number::error::finite;
+use crate::{Real, math};
 
 /// A position within the drive link's range as a fraction of 2³²: one turn for a rotating link, the stroke for a
 /// sliding one.
@@ -167,10 +168,10 @@ impl Domain {
     ///
     /// # Errors
     /// An end that is not finite, or `to` not greater than `from`.
-    pub fn stroke(from: f64, to: f64) -> Result<Self, Error> {
+    pub fn stroke(from: f64, to: f64) -> Result<Self, RangeError> {
         let from = finite("start of the stroke", from)?;
         let to = finite("end of the stroke", to)?;
-        crate::error::positive("length of the stroke", to - from)?;
+        crate::number::error::positive("length of the stroke", to - from)?;
         Ok(Self::Stroke { from, to })
     }
 

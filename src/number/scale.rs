@@ -1,8 +1,8 @@
 //! SI units to machine units and back.
 
-use crate::error::positive;
+use crate::math;
+use crate::number::error::{RangeError, positive};
 use crate::number::{Number, Outcome};
-use crate::{Error, math};
 
 /// The bases of the per-unit system: the SI values of the number 1.
 ///
@@ -31,7 +31,7 @@ impl Scale {
     ///
     /// # Errors
     /// A base that is not positive and finite.
-    pub fn new(torque: f32, speed: f32, inertia: f32) -> Result<Self, Error> {
+    pub fn new(torque: f32, speed: f32, inertia: f32) -> Result<Self, RangeError> {
         for (what, base) in [
             ("torque base", torque),
             ("speed base", speed),

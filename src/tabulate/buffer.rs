@@ -9,7 +9,7 @@ use crate::{Error, Model, Scale};
 /// model over it.
 ///
 /// ```
-/// use jred::mechanism::ScotchYoke;
+/// use jred::mechanism::{ScotchYoke, ScotchYokeDimensions};
 /// # use core::f64::consts::FRAC_PI_2;
 /// use jred::table::words_len;
 /// use jred::tabulate::{TableBuffer, scratch_len};
@@ -20,7 +20,8 @@ use crate::{Error, Model, Scale};
 /// const WORDS: usize = words_len::<Spline<f32>>(CELLS, SET);
 ///
 /// fn main() -> Result<(), Error> {
-///     let yoke = ScotchYoke::new(0.05, FRAC_PI_2, [Link::rotor(0.002)?, Link::new(1.5, 0.0, [0.0, 0.0])?])?;
+///     let dimensions = ScotchYokeDimensions { crank: 0.05, slot_angle: FRAC_PI_2 };
+///     let yoke = ScotchYoke::new(dimensions, [Link::rotor(0.002)?, Link::new(1.5, 0.0, [0.0, 0.0])?])?;
 ///     let machine = Machine::new(yoke);
 ///     let mut scratch = [0.0; scratch_len(CELLS, SET)];
 ///     let mut buffer = TableBuffer::<Spline<f32>, SET, CELLS, WORDS>::new();

@@ -5,6 +5,8 @@ use crate::curve::{
     Format, MAX_CELLS, MIN_CELLS, Sample, Samples, Set, Shape, Table, TableError, words_len,
 };
 use crate::machine::Reducible;
+use crate::machine::error::PoseError;
+use crate::number::error::RangeError;
 use crate::{Domain, Error, Scale};
 
 /// Fills `words` with the table of exactly `cells` cells and of this set of [`curves`](crate::curves), and returns it.
@@ -30,10 +32,10 @@ pub fn fill<'w, F: Format>(
         return Err(Error::Table(TableError::Cells(cells)));
     }
     let (given, needed) = (scratch.len(), scratch_len(cells, set));
-    let too_short = Error::BufferTooShort { needed, given };
+    let too_short = RangeError::BufferTooShort { needed, given };
     let scratch = scratch.get_mut(..needed).ok_or(too_short)?;
     let (given, needed) = (words.len(), words_len::<F>(cells, set));
-    let too_short = Error::BufferTooShort { needed, given };
+    let too_short = RangeError::BufferTooShort { needed, given };
     let words = words.get_mut(..needed).ok_or(too_short)?;
 
     let domain = machine.domain();
@@ -68,9 +70,10 @@ pub fn fill<'w, F: Format>(
             base: F::base(curve, set),
             cell,
         },
-        TableError::NoInertia { cell } => Error::NoInertia {
+        TableError::NoInertia { cell } => PoseError::NoInertia {
             phi: domain.position(f64::from(cell) / f64::from(cells)),
-        },
+        }
+        .into(),
         other => Error::Table(other),
     })
 }

@@ -26,8 +26,8 @@ pub use search::tabulate;
 
 use crate::curve::control_points;
 use crate::curve::curves::{self, Set};
-use crate::error::positive;
 use crate::machine::Reducible;
+use crate::number::error::positive;
 use crate::{Error, Scale, Validity, math};
 
 /// Places in each cell at which a table is compared with the exact curves.

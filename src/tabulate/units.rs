@@ -1,8 +1,8 @@
 //! Machine units that suit a machine.
 
-use crate::error::positive;
-use crate::machine::Reducible;
-use crate::{Error, Scale, math};
+use crate::machine::{PoseError, Reducible};
+use crate::number::error::positive;
+use crate::{Scale, math};
 
 impl Scale {
     /// A scale in which nothing saturates for speeds up to `omega` (rad/s), accelerations up to `alpha` (rad/s²)
@@ -18,7 +18,7 @@ impl Scale {
         omega: f64,
         alpha: f64,
         positions: u32,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, PoseError> {
         let most = Most::of(machine, omega, alpha, positions)?;
         // The greatest torque against the greatest resistance, where the inertia is least.
         most.scale((most.inertia * alpha + 2.0 * most.resisting) / most.least)
@@ -34,7 +34,7 @@ impl Scale {
         omega: f64,
         alpha: f64,
         positions: u32,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, PoseError> {
         Most::of(machine, omega, alpha, positions)?.scale(alpha)
     }
 }
@@ -54,7 +54,12 @@ struct Most {
 impl Most {
     const MARGIN: f64 = 1.05;
 
-    fn of(machine: &impl Reducible, omega: f64, alpha: f64, positions: u32) -> Result<Self, Error> {
+    fn of(
+        machine: &impl Reducible,
+        omega: f64,
+        alpha: f64,
+        positions: u32,
+    ) -> Result<Self, PoseError> {
         positive("largest speed", omega)?;
         positive("largest acceleration", alpha)?;
         let mut most = Self {
@@ -78,9 +83,13 @@ impl Most {
     }
 
     /// The scale for accelerations up to `alpha`.
-    fn scale(&self, alpha: f64) -> Result<Scale, Error> {
+    fn scale(&self, alpha: f64) -> Result<Scale, PoseError> {
         let alpha = alpha * Self::MARGIN;
         let torque = (self.inertia * alpha + self.resisting) * Self::MARGIN;
-        Scale::new(torque as f32, self.omega as f32, (torque / alpha) as f32)
+        Ok(Scale::new(
+            torque as f32,
+            self.omega as f32,
+            (torque / alpha) as f32,
+        )?)
     }
 }

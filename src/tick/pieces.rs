@@ -7,8 +7,10 @@
 //! machine, to be tabulated as a stroke; [`Pieces`] puts their models together again.
 
 use crate::curve::{Format, Set, TableError};
-use crate::error::finite;
+use crate::machine::error::PoseError;
 use crate::number::Outcome;
+use crate::number::error::RangeError;
+use crate::number::error::finite;
 use crate::{AccelerationRange, Domain, Error, Model, Phase, Real, Reducible, Reduction};
 
 /// A part of a machine's range, as a stroke.
@@ -33,12 +35,13 @@ impl<'m, M: Reducible> Part<'m, M> {
         let to = finite("end of the part", to)?;
         let span = machine.domain().span();
         if !(to > from && to - from <= span) {
-            return Err(Error::OutOfRange {
+            return Err(RangeError::OutOfRange {
                 what: "length of the part",
                 value: to - from,
                 min: 0.0,
                 max: span,
-            });
+            }
+            .into());
         }
         Ok(Self { machine, from, to })
     }
@@ -52,7 +55,7 @@ impl<M: Reducible> Reducible for Part<'_, M> {
         }
     }
 
-    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, PoseError> {
         let margin = INSIDE * (self.to - self.from);
         // Not `clamp`, which panics if a part is so short that roundings turn the two round.
         let phi = phi.max(self.from + margin).min(self.to - margin);
@@ -73,7 +76,9 @@ impl<M: Reducible> Reducible for Part<'_, M> {
 /// ```
 /// use core::f64::consts::TAU;
 /// use jred::tabulate::{Request, fill, scratch_len, tabulate};
-/// use jred::{Domain, Error, Model, Part, Phase, Pieces, Reducible, Reduction, Scale, Set, Spline, curves};
+/// use jred::{
+///     Domain, Error, Model, Part, Phase, Pieces, PoseError, Reducible, Reduction, Scale, Set, Spline, curves,
+/// };
 ///
 /// /// A flywheel, and a brake that is on from 1 to 2 rad.
 /// struct Braked;
@@ -82,7 +87,7 @@ impl<M: Reducible> Reducible for Part<'_, M> {
 ///     fn domain(&self) -> Domain {
 ///         Domain::Turn
 ///     }
-///     fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+///     fn reduction(&self, phi: f64) -> Result<Reduction, PoseError> {
 ///         let on = (1.0..2.0).contains(&phi.rem_euclid(TAU));
 ///         let process = if on { -5.0 } else { 0.0 };
 ///         Ok(Reduction { inertia: [0.1, 0.0, 0.0], process, ..Reduction::default() })

@@ -1,15 +1,16 @@
 //! What cannot be is refused, with the quantity, its value and its limit.
 
+use crate::support::spoken;
 use jred::Error;
+use jred::friction::FrictionDrive;
 use jred::friction::{
     Arrangement, Contact, Creep, CreepContact, Drive, Flow, Place, Ramp, Shaft, Sine, Stage, State,
     Variable,
 };
-use jred::mechanism::FrictionDrive;
 use jred::motion::Law;
 
-fn text<T: std::fmt::Debug>(result: Result<T, Error>) -> String {
-    result.unwrap_err().to_string()
+fn text<T: std::fmt::Debug, E: Into<Error> + std::fmt::Debug>(result: Result<T, E>) -> String {
+    spoken(result.unwrap_err())
 }
 
 #[test]
@@ -125,7 +126,7 @@ fn load_and_slip_that_do_not_settle() {
     };
     assert_eq!(
         text(drive.forward(state, &shafts)),
-        "load and slip of the friction drive do not settle: let the one depend less on the other"
+        "load and slip of the friction drive do not settle; let the one depend less on the other"
     );
 }
 

@@ -1,7 +1,8 @@
 //! Numbers only: a gear train by another name.
 
+use jred::friction::FrictionDrive;
 use jred::friction::{Arrangement, Contact, Drive, Flow, Shaft, Stage, State};
-use jred::mechanism::{FrictionDrive, Stage as Gear, Train};
+use jred::mechanism::{Stage as Gear, Train};
 use jred::{Jointed, Load, Machine, Mechanism, Reducible};
 use proptest::prelude::*;
 

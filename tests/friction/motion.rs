@@ -3,6 +3,7 @@
 use jred::friction::{
     Arrangement, Contact, Drive, Flow, Motion, Ramp, Shaft, Sine, Stage, State, Variable,
 };
+use jred::mechanism::SliderCrankDimensions;
 use jred::mechanism::{Branch, SliderCrank};
 use jred::motion::Law;
 use jred::{Link, Machine, Reducible};
@@ -338,7 +339,16 @@ fn any_machine_behind_a_variator() {
         Link::new(6.5, 0.03, [0.055, 0.0]).unwrap(),
         Link::new(42.0, 0.0, [0.0, 0.0]).unwrap(),
     ];
-    let press = SliderCrank::new(0.03, 0.18, 0.0, Branch::Right, links).unwrap();
+    let press = SliderCrank::new(
+        SliderCrankDimensions {
+            crank: 0.03,
+            rod: 0.18,
+            offset: 0.0,
+        },
+        Branch::Right,
+        links,
+    )
+    .unwrap();
     let machine = Machine::new(press).with_gravity([9.81, 0.0]).unwrap();
     let ratio = shift();
     let stage = Stage::new(&ratio).unwrap();

@@ -1,5 +1,6 @@
 //! Images of tables of 16-bit rows: word by word, back again, and refused.
 
+use jred::RangeError;
 use jred::image::{HEADER_WORDS, encode, image_len};
 use jred::{
     Domain, Error, Image, ImageError, Phase, Q15, Rows16, Scale, Set, Spline, TableError, curves,
@@ -140,5 +141,8 @@ fn a_buffer_too_short_is_refused() {
     let mut buffer = vec![0; needed - 1];
     let found = encode(&rows.table(), VALIDITY, &mut buffer);
     let given = needed - 1;
-    assert_eq!(found.unwrap_err(), Error::BufferTooShort { needed, given });
+    assert_eq!(
+        found.unwrap_err(),
+        Error::Range(RangeError::BufferTooShort { needed, given })
+    );
 }

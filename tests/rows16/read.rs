@@ -1,6 +1,6 @@
 //! What a table reads, against the machine, for every set, on a turn and on a stroke.
 
-use jred::{Domain, Error, Phase, Reducible, Reduction, Scale, Set, Usage, curves};
+use jred::{Domain, Phase, Reducible, Reduction, Scale, Set, Usage, curves};
 
 use super::{Short, read_at, row_words};
 use crate::support::{budget, largest};
@@ -14,7 +14,7 @@ impl Reducible for Smooth {
         self.0
     }
 
-    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
         let (sin, cos) = phi.sin_cos();
         let inertia = 0.15 * sin.exp();
         Ok(Reduction {

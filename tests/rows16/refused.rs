@@ -1,5 +1,7 @@
 //! What is not a table, and not a machine that 16 bits can hold.
 
+use jred::PoseError;
+use jred::RangeError;
 use jred::table::{MAX_CELLS, RowConstants, words_len};
 use jred::tabulate::{Request, fill, scratch_len, tabulate};
 use jred::{Domain, Error, Rows16, Scale, Set, TableError, curves};
@@ -227,11 +229,11 @@ fn machines_out_of_range() {
     let light = Wave::bare(2e-5, 0.0);
     assert!(matches!(
         filled(&light, 0, 40, &scale),
-        Error::NoInertia { .. }
+        Error::Pose(PoseError::NoInertia { .. })
     ));
     assert!(matches!(
         filled(&light, curves::RECIPROCAL, 40, &scale),
-        Error::Table(TableError::Reciprocal { .. }) | Error::NoInertia { .. }
+        Error::Table(TableError::Reciprocal { .. }) | Error::Pose(PoseError::NoInertia { .. })
     ));
     assert_eq!(
         filled(&wave, 64, 40, &scale),
@@ -254,7 +256,10 @@ fn buffers_and_requests() {
     ] {
         let (mut scratch, mut words) = (vec![0.0; scratch], vec![0; words]);
         let error = fill::<Rows16>(&wave, SET, 40, &scale, &mut scratch, &mut words).map(|_| ());
-        assert_eq!(error.unwrap_err(), Error::BufferTooShort { needed, given });
+        assert_eq!(
+            error.unwrap_err(),
+            Error::Range(RangeError::BufferTooShort { needed, given })
+        );
     }
     let request = Request {
         torque_error: 0.0,
@@ -264,7 +269,10 @@ fn buffers_and_requests() {
     };
     let (mut scratch, mut words) = (vec![0.0; scratch], vec![0; words]);
     let error = tabulate::<Rows16>(&wave, SET, &request, &scale, &mut scratch, &mut words);
-    assert_eq!(error.unwrap_err(), Error::NotPositive("torque error", 0.0));
+    assert_eq!(
+        error.unwrap_err(),
+        Error::Range(RangeError::NotPositive("torque error", 0.0))
+    );
     // Of the checks of a table, for a table of its own.
     assert!(
         Short::plain(vec![0; 12], 0, 4, Domain::Turn)

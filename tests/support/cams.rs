@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
+use jred::Link;
 use jred::cam::{CamError, Program, Segment};
 use jred::mechanism::{DiscCam, Follower, Roller, Swing};
 use jred::motion::Law;
-use jred::{Error, Link};
 use proptest::prelude::*;
 
 /// Cam and follower, their centres of mass off the axes.
@@ -76,16 +76,16 @@ pub(crate) fn follower(kind: u32, radius: f64, pivot: [f64; 2], offset: f64) -> 
 }
 
 /// The cam, its base circle enlarged to what it must be.
-pub(crate) fn build(lift: f64, base_radius: f64, follower: Follower) -> Result<DiscCam, Error> {
+pub(crate) fn build(lift: f64, base_radius: f64, follower: Follower) -> Result<DiscCam, CamError> {
     enlarged(&four(lift), base_radius, follower)
 }
 
-fn enlarged(program: &Program, base_radius: f64, follower: Follower) -> Result<DiscCam, Error> {
+fn enlarged(program: &Program, base_radius: f64, follower: Follower) -> Result<DiscCam, CamError> {
     match DiscCam::new(program.clone(), base_radius, follower, links()) {
-        Err(Error::Cam(CamError::Undercut {
+        Err(CamError::Undercut {
             base_radius: Some(cure),
             ..
-        })) => DiscCam::new(program.clone(), 1.2 * cure, follower, links()),
+        }) => DiscCam::new(program.clone(), 1.2 * cure, follower, links()),
         other => other,
     }
 }

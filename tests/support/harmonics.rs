@@ -1,5 +1,6 @@
 //! What the tests of harmonics share: machines that are short Fourier series, the example press, and ways to fit them.
 
+use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
 use jred::harmonic::{Circular, Fitted, fit, scratch_len, terms_in_use};
@@ -44,7 +45,7 @@ impl Reducible for Waves {
     fn domain(&self) -> Domain {
         Domain::Turn
     }
-    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
         Ok(Reduction {
             inertia: series(&self.inertia, phi),
             process: series(&self.load, phi)[0],
@@ -93,7 +94,18 @@ pub(crate) fn press() -> Machine<SliderCrank> {
     let massless = Link::new(0.0, 0.0, [0.0, 0.0]).unwrap();
     let ram = Link::new(10.0, 0.0, [0.0, 0.0]).unwrap();
     let links = [massless, massless, ram];
-    let bare = Machine::new(SliderCrank::new(0.05, 0.2, 0.0, Branch::Right, links).unwrap());
+    let bare = Machine::new(
+        SliderCrank::new(
+            SliderCrankDimensions {
+                crank: 0.05,
+                rod: 0.2,
+                offset: 0.0,
+            },
+            Branch::Right,
+            links,
+        )
+        .unwrap(),
+    );
     let swing = largest((0..4096).map(|k| {
         let reduced = bare.bare_reduction(TAU * f64::from(k) / 4096.0);
         reduced.unwrap().inertia[0]

@@ -1,9 +1,8 @@
 //! What must hold for every mechanism that knows its joints.
 
-use jred::mechanism::{Assembly, Frames, Linkage, Pair, Pose};
-use jred::{
-    Body, Domain, Error, Forces, Joint, Jointed, Machine, Mechanism, Reducible, Transfer, Wrench,
-};
+use jred::mechanism::Frames;
+use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, Pose};
+use jred::{Body, Domain, Forces, Joint, Jointed, Machine, Mechanism, Reducible, Transfer, Wrench};
 
 use super::golden::Table;
 use super::{assert_near, budget, largest};
@@ -331,7 +330,7 @@ pub(crate) fn energy<M: Jointed>(machine: &Machine<M>, phi: f64, omega: f64) {
 pub(crate) fn as_linkage(
     mechanism: &impl Jointed,
     phi: f64,
-) -> Result<Assembly<16, 32, 256>, Error> {
+) -> Result<Assembly<16, 32, 256>, LinkageError> {
     let frames = mechanism.frames(phi)?;
     let joints = mechanism.joints(phi, &frames)?;
     let pairs: Vec<Pair> = joints.iter().copied().map(Pair::Joint).collect();

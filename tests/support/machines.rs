@@ -1,7 +1,8 @@
 //! Machines to test with: random slider-cranks, and a machine whose curves are plain sines.
 
+use jred::mechanism::SliderCrankDimensions;
 use jred::mechanism::{Branch, SliderCrank};
-use jred::{Action, Domain, Error, Link, Load, Machine, Reducible, Reduction};
+use jred::{Action, Domain, Link, Load, Machine, Reducible, Reduction};
 use proptest::prelude::*;
 
 use super::golden::Case;
@@ -70,7 +71,16 @@ impl Spec {
             Branch::Right
         };
         let offset = self.offset_ratio * self.crank;
-        SliderCrank::new(self.crank, self.rod(), offset, branch, self.links()).unwrap()
+        SliderCrank::new(
+            SliderCrankDimensions {
+                crank: self.crank,
+                rod: self.rod(),
+                offset,
+            },
+            branch,
+            self.links(),
+        )
+        .unwrap()
     }
 
     /// Gravity (m/s²).
@@ -145,7 +155,7 @@ impl Reducible for Wave {
         self.domain
     }
 
-    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
         let (sin, cos) = phi.sin_cos();
         Ok(Reduction {
             inertia: [
@@ -187,7 +197,16 @@ pub(crate) fn golden_slider_crank(case: &Case) -> Machine<SliderCrank> {
     } else {
         Branch::Left
     };
-    let mechanism = SliderCrank::new(input("/r"), input("/l"), input("/e"), branch, links).unwrap();
+    let mechanism = SliderCrank::new(
+        SliderCrankDimensions {
+            crank: input("/r"),
+            rod: input("/l"),
+            offset: input("/e"),
+        },
+        branch,
+        links,
+    )
+    .unwrap();
     let force = Action::Force([input("/F_slider/F/0"), input("/F_slider/F/1")]);
     let at = [input("/F_slider/at/0"), input("/F_slider/at/1")];
     let force = Load::new(SliderCrank::SLIDER, force).and_then(|f| f.at(at));

@@ -33,6 +33,14 @@ pub(crate) fn samples<T: Strategy>(count: u32, seed: u64, strategy: &T) -> Vec<T
     (0..count).map(|_| next()).collect()
 }
 
+/// An error's message with its cure; of a quantity outside its range the message, which says all.
+pub(crate) fn spoken(error: impl Into<jred::Error>) -> String {
+    match error.into() {
+        range @ jred::Error::Range(_) => range.to_string(),
+        error => format!("{error}; {}", error.cure()),
+    }
+}
+
 /// Fails on NaN, too.
 #[track_caller]
 pub(crate) fn assert_near(what: &str, found: f64, expected: f64, budget: f64) {

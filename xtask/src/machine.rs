@@ -8,6 +8,7 @@
 //!
 //! These closed forms are the reference. The library gets the mechanism and does not see them.
 
+use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
 use jred::mechanism::{Branch, SliderCrank};
@@ -114,7 +115,15 @@ impl Example {
             Link::rotor(0.0)?,
             Link::new(MASS, 0.0, [0.0, 0.0])?,
         ];
-        let mechanism = SliderCrank::new(RADIUS, RADIUS / RATIO, 0.0, Branch::Right, links)?;
+        let mechanism = SliderCrank::new(
+            SliderCrankDimensions {
+                crank: RADIUS,
+                rod: RADIUS / RATIO,
+                offset: 0.0,
+            },
+            Branch::Right,
+            links,
+        )?;
         Ok(Reduced(
             Machine::new(mechanism).with_gravity([-GRAVITY, 0.0])?,
         ))
@@ -128,7 +137,7 @@ impl Reducible for Reduced {
     fn domain(&self) -> Domain {
         self.0.domain()
     }
-    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
         let mut reduction = self.0.reduction(phi)?;
         reduction.viscous += VISCOUS;
         reduction.coulomb += COULOMB;

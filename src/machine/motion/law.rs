@@ -1,8 +1,8 @@
 //! Normalised motion laws for a rise from 0 to 1 in the time 0 to 1 (VDI 2143 Blatt 1, *Bewegungsgesetze für
 //! Kurvengetriebe*, 1980; R. L. Norton, *Cam Design and Manufacturing Handbook*, chapter 3).
 
-use crate::Error;
 use crate::math::Real;
+use crate::number::error::RangeError;
 
 /// A motion law between two dwells: S(z) with S(0) = 0, S(1) = 1 and zero speed at both ends.
 ///
@@ -75,7 +75,7 @@ impl<R: Real> Law<R> {
     /// # Errors
     /// A share outside (0, 1], or the two together above 1.
     #[inline] // so that a law without shares brings no double precision into single-precision firmware
-    pub fn check(self) -> Result<(), Error> {
+    pub fn check(self) -> Result<(), RangeError> {
         let Self::Trapezoid {
             accelerate,
             decelerate,
@@ -84,12 +84,12 @@ impl<R: Real> Law<R> {
             return Ok(());
         };
         for (what, share) in [("accelerate", accelerate), ("decelerate", decelerate)] {
-            crate::error::positive(what, share.to_f64())?;
+            crate::number::error::positive(what, share.to_f64())?;
         }
         // Shares that are one together may be rounded up.
         let sum = accelerate + decelerate;
         if sum > R::from_f64(1.0) + R::from_f64(4.0) * R::EPSILON {
-            return Err(Error::OutOfRange {
+            return Err(RangeError::OutOfRange {
                 what: "accelerate + decelerate",
                 value: sum.to_f64(),
                 min: 0.0,

@@ -4,8 +4,8 @@ mod law;
 
 pub use law::{Characteristic, Law};
 
-use crate::Error;
 use crate::math::Real;
+use crate::number::error::RangeError;
 
 /// Position, speed and acceleration of the drive link.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -35,7 +35,7 @@ impl<R: Real> Move<R> {
     /// # Errors
     /// A duration that is not positive, a value that is not finite, or a law that is not valid.
     #[inline] // see `Law::check`
-    pub fn new(law: Law<R>, start: R, distance: R, duration: R) -> Result<Self, Error> {
+    pub fn new(law: Law<R>, start: R, distance: R, duration: R) -> Result<Self, RangeError> {
         let zero = R::from_f64(0.0);
         for (what, value) in [
             ("start of the move", start),
@@ -43,11 +43,11 @@ impl<R: Real> Move<R> {
             ("duration of the move", duration),
         ] {
             if !value.is_finite() {
-                return Err(Error::NotFinite(what));
+                return Err(RangeError::NotFinite(what));
             }
         }
         if duration <= zero {
-            return Err(Error::NotPositive(
+            return Err(RangeError::NotPositive(
                 "duration of the move",
                 duration.to_f64(),
             ));

@@ -9,6 +9,7 @@
 //! so the speed at which the follower lifts off at φ is its smallest positive root, and the machine's limit is the
 //! smallest of those over the turn.
 
+use crate::machine::error::MachineError;
 use core::f64::consts::TAU;
 use core::fmt;
 
@@ -16,7 +17,7 @@ use super::extreme::smallest;
 use super::program::{Piece, within_turn};
 use crate::machine::reduction::MAX_LOADS;
 use crate::mechanism::Jointed;
-use crate::{Error, Joint, Machine, math};
+use crate::{Joint, Machine, math};
 
 /// Speeds above this (rad/s) are no machine's; where roundings alone would end the contact there, it does not end.
 const FASTEST: f64 = 1e6;
@@ -60,12 +61,12 @@ pub fn contact_force<M: Jointed>(
     phi: f64,
     omega: f64,
     alpha: f64,
-) -> Result<f64, Error> {
+) -> Result<f64, MachineError> {
     let mechanism = machine.mechanism();
     let frames = mechanism.frames(phi)?;
     let joints = mechanism.joints(phi, &frames)?;
     let Some(Joint::Transmission([_, unit])) = joints.get(contact) else {
-        return Err(Error::NoSuchJoint {
+        return Err(MachineError::NoSuchJoint {
             joint: contact,
             joints: joints.len(),
         });
@@ -90,7 +91,7 @@ pub fn lift_off<M: Jointed>(
     contact: usize,
     pieces: impl Iterator<Item = Piece> + Clone,
     direction: f64,
-) -> Result<Option<LiftOff>, Error> {
+) -> Result<Option<LiftOff>, MachineError> {
     let direction = if direction < 0.0 { -1.0 } else { 1.0 };
     // The three speeds that the polynomial is laid through should be near to the limit, where every term counts.
     let rough = first(machine, contact, pieces.clone(), 100.0 * direction)?;
@@ -108,14 +109,14 @@ fn first<M: Jointed>(
     contact: usize,
     pieces: impl Iterator<Item = Piece>,
     scale: f64,
-) -> Result<Option<LiftOff>, Error> {
+) -> Result<Option<LiftOff>, MachineError> {
     let edges = load_edges(machine);
     let slowness = |phi: f64| {
         let at = |speed: f64| contact_force(machine, contact, phi, speed, 0.0);
         let forces = [at(scale / 2.0)?, at(scale)?, at(2.0 * scale)?];
         // Largest where the limit is lowest: smooth, and zero where there is none.
         let limit = math::abs(scale) * vanishing(forces);
-        Ok::<_, Error>(if limit < FASTEST { -1.0 / limit } else { 0.0 })
+        Ok::<_, MachineError>(if limit < FASTEST { -1.0 / limit } else { 0.0 })
     };
     let found = smallest(pieces.flat_map(|piece| Cut::new(piece, &edges)), slowness)?;
     Ok((found.value < 0.0).then_some(LiftOff {

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::Error;
+use crate::number::error::{Curable, RangeError, error};
 
 /// Why a cam program or a cam cannot be built. Segments are counted from 0 here, and from 1 in messages.
 ///
@@ -11,6 +11,8 @@ use crate::Error;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum CamError {
+    /// A dimension outside its range, or more segments than fit.
+    Range(RangeError),
     /// The program has no segment.
     Empty,
     /// A number of the segment is NaN or infinite.
@@ -120,73 +122,70 @@ pub enum CamError {
     },
 }
 
+error!(CamError, Range(RangeError));
+
 impl fmt::Display for CamError {
-    #[expect(clippy::too_many_lines, reason = "one message for each mistake")]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let deg = |phi: f64| phi.to_degrees();
+        match self.segment() {
+            Some(segment) => write!(f, "segment {}: {}", segment + 1, Cause(self)),
+            None => Cause(self).fmt(f),
+        }
+    }
+}
+
+impl CamError {
+    /// The segment that alone is to blame.
+    const fn segment(&self) -> Option<usize> {
         match *self {
-            Self::Empty => write!(
+            Self::NotFinite { segment }
+            | Self::Angle { segment, .. }
+            | Self::DwellRises { segment, .. }
+            | Self::Shares { segment }
+            | Self::VelocityJump { segment, .. } => Some(segment),
+            _ => None,
+        }
+    }
+}
+
+/// What is wrong, without the segment.
+struct Cause<'a>(&'a CamError);
+
+impl fmt::Display for Cause<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        use CamError as E;
+        let deg = |phi: f64| phi.to_degrees();
+        match *self.0 {
+            E::Range(error) => error.fmt(f),
+            E::Empty => f.write_str("the cam program has no segment"),
+            E::NotFinite { .. } => f.write_str("a value is not a finite number"),
+            E::Angle { angle, .. } => write!(
                 f,
-                "the cam program has no segment: give rises, dwells and returns over one turn"
-            ),
-            Self::NotFinite { segment } => {
-                write!(f, "segment {}: a value is not a finite number", segment + 1)
-            }
-            Self::Angle { segment, angle } => write!(
-                f,
-                "segment {}: its angle is {:.6}°, but must be greater than zero",
-                segment + 1,
+                "its angle is {:.6}°, but must be greater than zero",
                 deg(angle)
             ),
-            Self::DwellRises { segment, rise } => write!(
-                f,
-                "segment {}: a dwell cannot rise by {rise}; give it a motion law",
-                segment + 1
+            E::DwellRises { rise, .. } => write!(f, "a dwell cannot rise by {rise}"),
+            E::Shares { .. } => f.write_str(
+                "the shares of the trapezoid must be greater than zero and together at most 1",
             ),
-            Self::Shares { segment } => write!(
+            E::NotOneTurn { sum } => write!(
                 f,
-                "segment {}: the shares of the trapezoid must be greater than zero and together at most 1",
-                segment + 1
+                "the segments cover {:.6}°, but must cover exactly one turn",
+                deg(sum)
             ),
-            Self::NotOneTurn { sum } => write!(
+            E::NotClosed { gap, .. } => write!(
                 f,
-                "the segments cover {:.6}°, but must cover exactly one turn: {} {:.6}°",
-                deg(sum),
-                if sum < core::f64::consts::TAU {
-                    "add"
-                } else {
-                    "remove"
-                },
-                deg((core::f64::consts::TAU - sum).abs())
+                "after a turn the follower is {gap:.3e} m off its start: the rises must add up to zero"
             ),
-            Self::NotClosed { segment, gap } => write!(
+            E::VelocityJump { phi, from, to, .. } => write!(
                 f,
-                "after a turn the follower is {gap:.3e} m off its start: the rises must add up to zero; \
-                 change the rise of segment {} by {:.3e}",
-                segment + 1,
-                -gap
-            ),
-            Self::VelocityJump {
-                segment,
-                phi,
-                from,
-                to,
-            } => write!(
-                f,
-                "segment {}: the follower's velocity jumps at its end, φ = {:.2}°, from s′ = {from} to {to} m/rad; \
-                 make both ends equal",
-                segment + 1,
+                "the follower's velocity jumps at its end, φ = {:.2}°, from s′ = {from} to {to} m/rad",
                 deg(phi)
             ),
-            Self::Offset {
-                offset,
-                base_radius,
-            } => write!(
+            E::Offset { offset, .. } => write!(
                 f,
-                "the base radius is too small for the guide's offset of {offset} m: make it larger than {base_radius} m, \
-                 or reduce the offset"
+                "the base radius is too small for the guide's offset of {offset} m"
             ),
-            Self::Arm {
+            E::Arm {
                 pivot_distance,
                 reach,
             } => write!(
@@ -195,7 +194,7 @@ impl fmt::Display for CamError {
                  radius + roller radius must lie between {} m and {} m",
                 reach[0], reach[1]
             ),
-            Self::Face {
+            E::Face {
                 pivot_distance,
                 least,
             } => write!(
@@ -203,54 +202,76 @@ impl fmt::Display for CamError {
                 "the face cannot lie on the base circle: its pivot is {pivot_distance} m from the cam's, but must be \
                  farther than base radius + face offset = {least} m"
             ),
-            Self::Swing { phi } => write!(
+            E::Swing { phi } => write!(
                 f,
-                "the follower swings too far at φ = {:.2}°: beyond the line of the two pivots, or square to it; reduce \
-                 the rise or move the pivot",
+                "the follower swings too far at φ = {:.2}°: beyond the line of the two pivots, or square to it",
                 deg(phi)
             ),
-            Self::BelowAxis { phi } => write!(
+            E::BelowAxis { phi } => write!(
                 f,
-                "the follower goes down to the cam's axis at φ = {:.2}°: make the base radius larger",
+                "the follower goes down to the cam's axis at φ = {:.2}°",
                 deg(phi)
             ),
-            Self::Undercut {
-                phi,
-                radius,
-                limit,
-                base_radius,
-            } => {
-                write!(
-                    f,
-                    "undercut at φ = {:.2}°: the radius of curvature is {radius:.6} m, but must be larger than {limit} m; ",
-                    deg(phi)
-                )?;
-                match base_radius {
-                    Some(least) => write!(f, "make the base radius larger than {least:.6} m"),
-                    None => write!(
-                        f,
-                        "no base radius cures it here: reduce the rise or give it a longer angle"
-                    ),
-                }
-            }
-            Self::CoversPivot { phi, reach, pivot } => write!(
+            E::Undercut {
+                phi, radius, limit, ..
+            } => write!(
                 f,
-                "the cam reaches {reach:.6} m from its axis at φ = {:.2}° and so covers the follower's pivot, {pivot:.6} m away: \
-                 make the base radius smaller or move the pivot outwards",
+                "undercut at φ = {:.2}°: the radius of curvature is {radius:.6} m, but must be larger than {limit} m",
                 deg(phi)
             ),
-            Self::FaceTooFast { phi, ratio } => write!(
+            E::CoversPivot { phi, reach, pivot } => write!(
                 f,
-                "the face turns {ratio:.3} times as fast as the cam at φ = {:.2}°, but must be slower than the cam: \
-                 reduce the rise or give it a longer angle",
+                "the cam reaches {reach:.6} m from its axis at φ = {:.2}° and so covers the follower's pivot, {pivot:.6} m \
+                 away",
+                deg(phi)
+            ),
+            E::FaceTooFast { phi, ratio } => write!(
+                f,
+                "the face turns {ratio:.3} times as fast as the cam at φ = {:.2}°, but must be slower than the cam",
                 deg(phi)
             ),
         }
     }
 }
 
-impl From<CamError> for Error {
-    fn from(error: CamError) -> Self {
-        Self::Cam(error)
+impl Curable for CamError {
+    fn write_cure(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match *self {
+            Self::Range(error) => return error.write_cure(f),
+            Self::Empty => "give rises, dwells and returns over one turn",
+            Self::NotFinite { .. } => "give numbers that are neither NaN nor infinite",
+            Self::Angle { .. } => "give it an angle, or leave it out",
+            Self::DwellRises { .. } => "give it a motion law",
+            Self::Shares { .. } => "make them smaller",
+            Self::NotOneTurn { sum } => {
+                let left = core::f64::consts::TAU - sum;
+                let word = if left > 0.0 { "add" } else { "remove" };
+                return write!(f, "{word} {:.6}°", left.abs().to_degrees());
+            }
+            Self::NotClosed { segment, gap } => {
+                let segment = segment + 1;
+                return write!(f, "change the rise of segment {segment} by {:.3e}", -gap);
+            }
+            Self::VelocityJump { .. } => "make both ends equal",
+            Self::Offset { base_radius, .. } => {
+                return write!(
+                    f,
+                    "make it larger than {base_radius} m, or reduce the offset"
+                );
+            }
+            Self::Arm { .. } => "change the base radius, or move the pivot",
+            Self::Face { .. } => "move the pivot outwards, or make the base radius smaller",
+            Self::Swing { .. } => "reduce the rise or move the pivot",
+            Self::BelowAxis { .. } => "make the base radius larger",
+            Self::Undercut {
+                base_radius: Some(least),
+                ..
+            } => return write!(f, "make the base radius larger than {least:.6} m"),
+            Self::Undercut { .. } => {
+                "no base radius cures it here: reduce the rise or give it a longer angle"
+            }
+            Self::CoversPivot { .. } => "make the base radius smaller or move the pivot outwards",
+            Self::FaceTooFast { .. } => "reduce the rise or give it a longer angle",
+        })
     }
 }

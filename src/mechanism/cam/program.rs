@@ -1,12 +1,13 @@
 //! The displacement of a follower over one turn of the cam.
 
+use crate::number::error::RangeError;
 use core::f64::consts::TAU;
 
 use super::extreme::{Extreme, smallest};
 use super::segment::{Segment, Shape};
+use crate::math;
 use crate::mechanism::cam::CamError;
 use crate::number::transfer::Transfer;
-use crate::{Error, math};
 
 /// The most segments of a program.
 pub const MAX_SEGMENTS: usize = 16;
@@ -69,16 +70,16 @@ impl Program {
     /// # Errors
     /// No or too many segments; a segment that is not valid; angles that do not add up to one turn, or rises that do not
     /// add up to zero, to 1e-9; a velocity that jumps. The error names the segment.
-    pub fn new(segments: &[Segment]) -> Result<Self, Error> {
+    pub fn new(segments: &[Segment]) -> Result<Self, CamError> {
         if segments.is_empty() {
-            return Err(CamError::Empty.into());
+            return Err(CamError::Empty);
         }
         for (index, segment) in segments.iter().enumerate() {
             segment.check(index)?;
         }
         let sum: f64 = segments.iter().map(|segment| segment.angle).sum();
         if math::abs(sum / TAU - 1.0) > CLOSED {
-            return Err(CamError::NotOneTurn { sum }.into());
+            return Err(CamError::NotOneTurn { sum });
         }
         let gap: f64 = segments.iter().map(|segment| segment.rise).sum();
         let largest = |f: fn(&Segment) -> f64| {
@@ -89,7 +90,7 @@ impl Program {
         let last_move = segments.iter().rposition(|s| s.shape != Shape::Dwell);
         if math::abs(gap) > CLOSED * largest(|segment| segment.rise) {
             let segment = last_move.unwrap_or_default();
-            return Err(CamError::NotClosed { segment, gap }.into());
+            return Err(CamError::NotClosed { segment, gap });
         }
 
         let mut placed = heapless::Vec::new();
@@ -106,7 +107,7 @@ impl Program {
                 from,
                 height,
             };
-            placed.push(next).map_err(|_| Error::TooMany {
+            placed.push(next).map_err(|_| RangeError::TooMany {
                 what: "segments of a cam program",
                 capacity: MAX_SEGMENTS,
             })?;

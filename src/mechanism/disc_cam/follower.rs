@@ -1,8 +1,9 @@
 //! The part that runs on the cam.
 
-use crate::error::{finite, positive};
 use crate::machine::link::Link;
-use crate::{Error, math};
+use crate::math;
+use crate::number::error::RangeError;
+use crate::number::error::{finite, positive};
 
 /// Which way an oscillating follower turns when it rises.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -38,7 +39,7 @@ impl Roller {
     ///
     /// # Errors
     /// A radius that is not positive, a mass or an inertia that is negative, or anything not finite.
-    pub fn new(radius: f64, mass: f64, inertia: f64) -> Result<Self, Error> {
+    pub fn new(radius: f64, mass: f64, inertia: f64) -> Result<Self, RangeError> {
         Ok(Self {
             radius: positive("roller radius", radius)?,
             link: Link::new(mass, inertia, [0.0, 0.0])?,
@@ -124,7 +125,7 @@ impl Follower {
     }
 
     /// Checks every number on its own.
-    pub(super) fn check(&self) -> Result<(), Error> {
+    pub(super) fn check(&self) -> Result<(), RangeError> {
         match *self {
             Self::TranslatingRoller { offset, .. } | Self::TranslatingFace { offset } => {
                 finite("offset of the guide", offset)?;

@@ -20,16 +20,19 @@ mod spin;
 pub use follower::{Follower, Roller, Swing};
 pub use profile::{CamContact, CamProfile};
 
+use crate::machine::error::PoseError;
+use crate::mechanism::cam::CamError;
+use crate::number::error::RangeError;
 use core::f64::consts::FRAC_PI_2;
 
 use super::{Frames, Jointed, Mechanism};
-use crate::error::{finite, not_negative, positive};
+use crate::Domain;
 use crate::machine::element::Element;
 use crate::machine::joint::{Body, Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};
 use crate::mechanism::cam::{Extreme, Program};
+use crate::number::error::{finite, not_negative, positive};
 use crate::number::transfer::Transfer;
-use crate::{Domain, Error};
 use spin::Spin;
 
 /// A disc cam, driven at the cam, with its follower.
@@ -70,7 +73,7 @@ impl DiscCam {
         base_radius: f64,
         follower: Follower,
         links: [Link; 2],
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, CamError> {
         let profile = CamProfile::new(program, base_radius, follower)?;
         let roller = follower.roller();
         Ok(Self {
@@ -142,7 +145,7 @@ impl DiscCam {
     ///
     /// # Errors
     /// A stiffness that is not positive, a preload that is negative.
-    pub fn closing_spring(&self, stiffness: f64, preload: f64) -> Result<Element, Error> {
+    pub fn closing_spring(&self, stiffness: f64, preload: f64) -> Result<Element, RangeError> {
         let stiffness = positive("spring stiffness", stiffness)?;
         let squeeze = not_negative("preload of the spring", preload)? / stiffness;
         let rest = self.profile.geometry().frame(Transfer::constant(0.0));
@@ -171,7 +174,7 @@ impl Jointed for DiscCam {
     /// Cam pivot: ground and cam; guide or pivot: ground and follower; contact: cam and roller, or follower; with a
     /// roller its pin: follower and roller; and rolling: cam and roller, the friction along the profile that turns the
     /// roller.
-    fn joints(&self, phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let touch = self.profile.touch(phi);
         let origin = [0.0, 0.0];
         let on_follower = Marker::on(Self::FOLLOWER, origin);
@@ -220,7 +223,7 @@ impl Mechanism for DiscCam {
         Domain::Turn
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         let angle = Transfer::variable(finite("cam angle", phi)?);
         let (program, geometry) = (self.program(), self.profile.geometry());
         let s = program.displacement(phi);

@@ -3,10 +3,11 @@
 use super::check;
 use super::follower::Follower;
 use super::geometry::{Geometry, Touch};
-use crate::error::positive;
+use crate::math;
+use crate::mechanism::cam::CamError;
 use crate::mechanism::cam::{Extreme, Program};
+use crate::number::error::positive;
 use crate::number::transfer::Transfer;
-use crate::{Error, math};
 
 /// Where and how cam and follower touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,7 +40,7 @@ impl CamProfile {
     /// its range; undercut, with the smallest base radius that cures it. A steep pressure angle is no error:
     /// [`pressure_angles`](Self::pressure_angles). That distant parts of a profile cut each other is not looked for; with a
     /// curvature that fits everywhere it takes a deep hollow and a large roller.
-    pub fn new(program: Program, base_radius: f64, follower: Follower) -> Result<Self, Error> {
+    pub fn new(program: Program, base_radius: f64, follower: Follower) -> Result<Self, CamError> {
         let base_radius = positive("base radius", base_radius)?;
         follower.check()?;
         let geometry = check::checked(&program, follower, base_radius)?;

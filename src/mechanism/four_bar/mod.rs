@@ -15,19 +15,35 @@
 
 mod transmission;
 
+use crate::machine::error::PoseError;
+use crate::mechanism::error::BuildError;
 use core::f64::consts::{PI, TAU};
 
 use super::dyad;
 use super::grashof::NAMES;
 use super::{Blocked, Frames, Grashof, Jointed, Mechanism, Side};
-use crate::error::{finite, positive};
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};
+use crate::number::error::{finite, positive};
 use crate::number::transfer::Transfer;
-use crate::{Domain, Error, math};
+use crate::{Domain, math};
 
 /// Distance kept from a dead point, as a share of b + c, so that no position within the range fails by a rounding.
 const HAIR: f64 = 1e-12;
+
+/// Dimensions of a four-bar linkage (m).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FourBarDimensions {
+    /// Crank length a > 0.
+    pub crank: f64,
+    /// Coupler length b > 0.
+    pub coupler: f64,
+    /// Rocker length c > 0.
+    pub rocker: f64,
+    /// The rocker's pivot C = [x, y], the crank's being [0, 0]; not at it.
+    pub pivot: [f64; 2],
+}
 
 /// A four-bar linkage driven at the crank.
 ///
@@ -39,10 +55,7 @@ const HAIR: f64 = 1e-12;
 /// column's largest value (test `four_bar_golden`); joint reactions to 1e-10 (test `four_bar_reactions_golden`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct FourBar {
-    crank: f64,
-    coupler: f64,
-    rocker: f64,
-    pivot: [f64; 2],
+    dimensions: FourBarDimensions,
     ground: f64,
     side: Side,
     domain: Domain,
@@ -59,21 +72,20 @@ impl FourBar {
     /// Index of the rocker.
     pub const ROCKER: usize = 2;
 
-    /// A four-bar whose crank turns fully: crank-rocker or double-crank (drag link). `lengths` of crank a, coupler b and
-    /// rocker c (m), `pivot` C of the rocker (m), the `side` of AC on which B lies, and the links crank, coupler, rocker.
+    /// A four-bar whose crank turns fully: crank-rocker or double-crank (drag link). B lies on the `side` of AC; the links
+    /// are crank, coupler, rocker.
     ///
     /// # Errors
     /// A length that is not positive; C at O; a link longer than the other three together; a crank that cannot turn
     /// fully, with the reason and the angles that it reaches.
     pub fn new(
-        lengths: [f64; 3],
-        pivot: [f64; 2],
+        dimensions: FourBarDimensions,
         side: Side,
         links: [Link; 3],
-    ) -> Result<Self, Error> {
-        let bare = Self::bare(lengths, pivot, side, links)?;
+    ) -> Result<Self, BuildError> {
+        let bare = Self::bare(dimensions, side, links)?;
         let [folded, stretched] = bare.reach();
-        let (a, d) = (bare.crank, bare.ground);
+        let (a, d) = (bare.dimensions.crank, bare.ground);
         if a + d >= stretched || math::abs(a - d) <= folded {
             return Err(Blocked::FourBar {
                 lengths: bare.lengths(),
@@ -91,23 +103,22 @@ impl FourBar {
     /// A length that is not positive; C at O; a link longer than the other three together; a stroke that is empty; a
     /// start where coupler and rocker do not meet; a dead point in the stroke, with its angle.
     pub fn over_stroke(
-        lengths: [f64; 3],
-        pivot: [f64; 2],
+        dimensions: FourBarDimensions,
         side: Side,
         stroke: [f64; 2],
         links: [Link; 3],
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, BuildError> {
         let [from, to] = stroke;
-        let mut four_bar = Self::bare(lengths, pivot, side, links)?;
+        let mut four_bar = Self::bare(dimensions, side, links)?;
         four_bar.domain = Domain::stroke(from, to)?;
         let [folded, stretched] = four_bar.reach();
         let (phi, joint, span) = (from, 2, four_bar.span(from));
         let gap = (span - stretched).max(folded - span);
         if gap > 2.0 * HAIR * stretched {
-            return Err(Error::CannotAssemble { phi, joint, gap });
+            return Err(PoseError::CannotAssemble { phi, joint, gap }.into());
         }
         if gap >= 0.0 {
-            return Err(Error::DeadPoint { phi, joint });
+            return Err(PoseError::DeadPoint { phi, joint }.into());
         }
         // The first place from the start on with |AC| equal to one of two lengths.
         let first = |spans: [f64; 2]| {
@@ -121,26 +132,24 @@ impl FourBar {
         };
         if first([folded, stretched]) <= to {
             let phi = first(four_bar.limits());
-            return Err(Error::DeadPoint { phi, joint });
+            return Err(PoseError::DeadPoint { phi, joint }.into());
         }
         four_bar.with_angles_from(from)
     }
 
     fn bare(
-        lengths: [f64; 3],
-        pivot: [f64; 2],
+        dimensions: FourBarDimensions,
         side: Side,
         links: [Link; 3],
-    ) -> Result<Self, Error> {
-        let [x, y] = [
-            finite("rocker pivot x", pivot[0])?,
-            finite("rocker pivot y", pivot[1])?,
-        ];
+    ) -> Result<Self, BuildError> {
+        positive("crank length", dimensions.crank)?;
+        positive("coupler length", dimensions.coupler)?;
+        positive("rocker length", dimensions.rocker)?;
+        let [x, y] = dimensions.pivot;
+        finite("rocker pivot x", x)?;
+        finite("rocker pivot y", y)?;
         let bare = Self {
-            crank: positive("crank length", lengths[0])?,
-            coupler: positive("coupler length", lengths[1])?,
-            rocker: positive("rocker length", lengths[2])?,
-            pivot,
+            dimensions,
             ground: positive("distance of the pivots", math::sqrt(x * x + y * y))?,
             side,
             domain: Domain::Turn,
@@ -164,7 +173,7 @@ impl FourBar {
     }
 
     /// Fixes the whole turns of the angles: within (−π, π] at `phi`.
-    fn with_angles_from(mut self, phi: f64) -> Result<Self, Error> {
+    fn with_angles_from(mut self, phi: f64) -> Result<Self, BuildError> {
         let [_, coupler, rocker] = self.place(phi)?;
         self.turns = [coupler, rocker].map(|frame| math::floor(0.5 - frame.psi.value / TAU) * TAU);
         Ok(self)
@@ -172,12 +181,18 @@ impl FourBar {
 
     /// Lengths of crank, coupler, rocker and ground (m).
     pub const fn lengths(&self) -> [f64; 4] {
-        [self.crank, self.coupler, self.rocker, self.ground]
+        let FourBarDimensions {
+            crank,
+            coupler,
+            rocker,
+            ..
+        } = self.dimensions;
+        [crank, coupler, rocker, self.ground]
     }
 
-    /// The rocker's pivot C (m).
-    pub const fn pivot(&self) -> [f64; 2] {
-        self.pivot
+    /// The dimensions (m).
+    pub const fn dimensions(&self) -> FourBarDimensions {
+        self.dimensions
     }
 
     /// On which side of AC the pin B lies.
@@ -198,16 +213,16 @@ impl FourBar {
         if self.domain != Domain::Turn || self.grashof() != Grashof::CrankRocker {
             return None;
         }
-        let [x, y] = self.pivot;
+        let [x, y] = self.dimensions.pivot;
         let towards = |span: f64| {
             // Triangle O, C, B with OB = span, B on its side of OC.
             let d = self.ground * self.ground;
-            let p = 0.5 * (d + span * span - self.rocker * self.rocker);
+            let p = 0.5 * (d + span * span - self.dimensions.rocker * self.dimensions.rocker);
             let q = math::sqrt((d * span * span - p * p).max(0.0)) * self.side.sign();
             math::atan2(p * y + q * x, p * x - q * y)
         };
-        let stretched = towards(self.coupler + self.crank);
-        let folded = towards(self.coupler - self.crank) + PI;
+        let stretched = towards(self.dimensions.coupler + self.dimensions.crank);
+        let folded = towards(self.dimensions.coupler - self.dimensions.crank) + PI;
         Some([beyond(stretched), beyond(folded)])
     }
 
@@ -216,12 +231,14 @@ impl FourBar {
     pub fn crank_angles(&self, psi: f64) -> heapless::Vec<f64, 2> {
         let (sin, cos) = math::sin_cos(psi);
         let b = [
-            self.pivot[0] + self.rocker * cos,
-            self.pivot[1] + self.rocker * sin,
+            self.dimensions.pivot[0] + self.dimensions.rocker * cos,
+            self.dimensions.pivot[1] + self.dimensions.rocker * sin,
         ];
         let square = b[0] * b[0] + b[1] * b[1];
-        let p = 0.5 * (square + self.crank * self.crank - self.coupler * self.coupler);
-        let under_root = square * self.crank * self.crank - p * p;
+        let p = 0.5
+            * (square + self.dimensions.crank * self.dimensions.crank
+                - self.dimensions.coupler * self.dimensions.coupler);
+        let under_root = square * self.dimensions.crank * self.dimensions.crank - p * p;
         let mut found = heapless::Vec::new();
         if square <= 0.0 || under_root < 0.0 {
             return found;
@@ -233,7 +250,10 @@ impl FourBar {
                 (p * b[1] + q * b[0]) / square,
             ];
             let (to_c, to_b) = (
-                [self.pivot[0] - a[0], self.pivot[1] - a[1]],
+                [
+                    self.dimensions.pivot[0] - a[0],
+                    self.dimensions.pivot[1] - a[1],
+                ],
                 [b[0] - a[0], b[1] - a[1]],
             );
             let left = to_c[0] * to_b[1] - to_c[1] * to_b[0];
@@ -247,7 +267,7 @@ impl FourBar {
 
     /// f at the dead points: coupler and rocker folded, and stretched.
     fn limits(&self) -> [f64; 2] {
-        let (b, c) = (self.coupler, self.rocker);
+        let (b, c) = (self.dimensions.coupler, self.dimensions.rocker);
         [math::abs(b - c), b + c]
     }
 
@@ -262,20 +282,20 @@ impl FourBar {
     fn span(&self, phi: f64) -> f64 {
         let (sin, cos) = math::sin_cos(phi);
         let (x, y) = (
-            self.pivot[0] - self.crank * cos,
-            self.pivot[1] - self.crank * sin,
+            self.dimensions.pivot[0] - self.dimensions.crank * cos,
+            self.dimensions.pivot[1] - self.dimensions.crank * sin,
         );
         math::sqrt(x * x + y * y)
     }
 
     /// Direction γ of OC.
     fn ground_angle(&self) -> f64 {
-        math::atan2(self.pivot[1], self.pivot[0])
+        math::atan2(self.dimensions.pivot[1], self.dimensions.pivot[0])
     }
 
     /// The crank angles γ ∓ θ at which |AC| is `span`, if there are any.
     fn crank_angle_of(&self, span: f64) -> Option<[f64; 2]> {
-        let (a, d) = (self.crank, self.ground);
+        let (a, d) = (self.dimensions.crank, self.ground);
         let cos = (a * a + d * d - span * span) / (2.0 * a * d);
         // A linkage that flattens does so at cos = ±1, up to rounding.
         (math::abs(cos) <= 1.0 + HAIR).then(|| {
@@ -298,17 +318,17 @@ impl FourBar {
     }
 
     /// Crank, coupler and rocker, the angles continuous in φ.
-    fn place(&self, phi: f64) -> Result<[Frame; 3], Error> {
+    fn place(&self, phi: f64) -> Result<[Frame; 3], PoseError> {
         let angle = Transfer::variable(finite("crank angle", phi)?);
         let crank = Frame::turning([0.0, 0.0], angle);
-        let a = crank.point([self.crank, 0.0]);
-        let c = self.pivot.map(Transfer::constant);
-        let lengths = [self.coupler, self.rocker];
+        let a = crank.point([self.dimensions.crank, 0.0]);
+        let c = self.dimensions.pivot.map(Transfer::constant);
+        let lengths = [self.dimensions.coupler, self.dimensions.rocker];
         let [coupler, rocker] =
-            dyad::pinned(a, c, lengths, self.side).ok_or(Error::DeadPoint { phi, joint: 2 })?;
+            dyad::pinned(a, c, lengths, self.side).ok_or(PoseError::DeadPoint { phi, joint: 2 })?;
         // The direction of AC stays within a quarter turn of OC's (a ≤ d) or of AO's (a > d); coupler and rocker stay on
         // one side of AC. So their angles follow without a jump.
-        let base = if self.crank > self.ground {
+        let base = if self.dimensions.crank > self.ground {
             phi + PI
         } else {
             self.ground_angle()
@@ -333,20 +353,23 @@ pub(super) fn beyond(angle: f64) -> f64 {
 
 impl Jointed for FourBar {
     /// O: ground and crank; A: crank and coupler; B: coupler and rocker; C: ground and rocker.
-    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let origin = [0.0, 0.0];
         let pin = |first, second| Joint::Revolute([first, second]);
         Ok(Joints::from_iter([
             pin(Marker::ground(origin), Marker::on(Self::CRANK, origin)),
             pin(
-                Marker::on(Self::CRANK, [self.crank, 0.0]),
+                Marker::on(Self::CRANK, [self.dimensions.crank, 0.0]),
                 Marker::on(Self::COUPLER, origin),
             ),
             pin(
-                Marker::on(Self::COUPLER, [self.coupler, 0.0]),
-                Marker::on(Self::ROCKER, [self.rocker, 0.0]),
+                Marker::on(Self::COUPLER, [self.dimensions.coupler, 0.0]),
+                Marker::on(Self::ROCKER, [self.dimensions.rocker, 0.0]),
             ),
-            pin(Marker::ground(self.pivot), Marker::on(Self::ROCKER, origin)),
+            pin(
+                Marker::ground(self.dimensions.pivot),
+                Marker::on(Self::ROCKER, origin),
+            ),
         ]))
     }
 }
@@ -360,7 +383,7 @@ impl Mechanism for FourBar {
         self.domain
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         Ok(Frames::from_iter(self.place(phi)?))
     }
 }

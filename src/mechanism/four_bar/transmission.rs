@@ -1,10 +1,11 @@
 //! How well the coupler pushes the rocker.
 
+use crate::machine::error::PoseError;
 use core::f64::consts::{PI, TAU};
 
 use super::{FourBar, beyond};
 use crate::number::transfer::Transfer;
-use crate::{Domain, Error, math};
+use crate::{Domain, math};
 
 impl FourBar {
     /// Transmission angle μ (rad) between coupler and rocker at B, 0 to π, with its derivatives by φ:
@@ -18,7 +19,7 @@ impl FourBar {
     ///
     /// # Errors
     /// No position at `phi`.
-    pub fn transmission_angle(&self, phi: f64) -> Result<Transfer, Error> {
+    pub fn transmission_angle(&self, phi: f64) -> Result<Transfer, PoseError> {
         let [_, coupler, rocker] = self.place(phi)?;
         let turned = rocker.psi - coupler.psi;
         // From BA to BC as from AB to CB; which way round depends on the side.
@@ -30,7 +31,7 @@ impl FourBar {
     /// Smallest and largest transmission angle (rad) over the crank's range.
     #[must_use]
     pub fn transmission_angle_range(&self) -> [f64; 2] {
-        let (b, c) = (self.coupler, self.rocker);
+        let (b, c) = (self.dimensions.coupler, self.dimensions.rocker);
         let angle = |span: f64| math::acos((b * b + c * c - span * span) / (2.0 * b * c));
         self.span_range().map(angle)
     }
@@ -38,8 +39,8 @@ impl FourBar {
     /// Smallest and largest f = |AC| (m) over the crank's range: at its ends, and where O, A and C are in line.
     fn span_range(&self) -> [f64; 2] {
         let (near, far) = (
-            math::abs(self.ground - self.crank),
-            self.ground + self.crank,
+            math::abs(self.ground - self.dimensions.crank),
+            self.ground + self.dimensions.crank,
         );
         let Domain::Stroke { from, to } = self.domain else {
             return [near, far];

@@ -9,20 +9,24 @@
 //! group, the groups of L. V. Assur.
 
 mod cam;
+mod error;
 mod pair;
 mod solver;
 mod structure;
 mod walk;
 
 pub use cam::PlacedCam;
+pub use error::LinkageError;
 pub use pair::Pair;
 pub use walk::Assembly;
 
-use crate::error::finite;
+use crate::machine::error::MachineError;
 use crate::machine::joint::{Body, Joint};
 use crate::machine::link::{Frame, Link};
+use crate::math;
+use crate::number::error::RangeError;
+use crate::number::error::finite;
 use crate::number::transfer::Transfer;
-use crate::{Error, math};
 
 use cam::Cams;
 use structure::{Equation, Structure};
@@ -76,7 +80,7 @@ impl<const LINKS: usize, const PAIRS: usize> Linkage<LINKS, PAIRS> {
     /// Too many links or pairs; a number that is not finite; a pair on a link that does not exist; a drive that is no pin
     /// or guide; more or fewer than one degree of freedom, 3·n − Σ constraints ≠ 1; a link left free while others are held
     /// twice.
-    pub fn new(links: &[Link], pairs: &[Pair], drive: usize) -> Result<Self, Error> {
+    pub fn new(links: &[Link], pairs: &[Pair], drive: usize) -> Result<Self, LinkageError> {
         Self::with_cams(links, pairs, &[], drive)
     }
 }
@@ -96,9 +100,9 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         pairs: &[Pair],
         cams: &[PlacedCam],
         drive: usize,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, LinkageError> {
         const { assert!(LINKS <= super::MAX_LINKS && PAIRS <= crate::machine::joint::MAX_JOINTS) }
-        let too_many = |what, capacity| Error::TooMany { what, capacity };
+        let too_many = |what, capacity| RangeError::TooMany { what, capacity };
         let links = heapless::Vec::from_slice(links).map_err(|_| too_many("links", LINKS))?;
         let pairs: heapless::Vec<Pair, PAIRS> =
             heapless::Vec::from_slice(pairs).map_err(|_| too_many("joints", PAIRS))?;
@@ -106,7 +110,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         let mut size = largest_distance(&pairs);
         let exists = |body: Body| match body.link().filter(|link| *link >= links.len()) {
             None => Ok(()),
-            Some(link) => Err(Error::NoSuchLink {
+            Some(link) => Err(MachineError::NoSuchLink {
                 link,
                 links: links.len(),
             }),
@@ -120,26 +124,27 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
             pair.check()?;
             pair.bodies().into_iter().try_for_each(exists)?;
             if let Pair::Cam { place, .. } = *pair {
-                let cam = cams.get(place).ok_or(Error::NoSuchCam {
+                let cam = cams.get(place).ok_or(LinkageError::NoSuchCam {
                     cam: place,
                     cams: cams.len(),
                 })?;
                 if pair.bodies().contains(&cam.base().body) {
-                    return Err(Error::CamBase { cam: place });
+                    return Err(LinkageError::CamBase { cam: place });
                 }
             }
         }
         let Some(driven) = pairs.get(drive) else {
-            return Err(Error::NoSuchJoint {
+            return Err(MachineError::NoSuchJoint {
                 joint: drive,
                 joints: pairs.len(),
-            });
+            }
+            .into());
         };
         if !matches!(
             driven,
             Pair::Joint(Joint::Revolute(_) | Joint::Prismatic(_))
         ) {
-            return Err(Error::NotADrive { joint: drive });
+            return Err(LinkageError::NotADrive { joint: drive });
         }
         let phi = Transfer::constant(0.4);
         let evaluate = |equation: Equation, frames: &[Frame]| {
@@ -176,10 +181,10 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
     ///
     /// # Errors
     /// A link that does not exist.
-    pub fn set_link(&mut self, index: usize, link: Link) -> Result<(), Error> {
+    pub fn set_link(&mut self, index: usize, link: Link) -> Result<(), LinkageError> {
         let links = self.links.len();
         let slot = self.links.get_mut(index);
-        *slot.ok_or(Error::NoSuchLink { link: index, links })? = link;
+        *slot.ok_or(MachineError::NoSuchLink { link: index, links })? = link;
         Ok(())
     }
 
@@ -199,12 +204,13 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
     }
 
     /// Checks an approximate drawing: one pose a link.
-    fn drawing(&self, drawing: &[Pose]) -> Result<[Frame; LINKS], Error> {
+    fn drawing(&self, drawing: &[Pose]) -> Result<[Frame; LINKS], LinkageError> {
         if drawing.len() != self.links.len() {
-            return Err(Error::BufferTooShort {
+            return Err(RangeError::BufferTooShort {
                 needed: self.links.len(),
                 given: drawing.len(),
-            });
+            }
+            .into());
         }
         let mut frames = [Frame::GROUND; LINKS];
         for (frame, pose) in frames.iter_mut().zip(drawing) {

@@ -9,11 +9,12 @@
     reason = "only then is nothing computed but the order that the solver asks for"
 )]
 
-use crate::error::{finite, positive};
 use crate::machine::joint::{Body, Joint, Marker, Wrench};
 use crate::machine::link::Frame;
+use crate::math;
+use crate::mechanism::linkage::LinkageError;
+use crate::number::error::{finite, positive};
 use crate::number::transfer::Transfer;
-use crate::{Error, math};
 
 use super::cam::{Cams, PlacedCam};
 
@@ -131,13 +132,13 @@ impl Pair {
     }
 
     /// Checks every number of the pair.
-    pub(super) fn check(&self) -> Result<(), Error> {
+    pub(super) fn check(&self) -> Result<(), LinkageError> {
         let wheel = |radius: f64| {
             let radius = finite("radius of a wheel", radius)?;
             positive("radius of a wheel", math::abs(radius)).map(drop)
         };
         match self {
-            Self::Joint(Joint::Transmission(_)) => return Err(Error::NotAPair),
+            Self::Joint(Joint::Transmission(_)) => return Err(LinkageError::NotAPair),
             Self::Joint(_) | Self::Cam { .. } => {}
             Self::Gears { radii, phase, .. } | Self::Belt { radii, phase, .. } => {
                 finite("phase of the mesh", *phase)?;
@@ -149,7 +150,7 @@ impl Pair {
                 wheel(*radius)?;
             }
         }
-        self.markers().iter().try_for_each(Marker::check)
+        Ok(self.markers().iter().try_for_each(Marker::check)?)
     }
 
     /// The left-hand side of equation number `component`, which is zero where the pair is closed (m, or rad).

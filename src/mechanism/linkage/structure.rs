@@ -4,8 +4,9 @@
 //! one after the other: the Assur groups of the theory of mechanisms, and smaller ones for single coordinates. A
 //! group of k coordinates costs about k³ operations, a chain of groups no more than their sum.
 
-use crate::Error;
+use crate::machine::error::MachineError;
 use crate::machine::link::Frame;
+use crate::mechanism::linkage::LinkageError;
 use crate::number::transfer::Transfer;
 
 use super::pair::Pair;
@@ -86,12 +87,12 @@ impl<const LINKS: usize> Structure<LINKS> {
         pairs: &[Pair],
         evaluate: impl Fn(Equation, &[Frame]) -> f64,
         drive: usize,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, LinkageError> {
         const { assert!(3 * LINKS <= MOST, "at most 21 links") }
         let constraints: usize = pairs.iter().map(Pair::constraints).sum();
         let count = 3 * links;
         if constraints + 1 != count {
-            return Err(Error::Mobility { links, constraints });
+            return Err(MachineError::Mobility { links, constraints }.into());
         }
         let mut equations = heapless::Vec::<Equation, MOST>::new();
         for (pair, taken) in pairs.iter().map(Pair::constraints).enumerate() {
@@ -112,7 +113,7 @@ impl<const LINKS: usize> Structure<LINKS> {
         let depends = dependencies::<LINKS>(links, &equations, &evaluate);
         let matched = matching(&depends, count).map_err(|(equation, coordinate)| {
             let joint = equations.get(equation).map_or(0, |e| e.pair.into());
-            Error::OverConstrained {
+            LinkageError::OverConstrained {
                 joint,
                 free: coordinate / 3,
             }

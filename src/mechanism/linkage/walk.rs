@@ -1,13 +1,16 @@
 //! Continuation along φ, (79), and the linkage as a mechanism.
 
+use crate::machine::error::PoseError;
+use crate::mechanism::linkage::LinkageError;
+use crate::number::error::RangeError;
 use core::f64::consts::TAU;
 
-use crate::error::finite;
 use crate::machine::joint::Joints;
 use crate::machine::link::{Frame, Link};
 use crate::mechanism::{Frames, Jointed, Mechanism};
+use crate::number::error::finite;
 use crate::number::transfer::Transfer;
-use crate::{Domain, Error, math};
+use crate::{Domain, math};
 
 use super::solver::{Solved, Unsolved};
 use super::{Linkage, Pair, Pose};
@@ -60,17 +63,18 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         domain: Domain,
         phi: f64,
         drawing: &[Pose],
-    ) -> Result<Assembly<LINKS, PAIRS, STATIONS, CAMS>, Error> {
+    ) -> Result<Assembly<LINKS, PAIRS, STATIONS, CAMS>, LinkageError> {
         const { assert!(STATIONS >= 2, "a range has two ends") }
         let span = domain.span();
         let [min, max] = [domain.position(0.0) - span, domain.position(1.0) + span];
         if !(min..=max).contains(&finite("drive position of the drawing", phi)?) {
-            return Err(Error::OutOfRange {
+            return Err(RangeError::OutOfRange {
                 what: "drive position of the drawing",
                 value: phi,
                 min,
                 max,
-            });
+            }
+            .into());
         }
         let first = self
             .solve(phi, self.drawing(drawing)?)
@@ -107,7 +111,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
     /// How far a link's angle has advanced in a turn, if the link has returned: the same place, the same angle except for whole
     /// turns, the same first transfer functions. A balanced wheel that only rolls with other
     /// wheels may stop at any angle.
-    fn closes(&self, link: usize, start: &Frame, end: &Frame) -> Result<f64, Error> {
+    fn closes(&self, link: usize, start: &Frame, end: &Frame) -> Result<f64, LinkageError> {
         let advance = end.psi.value - start.psi.value;
         let whole = math::floor(advance / TAU + 0.5) * TAU;
         let turned = math::abs(advance - whole);
@@ -126,7 +130,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         if gap <= CLOSED * self.size {
             Ok(if turned <= CLOSED { whole } else { advance })
         } else {
-            Err(Error::NotClosed { link, gap })
+            Err(LinkageError::NotClosed { link, gap })
         }
     }
 
@@ -144,7 +148,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         start: Solved<LINKS>,
         to: f64,
         span: f64,
-    ) -> Result<Solved<LINKS>, Error> {
+    ) -> Result<Solved<LINKS>, PoseError> {
         let (mut phi, mut now) = (from, start);
         let mut step = to - from;
         let mut arrived = math::abs(step) == 0.0;
@@ -158,11 +162,11 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
                     continue;
                 }
                 // Another solution, on the far side of a dead point.
-                Ok(found) if found.signs != now.signs => Error::BranchChange {
+                Ok(found) if found.signs != now.signs => PoseError::BranchChange {
                     phi: next,
                     joint: now.weakest,
                 },
-                _ => Error::DeadPoint {
+                _ => PoseError::DeadPoint {
                     phi: next,
                     joint: now.weakest,
                 },
@@ -177,12 +181,12 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
 }
 
 impl Unsolved {
-    fn at(self, phi: f64) -> Error {
+    fn at(self, phi: f64) -> PoseError {
         let Self { pair: joint, gap } = self;
         if gap > 0.0 {
-            Error::CannotAssemble { phi, joint, gap }
+            PoseError::CannotAssemble { phi, joint, gap }
         } else {
-            Error::DeadPoint { phi, joint }
+            PoseError::DeadPoint { phi, joint }
         }
     }
 }
@@ -206,7 +210,7 @@ impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: 
     ///
     /// # Errors
     /// A link that does not exist.
-    pub fn set_link(&mut self, index: usize, link: Link) -> Result<(), Error> {
+    pub fn set_link(&mut self, index: usize, link: Link) -> Result<(), LinkageError> {
         self.linkage.set_link(index, link)
     }
 
@@ -216,13 +220,13 @@ impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: 
     ///
     /// # Errors
     /// Those of [`frames`](Mechanism::frames).
-    pub fn quality(&self, phi: f64) -> Result<(f64, usize), Error> {
+    pub fn quality(&self, phi: f64) -> Result<(f64, usize), PoseError> {
         let (solved, _) = self.solved(phi)?;
         Ok((solved.quality, solved.weakest))
     }
 
     /// The links at `phi`, without the whole turns, which are returned separately.
-    fn solved(&self, phi: f64) -> Result<(Solved<LINKS>, f64), Error> {
+    fn solved(&self, phi: f64) -> Result<(Solved<LINKS>, f64), PoseError> {
         let phi = finite("drive position", phi)?;
         let (turns, phi) = match self.domain {
             Domain::Turn => {
@@ -283,7 +287,7 @@ impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: 
         self.domain
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         let (solved, turns) = self.solved(phi)?;
         let count = self.linkage.links.len();
         let advanced = |(frame, turn): (&Frame, &f64)| frame.advanced(turns * turn);
@@ -301,7 +305,7 @@ impl<const LINKS: usize, const PAIRS: usize, const STATIONS: usize, const CAMS: 
     for Assembly<LINKS, PAIRS, STATIONS, CAMS>
 {
     /// The pairs, in their order.
-    fn joints(&self, _phi: f64, frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, _phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
         let pairs = self.linkage.pairs.iter();
         let cams = &self.linkage.cams;
         Ok(pairs.map(|pair| pair.joint(frames, cams)).collect())

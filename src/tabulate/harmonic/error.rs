@@ -2,7 +2,6 @@
 
 use core::fmt;
 
-use crate::Error;
 use crate::curve::Coefficient;
 
 /// Why a machine has no harmonics, or why they cannot be identified.
@@ -77,9 +76,3 @@ impl fmt::Display for HarmonicError {
 }
 
 impl core::error::Error for HarmonicError {}
-
-impl From<HarmonicError> for Error {
-    fn from(error: HarmonicError) -> Self {
-        Self::Harmonic(error)
-    }
-}

@@ -15,8 +15,8 @@ use crate::curve::{
     Circular, Coefficient, Curve, Format, Harmonic, Kind, MAX_HARMONICS, Shape, Table, in_use,
     words_len,
 };
-use crate::error::positive;
 use crate::machine::reduction::Reducible;
+use crate::number::error::{RangeError, positive};
 use crate::tabulate::{Request, torque_between};
 use crate::{AnyModel, Domain, Error, Number, Phase, math};
 
@@ -91,12 +91,13 @@ fn spectrum<'s>(
     scratch: &'s mut [f64],
 ) -> Result<Spectrum<'s>, Error> {
     if max_harmonics > MAX_HARMONICS {
-        return Err(Error::OutOfRange {
+        return Err(RangeError::OutOfRange {
             what: "most harmonics",
             value: f64::from(max_harmonics),
             min: 0.0,
             max: f64::from(MAX_HARMONICS),
-        });
+        }
+        .into());
     }
     if machine.domain() != Domain::Turn {
         return Err(HarmonicError::Stroke.into());
@@ -120,7 +121,7 @@ fn spectrum<'s>(
 ///
 /// # Errors
 /// [`HarmonicError::Stroke`]; [`HarmonicError::NotConverged`], for a curve with a kink in particular;
-/// [`TableError`](crate::TableError) if J is not shown to be positive between the samples; [`Error::NoInertia`] if it is
+/// [`TableError`](crate::TableError) if J is not shown to be positive between the samples; [`PoseError::NoInertia`](crate::PoseError::NoInertia) if it is
 /// not at one; buffers too short; those of the machine.
 pub fn fit<T: Circular + Number>(
     machine: &impl Reducible,
@@ -139,7 +140,7 @@ where
     let mut spectrum = spectrum(machine, set, max, scratch)?;
     let (needed, given) = (words_len::<Harmonic<T>>(max, set), words.len());
     if given < needed {
-        return Err(Error::BufferTooShort { needed, given });
+        return Err(RangeError::BufferTooShort { needed, given }.into());
     }
     let mut reached = (f64::INFINITY, 0);
     while spectrum.can_grow() {

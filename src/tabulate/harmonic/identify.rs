@@ -18,7 +18,7 @@ use crate::Set;
 use crate::curve::{
     Circular, Coefficient, Curve, Harmonic, Kind, MAX_HARMONICS, TableError, words_len,
 };
-use crate::error::finite;
+use crate::number::error::finite;
 use crate::{Error, Phase, math};
 
 /// A coefficient counts as excited if its effect in the samples is not made up by the others' to this share. A factor of

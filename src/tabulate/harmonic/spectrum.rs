@@ -9,12 +9,14 @@
 //! N is some tens, and there is no transform in `f64` without an allocator to take from elsewhere.
 
 use crate::Set;
+use crate::machine::error::PoseError;
+use crate::number::error::RangeError;
 use core::f64::consts::TAU;
 
 use crate::curve::Curve;
 use crate::curve::unfold;
-use crate::error::finite;
 use crate::machine::reduction::Reducible;
+use crate::number::error::finite;
 use crate::{Error, math};
 
 /// Samples taken at first; also the least room for them.
@@ -54,7 +56,7 @@ impl<'s> Spectrum<'s> {
         let scratch = scratch.get_mut(..needed);
         let (circle, rest) = scratch
             .and_then(|s| s.split_at_mut_checked(most))
-            .ok_or(Error::BufferTooShort { needed, given })?;
+            .ok_or(RangeError::BufferTooShort { needed, given })?;
         let (values, coefficients) = rest.split_at_mut(4 * most);
         for (j, cos) in circle.iter_mut().enumerate() {
             *cos = math::sin_cos(TAU * j as f64 / most as f64).1;
@@ -95,7 +97,7 @@ impl<'s> Spectrum<'s> {
             let phi = TAU * j as f64 / self.samples as f64;
             let point = machine.reduction(phi)?;
             if finite("reduced inertia", point.inertia[0])? <= 0.0 {
-                return Err(Error::NoInertia { phi });
+                return Err(PoseError::NoInertia { phi }.into());
             }
             let coulomb = finite("Coulomb friction", point.coulomb)?;
             if known == 0 && j == 0 {

@@ -9,6 +9,7 @@ mod error;
 pub use error::ImageError;
 
 use crate::curve::{CONSTANTS, Format, Set, Shape, Table, words_len};
+use crate::number::error::RangeError;
 use crate::{AnyModel, Domain, Error, Model, Number, Scale};
 
 /// "JRED" in the file's first four bytes.
@@ -249,7 +250,7 @@ pub fn encode<'b, F: Format>(
     let rows: &[u8] = bytemuck::cast_slice(table.words());
     let needed = image_len::<F>(table.cells(), table.set());
     let given = buffer.len();
-    let short = Error::BufferTooShort { needed, given };
+    let short = RangeError::BufferTooShort { needed, given };
     let image = buffer.get_mut(..needed).ok_or(short)?;
     let (domain, from, to) = match table.domain().to::<f32>() {
         Domain::Turn => (TURN, 0.0, 0.0),

@@ -1,6 +1,7 @@
 //! The commands: read, compute, write.
 
 pub mod bus;
+mod core_error;
 pub mod ratio;
 pub mod sensitivity;
 pub mod size;
@@ -13,6 +14,7 @@ use std::path::{Path, PathBuf};
 
 use miette::{IntoDiagnostic as _, Result, WrapErr as _, miette};
 
+use crate::commands::core_error::core_report;
 use crate::options;
 use jred_machine::analysis::contact::OneWay;
 use jred_machine::analysis::duty::Duty;
@@ -103,13 +105,13 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
         sets,
         state,
     };
-    let columns = reduce(&file, &request).into_diagnostic()?;
+    let columns = reduce(&file, &request).map_err(core_report)?;
     if let Some(state) = state {
         warn(&file, state)?;
     }
     if let Some(path) = &options.report {
         let name = options.file.display().to_string();
-        let page = page::mechanism_page(&name, &file, state).into_diagnostic()?;
+        let page = page::mechanism_page(&name, &file, state).map_err(core_report)?;
         write(path, page.as_bytes(), &options.file)?;
     }
     let mut title = if sets.curves {
@@ -128,7 +130,7 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
         title += "\nthe motion does not pass every position exactly once: use --over time";
     }
     let largest = if sets.reactions {
-        reduce::largest(&file, &request).into_diagnostic()?
+        reduce::largest(&file, &request).map_err(core_report)?
     } else {
         Vec::new()
     };
@@ -161,7 +163,7 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
 
 /// Warns on standard error if a contact separates at this speed and acceleration; the result is computed nevertheless.
 fn warn(file: &MachineFile, state: [f64; 2]) -> Result<()> {
-    if let Some(words) = OneWay::warning(&file.machine, state).into_diagnostic()? {
+    if let Some(words) = OneWay::warning(&file.machine, state).map_err(core_report)? {
         eprintln!("{words}");
     }
     Ok(())
@@ -172,7 +174,7 @@ fn state(options: &options::Reduce, file: &MachineFile) -> Result<Option<[f64; 2
     let Some(speed) = &options.speed else {
         return Ok(None);
     };
-    let coordinate = Coordinate::of(file.machine.mechanism()).into_diagnostic()?;
+    let coordinate = Coordinate::of(file.machine.mechanism()).map_err(core_report)?;
     let refused =
         |name: &str, text: &str, why: &str| miette!("--{name} {text:?} cannot be used: {why}");
     let omega =
@@ -187,7 +189,7 @@ fn state(options: &options::Reduce, file: &MachineFile) -> Result<Option<[f64; 2
 
 fn run_check(options: &options::Check) -> Result<Done> {
     let file = read::read(&options.file)?;
-    let findings = Findings::of(&file).into_diagnostic()?;
+    let findings = Findings::of(&file).map_err(core_report)?;
     match options.format {
         inspection::Format::Table => print(&inspection::text(&findings))?,
         inspection::Format::Json => print(&format!("{:#}\n", inspection::json(&findings)))?,
@@ -243,7 +245,7 @@ fn run_export(options: &options::Export) -> Result<Done> {
             options.layout.name()
         ));
     }
-    let coordinate = Coordinate::of(file.machine.mechanism()).into_diagnostic()?;
+    let coordinate = Coordinate::of(file.machine.mechanism()).map_err(core_report)?;
     let quantity = |name: &str, text: &Option<String>, read: read::Reader| {
         let value = text.as_deref().map(|text| {
             read(text, coordinate).map_err(|why| miette!("--{name} {text:?} cannot be used: {why}"))
@@ -272,7 +274,7 @@ fn run_export(options: &options::Export) -> Result<Done> {
             return Ok(Done::Violated);
         }
         Err(Failure::NoneFits { message, help }) => return Err(miette!(help = help, "{message}")),
-        Err(Failure::Machine(error)) => return Err(error).into_diagnostic(),
+        Err(Failure::Machine(error)) => return Err(core_report(error)),
     };
     if let Some(out) = &options.out {
         write(out, &export.write(options.format), &options.file)?;
@@ -309,7 +311,7 @@ fn range(given: [Option<f64>; 2], file: &MachineFile, path: &Path) -> Result<(f6
             path.display()
         )
     })?;
-    let duty = Duty::new(file, motion, jred_machine::analysis::duty::STEPS).into_diagnostic()?;
+    let duty = Duty::new(file, motion, jred_machine::analysis::duty::STEPS).map_err(core_report)?;
     let [omega, alpha] = given;
     let omega = omega.unwrap_or(duty.figures(|i| i.omega).peak());
     let moved = duty.figures(|i| i.alpha).peak();

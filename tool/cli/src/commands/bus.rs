@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use miette::{IntoDiagnostic as _, Result, miette};
+use miette::{Result, miette};
 
 use indicatif::ProgressBar;
 
+use crate::commands::core_error::core_report;
 use crate::commands::{Done, motion, print};
 use crate::options::bus::Bus as Options;
 use jred_machine::analysis::duty::Duty;
@@ -150,7 +151,7 @@ fn axis(
     let motion = motion(file, path)?;
     let mut own = catalogue.clone();
     fit_input(&mut own, file)?;
-    let duty = Duty::new(file, motion, steps as usize).into_diagnostic()?;
+    let duty = Duty::new(file, motion, steps as usize).map_err(core_report)?;
     let cycle = Cycle::new(&duty);
     let motors = own.prepare(&file.site);
     let selection = Selection::parallel(&own, &motors, &cycle, &file.site, &file.rules);

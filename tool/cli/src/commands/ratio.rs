@@ -2,9 +2,10 @@
 
 use std::collections::HashSet;
 
-use miette::{IntoDiagnostic as _, Result, miette};
+use miette::{Result, miette};
 use rayon::prelude::*;
 
+use crate::commands::core_error::core_report;
 use crate::commands::vary::catalogue;
 use crate::commands::{Done, motion, print};
 use crate::options::search::Ratio;
@@ -49,7 +50,7 @@ pub fn ratio(options: &Ratio) -> Result<Done> {
         ));
     }
     jred_sizing::select::fit::fit_input(&mut catalogue, &file)?;
-    let duty = Duty::new(&file, motion, options.supply.steps as usize).into_diagnostic()?;
+    let duty = Duty::new(&file, motion, options.supply.steps as usize).map_err(core_report)?;
     let gear = Gear {
         inertia: options.gearbox_inertia.unwrap_or(0.0),
         efficiency: options.efficiency,

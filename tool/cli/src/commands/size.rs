@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use miette::{IntoDiagnostic as _, Report, Result, miette};
+use miette::{Report, Result, miette};
 
+use crate::commands::core_error::core_report;
 use crate::commands::vary::catalogue;
 use crate::commands::{Done, distinct, motion, print, write};
 use crate::options::Size;
@@ -43,7 +44,7 @@ pub fn size(options: &Size) -> Result<Done> {
     let objectives = options.pareto.as_ref().map_or(&[][..], |o| &o.0);
     options.search.check(&catalogue, objectives)?;
     fit_input(&mut catalogue, &file)?;
-    let duty = Duty::new(&file, motion, options.supply.steps as usize).into_diagnostic()?;
+    let duty = Duty::new(&file, motion, options.supply.steps as usize).map_err(core_report)?;
     let cycle = Cycle::new(&duty);
     let motors = catalogue.prepare(&file.site);
     let mut selection = Selection::parallel(&catalogue, &motors, &cycle, &file.site, &file.rules);
@@ -77,7 +78,7 @@ pub fn size(options: &Size) -> Result<Done> {
     }
     if let Some(path) = &options.report {
         let name = options.file.display().to_string();
-        let page = page::page(&name, &file, &duty, &selection).into_diagnostic()?;
+        let page = page::page(&name, &file, &duty, &selection).map_err(core_report)?;
         let page = page.ok_or_else(|| none_left(options, catalogue.count(), &[]))?;
         write(path, page.as_bytes(), &options.file)?;
     }
@@ -229,11 +230,11 @@ fn explanation(
         };
         let nearest = options.nearest;
         let explanation = Explanation::new(file, duty, selection, &drive, nearest);
-        return explanation.map(Some).into_diagnostic();
+        return explanation.map(Some).map_err(core_report);
     }
     if options.format == Format::Table && selection.fit.is_empty() {
         let nearest = Explanation::of_refused(file, duty, selection, options.nearest);
-        return nearest.map(Some).into_diagnostic();
+        return nearest.map(Some).map_err(core_report);
     }
     Ok(None)
 }

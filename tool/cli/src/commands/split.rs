@@ -1,6 +1,6 @@
 //! `jred split`: the division of a total gear ratio over stages that makes the reduced inertia smallest.
 
-use jred::Error;
+use jred::RangeError;
 use jred::synthesis::{Driven, OpenStage, RatioSplit, Split};
 use miette::{Result, miette};
 use serde_json::{Map, Value, json};
@@ -55,13 +55,13 @@ fn train(options: &options::Split) -> Result<RatioSplit> {
     let bounds = [options.min_ratio, options.max_ratio];
     RatioSplit::new(options.ratio, &open, options.load.unwrap_or(0.0), bounds).map_err(|error| {
         let help = match error {
-            Error::OutOfRange {
+            RangeError::OutOfRange {
                 what: "total ratio",
                 max,
                 value,
                 ..
             } if value > max => "allow a larger --max-ratio, or more --stages",
-            Error::OutOfRange {
+            RangeError::OutOfRange {
                 what: "total ratio",
                 ..
             } => "allow a smaller --min-ratio, or fewer --stages",

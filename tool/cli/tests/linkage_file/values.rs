@@ -1,5 +1,7 @@
 //! What a linkage is, against golden data and closed forms.
 
+use jred::mechanism::SixLinkDimensions;
+use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
 use jred::mechanism::{Branch, SixLink, SliderCrank};
@@ -134,7 +136,16 @@ fn a_slider_crank_on_an_inclined_guide() {
     ];
     // Turned back by 30°, gravity turns with it.
     let (sin, cos) = 30f64.to_radians().sin_cos();
-    let upright = SliderCrank::new(0.05, 0.2, 0.025, Branch::Right, links).unwrap();
+    let upright = SliderCrank::new(
+        SliderCrankDimensions {
+            crank: 0.05,
+            rod: 0.2,
+            offset: 0.025,
+        },
+        Branch::Right,
+        links,
+    )
+    .unwrap();
     let upright = Machine::new(upright)
         .with_gravity([-9.81 * sin, -9.81 * cos])
         .unwrap();
@@ -182,7 +193,18 @@ fn six_link() -> Machine<SixLink> {
         link(3.0, 0.12, 0.35),
         link(30.0, 0.0, 0.0),
     ];
-    let mechanism = SixLink::new([0.1, 0.45, 0.7], 0.2, -0.35, Branch::Right, links).unwrap();
+    let mechanism = SixLink::new(
+        SixLinkDimensions {
+            crank: 0.1,
+            rocker: 0.45,
+            rod: 0.7,
+            centres: 0.2,
+            below: -0.35,
+        },
+        Branch::Right,
+        links,
+    )
+    .unwrap();
     Machine::new(mechanism).with_gravity([0.0, -9.81]).unwrap()
 }
 

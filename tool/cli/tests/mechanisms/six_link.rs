@@ -68,7 +68,7 @@ fn wrong_entries_are_refused_with_their_cure() {
             "\"570 mm\"",
             &[
                 "the rod no longer reaches the guide at φ = ",
-                "make it longer than 0.575000 m",
+                "make the rod longer than 0.575000 m",
                 "too short",
             ],
         ),

@@ -82,7 +82,7 @@ fn wrong_entries_are_refused_with_their_cure() {
             "[mechanism.lower]\nlength = \"90 mm\"",
             &[
                 "the lower link no longer reaches the guide at φ = ",
-                "make it longer than 0.",
+                "make the lower link longer than 0.",
                 "too short",
             ],
         ),

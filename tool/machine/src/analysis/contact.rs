@@ -61,7 +61,7 @@ impl OneWay {
         machine: &Machine<AnyMechanism>,
         [phi, omega, alpha]: [f64; 3],
     ) -> Result<f64, Error> {
-        contact_force(machine, self.joint, phi, omega, alpha)
+        Ok(contact_force(machine, self.joint, phi, omega, alpha)?)
     }
 
     /// Warning about a contact that separates somewhere in the range of the drive link at this speed and acceleration

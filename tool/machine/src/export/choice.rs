@@ -1,5 +1,6 @@
 //! Number types and layouts that a table can have, by name.
 
+use jred::PoseError;
 use jred::{
     Cubic, Error, Format as _, Harmonic, Number as _, Q15, Q31, Quadratic, Reducible, Rows16,
     Scale, Spline, Spline16,
@@ -120,7 +121,7 @@ impl Number {
         self,
         machine: &impl Reducible,
         [omega, alpha]: [f64; 2],
-    ) -> Result<Scale, Error> {
+    ) -> Result<Scale, PoseError> {
         match self {
             Self::F32 => Ok(Scale::SI),
             Self::I32 => Scale::covering(machine, omega, alpha, PLACES),

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use jred::RangeError;
 use jred::table::MAX_CELLS;
 use jred::{Cubic, Error, Quadratic, Spline};
 
@@ -59,9 +60,9 @@ impl NotReached<'_> {
                 Answer::Refused(error) => Some(*error),
                 _ => None,
             });
-            return Ok(Failure::Machine(
-                refused.unwrap_or(Error::NotFinite("torque error of the table")),
-            ));
+            return Ok(Failure::Machine(refused.unwrap_or(
+                RangeError::NotFinite("torque error of the table").into(),
+            )));
         };
         self.not_reached(&misses, best).map(Failure::NotReached)
     }

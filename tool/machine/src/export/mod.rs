@@ -76,9 +76,9 @@ pub enum Failure {
     },
 }
 
-impl From<Error> for Failure {
-    fn from(error: Error) -> Self {
-        Self::Machine(error)
+impl<E: Into<Error>> From<E> for Failure {
+    fn from(error: E) -> Self {
+        Self::Machine(error.into())
     }
 }
 

@@ -118,7 +118,7 @@ fn jump_or_kink(
         Domain::Stroke { from, to } => [(at - near).max(from), (at + near).min(to)],
     };
     for (name, curve) in CURVES {
-        let value = |phi: f64| machine.reduction(phi).map(|r| curve(&r));
+        let value = |phi: f64| -> Result<f64, Error> { Ok(curve(&machine.reduction(phi)?)) };
         let step = 1e-7 * domain.span();
         let slope = |phi: f64| {
             let [low, high] = match domain {

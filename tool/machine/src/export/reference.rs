@@ -1,5 +1,6 @@
 //! The exact curves, computed once and compared with every table that is tried.
 
+use jred::PoseError;
 use std::cell::{OnceCell, RefCell};
 use std::collections::HashMap;
 
@@ -14,7 +15,7 @@ const PLACES: u32 = 16_381;
 pub(super) struct Remembered<'m, M> {
     machine: &'m M,
     knots: RefCell<HashMap<u64, Reduction>>,
-    repeats: OnceCell<Result<(), Error>>,
+    repeats: OnceCell<Result<(), PoseError>>,
 }
 
 impl<'m, M: Reducible> Remembered<'m, M> {
@@ -32,7 +33,7 @@ impl<M: Reducible> Reducible for Remembered<'_, M> {
         self.machine.domain()
     }
 
-    fn reduction(&self, phi: f64) -> Result<Reduction, Error> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, PoseError> {
         if let Some(known) = self.knots.borrow().get(&phi.to_bits()) {
             return Ok(*known);
         }
@@ -41,7 +42,7 @@ impl<M: Reducible> Reducible for Remembered<'_, M> {
         Ok(found)
     }
 
-    fn check_repeats(&self) -> Result<(), Error> {
+    fn check_repeats(&self) -> Result<(), PoseError> {
         *self.repeats.get_or_init(|| self.machine.check_repeats())
     }
 }

@@ -3,6 +3,8 @@
 //! A size is looked at in two steps: against exact curves computed once, which refuses nearly all that miss; then against
 //! [`tabulate::measure`], and by ticking its image. What passes both is a table.
 
+use jred::PoseError;
+use jred::RangeError;
 use jred::table::{MAX_CELLS, MIN_CELLS};
 use jred::tabulate::{self, Request, Tabulated};
 use jred::{Domain, Error, Format, Machine, Reducible as _, Scale, Set, Usage, curves};
@@ -187,8 +189,8 @@ impl<'s, F: Format> Attempt<'s, F> {
             return Ok(Answer::Meets(Box::new(candidate)));
         }
         let Some(candidate) = self.best(most)? else {
-            let sound = Error::NotFinite("torque error of the table");
-            return Ok(Answer::Refused(self.refused.unwrap_or(sound)));
+            let sound = RangeError::NotFinite("torque error of the table");
+            return Ok(Answer::Refused(self.refused.unwrap_or(sound.into())));
         };
         let candidate = Box::new(candidate);
         Ok(match goal.torque_error {
@@ -345,7 +347,7 @@ impl<'s, F: Format> Attempt<'s, F> {
     /// A coarse curve may dip below zero or leave the range: more cells cure it. Everything else is the machine's fault.
     fn refuse<T>(&mut self, error: Error) -> Result<Option<T>, Error> {
         match error {
-            Error::Overflow { .. } | Error::NoInertia { .. } | Error::Table(_) => {
+            Error::Overflow { .. } | Error::Pose(PoseError::NoInertia { .. }) | Error::Table(_) => {
                 self.refused = Some(error);
                 Ok(None)
             }

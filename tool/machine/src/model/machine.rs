@@ -1,5 +1,6 @@
 //! A machine as described by a machine file, checked and in SI units.
 
+use jred::PoseError;
 use std::fmt;
 use std::sync::Arc;
 
@@ -249,13 +250,13 @@ impl Mechanism for AnyMechanism {
     fn domain(&self) -> Domain {
         self.inner.domain()
     }
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         self.inner.frames(phi)
     }
 }
 
 impl Jointed for AnyMechanism {
-    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
         self.inner.joints(phi, frames)
     }
     fn drive(&self) -> usize {
@@ -390,6 +391,6 @@ impl MachineFile {
     pub fn with_drive_train(&self) -> Result<Machine<AnyMechanism>, Error> {
         let ratio = self.drive_train.ratio();
         let train = self.drive_train.inertia_at_input() * ratio * ratio;
-        self.machine.clone().with_flywheel(train)
+        Ok(self.machine.clone().with_flywheel(train)?)
     }
 }

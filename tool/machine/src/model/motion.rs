@@ -82,7 +82,7 @@ impl Motion {
         start: f64,
         segments: &[Segment],
         cyclic: bool,
-    ) -> Result<Self, (usize, jred::Error)> {
+    ) -> Result<Self, (usize, jred::RangeError)> {
         let (mut t, mut phi) = (0.0, start);
         let mut pieces = Vec::with_capacity(segments.len());
         for (index, segment) in segments.iter().enumerate() {

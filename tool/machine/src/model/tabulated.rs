@@ -22,8 +22,8 @@ use std::sync::Arc;
 use jred::joint::{Joints, Marker};
 use jred::mechanism::{Frames, MAX_LINKS};
 use jred::{
-    Action, Body, Domain, Element, Error, Frame, Joint, Jointed, Link, Load, Mechanism, Transfer,
-    Wrench,
+    Action, Body, Domain, Element, Error, Frame, Joint, Jointed, Link, Load, Mechanism, PoseError,
+    RangeError, Transfer, Wrench,
 };
 
 use crate::model::machine::Inner;
@@ -199,7 +199,7 @@ impl Course {
             Self::Viscous(_) => Action::ViscousMoment(1.0),
             Self::Inertia(_) | Self::Potential { .. } | Self::Payload { .. } => return Ok(None),
         };
-        Load::new(link, action).map(Some)
+        Ok(Some(Load::new(link, action)?))
     }
 
     /// The spring on the rotor, link number `link`.
@@ -211,7 +211,7 @@ impl Course {
             return Ok(None);
         };
         let ends = [Marker::ground([0.0, 0.0]), Marker::on(link, [0.0, 0.0])];
-        Element::torsion_spring(ends, 1.0, 0.0).map(Some)
+        Ok(Some(Element::torsion_spring(ends, 1.0, 0.0)?))
     }
 }
 
@@ -230,10 +230,11 @@ impl Tabulated {
             links.push(Link::rotor(stand_in.course.inertia())?);
         }
         if links.len() > MAX_LINKS {
-            return Err(Error::TooMany {
+            return Err(RangeError::TooMany {
                 what: "links, of which each curve takes one",
                 capacity: MAX_LINKS,
-            });
+            }
+            .into());
         }
         let courses = stand_ins.iter().map(|s| s.course.clone()).collect();
         Ok(Self {
@@ -258,7 +259,7 @@ impl Mechanism for Tabulated {
         self.inner.domain()
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         let mut frames = self.inner.frames(phi)?;
         let own = frames.len();
         for course in &self.courses {
@@ -272,7 +273,7 @@ impl Mechanism for Tabulated {
 
 impl Jointed for Tabulated {
     /// Those of the mechanism; then for each stand-in its bearing and its gearing with the drive link.
-    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
         let own = self.own();
         let inner: Frames = frames.iter().take(own).copied().collect();
         let mut joints = self.inner.joints(phi, &inner)?;
@@ -327,9 +328,9 @@ impl Mechanism for DriveLinkAlone {
         self.domain
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         if !phi.is_finite() {
-            return Err(Error::NotFinite("position of the drive link"));
+            return Err(RangeError::NotFinite("position of the drive link").into());
         }
         let at = Transfer::variable(phi);
         let frame = if self.slides {
@@ -342,7 +343,7 @@ impl Mechanism for DriveLinkAlone {
 }
 
 impl Jointed for DriveLinkAlone {
-    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let ends = [Marker::ground([0.0, 0.0]), Marker::on(0, [0.0, 0.0])];
         let joint = if self.slides {
             Joint::Prismatic(ends)

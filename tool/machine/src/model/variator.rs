@@ -116,7 +116,7 @@ impl Variator {
     pub fn stage(&self) -> Result<Stage<'_>, Error> {
         let stage = Stage::new(&self.ratio)?;
         match self.slip {
-            Slip::Constant { share, flow, .. } => stage.with_slip(share, flow),
+            Slip::Constant { share, flow, .. } => Ok(stage.with_slip(share, flow)?),
             Slip::Creep(_) => Ok(stage),
         }
     }
@@ -144,7 +144,7 @@ pub fn integrability_text(file: &MachineFile) -> Option<String> {
     let last = variator.ratio.end().max(end);
     let answer = variator.stage().and_then(|stage| {
         let drive = Drive::new(Arrangement::Chain, variator.contact(), &[stage])?;
-        drive.integrability([0.0, last], [0.0, std::f64::consts::TAU])
+        Ok(drive.integrability([0.0, last], [0.0, std::f64::consts::TAU])?)
     });
     Some(match answer.as_deref() {
         Ok([constraint, ..]) => {

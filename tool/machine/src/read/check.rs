@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use jred::{Domain, Error, Reducible};
+use jred::{Domain, Error, PoseError, Reducible};
 
 use crate::model::machine::MachineFile;
 use crate::number::numerics;
@@ -23,7 +23,7 @@ pub(super) fn inertia(file: &MachineFile, mechanism: &Section) -> Result<()> {
     let inertia = |phi: f64| {
         Ok(machine
             .reduction(phi)
-            .map_err(|error| report(&error))?
+            .map_err(|error| report(&error.into()))?
             .inertia[0])
     };
     let domain = machine.domain();
@@ -49,7 +49,7 @@ pub(super) fn inertia(file: &MachineFile, mechanism: &Section) -> Result<()> {
             Domain::Turn => phi.rem_euclid(TAU),
             Domain::Stroke { .. } => phi,
         };
-        return Err(report(&Error::NoInertia { phi }));
+        return Err(report(&PoseError::NoInertia { phi }.into()));
     }
     Ok(())
 }

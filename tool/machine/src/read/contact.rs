@@ -31,7 +31,11 @@ pub(super) fn check(file: &MachineFile, mechanism: &Section) -> Result<()> {
 }
 
 fn holds(file: &MachineFile, mechanism: &Section, motion: &Motion, joint: OneWay) -> Result<()> {
-    let report = |error: Error| mechanism.problem(error.to_string(), "in this mechanism");
+    let report = |error: Error| {
+        mechanism
+            .problem(error.to_string(), "in this mechanism")
+            .help(error.cure().to_string())
+    };
     let force = |t: f64| {
         let state = motion.at(t);
         joint.force(&file.machine, [state.phi, state.omega, state.alpha])

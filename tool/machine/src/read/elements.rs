@@ -106,9 +106,11 @@ fn element(
             .help("name the two bodies alone, such as between = [\"ground\", \"rocker\"]"));
     }
     let markers = [ends[0].marker, ends[1].marker];
-    let element = law
-        .element(markers)
-        .map_err(|error| section.problem(error.to_string(), &format!("in this {key}")))?;
+    let element = law.element(markers).map_err(|error| {
+        section
+            .problem(error.to_string(), &format!("in this {key}"))
+            .help(error.cure().to_string())
+    })?;
     Survey {
         section,
         between: &between,
@@ -133,7 +135,7 @@ enum Law {
 }
 
 impl Law {
-    fn element(&self, between: [Marker; 2]) -> std::result::Result<Element, jred::Error> {
+    fn element(&self, between: [Marker; 2]) -> std::result::Result<Element, jred::RangeError> {
         match *self {
             Self::Spring(stiffness, free) => Element::spring(between, stiffness, free),
             Self::TorsionSpring(stiffness, free) => {
@@ -299,9 +301,11 @@ struct Survey<'a> {
 impl Survey<'_> {
     fn check(&self, element: &Element, mechanism: &AnyMechanism) -> Result<()> {
         let length = |phi: f64| -> Result<Transfer> {
-            let frames = mechanism
-                .frames(phi)
-                .map_err(|error| self.section.problem(error.to_string(), "in this mechanism"))?;
+            let frames = mechanism.frames(phi).map_err(|error| {
+                self.section
+                    .problem(error.to_string(), "in this mechanism")
+                    .help(error.cure().to_string())
+            })?;
             Ok(element.length(&frames))
         };
         let domain = mechanism.domain();

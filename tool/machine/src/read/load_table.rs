@@ -79,7 +79,9 @@ pub(super) fn read(
     for section in item.sections("[[load]]")?.iter().filter(|s| is_table(s)) {
         let stand_ins = table(section, &mechanism, drive, gravity, files)?;
         mechanism = mechanism.with_stand_ins(&stand_ins).map_err(|error| {
-            section.problem(format!("{}: {error}", section.title()), "this table")
+            section
+                .problem(format!("{}: {error}", section.title()), "this table")
+                .help(error.cure().to_string())
         })?;
         if mechanism.own_loads().len() > MAX_LOADS {
             return Err(section

@@ -106,7 +106,11 @@ fn load(section: &Section, mechanism: &AnyMechanism, drive: DriveLink) -> Result
     }
     let mut load = Load::new(link, action)
         .and_then(|load| load.at(point))
-        .map_err(|error| section.problem(error.to_string(), "in this load"))?;
+        .map_err(|error| {
+            section
+                .problem(error.to_string(), "in this load")
+                .help(error.cure().to_string())
+        })?;
     if let Some(window) = window {
         load = load.within(window);
     }

@@ -159,8 +159,11 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<MachineFile> {
         .map(|value| value.si);
     let section = root.section("mechanism")?;
     let (mechanism, flywheel) = mechanism::read(&section, files)?;
-    let drive_link = DriveLink::of(&mechanism)
-        .map_err(|error| section.problem(error.to_string(), "in this mechanism"))?;
+    let drive_link = DriveLink::of(&mechanism).map_err(|error| {
+        section
+            .problem(error.to_string(), "in this mechanism")
+            .help(error.cure().to_string())
+    })?;
     if let (true, Some(item)) = (
         drive_link.slides() && flywheel > 0.0,
         section.peek("flywheel"),
@@ -199,7 +202,11 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<MachineFile> {
                 .iter()
                 .try_fold(machine, |m, named| m.with_element(named.element))
         })
-        .map_err(|error| section.problem(error.to_string(), "in this machine"))?;
+        .map_err(|error| {
+            section
+                .problem(error.to_string(), "in this machine")
+                .help(error.cure().to_string())
+        })?;
     let file = MachineFile {
         title,
         machine,

@@ -140,6 +140,7 @@ fn segments(section: &Section, cyclic: bool, drive: DriveLink) -> Result<Motion>
     Motion::segments(start, &segments, cyclic).map_err(|(index, error)| {
         let part = parts.get(index).unwrap_or(section);
         part.problem(format!("{}: {error}", part.title()), "this segment")
+            .help(error.cure().to_string())
     })
 }
 

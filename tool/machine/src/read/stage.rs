@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use jred::Error;
+use jred::RangeError;
 use jred::mechanism::{Mesh, Stage, Train};
 
 use crate::text::problem::{Problem, Result};
@@ -67,7 +67,7 @@ fn gear_pair(section: &Section, losses: Losses) -> Result<Placed> {
             stage,
             place: section.header(),
         })
-        .map_err(|error| core(section, &error))
+        .map_err(|error| core(section, error))
 }
 
 fn gear(section: &Section, key: &'static str) -> Result<(u32, f64)> {
@@ -97,7 +97,7 @@ pub(super) fn belt(section: &Section, losses: Losses) -> Result<Placed> {
             stage,
             place: section.header(),
         })
-        .map_err(|error| core(section, &error))
+        .map_err(|error| core(section, error))
 }
 
 /// The stage of a table with `type = "ball-screw"`: 2π/lead radians of the screw for each metre of the nut.
@@ -132,7 +132,7 @@ fn linear(section: &Section, ratio: f64) -> Result<Placed> {
             stage,
             place: section.header(),
         })
-        .map_err(|error| core(section, &error))
+        .map_err(|error| core(section, error))
 }
 
 fn pulley(section: &Section, key: &'static str) -> Result<(f64, f64)> {
@@ -187,9 +187,12 @@ pub(super) fn train(stages: Vec<Placed>) -> Result<Train> {
         );
     }
     let stages: Vec<Stage> = stages.into_iter().map(|placed| placed.stage).collect();
-    Train::new(&stages).map_err(|error| Problem::new(error.to_string()))
+    Train::new(&stages)
+        .map_err(|error| Problem::new(error.to_string()).help(error.cure().to_string()))
 }
 
-fn core(section: &Section, error: &Error) -> Problem {
-    section.problem(format!("{}: {error}", section.title()), "in this stage")
+fn core(section: &Section, error: RangeError) -> Problem {
+    section
+        .problem(format!("{}: {error}", section.title()), "in this stage")
+        .help(error.cure().to_string())
 }

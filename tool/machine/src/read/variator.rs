@@ -164,7 +164,11 @@ fn creep(item: &Item) -> Result<Slip> {
     section.finish()?;
     CreepContact::new(slip.si, torque)
         .map(Slip::Creep)
-        .map_err(|error| section.problem(error.to_string(), "in this table"))
+        .map_err(|error| {
+            section
+                .problem(error.to_string(), "in this table")
+                .help(error.cure().to_string())
+        })
 }
 
 /// One shift after the others.
@@ -193,7 +197,9 @@ fn add(course: &mut Ratio, section: &Section) -> Result<()> {
         None => Law::Polynomial345,
     };
     section.finish()?;
-    course
-        .shift(at.si, duration, to, law)
-        .map_err(|error| section.problem(error.to_string(), "in this shift"))
+    course.shift(at.si, duration, to, law).map_err(|error| {
+        section
+            .problem(error.to_string(), "in this shift")
+            .help(error.cure().to_string())
+    })
 }

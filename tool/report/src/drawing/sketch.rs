@@ -1,5 +1,6 @@
 //! Content of a drawing, in metres: parts of links in their own frames, parts of the ground, paths, poses.
 
+use jred::PoseError;
 use jred::joint::Joints;
 use jred::mechanism::Frames;
 use jred::{Body, Error, Joint, Jointed as _, Marker, Mechanism as _};
@@ -86,12 +87,12 @@ impl Sketch {
         let frames = places
             .iter()
             .map(|&phi| mechanism.frames(phi))
-            .collect::<Result<Vec<Frames>, Error>>()?;
+            .collect::<Result<Vec<Frames>, PoseError>>()?;
         let joints = places
             .iter()
             .zip(&frames)
             .map(|(&phi, frames)| mechanism.joints(phi, frames))
-            .collect::<Result<Vec<_>, Error>>()?;
+            .collect::<Result<Vec<_>, PoseError>>()?;
         let first = &joints[0];
         if is_at_one_point(first, &frames[0], mechanism) {
             sketch.row_of_wheels(first);

@@ -8,8 +8,8 @@ use crate::number::numerics::dormand_prince::Stopped;
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 pub enum SimulationError {
     /// The machine cannot be placed.
-    #[error(transparent)]
-    Machine(#[from] Error),
+    #[error("{error}; {cure}", error = .0, cure = .0.cure())]
+    Machine(Error),
     /// The drive link has passed the end of its stroke.
     #[error("the drive link hits the end of its stroke, {end}, before t = {t:.6} s, at {speed}")]
     #[diagnostic(help(
@@ -63,6 +63,12 @@ pub enum SimulationError {
         /// Cure.
         cure: String,
     },
+}
+
+impl<E: Into<Error>> From<E> for SimulationError {
+    fn from(error: E) -> Self {
+        Self::Machine(error.into())
+    }
 }
 
 /// Why the integrator stopped, for times counted from `t`.

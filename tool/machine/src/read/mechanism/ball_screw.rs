@@ -18,7 +18,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     }
     let (screw, nut) = (section.section("screw")?, section.section("nut")?);
     let links = [parts::wheel(&screw)?, parts::slide(&nut)?];
-    let mechanism = BallScrew::new(lead.si, links).map_err(|error| core(section, &error))?;
+    let mechanism = BallScrew::new(lead.si, links).map_err(|error| core(section, error))?;
     let joints = ["screw bearings", "nut guide", "thread"];
     Ok(
         AnyMechanism::new(super::BALL_SCREW, mechanism, ["screw", "nut"], joints).with_point(

@@ -1,7 +1,7 @@
 //! `type = "four-bar"`.
 
-use jred::Error;
-use jred::mechanism::{Blocked, FourBar, Grashof, Side};
+use jred::mechanism::{Blocked, BuildError, FourBar, FourBarDimensions, Grashof, Side};
+use jred::{PoseError, RangeError};
 
 use super::{core, link};
 use crate::model::machine::AnyMechanism;
@@ -23,19 +23,20 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         section.section(parts[2])?,
     ];
     let length = length(&crank)?;
-    let lengths = [
-        length.si,
-        self::length(&coupler)?.si,
-        self::length(&rocker)?.si,
-    ];
+    let dimensions = FourBarDimensions {
+        crank: length.si,
+        coupler: self::length(&coupler)?.si,
+        rocker: self::length(&rocker)?.si,
+        pivot,
+    };
     let links = [link(&crank)?, link(&coupler)?, link(&rocker)?];
     let mechanism = match &stroke {
-        None => FourBar::new(lengths, pivot, side, links)
-            .map_err(|error| blocked(section, &length, &length, &error))?,
+        None => FourBar::new(dimensions, side, links)
+            .map_err(|error| blocked(section, &length, &length, error))?,
         Some(item) => {
             let [from, to] = item.pair([&ANGLE, &ANGLE])?.map(|value| value.si);
-            FourBar::over_stroke(lengths, pivot, side, [from, to], links)
-                .map_err(|error| stopped(section, item, &error))?
+            FourBar::over_stroke(dimensions, side, [from, to], links)
+                .map_err(|error| stopped(section, item, error))?
         }
     };
     let joints = ["crank pivot", "crank pin", "rocker pin", "rocker pivot"];
@@ -43,8 +44,8 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let angles = format!("{} to {} deg", short(least), short(most));
     let grashof = grashof(mechanism.grashof());
     Ok(AnyMechanism::new(super::FOUR_BAR, mechanism, parts, joints)
-        .with_point("A", FourBar::CRANK, [lengths[0], 0.0])
-        .with_point("B", FourBar::ROCKER, [lengths[2], 0.0])
+        .with_point("A", FourBar::CRANK, [dimensions.crank, 0.0])
+        .with_point("B", FourBar::ROCKER, [dimensions.rocker, 0.0])
         .with_point("C", FourBar::ROCKER, [0.0, 0.0])
         .with_fact("Grashof's type", grashof)
         .with_fact("transmission angle over the crank's range", angles))
@@ -78,47 +79,48 @@ pub(super) fn side(item: Option<Item>) -> Result<Side> {
 
 /// A crank that cannot turn fully: shown at its length, or at that of the `last` link, to the slider, if that is too
 /// short; the cure as help.
-pub(super) fn blocked(section: &Section, crank: &Value, last: &Value, error: &Error) -> Problem {
-    let Error::Blocked(blocked) = error else {
+pub(super) fn blocked(
+    section: &Section,
+    crank: &Value,
+    last: &Value,
+    error: BuildError,
+) -> Problem {
+    let BuildError::Blocked(blocked) = error else {
         return core(section, error);
     };
     let (place, label) = match blocked {
         Blocked::TooShort { .. } => (last, "too short"),
         _ => (crank, "this crank"),
     };
-    let text = error.to_string();
-    let (what, cure) = text
-        .split_once("; ")
-        .unwrap_or((&text, "change the lengths"));
-    Problem::new(format!("{}: {what}", section.title()))
+    Problem::new(format!("{}: {blocked}", section.title()))
         .at(place.span(), label)
-        .help(cure)
+        .help(blocked.cure().to_string())
 }
 
 /// A stroke that the linkage cannot follow.
-fn stopped(section: &Section, stroke: &Item, error: &Error) -> Problem {
+fn stopped(section: &Section, stroke: &Item, error: BuildError) -> Problem {
     let degrees = |phi: f64| format!("φ = {:.2}°", phi.to_degrees());
     match error {
-        Error::DeadPoint { phi, .. } => stroke
+        BuildError::Pose(PoseError::DeadPoint { phi, .. }) => stroke
             .problem(
                 &format!(
                     "reaches a dead point at {}, where coupler and rocker are in line",
-                    degrees(*phi)
+                    degrees(phi)
                 ),
                 "goes too far",
             )
             .help("end the stroke some degrees before it, or change the lengths"),
-        Error::CannotAssemble { phi, gap, .. } => stroke
+        BuildError::Pose(PoseError::CannotAssemble { phi, gap, .. }) => stroke
             .problem(
                 &format!(
                     "starts at {}, where coupler and rocker cannot be connected: they are {:.6} m apart",
-                    degrees(*phi),
+                    degrees(phi),
                     gap
                 ),
                 "cannot be assembled here",
             )
             .help("start the stroke at a position where the linkage can be assembled, or change the lengths"),
-        Error::NotPositive(..) => stroke
+        BuildError::Range(RangeError::NotPositive(..)) => stroke
             .problem(
                 "is empty: its end must be larger than its start",
                 "check these angles",

@@ -1,7 +1,6 @@
 //! `type = "friction-drive"`: friction stages with constant ratios, in a chain or in a fan.
 
-use jred::friction::{Arrangement, Flow, Stage};
-use jred::mechanism::FrictionDrive;
+use jred::friction::{Arrangement, Flow, FrictionDrive, Stage};
 
 use crate::model::machine::AnyMechanism;
 use crate::read::variator::{flow, share};
@@ -73,11 +72,11 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let built = |(stage, ratio, slip): (&Section, f64, f64)| {
         Stage::new(ratio)
             .and_then(|built| built.with_slip(slip, flow))
-            .map_err(|error| super::core(stage, &error))
+            .map_err(|error| super::core(stage, error))
     };
     let built: Vec<Stage> = read.into_iter().map(built).collect::<Result<_>>()?;
     let mechanism = FrictionDrive::new(arrangement, &built, &inertias)
-        .map_err(|error| super::core(section, &error))?;
+        .map_err(|error| super::core(section, error))?;
     let shafts = inertias.len();
     let links = (1..=shafts).map(|k| format!("shaft-{k}"));
     let bearings = (1..=shafts).map(|k| format!("bearings of shaft-{k}"));

@@ -25,7 +25,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let crank = link(&section.section("crank")?)?;
     let wheel = parts::wheel(&section.section("wheel")?)?;
     let mechanism =
-        Geneva::new(slots, centres, [crank, wheel]).map_err(|error| core(section, &error))?;
+        Geneva::new(slots, centres, [crank, wheel]).map_err(|error| core(section, error))?;
     let radius = mechanism.crank();
     let joints = ["crank bearing", "wheel bearing", "pin or locking arc"];
     Ok(

@@ -1,7 +1,6 @@
 //! `type = "hoist"`.
 
-use jred::Link;
-use jred::mechanism::{Hoist, Rope};
+use jred::mechanism::{Hoist, Rope, Suspended};
 
 use super::{core, link, parts};
 use crate::model::machine::AnyMechanism;
@@ -39,12 +38,12 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
 }
 
 /// A rope and the mass that hangs on it.
-fn hanging(section: &Section) -> Result<(Rope, Link)> {
+fn hanging(section: &Section) -> Result<Suspended> {
     let radius = section.quantity("radius", &LENGTH)?.positive()?;
     let falls = section
         .get("falls")
         .map_or(Ok(1), |item| item.count(Rope::MAX_FALLS, "2"))?;
     let link = parts::slide(section)?;
-    let rope = Rope::new(radius, falls).map_err(|error| core(section, &error))?;
-    Ok((rope, link))
+    let rope = Rope::new(radius, falls).map_err(|error| core(section, error))?;
+    Ok(Suspended { rope, link })
 }

@@ -1,7 +1,6 @@
 //! `type = "inverted-slider-crank"`: crank and slotted lever, Whitworth's motion.
 
-use jred::Error;
-use jred::mechanism::{InvertedSliderCrank, Misfit};
+use jred::mechanism::{BuildError, InvertedSliderCrank, InvertedSliderCrankDimensions, Misfit};
 
 use super::{core, link};
 use crate::model::machine::AnyMechanism;
@@ -26,15 +25,20 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         .map_or(0.0, |value| value.si);
     let lever = link(&lever)?;
     let links = [crank, block, lever];
+    let dimensions = InvertedSliderCrankDimensions {
+        crank: length.si,
+        pivot,
+        offset,
+    };
     let mechanism =
-        InvertedSliderCrank::new(length.si, pivot, offset, links).map_err(|error| {
-            let Error::Misfit(Misfit::ChangePoint {
+        InvertedSliderCrank::new(dimensions, links).map_err(|error| {
+            let BuildError::Misfit(Misfit::ChangePoint {
                 centres,
                 rocking,
                 turning,
             }) = error
             else {
-                return core(section, &error);
+                return core(section, error);
             };
             let what = format!(
                 "is {} from the crank's pivot, where the slot cannot follow the crank pin through a full turn",

@@ -7,9 +7,10 @@ mod joints;
 mod problems;
 mod wheels;
 
+use jred::PoseError;
 use jred::joint::Joints;
 use jred::mechanism::{Frames, Pair};
-use jred::{Domain, Error, Frame, Joint, Jointed, Link, Mechanism};
+use jred::{Domain, Frame, Joint, Jointed, Link, Mechanism};
 
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::AnyMechanism;
@@ -36,13 +37,13 @@ impl Mechanism for Boxed {
     fn domain(&self) -> Domain {
         self.0.domain()
     }
-    fn frames(&self, phi: f64) -> std::result::Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> std::result::Result<Frames, PoseError> {
         self.0.frames(phi)
     }
 }
 
 impl Jointed for Boxed {
-    fn joints(&self, phi: f64, frames: &Frames) -> std::result::Result<Joints, Error> {
+    fn joints(&self, phi: f64, frames: &Frames) -> std::result::Result<Joints, PoseError> {
         self.0.joints(phi, frames)
     }
     fn drive(&self) -> usize {
@@ -111,7 +112,7 @@ fn assembled(context: &Context, domain: Domain, drawn_at: f64) -> Result<Boxed> 
         .linkage()
         .and_then(|linkage| linkage.assemble::<STATIONS>(domain, drawn_at, context.poses))
         .map(|assembly| Boxed(Box::new(assembly)))
-        .map_err(|error| context.problem(&error))
+        .map_err(|error| context.problem(error))
 }
 
 /// The joint that is driven.
@@ -170,7 +171,7 @@ fn domain(section: &Section, coordinate: Coordinate) -> Result<Domain> {
         return Err(stroke_problem(&item, &from.shown(), &to.shown())
             .help(format!("the second end must be the larger one: {example}")));
     }
-    Domain::stroke(from.si, to.si).map_err(|error| super::core(section, &error))
+    Domain::stroke(from.si, to.si).map_err(|error| super::core(section, error))
 }
 
 fn stroke_problem(item: &Item, from: &str, to: &str) -> crate::text::problem::Problem {

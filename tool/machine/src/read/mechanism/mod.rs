@@ -111,10 +111,15 @@ fn link(section: &Section) -> Result<Link> {
     let inertia = section.quantity("inertia", &INERTIA)?.not_negative()?;
     let com = section.point("com", &LENGTH)?;
     section.finish()?;
-    Link::new(mass, inertia, com).map_err(|error| core(section, &error))
+    Link::new(mass, inertia, com).map_err(|error| core(section, error))
 }
 
 /// An error of the core that no key is known for.
-fn core(section: &Section, error: &Error) -> Problem {
-    section.problem(format!("{}: {error}", section.title()), "in this table")
+fn core(section: &Section, error: impl Into<Error>) -> Problem {
+    let error = error.into();
+    let problem = section.problem(format!("{}: {error}", section.title()), "in this table");
+    match error.cure().to_string() {
+        cure if cure.is_empty() => problem,
+        cure => problem.help(cure),
+    }
 }

@@ -1,7 +1,6 @@
 //! `type = "parallel-shafts"`.
 
-use jred::Link;
-use jred::mechanism::ParallelShafts;
+use jred::mechanism::{DrivenShaft, ParallelShafts};
 
 use super::{core, parts};
 use crate::model::machine::AnyMechanism;
@@ -37,7 +36,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         names.push(name);
         driven.push(shaft);
     }
-    let mechanism = ParallelShafts::new(drive, &driven).map_err(|error| core(section, &error))?;
+    let mechanism = ParallelShafts::new(drive, &driven).map_err(|error| core(section, error))?;
     let bearings = names.iter().map(|name| format!("bearings of {name}"));
     let transmissions = names.iter().skip(1).map(|name| format!("drive of {name}"));
     let joints: Vec<String> = bearings.chain(transmissions).collect();
@@ -50,7 +49,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
 }
 
 /// A driven shaft with its name, which must differ from those before it.
-fn shaft(section: &Section, names: &[String]) -> Result<(String, (f64, Link))> {
+fn shaft(section: &Section, names: &[String]) -> Result<(String, DrivenShaft)> {
     let name = match section.get("name") {
         Some(item) => {
             let name = item.text("fan")?;
@@ -72,5 +71,6 @@ fn shaft(section: &Section, names: &[String]) -> Result<(String, (f64, Link))> {
             "write the speed of the drive shaft over the speed of this shaft; negative if it turns the other way",
         ));
     }
-    Ok((name, (ratio, parts::wheel(section)?)))
+    let link = parts::wheel(section)?;
+    Ok((name, DrivenShaft { ratio, link }))
 }

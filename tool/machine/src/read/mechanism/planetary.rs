@@ -1,7 +1,7 @@
 //! `type = "planetary"`.
 
-use jred::mechanism::{Member, Misfit, Planetary, PlanetaryGears};
-use jred::{Error, Link};
+use jred::Link;
+use jred::mechanism::{BuildError, Member, Misfit, Planetary, PlanetaryDimensions, PlanetaryGears};
 
 use super::{core, parts};
 use crate::model::machine::AnyMechanism;
@@ -44,7 +44,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         if member == fixed && section.get("inertia").is_none() {
             let mass = parts::mass(section)?;
             section.finish()?;
-            return Link::new(mass, 0.0, [0.0, 0.0]).map_err(|error| core(section, &error));
+            return Link::new(mass, 0.0, [0.0, 0.0]).map_err(|error| core(section, error));
         }
         parts::wheel(section)
     };
@@ -54,10 +54,16 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         at(Member::Ring, ring)?,
         parts::wheel(planets)?,
     ];
-    let gears = PlanetaryGears::new([sun_teeth, planet_teeth, ring_teeth], count, centres)
-        .map_err(|error| unfit(section, planets, &error))?;
+    let gears = PlanetaryGears::new(PlanetaryDimensions {
+        sun: sun_teeth,
+        planet: planet_teeth,
+        ring: ring_teeth,
+        planets: count,
+        centres,
+    })
+    .map_err(|error| unfit(section, planets, error))?;
     let mechanism =
-        Planetary::new(gears, input, fixed, links).map_err(|error| core(section, &error))?;
+        Planetary::new(gears, input, fixed, links).map_err(|error| core(section, error))?;
     let names = ["sun", "carrier", "ring", "planets"];
     let joints = [
         "sun bearing",
@@ -101,15 +107,15 @@ fn teeth(section: &Section) -> Result<u32> {
 }
 
 /// Gears that do not fit together, shown where the planets are.
-fn unfit(section: &Section, planets: &Section, error: &Error) -> Problem {
+fn unfit(section: &Section, planets: &Section, error: BuildError) -> Problem {
     let help = match error {
-        Error::Misfit(Misfit::PlanetTeeth { .. }) => {
+        BuildError::Misfit(Misfit::PlanetTeeth { .. }) => {
             "correct one of the three numbers of teeth, or remove `teeth` of the planets"
         }
-        Error::Misfit(Misfit::PlanetSpacing { .. }) => {
+        BuildError::Misfit(Misfit::PlanetSpacing { .. }) => {
             "change the number of planets or the numbers of teeth"
         }
-        Error::Misfit(Misfit::PlanetsOverlap { .. }) => "use fewer or smaller planets",
+        BuildError::Misfit(Misfit::PlanetsOverlap { .. }) => "use fewer or smaller planets",
         _ => return core(section, error),
     };
     planets

@@ -12,7 +12,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let (pinion, rack) = (section.section("pinion")?, section.section("rack")?);
     let radius = pinion.quantity("radius", &LENGTH)?.positive()?;
     let links = [link(&pinion)?, parts::slide(&rack)?];
-    let mechanism = RackAndPinion::new(radius, links).map_err(|error| core(section, &error))?;
+    let mechanism = RackAndPinion::new(radius, links).map_err(|error| core(section, error))?;
     let joints = ["pinion bearing", "rack guide", "mesh"];
     Ok(
         AnyMechanism::new(super::RACK, mechanism, ["pinion", "rack"], joints).with_point(

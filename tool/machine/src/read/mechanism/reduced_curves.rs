@@ -80,7 +80,7 @@ pub(super) fn read(section: &Section, files: &dyn Files) -> Result<AnyMechanism>
     let curves = Curves::read(&file.text, turn).map_err(|problem| file.shows(problem))?;
     let slides = curves.drive.slides();
     let alone =
-        DriveLinkAlone::new(curves.drive.domain, slides).map_err(|error| core(section, &error))?;
+        DriveLinkAlone::new(curves.drive.domain, slides).map_err(|error| core(section, error))?;
     let joint = if slides {
         "drive guide"
     } else {
@@ -88,7 +88,7 @@ pub(super) fn read(section: &Section, files: &dyn Files) -> Result<AnyMechanism>
     };
     let mut mechanism = AnyMechanism::new(super::REDUCED_CURVES, alone, ["drive link"], [joint])
         .with_stand_ins(&curves.stand_ins)
-        .map_err(|error| core(section, &error))?;
+        .map_err(|error| core(section, error))?;
     for (label, text) in curves.facts {
         mechanism = mechanism.with_fact(label, text);
     }

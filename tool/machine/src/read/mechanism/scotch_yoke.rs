@@ -2,8 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use jred::Error;
-use jred::mechanism::ScotchYoke;
+use jred::RangeError;
+use jred::mechanism::{BuildError, ScotchYoke, ScotchYokeDimensions};
 
 use super::{core, link, parts};
 use crate::model::machine::AnyMechanism;
@@ -16,10 +16,15 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let (crank, yoke) = (section.section("crank")?, section.section("yoke")?);
     let length = crank.quantity("length", &LENGTH)?.positive()?;
     let links = [link(&crank)?, parts::slide(&yoke)?];
-    let angle = slot_angle.as_ref().map_or(FRAC_PI_2, |value| value.si);
-    let mechanism = ScotchYoke::new(length, angle, links).map_err(|error| {
-        let (Error::OutOfRange { min, max, .. }, Some(given)) = (error, &slot_angle) else {
-            return core(section, &error);
+    let dimensions = ScotchYokeDimensions {
+        crank: length,
+        slot_angle: slot_angle.as_ref().map_or(FRAC_PI_2, |value| value.si),
+    };
+    let mechanism = ScotchYoke::new(dimensions, links).map_err(|error| {
+        let (BuildError::Range(RangeError::OutOfRange { min, max, .. }), Some(given)) =
+            (error, &slot_angle)
+        else {
+            return core(section, error);
         };
         let what = format!("is {}, so the slot would lock the crank", given.shown());
         let range = format!("{} to {}", given.show(min), given.show(max));

@@ -1,6 +1,6 @@
 //! `type = "six-link"`: crank, block, slotted rocker, rod and slider.
 
-use jred::mechanism::{Branch, SixLink};
+use jred::mechanism::{Branch, SixLink, SixLinkDimensions};
 
 use super::four_bar::{blocked, length};
 use super::link;
@@ -28,7 +28,14 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     );
     let crank_length = length(&crank)?;
     let (rocker_length, rod_length) = (length(&rocker)?, length(&rod)?);
-    let lengths = [crank_length.si, rocker_length.si, rod_length.si];
+    let dimensions = SixLinkDimensions {
+        crank: crank_length.si,
+        rocker: rocker_length.si,
+        rod: rod_length.si,
+        centres,
+        // The core measures the guide downwards, as the printed equations do.
+        below: -guide,
+    };
     let links = [
         link(&crank)?,
         link(&block)?,
@@ -36,9 +43,8 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         link(&rod)?,
         slide(&slider)?,
     ];
-    // The core measures the guide downwards, as the printed equations do.
-    let mechanism = SixLink::new(lengths, centres, -guide, branch, links)
-        .map_err(|error| blocked(section, &crank_length, &rod_length, &error))?;
+    let mechanism = SixLink::new(dimensions, branch, links)
+        .map_err(|error| blocked(section, &crank_length, &rod_length, error))?;
     let names = ["crank", "block", "rocker", "rod", "slider"];
     let joints = [
         "crank pivot",
@@ -50,7 +56,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         "guide",
     ];
     Ok(AnyMechanism::new(super::SIX_LINK, mechanism, names, joints)
-        .with_point("A", SixLink::CRANK, [lengths[0], 0.0])
-        .with_point("B", SixLink::ROCKER, [lengths[1], 0.0])
+        .with_point("A", SixLink::CRANK, [dimensions.crank, 0.0])
+        .with_point("B", SixLink::ROCKER, [dimensions.rocker, 0.0])
         .with_point("C", SixLink::SLIDER, [0.0, 0.0]))
 }

@@ -1,7 +1,7 @@
 //! `type = "slider-crank"`.
 
-use jred::mechanism::{Branch, SliderCrank};
-use jred::{Error, Link};
+use jred::Link;
+use jred::mechanism::{Blocked, Branch, BuildError, SliderCrank, SliderCrankDimensions};
 
 use crate::model::machine::AnyMechanism;
 
@@ -33,18 +33,15 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         (key == "inertia").then_some("the slider does not turn, so it has no moment of inertia")
     };
     slider.finish_with(turns)?;
-    let slider = Link::new(mass, 0.0, com).map_err(|error| core(section, &error))?;
-    let offset_si = offset.as_ref().map_or(0.0, |value| value.si);
-    let mechanism = SliderCrank::new(
-        length,
-        rod_length.si,
-        offset_si,
-        branch,
-        [crank, rod, slider],
-    )
-    .map_err(|error| {
-        let Error::CannotTurn { phi, shortest_rod } = error else {
-            return core(section, &error);
+    let slider = Link::new(mass, 0.0, com).map_err(|error| core(section, error))?;
+    let dimensions = SliderCrankDimensions {
+        crank: length,
+        rod: rod_length.si,
+        offset: offset.as_ref().map_or(0.0, |value| value.si),
+    };
+    let mechanism = SliderCrank::new(dimensions, branch, [crank, rod, slider]).map_err(|error| {
+        let BuildError::Blocked(Blocked::TooShort { phi, shortest, .. }) = error else {
+            return core(section, error);
         };
         let what = format!(
             "is too short for a full turn of the crank: it does not reach the guide at φ = {:.2}°",
@@ -52,7 +49,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         );
         rod_length.problem(&what, "too short").help(format!(
             "make the rod longer than crank + |offset| = {}, or reduce the crank or the offset",
-            rod_length.show(shortest_rod)
+            rod_length.show(shortest)
         ))
     })?;
     let links = ["crank", "rod", "slider"];

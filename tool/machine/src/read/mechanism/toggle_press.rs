@@ -1,6 +1,6 @@
 //! `type = "toggle-press"`: knuckle-joint press.
 
-use jred::mechanism::{Branch, TogglePress};
+use jred::mechanism::{Branch, TogglePress, TogglePressDimensions};
 
 use super::four_bar::{blocked, length, side};
 use super::link;
@@ -27,12 +27,14 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         section.section("ram")?,
     );
     let (crank_length, lower_length) = (length(&crank)?, length(&lower)?);
-    let lengths = [
-        crank_length.si,
-        length(&rod)?.si,
-        length(&upper)?.si,
-        lower_length.si,
-    ];
+    let dimensions = TogglePressDimensions {
+        crank: crank_length.si,
+        rod: length(&rod)?.si,
+        upper: length(&upper)?.si,
+        lower: lower_length.si,
+        pivot,
+        guide,
+    };
     let links = [
         link(&crank)?,
         link(&rod)?,
@@ -40,8 +42,8 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         link(&lower)?,
         slide(&ram)?,
     ];
-    let mechanism = TogglePress::new(lengths, pivot, guide, (knee, branch), links)
-        .map_err(|error| blocked(section, &crank_length, &lower_length, &error))?;
+    let mechanism = TogglePress::new(dimensions, knee, branch, links)
+        .map_err(|error| blocked(section, &crank_length, &lower_length, error))?;
     let names = ["crank", "rod", "upper", "lower", "ram"];
     let joints = [
         "crank pivot",
@@ -54,8 +56,8 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     ];
     Ok(
         AnyMechanism::new(super::TOGGLE_PRESS, mechanism, names, joints)
-            .with_point("A", TogglePress::CRANK, [lengths[0], 0.0])
-            .with_point("K", TogglePress::UPPER, [lengths[2], 0.0])
+            .with_point("A", TogglePress::CRANK, [dimensions.crank, 0.0])
+            .with_point("K", TogglePress::UPPER, [dimensions.upper, 0.0])
             .with_point("P", TogglePress::UPPER, [0.0, 0.0])
             .with_point("R", TogglePress::RAM, [0.0, 0.0]),
     )

@@ -44,7 +44,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         .transpose()?;
 
     let mechanism = DiscCam::new(program, base_radius.si, follower, [cam, mass])
-        .map_err(|error| problem(section, &part, &base_radius, &error))?;
+        .map_err(|error| problem(section, &part, &base_radius, error))?;
     let spring = spring
         .map(|spring| closing_spring(&spring, &mechanism))
         .transpose()?;
@@ -116,7 +116,7 @@ fn roller(section: &Section) -> Result<Roller> {
     section.finish_with(|key| {
         (key == "com").then_some("a roller is balanced: its centre of mass is on its axis")
     })?;
-    Roller::new(radius, mass, inertia).map_err(|error| core(&section, &error))
+    Roller::new(radius, mass, inertia).map_err(|error| core(&section, error))
 }
 
 fn closing_spring(section: &Section, mechanism: &DiscCam) -> Result<NamedElement> {
@@ -132,6 +132,6 @@ fn closing_spring(section: &Section, mechanism: &DiscCam) -> Result<NamedElement
         name: "closing spring".to_owned(),
         element: mechanism
             .closing_spring(stiffness, preload)
-            .map_err(|error| core(section, &error))?,
+            .map_err(|error| core(section, error))?,
     })
 }

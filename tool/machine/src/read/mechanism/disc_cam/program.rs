@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use jred::Error;
 use jred::cam::{CamError, MAX_SEGMENTS, Program, Segment, Shape};
 
 use crate::number::rounding::figure;
@@ -216,7 +215,7 @@ fn problem(
     parts: &[Section],
     segments: &[Segment],
     way: &Kind,
-    error: &Error,
+    error: &CamError,
 ) -> Problem {
     let degrees = |phi: f64| format!("{} deg", figure(phi.to_degrees()));
     // Rises in the unit that the key suggests.
@@ -235,7 +234,7 @@ fn problem(
         problem
     };
     match *error {
-        Error::Cam(CamError::NotOneTurn { sum }) => {
+        CamError::NotOneTurn { sum } => {
             let message = format!(
                 "the segments of the cam cover {}, but must cover exactly one turn",
                 degrees(sum)
@@ -244,7 +243,7 @@ fn problem(
             labelled(Problem::new(message), &|segment| degrees(segment.angle))
                 .help(format!("{verb} {}", degrees((TAU - sum).abs())))
         }
-        Error::Cam(CamError::NotClosed { segment, gap }) => {
+        CamError::NotClosed { segment, gap } => {
             let message = format!(
                 "after a turn of the cam, the follower is {} off",
                 shown(gap)
@@ -255,12 +254,12 @@ fn problem(
                 shown(-gap)
             ))
         }
-        Error::Cam(CamError::VelocityJump {
+        CamError::VelocityJump {
             segment,
             phi,
             from,
             to,
-        }) => {
+        } => {
             let next = (segment + 1) % parts.len();
             let label = |v: f64| format!("{} per rad", shown(v));
             Problem::new(format!(
@@ -271,6 +270,7 @@ fn problem(
             .at(part(next).header(), label(to))
             .help("put a segment with law = \"polynomial-5\" between them: it takes its end velocities from its neighbours")
         }
-        _ => section.problem(error.to_string(), "in this cam program"),
+        _ => (section.problem(error.to_string(), "in this cam program"))
+            .help(error.cure().to_string()),
     }
 }

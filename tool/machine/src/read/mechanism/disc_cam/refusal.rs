@@ -1,6 +1,5 @@
 //! Errors of the core about a cam, in terms of the machine file.
 
-use jred::Error;
 use jred::cam::CamError;
 
 use crate::read::mechanism::core;
@@ -13,13 +12,10 @@ pub(in crate::read::mechanism) fn problem(
     section: &Section,
     follower: &Section,
     base_radius: &Value,
-    error: &Error,
+    error: CamError,
 ) -> Problem {
-    let Error::Cam(cam) = error else {
-        return core(section, error);
-    };
     let deg = |phi: f64| format!("{:.2}°", phi.to_degrees());
-    match *cam {
+    match error {
         CamError::Undercut {
             phi,
             radius,
@@ -104,6 +100,6 @@ pub(in crate::read::mechanism) fn problem(
                 "too large",
             )
             .help("make the base radius or the rise smaller, or move the pivot outwards"),
-        _ => section.problem(error.to_string(), "in this cam"),
+        _ => core(section, error),
     }
 }

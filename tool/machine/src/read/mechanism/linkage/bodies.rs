@@ -219,7 +219,7 @@ fn drawn(section: &Section) -> Result<Drawn> {
         "at" => Some("use `position` for the place of the body in the drawing"),
         _ => None,
     })?;
-    let link = Link::new(mass, inertia, com).map_err(|error| core(section, &error))?;
+    let link = Link::new(mass, inertia, com).map_err(|error| core(section, error))?;
     Ok(Drawn {
         name,
         link,

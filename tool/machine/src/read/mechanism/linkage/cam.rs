@@ -91,7 +91,7 @@ pub(super) fn read(
         shape.pivot().is_some(),
     )?;
     let profile = CamProfile::new(program, base_radius.si, shape)
-        .map_err(|error| disc_cam::problem(section, &part, &base_radius, &error))?;
+        .map_err(|error| disc_cam::problem(section, &part, &base_radius, error))?;
     let pair = Pair::Cam {
         cam: cam.marker().with_angle(angle("direction")?),
         follower: follower.marker().with_angle(angle("second_direction")?),
@@ -121,7 +121,7 @@ fn roller(section: &Section) -> Result<Roller> {
         ),
         _ => None,
     })?;
-    Roller::new(radius, 0.0, 0.0).map_err(|error| core(&section, &error))
+    Roller::new(radius, 0.0, 0.0).map_err(|error| core(&section, error))
 }
 
 /// Checks all over the drive's range that the bearings are where the joints have them.

@@ -1,7 +1,7 @@
 //! Errors of the core about a linkage, in terms of the machine file.
 
-use jred::mechanism::{Assembly, Linkage, Pair};
-use jred::{Body, Domain, Error, Frame, Joint, mechanism::Pose};
+use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, Pose};
+use jred::{Body, Domain, Frame, Joint, PoseError};
 
 use crate::model::coordinate::Coordinate;
 use crate::number::rounding::figure;
@@ -87,11 +87,13 @@ pub(super) fn check_topology(section: &Section, bodies: &Bodies, joints: &[Held]
 
 impl Context<'_> {
     /// An error of the core.
-    pub(super) fn problem(&self, error: &Error) -> Problem {
-        match *error {
-            Error::CannotAssemble { phi, joint, gap } => self.open(phi, joint, gap),
-            Error::DeadPoint { phi, joint } => self.dead(phi, joint),
-            Error::BranchChange { phi, joint } => self
+    pub(super) fn problem(&self, error: LinkageError) -> Problem {
+        match error {
+            LinkageError::Pose(PoseError::CannotAssemble { phi, joint, gap }) => {
+                self.open(phi, joint, gap)
+            }
+            LinkageError::Pose(PoseError::DeadPoint { phi, joint }) => self.dead(phi, joint),
+            LinkageError::Pose(PoseError::BranchChange { phi, joint }) => self
                 .at_joint(
                     joint,
                     &format!(
@@ -104,8 +106,8 @@ impl Context<'_> {
                     "two bodies come into line there and may continue either way: change the lengths, or end the \
                      stroke before this position",
                 ),
-            Error::NotClosed { link, gap } => self.not_closed(link, gap),
-            Error::OverConstrained { joint, free } => self.held_twice(joint, free),
+            LinkageError::NotClosed { link, gap } => self.not_closed(link, gap),
+            LinkageError::OverConstrained { joint, free } => self.held_twice(joint, free),
             _ => core(self.section, error),
         }
     }
@@ -125,7 +127,7 @@ impl Context<'_> {
     /// A joint that cannot be closed.
     fn open(&self, phi: f64, joint: usize, gap: f64) -> Problem {
         let Some(held) = self.joints.get(joint) else {
-            return core(self.section, &Error::CannotAssemble { phi, joint, gap });
+            return core(self.section, PoseError::CannotAssemble { phi, joint, gap });
         };
         let size = match held.kind {
             "prismatic" | "fixed" | "cam" => {
@@ -229,7 +231,9 @@ impl Context<'_> {
             // Followed from the drawing to the far end: the error names where it stops.
             *end = match linkage.assemble::<2>(domain, drawn, self.poses) {
                 Ok(_) => far,
-                Err(Error::DeadPoint { phi, .. } | Error::BranchChange { phi, .. }) => phi,
+                Err(LinkageError::Pose(
+                    PoseError::DeadPoint { phi, .. } | PoseError::BranchChange { phi, .. },
+                )) => phi,
                 Err(_) => return None,
             };
         }
@@ -260,7 +264,7 @@ impl Context<'_> {
     }
 
     /// The linkage, its topology checked.
-    pub(super) fn linkage(&self) -> std::result::Result<Whole, Error> {
+    pub(super) fn linkage(&self) -> std::result::Result<Whole, LinkageError> {
         let links: Vec<_> = self.bodies.moving.iter().map(|body| body.link).collect();
         let pairs: Vec<_> = self.joints.iter().map(|joint| joint.pair).collect();
         Linkage::with_cams(&links, &pairs, &cam::placed(self.joints), self.drive)

@@ -1,12 +1,13 @@
 //! Friction drives with constant ratios and slips: shafts with α_k = j_k·α₁ (III.18).
 
-use super::{Frames, Jointed, Mechanism};
-use crate::error::finite;
-use crate::friction::{Arrangement, MAX_SHAFTS, MAX_STAGES, Stage};
+use super::{Arrangement, FrictionError, MAX_SHAFTS, MAX_STAGES, Stage};
+use crate::Domain;
+use crate::machine::error::PoseError;
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link};
+use crate::machine::mechanism::{Frames, Jointed, Mechanism};
+use crate::number::error::{RangeError, finite};
 use crate::number::transfer::Transfer;
-use crate::{Domain, Error};
 
 /// A chain or a fan of friction stages as a mechanism: its links are the shafts, shaft 1 is the drive link.
 ///
@@ -36,26 +37,29 @@ impl FrictionDrive {
         arrangement: Arrangement,
         stages: &[Stage],
         inertias: &[f64],
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, FrictionError> {
         if stages.is_empty() {
-            return Err(Error::NotPositive("number of friction stages", 0.0));
+            return Err(RangeError::NotPositive("number of friction stages", 0.0).into());
         }
         let mut coefficients = heapless::Vec::new();
         for (stage, given) in stages.iter().enumerate() {
-            let speed = given.constant().ok_or(Error::VaryingRatio { stage })?;
-            coefficients.push(speed).map_err(|_| Error::TooMany {
+            let speed = given
+                .constant()
+                .ok_or(FrictionError::VaryingRatio { stage })?;
+            coefficients.push(speed).map_err(|_| RangeError::TooMany {
                 what: "friction stages",
                 capacity: MAX_STAGES,
             })?;
         }
         let expected = stages.len() + 1;
         if inertias.len() != expected {
-            return Err(Error::OutOfRange {
+            return Err(RangeError::OutOfRange {
                 what: "number of inertias",
                 value: inertias.len() as f64,
                 min: expected as f64,
                 max: expected as f64,
-            });
+            }
+            .into());
         }
         Ok(Self {
             arrangement,
@@ -63,7 +67,7 @@ impl FrictionDrive {
             shafts: inertias
                 .iter()
                 .map(|inertia| Link::rotor(*inertia))
-                .collect::<Result<_, Error>>()?,
+                .collect::<Result<_, RangeError>>()?,
         })
     }
 
@@ -95,7 +99,7 @@ impl FrictionDrive {
 impl Jointed for FrictionDrive {
     /// The bearing of every shaft, then the contact of every stage: a moment on either shaft, and the ground takes the
     /// difference.
-    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, Error> {
+    fn joints(&self, _phi: f64, _frames: &Frames) -> Result<Joints, PoseError> {
         let bearing =
             |shaft| Joint::Revolute([Marker::ground([0.0, 0.0]), Marker::on(shaft, [0.0, 0.0])]);
         let contact = |(k, speed): (usize, &f64)| {
@@ -119,7 +123,7 @@ impl Mechanism for FrictionDrive {
         Domain::Turn
     }
 
-    fn frames(&self, phi: f64) -> Result<Frames, Error> {
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         let angle = Transfer::variable(finite("input angle", phi)?);
         let turned = |j: &f64| Frame::turning([0.0, 0.0], angle * *j);
         Ok(self.coefficients().iter().map(turned).collect())

@@ -1,13 +1,24 @@
-//! The constraints of a friction drive: θ = dα_b − j(t, α_a)·dα_a, one a stage.
+//! Can the constraint of a stage be written as a relation between angles?
 //!
-//! θ ∧ dθ = −(∂j/∂t)·dα_b ∧ dt ∧ dα_a: the stage is holonomic exactly where j does not depend on time.
+//! A constraint Σ C_i·q̇_i + C = 0 (III.4), or as a form over the variables x = (q₁ … q_r, t)
+//!
+//! ```text
+//! θ = Σ C_i(x)·dx_i = 0                                                   (III.5)
+//! ∂C_i/∂x_k = ∂C_k/∂x_i for all i, k: θ is a total differential           (III.6), sufficient
+//! θ ∧ dθ = 0: θ is one after multiplication by an integrating factor      Frobenius, necessary and sufficient
+//! ```
+//!
+//! (III.6) as printed speaks of sufficient conditions and leaves the integrating factor open; Frobenius' theorem closes
+//! that gap (H. Flanders, *Differential Forms*, chapter VII). A stage is θ = dα_b − j(t, α_a)·dα_a, for which
+//! θ ∧ dθ = −(∂j/∂t)·dα_b ∧ dt ∧ dα_a: it is holonomic exactly where j does not depend on time.
 
+use crate::number::error::RangeError;
 use core::fmt;
 
-use crate::error::finite;
 use crate::friction::drive::MAX_STAGES;
 use crate::friction::{Drive, Place, Stage};
-use crate::{Error, math};
+use crate::math;
+use crate::number::error::finite;
 
 /// What one stage is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,7 +95,7 @@ impl Drive<'_> {
         &self,
         t: [f64; 2],
         phi: [f64; 2],
-    ) -> Result<heapless::Vec<StageConstraint, MAX_STAGES>, Error> {
+    ) -> Result<heapless::Vec<StageConstraint, MAX_STAGES>, RangeError> {
         for (what, value) in [
             ("start time", t[0]),
             ("end time", t[1]),
@@ -100,7 +111,11 @@ impl Drive<'_> {
     }
 }
 
-fn constraint(stage: &Stage, times: [f64; 2], angles: [f64; 2]) -> Result<StageConstraint, Error> {
+fn constraint(
+    stage: &Stage,
+    times: [f64; 2],
+    angles: [f64; 2],
+) -> Result<StageConstraint, RangeError> {
     let grid =
         |[from, to]: [f64; 2], k: u32| from + (to - from) * f64::from(k) / f64::from(SAMPLES - 1);
     let span = times[1] - times[0];

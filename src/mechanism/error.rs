@@ -1,0 +1,52 @@
+//! Why dimensions do not make a mechanism.
+
+use core::fmt;
+
+use super::{Blocked, Misfit};
+use crate::machine::PoseError;
+use crate::number::error::{Curable, RangeError, error};
+
+/// Why a mechanism of the library cannot be built.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum BuildError {
+    /// A dimension outside its range.
+    Range(RangeError),
+    /// A position within the drive's range that cannot be taken.
+    Pose(PoseError),
+    /// Dimensions that do not fit together.
+    Misfit(Misfit),
+    /// The drive link cannot turn fully.
+    Blocked(Blocked),
+}
+
+error!(
+    BuildError,
+    Range(RangeError),
+    Pose(PoseError),
+    Misfit(Misfit),
+    Blocked(Blocked)
+);
+
+impl fmt::Display for BuildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Range(error) => error.fmt(f),
+            Self::Pose(error) => error.fmt(f),
+            Self::Misfit(error) => error.fmt(f),
+            Self::Blocked(error) => error.fmt(f),
+        }
+    }
+}
+
+impl Curable for BuildError {
+    fn write_cure(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Range(error) => error.write_cure(f),
+            Self::Pose(error) => error.write_cure(f),
+            Self::Misfit(error) => error.write_cure(f),
+            Self::Blocked(error) => error.write_cure(f),
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! The core's errors in a report: what is wrong, and its cure as help.
+
+use jred::Error;
+use miette::{Report, miette};
+
+/// The report of an error of the core.
+pub(crate) fn core_report(error: impl Into<Error>) -> Report {
+    let error = error.into();
+    match error.cure().to_string() {
+        cure if cure.is_empty() => miette!("{error}"),
+        cure => miette!(help = cure, "{error}"),
+    }
+}
