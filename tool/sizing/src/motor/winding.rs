@@ -87,7 +87,7 @@ impl Winding {
 /// current, where the data sheet's peak current is more than peak torque/k_t: the iron saturates.
 ///
 /// ```
-/// # use crate::motor::winding::CurrentCurve;
+/// # use jred_sizing::motor::winding::CurrentCurve;
 /// let curve = CurrentCurve::new(2.0, Some([10.0, 25.0]), 8.0);
 /// assert_eq!(curve.current(-6.0), 3.0);
 /// assert_eq!(curve.current(25.0), 12.5);
