@@ -21,7 +21,7 @@ mod target {
     use cortex_m_semihosting::debug;
     use defmt_semihosting as _;
     use jred::motion::{Law, Move};
-    use jred::{Error, Image, ImageError, Model, Q31, Set, Spline, curves, include_image};
+    use jred::{Image, ImageError, Model, Q31, Set, Spline, curves, include_image};
 
     /// The curves of the press, as `jred export` prints them.
     const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
@@ -32,8 +32,7 @@ mod target {
         let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
         defmt::info!("{=u32} cells, {}", image.cells(), image.validity());
 
-        let stroke: Result<Move<f32>, Error> = Move::new(Law::Polynomial345, PI, TAU, 0.4);
-        if let Ok(stroke) = stroke {
+        if let Ok(stroke) = Move::new(Law::Polynomial345, PI, TAU, 0.4_f32) {
             for tick in (0..=400u32).step_by(80) {
                 let wanted = stroke.at(tick as f32 * 0.001);
                 let torque =
