@@ -24,12 +24,14 @@ use std::{fs, io};
 
 use bench::{Bench, best, once};
 use jred::harmonic::{self, terms};
+use jred::machine::{Action, Load};
 use jred::mechanism::{Branch, SliderCrank};
-use jred::table::{Shape, words_len};
+use jred::number::Number;
+use jred::table::{Format, Shape, words_len};
 use jred::tabulate::{Request, fill, scratch_len, tabulate};
 use jred::{
-    Action, Cubic, Domain, Error, Format, Harmonic, Link, Load, Machine, Model, Number, Phase, Q31,
-    Quadratic, Reducible, Reduction, Scale, Set, Spline, Spline16, Table, curves,
+    Cubic, Domain, Error, Harmonic, Link, Machine, Model, Phase, Q31, Quadratic, Reducible,
+    Reduction, Scale, Set, Spline, Spline16, Table, curves,
 };
 
 /// Samples of a batch that is timed, and of one whose instructions are counted.
@@ -264,12 +266,12 @@ impl<M: Reducible> Reducible for Counted<'_, M> {
         self.0.domain()
     }
 
-    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
         self.1.set(self.1.get() + 1);
         self.0.reduction(phi)
     }
 
-    fn check_repeats(&self) -> Result<(), jred::PoseError> {
+    fn check_repeats(&self) -> Result<(), jred::machine::PoseError> {
         self.0.check_repeats()
     }
 }

@@ -24,7 +24,8 @@ use std::hint::black_box;
 use std::process::ExitCode;
 
 use bench::{Bench, best};
-use jred::mechanism::{Branch, Mechanism, SixLink};
+use jred::machine::Mechanism;
+use jred::mechanism::{Branch, SixLink};
 use jred::{Error, Machine, Reducible};
 use memory::{Counting, Memory};
 

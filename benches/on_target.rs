@@ -34,8 +34,9 @@ mod target {
     use cortex_m_rt::entry;
     use cortex_m_semihosting::{debug, hprintln};
     use jred::duty::{Curve, Limits, Meter, Window};
+    use jred::machine::Mechanism;
     use jred::tabulate::{fill, scratch_len};
-    use jred::{Error, Machine, Mechanism, Reducible, Scale, Spline, curves};
+    use jred::{Error, Machine, Reducible, Scale, Spline, curves};
     use panic_semihosting as _;
 
     use crate::ceilings::judge;

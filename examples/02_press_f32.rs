@@ -12,7 +12,7 @@ mod support;
 
 use core::f32::consts::{PI, TAU};
 
-use jred::motion::{Law, Move};
+use jred::machine::motion::{Law, Move};
 use jred::{Image, Model, Set, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 

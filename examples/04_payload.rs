@@ -17,14 +17,12 @@
 
 mod support;
 
-use jred::mechanism::FourBarDimensions;
-use jred::mechanism::{Assembly, FourBar, Linkage, Pair, Pose, Side};
+use jred::machine::{Joint, Marker, Mechanism};
+use jred::mechanism::linkage::{Assembly, Linkage, Pair, Pose};
+use jred::mechanism::{FourBar, FourBarDimensions, Side};
 use jred::table::words_len;
 use jred::tabulate::{Request, fill, measure, scratch_len};
-use jred::{
-    Domain, Error, Joint, Link, Machine, Marker, Mechanism, Model, Phase, Scale, Spline, Table,
-    curves,
-};
+use jred::{Domain, Error, Link, Machine, Model, Phase, Scale, Spline, Table, curves};
 use support::{Failure, milli, println, program};
 
 /// Dimensions (m).

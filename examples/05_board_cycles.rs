@@ -21,7 +21,8 @@ mod support;
 use core::hint::black_box;
 
 use cycles::Counter;
-use jred::{Image, Model, Phase, Q31, Scalar, Set, Spline, curves, include_image};
+use jred::number::Scalar;
+use jred::{Image, Model, Phase, Q31, Set, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.

@@ -12,7 +12,7 @@
 mod support;
 
 use jred::duty::{Curve, Limits, Meter, Verdict, Window};
-use jred::motion::{Law, Move};
+use jred::machine::motion::{Law, Move};
 use jred::{Image, Model, Phase, Set, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 

@@ -18,10 +18,11 @@ use core::hint::black_box;
 use core::num::NonZeroU32;
 
 use jred::duty::{Curve, Limits, Meter, Window};
-use jred::motion::{Law, Move};
+use jred::machine::motion::{Law, Move};
+use jred::table::Format;
 use jred::{
-    Cubic, Format, Image, ImageError, Model, Outcome, Phase, Pieces, Q31, Quadratic, Rows16, Set,
-    Spline, Spline16, curves, include_image,
+    Cubic, Image, ImageError, Model, Outcome, Phase, Pieces, Q31, Quadratic, Rows16, Set, Spline,
+    Spline16, curves, include_image,
 };
 
 /// The curves of the press, as `jred export` prints them.

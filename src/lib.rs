@@ -47,8 +47,9 @@
 //!                                                └─► encode ─► Image (flash) ─┘
 //! ```
 //!
-//! The folders of the source are the layers: `number`; `curve` (tables and their formats) and `machine`; [`mechanism`],
-//! [`friction`] and the tick; [`tabulate`]. A layer uses those before it and nothing after it; each can be used alone.
+//! Firmware takes what it needs from the root. The rest lies in the modules of the layers: [`number`]; [`table`] and
+//! [`machine`]; [`mechanism`], [`friction`] and the tick ([`image`], [`duty`]); [`tabulate`] and [`harmonic`]. A layer uses
+//! those before it and nothing after it; each can be used alone. Every item has one path.
 //!
 //! # From dimensions to a tick
 //!
@@ -96,7 +97,7 @@
 //! # Numbers
 //!
 //! Mechanisms, reduction and tabulation run in `f64`: once, on the host or in firmware after a change of payload.
-//! Ticks run in the numbers of the table's [`Format`]: `f32` (SI units, no double precision anywhere), [`Q31`] and [`Q15`] (fixed
+//! Ticks run in the numbers of the table's [`Format`](table::Format): `f32` (SI units, no double precision anywhere), [`Q31`] and [`Q15`] (fixed
 //! point in per-unit, see [`Scale`]; integers only), or `f64`. The same code gives the same bits on every processor.
 //!
 //! # Features
@@ -111,46 +112,37 @@
 mod curve;
 mod error;
 pub mod friction;
-mod machine;
+pub mod machine;
 mod math;
 pub mod mechanism;
 #[deny(clippy::indexing_slicing)]
-mod number;
+pub mod number;
 pub mod tabulate;
 #[deny(clippy::indexing_slicing)]
 mod tick;
 
-pub use error::Error;
-pub use machine::{
-    Action, Body, Element, Forces, Frame, Joint, Jointed, Link, Load, LoadCurves, MAX_ELEMENTS,
-    MAX_LOADS, Machine, MachineError, Marker, Mechanism, PoseError, Reaction, Reducible, Reduction,
-    TorqueTerms, Window, Wrench, joint, motion,
-};
-pub use math::Real;
-pub use mechanism::{cam, synthesis};
-
-// Numbers.
-pub use number::{
-    Cure, Domain, Number, Outcome, Phase, Q15, Q31, RangeError, Scalar, Scale, Transfer,
-};
-
-// Tables and the tick.
 pub use curve::{
-    Cubic, Format, Harmonic, Quadratic, Rows16, Set, Spline, Spline16, Table, TableError, Usage,
-    curves,
+    Cubic, Harmonic, Quadratic, Rows16, Set, Spline, Spline16, Table, TableError, curves,
 };
-pub use tick::{
-    AccelerationRange, Aligned, AnyModel, Image, ImageError, Model, Part, Pieces, Validity, duty,
-};
+pub use error::Error;
+pub use machine::link::Link;
+pub use machine::reduction::{Machine, Reducible, Reduction};
+pub use number::phase::{Domain, Phase};
+pub use number::q15::Q15;
+pub use number::q31::Q31;
+pub use number::scalar::Outcome;
+pub use number::scale::Scale;
+pub use tick::{AccelerationRange, AnyModel, Image, ImageError, Model, Pieces, Validity, duty};
 
-/// What tables are made of, for those who make or keep their own.
+/// Tables: their formats, how words and curves are made, checked and read, for those who make or keep their own.
+///
+/// On the way of the data between [`tabulate`] and [`Model`].
 pub mod table {
     pub use crate::curve::{
-        Constants, CubicSpline, CurveValues, MAX_CELLS, MIN_CELLS, RowConstants, Shape,
-        control_points, fit_bounded, fit_periodic, fit_quadratic_bounded, fit_quadratic_periodic,
-        words_len,
+        Constants, CubicSpline, CurveValues, Format, MAX_CELLS, MIN_CELLS, RowConstants, Shape,
+        Usage, control_points, fit_bounded, fit_periodic, fit_quadratic_bounded,
+        fit_quadratic_periodic, words_len,
     };
-    pub use crate::number::Role;
 }
 
 /// Harmonics: a smooth machine as short Fourier series instead of a table of cells.
@@ -197,7 +189,7 @@ pub mod harmonic {
 
 /// Table images: a machine's curves as the tool exports them and firmware uses them, in place from flash.
 pub mod image {
-    pub use crate::tick::{HEADER_WORDS, VERSION, encode, image_len};
+    pub use crate::tick::{Aligned, HEADER_WORDS, VERSION, encode, image_len};
 }
 
 mod sealed {
@@ -207,10 +199,10 @@ mod sealed {
     impl Sealed for f64 {}
     impl Sealed for crate::Q15 {}
     impl Sealed for crate::Q31 {}
-    impl<S: crate::Scalar> Sealed for crate::Spline<S> {}
+    impl<S: crate::number::Scalar> Sealed for crate::Spline<S> {}
     impl Sealed for crate::Spline16 {}
-    impl<S: crate::Scalar> Sealed for crate::Cubic<S> {}
-    impl<S: crate::Scalar> Sealed for crate::Quadratic<S> {}
+    impl<S: crate::number::Scalar> Sealed for crate::Cubic<S> {}
+    impl<S: crate::number::Scalar> Sealed for crate::Quadratic<S> {}
     impl Sealed for crate::Rows16 {}
     impl Sealed for crate::Harmonic<f32> {}
     impl Sealed for crate::Harmonic<f64> {}

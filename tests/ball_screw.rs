@@ -1,13 +1,14 @@
 //! The screw drive: formula, joints, thrust.
 
-use jred::PoseError;
-use jred::RangeError;
+use jred::machine::PoseError;
 use jred::mechanism::BuildError;
+use jred::number::RangeError;
 use std::f64::consts::TAU;
 
 use crate::support::{assert_near, budget, config};
+use jred::machine::{Action, Load, Mechanism};
 use jred::mechanism::{BallScrew, Misfit};
-use jred::{Action, Link, Load, Machine, Mechanism, Reducible};
+use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 const NUT: usize = BallScrew::NUT;

@@ -1,13 +1,13 @@
 //! Cam programs: segments that make one turn, their transfer functions, and what is wrong with others.
 
 use crate::support::spoken;
-use jred::RangeError;
+use jred::number::RangeError;
 use std::f64::consts::{PI, TAU};
 
 use crate::support::{assert_near, budget, config, derivative};
-use jred::Transfer;
-use jred::cam::{CamError, Program, Segment};
-use jred::motion::Law;
+use jred::machine::motion::Law;
+use jred::mechanism::cam::{CamError, Program, Segment};
+use jred::number::Transfer;
 use proptest::prelude::*;
 
 const LAWS: [Law; 6] = [

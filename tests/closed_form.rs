@@ -5,8 +5,10 @@ use std::f64::consts::{PI, TAU};
 
 use crate::support::machines::{Spec, spec};
 use crate::support::{assert_near, budget, config, derivative, largest};
+use jred::machine::{Action, Load, Mechanism, Window};
 use jred::mechanism::{Branch, SliderCrank};
-use jred::{Action, Link, Load, Machine, Mechanism, Reducible, Transfer, Window};
+use jred::number::Transfer;
+use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 /// Step of the differences (rad).

@@ -4,10 +4,11 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::support::cams::{build, cam, eccentric, follower, four, links};
 use crate::support::{assert_near, budget, config, derivative};
-use jred::cam::{CamError, Program, Segment};
+use jred::machine::motion::Law;
+use jred::machine::{Action, Joint, Jointed as _, Load, Mechanism as _};
+use jred::mechanism::cam::{CamError, Program, Segment};
 use jred::mechanism::{DiscCam, Follower, Roller, Swing};
-use jred::motion::Law;
-use jred::{Action, Joint, Jointed as _, Link, Load, Machine, Mechanism as _, Reducible as _};
+use jred::{Link, Machine, Reducible as _};
 use proptest::prelude::*;
 
 pub(crate) fn loaded(mechanism: DiscCam) -> Machine<DiscCam> {
@@ -171,7 +172,8 @@ fn closing_springs_press() {
     let machine = Machine::new(&mechanism).with_element(spring).unwrap();
     for phi in [0.0, 0.7, 3.0, 4.4] {
         let s = 0.01 * (1.0 - f64::cos(phi));
-        let force = jred::cam::contact_force(&machine, DiscCam::CONTACT, phi, 0.0, 0.0).unwrap();
+        let force =
+            jred::mechanism::cam::contact_force(&machine, DiscCam::CONTACT, phi, 0.0, 0.0).unwrap();
         assert_near(
             "N",
             force,

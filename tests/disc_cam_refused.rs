@@ -5,9 +5,9 @@ use std::f64::consts::{PI, TAU};
 
 use crate::support::assert_near;
 use crate::support::cams::{follower, four, links};
-use jred::cam::{CamError, Program, Segment};
+use jred::machine::motion::Law;
+use jred::mechanism::cam::{CamError, Program, Segment};
 use jred::mechanism::{DiscCam, Follower, Roller, Swing};
-use jred::motion::Law;
 
 /// Undercut names the place, the radius and the base radius that cures it: a flat face needs r_b > −min(s + s″).
 #[test]

@@ -1,10 +1,10 @@
 //! The duty meter: against closed forms, against double precision, against bad readings.
 
 use crate::support::budget;
-use jred::Real;
 use jred::duty::{
     Curve, Figures, LimitError as Error, Limits, MOST_TORQUE, Meter, Verdict, Window,
 };
+use jred::number::Real;
 
 const STEP: f64 = 1e-3;
 

@@ -5,10 +5,12 @@ use std::f64::consts::TAU;
 use crate::support::machines::{Spec, spec};
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, config, derivative, largest, rk4};
+use jred::machine::Mechanism;
 use jred::mechanism::{Mesh, SliderCrank, Stage, Train};
+use jred::table::Format;
 use jred::{
-    Cubic, Domain, Format, Machine, Mechanism, Phase, Quadratic, Reducible, Reduction, Scale, Set,
-    Spline, Table, curves,
+    Cubic, Domain, Machine, Phase, Quadratic, Reducible, Reduction, Scale, Set, Spline, Table,
+    curves,
 };
 use proptest::prelude::*;
 
@@ -185,7 +187,7 @@ struct AtTheSlider {
 }
 
 impl AtTheSlider {
-    fn slider(&self, phi: f64) -> jred::Transfer {
+    fn slider(&self, phi: f64) -> jred::number::Transfer {
         self.machine.mechanism().frames(phi).unwrap()[SliderCrank::SLIDER].x
     }
 
@@ -210,7 +212,7 @@ impl Reducible for AtTheSlider {
         Domain::stroke(near, far).unwrap()
     }
 
-    fn reduction(&self, place: f64) -> Result<Reduction, jred::PoseError> {
+    fn reduction(&self, place: f64) -> Result<Reduction, jred::machine::PoseError> {
         let phi = self.phi(place);
         let (x, by_phi) = (self.slider(phi), self.machine.reduction(phi)?);
         let [j, j1, _] = by_phi.inertia;

@@ -1,23 +1,19 @@
 //! Every error of the core: some input produces it, and its text names quantity, value and cure.
 
-use jred::MachineError;
-use jred::PoseError;
-use jred::RangeError;
-use jred::mechanism::SliderCrankDimensions;
-use jred::mechanism::{Blocked, BuildError};
+use jred::machine::{MachineError, PoseError};
+use jred::mechanism::{Blocked, BuildError, SliderCrankDimensions};
+use jred::number::RangeError;
 use std::f64::consts::PI;
 
 use crate::support::machines::Wave;
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget};
+use jred::machine::motion::{Law, Move};
+use jred::machine::{Action, Element, Load, Marker, Mechanism, Window};
 use jred::mechanism::{Branch, Geneva, Mesh, RackAndPinion, SliderCrank, Stage, Train};
-use jred::motion::{Law, Move};
-use jred::table::{CubicSpline, MAX_CELLS, fit_bounded, fit_periodic};
+use jred::table::{CubicSpline, Format, MAX_CELLS, fit_bounded, fit_periodic};
 use jred::tabulate::{Request, fill, tabulate};
-use jred::{
-    Action, Domain, Element, Error, Format, Link, Load, Machine, Marker, Mechanism, Q31, Reducible,
-    Scale, Set, Spline, Window, curves,
-};
+use jred::{Domain, Error, Link, Machine, Q31, Reducible, Scale, Set, Spline, curves};
 
 /// The error, after checking that its text holds every part.
 #[track_caller]
@@ -50,7 +46,7 @@ fn slider_crank(r: f64, l: f64, e: f64) -> Result<SliderCrank, BuildError> {
 }
 
 /// The table of a machine, or why there is none.
-fn rows<S: jred::Scalar>(
+fn rows<S: jred::number::Scalar>(
     machine: &impl Reducible,
     set: Set,
     cells: u32,
@@ -288,7 +284,7 @@ fn capacities_and_indices_are_named() {
         Error::Machine(MachineError::NoSuchLink { link: 3, links: 3 })
     );
     let mut full = machine();
-    for _ in 0..jred::MAX_LOADS {
+    for _ in 0..jred::machine::MAX_LOADS {
         full = full
             .with_load(Load::new(0, Action::Moment(1.0)).unwrap())
             .unwrap();

@@ -4,12 +4,10 @@ use crate::support::budget::Q31_UNIT;
 use crate::support::machines::{Wave, spec};
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, largest, samples};
-use jred::table::MIN_CELLS;
-use jred::table::words_len;
+use jred::number::Number;
+use jred::table::{Format, MIN_CELLS, words_len};
 use jred::tabulate::{Request, Tabulated, measure, scratch_len, tabulate};
-use jred::{
-    Cubic, Format, Number, Phase, Q31, Quadratic, Reducible, Scale, Set, Spline, Table, curves,
-};
+use jred::{Cubic, Phase, Q31, Quadratic, Reducible, Scale, Set, Spline, Table, curves};
 use proptest::prelude::any;
 
 const ALL: Set = curves::ALL;

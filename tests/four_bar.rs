@@ -1,15 +1,15 @@
 //! The four-bar linkage: geometry, forces, and what it refuses.
 
 use crate::support::spoken;
-use jred::PoseError;
-use jred::RangeError;
-use jred::mechanism::BuildError;
-use jred::mechanism::FourBarDimensions;
+use jred::machine::PoseError;
+use jred::mechanism::{BuildError, FourBarDimensions};
+use jred::number::RangeError;
 use std::f64::consts::{PI, TAU};
 
 use crate::support::{assert_near, budget, config, derivative, jointed, largest};
+use jred::machine::{Action, Jointed, Load, Mechanism};
 use jred::mechanism::{FourBar, Grashof, Side};
-use jred::{Action, Domain, Jointed, Link, Load, Machine, Mechanism, Reducible};
+use jred::{Domain, Link, Machine, Reducible};
 use proptest::prelude::*;
 
 /// A random four-bar with a crank that turns.
@@ -102,8 +102,8 @@ fn freudenstein(spec: &Spec, mechanism: &FourBar, phi: f64) -> [f64; 4] {
     let [a, b, c] = spec.lengths;
     let d = spec.ground;
     let psi = mechanism.frames(phi).unwrap()[FourBar::ROCKER].psi;
-    let constant = jred::Transfer::constant;
-    let angle = jred::Transfer::variable(phi) - constant(spec.gamma);
+    let constant = jred::number::Transfer::constant;
+    let angle = jred::number::Transfer::variable(phi) - constant(spec.gamma);
     let rocker = psi - constant(spec.gamma);
     let (_, cos_1) = angle.sin_cos();
     let (_, cos_3) = rocker.sin_cos();

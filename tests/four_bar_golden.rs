@@ -2,9 +2,9 @@
 
 use crate::support::golden::Case;
 use crate::support::{budget, jointed};
-use jred::mechanism::FourBarDimensions;
-use jred::mechanism::{FourBar, Side};
-use jred::{Action, Link, Load, Machine, Mechanism, Reducible};
+use jred::machine::{Action, Load, Mechanism};
+use jred::mechanism::{FourBar, FourBarDimensions, Side};
+use jred::{Link, Machine, Reducible};
 
 fn golden() -> (Case, Machine<FourBar>) {
     let case = Case::new(include_str!("data/02_four_bar_A.json"));

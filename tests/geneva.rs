@@ -1,14 +1,15 @@
 //! The Geneva drive: the sourcebook's formulas and figures, dwell and engagement, joints and forces.
 
 use crate::support::spoken;
-use jred::PoseError;
-use jred::RangeError;
+use jred::machine::PoseError;
 use jred::mechanism::BuildError;
+use jred::number::RangeError;
 use std::f64::consts::{PI, TAU};
 
 use crate::support::{assert_near, budget, config, derivative, largest};
+use jred::machine::{Action, Joint, Jointed, Load, Mechanism};
 use jred::mechanism::{Geneva, Misfit};
-use jred::{Action, Joint, Jointed, Link, Load, Machine, Mechanism, Reducible};
+use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 const WHEEL: usize = Geneva::WHEEL;

@@ -3,8 +3,9 @@
 use crate::support::golden::Case;
 use crate::support::machines::golden_slider_crank;
 use crate::support::{assert_near, budget};
+use jred::machine::{Action, Load, Mechanism};
 use jred::mechanism::{Mesh, SliderCrank, Stage, Train};
-use jred::{Action, Load, Machine, Mechanism, Reducible};
+use jred::{Machine, Reducible};
 
 #[test]
 fn slider_crank_golden() {

@@ -7,7 +7,9 @@ use crate::support::harmonics::{
 };
 use crate::support::{assert_near, budget, config, largest};
 use jred::harmonic::{Circular, terms};
-use jred::{Format, Harmonic, Number, Phase, Real, Reducible, curves};
+use jred::number::{Number, Real};
+use jred::table::Format;
+use jred::{Harmonic, Phase, Reducible, curves};
 use proptest::prelude::*;
 
 #[test]

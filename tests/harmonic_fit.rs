@@ -9,9 +9,10 @@ use crate::support::harmonics::{
 use crate::support::machines::{Wave, spec};
 use crate::support::{assert_near, budget, config};
 use jred::harmonic::{HarmonicError, measure, terms};
+use jred::machine::{Action, Load};
 use jred::mechanism::SliderCrank;
 use jred::tabulate::Request;
-use jred::{Action, Domain, Error, Load, Phase, Reducible, Reduction, Set, curves};
+use jred::{Domain, Error, Phase, Reducible, Reduction, Set, curves};
 use proptest::prelude::*;
 
 proptest! {
@@ -203,7 +204,7 @@ impl Reducible for SlowFall {
     fn domain(&self) -> Domain {
         Domain::Turn
     }
-    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
         Ok(Reduction {
             inertia: [1.0, 0.0, 0.0],
             process: (phi - self.from).sin().abs().powi(3),

@@ -1,7 +1,7 @@
 //! Harmonics from measurements.
 
-use jred::RangeError;
 use jred::mechanism::SliderCrankDimensions;
+use jred::number::RangeError;
 use std::f64::consts::TAU;
 
 use crate::support::harmonics::model;

@@ -1,17 +1,18 @@
 //! Harmonics that are refused, and why.
 
-use jred::PoseError;
-use jred::RangeError;
+use jred::machine::PoseError;
+use jred::number::RangeError;
 use std::f64::consts::TAU;
 
 use crate::support::assert_near;
 use crate::support::harmonics::{Waves, fitted, model, press, request, rubbing, terms_of};
 use crate::support::machines::Wave;
 use jred::harmonic::{HarmonicError, fit, scratch_len, terms};
+use jred::machine::{Action, Load, Window};
 use jred::mechanism::SliderCrank;
 use jred::table::Shape;
 use jred::tabulate::Request;
-use jred::{Action, Domain, Error, Harmonic, Load, Phase, Set, Table, TableError, Window, curves};
+use jred::{Domain, Error, Harmonic, Phase, Set, Table, TableError, curves};
 
 #[test]
 fn kinks_and_hidden_harmonics_are_refused() {

@@ -1,13 +1,14 @@
 //! The hoist: drum, load on falls, counterweight.
 
-use jred::PoseError;
-use jred::RangeError;
+use jred::machine::PoseError;
 use jred::mechanism::Suspended;
+use jred::number::RangeError;
 use std::f64::consts::TAU;
 
 use crate::support::{assert_near, budget, config};
+use jred::machine::{Action, Load, Mechanism};
 use jred::mechanism::{Hoist, Rope};
-use jred::{Action, Link, Load, Machine, Mechanism, Reducible};
+use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 const G: f64 = 9.81;

@@ -4,12 +4,11 @@ use crate::support::images::{VALIDITY, crc32, small, stroke, stroke_in};
 use crate::support::machines::{Spec, Wave, spec};
 use crate::support::rows::Rows;
 use crate::support::{config, number, samples};
-use jred::RangeError;
 use jred::image::{HEADER_WORDS, VERSION, encode, image_len};
+use jred::number::RangeError;
+use jred::table::Format;
 use jred::tabulate::{Request, Tabulated};
-use jred::{
-    Cubic, Domain, Error, Format, Image, Model, Phase, Q31, Quadratic, Scale, Set, Spline, curves,
-};
+use jred::{Cubic, Domain, Error, Image, Model, Phase, Q31, Quadratic, Scale, Set, Spline, curves};
 use proptest::prelude::*;
 
 /// Words of the smallest image: header, seven points, CRC.

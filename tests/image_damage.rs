@@ -3,7 +3,9 @@
 use crate::support::images::{refused, sealed, small, stroke, stroke_in};
 use crate::support::{config, samples};
 use jred::image::{HEADER_WORDS, VERSION};
-use jred::{Cubic, Format, Image, ImageError, Number, Phase, Q31, Quadratic, Set, Spline, curves};
+use jred::number::Number;
+use jred::table::Format;
+use jred::{Cubic, Image, ImageError, Phase, Q31, Quadratic, Set, Spline, curves};
 use proptest::prelude::*;
 
 #[test]

@@ -1,14 +1,14 @@
 //! The inverted slider-crank: textbook formulas of both motions, joints, forces, time ratio.
 
 use crate::support::spoken;
-use jred::RangeError;
-use jred::mechanism::BuildError;
-use jred::mechanism::InvertedSliderCrankDimensions;
+use jred::mechanism::{BuildError, InvertedSliderCrankDimensions};
+use jred::number::RangeError;
 use std::f64::consts::{PI, TAU};
 
 use crate::support::{assert_near, budget, config};
+use jred::machine::{Action, Load, Mechanism};
 use jred::mechanism::{InvertedSliderCrank, LeverMotion, Misfit};
-use jred::{Action, Link, Load, Machine, Mechanism};
+use jred::{Link, Machine};
 use proptest::prelude::*;
 
 const LEVER: usize = InvertedSliderCrank::LEVER;
@@ -213,7 +213,7 @@ proptest! {
         }
         // The block stays on the lever's positive u axis.
         let frames = mechanism.frames(1.0).unwrap();
-        let along = jred::Marker::on(LEVER, [0.0, 0.0]).axis(&frames);
+        let along = jred::machine::Marker::on(LEVER, [0.0, 0.0]).axis(&frames);
         let [x, y] = mechanism.dimensions().pivot;
         let (block, [cos, sin]) = (frames[InvertedSliderCrank::BLOCK], along);
         prop_assert!((block.x.value - x) * cos.value + (block.y.value - y) * sin.value > 0.0);

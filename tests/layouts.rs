@@ -5,9 +5,10 @@ use std::f64::consts::TAU;
 use crate::support::machines::spec;
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, config, largest};
+use jred::number::{Number, Scalar};
+use jred::table::Format;
 use jred::{
-    Cubic, Domain, Format, Number, Phase, Q31, Quadratic, Reducible, Reduction, Scalar, Scale, Set,
-    Spline, curves,
+    Cubic, Domain, Phase, Q31, Quadratic, Reducible, Reduction, Scale, Set, Spline, curves,
 };
 use proptest::prelude::*;
 
@@ -21,7 +22,7 @@ impl Reducible for Smooth {
         self.0
     }
 
-    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
         let (sin, cos) = phi.sin_cos();
         let inertia = 0.2 * sin.exp();
         Ok(Reduction {

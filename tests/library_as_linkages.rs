@@ -2,19 +2,15 @@
 //! same motion.
 
 use crate::support::{assert_near, budget, config, jointed};
-use jred::mechanism::FourBarDimensions;
-use jred::mechanism::InvertedSliderCrankDimensions;
-use jred::mechanism::PlanetaryDimensions;
-use jred::mechanism::ScotchYokeDimensions;
-use jred::mechanism::SixLinkDimensions;
-use jred::mechanism::Suspended;
-use jred::mechanism::TogglePressDimensions;
+use jred::machine::{Body, Frame, Joint, Jointed, Marker, Mechanism};
+use jred::mechanism::linkage::{Assembly, Linkage, Pair, Pose};
 use jred::mechanism::{
-    Assembly, Branch, DrivenShaft, FourBar, Geneva, Hoist, InvertedSliderCrank, Linkage, Member,
-    Pair, ParallelShafts, Planetary, PlanetaryGears, Pose, RackAndPinion, Rope, ScotchYoke, Side,
-    SixLink, Stage, TogglePress, Train,
+    Branch, DrivenShaft, FourBar, FourBarDimensions, Geneva, Hoist, InvertedSliderCrank,
+    InvertedSliderCrankDimensions, Member, ParallelShafts, Planetary, PlanetaryDimensions,
+    PlanetaryGears, RackAndPinion, Rope, ScotchYoke, ScotchYokeDimensions, Side, SixLink,
+    SixLinkDimensions, Stage, Suspended, TogglePress, TogglePressDimensions, Train,
 };
-use jred::{Body, Domain, Frame, Joint, Jointed, Link, Machine, Marker, Mechanism, Reducible};
+use jred::{Domain, Link, Machine, Reducible};
 use proptest::prelude::*;
 
 const O: [f64; 2] = [0.0, 0.0];

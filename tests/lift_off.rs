@@ -1,13 +1,14 @@
 //! The contact force of a cam, and the speed at which it vanishes.
 
-use jred::MachineError;
+use jred::machine::MachineError;
 use std::f64::consts::{PI, TAU};
 
 use crate::support::cams::{cam, eccentric};
 use crate::support::{assert_near, budget, config};
-use jred::cam::{LiftOff, Piece, contact_force, lift_off};
+use jred::machine::{Action, Element, Load, Marker, Window};
+use jred::mechanism::cam::{LiftOff, Piece, contact_force, lift_off};
 use jred::mechanism::{DiscCam, Follower};
-use jred::{Action, Element, Link, Load, Machine, Marker, Window};
+use jred::{Link, Machine};
 use proptest::prelude::*;
 
 const MASS: f64 = 0.8;

@@ -3,10 +3,9 @@
 use crate::support::golden::Case;
 use crate::support::machines::spec;
 use crate::support::{budget, config, jointed};
-use jred::PoseError;
-use jred::mechanism::linkage::LinkageError;
-use jred::mechanism::{Assembly, Linkage, Pair, Pose};
-use jred::{Action, Body, Domain, Joint, Link, Load, Machine, Marker, Mechanism, Reducible};
+use jred::machine::{Action, Body, Joint, Load, Marker, Mechanism, PoseError};
+use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, Pose};
+use jred::{Domain, Link, Machine, Reducible};
 use proptest::prelude::*;
 
 const O: [f64; 2] = [0.0, 0.0];
@@ -261,7 +260,7 @@ fn a_guide_can_be_driven() {
     let machine = spec.machine();
     let crank_driven = machine.mechanism();
     let frames = crank_driven.frames(1.0).unwrap();
-    let joints = jred::Jointed::joints(crank_driven, 1.0, &frames).unwrap();
+    let joints = jred::machine::Jointed::joints(crank_driven, 1.0, &frames).unwrap();
     let pairs: Vec<Pair> = joints.iter().copied().map(Pair::Joint).collect();
     let at = |phi: f64| crank_driven.frames(phi).unwrap()[2].x.value;
     let (from, to) = (at(2.2).min(at(0.9)), at(2.2).max(at(0.9)));

@@ -1,16 +1,17 @@
 //! A cam as a pair of a linkage: against the disc cam in closed form, and as the first of a chain of links.
 
 use crate::support::spoken;
-use jred::PoseError;
+use jred::machine::PoseError;
 use jred::mechanism::linkage::LinkageError;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::support::{assert_near, budget, cams, config, jointed};
-use jred::cam::contact_force;
-use jred::mechanism::{
-    Assembly, CamProfile, DiscCam, Follower, Frames, Linkage, Pair, PlacedCam, Pose, Roller, Swing,
-};
-use jred::{Body, Domain, Frame, Joint, Link, Machine, Marker, Mechanism, Reducible, Transfer};
+use jred::machine::{Body, Frame, Frames, Joint, Marker, Mechanism};
+use jred::mechanism::cam::contact_force;
+use jred::mechanism::linkage::{Assembly, Linkage, Pair, PlacedCam, Pose};
+use jred::mechanism::{CamProfile, DiscCam, Follower, Roller, Swing};
+use jred::number::Transfer;
+use jred::{Domain, Link, Machine, Reducible};
 use proptest::prelude::*;
 
 const O: [f64; 2] = [0.0, 0.0];

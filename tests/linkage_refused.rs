@@ -1,10 +1,9 @@
 //! What is not a linkage: refused with its place, and never taken for one that closes.
 
 use crate::support::budget;
-use jred::PoseError;
-use jred::mechanism::linkage::LinkageError;
-use jred::mechanism::{Assembly, Linkage, Pair, Pose};
-use jred::{Body, Domain, Joint, Link, Marker, Mechanism};
+use jred::machine::{Body, Joint, Marker, Mechanism, PoseError};
+use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, Pose};
+use jred::{Domain, Link};
 
 const O: [f64; 2] = [0.0, 0.0];
 

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::support::budget;
-use jred::Window;
+use jred::machine::Window;
 
 #[track_caller]
 fn near(found: f64, expected: f64) {

@@ -1,7 +1,7 @@
 //! Motion laws and moves: ends, continuity, derivatives, and the coefficients of VDI 2143.
 
 use crate::support::{assert_near, budget, config, derivative, largest};
-use jred::motion::{Law, Move};
+use jred::machine::motion::{Law, Move};
 use proptest::prelude::*;
 
 const TRAPEZOID: Law = Law::Trapezoid {

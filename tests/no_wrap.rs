@@ -1,7 +1,7 @@
 //! Tables at the edge of what a model may be made of: a table that is let in never wraps, whatever its numbers.
 
 use crate::support::rows::Rows;
-use jred::RangeError;
+use jred::number::RangeError;
 use jred::tabulate::{Request, tabulate};
 use jred::{
     Cubic, Domain, Error, Phase, Q31, Reducible, Reduction, Scale, Set, Spline, TableError, curves,
@@ -110,7 +110,7 @@ fn a_search_without_a_limit_ends() {
         fn domain(&self) -> Domain {
             Domain::Turn
         }
-        fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
+        fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
             Ok(Reduction {
                 inertia: [1.0, 0.0, 0.0],
                 process: (37.0 * phi).sin(),

@@ -1,15 +1,13 @@
 //! Nothing that is not a finite number gets into the core.
 
 use crate::support::machines::Wave;
-use jred::RangeError;
-use jred::mechanism::SliderCrankDimensions;
-use jred::mechanism::{Branch, BuildError, Mesh, SliderCrank, Stage, Train};
-use jred::motion::{Law, Move};
+use jred::machine::motion::{Law, Move};
+use jred::machine::{Action, Load, Mechanism, Window};
+use jred::mechanism::{Branch, BuildError, Mesh, SliderCrank, SliderCrankDimensions, Stage, Train};
+use jred::number::RangeError;
 use jred::table::CubicSpline;
 use jred::tabulate::{Request, tabulate};
-use jred::{
-    Action, Domain, Error, Link, Load, Machine, Mechanism, Reducible, Scale, Spline, Window, curves,
-};
+use jred::{Domain, Error, Link, Machine, Reducible, Scale, Spline, curves};
 
 fn slider_crank(r: f64, l: f64, e: f64) -> Result<SliderCrank, BuildError> {
     let link = Link::new(0.1, 0.001, [0.0, 0.0])?;

@@ -1,11 +1,10 @@
 //! Several driven shafts on one drive shaft.
 
 use crate::support::{assert_near, budget, config};
-use jred::PoseError;
-use jred::RangeError;
-use jred::mechanism::BuildError;
-use jred::mechanism::{DrivenShaft, Misfit, ParallelShafts, Stage, Train};
-use jred::{Action, Link, Load, Machine, Mechanism, Reducible};
+use jred::machine::{Action, Load, Mechanism, PoseError};
+use jred::mechanism::{BuildError, DrivenShaft, Misfit, ParallelShafts, Stage, Train};
+use jred::number::RangeError;
+use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 fn shaft(ratio: f64, inertia: f64) -> DrivenShaft {
@@ -51,7 +50,7 @@ fn one_shaft_is_a_stage() {
     let fan = Machine::new(ParallelShafts::new(rotor(0.03), &[shaft(-2.5, 0.7)]).unwrap());
     let (a, b) = (train.reduction(4.0).unwrap(), fan.reduction(4.0).unwrap());
     assert_near("J", b.inertia[0], a.inertia[0], budget::CLOSED_FORM);
-    let torque = |forces: &jred::Forces| (forces.drive, forces.reactions[2].moment);
+    let torque = |forces: &jred::machine::Forces| (forces.drive, forces.reactions[2].moment);
     let (a, b) = (
         train.forces(4.0, 5.0, 60.0).unwrap(),
         fan.forces(4.0, 5.0, 60.0).unwrap(),

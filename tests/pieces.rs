@@ -5,14 +5,15 @@ use std::f64::consts::TAU;
 
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, largest, number};
-use jred::cam::{Program, Segment};
+use jred::machine::motion::Law;
+use jred::mechanism::cam::{Program, Segment};
 use jred::mechanism::{Branch, DiscCam, Follower, Roller, SliderCrank};
-use jred::motion::Law;
-use jred::table::words_len;
-use jred::tabulate::{Request, scratch_len, tabulate};
+use jred::number::Number;
+use jred::table::{Format, words_len};
+use jred::tabulate::{Part, Request, scratch_len, tabulate};
 use jred::{
-    Cubic, Domain, Format, Link, Machine, Number, Part, Phase, Pieces, Q31, Quadratic, Reducible,
-    Reduction, Scale, Set, Spline, curves,
+    Cubic, Domain, Link, Machine, Phase, Pieces, Q31, Quadratic, Reducible, Reduction, Scale, Set,
+    Spline, curves,
 };
 
 const SET: Set = curves::LOAD;
@@ -27,7 +28,7 @@ impl<M: Reducible> Reducible for Switched<M> {
         self.0.domain()
     }
 
-    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
         let mut reduction = self.0.reduction(phi)?;
         let [on, off] = self.2;
         if (phi - on).rem_euclid(TAU) < off - on {

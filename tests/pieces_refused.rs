@@ -5,9 +5,8 @@ use std::f64::consts::TAU;
 use crate::support::machines::Wave;
 use crate::support::rows::Rows;
 use crate::support::{budget, config};
-use jred::{
-    Domain, Part, Phase, Pieces, Reducible, Reduction, Scale, Set, Spline, TableError, curves,
-};
+use jred::tabulate::Part;
+use jred::{Domain, Phase, Pieces, Reducible, Reduction, Scale, Set, Spline, TableError, curves};
 use proptest::prelude::*;
 
 const SET: Set = curves::LOAD;
@@ -24,7 +23,7 @@ impl Reducible for Ruler {
         }
     }
 
-    fn reduction(&self, x: f64) -> Result<Reduction, jred::PoseError> {
+    fn reduction(&self, x: f64) -> Result<Reduction, jred::machine::PoseError> {
         Ok(Reduction {
             inertia: [1.0, 0.0, 0.0],
             process: x / self.0,

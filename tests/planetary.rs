@@ -1,15 +1,15 @@
 //! The planetary gear: Willis' equation by another route, energy planet by planet, forces.
 
 use crate::support::spoken;
-use jred::PoseError;
-use jred::RangeError;
-use jred::mechanism::BuildError;
-use jred::mechanism::PlanetaryDimensions;
+use jred::machine::PoseError;
+use jred::mechanism::{BuildError, PlanetaryDimensions};
+use jred::number::RangeError;
 use std::f64::consts::TAU;
 
 use crate::support::{assert_near, budget, config};
+use jred::machine::{Action, Load, Mechanism};
 use jred::mechanism::{Member, Misfit, Planetary, PlanetaryGears};
-use jred::{Action, Link, Load, Machine, Mechanism, Reducible};
+use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 const MEMBERS: [Member; 3] = [Member::Sun, Member::Carrier, Member::Ring];

@@ -1,13 +1,14 @@
 //! Rack and pinion: formula, joints, forces.
 
-use jred::PoseError;
-use jred::RangeError;
+use jred::machine::PoseError;
 use jred::mechanism::BuildError;
+use jred::number::RangeError;
 use std::f64::consts::TAU;
 
 use crate::support::{assert_near, budget, config};
+use jred::machine::{Action, Load, Mechanism};
 use jred::mechanism::RackAndPinion;
-use jred::{Action, Link, Load, Machine, Mechanism, Reducible};
+use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 const RACK: usize = RackAndPinion::RACK;

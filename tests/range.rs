@@ -7,7 +7,8 @@ use crate::support::config;
 use crate::support::exact::place_bits;
 use crate::support::machines::Wave;
 use crate::support::rows::{Fixed, Rows};
-use jred::{Cubic, Domain, Format, Phase, Q31, Quadratic, Scale, Set, Spline, TableError, curves};
+use jred::table::Format;
+use jred::{Cubic, Domain, Phase, Q31, Quadratic, Scale, Set, Spline, TableError, curves};
 use proptest::prelude::*;
 
 const ALL: Set = curves::ALL;

@@ -3,7 +3,8 @@
 use crate::support::golden::Case;
 use crate::support::machines::{golden_slider_crank, spec};
 use crate::support::{assert_near, budget, config, derivative, jointed};
-use jred::{Element, Jointed, Machine, Marker, Mechanism, Reducible};
+use jred::machine::{Element, Jointed, Marker, Mechanism};
+use jred::{Machine, Reducible};
 use proptest::prelude::*;
 
 #[test]

@@ -6,7 +6,7 @@ use crate::support::budget::{self, Q31_UNIT};
 use crate::support::machines::{Spec, Wave, spec};
 use crate::support::rows::{Fixed, Meaning as _, Plain, Rows};
 use crate::support::{assert_near, config, largest, rk4};
-use jred::table::Role;
+use jred::number::Role;
 use jred::{Cubic, Model, Phase, Q31, Quadratic, Scale, Set, Spline, TableError, curves};
 use proptest::prelude::*;
 

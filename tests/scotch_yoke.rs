@@ -1,14 +1,14 @@
 //! The Scotch yoke: its formula, its joints, its forces.
 
-use jred::PoseError;
-use jred::RangeError;
-use jred::mechanism::BuildError;
-use jred::mechanism::ScotchYokeDimensions;
+use jred::machine::PoseError;
+use jred::mechanism::{BuildError, ScotchYokeDimensions};
+use jred::number::RangeError;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::support::{assert_near, budget};
+use jred::machine::{Action, Load, Mechanism};
 use jred::mechanism::ScotchYoke;
-use jred::{Action, Link, Load, Machine, Mechanism, Reducible};
+use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 fn massless() -> [Link; 2] {

@@ -6,8 +6,10 @@ use jred::mechanism::SixLinkDimensions;
 use std::f64::consts::{PI, TAU};
 
 use crate::support::{assert_near, budget, config, derivative, jointed, largest};
+use jred::machine::{Action, Jointed, Load, Mechanism};
 use jred::mechanism::{Branch, SixLink};
-use jred::{Action, Jointed, Link, Load, Machine, Mechanism, Reducible, Transfer};
+use jred::number::Transfer;
+use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 /// A random six-link mechanism.

@@ -1,6 +1,6 @@
 //! The quadratic spline: through its samples, smooth at the knots, closed, of the stated order.
 
-use jred::RangeError;
+use jred::number::RangeError;
 use std::f64::consts::TAU;
 
 use crate::support::{assert_near, budget, config, largest};

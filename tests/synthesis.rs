@@ -1,9 +1,9 @@
 //! Gear ratio synthesis: the optimum against textbook conditions, its derivatives, a grid, and the train of (6.9).
 
 use crate::support::{assert_near, budget, config, derivative, largest};
-use jred::RangeError;
+use jred::mechanism::synthesis::{Driven, OpenStage, RatioSplit};
 use jred::mechanism::{Stage, Train};
-use jred::synthesis::{Driven, OpenStage, RatioSplit};
+use jred::number::RangeError;
 use proptest::prelude::*;
 
 const WIDE: [f64; 2] = [0.01, 1e4];
@@ -153,7 +153,7 @@ impl Spec {
     }
 
     /// Every stage within its bounds, the product right, J that of the train, and the slopes of a minimum.
-    fn check(&self, best: &jred::synthesis::Split, fixed_first: bool) {
+    fn check(&self, best: &jred::mechanism::synthesis::Split, fixed_first: bool) {
         let [low, high] = self.bounds;
         let product: f64 = best.ratios.iter().product();
         assert_near(

@@ -5,13 +5,12 @@ use std::f64::consts::TAU;
 use crate::support::machines::{Wave, spec};
 use crate::support::rows::{Meaning as _, Plain, Rows};
 use crate::support::{assert_near, budget, config, largest};
-use jred::table::words_len;
+use jred::number::Role;
 use jred::table::{
-    Constants, CubicSpline, MAX_CELLS, MIN_CELLS, Role, control_points, fit_periodic,
+    Constants, CubicSpline, Format, MAX_CELLS, MIN_CELLS, control_points, fit_periodic, words_len,
 };
 use jred::{
-    Cubic, Domain, Format, Phase, Q31, Quadratic, Reducible, Reduction, Scale, Spline, TableError,
-    curves,
+    Cubic, Domain, Phase, Q31, Quadratic, Reducible, Reduction, Scale, Spline, TableError, curves,
 };
 use proptest::prelude::*;
 

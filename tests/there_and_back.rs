@@ -6,7 +6,9 @@ use std::f64::consts::TAU;
 use crate::support::machines::{Spec, spec};
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, config};
-use jred::{Cubic, Format, Number, Phase, Q31, Quadratic, Scale, Set, Spline, curves};
+use jred::number::Number;
+use jred::table::Format;
+use jred::{Cubic, Phase, Q31, Quadratic, Scale, Set, Spline, curves};
 use proptest::prelude::*;
 
 const ALL: Set = curves::ALL;

@@ -6,8 +6,9 @@ use jred::mechanism::TogglePressDimensions;
 use std::f64::consts::TAU;
 
 use crate::support::{assert_near, budget, config, derivative, jointed};
+use jred::machine::{Action, Load, Mechanism};
 use jred::mechanism::{Blocked, Branch, Side, SliderCrank, Standstill, TogglePress};
-use jred::{Action, Link, Load, Machine, Mechanism, Reducible};
+use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 /// A random press: its four-bar is a crank-rocker or a drag link, by Grashof's condition.

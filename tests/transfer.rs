@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::support::{assert_near, budget, config, largest};
-use jred::Transfer;
+use jred::number::Transfer;
 use proptest::prelude::*;
 
 fn parts(t: Transfer) -> [f64; 4] {

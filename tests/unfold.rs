@@ -5,11 +5,14 @@ use std::f64::consts::TAU;
 
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, config, largest};
+use jred::machine::{Action, Load};
 use jred::mechanism::{Branch, SliderCrank};
+use jred::number::Number;
+use jred::table::Format;
 use jred::tabulate::curves_in_use;
 use jred::{
-    Action, Cubic, Domain, Format, Link, Load, Machine, Number, Phase, Q31, Quadratic, Reducible,
-    Reduction, Scale, Set, Spline, curves,
+    Cubic, Domain, Link, Machine, Phase, Q31, Quadratic, Reducible, Reduction, Scale, Set, Spline,
+    curves,
 };
 use proptest::prelude::*;
 
@@ -24,7 +27,7 @@ impl<V: Fn(f64) -> f64> Reducible for Friction<V> {
         self.domain
     }
 
-    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
         Ok(Reduction {
             inertia: [1.0, 0.0, 0.0],
             potential_energy: [0.0, 0.0],
@@ -184,7 +187,7 @@ impl Reducible for Constant {
         self.domain
     }
 
-    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
         Ok(Reduction {
             inertia: [1.0 + 0.2 * phi.cos(), -0.2 * phi.sin(), -0.2 * phi.cos()],
             potential_energy: [0.0, 0.0],

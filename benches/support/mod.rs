@@ -1,9 +1,10 @@
 //! What the benchmarks share: the four-bar linkage in two descriptions.
 #![allow(dead_code, reason = "every benchmark uses its own part")]
 
-use jred::mechanism::FourBarDimensions;
-use jred::mechanism::{Assembly, FourBar, Linkage, Pair, Pose, Side};
-use jred::{Domain, Error, Joint, Link, Marker};
+use jred::machine::{Joint, Marker};
+use jred::mechanism::linkage::{Assembly, Linkage, Pair, Pose};
+use jred::mechanism::{FourBar, FourBarDimensions, Side};
+use jred::{Domain, Error, Link};
 
 pub(crate) const O: [f64; 2] = [0.0, 0.0];
 

@@ -1,7 +1,8 @@
 //! Linkages that grow: a chain of two-link groups, and one group that cannot be divided.
 
-use jred::mechanism::{Assembly, Linkage, Pair, Pose};
-use jred::{Domain, Error, Joint, Link, Marker};
+use jred::machine::{Joint, Marker};
+use jred::mechanism::linkage::{Assembly, Linkage, Pair, Pose};
+use jred::{Domain, Error, Link};
 
 use crate::support::{O, pin};
 

@@ -4,9 +4,10 @@
 
 use core::hint::black_box;
 
+use jred::number::Number;
+use jred::table::Format;
 use jred::{
-    Cubic, Format, Image, Model, Number, Phase, Q15, Q31, Quadratic, Rows16, Set, Spline, Spline16,
-    curves,
+    Cubic, Image, Model, Phase, Q15, Q31, Quadratic, Rows16, Set, Spline, Spline16, curves,
 };
 
 use crate::target::{Kernel, Point, each};

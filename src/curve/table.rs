@@ -2,7 +2,8 @@
 
 use super::curves::{self, Set};
 use super::{Format, TableError};
-use crate::{Domain, Number, Phase, Scale};
+use crate::number::Number;
+use crate::{Domain, Phase, Scale};
 
 /// Most cells of a table: an index has 16 bits.
 pub const MAX_CELLS: u32 = 65_535;

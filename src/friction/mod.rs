@@ -1,5 +1,8 @@
 //! Friction drives and variators: ratios and slips that may vary, and the constraint that follows.
 //!
+//! Beside the mechanisms on the way of the data: [`FrictionDrive`] with constant ratio and slip is one of them; a [`Drive`] whose
+//! ratio or slip varies is moved by itself.
+//!
 //! A stage couples two shafts by a geometric ratio i and a slip ε, each a number or a [`Course`] over time, angle or load.
 //! Its velocity coefficient is j = i/(1 − ε) as (III.12), (III.19) are printed, or i·(1 − ε) where the first shaft drives
 //! ([`Flow`]). Stages form a [`Drive`], a chain or a fan.

@@ -22,7 +22,7 @@ pub type Joints = heapless::Vec<Joint, MAX_JOINTS>;
 pub enum Body {
     /// The fixed frame.
     Ground,
-    /// A link, by its index in [`Mechanism::links`](crate::Mechanism::links).
+    /// A link, by its index in [`Mechanism::links`](crate::machine::Mechanism::links).
     Link(usize),
 }
 

@@ -12,11 +12,11 @@
 //! spring, the reduction is right at every φ, but must not be tabulated over a turn.
 
 use crate::machine::error::PoseError;
+use crate::machine::{Frames, Jointed, Mechanism};
 use crate::mechanism::error::BuildError;
 use core::f64::consts::TAU;
 
 use super::misfit::centred;
-use super::{Frames, Jointed, Mechanism};
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link};
 use crate::number::error::{finite, positive};

@@ -18,11 +18,11 @@
 //! step, the force on the pin has one: its lever arm about C is not zero.
 
 use crate::machine::error::PoseError;
+use crate::machine::{Frames, Jointed, Mechanism};
 use crate::mechanism::error::BuildError;
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::misfit::centred;
-use super::{Frames, Jointed, Mechanism};
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link};
 use crate::number::error::{finite, positive, within};

@@ -16,11 +16,11 @@
 //! Lifting drums with and without a counterweight are worked examples of reduction in any course of machine dynamics,
 //! the belt over pulleys of Nazarenko, *Dynamics of mechanisms* (2002), (5.9)-(5.16) among them.
 
-use super::{Frames, Jointed, Mechanism};
 use crate::Domain;
 use crate::machine::error::PoseError;
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link};
+use crate::machine::{Frames, Jointed, Mechanism};
 use crate::number::error::RangeError;
 use crate::number::error::{finite, positive, within};
 use crate::number::transfer::Transfer;

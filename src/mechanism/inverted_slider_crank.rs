@@ -16,10 +16,11 @@
 //! *Design of machinery*, chapter 3; the formulas with e are derived at [`InvertedSliderCrank::swing`].
 
 use crate::machine::error::PoseError;
+use crate::machine::{Frames, Jointed, Mechanism};
 use crate::mechanism::error::BuildError;
 use core::f64::consts::PI;
 
-use super::{Frames, Jointed, Mechanism, Misfit};
+use super::Misfit;
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};
 use crate::number::error::{finite, positive};

@@ -1,4 +1,7 @@
 //! Mechanisms: from the angle of the drive link to the position of every link.
+//!
+//! The first step of the way of the data: dimensions and links make one of the closed forms below, or a [`linkage`] of any
+//! topology. Each is a [`Mechanism`](crate::machine::Mechanism), which a [`Machine`](crate::Machine) takes.
 
 mod ball_screw;
 mod blocked;
@@ -43,5 +46,3 @@ pub use six_link::{SixLink, SixLinkDimensions};
 pub use slider_crank::{Branch, SliderCrank, SliderCrankDimensions};
 pub use toggle_press::{DeadCentre, DeadCentres, Standstill, TogglePress, TogglePressDimensions};
 pub use train::{Mesh, Stage, Train, TrainInput};
-
-pub use crate::machine::mechanism::{Frames, Jointed, MAX_LINKS, Mechanism};

@@ -8,10 +8,10 @@
 //! (6.9) of Nazarenko, *Dynamics of mechanisms* (2002), with every stage on the drive shaft.
 
 use super::misfit::centred;
-use super::{Frames, Jointed, MAX_LINKS, Mechanism};
 use crate::machine::error::PoseError;
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link};
+use crate::machine::{Frames, Jointed, MAX_LINKS, Mechanism};
 use crate::mechanism::error::BuildError;
 use crate::number::error::RangeError;
 use crate::number::error::{finite, positive};

@@ -13,11 +13,12 @@
 //! R. Willis, *Principles of mechanism* (1841); the energy sum is (6.4) of Nazarenko, *Dynamics of mechanisms* (2002).
 
 use crate::machine::error::PoseError;
+use crate::machine::{Frames, Jointed, Mechanism};
 use crate::mechanism::error::BuildError;
 use core::f64::consts::PI;
 
+use super::Misfit;
 use super::misfit::centred;
-use super::{Frames, Jointed, Mechanism, Misfit};
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link};
 use crate::number::error::{finite, positive, within};

@@ -11,10 +11,10 @@
 //! not repeat: with a spring, the reduction is right at every φ, but must not be tabulated over a turn.
 
 use crate::machine::error::PoseError;
+use crate::machine::{Frames, Jointed, Mechanism};
 use crate::mechanism::error::BuildError;
 use core::f64::consts::TAU;
 
-use super::{Frames, Jointed, Mechanism};
 use crate::Domain;
 use crate::machine::joint::{Body, Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};

@@ -10,10 +10,10 @@
 //! which is a harmonic motion of amplitude r/sin β for every β. For β = 90° it is the limit of the slider-crank (4.1) of
 //! Nazarenko, *Dynamics of mechanisms* (2002), for an infinitely long rod.
 
-use super::{Frames, Jointed, Mechanism};
 use crate::machine::error::PoseError;
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};
+use crate::machine::{Frames, Jointed, Mechanism};
 use crate::mechanism::error::BuildError;
 use crate::number::error::{finite, positive, within};
 use crate::number::transfer::Transfer;

@@ -19,11 +19,12 @@
 //! Equations (80)-(84) of the kinematics of plane mechanisms, Example 32; the signs of (81) are lost in the print.
 
 use crate::machine::error::PoseError;
+use crate::machine::{Frames, Jointed, Mechanism};
 use crate::mechanism::error::BuildError;
 use core::f64::consts::PI;
 
 use super::four_bar::beyond;
-use super::{Blocked, Branch, Frames, Jointed, Mechanism, dyad};
+use super::{Blocked, Branch, dyad};
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};
 use crate::number::error::{finite, positive};

@@ -10,10 +10,11 @@
 //! from A to B. The machine's real orientation is given by the direction of gravity: for a press whose ram
 //! moves down as x_B grows, gravity points along +x.
 
-use super::{Blocked, Frames, Jointed, Mechanism};
+use super::Blocked;
 use crate::machine::error::PoseError;
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};
+use crate::machine::{Frames, Jointed, Mechanism};
 use crate::mechanism::error::BuildError;
 use crate::number::error::{finite, positive};
 use crate::number::transfer::Transfer;

@@ -19,11 +19,12 @@
 //! K. Luck, K.-H. Modler, *Getriebetechnik*; the closed forms are those of the four-bar and of the slider-crank in series.
 
 use crate::machine::error::PoseError;
+use crate::machine::{Frames, Jointed, Mechanism};
 use crate::mechanism::error::BuildError;
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::four_bar::beyond;
-use super::{Blocked, Branch, FourBar, FourBarDimensions, Frames, Jointed, Mechanism, Side, dyad};
+use super::{Blocked, Branch, FourBar, FourBarDimensions, Side, dyad};
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::Link;
 use crate::number::error::{finite, positive};

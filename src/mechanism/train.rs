@@ -1,10 +1,10 @@
 //! Gear trains and belt drives: shafts coupled by constant ratios.
 
-use super::{Frames, Jointed, Mechanism};
 use crate::Domain;
 use crate::machine::error::PoseError;
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link};
+use crate::machine::{Frames, Jointed, Mechanism};
 use crate::mechanism::error::BuildError;
 use crate::number::error::RangeError;
 use crate::number::error::{not_negative, positive};

@@ -1,10 +1,12 @@
 //! Numbers: the types that everything else computes with.
 //!
+//! Below the whole way of the data: angles, per-unit scales and derivatives, and the numbers that a tick takes and gives.
+//!
 //! Fixed point numbers are per-unit, in [−1, 1). The [`Scale`] of the model says what 1 means. Formats are chosen
 //! so that every product of a tick is the upper half of a 32 × 32-bit product (one instruction on a Cortex-M4 and up) and
 //! nothing can wrap:
 //!
-//! | | [`Q31`] | 1 is |
+//! | | [`Q31`](crate::Q31) | 1 is |
 //! |---|---|---|
 //! | J, b | Q30 | 2³⁰ |
 //! | load, c, sums of torques | Q29 | 2²⁹ |
@@ -24,20 +26,20 @@ pub(crate) mod linear;
 pub(crate) mod phase;
 #[deny(clippy::float_arithmetic)]
 mod product;
-mod q15;
-mod q31;
+pub(crate) mod q15;
+pub(crate) mod q31;
 pub(crate) mod quadrature;
 mod role;
-mod scalar;
-mod scale;
+pub(crate) mod scalar;
+pub(crate) mod scale;
 pub(crate) mod transfer;
 
+pub use crate::math::Real;
 pub use error::{Cure, RangeError};
 pub(crate) use kernel::{Kernel, Ring};
-pub use phase::{Domain, Phase};
-pub use q15::Q15;
-pub use q31::Q31;
+
 pub use role::Role;
-pub use scalar::{Number, Outcome, Scalar};
-pub use scale::Scale;
+pub(crate) use scalar::Outcome;
+pub use scalar::{Number, Scalar};
+pub(crate) use scale::Scale;
 pub use transfer::Transfer;

@@ -5,8 +5,8 @@ use core::f64::consts::TAU;
 use core::num::NonZeroU32;
 use core::ops::{Add, Sub};
 
+use crate::math::{self, Real};
 use crate::number::error::finite;
-use crate::{Real, math};
 
 /// A position within the drive link's range as a fraction of 2³²: one turn for a rotating link, the stroke for a
 /// sliding one.

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::kernel::Kernel;
-use crate::Real;
+use crate::math::Real;
 
 /// A number of a tick: `f32`, `f64`, [`Q31`](crate::Q31) or [`Q15`](crate::Q15). Sealed.
 ///

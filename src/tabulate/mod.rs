@@ -1,5 +1,8 @@
 //! From a machine to the smallest table that meets a torque error.
 //!
+//! The step of the way of the data between a [`Reduction`](crate::Reduction) and a [`Table`](crate::Table): on the host, or in
+//! firmware after a change of payload.
+//!
 //! The error of the drive torque that a table causes is bounded, at every position checked, by the sum of what its
 //! curves contribute at the ends of the stated range:
 //!
@@ -15,6 +18,7 @@ mod fill;
 pub(crate) mod harmonic;
 mod measure;
 mod near;
+mod part;
 mod search;
 mod units;
 
@@ -22,6 +26,7 @@ pub use buffer::TableBuffer;
 pub use fill::fill;
 pub use measure::measure;
 pub(crate) use measure::torque_between;
+pub use part::Part;
 pub use search::tabulate;
 
 use crate::curve::control_points;

@@ -7,4 +7,4 @@ mod pieces;
 
 pub use image::{Aligned, HEADER_WORDS, Image, ImageError, VERSION, Validity, encode, image_len};
 pub use model::{AccelerationRange, AnyModel, Model};
-pub use pieces::{Part, Pieces};
+pub use pieces::Pieces;

@@ -3,65 +3,13 @@
 //! A table is at least continuously differentiable. Where a curve of the machine jumps (a load that is switched on, a cam whose
 //! follower starts with a blow), the largest error of one table over the turn stays half the jump or more, with any number
 //! of cells; only the part of the turn in which it is large shrinks, with the width of a cell (test
-//! `one_table_cannot_follow_a_jump`). A table for each piece between the jumps has no such cells. [`Part`] is a piece of a
-//! machine, to be tabulated as a stroke; [`Pieces`] puts their models together again.
+//! `one_table_cannot_follow_a_jump`). A table for each piece between the jumps has no such cells. A
+//! [`Part`](crate::tabulate::Part) of the machine is tabulated as a stroke; [`Pieces`] puts the models together again.
 
 use crate::curve::{Format, Set, TableError};
-use crate::machine::error::PoseError;
+use crate::math::Real;
 use crate::number::Outcome;
-use crate::number::error::RangeError;
-use crate::number::error::finite;
-use crate::{AccelerationRange, Domain, Error, Model, Phase, Real, Reducible, Reduction};
-
-/// A part of a machine's range, as a stroke.
-#[derive(Clone, Copy, Debug)]
-pub struct Part<'m, M> {
-    machine: &'m M,
-    from: f64,
-    to: f64,
-}
-
-/// The end of a part belongs to the next one, and its start may be rounded into the one before; so far inside (in lengths of
-/// the part) its first and last place lie.
-const INSIDE: f64 = 1e-11;
-
-impl<'m, M: Reducible> Part<'m, M> {
-    /// From the position `from` to `to` (rad, or m).
-    ///
-    /// # Errors
-    /// A position that is not finite, `to` not greater than `from`, or more than a turn.
-    pub fn new(machine: &'m M, from: f64, to: f64) -> Result<Self, Error> {
-        let from = finite("start of the part", from)?;
-        let to = finite("end of the part", to)?;
-        let span = machine.domain().span();
-        if !(to > from && to - from <= span) {
-            return Err(RangeError::OutOfRange {
-                what: "length of the part",
-                value: to - from,
-                min: 0.0,
-                max: span,
-            }
-            .into());
-        }
-        Ok(Self { machine, from, to })
-    }
-}
-
-impl<M: Reducible> Reducible for Part<'_, M> {
-    fn domain(&self) -> Domain {
-        Domain::Stroke {
-            from: self.from,
-            to: self.to,
-        }
-    }
-
-    fn reduction(&self, phi: f64) -> Result<Reduction, PoseError> {
-        let margin = INSIDE * (self.to - self.from);
-        // Not `clamp`, which panics if a part is so short that roundings turn the two round.
-        let phi = phi.max(self.from + margin).min(self.to - margin);
-        self.machine.reduction(phi)
-    }
-}
+use crate::{AccelerationRange, Model, Phase};
 
 /// A turn (or a stroke, whose first piece starts at phase 0) of N pieces, each with a model of its own; they share the machine
 /// units and the set of curves.
@@ -75,10 +23,9 @@ impl<M: Reducible> Reducible for Part<'_, M> {
 ///
 /// ```
 /// use core::f64::consts::TAU;
-/// use jred::tabulate::{Request, fill, scratch_len, tabulate};
-/// use jred::{
-///     Domain, Error, Model, Part, Phase, Pieces, PoseError, Reducible, Reduction, Scale, Set, Spline, curves,
-/// };
+/// use jred::machine::PoseError;
+/// use jred::tabulate::{Part, Request, fill, scratch_len, tabulate};
+/// use jred::{Domain, Error, Model, Phase, Pieces, Reducible, Reduction, Scale, Set, Spline, curves};
 ///
 /// /// A flywheel, and a brake that is on from 1 to 2 rad.
 /// struct Braked;

@@ -2,12 +2,11 @@
 
 use crate::support::spoken;
 use jred::Error;
-use jred::friction::FrictionDrive;
 use jred::friction::{
-    Arrangement, Contact, Creep, CreepContact, Drive, Flow, Place, Ramp, Shaft, Sine, Stage, State,
-    Variable,
+    Arrangement, Contact, Creep, CreepContact, Drive, Flow, FrictionDrive, Place, Ramp, Shaft,
+    Sine, Stage, State, Variable,
 };
-use jred::motion::Law;
+use jred::machine::motion::Law;
 
 fn text<T: std::fmt::Debug, E: Into<Error> + std::fmt::Debug>(result: Result<T, E>) -> String {
     spoken(result.unwrap_err())

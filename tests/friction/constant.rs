@@ -1,9 +1,9 @@
 //! Numbers only: a gear train by another name.
 
-use jred::friction::FrictionDrive;
-use jred::friction::{Arrangement, Contact, Drive, Flow, Shaft, Stage, State};
+use jred::friction::{Arrangement, Contact, Drive, Flow, FrictionDrive, Shaft, Stage, State};
+use jred::machine::{Jointed, Load, Mechanism};
 use jred::mechanism::{Stage as Gear, Train};
-use jred::{Jointed, Load, Machine, Mechanism, Reducible};
+use jred::{Machine, Reducible};
 use proptest::prelude::*;
 
 use crate::support::jointed::{dalembert, joints_close, turns};
@@ -85,7 +85,7 @@ impl Case {
         }
         joints_close(&mechanism, phi);
         turns(&mechanism, 24);
-        let load = Load::new(2, jred::Action::Moment(MOMENT)).unwrap();
+        let load = Load::new(2, jred::machine::Action::Moment(MOMENT)).unwrap();
         let machine = Machine::new(&mechanism).with_load(load).unwrap();
         dalembert(&machine, phi, self.omega, ALPHA);
         let own = all.iter().zip(self.inertias);

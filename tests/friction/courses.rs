@@ -1,7 +1,7 @@
 //! Courses and the numbers that carry their gradients.
 
 use jred::friction::{Course, Creep, Curve, Dual, Place, Ramp, Sine, Variable};
-use jred::motion::Law;
+use jred::machine::motion::Law;
 use jred::table::{CubicSpline, control_points, fit_bounded, fit_periodic};
 
 use crate::support::{assert_near, budget, derivative};

@@ -3,7 +3,7 @@
 use jred::friction::{
     Arrangement, Contact, Creep, CreepContact, Drive, Flow, Ramp, Shaft, Stage, State, Variable,
 };
-use jred::motion::Law;
+use jred::machine::motion::Law;
 
 use super::integrate;
 use crate::support::{assert_near, budget};

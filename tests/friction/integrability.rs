@@ -3,7 +3,7 @@
 use jred::friction::{
     Arrangement, Contact, Creep, Drive, Flow, Place, Ramp, Sine, Stage, StageConstraint, Variable,
 };
-use jred::motion::Law;
+use jred::machine::motion::Law;
 
 use crate::support::{assert_near, budget};
 

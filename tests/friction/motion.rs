@@ -3,9 +3,8 @@
 use jred::friction::{
     Arrangement, Contact, Drive, Flow, Motion, Ramp, Shaft, Sine, Stage, State, Variable,
 };
-use jred::mechanism::SliderCrankDimensions;
-use jred::mechanism::{Branch, SliderCrank};
-use jred::motion::Law;
+use jred::machine::motion::Law;
+use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 

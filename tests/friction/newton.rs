@@ -1,7 +1,7 @@
 //! Against two discs with the contact force as an unknown of its own.
 
 use jred::friction::{Arrangement, Contact, Drive, Flow, Ramp, Shaft, Stage, State, Variable};
-use jred::motion::Law;
+use jred::machine::motion::Law;
 
 use super::integrate;
 use crate::support::{assert_near, budget};

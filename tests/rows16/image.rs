@@ -1,7 +1,7 @@
 //! Images of tables of 16-bit rows: word by word, back again, and refused.
 
-use jred::RangeError;
 use jred::image::{HEADER_WORDS, encode, image_len};
+use jred::number::RangeError;
 use jred::{
     Domain, Error, Image, ImageError, Phase, Q15, Rows16, Scale, Set, Spline, TableError, curves,
 };

@@ -1,6 +1,7 @@
 //! The number itself, and its conversions.
 
-use jred::{Number, Outcome, Q15, Scale};
+use jred::number::Number;
+use jred::{Outcome, Q15, Scale};
 
 use crate::rows16::q15;
 

@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 
+use jred::number::Number;
 use jred::table::words_len;
 use jred::tabulate::{Request, measure, scratch_len, tabulate};
-use jred::{Error, Number, Phase, Q15, Reducible, Rows16, Scale, Set, curves};
+use jred::{Error, Phase, Q15, Reducible, Rows16, Scale, Set, curves};
 use proptest::prelude::*;
 
 use super::{Short, model, q15};

@@ -1,10 +1,12 @@
 //! What a table reads, against the machine, for every set, on a turn and on a stroke.
 
-use jred::{Domain, Phase, Reducible, Reduction, Scale, Set, Usage, curves};
+use jred::table::Usage;
+use jred::{Domain, Phase, Reducible, Reduction, Scale, Set, curves};
 
 use super::{Short, read_at, row_words};
 use crate::support::{budget, largest};
-use jred::{Format as _, Rows16};
+use jred::Rows16;
+use jred::table::Format as _;
 
 /// Curves that are not polynomials, with sizes far below 1.
 struct Smooth(Domain);
@@ -14,7 +16,7 @@ impl Reducible for Smooth {
         self.0
     }
 
-    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
         let (sin, cos) = phi.sin_cos();
         let inertia = 0.15 * sin.exp();
         Ok(Reduction {

@@ -1,7 +1,7 @@
 //! What is not a table, and not a machine that 16 bits can hold.
 
-use jred::PoseError;
-use jred::RangeError;
+use jred::machine::PoseError;
+use jred::number::RangeError;
 use jred::table::{MAX_CELLS, RowConstants, words_len};
 use jred::tabulate::{Request, fill, scratch_len, tabulate};
 use jred::{Domain, Error, Rows16, Scale, Set, TableError, curves};

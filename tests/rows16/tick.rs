@@ -1,6 +1,7 @@
 //! The tick against the curves that its table reads, and against itself the other way.
 
-use jred::{Number, Phase, Q15, Scale, Set, curves};
+use jred::number::Number;
+use jred::{Phase, Q15, Scale, Set, curves};
 use proptest::prelude::*;
 
 use super::{CONSTANT, EVERY, Short, model, q15, units, velocity};

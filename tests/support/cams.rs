@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use jred::Link;
-use jred::cam::{CamError, Program, Segment};
+use jred::machine::motion::Law;
+use jred::mechanism::cam::{CamError, Program, Segment};
 use jred::mechanism::{DiscCam, Follower, Roller, Swing};
-use jred::motion::Law;
 use proptest::prelude::*;
 
 /// Cam and follower, their centres of mass off the axes.

@@ -1,8 +1,9 @@
 //! What a table's words mean, in double precision and by other formulas than the library's: basis functions instead of the
 //! power form, no floors.
 
-use jred::table::Role;
-use jred::{Format, Phase, curves};
+use jred::number::Role;
+use jred::table::Format;
+use jred::{Phase, curves};
 
 use super::rows::{Meaning, Plain, Rows};
 

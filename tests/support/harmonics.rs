@@ -4,12 +4,14 @@ use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
 use jred::harmonic::{Circular, Fitted, fit, scratch_len, terms_in_use};
+use jred::machine::{Action, Load};
 use jred::mechanism::{Branch, SliderCrank};
-use jred::table::{Shape, words_len};
+use jred::number::Number;
+use jred::table::{Format, Shape, words_len};
 use jred::tabulate::Request;
 use jred::{
-    Action, Domain, Error, Format, Harmonic, Link, Load, Machine, Model, Number, Phase, Reducible,
-    Reduction, Set, Table, TableError,
+    Domain, Error, Harmonic, Link, Machine, Model, Phase, Reducible, Reduction, Set, Table,
+    TableError,
 };
 use proptest::prelude::*;
 
@@ -45,7 +47,7 @@ impl Reducible for Waves {
     fn domain(&self) -> Domain {
         Domain::Turn
     }
-    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
         Ok(Reduction {
             inertia: series(&self.inertia, phi),
             process: series(&self.load, phi)[0],

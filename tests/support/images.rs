@@ -1,7 +1,8 @@
 //! Images to test with, and an independent CRC.
 
 use jred::image::{encode, image_len};
-use jred::{Domain, Format, Image, ImageError, Q31, Scale, Set, Spline, Validity, curves};
+use jred::table::Format;
+use jred::{Domain, Image, ImageError, Q31, Scale, Set, Spline, Validity, curves};
 
 use super::machines::Wave;
 use super::rows::Rows;

@@ -1,8 +1,9 @@
 //! What must hold for every mechanism that knows its joints.
 
-use jred::mechanism::Frames;
+use jred::machine::{Body, Forces, Frames, Joint, Jointed, Mechanism, Wrench};
 use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, Pose};
-use jred::{Body, Domain, Forces, Joint, Jointed, Machine, Mechanism, Reducible, Transfer, Wrench};
+use jred::number::Transfer;
+use jred::{Domain, Machine, Reducible};
 
 use super::golden::Table;
 use super::{assert_near, budget, largest};
@@ -58,7 +59,7 @@ pub(crate) fn joints_close(mechanism: &impl Jointed, phi: f64) {
 /// How large the derivatives of each order are anywhere in the mechanism, times `scale`.
 fn order_sizes(frames: &Frames, scale: f64) -> [f64; 4] {
     let most = |f: fn(&Transfer) -> f64| {
-        let of = |frame: &jred::Frame| {
+        let of = |frame: &jred::machine::Frame| {
             f(&frame.psi)
                 .abs()
                 .max(f(&frame.x).abs())
@@ -73,15 +74,15 @@ fn order_sizes(frames: &Frames, scale: f64) -> [f64; 4] {
 
 /// Names, sizes and scales of the gaps of a joint, all of which must be zero.
 fn gaps(joint: &Joint, frames: &Frames, length: f64) -> Vec<(&'static str, Transfer, f64)> {
-    let apart = |[a, b]: &[jred::Marker; 2]| {
+    let apart = |[a, b]: &[jred::machine::Marker; 2]| {
         let ([x_a, y_a], [x_b, y_b]) = (a.position(frames), b.position(frames));
         [x_b - x_a, y_b - y_a]
     };
-    let across = |marker: &jred::Marker, [x, y]: [Transfer; 2]| {
+    let across = |marker: &jred::machine::Marker, [x, y]: [Transfer; 2]| {
         let [cos, sin] = marker.axis(frames);
         cos * y - sin * x
     };
-    let turned = |[a, b]: &[jred::Marker; 2]| {
+    let turned = |[a, b]: &[jred::machine::Marker; 2]| {
         let angle = b.direction(frames) - a.direction(frames);
         let whole = (angle.value / std::f64::consts::TAU).round() * std::f64::consts::TAU;
         angle - Transfer::constant(whole)
@@ -303,7 +304,7 @@ pub(crate) fn turns(mechanism: &impl Mechanism, steps: u32) {
 pub(crate) fn energy<M: Jointed>(machine: &Machine<M>, phi: f64, omega: f64) {
     let reduced = machine.bare_reduction(phi).unwrap();
     let frames = machine.mechanism().frames(phi).unwrap();
-    let of = |(link, frame): (&jred::Link, &jred::Frame)| {
+    let of = |(link, frame): (&jred::Link, &jred::machine::Frame)| {
         let [x, y] = frame.point(link.com()).map(|c| c.velocity(omega));
         let turn = frame.psi.velocity(omega);
         0.5 * link.mass() * (x * x + y * y) + 0.5 * link.inertia() * turn * turn

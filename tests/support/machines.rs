@@ -1,8 +1,8 @@
 //! Machines to test with: random slider-cranks, and a machine whose curves are plain sines.
 
-use jred::mechanism::SliderCrankDimensions;
-use jred::mechanism::{Branch, SliderCrank};
-use jred::{Action, Domain, Link, Load, Machine, Reducible, Reduction};
+use jred::machine::{Action, Load};
+use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
+use jred::{Domain, Link, Machine, Reducible, Reduction};
 use proptest::prelude::*;
 
 use super::golden::Case;
@@ -155,7 +155,7 @@ impl Reducible for Wave {
         self.domain
     }
 
-    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
         let (sin, cos) = phi.sin_cos();
         Ok(Reduction {
             inertia: [

@@ -11,7 +11,7 @@ pub(crate) mod jointed;
 pub(crate) mod machines;
 pub(crate) mod rows;
 
-use jred::Number;
+use jred::number::Number;
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 

@@ -1,8 +1,9 @@
 //! A table with the memory it lies in.
 
-use jred::table::{Constants, Role, Shape, words_len};
+use jred::number::Role;
+use jred::table::{Constants, Format, Shape, words_len};
 use jred::tabulate::{fill, scratch_len};
-use jred::{Domain, Error, Format, Model, Reducible, Scale, Set, Table, TableError};
+use jred::{Domain, Error, Model, Reducible, Scale, Set, Table, TableError};
 
 /// Words of a table, and what they stand for.
 #[derive(Clone, Debug)]

@@ -2,9 +2,9 @@
 
 use anyhow::{Result, anyhow, bail};
 use jred::image::{encode, image_len};
-use jred::table::words_len;
+use jred::table::{Format, words_len};
 use jred::tabulate::{fill, scratch_len};
-use jred::{Format, Q31, Scale, Set, Validity, curves};
+use jred::{Q31, Scale, Set, Validity, curves};
 
 use crate::data::Words;
 use crate::machine::{ALPHA, Example, OMEGA};

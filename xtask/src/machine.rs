@@ -137,7 +137,7 @@ impl Reducible for Reduced {
     fn domain(&self) -> Domain {
         self.0.domain()
     }
-    fn reduction(&self, phi: f64) -> Result<Reduction, jred::PoseError> {
+    fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
         let mut reduction = self.0.reduction(phi)?;
         reduction.viscous += VISCOUS;
         reduction.coulomb += COULOMB;

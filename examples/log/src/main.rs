@@ -20,7 +20,7 @@ mod target {
     use cortex_m as _; // its critical section guards the log
     use cortex_m_semihosting::debug;
     use defmt_semihosting as _;
-    use jred::motion::{Law, Move};
+    use jred::machine::motion::{Law, Move};
     use jred::{Image, ImageError, Model, Q31, Set, Spline, curves, include_image};
 
     /// The curves of the press, as `jred export` prints them.

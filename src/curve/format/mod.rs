@@ -35,7 +35,8 @@ use super::curves::Set;
 use super::samples::{Sample, Samples};
 use super::table::{CurveValues, Table};
 use super::{MAX_CELLS, MIN_CELLS, TableError, Usage};
-use crate::{Error, Number, Outcome, Phase, Scale};
+use crate::number::Number;
+use crate::{Error, Outcome, Phase, Scale};
 
 /// Words of the image's header for the constants of a table.
 pub(crate) const CONSTANTS: usize = 11;

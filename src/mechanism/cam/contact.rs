@@ -16,8 +16,8 @@ use core::fmt;
 use super::extreme::smallest;
 use super::program::{Piece, within_turn};
 use crate::machine::reduction::MAX_LOADS;
-use crate::mechanism::Jointed;
-use crate::{Joint, Machine, math};
+use crate::machine::{Joint, Jointed};
+use crate::{Machine, math};
 
 /// Speeds above this (rad/s) are no machine's; where roundings alone would end the contact there, it does not end.
 const FASTEST: f64 = 1e6;
@@ -150,7 +150,10 @@ type Edges = heapless::Vec<f64, { 4 * MAX_LOADS }>;
 
 /// The angles at which a load begins or ends to grow, within the turn, in order.
 fn load_edges<M: Jointed>(machine: &Machine<M>) -> Edges {
-    let windows = machine.loads().iter().filter_map(crate::Load::window);
+    let windows = machine
+        .loads()
+        .iter()
+        .filter_map(crate::machine::Load::window);
     let mut edges: Edges = windows
         .flat_map(|window| window.edges())
         .map(within_turn)

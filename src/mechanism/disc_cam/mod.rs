@@ -21,11 +21,11 @@ pub use follower::{Follower, Roller, Swing};
 pub use profile::{CamContact, CamProfile};
 
 use crate::machine::error::PoseError;
+use crate::machine::{Frames, Jointed, Mechanism};
 use crate::mechanism::cam::CamError;
 use crate::number::error::RangeError;
 use core::f64::consts::FRAC_PI_2;
 
-use super::{Frames, Jointed, Mechanism};
 use crate::Domain;
 use crate::machine::element::Element;
 use crate::machine::joint::{Body, Joint, Joints, Marker};

@@ -16,12 +16,13 @@
 mod transmission;
 
 use crate::machine::error::PoseError;
+use crate::machine::{Frames, Jointed, Mechanism};
 use crate::mechanism::error::BuildError;
 use core::f64::consts::{PI, TAU};
 
 use super::dyad;
 use super::grashof::NAMES;
-use super::{Blocked, Frames, Grashof, Jointed, Mechanism, Side};
+use super::{Blocked, Grashof, Side};
 use crate::machine::joint::{Joint, Joints, Marker};
 use crate::machine::link::{Frame, Link};
 use crate::number::error::{finite, positive};

@@ -60,7 +60,7 @@ impl Pose {
 /// Links and the pairs that connect them, one of them driven: the topology, checked. At most `LINKS` ≤ 16
 /// links, `PAIRS` pairs and `CAMS` cams.
 ///
-/// [`assemble`](Self::assemble) turns it into a [`Mechanism`](crate::Mechanism).
+/// [`assemble`](Self::assemble) turns it into a [`Mechanism`](crate::machine::Mechanism).
 #[derive(Clone, Debug)]
 pub struct Linkage<const LINKS: usize, const PAIRS: usize, const CAMS: usize = 0> {
     links: heapless::Vec<Link, LINKS>,
@@ -101,7 +101,11 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         cams: &[PlacedCam],
         drive: usize,
     ) -> Result<Self, LinkageError> {
-        const { assert!(LINKS <= super::MAX_LINKS && PAIRS <= crate::machine::joint::MAX_JOINTS) }
+        const {
+            assert!(
+                LINKS <= crate::machine::MAX_LINKS && PAIRS <= crate::machine::joint::MAX_JOINTS
+            )
+        }
         let too_many = |what, capacity| RangeError::TooMany { what, capacity };
         let links = heapless::Vec::from_slice(links).map_err(|_| too_many("links", LINKS))?;
         let pairs: heapless::Vec<Pair, PAIRS> =

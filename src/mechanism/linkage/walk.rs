@@ -7,7 +7,7 @@ use core::f64::consts::TAU;
 
 use crate::machine::joint::Joints;
 use crate::machine::link::{Frame, Link};
-use crate::mechanism::{Frames, Jointed, Mechanism};
+use crate::machine::{Frames, Jointed, Mechanism};
 use crate::number::error::finite;
 use crate::number::transfer::Transfer;
 use crate::{Domain, math};

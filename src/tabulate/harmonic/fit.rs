@@ -10,15 +10,15 @@
 
 use super::HarmonicError;
 use super::spectrum::Spectrum;
-use crate::Set;
 use crate::curve::{
     Circular, Coefficient, Curve, Format, Harmonic, Kind, MAX_HARMONICS, Shape, Table, in_use,
     words_len,
 };
 use crate::machine::reduction::Reducible;
+use crate::number::Number;
 use crate::number::error::{RangeError, positive};
 use crate::tabulate::{Request, torque_between};
-use crate::{AnyModel, Domain, Error, Number, Phase, math};
+use crate::{AnyModel, Domain, Error, Phase, Set, math};
 
 /// Torque that one unit of the k-th harmonic of a curve makes at most.
 fn weight(request: &Request, curve: Curve, k: usize) -> f64 {
@@ -121,7 +121,7 @@ fn spectrum<'s>(
 ///
 /// # Errors
 /// [`HarmonicError::Stroke`]; [`HarmonicError::NotConverged`], for a curve with a kink in particular;
-/// [`TableError`](crate::TableError) if J is not shown to be positive between the samples; [`PoseError::NoInertia`](crate::PoseError::NoInertia) if it is
+/// [`TableError`](crate::TableError) if J is not shown to be positive between the samples; [`PoseError::NoInertia`](crate::machine::PoseError::NoInertia) if it is
 /// not at one; buffers too short; those of the machine.
 pub fn fit<T: Circular + Number>(
     machine: &impl Reducible,

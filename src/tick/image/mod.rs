@@ -9,8 +9,9 @@ mod error;
 pub use error::ImageError;
 
 use crate::curve::{CONSTANTS, Format, Set, Shape, Table, words_len};
+use crate::number::Number;
 use crate::number::error::RangeError;
-use crate::{AnyModel, Domain, Error, Model, Number, Scale};
+use crate::{AnyModel, Domain, Error, Model, Scale};
 
 /// "JRED" in the file's first four bytes.
 const MAGIC: u32 = u32::from_le_bytes(*b"JRED");
@@ -298,8 +299,8 @@ pub struct Aligned<T: ?Sized>(pub T);
 #[macro_export]
 macro_rules! include_image {
     ($path:expr) => {{
-        static IMAGE: $crate::Aligned<[u8; include_bytes!($path).len()]> =
-            $crate::Aligned(*include_bytes!($path));
+        static IMAGE: $crate::image::Aligned<[u8; include_bytes!($path).len()]> =
+            $crate::image::Aligned(*include_bytes!($path));
         let bytes: &'static [u8] = &IMAGE.0;
         bytes
     }};

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use crate::support::{Folder, budget, near, press_text, within};
-use jred::motion::Law;
+use jred::machine::motion::Law;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::motion::{Motion, Segment};

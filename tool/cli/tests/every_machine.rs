@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use jred::{Domain, Jointed, Mechanism, Reducible};
+use jred::machine::{Jointed, Mechanism};
+use jred::{Domain, Reducible};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::number::numerics::integral;
 use jred_machine::read;

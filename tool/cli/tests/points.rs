@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use crate::support::{Folder, budget, jred, near, near_column, press_file};
-use jred::joint::Joints;
-use jred::mechanism::Frames;
-use jred::{Domain, Frame, Joint, Jointed, Link, Machine, Marker, Mechanism, Transfer};
+use jred::machine::{Frame, Frames, Joint, Jointed, Joints, Marker, Mechanism};
+use jred::number::Transfer;
+use jred::{Domain, Link, Machine};
 use jred_machine::analysis::inspect::Findings;
 use jred_machine::analysis::reduce::{Over, Request, Sets, reduce};
 use jred_machine::model::coordinate::Coordinate;
@@ -239,7 +239,7 @@ impl Mechanism for Lever {
     fn domain(&self) -> Domain {
         Domain::stroke(FROM, TO).unwrap()
     }
-    fn frames(&self, s: f64) -> Result<Frames, jred::PoseError> {
+    fn frames(&self, s: f64) -> Result<Frames, jred::machine::PoseError> {
         let s = Transfer::variable(s);
         let h = Transfer::constant(HEIGHT);
         let length = (s * s + h * h).sqrt();
@@ -252,7 +252,7 @@ impl Mechanism for Lever {
 }
 
 impl Jointed for Lever {
-    fn joints(&self, _: f64, _: &Frames) -> Result<Joints, jred::PoseError> {
+    fn joints(&self, _: f64, _: &Frames) -> Result<Joints, jred::machine::PoseError> {
         Ok(Joints::from_iter([
             Joint::Prismatic([Marker::ground([0.0, 0.0]), Marker::on(0, [0.0, 0.0])]),
             Joint::Revolute([Marker::ground([0.0, -HEIGHT]), Marker::on(1, [0.0, 0.0])]),

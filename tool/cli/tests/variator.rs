@@ -5,7 +5,7 @@ mod refusals;
 use std::path::Path;
 
 use crate::support::{Columns, Folder, budget, edited, jred, largest, near, near_column, within};
-use jred::Mechanism as _;
+use jred::machine::Mechanism as _;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator::integrability_text;
 use jred_machine::read;

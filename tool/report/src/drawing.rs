@@ -6,7 +6,8 @@
 
 use std::fmt::Write as _;
 
-use jred::{Error, Mechanism as _};
+use jred::Error;
+use jred::machine::Mechanism as _;
 
 use crate::plot::PALETTE;
 use crate::plot::svg::{Anchor, Ink, Svg};

@@ -39,7 +39,8 @@ use super::{CONSTANTS, Format, Size};
 use crate::curve::curves::{self, Set};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::{CurveValues, Shape, Table, TableError, Usage};
-use crate::{Domain, Error, Number, Outcome, Phase, Scale};
+use crate::number::Number;
+use crate::{Domain, Error, Outcome, Phase, Scale};
 
 /// Most harmonics of a series.
 pub const MAX_HARMONICS: u32 = 256;

@@ -10,7 +10,8 @@
 //! cos κx ≈ 1 − x²/2 + x⁴·(c₀ + c₁·x² + c₂·x⁴)  |error| ≤ 1.3e-9
 //! ```
 
-use crate::{Phase, Real, math};
+use crate::Phase;
+use crate::math::{self, Real};
 
 /// A number that harmonics are evaluated in: `f32` or `f64`. Sealed.
 pub trait Circular: Real {

@@ -5,8 +5,9 @@
 use super::Layout;
 use super::cell::{Cell, polynomial, wide};
 use crate::curve::{Table, TableError, Usage, curves};
+use crate::math::Real;
 use crate::number::{Kernel, Number, Role};
-use crate::{Domain, Phase, Real};
+use crate::{Domain, Phase};
 
 /// Every cell, for [`Table::new`].
 pub(super) fn table<L: Layout>(table: &Table<'_, L>) -> Result<(), TableError> {

@@ -1,7 +1,7 @@
 //! `jred split`: the division of a total gear ratio over stages that makes the reduced inertia smallest.
 
-use jred::RangeError;
-use jred::synthesis::{Driven, OpenStage, RatioSplit, Split};
+use jred::mechanism::synthesis::{Driven, OpenStage, RatioSplit, Split};
+use jred::number::RangeError;
 use miette::{Result, miette};
 use serde_json::{Map, Value, json};
 

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use jred::TorqueTerms;
+use jred::machine::TorqueTerms;
 use jred_machine::analysis::duty::{Duty, Instant};
 use jred_machine::analysis::mechanics::Mechanics;
 use jred_sizing::catalogue::Commutation;

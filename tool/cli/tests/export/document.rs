@@ -1,6 +1,7 @@
 //! The image against its documentation, docs/table-image.md.
 
-use jred::{Cubic, Format, Image, Phase, Q31, Quadratic, Rows16, Spline, Spline16};
+use jred::table::Format;
+use jred::{Cubic, Image, Phase, Q31, Quadratic, Rows16, Spline, Spline16};
 
 use super::reader::{Read, Reader};
 use super::{KINDS, export_of, image, words_of};

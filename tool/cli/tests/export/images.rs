@@ -1,8 +1,10 @@
 //! Every exported type and layout, loaded and ticked as firmware does it, against the exact reduction.
 
+use jred::number::Number;
+use jred::table::Format;
 use jred::{
-    Cubic, Format, Image, ImageError, Number, Phase, Q31, Quadratic, Reducible as _, Rows16, Set,
-    Spline, Spline16, curves,
+    Cubic, Image, ImageError, Phase, Q31, Quadratic, Reducible as _, Rows16, Set, Spline, Spline16,
+    curves,
 };
 use jred_machine::model::machine::{AnyMechanism, MachineFile};
 

@@ -1,7 +1,7 @@
 //! A cam as a joint of a linkage.
 
-use jred::cam::contact_force;
-use jred::{Jointed as _, Mechanism as _};
+use jred::machine::{Jointed as _, Mechanism as _};
+use jred::mechanism::cam::contact_force;
 
 use super::{machine_path, refuses_edit, rendered, within};
 
@@ -47,7 +47,7 @@ fn the_jaw_follows_its_cam() {
     assert_eq!(
         constraints
             .iter()
-            .map(jred::Joint::constraints)
+            .map(jred::machine::Joint::constraints)
             .sum::<usize>(),
         11
     );

@@ -4,8 +4,9 @@ use jred::mechanism::SixLinkDimensions;
 use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
+use jred::machine::{Jointed as _, Mechanism as _};
 use jred::mechanism::{Branch, SixLink, SliderCrank};
-use jred::{Domain, Jointed as _, Link, Machine, Mechanism as _, Reducible as _};
+use jred::{Domain, Link, Machine, Reducible as _};
 use serde_json::Value;
 
 use super::{FOUR_BAR, machine_path, read, rendered, within};

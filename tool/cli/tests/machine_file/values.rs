@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
+use jred::machine::{Action, Load, Mechanism, Window};
 use jred::mechanism::Train;
-use jred::{Action, Load, Mechanism, Window};
 use jred_machine::model::machine::Shaft;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;

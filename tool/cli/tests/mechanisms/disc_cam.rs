@@ -1,8 +1,8 @@
 //! `type = "disc-cam"`.
 
-use jred::Mechanism as _;
-use jred::cam::contact_force;
-use jred::motion::Law;
+use jred::machine::Mechanism as _;
+use jred::machine::motion::Law;
+use jred::mechanism::cam::contact_force;
 
 use super::{a_drive_is_found, close, example, machine, parse, refuses_edit, rendered};
 

@@ -1,6 +1,7 @@
 //! `type = "four-bar"`.
 
-use jred::{Domain, Mechanism as _};
+use jred::Domain;
+use jred::machine::Mechanism as _;
 
 use super::{a_drive_is_found, close, example, machine, parse, refuses_edit, rendered};
 

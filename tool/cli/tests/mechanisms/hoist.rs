@@ -1,6 +1,7 @@
 //! `type = "hoist"`.
 
-use jred::{Mechanism as _, Reducible as _};
+use jred::Reducible as _;
+use jred::machine::Mechanism as _;
 
 use super::{a_drive_is_found, close, example, machine, machine_path, parse, refuses_edit};
 use crate::support::{jred, largest};

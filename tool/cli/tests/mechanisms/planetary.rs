@@ -1,6 +1,7 @@
 //! `type = "planetary"`.
 
-use jred::{Jointed as _, Mechanism as _, Reducible as _};
+use jred::Reducible as _;
+use jred::machine::{Jointed as _, Mechanism as _};
 
 use super::{a_drive_is_found, close, example, machine, parse, refuses_edit};
 

@@ -1,6 +1,7 @@
 //! `type = "rack-and-pinion"`.
 
-use jred::{Mechanism as _, Reducible as _};
+use jred::Reducible as _;
+use jred::machine::Mechanism as _;
 
 use super::{a_drive_is_found, close, example, machine, parse, refuses_edit};
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use jred::Mechanism as _;
+use jred::machine::Mechanism as _;
 
 use super::{a_drive_is_found, close, example, machine, parse, refuses_edit};
 

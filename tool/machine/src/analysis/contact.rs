@@ -3,8 +3,9 @@
 
 use std::f64::consts::TAU;
 
-use jred::cam::{contact_force, lift_off};
-use jred::{Error, Machine, Mechanism as _};
+use jred::machine::Mechanism as _;
+use jred::mechanism::cam::{contact_force, lift_off};
+use jred::{Error, Machine};
 
 use crate::model::coordinate::{Coordinate, positions};
 use crate::model::machine::AnyMechanism;

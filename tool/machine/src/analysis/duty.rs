@@ -1,6 +1,7 @@
 //! The duty: the load that one cycle of the motion puts on the drive, independent of any motor.
 
-use jred::{Domain, Error, Reducible as _, TorqueTerms};
+use jred::machine::TorqueTerms;
+use jred::{Domain, Error, Reducible as _};
 
 use crate::analysis::mechanics::Mechanics;
 use crate::model::coordinate;
@@ -63,7 +64,7 @@ pub(crate) fn smooth_stretches(
     use std::f64::consts::TAU;
     let loads = file.machine.loads().iter();
     let edges: Vec<f64> = loads
-        .filter_map(jred::Load::window)
+        .filter_map(jred::machine::Load::window)
         .flat_map(|window| window.edges())
         .collect();
     // Which side of the edge the drive link is on; on a turn, after how many of its passages.

@@ -6,10 +6,9 @@
 //! an index of 0.643. Below 0.3, an angle of 17.5°, forces and play are more than three times those at 90°: the mechanism is
 //! near a dead point, and the check fails.
 
-use jred::cam::lift_off;
-use jred::joint::Joints;
-use jred::mechanism::Frames;
-use jred::{Body, Domain, Error, Frame, Joint, Jointed as _, Mechanism as _};
+use jred::machine::{Body, Frame, Frames, Joint, Jointed as _, Joints, Mechanism as _};
+use jred::mechanism::cam::lift_off;
+use jred::{Domain, Error};
 use serde::Serialize;
 
 use crate::model::coordinate::{Coordinate, whole_range};
@@ -282,7 +281,7 @@ fn size(joints: &[Joint], frames: &Frames) -> f64 {
 fn points(joint: &Joint, frames: &Frames) -> Vec<[f64; 2]> {
     match joint {
         Joint::Revolute(m) | Joint::Prismatic(m) | Joint::Fixed(m) | Joint::PinInSlot(m) => {
-            let of = |m: &jred::Marker| m.position(frames).map(|c| c.value);
+            let of = |m: &jred::machine::Marker| m.position(frames).map(|c| c.value);
             m.iter().map(of).collect()
         }
         Joint::Transmission(_) => Vec::new(),

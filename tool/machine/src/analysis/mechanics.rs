@@ -1,6 +1,7 @@
 //! Data of machine and motion for the mechanical rules, computed once since they do not depend on the drive.
 
-use jred::{Domain, Mechanism as _, Reducible as _};
+use jred::machine::Mechanism as _;
+use jred::{Domain, Reducible as _};
 
 use crate::analysis::duty::Instant;
 use crate::model::machine::MachineFile;

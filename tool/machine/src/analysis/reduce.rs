@@ -1,9 +1,9 @@
 //! `jred reduce`: the reduced link over a turn or a stroke, the motion of every point and link, the force in every joint,
 //! and the drive torque of the motion.
 
-use jred::mechanism::Frames;
-use jred::motion::State;
-use jred::{Domain, Error, Machine, Mechanism as _, Reducible as _};
+use jred::machine::motion::State;
+use jred::machine::{Frames, Mechanism as _};
+use jred::{Domain, Error, Machine, Reducible as _};
 
 use crate::model::coordinate::{Coordinate, positions};
 use crate::model::machine::{AnyMechanism, MachineFile};

@@ -1,9 +1,10 @@
 //! Number types and layouts that a table can have, by name.
 
-use jred::PoseError;
+use jred::machine::PoseError;
+use jred::number::Number as _;
+use jred::table::Format as _;
 use jred::{
-    Cubic, Error, Format as _, Harmonic, Number as _, Q15, Q31, Quadratic, Reducible, Rows16,
-    Scale, Spline, Spline16,
+    Cubic, Error, Harmonic, Q15, Q31, Quadratic, Reducible, Rows16, Scale, Spline, Spline16,
 };
 
 use super::search::{Answer, Search};

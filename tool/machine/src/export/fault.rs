@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use jred::RangeError;
+use jred::number::RangeError;
 use jred::table::MAX_CELLS;
 use jred::{Cubic, Error, Quadratic, Spline};
 

@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 
 use jred::harmonic::terms;
-use jred::{Set, Usage, curves};
+use jred::table::Usage;
+use jred::{Set, curves};
 use serde_json::{Value, json};
 
 use super::search::{Answer, Candidate};

@@ -2,9 +2,9 @@
 
 use jred::harmonic::{self, MAX_HARMONICS, fit, scratch_len, terms_in_use};
 use jred::image::{encode, image_len};
-use jred::table::{Shape, words_len};
+use jred::table::{Shape, Usage, words_len};
 use jred::tabulate::{Request, Tabulated};
-use jred::{Error, Harmonic, Image, Reducible as _, Scale, Table, Usage, Validity};
+use jred::{Error, Harmonic, Image, Reducible as _, Scale, Table, Validity};
 
 use super::choice::{LayoutName, Number};
 use super::search::{Answer, Candidate, Search};

@@ -3,7 +3,8 @@
 
 use std::f64::consts::TAU;
 
-use jred::{Domain, Error, Mechanism as _, Reducible, Reduction};
+use jred::machine::Mechanism as _;
+use jred::{Domain, Error, Reducible, Reduction};
 
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;

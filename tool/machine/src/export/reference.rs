@@ -1,6 +1,6 @@
 //! The exact curves, computed once and compared with every table that is tried.
 
-use jred::PoseError;
+use jred::machine::PoseError;
 use std::cell::{OnceCell, RefCell};
 use std::collections::HashMap;
 

@@ -3,11 +3,11 @@
 //! A size is looked at in two steps: against exact curves computed once, which refuses nearly all that miss; then against
 //! [`tabulate::measure`], and by ticking its image. What passes both is a table.
 
-use jred::PoseError;
-use jred::RangeError;
-use jred::table::{MAX_CELLS, MIN_CELLS};
+use jred::machine::PoseError;
+use jred::number::RangeError;
+use jred::table::{Format, MAX_CELLS, MIN_CELLS, Usage};
 use jred::tabulate::{self, Request, Tabulated};
-use jred::{Domain, Error, Format, Machine, Reducible as _, Scale, Set, Usage, curves};
+use jred::{Domain, Error, Machine, Reducible as _, Scale, Set, curves};
 
 use super::choice::{LayoutName, Number};
 use super::reference::{Reference, Remembered};

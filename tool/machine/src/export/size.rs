@@ -1,9 +1,9 @@
 //! One size of a table of one format: looked at, made, and ticked.
 
 use jred::image::{encode, image_len};
-use jred::table::words_len;
+use jred::table::{Format, Usage, words_len};
 use jred::tabulate::{self, Request, Tabulated};
-use jred::{Error, Format, Image, Scale, Set, Table, Usage, Validity};
+use jred::{Error, Image, Scale, Set, Table, Validity};
 
 use super::search::Search;
 use super::ticks::{self, Ticks};

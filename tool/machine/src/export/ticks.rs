@@ -1,6 +1,8 @@
 //! An image ticked as firmware does it, against the exact machine.
 
-use jred::{Error, Format, Image, ImageError, Number as _};
+use jred::number::Number as _;
+use jred::table::Format;
+use jred::{Error, Image, ImageError};
 
 use super::reference::{Place, Reference};
 

@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use jred::{Domain, Error, Joint, Jointed as _, Mechanism as _};
+use jred::machine::{Joint, Jointed as _, Mechanism as _};
+use jred::{Domain, Error};
 
 use crate::model::machine::AnyMechanism;
 

@@ -1,12 +1,12 @@
 //! A machine as described by a machine file, checked and in SI units.
 
-use jred::PoseError;
+use jred::machine::PoseError;
 use std::fmt;
 use std::sync::Arc;
 
-use jred::joint::Joints;
-use jred::mechanism::{Frames, Train};
-use jred::{Domain, Element, Error, Jointed, Link, Load, Machine, Mechanism, Reduction};
+use jred::machine::{Element, Frames, Jointed, Joints, Load, Mechanism};
+use jred::mechanism::Train;
+use jred::{Domain, Error, Link, Machine, Reduction};
 
 use crate::model::coordinate::Coordinate;
 use crate::model::motion::Motion;
@@ -38,7 +38,7 @@ pub struct Contact {
     /// Index of the joint.
     pub joint: usize,
     /// The pieces of the drive's range in which it is smooth.
-    pub pieces: Vec<jred::cam::Piece>,
+    pub pieces: Vec<jred::mechanism::cam::Piece>,
 }
 
 /// A property of one kind of mechanism, such as the largest pressure angle of a cam.

@@ -1,6 +1,6 @@
 //! The prescribed motion of the drive link over one cycle.
 
-use jred::motion::{Law, Move, State};
+use jred::machine::motion::{Law, Move, State};
 
 use crate::number::spline::{Fault, Spline, Way};
 
@@ -82,7 +82,7 @@ impl Motion {
         start: f64,
         segments: &[Segment],
         cyclic: bool,
-    ) -> Result<Self, (usize, jred::RangeError)> {
+    ) -> Result<Self, (usize, jred::number::RangeError)> {
         let (mut t, mut phi) = (0.0, start);
         let mut pieces = Vec::with_capacity(segments.len());
         for (index, segment) in segments.iter().enumerate() {

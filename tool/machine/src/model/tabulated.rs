@@ -19,12 +19,12 @@
 
 use std::sync::Arc;
 
-use jred::joint::{Joints, Marker};
-use jred::mechanism::{Frames, MAX_LINKS};
-use jred::{
-    Action, Body, Domain, Element, Error, Frame, Joint, Jointed, Link, Load, Mechanism, PoseError,
-    RangeError, Transfer, Wrench,
+use jred::machine::{
+    Action, Body, Element, Frame, Frames, Joint, Jointed, Joints, Load, MAX_LINKS, Marker,
+    Mechanism, PoseError, Wrench,
 };
+use jred::number::{RangeError, Transfer};
+use jred::{Domain, Error, Link};
 
 use crate::model::machine::Inner;
 use crate::number::spline::Spline;

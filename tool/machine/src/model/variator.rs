@@ -8,7 +8,7 @@ use jred::Error;
 use jred::friction::{
     Arrangement, Contact, Course, CreepContact, Drive, Dual, Flow, Place, Ramp, Stage, Variable,
 };
-use jred::motion::Law;
+use jred::machine::motion::Law;
 use miette::{Report, miette};
 
 use crate::model::machine::MachineFile;

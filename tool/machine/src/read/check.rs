@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use jred::{Domain, Error, PoseError, Reducible};
+use jred::machine::PoseError;
+use jred::{Domain, Error, Reducible};
 
 use crate::model::machine::MachineFile;
 use crate::number::numerics;

@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use jred::{Domain, Error, Mechanism as _};
+use jred::machine::Mechanism as _;
+use jred::{Domain, Error};
 
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::AnyMechanism;

@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use jred::{Body, Domain, Element, MAX_ELEMENTS, Marker, Mechanism as _, Transfer};
+use jred::Domain;
+use jred::machine::{Body, Element, MAX_ELEMENTS, Marker, Mechanism as _};
+use jred::number::Transfer;
 
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::{AnyMechanism, NamedElement};
@@ -135,7 +137,10 @@ enum Law {
 }
 
 impl Law {
-    fn element(&self, between: [Marker; 2]) -> std::result::Result<Element, jred::RangeError> {
+    fn element(
+        &self,
+        between: [Marker; 2],
+    ) -> std::result::Result<Element, jred::number::RangeError> {
         match *self {
             Self::Spring(stiffness, free) => Element::spring(between, stiffness, free),
             Self::TorsionSpring(stiffness, free) => {

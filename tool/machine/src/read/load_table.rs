@@ -1,6 +1,6 @@
 //! `[[load]] table = "loads.csv"`: payload, thrust and torque over the drive link's position.
 
-use jred::MAX_LOADS;
+use jred::machine::MAX_LOADS;
 
 use super::curve_file::Positions;
 use super::drive_link::DriveLink;

@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use jred::{Action, Domain, Load, MAX_LOADS, Mechanism as _, Window};
+use jred::Domain;
+use jred::machine::{Action, Load, MAX_LOADS, Mechanism as _, Window};
 
 use crate::model::machine::{AnyMechanism, NamedLoad};
 

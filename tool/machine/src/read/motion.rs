@@ -1,7 +1,7 @@
 //! `[motion]`: the prescribed motion of the drive link.
 
 use jred::Domain;
-use jred::motion::Law;
+use jred::machine::motion::Law;
 use std::f64::consts::TAU;
 
 use crate::model::motion::{Motion, Segment};

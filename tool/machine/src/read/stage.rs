@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use jred::RangeError;
 use jred::mechanism::{Mesh, Stage, Train};
+use jred::number::RangeError;
 
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;

@@ -1,6 +1,6 @@
 //! `[tool]`: where backlash matters, and how much is allowed.
 
-use jred::Mechanism as _;
+use jred::machine::Mechanism as _;
 
 use crate::model::coordinate;
 use crate::model::machine::AnyMechanism;

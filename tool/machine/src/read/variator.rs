@@ -1,7 +1,7 @@
 //! `[variator]`: a friction variator between the motor and the drive train.
 
 use jred::friction::{Contact, CreepContact, Flow};
-use jred::motion::Law;
+use jred::machine::motion::Law;
 
 use crate::model::variator::{Ratio, Slip, Variator};
 

@@ -1,9 +1,7 @@
 //! Content of a drawing, in metres: parts of links in their own frames, parts of the ground, paths, poses.
 
-use jred::PoseError;
-use jred::joint::Joints;
-use jred::mechanism::Frames;
-use jred::{Body, Error, Joint, Jointed as _, Marker, Mechanism as _};
+use jred::Error;
+use jred::machine::{Body, Frames, Joint, Jointed as _, Joints, Marker, Mechanism as _, PoseError};
 
 use jred_machine::model::coordinate::whole_range;
 use jred_machine::model::machine::{AnyMechanism, NamedPoint};

@@ -10,7 +10,8 @@
 //! m scales every mass and inertia of the mechanism and its flywheel, p every force and moment of given direction. The
 //! drive train behind it keeps its inertia and its losses, which are worked out anew at every instant.
 
-use jred::{Error, Machine, Mechanism as _, TorqueTerms};
+use jred::machine::{Mechanism as _, TorqueTerms};
+use jred::{Error, Machine};
 
 use jred_machine::analysis::duty::{Duty, Instant};
 use jred_machine::analysis::mechanics::Mechanics;

@@ -15,7 +15,8 @@
 //! Each cell's share of the mean square is ⟨T_k·T⟩/⟨T²⟩, its projection on the whole: the shares add up to one. A share may be
 //! negative: without that cell the RMS torque would be greater.
 
-use jred::{Error, Link, Mechanism as _};
+use jred::machine::Mechanism as _;
+use jred::{Error, Link};
 use serde::Serialize;
 
 use crate::catalogue::Drive;

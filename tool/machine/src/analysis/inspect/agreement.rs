@@ -1,6 +1,7 @@
 //! Independent checks: d'Alembert's principle against the reduced equation, work against energy.
 
-use jred::{Error, Mechanism as _, Reducible as _};
+use jred::machine::Mechanism as _;
+use jred::{Error, Reducible as _};
 use serde::Serialize;
 
 use crate::analysis::duty;

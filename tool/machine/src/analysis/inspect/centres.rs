@@ -1,6 +1,8 @@
 //! Dead centres: where a link that slides or swings on the ground comes to rest while the drive goes on.
 
-use jred::{Body, Domain, Error, Joint, Jointed as _, Mechanism as _, Transfer};
+use jred::machine::{Body, Joint, Jointed as _, Mechanism as _};
+use jred::number::Transfer;
+use jred::{Domain, Error};
 use serde::Serialize;
 
 use crate::model::coordinate::Coordinate;

@@ -17,9 +17,7 @@
 //! two as its only measure: q = cos of the pressure angle. q = 0 is the dead point: the forces in the group grow as 1/q. For
 //! groups of more than two links q is a stricter figure than the smallest angle between any two.
 
-use jred::joint::Joints;
-use jred::mechanism::Frames;
-use jred::{Body, Joint};
+use jred::machine::{Body, Frames, Joint, Joints};
 
 mod closure;
 mod motion;

@@ -1,6 +1,7 @@
 //! The reduced link and the motion's drive torque as columns.
 
-use jred::{Error, Reducible as _, TorqueTerms};
+use jred::machine::TorqueTerms;
+use jred::{Error, Reducible as _};
 
 use super::{Place, Set, Source};
 use crate::model::coordinate::Coordinate;

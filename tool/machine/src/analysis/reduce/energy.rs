@@ -4,8 +4,8 @@
 //! from the force itself and the transfer functions of its point, not from the reduced curves: their sum is the reduced
 //! torque T_red.
 
-use jred::mechanism::Frames;
-use jred::{Body, Error, Mechanism as _, Wrench};
+use jred::Error;
+use jred::machine::{Body, Frames, Mechanism as _, Wrench};
 
 use super::{Place, Set, Source};
 

@@ -1,8 +1,9 @@
 //! Named points, centres of mass and links as columns: positions, transfer functions, velocities and accelerations.
 
-use jred::mechanism::Frames;
-use jred::motion::State;
-use jred::{Error, Mechanism as _, Transfer};
+use jred::Error;
+use jred::machine::motion::State;
+use jred::machine::{Frames, Mechanism as _};
+use jred::number::Transfer;
 
 use super::{Place, Set, Source};
 use crate::model::coordinate::Coordinate;

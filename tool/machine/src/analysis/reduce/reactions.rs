@@ -4,7 +4,8 @@
 //! turns with it as a flywheel does: it changes the drive torque and no joint. What a belt or a pinion pulls at the drive
 //! link's bearing is not in the machine file, and so not in the bearing's force.
 
-use jred::{Error, Joint, Jointed as _, Mechanism as _};
+use jred::Error;
+use jred::machine::{Joint, Jointed as _, Mechanism as _};
 
 use super::{Place, Set, Source};
 

@@ -1,7 +1,8 @@
 //! `type = "four-bar"`.
 
+use jred::machine::PoseError;
 use jred::mechanism::{Blocked, BuildError, FourBar, FourBarDimensions, Grashof, Side};
-use jred::{PoseError, RangeError};
+use jred::number::RangeError;
 
 use super::{core, link};
 use crate::model::machine::AnyMechanism;

@@ -7,10 +7,9 @@ mod joints;
 mod problems;
 mod wheels;
 
-use jred::PoseError;
-use jred::joint::Joints;
-use jred::mechanism::{Frames, Pair};
-use jred::{Domain, Frame, Joint, Jointed, Link, Mechanism};
+use jred::machine::{Frame, Frames, Joint, Jointed, Joints, Mechanism, PoseError};
+use jred::mechanism::linkage::Pair;
+use jred::{Domain, Link};
 
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::AnyMechanism;
@@ -68,7 +67,10 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let drawn_at = section.optional("drawn_at", kind)?.map(|value| value.si);
     let domain = domain(section, coordinate)?;
     let poses = drawing::poses(&bodies, &joints, drive, drawn_at)?;
-    let frames: Vec<Frame> = poses.iter().map(jred::mechanism::Pose::frame).collect();
+    let frames: Vec<Frame> = poses
+        .iter()
+        .map(jred::mechanism::linkage::Pose::frame)
+        .collect();
     for joint in &mut joints {
         joint.meshing_at(&frames);
     }

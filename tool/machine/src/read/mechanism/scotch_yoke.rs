@@ -2,8 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use jred::RangeError;
 use jred::mechanism::{BuildError, ScotchYoke, ScotchYokeDimensions};
+use jred::number::RangeError;
 
 use super::{core, link, parts};
 use crate::model::machine::AnyMechanism;

@@ -1,6 +1,6 @@
 //! `type = "gear-train"` and `type = "belt"`: shafts coupled by constant ratios.
 
-use jred::Mechanism as _;
+use jred::machine::Mechanism as _;
 
 use crate::model::machine::AnyMechanism;
 use crate::read::stage;

@@ -1,6 +1,6 @@
 //! The joints that close a group, and the index of each block of them.
 
-use jred::{Joint, Marker, Wrench};
+use jred::machine::{Joint, Marker, Wrench};
 
 use super::Block;
 use super::motion::{Motion, direction, pivot};

@@ -1,7 +1,6 @@
 //! How the links of a group move with each velocity that it is free to have.
 
-use jred::mechanism::Frames;
-use jred::{Body, Joint, Marker};
+use jred::machine::{Body, Frames, Joint, Marker};
 
 /// Velocity [v_x, v_y] of the body's point at the global origin, and angular velocity.
 type Twist = [f64; 3];

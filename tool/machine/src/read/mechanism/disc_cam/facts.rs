@@ -1,7 +1,7 @@
 //! Properties of the shape of a cam that designers need.
 
-use jred::cam::Extreme;
 use jred::mechanism::DiscCam;
+use jred::mechanism::cam::Extreme;
 
 use crate::model::coordinate::Coordinate;
 use crate::number::rounding::short;

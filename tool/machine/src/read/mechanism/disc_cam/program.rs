@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use jred::cam::{CamError, MAX_SEGMENTS, Program, Segment, Shape};
+use jred::mechanism::cam::{CamError, MAX_SEGMENTS, Program, Segment, Shape};
 
 use crate::number::rounding::figure;
 use crate::read::motion;

@@ -1,6 +1,6 @@
 //! Errors of the core about a cam, in terms of the machine file.
 
-use jred::cam::CamError;
+use jred::mechanism::cam::CamError;
 
 use crate::read::mechanism::core;
 use crate::text::item::Value;

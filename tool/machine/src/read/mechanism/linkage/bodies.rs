@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use jred::{Body, Link, Marker};
+use jred::Link;
+use jred::machine::{Body, Marker};
 
 use crate::read::mechanism::core;
 use crate::text::item::{Item, Value};

@@ -3,9 +3,11 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use jred::cam::Piece;
-use jred::mechanism::{CamProfile, Follower, Pair, PlacedCam, Roller};
-use jred::{Body, Domain, Mechanism};
+use jred::Domain;
+use jred::machine::{Body, Mechanism};
+use jred::mechanism::cam::Piece;
+use jred::mechanism::linkage::{Pair, PlacedCam};
+use jred::mechanism::{CamProfile, Follower, Roller};
 
 use crate::model::machine::{AnyMechanism, Contact};
 use crate::number::rounding::figure;
@@ -141,13 +143,13 @@ pub(super) fn check(mechanism: &impl Mechanism, bodies: &Bodies, joints: &[Held]
     Ok(())
 }
 
-fn stands(joint: &Held, cam: &Cam, bodies: &Bodies, frames: &[jred::Frame]) -> Result<()> {
+fn stands(joint: &Held, cam: &Cam, bodies: &Bodies, frames: &[jred::machine::Frame]) -> Result<()> {
     let (base, profile) = (cam.placed.base(), cam.placed.profile());
     let [on_cam, on_follower] = joint.pair.markers();
     let [x, y] = base.position(frames).map(|c| c.value);
     let [cos, sin] = base.axis(frames).map(|c| c.value);
     // Seen from the base.
-    let seen = |marker: &jred::Marker| {
+    let seen = |marker: &jred::machine::Marker| {
         let [to_x, to_y] = marker.position(frames).map(|c| c.value);
         let (to_x, to_y) = (to_x - x, to_y - y);
         [cos * to_x + sin * to_y, cos * to_y - sin * to_x]

@@ -3,8 +3,8 @@
 //! Angles that are not given follow through guides and rigid connections, positions from pin to pin, starting at the
 //! ground. What is left open at the last pin of a loop, Newton's method closes.
 
-use jred::mechanism::{Pair, Pose};
-use jred::{Body, Joint, Marker};
+use jred::machine::{Body, Joint, Marker};
+use jred::mechanism::linkage::{Pair, Pose};
 
 use crate::text::problem::{Problem, Result};
 

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use jred::mechanism::Pair;
-use jred::{Body, Frame, Joint};
+use jred::machine::{Body, Frame, Joint};
+use jred::mechanism::linkage::Pair;
 
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result};

@@ -1,7 +1,8 @@
 //! Errors of the core about a linkage, in terms of the machine file.
 
+use jred::Domain;
+use jred::machine::{Body, Frame, Joint, PoseError};
 use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, Pose};
-use jred::{Body, Domain, Frame, Joint, PoseError};
 
 use crate::model::coordinate::Coordinate;
 use crate::number::rounding::figure;

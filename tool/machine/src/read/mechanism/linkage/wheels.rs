@@ -1,7 +1,8 @@
 //! Requirements of gears, racks and belts on their bearings, checked on the assembled linkage.
 
-use jred::mechanism::Pair;
-use jred::{Body, Domain, Frame, Marker, Mechanism};
+use jred::Domain;
+use jred::machine::{Body, Frame, Marker, Mechanism};
+use jred::mechanism::linkage::Pair;
 
 use crate::number::rounding::figure;
 use crate::text::problem::{Problem, Result};

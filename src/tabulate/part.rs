@@ -1,0 +1,54 @@
+//! A part of a machine's range, which is tabulated alone.
+
+use crate::machine::PoseError;
+use crate::number::error::{RangeError, finite};
+use crate::{Domain, Reducible, Reduction};
+
+/// A part of a machine's range, as a stroke: what one table of [`Pieces`](crate::Pieces) is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct Part<'m, M> {
+    machine: &'m M,
+    from: f64,
+    to: f64,
+}
+
+/// The end of a part belongs to the next one, and its start may be rounded into the one before; so far inside (in lengths of
+/// the part) its first and last place lie.
+const INSIDE: f64 = 1e-11;
+
+impl<'m, M: Reducible> Part<'m, M> {
+    /// From the position `from` to `to` (rad, or m).
+    ///
+    /// # Errors
+    /// A position that is not finite, `to` not greater than `from`, or more than a turn.
+    pub fn new(machine: &'m M, from: f64, to: f64) -> Result<Self, RangeError> {
+        let from = finite("start of the part", from)?;
+        let to = finite("end of the part", to)?;
+        let span = machine.domain().span();
+        if !(to > from && to - from <= span) {
+            return Err(RangeError::OutOfRange {
+                what: "length of the part",
+                value: to - from,
+                min: 0.0,
+                max: span,
+            });
+        }
+        Ok(Self { machine, from, to })
+    }
+}
+
+impl<M: Reducible> Reducible for Part<'_, M> {
+    fn domain(&self) -> Domain {
+        Domain::Stroke {
+            from: self.from,
+            to: self.to,
+        }
+    }
+
+    fn reduction(&self, phi: f64) -> Result<Reduction, PoseError> {
+        let margin = INSIDE * (self.to - self.from);
+        // Not `clamp`, which panics if a part is so short that roundings turn the two round.
+        let phi = phi.max(self.from + margin).min(self.to - margin);
+        self.machine.reduction(phi)
+    }
+}
