@@ -13,7 +13,7 @@ use crate::number::numerics;
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result, quoted};
 use crate::text::section::Section;
-use crate::units::closest;
+use crate::units::did_you_mean;
 use crate::units::kind::{
     ANGLE, LENGTH, STIFFNESS, TORSION_STIFFNESS, VISCOUS_FORCE, VISCOUS_MOMENT,
 };
@@ -281,8 +281,7 @@ fn unknown(item: &Item, text: &str, mechanism: &AnyMechanism) -> Problem {
             format!("{link}.{}", point.name)
         }
     }));
-    let near =
-        closest(text, &names).map_or_else(String::new, |near| format!("did you mean \"{near}\"? "));
+    let near = did_you_mean(text, &names);
     item.problem(
         &format!("is \"{text}\", which is no body and no point"),
         "unknown",

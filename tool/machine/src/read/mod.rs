@@ -36,7 +36,7 @@ use std::path::Path;
 
 use jred::Machine;
 use miette::{Report, miette};
-use toml::de::DeTable;
+use toml::de::{DeTable, DeValue};
 
 use crate::model::machine::MachineFile;
 use crate::model::rules::RuleSet;
@@ -233,7 +233,6 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<MachineFile> {
 
 /// Text that is not TOML.
 fn syntax(error: &toml::de::Error, text: &str) -> Problem {
-    let message = error.message();
     let span = error.span().unwrap_or(0..0);
     let start = text
         .get(..span.start)
@@ -242,22 +241,40 @@ fn syntax(error: &toml::de::Error, text: &str) -> Problem {
         .get(start..)
         .and_then(|rest| rest.lines().next())
         .unwrap_or_default();
-    let bare = line.split_once('=').filter(|(key, value)| {
-        !value.contains(['"', '[', '{', '\'']) && span.start > start + key.len()
-    });
-    let help = match bare {
-        _ if message.contains("duplicate") => "remove or rename one of the two".to_owned(),
-        Some((key, value)) if !value.trim().is_empty() => {
-            let value = value.split('#').next().unwrap_or_default().trim();
-            format!(
-                "write texts and quantities in quotes: {} = \"{value}\"",
-                key.trim()
-            )
-        }
-        _ => "a line is key = \"value\", a [table] or a [[table of a list]]; write texts in quotes"
-            .to_owned(),
+    let (key, value) = line.split_once('=').unwrap_or((line, ""));
+    let at_key = span.start <= start + key.len();
+    let bare = !at_key && !value.contains(['"', '[', '{', '\'']);
+    let value = value.split('#').next().unwrap_or_default().trim();
+    let help = if at_key
+        && text
+            .get(span.clone())
+            .is_some_and(|key| is_twice(key, text))
+    {
+        "remove or rename one of the two".to_owned()
+    } else if bare && !value.is_empty() {
+        let key = key.trim();
+        format!("write texts and quantities in quotes: {key} = \"{value}\"")
+    } else {
+        "a line is key = \"value\", a [table] or a [[table of a list]]; write texts in quotes"
+            .to_owned()
     };
-    Problem::new(format!("the file is not valid TOML: {message}"))
+    Problem::new(format!("the file is not valid TOML: {}", error.message()))
         .at(span, "here")
         .help(help)
+}
+
+/// Whether a text that is not valid TOML has this key where it can be read; what is wrong is then that it stands there again.
+fn is_twice(key: &str, text: &str) -> bool {
+    fn has(value: &DeValue, key: &str) -> bool {
+        match value {
+            DeValue::Table(table) => {
+                let mut entries = table.iter();
+                entries.any(|(name, value)| name.get_ref() == key || has(value.get_ref(), key))
+            }
+            DeValue::Array(array) => array.iter().any(|value| has(value.get_ref(), key)),
+            _ => false,
+        }
+    }
+    let (table, _) = DeTable::parse_recoverable(text);
+    has(&DeValue::Table(table.into_inner()), key)
 }

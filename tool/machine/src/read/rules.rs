@@ -14,7 +14,7 @@ use crate::text::file::Files;
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result, quoted};
 use crate::text::section::Section;
-use crate::units::closest;
+use crate::units::did_you_mean;
 use crate::units::kind::SHARE;
 
 /// The rule sets that come with the tool, by name; each is a file.
@@ -108,8 +108,7 @@ fn named(name: &str) -> Result<RuleSet> {
 
 fn unknown(name: &str) -> Problem {
     let names = BUILT_IN.map(|(name, _)| name);
-    let near =
-        closest(name, &names).map_or_else(String::new, |near| format!("did you mean \"{near}\"? "));
+    let near = did_you_mean(name, &names);
     Problem::new(format!("there is no rule set \"{name}\"")).help(format!(
         "{near}possible: {}; or a file such as \"our-rules.toml\"; `jred rules` shows them with their sources",
         quoted(&names)

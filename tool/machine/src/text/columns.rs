@@ -7,7 +7,7 @@ use super::file::Files;
 use super::item::Item;
 use super::problem::{Problem, Result};
 use crate::number::rounding::figure;
-use crate::units::closest;
+use crate::units::did_you_mean;
 use crate::units::kind::Kind;
 use crate::units::unit;
 use std::ops::Range;
@@ -291,8 +291,7 @@ fn header_columns(
                 continue;
             }
             let names: Vec<&str> = format.known.iter().flat_map(|k| k.names).copied().collect();
-            let near = closest(name, &names)
-                .map_or_else(String::new, |near| format!("did you mean \"{near}\"? "));
+            let near = did_you_mean(name, &names);
             return Err(fault(format!("unknown column \"{whole}\""), near + &help));
         };
         let kind = format.known[index].kind;
@@ -307,11 +306,7 @@ fn header_columns(
         };
         let read = unit::read(&unit::tidy(unit))
             .map_err(|f| fault(format!("the column \"{whole}\" {}", f.message), f.help))?;
-        let mut dimension = read.dimension;
-        if kind.angle_optional && dimension.angle == 0 {
-            dimension.angle = kind.dimension.angle;
-        }
-        if dimension != kind.dimension {
+        if !kind.is_measured_by(read.dimension) {
             return Err(fault(
                 format!(
                     "the column \"{whole}\" is {}, but must be {}",

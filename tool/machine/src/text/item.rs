@@ -10,7 +10,7 @@ use super::section::Section;
 use crate::number::rounding::figure;
 use crate::units::kind::Kind;
 use crate::units::quantity::{self, Quantity};
-use crate::units::{Fault, closest};
+use crate::units::{Fault, did_you_mean};
 
 /// A value with its name for messages.
 #[derive(Clone, Debug)]
@@ -200,8 +200,7 @@ impl<'a> Item<'a> {
         if let Some(index) = words.iter().position(|w| w.as_ref() == text) {
             return Ok(index);
         }
-        let near = closest(text, words)
-            .map_or_else(String::new, |near| format!("did you mean \"{near}\"? "));
+        let near = did_you_mean(text, words);
         Err(self
             .problem(
                 &format!("is \"{text}\", which is not a valid choice here"),

@@ -32,12 +32,21 @@ impl Fault {
 /// The word that `wrong` is most likely a misspelling of.
 pub fn closest<S: AsRef<str>>(wrong: &str, words: &[S]) -> Option<String> {
     let lower = wrong.to_lowercase();
-    let allowed = (lower.chars().count() / 3).clamp(1, 3);
-    let distance = |word: &str| strsim::damerau_levenshtein(&lower, &word.to_lowercase());
+    let length = lower.chars().count();
+    let allowed = (length / 3).clamp(1, 3);
+    let distance = |word: &str| {
+        let near = word.chars().count().abs_diff(length) <= allowed;
+        near.then(|| strsim::damerau_levenshtein(&lower, &word.to_lowercase()))
+    };
     words
         .iter()
-        .map(|w| (distance(w.as_ref()), w.as_ref()))
+        .filter_map(|word| Some((distance(word.as_ref())?, word.as_ref())))
         .filter(|(distance, _)| *distance <= allowed)
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, word)| word.to_owned())
+}
+
+/// The beginning of a cure that names this word: `did you mean "…"? `; empty if there is none.
+pub fn did_you_mean<S: AsRef<str>>(wrong: &str, words: &[S]) -> String {
+    closest(wrong, words).map_or_else(String::new, |near| format!("did you mean \"{near}\"? "))
 }

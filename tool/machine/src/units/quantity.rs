@@ -1,9 +1,8 @@
 //! Quantities: a number and its unit, of a kind that the key asks for.
 
 use super::fault::Fault;
-use super::kind::{ANGULAR_SPEED, FREQUENCY, Kind, SHARE, describe};
+use super::kind::{ANGULAR_SPEED, CUTOFF, Kind, SHARE, describe};
 use super::unit::{self, Unit};
-use super::word::Dimension;
 use crate::number::rounding::figure;
 
 /// A quantity as read.
@@ -208,17 +207,10 @@ pub fn split_number<'t>(text: &'t str, kind: &Kind) -> Result<(String, &'t str),
 
 fn check_dimension(unit: &Unit, text: &str, kind: &Kind) -> Result<(), Fault> {
     let found = unit.dimension;
-    let same = found == kind.dimension
-        || kind.angle_optional
-            && found
-                == Dimension {
-                    angle: 0,
-                    ..kind.dimension
-                };
-    if same {
+    if kind.is_measured_by(found) {
         return Ok(());
     }
-    let help = if found == FREQUENCY && kind.dimension == ANGULAR_SPEED.dimension {
+    let help = if found == CUTOFF.dimension && kind.dimension == ANGULAR_SPEED.dimension {
         "\"Hz\" and \"1/s\" do not say whether they count turns or radians: write \"rpm\" or \"rad/s\" (1 turn per \
          second = 60 rpm = 6.2832 rad/s)"
             .to_owned()

@@ -206,10 +206,19 @@ const fn raised(x: f64, power: i32) -> f64 {
 /// One of a unit in SI, for units that stand in the source; those of a catalogue's columns are known as well. A word that
 /// there is not does not compile.
 pub const fn scale(unit: &str) -> f64 {
+    product(unit).scale()
+}
+
+/// What a unit measures that stands in the source.
+pub(super) const fn dimension(unit: &str) -> Dimension {
+    product(unit).dimension
+}
+
+const fn product(unit: &str) -> Product {
     let text = unit.as_bytes();
     let (mut product, mut at, mut below) = (Product::ONE, 0, false);
     while at < text.len() {
-        if matches!(text[at], b' ' | b'/') {
+        if matches!(text[at], b' ' | b'/' | b'1') {
             below |= text[at] == b'/';
             at += 1;
             continue;
@@ -226,7 +235,7 @@ pub const fn scale(unit: &str) -> f64 {
         }
         product = product.times(word, if below { -power } else { power });
     }
-    product.scale()
+    product
 }
 
 /// The word that stands in a text.

@@ -1,6 +1,6 @@
 //! Quantities in cells: a number with its unit in the header, a number with its own unit, points of a curve.
 
-use jred_machine::units::Fault;
+use jred_machine::units::{Fault, did_you_mean};
 
 use super::column::{For, Unit};
 
@@ -36,8 +36,7 @@ pub(super) fn unit_cure(text: &str, units: &[Unit]) -> String {
         .map(|u| u.text)
         .filter(|t| !t.is_empty())
         .collect();
-    let near = nearest(text, &names);
-    let near = near.map_or(String::new(), |word| format!("did you mean \"{word}\"? "));
+    let near = did_you_mean(text, &names);
     format!("{near}possible units: {}", names.join(", "))
 }
 
@@ -148,11 +147,4 @@ pub(super) const fn words(motors: For) -> &'static str {
         For::Rotary => "turning",
         For::Linear => "sliding",
     }
-}
-
-/// The word that `wrong` is most likely a misspelling of, if any is similar.
-pub(super) fn nearest<'n>(wrong: &str, names: &[&'n str]) -> Option<&'n str> {
-    let alike = |name: &str| strsim::jaro_winkler(wrong, name);
-    let best = names.iter().max_by(|a, b| alike(a).total_cmp(&alike(b)))?;
-    (alike(best) > 0.6).then_some(best)
 }

@@ -4,8 +4,9 @@ use std::collections::HashMap;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use jred_machine::units::closest;
+
 use super::Catalogue;
-use super::cell::nearest;
 use super::column::Kind;
 use super::fault::{CatalogueError, Remarks, Text};
 use super::files::{Format, NAMES, built_in, format_of, formatted, is_toml, kind_of, unreadable};
@@ -108,8 +109,7 @@ fn beside(path: &Path) -> Option<PathBuf> {
     let names: Vec<String> = entries
         .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
         .collect();
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    let near = nearest(path.file_name()?.to_str()?, &names)?;
+    let near = closest(path.file_name()?.to_str()?, &names)?;
     Some(path.with_file_name(near))
 }
 

@@ -3,8 +3,9 @@
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
+use jred_machine::units::did_you_mean;
+
 use super::Pairing;
-use super::cell::nearest;
 use super::column::Column;
 use super::fault::Fault;
 use super::load::{Group, Loader};
@@ -39,8 +40,7 @@ impl Loader {
             {
                 *built_in = true;
             } else if let Some(text) = self.texts.get(*index) {
-                let near = nearest(key, &keys.names());
-                let near = near.map_or(String::new(), |n| format!("did you mean \"{n}\"? "));
+                let near = did_you_mean(key, &keys.names());
                 self.faults.add(
                     text,
                     Fault::new(
@@ -84,8 +84,7 @@ impl Loader {
                 let mut indices = Vec::new();
                 keys.find(pattern, |i| indices.push(i));
                 if indices.is_empty() && !self.broken.contains(pattern) {
-                    let near = nearest(pattern, &keys.names());
-                    let near = near.map_or(String::new(), |n| format!("did you mean \"{n}\"? "));
+                    let near = did_you_mean(pattern, &keys.names());
                     self.faults.add(
                         text,
                         Fault::new(

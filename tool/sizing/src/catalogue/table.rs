@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use super::cell::{Cell, find_unit, nearest, unit_cure};
+use jred_machine::units::did_you_mean;
+
+use super::cell::{Cell, find_unit, unit_cure};
 use super::column::{Column, Kind, Unit};
 use super::fault::{Fault, Text};
 use super::row::{Cells, Row};
@@ -144,8 +146,7 @@ impl<'t> Table<'t> {
 /// The fault of a name that is no column of this table.
 pub(super) fn unknown(name: &str, kind: Kind, at: Range<usize>) -> Fault {
     let names: Vec<&str> = Column::of(kind).map(Column::name).collect();
-    let near = nearest(name, &names);
-    let near = near.map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
+    let near = did_you_mean(name, &names);
     let elsewhere = Column::ALL.iter().find(|column| column.name() == name);
     let elsewhere = elsewhere.and_then(|column| column.kinds().first());
     let elsewhere = elsewhere.map_or(String::new(), |kind| {

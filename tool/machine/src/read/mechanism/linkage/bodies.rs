@@ -9,8 +9,8 @@ use crate::read::mechanism::core;
 use crate::text::item::{Item, Value};
 use crate::text::problem::{Problem, Result, quoted};
 use crate::text::section::Section;
-use crate::units::closest;
 use crate::units::kind::{ANGLE, INERTIA, LENGTH, MASS};
+use crate::units::{closest, did_you_mean};
 
 /// Name of the fixed frame in joints.
 pub(super) const GROUND: &str = "ground";
@@ -127,8 +127,7 @@ impl Bodies {
         }
         let mut names = vec![GROUND.to_owned()];
         names.extend(self.names());
-        let near = closest(name, &names)
-            .map_or_else(String::new, |near| format!("did you mean \"{near}\"? "));
+        let near = did_you_mean(name, &names);
         Err(item
             .problem(
                 &format!("refers to \"{name}\", but there is no such body"),
