@@ -212,11 +212,8 @@ fn run_simulate(options: &options::Simulate) -> Result<Done> {
     })?;
     let columns = simulate::simulate(&file, simulation)?;
     if let Some(path) = &options.plot {
-        write(
-            path,
-            page::simulation_page(&file.title, &columns).as_bytes(),
-            &options.file,
-        )?;
+        let page = page::simulation_page(&file, simulation, &columns).map_err(core_report)?;
+        write(path, page.as_bytes(), &options.file)?;
     }
     let title = format!(
         "{}: free motion, Dormand-Prince 8(5,3), tolerance {:e}",

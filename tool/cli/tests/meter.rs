@@ -11,7 +11,7 @@ use jred_sizing::catalogue::Catalogue;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::Context;
-use jred_sizing::meter::{Bound, MeterLimits};
+use jred_sizing::meter::{Bound, Field, MeterLimits};
 
 /// The drive of the source in `tests/data`.
 const DRIVE: &str = "sgmsh-30a+npt025mf-3";
@@ -95,23 +95,23 @@ fn limits_are_those_of_the_rules() {
     let text = edited_press("[motion]", rules);
     let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
     with_limits(&file, |context, limits| {
-        let of = |field: &str| {
+        let of = |field: Field| {
             let entry = limits.entries.iter().find(|entry| entry.field == field);
             entry.unwrap()
         };
-        let Bound::Curve(continuous) = &of("continuous").bound else {
-            panic!("{:?}", of("continuous"));
+        let Bound::Curve(continuous) = &of(Field::Continuous).bound else {
+            panic!("{:?}", of(Field::Continuous));
         };
         let standstill = 0.5 * context.motor.envelope.standstill();
         let first = f64::from(continuous.points[0][1]);
         let least = (1.0 - budget::METER_SHORTFALL) * standstill;
         assert!((least..=standstill).contains(&first), "{first}");
-        assert_eq!(of("peak").bound, Bound::Open);
-        assert!(of("peak").words.contains("is not checked"));
-        assert_eq!(of("output_mean").bound, Bound::Open);
-        assert!(of("output_mean").words.contains("10/3"));
-        let Bound::Figure(speed) = of("speed").bound else {
-            panic!("{:?}", of("speed"));
+        assert_eq!(of(Field::Peak).bound, Bound::Open);
+        assert!(of(Field::Peak).words.contains("is not checked"));
+        assert_eq!(of(Field::OutputMean).bound, Bound::Open);
+        assert!(of(Field::OutputMean).words.contains("10/3"));
+        let Bound::Figure(speed) = of(Field::Speed).bound else {
+            panic!("{:?}", of(Field::Speed));
         };
         let gearbox = context.drive.gearbox.unwrap().max_speed.unwrap();
         let least = context.motor.envelope.max_speed().min(gearbox);

@@ -134,7 +134,7 @@ fn draw(mechanism: &AnyMechanism, sketch: &Sketch, pose: &Pose, place: &str) -> 
     }
     for (k, path) in sketch.paths.iter().enumerate() {
         let path: Vec<[f64; 2]> = path.iter().map(|&at| view.page(at)).collect();
-        let ink = Ink::line(colour(sketch.points[k].link), 1.4).dashed("5 3");
+        let ink = Ink::line(colour(sketch.points[k].link), 1.4).dashed(&[5, 3]);
         pen.svg.path(&path, false, &ink);
     }
 

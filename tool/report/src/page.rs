@@ -9,7 +9,7 @@ use jred::Error;
 use crate::list::listing::Explanation;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::machine::MachineFile;
+use jred_machine::model::machine::{MachineFile, Simulation};
 use jred_machine::number::columns::Columns;
 use jred_machine::number::rounding::{rounded, short};
 use jred_machine::units::Vocabulary;
@@ -363,10 +363,17 @@ struct SimulationPage<'a> {
 }
 
 /// The page with the plots of a simulation.
-pub fn simulation_page(title: &str, run: &Columns) -> String {
+///
+/// # Errors
+/// Those of the machine.
+pub fn simulation_page(
+    file: &MachineFile,
+    simulation: &Simulation,
+    run: &Columns,
+) -> Result<String, Error> {
     let page = SimulationPage {
-        title,
-        figures: figures::simulation(run),
+        title: &file.title,
+        figures: figures::simulation(file, simulation, run)?,
     };
-    page.render().unwrap_or_default()
+    Ok(page.render().unwrap_or_default())
 }

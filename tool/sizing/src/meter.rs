@@ -34,11 +34,33 @@ pub enum Bound {
     Open,
 }
 
+jred_machine::words! {
+    /// The fields of [`jred::duty::Limits`], with their names.
+    pub enum Field {
+        /// The S1 torque over speed.
+        Continuous = "continuous",
+        /// The peak torque over speed.
+        Peak = "peak",
+        /// The largest speed.
+        Speed = "speed",
+        /// The mean speed.
+        MeanSpeed = "mean_speed",
+        /// The largest torque at the gearbox output.
+        OutputPeak = "output_peak",
+        /// The cubic mean torque at the gearbox output.
+        OutputMean = "output_mean",
+        /// The mean power that comes back at the shaft.
+        RegenerativePower = "regenerative_power",
+        /// The moves per hour.
+        CyclesPerHour = "cycles_per_hour",
+    }
+}
+
 /// One field of [`jred::duty::Limits`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// Name of the field.
-    pub field: &'static str,
+    /// Which field.
+    pub field: Field,
     /// Its description.
     pub bound: Bound,
     /// How it is computed, or why there is none.
@@ -106,7 +128,7 @@ impl Share {
 
 /// The limit of a figure: the smallest of those that the rules give.
 fn figure(
-    field: &'static str,
+    field: Field,
     (rules, kind): (&RuleSet, &Vocabulary),
     findings: &Findings,
     judged: &[(Rule, &str)],
@@ -141,7 +163,7 @@ fn figure(
 }
 
 fn curve(
-    field: &'static str,
+    field: Field,
     (rules, kind): (&RuleSet, &Vocabulary),
     rule: Rule,
     rating: &str,
@@ -177,7 +199,7 @@ impl<'a> MeterLimits<'a> {
         let torque = kind.torque;
         let of = |field, judged: &[_]| figure(field, (rules, kind), &findings, judged);
         let mut output_mean = of(
-            "output_mean",
+            Field::OutputMean,
             &[(Rule::GearboxCubicMean, "gearbox's rated torque T2N")],
         );
         if rules.choices.gearbox_mean_exponent != MeanTorque::Cubic {
@@ -187,38 +209,38 @@ impl<'a> MeterLimits<'a> {
         }
         let entries = vec![
             curve(
-                "continuous",
+                Field::Continuous,
                 (rules, kind),
                 Rule::RmsTorque,
                 &format!("S1 {torque}"),
                 |share| continuous(envelope, share),
             ),
             curve(
-                "peak",
+                Field::Peak,
                 (rules, kind),
                 Rule::PeakTorque,
                 &format!("peak {torque}"),
                 |share| peak(envelope, share),
             ),
             of(
-                "speed",
+                Field::Speed,
                 &[
                     (Rule::Speed, "motor's maximum speed"),
                     (Rule::GearboxSpeed, "gearbox's maximum input speed"),
                 ],
             ),
             of(
-                "mean_speed",
+                Field::MeanSpeed,
                 &[(Rule::GearboxMeanSpeed, "gearbox's rated input speed n1N")],
             ),
             of(
-                "output_peak",
+                Field::OutputPeak,
                 &[(Rule::GearboxPeak, "gearbox's acceleration torque T2B")],
             ),
             output_mean,
             regenerative_power(context, rules, &findings),
             of(
-                "cycles_per_hour",
+                Field::CyclesPerHour,
                 &[(
                     Rule::GearboxCycles,
                     "moves per hour up to which T2B is valid",
@@ -281,7 +303,7 @@ impl<'a> MeterLimits<'a> {
 /// the limit is on the safe side. There is none if the cycle itself exceeds it.
 fn regenerative_power(context: &Context, rules: &RuleSet, findings: &Findings) -> Entry {
     let mut entry = figure(
-        "regenerative_power",
+        Field::RegenerativePower,
         (rules, context.vocabulary()),
         findings,
         &[(

@@ -6,7 +6,7 @@ use miette::{Result, miette};
 use serde_json::{Map, Value, json};
 
 use crate::options;
-use jred_machine::number::columns::Columns;
+use jred_machine::number::columns::{Column, Columns};
 use jred_machine::number::rounding::rounded;
 use jred_report::table::output;
 use jred_report::table::output::Format;
@@ -86,8 +86,9 @@ fn each(given: &[f64], stages: usize, option: &str) -> Result<Vec<f64>> {
 
 /// J_red over the ratio of the first stage, in equal steps of its logarithm, the other stages divided as is best then.
 fn curve(train: &RatioSplit, best: &Split, points: u32) -> Result<Columns> {
-    let ratios = (1..=train.stages()).map(|k| format!("i{k}"));
-    let figures = ["J_red [kg m^2]", "J_red of the smallest"].map(String::from);
+    let ratios = (1..=train.stages()).map(|k| Column::other(format!("i{k}"), ""));
+    let figures = [("J_red", "kg m^2"), ("J_red of the smallest", "")];
+    let figures = figures.map(|(name, unit)| Column::other(name, unit));
     let mut columns = Columns::new(ratios.chain(figures));
     let [least, most] = train.first_range();
     for k in 0..points {

@@ -135,10 +135,7 @@ impl OneWay {
                     .to_owned(),
             });
         }
-        let joint = match name {
-            Some(name) if name != "contact" => format!("joint \"{name}\": "),
-            _ => String::new(),
-        };
+        let joint = mechanism.contact_prefix(self.joint);
         Ok(Parted {
             what: format!("{joint}the follower leaves the cam"),
             state,

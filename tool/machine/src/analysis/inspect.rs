@@ -212,11 +212,7 @@ fn facts(file: &MachineFile) -> Result<Vec<Fact>, Error> {
         motion.at(motion.duration()).phi - motion.at(0.0).phi
     });
     for contact in mechanism.contacts() {
-        let name = mechanism.joint_names().get(contact.joint);
-        let joint = match name {
-            Some(name) if name != "contact" => format!("joint \"{name}\": "),
-            _ => String::new(),
-        };
+        let joint = mechanism.contact_prefix(contact.joint);
         let pieces = contact.pieces.iter().copied();
         let text = match lift_off(&file.machine, contact.joint, pieces, direction)? {
             None => "none: contact is maintained at any constant speed".to_owned(),

@@ -8,7 +8,7 @@ use jred::{Domain, Error, Machine, Reducible as _};
 use crate::model::coordinate::{Coordinate, positions};
 use crate::model::machine::{AnyMechanism, MachineFile};
 use crate::model::motion::Motion;
-use crate::number::columns::Columns;
+use crate::number::columns::{Column, Columns, Quantity};
 
 mod curves;
 mod energy;
@@ -78,10 +78,10 @@ struct Source<'f> {
 
 /// Columns that belong together.
 trait Set {
-    /// Their names.
-    fn names(&self, source: &Source) -> Vec<String>;
+    /// Their heads.
+    fn heads(&self, source: &Source) -> Vec<Column>;
 
-    /// Their values, as many as names.
+    /// Their values, as many as heads.
     fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error>;
 }
 
@@ -119,13 +119,13 @@ pub fn reduce(file: &MachineFile, request: &Request) -> Result<Columns, Error> {
     if energy {
         sets.push(Box::new(energy::Energy));
     }
-    let mut names = match request.over {
+    let mut heads = match request.over {
         Over::Angle => vec![],
-        Over::Time => vec!["t [s]".to_owned()],
+        Over::Time => vec![Column::new(Quantity::Time, "t", "s")],
     };
-    names.push(source.coordinate.column().to_owned());
-    names.extend(sets.iter().flat_map(|set| set.names(&source)));
-    let mut columns = Columns::new(names);
+    heads.push(source.coordinate.column());
+    heads.extend(sets.iter().flat_map(|set| set.heads(&source)));
+    let mut columns = Columns::new(heads);
     for (time, phi, state) in rows(file, request) {
         let place = Place {
             phi,

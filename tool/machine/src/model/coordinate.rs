@@ -6,6 +6,7 @@ use jred::machine::{Joint, Jointed as _, Mechanism as _};
 use jred::{Domain, Error};
 
 use crate::model::machine::AnyMechanism;
+use crate::number::columns::{Column, Quantity};
 
 /// Type of motion of the drive link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,9 +38,9 @@ impl Coordinate {
         }
     }
 
-    /// Name of the column of positions.
-    pub const fn column(self) -> &'static str {
-        self.pick("phi [deg]", "s [mm]")
+    /// The column of positions.
+    pub fn column(self) -> Column {
+        Column::new(Quantity::Position, self.pick("phi", "s"), self.unit())
     }
 
     /// Label of the axis of positions.
@@ -74,11 +75,28 @@ impl Coordinate {
         format!("{} = {shown} {}", self.symbol(), self.unit())
     }
 
-    /// Names of speed and acceleration.
-    pub const fn rates(self) -> [&'static str; 2] {
-        match self {
-            Self::Angle => ["omega [rad/s]", "alpha [rad/s^2]"],
-            Self::Length => ["v [m/s]", "a [m/s^2]"],
+    /// The columns of speed and acceleration of the drive link.
+    pub fn rates(self) -> [Column; 2] {
+        let acceleration = self.pick("alpha", "a");
+        [
+            Column::new(
+                Quantity::DriveSpeed,
+                self.pick("omega", "v"),
+                self.speed_unit(),
+            ),
+            Column::other(acceleration, self.pick("rad/s^2", "m/s^2")),
+        ]
+    }
+
+    /// The column of the drive's effort.
+    pub fn drive_effort(self) -> Column {
+        Column {
+            part: self.effort().to_owned(),
+            ..Column::new(
+                Quantity::DriveEffort,
+                format!("{}_drive", self.effort()),
+                self.effort_unit(),
+            )
         }
     }
 

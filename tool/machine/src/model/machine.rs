@@ -37,6 +37,8 @@ pub struct NamedPoint {
 pub struct Contact {
     /// Index of the joint.
     pub joint: usize,
+    /// Whether the file names it; otherwise it is the only one.
+    pub named: bool,
     /// The pieces of the drive's range in which it is smooth.
     pub pieces: Vec<jred::mechanism::cam::Piece>,
 }
@@ -199,6 +201,13 @@ impl AnyMechanism {
     /// The contacts that must not separate.
     pub fn contacts(&self) -> &[Contact] {
         &self.contacts
+    }
+
+    /// How messages begin that are about the contact in this joint: with its name, if the file gives one.
+    pub fn contact_prefix(&self, joint: usize) -> String {
+        let named = self.contacts.iter().any(|c| c.joint == joint && c.named);
+        let name = self.joints.get(joint).filter(|_| named);
+        name.map_or_else(String::new, |name| format!("joint \"{name}\": "))
     }
 
     /// The joints that are ropes.

@@ -1,17 +1,110 @@
-//! Named columns of numbers: what an analysis gives.
+//! Columns of numbers, each with its quantity, name and unit: what an analysis gives.
 
-/// Named columns of numbers; `None` is an empty cell.
+/// What a column holds: by this a program finds it, whatever its name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Quantity {
+    /// Time.
+    Time,
+    /// Position of the drive link.
+    Position,
+    /// Speed of the drive link.
+    DriveSpeed,
+    /// Reduced inertia, or reduced mass.
+    ReducedInertia,
+    /// Its derivative with respect to the position.
+    InertiaSlope,
+    /// Torque or force that the drive link requires.
+    DriveEffort,
+    /// Torque or force of the motor.
+    MotorEffort,
+    /// Coordinate x or y of a point.
+    Coordinate,
+    /// Transfer function x′ of a point.
+    XSlope,
+    /// Transfer function y′ of a point.
+    YSlope,
+    /// Magnitude of the velocity of a point.
+    Speed,
+    /// Magnitude of the acceleration of a point.
+    Acceleration,
+    /// Transfer function ψ′ of a link's angle.
+    AngleSlope,
+    /// Angular speed of a link.
+    AngularSpeed,
+    /// Angular acceleration of a link.
+    AngularAcceleration,
+    /// Magnitude of the force in a joint, or of the shaking force.
+    Force,
+    /// Moment in a joint, or the shaking moment.
+    Moment,
+    /// Energy, work or loss.
+    Energy,
+    /// What should be zero but for the error of the integration.
+    EnergyBalance,
+    /// Anything else.
+    #[default]
+    Other,
+}
+
+/// The head of a column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// What it holds.
+    pub quantity: Quantity,
+    /// What it is of, beside others of the same quantity: a point, a link, a joint. Empty: there is one only.
+    pub part: String,
+    /// Its name, such as `B v_x`.
+    pub name: String,
+    /// Its unit; empty: none.
+    pub unit: String,
+}
+
+impl Column {
+    /// A column of the whole machine.
+    pub fn new(quantity: Quantity, name: impl Into<String>, unit: impl Into<String>) -> Self {
+        Self {
+            quantity,
+            part: String::new(),
+            name: name.into(),
+            unit: unit.into(),
+        }
+    }
+
+    /// A column that programs do not look for.
+    pub fn other(name: impl Into<String>, unit: impl Into<String>) -> Self {
+        Self::new(Quantity::Other, name, unit)
+    }
+
+    /// A column of one part, such as `B` and `v_x`.
+    pub fn of(quantity: Quantity, part: &str, symbol: &str, unit: &str) -> Self {
+        Self {
+            part: part.to_owned(),
+            ..Self::new(quantity, format!("{part} {symbol}"), unit)
+        }
+    }
+
+    /// Name and unit, such as `omega [rad/s]`.
+    pub fn title(&self) -> String {
+        if self.unit.is_empty() {
+            self.name.clone()
+        } else {
+            format!("{} [{}]", self.name, self.unit)
+        }
+    }
+}
+
+/// Columns of numbers; `None` is an empty cell.
 #[derive(Clone, Debug, Default)]
 pub struct Columns {
-    names: Vec<String>,
+    heads: Vec<Column>,
     rows: Vec<Vec<Option<f64>>>,
 }
 
 impl Columns {
-    /// Columns with these names; each name carries its unit, as "omega [rad/s]".
-    pub fn new(names: impl IntoIterator<Item = impl Into<String>>) -> Self {
+    /// Columns with these heads, without rows.
+    pub fn new(heads: impl IntoIterator<Item = Column>) -> Self {
         Self {
-            names: names.into_iter().map(Into::into).collect(),
+            heads: heads.into_iter().collect(),
             rows: Vec::new(),
         }
     }
@@ -19,13 +112,24 @@ impl Columns {
     /// Adds a row with one value for each column.
     pub fn push(&mut self, row: impl IntoIterator<Item = impl Into<Option<f64>>>) {
         let row: Vec<Option<f64>> = row.into_iter().map(Into::into).collect();
-        debug_assert_eq!(row.len(), self.names.len());
+        debug_assert_eq!(row.len(), self.heads.len());
         self.rows.push(row);
     }
 
-    /// The names.
-    pub fn names(&self) -> &[String] {
-        &self.names
+    /// The heads.
+    pub fn heads(&self) -> &[Column] {
+        &self.heads
+    }
+
+    /// Names and units.
+    pub fn names(&self) -> Vec<String> {
+        self.heads.iter().map(Column::title).collect()
+    }
+
+    /// The columns of one quantity: index and head.
+    pub fn of(&self, quantity: Quantity) -> impl Iterator<Item = (usize, &Column)> {
+        let heads = self.heads.iter().enumerate();
+        heads.filter(move |(_, head)| head.quantity == quantity)
     }
 
     /// Whether a value is missing anywhere.

@@ -6,7 +6,7 @@ use miette::{Result, miette};
 
 use crate::table::output;
 use crate::table::output::Format;
-use jred_machine::number::columns::Columns;
+use jred_machine::number::columns::{Column, Columns};
 use jred_machine::number::rounding::short;
 use jred_sizing::bus::answer::Answer;
 use jred_sizing::bus::axes::Bounds;
@@ -221,7 +221,8 @@ pub fn csv(answer: &Answer) -> Result<String> {
             answer.no_search()
         )
     })?;
-    let mut columns = Columns::new(["t [s]", "power [W]", "voltage [V]"]);
+    let heads = [("t", "s"), ("power", "W"), ("voltage", "V")];
+    let mut columns = Columns::new(heads.map(|(name, unit)| Column::other(name, unit)));
     let trace = answer.shared.bus().trace(power);
     let ends = std::iter::once(power.points().first().map_or(0.0, |p| p[1]))
         .chain(power.pieces().map(|(_, [_, b])| b));

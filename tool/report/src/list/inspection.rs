@@ -22,8 +22,18 @@ jred_machine::words! {
 
 /// For reading.
 pub fn text(findings: &Findings) -> String {
+    format!(
+        "{}: {}\n\n{}",
+        findings.title,
+        findings.kind,
+        untitled(findings)
+    )
+}
+
+/// The same without its title.
+pub(crate) fn untitled(findings: &Findings) -> String {
     let c = findings.coordinate;
-    let mut text = format!("{}: {}\n\n", findings.title, findings.kind);
+    let mut text = String::new();
     let _ = writeln!(
         text,
         "degrees of freedom: 3·{} links − {} constraints = {}",

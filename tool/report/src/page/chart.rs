@@ -50,11 +50,9 @@ impl Chart {
         }
     }
 
-    /// With the time of every point of one series, so that the cursors over time find it.
-    pub(super) fn with_times(mut self, series: &str, times: impl Iterator<Item = f64>) -> Self {
-        let list = self.data["series"].as_array_mut();
-        let found = list.and_then(|list| list.iter_mut().find(|s| s["name"] == series));
-        if let Some(found) = found {
+    /// With the time of every point of series number `series`, so that the cursors over time find it.
+    pub(super) fn with_times(mut self, series: usize, times: impl Iterator<Item = f64>) -> Self {
+        if let Some(found) = self.data["series"].get_mut(series) {
             found["t"] = times.map(number).collect();
         }
         self
@@ -86,7 +84,7 @@ fn data(form: Form, axes: &Axes, right_label: &str, left: &[Series], right: &[Se
             "name": series.name,
             "style": style,
             "colour": colour(index),
-            "dash": dash(index, series.style),
+            "dash": dashes(index, series.style),
             "right": right,
             "at": at,
             "y": y,
@@ -99,18 +97,12 @@ fn data(form: Form, axes: &Axes, right_label: &str, left: &[Series], right: &[Se
         .collect();
     json!({
         "form": form.name(),
-        "x": axes.x,
+        "x": axes.x.label,
         "y": axes.y,
         "right": right_label,
         "places": places,
         "series": series,
     })
-}
-
-/// The lengths of the dashes, none of a solid line.
-fn dash(index: usize, style: Style) -> Vec<u32> {
-    let lengths = dashes(index, style).unwrap_or_default().split(' ');
-    lengths.filter_map(|length| length.parse().ok()).collect()
 }
 
 /// Six digits; nothing where the curve has a gap.

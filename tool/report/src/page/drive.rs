@@ -4,7 +4,7 @@ use jred::{Error, Reducible as _};
 
 use super::chart::{Chart, Form};
 use super::figures::{dashed, line};
-use crate::plot::{Axes, Series, Style};
+use crate::plot::{Axes, Axis, Series, Style};
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::coordinate::{Coordinate, whole_range};
 use jred_machine::model::machine::MachineFile;
@@ -15,6 +15,9 @@ use jred_sizing::explain::{Cells, Effect, ratio_course};
 use jred_sizing::judge::Context;
 use jred_sizing::judge::Judged;
 use jred_sizing::motor::envelope::Envelope;
+
+/// Index of the duty among the curves of the torque-speed plane.
+const DUTY: usize = 4;
 
 /// Use of a limit beyond which the curves over the gear ratio are not drawn (%).
 pub(super) const TOP: f64 = 200.0;
@@ -87,9 +90,10 @@ impl Subject<'_> {
             self.context
                 .cycle
                 .peak(&self.context.coefficients, self.context.ratio, envelope);
+        let speed = format!("motor speed [{}]", words.speed.unit);
         let axes = Axes {
             title: "",
-            x: &format!("motor speed [{}]", words.speed.unit),
+            x: Axis::new(&speed),
             y: &self.torque_axis("motor"),
         };
         let torque = words.torque;
@@ -118,7 +122,7 @@ impl Subject<'_> {
                 line(&names[5], cross(closest.speed / scale, closest.torque)),
             ],
         );
-        chart.with_times("duty", self.duty.instants.iter().map(|i| i.t))
+        chart.with_times(DUTY, self.duty.instants.iter().map(|i| i.t))
     }
 
     /// Size of the plane's vertical axis.
@@ -250,7 +254,7 @@ impl Subject<'_> {
         }
         let axes = Axes {
             title: "",
-            x: coordinate.axis(),
+            x: Axis::of(coordinate),
             y: &format!("{} ratio λ", self.words().inertia),
         };
         Ok(Chart::new(Form::Course, &axes, &series))
@@ -281,7 +285,7 @@ impl Subject<'_> {
         series.push(dashed("this drive", upright));
         let axes = Axes {
             title: "",
-            x: "gear ratio i",
+            x: Axis::new("gear ratio i"),
             y: "share of the limit [%]",
         };
         Chart::new(Form::Course, &axes, &series)
@@ -301,7 +305,7 @@ fn thinned<T: Copy>(course: Vec<T>) -> Vec<T> {
 fn time_axes(y: &str) -> Axes<'_> {
     Axes {
         title: "",
-        x: "time [s]",
+        x: Axis::new("time [s]"),
         y,
     }
 }

@@ -4,7 +4,7 @@ use jred::Error;
 
 use super::mechanism::{POINTS, Source};
 use jred_machine::analysis::reduce::{Request, Sets, largest};
-use jred_machine::number::columns::Columns;
+use jred_machine::number::columns::{Column, Columns, Quantity};
 use jred_machine::number::rounding::{rounded, short};
 
 /// Rows of each table.
@@ -32,29 +32,24 @@ pub(super) fn largest_forces(source: &Source) -> Result<Vec<[String; 3]>, Error>
     Ok(rows
         .iter()
         .map(|row| {
-            let (name, unit) = row.quantity.split_once(" [").unwrap_or((&row.quantity, ""));
-            let (over, over_unit) = row.over.split_once(" [").unwrap_or((&row.over, ""));
-            let value = format!("{} {}", short(row.value), unit.trim_end_matches(']'));
-            let at = format!(
-                "{over} = {} {}",
-                short(row.at),
-                over_unit.trim_end_matches(']')
-            );
-            [name.to_owned(), value, at]
+            let value = format!("{} {}", short(row.value), row.quantity.unit);
+            let at = format!("{} = {} {}", row.over.name, short(row.at), row.over.unit);
+            [row.quantity.name.clone(), value, at]
         })
         .collect())
 }
 
 /// Extracts; the whole tables come from the command line.
 pub(super) fn tables(source: &Source) -> Result<Vec<Table>, Error> {
-    let table = |heading, columns: &Columns, wanted: &dyn Fn(&str) -> bool| {
-        let names = columns.names().iter().enumerate();
-        let kept: Vec<(usize, &String)> = names
-            .filter(|(k, name)| *k < 2 && !name.contains("red") || wanted(name))
+    let table = |heading, columns: &Columns, wanted: &dyn Fn(&Column) -> bool| {
+        let along = [Quantity::Time, Quantity::Position, Quantity::DriveSpeed];
+        let heads = columns.heads().iter().enumerate();
+        let kept: Vec<(usize, &Column)> = heads
+            .filter(|(k, head)| *k < 2 && along.contains(&head.quantity) || wanted(head))
             .collect();
         Table {
             heading,
-            names: kept.iter().map(|(_, name)| (*name).clone()).collect(),
+            names: kept.iter().map(|(_, head)| head.title()).collect(),
             rows: columns
                 .rows()
                 .iter()
@@ -73,28 +68,30 @@ pub(super) fn tables(source: &Source) -> Result<Vec<Table>, Error> {
         points: true,
         ..Sets::default()
     };
-    let named: Vec<String> = source
-        .file
-        .machine
-        .mechanism()
-        .points()
-        .iter()
-        .map(|point| format!("{} ", point.name))
-        .collect();
+    let named = source.file.machine.mechanism().points();
     let mut tables = vec![table(
         "Extract of the curves",
         &source.columns(curves, ROWS)?,
-        &|name| name.contains("red [") || name.contains("red' ") || name.ends_with("_drive [N m]"),
+        &|head| {
+            let wanted = [
+                Quantity::ReducedInertia,
+                Quantity::InertiaSlope,
+                Quantity::DriveEffort,
+            ];
+            wanted.contains(&head.quantity)
+        },
     )];
     if !named.is_empty() {
         tables.push(table(
             "Extract of the points",
             &source.columns(points, ROWS)?,
-            &|name| {
-                let own = named.iter().any(|point| name.starts_with(point.as_str()));
-                own && [" x [", " y [", " v [", " a ["]
-                    .iter()
-                    .any(|part| name.contains(part))
+            &|head| {
+                let wanted = [
+                    Quantity::Coordinate,
+                    Quantity::Speed,
+                    Quantity::Acceleration,
+                ];
+                wanted.contains(&head.quantity) && named.iter().any(|p| p.name == head.part)
             },
         ));
     }

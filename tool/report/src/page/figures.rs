@@ -3,10 +3,10 @@
 use jred::{Error, Reducible as _};
 
 use super::chart::{Chart, Form};
-use crate::plot::{Axes, Series, Style, lines};
+use crate::plot::{Axes, Axis, Series, Style, lines};
 use jred_machine::model::coordinate::{Coordinate, whole_range};
-use jred_machine::model::machine::MachineFile;
-use jred_machine::number::columns::Columns;
+use jred_machine::model::machine::{MachineFile, Simulation};
+use jred_machine::number::columns::{Columns, Quantity};
 
 /// Intervals of the figures over the range.
 const POSITIONS: usize = 360;
@@ -43,7 +43,7 @@ pub(super) fn reduced_inertia(file: &MachineFile) -> Result<Chart, Error> {
     };
     let axes = Axes {
         title: "",
-        x: coordinate.axis(),
+        x: Axis::of(coordinate),
         y,
     };
     Ok(Chart::two_axes(
@@ -84,7 +84,7 @@ pub(super) fn reduced_torque(file: &MachineFile, speed: f64) -> Result<Chart, Er
         .collect();
     let axes = Axes {
         title: "",
-        x: coordinate.axis(),
+        x: Axis::of(coordinate),
         y: match coordinate {
             Coordinate::Angle => "reduced torque [N·m]",
             Coordinate::Length => "reduced force [N]",
@@ -94,58 +94,48 @@ pub(super) fn reduced_torque(file: &MachineFile, speed: f64) -> Result<Chart, Er
 }
 
 /// The plots of a simulation, with their headings.
-pub(super) fn simulation(run: &Columns) -> Vec<(&'static str, String)> {
-    let column = |name: &str| -> Vec<(f64, f64)> {
-        let index = run.names().iter().position(|n| n == name);
-        let value = |row: &[Option<f64>], k: usize| row.get(k).copied().flatten();
-        let rows = run.rows().iter();
-        rows.filter_map(|row| Some((value(row, 0)?, value(row, index?)?)))
-            .collect()
-    };
-    let has = |name: &str| run.names().iter().any(|n| n == name);
-    let plot = |y: &str, names: &[&str]| {
-        let series: Vec<Series> = names.iter().map(|n| line(n, column(n))).collect();
+pub(super) fn simulation(
+    file: &MachineFile,
+    simulation: &Simulation,
+    run: &Columns,
+) -> Result<Vec<(&'static str, String)>, Error> {
+    let coordinate = Coordinate::of(file.machine.mechanism())?;
+    let plot = |y: &str, quantity: Quantity| {
+        let chosen = run.of(quantity);
+        let titles: Vec<(usize, String)> = chosen.map(|(k, head)| (k, head.title())).collect();
+        let series: Vec<Series> = titles
+            .iter()
+            .map(|(k, title)| {
+                let value = |row: &[Option<f64>], k: usize| row.get(k).copied().flatten();
+                let points = run.rows().iter();
+                let points = points.filter_map(|row| Some((value(row, 0)?, value(row, *k)?)));
+                line(title, points.collect())
+            })
+            .collect();
         let axes = Axes {
             title: "",
-            x: "time [s]",
+            x: Axis::new("time [s]"),
             y,
         };
         lines(&axes, &series)
-    };
-    let coordinate = if has(Coordinate::Length.column()) {
-        Coordinate::Length
-    } else {
-        Coordinate::Angle
     };
     let (position, place, speed) = match coordinate {
         Coordinate::Angle => ("Angle of the drive link", "φ [deg]", "ω [rad/s]"),
         Coordinate::Length => ("Position of the drive link", "s [mm]", "v [m/s]"),
     };
-    let force = "motor force [N]";
-    let (effort, motor) = if has(force) {
-        ("Motor force", plot("force [N]", &[force]))
+    let (effort, motor) = if simulation.drives_a_slide(file, coordinate) {
+        ("Motor force", "force [N]")
     } else {
-        let torque = plot("torque [N·m]", &["motor torque [N m]"]);
-        ("Motor torque", torque)
+        ("Motor torque", "torque [N·m]")
     };
-    let energies = [
-        "kinetic energy [J]",
-        "potential energy [J]",
-        "motor work [J]",
-        "process work [J]",
-        "losses [J]",
-    ];
-    vec![
-        (
-            "Speed of the drive link",
-            plot(speed, &[coordinate.rates()[0]]),
-        ),
-        (position, plot(place, &[coordinate.column()])),
-        (effort, motor),
-        ("Energies", plot("energy [J]", &energies)),
+    Ok(vec![
+        ("Speed of the drive link", plot(speed, Quantity::DriveSpeed)),
+        (position, plot(place, Quantity::Position)),
+        (effort, plot(motor, Quantity::MotorEffort)),
+        ("Energies", plot("energy [J]", Quantity::Energy)),
         (
             "Energy balance: zero except for the integration error",
-            plot("energy [J]", &["energy balance [J]"]),
+            plot("energy [J]", Quantity::EnergyBalance),
         ),
-    ]
+    ])
 }

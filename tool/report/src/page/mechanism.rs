@@ -6,12 +6,13 @@ use jred::Error;
 use super::extract::{Table, largest_forces, tables};
 use super::figures::{self, line};
 use crate::drawing;
-use crate::plot::{Axes, Series, lines};
+use crate::list::inspection;
+use crate::plot::{Axes, Axis, Series, lines};
 use jred_machine::analysis::inspect::Findings;
 use jred_machine::analysis::reduce::{Over, Request, Sets, reduce};
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
-use jred_machine::number::columns::Columns;
+use jred_machine::number::columns::{Columns, Quantity};
 use jred_machine::number::rounding::short;
 
 /// Points of each curve.
@@ -69,37 +70,28 @@ impl Source<'_> {
         reduce(self.file, &request)
     }
 
-    /// The axis, and the column that runs along it.
-    fn axis(&self) -> (&'static str, &'static str) {
+    /// The axis, and the quantity that runs along it.
+    const fn axis(&self) -> (Axis<'static>, Quantity) {
         match self.over {
-            Over::Time => ("time [s]", "t [s]"),
-            Over::Angle => (self.coordinate.axis(), self.coordinate.column()),
+            Over::Time => (Axis::new("time [s]"), Quantity::Time),
+            Over::Angle => (Axis::of(self.coordinate), Quantity::Position),
         }
     }
 
-    /// The columns whose names end with one of `tails`, over the axis.
-    fn plot(&self, columns: &Columns, y: &str, tails: &[&str]) -> Option<String> {
-        let names = columns.names();
+    /// The columns of a quantity that are not zero everywhere, over the axis.
+    fn plot(&self, columns: &Columns, y: &str, quantity: Quantity) -> Option<String> {
         let (axis, along) = self.axis();
-        let x = names.iter().position(|name| name == along)?;
-        let chosen: Vec<(usize, &str)> = names
-            .iter()
-            .enumerate()
-            .filter_map(|(k, name)| {
-                let tail = tails.iter().find(|tail| name.ends_with(**tail))?;
-                Some((k, name.strip_suffix(tail)?.trim()))
-            })
+        let (x, _) = columns.of(along).next()?;
+        let series: Vec<Series> = columns
+            .of(quantity)
             .filter(|(k, _)| {
                 let rows = columns.rows().iter();
                 rows.filter_map(|row| row[*k]).any(|value| value != 0.0)
             })
-            .collect();
-        let series: Vec<Series> = chosen
-            .iter()
-            .map(|&(k, name)| {
+            .map(|(k, head)| {
                 let rows = columns.rows().iter();
                 let points = rows.filter_map(|row| Some((row[x]?, row[k]?)));
-                line(name, points.collect())
+                line(&head.part, points.collect())
             })
             .collect();
         let axes = Axes {
@@ -136,8 +128,7 @@ pub fn mechanism_page(
     let moving = drawing::moving(mechanism)?;
     let findings = Findings::of(file)?;
     // The title stands above already.
-    let check = crate::list::inspection::text(&findings);
-    let check = check.split_once("\n\n").map_or("", |(_, rest)| rest);
+    let check = inspection::untitled(&findings);
     let page = Page {
         title: &file.title,
         version: env!("CARGO_PKG_VERSION"),
@@ -197,45 +188,37 @@ fn sections(source: &Source) -> Result<Vec<Section>, Error> {
     };
     if source.moves() {
         add(
-            source.plot(&points, "speed [m/s]", &[" v [m/s]"]),
+            source.plot(&points, "speed [m/s]", Quantity::Speed),
             "Speed of every point (magnitude).",
         );
         add(
-            source.plot(&points, "acceleration [m/s²]", &[" a [m/s^2]"]),
+            source.plot(&points, "acceleration [m/s²]", Quantity::Acceleration),
             "Acceleration of every point (magnitude).",
         );
         add(
-            source.plot(&points, "angular speed [rad/s]", &[" omega [rad/s]"]),
+            source.plot(&points, "angular speed [rad/s]", Quantity::AngularSpeed),
             "Angular speed of every link.",
         );
         add(
             source.plot(
                 &points,
                 "angular acceleration [rad/s²]",
-                &[" alpha [rad/s^2]"],
+                Quantity::AngularAcceleration,
             ),
             "Angular acceleration of every link.",
         );
     } else {
         add(
-            source.plot(
-                &points,
-                &format!("x′ [m/{per}]"),
-                &[&format!(" x' [m/{per}]")],
-            ),
+            source.plot(&points, &format!("x′ [m/{per}]"), Quantity::XSlope),
             "Velocity transfer functions of every point, x; multiplied by the speed of the drive link they give the velocity.",
         );
         add(
-            source.plot(
-                &points,
-                &format!("y′ [m/{per}]"),
-                &[&format!(" y' [m/{per}]")],
-            ),
+            source.plot(&points, &format!("y′ [m/{per}]"), Quantity::YSlope),
             "Velocity transfer functions of every point, y.",
         );
         let unit = format!("ψ′ [rad/{per}]");
         add(
-            source.plot(&points, &unit, &[&format!(" psi' [rad/{per}]")]),
+            source.plot(&points, &unit, Quantity::AngleSlope),
             "Velocity transfer functions of every link's angle.",
         );
     }
@@ -260,21 +243,21 @@ fn forces(source: &Source) -> Result<Section, Error> {
         },
         POINTS,
     )?;
-    let (drive, unit) = match source.coordinate {
-        Coordinate::Angle => ("drive torque [N·m]", "_drive [N m]"),
-        Coordinate::Length => ("drive force [N]", "_drive [N]"),
+    let drive = match source.coordinate {
+        Coordinate::Angle => "drive torque [N·m]",
+        Coordinate::Length => "drive force [N]",
     };
     let plots = [
         (
-            source.plot(&reactions, drive, &[unit]),
+            source.plot(&reactions, drive, Quantity::DriveEffort),
             "Required drive torque or force at the drive link by d'Alembert's principle, drive train included.",
         ),
         (
-            source.plot(&reactions, "force [N]", &[" F [N]"]),
+            source.plot(&reactions, "force [N]", Quantity::Force),
             "Magnitude of the force in every joint, and of the shaking force of all links on the frame.",
         ),
         (
-            source.plot(&reactions, "moment [N·m]", &[" M [N m]"]),
+            source.plot(&reactions, "moment [N·m]", Quantity::Moment),
             "Moments in guides and transmissions, and the shaking moment about the origin.",
         ),
     ];
@@ -294,7 +277,7 @@ fn notes(source: &Source) -> Vec<String> {
     let mut notes = vec![match (source.over, source.state) {
         (Over::Time, _) => "Motions and forces are for the motion in the machine file.".to_owned(),
         (Over::Angle, Some([speed, acceleration])) => {
-            let [rate, change] = source.coordinate.rates();
+            let [rate, change] = source.coordinate.rates().map(|rate| rate.title());
             format!(
                 "Motions and forces are for {rate} = {} and {change} = {} at every position.",
                 short(speed),

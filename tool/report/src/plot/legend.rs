@@ -1,6 +1,6 @@
 //! The legend below the axes: entries in columns.
 
-use super::svg::{Anchor, Ink, Svg};
+use super::svg::{Anchor, Ink, Svg, dash_array};
 use super::{HEIGHT, NUMBER, Series, Style, colour, dashes, width};
 
 /// Height of a row, and width of a key with its gaps (px).
@@ -65,8 +65,7 @@ impl Legend {
                 let ink = Ink::line(colour, 0.0).filled(colour);
                 svg.circle([x + 0.5 * KEY, y], 3.0, &ink);
             } else {
-                let dashes = dashes(entry.index, entry.style)
-                    .map_or(String::new(), |d| format!(" stroke-dasharray=\"{d}\""));
+                let dashes = dash_array(dashes(entry.index, entry.style));
                 let ink = format!("stroke=\"{colour}\" stroke-width=\"2\"{dashes}");
                 svg.open(&ink, "");
                 svg.rule([x, y], [x + KEY, y]);

@@ -4,6 +4,8 @@ use legend::Legend;
 use scale::{Span, nice_step, range, usable};
 use svg::{Anchor, Ink, Svg};
 
+use jred_machine::model::coordinate::Coordinate;
+
 mod legend;
 mod scale;
 pub(crate) mod svg;
@@ -28,7 +30,7 @@ pub(crate) const PALETTE: [&str; 12] = [
     "#4B8B00", "#332288", "#7F4F24", "#B00020",
 ];
 /// Where the colours come round again, lines have dashes and dots: neither those of a limit nor none.
-const SECOND_ROUND: &str = "9 3 2 3";
+const SECOND_ROUND: [u32; 4] = [9, 3, 2, 3];
 
 /// One curve. It is broken at points that are not finite; those are not drawn.
 pub struct Series<'a> {
@@ -55,10 +57,37 @@ pub enum Style {
 pub struct Axes<'a> {
     /// Title above the plot; none if empty.
     pub title: &'a str,
-    /// Label of the horizontal axis; one with `[deg]` or `°` gets ticks that suit angles.
-    pub x: &'a str,
+    /// The horizontal axis.
+    pub x: Axis<'a>,
     /// Label of the (left) vertical axis.
     pub y: &'a str,
+}
+
+/// A horizontal axis.
+#[derive(Clone, Copy, Debug)]
+pub struct Axis<'a> {
+    /// Its label, with the unit.
+    pub label: &'a str,
+    /// Whether its numbers are degrees, and have ticks that suit angles.
+    pub degrees: bool,
+}
+
+impl<'a> Axis<'a> {
+    /// An axis of numbers that are no degrees.
+    #[must_use]
+    pub const fn new(label: &'a str) -> Self {
+        let degrees = false;
+        Self { label, degrees }
+    }
+
+    /// The axis of positions of the drive link.
+    #[must_use]
+    pub const fn of(coordinate: Coordinate) -> Axis<'static> {
+        Axis {
+            label: coordinate.axis(),
+            degrees: matches!(coordinate, Coordinate::Angle),
+        }
+    }
 }
 
 /// Draws curves and clouds of dots over one pair of axes.
@@ -135,7 +164,7 @@ fn draw(axes: &Axes, left: &[Series], second: Option<(&str, &[Series])>) -> Stri
     let title = wrapped(axes.title, 85);
     let ends = WIDTH - y2.as_ref().map_or(24.0, Upright::room);
     let legend = Legend::new(left, right, [y.room(), ends]);
-    let name = wrapped(axes.x, 85);
+    let name = wrapped(axes.x.label, 85);
     let frame = Frame {
         left: y.room(),
         right: ends,
@@ -272,9 +301,8 @@ fn x_span(axes: &Axes, left: &[Series], right: &[Series]) -> Span {
     if left.iter().chain(right).any(|s| s.style == Style::Dots) {
         return Span::of((lo, hi));
     }
-    let angle = axes.x.contains("[deg]") || axes.x.contains('°');
     let mut angles = [15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0].into_iter();
-    let nice = angles.find(|step| angle && (60.0..=9.0 * step).contains(&(hi - lo)));
+    let nice = angles.find(|step| axes.x.degrees && (60.0..=9.0 * step).contains(&(hi - lo)));
     Span::tight(lo, hi, nice.unwrap_or_else(|| nice_step((hi - lo) / 8.0)))
 }
 
@@ -309,12 +337,12 @@ pub(crate) fn colour(index: usize) -> &'static str {
     PALETTE[index % PALETTE.len()]
 }
 
-/// Dashes of curve number `index`; `None`: a solid line.
-pub(crate) fn dashes(index: usize, style: Style) -> Option<&'static str> {
+/// Lengths of the dashes and gaps of curve number `index` (px); none: a solid line.
+pub(crate) const fn dashes(index: usize, style: Style) -> &'static [u32] {
     match style {
-        Style::Dashed => Some("5 5"),
-        Style::Line if index >= PALETTE.len() => Some(SECOND_ROUND),
-        Style::Line | Style::Dots => None,
+        Style::Dashed => &[5, 5],
+        Style::Line if index >= PALETTE.len() => &SECOND_ROUND,
+        Style::Line | Style::Dots => &[],
     }
 }
 

@@ -22,7 +22,7 @@ pub(crate) struct Ink<'a> {
     /// Of the area, 0 to 1.
     pub(crate) opacity: f64,
     /// Dashes; none: solid.
-    pub(crate) dashes: Option<&'a str>,
+    pub(crate) dashes: &'a [u32],
 }
 
 impl<'a> Ink<'a> {
@@ -33,7 +33,7 @@ impl<'a> Ink<'a> {
             width,
             fill: None,
             opacity: 1.0,
-            dashes: None,
+            dashes: &[],
         }
     }
 
@@ -51,11 +51,8 @@ impl<'a> Ink<'a> {
     }
 
     /// The same with dashes.
-    pub(crate) const fn dashed(self, dashes: &'a str) -> Self {
-        Self {
-            dashes: Some(dashes),
-            ..self
-        }
+    pub(crate) const fn dashed(self, dashes: &'a [u32]) -> Self {
+        Self { dashes, ..self }
     }
 }
 
@@ -155,9 +152,7 @@ impl Svg {
             ink.stroke,
             px(ink.width)
         ));
-        if let Some(dashes) = ink.dashes {
-            self.push(&format!(" stroke-dasharray=\"{dashes}\""));
-        }
+        self.push(&dash_array(ink.dashes));
     }
 
     /// A text; `look` are further attributes, which hold no user text.
@@ -209,4 +204,13 @@ fn escaped(raw: &str) -> String {
         }
     }
     text
+}
+
+/// The attribute for dashes and gaps of these lengths (px); empty for a solid line.
+pub(crate) fn dash_array(lengths: &[u32]) -> String {
+    if lengths.is_empty() {
+        return String::new();
+    }
+    let lengths: Vec<String> = lengths.iter().map(u32::to_string).collect();
+    format!(" stroke-dasharray=\"{}\"", lengths.join(" "))
 }

@@ -4,7 +4,10 @@ use std::collections::HashSet;
 
 const AXES: Axes = Axes {
     title: "a <&\"> 'b' $x$",
-    x: "φ [deg]",
+    x: Axis {
+        label: "φ [deg]",
+        degrees: true,
+    },
     y: "ω² <&\">",
 };
 
@@ -64,7 +67,7 @@ fn user_text_is_escaped_and_shown_as_given() {
     for (svg, shown) in all.iter().zip(shown) {
         let document = sound(svg);
         let texts: HashSet<&str> = document.descendants().filter_map(|n| n.text()).collect();
-        for text in [AXES.title, AXES.x, AXES.y].iter().chain(&shown) {
+        for text in [AXES.title, AXES.x.label, AXES.y].iter().chain(&shown) {
             assert!(texts.contains(text), "{text} is missing in {texts:?}");
         }
     }

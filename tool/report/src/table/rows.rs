@@ -73,11 +73,7 @@ impl Form {
     pub fn cells(self, line: &str, columns: &[String]) -> Option<Vec<Cell>> {
         if self == Self::Json {
             let map: Map<String, Value> = serde_json::from_str(line).ok()?;
-            let cell = |name: &String| match map.get(name)? {
-                Value::Null => Some(Cell::Empty),
-                Value::String(text) => Some(Cell::Text(text.clone())),
-                value => value.as_f64().map(Cell::Number),
-            };
+            let cell = |name: &String| Cell::of_json(map.get(name)?);
             return columns.iter().map(cell).collect();
         }
         let mut reader = ::csv::ReaderBuilder::new()
@@ -112,6 +108,7 @@ pub fn table(columns: &[String], rows: &[(u64, Vec<Cell>)]) -> String {
     for (index, cells) in rows {
         let texts = cells.iter().map(|cell| match cell {
             Cell::Empty => String::new(),
+            Cell::Number(x) if x.is_infinite() => csv::number(*x),
             Cell::Number(x) => rounded(*x),
             Cell::Text(text) => text.clone(),
         });

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{Bound, Entry, MeterLimits, below};
+use super::{Bound, Entry, Field, MeterLimits, below};
 
 impl MeterLimits<'_> {
     /// The source. `machine`: where the drive was sized for, in words.
@@ -73,7 +73,7 @@ impl MeterLimits<'_> {
 
     /// A limit's constant, or a comment that says why there is none.
     fn constant(&self, entry: &Entry, text: &mut String) {
-        let (name, words) = (entry.field.to_uppercase(), &entry.words);
+        let (name, words) = (entry.field.word().to_uppercase(), &entry.words);
         let unit = self.unit(entry.field);
         let _ = match &entry.bound {
             Bound::Open => writeln!(text, "\n// No limit `{}`: {words}.", entry.field),
@@ -91,15 +91,15 @@ impl MeterLimits<'_> {
         };
     }
 
-    fn unit(&self, field: &str) -> String {
+    fn unit(&self, field: Field) -> String {
         let words = self.context.vocabulary();
         let (torque, speed) = (words.torque.unit, words.speed_si);
         match field {
-            "continuous" | "peak" => format!("{torque} over {speed}"),
-            "speed" | "mean_speed" => speed.to_owned(),
-            "regenerative_power" => "W".to_owned(),
-            "cycles_per_hour" => "1/h".to_owned(),
-            _ => torque.to_owned(),
+            Field::Continuous | Field::Peak => format!("{torque} over {speed}"),
+            Field::Speed | Field::MeanSpeed => speed.to_owned(),
+            Field::RegenerativePower => "W".to_owned(),
+            Field::CyclesPerHour => "1/h".to_owned(),
+            Field::OutputPeak | Field::OutputMean => torque.to_owned(),
         }
     }
 
@@ -172,7 +172,10 @@ impl MeterLimits<'_> {
 
     /// The cycle's largest torque as a share of the curve that is written.
     fn peak_share(&self) -> Option<f64> {
-        let peak = self.entries.iter().find(|entry| entry.field == "peak")?;
+        let peak = self
+            .entries
+            .iter()
+            .find(|entry| entry.field == Field::Peak)?;
         let Bound::Curve(curve) = &peak.bound else {
             return None;
         };
@@ -192,7 +195,7 @@ impl MeterLimits<'_> {
              Ok(jred::duty::Limits {\n",
         );
         for entry in &self.entries {
-            let (field, name) = (entry.field, entry.field.to_uppercase());
+            let (field, name) = (entry.field, entry.field.word().to_uppercase());
             let value = match &entry.bound {
                 Bound::Open => "None".to_owned(),
                 Bound::Figure(_) => format!("Some({name})"),

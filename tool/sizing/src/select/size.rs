@@ -43,6 +43,13 @@ pub struct Candidate<'c> {
     place: Place,
 }
 
+impl Candidate<'_> {
+    /// Whether both are the same drive of the catalogue.
+    pub fn is_same_drive(&self, other: &Candidate) -> bool {
+        self.place == other.place
+    }
+}
+
 /// All drives with their results.
 ///
 /// Every drive is checked against every rule. The values that drives are sorted by are computed only for the first [`FIRST`]

@@ -2,12 +2,15 @@
 
 use serde_json::Value;
 
+/// How JSON has an infinite number, for which it has no form of its own.
+const INFINITE: &str = "inf";
+
 /// A cell of a row.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
     /// Empty.
     Empty,
-    /// A number, written with every digit.
+    /// A number, written with every digit; an infinite one as `inf`.
     Number(f64),
     /// Words.
     Text(String),
@@ -26,8 +29,19 @@ impl Cell {
     pub fn json(&self) -> Value {
         match self {
             Self::Empty => Value::Null,
+            Self::Number(x) if x.is_infinite() => INFINITE.into(),
             Self::Number(x) => (*x).into(),
             Self::Text(text) => text.as_str().into(),
+        }
+    }
+
+    /// The cell of a value that [`Cell::json`] wrote; `None`: it did not.
+    pub fn of_json(value: &Value) -> Option<Self> {
+        match value {
+            Value::Null => Some(Self::Empty),
+            Value::String(text) if text == INFINITE => Some(Self::Number(f64::INFINITY)),
+            Value::String(text) => Some(Self::Text(text.clone())),
+            value => value.as_f64().map(Self::Number),
         }
     }
 
@@ -41,7 +55,7 @@ impl Cell {
 }
 
 impl From<Option<f64>> for Cell {
-    /// A number that is not finite is written as null.
+    /// A number that is not finite gives an empty cell.
     fn from(x: Option<f64>) -> Self {
         x.filter(|x| x.is_finite())
             .map_or(Self::Empty, |x| Self::Number(x + 0.0))

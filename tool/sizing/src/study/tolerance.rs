@@ -93,6 +93,20 @@ impl Scatter {
     }
 }
 
+jred_machine::words! {
+    /// How a machine came out: the words of the column `verdict`.
+    pub enum Verdict {
+        /// Every rule is satisfied.
+        Holds = "holds",
+        /// A rule is violated.
+        Broken = "broken",
+        /// No rule is violated, but one cannot be checked although it can be for the nominal machine.
+        NotChecked = "not checked",
+        /// The machine cannot be built as drawn.
+        Refused = "machine refused",
+    }
+}
+
 /// Machines that scatter about the one of the file.
 #[derive(Debug)]
 pub struct Samples<'s> {
@@ -166,7 +180,7 @@ impl Task for Samples<'_> {
         let mut cells: Vec<Cell> = values.into_iter().map(Cell::from).collect();
         match self.study.machine(&edits) {
             Err(report) => {
-                cells.extend(["machine refused".into(), Cell::Empty]);
+                cells.extend([Verdict::Refused.word().into(), Cell::Empty]);
                 cells.extend(self.rules.iter().map(|_| Cell::Empty));
                 cells.push(sentence(&report).into());
             }
@@ -176,18 +190,18 @@ impl Task for Samples<'_> {
                 let broken = broken(rules, &findings);
                 let known = |rule: &Rule| findings.get(*rule).is_some_and(|f| f.is_known());
                 let verdict = match broken {
-                    Some(_) => "broken",
-                    None if self.rules.iter().all(known) => "holds",
-                    None => "not checked",
+                    Some(_) => Verdict::Broken,
+                    None if self.rules.iter().all(known) => Verdict::Holds,
+                    None => Verdict::NotChecked,
                 };
-                cells.push(verdict.into());
+                cells.push(verdict.word().into());
                 cells.push(broken.map_or(Cell::Empty, |rule| rule.name().into()));
                 cells.extend(self.rules.iter().map(|rule| {
                     let finding = findings
                         .get(*rule)
                         .filter(jred_machine::model::rules::Finding::is_known);
                     match finding.map(|finding| rules.use_shown(*rule, finding)) {
-                        Some(used) if used.is_infinite() => "inf".into(),
+                        Some(used) if used.is_infinite() => Cell::Number(used),
                         used => used.into(),
                     }
                 }));

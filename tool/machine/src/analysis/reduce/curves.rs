@@ -5,6 +5,7 @@ use jred::{Error, Reducible as _};
 
 use super::{Place, Set, Source};
 use crate::model::coordinate::Coordinate;
+use crate::number::columns::{Column, Quantity};
 
 /// J_red with its derivatives, the parts of the reduced torque, and the drive torque of the motion.
 pub(super) struct Curves {
@@ -18,8 +19,8 @@ pub(super) struct Curves {
 pub(super) struct Motion;
 
 impl Set for Motion {
-    fn names(&self, source: &Source) -> Vec<String> {
-        source.coordinate.rates().map(String::from).to_vec()
+    fn heads(&self, source: &Source) -> Vec<Column> {
+        source.coordinate.rates().to_vec()
     }
 
     fn values(&self, _: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
@@ -29,7 +30,7 @@ impl Set for Motion {
 }
 
 /// The columns of the reduced link, drive train and flywheel included.
-fn curve_names(coordinate: Coordinate) -> Vec<String> {
+fn curves(coordinate: Coordinate) -> Vec<Column> {
     let (inertia, unit, per) = (
         coordinate.inertia(),
         coordinate.inertia_unit(),
@@ -41,35 +42,41 @@ fn curve_names(coordinate: Coordinate) -> Vec<String> {
         Coordinate::Length => "N s/m",
     };
     vec![
-        format!("{inertia} [{unit}]"),
-        format!("{inertia}' [{unit}/{per}]"),
-        format!("{inertia}'' [{unit}/{per}^2]"),
-        "U [J]".to_owned(),
-        format!("{effort}_potential [{effort_unit}]"),
-        format!("{effort}_process [{effort_unit}]"),
-        format!("b_viscous [{viscous}]"),
-        format!("c_coulomb [{effort_unit}]"),
+        Column::new(Quantity::ReducedInertia, inertia, unit),
+        Column::new(
+            Quantity::InertiaSlope,
+            format!("{inertia}'"),
+            format!("{unit}/{per}"),
+        ),
+        Column::other(format!("{inertia}''"), format!("{unit}/{per}^2")),
+        Column::other("U", "J"),
+        Column::other(format!("{effort}_potential"), effort_unit),
+        Column::other(format!("{effort}_process"), effort_unit),
+        Column::other("b_viscous", viscous),
+        Column::other("c_coulomb", effort_unit),
     ]
 }
 
 impl Set for Curves {
-    fn names(&self, source: &Source) -> Vec<String> {
+    fn heads(&self, source: &Source) -> Vec<Column> {
         let coordinate = source.coordinate;
         let (inertia, unit) = (coordinate.inertia(), coordinate.inertia_unit());
-        let mut names = curve_names(coordinate);
+        let mut heads = curves(coordinate);
         if self.links {
             let each = source.machine.mechanism().link_names().iter();
-            names.extend(each.map(|link| format!("{inertia} {link} [{unit}]")));
-            names.push(format!("{inertia} flywheel and drive train [{unit}]"));
+            heads.extend(each.map(|link| Column::other(format!("{inertia} {link}"), unit)));
+            let train = format!("{inertia} flywheel and drive train");
+            heads.push(Column::other(train, unit));
         }
         if self.moves {
             let (effort, unit) = (coordinate.effort(), coordinate.effort_unit());
-            names.extend(coordinate.rates().map(String::from));
-            names.extend(TorqueTerms::NAMES.map(|term| format!("{effort}_drive {term} [{unit}]")));
-            names.push(format!("{effort}_drive [{unit}]"));
-            names.push(format!("{effort}_input [{unit}]"));
+            heads.extend(coordinate.rates());
+            let term = |term| Column::other(format!("{effort}_drive {term}"), unit);
+            heads.extend(TorqueTerms::NAMES.map(term));
+            heads.push(coordinate.drive_effort());
+            heads.push(Column::other(format!("{effort}_input"), unit));
         }
-        names
+        heads
     }
 
     fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {

@@ -8,28 +8,32 @@ use jred::Error;
 use jred::machine::{Body, Frames, Mechanism as _, Wrench};
 
 use super::{Place, Set, Source};
+use crate::number::columns::{Column, Quantity};
 
 /// Kinetic and potential energy, and the generalised force of weight, loads, springs and dampers.
 pub(super) struct Energy;
 
 impl Set for Energy {
-    fn names(&self, source: &Source) -> Vec<String> {
+    fn heads(&self, source: &Source) -> Vec<Column> {
         let unit = source.coordinate.effort_unit();
-        let mut names = vec!["E_kinetic [J]".to_owned(), "E_potential [J]".to_owned()];
-        let mut force = |name: &str| names.push(format!("Q {name} [{unit}]"));
+        let energies = ["E_kinetic", "E_potential"];
+        let mut heads = energies
+            .map(|name| Column::new(Quantity::Energy, name, "J"))
+            .to_vec();
+        let mut force = |name: &str| heads.push(Column::other(format!("Q {name}"), unit));
         force("weight");
         source.file.loads.iter().for_each(|load| force(&load.name));
         let elements = source.file.elements.iter();
         elements.for_each(|element| force(&element.name));
         force("total");
-        names
+        heads
     }
 
     fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
         let machine = &source.machine;
         let point = machine.bare_reduction(place.phi)?;
         let Some(state) = place.state else {
-            let mut values = vec![None; self.names(source).len()];
+            let mut values = vec![None; self.heads(source).len()];
             values[1] = Some(point.potential_energy[0]);
             return Ok(values);
         };

@@ -1,11 +1,11 @@
 //! The largest magnitudes of the forces over the motion, and where they occur.
 
 use jred::Error;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::{Over, Request, Sets, reduce};
 use crate::model::machine::MachineFile;
-use crate::number::columns::Columns;
+use crate::number::columns::{Column, Columns, Quantity};
 use crate::number::rounding::short;
 
 /// Positions that are searched at least.
@@ -14,12 +14,14 @@ const SEARCHED: usize = 1441;
 /// The largest magnitude of one quantity.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Largest {
-    /// The column's name, with its unit.
-    pub quantity: String,
+    /// The quantity.
+    #[serde(serialize_with = "title")]
+    pub quantity: Column,
     /// The value there, with its sign.
     pub value: f64,
-    /// Name and unit of what the rows run over.
-    pub over: String,
+    /// What the rows run over.
+    #[serde(serialize_with = "title")]
+    pub over: Column,
     /// Where it occurs.
     pub at: f64,
 }
@@ -27,20 +29,21 @@ pub struct Largest {
 impl Largest {
     /// Such as `drive 812.4 N m at phi = 341 deg`.
     pub fn sentence(&self) -> String {
-        let (name, unit) = split(&self.quantity);
-        let (place, place_unit) = split(&self.over);
-        let value = short(self.value);
+        let (quantity, over) = (&self.quantity, &self.over);
         format!(
-            "{name} {value} {unit} at {place} = {} {place_unit}",
-            short(self.at)
+            "{} {} {} at {} = {} {}",
+            quantity.name,
+            short(self.value),
+            quantity.unit,
+            over.name,
+            short(self.at),
+            over.unit
         )
     }
 }
 
-/// A column's name without its unit, and the unit.
-fn split(name: &str) -> (&str, &str) {
-    let (words, unit) = name.split_at(name.find('[').unwrap_or(name.len()));
-    (words.trim(), unit.trim_matches(['[', ']']))
+fn title<S: Serializer>(column: &Column, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&column.title())
 }
 
 /// The largest drive torque, joint forces, and shaking force of the request, searched at no fewer than 1441 positions (the
@@ -69,15 +72,16 @@ pub fn largest(file: &MachineFile, request: &Request) -> Result<Vec<Largest>, Er
 }
 
 fn of_columns(columns: &Columns) -> Vec<Largest> {
-    let names = columns.names();
-    let over = names.first().cloned().unwrap_or_default();
+    let Some(over) = columns.heads().first() else {
+        return Vec::new();
+    };
     let all = columns.rows().iter().flat_map(|row| row.iter().skip(1));
     let scale = all.flatten().fold(0.0f64, |most, x| most.max(x.abs()));
     let mut found = Vec::new();
-    for (k, name) in names.iter().enumerate() {
-        // Magnitudes and moments; the components say no more.
-        let judged = ["_drive [", " F [N]", " M [N m]"];
-        if !judged.iter().any(|part| name.contains(part)) {
+    // Magnitudes and moments; the components say no more.
+    let judged = [Quantity::DriveEffort, Quantity::Force, Quantity::Moment];
+    for (k, head) in columns.heads().iter().enumerate() {
+        if !judged.contains(&head.quantity) {
             continue;
         }
         let values = columns.rows().iter().filter_map(|row| {
@@ -88,7 +92,7 @@ fn of_columns(columns: &Columns) -> Vec<Largest> {
         // A guide through the centre of mass of its slider has no moment but roundings.
         if let Some((value, at)) = most.filter(|(value, _)| value.abs() > 1e-12 * scale) {
             found.push(Largest {
-                quantity: name.clone(),
+                quantity: head.clone(),
                 value,
                 over: over.clone(),
                 at,

@@ -8,6 +8,7 @@ use jred::number::Transfer;
 use super::{Place, Set, Source};
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::AnyMechanism;
+use crate::number::columns::{Column, Quantity};
 
 /// Every named point, every link's centre of mass (of links that have a mass), and every link's angle.
 pub(super) struct Points {
@@ -34,33 +35,46 @@ fn place_of(frames: &Frames, link: usize, at: [f64; 2]) -> [Transfer; 2] {
 }
 
 impl Set for Points {
-    fn names(&self, source: &Source) -> Vec<String> {
+    fn heads(&self, source: &Source) -> Vec<Column> {
         let per = source.coordinate.per();
         let ratio = match source.coordinate {
             Coordinate::Angle => ["rad/rad", "rad/rad^2"],
             Coordinate::Length => ["rad/m", "rad/m^2"],
         };
         let mechanism = source.machine.mechanism();
-        let mut names = Vec::new();
+        let mut heads = Vec::new();
         for (name, ..) in points(mechanism) {
-            names.extend(["x", "y"].map(|c| format!("{name} {c} [m]")));
-            names.extend(["x'", "y'"].map(|c| format!("{name} {c} [m/{per}]")));
-            names.extend(["x''", "y''"].map(|c| format!("{name} {c} [m/{per}^2]")));
+            let slope = format!("m/{per}");
+            let bend = format!("m/{per}^2");
+            let mut add =
+                |quantity, symbol, unit| heads.push(Column::of(quantity, &name, symbol, unit));
+            add(Quantity::Coordinate, "x", "m");
+            add(Quantity::Coordinate, "y", "m");
+            add(Quantity::XSlope, "x'", &slope);
+            add(Quantity::YSlope, "y'", &slope);
+            add(Quantity::Other, "x''", &bend);
+            add(Quantity::Other, "y''", &bend);
             if self.in_time {
-                names.extend(["v_x", "v_y", "v"].map(|c| format!("{name} {c} [m/s]")));
-                names.extend(["a_x", "a_y", "a"].map(|c| format!("{name} {c} [m/s^2]")));
+                add(Quantity::Other, "v_x", "m/s");
+                add(Quantity::Other, "v_y", "m/s");
+                add(Quantity::Speed, "v", "m/s");
+                add(Quantity::Other, "a_x", "m/s^2");
+                add(Quantity::Other, "a_y", "m/s^2");
+                add(Quantity::Acceleration, "a", "m/s^2");
             }
         }
         for link in mechanism.link_names().iter().take(mechanism.own_links()) {
-            names.push(format!("{link} psi [deg]"));
-            names.push(format!("{link} psi' [{}]", ratio[0]));
-            names.push(format!("{link} psi'' [{}]", ratio[1]));
+            let mut add =
+                |quantity, symbol, unit| heads.push(Column::of(quantity, link, symbol, unit));
+            add(Quantity::Other, "psi", "deg");
+            add(Quantity::AngleSlope, "psi'", ratio[0]);
+            add(Quantity::Other, "psi''", ratio[1]);
             if self.in_time {
-                names.push(format!("{link} omega [rad/s]"));
-                names.push(format!("{link} alpha [rad/s^2]"));
+                add(Quantity::AngularSpeed, "omega", "rad/s");
+                add(Quantity::AngularAcceleration, "alpha", "rad/s^2");
             }
         }
-        names
+        heads
     }
 
     fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {

@@ -8,6 +8,15 @@ use jred::Error;
 use jred::machine::{Joint, Jointed as _, Mechanism as _};
 
 use super::{Place, Set, Source};
+use crate::number::columns::{Column, Quantity};
+
+/// Symbols and units of the columns of a joint.
+const LOADS: [(Quantity, &str, &str); 4] = [
+    (Quantity::Other, "F_x", "N"),
+    (Quantity::Other, "F_y", "N"),
+    (Quantity::Force, "F", "N"),
+    (Quantity::Moment, "M", "N m"),
+];
 
 /// Kinds of load in the joints.
 pub(super) struct Reactions {
@@ -37,7 +46,7 @@ impl Reactions {
         })
     }
 
-    /// Names of the columns after the drive's, without moments where there are none.
+    /// The columns of a joint, without force or moment where there is none.
     fn pick<T: Clone>(&self, joint: usize, [x, y, size, moment]: [T; 4]) -> Vec<T> {
         let [force, turns] = self.carries.get(joint).copied().unwrap_or([true, true]);
         let mut picked = Vec::with_capacity(4);
@@ -52,27 +61,22 @@ impl Reactions {
 }
 
 impl Set for Reactions {
-    fn names(&self, source: &Source) -> Vec<String> {
-        let coordinate = source.coordinate;
-        let drive = format!(
-            "{}_drive [{}]",
-            coordinate.effort(),
-            coordinate.effort_unit()
-        );
-        let mut names = vec![drive];
+    fn heads(&self, source: &Source) -> Vec<Column> {
+        let loads = |part: &str| {
+            LOADS.map(|(quantity, symbol, unit)| Column::of(quantity, part, symbol, unit))
+        };
+        let mut heads = vec![source.coordinate.drive_effort()];
         let joints = source.machine.mechanism().joint_names();
         for (k, joint) in joints.iter().enumerate().take(self.carries.len()) {
-            let columns = ["F_x [N]", "F_y [N]", "F [N]", "M [N m]"];
-            names.extend(self.pick(k, columns.map(|column| format!("{joint} {column}"))));
+            heads.extend(self.pick(k, loads(joint)));
         }
-        let shaking = ["F_x [N]", "F_y [N]", "F [N]", "M [N m]"];
-        names.extend(shaking.map(|column| format!("shaking {column}")));
-        names
+        heads.extend(loads("shaking"));
+        heads
     }
 
     fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
         let Some(state) = place.state else {
-            return Ok(vec![None; self.names(source).len()]);
+            return Ok(vec![None; self.heads(source).len()]);
         };
         let machine = &source.machine;
         let forces = machine.forces(place.phi, state.omega, state.alpha)?;

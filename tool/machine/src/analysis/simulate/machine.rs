@@ -6,6 +6,7 @@ use super::run::{self, Row};
 use super::{SimulationError, motor_torque, newton};
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::{MachineFile, Shaft, Simulation};
+use crate::number::columns::{Column, Quantity};
 
 /// φ, ω, work of the motor, work of the process loads, losses.
 type State = [f64; 5];
@@ -124,18 +125,22 @@ impl run::Plant<5> for Plant<'_> {
         std::iter::empty()
     }
 
-    fn names(&self) -> Vec<String> {
+    fn heads(&self) -> Vec<Column> {
         let coordinate = self.coordinate;
         let [speed, acceleration] = coordinate.rates();
-        let motor = if self.simulation.drives_a_slide(self.file, coordinate) {
-            "motor force [N]"
+        let (motor, unit) = if self.simulation.drives_a_slide(self.file, coordinate) {
+            ("motor force", "N")
         } else {
-            "motor torque [N m]"
+            ("motor torque", "N m")
         };
-        let inertia = format!("{} [{}]", coordinate.inertia(), coordinate.inertia_unit());
-        [coordinate.column(), speed, acceleration, motor, &inertia]
-            .map(str::to_owned)
-            .to_vec()
+        let (inertia, inertia_unit) = (coordinate.inertia(), coordinate.inertia_unit());
+        vec![
+            coordinate.column(),
+            speed,
+            acceleration,
+            Column::new(Quantity::MotorEffort, motor, unit),
+            Column::new(Quantity::ReducedInertia, inertia, inertia_unit),
+        ]
     }
 
     fn row(&self, direction: f64, t: f64, y: &State) -> Result<Row, Error> {

@@ -7,7 +7,7 @@ use super::error::stopped;
 use super::watch::{At, Watch};
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::{MachineFile, Simulation};
-use crate::number::columns::Columns;
+use crate::number::columns::{Column, Columns, Quantity};
 use crate::number::numerics::dormand_prince::{Accuracy, Point};
 
 /// The most steps within one output step.
@@ -42,8 +42,8 @@ pub(super) trait Plant<const N: usize> {
     /// Times at which y′ has a corner (s): no step passes over one.
     fn corners(&self) -> impl Iterator<Item = f64>;
 
-    /// Names of the figures of a [`Row`].
-    fn names(&self) -> Vec<String>;
+    /// The columns of the figures of a [`Row`].
+    fn heads(&self) -> Vec<Column>;
 
     /// What is written about a state.
     fn row(&self, direction: f64, t: f64, y: &[f64; N]) -> Result<Row, Error>;
@@ -78,15 +78,17 @@ pub(super) fn run<const N: usize>(
     run.direction = run.heading(&y)?;
     run.watch.check(run.at(0.0, &y)?)?;
     let energies = [
-        "kinetic energy [J]",
-        "potential energy [J]",
-        "motor work [J]",
-        "process work [J]",
-        "losses [J]",
-        "energy balance [J]",
-    ];
-    let names = std::iter::once("t [s]".to_owned()).chain(plant.names());
-    let mut columns = Columns::new(names.chain(energies.map(str::to_owned)));
+        "kinetic energy",
+        "potential energy",
+        "motor work",
+        "process work",
+        "losses",
+    ]
+    .map(|name| Column::new(Quantity::Energy, name, "J"));
+    let balance = Column::new(Quantity::EnergyBalance, "energy balance", "J");
+    let time = std::iter::once(Column::new(Quantity::Time, "t", "s"));
+    let heads = time.chain(plant.heads()).chain(energies).chain([balance]);
+    let mut columns = Columns::new(heads);
     let steps = (simulation.duration / simulation.output_step)
         .round()
         .max(1.0) as usize;

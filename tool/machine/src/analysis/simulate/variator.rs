@@ -6,8 +6,10 @@ use jred::friction::{Contact, Place, Stage};
 
 use super::run::{self, Row};
 use super::{SimulationError, motor_torque, newton};
+use crate::model::coordinate::Coordinate;
 use crate::model::machine::{MachineFile, Shaft, Simulation};
 use crate::model::variator::{Slip, Variator};
+use crate::number::columns::{Column, Quantity};
 
 /// φ₁, ω₁ of the input shaft; φ of the drive link; ω₂ of the output shaft (creep only); work of the motor, work of the
 /// process loads, losses.
@@ -228,20 +230,20 @@ impl run::Plant<7> for Plant<'_> {
         self.variator.ratio.breaks()
     }
 
-    fn names(&self) -> Vec<String> {
-        let names = [
-            "phi [deg]",
-            "omega [rad/s]",
-            "alpha [rad/s^2]",
-            "input phi [deg]",
-            "input omega [rad/s]",
-            "ratio",
-            "slip [%]",
-            "contact torque [N m]",
-            "motor torque [N m]",
-            "J_red [kg m^2]",
-        ];
-        names.map(str::to_owned).to_vec()
+    fn heads(&self) -> Vec<Column> {
+        let [speed, acceleration] = Coordinate::Angle.rates();
+        vec![
+            Coordinate::Angle.column(),
+            speed,
+            acceleration,
+            Column::other("input phi", "deg"),
+            Column::other("input omega", "rad/s"),
+            Column::other("ratio", ""),
+            Column::other("slip", "%"),
+            Column::other("contact torque", "N m"),
+            Column::new(Quantity::MotorEffort, "motor torque", "N m"),
+            Column::new(Quantity::ReducedInertia, "J_red", "kg m^2"),
+        ]
     }
 
     fn row(&self, direction: f64, t: f64, y: &State) -> Result<Row, Error> {

@@ -29,12 +29,11 @@ impl<'c> Asked<'c> {
     }
 
     fn of(selection: &Selection<'c>, candidate: Candidate<'c>) -> Self {
-        let own = candidate.drive.name();
         let rank = if candidate.outcome.fails() {
             None
         } else {
             let fit = selection.first_fit(usize::MAX);
-            fit.iter().position(|c| c.drive.name() == own)
+            fit.iter().position(|c| c.is_same_drive(&candidate))
         };
         Self {
             candidate,

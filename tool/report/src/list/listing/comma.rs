@@ -31,9 +31,8 @@ pub fn csv(list: List, selection: &Selection, asked: Option<&Asked>) -> String {
         let rank = asked.rank.map_or_else(String::new, |rank| rank.to_string());
         (rank, &asked.candidate)
     });
-    let is_first = |candidate: &Candidate| {
-        asked.is_some_and(|asked| asked.candidate.drive.name() == candidate.drive.name())
-    };
+    let is_first =
+        |candidate: &Candidate| asked.is_some_and(|asked| asked.candidate.is_same_drive(candidate));
     let listed = listed.filter(|(_, candidate)| !is_first(candidate));
     let mut text = csv::row(COLUMNS);
     for (rank, candidate) in first.into_iter().chain(listed) {

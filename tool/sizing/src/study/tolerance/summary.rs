@@ -1,6 +1,8 @@
 //! Summary of a Monte Carlo study.
 
+use super::Verdict;
 use crate::study::cell::Cell;
+use jred_machine::number::words::Word as _;
 
 /// Two-sided 95 % of the normal distribution.
 const Z: f64 = 1.959_963_984_540_054;
@@ -84,22 +86,19 @@ impl Summary {
     /// Adds a row.
     pub fn add(&mut self, cells: &[Cell]) {
         self.machines += 1;
-        match cells.get(self.verdict).and_then(Cell::text) {
-            Some("holds") => self.hold += 1,
-            Some("broken") => {}
-            Some("not checked") => self.unchecked += 1,
-            _ => self.refused += 1,
+        let verdict = cells.get(self.verdict).and_then(Cell::text);
+        match verdict.and_then(Verdict::of_word) {
+            Some(Verdict::Holds) => self.hold += 1,
+            Some(Verdict::Broken) => {}
+            Some(Verdict::NotChecked) => self.unchecked += 1,
+            Some(Verdict::Refused) | None => self.refused += 1,
         }
         for (shares, cell) in self
             .shares
             .iter_mut()
             .zip(cells.iter().skip(self.verdict + 2))
         {
-            shares.extend(match cell {
-                Cell::Number(x) => Some(*x),
-                Cell::Text(text) if text == "inf" => Some(f64::INFINITY),
-                _ => None,
-            });
+            shares.extend(cell.number());
         }
     }
 }

@@ -50,6 +50,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         .transpose()?;
     let contact = by_force.then(|| Contact {
         joint: DiscCam::CONTACT,
+        named: false,
         pieces: mechanism.program().pieces().collect(),
     });
     let facts = facts::of(&mechanism);

@@ -240,6 +240,7 @@ pub(super) fn described(mut mechanism: AnyMechanism, joints: &[Held]) -> AnyMech
         if !cam.by_form {
             mechanism = mechanism.with_contact(Contact {
                 joint: index,
+                named: true,
                 pieces: (0..PIECES)
                     .map(|k| Piece {
                         from: share(k),
