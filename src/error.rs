@@ -10,6 +10,7 @@ use crate::mechanism::cam::CamError;
 use crate::mechanism::linkage::LinkageError;
 use crate::number::error::{Curable, RangeError, error};
 use crate::tabulate::harmonic::HarmonicError;
+use crate::tick::ImageError;
 
 /// A reason why a machine, a motion or a table cannot be built: the errors of all layers, each of which has a type of its
 /// own. Nothing here can happen in a tick.
@@ -36,16 +37,9 @@ pub enum Error {
     Friction(FrictionError),
     /// A machine without harmonics, or harmonics that cannot be identified.
     Harmonic(HarmonicError),
-    /// A curve does not fit the fixed-point range.
-    Overflow {
-        /// Which base of the [`Scale`](crate::Scale) is too small.
-        base: &'static str,
-        /// Index of the table cell.
-        cell: u32,
-    },
-    /// Tables of this number type are not stored in images.
-    NoImage(&'static str),
-    /// The table made is not sound.
+    /// An image that is refused, or cannot be written.
+    Image(ImageError),
+    /// A table that cannot be made or ticked.
     Table(TableError),
     /// No table within the buffer meets the torque error asked for.
     TorqueErrorNotReached {
@@ -64,6 +58,15 @@ error!(
     Harmonic(HarmonicError),
     Table(TableError)
 );
+
+impl From<ImageError> for Error {
+    fn from(error: ImageError) -> Self {
+        match error {
+            ImageError::Table(error) => Self::Table(error),
+            other => Self::Image(other),
+        }
+    }
+}
 
 impl From<PoseError> for Error {
     fn from(error: PoseError) -> Self {
@@ -134,13 +137,7 @@ impl fmt::Display for Error {
             Self::Linkage(error) => error.fmt(f),
             Self::Friction(error) => error.fmt(f),
             Self::Harmonic(error) => error.fmt(f),
-            Self::Overflow { cell, .. } => {
-                write!(
-                    f,
-                    "a curve leaves the fixed-point range in table cell {cell}"
-                )
-            }
-            Self::NoImage(name) => write!(f, "tables of {name} are not stored in images"),
+            Self::Image(error) => error.fmt(f),
             Self::Table(error) => error.fmt(f),
             Self::TorqueErrorNotReached {
                 asked,
@@ -164,11 +161,9 @@ impl Curable for Error {
             Self::Cam(error) => error.write_cure(f),
             Self::Linkage(error) => error.write_cure(f),
             Self::Friction(error) => error.write_cure(f),
-            // Its messages say it.
-            Self::Harmonic(_) => Ok(()),
-            Self::Table(error) => f.write_str(error.cure().unwrap_or_default()),
-            Self::Overflow { base, .. } => write!(f, "choose a larger {base} base"),
-            Self::NoImage(_) => f.write_str("use f32 or i32"),
+            Self::Harmonic(error) => error.write_cure(f),
+            Self::Image(error) => error.write_cure(f),
+            Self::Table(error) => error.write_cure(f),
             Self::TorqueErrorNotReached { .. } => f.write_str(
                 "allow a larger error, take another layout or number type, or smooth the load (longer ramps); \
                  of a turn with jumps tabulate the pieces between them (Part, Pieces)",

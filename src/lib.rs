@@ -139,9 +139,11 @@ pub use tick::{AccelerationRange, AnyModel, Image, ImageError, Model, Pieces, Va
 /// On the way of the data between [`tabulate`] and [`Model`].
 pub mod table {
     pub use crate::curve::{
-        Constants, CubicSpline, CurveValues, Format, MAX_CELLS, MIN_CELLS, RowConstants, Shape,
-        Usage, control_points, fit_bounded, fit_periodic, fit_quadratic_bounded,
-        fit_quadratic_periodic, words_len,
+        Constants, CurveValues, Format, MAX_CELLS, RowConstants, Shape, Usage, words_len,
+    };
+    pub use crate::number::spline::{
+        CubicSpline, MIN_CELLS, control_points, fit_bounded, fit_periodic, fit_quadratic_bounded,
+        fit_quadratic_periodic,
     };
 }
 

@@ -13,7 +13,7 @@ use jred::machine::{Action, Element, Load, Marker, Mechanism, Window};
 use jred::mechanism::{Branch, Geneva, Mesh, RackAndPinion, SliderCrank, Stage, Train};
 use jred::table::{CubicSpline, Format, MAX_CELLS, fit_bounded, fit_periodic};
 use jred::tabulate::{Request, fill, tabulate};
-use jred::{Domain, Error, Link, Machine, Q31, Reducible, Scale, Set, Spline, curves};
+use jred::{Domain, Error, Link, Machine, Q31, Reducible, Scale, Set, Spline, TableError, curves};
 
 /// The error, after checking that its text holds every part.
 #[track_caller]
@@ -329,7 +329,7 @@ fn tables_that_cannot_be_made_say_why() {
         );
         let base = "inertia";
         assert!(
-            matches!(error, Error::Overflow { base: b, .. } if b == base),
+            matches!(error, Error::Table(TableError::Overflow { base: b, .. }) if b == base),
             "{error:?}"
         );
     }
@@ -339,7 +339,10 @@ fn tables_that_cannot_be_made_say_why() {
         rows::<Q31>(&loaded, 1, 16, &enough),
         &["torque base", "larger"],
     );
-    assert!(matches!(error, Error::Overflow { base: "torque", .. }));
+    assert!(matches!(
+        error,
+        Error::Table(TableError::Overflow { base: "torque", .. })
+    ));
     // The spline of samples that touch zero goes below it.
     let dips = Wave::bare(1.0, 0.999);
     says(

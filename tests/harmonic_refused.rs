@@ -34,7 +34,10 @@ fn kinks_and_hidden_harmonics_are_refused() {
             };
             assert_near("asked", asked, 1e-3, 0.0);
             assert!(reached > 1e-3 && reached < 100.0, "{max}: {reached}");
-            assert!(error.to_string().contains("needs a table"), "{error}");
+            assert!(
+                error.cure().to_string().contains("needs a table"),
+                "{error}"
+            );
         }
     }
     // Harmonics that 32 samples, or 64 and their checks, take for others.
@@ -80,7 +83,7 @@ fn bad_requests_are_named() {
     };
     let error = fitted::<f64, { terms::INERTIA_COS }>(&stroke, &request(1e-3, 8)).unwrap_err();
     assert_eq!(error, Error::Harmonic(HarmonicError::Stroke));
-    assert!(error.to_string().contains("use a table"));
+    assert!(error.cure().to_string().contains("use a table"));
     assert_eq!(terms_of(&stroke, curves::ALL).unwrap_err(), error);
     for (bad, what) in [
         (

@@ -5,10 +5,11 @@ use crate::support::machines::{Spec, Wave, spec};
 use crate::support::rows::Rows;
 use crate::support::{config, number, samples};
 use jred::image::{HEADER_WORDS, VERSION, encode, image_len};
-use jred::number::RangeError;
 use jred::table::Format;
 use jred::tabulate::{Request, Tabulated};
-use jred::{Cubic, Domain, Error, Image, Model, Phase, Q31, Quadratic, Scale, Set, Spline, curves};
+use jred::{
+    Cubic, Domain, Image, ImageError, Model, Phase, Q31, Quadratic, Scale, Set, Spline, curves,
+};
 use proptest::prelude::*;
 
 /// Words of the smallest image: header, seven points, CRC.
@@ -97,17 +98,17 @@ fn encoding_needs_room_and_a_stored_number_type() {
     let mut buffer = [0; SMALL as usize];
     let rows = Rows::<Spline<f64>>::of(&machine, 0, 4, &Scale::SI).unwrap();
     let error = encode(&rows.table(), VALIDITY, &mut buffer).unwrap_err();
-    assert_eq!(error, Error::NoImage("f64"));
+    assert_eq!(error, ImageError::NotStored("f64"));
     assert!(error.cure().to_string().contains("use f32"), "{error}");
     let rows = Rows::<Spline<f32>>::of(&machine, 0, 4, &Scale::SI).unwrap();
     let short = &mut buffer[..SMALL as usize - 1];
     let error = encode(&rows.table(), VALIDITY, short).unwrap_err();
     assert_eq!(
         error,
-        Error::Range(RangeError::BufferTooShort {
+        ImageError::BufferTooShort {
             needed: 32,
             given: 31
-        })
+        }
     );
     assert!(encode(&rows.table(), VALIDITY, &mut buffer).is_ok());
 }

@@ -171,7 +171,10 @@ fn pieces_that_do_not_belong_together() {
     ]);
     let error = pieces.unwrap_err();
     assert_eq!(error, TableError::PieceUnits);
-    assert!(error.to_string().contains("same machine units"), "{error}");
+    assert!(
+        error.cure().to_string().contains("same machine units"),
+        "{error}"
+    );
     let none: [(Phase, jred::Model<'_, Spline<f64>, 0>); 0] = [];
     assert_eq!(
         Pieces::<_, 0, 0>::new(none).unwrap_err(),

@@ -2,9 +2,11 @@
 
 use core::fmt;
 
+use super::MAX_CELLS;
 use super::curves::{self, Set};
-use super::{MAX_CELLS, MIN_CELLS};
 use crate::Phase;
+use crate::number::error::{Curable, error};
+use crate::number::spline::MIN_CELLS;
 
 /// Why words are not a usable table, or a table not a usable model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +26,13 @@ pub enum TableError {
     Range {
         /// Position of the curve in a row.
         curve: u8,
+        /// Index of the cell.
+        cell: u32,
+    },
+    /// A curve does not fit the fixed-point range.
+    Overflow {
+        /// Which base of the [`Scale`](crate::Scale) is too small.
+        base: &'static str,
         /// Index of the cell.
         cell: u32,
     },
@@ -99,30 +108,6 @@ const NAMES: [(Set, &str); 6] = [
     (curves::CONSTANT_COULOMB, "CONSTANT_COULOMB"),
 ];
 
-impl TableError {
-    /// What helps, if it is known.
-    #[must_use]
-    pub const fn cure(&self) -> Option<&'static str> {
-        Some(match self {
-            Self::NoInertia { .. } => "use more cells",
-            Self::VelocityTorque { .. } => "choose a larger torque base or a smaller speed base",
-            Self::SpeedBase => "take Scale::for_cells",
-            Self::TorqueRange { .. } => {
-                "choose a larger torque base, or a larger inertia base for less acceleration"
-            }
-            Self::PieceUnits => {
-                "make them in the same machine units, each over the range from its start to the next"
-            }
-            Self::NoInertiaAt { .. } => "give the drive link an inertia, or use more harmonics",
-            Self::InertiaNotShown { .. } => "give the drive link an inertia",
-            Self::Stroke => "use a table",
-            Self::Harmonics => "use harmonic::fit",
-            Self::Slope { .. } => "take the span and the scale that the table was made with",
-            _ => return None,
-        })
-    }
-}
-
 impl fmt::Display for TableError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
@@ -136,6 +121,10 @@ impl fmt::Display for TableError {
             Self::Range { curve, cell } => write!(
                 f,
                 "curve {curve} of the table leaves the number range in cell {cell}"
+            ),
+            Self::Overflow { cell, .. } => write!(
+                f,
+                "a curve leaves the fixed-point range in table cell {cell}"
             ),
             Self::NoInertia { cell } => write!(
                 f,
@@ -196,15 +185,34 @@ impl fmt::Display for TableError {
                 f,
                 "the curve of the reciprocal inertia does not belong to that of the inertia in cell {cell}"
             ),
-        }?;
-        match self.cure() {
-            Some(cure) => write!(f, ": {cure}"),
-            None => Ok(()),
         }
     }
 }
 
-impl core::error::Error for TableError {}
+error!(TableError);
+
+impl Curable for TableError {
+    fn write_cure(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Overflow { base, .. } => return write!(f, "choose a larger {base} base"),
+            Self::NoInertia { .. } => "use more cells",
+            Self::VelocityTorque { .. } => "choose a larger torque base or a smaller speed base",
+            Self::SpeedBase => "take Scale::for_cells",
+            Self::TorqueRange { .. } => {
+                "choose a larger torque base, or a larger inertia base for less acceleration"
+            }
+            Self::PieceUnits => {
+                "make them in the same machine units, each over the range from its start to the next"
+            }
+            Self::NoInertiaAt { .. } => "give the drive link an inertia, or use more harmonics",
+            Self::InertiaNotShown { .. } => "give the drive link an inertia",
+            Self::Stroke => "use a table",
+            Self::Harmonics => "use harmonic::fit",
+            Self::Slope { .. } => "take the span and the scale that the table was made with",
+            _ => "",
+        })
+    }
+}
 
 /// A phase in degrees, rounded down to hundredths, by integers.
 struct Degrees(Phase);

@@ -7,23 +7,18 @@ pub mod curves;
 mod error;
 mod format;
 mod samples;
-mod spline;
 mod table;
 mod unfold;
 mod usage;
 
 pub use curves::Set;
 pub use error::TableError;
-pub(crate) use format::{CONSTANTS, cubic, in_use};
+pub(crate) use format::{CONSTANTS, in_use};
 pub use format::{
     Circular, Coefficient, Constants, Cubic, Curve, Format, Harmonic, Kind, MAX_HARMONICS,
     Quadratic, RowConstants, Rows16, Spline, Spline16, terms,
 };
 pub(crate) use samples::{Sample, Samples};
-pub use spline::{
-    CubicSpline, MIN_CELLS, control_points, fit_bounded, fit_periodic, fit_quadratic_bounded,
-    fit_quadratic_periodic,
-};
 pub use table::{CurveValues, MAX_CELLS, Shape, Table, words_len};
 pub(crate) use unfold::unfold;
 pub use usage::Usage;

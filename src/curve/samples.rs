@@ -1,7 +1,7 @@
 //! What tables are made from: the curves of a machine at any place of its range.
 
 use super::curves::Set;
-use crate::{Domain, Error, Scale};
+use crate::{Domain, Scale};
 
 /// The curves at one place, in machine units.
 #[derive(Clone, Copy, Debug)]
@@ -27,9 +27,12 @@ pub struct Samples<F> {
     pub(crate) at: F,
 }
 
-impl<F: Fn(f64) -> Result<Sample, Error>> Samples<F> {
+impl<F> Samples<F> {
     /// The curves at this place in cells from the start.
-    pub(crate) fn at_cell(&self, cell: f64) -> Result<Sample, Error> {
+    pub(crate) fn at_cell<E>(&self, cell: f64) -> Result<Sample, E>
+    where
+        F: Fn(f64) -> Result<Sample, E>,
+    {
         (self.at)(cell / f64::from(self.cells))
     }
 

@@ -5,10 +5,10 @@ use core::f64::consts::TAU;
 use core::fmt;
 
 use super::Dual;
-use crate::curve::CubicSpline;
 use crate::machine::motion::Law;
 use crate::math;
 use crate::number::error::{finite, positive};
+use crate::number::spline::CubicSpline;
 
 /// What a course may depend on: time, angle and load of one friction stage, with derivatives by these three.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -242,7 +242,7 @@ pub struct Curve<C> {
 
 impl<C: AsRef<[f64]>> Curve<C> {
     /// A curve over x from `start` to `start + length`, with the end values outside. The control points are made by
-    /// [`fit_bounded`](crate::curve::fit_bounded).
+    /// [`fit_bounded`](crate::number::spline::fit_bounded).
     ///
     /// # Errors
     /// A start that is not finite, or a length that is not positive.
@@ -262,7 +262,7 @@ impl<C: AsRef<[f64]>> Curve<C> {
     }
 
     /// A curve over one turn of the stage's first shaft, repeated. The control points are made by
-    /// [`fit_periodic`](crate::curve::fit_periodic).
+    /// [`fit_periodic`](crate::number::spline::fit_periodic).
     #[must_use]
     pub const fn turn(spline: CubicSpline<C>) -> Self {
         Self {

@@ -36,7 +36,6 @@ pub use geneva::Geneva;
 pub use grashof::Grashof;
 pub use hoist::{Hoist, Rope, Suspended};
 pub use inverted_slider_crank::{InvertedSliderCrank, InvertedSliderCrankDimensions, LeverMotion};
-pub use linkage::{Assembly, Linkage, Pair, PlacedCam, Pose};
 pub use misfit::Misfit;
 pub use parallel_shafts::{DrivenShaft, ParallelShafts};
 pub use planetary::{Member, Planetary, PlanetaryDimensions, PlanetaryGears};

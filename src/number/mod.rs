@@ -32,6 +32,7 @@ pub(crate) mod quadrature;
 mod role;
 pub(crate) mod scalar;
 pub(crate) mod scale;
+pub(crate) mod spline;
 pub(crate) mod transfer;
 
 pub use crate::math::Real;

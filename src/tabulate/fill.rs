@@ -1,12 +1,11 @@
 //! Fills a table of a given size.
 
 use super::scratch_len;
-use crate::curve::{
-    Format, MAX_CELLS, MIN_CELLS, Sample, Samples, Set, Shape, Table, TableError, words_len,
-};
+use crate::curve::{Format, MAX_CELLS, Sample, Samples, Set, Shape, Table, TableError, words_len};
 use crate::machine::Reducible;
 use crate::machine::error::PoseError;
 use crate::number::error::RangeError;
+use crate::number::spline::MIN_CELLS;
 use crate::{Domain, Error, Scale};
 
 /// Fills `words` with the table of exactly `cells` cells and of this set of [`curves`](crate::curves), and returns it.
@@ -50,7 +49,7 @@ pub fn fill<'w, F: Format>(
         scale: *scale,
         at: |place| {
             let point = machine.reduction(domain.position(place))?;
-            Ok(Sample {
+            Ok::<_, Error>(Sample {
                 inertia: point.inertia[0] / inertia,
                 load: point.load_torque() / torque,
                 viscous: point.viscous * speed / torque,
@@ -66,10 +65,10 @@ pub fn fill<'w, F: Format>(
         constants: F::fill(&samples, scratch, words)?,
     };
     Table::new(words, shape).map_err(|error| match error {
-        TableError::Range { curve, cell } => Error::Overflow {
+        TableError::Range { curve, cell } => Error::Table(TableError::Overflow {
             base: F::base(curve, set),
             cell,
-        },
+        }),
         TableError::NoInertia { cell } => PoseError::NoInertia {
             phi: domain.position(f64::from(cell) / f64::from(cells)),
         }

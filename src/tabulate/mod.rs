@@ -29,10 +29,10 @@ pub(crate) use measure::torque_between;
 pub use part::Part;
 pub use search::tabulate;
 
-use crate::curve::control_points;
 use crate::curve::curves::{self, Set};
 use crate::machine::Reducible;
 use crate::number::error::positive;
+use crate::number::spline::control_points;
 use crate::{Error, Scale, Validity, math};
 
 /// Places in each cell at which a table is compared with the exact curves.

@@ -3,8 +3,9 @@
 use super::measure::{measure, measure_until};
 use super::near::{Look, meets_near, search_near};
 use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, Tabulated, fill};
-use crate::curve::{Format, MAX_CELLS, MIN_CELLS, Set, Table};
+use crate::curve::{Format, MAX_CELLS, Set, Table};
 use crate::machine::Reducible;
+use crate::number::spline::MIN_CELLS;
 use crate::{Error, Scale};
 
 /// Finds the table with the fewest cells that meets the request, fills `words` with it, and says how exact it is.

@@ -1,10 +1,7 @@
 //! Images of tables of 16-bit rows: word by word, back again, and refused.
 
 use jred::image::{HEADER_WORDS, encode, image_len};
-use jred::number::RangeError;
-use jred::{
-    Domain, Error, Image, ImageError, Phase, Q15, Rows16, Scale, Set, Spline, TableError, curves,
-};
+use jred::{Domain, Image, ImageError, Phase, Q15, Rows16, Scale, Set, Spline, TableError, curves};
 
 use super::{Short, model, q15};
 use crate::support::images::{VALIDITY, sealed, small};
@@ -143,6 +140,6 @@ fn a_buffer_too_short_is_refused() {
     let given = needed - 1;
     assert_eq!(
         found.unwrap_err(),
-        Error::Range(RangeError::BufferTooShort { needed, given })
+        ImageError::BufferTooShort { needed, given }
     );
 }

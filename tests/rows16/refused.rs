@@ -187,7 +187,10 @@ fn a_model_of_another_set_span_or_scale() {
     let error = model(Domain::Turn, &faster).unwrap_err();
     assert!(matches!(error, TableError::Slope { .. }), "{error:?}");
     assert!(
-        error.to_string().contains("take the span and the scale"),
+        error
+            .cure()
+            .to_string()
+            .contains("take the span and the scale"),
         "{error}"
     );
 }
@@ -203,7 +206,7 @@ fn machines_out_of_range() {
     let scale = Scale::new(60.0, 11.0, 2.0).unwrap();
     let wave = Wave::bare(1.0, 0.25);
     let base = |wave: &Wave, set: Set| match filled(wave, set, 40, &scale) {
-        Error::Overflow { base, .. } => base,
+        Error::Table(TableError::Overflow { base, .. }) => base,
         other => panic!("{other}"),
     };
     assert_eq!(base(&Wave::bare(2.5, 0.25), 0), "inertia");

@@ -67,7 +67,8 @@ fn make<F: Format>(example: &Example, set: Set, cells: u32, scale: &Scale) -> Re
         fill::<F>(&machine, set, cells, scale, &mut scratch, &mut numbers).map_err(failed)?;
     let table_bytes = size_of_val(table.words());
     let mut words = vec![0; image_len::<F>(cells, set)];
-    encode(&table, VALIDITY, &mut words).map_err(failed)?;
+    encode(&table, VALIDITY, &mut words)
+        .map_err(|error| anyhow!("the example machine: {error}"))?;
     Ok(Words { words, table_bytes })
 }
 

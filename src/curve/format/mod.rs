@@ -26,7 +26,6 @@ mod rows16;
 
 pub(crate) use harmonic::in_use;
 pub use harmonic::{Circular, Coefficient, Curve, Harmonic, Kind, MAX_HARMONICS, terms};
-pub(crate) use layout::cubic;
 pub use layout::{Constants, Cubic, Quadratic, Spline, Spline16};
 pub(crate) use row::{Row, Size};
 pub use rows16::{RowConstants, Rows16};
@@ -34,9 +33,11 @@ pub use rows16::{RowConstants, Rows16};
 use super::curves::Set;
 use super::samples::{Sample, Samples};
 use super::table::{CurveValues, Table};
-use super::{MAX_CELLS, MIN_CELLS, TableError, Usage};
+use super::{MAX_CELLS, TableError, Usage};
 use crate::number::Number;
-use crate::{Error, Outcome, Phase, Scale};
+use crate::number::error::RangeError;
+use crate::number::spline::MIN_CELLS;
+use crate::{Outcome, Phase, Scale};
 
 /// Words of the image's header for the constants of a table.
 pub(crate) const CONSTANTS: usize = 11;
@@ -100,11 +101,11 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
 
     /// Fills all words of a table, and returns its constants.
     #[doc(hidden)]
-    fn fill(
-        samples: &Samples<impl Fn(f64) -> Result<Sample, Error>>,
+    fn fill<E: From<TableError> + From<RangeError>>(
+        samples: &Samples<impl Fn(f64) -> Result<Sample, E>>,
         scratch: &mut [f64],
         words: &mut [Self::Word],
-    ) -> Result<Self::Constants, Error>;
+    ) -> Result<Self::Constants, E>;
     /// The base to enlarge when this curve of a row does not fit.
     #[doc(hidden)]
     fn base(curve: u8, set: Set) -> &'static str;

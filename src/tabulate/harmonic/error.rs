@@ -3,6 +3,7 @@
 use core::fmt;
 
 use crate::curve::Coefficient;
+use crate::number::error::{Curable, error};
 
 /// Why a machine has no harmonics, or why they cannot be identified.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +41,7 @@ impl fmt::Display for HarmonicError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Stroke => f.write_str(
-                "harmonics need a drive link that turns fully, but this one has a stroke: use a table",
+                "harmonics need a drive link that turns fully, but this one has a stroke",
             ),
             Self::NotConverged {
                 asked,
@@ -48,31 +49,41 @@ impl fmt::Display for HarmonicError {
                 harmonics,
             } => write!(
                 f,
-                "{harmonics} harmonics reach a torque error of {reached:.3e} N m, not {asked:e} N m: a curve with a kink, \
-                 a jump or a steep ramp needs a table; of a smooth machine allow more harmonics or a larger error, and see that \
-                 TERMS has all of its cosines and sines (terms::ALL, or what terms_in_use finds)"
+                "{harmonics} harmonics reach a torque error of {reached:.3e} N m, not {asked:e} N m"
             ),
-            Self::TooFewSamples { needed, given } => write!(
+            Self::TooFewSamples { given, .. } => write!(
                 f,
-                "{given} samples do not tell the coefficients and their error: at least {needed} are needed"
+                "{given} samples do not tell the coefficients and their error"
             ),
             Self::NotExcited {
                 coefficient,
                 like: None,
-            } => write!(
-                f,
-                "the samples do not depend on {coefficient}: measure with other speeds and accelerations"
-            ),
+            } => write!(f, "the samples do not depend on {coefficient}"),
             Self::NotExcited {
                 coefficient,
                 like: Some(other),
-            } => write!(
-                f,
-                "the samples do not tell {coefficient} from {other}: measure with other speeds and accelerations, in both \
-                 directions, or leave one of them out"
-            ),
+            } => write!(f, "the samples do not tell {coefficient} from {other}"),
         }
     }
 }
 
-impl core::error::Error for HarmonicError {}
+error!(HarmonicError);
+
+impl Curable for HarmonicError {
+    fn write_cure(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Stroke => f.write_str("use a table"),
+            Self::NotConverged { .. } => f.write_str(
+                "a curve with a kink, a jump or a steep ramp needs a table; of a smooth machine allow more harmonics or a \
+                 larger error, and see that the set has all of its cosines and sines (terms::ALL, or what terms_in_use finds)",
+            ),
+            Self::TooFewSamples { needed, .. } => write!(f, "give at least {needed}"),
+            Self::NotExcited { like: None, .. } => {
+                f.write_str("measure with other speeds and accelerations")
+            }
+            Self::NotExcited { like: Some(_), .. } => f.write_str(
+                "measure with other speeds and accelerations, in both directions, or leave one of them out",
+            ),
+        }
+    }
+}

@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::number::error::{Curable, error};
+
 /// Why a [`Curve`](super::Curve) or a [`Meter`](super::Meter) cannot be made.
 ///
 /// Carries no number: firmware that prints nothing then needs no double precision.
@@ -35,11 +37,7 @@ impl fmt::Display for LimitError {
             Self::NotFinite(what) => write!(f, "{what} is not a finite number"),
             Self::Negative(what) => write!(f, "{what} must not be negative"),
             Self::NotPositive(what) => write!(f, "{what} must be greater than zero"),
-            Self::Points { given } => write!(
-                f,
-                "a curve has 1 to {} points, not {given}",
-                super::MAX_POINTS
-            ),
+            Self::Points { given } => write!(f, "the curve has {given} points"),
             Self::NotRising { point } => write!(
                 f,
                 "the speeds of a curve must rise, but that of point {point} (counted from 0) does not"
@@ -51,4 +49,17 @@ impl fmt::Display for LimitError {
     }
 }
 
-impl core::error::Error for LimitError {}
+error!(LimitError);
+
+impl Curable for LimitError {
+    fn write_cure(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite(_) => f.write_str("give a number that is neither NaN nor infinite"),
+            Self::Negative(_) => f.write_str("give zero or a positive value"),
+            Self::NotPositive(_) => f.write_str("give a value greater than zero"),
+            Self::Points { .. } => write!(f, "give 1 to {} points", super::MAX_POINTS),
+            Self::NotRising { .. } => f.write_str("give the points in the order of their speeds"),
+            Self::WindowTooShort => f.write_str("give a longer time constant"),
+        }
+    }
+}

@@ -1,10 +1,11 @@
-//! Why an image is refused.
+//! Why an image is refused, or not written.
 
 use core::fmt;
 
 use crate::curve::TableError;
+use crate::number::error::{Curable, error};
 
-/// Why an image is refused.
+/// Why an image is refused, or not written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -44,18 +45,15 @@ pub enum ImageError {
     Layout(u8),
     /// The table is not sound.
     Table(TableError),
-}
-
-impl ImageError {
-    /// What helps, if it is known.
-    #[must_use]
-    pub const fn cure(&self) -> Option<&'static str> {
-        match self {
-            Self::Version { .. } => Some("export the table anew"),
-            Self::Table(error) => error.cure(),
-            _ => None,
-        }
-    }
+    /// Tables of this number type are not stored in images.
+    NotStored(&'static str),
+    /// The buffer to write the image in is too short.
+    BufferTooShort {
+        /// Words needed.
+        needed: usize,
+        /// Words given.
+        given: usize,
+    },
 }
 
 impl fmt::Display for ImageError {
@@ -82,7 +80,7 @@ impl fmt::Display for ImageError {
             }
             Self::Version { found, supported } => write!(
                 f,
-                "image version {found}, this library reads version {supported}: export the table anew"
+                "image version {found}, this library reads version {supported}"
             ),
             Self::Crc { stored, computed } => write!(
                 f,
@@ -100,14 +98,25 @@ impl fmt::Display for ImageError {
                 "the image has layout {code} (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16, 5 = rows of 16 bits, 6 = harmonics)"
             ),
             Self::Table(error) => error.fmt(f),
+            Self::NotStored(name) => write!(f, "tables of {name} are not stored in images"),
+            Self::BufferTooShort { needed, given } => write!(
+                f,
+                "the buffer holds {given} words, but the image has {needed}"
+            ),
         }
     }
 }
 
-impl core::error::Error for ImageError {}
+error!(ImageError, Table(TableError));
 
-impl From<TableError> for ImageError {
-    fn from(error: TableError) -> Self {
-        Self::Table(error)
+impl Curable for ImageError {
+    fn write_cure(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Version { .. } => f.write_str("export the table anew"),
+            Self::Table(error) => error.write_cure(f),
+            Self::NotStored(_) => f.write_str("use f32 or i32"),
+            Self::BufferTooShort { needed, .. } => write!(f, "give it {needed} words"),
+            _ => Ok(()),
+        }
     }
 }

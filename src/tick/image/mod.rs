@@ -10,8 +10,7 @@ pub use error::ImageError;
 
 use crate::curve::{CONSTANTS, Format, Set, Shape, Table, words_len};
 use crate::number::Number;
-use crate::number::error::RangeError;
-use crate::{AnyModel, Domain, Error, Model, Scale};
+use crate::{AnyModel, Domain, Model, Scale};
 
 /// "JRED" in the file's first four bytes.
 const MAGIC: u32 = u32::from_le_bytes(*b"JRED");
@@ -246,12 +245,12 @@ pub fn encode<'b, F: Format>(
     table: &Table<'_, F>,
     validity: Validity,
     buffer: &'b mut [u32],
-) -> Result<&'b [u32], Error> {
-    let [code, layout] = F::CODES.ok_or(Error::NoImage(<F::Number as Number>::NAME))?;
+) -> Result<&'b [u32], ImageError> {
+    let [code, layout] = F::CODES.ok_or(ImageError::NotStored(<F::Number as Number>::NAME))?;
     let rows: &[u8] = bytemuck::cast_slice(table.words());
     let needed = image_len::<F>(table.cells(), table.set());
     let given = buffer.len();
-    let short = RangeError::BufferTooShort { needed, given };
+    let short = ImageError::BufferTooShort { needed, given };
     let image = buffer.get_mut(..needed).ok_or(short)?;
     let (domain, from, to) = match table.domain().to::<f32>() {
         Domain::Turn => (TURN, 0.0, 0.0),

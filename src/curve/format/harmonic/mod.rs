@@ -40,7 +40,8 @@ use crate::curve::curves::{self, Set};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::{CurveValues, Shape, Table, TableError, Usage};
 use crate::number::Number;
-use crate::{Domain, Error, Outcome, Phase, Scale};
+use crate::number::error::RangeError;
+use crate::{Domain, Outcome, Phase, Scale};
 
 /// Most harmonics of a series.
 pub const MAX_HARMONICS: u32 = 256;
@@ -160,13 +161,13 @@ macro_rules! harmonic {
                 0.0
             }
 
-            fn fill(
-                _: &Samples<impl Fn(f64) -> Result<Sample, Error>>,
+            fn fill<E: From<TableError> + From<RangeError>>(
+                _: &Samples<impl Fn(f64) -> Result<Sample, E>>,
                 _: &mut [f64],
                 _: &mut [$number],
-            ) -> Result<(), Error> {
+            ) -> Result<(), E> {
                 // They are found from the spectrum of the curves: `harmonic::fit`.
-                Err(Error::Table(TableError::Harmonics))
+                Err(TableError::Harmonics.into())
             }
 
             fn base(_: u8, _: Set) -> &'static str {

@@ -4,27 +4,28 @@ use super::rounding::Points;
 use super::{Constants, Layout, Word};
 use crate::curve::curves::{self, has};
 use crate::curve::samples::{Sample, Samples};
-use crate::curve::{
-    Set, TableError, control_points, fit_bounded, fit_periodic, fit_quadratic_bounded,
-    fit_quadratic_periodic, unfold,
+use crate::curve::{Set, TableError, unfold};
+use crate::math;
+use crate::number::error::RangeError;
+use crate::number::spline::{
+    control_points, fit_bounded, fit_periodic, fit_quadratic_bounded, fit_quadratic_periodic,
 };
 use crate::number::{Kernel, Role};
-use crate::{Error, math};
 
 /// Fills `words`, and returns the table's constants.
-pub(super) fn fill<L: Layout>(
-    samples: &Samples<impl Fn(f64) -> Result<Sample, Error>>,
+pub(super) fn fill<L: Layout, E: From<TableError> + From<RangeError>>(
+    samples: &Samples<impl Fn(f64) -> Result<Sample, E>>,
     scratch: &mut [f64],
     words: &mut [Word<L>],
-) -> Result<Constants<Word<L>>, Error> {
+) -> Result<Constants<Word<L>>, E> {
     let (set, cells, periodic) = (samples.set, samples.cells as usize, samples.periodic());
     let rows = control_points(cells);
     let (values, control) = scratch
         .split_at_mut_checked(curves::width(set) * rows)
         .unwrap_or_default();
     let control = control.get_mut(..rows).unwrap_or_default();
-    let knots = sample::<L>(samples, values)?;
-    let mut constants = constants::<L>(samples, |column| {
+    let knots = sample::<L, E>(samples, values)?;
+    let mut constants = constants::<L, E>(samples, |column| {
         let values = values.get(column * rows..).and_then(|v| v.get(..knots));
         values.unwrap_or_default()
     })?;
@@ -32,8 +33,8 @@ pub(super) fn fill<L: Layout>(
     for (column, role) in curves::roles(set) {
         let overflow = |cell| match role {
             // More cells cure it.
-            Role::Reciprocal => Error::Table(TableError::Reciprocal { cell }),
-            _ => Error::Overflow {
+            Role::Reciprocal => TableError::Reciprocal { cell },
+            _ => TableError::Overflow {
                 base: role.base(),
                 cell,
             },
@@ -92,10 +93,10 @@ pub(super) fn fill<L: Layout>(
 
 /// Samples of every curve of the set, in machine units, at the places that the format's spline passes through; returns their
 /// number. Samples of one curve lie side by side.
-fn sample<L: Layout>(
-    samples: &Samples<impl Fn(f64) -> Result<Sample, Error>>,
+fn sample<L: Layout, E>(
+    samples: &Samples<impl Fn(f64) -> Result<Sample, E>>,
     values: &mut [f64],
-) -> Result<usize, Error> {
+) -> Result<usize, E> {
     let (set, cells) = (samples.set, samples.cells);
     let rows = control_points(cells as usize);
     let ends = !samples.periodic();
@@ -140,13 +141,13 @@ fn sample<L: Layout>(
 }
 
 /// Constants of a table, in addition to its curves.
-fn constants<'v, L: Layout>(
-    samples: &Samples<impl Fn(f64) -> Result<Sample, Error>>,
+fn constants<'v, L: Layout, E: From<TableError>>(
+    samples: &Samples<impl Fn(f64) -> Result<Sample, E>>,
     values: impl Fn(usize) -> &'v [f64],
-) -> Result<Constants<Word<L>>, Error> {
+) -> Result<Constants<Word<L>>, E> {
     let stored = |role: Role, value: f64| {
         let base = role.base();
-        L::Scalar::word(role, value).ok_or(Error::Overflow { base, cell: 0 })
+        L::Scalar::word(role, value).ok_or(TableError::Overflow { base, cell: 0 })
     };
     let start = samples.at_cell(0.0)?;
     let constant = |bit: Set, value: f64| if has(samples.set, bit) { value } else { 0.0 };

@@ -22,8 +22,9 @@ use crate::curve::curves::{self, Set};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::table::{CurveValues, Table};
 use crate::curve::{TableError, Usage};
+use crate::number::error::RangeError;
 use crate::number::{Kernel, Number, Ring, Role, Scalar};
-use crate::{Error, Outcome, Phase};
+use crate::{Outcome, Phase};
 
 /// Constants of a table of polynomials, in addition to its rows; in machine units, zero if there is none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -176,12 +177,12 @@ impl<L: Layout> Format for L {
         check::reciprocal(table).map_or(0.0, |(_, error)| error)
     }
 
-    fn fill(
-        samples: &Samples<impl Fn(f64) -> Result<Sample, Error>>,
+    fn fill<E: From<TableError> + From<RangeError>>(
+        samples: &Samples<impl Fn(f64) -> Result<Sample, E>>,
         scratch: &mut [f64],
         words: &mut [Word<L>],
-    ) -> Result<Self::Constants, Error> {
-        fill::fill::<L>(samples, scratch, words)
+    ) -> Result<Self::Constants, E> {
+        fill::fill::<L, E>(samples, scratch, words)
     }
 
     fn base(curve: u8, set: Set) -> &'static str {
@@ -286,19 +287,6 @@ fn per_cell<L: Layout>(table: &Table<'_, L>, phase: Phase) -> CurveValues {
         viscous: number(Role::Viscous, cell.viscous()),
         coulomb: number(Role::Coulomb, cell.coulomb()),
     }
-}
-
-/// The cubic of a cell from the control points (in sixths) of a uniform cubic B-spline; coefficient k times stepᵏ.
-pub(crate) fn cubic<R: Ring>([c0, c1, c2, c3]: [R; 4], step: i8) -> [R; 4] {
-    // Differences of neighbours are exact in floating point, sums of points are not: the slope would lose digits.
-    let (d0, d1, d2) = (c1 - c0, c2 - c1, c3 - c2);
-    let (s0, s1) = (d1 - d0, d2 - d1);
-    [
-        c1.times(6) + s0,
-        (d0 + d1).times(3 * step),
-        s0.times(3 * step * step),
-        (s1 - s0).times(step * step * step),
-    ]
 }
 
 /// The same polynomial in powers of u − centre.

@@ -2,8 +2,9 @@
 
 use core::marker::PhantomData;
 
-use super::{Fraction, Layout, More, Raw, Row, Word, about, cubic, word};
+use super::{Fraction, Layout, More, Raw, Row, Word, about, word};
 use crate::curve::curves::{Set, width};
+use crate::number::spline::cubic;
 use crate::number::{Ring, Scalar};
 
 /// The four coefficients of each cell's cubic.

@@ -2,9 +2,10 @@
 
 use core::marker::PhantomData;
 
-use super::{Fraction, Layout, More, Raw, Row, Word, cubic, word};
+use super::{Fraction, Layout, More, Raw, Row, Word, word};
 use crate::Q31;
 use crate::curve::curves::{Set, width};
+use crate::number::spline::cubic;
 use crate::number::{Kernel, Ring, Role, Scalar};
 
 /// Control points of a uniform cubic B-spline, one a knot and curve: see [`CubicSpline`](crate::table::CubicSpline).

@@ -4,17 +4,17 @@ use super::row::{self, word};
 use super::{RowConstants, fit};
 use crate::curve::curves::{self, Set, has};
 use crate::curve::samples::{Sample, Samples};
-use crate::curve::{
-    TableError, control_points, fit_quadratic_bounded, fit_quadratic_periodic, unfold,
-};
-use crate::{Error, math};
+use crate::curve::{TableError, unfold};
+use crate::math;
+use crate::number::error::RangeError;
+use crate::number::spline::{control_points, fit_quadratic_bounded, fit_quadratic_periodic};
 
 /// Fills `words`, and returns the table's constants.
-pub(super) fn fill(
-    samples: &Samples<impl Fn(f64) -> Result<Sample, Error>>,
+pub(super) fn fill<E: From<TableError> + From<RangeError>>(
+    samples: &Samples<impl Fn(f64) -> Result<Sample, E>>,
     scratch: &mut [f64],
     words: &mut [u32],
-) -> Result<RowConstants, Error> {
+) -> Result<RowConstants, E> {
     let (set, cells) = (samples.set, samples.cells);
     let mut curves = Curves::split(scratch, cells, set, samples.periodic());
     let constants = curves.sample(samples)?.rounded(curves.shift()?)?;
@@ -52,12 +52,12 @@ struct Parts {
 
 impl Parts {
     /// As they are stored.
-    fn rounded(self, shift: u32) -> Result<RowConstants, Error> {
+    fn rounded(self, shift: u32) -> Result<RowConstants, TableError> {
         let rounded = |value: f64, unit: f64| {
             let scaled = math::rint(value * unit);
             (math::abs(scaled) < 2_147_483_648.0)
                 .then_some(scaled as i32)
-                .ok_or(Error::Overflow {
+                .ok_or(TableError::Overflow {
                     base: "torque",
                     cell: 0,
                 })
@@ -109,10 +109,10 @@ impl<'s> Curves<'s> {
         }
     }
 
-    fn sample(
+    fn sample<E: From<RangeError>>(
         &mut self,
-        samples: &Samples<impl Fn(f64) -> Result<Sample, Error>>,
-    ) -> Result<Parts, Error> {
+        samples: &Samples<impl Fn(f64) -> Result<Sample, E>>,
+    ) -> Result<Parts, E> {
         let periodic = self.periodic;
         let cells = f64::from(self.cells);
         let start = samples.at_cell(0.0)?;
@@ -186,7 +186,7 @@ impl<'s> Curves<'s> {
     }
 
     /// k of the units of 1/J: the largest of them uses half of its range or more.
-    fn shift(&self) -> Result<u32, Error> {
+    fn shift(&self) -> Result<u32, TableError> {
         if !has(self.set, curves::RECIPROCAL) {
             return Ok(0);
         }
@@ -204,19 +204,19 @@ impl<'s> Curves<'s> {
         }
         // So small a J, of its base, is known to less than two units.
         let cell = place.min(self.cells - 1);
-        Err(Error::Table(TableError::Reciprocal { cell }))
+        Err(TableError::Reciprocal { cell })
     }
 
     /// Writes a row.
-    fn pack(&self, cell: u32, factor: f64, shift: u32, row: &mut [u32]) -> Result<(), Error> {
+    fn pack(&self, cell: u32, factor: f64, shift: u32, row: &mut [u32]) -> Result<(), TableError> {
         const Q15: f64 = 32_768.0;
         const Q16: f64 = 65_536.0;
         let index = cell as usize;
-        let inertia_base = Error::Overflow {
+        let inertia_base = TableError::Overflow {
             base: "inertia",
             cell,
         };
-        let torque_base = Error::Overflow {
+        let torque_base = TableError::Overflow {
             base: "torque",
             cell,
         };

@@ -30,7 +30,8 @@ use super::{CONSTANTS, Format, Row, Size, bases};
 use crate::curve::curves::{self, Set, has};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::{CurveValues, Table, TableError, Usage};
-use crate::{Error, Outcome, Phase, Q15};
+use crate::number::error::RangeError;
+use crate::{Outcome, Phase, Q15};
 
 /// Rows of packed 16-bit numbers: 12 bytes a cell, and 4 more for each of load, b(φ), c(φ) and 1/J. The words of a row are
 /// listed in `docs/table-image.md`.
@@ -154,11 +155,11 @@ impl Format for Rows16 {
         check::reciprocal_error(table)
     }
 
-    fn fill(
-        samples: &Samples<impl Fn(f64) -> Result<Sample, Error>>,
+    fn fill<E: From<TableError> + From<RangeError>>(
+        samples: &Samples<impl Fn(f64) -> Result<Sample, E>>,
         scratch: &mut [f64],
         words: &mut [u32],
-    ) -> Result<RowConstants, Error> {
+    ) -> Result<RowConstants, E> {
         fill::fill(samples, scratch, words)
     }
 

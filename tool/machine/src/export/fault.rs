@@ -43,7 +43,8 @@ impl NotReached<'_> {
             .collect();
         // What harmonics cannot do, they say themselves.
         if let Some(Answer::Refused(error @ Error::Harmonic(_))) = own.first() {
-            return Ok(Failure::NotReached(error.to_string()));
+            let text = format!("{error}; {}", error.cure());
+            return Ok(Failure::NotReached(text));
         }
         let misses = own.iter().filter_map(|answer| match answer {
             Answer::Misses(candidate) => Some(candidate.as_ref()),

@@ -347,7 +347,7 @@ impl<'s, F: Format> Attempt<'s, F> {
     /// A coarse curve may dip below zero or leave the range: more cells cure it. Everything else is the machine's fault.
     fn refuse<T>(&mut self, error: Error) -> Result<Option<T>, Error> {
         match error {
-            Error::Overflow { .. } | Error::Pose(PoseError::NoInertia { .. }) | Error::Table(_) => {
+            Error::Pose(PoseError::NoInertia { .. }) | Error::Table(_) => {
                 self.refused = Some(error);
                 Ok(None)
             }

@@ -77,6 +77,6 @@ pub(super) fn refusal(error: ImageError) -> Error {
     match error {
         ImageError::Table(error) => Error::Table(error),
         // Cannot happen: the image was just made, of this type and layout.
-        _ => Error::NoImage("this type and layout"),
+        _ => Error::Image(ImageError::NotStored("this type and layout")),
     }
 }

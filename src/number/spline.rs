@@ -13,6 +13,7 @@
 //! image processing*, IEEE Signal Processing Magazine 16 (1999), equations (19)-(20).
 
 use crate::math;
+use crate::number::Ring;
 use crate::number::error::RangeError;
 
 /// Control points that a curve of `cells` cells has: one a cell and three more, so that the four of any cell lie
@@ -267,11 +268,24 @@ impl<C: AsRef<[f64]>> CubicSpline<C> {
         let Some(&[c0, c1, c2, c3]) = points.and_then(|p| p.first_chunk()) else {
             return [0.0; 3];
         };
-        let [p0, p1, p2, p3] = super::cubic([c0, c1, c2, c3], 1);
+        let [p0, p1, p2, p3] = cubic([c0, c1, c2, c3], 1);
         [
             p0 + u * (p1 + u * (p2 + u * p3)),
             (p1 + u * (2.0 * p2 + u * 3.0 * p3)) * cells,
             (2.0 * p2 + u * 6.0 * p3) * cells * cells,
         ]
     }
+}
+
+/// The cubic of a cell from the control points (in sixths) of a uniform cubic B-spline; coefficient k times stepᵏ.
+pub(crate) fn cubic<R: Ring>([c0, c1, c2, c3]: [R; 4], step: i8) -> [R; 4] {
+    // Differences of neighbours are exact in floating point, sums of points are not: the slope would lose digits.
+    let (d0, d1, d2) = (c1 - c0, c2 - c1, c3 - c2);
+    let (s0, s1) = (d1 - d0, d2 - d1);
+    [
+        c1.times(6) + s0,
+        (d0 + d1).times(3 * step),
+        s0.times(3 * step * step),
+        (s1 - s0).times(step * step * step),
+    ]
 }
