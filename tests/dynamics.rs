@@ -1,5 +1,6 @@
 //! The equation of motion: both ways, its energy, its power, and a sliding drive link.
 
+use jred::mechanism::TrainOutput;
 use std::f64::consts::TAU;
 
 use crate::support::machines::{Spec, spec};
@@ -68,7 +69,7 @@ proptest! {
             Stage::new(-i[1], [j[2], j[3]]).and_then(|s| s.with_efficiency(eta[1])).unwrap(),
         ];
         let train = Train::new(&stages).unwrap();
-        let at = |alpha: f64| train.input(torque + load_inertia * alpha, load_inertia, omega, alpha);
+        let at = |alpha: f64| train.input(&TrainOutput { torque: torque + load_inertia * alpha, torque_per_alpha: load_inertia, omega, alpha, direction: omega });
         let input = at(alpha);
         let ratio = train.ratio();
         let (omega_in, alpha_in) = (omega * ratio, alpha * ratio);

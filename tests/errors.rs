@@ -2,14 +2,14 @@
 
 use jred::machine::{MachineError, PoseError};
 use jred::mechanism::{Blocked, BuildError, SliderCrankDimensions};
-use jred::number::RangeError;
+use jred::number::{RangeError, Transfer};
 use std::f64::consts::PI;
 
 use crate::support::machines::Wave;
 use crate::support::rows::Rows;
 use crate::support::{assert_near, budget};
 use jred::machine::motion::{Law, Move};
-use jred::machine::{Action, Element, Load, Marker, Mechanism, Window};
+use jred::machine::{Action, Element, Frame, Frames, Load, Marker, Mechanism, Window};
 use jred::mechanism::{Branch, Geneva, Mesh, RackAndPinion, SliderCrank, Stage, Train};
 use jred::table::{CubicSpline, Format, MAX_CELLS, fit_bounded, fit_periodic};
 use jred::tabulate::{Request, fill, tabulate};
@@ -419,6 +419,31 @@ fn a_load_that_does_not_repeat_is_not_tabulated() {
             "limit the drive by a stroke",
         ],
     );
+}
+
+/// A slider that a spiral pushes out: no load at all, but its reduced mass (0.02·φ)²·m grows from turn to turn.
+struct Spiral([Link; 1]);
+
+impl Mechanism for Spiral {
+    fn links(&self) -> &[Link] {
+        &self.0
+    }
+    fn domain(&self) -> Domain {
+        Domain::Turn
+    }
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
+        let phi = Transfer::variable(phi);
+        let origin = [phi * phi * 0.01, Transfer::constant(0.0)];
+        Ok(std::iter::once(Frame::translating(origin)).collect())
+    }
+}
+
+#[test]
+fn an_inertia_that_does_not_repeat_is_not_tabulated() {
+    let spiral = Spiral([Link::new(2.0, 0.0, [0.0, 0.0]).unwrap()]);
+    let machine = Machine::new(spiral).with_flywheel(0.01).unwrap();
+    let refused = rows::<f64>(&machine, 0, 16, &Scale::SI).unwrap_err();
+    assert_eq!(refused, Error::Pose(PoseError::NotPeriodic { phi: 0.4 }));
 }
 
 /// Geneva wheel: a force of fixed direction on it turns with the stations, even if it acts in a part of the turn only, where

@@ -4,6 +4,7 @@ use crate::support::golden::Case;
 use crate::support::machines::golden_slider_crank;
 use crate::support::{assert_near, budget};
 use jred::machine::{Action, Load, Mechanism};
+use jred::mechanism::TrainOutput;
 use jred::mechanism::{Mesh, SliderCrank, Stage, Train};
 use jred::{Machine, Reducible};
 
@@ -191,7 +192,13 @@ fn gear_train_golden() {
         compare(&case, "eps_2", frames[1].psi.acceleration(eps * t, eps));
         // The same torque from the output side through the lossless train.
         let out = frames[2].psi.d1 * eps;
-        let input = train.input(-t4, 0.0, 1.0, out);
+        let input = train.input(&TrainOutput {
+            torque: -t4,
+            omega: 1.0,
+            alpha: out,
+            direction: 1.0,
+            ..TrainOutput::default()
+        });
         assert_near("T1", input.torque, case.input("/T1"), budget::GOLDEN);
         assert_near(
             "dT/dα",

@@ -318,3 +318,52 @@ fn a_guide_can_be_driven() {
     let end = crate::support::largest((0..2000).map(|k| at(f64::from(k) * 1e-3 - 1.0)));
     crate::support::assert_near("dead centre", phi, end, 1e-6);
 }
+
+/// A slider-crank driven at each of its joints in turn, with the joint's bodies in either order: a rotor geared to the
+/// joint acts between these two bodies. It adds its inertia to the drive's effort, and to no reaction.
+#[test]
+fn a_rotor_loads_the_drive_and_no_joint() {
+    let spec = crate::support::samples(1, 5, &spec()).remove(0);
+    let machine = spec.machine();
+    let crank_driven = machine.mechanism();
+    let [from, middle, to] = [2.0, 2.3, 2.6].map(|phi| crank_driven.frames(phi).unwrap());
+    let joints = jred::machine::Jointed::joints(crank_driven, 2.3, &middle).unwrap();
+    let drawing = middle.iter().map(|f| Pose {
+        x: f.x.value,
+        y: f.y.value,
+        psi: f.psi.value,
+    });
+    let drawing: Vec<Pose> = drawing.collect();
+    let swapped = |joint: &Joint| match *joint {
+        Joint::Revolute([a, b]) => Joint::Revolute([b, a]),
+        Joint::Prismatic([a, b]) => Joint::Prismatic([b, a]),
+        _ => panic!("a slider-crank has pins and a guide"),
+    };
+    for (drive, driven) in joints.iter().enumerate() {
+        for driven in [*driven, swapped(driven)] {
+            let mut joints = joints.clone();
+            joints[drive] = driven;
+            let pairs: Vec<Pair> = joints.iter().copied().map(Pair::Joint).collect();
+            let linkage = Linkage::<3, 4>::new(crank_driven.links(), &pairs, drive).unwrap();
+            let [from, at, to] = [&from, &middle, &to].map(|f| driven.coordinate(f).value);
+            let domain = Domain::stroke(from.min(to), from.max(to)).unwrap();
+            let assembly: Assembly<3, 4, 64> = linkage.assemble(domain, at, &drawing).unwrap();
+            let light = Machine::new(assembly).with_gravity([1.0, -9.81]).unwrap();
+            let (inertia, omega, alpha) = (0.7, 1.3, -20.0);
+            let heavy = light.clone().with_flywheel(inertia).unwrap();
+            jointed::dalembert(&heavy, at, omega, alpha);
+            jointed::forces_balance(&heavy, at, omega, alpha);
+            let [without, with] = [&light, &heavy].map(|m| m.forces(at, omega, alpha).unwrap());
+            let scale = with.drive.abs() + without.drive.abs();
+            let more = with.drive - without.drive;
+            crate::support::assert_near("drive", more, inertia * alpha, budget::DALEMBERT * scale);
+            for (a, b) in with.reactions.iter().zip(&without.reactions) {
+                let [a, b] = [a, b].map(|r| [r.force[0], r.force[1], r.moment]);
+                let scale = crate::support::largest(b) + scale;
+                for (a, b) in a.into_iter().zip(b) {
+                    crate::support::assert_near("reaction", a, b, budget::REACTIONS * scale);
+                }
+            }
+        }
+    }
+}

@@ -96,10 +96,13 @@ impl<M: Jointed> Machine<M> {
             frames: &frames,
             column: [0.0; MOST],
         };
-        // The flywheel turns with the drive link.
+        // The flywheel moves with the coordinate of the driven joint, as a rotor geared to it does: between its two bodies,
+        // in whichever order they are named. So it changes the drive's effort and no reaction.
         let inertia = -self.flywheel() * driven.coordinate(&frames).acceleration(omega, alpha);
         let unit_drive = driven.unit_drive(&frames);
-        balance.add(&unit_drive[1].times(inertia));
+        unit_drive
+            .iter()
+            .for_each(|on| balance.add(&on.times(inertia)));
         self.add_active_forces(&mut balance, phi, omega)?;
         let (shaking_force, shaking_moment) = balance.add_inertia_forces(omega, alpha);
         // Σ unknown reactions = −(active forces + inertia forces)

@@ -339,8 +339,9 @@ impl<M: Mechanism> Reducible for Machine<M> {
         }
     }
 
-    /// Decided by where the links are a turn later, not by the size of the loads, which may act in a part of the turn only:
-    /// a force or a weight of fixed direction needs a link that points the same way again, a spring the same length.
+    /// Decided by the inertia and by where the links are a turn later, not by the size of the loads, which may act in a
+    /// part of the turn only: a force or a weight of fixed direction needs a link that points the same way again, a spring the
+    /// same length.
     fn check_repeats(&self) -> Result<(), PoseError> {
         let links = self.mechanism.links();
         for phi in SAMPLES {
@@ -367,7 +368,10 @@ impl<M: Mechanism> Reducible for Machine<M> {
                 let [a, b] = [element.effort(&now, 1.0), element.effort(&later, 1.0)];
                 math::abs(a - b) <= REPEATS * (math::abs(a) + math::abs(b))
             });
-            if !(forced && weighed && sprung) {
+            let [inertia, later] = [phi, phi + TAU].map(|phi| self.bare_reduction(phi));
+            let [a, b] = [inertia?.inertia[0], later?.inertia[0]];
+            let inert = math::abs(a - b) <= REPEATS * (math::abs(a) + math::abs(b));
+            if !(forced && weighed && sprung && inert) {
                 return Err(PoseError::NotPeriodic { phi });
             }
         }

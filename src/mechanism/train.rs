@@ -165,23 +165,23 @@ impl Train {
         sum
     }
 
-    /// What the input shaft must give so that the output shaft delivers `torque` (N·m) while it moves with `omega`
-    /// (rad/s) and `alpha` (rad/s²).
+    /// What the input shaft must give so that the output shaft delivers its torque in its motion.
     ///
-    /// Shaft by shaft: T_in = T_out/(i·η) where power flows to the output and T_out·η/i where it flows back; at
-    /// standstill the first. `torque_per_alpha` (kg·m²) is how `torque` itself changes with α: with it, the result
-    /// says how the input torque changes, and forward dynamics through the losses is a Newton step away.
+    /// Shaft by shaft: T_in = T_out/(i·η) where power flows to the output and T_out·η/i where it flows back, by the
+    /// [direction](TrainOutput::direction) of the motion; without one the first. The result says how the input torque changes
+    /// with α, so forward dynamics through the losses is a Newton step away.
     #[must_use]
-    pub fn input(&self, torque: f64, torque_per_alpha: f64, omega: f64, alpha: f64) -> TrainInput {
+    pub fn input(&self, output: &TrainOutput) -> TrainInput {
         let mut input = TrainInput {
-            torque,
-            torque_per_alpha,
+            torque: output.torque,
+            torque_per_alpha: output.torque_per_alpha,
             loss: 0.0,
         };
-        let (mut omega, mut alpha, mut ratio) = (omega, alpha, 1.0);
+        let (mut omega, mut alpha, mut ratio) = (output.omega, output.alpha, 1.0);
+        let mut direction = output.direction;
         for stage in self.stages.iter().rev() {
             let delivered = input.torque + stage.driven * alpha;
-            let loss = if delivered * omega < 0.0 {
+            let loss = if delivered * direction < 0.0 {
                 stage.efficiency
             } else {
                 1.0 / stage.efficiency
@@ -189,6 +189,7 @@ impl Train {
             let slope = input.torque_per_alpha + stage.driven * ratio;
             input.loss += delivered * omega * (loss - 1.0);
             omega *= stage.ratio;
+            direction *= stage.ratio;
             alpha *= stage.ratio;
             ratio *= stage.ratio;
             input.torque = delivered / stage.ratio * loss + stage.driver * alpha;
@@ -196,6 +197,22 @@ impl Train {
         }
         input
     }
+}
+
+/// What the output shaft of a drive train delivers, and how it moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TrainOutput {
+    /// Torque (N·m).
+    pub torque: f64,
+    /// How the torque itself changes with α (kg·m²); 0 where nobody asks for [`TrainInput::torque_per_alpha`].
+    pub torque_per_alpha: f64,
+    /// Speed (rad/s).
+    pub omega: f64,
+    /// Acceleration (rad/s²).
+    pub alpha: f64,
+    /// Its sign decides which way power flows: ω itself, or at rest the direction in which the shaft starts. 0: it stays at
+    /// rest, and losses are those of driving.
+    pub direction: f64,
 }
 
 /// What a drive train needs at its input shaft.

@@ -193,7 +193,7 @@ pub(crate) fn forces_balance<M: Jointed>(machine: &Machine<M>, phi: f64, omega: 
     let flywheel = machine.flywheel() * driven.coordinate(&frames).acceleration(omega, alpha);
     let [on_first, on_second] = driven.unit_drive(&frames);
     wrenches.extend([
-        on_first.times(forces.drive),
+        on_first.times(forces.drive - flywheel),
         on_second.times(forces.drive - flywheel),
     ]);
     for (k, (link, frame)) in mechanism.links().iter().zip(&frames).enumerate() {

@@ -107,11 +107,11 @@ pub struct Figures<R> {
     /// Largest |T| as a share of the peak torque at its speed; infinite if there was a torque where the curve has none, `None`
     /// without a curve.
     pub peak_share: Option<R>,
-    /// Cycles an hour since the start; zero without a counted cycle.
+    /// Cycles an hour since the start, or until the count of ticks stopped; zero without a counted cycle.
     pub cycles_per_hour: R,
-    /// Cycles counted. All counts stop at their largest value.
+    /// Cycles counted. All counts stop at their largest value, and this one with `ticks`.
     pub cycles: u32,
-    /// Ticks whose readings were used.
+    /// Ticks whose readings were used; at 20 kHz the count stops after 59 hours.
     pub ticks: u32,
     /// Ticks whose readings were not: NaN, infinite, or beyond [`MOST_TORQUE`] or [`MOST_SPEED`]. They do not enter any other
     /// figure, nor the time.
@@ -217,9 +217,11 @@ impl<R: Real> Meter<R> {
         }
     }
 
-    /// Counts the end of a cycle of the machine.
+    /// Counts the end of a cycle of the machine, as long as ticks are counted: both counts stop together.
     pub fn count_cycle(&mut self) {
-        self.state.cycles = self.state.cycles.saturating_add(1);
+        if self.state.ticks < u32::MAX {
+            self.state.cycles = self.state.cycles.saturating_add(1);
+        }
     }
 
     /// Forgets everything but limits, tick and window: for figures of one cycle alone.
@@ -279,5 +281,26 @@ impl<R: Real> Meter<R> {
     #[must_use]
     pub fn verdicts(&self) -> Verdicts {
         Verdicts::of(&self.config.limits, &self.figures())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cycles_an_hour_stay_when_the_count_of_ticks_stops() {
+        let mut meter = Meter::new(Limits::default(), 5e-5, Window::SinceStart).unwrap();
+        meter.state.ticks = u32::MAX - 2;
+        meter.state.cycles = 53_687;
+        for _ in 0..1000 {
+            meter.tick(1.0, 10.0, 0.0);
+            meter.count_cycle();
+        }
+        let figures = meter.figures();
+        // 53 688 cycles in 2³² ticks of 50 µs, which are 59.65 hours.
+        assert_eq!((figures.ticks, figures.cycles), (u32::MAX, 53_688));
+        let expected: f64 = 53_688.0 / (4_294_967_295.0 * 5e-5 / 3600.0);
+        assert!((figures.cycles_per_hour - expected).abs() < 1e-9 * expected);
     }
 }

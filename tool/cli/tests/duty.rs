@@ -258,3 +258,15 @@ fn a_recorded_dwell_stands_still() {
     assert!(count > 500, "{count}");
     assert_eq!(resisted, 0.0);
 }
+
+/// A dwell without torque bends nowhere: it takes the steps that were asked for, and no more.
+#[test]
+fn a_dwell_without_torque_takes_no_more_instants() {
+    let text = format!(
+        "{TABLE}[motion]\ntype = \"cycle\"\n[[motion.segment]]\nmove = \"360 deg\"\nduration = \"1 s\"\n\
+         law = \"cycloidal\"\n[[motion.segment]]\ndwell = \"1 s\"\n"
+    );
+    let duty = duty_of(&read(&text), 2000);
+    let dwell = duty.instants.iter().filter(|i| i.t > 1.0).count();
+    assert!((900..=1100).contains(&dwell), "{dwell}");
+}

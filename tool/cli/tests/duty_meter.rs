@@ -3,6 +3,7 @@
 use crate::support::{budget, press_file};
 use jred::Reducible as _;
 use jred::duty::{Curve, Figures, Limits, Meter, Verdict, Window};
+use jred::mechanism::TrainOutput;
 use jred_machine::analysis::duty::{Duty, STEPS};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::read;
@@ -38,7 +39,13 @@ fn metered(file: &MachineFile, ticks: u32) -> Meter<f32> {
         let r = file.machine.reduction(state.phi).unwrap();
         let total = r.torque(state.omega, state.alpha).total();
         let output = train
-            .input(total, r.inertia[0], state.omega, state.alpha)
+            .input(&TrainOutput {
+                torque: total,
+                torque_per_alpha: r.inertia[0],
+                omega: state.omega,
+                alpha: state.alpha,
+                direction: state.omega,
+            })
             .torque;
         let torque = output + ROTOR * state.alpha * train.ratio();
         let speed = state.omega * train.ratio();

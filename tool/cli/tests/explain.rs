@@ -2,6 +2,7 @@
 
 mod remedies;
 
+use jred::mechanism::TrainOutput;
 use std::path::Path;
 
 use jred_machine::analysis::duty::Duty;
@@ -154,7 +155,13 @@ fn energies_of_the_press() {
     let train = &file.drive_train;
     let loss = duty.integral(|i| {
         train
-            .input(i.terms.total(), i.inertia, i.omega, i.alpha)
+            .input(&TrainOutput {
+                torque: i.terms.total(),
+                torque_per_alpha: i.inertia,
+                omega: i.omega,
+                alpha: i.alpha,
+                direction: i.omega,
+            })
             .loss
     });
     near(

@@ -433,6 +433,34 @@ torque = "-1 N m""#,
     assert!(imbalance(&found) <= budget::BALANCE);
 }
 
+/// From rest a load drives the motor: the loss is on that side from the first instant, not only once there is a speed.
+#[test]
+fn a_load_starts_the_motor_through_a_lossy_belt() {
+    let train = r#"
+[[load]]
+on = "shaft-1"
+moment = "-5 N m"
+[[drive_train]]
+type = "belt"
+driver = { radius = "20 mm", inertia = "0 kg m^2" }
+driven = { radius = "60 mm", inertia = "0 kg m^2" }
+efficiency = "30 %"
+"#;
+    let found = simulate(&turntable(
+        train,
+        r#"duration = "0.1 s"
+output_step = "0.01 s"
+torque = "0 N m"
+rotor_inertia = "0.02 kg m^2""#,
+    ));
+    // The rotor takes 3·0.02·α at the motor, which is 0.3 of what the link gives: 9·0.02·α/0.3 at the link.
+    let alpha = -5.0 / (J + 9.0 * 0.02 / 0.3);
+    for found in found.get("alpha [rad/s^2]") {
+        near("alpha", found, alpha, budget::CLOSED_MOTION);
+    }
+    assert!(imbalance(&found) <= budget::BALANCE);
+}
+
 #[test]
 fn the_tolerance_decides() {
     let run = |tolerance: &str| {

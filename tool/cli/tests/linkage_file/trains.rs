@@ -1,5 +1,6 @@
 //! What turns the rotation of a motor into the displacement of a drive link, up to the sized drive.
 
+use jred::mechanism::TrainOutput;
 use std::f64::consts::TAU;
 
 use jred::Reducible as _;
@@ -37,7 +38,10 @@ fn a_ball_screw_lets_a_motor_turn() {
     // Statically, T·2π·η = F·lead.
     let [slope, cos] = boom(0.6);
     let force = 100.0 * 9.81 * 0.8 * cos * slope;
-    let input = train.input(force, 0.0, 0.0, 0.0);
+    let input = train.input(&TrainOutput {
+        torque: force,
+        ..TrainOutput::default()
+    });
     within(input.torque, force * 0.01 / (TAU * 0.9) / 2.0, 1e-12);
 
     let folder = Folder::new();

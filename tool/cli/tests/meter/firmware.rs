@@ -2,6 +2,7 @@
 
 use jred::Reducible as _;
 use jred::duty::{Meter, Verdict, Window};
+use jred::mechanism::TrainOutput;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Verdict as Sized;
@@ -29,7 +30,13 @@ fn metered(file: &MachineFile, c: &Coefficients, ratio: f64, ticks: u32) -> Mete
         let state = motion.at((f64::from(k) + 0.5) * step);
         let r = file.machine.reduction(state.phi).unwrap();
         let total = r.torque(state.omega, state.alpha).total();
-        let output = train.input(total, r.inertia[0], state.omega, state.alpha);
+        let output = train.input(&TrainOutput {
+            torque: total,
+            torque_per_alpha: r.inertia[0],
+            omega: state.omega,
+            alpha: state.alpha,
+            direction: state.omega,
+        });
         let speed = state.omega * train.ratio();
         let back = output.torque * speed < 0.0;
         let [driving, back] = if back {

@@ -1,6 +1,7 @@
 //! The duty: the load that one cycle of the motion puts on the drive, independent of any motor.
 
 use jred::machine::TorqueTerms;
+use jred::mechanism::TrainOutput;
 use jred::{Domain, Error, Reducible as _};
 
 use crate::analysis::mechanics::Mechanics;
@@ -138,7 +139,12 @@ fn refine_bends(
             (x.input_torque - 2.0 * y.input_torque + z.input_torque).abs()
         };
         let missed = bend(a, b, c).max(bend(b, c, d)) / 8.0;
-        let parts = (missed / most).sqrt().ceil().min(MOST_PARTS) as u32;
+        // A stretch without torque misses nothing.
+        let parts = if missed > most {
+            (missed / most).sqrt().ceil().min(MOST_PARTS) as u32
+        } else {
+            1
+        };
         for k in 1..parts {
             let t = b.t + (c.t - b.t) * f64::from(k) / f64::from(parts);
             fine.push(Instant::new(file, motion, t, 0.0)?);
@@ -161,7 +167,13 @@ impl Instant {
         let reduction = file.bare_reduction(state.phi)?;
         let inertia = reduction.inertia[0];
         let terms = reduction.torque(state.omega, state.alpha);
-        let input = train.input(terms.total(), inertia, state.omega, state.alpha);
+        let input = train.input(&TrainOutput {
+            torque: terms.total(),
+            torque_per_alpha: inertia,
+            omega: state.omega,
+            alpha: state.alpha,
+            direction: state.omega,
+        });
         Ok(Self {
             t,
             weight,

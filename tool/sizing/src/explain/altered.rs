@@ -11,6 +11,7 @@
 //! drive train behind it keeps its inertia and its losses, which are worked out anew at every instant.
 
 use jred::machine::{Mechanism as _, TorqueTerms};
+use jred::mechanism::TrainOutput;
 use jred::{Error, Machine};
 
 use jred_machine::analysis::duty::{Duty, Instant};
@@ -124,7 +125,13 @@ impl<'a> Altered<'a> {
             coulomb: terms.coulomb,
         };
         let (omega, alpha) = (instant.omega * rate, instant.alpha * rate * rate);
-        let input = train.input(terms.total(), inertia, omega, alpha);
+        let input = train.input(&TrainOutput {
+            torque: terms.total(),
+            torque_per_alpha: inertia,
+            omega,
+            alpha,
+            direction: omega,
+        });
         Instant {
             t: instant.t * by.time,
             weight: instant.weight * by.time,

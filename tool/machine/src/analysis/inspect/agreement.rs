@@ -1,12 +1,12 @@
 //! Independent checks: d'Alembert's principle against the reduced equation, work against energy.
 
 use jred::machine::Mechanism as _;
-use jred::{Error, Reducible as _};
+use jred::{Error, Machine, Reducible as _};
 use serde::Serialize;
 
 use crate::analysis::duty;
 use crate::model::coordinate::whole_range;
-use crate::model::machine::MachineFile;
+use crate::model::machine::{AnyMechanism, MachineFile};
 use crate::model::motion::Motion;
 use crate::number::numerics;
 
@@ -30,7 +30,7 @@ pub struct Inertia {
     pub mass: f64,
 }
 
-/// Agreement of the two methods.
+/// Agreement of the two methods, for the machine with its drive train.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Agreement {
     /// Largest difference of the two drive torques as a share of their largest term.
@@ -70,7 +70,7 @@ pub(super) fn inertia(file: &MachineFile) -> Result<Inertia, Error> {
 }
 
 pub(super) fn agreement(file: &MachineFile) -> Result<Agreement, Error> {
-    let machine = &file.machine;
+    let machine = file.with_drive_train()?;
     let states: Vec<[f64; 3]> = match &file.motion {
         Some(motion) => (0..=STEPS)
             .map(|k| motion.at(motion.duration() * k as f64 / STEPS as f64))
@@ -98,7 +98,7 @@ pub(super) fn agreement(file: &MachineFile) -> Result<Agreement, Error> {
         worst
     };
     let energy = match &file.motion {
-        Some(motion) => Some(balance(file, motion)?),
+        Some(motion) => Some(balance(file, &machine, motion)?),
         None => None,
     };
     Ok(Agreement {
@@ -109,8 +109,11 @@ pub(super) fn agreement(file: &MachineFile) -> Result<Agreement, Error> {
 }
 
 /// The energy balance over the motion.
-fn balance(file: &MachineFile, motion: &Motion) -> Result<f64, Error> {
-    let machine = &file.machine;
+fn balance(
+    file: &MachineFile,
+    machine: &Machine<AnyMechanism>,
+    motion: &Motion,
+) -> Result<f64, Error> {
     let drive = |t: f64| -> Result<f64, Error> {
         let state = motion.at(t);
         let drive = machine.forces(state.phi, state.omega, state.alpha)?.drive;

@@ -1,6 +1,7 @@
 //! The reduced link and the motion's drive torque as columns.
 
 use jred::machine::TorqueTerms;
+use jred::mechanism::TrainOutput;
 use jred::{Error, Reducible as _};
 
 use super::{Place, Set, Source};
@@ -108,7 +109,15 @@ impl Set for Curves {
         let bare = source.file.machine.bare_reduction(place.phi)?;
         let bare = bare.torque(state.omega, state.alpha).total();
         let train = &source.file.drive_train;
-        let input = train.input(bare, 0.0, state.omega, state.alpha).torque;
+        let input = train
+            .input(&TrainOutput {
+                torque: bare,
+                torque_per_alpha: 0.0,
+                omega: state.omega,
+                alpha: state.alpha,
+                direction: state.omega,
+            })
+            .torque;
         values.extend([state.omega, state.alpha].map(Some));
         values.extend(terms.values().map(Some));
         values.extend([terms.total(), input].map(Some));

@@ -1,6 +1,7 @@
 //! A machine whose motor drives it through a fixed ratio.
 
 use jred::Error;
+use jred::mechanism::TrainOutput;
 
 use super::run::{self, Row};
 use super::{SimulationError, motor_torque, newton};
@@ -65,7 +66,13 @@ impl<'a> Plant<'a> {
         let mut loss = 0.0;
         let alpha = newton(|alpha| {
             let asked = point.inertia[0] * alpha + resisting - at_link;
-            let input = train.input(asked, point.inertia[0], omega, alpha);
+            let input = train.input(&TrainOutput {
+                torque: asked,
+                torque_per_alpha: point.inertia[0],
+                omega,
+                alpha,
+                direction,
+            });
             loss = input.loss;
             [
                 input.torque + rotor * ratio * alpha - at_motor,

@@ -177,7 +177,10 @@ impl<P> Run<'_, P> {
             y = self.plant.with_link(t, &y, [phi, 0.0])?;
             self.direction = self.start_direction(t, &y)?;
         }
-        Ok(y)
+        Err(SimulationError::Integrator {
+            t,
+            reason: "the drive link turns round again and again",
+        })
     }
 
     /// The integrator's steps from `t` to `end`, up to the one in which friction changes.

@@ -3,6 +3,7 @@
 
 use jred::Error;
 use jred::friction::{Contact, Place, Stage};
+use jred::mechanism::TrainOutput;
 
 use super::run::{self, Row};
 use super::{SimulationError, motor_torque, newton};
@@ -54,6 +55,7 @@ struct Behind<'a> {
     inertia: f64,
     resisting: f64,
     omega: f64,
+    direction: f64,
 }
 
 impl Behind<'_> {
@@ -61,7 +63,13 @@ impl Behind<'_> {
     fn torque(&self, alpha: f64) -> [f64; 3] {
         let train = &self.plant.file.drive_train;
         let asked = self.inertia * alpha + self.resisting;
-        let input = train.input(asked, self.inertia, self.omega, alpha);
+        let input = train.input(&TrainOutput {
+            torque: asked,
+            torque_per_alpha: self.inertia,
+            omega: self.omega,
+            alpha,
+            direction: self.direction,
+        });
         let own = self.plant.variator.inertia[1];
         [
             input.torque + own * train.ratio() * alpha,
@@ -119,6 +127,7 @@ impl<'a> Plant<'a> {
             resisting: 0.5 * point.inertia[1] * omega * omega - point.load_torque() + friction
                 - at_link,
             omega,
+            direction,
         };
         let input = self.variator.inertia[0] + self.simulation.rotor_inertia;
         let mut now = Instant {
