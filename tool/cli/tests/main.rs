@@ -1,36 +1,29 @@
-//! The one test program of the tool.
+//! The one test program of the command.
 
-mod bus;
+mod bus {
+    //! `jred bus`.
+    mod command;
+    mod conflict;
+    mod cures;
+    mod several;
+}
 mod catalogue;
 mod check;
 mod cli;
-mod cycle;
 mod drawing;
-mod duty;
-mod duty_meter;
-mod envelope;
 mod envelope_commands;
-mod every_machine;
-mod explain;
 mod export;
-mod import;
-mod linkage_file;
-mod machine_file;
-mod mechanisms;
+mod machines;
 mod meter;
 mod points;
 mod press;
 mod reactions;
 mod report;
 mod rules;
-mod search;
-mod sensitivity;
-mod simulate;
+mod search_commands;
+mod sensitivity_commands;
 mod size_json;
-mod spline;
 mod split;
 mod support;
-mod thermal;
-mod variator;
 mod vary;
 mod wording;

@@ -1,137 +1,94 @@
-//! The mechanical rules and the rule sets: each figure against a derivation of its own.
-// Zeros and copied figures are exact.
-#![allow(clippy::float_cmp)]
+//! `jred rules`, and rule sets named on the command line.
 
-mod backlash;
-mod chosen;
-mod emergency;
-mod gearbox;
-mod holding;
-mod inertia;
-mod moves;
-mod rigidity;
-mod sets;
+use crate::support::{Folder, jred, press_file, press_text};
+use jred_machine::read as machine_file;
 
-use std::path::Path;
-
-use crate::support::{Folder, budget, edited, near, press_text, within};
-use jred_machine::analysis::duty::Duty;
-use jred_machine::model::machine::MachineFile;
-use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::Finding;
-use jred_machine::model::rules::RuleSet;
-use jred_machine::read;
-use jred_sizing::catalogue::Drive;
-use jred_sizing::catalogue::{Brake, Catalogue, Gearbox, Motor};
-use jred_sizing::cycle::Cycle;
-use jred_sizing::judge::Context;
-use jred_sizing::judge::check::Check;
-use jred_sizing::motor::envelope::Prepared;
-
-fn read(text: &str) -> MachineFile {
-    read::parse("machine.toml", text, Path::new("")).unwrap()
-}
-
-/// The message of a file that is refused, without line breaks.
-fn refusal(text: &str) -> String {
-    let report = read::parse("machine.toml", text, Path::new("")).expect_err("accepted");
-    let mut shown = String::new();
-    miette::GraphicalReportHandler::new_themed(miette::GraphicalTheme::unicode_nocolor())
-        .with_width(1000)
-        .render_report(&mut shown, report.as_ref())
-        .unwrap();
-    shown
-}
-
-fn refuses(text: &str, words: &[&str]) {
-    let message = refusal(text);
-    for word in words {
-        assert!(message.contains(word), "{word:?} is not in\n{message}");
+/// A rule set of one's own that cannot be used is refused with its file.
+#[test]
+fn a_wrong_set_of_ones_own() {
+    let folder = Folder::new();
+    for (text, words) in [
+        (
+            "title = \"x\"\n[rules]\nrms_torq = \"60 %\"\n",
+            &["rms_torq", "did you mean"][..],
+        ),
+        (
+            "title = \"x\"\nbased_on = \"fanux\"\n[rules]\n",
+            &["fanux", "fanuc"],
+        ),
+        ("[rules]\n", &["title"]),
+        (
+            "title = \"x\"\n[rules]\nrms_torque = \"60\n",
+            &["not valid TOML"],
+        ),
+    ] {
+        folder.file("wrong.toml", text);
+        let path = folder.path("wrong.toml");
+        let run = jred([&"size", &press_file(), &"--rules", &path]).ends(2);
+        run.says(words);
+        run.says(&["wrong.toml"]);
     }
 }
 
-/// A motor with every figure of the envelope.
-const MOTOR: &str = "\
-key,maker,model,rated_torque [N m],rated_speed [rpm],standstill_torque [N m],peak_torque [N m],max_speed [rpm],\
-rotor_inertia [kg cm^2],peak_corner_speed [rpm],peak_torque_at_max_speed [N m],source,figures_from
-m,Maker,Model,8,3000,9,30,5000,8,2500,10,Sheet,maker
-";
-const GEARBOX: &str = "\
-key,maker,model,ratio,rated_output_torque [N m],peak_output_torque [N m],emergency_output_torque [N m],\
-rated_input_speed [rpm],max_input_speed [rpm],input_inertia [kg cm^2],efficiency [%],source,figures_from
-g,Maker,Model,5,40,80,160,3000,6000,0.8,95,Sheet,maker
-";
+/// The command line: another set, what the file says stays; the sets are listed with their sources.
+#[test]
+fn the_command_line() {
+    let folder = Folder::new();
+    let file = folder.file(
+        "m.toml",
+        press_text() + "\n[rules]\ninertia_ratio_warning = 4\n",
+    );
+    let run = jred([&"size", &file, &"--rules", &"fanuc"]);
+    assert!(run.code == 0 || run.code == 1, "{}", run.err);
+    // With a limit of 3 the file's warning at 4 comes too late.
+    let run = jred([&"size", &file, &"--rules", &"fanuc-contouring"]).ends(2);
+    run.says(&["contradicts the set", "inertia_ratio_warning", "above"]);
+    jred([&"size", &file, &"--rules", &"fanux"])
+        .ends(2)
+        .says(&["did you mean \"fanuc\"?"]);
 
-/// A machine with its motion prepared, and one drive for it.
-struct Stand {
-    file: MachineFile,
-    duty: Duty,
-    cycle: Cycle,
-    motor: Motor,
-    gearbox: Gearbox,
-}
-
-impl Stand {
-    fn new(text: &str) -> Self {
-        let file = read(text);
-        let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 2000).unwrap();
-        let cycle = Cycle::new(&duty);
-        let folder = Folder::new();
-        let paths = [folder.file("m.csv", MOTOR), folder.file("g.csv", GEARBOX)];
-        let mut catalogue = Catalogue::load(Some(&paths[0]), Some(&paths[1])).unwrap();
-        Self {
-            file,
-            duty,
-            cycle,
-            motor: catalogue.motors.remove(0),
-            gearbox: catalogue.gearboxes.remove(0),
-        }
+    let list = jred([&"rules"]).ends(0).out;
+    for name in machine_file::rule_set_names() {
+        assert!(list.contains(name), "{name}");
     }
-
-    fn press() -> Self {
-        Self::new(&press_text())
+    let one = jred([&"rules", &"fanuc"]).ends(0).out;
+    for word in [
+        "constant_torque",
+        "70 %",
+        "B-65262EN/03",
+        "at least 10",
+        "largest λ",
+    ] {
+        assert!(one.contains(word), "{word:?} is not in\n{one}");
     }
-
-    fn drive(&self, geared: bool) -> Drive<'_> {
-        Drive {
-            motor: &self.motor,
-            gearbox: Some(&self.gearbox).filter(|_| geared),
-            amplifier: None,
-        }
-    }
-
-    fn prepared(&self) -> Prepared {
-        let alone = Catalogue {
-            motors: vec![self.motor.clone()],
-            ..Catalogue::default()
-        };
-        alone.prepare(&self.file.site).remove(0)
-    }
-
-    /// What a rule found, if it applies.
-    fn finding(&self, geared: bool, rules: &RuleSet, rule: Rule) -> Option<Finding> {
-        let prepared = self.prepared();
-        let context = Context::new(&self.cycle, &self.file.site, self.drive(geared), &prepared);
-        context.findings(rules).get(rule)
-    }
-
-    /// What a rule found under the machine file's rules; it must apply.
-    fn found(&self, geared: bool, rule: Rule) -> Finding {
-        self.finding(geared, &self.file.rules, rule).unwrap()
-    }
-
-    /// A rule in words; it must be shown.
-    fn check(&self, geared: bool, rules: &RuleSet, rule: Rule) -> Check {
-        let prepared = self.prepared();
-        let context = Context::new(&self.cycle, &self.file.site, self.drive(geared), &prepared);
-        let checks = context.checks(rules);
-        checks.into_iter().find(|check| check.id == rule).unwrap()
-    }
-
-    fn brake(&mut self, torque: f64) {
-        self.motor.brake = Some(Brake {
-            torque,
-            inertia: 0.0,
-        });
-    }
+    let json = jred([&"rules", &"mitsubishi-mr-j2s", &"--format", &"json"])
+        .ends(0)
+        .json();
+    assert_eq!(json["choices"]["inertia_ratio_by_moves"][1]["limit"], 3.0);
+    assert_eq!(json["choices"]["inertia_ratio_of"], "max");
+    let csv = jred([&"rules", &"general", &"--format", &"csv"])
+        .ends(0)
+        .out;
+    assert!(
+        csv.starts_with("rule,key,limit,warning,source\nRMS torque,rms_torque,80 %,,"),
+        "{csv}"
+    );
+    assert_eq!(
+        jred([&"rules", &"--format", &"json"]).ends(0).json()["rule sets"]
+            .as_array()
+            .unwrap()
+            .len(),
+        machine_file::rule_set_names().count()
+    );
+    assert_eq!(
+        jred([&"rules", &"--format", &"csv"])
+            .ends(0)
+            .out
+            .lines()
+            .count(),
+        1 + machine_file::rule_set_names().count()
+    );
+    jred([&"rules", &"nothing"])
+        .ends(2)
+        .says(&["there is no rule set \"nothing\""]);
 }

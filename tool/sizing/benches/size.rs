@@ -12,7 +12,7 @@
 
 #[path = "../../../benches/support/bench.rs"]
 mod bench;
-#[path = "../../cli/tests/support/brute.rs"]
+#[path = "../tests/brute.rs"]
 mod brute;
 #[path = "../../../benches/support/ceilings.rs"]
 mod ceilings;

@@ -2,9 +2,7 @@
 
 use serde_json::Value;
 
-use super::budget;
-use super::near;
-use crate::support::{Folder, Run, edited_press, jred, press_file, press_text};
+use crate::support::{Folder, Run, budget, edited_press, jred, near, press_file, press_text};
 
 pub(super) const SUPPLY: &str = r#"
 [supply]

@@ -6,8 +6,7 @@ use std::path::PathBuf;
 use serde_json::Value;
 
 use super::command::{SUPPLY, figure, says};
-use super::{budget, near};
-use crate::support::{Folder, Run, edited_press, press_file, press_text};
+use crate::support::{Folder, Run, budget, edited_press, near, press_file, press_text};
 
 fn lift() -> PathBuf {
     press_file().with_file_name("ball-screw.toml")

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{FIRST, HEADER, SECOND};
+use crate::support::catalogue::{FIRST, HEADER, SECOND};
 use crate::support::{Folder, Run, jred, press_file};
 
 fn size(folder: &Path, more: [&str; 2]) -> Run {

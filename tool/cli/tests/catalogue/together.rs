@@ -1,7 +1,8 @@
 //! What is wrong is said at once: all faults of a row, keys that clash beside rows that are broken; and what was named twice, or
 //! is no catalogue.
 
-use super::{FIRST, HEADER, SECOND, refuses, size_with};
+use super::{refuses, size_with};
+use crate::support::catalogue::{FIRST, HEADER, SECOND};
 use crate::support::{Folder, jred, press_file};
 
 const GEARBOX: &str = "key,maker,model,ratio,rated_output_torque [N m],peak_output_torque [N m],max_input_speed [rpm],\

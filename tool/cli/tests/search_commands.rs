@@ -1,0 +1,200 @@
+//! What `jred size` and `jred ratio` print of a search: ranking, filters, fronts, ratios.
+
+use crate::support::{jred, near, press_file, within};
+use jred_machine::analysis::duty::{Duty, STEPS};
+use jred_machine::read;
+use jred_sizing::catalogue::Catalogue;
+use jred_sizing::select::ratio::{Gear, Moments};
+
+/// The options of the command.
+#[test]
+fn options_of_size() {
+    let press = press_file();
+    let run = jred([
+        &"size",
+        &press,
+        &"--rank",
+        &"energy",
+        &"--motor",
+        &"sgm*",
+        &"--format",
+        &"json",
+    ])
+    .ends(0);
+    let json = run.json();
+    assert!(
+        json["ranking"]
+            .as_str()
+            .unwrap()
+            .contains("least energy supplied"),
+        "{}",
+        json["ranking"]
+    );
+    let fit = json["fit"].as_array().unwrap();
+    let energies: Vec<f64> = fit
+        .iter()
+        .map(|d| d["duty"]["motoring energy [J]"].as_f64().unwrap())
+        .collect();
+    assert!(energies.len() > 1 && energies.is_sorted(), "{energies:?}");
+    assert!(
+        fit.iter()
+            .all(|d| d["motor"].as_str().unwrap().starts_with("sgm"))
+    );
+
+    let run = jred([
+        &"size",
+        &press,
+        &"--pareto",
+        &"power,energy",
+        &"--format",
+        &"csv",
+    ])
+    .ends(0);
+    assert!(
+        run.out
+            .starts_with("motor,gearbox,amplifier,rated power [W],energy [J]\n"),
+        "{}",
+        run.out
+    );
+    let rows: Vec<Vec<f64>> = run
+        .out
+        .lines()
+        .skip(1)
+        .map(|l| l.split(',').skip(3).map(|x| x.parse().unwrap()).collect())
+        .collect();
+    assert!(
+        !rows.is_empty()
+            && rows
+                .windows(2)
+                .all(|w| w[0][0] <= w[1][0] && w[0][1] >= w[1][1]),
+        "{}",
+        run.out
+    );
+
+    let price = jred([&"size", &press, &"--rank", &"price"]).ends(0);
+    assert!(
+        price
+            .message()
+            .contains("no suitable drive has data for the price"),
+        "{}",
+        price.err
+    );
+    jred([&"size", &press, &"--pareto", &"mass"])
+        .ends(2)
+        .says(&["two or three different objectives"]);
+    jred([&"size", &press, &"--pareto", &"mass,colour"])
+        .ends(2)
+        .says(&["power, mass, price, energy, margin, temperature"]);
+    jred([&"size", &press, &"--ratio", &"9..3"])
+        .ends(2)
+        .says(&["no ratio lies between 9 and 3"]);
+    jred([&"size", &press, &"--maker", &"Nobody"])
+        .ends(2)
+        .says(&["none of the", "passes the filter"]);
+    jred([&"size", &press, &"--max-mass", &"5 mm"])
+        .ends(2)
+        .says(&["must be a mass"]);
+}
+
+/// The list of ratios: the figures of the library, in the order of power.
+#[test]
+fn the_command_lists_ratios() {
+    let run = jred([&"ratio", &press_file(), &"--format", &"json"]).ends(0);
+    let json = run.json();
+    let rows = json["rows"].as_array().unwrap();
+    let file = read::read(&press_file()).unwrap();
+    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), STEPS).unwrap();
+    let catalogue = Catalogue::load(None, None).unwrap();
+    assert!(rows.len() >= catalogue.motors.len());
+    let powers: Vec<f64> = rows
+        .iter()
+        .filter_map(|row| row["rated power [W]"].as_f64())
+        .collect();
+    assert!(powers.is_sorted());
+    for motor in &catalogue.motors {
+        let row = rows
+            .iter()
+            .find(|row| row["motor"] == motor.key.as_str())
+            .unwrap();
+        let moments = Moments::new(&duty, motor, Gear::IDEAL);
+        near(
+            "best",
+            row["best ratio"].as_f64().unwrap(),
+            moments.best_ratio().unwrap(),
+            1e-14,
+        );
+        let range = moments.range(0.8 * motor.rated_torque.unwrap());
+        match range {
+            None => assert!(row["RMS ratio from"].is_null()),
+            Some([from, _]) => within("from", row["RMS ratio from"].as_f64().unwrap(), from, 1e-13),
+        }
+    }
+    jred([&"ratio", &press_file(), &"--efficiency", &"120%"])
+        .ends(2)
+        .says(&["at most 1"]);
+}
+
+/// The table fits on a page, says why there is no range, and can be cut to what is asked for.
+#[test]
+fn the_table_of_ratios_is_narrow_and_can_be_cut() {
+    let press = press_file();
+    let full = jred([&"ratio", &press]).ends(0).out;
+    let table = |text: &str| -> Vec<String> {
+        let lines = text.lines().skip(1);
+        lines
+            .take_while(|l| !l.starts_with("alpha:"))
+            .map(str::to_owned)
+            .collect()
+    };
+    let lines = table(&full);
+    assert!(lines.len() > 30);
+    for line in &lines {
+        assert!(
+            line.chars().count() <= 120,
+            "{} columns: {line}",
+            line.chars().count()
+        );
+    }
+    let rows = jred([&"ratio", &press, &"--format", &"json"])
+        .ends(0)
+        .json();
+    let rows = rows["rows"].as_array().unwrap();
+    let mut reasons = 0;
+    for row in rows {
+        assert_eq!(
+            row["ratio from"].is_null(),
+            row["why none"].is_string(),
+            "{row}"
+        );
+        reasons += usize::from(row["why none"].is_string());
+    }
+    assert!(reasons > 3, "{reasons}");
+    let cut = jred([&"ratio", &press, &"--top", &"2", &"--format", &"json"])
+        .ends(0)
+        .json();
+    let held: Vec<_> = rows
+        .iter()
+        .filter(|row| row["why none"].is_null())
+        .take(2)
+        .collect();
+    assert_eq!(
+        cut["rows"].as_array().unwrap().iter().collect::<Vec<_>>(),
+        held
+    );
+    let notes = cut["notes"].to_string();
+    assert!(
+        notes.contains(&format!("motors without a suitable ratio: {reasons}")),
+        "{notes}"
+    );
+    let some = jred([&"ratio", &press, &"--motor", &"FXM*", &"--format", &"json"])
+        .ends(0)
+        .json();
+    let some = some["rows"].as_array().unwrap();
+    let named = |row: &&serde_json::Value| row["motor"].as_str().unwrap().starts_with("fxm");
+    assert_eq!(some.len(), rows.iter().filter(named).count());
+    assert!(some.iter().all(|row| named(&row)) && !some.is_empty());
+    jred([&"ratio", &press, &"--motor", &"nobody*"])
+        .ends(2)
+        .says(&["passes the filter"]);
+    jred([&"ratio", &press, &"--top", &"0"]).ends(2);
+}

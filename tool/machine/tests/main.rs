@@ -1,0 +1,17 @@
+//! The one test program of the package.
+
+mod duty;
+mod duty_meter;
+mod every_machine;
+mod import;
+mod linkage_file;
+mod machine_file;
+mod mechanisms;
+mod reading;
+mod rules;
+mod simulate;
+mod spline;
+mod supply;
+#[path = "../../support/mod.rs"]
+mod support;
+mod variator;

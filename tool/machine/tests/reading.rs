@@ -1,0 +1,91 @@
+//! Machine texts read, and what a user is told about one that is refused.
+
+use std::path::{Path, PathBuf};
+
+use jred_machine::model::machine::MachineFile;
+use jred_machine::read;
+use miette::{GraphicalReportHandler, GraphicalTheme, Report};
+
+use crate::support::edited;
+
+/// The folder of the tests' own files.
+pub(crate) fn data() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data")
+}
+
+/// A file of `machines/`.
+pub(crate) fn machine_path(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../machines")
+        .join(name)
+}
+
+/// A file of `machines/`, read.
+pub(crate) fn machine(name: &str) -> MachineFile {
+    read::read(&machine_path(name)).unwrap_or_else(|report| panic!("{}", rendered(&report)))
+}
+
+/// Its text.
+pub(crate) fn text_of(name: &str) -> String {
+    std::fs::read_to_string(machine_path(name)).unwrap()
+}
+
+/// Reads a text as a file of [`data`].
+pub(crate) fn parse(text: &str) -> Result<MachineFile, Report> {
+    parse_in(text, &data())
+}
+
+pub(crate) fn parse_as(name: &str, text: &str) -> Result<MachineFile, Report> {
+    read::parse(name, text, data())
+}
+
+/// Reads a text as a file of `folder`.
+pub(crate) fn parse_in(text: &str, folder: &Path) -> Result<MachineFile, Report> {
+    read::parse("machine.toml", text, folder)
+}
+
+#[track_caller]
+pub(crate) fn read(text: &str) -> MachineFile {
+    parse(text).unwrap_or_else(|report| panic!("{}", rendered(&report)))
+}
+
+/// The report as a user sees it, without colours and line breaks.
+pub(crate) fn rendered(report: &Report) -> String {
+    rendered_in(report, 1000)
+}
+
+pub(crate) fn rendered_in(report: &Report, width: usize) -> String {
+    let mut text = String::new();
+    GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor())
+        .with_width(width)
+        .render_report(&mut text, report.as_ref())
+        .unwrap();
+    text
+}
+
+/// Checks that `text` is refused with every one of `words`.
+#[track_caller]
+pub(crate) fn refuses(text: &str, words: &[&str]) {
+    let report = match parse(text) {
+        Err(report) => rendered(&report),
+        Ok(_) => panic!("accepted, though the report should contain {words:?}"),
+    };
+    says(&report, words);
+}
+
+/// Reads `base` with the first `from` replaced by `to`, and checks that the report contains every one of `words`.
+#[track_caller]
+pub(crate) fn refuses_edit(base: &str, from: &str, to: &str, words: &[&str]) {
+    refuses(&edited(base, from, to), words);
+}
+
+/// Checks that a report contains every one of `words`; `SHOW_REPORTS=1` prints it.
+#[track_caller]
+pub(crate) fn says(report: &str, words: &[&str]) {
+    if std::env::var_os("SHOW_REPORTS").is_some() {
+        println!("{report}");
+    }
+    for word in words {
+        assert!(report.contains(word), "{word:?} is not in\n{report}");
+    }
+}

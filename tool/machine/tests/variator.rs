@@ -1,0 +1,239 @@
+//! `[variator]` and `type = "friction-drive"`: what is read, what is refused, and the motion against closed forms.
+
+mod refusals;
+
+use crate::reading::{parse, says};
+use crate::simulate::{imbalance, run, simulate};
+use crate::support::machines::SHAFTS;
+use crate::support::{budget, edited, near, near_column, within};
+use jred::machine::Mechanism as _;
+use jred_machine::model::variator::integrability_text;
+
+const PRESS: &str = include_str!("../../../machines/variator-press.toml");
+const FAN: &str = include_str!("../../../machines/friction-fan.toml");
+const DOC: &str = include_str!("../../../docs/friction-drives.md");
+
+const INPUT: f64 = 0.006;
+const OUTPUT: f64 = 0.01 + 0.04 / 4.0 + 0.0005;
+
+/// The message about `base` with `from` replaced by `to`, which is not simulated.
+#[track_caller]
+fn refuses(base: &str, from: &str, to: &str, words: &[&str]) {
+    match run(&edited(base, from, to)) {
+        Err(message) => says(&message, words),
+        Ok(_) => panic!("simulated, though the report should contain {words:?}"),
+    }
+}
+
+#[test]
+fn a_free_run_keeps_the_energy() {
+    let found = simulate(SHAFTS);
+    let (input, output) = (found.get("input omega [rad/s]"), found.get("omega [rad/s]"));
+    let ratio = found.get("ratio");
+    let start = 10.0 * std::f64::consts::PI;
+    let kept = |j: f64| (INPUT + j * j * OUTPUT).sqrt();
+    let first = start / 0.5 * kept(0.5);
+    for k in 0..ratio.len() {
+        near("j", output[k], ratio[k] * input[k], budget::SWING);
+        // ω·√J: the factor ½. With the factor 1 it would be ω·J.
+        near("ω√J", input[k] * kept(ratio[k]), first, budget::SWING);
+    }
+    near("first ratio", ratio[0], 0.5, budget::RATIO);
+    near("last ratio", ratio[ratio.len() - 1], 1.6, budget::RATIO);
+    // The angle of the drive link is its own: j·α of the motor is far off.
+    let [phi, motor] =
+        ["phi [deg]", "input phi [deg]"].map(|name| *found.get(name).last().unwrap());
+    assert!((phi - 1.6 * motor).abs() > 90.0, "{phi} {motor}");
+    assert!(imbalance(&found) <= budget::BALANCE);
+}
+
+#[test]
+fn constant_slip_loses_what_it_should() {
+    let slip = "slip = \"4 %\"\npower_flow = \"input-drives\"";
+    let text = edited(SHAFTS, "# slip", slip);
+    let text = edited(&text, "torque = \"0 N m\"", "torque = \"3 N m\"");
+    let text = edited(&text, "at = \"0.2 s\"", "at = \"5 s\"");
+    let found = simulate(&text);
+    // (J₁ + i·j·J₂)·ω̇ = T, L = J₂·j·ω̇, loss = L·i·ε·ω
+    let (i, j) = (0.5, 0.5 * 0.96);
+    let alpha = 3.0 / (INPUT + i * j * OUTPUT);
+    let start = 10.0 * std::f64::consts::PI / j;
+    let turned = start + 0.5 * alpha;
+    let end = |name: &str| *found.get(name).last().unwrap();
+    near(
+        "ω",
+        end("input omega [rad/s]"),
+        start + alpha,
+        budget::SWING,
+    );
+    near(
+        "L",
+        end("contact torque [N m]"),
+        OUTPUT * j * alpha,
+        budget::SWING,
+    );
+    near(
+        "losses",
+        end("losses [J]"),
+        OUTPUT * j * alpha * (i - j) * turned,
+        budget::SWING,
+    );
+    near("slip", end("slip [%]"), 4.0, budget::SWING);
+    assert!(imbalance(&found) <= budget::BALANCE);
+    // As printed, with the output driving, the same slip would give power.
+    refuses(
+        &text,
+        "input-drives",
+        "output-drives",
+        &[
+            "power flows through the variator against its `power_flow`",
+            "creep = {",
+        ],
+    );
+}
+
+#[test]
+fn a_constant_ratio_is_a_belt() {
+    let variator = "[variator]\nratio = 0.25\ninput_inertia = \"30 kg cm^2\"\noutput_inertia = \"0.02 kg m^2\"\n";
+    let belt = "[[drive_train]]\ntype = \"belt\"\ndriver = { radius = \"25 mm\", inertia = \"30 kg cm^2\" }\n\
+                driven = { radius = \"100 mm\", inertia = \"0.02 kg m^2\" }\n";
+    let (head, rest) = PRESS.split_once("# Disc and wheel").unwrap();
+    let (_, tail) = rest.split_once("# From the variator").unwrap();
+    let with = |part: &str| {
+        let text = format!("{head}{part}# From the variator{tail}");
+        simulate(&edited(&text, "duration = \"5 s\"", "duration = \"1.5 s\""))
+    };
+    let (found, expected) = (with(variator), with(belt));
+    for name in [
+        "phi [deg]",
+        "omega [rad/s]",
+        "J_red [kg m^2]",
+        "losses [J]",
+        "kinetic energy [J]",
+    ] {
+        near_column(
+            name,
+            &found.get(name),
+            &expected.get(name),
+            budget::SAME_MOTION,
+        );
+    }
+}
+
+#[test]
+fn the_press_follows_its_creeping_variator() {
+    let found = simulate(PRESS);
+    assert!(
+        imbalance(&found) <= budget::BALANCE,
+        "{:e}",
+        imbalance(&found)
+    );
+    let (time, ratio) = (found.get("t [s]"), found.get("ratio"));
+    let (slip, torque) = (found.get("slip [%]"), found.get("contact torque [N m]"));
+    let losses = found.get("losses [J]");
+    for k in 1..time.len() {
+        // L = torque·s/slip up to its limit, whichever side drives; and no contact gives power.
+        within(
+            "L",
+            torque[k],
+            45.0 * (slip[k] / 3.0).clamp(-1.0, 1.0),
+            budget::SWING * 45.0,
+        );
+        assert!(losses[k] >= losses[k - 1], "t = {}", time[k]);
+    }
+    assert!(slip.iter().any(|s| *s < 0.0) && slip.iter().any(|s| *s > 0.0));
+    let at = |t: f64| time.iter().position(|x| (x - t).abs() < 1e-9).unwrap();
+    near("ratio", ratio[at(1.4)], 0.35, budget::RATIO);
+    near("ratio", ratio[at(1.9)], 0.625, budget::RATIO);
+    near("ratio", ratio[at(3.0)], 0.9, budget::RATIO);
+    near("ratio", ratio[at(5.0)], 0.5, budget::RATIO);
+    let omega = found.get("omega [rad/s]");
+    assert!(omega[at(3.0)] > 2.0 * omega[at(1.4)]);
+}
+
+/// A load that friction holds lets go when the ratio has been shifted far enough.
+#[test]
+fn friction_holds_until_the_ratio_lets_go() {
+    for slip in ["", "creep = { slip = \"2 %\", torque = \"50 N m\" }"] {
+        let text = edited(SHAFTS, "# slip", slip);
+        let text = edited(&text, "ratio = 0.5", "ratio = 1.0");
+        let text = edited(&text, "ratio = 1.6", "ratio = 0.5");
+        let text = edited(&text, "300 rpm", "0 rpm");
+        let text = edited(
+            &text,
+            "torque = \"0 N m\"\n",
+            "torque = \"3 N m\"\n[[load]]\non = \"shaft-1\"\nopposing_moment = \"4 N m\"\n",
+        );
+        let found = simulate(&text);
+        let (omega, ratio) = (found.get("omega [rad/s]"), found.get("ratio"));
+        for k in 0..omega.len() {
+            // Without creep T/i = 3/i reaches 4 N m at i = 0.75; a creeping contact is dragged along by the motor's inertia.
+            if slip.is_empty() {
+                assert_eq!(
+                    omega[k] > 0.0,
+                    ratio[k] < 0.75,
+                    "row {k}, ratio {}",
+                    ratio[k]
+                );
+            }
+        }
+        assert!(omega[omega.len() - 1] > 0.0);
+        assert!(
+            imbalance(&found) <= budget::BALANCE,
+            "{:e}",
+            imbalance(&found)
+        );
+    }
+}
+
+#[test]
+fn the_constraint_is_named() {
+    let text = |file: &str| integrability_text(&parse(file).unwrap());
+    assert_eq!(text(FAN), None);
+    let shifted = text(SHAFTS).unwrap();
+    assert!(shifted.contains("non-holonomic: θ∧dθ"), "{shifted}");
+    assert!(text(PRESS).unwrap().contains("not a constraint"));
+    let (before, _) = SHAFTS.split_once("[[variator.shift]]").unwrap();
+    let constant = text(before).unwrap();
+    assert!(
+        constant.contains("holonomic, (III.18)") && constant.contains("j = 0.5"),
+        "{constant}"
+    );
+}
+
+#[test]
+fn the_documented_examples_are_read() {
+    let blocks: Vec<&str> = DOC
+        .split("\n```toml\n")
+        .skip(1)
+        .map(|rest| rest.split("\n```").next().unwrap())
+        .collect();
+    assert_eq!(blocks.len(), 2);
+    let chain = parse(blocks[0]).unwrap();
+    let frames = chain.machine.mechanism().frames(1.0).unwrap();
+    // j = i·(1 − ε)
+    near(
+        "ψ₃",
+        frames[2].psi.value,
+        0.5 * 0.985 * 0.4 * 0.98,
+        budget::RATIO,
+    );
+    assert_eq!(
+        chain.machine.mechanism().link_names(),
+        ["shaft-1", "shaft-2", "shaft-3"]
+    );
+    assert!(parse(blocks[1]).unwrap().variator.is_some());
+    let printed = parse(&edited(blocks[0], "input-drives", "output-drives")).unwrap();
+    let frames = printed.machine.mechanism().frames(1.0).unwrap();
+    near("ψ₂", frames[1].psi.value, -0.5 / 0.985, budget::RATIO);
+}
+
+#[test]
+fn the_fan_is_read() {
+    let file = parse(FAN).unwrap();
+    let fan = file.machine.mechanism();
+    assert_eq!(fan.kind(), "friction-drive");
+    assert_eq!(fan.joint_names().last().unwrap(), "contact 3");
+    let frames = fan.frames(2.0).unwrap();
+    near("ψ₄", frames[3].psi.d1, -2.5 * 0.98, budget::RATIO);
+}

@@ -1,0 +1,6 @@
+//! The one test program of the package.
+
+mod curves;
+mod lever;
+#[path = "../../support/mod.rs"]
+mod support;

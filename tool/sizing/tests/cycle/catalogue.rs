@@ -1,0 +1,133 @@
+//! Whole catalogues: the same verdicts as by plain loops, and an order that does not depend on how the work was shared out.
+
+use std::path::Path;
+
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::Finding;
+use jred_machine::model::rules::RuleSet;
+use jred_machine::model::rules::Verdict;
+use jred_machine::model::site::Site;
+use jred_machine::read;
+use jred_sizing::catalogue::Catalogue;
+use jred_sizing::cycle::Cycle;
+use jred_sizing::judge::{Context, Outcome};
+use jred_sizing::motor::envelope::Prepared;
+use jred_sizing::select::size::{Candidate, FIRST, Group, Selection};
+
+use crate::brute;
+use crate::support::{budget, press_text};
+
+struct Ready {
+    catalogue: Catalogue,
+    motors: Vec<Prepared>,
+    cycle: Cycle,
+    site: Site,
+    rules: RuleSet,
+}
+
+/// The built-in catalogue with its gearboxes at six times as many ratios.
+pub(crate) fn with_more_ratios() -> Catalogue {
+    let mut catalogue = Catalogue::load(None, None).unwrap();
+    let gearboxes = catalogue.gearboxes.clone();
+    for factor in [0.5, 0.7, 1.3, 1.7, 2.3] {
+        catalogue.gearboxes.extend(gearboxes.iter().map(|gearbox| {
+            let mut other = gearbox.clone();
+            other.key = format!("{}-{factor}", gearbox.key);
+            other.ratio *= factor;
+            other
+        }));
+    }
+    catalogue
+}
+
+/// The press and the built-in catalogue, its gearboxes at many more ratios: enough drives that fit and that do not.
+fn ready() -> Ready {
+    let file = read::parse("press.toml", &press_text(), Path::new("")).unwrap();
+    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 400).unwrap();
+    let catalogue = with_more_ratios();
+    let site = Site::default();
+    Ready {
+        motors: catalogue.prepare(&site),
+        catalogue,
+        cycle: Cycle::new(&duty),
+        site,
+        rules: RuleSet::default(),
+    }
+}
+
+impl Ready {
+    fn selection(&self) -> Selection<'_> {
+        Selection::new(
+            &self.catalogue,
+            &self.motors,
+            &self.cycle,
+            &self.site,
+            &self.rules,
+        )
+    }
+
+    /// The outcome of a drive with the figures over the samples by plain loops.
+    fn plain_outcome(&self, candidate: &Candidate) -> Outcome {
+        let context = Context::new(&self.cycle, &self.site, candidate.drive, candidate.motor);
+        let mut findings = context.findings(&self.rules);
+        let envelope = &context.motor.envelope;
+        let peak = brute::peak(&self.cycle, &context.coefficients, context.ratio, envelope);
+        let limit = envelope.peak_torque(peak.torque, peak.speed);
+        let mut replace = |rule: Rule, value: f64, rating: Option<f64>| {
+            if let Some(found) = findings.get(rule) {
+                let rating = rating.filter(|rating| rating.is_finite());
+                findings.set(rule, Finding::new(value, rating.unwrap_or(found.rating)));
+            }
+        };
+        replace(Rule::PeakTorque, peak.torque.abs(), Some(limit));
+        replace(
+            Rule::RmsTorque,
+            brute::rms_torque(&self.cycle, &context.coefficients),
+            None,
+        );
+        replace(
+            Rule::GearboxPeak,
+            brute::peak_output_torque(&self.cycle),
+            None,
+        );
+        let exponent = self.rules.choices.gearbox_mean_exponent.exponent();
+        replace(
+            Rule::GearboxCubicMean,
+            brute::mean_output_torque(&self.cycle, exponent),
+            None,
+        );
+        let mut outcome = Outcome::of(&self.rules, &findings);
+        if outcome.verdict == Verdict::Fail {
+            // Rules that follow time are not judged for a drive that is refused.
+            outcome.not_checked = candidate.outcome.not_checked;
+        }
+        outcome
+    }
+}
+
+#[test]
+fn every_verdict_is_that_of_plain_loops() {
+    let ready = ready();
+    let mut selection = ready.selection();
+    selection.complete();
+    let [fit, refused] = [&selection.fit, &selection.refused].map(Group::known);
+    assert!(fit.len() > 10 && refused.len() > FIRST);
+    for candidate in fit.iter().chain(refused) {
+        let expected = ready.plain_outcome(candidate);
+        let found = candidate.outcome;
+        let name = candidate.drive.name();
+        assert_eq!(found.verdict, expected.verdict, "{name}");
+        if found.verdict == Verdict::Fail && found.worst_use < expected.worst_use {
+            // What follows time was not looked at.
+            continue;
+        }
+        assert_eq!(found.worst_rule, expected.worst_rule, "{name}");
+        assert_eq!(
+            found.beyond_all_limits, expected.beyond_all_limits,
+            "{name}"
+        );
+        let off = (found.worst_use / expected.worst_use - 1.0).abs();
+        assert!(off <= budget::PREPARED_CYCLE, "{name}: off by {off:e}");
+    }
+}

@@ -1,0 +1,17 @@
+//! The one test program of the package.
+
+mod brute;
+mod bus;
+mod catalogue;
+mod cycle;
+mod duty;
+mod envelope;
+mod explain;
+mod meter;
+mod rules;
+mod search;
+mod sensitivity;
+#[path = "../../support/mod.rs"]
+mod support;
+mod thermal;
+mod vary;

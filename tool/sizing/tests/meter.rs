@@ -1,0 +1,68 @@
+//! Limits for the firmware's duty meter: below those of sizing, compiled, and read with sizing's figures.
+
+mod curves;
+mod firmware;
+
+use crate::support::{budget, edited_press};
+use jred_machine::analysis::duty::{Duty, STEPS};
+use jred_machine::model::machine::MachineFile;
+use jred_machine::read;
+use jred_sizing::catalogue::Catalogue;
+use jred_sizing::catalogue::Drive;
+use jred_sizing::cycle::Cycle;
+use jred_sizing::judge::Context;
+use jred_sizing::meter::{Bound, Field, MeterLimits};
+
+/// The drive of the source in `tests/data`.
+const DRIVE: &str = "sgmsh-30a+npt025mf-3";
+
+/// Runs a test with the limits of [`DRIVE`] at a machine.
+fn with_limits(file: &MachineFile, test: impl FnOnce(&Context, &MeterLimits)) {
+    let catalogue = Catalogue::load(None, None).unwrap();
+    let motors = catalogue.prepare(&file.site);
+    let duty = Duty::new(file, file.motion.as_ref().unwrap(), STEPS).unwrap();
+    let cycle = Cycle::new(&duty);
+    let named = |drive: &Drive| {
+        let gearbox = drive.gearbox.map_or("", |gearbox| &gearbox.key);
+        format!("{}+{gearbox}", drive.motor.key) == DRIVE
+    };
+    let (index, drive) = catalogue.drives().find(|(_, d)| named(d)).unwrap();
+    let context = Context::new(&cycle, &file.site, drive, &motors[index]);
+    test(&context, &MeterLimits::new(&context, &file.rules));
+}
+
+/// Rules that are off give no limit, shares stand in the limits, and where no rule is judged the source still says why.
+#[test]
+fn limits_are_those_of_the_rules() {
+    let rules = "[rules]\nrms_torque = \"50 %\"\npeak_torque = \"off\"\nspeed = \"100 %\"\ngearbox_mean_exponent = \"10/3\"\n\n[motion]";
+    let text = edited_press("[motion]", rules);
+    let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+    with_limits(&file, |context, limits| {
+        let of = |field: Field| {
+            let entry = limits.entries.iter().find(|entry| entry.field == field);
+            entry.unwrap()
+        };
+        let Bound::Curve(continuous) = &of(Field::Continuous).bound else {
+            panic!("{:?}", of(Field::Continuous));
+        };
+        let standstill = 0.5 * context.motor.envelope.standstill();
+        let first = f64::from(continuous.points[0][1]);
+        let least = (1.0 - budget::METER_SHORTFALL) * standstill;
+        assert!((least..=standstill).contains(&first), "{first}");
+        assert_eq!(of(Field::Peak).bound, Bound::Open);
+        assert!(of(Field::Peak).words.contains("is not checked"));
+        assert_eq!(of(Field::OutputMean).bound, Bound::Open);
+        assert!(of(Field::OutputMean).words.contains("10/3"));
+        let Bound::Figure(speed) = of(Field::Speed).bound else {
+            panic!("{:?}", of(Field::Speed));
+        };
+        let gearbox = context.drive.gearbox.unwrap().max_speed.unwrap();
+        let least = context.motor.envelope.max_speed().min(gearbox);
+        let off = least - f64::from(speed);
+        assert!((0.0..1e-4).contains(&off), "{speed} of {least}");
+        let source = limits.source("press.toml");
+        assert!(source.contains("// No limit `peak`: the rule \"peak torque\" is not checked."));
+        assert!(source.contains("not monitored by the meter:"));
+        assert!(source.contains("peak: None,"));
+    });
+}

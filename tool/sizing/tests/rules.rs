@@ -1,0 +1,134 @@
+//! The mechanical rules: each figure against a derivation of its own.
+// Zeros and copied figures are exact.
+#![allow(clippy::float_cmp)]
+
+mod backlash;
+mod emergency;
+mod gearbox;
+mod holding;
+mod inertia;
+mod moves;
+mod rigidity;
+
+use std::path::Path;
+
+use crate::support::{Folder, budget, edited, near, press_text, within};
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::Finding;
+use jred_machine::model::rules::RuleSet;
+use jred_machine::read;
+use jred_sizing::catalogue::Drive;
+use jred_sizing::catalogue::{Brake, Catalogue, Gearbox, Motor};
+use jred_sizing::cycle::Cycle;
+use jred_sizing::judge::check::Check;
+use jred_sizing::judge::{Context, Words};
+use jred_sizing::motor::envelope::Prepared;
+
+fn read(text: &str) -> MachineFile {
+    read::parse("machine.toml", text, Path::new("")).unwrap()
+}
+
+/// A motor with every figure of the envelope.
+const MOTOR: &str = "\
+key,maker,model,rated_torque [N m],rated_speed [rpm],standstill_torque [N m],peak_torque [N m],max_speed [rpm],\
+rotor_inertia [kg cm^2],peak_corner_speed [rpm],peak_torque_at_max_speed [N m],source,figures_from
+m,Maker,Model,8,3000,9,30,5000,8,2500,10,Sheet,maker
+";
+const GEARBOX: &str = "\
+key,maker,model,ratio,rated_output_torque [N m],peak_output_torque [N m],emergency_output_torque [N m],\
+rated_input_speed [rpm],max_input_speed [rpm],input_inertia [kg cm^2],efficiency [%],source,figures_from
+g,Maker,Model,5,40,80,160,3000,6000,0.8,95,Sheet,maker
+";
+
+/// A machine with its motion prepared, and one drive for it.
+struct Stand {
+    file: MachineFile,
+    duty: Duty,
+    cycle: Cycle,
+    motor: Motor,
+    gearbox: Gearbox,
+}
+
+impl Stand {
+    fn new(text: &str) -> Self {
+        let file = read(text);
+        let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 2000).unwrap();
+        let cycle = Cycle::new(&duty);
+        let folder = Folder::new();
+        let paths = [folder.file("m.csv", MOTOR), folder.file("g.csv", GEARBOX)];
+        let mut catalogue = Catalogue::load(Some(&paths[0]), Some(&paths[1])).unwrap();
+        Self {
+            file,
+            duty,
+            cycle,
+            motor: catalogue.motors.remove(0),
+            gearbox: catalogue.gearboxes.remove(0),
+        }
+    }
+
+    fn press() -> Self {
+        Self::new(&press_text())
+    }
+
+    fn drive(&self, geared: bool) -> Drive<'_> {
+        Drive {
+            motor: &self.motor,
+            gearbox: Some(&self.gearbox).filter(|_| geared),
+            amplifier: None,
+        }
+    }
+
+    fn prepared(&self) -> Prepared {
+        let alone = Catalogue {
+            motors: vec![self.motor.clone()],
+            ..Catalogue::default()
+        };
+        alone.prepare(&self.file.site).remove(0)
+    }
+
+    /// What a rule found, if it applies.
+    fn finding(&self, geared: bool, rules: &RuleSet, rule: Rule) -> Option<Finding> {
+        let prepared = self.prepared();
+        let context = Context::new(&self.cycle, &self.file.site, self.drive(geared), &prepared);
+        context.findings(rules).get(rule)
+    }
+
+    /// What a rule found under the machine file's rules; it must apply.
+    fn found(&self, geared: bool, rule: Rule) -> Finding {
+        self.finding(geared, &self.file.rules, rule).unwrap()
+    }
+
+    /// A rule in words; it must be shown.
+    fn check(&self, geared: bool, rules: &RuleSet, rule: Rule) -> Check {
+        let prepared = self.prepared();
+        let context = Context::new(&self.cycle, &self.file.site, self.drive(geared), &prepared);
+        let checks = context.checks(rules);
+        checks.into_iter().find(|check| check.id == rule).unwrap()
+    }
+
+    fn brake(&mut self, torque: f64) {
+        self.motor.brake = Some(Brake {
+            torque,
+            inertia: 0.0,
+        });
+    }
+}
+
+/// The limit that a warning is about is said beside the one that refuses.
+#[test]
+fn a_warning_names_its_limit() {
+    let note = |value: f64| {
+        let words = Words {
+            unit: "",
+            scale: 1.0,
+            rating: "times the rotor's inertia".to_owned(),
+            place: String::new(),
+        };
+        let finding = Finding::new(value, 1.0);
+        Check::new(&RuleSet::default(), Rule::InertiaRatio, finding, words).note
+    };
+    assert_eq!(note(6.0), "10 times the rotor's inertia; warning above 5");
+    assert_eq!(note(4.0), "10 times the rotor's inertia");
+}

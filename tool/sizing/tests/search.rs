@@ -1,0 +1,246 @@
+//! Finding drives: gear ratios in closed form, ranking, filters, Pareto fronts.
+// Copied figures are exact.
+#![allow(clippy::float_cmp)]
+
+mod filter;
+mod obstacle;
+mod ratio;
+
+use std::path::Path;
+
+use crate::support::{budget, near, press_text};
+use jred_machine::analysis::duty::Duty;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::Limit;
+use jred_machine::read;
+use jred_sizing::catalogue::{Catalogue, MotorKind};
+use jred_sizing::cycle::Cycle;
+use jred_sizing::select::pareto::Front;
+use jred_sizing::select::rank::{Objective, rank};
+use jred_sizing::select::size::Selection;
+
+const RACK: &str = include_str!("../../../machines/rack.toml");
+
+struct Case {
+    file: MachineFile,
+    duty: Duty,
+    cycle: Cycle,
+}
+
+fn case(text: &str, steps: usize) -> Case {
+    let file = read::parse("machine.toml", text, Path::new("")).unwrap();
+    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), steps).unwrap();
+    let cycle = Cycle::new(&duty);
+    Case { file, duty, cycle }
+}
+
+fn catalogue() -> Catalogue {
+    Catalogue::load(None, None).unwrap()
+}
+
+/// The drives of a case, with masses and prices where the index says so.
+fn priced() -> Catalogue {
+    let mut catalogue = catalogue();
+    for (k, motor) in catalogue.motors.iter_mut().enumerate() {
+        motor.mass = (k % 3 != 0).then_some(2.0 + (k * 7 % 13) as f64);
+        motor.price = (k % 4 != 1).then_some(300.0 + (k * 11 % 17) as f64 * 40.0);
+    }
+    for (k, gearbox) in catalogue.gearboxes.iter_mut().enumerate() {
+        gearbox.mass = Some(1.0 + (k % 5) as f64);
+        gearbox.price = Some(200.0 + (k % 7) as f64 * 30.0);
+    }
+    catalogue.amplifiers.clear();
+    catalogue
+}
+
+#[test]
+fn ranked_by_what_was_asked_for() {
+    let case = case(&press_text(), 200);
+    let catalogue = priced();
+    let prepared = catalogue.prepare(&case.file.site);
+    let select = || {
+        Selection::new(
+            &catalogue,
+            &prepared,
+            &case.cycle,
+            &case.file.site,
+            &case.file.rules,
+        )
+    };
+    for objective in [
+        Objective::Power,
+        Objective::Mass,
+        Objective::Price,
+        Objective::Energy,
+        Objective::Margin,
+    ] {
+        let mut selection = select();
+        let before = selection.fit.len();
+        let unknown = rank(&mut selection, objective);
+        assert_eq!(selection.fit.len(), before);
+        let values: Vec<Option<f64>> = selection
+            .fit
+            .known()
+            .iter()
+            .map(|c| objective.value(&selection, c))
+            .collect();
+        let known = values.len() - unknown;
+        assert!(
+            values[..known].iter().all(Option::is_some)
+                && values[known..].iter().all(Option::is_none)
+        );
+        let sign = if objective == Objective::Margin {
+            -1.0
+        } else {
+            1.0
+        };
+        assert!(
+            values[..known].is_sorted_by(|a, b| sign * a.unwrap() <= sign * b.unwrap()),
+            "{objective:?}: {values:?}"
+        );
+        let missing = selection.fit.known().iter().filter(|c| match objective {
+            Objective::Mass => c.drive.motor.mass.is_none(),
+            Objective::Price => c.drive.motor.price.is_none(),
+            _ => false,
+        });
+        assert_eq!(missing.count(), unknown, "{objective:?}");
+    }
+    // By hand: mass and energy of a drive.
+    let selection = select();
+    let candidate = selection
+        .fit
+        .known()
+        .iter()
+        .find(|c| c.drive.motor.mass.is_some() && c.drive.gearbox.is_some())
+        .unwrap();
+    let drive = candidate.drive;
+    let mass = drive.motor.mass.unwrap() + drive.gearbox.unwrap().mass.unwrap();
+    assert_eq!(Objective::Mass.value(&selection, candidate), Some(mass));
+    let put_in = case.duty.integral(|i| {
+        let point = drive.motor_point(i);
+        (point.torque * point.speed).max(0.0)
+    });
+    near(
+        "energy",
+        Objective::Energy.value(&selection, candidate).unwrap(),
+        put_in,
+        budget::PREPARED_CYCLE,
+    );
+    // Without any price the ranking stays, and its words with it.
+    let bare = Catalogue {
+        amplifiers: Vec::new(),
+        ..self::catalogue()
+    };
+    let prepared = bare.prepare(&case.file.site);
+    let mut selection = Selection::new(
+        &bare,
+        &prepared,
+        &case.cycle,
+        &case.file.site,
+        &case.file.rules,
+    );
+    let names = |selection: &Selection| {
+        let fit = selection.first_fit(usize::MAX);
+        fit.iter().map(|c| c.drive.name()).collect::<Vec<_>>()
+    };
+    let words = |selection: &Selection| selection.ranking(MotorKind::Rotary.vocabulary());
+    let (before, ranking) = (names(&selection), words(&selection));
+    assert_eq!(rank(&mut selection, Objective::Price), before.len());
+    assert_eq!((names(&selection), words(&selection)), (before, ranking));
+}
+
+/// The front against its definition: every pair compared.
+#[test]
+fn the_front_is_what_nothing_beats() {
+    let mut case = case(&press_text(), 200);
+    // More drives to compare.
+    for rule in Rule::ALL {
+        case.file.rules.set(rule, Limit::default());
+    }
+    let catalogue = priced();
+    let prepared = catalogue.prepare(&case.file.site);
+    let selection = Selection::new(
+        &catalogue,
+        &prepared,
+        &case.cycle,
+        &case.file.site,
+        &case.file.rules,
+    );
+    for objectives in [
+        &[Objective::Mass, Objective::Price][..],
+        &[Objective::Energy, Objective::Mass],
+        &[Objective::Power, Objective::Energy, Objective::Price],
+    ] {
+        let front = Front::new(&selection, objectives);
+        let values: Vec<(String, Vec<f64>)> = (selection.first_fit(usize::MAX).iter())
+            .filter_map(|c| {
+                let values: Option<Vec<f64>> =
+                    objectives.iter().map(|o| o.value(&selection, c)).collect();
+                Some((c.drive.name(), values?))
+            })
+            .collect();
+        assert_eq!(front.compared, values.len());
+        let beaten = |own: &[f64]| {
+            values.iter().any(|(_, other)| {
+                other.iter().zip(own).all(|(a, b)| a <= b)
+                    && other.iter().zip(own).any(|(a, b)| a < b)
+            })
+        };
+        let mut expected: Vec<&str> = values
+            .iter()
+            .filter(|(_, own)| !beaten(own))
+            .map(|(name, _)| name.as_str())
+            .collect();
+        let mut found: Vec<String> = front
+            .points
+            .iter()
+            .map(|p| p.candidate.drive.name())
+            .collect();
+        expected.sort_unstable();
+        found.sort_unstable();
+        assert_eq!(found, expected, "{objectives:?}");
+        assert!(
+            found.len() > 1 && found.len() < values.len() / 4,
+            "{} of {}",
+            found.len(),
+            values.len()
+        );
+    }
+}
+
+/// Temperatures of motors whose data differ are compared as shares of what is allowed, not as kelvins: of two equal motors that
+/// of which the thermal resistances are known is not the warmer one for it.
+#[test]
+fn temperatures_are_compared_as_shares() {
+    let case = case(&press_text(), 200);
+    let catalogue = catalogue();
+    let motors = catalogue.prepare(&case.file.site);
+    let selection = Selection::new(
+        &catalogue,
+        &motors,
+        &case.cycle,
+        &case.file.site,
+        &case.file.rules,
+    );
+    let mut compared = 0;
+    for candidate in &selection.first_fit(usize::MAX) {
+        let Some(value) = Objective::Temperature.value(&selection, candidate) else {
+            continue;
+        };
+        let judged = selection.judged(candidate);
+        let check = judged
+            .checks
+            .iter()
+            .find(|check| check.id == Rule::WindingTemperature)
+            .unwrap();
+        near(
+            "share",
+            value,
+            check.value.unwrap() / check.limit.unwrap(),
+            1e-12,
+        );
+        compared += 1;
+    }
+    assert!(compared > 0);
+}

@@ -1,0 +1,274 @@
+//! Sensitivities and Monte Carlo: slopes by exact derivatives of the duty, room in closed form, probabilities in closed form.
+
+mod tolerance;
+
+use std::path::Path;
+
+use crate::support::{Folder, budget, near, press_text, within};
+use jred_machine::analysis::duty::{Duty, Instant};
+use jred_machine::model::rule::Rule;
+use jred_machine::read;
+use jred_machine::units::RPM;
+use jred_sizing::catalogue::Drive;
+use jred_sizing::catalogue::{Catalogue, Gearbox};
+use jred_sizing::cycle::Cycle;
+use jred_sizing::judge::Context;
+use jred_sizing::select::filter::Filter;
+use jred_sizing::study::common::Study;
+use jred_sizing::study::one::One;
+use jred_sizing::study::sensitivity::{Reach, Room, Sensitivity};
+
+/// A motor that limits nothing by its speed, and no gearbox.
+fn strong() -> Catalogue {
+    let mut catalogue = Catalogue::load(None, None).unwrap();
+    let mut motor = catalogue.motors[0].clone();
+    "strong".clone_into(&mut motor.key);
+    motor.rated_torque = Some(500.0);
+    motor.standstill_torque = Some(500.0);
+    motor.peak_torque = Some(2000.0);
+    motor.rated_speed = Some(1000.0);
+    motor.max_speed = Some(1000.0);
+    motor.corner_speed = Some(1000.0);
+    motor.rotor_inertia = 0.02;
+    catalogue = Catalogue {
+        motors: vec![motor],
+        ..Catalogue::default()
+    };
+    catalogue.gearboxes = vec![Gearbox {
+        key: "five".to_owned(),
+        ratio: 5.0,
+        ..Gearbox::default()
+    }];
+    catalogue
+}
+
+fn study(text: &str, steps: usize) -> (Folder, Study) {
+    let folder = Folder::new();
+    let file = folder.file("machine.toml", text);
+    let study = Study::open(&file, strong(), None, steps).unwrap();
+    (folder, study)
+}
+
+/// Motor torque of every instant with the drive "strong+five".
+fn torques(text: &str, steps: usize) -> (Duty, Vec<f64>) {
+    let file = read::parse("machine.toml", text, Path::new("")).unwrap();
+    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), steps).unwrap();
+    let catalogue = strong();
+    let drive = Drive {
+        motor: &catalogue.motors[0],
+        gearbox: Some(&catalogue.gearboxes[0]),
+        amplifier: None,
+    };
+    let torques = duty
+        .instants
+        .iter()
+        .map(|i| drive.motor_point(i).torque)
+        .collect();
+    (duty, torques)
+}
+
+const RACK: &str = include_str!("../../../machines/rack.toml");
+
+/// The motor torque is linear in the carriage's mass, dT/dm = r²·a/i, and so dT_rms/dm = ⟨T·dT/dm⟩/T_rms.
+#[test]
+fn slope_of_the_rms_torque_by_the_duty_itself() {
+    const STEPS: usize = 400;
+    let (_folder, study) = study(RACK, STEPS);
+    let one = One::choose(&study, Some("strong+five"), &Filter::default(), None).unwrap();
+    let reach = Reach {
+        change: 0.01,
+        most: 0.02,
+    };
+    let found = Sensitivity::new(&study, &one, reach, || ()).unwrap();
+    let mass = study.document.find("rack.mass").unwrap();
+    let dependence = found
+        .dependences
+        .iter()
+        .find(|d| d.quantity == mass)
+        .unwrap();
+    let slope = dependence
+        .slopes
+        .iter()
+        .find(|s| s.rule == Rule::RmsTorque)
+        .unwrap();
+
+    // dT/dm = r²·a/i.
+    let (duty, torque) = torques(RACK, STEPS);
+    let figures = duty.figures_of(torque.iter().copied());
+    let by_mass = |i: &Instant| 0.03 * 0.03 * i.input_alpha / 5.0;
+    let products = torque
+        .iter()
+        .zip(&duty.instants)
+        .map(|(t, i)| t * by_mass(i));
+    let mean = duty.integral_of(products) / duty.duration;
+    let share = found
+        .shares
+        .iter()
+        .find(|(rule, _)| *rule == Rule::RmsTorque)
+        .unwrap()
+        .1;
+    // u = T_rms/limit, so du/d ln m = m·dT_rms/dm·u/T_rms.
+    let expected = 85.0 * mean / figures.rms * share / figures.rms;
+    near("slope", slope.slope, expected, budget::SLOPE);
+    assert!(slope.uncertainty < 1e-3 * slope.slope.abs(), "{slope:?}");
+
+    // What moves nothing moves nothing: gravity is across the axis.
+    let gravity = study.document.find("gravity.1").unwrap();
+    let gravity = found
+        .dependences
+        .iter()
+        .find(|d| d.quantity == gravity)
+        .unwrap();
+    for slope in gravity
+        .slopes
+        .iter()
+        .filter(|slope| slope.rule != Rule::HoldingTorque)
+    {
+        within("gravity", slope.slope, 0.0, 1e-9);
+    }
+    // The other component is zero, and the moves of a cycle must close.
+    let fixed: Vec<&str> = found
+        .fixed
+        .iter()
+        .map(|(k, _)| study.document.quantities()[*k].path.as_str())
+        .collect();
+    assert_eq!(
+        fixed,
+        [
+            "gravity.0",
+            "motion.segment.0.move",
+            "motion.segment.2.move"
+        ]
+    );
+}
+
+/// The room up to a rule's limit, in closed form: torque and speed of a conveyor at constant speed.
+#[test]
+fn room_in_closed_form() {
+    let conveyor = include_str!("../../../machines/conveyor.toml");
+    // 850 rpm · 5 = 445 rad/s of 1000 rad/s: a limit of 50 % is used by 0.89.
+    let text = format!(
+        "{conveyor}\n[rules]\nspeed = \"50 %\"\ninertia_ratio = 900\ninertia_ratio_warning = 900\n"
+    );
+    let (_folder, study) = study(&text, 64);
+    let one = One::choose(&study, Some("strong+five"), &Filter::default(), None).unwrap();
+    let reach = Reach {
+        change: 0.01,
+        most: 0.5,
+    };
+    let found = Sensitivity::new(&study, &one, reach, || ()).unwrap();
+    let of = |path: &str| {
+        let quantity = study.document.find(path).unwrap();
+        found
+            .dependences
+            .iter()
+            .find(|d| d.quantity == quantity)
+            .unwrap()
+    };
+    let share = 850.0 * RPM * 5.0 / 500.0;
+    let speed = of("motion.speed");
+    assert!(
+        matches!(speed.room[1], Room::UpTo(_, Rule::Speed)),
+        "{:?}",
+        speed.room
+    );
+    near(
+        "up",
+        speed.room[1].change(),
+        1.0 / share - 1.0,
+        budget::ROOM,
+    );
+    assert_eq!(speed.room[0], Room::AtLeast(-0.5));
+    // The limit itself: the share is inversely proportional to it.
+    let limit = of("rules.speed");
+    assert!(
+        matches!(limit.room[0], Room::UpTo(_, Rule::Speed)),
+        "{:?}",
+        limit.room
+    );
+    near("down", limit.room[0].change(), share - 1.0, budget::ROOM);
+    let slope = |path: &str| {
+        of(path)
+            .slopes
+            .iter()
+            .find(|s| s.rule == Rule::Speed)
+            .unwrap()
+            .slope
+    };
+    near(
+        "slope of the speed",
+        slope("motion.speed"),
+        share,
+        budget::SLOPE,
+    );
+    near(
+        "slope of the limit",
+        slope("rules.speed"),
+        -share,
+        budget::SLOPE,
+    );
+    let (first, room) = found.first_to_break().unwrap();
+    assert_eq!(study.document.quantities()[first].path, "rules.speed");
+    assert_eq!(room, &limit.room[0]);
+}
+
+/// Beyond the room the named rule is broken, within it none is: by sizing the changed machine.
+#[test]
+fn just_beyond_its_room_a_quantity_breaks_the_rule() {
+    let folder = Folder::new();
+    let file = folder.file("press.toml", press_text());
+    let catalogue = Catalogue::load(None, None).unwrap();
+    let study = Study::open(&file, catalogue, None, 200).unwrap();
+    let one = One::choose(&study, None, &Filter::default(), None).unwrap();
+    let found = Sensitivity::new(
+        &study,
+        &one,
+        Reach {
+            change: 0.01,
+            most: 0.5,
+        },
+        || (),
+    )
+    .unwrap();
+    let mut seen = 0;
+    for dependence in &found.dependences {
+        for room in &dependence.room {
+            let Room::UpTo(change, rule) = room else {
+                continue;
+            };
+            let quantity = &study.document.quantities()[dependence.quantity];
+            let judge = |change: f64| {
+                let edit = jred_sizing::study::edit::Edit {
+                    quantity: dependence.quantity,
+                    number: quantity.number() * (1.0 + change),
+                    unit: quantity.unit(),
+                };
+                let machine = study.machine(&[edit]).unwrap();
+                jred_sizing::judge::broken(&machine.file.rules, &one.findings(&machine))
+            };
+            let step = 3e-5 * change.signum();
+            assert_eq!(judge(*change), None, "{}", quantity.path);
+            assert_eq!(judge(change + step), Some(*rule), "{}", quantity.path);
+            seen += 1;
+        }
+    }
+    assert!(seen >= 6, "only {seen} rooms end at a rule");
+}
+
+/// A context of the study's drive: the same findings as those of `One`.
+#[test]
+fn one_drive_is_judged_as_in_the_catalogue() {
+    let (_folder, study) = study(RACK, 64);
+    let one = One::choose(&study, Some("strong+five"), &Filter::default(), None).unwrap();
+    let machine = study.machine(&[]).unwrap();
+    let motors = study.catalogue.prepare(&machine.file.site);
+    let (index, drive) = study.drive("strong+five").unwrap();
+    let duty = Duty::new(&machine.file, machine.file.motion.as_ref().unwrap(), 64).unwrap();
+    let cycle = Cycle::new(&duty);
+    let context = Context::new(&cycle, &machine.file.site, drive, &motors[index]);
+    let (a, b) = (
+        one.findings(&machine),
+        context.findings(&machine.file.rules),
+    );
+    assert_eq!(format!("{a:?}"), format!("{b:?}"));
+}

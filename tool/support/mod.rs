@@ -1,0 +1,140 @@
+//! What the tests of the tool's packages share, included by each. Not every package uses all of it.
+#![allow(dead_code)]
+
+pub(crate) mod budget;
+pub(crate) mod catalogue;
+pub(crate) mod machines;
+pub(crate) mod numerics;
+pub(crate) mod press;
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+/// The press example that users start from.
+pub(crate) fn press_file() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines/press.toml")
+}
+
+/// Its text.
+pub(crate) fn press_text() -> String {
+    std::fs::read_to_string(press_file()).unwrap()
+}
+
+/// The press with one text replaced, which must be there.
+pub(crate) fn edited_press(from: &str, to: &str) -> String {
+    edited(&press_text(), from, to)
+}
+
+/// `text` with the first `from` replaced, which must be there.
+pub(crate) fn edited(text: &str, from: &str, to: &str) -> String {
+    assert!(text.contains(from), "the text has no {from:?}");
+    text.replacen(from, to, 1)
+}
+
+/// A folder of a test's own.
+pub(crate) struct Folder(tempfile::TempDir);
+
+impl Folder {
+    pub(crate) fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// Writes a file and returns its path.
+    pub(crate) fn file(&self, name: &str, contents: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.path(name);
+        std::fs::write(&path, contents).unwrap();
+        path
+    }
+}
+
+/// Named columns.
+pub(crate) struct Columns {
+    pub(crate) names: Vec<String>,
+    pub(crate) rows: Vec<Vec<Option<f64>>>,
+}
+
+impl Columns {
+    pub(crate) fn of_csv(text: &str) -> Self {
+        let mut lines = text.lines();
+        let names = lines.next().unwrap().split(',').map(String::from).collect();
+        let cell = |cell: &str| (!cell.is_empty()).then(|| cell.parse().unwrap());
+        let rows = lines.map(|line| line.split(',').map(cell).collect());
+        Self {
+            names,
+            rows: rows.collect(),
+        }
+    }
+
+    pub(crate) fn of_json(value: &Value) -> Self {
+        let texts = |value: &Value| -> Vec<String> {
+            let list = value.as_array().unwrap().iter();
+            list.map(|name| name.as_str().unwrap().to_owned()).collect()
+        };
+        let row = |row: &Value| row.as_array().unwrap().iter().map(Value::as_f64).collect();
+        Self {
+            names: texts(&value["columns"]),
+            rows: value["rows"].as_array().unwrap().iter().map(row).collect(),
+        }
+    }
+
+    /// A column that is full.
+    pub(crate) fn get(&self, name: &str) -> Vec<f64> {
+        let index = self.names.iter().position(|n| n == name);
+        let index = index.unwrap_or_else(|| panic!("no column {name:?} in {:?}", self.names));
+        let cell = |row: &Vec<Option<f64>>| row[index].unwrap();
+        self.rows.iter().map(cell).collect()
+    }
+}
+
+/// The largest magnitude.
+pub(crate) fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, x| most.max(x.abs()))
+}
+
+/// Checks |found − expected| ≤ `share` of |expected|.
+pub(crate) fn near(what: &str, found: f64, expected: f64, share: f64) {
+    within(what, found, expected, share * expected.abs());
+}
+
+/// Checks |found − expected| ≤ `most`.
+pub(crate) fn within(what: &str, found: f64, expected: f64, most: f64) {
+    if std::env::var_os("SHOW_AGREEMENT").is_some() {
+        let relative = (found - expected) / expected.abs().max(f64::MIN_POSITIVE);
+        println!(
+            "{what}: {expected:.9}, off by {:.1e} ({relative:.1e})",
+            found - expected
+        );
+    }
+    // Written so that a NaN fails.
+    assert!(
+        (found - expected).abs() <= most,
+        "{what}: found {found}, expected {expected}, off by {:e}, allowed {most:e}",
+        found - expected
+    );
+}
+
+/// Checks a column against another, to a `share` of the expected column's largest magnitude.
+pub(crate) fn near_column(what: &str, found: &[f64], expected: &[f64], share: f64) {
+    assert_eq!(found.len(), expected.len(), "{what}");
+    let most = share * largest(expected);
+    let mut worst = 0.0f64;
+    for (row, (a, b)) in found.iter().zip(expected).enumerate() {
+        worst = worst.max((a - b).abs());
+        assert!(
+            (a - b).abs() <= most,
+            "{what}, row {row}: found {a}, expected {b}, off by {:e}, allowed {most:e}",
+            a - b
+        );
+    }
+    if std::env::var_os("SHOW_AGREEMENT").is_some() {
+        println!(
+            "{what}: worst {:.1e} of the largest",
+            worst / largest(expected)
+        );
+    }
+}
