@@ -36,7 +36,7 @@ use bench::{Bench, best, once};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::model::site::Site;
-use jred_sizing::catalogue::{Catalogue, Drive};
+use jred_sizing::catalogue::{Catalogue, Drive, DriveId};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::motor::envelope::Prepared;
 use jred_sizing::select::size::Selection;
@@ -71,7 +71,7 @@ impl Ready {
         )
     }
 
-    fn among<'c>(&'c self, drives: &[(usize, Drive<'c>)]) -> Selection<'c> {
+    fn among<'c>(&'c self, drives: &[(DriveId, Drive<'c>)]) -> Selection<'c> {
         let drives = drives.iter().copied();
         Selection::among(
             drives,

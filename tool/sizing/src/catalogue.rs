@@ -28,7 +28,7 @@ mod toml_table;
 pub use amplifier::{Amplifier, Resistor};
 #[cfg(feature = "fs")]
 pub use disk::Sources;
-pub use drive::Drive;
+pub use drive::{Drive, DriveId};
 pub use fault::{CatalogueError, Misplaced, SHOWN, Several};
 pub use gearbox::Gearbox;
 

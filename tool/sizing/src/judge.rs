@@ -117,6 +117,16 @@ impl<'a> Context<'a> {
         }
     }
 
+    /// The same for another drive with the same motor and amplifier.
+    pub(crate) fn with(&self, drive: Drive<'a>) -> Self {
+        Self {
+            drive,
+            ratio: drive.ratio(),
+            coefficients: drive.coefficients(),
+            ..*self
+        }
+    }
+
     /// What the figures of its motor are called and shown in.
     pub const fn vocabulary(&self) -> &'static Vocabulary {
         self.drive.motor.kind.vocabulary()

@@ -26,8 +26,8 @@ fn with_limits(file: &MachineFile, test: impl FnOnce(&Context, &MeterLimits)) {
         let gearbox = drive.gearbox.map_or("", |gearbox| &gearbox.key);
         format!("{}+{gearbox}", drive.motor.key) == DRIVE
     };
-    let (index, drive) = catalogue.drives().find(|(_, d)| named(d)).unwrap();
-    let context = Context::new(&cycle, &file.site, drive, &motors[index]);
+    let (id, drive) = catalogue.drives().find(|(_, d)| named(d)).unwrap();
+    let context = Context::new(&cycle, &file.site, drive, &motors[id.motor()]);
     test(&context, &MeterLimits::new(&context, &file.rules));
 }
 

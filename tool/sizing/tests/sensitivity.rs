@@ -262,10 +262,10 @@ fn one_drive_is_judged_as_in_the_catalogue() {
     let one = One::choose(&study, Some("strong+five"), &Filter::default(), None).unwrap();
     let machine = study.machine(&[]).unwrap();
     let motors = study.catalogue.prepare(&machine.file.site);
-    let (index, drive) = study.drive("strong+five").unwrap();
+    let (id, drive) = study.drive("strong+five").unwrap();
     let duty = Duty::new(&machine.file, machine.file.motion.as_ref().unwrap(), 64).unwrap();
     let cycle = Cycle::new(&duty);
-    let context = Context::new(&cycle, &machine.file.site, drive, &motors[index]);
+    let context = Context::new(&cycle, &machine.file.site, drive, &motors[id.motor()]);
     let (a, b) = (
         one.findings(&machine),
         context.findings(&machine.file.rules),

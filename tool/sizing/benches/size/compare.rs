@@ -42,7 +42,8 @@ fn plain_findings(ready: &Ready, index: usize, drive: Drive, findings: &mut Find
 pub(crate) fn every_drive(ready: &Ready) {
     let mut largest = 0.0f64;
     let mut count = 0;
-    for (index, drive) in ready.catalogue.drives() {
+    for (id, drive) in ready.catalogue.drives() {
+        let index = id.motor();
         let context = Context::new(&ready.cycle, &ready.site, drive, &ready.motors[index]);
         let findings = context.findings(&ready.rules);
         let mut plain = findings;
@@ -84,7 +85,8 @@ pub(crate) fn every_drive(ready: &Ready) {
 pub(crate) fn selection(ready: &Ready, mut selection: Selection) {
     let fit: HashSet<String> = selection.fit.drives().map(|drive| drive.name()).collect();
     let mut count = 0;
-    for (index, drive) in ready.catalogue.drives() {
+    for (id, drive) in ready.catalogue.drives() {
+        let index = id.motor();
         let context = Context::new(&ready.cycle, &ready.site, drive, &ready.motors[index]);
         let fails = context.outcome(&ready.rules).fails();
         let name = drive.name();
@@ -110,7 +112,8 @@ pub(crate) fn selection(ready: &Ready, mut selection: Selection) {
 /// All drives by plain loops: what depends on the samples in one loop for each, all else as ever.
 pub(crate) fn plain(ready: &Ready) {
     let samples = ready.cycle.samples();
-    for (index, drive) in ready.catalogue.drives() {
+    for (id, drive) in ready.catalogue.drives() {
+        let index = id.motor();
         let motor = &ready.motors[index];
         let context = Context::new(&ready.cycle, &ready.site, drive, motor);
         let (mut squares, mut used) = (0.0, 0.0f64);

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use jred_sizing::catalogue::{Catalogue, Drive, Sources};
+use jred_sizing::catalogue::{Catalogue, Drive, DriveId, Sources};
 
 use crate::bench::best;
 use crate::synthetic;
@@ -40,8 +40,8 @@ pub(crate) fn catalogue() -> (Catalogue, String) {
 }
 
 /// So many drives, spread over the whole catalogue; where there are fewer, the catalogue begins anew.
-pub(crate) fn spread_over(catalogue: &Catalogue, wanted: usize) -> Vec<(usize, Drive<'_>)> {
-    let all: Vec<(usize, Drive)> = catalogue.drives().collect();
+pub(crate) fn spread_over(catalogue: &Catalogue, wanted: usize) -> Vec<(DriveId, Drive<'_>)> {
+    let all: Vec<(DriveId, Drive)> = catalogue.drives().collect();
     let step = (all.len() / wanted).max(1);
     all.iter()
         .copied()

@@ -33,7 +33,8 @@ fn run(ready: &Ready) -> io::Result<String> {
     write("weights", &weights)?;
     let mut drives = Vec::new();
     let mut expected = Vec::new();
-    for (index, drive) in ready.catalogue.drives() {
+    for (id, drive) in ready.catalogue.drives() {
+        let index = id.motor();
         let context = Context::new(&ready.cycle, &ready.site, drive, &ready.motors[index]);
         drives.push(index as f64);
         drives.push(context.ratio);

@@ -13,6 +13,38 @@ pub struct Drive<'c> {
     pub amplifier: Option<&'c Amplifier>,
 }
 
+/// Which drive of a catalogue: its motor, gearbox and amplifier by their indices, packed, because a selection keeps one for
+/// every drive. Ids rise in the order of [`Catalogue::drives`](super::Catalogue::drives).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct DriveId(u64);
+
+/// Bits of the index of an amplifier, and of that of a gearbox; the rest are those of the motor.
+const AMPLIFIER: u32 = 16;
+const GEARBOX: u32 = 24;
+
+impl DriveId {
+    /// `amplifier` is its index among those of the motor.
+    pub(super) const fn new(motor: usize, gearbox: Option<usize>, amplifier: usize) -> Self {
+        let gearbox = match gearbox {
+            Some(index) => index as u64 + 1,
+            None => 0,
+        };
+        debug_assert!(gearbox >> GEARBOX == 0 && amplifier >> AMPLIFIER == 0);
+        Self((motor as u64) << (GEARBOX + AMPLIFIER) | gearbox << AMPLIFIER | amplifier as u64)
+    }
+
+    /// Index of the motor.
+    pub const fn motor(self) -> usize {
+        (self.0 >> (GEARBOX + AMPLIFIER)) as usize
+    }
+
+    /// Index of the gearbox; `None`: directly coupled.
+    pub const fn gearbox(self) -> Option<usize> {
+        let gearbox = self.0 >> AMPLIFIER & ((1 << GEARBOX) - 1);
+        (gearbox as usize).checked_sub(1)
+    }
+}
+
 impl Drive<'_> {
     /// Gear ratio between motor and drive train.
     pub fn ratio(&self) -> f64 {

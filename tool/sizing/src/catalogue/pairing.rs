@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::amplifier::Amplifier;
 use super::motor::{Motor, MotorKind};
 use super::{Catalogue, Gearbox};
-use crate::catalogue::Drive;
+use crate::catalogue::{Drive, DriveId};
 
 /// Gearboxes and amplifiers that can be combined with each motor, as indices into the lists of the catalogue.
 ///
@@ -102,7 +102,7 @@ pub struct Drives<'c> {
     /// Remaining gearboxes of the current motor.
     gearboxes: Gearboxes<'c>,
     amplifiers: Vec<&'c Amplifier>,
-    gearbox: Option<&'c Gearbox>,
+    gearbox: Option<(usize, &'c Gearbox)>,
     /// Index of the next amplifier; at the end the next gearbox is due.
     next: usize,
 }
@@ -159,13 +159,24 @@ impl<'c> Drives<'c> {
             Gearboxes::These(rest) => rest.next().map(|index| *index as usize),
         };
         self.next = 0;
-        self.gearbox = index.and_then(|index| catalogue.gearboxes.get(index));
+        self.gearbox = index.and_then(|index| Some((index, catalogue.gearboxes.get(index)?)));
         self.gearbox.is_some()
+    }
+
+    /// The drive with amplifier number `way` of this motor and gearbox.
+    fn drive(&self, (index, motor): (usize, &'c Motor), way: usize) -> (DriveId, Drive<'c>) {
+        let drive = Drive {
+            motor,
+            gearbox: self.gearbox.map(|(_, gearbox)| gearbox),
+            amplifier: self.amplifiers.get(way).copied(),
+        };
+        let gearbox = self.gearbox.map(|(index, _)| index);
+        (DriveId::new(index, gearbox, way), drive)
     }
 }
 
 impl<'c> Iterator for Drives<'c> {
-    type Item = (usize, Drive<'c>);
+    type Item = (DriveId, Drive<'c>);
 
     fn next(&mut self) -> Option<Self::Item> {
         // Without amplifiers, each drive is returned once.
@@ -174,14 +185,9 @@ impl<'c> Iterator for Drives<'c> {
         if done {
             self.advance_motor()?;
         }
-        let (index, motor) = self.motor?;
-        let drive = Drive {
-            motor,
-            gearbox: self.gearbox,
-            amplifier: self.amplifiers.get(self.next).copied(),
-        };
+        let drive = self.drive(self.motor?, self.next);
         self.next += 1;
-        Some((index, drive))
+        Some(drive)
     }
 
     /// The same drives in plain loops, so that values common to all drives of a motor are computed once.
@@ -189,7 +195,7 @@ impl<'c> Iterator for Drives<'c> {
         let mut folded = start;
         // Those of a motor that is begun.
         loop {
-            let Some((index, motor)) = self.motor else {
+            let Some(motor) = self.motor else {
                 if self.advance_motor().is_none() {
                     return folded;
                 }
@@ -198,12 +204,7 @@ impl<'c> Iterator for Drives<'c> {
             loop {
                 let ways = self.amplifiers.len().max(1);
                 for way in self.next..ways {
-                    let drive = Drive {
-                        motor,
-                        gearbox: self.gearbox,
-                        amplifier: self.amplifiers.get(way).copied(),
-                    };
-                    folded = take(folded, (index, drive));
+                    folded = take(folded, self.drive(motor, way));
                 }
                 if !self.advance_gearbox() {
                     break;
@@ -215,7 +216,7 @@ impl<'c> Iterator for Drives<'c> {
 }
 
 impl Catalogue {
-    /// Every drive that can be put together: the index of its motor in the list of motors, and the drive.
+    /// Every drive that can be put together, each with its id.
     pub fn drives(&self) -> Drives<'_> {
         Drives::new(self, 0..self.motors.len())
     }

@@ -18,8 +18,7 @@ pub fn ratio_course(context: &Context, rules: &RuleSet, ratios: &[f64]) -> Vec<(
                 ..context.drive
             };
             let mut findings = Findings::default();
-            Context::new(context.cycle, context.site, drive, context.motor)
-                .measure_directly(rules, &mut findings);
+            context.with(drive).measure_directly(rules, &mut findings);
             findings
         })
         .collect();

@@ -157,7 +157,7 @@ impl Remedies {
                     let gearbox = with_ratio(drive.gearbox, value);
                     let gearbox = Some(&gearbox);
                     let drive = Drive { gearbox, ..drive };
-                    State::of(&Context::new(&cycle, site, drive, motor), rules)
+                    State::of(&context.with(drive), rules)
                 }
                 _ => {
                     let cycle = Cycle::new(&altered.duty(lever.alteration(value)));

@@ -7,12 +7,9 @@
 //!
 //! The verdicts are those of [`Context::outcome`], and so is the order of the first (`tests/cycle/screen.rs`).
 
-use std::ptr;
-
 use super::outcome::Tally;
 use super::{Context, Outcome, electric, gearbox, motor, stiffness, thermal};
-use crate::catalogue::Drive;
-use crate::catalogue::{Gearbox, Motor};
+use crate::catalogue::{Drive, DriveId, Gearbox, Motor};
 use crate::cycle::{Against, Cycle};
 use crate::motor::envelope::Prepared;
 use jred_machine::model::rule::Rule;
@@ -25,7 +22,6 @@ pub(crate) struct Screen<'c> {
     cycle: &'c Cycle,
     site: &'c Site,
     rules: &'c RuleSet,
-    gearboxes: &'c [Gearbox],
     /// Outcome of the gearbox rules for each gearbox, and for none.
     alone: Vec<Outcome>,
     direct: Outcome,
@@ -55,7 +51,6 @@ impl<'c> Screen<'c> {
             cycle,
             site,
             rules,
-            gearboxes,
             alone: gearboxes.iter().map(|g| alone(Some(g))).collect(),
             direct: alone(None),
         }
@@ -64,8 +59,12 @@ impl<'c> Screen<'c> {
     /// Whether a drive fits, and its outcome as far as that took. The verdict is the drive's own; if it fits, so is whether a rule
     /// gives a warning, and whether one could not be checked. No share of a limit is larger than in [`Context::outcome`], nor
     /// are more limits of zero passed.
-    pub(crate) fn judge(&self, drive: Drive<'c>, limits: &'c Prepared) -> Outcome {
-        let mut tally = Tally::new(self.rules, self.of_gearbox(&drive, limits));
+    pub(crate) fn judge(&self, id: DriveId, drive: Drive<'c>, limits: &'c Prepared) -> Outcome {
+        let alone = match id.gearbox() {
+            Some(index) => self.alone[index],
+            None => self.direct,
+        };
+        let mut tally = Tally::new(self.rules, alone);
         let motor = limits.on(drive.amplifier);
         motor::measure_speed(self.cycle, motor, drive.ratio(), &mut tally);
         if tally.outcome.fails() {
@@ -109,23 +108,6 @@ impl<'c> Screen<'c> {
         };
         let envelope = &context.motor.envelope;
         (context.cycle).peak_against(&context.coefficients, context.ratio, envelope, [low, high])
-    }
-
-    /// Outcome of the rules for the gearbox alone.
-    fn of_gearbox(&self, drive: &Drive<'c>, limits: &'c Prepared) -> Outcome {
-        let Some(gearbox) = drive.gearbox else {
-            return self.direct;
-        };
-        // The place in the list of an entry of the list.
-        let offset = (ptr::from_ref(gearbox).addr()).wrapping_sub(self.gearboxes.as_ptr().addr());
-        let place = offset / size_of::<Gearbox>();
-        match self.gearboxes.get(place) {
-            Some(same) if ptr::eq(same, gearbox) => self.alone[place],
-            _ => by_itself(
-                &Context::new(self.cycle, self.site, *drive, limits),
-                self.rules,
-            ),
-        }
     }
 }
 

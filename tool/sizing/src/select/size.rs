@@ -2,8 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::catalogue::Catalogue;
-use crate::catalogue::Drive;
+use crate::catalogue::{Catalogue, Drive, DriveId};
 use crate::cycle::Cycle;
 use crate::judge::Judged;
 use crate::judge::{Context, Outcome, Screen};
@@ -17,7 +16,7 @@ mod order;
 
 pub use group::{FIRST, Group};
 use group::{Placed, Unranked};
-use order::{Order, Place};
+use order::Order;
 
 /// How drives are ranked unless something else was asked for.
 fn by_size(Vocabulary { torque, .. }: &Vocabulary) -> String {
@@ -39,14 +38,14 @@ pub struct Candidate<'c> {
     pub motor: &'c Prepared,
     /// Result.
     pub outcome: Outcome,
-    /// Its place in the catalogue, which is the order of equal drives.
-    place: Place,
+    /// Which one of the catalogue; the order of equal drives.
+    id: DriveId,
 }
 
 impl Candidate<'_> {
     /// Whether both are the same drive of the catalogue.
     pub fn is_same_drive(&self, other: &Candidate) -> bool {
-        self.place == other.place
+        self.id == other.id
     }
 }
 
@@ -91,9 +90,9 @@ impl<'c> Selection<'c> {
         Self::among(all, catalogue, motors, cycle, site, rules)
     }
 
-    /// Judges these drives of the catalogue only, each with the index of its motor, motor by motor.
+    /// Judges these drives of the catalogue only, motor by motor.
     pub fn among(
-        drives: impl Iterator<Item = (usize, Drive<'c>)>,
+        drives: impl Iterator<Item = (DriveId, Drive<'c>)>,
         catalogue: &'c Catalogue,
         motors: &'c [Prepared],
         cycle: &'c Cycle,
@@ -151,13 +150,9 @@ impl<'c> Selection<'c> {
         Screen::new(self.cycle, self.site, self.rules, &catalogue.gearboxes, any)
     }
 
-    fn judge(&mut self, screen: &Screen<'c>, drives: impl Iterator<Item = (usize, Drive<'c>)>) {
-        let (mut before, mut number) = (usize::MAX, 0);
-        drives.for_each(|(index, drive)| {
-            number = if index == before { number + 1 } else { 0 };
-            before = index;
-            let place = Place::new(index, number);
-            let (unranked, outcome) = self.bound(screen, &Placed { drive, place });
+    fn judge(&mut self, screen: &Screen<'c>, drives: impl Iterator<Item = (DriveId, Drive<'c>)>) {
+        drives.for_each(|(id, drive)| {
+            let (unranked, outcome) = self.bound(screen, &Placed { drive, id });
             let group = if outcome.fails() {
                 &mut self.refused
             } else {
@@ -169,9 +164,9 @@ impl<'c> Selection<'c> {
 
     /// A drive with a lower bound on its rank.
     fn bound(&self, screen: &Screen<'c>, drive: &Placed<'c>) -> (Unranked<'c>, Outcome) {
-        let Placed { drive, place } = *drive;
-        let outcome = screen.judge(drive, &self.motors[place.motor()]);
-        let bound = Order::from(&drive, &outcome, place);
+        let Placed { drive, id } = *drive;
+        let outcome = screen.judge(id, drive, &self.motors[id.motor()]);
+        let bound = Order::from(&drive, &outcome, id);
         (Unranked { drive, bound }, outcome)
     }
 
@@ -211,14 +206,13 @@ impl<'c> Selection<'c> {
     }
 
     fn in_full(&self, drive: &Placed<'c>) -> Candidate<'c> {
-        let Placed { drive, place } = *drive;
-        let motor = &self.motors[place.motor()];
-        let context = Context::new(self.cycle, self.site, drive, motor);
+        let Placed { drive, id } = *drive;
+        let motor = &self.motors[id.motor()];
         Candidate {
             drive,
             motor,
-            outcome: context.outcome(self.rules),
-            place,
+            outcome: self.context_of(drive, motor).outcome(self.rules),
+            id,
         }
     }
 
@@ -265,6 +259,10 @@ impl<'c> Selection<'c> {
 
     /// What judging a candidate looks at.
     pub fn context(&self, candidate: &Candidate<'c>) -> Context<'c> {
-        Context::new(self.cycle, self.site, candidate.drive, candidate.motor)
+        self.context_of(candidate.drive, candidate.motor)
+    }
+
+    fn context_of(&self, drive: Drive<'c>, motor: &'c Prepared) -> Context<'c> {
+        Context::new(self.cycle, self.site, drive, motor)
     }
 }

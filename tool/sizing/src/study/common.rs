@@ -4,7 +4,7 @@ use miette::{IntoDiagnostic as _, Report, Result, miette};
 
 use super::edit::{Document, Edit};
 use crate::catalogue::Catalogue;
-use crate::catalogue::Drive;
+use crate::catalogue::{Drive, DriveId};
 use crate::cycle::Cycle;
 use crate::select::fit::fit_input;
 use jred_machine::analysis::duty::Duty;
@@ -96,11 +96,11 @@ impl Study {
     }
 
     /// The drive that a text names, MOTOR+GEARBOX or MOTOR alone, with " on AMPLIFIER" behind where the catalogue has amplifiers (else
-    /// the first that goes with the motor): the index of its motor, and the drive.
+    /// the first that goes with the motor).
     ///
     /// # Errors
     /// A drive that the catalogue does not have.
-    pub fn drive(&self, text: &str) -> Result<(usize, Drive<'_>)> {
+    pub fn drive(&self, text: &str) -> Result<(DriveId, Drive<'_>)> {
         let (rest, amplifier) = match text.split_once(" on ") {
             Some((rest, amplifier)) => (rest, Some(amplifier.trim())),
             None => (text, None),

@@ -36,8 +36,10 @@ fn motors(rows: &[&str]) -> String {
 
 /// Motor, gearbox and amplifier of every drive.
 fn names(catalogue: &Catalogue) -> Vec<String> {
-    let names = catalogue.drives().map(|(index, drive)| {
-        assert_eq!(catalogue.motors[index].key, drive.motor.key);
+    let names = catalogue.drives().map(|(id, drive)| {
+        assert_eq!(catalogue.motors[id.motor()].key, drive.motor.key);
+        let numbered = id.gearbox().map(|index| &catalogue.gearboxes[index].key);
+        assert_eq!(numbered, drive.gearbox.map(|gearbox| &gearbox.key));
         let gearbox = drive.gearbox.map_or("direct", |g| &g.key);
         let amplifier = drive.amplifier.map_or("none", |a| &a.key);
         format!("{} {gearbox} {amplifier}", drive.motor.key)
@@ -127,7 +129,7 @@ m3,,,a*
         let of: Vec<_> = catalogue.drives_of(index..index + 1).collect();
         let all = catalogue.drives().filter(|(_, d)| d.motor.key == motor.key);
         assert_eq!(of.len(), all.count());
-        assert!(of.iter().all(|(i, _)| *i == index));
+        assert!(of.iter().all(|(id, _)| id.motor() == index));
     }
 }
 

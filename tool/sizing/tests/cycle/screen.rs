@@ -27,8 +27,8 @@ fn plainly(
 ) -> [Vec<(String, Outcome)>; 2] {
     let motors = catalogue.prepare(site);
     let mut lists = [Vec::new(), Vec::new()];
-    for (index, drive) in catalogue.drives() {
-        let outcome = Context::new(cycle, site, drive, &motors[index]).outcome(rules);
+    for (id, drive) in catalogue.drives() {
+        let outcome = Context::new(cycle, site, drive, &motors[id.motor()]).outcome(rules);
         lists[usize::from(outcome.verdict == Verdict::Fail)].push((drive, outcome));
     }
     let power = |drive: &Drive| drive.motor.rated_power().unwrap_or(f64::INFINITY);

@@ -188,12 +188,12 @@ fn the_range_in_closed_form_is_that_of_the_catalogue_search() {
                     motor.key
                 );
                 hopeless += usize::from(range.is_none());
-                for (index, drive) in catalogue.drives() {
+                for (id, drive) in catalogue.drives() {
                     if drive.gearbox.is_none() {
                         continue;
                     }
                     let context =
-                        Context::new(&case.cycle, &case.file.site, drive, &prepared[index]);
+                        Context::new(&case.cycle, &case.file.site, drive, &prepared[id.motor()]);
                     let rules = &case.file.rules;
                     let finding = context.findings(rules).get(Rule::RmsTorque).unwrap();
                     let holds = rules.verdict(Rule::RmsTorque, finding) != Verdict::Fail;

@@ -1,8 +1,8 @@
 //! Drives of one kind, suitable or refused, of which the first are sorted.
 
-use super::order::{Order, Place};
+use super::order::Order;
 use super::{Candidate, is_open};
-use crate::catalogue::Drive;
+use crate::catalogue::{Drive, DriveId};
 
 /// Number of suitable and of refused drives that are fully evaluated and sorted; see [`Selection`](super::Selection).
 pub const FIRST: usize = 64;
@@ -23,11 +23,11 @@ pub struct Group<'c> {
     partly_checked: usize,
 }
 
-/// A drive and its place in the catalogue: small, for of a large catalogue nearly all are no more than this.
+/// A drive and its id: small, for of a large catalogue nearly all are no more than this.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placed<'c> {
     pub(super) drive: Drive<'c>,
-    pub(super) place: Place,
+    pub(super) id: DriveId,
 }
 
 /// A drive that is not fully evaluated, and a lower bound on its rank.
@@ -41,7 +41,7 @@ impl<'c> Unranked<'c> {
     pub(super) const fn placed(&self) -> Placed<'c> {
         Placed {
             drive: self.drive,
-            place: self.bound.place,
+            id: self.bound.id,
         }
     }
 }
@@ -125,7 +125,7 @@ impl<'c> Group<'c> {
             let known = self.first.partition_point(|c| Order::of(c) <= limit);
             self.rest.extend(self.first.drain(known..).map(|c| Placed {
                 drive: c.drive,
-                place: c.place,
+                id: c.id,
             }));
         }
         let first = self.first.iter().filter(|c| is_open(&c.outcome));
