@@ -22,3 +22,4 @@ pub mod motor;
 pub mod select;
 pub mod study;
 pub mod thermal;
+mod threads;

@@ -5,9 +5,8 @@
 //! after several of each have fewer phases that differ ([`Common::reach`](super::period::Common)), so that the work does not
 //! grow with the length of the common period.
 
-use rayon::prelude::*;
-
 use super::curve::PowerCurve;
+use crate::threads;
 
 /// Receives the progress of a search.
 pub trait Watch: Sync {
@@ -178,9 +177,9 @@ impl Phases<'_> {
             }
             _ => self.many(grid, &goals, watch, &mut best),
         }
-        best.par_iter_mut()
-            .enumerate()
-            .for_each(|(goal, found)| self.close_in(goal, found, grid, &goals, watch));
+        threads::for_each(&mut best, |goal, found| {
+            self.close_in(goal, found, grid, &goals, watch);
+        });
         best
     }
 
@@ -195,14 +194,11 @@ impl Phases<'_> {
     ) {
         let (count, step) = self.step(1, grid);
         watch.planned(u64::from(count));
-        let values: Vec<[f64; N]> = (0..count)
-            .into_par_iter()
-            .map_init(Room::new, |room, i| {
-                let values = goals(room.sum(first, second, f64::from(i) * step));
-                watch.done(1);
-                values
-            })
-            .collect();
+        let values: Vec<[f64; N]> = threads::map_in(count, Room::new, |room, i| {
+            let values = goals(room.sum(first, second, f64::from(i) * step));
+            watch.done(1);
+            values
+        });
         // In the order of the phases: the result does not depend on how the work was shared out.
         for (i, values) in values.into_iter().enumerate() {
             offer(best, &[0.0, i as f64 * step], values);
@@ -219,24 +215,21 @@ impl Phases<'_> {
     ) {
         let [(rows, row), (columns, column)] = [1, 2].map(|axis| self.step(axis, grid));
         watch.planned(u64::from(rows) * u64::from(columns));
-        let lines: Vec<Option<[Found; N]>> = (0..rows)
-            .into_par_iter()
-            .map_init(Room::new, |room, i| {
-                let phase = f64::from(i) * row;
-                let both = first.plus(&second.shifted(phase));
-                let mut line: Option<[Found; N]> = None;
-                for k in 0..columns {
-                    let phases = [0.0, phase, f64::from(k) * column];
-                    let values = goals(room.sum(&both, third, phases[2]));
-                    match &mut line {
-                        Some(line) => offer(line, &phases, values),
-                        None => line = Some(Found::of(&phases, values)),
-                    }
+        let lines: Vec<Option<[Found; N]>> = threads::map_in(rows, Room::new, |room, i| {
+            let phase = f64::from(i) * row;
+            let both = first.plus(&second.shifted(phase));
+            let mut line: Option<[Found; N]> = None;
+            for k in 0..columns {
+                let phases = [0.0, phase, f64::from(k) * column];
+                let values = goals(room.sum(&both, third, phases[2]));
+                match &mut line {
+                    Some(line) => offer(line, &phases, values),
+                    None => line = Some(Found::of(&phases, values)),
                 }
-                watch.done(u64::from(columns));
-                line
-            })
-            .collect();
+            }
+            watch.done(u64::from(columns));
+            line
+        });
         for line in lines.iter().flatten() {
             best.iter_mut().zip(line).for_each(|(a, b)| a.with(b));
         }
@@ -261,10 +254,8 @@ impl Phases<'_> {
             .chain((0..STARTS).map(spread))
             .collect();
         watch.planned(starts.len() as u64 * self.climbs(N, grid));
-        let ends: Vec<[Found; N]> = starts
-            .into_par_iter()
-            .map(|start| self.climb(&start, grid, goals, watch))
-            .collect();
+        let ends: Vec<[Found; N]> =
+            threads::map(&starts, |start| self.climb(start, grid, goals, watch));
         for end in &ends {
             best.iter_mut().zip(end).for_each(|(a, b)| a.with(b));
         }

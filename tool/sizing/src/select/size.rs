@@ -1,12 +1,11 @@
 //! Sizing: checks and ranks every drive of a catalogue.
 
-use rayon::prelude::*;
-
 use crate::catalogue::{Catalogue, Drive, DriveId};
 use crate::cycle::Cycle;
 use crate::judge::Judged;
 use crate::judge::{Context, Outcome, Screen};
 use crate::motor::envelope::Prepared;
+use crate::threads;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::model::site::Site;
 use jred_machine::units::{Sentence, Vocabulary};
@@ -115,12 +114,12 @@ impl<'c> Selection<'c> {
     ) -> Self {
         let empty = || Self::empty(motors, cycle, site, rules);
         let screen = empty().screen(catalogue);
-        let all = (0..catalogue.motors.len()).into_par_iter();
-        let judged = all.with_min_len(SHARE).fold(empty, |mut part, index| {
+        let judge = |mut part: Self, index| {
             part.judge(&screen, catalogue.drives_of(index..index + 1));
             part
-        });
-        judged.reduce(empty, Self::join).in_order(&screen)
+        };
+        let judged = threads::fold(catalogue.motors.len(), SHARE, empty, judge, Self::join);
+        judged.in_order(&screen)
     }
 
     const fn empty(
@@ -200,8 +199,8 @@ impl<'c> Selection<'c> {
             return group.clone();
         }
         let mut all = group.known().to_vec();
-        all.par_extend(group.rest.par_iter().map(|drive| self.in_full(drive)));
-        all.par_sort_unstable_by_key(Order::of);
+        all.extend(threads::map(&group.rest, |drive| self.in_full(drive)));
+        threads::sort_by_key(&mut all, Order::of);
         Group::of(all)
     }
 

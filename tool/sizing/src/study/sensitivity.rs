@@ -7,13 +7,12 @@
 //! differ by is stated as its uncertainty. A quantity that is zero has no relative change, and some cannot be moved alone
 //! (the moves of a cycle add up to whole turns, teeth are whole): these are named with the reason.
 
-use rayon::prelude::*;
-
 use crate::judge::Findings;
 use crate::judge::broken;
 use crate::study::common::{Study, sentence};
 use crate::study::edit::Edit;
 use crate::study::one::One;
+use crate::threads;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::{Limit, RuleSet};
 
@@ -233,9 +232,8 @@ impl Sensitivity {
         let quantities = study.document.quantities().iter().enumerate();
         let quantities: Vec<_> = quantities.filter(|(_, q)| !apart(&q.path)).collect();
         let left_out = study.document.quantities().len() - quantities.len();
-        let found: Vec<(usize, Result<Dependence, String>)> = quantities
-            .into_par_iter()
-            .map(|(index, quantity)| {
+        let found: Vec<(usize, Result<Dependence, String>)> =
+            threads::map(&quantities, |&(index, quantity)| {
                 let mover = Mover {
                     study,
                     one,
@@ -263,8 +261,7 @@ impl Sensitivity {
                 };
                 progress();
                 (index, dependence)
-            })
-            .collect();
+            });
         let (mut dependences, mut fixed) = (Vec::new(), Vec::new());
         for (index, dependence) in found {
             match dependence {
