@@ -288,12 +288,10 @@ fn table<F: Format>(
     scale: &Scale,
 ) -> Result<(), Error> {
     let set = curves::LOAD;
-    let request = Request {
-        torque_error: share * peak,
-        omega: OMEGA,
-        alpha: ALPHA,
-        max_cells: MOST,
-    };
+    let request = Request::new(share * peak)
+        .with_omega(OMEGA)
+        .with_alpha(ALPHA)
+        .with_max_cells(MOST);
     let mut scratch = vec![0.0; scratch_len(MOST, set)];
     let mut words = vec![F::Word::default(); words_len::<F>(MOST, set)];
     let counted = Counted(machine, Cell::new(0));
@@ -328,12 +326,10 @@ where
 {
     const SET: Set = curves::LOAD | terms::SYMMETRIC;
     const MOST: u32 = 16;
-    let request = Request {
-        torque_error: share * peak,
-        omega: OMEGA,
-        alpha: ALPHA,
-        max_cells: MOST,
-    };
+    let request = Request::new(share * peak)
+        .with_omega(OMEGA)
+        .with_alpha(ALPHA)
+        .with_max_cells(MOST);
     let mut scratch = [0.0; harmonic::scratch_len(MOST)];
     let mut words = vec![T::default(); words_len::<Harmonic<T>>(MOST, SET)];
     let mut run = || harmonic::fit(machine, SET, &request, &mut scratch, &mut words);

@@ -51,12 +51,10 @@ fn main() -> Result<(), Error> {
     let mut words = [0.0f64; words_len::<Harmonic<f64>>(16, SET)];
     let mut single = [0.0f32; words_len::<Harmonic<f64>>(16, SET)];
     for torque_error in [1e-3, 1e-5, 1e-7] {
-        let request = Request {
-            torque_error,
-            omega: 60.0,
-            alpha: 400.0,
-            max_cells: 16,
-        };
+        let request = Request::new(torque_error)
+            .with_omega(60.0)
+            .with_alpha(400.0)
+            .with_max_cells(16);
         let found = fit(&machine, SET, &request, &mut scratch, &mut words)?;
         let what = format!(
             "fit f64 to {torque_error:e} N m: {} harmonics, {} samples",
@@ -67,12 +65,10 @@ fn main() -> Result<(), Error> {
             black_box(found).ok();
         });
     }
-    let request = Request {
-        torque_error: 1e-4,
-        omega: 60.0,
-        alpha: 400.0,
-        max_cells: 16,
-    };
+    let request = Request::new(1e-4)
+        .with_omega(60.0)
+        .with_alpha(400.0)
+        .with_max_cells(16);
     let found = fit(&machine, SET, &request, &mut scratch, &mut single)?;
     let single = single.get(..found.words).unwrap_or_default();
     let what = format!("show J positive, f32, {} harmonics", found.harmonics);

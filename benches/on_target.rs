@@ -152,10 +152,8 @@ mod target {
             ("duty-tick-forgets", Window::Exponential(600.0)),
         ] {
             let points = black_box([[0.0f32, 9.0], [200.0, 9.0], [300.0, 4.0]]);
-            let limits = Limits {
-                peak: Curve::new(&points).ok(),
-                ..Limits::default()
-            };
+            let mut limits = Limits::new();
+            limits.peak = Curve::new(&points).ok();
             let Ok(mut meter) = Meter::new(limits, black_box(1e-3), black_box(window)) else {
                 return Ok(1);
             };

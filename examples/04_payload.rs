@@ -44,12 +44,10 @@ const CELLS: u32 = 40;
 /// Words of such a table of inertia and load.
 const WORDS: usize = words_len::<Spline<f32>>(CELLS, curves::LOAD);
 /// What it was designed for.
-const DESIGN: Request = Request {
-    torque_error: 0.02,
-    omega: 12.0,
-    alpha: 60.0,
-    max_cells: CELLS,
-};
+const DESIGN: Request = Request::new(0.02)
+    .with_omega(12.0)
+    .with_alpha(60.0)
+    .with_max_cells(CELLS);
 
 type Words = [f32; WORDS];
 

@@ -53,15 +53,13 @@ fn run() -> Result<(), Failure> {
     .map_err(|_| "the move is not possible")?;
 
     let curve = |points: &[[f32; 2]]| Curve::new(points).map_err(|_| "the curve is not possible");
-    let limits = Limits {
-        continuous: Some(curve(&CONTINUOUS)?),
-        peak: Some(curve(&PEAK)?),
-        speed: Some(209.0),
-        output_peak: Some(220.0),
-        output_mean: Some(110.0),
-        cycles_per_hour: Some(1000.0),
-        ..Limits::default()
-    };
+    let limits = Limits::new()
+        .with_continuous(curve(&CONTINUOUS)?)
+        .with_peak(curve(&PEAK)?)
+        .with_speed(209.0)
+        .with_output_peak(220.0)
+        .with_output_mean(110.0)
+        .with_cycles_per_hour(1000.0);
     let mut meter =
         Meter::new(limits, STEP, Window::SinceStart).map_err(|_| "the meter is not possible")?;
 

@@ -117,12 +117,9 @@ fn every_tick<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
 }
 
 fn every_meter(window: Window<f32>) {
-    let limits = Limits {
-        continuous: Curve::new(black_box(&[[0.0, 3.0], [300.0, 2.0]])).ok(),
-        peak: Curve::new(black_box(&[[0.0, 9.0], [200.0, 9.0], [300.0, 4.0]])).ok(),
-        speed: Some(black_box(300.0)),
-        ..Limits::default()
-    };
+    let mut limits = Limits::new().with_speed(black_box(300.0));
+    limits.continuous = Curve::new(black_box(&[[0.0, 3.0], [300.0, 2.0]])).ok();
+    limits.peak = Curve::new(black_box(&[[0.0, 9.0], [200.0, 9.0], [300.0, 4.0]])).ok();
     if let Ok(mut meter) = Meter::new(limits, black_box(1e-3), black_box(window)) {
         for _ in 0..black_box(3) {
             meter.tick(black_box(1.0), black_box(100.0), black_box(5.0));

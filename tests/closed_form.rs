@@ -67,13 +67,13 @@ fn central_slider_crank_is_the_lecture_notes_4_1() {
             let reduced = machine.reduction(phi).unwrap();
             assert_near(
                 "J",
-                reduced.inertia[0],
+                reduced.inertia,
                 m * x1 * x1,
                 budget::CLOSED_FORM * m * r * r,
             );
             assert_near(
                 "J'",
-                reduced.inertia[1],
+                reduced.inertia_slope,
                 2.0 * m * x1 * x2,
                 budget::CLOSED_FORM * m * r * r,
             );
@@ -89,7 +89,7 @@ fn long_rod_is_a_scotch_yoke() {
         let machine = slider_only(r, l, m);
         over_a_turn(|phi| {
             let phi = phi + 0.01; // J = 0 in the dead centres
-            machine.reduction(phi).unwrap().inertia[0] - m * (r * phi.sin()).powi(2)
+            machine.reduction(phi).unwrap().inertia - m * (r * phi.sin()).powi(2)
         })
     };
     let [near, far] = [miss(1e2), miss(1e3)];
@@ -122,23 +122,23 @@ fn crank_as_a_disc_off_its_centre_follows_steiner() {
     let steiner = mass * (0.5 * radius * radius + u * u + v * v);
     for phi in [0.0, 0.4, 2.0, 3.9, 6.1] {
         let reduced = machine.reduction(phi).unwrap();
+        assert_near("J", reduced.inertia, steiner, budget::CLOSED_FORM * steiner);
         assert_near(
-            "J",
-            reduced.inertia[0],
-            steiner,
+            "J'",
+            reduced.inertia_slope,
+            0.0,
             budget::CLOSED_FORM * steiner,
         );
-        assert_near("J'", reduced.inertia[1], 0.0, budget::CLOSED_FORM * steiner);
         assert_near(
             "J''",
-            reduced.inertia[2],
+            reduced.inertia_curvature,
             0.0,
             budget::CLOSED_FORM * steiner,
         );
         // A pendulum: U = m·g·(u·sin φ + v·cos φ).
         let height = u * phi.sin() + v * phi.cos();
         let lever = u * phi.cos() - v * phi.sin();
-        let [energy, slope] = reduced.potential_energy;
+        let (energy, slope) = (reduced.potential_energy, reduced.potential_slope);
         assert_near("U", energy, mass * 9.81 * height, budget::CLOSED_FORM);
         assert_near("U'", slope, mass * 9.81 * lever, budget::CLOSED_FORM);
         assert_near(
@@ -269,15 +269,15 @@ proptest! {
         let image = Machine::new(image).with_gravity([-spec.gravity()[0], spec.gravity()[1]]).unwrap();
         let machine = Machine::new(spec.mechanism()).with_gravity(spec.gravity()).unwrap();
         let [a, b] = [machine.reduction(phi).unwrap(), image.reduction(PI - phi).unwrap()];
-        let size = over_a_turn(|phi| machine.reduction(phi).unwrap().inertia[2].abs());
-        let size = size + machine.reduction(phi).unwrap().inertia[0];
+        let size = over_a_turn(|phi| machine.reduction(phi).unwrap().inertia_curvature.abs());
+        let size = size + machine.reduction(phi).unwrap().inertia;
         let rounding = budget::MIRROR;
-        assert_near("J", b.inertia[0], a.inertia[0], rounding * size);
-        assert_near("J'", b.inertia[1], -a.inertia[1], rounding * size);
-        assert_near("J''", b.inertia[2], a.inertia[2], rounding * size);
-        let scale = 1.0 + over_a_turn(|phi| machine.reduction(phi).unwrap().potential_energy[1]);
-        assert_near("U", b.potential_energy[0], a.potential_energy[0], rounding * scale);
-        assert_near("U'", b.potential_energy[1], -a.potential_energy[1], rounding * scale);
+        assert_near("J", b.inertia, a.inertia, rounding * size);
+        assert_near("J'", b.inertia_slope, -a.inertia_slope, rounding * size);
+        assert_near("J''", b.inertia_curvature, a.inertia_curvature, rounding * size);
+        let scale = 1.0 + over_a_turn(|phi| machine.reduction(phi).unwrap().potential_slope);
+        assert_near("U", b.potential_energy, a.potential_energy, rounding * scale);
+        assert_near("U'", b.potential_slope, -a.potential_slope, rounding * scale);
     }
 
     /// f′, f″ and f‴ of every link's frame and points are the derivatives of f, f′ and f″.
@@ -312,12 +312,12 @@ proptest! {
         let machine = spec.machine();
         let of = |phi| machine.reduction(phi).unwrap();
         let here = of(phi);
-        let size = |k: usize| over_a_turn(|phi| of(phi).inertia[k]);
+        let size = |k: usize| over_a_turn(|phi| of(phi).inertias()[k]);
         let budget = budget::RICHARDSON;
-        assert_near("J'", here.inertia[1], derivative(|x| of(x).inertia[0], phi, STEP), budget * size(1));
-        assert_near("J''", here.inertia[2], derivative(|x| of(x).inertia[1], phi, STEP), budget * size(2));
-        let slope = derivative(|x| of(x).potential_energy[0], phi, STEP);
-        assert_near("U'", here.potential_energy[1], slope, budget * over_a_turn(|x| of(x).potential_energy[1]));
+        assert_near("J'", here.inertia_slope, derivative(|x| of(x).inertia, phi, STEP), budget * size(1));
+        assert_near("J''", here.inertia_curvature, derivative(|x| of(x).inertia_slope, phi, STEP), budget * size(2));
+        let slope = derivative(|x| of(x).potential_energy, phi, STEP);
+        assert_near("U'", here.potential_slope, slope, budget * over_a_turn(|x| of(x).potential_slope));
     }
 
     /// Loads by their power: force times the velocity of its point, found by differences of positions.

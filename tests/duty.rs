@@ -19,31 +19,30 @@ fn readings(k: u32) -> [f64; 3] {
 }
 
 fn limits() -> Limits<f64> {
-    Limits {
-        continuous: Some(Curve::new(&[[0.0, 8.0], [100.0, 6.0], [200.0, 3.0]]).unwrap()),
-        peak: Some(Curve::new(&[[50.0, 20.0], [120.0, 12.0], [140.0, 4.0]]).unwrap()),
-        speed: Some(129.0),
-        mean_speed: Some(70.0),
-        output_peak: Some(48.1),
-        output_mean: Some(40.0),
-        regenerative_power: Some(150.0),
-        cycles_per_hour: Some(400.0),
-    }
+    Limits::new()
+        .with_continuous(Curve::new(&[[0.0, 8.0], [100.0, 6.0], [200.0, 3.0]]).unwrap())
+        .with_peak(Curve::new(&[[50.0, 20.0], [120.0, 12.0], [140.0, 4.0]]).unwrap())
+        .with_speed(129.0)
+        .with_mean_speed(70.0)
+        .with_output_peak(48.1)
+        .with_output_mean(40.0)
+        .with_regenerative_power(150.0)
+        .with_cycles_per_hour(400.0)
 }
 
 fn single(limits: &Limits<f64>) -> Limits<f32> {
     let curve = |points: &[[f32; 2]]| Some(Curve::new(points).unwrap());
     let number = |limit: Option<f64>| limit.map(|x| x as f32);
-    Limits {
-        continuous: curve(&[[0.0, 8.0], [100.0, 6.0], [200.0, 3.0]]),
-        peak: curve(&[[50.0, 20.0], [120.0, 12.0], [140.0, 4.0]]),
-        speed: number(limits.speed),
-        mean_speed: number(limits.mean_speed),
-        output_peak: number(limits.output_peak),
-        output_mean: number(limits.output_mean),
-        regenerative_power: number(limits.regenerative_power),
-        cycles_per_hour: number(limits.cycles_per_hour),
-    }
+    let mut single = Limits::new();
+    single.continuous = curve(&[[0.0, 8.0], [100.0, 6.0], [200.0, 3.0]]);
+    single.peak = curve(&[[50.0, 20.0], [120.0, 12.0], [140.0, 4.0]]);
+    single.speed = number(limits.speed);
+    single.mean_speed = number(limits.mean_speed);
+    single.output_peak = number(limits.output_peak);
+    single.output_mean = number(limits.output_mean);
+    single.regenerative_power = number(limits.regenerative_power);
+    single.cycles_per_hour = number(limits.cycles_per_hour);
+    single
 }
 
 #[track_caller]

@@ -26,7 +26,7 @@ proptest! {
             let terms = reduced.torque(omega, alpha);
             let size = largest(terms.values());
             let back = reduced.acceleration(omega, terms.total());
-            let rounding = budget::TICK_ROUNDINGS * f64::EPSILON * size / reduced.inertia[0];
+            let rounding = budget::TICK_ROUNDINGS * f64::EPSILON * size / reduced.inertia;
             assert_near("alpha", back, alpha, rounding);
             let sign = if omega == 0.0 { 0.0 } else { omega.signum() };
             assert_near("coulomb", terms.coulomb, reduced.coulomb * sign, 0.0);
@@ -45,14 +45,14 @@ proptest! {
         let omega = |t: f64| w + a * nu * (nu * t).cos();
         let energy = |t: f64| {
             let reduced = machine.reduction(phi(t)).unwrap();
-            0.5 * reduced.inertia[0] * omega(t).powi(2) + reduced.potential_energy[0]
+            0.5 * reduced.inertia * omega(t).powi(2) + reduced.potential_energy
         };
         let reduced = machine.reduction(phi(t)).unwrap();
         let (omega, alpha) = (omega(t), -a * nu * nu * (nu * t).sin());
         let terms = reduced.torque(omega, alpha);
         let lost = reduced.viscous * omega * omega + reduced.coulomb * omega.abs();
         let expected = derivative(energy, t, 1e-3) - reduced.process * omega + lost;
-        let size = largest(terms.values()) * (w.abs() + a * nu) + largest(reduced.inertia) * (w.abs() + a * nu).powi(3);
+        let size = largest(terms.values()) * (w.abs() + a * nu) + largest(reduced.inertias()) * (w.abs() + a * nu).powi(3);
         assert_near("power", terms.total() * omega, expected, budget::POWER * size);
         assert!(lost >= 0.0);
     }
@@ -216,21 +216,16 @@ impl Reducible for AtTheSlider {
     fn reduction(&self, place: f64) -> Result<Reduction, jred::machine::PoseError> {
         let phi = self.phi(place);
         let (x, by_phi) = (self.slider(phi), self.machine.reduction(phi)?);
-        let [j, j1, _] = by_phi.inertia;
-        Ok(Reduction {
-            inertia: [
-                j / (x.d1 * x.d1),
-                (j1 - 2.0 * j * x.d2 / x.d1) / x.d1.powi(3),
-                f64::NAN,
-            ],
-            potential_energy: [
-                by_phi.potential_energy[0],
-                by_phi.potential_energy[1] / x.d1,
-            ],
-            process: by_phi.process / x.d1,
-            viscous: by_phi.viscous / (x.d1 * x.d1),
-            coulomb: by_phi.coulomb / x.d1.abs(),
-        })
+        let [j, j1, _] = by_phi.inertias();
+        Ok(Reduction::new([
+            j / (x.d1 * x.d1),
+            (j1 - 2.0 * j * x.d2 / x.d1) / x.d1.powi(3),
+            f64::NAN,
+        ])
+        .with_potential_energy([by_phi.potential_energy, by_phi.potential_slope / x.d1])
+        .with_process(by_phi.process / x.d1)
+        .with_viscous(by_phi.viscous / (x.d1 * x.d1))
+        .with_coulomb(by_phi.coulomb / x.d1.abs()))
     }
 }
 

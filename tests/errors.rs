@@ -370,12 +370,10 @@ fn tables_that_cannot_be_made_say_why() {
         fill::<Spline<f32>>(&wave, 0, 16, &Scale::SI, &mut [0.0; 38], &mut rows[..18]),
         &["holds 18", "19"],
     );
-    let request = Request {
-        torque_error: 1e-9,
-        omega: 10.0,
-        alpha: 10.0,
-        max_cells: 16,
-    };
+    let request = Request::new(1e-9)
+        .with_omega(10.0)
+        .with_alpha(10.0)
+        .with_max_cells(16);
     let parts = ["1e-9", "16 cells reach", "allow a larger error"];
     let error = says(
         tabulate::<Spline<f32>>(&wave, 0, &request, &Scale::SI, &mut [0.0; 38], &mut rows),
@@ -386,12 +384,10 @@ fn tables_that_cannot_be_made_say_why() {
     };
     assert!(reached > 1e-9 && reached < 1.0);
     for [torque_error, omega, alpha] in [[0.0, 1.0, 1.0], [1.0, -1.0, 1.0], [1.0, 1.0, 0.0]] {
-        let bad = Request {
-            torque_error,
-            omega,
-            alpha,
-            max_cells: 16,
-        };
+        let bad = Request::new(torque_error)
+            .with_omega(omega)
+            .with_alpha(alpha)
+            .with_max_cells(16);
         let refused =
             tabulate::<Spline<f32>>(&wave, 0, &bad, &Scale::SI, &mut [0.0; 38], &mut rows);
         says(refused, &["greater than zero"]);
@@ -482,5 +478,5 @@ fn loads_are_judged_where_they_do_not_act() {
         &["ends of a spring or damper meet at φ = 17.19°", "aside"],
     );
     says(machine.forces(0.3, 1.0, 0.0), &["meet"]);
-    assert!(machine.reduction(0.4).unwrap().potential_energy[1].is_finite());
+    assert!(machine.reduction(0.4).unwrap().potential_slope.is_finite());
 }

@@ -35,12 +35,10 @@ fn ticks_keep_the_stated_error<F: Format>(seed: u64, rounding: f64) {
         let (top_speed, top) = (40.0, 600.0);
         let scale = Scale::covering(&machine, top_speed, top, 256).unwrap();
         let base = f64::from(scale.torque());
-        let request = Request {
-            torque_error: 2e-4 * base,
-            omega: top_speed,
-            alpha: top,
-            max_cells: 512,
-        };
+        let request = Request::new(2e-4 * base)
+            .with_omega(top_speed)
+            .with_alpha(top)
+            .with_max_cells(512);
         let (found, rows) = table_of::<F>(&machine, &request, &scale);
         let scale = found.scale;
         let base = f64::from(scale.torque());
@@ -74,7 +72,7 @@ fn ticks_keep_the_stated_error<F: Format>(seed: u64, rounding: f64) {
                 "acceleration",
                 back,
                 expected,
-                budget::DENSE_GRID * allowed * base / exact.inertia[0],
+                budget::DENSE_GRID * allowed * base / exact.inertia,
             );
             let share = error * base / found.torque_error;
             worst = largest([worst, share]);
@@ -128,8 +126,8 @@ fn dense<F: Format>(
             table.at(machine.domain().phase(phi)),
         );
         let slope = read.inertia_slope * j;
-        (j * read.inertia - exact.inertia[0]).abs() * request.alpha
-            + (slope - exact.inertia[1]).abs() * request.omega.powi(2) / 2.0
+        (j * read.inertia - exact.inertia).abs() * request.alpha
+            + (slope - exact.inertia_slope).abs() * request.omega.powi(2) / 2.0
             + (t * read.load - exact.load_torque()).abs()
             + (t / w * read.viscous - exact.viscous).abs() * request.omega
             + (t * read.coulomb - exact.coulomb).abs()
@@ -142,12 +140,10 @@ fn finds_the_smallest<F: Format>() {
         let machine = spec.machine();
         let scale = Scale::covering(&machine, 40.0, 600.0, 256).unwrap();
         let torque_error = f64::from(scale.torque()) * [0.2, 1e-2, 1e-3, 2e-4][k % 4];
-        let request = Request {
-            torque_error,
-            omega: 40.0,
-            alpha: 600.0,
-            max_cells: 400,
-        };
+        let request = Request::new(torque_error)
+            .with_omega(40.0)
+            .with_alpha(600.0)
+            .with_max_cells(400);
         let (found, rows) = table_of::<F>(&machine, &request, &scale);
         let table = rows.table();
         assert!(found.torque_error <= torque_error);
@@ -203,12 +199,10 @@ fn tabulate_finds_the_smallest_table_that_holds_everywhere() {
     finds_the_smallest::<Cubic<Q31>>();
     finds_the_smallest::<Quadratic<f32>>();
     // Four cells are tried, too.
-    let request = Request {
-        torque_error: 1.0,
-        omega: 10.0,
-        alpha: 10.0,
-        max_cells: 64,
-    };
+    let request = Request::new(1.0)
+        .with_omega(10.0)
+        .with_alpha(10.0)
+        .with_max_cells(64);
     let machine = Wave::bare(1.0, 0.001);
     let cells = table_of::<Spline<f64>>(&machine, &request, &Scale::SI)
         .0

@@ -209,7 +209,7 @@ proptest! {
             ..spec.clone()
         };
         let [here, there] = [(&spec, phi), (&mirrored, -phi)].map(|(spec, phi): (&Spec, f64)| {
-            Machine::new(spec.mechanism()).reduction(phi).unwrap().inertia
+            Machine::new(spec.mechanism()).reduction(phi).unwrap().inertias()
         });
         let size = largest(here);
         assert_near("J", there[0], here[0], budget::MIRROR * size);

@@ -65,17 +65,17 @@ fn four_bar_golden() {
     let reduced = |phi| machine.reduction(phi).unwrap();
     table.compare(
         "J",
-        &at(&|phi| reduced(phi).inertia[0]),
+        &at(&|phi| reduced(phi).inertia),
         budget::GOLDEN_REDUCTION,
     );
     table.compare(
         "dJ",
-        &at(&|phi| reduced(phi).inertia[1]),
+        &at(&|phi| reduced(phi).inertia_slope),
         budget::GOLDEN_REDUCTION,
     );
     table.compare(
         "d2J",
-        &at(&|phi| reduced(phi).inertia[2]),
+        &at(&|phi| reduced(phi).inertia_curvature),
         budget::GOLDEN_REDUCTION,
     );
     table.compare(

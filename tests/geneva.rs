@@ -146,7 +146,7 @@ fn inertia_is_continuous_and_its_slope_too() {
     let half = geneva.engagement() / 2.0;
     let speed = geneva.largest_speed();
     let machine = Machine::new(geneva);
-    let at = |phi| machine.reduction(phi).unwrap().inertia;
+    let at = |phi| machine.reduction(phi).unwrap().inertias();
     assert_near(
         "J at φ = 0",
         at(0.0)[0],
@@ -255,8 +255,8 @@ proptest! {
     fn reduction_repeats_with_every_turn(machine in machines(), phi in -3.2..3.2_f64, turns in 1..40_i32) {
         let now = machine.reduction(phi).unwrap();
         let later = machine.reduction(phi + TAU * f64::from(turns)).unwrap();
-        let scale = largest(now.inertia);
-        for (a, b) in now.inertia.into_iter().zip(later.inertia) {
+        let scale = largest(now.inertias());
+        for (a, b) in now.inertias().into_iter().zip(later.inertias()) {
             // φ is known to 2⁻⁵³ of forty turns; next to the edge, J″ has its step.
             let edge = (phi.abs() - machine.mechanism().engagement() / 2.0).abs() < 1e-9;
             prop_assert!(edge || (a - b).abs() <= budget::A_TURN_LATER * scale, "{a} {b}");

@@ -23,9 +23,13 @@ fn slider_crank_golden() {
     table.compare("th", &at(&|phi| rod(phi).value), budget::GOLDEN);
     table.compare("dth", &at(&|phi| rod(phi).d1), budget::GOLDEN);
     table.compare("d2th", &at(&|phi| rod(phi).d2), budget::GOLDEN);
-    table.compare("J", &at(&|phi| reduced(phi).inertia[0]), budget::GOLDEN);
-    table.compare("dJ", &at(&|phi| reduced(phi).inertia[1]), budget::GOLDEN);
-    table.compare("d2J", &at(&|phi| reduced(phi).inertia[2]), budget::GOLDEN);
+    table.compare("J", &at(&|phi| reduced(phi).inertia), budget::GOLDEN);
+    table.compare("dJ", &at(&|phi| reduced(phi).inertia_slope), budget::GOLDEN);
+    table.compare(
+        "d2J",
+        &at(&|phi| reduced(phi).inertia_curvature),
+        budget::GOLDEN,
+    );
     table.compare("Q", &at(&|phi| reduced(phi).load_torque()), budget::GOLDEN);
 }
 
@@ -112,20 +116,20 @@ fn start_from_rest_golden_states() {
         &at(&|phi, w| slider(phi).velocity(w)),
         budget::GOLDEN,
     );
-    table.compare("J", &at(&|phi, _| reduced(phi).inertia[0]), budget::GOLDEN);
+    table.compare("J", &at(&|phi, _| reduced(phi).inertia), budget::GOLDEN);
     table.compare(
         "alpha",
         &at(&|phi, w| reduced(phi).acceleration(w, drive)),
         budget::GOLDEN,
     );
-    let kinetic = |phi, w: f64| 0.5 * reduced(phi).inertia[0] * w * w;
+    let kinetic = |phi, w: f64| 0.5 * reduced(phi).inertia * w * w;
     table.compare("kinetic_energy", &at(&kinetic), budget::GOLDEN);
     // Work and energy: drive and load torque by the angle, the slider's force by its way, weight by U.
     let (start, torque) = (case.input("/phi0"), drive + case.input("/M_crank"));
     let force = case.input("/F_slider/F/0");
     let work = |phi: f64, _| {
         torque * (phi - start) + force * (slider(phi).value - slider(start).value)
-            - (reduced(phi).potential_energy[0] - reduced(start).potential_energy[0])
+            - (reduced(phi).potential_energy - reduced(start).potential_energy)
     };
     table.compare("kinetic_energy", &at(&work), budget::GOLDEN);
 }
@@ -171,9 +175,9 @@ fn gear_train_golden() {
         .unwrap();
     for phi in [0.0, 1.0, 5.0] {
         let reduced = machine.reduction(phi).unwrap();
-        compare(&case, "J", reduced.inertia[0]);
-        compare_exact(&case, "J", reduced.inertia[0]);
-        assert_near("dJ", reduced.inertia[1], 0.0, 0.0);
+        compare(&case, "J", reduced.inertia);
+        compare_exact(&case, "J", reduced.inertia);
+        assert_near("dJ", reduced.inertia_slope, 0.0, 0.0);
         compare(&case, "T_red", reduced.reduced_torque(0.0));
         let eps = reduced.acceleration(0.0, 0.0);
         compare(&case, "eps_1", eps);
@@ -185,7 +189,7 @@ fn gear_train_golden() {
         compare(
             &case,
             "kinetic_energy(t)",
-            0.5 * reduced.inertia[0] * (eps * t) * (eps * t),
+            0.5 * reduced.inertia * (eps * t) * (eps * t),
         );
         let frames = train.frames(phi).unwrap();
         compare(&case, "omega_4(t)", frames[2].psi.velocity(eps * t));
@@ -203,7 +207,7 @@ fn gear_train_golden() {
         assert_near(
             "dT/dα",
             input.torque_per_alpha,
-            reduced.inertia[0] * train.ratio(),
+            reduced.inertia * train.ratio(),
             budget::GOLDEN,
         );
         assert_near("loss", input.loss, 0.0, 0.0);
@@ -224,10 +228,10 @@ fn belt_drive_golden() {
         .and_then(|m| m.with_load(Load::new(1, Action::Moment(-case.input("/T2")))?))
         .unwrap();
     let reduced = machine.reduction(0.7).unwrap();
-    compare(&case, "J", reduced.inertia[0]);
-    compare_exact(&case, "J", reduced.inertia[0]);
+    compare(&case, "J", reduced.inertia);
+    compare_exact(&case, "J", reduced.inertia);
     compare(&case, "J", train.inertia_at_input());
-    compare(&case, "m_red_belt_speed", reduced.inertia[0] / (r1 * r1));
+    compare(&case, "m_red_belt_speed", reduced.inertia / (r1 * r1));
     compare(&case, "T_red", reduced.reduced_torque(3.0));
     let eps = reduced.acceleration(0.0, 0.0);
     compare(&case, "eps_1", eps);

@@ -11,7 +11,6 @@ use crate::support::{assert_near, budget, config};
 use jred::harmonic::{HarmonicError, measure, terms};
 use jred::machine::{Action, Load};
 use jred::mechanism::SliderCrank;
-use jred::tabulate::Request;
 use jred::{Domain, Error, Phase, Reducible, Reduction, Set, curves};
 use proptest::prelude::*;
 
@@ -47,7 +46,7 @@ proptest! {
         prop_assert!(dense >= found.bound * budget::HARMONIC_BOUND_SLACK, "{dense:e} {found:?}");
         // One harmonic less misses.
         if found.harmonics > 0 {
-            let fewer = Request { max_cells: found.harmonics - 1, ..request };
+            let fewer = request.with_max_cells(found.harmonics - 1);
             let missed = fitted::<f64, { curves::LOAD | terms::GENERAL }>(&machine, &fewer);
             prop_assert!(matches!(missed, Err(Error::Harmonic(HarmonicError::NotConverged { .. }))), "{missed:?}");
         }
@@ -63,8 +62,8 @@ proptest! {
         let phase = Phase::from_bits(bits);
         let (read, exact) = (model.table().at(phase), machine.reduction(phase.radians()).unwrap());
         let torque = peak(&machine);
-        assert_near("J", read.inertia, exact.inertia[0], budget::HARMONIC_CURVE * torque / ALPHA);
-        assert_near("J'", read.inertia_slope, exact.inertia[1], budget::HARMONIC_CURVE * 2.0 * torque / (OMEGA * OMEGA));
+        assert_near("J", read.inertia, exact.inertia, budget::HARMONIC_CURVE * torque / ALPHA);
+        assert_near("J'", read.inertia_slope, exact.inertia_slope, budget::HARMONIC_CURVE * 2.0 * torque / (OMEGA * OMEGA));
         assert_near("load", read.load, exact.load_torque(), budget::HARMONIC_CURVE * torque);
     }
 }
@@ -205,11 +204,7 @@ impl Reducible for SlowFall {
         Domain::Turn
     }
     fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
-        Ok(Reduction {
-            inertia: [1.0, 0.0, 0.0],
-            process: (phi - self.from).sin().abs().powi(3),
-            ..Reduction::default()
-        })
+        Ok(Reduction::new([1.0, 0.0, 0.0]).with_process((phi - self.from).sin().abs().powi(3)))
     }
 }
 

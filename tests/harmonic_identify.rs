@@ -49,12 +49,10 @@ fn press() -> Machine<SliderCrank> {
 
 /// Its harmonics, with b = 0.2 N·m·s/rad and c = 3 N·m.
 fn truth() -> [f64; WORDS] {
-    let request = Request {
-        torque_error: 1e-6,
-        omega: 15.0,
-        alpha: 200.0,
-        max_cells: 10,
-    };
+    let request = Request::new(1e-6)
+        .with_omega(15.0)
+        .with_alpha(200.0)
+        .with_max_cells(10);
     let mut scratch = vec![0.0; scratch_len(10)];
     let mut words = [0.0; WORDS];
     let found = fit(&press(), SET | TERMS, &request, &mut scratch, &mut words).unwrap();
@@ -142,7 +140,7 @@ fn a_press_is_identified_from_its_motion() {
         machine
             .reduction(TAU * f64::from(k) / 360.0)
             .unwrap()
-            .inertia[0]
+            .inertia
     }));
     for k in 0..360 {
         let phi = TAU * f64::from(k) / 360.0;
@@ -151,7 +149,7 @@ fn a_press_is_identified_from_its_motion() {
         assert_near(
             "J",
             read.inertia,
-            exact.inertia[0],
+            exact.inertia,
             budget::IDENTIFIED_INERTIA * size,
         );
     }

@@ -11,7 +11,6 @@ use jred::harmonic::{HarmonicError, fit, scratch_len, terms};
 use jred::machine::{Action, Load, Window};
 use jred::mechanism::SliderCrank;
 use jred::table::Shape;
-use jred::tabulate::Request;
 use jred::{Domain, Error, Harmonic, Phase, Set, Table, TableError, curves};
 
 #[test]
@@ -86,27 +85,9 @@ fn bad_requests_are_named() {
     assert!(error.cure().to_string().contains("use a table"));
     assert_eq!(terms_of(&stroke, curves::ALL).unwrap_err(), error);
     for (bad, what) in [
-        (
-            Request {
-                torque_error: 0.0,
-                ..request(1.0, 8)
-            },
-            "torque error",
-        ),
-        (
-            Request {
-                omega: -1.0,
-                ..request(1.0, 8)
-            },
-            "largest speed",
-        ),
-        (
-            Request {
-                alpha: 0.0,
-                ..request(1.0, 8)
-            },
-            "largest acceleration",
-        ),
+        (request(1.0, 8).with_torque_error(0.0), "torque error"),
+        (request(1.0, 8).with_omega(-1.0), "largest speed"),
+        (request(1.0, 8).with_alpha(0.0), "largest acceleration"),
     ] {
         let error = fitted::<f64, { terms::INERTIA_COS }>(&machine, &bad).unwrap_err();
         assert!(
@@ -114,10 +95,7 @@ fn bad_requests_are_named() {
             "{error:?}"
         );
     }
-    let nan = Request {
-        alpha: f64::NAN,
-        ..request(1.0, 8)
-    };
+    let nan = request(1.0, 8).with_alpha(f64::NAN);
     assert_eq!(
         fitted::<f64, { terms::INERTIA_COS }>(&machine, &nan).unwrap_err(),
         Error::Range(RangeError::NotFinite("largest acceleration"))

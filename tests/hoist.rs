@@ -55,19 +55,14 @@ fn hoist_textbook() {
             size,
         );
         let one = plain.reduction(phi).unwrap();
-        assert_near("J", one.inertia[0], 1.5 + load * 0.01, size);
-        assert_near("U", one.potential_energy[0], load * G * 0.1 * phi, size);
-        assert_near("U'", one.potential_energy[1], load * G * 0.1, size);
+        assert_near("J", one.inertia, 1.5 + load * 0.01, size);
+        assert_near("U", one.potential_energy, load * G * 0.1 * phi, size);
+        assert_near("U'", one.potential_slope, load * G * 0.1, size);
         let two = balanced.reduction(phi).unwrap();
-        assert_near(
-            "J",
-            two.inertia[0],
-            1.5 + load * 0.01 + counter * 0.09,
-            size,
-        );
+        assert_near("J", two.inertia, 1.5 + load * 0.01 + counter * 0.09, size);
         assert_near(
             "U'",
-            two.potential_energy[1],
+            two.potential_slope,
             G * (load * 0.1 - counter * 0.3),
             size,
         );
@@ -111,7 +106,7 @@ fn equal_loads_need_no_holding_torque() {
     let reduced = elevator.reduction(3.0).unwrap();
     assert_near(
         "U'",
-        reduced.potential_energy[1],
+        reduced.potential_slope,
         0.0,
         budget::CLOSED_FORM * 1e3,
     );
@@ -160,17 +155,17 @@ proptest! {
     fn what_is_reduced_repeats(machine in machines(), phi in -60.0..60.0_f64) {
         // All that the reduced equation needs repeats, though the load does not come back.
         let (now, later) = (machine.reduction(phi).unwrap(), machine.reduction(phi + TAU).unwrap());
-        prop_assert!((now.inertia[0] - later.inertia[0]).abs() <= budget::A_TURN_LATER * now.inertia[0]);
+        prop_assert!((now.inertia - later.inertia).abs() <= budget::A_TURN_LATER * now.inertia);
         prop_assert!((now.load_torque() - later.load_torque()).abs() <= budget::A_TURN_LATER);
         // U is U′ integrated, over any number of turns.
         let drum = machine.mechanism().links()[0];
-        let far = machine.reduction(phi + 40.0 * TAU).unwrap().potential_energy[0];
+        let far = machine.reduction(phi + 40.0 * TAU).unwrap().potential_energy;
         let mean: f64 = machine.mechanism().links()[1..]
             .iter()
             .zip(machine.mechanism().frames(phi).unwrap().iter().skip(1))
             .map(|(link, frame)| link.potential_energy(frame, machine.gravity())[1])
             .sum();
-        let expected = now.potential_energy[0] + 40.0 * TAU * mean;
+        let expected = now.potential_energy + 40.0 * TAU * mean;
         prop_assert!((far - expected).abs() <= budget::A_TURN_LATER * (1e3 + expected.abs() + drum.mass()));
     }
 }

@@ -53,17 +53,13 @@ fn known_crc_and_layout() {
     );
     let scale = Scale::new(60.0, 11.0, 2.0).unwrap();
     assert_eq!(*read.scale(), scale.for_cells(12, 2.0));
-    let found = Tabulated {
-        cells: 12,
-        torque_error: 0.01,
-        ..Tabulated::default()
-    };
-    let request = Request {
-        torque_error: 0.02,
-        omega: 10.0,
-        alpha: 100.0,
-        max_cells: 64,
-    };
+    let mut found = Tabulated::default();
+    found.cells = 12;
+    found.torque_error = 0.01;
+    let request = Request::new(0.02)
+        .with_omega(10.0)
+        .with_alpha(100.0)
+        .with_max_cells(64);
     assert_eq!(found.validity(&request), VALIDITY);
 }
 

@@ -25,13 +25,12 @@ impl Reducible for Smooth {
     fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
         let (sin, cos) = phi.sin_cos();
         let inertia = 0.2 * sin.exp();
-        Ok(Reduction {
-            inertia: [inertia, cos * inertia, (cos * cos - sin) * inertia],
-            potential_energy: [0.0, 0.0],
-            process: 0.1 * (cos.exp() - 1.0),
-            viscous: 0.02 * (2.0 + (2.0 * phi).sin()),
-            coulomb: 0.03 * (2.0 + (3.0 * phi).cos()),
-        })
+        Ok(
+            Reduction::new([inertia, cos * inertia, (cos * cos - sin) * inertia])
+                .with_process(0.1 * (cos.exp() - 1.0))
+                .with_viscous(0.02 * (2.0 + (2.0 * phi).sin()))
+                .with_coulomb(0.03 * (2.0 + (3.0 * phi).cos())),
+        )
     }
 }
 
@@ -51,12 +50,12 @@ fn errors<F: Format>(domain: Domain, cells: u32, scale: &Scale) -> [f64; 2] {
         let [torque, speed, inertia] =
             [scale.torque(), scale.speed(), scale.inertia()].map(f64::from);
         let values = [
-            read.inertia - exact.inertia[0] / inertia,
+            read.inertia - exact.inertia / inertia,
             read.load - exact.load_torque() / torque,
             read.viscous - exact.viscous * speed / torque,
             read.coulomb - exact.coulomb / torque,
         ];
-        let slope = read.inertia_slope - exact.inertia[1] / inertia;
+        let slope = read.inertia_slope - exact.inertia_slope / inertia;
         found[0] = largest(values).max(found[0]);
         found[1] = largest([slope * domain.span() / f64::from(cells)]).max(found[1]);
     }

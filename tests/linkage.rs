@@ -71,7 +71,7 @@ fn four_bar_golden_as_a_linkage() {
     for (order, name) in ["J", "dJ", "d2J"].iter().enumerate() {
         table.compare(
             name,
-            &at(&|phi| reduced(phi).inertia[order]),
+            &at(&|phi| reduced(phi).inertias()[order]),
             budget::LINKAGE,
         );
     }
@@ -180,7 +180,7 @@ fn gears_a_rack_and_a_belt_roll_without_slip() {
             .unwrap();
         jointed::dalembert(&machine, phi, 3.0, -20.0);
         let expected = 0.01 + (0.01 + 2.0 * r1 * r1 + 0.01 * (r1 / r3).powi(2)) * i * i;
-        close("J", machine.reduction(phi).unwrap().inertia[0], expected);
+        close("J", machine.reduction(phi).unwrap().inertia, expected);
         // The teeth push gear 1 with what its rack, its pulley and itself need.
         let forces = machine.forces(phi, 0.0, 100.0).unwrap();
         let tooth = forces.reactions[4].force;
@@ -292,11 +292,11 @@ fn a_guide_can_be_driven() {
         let reduced = Machine::new(pushed.clone())
             .reduction(at(phi))
             .unwrap()
-            .inertia[0];
+            .inertia;
         let heavy = Machine::new(crank_driven.clone())
             .reduction(phi)
             .unwrap()
-            .inertia[0];
+            .inertia;
         crate::support::assert_near(
             "m_red = J/x′²",
             reduced * x.d1 * x.d1,

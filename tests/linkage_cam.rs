@@ -420,5 +420,5 @@ fn refused() {
     assert!(spoken(small).contains("base radius"), "{small}");
     // The whole is a machine like any other.
     let machine = Machine::new(assembled(&cam, place, 0.0));
-    assert!(machine.reduction(1.0).unwrap().inertia[0] > 0.0);
+    assert!(machine.reduction(1.0).unwrap().inertia > 0.0);
 }

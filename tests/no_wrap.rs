@@ -111,19 +111,13 @@ fn a_search_without_a_limit_ends() {
             Domain::Turn
         }
         fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
-            Ok(Reduction {
-                inertia: [1.0, 0.0, 0.0],
-                process: (37.0 * phi).sin(),
-                ..Reduction::default()
-            })
+            Ok(Reduction::new([1.0, 0.0, 0.0]).with_process((37.0 * phi).sin()))
         }
     }
-    let request = Request {
-        torque_error: 1e-14,
-        omega: 1.0,
-        alpha: 1.0,
-        max_cells: u32::MAX,
-    };
+    let request = Request::new(1e-14)
+        .with_omega(1.0)
+        .with_alpha(1.0)
+        .with_max_cells(u32::MAX);
     let (mut scratch, mut words) = (vec![0.0; 3000], vec![0.0f32; 3000]);
     let set = curves::LOAD;
     let found =

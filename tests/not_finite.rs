@@ -275,12 +275,10 @@ fn refused(cases: &[Case]) {
 }
 
 fn request(torque_error: f64, omega: f64, alpha: f64) -> Result<(), Error> {
-    let request = Request {
-        torque_error,
-        omega,
-        alpha,
-        max_cells: 8,
-    };
+    let request = Request::new(torque_error)
+        .with_omega(omega)
+        .with_alpha(alpha)
+        .with_max_cells(8);
     tabulate::<Spline<f32>>(
         &Wave::bare(1.0, 0.1),
         curves::INERTIA,

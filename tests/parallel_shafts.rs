@@ -26,7 +26,7 @@ fn fan_textbook() {
         .unwrap();
     let reduced = machine.reduction(1.0).unwrap();
     // 0.01 + 0.4/4 + 0.9/9 + 0.02·4; the load of 6 N·m turns against the drive at a third of its speed.
-    assert_near("J", reduced.inertia[0], 0.29, budget::CLOSED_FORM);
+    assert_near("J", reduced.inertia, 0.29, budget::CLOSED_FORM);
     assert_near("process", reduced.process, -2.0, budget::CLOSED_FORM * 6.0);
     let frames = machine.mechanism().frames(3.0).unwrap();
     assert_near("ψ", frames[2].psi.value, -1.0, budget::CLOSED_FORM * 3.0);
@@ -49,7 +49,7 @@ fn one_shaft_is_a_stage() {
     let train = Machine::new(Train::new(&[stage]).unwrap());
     let fan = Machine::new(ParallelShafts::new(rotor(0.03), &[shaft(-2.5, 0.7)]).unwrap());
     let (a, b) = (train.reduction(4.0).unwrap(), fan.reduction(4.0).unwrap());
-    assert_near("J", b.inertia[0], a.inertia[0], budget::CLOSED_FORM);
+    assert_near("J", b.inertia, a.inertia, budget::CLOSED_FORM);
     let torque = |forces: &jred::machine::Forces| (forces.drive, forces.reactions[2].moment);
     let (a, b) = (
         train.forces(4.0, 5.0, 60.0).unwrap(),
@@ -92,7 +92,7 @@ proptest! {
         let shafts = machine.mechanism();
         let (drive, driven) = shafts.links().split_first().unwrap();
         let sum: f64 = driven.iter().zip(shafts.ratios()).map(|(link, i)| link.inertia() / (i * i)).sum();
-        let found = machine.reduction(phi).unwrap().inertia[0];
+        let found = machine.reduction(phi).unwrap().inertia;
         prop_assert!((found - drive.inertia() - sum).abs() <= budget::CLOSED_FORM * found);
     }
 }

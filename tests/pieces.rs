@@ -135,12 +135,10 @@ fn pieces_of<F: Format>(
     torque_error: f64,
 ) -> Vec<Rows<F>> {
     const MOST: u32 = 512;
-    let request = Request {
-        torque_error,
-        omega: AT[0],
-        alpha: AT[1],
-        max_cells: MOST,
-    };
+    let request = Request::new(torque_error)
+        .with_omega(AT[0])
+        .with_alpha(AT[1])
+        .with_max_cells(MOST);
     let ends = breaks.iter().skip(1).copied().chain([breaks[0] + TAU]);
     let pieces = breaks.iter().zip(ends).map(|(from, to)| {
         let part = Part::new(machine, *from, to).unwrap();
@@ -243,7 +241,7 @@ fn pieces_reach_the_request_beside_the_kinks_of_a_cam() {
     reaches::<Cubic<f64>, 6>(&machine, breaks, 1e-7);
     // One table is off by half the jump of ½·J′·ω² or more.
     let jump = largest(breaks.map(|at| {
-        let side = |d: f64| machine.reduction(at + d).unwrap().inertia[1];
+        let side = |d: f64| machine.reduction(at + d).unwrap().inertia_slope;
         0.5 * (side(1e-9) - side(-1e-9)) * AT[0] * AT[0]
     }));
     let size = largest(places(3600).map(|phase| exact(&machine, phase, 1.0)));

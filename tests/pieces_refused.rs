@@ -24,11 +24,7 @@ impl Reducible for Ruler {
     }
 
     fn reduction(&self, x: f64) -> Result<Reduction, jred::machine::PoseError> {
-        Ok(Reduction {
-            inertia: [1.0, 0.0, 0.0],
-            process: x / self.0,
-            ..Reduction::default()
-        })
+        Ok(Reduction::new([1.0, 0.0, 0.0]).with_process(x / self.0))
     }
 }
 

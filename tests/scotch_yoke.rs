@@ -75,11 +75,11 @@ fn straight_yoke_is_the_textbook_one() {
         let reduced = machine.reduction(phi).unwrap();
         let size = budget::CLOSED_FORM * (inertia + mass * r * r);
         let moving = mass * r * r;
-        assert_near("J", reduced.inertia[0], inertia + moving * sin * sin, size);
-        assert_near("J'", reduced.inertia[1], 2.0 * moving * sin * cos, size);
+        assert_near("J", reduced.inertia, inertia + moving * sin * sin, size);
+        assert_near("J'", reduced.inertia_slope, 2.0 * moving * sin * cos, size);
         assert_near(
             "J''",
-            reduced.inertia[2],
+            reduced.inertia_curvature,
             2.0 * moving * (2.0 * phi).cos(),
             size,
         );

@@ -45,7 +45,7 @@ fn reads_its_spline<L: Format>(machine: &impl Reducible, cells: u32, bits: u32) 
         let spline = CubicSpline::new(control).unwrap();
         (spline.at(x), budget::SPLINE_END * largest(samples))
     };
-    let (inertia, size) = at(&|r| r.inertia[0]);
+    let (inertia, size) = at(&|r| r.inertia);
     assert_near("J", read.inertia, inertia[0], size);
     let slope = inertia[1] / f64::from(cells);
     let found = read.inertia_slope * TAU / f64::from(cells);

@@ -28,13 +28,7 @@ impl<V: Fn(f64) -> f64> Reducible for Friction<V> {
     }
 
     fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
-        Ok(Reduction {
-            inertia: [1.0, 0.0, 0.0],
-            potential_energy: [0.0, 0.0],
-            process: 0.0,
-            viscous: 0.0,
-            coulomb: (self.v)(phi).abs(),
-        })
+        Ok(Reduction::new([1.0, 0.0, 0.0]).with_coulomb((self.v)(phi).abs()))
     }
 }
 
@@ -188,13 +182,12 @@ impl Reducible for Constant {
     }
 
     fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
-        Ok(Reduction {
-            inertia: [1.0 + 0.2 * phi.cos(), -0.2 * phi.sin(), -0.2 * phi.cos()],
-            potential_energy: [0.0, 0.0],
-            process: self.load,
-            viscous: self.viscous,
-            coulomb: self.coulomb,
-        })
+        Ok(
+            Reduction::new([1.0 + 0.2 * phi.cos(), -0.2 * phi.sin(), -0.2 * phi.cos()])
+                .with_process(self.load)
+                .with_viscous(self.viscous)
+                .with_coulomb(self.coulomb),
+        )
     }
 }
 

@@ -41,6 +41,7 @@ pub struct Table<'a, F: Format> {
 /// In double precision: for checks, not for the tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub struct CurveValues {
     /// J_red
     pub inertia: f64,

@@ -6,6 +6,7 @@ use super::{Format, Table, TableError};
 /// in fixed point. In floating point it is the quantity itself, in machine units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub struct Usage {
     /// J
     pub inertia: f32,

@@ -28,6 +28,7 @@ pub struct CreepContact {
 /// What a contact does at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub struct Traction {
     /// Torque L on the second shaft (N·m).
     pub torque: f64,

@@ -277,8 +277,8 @@ impl<'a> Drive<'a> {
             mass += c.force * inertia * c.speed;
             drag += c.force * inertia * c.rate * omega;
             torque += c.force * (shaft.external(own) - 0.5 * slope * own * own);
-            motion.inertia[0] += inertia * c.speed * c.speed;
-            motion.inertia[1] += (2.0 * inertia * c.rate + slope * own * c.speed) * c.speed;
+            motion.inertia += inertia * c.speed * c.speed;
+            motion.inertia_rate += (2.0 * inertia * c.rate + slope * own * c.speed) * c.speed;
         }
         if finite("inertia of the friction drive", mass)? <= 0.0 {
             return Err(RangeError::NotPositive("inertia of the friction drive", mass).into());

@@ -22,6 +22,7 @@ pub enum Flow {
 
 /// What a stage does at one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Ratios {
     /// Geometric ratio i: ratio of the radii, and of the torques.
     pub geometric: Dual<3>,

@@ -46,7 +46,7 @@ impl Shaft {
 impl From<Reduction> for Shaft {
     fn from(reduction: Reduction) -> Self {
         Self {
-            inertia: [reduction.inertia[0], reduction.inertia[1]],
+            inertia: [reduction.inertia, reduction.inertia_slope],
             torque: reduction.load_torque(),
             viscous: reduction.viscous,
             coulomb: reduction.coulomb,
@@ -71,6 +71,7 @@ pub struct State<'a> {
 /// One shaft in motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub struct ShaftMotion {
     /// Velocity coefficient j_k = ω_k/ω and its rate dj_k/dt (1/s).
     pub coefficient: [f64; 2],
@@ -85,6 +86,7 @@ pub struct ShaftMotion {
 /// One contact in motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub struct ContactMotion {
     /// Torque L on the second shaft (N·m).
     pub torque: f64,
@@ -97,13 +99,16 @@ pub struct ContactMotion {
 
 /// The drive in motion.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Motion {
     /// Acceleration of shaft 1 (rad/s²).
     pub alpha: f64,
     /// Torque of the drive on shaft 1, in addition to the one in its [`Shaft`] (N·m).
     pub drive: f64,
-    /// J = Σ J_k·j_k² (kg·m²) and dJ/dt (kg·m²/s).
-    pub inertia: [f64; 2],
+    /// J = Σ J_k·j_k² (kg·m²).
+    pub inertia: f64,
+    /// dJ/dt (kg·m²/s).
+    pub inertia_rate: f64,
     /// Power lost in all contacts (W).
     pub loss: f64,
     /// The shafts.
@@ -123,6 +128,6 @@ impl Motion {
     #[must_use]
     pub fn kinetic_energy(&self) -> f64 {
         let omega = self.shafts.first().map_or(0.0, |s| s.omega);
-        0.5 * self.inertia[0] * omega * omega
+        0.5 * self.inertia * omega * omega
     }
 }

@@ -37,6 +37,7 @@ const MOST: usize = 3 * MAX_LINKS;
 /// The test `forces_balance` checks the balance of every link about each of these points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub struct Reaction {
     /// Where the force acts, global (m).
     pub point: [f64; 2],
@@ -48,6 +49,7 @@ pub struct Reaction {
 
 /// All forces of one instant.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Forces {
     /// The drive's torque on the drive link (N·m), or its force on a sliding drive link (N).
     pub drive: f64,

@@ -248,6 +248,7 @@ impl Load {
 /// A load's share of the reduced torque.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub struct LoadCurves {
     /// Signed process torque (N·m), in +φ direction.
     pub process: f64,

@@ -43,7 +43,7 @@ pub trait Reducible {
         for phi in SAMPLES {
             let [now, later] = [self.reduction(phi)?, self.reduction(phi + TAU)?];
             for (a, b) in [
-                (now.inertia[0], later.inertia[0]),
+                (now.inertia, later.inertia),
                 (now.load_torque(), later.load_torque()),
                 (now.viscous, later.viscous),
                 (now.coulomb, later.coulomb),
@@ -68,11 +68,18 @@ const REPEATS: f64 = 1e-6;
 /// The reduced link at one position.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub struct Reduction {
-    /// J_red (kg·m²), dJ/dφ, d²J/dφ².
-    pub inertia: [f64; 3],
-    /// Potential energy U of gravity and springs (J) and U′ (N·m).
-    pub potential_energy: [f64; 2],
+    /// J_red (kg·m²).
+    pub inertia: f64,
+    /// dJ/dφ (kg·m²/rad).
+    pub inertia_slope: f64,
+    /// d²J/dφ² (kg·m²/rad²).
+    pub inertia_curvature: f64,
+    /// Potential energy U of gravity and springs (J).
+    pub potential_energy: f64,
+    /// U′ (N·m).
+    pub potential_slope: f64,
     /// Signed process torque (N·m), in +φ direction.
     pub process: f64,
     /// b in −b·ω (N·m·s/rad).
@@ -82,10 +89,59 @@ pub struct Reduction {
 }
 
 impl Reduction {
+    /// A link of the inertia [J, J′, J″] and without loads.
+    #[must_use]
+    pub const fn new([inertia, inertia_slope, inertia_curvature]: [f64; 3]) -> Self {
+        Self {
+            inertia,
+            inertia_slope,
+            inertia_curvature,
+            potential_energy: 0.0,
+            potential_slope: 0.0,
+            process: 0.0,
+            viscous: 0.0,
+            coulomb: 0.0,
+        }
+    }
+
+    /// [J, J′, J″], as [`new`](Self::new) takes them.
+    #[must_use]
+    pub const fn inertias(&self) -> [f64; 3] {
+        [self.inertia, self.inertia_slope, self.inertia_curvature]
+    }
+
+    /// With the potential energy [U, U′] (J, N·m).
+    #[must_use]
+    pub const fn with_potential_energy(self, [energy, slope]: [f64; 2]) -> Self {
+        Self {
+            potential_energy: energy,
+            potential_slope: slope,
+            ..self
+        }
+    }
+
+    /// With a process torque (N·m) in +φ direction.
+    #[must_use]
+    pub const fn with_process(self, process: f64) -> Self {
+        Self { process, ..self }
+    }
+
+    /// With b in −b·ω (N·m·s/rad).
+    #[must_use]
+    pub const fn with_viscous(self, viscous: f64) -> Self {
+        Self { viscous, ..self }
+    }
+
+    /// With c in −c·sgn ω (N·m).
+    #[must_use]
+    pub const fn with_coulomb(self, coulomb: f64) -> Self {
+        Self { coulomb, ..self }
+    }
+
     /// The part of the reduced torque that does not depend on ω: −U′ + process (N·m).
     #[must_use]
     pub fn load_torque(&self) -> f64 {
-        self.process - self.potential_energy[1]
+        self.process - self.potential_slope
     }
 
     /// Reduced torque T_red(φ, ω) (N·m); sgn 0 = 0.
@@ -98,9 +154,9 @@ impl Reduction {
     #[must_use]
     pub fn torque(&self, omega: f64, alpha: f64) -> TorqueTerms {
         TorqueTerms {
-            acceleration: self.inertia[0] * alpha,
-            velocity: 0.5 * self.inertia[1] * omega * omega,
-            potential: self.potential_energy[1],
+            acceleration: self.inertia * alpha,
+            velocity: 0.5 * self.inertia_slope * omega * omega,
+            potential: self.potential_slope,
             process: -self.process,
             viscous: self.viscous * omega,
             coulomb: self.coulomb * math::sign(omega),
@@ -110,8 +166,8 @@ impl Reduction {
     /// Acceleration α (rad/s²) that the drive torque `torque` (N·m) gives at speed ω (7.12).
     #[must_use]
     pub fn acceleration(&self, omega: f64, torque: f64) -> f64 {
-        (torque + self.reduced_torque(omega) - 0.5 * self.inertia[1] * omega * omega)
-            / self.inertia[0]
+        (torque + self.reduced_torque(omega) - 0.5 * self.inertia_slope * omega * omega)
+            / self.inertia
     }
 }
 
@@ -286,19 +342,16 @@ impl<M: Mechanism> Machine<M> {
     /// The mechanism cannot be placed at `phi`.
     pub fn bare_reduction(&self, phi: f64) -> Result<Reduction, PoseError> {
         let frames = self.mechanism.frames(phi)?;
-        let mut reduction = Reduction {
-            inertia: [self.flywheel, 0.0, 0.0],
-            ..Reduction::default()
-        };
-        for share in self.each_link(&frames) {
-            for (sum, part) in reduction.inertia.iter_mut().zip(share) {
-                *sum += part;
-            }
+        let mut reduction = Reduction::new([self.flywheel, 0.0, 0.0]);
+        for [inertia, slope, curvature] in self.each_link(&frames) {
+            reduction.inertia += inertia;
+            reduction.inertia_slope += slope;
+            reduction.inertia_curvature += curvature;
         }
         for (link, frame) in self.mechanism.links().iter().zip(&frames) {
             let [energy, slope] = link.potential_energy(frame, self.gravity);
-            reduction.potential_energy[0] += energy;
-            reduction.potential_energy[1] += slope;
+            reduction.potential_energy += energy;
+            reduction.potential_slope += slope;
         }
         for load in &self.loads {
             if let Some(frame) = frames.get(load.link()) {
@@ -310,8 +363,8 @@ impl<M: Mechanism> Machine<M> {
         }
         for element in &self.elements {
             let share = element.reduce(&frames).ok_or(PoseError::EndsMeet { phi })?;
-            reduction.potential_energy[0] += share.potential_energy[0];
-            reduction.potential_energy[1] += share.potential_energy[1];
+            reduction.potential_energy += share.potential_energy[0];
+            reduction.potential_slope += share.potential_energy[1];
             reduction.viscous += share.viscous;
         }
         Ok(reduction)
@@ -332,7 +385,7 @@ impl<M: Mechanism> Reducible for Machine<M> {
 
     fn reduction(&self, phi: f64) -> Result<Reduction, PoseError> {
         let reduction = self.bare_reduction(phi)?;
-        if reduction.inertia[0] > 0.0 {
+        if reduction.inertia > 0.0 {
             Ok(reduction)
         } else {
             Err(PoseError::NoInertia { phi })
@@ -369,7 +422,7 @@ impl<M: Mechanism> Reducible for Machine<M> {
                 math::abs(a - b) <= REPEATS * (math::abs(a) + math::abs(b))
             });
             let [inertia, later] = [phi, phi + TAU].map(|phi| self.bare_reduction(phi));
-            let [a, b] = [inertia?.inertia[0], later?.inertia[0]];
+            let [a, b] = [inertia?.inertia, later?.inertia];
             let inert = math::abs(a - b) <= REPEATS * (math::abs(a) + math::abs(b));
             if !(forced && weighed && sprung && inert) {
                 return Err(PoseError::NotPeriodic { phi });

@@ -80,6 +80,7 @@ impl OpenStage {
 
 /// A division of the ratio.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Split {
     /// The stages' ratios, from the input.
     pub ratios: PerStage,

@@ -43,6 +43,7 @@ pub enum Standstill {
 /// A crank angle at which the ram stands still.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub struct DeadCentre {
     /// Crank angle (rad, 0 to 2π).
     pub phi: f64,

@@ -217,6 +217,7 @@ pub struct TrainOutput {
 
 /// What a drive train needs at its input shaft.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct TrainInput {
     /// Torque (N·m).
     pub torque: f64,

@@ -87,10 +87,7 @@ impl<F: Format, const SET: Set, const CELLS: u32, const WORDS: usize>
         scale: &Scale,
         scratch: &mut [f64],
     ) -> Result<(Model<'_, F, SET>, Tabulated), Error> {
-        let request = Request {
-            max_cells: request.max_cells.min(CELLS),
-            ..*request
-        };
+        let request = request.with_max_cells(request.max_cells.min(CELLS));
         let found = tabulate::<F>(machine, SET, &request, scale, scratch, &mut self.words)?;
         let model = self.fill(machine, found.cells, &found.scale, scratch)?;
         Ok((model, found))

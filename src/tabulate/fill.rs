@@ -50,7 +50,7 @@ pub fn fill<'w, F: Format>(
         at: |place| {
             let point = machine.reduction(domain.position(place))?;
             Ok::<_, Error>(Sample {
-                inertia: point.inertia[0] / inertia,
+                inertia: point.inertia / inertia,
                 load: point.load_torque() / torque,
                 viscous: point.viscous * speed / torque,
                 coulomb: point.coulomb / torque,

@@ -149,8 +149,8 @@ pub(super) fn torque_error<F: Format>(
 /// head.
 pub(crate) fn torque_between(request: &Request, read: &CurveValues, exact: &Reduction) -> f64 {
     [
-        (read.inertia - exact.inertia[0]) * request.alpha,
-        0.5 * (read.inertia_slope - exact.inertia[1]) * request.omega * request.omega,
+        (read.inertia - exact.inertia) * request.alpha,
+        0.5 * (read.inertia_slope - exact.inertia_slope) * request.omega * request.omega,
         read.load - exact.load_torque(),
         (read.viscous - exact.viscous) * request.omega,
         read.coulomb - exact.coulomb,

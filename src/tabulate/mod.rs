@@ -29,6 +29,7 @@ pub(crate) use measure::torque_between;
 pub use part::Part;
 pub use search::tabulate;
 
+use crate::curve::MAX_CELLS;
 use crate::curve::curves::{self, Set};
 use crate::machine::Reducible;
 use crate::number::error::positive;
@@ -45,6 +46,7 @@ pub const EXHAUSTIVE: u32 = 128;
 
 /// What a table is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Request {
     /// Largest error of the drive torque (N·m).
     pub torque_error: f64,
@@ -57,6 +59,45 @@ pub struct Request {
 }
 
 impl Request {
+    /// A drive torque right to `torque_error` (N·m). The range of the motion is to be added: [`with_omega`](Self::with_omega),
+    /// [`with_alpha`](Self::with_alpha).
+    #[must_use]
+    pub const fn new(torque_error: f64) -> Self {
+        Self {
+            torque_error,
+            omega: 0.0,
+            alpha: 0.0,
+            max_cells: MAX_CELLS,
+        }
+    }
+
+    /// With another largest error of the drive torque (N·m).
+    #[must_use]
+    pub const fn with_torque_error(self, torque_error: f64) -> Self {
+        Self {
+            torque_error,
+            ..self
+        }
+    }
+
+    /// Up to the speed `omega` (rad/s).
+    #[must_use]
+    pub const fn with_omega(self, omega: f64) -> Self {
+        Self { omega, ..self }
+    }
+
+    /// Up to the acceleration `alpha` (rad/s²).
+    #[must_use]
+    pub const fn with_alpha(self, alpha: f64) -> Self {
+        Self { alpha, ..self }
+    }
+
+    /// With at most so many cells, or harmonics.
+    #[must_use]
+    pub const fn with_max_cells(self, max_cells: u32) -> Self {
+        Self { max_cells, ..self }
+    }
+
     pub(crate) fn check(&self) -> Result<(), Error> {
         positive("torque error", self.torque_error)?;
         positive("largest speed", self.omega)?;
@@ -68,6 +109,7 @@ impl Request {
 /// A table found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub struct Tabulated {
     /// Number of cells.
     pub cells: u32,

@@ -97,12 +97,10 @@ mod tests {
     /// What is found where sizes from `near` on pass a look near the worst place, and those from `all` on pass every look; and
     /// how many looks at all places of sizes beyond [`EXHAUSTIVE`] that takes.
     fn found(near: u32, all: u32, max_cells: u32) -> (Option<u32>, u32) {
-        let request = Request {
-            torque_error: 1.0,
-            omega: 1.0,
-            alpha: 1.0,
-            max_cells,
-        };
+        let request = Request::new(1.0)
+            .with_omega(1.0)
+            .with_alpha(1.0)
+            .with_max_cells(max_cells);
         let mut looks = 0;
         let found = search_near(&request, |cells, look| {
             let near_only = look == Look::Near && cells > EXHAUSTIVE;

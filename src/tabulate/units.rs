@@ -71,9 +71,9 @@ impl Most {
         for k in 0..positions {
             let place = f64::from(k) / f64::from(positions);
             let point = machine.reduction(machine.domain().position(place))?;
-            most.least = most.least.min(point.inertia[0]);
-            most.inertia = most.inertia.max(point.inertia[0]);
-            let resisting = 0.5 * math::abs(point.inertia[1]) * most.omega * most.omega
+            most.least = most.least.min(point.inertia);
+            most.inertia = most.inertia.max(point.inertia);
+            let resisting = 0.5 * math::abs(point.inertia_slope) * most.omega * most.omega
                 + math::abs(point.load_torque())
                 + math::abs(point.viscous) * most.omega
                 + math::abs(point.coulomb);

@@ -37,14 +37,14 @@ use crate::{AccelerationRange, Model, Phase};
 ///     fn reduction(&self, phi: f64) -> Result<Reduction, PoseError> {
 ///         let on = (1.0..2.0).contains(&phi.rem_euclid(TAU));
 ///         let process = if on { -5.0 } else { 0.0 };
-///         Ok(Reduction { inertia: [0.1, 0.0, 0.0], process, ..Reduction::default() })
+///         Ok(Reduction::new([0.1, 0.0, 0.0]).with_process(process))
 ///     }
 /// }
 ///
 /// fn main() -> Result<(), Error> {
 ///     const SET: Set = curves::LOAD;
 ///     const MOST: u32 = 16;
-///     let request = Request { torque_error: 0.001, omega: 20.0, alpha: 100.0, max_cells: MOST };
+///     let request = Request::new(0.001).with_omega(20.0).with_alpha(100.0).with_max_cells(MOST);
 ///     let mut scratch = [0.0; scratch_len(MOST, SET)];
 ///     let mut words = [[0.0f32; 2 * (MOST as usize + 3)]; 2];
 ///     let [on, off] = words.each_mut();

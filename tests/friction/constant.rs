@@ -90,7 +90,7 @@ impl Case {
         dalembert(&machine, phi, self.omega, ALPHA);
         let own = all.iter().zip(self.inertias);
         let inertia: f64 = own.map(|(j, own)| own * j * j).sum();
-        let found = machine.reduction(phi).unwrap().inertia[0];
+        let found = machine.reduction(phi).unwrap().inertia;
         assert_near("J", found, inertia, budget::CLOSED_FORM * inertia);
 
         // The equation of motion of the drive is that of the mechanism.

@@ -68,7 +68,7 @@ fn free_run_keeps_the_energy() {
             budget::FREE_RUN * energy,
         );
         // Neither the momentum (factor 1) nor the speed (factor 0) is kept: both are far off.
-        let [j0, j1] = [before.inertia[0], after.inertia[0]];
+        let [j0, j1] = [before.inertia, after.inertia];
         assert!(
             (end[3] * j1 / (40.0 * j0) - 1.0).abs() > 0.2,
             "momentum kept"
@@ -188,7 +188,7 @@ impl Case {
 
 /// Size of the powers.
 fn terms(motion: &Motion) -> f64 {
-    let [j, rate] = motion.inertia;
+    let (j, rate) = (motion.inertia, motion.inertia_rate);
     let omega = motion.shafts[0].omega;
     let external: f64 = motion
         .shafts
@@ -200,7 +200,7 @@ fn terms(motion: &Motion) -> f64 {
 
 /// d(½Jω²)/dt = power − loss, and (A) with the loss torque on the right: J·ω̇ + ½·dJ/dt·ω = Σ j_k·M_k − loss/ω.
 fn energy_balance(motion: &Motion, contact: Contact) {
-    let [j, rate] = motion.inertia;
+    let (j, rate) = (motion.inertia, motion.inertia_rate);
     let (omega, size) = (motion.shafts[0].omega, terms(motion));
     let energy_rate = j * omega * motion.alpha + 0.5 * rate * omega * omega;
     let power = motion.power() - motion.loss;
@@ -357,7 +357,7 @@ fn any_machine_behind_a_variator() {
         let shafts = [Shaft::new(0.04, 0.0), Shaft::from(crank).with_inertia(0.02)];
         (
             drive.forward(state(t, y), &shafts).unwrap(),
-            crank.potential_energy[0],
+            crank.potential_energy,
         )
     };
     let start = [0.0, 1.0, 15.0];

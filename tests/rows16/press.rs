@@ -17,12 +17,10 @@ const ALPHA: f64 = 800.0;
 const SET: Set = curves::LOAD;
 
 fn request(torque_error: f64) -> Request {
-    Request {
-        torque_error,
-        omega: OMEGA,
-        alpha: ALPHA,
-        max_cells: 1024,
-    }
+    Request::new(torque_error)
+        .with_omega(OMEGA)
+        .with_alpha(ALPHA)
+        .with_max_cells(1024)
 }
 
 /// Largest drive torque at full speed and acceleration.

@@ -19,14 +19,12 @@ impl Reducible for Smooth {
     fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
         let (sin, cos) = phi.sin_cos();
         let inertia = 0.15 * sin.exp();
-        Ok(Reduction {
-            inertia: [inertia, cos * inertia, (cos * cos - sin) * inertia],
-            potential_energy: [0.0, 0.0],
-            process: 0.05 * (cos.exp() - 1.0),
-            viscous: 0.02 * (2.0 + (2.0 * phi).sin()),
+        let inertia = [inertia, cos * inertia, (cos * cos - sin) * inertia];
+        Ok(Reduction::new(inertia)
+            .with_process(0.05 * (cos.exp() - 1.0))
+            .with_viscous(0.02 * (2.0 + (2.0 * phi).sin()))
             // A magnitude with two kinks.
-            coulomb: 0.03 * sin.abs(),
-        })
+            .with_coulomb(0.03 * sin.abs()))
     }
 }
 
@@ -73,12 +71,12 @@ fn errors(set: Set, domain: Domain, cells: u32) -> [f64; 6] {
             start.coulomb,
         );
         let parts = [
-            inertia - exact.inertia[0],
-            velocity - 0.5 * exact.inertia[1] * 0.81,
+            inertia - exact.inertia,
+            velocity - 0.5 * exact.inertia_slope * 0.81,
             load - has(curves::LOAD) * exact.load_torque(),
             b - 0.9 * viscous,
             c - coulomb,
-            reciprocal * exact.inertia[0] - has(curves::RECIPROCAL),
+            reciprocal * exact.inertia - has(curves::RECIPROCAL),
         ];
         for (most, part) in found.iter_mut().zip(parts) {
             *most = largest([*most, 32_768.0 * part]);

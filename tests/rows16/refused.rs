@@ -264,12 +264,10 @@ fn buffers_and_requests() {
             Error::Range(RangeError::BufferTooShort { needed, given })
         );
     }
-    let request = Request {
-        torque_error: 0.0,
-        omega: 10.0,
-        alpha: 20.0,
-        max_cells: 40,
-    };
+    let request = Request::new(0.0)
+        .with_omega(10.0)
+        .with_alpha(20.0)
+        .with_max_cells(40);
     let (mut scratch, mut words) = (vec![0.0; scratch], vec![0; words]);
     let error = tabulate::<Rows16>(&wave, SET, &request, &scale, &mut scratch, &mut words);
     assert_eq!(

@@ -48,13 +48,10 @@ impl Reducible for Waves {
         Domain::Turn
     }
     fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
-        Ok(Reduction {
-            inertia: series(&self.inertia, phi),
-            process: series(&self.load, phi)[0],
-            viscous: self.viscous,
-            coulomb: self.coulomb,
-            ..Reduction::default()
-        })
+        Ok(Reduction::new(series(&self.inertia, phi))
+            .with_process(series(&self.load, phi)[0])
+            .with_viscous(self.viscous)
+            .with_coulomb(self.coulomb))
     }
 }
 
@@ -110,7 +107,7 @@ pub(crate) fn press() -> Machine<SliderCrank> {
     );
     let swing = largest((0..4096).map(|k| {
         let reduced = bare.bare_reduction(TAU * f64::from(k) / 4096.0);
-        reduced.unwrap().inertia[0]
+        reduced.unwrap().inertia
     }));
     bare.with_gravity([9.81, 0.0])
         .and_then(|m| m.with_flywheel(swing / 4.25))
@@ -121,12 +118,10 @@ pub(crate) const OMEGA: f64 = 60.0;
 pub(crate) const ALPHA: f64 = 400.0;
 
 pub(crate) fn request(torque_error: f64, max_cells: u32) -> Request {
-    Request {
-        torque_error,
-        omega: OMEGA,
-        alpha: ALPHA,
-        max_cells,
-    }
+    Request::new(torque_error)
+        .with_omega(OMEGA)
+        .with_alpha(ALPHA)
+        .with_max_cells(max_cells)
 }
 
 /// Largest drive torque at full speed and acceleration.

@@ -317,7 +317,7 @@ pub(crate) fn energy<M: Jointed>(machine: &Machine<M>, phi: f64, omega: f64) {
         .map(of)
         .sum();
     let total = links + 0.5 * machine.flywheel() * omega * omega;
-    let found = 0.5 * reduced.inertia[0] * omega * omega;
+    let found = 0.5 * reduced.inertia * omega * omega;
     assert_near(
         "kinetic energy",
         found,

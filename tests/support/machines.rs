@@ -157,17 +157,14 @@ impl Reducible for Wave {
 
     fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
         let (sin, cos) = phi.sin_cos();
-        Ok(Reduction {
-            inertia: [
-                self.mean + self.swing * cos,
-                -self.swing * sin,
-                -self.swing * cos,
-            ],
-            potential_energy: [0.0, 0.0],
-            process: self.load * sin,
-            viscous: self.viscous,
-            coulomb: self.coulomb,
-        })
+        Ok(Reduction::new([
+            self.mean + self.swing * cos,
+            -self.swing * sin,
+            -self.swing * cos,
+        ])
+        .with_process(self.load * sin)
+        .with_viscous(self.viscous)
+        .with_coulomb(self.coulomb))
     }
 }
 

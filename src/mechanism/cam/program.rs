@@ -54,6 +54,7 @@ impl Piece {
 /// A jump of the follower's acceleration: an infinite jerk, which makes the machine ring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub struct AccelerationJump {
     /// Where (rad).
     pub phi: f64,

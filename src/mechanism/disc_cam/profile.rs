@@ -12,6 +12,7 @@ use crate::number::transfer::Transfer;
 /// Where and how cam and follower touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub struct CamContact {
     /// Point of contact, global (m).
     pub point: [f64; 2],

@@ -32,6 +32,7 @@ fn weight(request: &Request, curve: Curve, k: usize) -> f64 {
 /// Harmonics found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub struct Fitted {
     /// Number of harmonics.
     pub harmonics: u32,

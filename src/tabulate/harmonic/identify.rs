@@ -40,6 +40,7 @@ pub struct Sample {
 
 /// What was identified; every array in the order of [`Coefficient::of_word`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Identified<const WORDS: usize> {
     /// The coefficients: the words of a table of [`Harmonic`].
     pub words: [f64; WORDS],

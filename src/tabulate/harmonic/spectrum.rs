@@ -96,7 +96,7 @@ impl<'s> Spectrum<'s> {
         for j in (step - 1..self.samples).step_by(step) {
             let phi = TAU * j as f64 / self.samples as f64;
             let point = machine.reduction(phi)?;
-            if finite("reduced inertia", point.inertia[0])? <= 0.0 {
+            if finite("reduced inertia", point.inertia)? <= 0.0 {
                 return Err(PoseError::NoInertia { phi }.into());
             }
             let coulomb = finite("Coulomb friction", point.coulomb)?;
@@ -104,7 +104,7 @@ impl<'s> Spectrum<'s> {
                 self.constant = self.constant.map(|_| coulomb);
             }
             let curves = [
-                point.inertia[0],
+                point.inertia,
                 finite("load", point.load_torque())?,
                 finite("viscous coefficient", point.viscous)?,
                 coulomb - self.constant.unwrap_or_default(),

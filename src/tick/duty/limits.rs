@@ -8,6 +8,7 @@ use crate::math::Real;
 /// Rules of sizing that allow a share of a rating (80 % of the S1 torque, say) are written as limits that contain the share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub struct Limits<R> {
     /// RMS torque of the motor over the mean speed (N·m over rad/s).
     pub continuous: Option<Curve<R>>,
@@ -27,8 +28,10 @@ pub struct Limits<R> {
     pub cycles_per_hour: Option<R>,
 }
 
-impl<R> Default for Limits<R> {
-    fn default() -> Self {
+impl<R: Copy> Limits<R> {
+    /// No limit.
+    #[must_use]
+    pub const fn new() -> Self {
         Self {
             continuous: None,
             peak: None,
@@ -39,6 +42,84 @@ impl<R> Default for Limits<R> {
             regenerative_power: None,
             cycles_per_hour: None,
         }
+    }
+
+    /// With a limit of the RMS torque of the motor over the mean speed (N·m over rad/s).
+    #[must_use]
+    pub const fn with_continuous(self, limit: Curve<R>) -> Self {
+        Self {
+            continuous: Some(limit),
+            ..self
+        }
+    }
+
+    /// With a limit of the torque of the motor over speed, instant by instant (N·m over rad/s).
+    #[must_use]
+    pub const fn with_peak(self, limit: Curve<R>) -> Self {
+        Self {
+            peak: Some(limit),
+            ..self
+        }
+    }
+
+    /// With a limit of the speed of the motor (rad/s).
+    #[must_use]
+    pub const fn with_speed(self, limit: R) -> Self {
+        Self {
+            speed: Some(limit),
+            ..self
+        }
+    }
+
+    /// With a limit of the mean speed of the motor (rad/s).
+    #[must_use]
+    pub const fn with_mean_speed(self, limit: R) -> Self {
+        Self {
+            mean_speed: Some(limit),
+            ..self
+        }
+    }
+
+    /// With a limit of the torque at the gearbox output, T2B (N·m).
+    #[must_use]
+    pub const fn with_output_peak(self, limit: R) -> Self {
+        Self {
+            output_peak: Some(limit),
+            ..self
+        }
+    }
+
+    /// With a limit of the root-mean-cube torque at the gearbox output, T2N (N·m).
+    #[must_use]
+    pub const fn with_output_mean(self, limit: R) -> Self {
+        Self {
+            output_mean: Some(limit),
+            ..self
+        }
+    }
+
+    /// With a limit of the mean regenerative power (W).
+    #[must_use]
+    pub const fn with_regenerative_power(self, limit: R) -> Self {
+        Self {
+            regenerative_power: Some(limit),
+            ..self
+        }
+    }
+
+    /// With a limit of the cycles an hour up to which T2B applies.
+    #[must_use]
+    pub const fn with_cycles_per_hour(self, limit: R) -> Self {
+        Self {
+            cycles_per_hour: Some(limit),
+            ..self
+        }
+    }
+}
+
+impl<R: Copy> Default for Limits<R> {
+    fn default() -> Self {
+        Self::new()
     }
 }
 
@@ -80,6 +161,7 @@ pub enum Verdict {
 /// One verdict for each of the [`Limits`], and one on the readings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub struct Verdicts {
     /// RMS torque, by the continuous torque at the mean speed.
     pub rms_torque: Verdict,

@@ -36,12 +36,10 @@
 //!
 //! # fn main() -> Result<(), LimitError> {
 //! // A motor of 3.2 N·m at standstill and 2.4 N·m at 314 rad/s, 9.6 N·m peak up to 250 rad/s; limits at 80 %.
-//! let limits = Limits {
-//!     continuous: Some(Curve::new(&[[0.0, 0.8 * 3.2], [314.0, 0.8 * 2.4]])?),
-//!     peak: Some(Curve::new(&[[250.0, 0.8 * 9.6], [314.0, 0.8 * 6.0]])?),
-//!     speed: Some(0.9 * 314.0),
-//!     ..Limits::default()
-//! };
+//! let limits = Limits::new()
+//!     .with_continuous(Curve::new(&[[0.0, 0.8 * 3.2], [314.0, 0.8 * 2.4]])?)
+//!     .with_peak(Curve::new(&[[250.0, 0.8 * 9.6], [314.0, 0.8 * 6.0]])?)
+//!     .with_speed(0.9 * 314.0);
 //! let mut meter = Meter::<f32>::new(limits, 1e-3, Window::SinceStart)?;
 //! for k in 0..1000 {
 //!     let torque = if k < 250 { 6.0 } else { 0.5 };

@@ -28,10 +28,8 @@ fn peak(speed: f64) -> f64 {
 fn metered(file: &MachineFile, ticks: u32) -> Meter<f32> {
     let motion = file.motion.as_ref().unwrap();
     let step = motion.duration() / f64::from(ticks);
-    let limits = Limits {
-        peak: Some(Curve::new(&PEAK.map(|point| point.map(|x| x as f32))).unwrap()),
-        ..Limits::default()
-    };
+    let limits =
+        Limits::new().with_peak(Curve::new(&PEAK.map(|point| point.map(|x| x as f32))).unwrap());
     let mut meter = Meter::new(limits, step as f32, Window::SinceStart).unwrap();
     let train = &file.drive_train;
     for k in 0..ticks {
@@ -41,7 +39,7 @@ fn metered(file: &MachineFile, ticks: u32) -> Meter<f32> {
         let output = train
             .input(&TrainOutput {
                 torque: total,
-                torque_per_alpha: r.inertia[0],
+                torque_per_alpha: r.inertia,
                 omega: state.omega,
                 alpha: state.alpha,
                 direction: state.omega,

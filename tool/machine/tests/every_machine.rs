@@ -71,8 +71,8 @@ fn energy_balances_over_a_cycle() {
         let domain = machine.domain();
         let [from, to] = [domain.position(0.0), domain.position(1.0)];
         let ends = [from, to].map(|phi| machine.bare_reduction(phi).unwrap());
-        let kinetic = 0.5 * OMEGA * OMEGA * (ends[1].inertia[0] - ends[0].inertia[0]);
-        let potential = ends[1].potential_energy[0] - ends[0].potential_energy[0];
+        let kinetic = 0.5 * OMEGA * OMEGA * (ends[1].inertia - ends[0].inertia);
+        let potential = ends[1].potential_energy - ends[0].potential_energy;
         // d'Alembert's torque knows neither J nor U.
         let drive = |phi: f64| machine.forces(phi, OMEGA, 0.0).unwrap().drive;
         let torque = places(domain, 50).fold(0.0_f64, |most, phi| most.max(drive(phi).abs()));

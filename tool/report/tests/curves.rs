@@ -47,12 +47,12 @@ fn an_exported_machine_comes_back() {
                 original.reduction(phi).unwrap(),
                 back.machine.reduction(phi).unwrap(),
             ];
-            j_error = j_error.max((a.inertia[0] - b.inertia[0]).abs());
-            slope_error = slope_error.max((a.inertia[1] - b.inertia[1]).abs());
-            weight_error = weight_error.max((a.potential_energy[1] - b.potential_energy[1]).abs());
-            j_most = j_most.max(a.inertia[0]);
-            slope_most = slope_most.max(a.inertia[1].abs());
-            weight_most = weight_most.max(a.potential_energy[1].abs());
+            j_error = j_error.max((a.inertia - b.inertia).abs());
+            slope_error = slope_error.max((a.inertia_slope - b.inertia_slope).abs());
+            weight_error = weight_error.max((a.potential_slope - b.potential_slope).abs());
+            j_most = j_most.max(a.inertia);
+            slope_most = slope_most.max(a.inertia_slope.abs());
+            weight_most = weight_most.max(a.potential_slope.abs());
             // Coulomb friction has bends at the dead centres, which a smooth curve rounds off.
             assert!(
                 (a.coulomb - b.coulomb).abs() <= 0.02 * (1.0 + a.coulomb),

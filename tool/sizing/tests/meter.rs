@@ -63,6 +63,6 @@ fn limits_are_those_of_the_rules() {
         let source = limits.source("press.toml");
         assert!(source.contains("// No limit `peak`: the rule \"peak torque\" is not checked."));
         assert!(source.contains("not monitored by the meter:"));
-        assert!(source.contains("peak: None,"));
+        assert!(!source.contains(".with_peak("));
     });
 }

@@ -68,7 +68,7 @@ fn errors<N: Number>(
         }
         let expected = exact.acceleration(speed, drive.to_f64() * torque_base);
         let off = (back.value.to_f64() * acceleration_base - expected).abs();
-        worst[1] = worst[1].max(off * exact.inertia[0]);
+        worst[1] = worst[1].max(off * exact.inertia);
     }
     worst
 }

@@ -165,7 +165,7 @@ impl Instant {
         let ratio = train.ratio();
         let state = motion.at(t);
         let reduction = file.bare_reduction(state.phi)?;
-        let inertia = reduction.inertia[0];
+        let inertia = reduction.inertia;
         let terms = reduction.torque(state.omega, state.alpha);
         let input = train.input(&TrainOutput {
             torque: terms.total(),
@@ -222,7 +222,7 @@ impl Duty {
         let ratio = file.drive_train.ratio();
         let mut hold_torque = 0.0f64;
         for phi in coordinate::positions(file.machine.domain(), 720) {
-            let slope = file.bare_reduction(phi)?.potential_energy[1];
+            let slope = file.bare_reduction(phi)?.potential_slope;
             hold_torque = hold_torque.max((slope / ratio).abs());
         }
         let at_rest = instants.iter().filter(|i| i.omega == 0.0);

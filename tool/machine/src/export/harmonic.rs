@@ -87,12 +87,10 @@ impl Search<'_> {
     /// The fewest harmonics whose coefficients meet this error, and how exact their ticks are.
     fn fitted(&self, set: jred::Set, most: u32, torque_error: f64) -> Result<Candidate, Error> {
         let [omega, alpha] = self.goal.range;
-        let request = Request {
-            torque_error,
-            omega,
-            alpha,
-            max_cells: most,
-        };
+        let request = Request::new(torque_error)
+            .with_omega(omega)
+            .with_alpha(alpha)
+            .with_max_cells(most);
         let mut scratch = vec![0.0; scratch_len(most)];
         let mut words = vec![0.0; words_len::<F>(most, set)];
         let fitted = fit::<f32>(self.machine, set, &request, &mut scratch, &mut words)?;
@@ -119,17 +117,14 @@ impl Search<'_> {
         let made = Image::new(&made).map_err(ticks::refusal)?;
         let ticks = ticks::measure::<F>(&made, &self.reference, self.goal.range)?;
         let error = bound.max(looked).max(ticks.torque);
+        let mut found = Tabulated::default();
+        found.cells = fitted.harmonics;
+        (found.torque_error, found.bound, found.worst) = (measured, bound, worst);
         Ok(Candidate {
             number: Number::F32,
             layout: LayoutName::Harmonic,
             curves: set,
-            found: Tabulated {
-                cells: fitted.harmonics,
-                torque_error: measured,
-                bound,
-                worst,
-                ..Tabulated::default()
-            },
+            found,
             error,
             looked,
             ticks,

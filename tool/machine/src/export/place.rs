@@ -100,8 +100,8 @@ type Curve = fn(&Reduction) -> f64;
 
 /// The curves that a table follows.
 const CURVES: [(Name, Curve); 5] = [
-    (|c| c.inertia().to_owned(), |r| r.inertia[0]),
-    (|c| format!("{}'", c.inertia()), |r| r.inertia[1]),
+    (|c| c.inertia().to_owned(), |r| r.inertia),
+    (|c| format!("{}'", c.inertia()), |r| r.inertia_slope),
     (|_| "the curve of load".to_owned(), |r| r.load_torque()),
     (|_| "the curve of viscous".to_owned(), |r| r.viscous),
     (|_| "the curve of coulomb".to_owned(), |r| r.coulomb),

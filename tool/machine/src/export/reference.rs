@@ -87,8 +87,8 @@ impl Reference {
         let order = (start..self.places.len()).chain(0..start);
         for (index, place) in order.filter_map(|k| Some((k, self.places.get(k)?))) {
             let (exact, read) = (&place.exact, read(place.phase));
-            let error = (read.inertia - exact.inertia[0]).abs() * alpha
-                + 0.5 * (read.inertia_slope - exact.inertia[1]).abs() * omega * omega
+            let error = (read.inertia - exact.inertia).abs() * alpha
+                + 0.5 * (read.inertia_slope - exact.inertia_slope).abs() * omega * omega
                 + (read.load - exact.load_torque()).abs()
                 + (read.viscous - exact.viscous).abs() * omega
                 + (read.coulomb - exact.coulomb).abs();

@@ -308,12 +308,10 @@ impl<'s, F: Format> Attempt<'s, F> {
             return Ok(None);
         };
         let [omega, alpha] = self.search.goal.range;
-        let request = Request {
-            torque_error: limit,
-            omega,
-            alpha,
-            max_cells: cells,
-        };
+        let request = Request::new(limit)
+            .with_omega(omega)
+            .with_alpha(alpha)
+            .with_max_cells(cells);
         let size = self.size(cells);
         let made = match size.make(&mut self.buffers, &request, looked) {
             Ok(Some(made)) => made,

@@ -369,7 +369,7 @@ impl MachineFile {
     pub fn bare_reduction(&self, phi: f64) -> Result<Reduction, Error> {
         let mut reduction = self.machine.bare_reduction(phi)?;
         let weight = self.payload_weight(phi)?;
-        reduction.potential_energy[1] += weight;
+        reduction.potential_slope += weight;
         reduction.process += weight;
         Ok(reduction)
     }

@@ -25,7 +25,7 @@ pub(super) fn inertia(file: &MachineFile, mechanism: &Section) -> Result<()> {
         Ok(machine
             .reduction(phi)
             .map_err(|error| report(&error.into()))?
-            .inertia[0])
+            .inertia)
     };
     let domain = machine.domain();
     let (from, to) = (domain.position(0.0), domain.position(1.0));

@@ -35,12 +35,12 @@ fn errors(rows: usize, closing: bool) -> [f64; 5] {
     for k in 0..997 {
         let phi = 4.0 * TAU * (f64::from(k) - 400.0) / 997.0;
         let r = file.machine.reduction(phi).unwrap();
-        let [j, slope, bend] = r.inertia.map(|j| j * 1e4);
+        let [j, slope, bend] = r.inertias().map(|j| j * 1e4);
         let found = [
             (j - 2.0 - 0.7 * phi.cos()) / 0.7,
             (slope + 0.7 * phi.sin()) / 0.7,
             (bend + 0.7 * phi.cos()) / 0.7,
-            (-r.potential_energy[1] + 3.0 * phi.sin() - 0.5 * (2.0 * phi).cos()) / 3.0,
+            (-r.potential_slope + 3.0 * phi.sin() - 0.5 * (2.0 * phi).cos()) / 3.0,
             (r.process - 1.2 - 0.4 * phi.sin()) / 0.4,
         ];
         for (worst, error) in worst.iter_mut().zip(found) {
@@ -113,7 +113,7 @@ fn rows_may_be_uneven_and_begin_anywhere() {
     let file = of_curves(&csv, "turn").unwrap();
     for k in 0..500 {
         let phi = f64::from(k) * 0.05 - 7.0;
-        let [j, slope, _] = file.machine.reduction(phi).unwrap().inertia;
+        let [j, slope, _] = file.machine.reduction(phi).unwrap().inertias();
         assert!((j - 0.02 - 0.005 * phi.sin()).abs() < 0.005 * 1e-5, "{phi}");
         assert!((slope - 0.005 * phi.cos()).abs() < 0.005 * 1e-3, "{phi}");
     }
@@ -132,20 +132,20 @@ fn a_cubic_over_a_stroke_is_exact() {
     let file = of_curves(&csv, "stroke").unwrap();
     let mechanism = file.machine.mechanism();
     assert_eq!(Coordinate::of(mechanism).unwrap(), Coordinate::Length);
-    let start = file.machine.reduction(0.1).unwrap().potential_energy[0];
+    let start = file.machine.reduction(0.1).unwrap().potential_energy;
     for k in 0..=300 {
         let s = (0.1 + 0.4 * f64::from(k) / 300.0).min(0.5);
         let r = file.machine.reduction(s).unwrap();
         let expected = [mass(s), 2.0 - 6.0 * s + 30.0 * s * s, -6.0 + 60.0 * s];
-        for (found, expected) in r.inertia.into_iter().zip(expected) {
+        for (found, expected) in r.inertias().into_iter().zip(expected) {
             assert!(
                 (found - expected).abs() < budget::SPLINE_EXACT * 1e2,
                 "{s}: {found} {expected}"
             );
         }
-        assert!((r.potential_energy[1] - 400.0 * (s - 0.2)).abs() < 1e-9);
+        assert!((r.potential_slope - 400.0 * (s - 0.2)).abs() < 1e-9);
         let stored = 200.0 * ((s - 0.2) * (s - 0.2) - 0.01);
-        assert!((r.potential_energy[0] - start - stored).abs() < 1e-9);
+        assert!((r.potential_energy - start - stored).abs() < 1e-9);
         assert!((r.coulomb - 12.0).abs() < 1e-12);
     }
 }

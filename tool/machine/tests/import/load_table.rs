@@ -45,7 +45,7 @@ fn constant_rows_are_the_plain_loads() {
     );
     for phi in places() {
         let [a, b] = [&table, &plain].map(|file| file.machine.reduction(phi).unwrap());
-        for (a, b) in a.inertia.into_iter().zip(b.inertia) {
+        for (a, b) in a.inertias().into_iter().zip(b.inertias()) {
             assert!((a - b).abs() < 1e-13, "{phi}: {a} {b}");
         }
         assert!((a.load_torque() - b.load_torque()).abs() < 1e-12);
@@ -72,19 +72,19 @@ fn a_varying_payload_keeps_the_energy() {
     );
     let empty = crank("4 kg", "", "");
     let omega = 9.0;
-    let inertia = |phi: f64| with.machine.reduction(phi).unwrap().inertia[0];
+    let inertia = |phi: f64| with.machine.reduction(phi).unwrap().inertia;
     // Within the loaded stretch the machine is the one with three more kilograms.
     let loaded = crank("7 kg", "", "");
     for phi in [1.0, 1.6, 2.4, 2.9] {
         let expected = loaded.machine.reduction(phi).unwrap();
         let found = with.machine.reduction(phi).unwrap();
-        assert!((found.inertia[1] - expected.inertia[1]).abs() < 1e-13);
+        assert!((found.inertia_slope - expected.inertia_slope).abs() < 1e-13);
         assert!((found.load_torque() - expected.load_torque()).abs() < 1e-12);
     }
     for [from, to] in [[0.3, 0.8], [0.75, 0.85], [2.5, 3.4], [0.0, TAU]] {
         let work = |phi: f64| {
             let r = with.machine.reduction(phi)?;
-            Ok::<f64, jred::Error>(0.5 * r.inertia[1] * omega * omega)
+            Ok::<f64, jred::Error>(0.5 * r.inertia_slope * omega * omega)
         };
         let work = integral(work, [from, to], 72, 1e-12).unwrap();
         let gained = 0.5 * omega * omega * (inertia(to) - inertia(from));
@@ -93,7 +93,7 @@ fn a_varying_payload_keeps_the_energy() {
             "{from} to {to}: {work} {gained}"
         );
     }
-    assert!(inertia(1.5) > empty.machine.reduction(1.5).unwrap().inertia[0] + 0.01);
+    assert!(inertia(1.5) > empty.machine.reduction(1.5).unwrap().inertia + 0.01);
 }
 
 /// On the drive link itself a payload is an inertia, a thrust an opposing torque.
@@ -111,8 +111,8 @@ fn on_the_drive_link_a_payload_is_an_inertia() {
     let plain = crank("4 kg", "", "");
     for phi in places() {
         let [a, b] = [&table, &plain].map(|file| file.machine.reduction(phi).unwrap());
-        assert!((a.inertia[0] - b.inertia[0] - 0.03).abs() < 1e-14);
-        assert!((a.inertia[1] - b.inertia[1]).abs() < 1e-14);
+        assert!((a.inertia - b.inertia - 0.03).abs() < 1e-14);
+        assert!((a.inertia_slope - b.inertia_slope).abs() < 1e-14);
         assert!((a.coulomb - b.coulomb - 1.5).abs() < 1e-14);
         assert!((a.load_torque() - b.load_torque()).abs() < 1e-14);
     }

@@ -72,12 +72,12 @@ fn springs_and_dampers_of_a_linkage() {
             bare.machine.reduction(phi).unwrap(),
         );
         within(
-            found.potential_energy[0] - without.potential_energy[0],
+            found.potential_energy - without.potential_energy,
             energy,
             1e-11,
         );
         within(
-            found.potential_energy[1] - without.potential_energy[1],
+            found.potential_slope - without.potential_slope,
             force,
             1e-10,
         );
@@ -136,7 +136,7 @@ fn a_press_with_a_counterbalance_spring_keeps_its_energy() {
         let phi = phi.to_radians();
         let slider = with.machine.mechanism().frames(phi).unwrap()[2].x.value;
         let stretch = (0.4 - slider) - 0.33;
-        let bare = without.machine.reduction(phi).unwrap().potential_energy[0];
+        let bare = without.machine.reduction(phi).unwrap().potential_energy;
         within(*potential, bare + 1500.0 * stretch * stretch, 1e-9);
     }
     let swing = |energies: &[f64]| {

@@ -31,7 +31,7 @@ fn a_cylinder_lifts_a_boom() {
         let mass = (100.0 * 0.64 + 10.0) * slope * slope;
         let force = 100.0 * 9.81 * 0.8 * cos * slope;
         let reduced = file.machine.reduction(s).unwrap();
-        within(reduced.inertia[0], mass, 1e-9);
+        within(reduced.inertia, mass, 1e-9);
         within(reduced.load_torque(), -force, 1e-9);
         let drive = file.machine.forces(s, 0.1, 0.5).unwrap().drive;
         within(drive, reduced.torque(0.1, 0.5).total(), 1e-8);

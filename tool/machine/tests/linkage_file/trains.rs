@@ -19,8 +19,8 @@ fn a_ball_screw_lets_a_motor_turn() {
     let turns = TAU / 0.01;
     let mass = 4.0 + (6e-4 + 12e-4) * turns * turns + 2e-4 * (2.0 * turns).powi(2);
     let whole = file.with_drive_train().unwrap();
-    let bare = file.machine.reduction(0.6).unwrap().inertia[0];
-    within(whole.reduction(0.6).unwrap().inertia[0] - bare, mass, 1e-8);
+    let bare = file.machine.reduction(0.6).unwrap().inertia;
+    within(whole.reduction(0.6).unwrap().inertia - bare, mass, 1e-8);
     // Statically, T·2π·η = F·lead.
     let [slope, cos] = boom(0.6);
     let force = 100.0 * 9.81 * 0.8 * cos * slope;

@@ -25,8 +25,8 @@ fn the_axis_is_read_in_si_units() {
     close(screw.links()[0].mass(), 5.6);
     close(screw.frames(20.0 * TAU).unwrap()[1].x.value, 0.4);
     let reduced = file.machine.reduction(0.4).unwrap();
-    close(reduced.inertia[0], 6.4e-4 + 140.0 * (0.02 / TAU).powi(2));
-    close(reduced.potential_energy[1], 140.0 * 9.81 * 0.02 / TAU);
+    close(reduced.inertia, 6.4e-4 + 140.0 * (0.02 / TAU).powi(2));
+    close(reduced.potential_slope, 140.0 * 9.81 * 0.02 / TAU);
 }
 
 /// The slide falls through several turns: the potential energy goes on, and the balance closes.

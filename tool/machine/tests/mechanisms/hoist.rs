@@ -27,8 +27,8 @@ fn the_goods_lift_is_read_in_si_units() {
         ]
     );
     let reduced = file.machine.reduction(2.0).unwrap();
-    close(reduced.inertia[0], 0.92 + (420.0 + 260.0) * 0.075 * 0.075);
-    close(reduced.potential_energy[1], 9.81 * (420.0 - 260.0) * 0.075);
+    close(reduced.inertia, 0.92 + (420.0 + 260.0) * 0.075 * 0.075);
+    close(reduced.potential_slope, 9.81 * (420.0 - 260.0) * 0.075);
     // One storey.
     close(hoist.frames(3.2 / 0.075).unwrap()[1].y.value, 3.2);
     close(hoist.frames(3.2 / 0.075).unwrap()[2].y.value, -3.2);

@@ -27,7 +27,7 @@ fn the_roller_table_is_read_in_si_units() {
     assert_eq!(shafts.joint_names().len(), 9);
     close(shafts.frames(1.0).unwrap()[4].psi.value, -1.25);
     let sum = 0.004 + 0.036 / 4.0 + 0.036 / 2.25 + 0.024 / 1.44 + 0.021 / 0.64;
-    close(file.machine.reduction(0.0).unwrap().inertia[0], sum);
+    close(file.machine.reduction(0.0).unwrap().inertia, sum);
 }
 
 #[test]

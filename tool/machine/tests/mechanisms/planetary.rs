@@ -23,7 +23,7 @@ fn the_slewing_drive_is_read_in_si_units() {
     let orbital = 3.0 * 1.05 * 0.0675 * 0.0675;
     let spin = 3.0 * 9.3e-4 * (0.2_f64 - 18.0 / 27.0 * 0.8).powi(2);
     let reduced = file.machine.reduction(0.4).unwrap();
-    close(reduced.inertia[0], 4.1e-4 + (3.4 + orbital) / 25.0 + spin);
+    close(reduced.inertia, 4.1e-4 + (3.4 + orbital) / 25.0 + spin);
 }
 
 #[test]

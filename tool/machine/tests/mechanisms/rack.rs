@@ -19,7 +19,7 @@ fn the_gantry_is_read_in_si_units() {
     close(rack.frames(2.0).unwrap()[1].x.value, 0.06);
     close(rack.frames(2.0).unwrap()[1].y.value, -0.03);
     let reduced = file.machine.reduction(0.4).unwrap();
-    close(reduced.inertia[0], 5.2e-4 + 85.0 * 0.03 * 0.03);
+    close(reduced.inertia, 5.2e-4 + 85.0 * 0.03 * 0.03);
 }
 
 #[test]

@@ -234,7 +234,7 @@ impl Subject<'_> {
         let ratio = file.drive_train.ratio();
         let mut points = Vec::new();
         for phi in whole_range(machine.domain(), 360) {
-            let inertia = machine.bare_reduction(phi)?.inertia[0] / (ratio * ratio);
+            let inertia = machine.bare_reduction(phi)?.inertia / (ratio * ratio);
             let lambda = self.judged.drive.inertia_ratio(inertia);
             points.push((coordinate.shown(phi), lambda));
         }

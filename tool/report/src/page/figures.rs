@@ -34,8 +34,8 @@ pub(super) fn reduced_inertia(file: &MachineFile) -> Result<Chart, Error> {
     let (mut inertia, mut slope) = (Vec::new(), Vec::new());
     for phi in whole_range(machine.domain(), POSITIONS) {
         let point = machine.reduction(phi)?;
-        inertia.push((coordinate.shown(phi), point.inertia[0]));
-        slope.push((coordinate.shown(phi), point.inertia[1]));
+        inertia.push((coordinate.shown(phi), point.inertia));
+        slope.push((coordinate.shown(phi), point.inertia_slope));
     }
     let (y, slope_y, names) = match coordinate {
         Coordinate::Angle => ("J_red [kg·m²]", "J_red′ [kg·m²/rad]", ["J_red", "J_red′"]),
@@ -61,7 +61,7 @@ pub(super) fn reduced_torque(file: &MachineFile, speed: f64) -> Result<Chart, Er
     for phi in whole_range(file.machine.domain(), POSITIONS) {
         let point = file.bare_reduction(phi)?;
         let values = [
-            -point.potential_energy[1],
+            -point.potential_slope,
             point.process,
             -point.viscous * speed,
             -point.coulomb,

@@ -64,12 +64,12 @@ impl<'a> Altered<'a> {
         let bare: Machine<AnyMechanism> =
             Machine::new(machine.mechanism().clone()).with_gravity(machine.gravity())?;
         let weight = |phi: f64| {
-            let links = bare.bare_reduction(phi)?.potential_energy[1];
+            let links = bare.bare_reduction(phi)?.potential_slope;
             Ok(links + file.payload_weight(phi)?)
         };
         let range = positions(machine.mechanism().domain(), POSITIONS).map(|phi| {
             let weight = weight(phi)?;
-            let all = file.bare_reduction(phi)?.potential_energy[1];
+            let all = file.bare_reduction(phi)?.potential_slope;
             Ok([weight, all - weight])
         });
         Ok(Self {

@@ -192,18 +192,18 @@ impl MeterLimits<'_> {
         text.push_str(
             "\n/// The limits, for `jred::duty::Meter::new`.\n///\n/// # Errors\n/// None: the curves are in order.\n\
              pub fn limits() -> Result<jred::duty::Limits<f32>, jred::duty::LimitError> {\n    \
-             Ok(jred::duty::Limits {\n",
+             Ok(jred::duty::Limits::new()",
         );
         for entry in &self.entries {
             let (field, name) = (entry.field, entry.field.word().to_uppercase());
-            let value = match &entry.bound {
-                Bound::Open => "None".to_owned(),
-                Bound::Figure(_) => format!("Some({name})"),
-                Bound::Curve(_) => format!("Some(jred::duty::Curve::new(&{name})?)"),
+            let limit = match &entry.bound {
+                Bound::Open => continue,
+                Bound::Figure(_) => name,
+                Bound::Curve(_) => format!("jred::duty::Curve::new(&{name})?"),
             };
-            let _ = writeln!(text, "        {field}: {value},");
+            let _ = write!(text, "\n        .with_{field}({limit})");
         }
-        text.push_str("    })\n}\n");
+        text.push_str(")\n}\n");
     }
 }
 

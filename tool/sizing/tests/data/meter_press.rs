@@ -73,14 +73,12 @@ pub const SIZED: jred::duty::Figures<f32> = jred::duty::Figures {
 /// # Errors
 /// None: the curves are in order.
 pub fn limits() -> Result<jred::duty::Limits<f32>, jred::duty::LimitError> {
-    Ok(jred::duty::Limits {
-        continuous: Some(jred::duty::Curve::new(&CONTINUOUS)?),
-        peak: Some(jred::duty::Curve::new(&PEAK)?),
-        speed: Some(SPEED),
-        mean_speed: Some(MEAN_SPEED),
-        output_peak: Some(OUTPUT_PEAK),
-        output_mean: Some(OUTPUT_MEAN),
-        regenerative_power: None,
-        cycles_per_hour: Some(CYCLES_PER_HOUR),
-    })
+    Ok(jred::duty::Limits::new()
+        .with_continuous(jred::duty::Curve::new(&CONTINUOUS)?)
+        .with_peak(jred::duty::Curve::new(&PEAK)?)
+        .with_speed(SPEED)
+        .with_mean_speed(MEAN_SPEED)
+        .with_output_peak(OUTPUT_PEAK)
+        .with_output_mean(OUTPUT_MEAN)
+        .with_cycles_per_hour(CYCLES_PER_HOUR))
 }

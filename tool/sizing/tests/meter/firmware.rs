@@ -32,7 +32,7 @@ fn metered(file: &MachineFile, c: &Coefficients, ratio: f64, ticks: u32) -> Mete
         let total = r.torque(state.omega, state.alpha).total();
         let output = train.input(&TrainOutput {
             torque: total,
-            torque_per_alpha: r.inertia[0],
+            torque_per_alpha: r.inertia,
             omega: state.omega,
             alpha: state.alpha,
             direction: state.omega,

@@ -45,7 +45,7 @@ pub struct Agreement {
 pub(super) fn inertia(file: &MachineFile) -> Result<Inertia, Error> {
     let machine = file.with_drive_train()?;
     let values = whole_range(machine.domain(), STEPS)
-        .map(|phi| Ok(machine.bare_reduction(phi)?.inertia[0]))
+        .map(|phi| Ok(machine.bare_reduction(phi)?.inertia))
         .collect::<Result<Vec<f64>, Error>>()?;
     // The trapezoidal rule: over a turn both ends are the same position.
     let ends = values
@@ -123,7 +123,7 @@ fn balance(
     let power = |t: f64| -> Result<f64, Error> {
         let state = motion.at(t);
         let point = machine.bare_reduction(state.phi)?;
-        let loads = point.reduced_torque(state.omega) + point.potential_energy[1];
+        let loads = point.reduced_torque(state.omega) + point.potential_slope;
         Ok(drive(t)? + loads * state.omega)
     };
     let stretches = duty::smooth_stretches(file, motion, STEPS);
@@ -145,8 +145,8 @@ fn balance(
     let energy = |t: f64| -> Result<f64, Error> {
         let state = motion.at(t);
         let point = machine.bare_reduction(state.phi)?;
-        let kinetic = 0.5 * point.inertia[0] * state.omega * state.omega;
-        Ok(kinetic + point.potential_energy[0])
+        let kinetic = 0.5 * point.inertia * state.omega * state.omega;
+        Ok(kinetic + point.potential_energy)
     };
     let gain = energy(motion.duration())? - energy(0.0)?;
     let off = (work - gain).abs();

@@ -82,13 +82,13 @@ impl Set for Curves {
 
     fn values(&self, source: &Source, place: &Place) -> Result<Vec<Option<f64>>, Error> {
         let point = source.machine.reduction(place.phi)?;
-        let [inertia, slope, bend] = point.inertia;
+        let [inertia, slope, bend] = point.inertias();
         let mut values = vec![
             inertia,
             slope,
             bend,
-            point.potential_energy[0],
-            -point.potential_energy[1],
+            point.potential_energy,
+            -point.potential_slope,
             point.process,
             point.viscous,
             point.coulomb,

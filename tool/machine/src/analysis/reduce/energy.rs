@@ -34,12 +34,12 @@ impl Set for Energy {
         let point = machine.bare_reduction(place.phi)?;
         let Some(state) = place.state else {
             let mut values = vec![None; self.heads(source).len()];
-            values[1] = Some(point.potential_energy[0]);
+            values[1] = Some(point.potential_energy);
             return Ok(values);
         };
         let omega = state.omega;
-        let kinetic = 0.5 * point.inertia[0] * omega * omega;
-        let mut values = vec![kinetic, point.potential_energy[0]];
+        let kinetic = 0.5 * point.inertia * omega * omega;
+        let mut values = vec![kinetic, point.potential_energy];
         let frames = &place.frames;
         let links = machine.mechanism().links().iter().zip(frames);
         let [g_x, g_y] = machine.gravity();

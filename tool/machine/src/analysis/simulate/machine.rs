@@ -53,7 +53,7 @@ impl<'a> Plant<'a> {
         let omega = *omega;
         let point = self.file.machine.bare_reduction(*phi)?;
         let load = point.load_torque() - point.viscous * omega - point.coulomb * direction;
-        let resisting = 0.5 * point.inertia[1] * omega * omega - load;
+        let resisting = 0.5 * point.inertia_slope * omega * omega - load;
         let [torque, speed] = self.motor(omega);
         let train = &self.file.drive_train;
         let ratio = train.ratio();
@@ -65,10 +65,10 @@ impl<'a> Plant<'a> {
         };
         let mut loss = 0.0;
         let alpha = newton(|alpha| {
-            let asked = point.inertia[0] * alpha + resisting - at_link;
+            let asked = point.inertia * alpha + resisting - at_link;
             let input = train.input(&TrainOutput {
                 torque: asked,
-                torque_per_alpha: point.inertia[0],
+                torque_per_alpha: point.inertia,
                 omega,
                 alpha,
                 direction,
@@ -162,12 +162,12 @@ impl run::Plant<5> for Plant<'_> {
         let train = &self.file.drive_train;
         let ratio = train.ratio();
         let drive = (train.inertia_at_input() + self.simulation.rotor_inertia) * ratio * ratio;
-        let inertia = point.inertia[0] + drive;
+        let inertia = point.inertia + drive;
         let [torque, _] = self.motor(omega);
         Ok(Row {
             figures: vec![self.coordinate.shown(phi), omega, alpha, torque, inertia],
             kinetic: 0.5 * inertia * omega * omega,
-            potential: point.potential_energy[0],
+            potential: point.potential_energy,
         })
     }
 }

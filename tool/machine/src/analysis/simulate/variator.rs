@@ -123,8 +123,8 @@ impl<'a> Plant<'a> {
         let friction = point.viscous * omega + point.coulomb * direction;
         let behind = Behind {
             plant: self,
-            inertia: point.inertia[0],
-            resisting: 0.5 * point.inertia[1] * omega * omega - point.load_torque() + friction
+            inertia: point.inertia,
+            resisting: 0.5 * point.inertia_slope * omega * omega - point.load_torque() + friction
                 - at_link,
             omega,
             direction,
@@ -136,8 +136,8 @@ impl<'a> Plant<'a> {
             motor_torque: torque,
             motor_power: torque * speed,
             process_power: point.process * omega,
-            inertia: point.inertia[0],
-            potential: point.potential_energy[0],
+            inertia: point.inertia,
+            potential: point.potential_energy,
             ..Instant::default()
         };
         if let Slip::Creep(contact) = self.variator.slip {
