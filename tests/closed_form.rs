@@ -8,7 +8,7 @@ use crate::support::{assert_near, budget, config, derivative, largest};
 use jred::machine::{Action, Load, Mechanism, Window};
 use jred::mechanism::{Branch, SliderCrank};
 use jred::number::Transfer;
-use jred::{Link, Machine, Reducible};
+use jred::{Domain, Link, Machine, Reducible};
 use proptest::prelude::*;
 
 /// Step of the differences (rad).
@@ -159,7 +159,7 @@ fn windows_bound_a_load_and_keep_its_work() {
         (0.5, 0.5 + TAU, 0.1),
         (-9.0, -8.0, 0.5),
     ] {
-        let window = Window::new(from, to, ramp).unwrap();
+        let window = Window::new(Domain::Turn, [from, to], ramp).unwrap();
         let load = Load::new(0, Action::Moment(30.0)).unwrap().within(window);
         let machine = slider_only(0.1, 0.4, 1.0).with_flywheel(1.0).unwrap();
         let machine = machine.with_load(load).unwrap();
@@ -223,7 +223,7 @@ fn mirrored(spec: &Spec, com: [f64; 2]) -> [f64; 2] {
 /// A window scales every kind of load by the same factor.
 #[test]
 fn windows_scale_every_kind_of_load() {
-    let window = Window::new(0.5, 2.0, 0.4).unwrap();
+    let window = Window::new(Domain::Turn, [0.5, 2.0], 0.4).unwrap();
     let frame = slider_only(0.1, 0.4, 1.0).mechanism().frames(0.6).unwrap()[SliderCrank::ROD];
     let part = window.factor(0.6);
     assert!(part > 0.01 && part < 0.99);

@@ -7,7 +7,7 @@ use crate::support::{assert_near, budget, config, derivative};
 use jred::machine::motion::Law;
 use jred::machine::{Action, Joint, Jointed as _, Load, Mechanism as _};
 use jred::mechanism::cam::{CamError, Program, Segment};
-use jred::mechanism::{DiscCam, Follower, Roller, Swing};
+use jred::mechanism::{DiscCam, Follower, Roller, RollerDimensions, Swing};
 use jred::{Link, Machine, Reducible as _};
 use proptest::prelude::*;
 
@@ -278,7 +278,12 @@ fn cutter_paths() {
 /// A cam that would cover the axis of its own follower cannot be built; nor does such a one cure an undercut.
 #[test]
 fn a_cam_does_not_cover_the_followers_pivot() {
-    let roller = Roller::new(0.01, 0.1, 5e-6).unwrap();
+    let roller = Roller::new(RollerDimensions {
+        radius: 0.01,
+        mass: 0.1,
+        inertia: 5e-6,
+    })
+    .unwrap();
     let pivot = [0.1, 0.0];
     let swing = Swing::CounterClockwise;
     let follower = |arm| Follower::OscillatingRoller {

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::support::cams::{eccentric, follower, four, links};
 use crate::support::{assert_near, budget};
-use jred::mechanism::{DiscCam, Follower, Roller};
+use jred::mechanism::{DiscCam, Follower, Roller, RollerDimensions};
 
 /// A flat face on an eccentric circle moves exactly as e·(1 − cos φ): the profile of that motion is the circle.
 #[test]
@@ -61,7 +61,12 @@ fn flat_face_on_an_eccentric_circle() {
 #[test]
 fn textbook_forms_of_angle_and_radius() {
     let (base, lift, r, e) = (0.035, 0.012, 0.01, 0.007);
-    let roller = Roller::new(r, 0.1, 1e-5).unwrap();
+    let roller = Roller::new(RollerDimensions {
+        radius: r,
+        mass: 0.1,
+        inertia: 1e-5,
+    })
+    .unwrap();
     let built = |offset| {
         DiscCam::new(
             four(lift),

@@ -10,7 +10,9 @@ use crate::support::rows::Rows;
 use crate::support::{assert_near, budget};
 use jred::machine::motion::{Law, Move};
 use jred::machine::{Action, Element, Frame, Frames, Load, Marker, Mechanism, Window};
-use jred::mechanism::{Branch, Geneva, Mesh, RackAndPinion, SliderCrank, Stage, Train};
+use jred::mechanism::{
+    BeltDimensions, Branch, Geneva, Mesh, RackAndPinion, SliderCrank, Stage, Train,
+};
 use jred::table::{CubicSpline, Format, MAX_CELLS, fit_bounded, fit_periodic};
 use jred::tabulate::{Request, fill, tabulate};
 use jred::{Domain, Error, Link, Machine, Q31, Reducible, Scale, Set, Spline, TableError, curves};
@@ -98,11 +100,19 @@ fn values_out_of_bounds_are_named() {
         &["inertia of the driven", "-0.5"],
     );
     says(
-        Stage::belt([0.1, 0.0], [0.0; 2], 1.0),
+        Stage::belt(BeltDimensions {
+            radii: [0.1, 0.0],
+            inertias: [0.0; 2],
+            mass: 1.0,
+        }),
         &["radius of the driven", "0"],
     );
     says(
-        Stage::belt([0.1, 0.2], [0.0; 2], -1.0),
+        Stage::belt(BeltDimensions {
+            radii: [0.1, 0.2],
+            inertias: [0.0; 2],
+            mass: -1.0,
+        }),
         &["mass of the belt", "-1"],
     );
     let stage = Stage::new(2.0, [0.0; 2]).unwrap();
@@ -125,10 +135,19 @@ fn values_out_of_bounds_are_named() {
         Load::new(0, Action::ViscousMoment(-3.0)),
         &["viscous", "-3"],
     );
-    says(Window::new(1.0, 1.5, 0.0), &["ramp", "0"]);
-    says(Window::new(1.0, 0.5, 0.1), &["width", "-0.5"]);
-    says(Window::new(1.0, 1.5, 0.3), &["width", "0.5", "0.6"]);
-    says(Window::new(0.0, 7.0, 0.3), &["width", "7", "6.28"]);
+    says(Window::new(Domain::Turn, [1.0, 1.5], 0.0), &["ramp", "0"]);
+    says(
+        Window::new(Domain::Turn, [1.0, 0.5], 0.1),
+        &["width", "-0.5"],
+    );
+    says(
+        Window::new(Domain::Turn, [1.0, 1.5], 0.3),
+        &["width", "0.5", "0.6"],
+    );
+    says(
+        Window::new(Domain::Turn, [0.0, 7.0], 0.3),
+        &["width", "7", "6.28"],
+    );
     says(Scale::new(0.0, 1.0, 1.0), &["torque base", "0"]);
     says(Scale::new(1.0, -2.0, 1.0), &["speed base", "-2"]);
     says(Scale::new(1.0, 1.0, -2.0), &["inertia base", "-2"]);
@@ -177,7 +196,11 @@ fn negative_duration_is_named() {
 #[test]
 fn negative_pulley_is_refused_beside_a_heavy_belt() {
     says(
-        Stage::belt([0.5, 0.2], [-0.01, 0.0], 1.0),
+        Stage::belt(BeltDimensions {
+            radii: [0.5, 0.2],
+            inertias: [-0.01, 0.0],
+            mass: 1.0,
+        }),
         &["inertia of the driver", "-0.01"],
     );
 }
@@ -295,9 +318,9 @@ fn capacities_and_indices_are_named() {
         &["too many loads", "16"],
     );
     let stage = Stage::new(2.0, [0.0; 2]).unwrap();
-    assert!(Train::new(&[stage; Train::MAX_STAGES]).is_ok());
+    assert!(Train::new(&[stage; jred::machine::MAX_STAGES]).is_ok());
     says(
-        Train::new(&[stage; Train::MAX_STAGES + 1]),
+        Train::new(&[stage; jred::machine::MAX_STAGES + 1]),
         &["too many stages", "8"],
     );
 }
@@ -449,7 +472,7 @@ fn loads_are_judged_where_they_do_not_act() {
     let crank = Link::rotor(0.02).unwrap();
     let geneva = Geneva::new(6, 0.1, [crank, Link::rotor(0.3).unwrap()]).unwrap();
     let load = |action| {
-        let window = Window::new(0.5, 1.0, 0.1).unwrap();
+        let window = Window::new(Domain::Turn, [0.5, 1.0], 0.1).unwrap();
         let load = Load::new(Geneva::WHEEL, action).and_then(|l| l.at([0.08, 0.0]));
         load.unwrap().within(window)
     };

@@ -4,8 +4,7 @@ use crate::support::golden::Case;
 use crate::support::machines::golden_slider_crank;
 use crate::support::{assert_near, budget};
 use jred::machine::{Action, Load, Mechanism};
-use jred::mechanism::TrainOutput;
-use jred::mechanism::{Mesh, SliderCrank, Stage, Train};
+use jred::mechanism::{BeltDimensions, Mesh, SliderCrank, Stage, Train, TrainOutput};
 use jred::{Machine, Reducible};
 
 #[test]
@@ -221,7 +220,12 @@ fn belt_drive_golden() {
     let case = Case::new(include_str!("data/05_belt_drive_A.json"));
     let [r1, r2, j1, j2, weight, g] =
         ["/r1", "/r2", "/J1", "/J2", "/P", "/g"].map(|n| case.input(n));
-    let belt = Stage::belt([r1, r2], [j1, j2], weight / g).unwrap();
+    let belt = Stage::belt(BeltDimensions {
+        radii: [r1, r2],
+        inertias: [j1, j2],
+        mass: weight / g,
+    })
+    .unwrap();
     let train = Train::new(&[belt]).unwrap();
     let machine = Machine::new(train.clone())
         .with_load(Load::new(0, Action::Moment(case.input("/T1"))).unwrap())

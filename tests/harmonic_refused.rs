@@ -17,7 +17,7 @@ use jred::{Domain, Error, Harmonic, Phase, Set, Table, TableError, curves};
 fn kinks_and_hidden_harmonics_are_refused() {
     let constant = Load::new(SliderCrank::CRANK, Action::OpposingMoment(1.0)).unwrap();
     let force = Load::new(SliderCrank::SLIDER, Action::Force([-100.0, 0.0])).unwrap();
-    let pressing = force.within(Window::new(5.0, 6.0, 0.01).unwrap());
+    let pressing = force.within(Window::new(Domain::Turn, [5.0, 6.0], 0.01).unwrap());
     for machine in [
         // Friction that falls to a minimum above zero at both dead centres.
         rubbing().with_load(constant).unwrap(),

@@ -8,7 +8,7 @@ use crate::support::{assert_near, budget, config};
 use jred::machine::{Action, Element, Load, Marker, Window};
 use jred::mechanism::cam::{LiftOff, Piece, contact_force, lift_off};
 use jred::mechanism::{DiscCam, Follower};
-use jred::{Link, Machine};
+use jred::{Domain, Link, Machine};
 use proptest::prelude::*;
 
 const MASS: f64 = 0.8;
@@ -96,7 +96,7 @@ fn damping_moves_the_place() {
 #[test]
 fn short_loads_are_seen() {
     let machine = eccentric_machine(4e3, 60.0);
-    let window = Window::new(1.000, 1.002, 0.001).unwrap();
+    let window = Window::new(Domain::Turn, [1.000, 1.002], 0.001).unwrap();
     let pull = Load::new(DiscCam::FOLLOWER, Action::Force([0.0, 70.0]))
         .unwrap()
         .within(window);

@@ -9,7 +9,7 @@ use crate::support::{assert_near, budget, cams, config, jointed};
 use jred::machine::{Body, Frame, Frames, Joint, Marker, Mechanism};
 use jred::mechanism::cam::contact_force;
 use jred::mechanism::linkage::{Assembly, Linkage, Pair, PlacedCam, Pose};
-use jred::mechanism::{CamProfile, DiscCam, Follower, Roller, Swing};
+use jred::mechanism::{CamProfile, DiscCam, Follower, Roller, RollerDimensions, Swing};
 use jred::number::Transfer;
 use jred::{Domain, Link, Machine, Reducible};
 use proptest::prelude::*;
@@ -214,7 +214,12 @@ fn lever() -> DiscCam {
         pivot: [0.09, 0.02],
         arm: ARM,
         swing: Swing::Clockwise,
-        roller: Roller::new(0.012, 0.0, 0.0).unwrap(),
+        roller: Roller::new(RollerDimensions {
+            radius: 0.012,
+            mass: 0.0,
+            inertia: 0.0,
+        })
+        .unwrap(),
     };
     cams::build(0.3, 0.035, follower).unwrap()
 }
@@ -316,7 +321,12 @@ fn cam_lever_rod_and_slider() {
 /// The follower pushed by a cylinder turns the cam, as long as the program rises.
 #[test]
 fn the_follower_may_be_the_drive() {
-    let roller = Roller::new(0.01, 0.0, 0.0).unwrap();
+    let roller = Roller::new(RollerDimensions {
+        radius: 0.01,
+        mass: 0.0,
+        inertia: 0.0,
+    })
+    .unwrap();
     let follower = Follower::TranslatingRoller {
         offset: 0.003,
         roller,

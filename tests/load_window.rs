@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::support::budget;
+use jred::Domain;
 use jred::machine::Window;
 
 #[track_caller]
@@ -16,8 +17,8 @@ fn near(found: f64, expected: f64) {
 #[test]
 fn on_a_turn_and_on_a_stroke() {
     let (turn, stroke) = (
-        Window::new(1.0, 2.0, 0.2).unwrap(),
-        Window::on_stroke(1.0, 2.0, 0.2).unwrap(),
+        Window::new(Domain::Turn, [1.0, 2.0], 0.2).unwrap(),
+        Window::new(Domain::Stroke { from: 0.0, to: 9.0 }, [1.0, 2.0], 0.2).unwrap(),
     );
     assert!(turn.repeats() && !stroke.repeats());
     for (position, factor) in [(0.9, 0.0), (1.1, 0.5), (1.5, 1.0), (1.9, 0.5), (2.1, 0.0)] {
@@ -29,7 +30,7 @@ fn on_a_turn_and_on_a_stroke() {
         near(stroke.factor(position - TAU), 0.0);
     }
     // A stroke may be longer than 2π metres.
-    let long = Window::on_stroke(3.0, 20.0, 1.0).unwrap();
+    let long = Window::new(Domain::Stroke { from: 0.0, to: 9.0 }, [3.0, 20.0], 1.0).unwrap();
     near(long.factor(10.0), 1.0);
     near(long.factor(3.5), 0.5);
     for (found, expected) in long.edges().into_iter().zip([3.0, 4.0, 19.0, 20.0]) {
@@ -56,7 +57,9 @@ fn windows_that_are_not_possible() {
             "end of the load's window is not a finite number",
         ),
     ] {
-        let error = Window::on_stroke(from, to, ramp).unwrap_err().to_string();
+        let error = Window::new(Domain::Stroke { from: 0.0, to: 9.0 }, [from, to], ramp)
+            .unwrap_err()
+            .to_string();
         assert!(error.contains(words), "{error}");
     }
 }

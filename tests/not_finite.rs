@@ -3,7 +3,9 @@
 use crate::support::machines::Wave;
 use jred::machine::motion::{Law, Move};
 use jred::machine::{Action, Load, Mechanism, Window};
-use jred::mechanism::{Branch, BuildError, Mesh, SliderCrank, SliderCrankDimensions, Stage, Train};
+use jred::mechanism::{
+    BeltDimensions, Branch, BuildError, Mesh, SliderCrank, SliderCrankDimensions, Stage, Train,
+};
 use jred::number::RangeError;
 use jred::table::CubicSpline;
 use jred::tabulate::{Request, tabulate};
@@ -81,29 +83,49 @@ fn nothing_that_is_not_finite_gets_into_a_machine() {
                 .map_err(Into::into)
         }),
         ("pulley", |x| {
-            Stage::belt([x, 0.1], [0.0; 2], 0.0)
-                .map(drop)
-                .map_err(Into::into)
+            Stage::belt(BeltDimensions {
+                radii: [x, 0.1],
+                inertias: [0.0; 2],
+                mass: 0.0,
+            })
+            .map(drop)
+            .map_err(Into::into)
         }),
         ("pulley", |x| {
-            Stage::belt([0.1, x], [0.0; 2], 0.0)
-                .map(drop)
-                .map_err(Into::into)
+            Stage::belt(BeltDimensions {
+                radii: [0.1, x],
+                inertias: [0.0; 2],
+                mass: 0.0,
+            })
+            .map(drop)
+            .map_err(Into::into)
         }),
         ("pulley", |x| {
-            Stage::belt([0.1, 0.1], [x, 0.0], 0.0)
-                .map(drop)
-                .map_err(Into::into)
+            Stage::belt(BeltDimensions {
+                radii: [0.1, 0.1],
+                inertias: [x, 0.0],
+                mass: 0.0,
+            })
+            .map(drop)
+            .map_err(Into::into)
         }),
         ("pulley", |x| {
-            Stage::belt([0.1, 0.1], [0.0, x], 0.0)
-                .map(drop)
-                .map_err(Into::into)
+            Stage::belt(BeltDimensions {
+                radii: [0.1, 0.1],
+                inertias: [0.0, x],
+                mass: 0.0,
+            })
+            .map(drop)
+            .map_err(Into::into)
         }),
         ("belt", |x| {
-            Stage::belt([0.1, 0.1], [0.0; 2], x)
-                .map(drop)
-                .map_err(Into::into)
+            Stage::belt(BeltDimensions {
+                radii: [0.1, 0.1],
+                inertias: [0.0; 2],
+                mass: x,
+            })
+            .map(drop)
+            .map_err(Into::into)
         }),
         ("efficiency", |x| {
             Stage::new(1.0, [0.0; 2])?
@@ -181,13 +203,19 @@ fn nothing_that_is_not_finite_gets_into_a_machine() {
 fn nothing_that_is_not_finite_gets_into_motions_scales_and_requests() {
     let cases: &[Case] = &[
         ("window", |x| {
-            Window::new(x, 1.0, 0.1).map(drop).map_err(Into::into)
+            Window::new(Domain::Turn, [x, 1.0], 0.1)
+                .map(drop)
+                .map_err(Into::into)
         }),
         ("window", |x| {
-            Window::new(0.0, x, 0.1).map(drop).map_err(Into::into)
+            Window::new(Domain::Turn, [0.0, x], 0.1)
+                .map(drop)
+                .map_err(Into::into)
         }),
         ("window", |x| {
-            Window::new(0.0, 1.0, x).map(drop).map_err(Into::into)
+            Window::new(Domain::Turn, [0.0, 1.0], x)
+                .map(drop)
+                .map_err(Into::into)
         }),
         ("scale", |x| {
             Scale::new(x as f32, 1.0, 1.0).map(drop).map_err(Into::into)

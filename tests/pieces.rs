@@ -7,7 +7,7 @@ use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, largest, number};
 use jred::machine::motion::Law;
 use jred::mechanism::cam::{Program, Segment};
-use jred::mechanism::{Branch, DiscCam, Follower, Roller, SliderCrank};
+use jred::mechanism::{Branch, DiscCam, Follower, Roller, RollerDimensions, SliderCrank};
 use jred::number::Number;
 use jred::table::{Format, words_len};
 use jred::tabulate::{Part, Request, scratch_len, tabulate};
@@ -78,7 +78,12 @@ fn cam() -> (Machine<DiscCam>, Vec<f64>) {
     .unwrap();
     let mut breaks: Vec<f64> = program.pieces().map(|piece| piece.from).collect();
     breaks.sort_by(f64::total_cmp);
-    let roller = Roller::new(0.01, 0.15, 8e-6).unwrap();
+    let roller = Roller::new(RollerDimensions {
+        radius: 0.01,
+        mass: 0.15,
+        inertia: 8e-6,
+    })
+    .unwrap();
     let follower = Follower::TranslatingRoller {
         offset: 0.0,
         roller,

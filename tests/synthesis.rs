@@ -1,7 +1,7 @@
 //! Gear ratio synthesis: the optimum against textbook conditions, its derivatives, a grid, and the train of (6.9).
 
 use crate::support::{assert_near, budget, config, derivative, largest};
-use jred::mechanism::synthesis::{Driven, OpenStage, RatioSplit};
+use jred::mechanism::synthesis::{Driven, OpenStage, OpenTrain, RatioSplit};
 use jred::mechanism::{Stage, Train};
 use jred::number::RangeError;
 use proptest::prelude::*;
@@ -10,7 +10,13 @@ const WIDE: [f64; 2] = [0.01, 1e4];
 
 /// Equal pinions of inertia 1, no load.
 fn equal_pinions(ratio: f64, stages: usize, bounds: [f64; 2]) -> RatioSplit {
-    RatioSplit::new(ratio, &vec![OpenStage::geared(1.0); stages], 0.0, bounds).unwrap()
+    RatioSplit::new(OpenTrain {
+        ratio,
+        stages: &vec![OpenStage::geared(1.0); stages],
+        output: 0.0,
+        bounds,
+    })
+    .unwrap()
 }
 
 /// Two stages: J = 1 + i₁² + 1/i₁² + i²/i₁⁴ is smallest for i₂² = (i₁⁴ − 1)/2.
@@ -69,8 +75,13 @@ fn many_equal_pinions_tend_to_the_textbook_form() {
 fn a_load_at_the_output_adds_its_reduced_inertia() {
     for stages in 2..=4 {
         let bare = equal_pinions(60.0, stages, WIDE);
-        let loaded =
-            RatioSplit::new(60.0, &vec![OpenStage::geared(1.0); stages], 500.0, WIDE).unwrap();
+        let loaded = RatioSplit::new(OpenTrain {
+            ratio: 60.0,
+            stages: &vec![OpenStage::geared(1.0); stages],
+            output: 500.0,
+            bounds: WIDE,
+        })
+        .unwrap();
         let [a, b] = [bare.optimum(), loaded.optimum()];
         assert_near(
             "J_L/i²",
@@ -91,7 +102,13 @@ fn constant_wheels_put_the_ratio_in_front() {
         driver: 1.0,
         driven: Driven::Constant(3.0),
     };
-    let split = RatioSplit::new(60.0, &[stage; 3], 10.0, [1.5, 8.0]).unwrap();
+    let split = RatioSplit::new(OpenTrain {
+        ratio: 60.0,
+        stages: &[stage; 3],
+        output: 10.0,
+        bounds: [1.5, 8.0],
+    })
+    .unwrap();
     let best = split.optimum();
     for (found, expected) in best.ratios.iter().zip([8.0, 5.0, 1.5]) {
         assert_near("ratio", *found, expected, 1e-12 * expected);
@@ -125,7 +142,7 @@ prop_compose! {
         }).collect();
         let bounds = [low, low * width];
         let ratio = (count as f64 * (low.ln() + share * width.ln())).exp();
-        let split = RatioSplit::new(ratio, &stages, output, bounds).unwrap();
+        let split = RatioSplit::new(OpenTrain { ratio, stages: &stages, output, bounds }).unwrap();
         Spec { split, stages, output, bounds }
     }
 }
@@ -248,7 +265,13 @@ fn a_grid_finds_nothing_better() {
             driven: Driven::Constant(300.0),
         },
     ];
-    let split = RatioSplit::new(90.0, &stages, 800.0, [1.0, 10.0]).unwrap();
+    let split = RatioSplit::new(OpenTrain {
+        ratio: 90.0,
+        stages: &stages,
+        output: 800.0,
+        bounds: [1.0, 10.0],
+    })
+    .unwrap();
     let best = split.optimum();
     let mut least = f64::INFINITY;
     for a in 0..=400 {
@@ -271,9 +294,14 @@ fn a_grid_finds_nothing_better() {
 fn what_cannot_be_split_is_refused() {
     let geared = [OpenStage::geared(1.0); 3];
     let refused = |ratio, stages: &[OpenStage], output, bounds| {
-        RatioSplit::new(ratio, stages, output, bounds)
-            .unwrap_err()
-            .to_string()
+        RatioSplit::new(OpenTrain {
+            ratio,
+            stages,
+            output,
+            bounds,
+        })
+        .unwrap_err()
+        .to_string()
     };
     assert_eq!(
         refused(10.0, &geared[..1], 0.0, WIDE),

@@ -4,7 +4,7 @@ use crate::number::error::RangeError;
 use core::f64::consts::TAU;
 use core::fmt;
 
-use super::Dual;
+use super::{CreepLimit, Dual};
 use crate::machine::motion::Law;
 use crate::math;
 use crate::number::error::{finite, positive};
@@ -119,6 +119,18 @@ impl<'a, C: Course> From<&'a C> for Coefficient<'a> {
     }
 }
 
+/// From where to where a ramp goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct RampShape {
+    /// The variable where it begins.
+    pub start: f64,
+    /// How far the variable goes meanwhile, > 0.
+    pub length: f64,
+    /// Value before and value after.
+    pub values: [f64; 2],
+}
+
 /// A passage from one value to another by a motion law; before and after it the end values.
 ///
 /// [`Law::Polynomial345`] shifts without a jump of acceleration. [`Ramp::linear`] is the straight line with limits.
@@ -132,21 +144,15 @@ pub struct Ramp {
 }
 
 impl Ramp {
-    /// From the first of `values` to the second while the variable goes from `start` over `length` > 0.
+    /// A ramp of this shape over a variable, by a motion law.
     ///
     /// # Errors
     /// A length that is not positive, a value that is not finite, or a law that is not valid.
-    pub fn new(
-        over: Variable,
-        start: f64,
-        length: f64,
-        values: [f64; 2],
-        law: Law,
-    ) -> Result<Self, RangeError> {
+    pub fn new(over: Variable, shape: RampShape, law: Law) -> Result<Self, RangeError> {
         law.check()?;
         Ok(Self {
             law: Some(law),
-            ..Self::linear(over, start, length, values)?
+            ..Self::linear(over, shape)?
         })
     }
 
@@ -155,12 +161,12 @@ impl Ramp {
     ///
     /// # Errors
     /// A length that is not positive, or a value that is not finite.
-    pub fn linear(
-        over: Variable,
-        start: f64,
-        length: f64,
-        values: [f64; 2],
-    ) -> Result<Self, RangeError> {
+    pub fn linear(over: Variable, shape: RampShape) -> Result<Self, RangeError> {
+        let RampShape {
+            start,
+            length,
+            values,
+        } = shape;
         Ok(Self {
             over,
             start: finite("start of the ramp", start)?,
@@ -191,42 +197,46 @@ impl Course for Ramp {
     }
 }
 
+/// The numbers of a sine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SineShape {
+    /// Value in the middle.
+    pub mean: f64,
+    /// Largest distance from it.
+    pub amplitude: f64,
+    /// In rad per unit of x (rad/s over time).
+    pub frequency: f64,
+    /// At x = 0 (rad).
+    pub phase: f64,
+}
+
 /// mean + amplitude·sin(frequency·x + phase).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sine {
     over: Variable,
-    mean: f64,
-    amplitude: f64,
-    frequency: f64,
-    phase: f64,
+    shape: SineShape,
 }
 
 impl Sine {
-    /// A sine over the variable x; `frequency` in rad per unit of x (rad/s over time), `phase` in rad.
+    /// A sine over the variable x.
     ///
     /// # Errors
     /// A value that is not finite.
-    pub fn new(
-        over: Variable,
-        mean: f64,
-        amplitude: f64,
-        frequency: f64,
-        phase: f64,
-    ) -> Result<Self, RangeError> {
-        Ok(Self {
-            over,
-            mean: finite("mean of the sine", mean)?,
-            amplitude: finite("amplitude of the sine", amplitude)?,
-            frequency: finite("frequency of the sine", frequency)?,
-            phase: finite("phase of the sine", phase)?,
-        })
+    pub fn new(over: Variable, shape: SineShape) -> Result<Self, RangeError> {
+        finite("mean of the sine", shape.mean)?;
+        finite("amplitude of the sine", shape.amplitude)?;
+        finite("frequency of the sine", shape.frequency)?;
+        finite("phase of the sine", shape.phase)?;
+        Ok(Self { over, shape })
     }
 }
 
 impl Course for Sine {
     fn at(&self, at: Place) -> Dual<3> {
-        let (sin, _) = (at.of(self.over) * self.frequency + self.phase).sin_cos();
-        sin * self.amplitude + self.mean
+        let shape = &self.shape;
+        let (sin, _) = (at.of(self.over) * shape.frequency + shape.phase).sin_cos();
+        sin * shape.amplitude + shape.mean
     }
 }
 
@@ -292,27 +302,21 @@ impl<C: AsRef<[f64]>> Course for Curve<C> {
 /// Valid for |load| ≤ limit, the torque that the contact can carry; beyond it slides, and
 /// [`Drive`](super::Drive) refuses slips above one. [`CreepContact`](super::CreepContact) goes on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Creep {
-    slip: f64,
-    limit: f64,
-}
+pub struct Creep(CreepLimit);
 
 impl Creep {
-    /// The `slip` s at the torque `limit` (N·m) on the second shaft.
+    /// Creep up to this limit.
     ///
     /// # Errors
-    /// A slip outside [0, 1), or a limit that is not positive.
-    pub fn new(slip: f64, limit: f64) -> Result<Self, RangeError> {
-        super::stage::slip_share(slip)?;
-        Ok(Self {
-            slip,
-            limit: positive("torque limit of the contact", limit)?,
-        })
+    /// A slip outside [0, 1), or a torque that is not positive.
+    pub fn new(limit: CreepLimit) -> Result<Self, RangeError> {
+        limit.check()?;
+        Ok(Self(limit))
     }
 }
 
 impl Course for Creep {
     fn at(&self, at: Place) -> Dual<3> {
-        at.load * (self.slip / self.limit)
+        at.load * (self.0.slip / self.0.torque)
     }
 }

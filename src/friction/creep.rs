@@ -5,6 +5,25 @@ use crate::math;
 use crate::number::error::RangeError;
 use crate::number::error::positive;
 
+/// Where a contact begins to slide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CreepLimit {
+    /// The slip there.
+    pub slip: f64,
+    /// The torque there, on the second shaft (N·m).
+    pub torque: f64,
+}
+
+impl CreepLimit {
+    /// A slip in [0, 1) at a positive torque.
+    pub(super) fn check(&self) -> Result<(), RangeError> {
+        slip_share(self.slip)?;
+        positive("torque limit of the contact", self.torque)?;
+        Ok(())
+    }
+}
+
 /// A friction contact whose torque grows with its slip up to the limit of friction:
 ///
 /// ```text
@@ -20,10 +39,7 @@ use crate::number::error::positive;
 /// At standstill s is not defined: below [`SLOW`](Self::SLOW) the speed difference itself is taken, which is a viscous
 /// contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CreepContact {
-    slip: f64,
-    limit: f64,
-}
+pub struct CreepContact(CreepLimit);
 
 /// What a contact does at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -42,15 +58,14 @@ impl CreepContact {
     /// The circumferential speed, as an angular speed of the second shaft (rad/s), below which the contact is viscous.
     pub const SLOW: f64 = 1.0;
 
-    /// The `slip` s₁ in (0, 1) at the torque `limit` (N·m) on the second shaft, where the contact begins to slide.
+    /// A contact that slides beyond this limit, s₁ and L.
     ///
     /// # Errors
-    /// A slip outside (0, 1), or a limit that is not positive.
-    pub fn new(slip: f64, limit: f64) -> Result<Self, RangeError> {
-        Ok(Self {
-            slip: positive("slip", slip_share(slip)?)?,
-            limit: positive("torque limit of the contact", limit)?,
-        })
+    /// A slip outside (0, 1), or a torque that is not positive.
+    pub fn new(limit: CreepLimit) -> Result<Self, RangeError> {
+        limit.check()?;
+        positive("slip", limit.slip)?;
+        Ok(Self(limit))
     }
 
     /// The torque at the speed i·ω₁ of the first surface and ω₂ of the second, both as angular speeds of the second shaft
@@ -59,7 +74,7 @@ impl CreepContact {
     pub fn traction(&self, first: f64, second: f64) -> Traction {
         let fastest = math::abs(first).max(math::abs(second)).max(Self::SLOW);
         let slip = (first - second) / fastest;
-        let torque = self.limit * (slip / self.slip).clamp(-1.0, 1.0);
+        let torque = self.0.torque * (slip / self.0.slip).clamp(-1.0, 1.0);
         Traction {
             torque,
             slip,

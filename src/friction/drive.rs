@@ -18,12 +18,10 @@ use super::course::Place;
 use super::error::FrictionError;
 use super::stage::{Flow, Ratios, Stage};
 use super::state::{ContactMotion, Motion, Shaft, ShaftMotion, State};
+use crate::machine::MAX_STAGES;
 use crate::math;
 use crate::number::error::RangeError;
 use crate::number::error::finite;
-
-/// The most stages of a friction drive.
-pub const MAX_STAGES: usize = 8;
 
 /// The most shafts.
 pub const MAX_SHAFTS: usize = MAX_STAGES + 1;

@@ -15,8 +15,8 @@
 use crate::number::error::RangeError;
 use core::fmt;
 
-use crate::friction::drive::MAX_STAGES;
 use crate::friction::{Drive, Place, Stage};
+use crate::machine::MAX_STAGES;
 use crate::math;
 use crate::number::error::finite;
 

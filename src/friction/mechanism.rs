@@ -1,7 +1,8 @@
 //! Friction drives with constant ratios and slips: shafts with α_k = j_k·α₁ (III.18).
 
-use super::{Arrangement, FrictionError, MAX_SHAFTS, MAX_STAGES, Stage};
+use super::{Arrangement, FrictionError, MAX_SHAFTS, Stage};
 use crate::Domain;
+use crate::machine::MAX_STAGES;
 use crate::machine::error::PoseError;
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link};

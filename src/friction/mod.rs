@@ -26,9 +26,11 @@ mod mechanism;
 mod stage;
 mod state;
 
-pub use course::{Coefficient, Course, Creep, Curve, Place, Ramp, Sine, Variable};
-pub use creep::{CreepContact, Traction};
-pub use drive::{Arrangement, Contact, Drive, MAX_SHAFTS, MAX_STAGES};
+pub use course::{
+    Coefficient, Course, Creep, Curve, Place, Ramp, RampShape, Sine, SineShape, Variable,
+};
+pub use creep::{CreepContact, CreepLimit, Traction};
+pub use drive::{Arrangement, Contact, Drive, MAX_SHAFTS};
 pub use dual::Dual;
 pub use error::FrictionError;
 pub use integrability::StageConstraint;

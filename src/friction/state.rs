@@ -1,6 +1,7 @@
 //! Inputs and results of a friction drive's equation of motion.
 
-use super::drive::{MAX_SHAFTS, MAX_STAGES};
+use super::drive::MAX_SHAFTS;
+use crate::machine::MAX_STAGES;
 use crate::machine::reduction::Reduction;
 use crate::math;
 

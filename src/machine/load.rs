@@ -1,5 +1,8 @@
 //! Forces and moments that act on the links, other than gravity.
 
+use core::f64::consts::TAU;
+
+use crate::Domain;
 use crate::machine::joint::{Body, Wrench};
 use crate::machine::link::Frame;
 use crate::machine::motion::Law;
@@ -40,60 +43,41 @@ pub struct Window {
 }
 
 impl Window {
-    /// A window from `from` on to `to` with edges of width `ramp` (rad of the drive link; `to` may lie past the
-    /// turn's end).
+    /// A window from the first position to the second with edges of width `ramp` (rad, or m), of a drive link with this range.
+    ///
+    /// On a turn it comes again with every turn, and its end may lie past the turn's. On a stroke it does not, and an end of it
+    /// may lie beyond the stroke.
     ///
     /// # Errors
-    /// A window wider than a turn or narrower than its two ramps; a ramp that is not positive.
-    pub fn new(from: f64, to: f64, ramp: f64) -> Result<Self, RangeError> {
-        use core::f64::consts::TAU;
+    /// A window narrower than its two ramps, or wider than a turn on one; a ramp that is not positive.
+    pub fn new(domain: Domain, [from, to]: [f64; 2], ramp: f64) -> Result<Self, RangeError> {
         let from = finite("start of the load's window", from)?;
         let ramp = positive("ramp of the load's window", ramp)?;
         let width = positive(
             "width of the load's window",
             finite("end of the load's window", to)? - from,
         )?;
-        if width > TAU || width < 2.0 * ramp {
+        let (what, max, repeats) = match domain {
+            Domain::Turn => ("width of the load's window (rad)", TAU, true),
+            Domain::Stroke { .. } => (
+                "width of the load's window (m or rad)",
+                f64::INFINITY,
+                false,
+            ),
+        };
+        if width > max || width < 2.0 * ramp {
             return Err(RangeError::OutOfRange {
-                what: "width of the load's window (rad)",
+                what,
                 value: width,
                 min: 2.0 * ramp,
-                max: TAU,
+                max,
             });
         }
         Ok(Self {
             from,
             width,
             ramp,
-            repeats: true,
-        })
-    }
-
-    /// A window of a drive link with a stroke, `from` … `to` with edges of width `ramp` (m, or rad of one that swings). It
-    /// does not come again after a turn, and an end of it may lie beyond the stroke.
-    ///
-    /// # Errors
-    /// A window narrower than its two ramps; a ramp that is not positive.
-    pub fn on_stroke(from: f64, to: f64, ramp: f64) -> Result<Self, RangeError> {
-        let from = finite("start of the load's window", from)?;
-        let ramp = positive("ramp of the load's window", ramp)?;
-        let width = positive(
-            "width of the load's window",
-            finite("end of the load's window", to)? - from,
-        )?;
-        if width < 2.0 * ramp {
-            return Err(RangeError::OutOfRange {
-                what: "width of the load's window (m or rad)",
-                value: width,
-                min: 2.0 * ramp,
-                max: f64::INFINITY,
-            });
-        }
-        Ok(Self {
-            from,
-            width,
-            ramp,
-            repeats: false,
+            repeats,
         })
     }
 
@@ -112,7 +96,6 @@ impl Window {
     /// How much of the load acts at `phi` (rad, or m of a stroke): 0 to 1.
     #[must_use]
     pub fn factor(&self, phi: f64) -> f64 {
-        use core::f64::consts::TAU;
         let into = if self.repeats {
             let turns = (phi - self.from) / TAU;
             (turns - math::floor(turns)) * TAU

@@ -8,6 +8,9 @@ use crate::machine::error::PoseError;
 /// The most links that a mechanism may have.
 pub const MAX_LINKS: usize = 16;
 
+/// The most stages of a gear train and of a friction drive.
+pub const MAX_STAGES: usize = 8;
+
 /// The frames of all links at one angle, in the order of [`Mechanism::links`].
 pub type Frames = heapless::Vec<Frame, MAX_LINKS>;
 

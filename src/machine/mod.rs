@@ -21,6 +21,6 @@ pub use kinetostatics::{Forces, Reaction};
 pub use link::Frame;
 pub(crate) use link::Link;
 pub use load::{Action, Load, LoadCurves, Window};
-pub use mechanism::{Frames, Jointed, MAX_LINKS, Mechanism};
+pub use mechanism::{Frames, Jointed, MAX_LINKS, MAX_STAGES, Mechanism};
 pub(crate) use reduction::Reducible;
 pub use reduction::{MAX_LOADS, TorqueTerms};

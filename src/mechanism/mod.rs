@@ -28,7 +28,7 @@ mod train;
 
 pub use ball_screw::BallScrew;
 pub use blocked::Blocked;
-pub use disc_cam::{CamContact, CamProfile, DiscCam, Follower, Roller, Swing};
+pub use disc_cam::{CamContact, CamProfile, DiscCam, Follower, Roller, RollerDimensions, Swing};
 pub use dyad::Side;
 pub use error::BuildError;
 pub use four_bar::{FourBar, FourBarDimensions};
@@ -44,4 +44,4 @@ pub use scotch_yoke::{ScotchYoke, ScotchYokeDimensions};
 pub use six_link::{SixLink, SixLinkDimensions};
 pub use slider_crank::{Branch, SliderCrank, SliderCrankDimensions};
 pub use toggle_press::{DeadCentre, DeadCentres, Standstill, TogglePress, TogglePressDimensions};
-pub use train::{Mesh, Stage, Train, TrainInput, TrainOutput};
+pub use train::{BeltDimensions, Mesh, Stage, Train, TrainInput, TrainOutput};

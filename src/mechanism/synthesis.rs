@@ -31,10 +31,10 @@ use crate::number::error::RangeError;
 use crate::number::error::{finite, not_negative, positive};
 
 /// The most stages that a ratio is split over.
-pub const MAX_STAGES: usize = 4;
+pub const MOST_STAGES: usize = 4;
 
 /// One number for each stage.
-pub type PerStage = heapless::Vec<f64, MAX_STAGES>;
+pub type PerStage = heapless::Vec<f64, MOST_STAGES>;
 
 /// Bisections: 2⁻⁵⁶ of the range of ln i, below its rounding.
 const HALVINGS: usize = 56;
@@ -88,32 +88,45 @@ pub struct Split {
     pub inertia: f64,
 }
 
-/// A train whose total ratio is to be divided.
+/// A train whose total ratio is still to be divided.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OpenTrain<'a> {
+    /// The total ratio i > 0.
+    pub ratio: f64,
+    /// 2 to 4 stages, in order from the input.
+    pub stages: &'a [OpenStage],
+    /// Inertia J_L on the last shaft (kg·m²).
+    pub output: f64,
+    /// Smallest and largest ratio of a stage.
+    pub bounds: [f64; 2],
+}
+
+/// An [`OpenTrain`], checked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RatioSplit {
-    stages: heapless::Vec<OpenStage, MAX_STAGES>,
+    stages: heapless::Vec<OpenStage, MOST_STAGES>,
     output: f64,
     ratio: f64,
     bounds: [f64; 2],
 }
 
 impl RatioSplit {
-    /// The total `ratio` i > 0 over 2 to 4 `stages`, in order from the input, with the inertia `output` J_L (kg·m²) on the
-    /// last shaft; every stage's ratio within `bounds`.
+    /// The split of this train.
     ///
     /// # Errors
     /// Fewer than 2 or more than 4 stages; an inertia negative; no inertia that depends on the split; bounds that are not
     /// positive and rising, or within which the stages cannot give the ratio.
-    pub fn new(
-        ratio: f64,
-        stages: &[OpenStage],
-        output: f64,
-        bounds: [f64; 2],
-    ) -> Result<Self, RangeError> {
+    pub fn new(train: OpenTrain<'_>) -> Result<Self, RangeError> {
+        let OpenTrain {
+            ratio,
+            stages,
+            output,
+            bounds,
+        } = train;
         let count = stages.len();
         let what = "number of stages";
-        if !(2..=MAX_STAGES).contains(&count) {
-            let (value, min, max) = (count as f64, 2.0, MAX_STAGES as f64);
+        if !(2..=MOST_STAGES).contains(&count) {
+            let (value, min, max) = (count as f64, 2.0, MOST_STAGES as f64);
             return Err(RangeError::OutOfRange {
                 what,
                 value,
@@ -223,7 +236,7 @@ impl RatioSplit {
     /// The split with the smallest J_red.
     #[must_use]
     pub fn optimum(&self) -> Split {
-        self.minimum([self.bounds.map(math::ln); MAX_STAGES])
+        self.minimum([self.bounds.map(math::ln); MOST_STAGES])
     }
 
     /// Smallest and largest ratio that the first stage can have: the range of the curve over the split.
@@ -254,12 +267,12 @@ impl RatioSplit {
                 max,
             });
         }
-        let mut bounds = [self.bounds.map(math::ln); MAX_STAGES];
+        let mut bounds = [self.bounds.map(math::ln); MOST_STAGES];
         bounds[0] = [math::ln(value); 2];
         Ok(self.minimum(bounds))
     }
 
-    fn minimum(&self, bounds: [[f64; 2]; MAX_STAGES]) -> Split {
+    fn minimum(&self, bounds: [[f64; 2]; MOST_STAGES]) -> Split {
         let bounds = bounds.get(..self.stages()).unwrap_or_default();
         let mut ratios = self.rest(0, math::ln(self.ratio), bounds).ratios;
         // ln and exp leave a rounding beyond a bound.

@@ -4,7 +4,7 @@ use crate::Domain;
 use crate::machine::error::PoseError;
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
 use crate::machine::link::{Frame, Link};
-use crate::machine::{Frames, Jointed, Mechanism};
+use crate::machine::{Frames, Jointed, MAX_STAGES, Mechanism};
 use crate::mechanism::error::BuildError;
 use crate::number::error::RangeError;
 use crate::number::error::{not_negative, positive};
@@ -19,6 +19,18 @@ pub enum Mesh {
     External,
     /// A gear in a ring gear: the direction stays.
     Internal,
+}
+
+/// Dimensions of an open belt over two pulleys, the driver's first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BeltDimensions {
+    /// Radii of the pulleys (m).
+    pub radii: [f64; 2],
+    /// Inertias of the pulleys (kg·m²).
+    pub inertias: [f64; 2],
+    /// Mass of the belt (kg); the notes' (5.9)-(5.16) give its weight P: mass = P/g.
+    pub mass: f64,
 }
 
 /// One stage: two shafts, coupled by a gear pair or a belt.
@@ -45,17 +57,18 @@ impl Stage {
         Self::new(sign * driven / driver, inertia)
     }
 
-    /// An open belt without slip over pulleys of `radius` `[driver, driven]` (m) and `inertia` (kg·m²), with the
-    /// belt's `mass` (kg), lossless. The notes' (5.9)-(5.16) give the belt's weight P: mass = P/g.
+    /// An open belt without slip, lossless.
     ///
     /// # Errors
     /// A radius not positive, or an inertia or the mass negative or not finite.
-    pub fn belt(radius: [f64; 2], inertia: [f64; 2], mass: f64) -> Result<Self, RangeError> {
-        let driver = positive("radius of the driver pulley", radius[0])?;
-        let driven = positive("radius of the driven pulley", radius[1])?;
-        let pulley = not_negative("inertia of the driver", inertia[0])?;
-        let belt = not_negative("mass of the belt", mass)? * driver * driver;
-        Self::new(driven / driver, [pulley + belt, inertia[1]])
+    pub fn belt(dimensions: BeltDimensions) -> Result<Self, RangeError> {
+        let [driver, driven] = dimensions.radii;
+        let driver = positive("radius of the driver pulley", driver)?;
+        let driven = positive("radius of the driven pulley", driven)?;
+        let [pulley, behind] = dimensions.inertias;
+        let pulley = not_negative("inertia of the driver", pulley)?;
+        let belt = not_negative("mass of the belt", dimensions.mass)? * driver * driver;
+        Self::new(driven / driver, [pulley + belt, behind])
     }
 
     /// A stage with the signed ratio i = ω_driver/ω_driven and the inertias on its two sides (kg·m²), lossless.
@@ -108,26 +121,22 @@ impl Stage {
 /// Accuracy: 1e-12 against exact rationals (tests `gear_train_golden`, `belt_drive_golden`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Train {
-    stages: heapless::Vec<Stage, { Self::MAX_STAGES }>,
-    shafts: heapless::Vec<Link, { Self::MAX_STAGES + 1 }>,
+    stages: heapless::Vec<Stage, MAX_STAGES>,
+    shafts: heapless::Vec<Link, { MAX_STAGES + 1 }>,
 }
 
 impl Train {
-    /// The most stages of a train.
-    pub const MAX_STAGES: usize = 8;
-
     /// A train of the given stages, in order from the drive link.
     ///
     /// # Errors
-    /// More than [`MAX_STAGES`](Self::MAX_STAGES) stages.
+    /// More than [`MAX_STAGES`] stages.
     pub fn new(stages: &[Stage]) -> Result<Self, BuildError> {
-        let stages =
-            heapless::Vec::<Stage, { Self::MAX_STAGES }>::from_slice(stages).map_err(|_| {
-                RangeError::TooMany {
-                    what: "stages",
-                    capacity: Self::MAX_STAGES,
-                }
-            })?;
+        let stages = heapless::Vec::<Stage, MAX_STAGES>::from_slice(stages).map_err(|_| {
+            RangeError::TooMany {
+                what: "stages",
+                capacity: MAX_STAGES,
+            }
+        })?;
         let mut shafts = heapless::Vec::new();
         let mut behind = 0.0; // the driven side of the stage before turns with this shaft
         for stage in &stages {

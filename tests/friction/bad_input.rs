@@ -3,8 +3,8 @@
 use crate::support::spoken;
 use jred::Error;
 use jred::friction::{
-    Arrangement, Contact, Creep, CreepContact, Drive, Flow, FrictionDrive, Place, Ramp, Shaft,
-    Sine, Stage, State, Variable,
+    Arrangement, Contact, Creep, CreepContact, CreepLimit, Drive, Flow, FrictionDrive, Place, Ramp,
+    RampShape, Shaft, Sine, SineShape, Stage, State, Variable,
 };
 use jred::machine::motion::Law;
 
@@ -24,19 +24,84 @@ fn stages_and_courses() {
     for slip in [1.0, -0.1, 3.0] {
         let expected = format!("slip is {slip}, outside 0 to 1");
         assert_eq!(text(stage.with_slip(slip, Flow::default())), expected);
-        assert_eq!(text(Creep::new(slip, 5.0)), expected);
+        assert_eq!(text(Creep::new(CreepLimit { slip, torque: 5.0 })), expected);
     }
-    assert!(CreepContact::new(0.0, 5.0).is_err() && CreepContact::new(0.1, 0.0).is_err());
-    assert!(Creep::new(0.1, -1.0).is_err());
-    assert!(Ramp::linear(Variable::Time, 0.0, 0.0, [1.0, 2.0]).is_err());
-    assert!(Ramp::new(Variable::Time, 0.0, 1.0, [1.0, f64::NAN], Law::default()).is_err());
-    assert!(Sine::new(Variable::Time, 1.0, 1.0, f64::INFINITY, 0.0).is_err());
+    assert!(
+        CreepContact::new(CreepLimit {
+            slip: 0.0,
+            torque: 5.0
+        })
+        .is_err()
+            && CreepContact::new(CreepLimit {
+                slip: 0.1,
+                torque: 0.0
+            })
+            .is_err()
+    );
+    assert!(
+        Creep::new(CreepLimit {
+            slip: 0.1,
+            torque: -1.0
+        })
+        .is_err()
+    );
+    assert!(
+        Ramp::linear(
+            Variable::Time,
+            RampShape {
+                start: 0.0,
+                length: 0.0,
+                values: [1.0, 2.0]
+            }
+        )
+        .is_err()
+    );
+    assert!(
+        Ramp::new(
+            Variable::Time,
+            RampShape {
+                start: 0.0,
+                length: 1.0,
+                values: [1.0, f64::NAN]
+            },
+            Law::default()
+        )
+        .is_err()
+    );
+    assert!(
+        Sine::new(
+            Variable::Time,
+            SineShape {
+                mean: 1.0,
+                amplitude: 1.0,
+                frequency: f64::INFINITY,
+                phase: 0.0
+            }
+        )
+        .is_err()
+    );
     // A ratio that passes through zero is refused where it does, not before.
-    let through = Ramp::linear(Variable::Time, 0.0, 1.0, [1.0, -1.0]).unwrap();
+    let through = Ramp::linear(
+        Variable::Time,
+        RampShape {
+            start: 0.0,
+            length: 1.0,
+            values: [1.0, -1.0],
+        },
+    )
+    .unwrap();
     let stage = Stage::new(&through).unwrap();
     assert!(stage.at(Place::new(0.4, 0.0, 0.0)).is_ok());
     assert_eq!(text(stage.at(Place::new(0.5, 0.0, 0.0))), zero);
-    let much = Ramp::linear(Variable::Load, 0.0, 10.0, [0.0, 2.0]).unwrap();
+    let much = Ramp::linear(
+        Variable::Load,
+        RampShape {
+            start: 0.0,
+            length: 10.0,
+            values: [0.0, 2.0],
+        },
+    )
+    .unwrap();
     let stage = Stage::new(1.0)
         .unwrap()
         .with_slip(&much, Flow::FirstDrives)
@@ -132,7 +197,16 @@ fn load_and_slip_that_do_not_settle() {
 #[test]
 fn mechanisms() {
     let constant = Stage::new(2.0).unwrap();
-    let course = Sine::new(Variable::Time, 1.0, 0.1, 1.0, 0.0).unwrap();
+    let course = Sine::new(
+        Variable::Time,
+        SineShape {
+            mean: 1.0,
+            amplitude: 0.1,
+            frequency: 1.0,
+            phase: 0.0,
+        },
+    )
+    .unwrap();
     let varying = Stage::new(&course).unwrap();
     let new =
         |stages: &[Stage], inertias: &[f64]| FrictionDrive::new(Arrangement::Fan, stages, inertias);

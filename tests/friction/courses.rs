@@ -1,6 +1,8 @@
 //! Courses and the numbers that carry their gradients.
 
-use jred::friction::{Course, Creep, Curve, Dual, Place, Ramp, Sine, Variable};
+use jred::friction::{
+    Course, Creep, CreepLimit, Curve, Dual, Place, Ramp, RampShape, Sine, SineShape, Variable,
+};
 use jred::machine::motion::Law;
 use jred::table::{CubicSpline, control_points, fit_bounded, fit_periodic};
 
@@ -26,12 +28,54 @@ fn courses_have_exact_slopes() {
     let at = [0.37, 1.1, 4.0];
     for variable in [Variable::Time, Variable::Angle, Variable::Load] {
         for law in [Law::Polynomial345, Law::Cycloidal, Law::ModifiedSine] {
-            check(&Ramp::new(variable, 0.1, 5.0, [0.5, 2.0], law).unwrap(), at);
+            check(
+                &Ramp::new(
+                    variable,
+                    RampShape {
+                        start: 0.1,
+                        length: 5.0,
+                        values: [0.5, 2.0],
+                    },
+                    law,
+                )
+                .unwrap(),
+                at,
+            );
         }
-        check(&Ramp::linear(variable, 0.1, 5.0, [0.5, 2.0]).unwrap(), at);
-        check(&Sine::new(variable, 1.0, 0.3, 2.5, 0.4).unwrap(), at);
+        check(
+            &Ramp::linear(
+                variable,
+                RampShape {
+                    start: 0.1,
+                    length: 5.0,
+                    values: [0.5, 2.0],
+                },
+            )
+            .unwrap(),
+            at,
+        );
+        check(
+            &Sine::new(
+                variable,
+                SineShape {
+                    mean: 1.0,
+                    amplitude: 0.3,
+                    frequency: 2.5,
+                    phase: 0.4,
+                },
+            )
+            .unwrap(),
+            at,
+        );
     }
-    check(&Creep::new(0.03, 50.0).unwrap(), at);
+    check(
+        &Creep::new(CreepLimit {
+            slip: 0.03,
+            torque: 50.0,
+        })
+        .unwrap(),
+        at,
+    );
     // A formula of the user's own, over all three at once.
     let own = |p: Place| {
         let (sin, cos) = (p.t * p.phi - p.load * 0.1).sin_cos();
@@ -42,8 +86,25 @@ fn courses_have_exact_slopes() {
 
 #[test]
 fn ramps_end_in_their_limits() {
-    let shift = Ramp::new(Variable::Time, 1.0, 2.0, [0.5, 2.0], Law::Polynomial345).unwrap();
-    let line = Ramp::linear(Variable::Time, 1.0, 2.0, [0.5, 2.0]).unwrap();
+    let shift = Ramp::new(
+        Variable::Time,
+        RampShape {
+            start: 1.0,
+            length: 2.0,
+            values: [0.5, 2.0],
+        },
+        Law::Polynomial345,
+    )
+    .unwrap();
+    let line = Ramp::linear(
+        Variable::Time,
+        RampShape {
+            start: 1.0,
+            length: 2.0,
+            values: [0.5, 2.0],
+        },
+    )
+    .unwrap();
     for (t, value) in [
         (-5.0, 0.5),
         (0.99, 0.5),

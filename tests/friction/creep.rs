@@ -1,7 +1,8 @@
 //! Slip that grows with the load.
 
 use jred::friction::{
-    Arrangement, Contact, Creep, CreepContact, Drive, Flow, Ramp, Shaft, Stage, State, Variable,
+    Arrangement, Contact, Creep, CreepContact, CreepLimit, Drive, Flow, Ramp, RampShape, Shaft,
+    Stage, State, Variable,
 };
 use jred::machine::motion::Law;
 
@@ -12,7 +13,11 @@ const LIMIT: f64 = 60.0;
 
 #[test]
 fn load_and_slip_agree() {
-    let creep = Creep::new(0.04, LIMIT).unwrap();
+    let creep = Creep::new(CreepLimit {
+        slip: 0.04,
+        torque: LIMIT,
+    })
+    .unwrap();
     for flow in [Flow::SecondDrives, Flow::FirstDrives] {
         for (ratio, omega) in [(1.7, 30.0), (-1.7, 30.0), (1.7, -30.0), (-1.7, -30.0)] {
             for torque in [-25.0, 25.0] {
@@ -44,7 +49,13 @@ fn load_and_slip_agree() {
 
 /// Loads on both shafts for a given speed: the power passes from shaft 1 to shaft 2.
 fn steady(creep: f64) -> (Drive<'static>, [Shaft; 2]) {
-    let course: &'static Creep = Box::leak(Box::new(Creep::new(creep, LIMIT).unwrap()));
+    let course: &'static Creep = Box::leak(Box::new(
+        Creep::new(CreepLimit {
+            slip: creep,
+            torque: LIMIT,
+        })
+        .unwrap(),
+    ));
     let stage = Stage::new(1.5)
         .unwrap()
         .with_slip(course, Flow::FirstDrives)
@@ -63,7 +74,11 @@ fn steady_load_is_the_creeping_contact() {
     };
     let motion = drive.forward(state, &shafts).unwrap();
     assert_near("α", motion.alpha, 0.0, budget::IDENTITY);
-    let contact = CreepContact::new(0.05, LIMIT).unwrap();
+    let contact = CreepContact::new(CreepLimit {
+        slip: 0.05,
+        torque: LIMIT,
+    })
+    .unwrap();
     let found = contact.traction(1.5 * 80.0, motion.shafts[1].omega);
     assert_near("L", found.torque, 30.0, budget::SETTLED * 1e4);
     assert_near("ε", found.slip, motion.contacts[0].slip, budget::SETTLED);
@@ -74,8 +89,21 @@ fn steady_load_is_the_creeping_contact() {
 #[test]
 fn quasi_static_creep_approaches_two_speeds() {
     let difference = |creep: f64| {
-        let course = Creep::new(creep, LIMIT).unwrap();
-        let ratio = Ramp::new(Variable::Time, 0.05, 1.0, [1.0, 1.6], Law::Polynomial345).unwrap();
+        let course = Creep::new(CreepLimit {
+            slip: creep,
+            torque: LIMIT,
+        })
+        .unwrap();
+        let ratio = Ramp::new(
+            Variable::Time,
+            RampShape {
+                start: 0.05,
+                length: 1.0,
+                values: [1.0, 1.6],
+            },
+            Law::Polynomial345,
+        )
+        .unwrap();
         let stage = Stage::new(&ratio)
             .unwrap()
             .with_slip(&course, Flow::FirstDrives)
@@ -92,7 +120,11 @@ fn quasi_static_creep_approaches_two_speeds() {
                 &shafts,
             )
             .unwrap();
-        let contact = CreepContact::new(creep, LIMIT).unwrap();
+        let contact = CreepContact::new(CreepLimit {
+            slip: creep,
+            torque: LIMIT,
+        })
+        .unwrap();
         let (h, steps) = (2e-5, 60_000);
         let one = integrate(
             |t, y: &[f64; 3]| {
@@ -130,7 +162,11 @@ fn quasi_static_creep_approaches_two_speeds() {
 
 #[test]
 fn the_contact_covers_both_conventions() {
-    let contact = CreepContact::new(0.05, LIMIT).unwrap();
+    let contact = CreepContact::new(CreepLimit {
+        slip: 0.05,
+        torque: LIMIT,
+    })
+    .unwrap();
     // Shaft 1 drives: ω₂ = i·ω₁·(1 − ε). Shaft 2 drives, as printed: ω₂ = i·ω₁/(1 − ε).
     let (first, slip) = (100.0, 0.02);
     let forward = contact.traction(first, first * (1.0 - slip));

@@ -1,7 +1,8 @@
 //! Holonomic or not: the stages of a friction drive.
 
 use jred::friction::{
-    Arrangement, Contact, Creep, Drive, Flow, Place, Ramp, Sine, Stage, StageConstraint, Variable,
+    Arrangement, Contact, Creep, CreepLimit, Drive, Flow, Place, Ramp, RampShape, Sine, SineShape,
+    Stage, StageConstraint, Variable,
 };
 use jred::machine::motion::Law;
 
@@ -9,10 +10,41 @@ use crate::support::{assert_near, budget};
 
 #[test]
 fn stages_say_what_they_are() {
-    let shift = Ramp::new(Variable::Time, 5.0, 0.01, [1.0, 2.0], Law::Polynomial345).unwrap();
-    let slow = Sine::new(Variable::Time, 1.0, 0.2, 0.7, 0.0).unwrap();
-    let angle = Sine::new(Variable::Angle, 1.0, 0.2, 2.0, 0.0).unwrap();
-    let creep = Creep::new(0.02, 10.0).unwrap();
+    let shift = Ramp::new(
+        Variable::Time,
+        RampShape {
+            start: 5.0,
+            length: 0.01,
+            values: [1.0, 2.0],
+        },
+        Law::Polynomial345,
+    )
+    .unwrap();
+    let slow = Sine::new(
+        Variable::Time,
+        SineShape {
+            mean: 1.0,
+            amplitude: 0.2,
+            frequency: 0.7,
+            phase: 0.0,
+        },
+    )
+    .unwrap();
+    let angle = Sine::new(
+        Variable::Angle,
+        SineShape {
+            mean: 1.0,
+            amplitude: 0.2,
+            frequency: 2.0,
+            phase: 0.0,
+        },
+    )
+    .unwrap();
+    let creep = Creep::new(CreepLimit {
+        slip: 0.02,
+        torque: 10.0,
+    })
+    .unwrap();
     let slipping = slow_slip();
     let both = |p: Place| (p.phi * 2.0 + p.t * 0.1).sin_cos().0 * 0.2 + 1.0;
     let stages = [
@@ -63,5 +95,13 @@ fn stages_say_what_they_are() {
 }
 
 fn slow_slip() -> Ramp {
-    Ramp::linear(Variable::Time, 0.0, 100.0, [0.01, 0.02]).unwrap()
+    Ramp::linear(
+        Variable::Time,
+        RampShape {
+            start: 0.0,
+            length: 100.0,
+            values: [0.01, 0.02],
+        },
+    )
+    .unwrap()
 }

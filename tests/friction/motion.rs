@@ -1,7 +1,8 @@
 //! Energy, power and the factor ½.
 
 use jred::friction::{
-    Arrangement, Contact, Drive, Flow, Motion, Ramp, Shaft, Sine, Stage, State, Variable,
+    Arrangement, Contact, Drive, Flow, Motion, Ramp, RampShape, Shaft, Sine, SineShape, Stage,
+    State, Variable,
 };
 use jred::machine::motion::Law;
 use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
@@ -13,7 +14,16 @@ use crate::support::{assert_near, budget, config, derivative};
 
 /// From 0.6 to 1.9 within a second.
 fn shift() -> Ramp {
-    Ramp::new(Variable::Time, 0.2, 1.0, [0.6, 1.9], Law::Polynomial345).unwrap()
+    Ramp::new(
+        Variable::Time,
+        RampShape {
+            start: 0.2,
+            length: 1.0,
+            values: [0.6, 1.9],
+        },
+        Law::Polynomial345,
+    )
+    .unwrap()
 }
 
 /// States of a drive: angles and ω.
@@ -37,7 +47,16 @@ fn state<const N: usize>(t: f64, y: &[f64; N]) -> State<'_> {
 #[test]
 fn free_run_keeps_the_energy() {
     let ratio = shift();
-    let other = Sine::new(Variable::Time, 1.2, 0.3, 4.0, 0.5).unwrap();
+    let other = Sine::new(
+        Variable::Time,
+        SineShape {
+            mean: 1.2,
+            amplitude: 0.3,
+            frequency: 4.0,
+            phase: 0.5,
+        },
+    )
+    .unwrap();
     for arrangement in [Arrangement::Chain, Arrangement::Fan] {
         let stages = [
             Stage::new(&ratio).unwrap(),
@@ -130,9 +149,35 @@ fn power_is_balanced() {
 impl Case {
     fn check(&self) {
         let c = self.courses;
-        let first = Sine::new(Variable::Time, 1.5, c[0], 3.0 * c[1], c[2]).unwrap();
-        let second = Sine::new(Variable::Angle, -1.3, c[3], 2.0, c[4]).unwrap();
-        let slip = Ramp::linear(Variable::Time, -4.0, 8.0, [0.0, 0.3 * c[5]]).unwrap();
+        let first = Sine::new(
+            Variable::Time,
+            SineShape {
+                mean: 1.5,
+                amplitude: c[0],
+                frequency: 3.0 * c[1],
+                phase: c[2],
+            },
+        )
+        .unwrap();
+        let second = Sine::new(
+            Variable::Angle,
+            SineShape {
+                mean: -1.3,
+                amplitude: c[3],
+                frequency: 2.0,
+                phase: c[4],
+            },
+        )
+        .unwrap();
+        let slip = Ramp::linear(
+            Variable::Time,
+            RampShape {
+                start: -4.0,
+                length: 8.0,
+                values: [0.0, 0.3 * c[5]],
+            },
+        )
+        .unwrap();
         let flow = if self.printed {
             Flow::SecondDrives
         } else {
@@ -253,7 +298,15 @@ fn rates_of_coefficients(drive: &Drive, shafts: &[Shaft; 3], state: &State, moti
 #[test]
 fn two_shafts_by_the_formula() {
     let (i, rate, slip) = (1.4, -0.7, 0.05);
-    let ratio = Ramp::linear(Variable::Time, 0.0, 1.0, [i, i + rate]).unwrap();
+    let ratio = Ramp::linear(
+        Variable::Time,
+        RampShape {
+            start: 0.0,
+            length: 1.0,
+            values: [i, i + rate],
+        },
+    )
+    .unwrap();
     let stage = Stage::new(&ratio)
         .unwrap()
         .with_slip(slip, Flow::FirstDrives)

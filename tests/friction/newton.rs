@@ -1,6 +1,8 @@
 //! Against two discs with the contact force as an unknown of its own.
 
-use jred::friction::{Arrangement, Contact, Drive, Flow, Ramp, Shaft, Stage, State, Variable};
+use jred::friction::{
+    Arrangement, Contact, Drive, Flow, Ramp, RampShape, Shaft, Stage, State, Variable,
+};
 use jred::machine::motion::Law;
 
 use super::integrate;
@@ -43,7 +45,16 @@ fn two_discs_with_a_contact_force() {
     ] {
         let (wheel, from, to) = (0.05, 0.03, 0.11);
         let discs = DiscAndWheel {
-            rho: Ramp::new(Variable::Time, 0.1, 0.8, [from, to], Law::Polynomial345).unwrap(),
+            rho: Ramp::new(
+                Variable::Time,
+                RampShape {
+                    start: 0.1,
+                    length: 0.8,
+                    values: [from, to],
+                },
+                Law::Polynomial345,
+            )
+            .unwrap(),
             wheel,
             inertias: [0.012, 0.02],
             torques: [4.0, -1.2],
@@ -51,9 +62,11 @@ fn two_discs_with_a_contact_force() {
         };
         let ratio = Ramp::new(
             Variable::Time,
-            0.1,
-            0.8,
-            [from / wheel, to / wheel],
+            RampShape {
+                start: 0.1,
+                length: 0.8,
+                values: [from / wheel, to / wheel],
+            },
             Law::Polynomial345,
         )
         .unwrap();

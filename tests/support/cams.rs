@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use jred::Link;
 use jred::machine::motion::Law;
 use jred::mechanism::cam::{CamError, Program, Segment};
-use jred::mechanism::{DiscCam, Follower, Roller, Swing};
+use jred::mechanism::{DiscCam, Follower, Roller, RollerDimensions, Swing};
 use proptest::prelude::*;
 
 /// Cam and follower, their centres of mass off the axes.
@@ -49,7 +49,12 @@ fn program(up: Law, down: Law, lift: f64, degrees: [f64; 4]) -> Program {
 /// A follower of each kind (0 to 5: rollers first, both swings), and a rise that suits it. The pivot is at `pivot` from
 /// the cam's, the arm 0.9 times as long.
 pub(crate) fn follower(kind: u32, radius: f64, pivot: [f64; 2], offset: f64) -> (Follower, f64) {
-    let roller = Roller::new(radius, 0.15, 8e-6).unwrap();
+    let roller = Roller::new(RollerDimensions {
+        radius,
+        mass: 0.15,
+        inertia: 8e-6,
+    })
+    .unwrap();
     let swing = [Swing::CounterClockwise, Swing::Clockwise][kind as usize % 2];
     let arm = 0.9 * pivot[0].hypot(pivot[1]);
     match kind {

@@ -27,6 +27,18 @@ impl Swing {
     }
 }
 
+/// Dimensions and mass of a roller.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct RollerDimensions {
+    /// Radius (m).
+    pub radius: f64,
+    /// Mass (kg).
+    pub mass: f64,
+    /// Inertia about its own axis (kg·m²): what turns with it.
+    pub inertia: f64,
+}
+
 /// A roller, which turns about its centre in the follower.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Roller {
@@ -35,14 +47,14 @@ pub struct Roller {
 }
 
 impl Roller {
-    /// A roller of `radius` (m) with `mass` (kg) and `inertia` about its own axis (kg·m²): what turns with it.
+    /// A roller of these dimensions.
     ///
     /// # Errors
     /// A radius that is not positive, a mass or an inertia that is negative, or anything not finite.
-    pub fn new(radius: f64, mass: f64, inertia: f64) -> Result<Self, RangeError> {
+    pub fn new(dimensions: RollerDimensions) -> Result<Self, RangeError> {
         Ok(Self {
-            radius: positive("roller radius", radius)?,
-            link: Link::new(mass, inertia, [0.0, 0.0])?,
+            radius: positive("roller radius", dimensions.radius)?,
+            link: Link::new(dimensions.mass, dimensions.inertia, [0.0, 0.0])?,
         })
     }
 

@@ -17,7 +17,7 @@ mod geometry;
 mod profile;
 mod spin;
 
-pub use follower::{Follower, Roller, Swing};
+pub use follower::{Follower, Roller, RollerDimensions, Swing};
 pub use profile::{CamContact, CamProfile};
 
 use crate::machine::error::PoseError;

@@ -251,7 +251,7 @@ pub struct Split {
     #[arg(long)]
     pub ratio: f64,
     /// Number of stages.
-    #[arg(long, value_parser = clap::value_parser!(u8).range(2..=jred::mechanism::synthesis::MAX_STAGES as i64))]
+    #[arg(long, value_parser = clap::value_parser!(u8).range(2..=jred::mechanism::synthesis::MOST_STAGES as i64))]
     pub stages: u8,
     /// Inertia of the driver of a stage, e.g. "0.2 kg cm^2": once for all stages, or once for each.
     #[arg(long, required = true, value_parser = jred_machine::read::inertia_argument)]

@@ -1,6 +1,6 @@
 //! `jred split`: the division of a total gear ratio over stages that makes the reduced inertia smallest.
 
-use jred::mechanism::synthesis::{Driven, OpenStage, RatioSplit, Split};
+use jred::mechanism::synthesis::{Driven, OpenStage, OpenTrain, RatioSplit, Split};
 use jred::number::RangeError;
 use miette::{Result, miette};
 use serde_json::{Map, Value, json};
@@ -53,7 +53,13 @@ fn train(options: &options::Split) -> Result<RatioSplit> {
         .map(|(driver, driven)| OpenStage { driver, driven })
         .collect();
     let bounds = [options.min_ratio, options.max_ratio];
-    RatioSplit::new(options.ratio, &open, options.load.unwrap_or(0.0), bounds).map_err(|error| {
+    RatioSplit::new(OpenTrain {
+        ratio: options.ratio,
+        stages: &open,
+        output: options.load.unwrap_or(0.0),
+        bounds,
+    })
+    .map_err(|error| {
         let help = match error {
             RangeError::OutOfRange {
                 what: "total ratio",

@@ -6,7 +6,8 @@
 
 use jred::Error;
 use jred::friction::{
-    Arrangement, Contact, Course, CreepContact, Drive, Dual, Flow, Place, Ramp, Stage, Variable,
+    Arrangement, Contact, Course, CreepContact, Drive, Dual, Flow, Place, Ramp, RampShape, Stage,
+    Variable,
 };
 use jred::machine::motion::Law;
 use miette::{Report, miette};
@@ -80,7 +81,15 @@ impl Ratio {
     /// # Errors
     /// A duration that is not positive, or a value that is not finite.
     pub fn shift(&mut self, at: f64, duration: f64, to: f64, law: Law) -> Result<(), Error> {
-        let course = Ramp::new(Variable::Time, at, duration, [self.last(), to], law)?;
+        let course = Ramp::new(
+            Variable::Time,
+            RampShape {
+                start: at,
+                length: duration,
+                values: [self.last(), to],
+            },
+            law,
+        )?;
         self.shifts.push(Shift {
             from: at,
             to: at + duration,

@@ -266,9 +266,11 @@ fn window(section: &Section) -> Result<Option<Window>> {
         }
     }
     let ramp = ramp.si.min((end - start) / 2.0);
-    Window::new(start, end, ramp).map(Some).map_err(|error| {
-        between.problem(&format!("is not possible: {error}"), "check these angles")
-    })
+    Window::new(Domain::Turn, [start, end], ramp)
+        .map(Some)
+        .map_err(|error| {
+            between.problem(&format!("is not possible: {error}"), "check these angles")
+        })
 }
 
 /// The part of the stroke in which the load acts.
@@ -336,7 +338,7 @@ fn stretch(section: &Section, drive: DriveLink) -> Result<Option<Window>> {
                 ramp.show(width / 2.0)
             )));
     }
-    Window::on_stroke(from.si, to.si, ramp.si.min(width / 2.0))
+    Window::new(drive.domain, [from.si, to.si], ramp.si.min(width / 2.0))
         .map(Some)
         .map_err(|error| {
             between.problem(

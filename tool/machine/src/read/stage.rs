@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use jred::mechanism::{Mesh, Stage, Train};
+use jred::machine::MAX_STAGES;
+use jred::mechanism::{BeltDimensions, Mesh, Stage, Train};
 use jred::number::RangeError;
 
 use crate::text::problem::{Problem, Result};
@@ -91,13 +92,17 @@ pub(super) fn belt(section: &Section, losses: Losses) -> Result<Placed> {
         None => 0.0,
     };
     let efficiency = efficiency(section, losses)?;
-    Stage::belt([driver, driven], [driver_inertia, driven_inertia], mass)
-        .and_then(|stage| stage.with_efficiency(efficiency))
-        .map(|stage| Placed {
-            stage,
-            place: section.header(),
-        })
-        .map_err(|error| core(section, error))
+    Stage::belt(BeltDimensions {
+        radii: [driver, driven],
+        inertias: [driver_inertia, driven_inertia],
+        mass,
+    })
+    .and_then(|stage| stage.with_efficiency(efficiency))
+    .map(|stage| Placed {
+        stage,
+        place: section.header(),
+    })
+    .map_err(|error| core(section, error))
 }
 
 /// The stage of a table with `type = "ball-screw"`: 2π/lead radians of the screw for each metre of the nut.
@@ -173,8 +178,8 @@ fn finish(section: &Section, losses: Losses) -> Result<()> {
 
 /// One train of all stages.
 pub(super) fn train(stages: Vec<Placed>) -> Result<Train> {
-    if let Some(surplus) = stages.get(Train::MAX_STAGES) {
-        let most = Train::MAX_STAGES;
+    if let Some(surplus) = stages.get(MAX_STAGES) {
+        let most = MAX_STAGES;
         return Err(
             Problem::new(format!("more than {most} stages one after another"))
                 .at(

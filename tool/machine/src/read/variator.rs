@@ -1,6 +1,6 @@
 //! `[variator]`: a friction variator between the motor and the drive train.
 
-use jred::friction::{Contact, CreepContact, Flow};
+use jred::friction::{Contact, CreepContact, CreepLimit, Flow};
 use jred::machine::motion::Law;
 
 use crate::model::variator::{Ratio, Slip, Variator};
@@ -162,13 +162,16 @@ fn creep(item: &Item) -> Result<Slip> {
     }
     let torque = section.quantity("torque", &TORQUE)?.positive()?;
     section.finish()?;
-    CreepContact::new(slip.si, torque)
-        .map(Slip::Creep)
-        .map_err(|error| {
-            section
-                .problem(error.to_string(), "in this table")
-                .help(error.cure().to_string())
-        })
+    CreepContact::new(CreepLimit {
+        slip: slip.si,
+        torque,
+    })
+    .map(Slip::Creep)
+    .map_err(|error| {
+        section
+            .problem(error.to_string(), "in this table")
+            .help(error.cure().to_string())
+    })
 }
 
 /// One shift after the others.

@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
+use jred::Domain;
 use jred::machine::{Action, Load, Mechanism, Window};
 use jred::mechanism::Train;
 use jred_machine::model::machine::Shaft;
@@ -48,7 +49,7 @@ fn the_press_is_read_in_si_units() {
         ["pressing force", "guide friction", "crank bearings"]
     );
     assert_eq!(press.machine.loads().len(), 3);
-    let window = Window::new(1.75 * PI, TAU, PI / 12.0).unwrap();
+    let window = Window::new(Domain::Turn, [1.75 * PI, TAU], PI / 12.0).unwrap();
     let frames = mechanism.frames(6.0).unwrap();
     let expected = Load::new(2, Action::Force([-20_000.0, 0.0]))
         .unwrap()

@@ -32,8 +32,8 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
             .problem("is empty", "here")
             .help("a friction drive has at least one stage"));
     }
-    if let Some(surplus) = stages.get(jred::friction::MAX_STAGES) {
-        let most = jred::friction::MAX_STAGES;
+    if let Some(surplus) = stages.get(jred::machine::MAX_STAGES) {
+        let most = jred::machine::MAX_STAGES;
         return Err(
             Problem::new(format!("more than {most} friction stages")).at(
                 surplus.header(),

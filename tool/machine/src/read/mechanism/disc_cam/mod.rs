@@ -7,7 +7,7 @@ mod refusal;
 
 use std::f64::consts::TAU;
 
-use jred::mechanism::{DiscCam, Follower, Roller};
+use jred::mechanism::{DiscCam, Follower, Roller, RollerDimensions};
 
 use super::{core, link, parts};
 use crate::model::machine::{AnyMechanism, Contact, NamedElement};
@@ -117,7 +117,12 @@ fn roller(section: &Section) -> Result<Roller> {
     section.finish_with(|key| {
         (key == "com").then_some("a roller is balanced: its centre of mass is on its axis")
     })?;
-    Roller::new(radius, mass, inertia).map_err(|error| core(&section, error))
+    Roller::new(RollerDimensions {
+        radius,
+        mass,
+        inertia,
+    })
+    .map_err(|error| core(&section, error))
 }
 
 fn closing_spring(section: &Section, mechanism: &DiscCam) -> Result<NamedElement> {

@@ -7,7 +7,7 @@ use jred::Domain;
 use jred::machine::{Body, Mechanism};
 use jred::mechanism::cam::Piece;
 use jred::mechanism::linkage::{Pair, PlacedCam};
-use jred::mechanism::{CamProfile, Follower, Roller};
+use jred::mechanism::{CamProfile, Follower, Roller, RollerDimensions};
 
 use crate::model::machine::{AnyMechanism, Contact};
 use crate::number::rounding::figure;
@@ -123,7 +123,12 @@ fn roller(section: &Section) -> Result<Roller> {
         ),
         _ => None,
     })?;
-    Roller::new(radius, 0.0, 0.0).map_err(|error| core(&section, error))
+    Roller::new(RollerDimensions {
+        radius,
+        mass: 0.0,
+        inertia: 0.0,
+    })
+    .map_err(|error| core(&section, error))
 }
 
 /// Checks all over the drive's range that the bearings are where the joints have them.
