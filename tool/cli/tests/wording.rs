@@ -1,6 +1,6 @@
 //! What users read, kept as snapshots, so that a change of wording or layout is read in review.
 //!
-//! `cargo insta review` shows what changed; `INSTA_UPDATE=always cargo test wording` writes all of it anew. Paths are
+//! `cargo insta review` shows what changed; `INSTA_UPDATE=always cargo test -p jred-cli wording` writes all of it anew. Paths are
 //! relative to the folder in which the command runs, colour is off, and rounding noise, digests and the version are masked.
 
 mod catalogues;

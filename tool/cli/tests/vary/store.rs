@@ -200,6 +200,7 @@ fn cluster(mut command: Command, folder: &Folder, environment: &[(&str, String)]
 
 /// The scripts of machines/cluster, run as a cluster would run their tasks, merge to the file of one run.
 #[test]
+#[cfg_attr(not(unix), ignore = "the scripts are for a Unix shell")]
 fn scripts_for_clusters() {
     let scripts = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines/cluster");
     let folder = Folder::new();
