@@ -113,6 +113,7 @@ impl RuleSet {
     }
 
     /// Use of the limit by a finding; zero if there is no limit, infinite if the limit is zero and the value is not.
+    #[inline]
     pub fn use_of_limit(&self, rule: Rule, finding: Finding) -> f64 {
         use_of(self.limit(rule).fail, rule, finding)
     }
@@ -124,6 +125,7 @@ impl RuleSet {
     }
 }
 
+#[inline]
 fn use_of(share: Option<f64>, rule: Rule, finding: Finding) -> f64 {
     let Some(share) = share.filter(|_| finding.is_known()) else {
         return 0.0;
