@@ -27,13 +27,13 @@ pub use fill::fill;
 pub use measure::measure;
 pub(crate) use measure::torque_between;
 pub use part::Part;
-pub use search::tabulate;
+pub use search::{growing, smallest, tabulate};
 
 use crate::curve::MAX_CELLS;
 use crate::curve::curves::{self, Set};
 use crate::machine::Reducible;
 use crate::number::error::positive;
-use crate::number::spline::control_points;
+use crate::number::spline::{MIN_CELLS, control_points};
 use crate::{Error, Scale, Validity, math};
 
 /// Places in each cell at which a table is compared with the exact curves.
@@ -96,6 +96,11 @@ impl Request {
     #[must_use]
     pub const fn with_max_cells(self, max_cells: u32) -> Self {
         Self { max_cells, ..self }
+    }
+
+    /// The largest number of cells that is tried.
+    fn most_cells(&self) -> u32 {
+        self.max_cells.clamp(MIN_CELLS as u32, MAX_CELLS)
     }
 
     pub(crate) fn check(&self) -> Result<(), Error> {

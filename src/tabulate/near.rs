@@ -6,7 +6,7 @@
 //! every candidate.
 
 use super::measure::{Places, measure_until, scan_places, torque_error};
-use super::search::search;
+use super::search::smallest;
 use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, Tabulated};
 use crate::Error;
 use crate::curve::{Format, Table};
@@ -24,26 +24,29 @@ pub(super) enum Look {
     Near,
 }
 
-/// As [`search`], for a `meets` that can look at fewer places.
+/// As [`smallest`], for a `meets` that can look at fewer places.
 pub(super) fn search_near(
     request: &Request,
     mut meets: impl FnMut(u32, Look) -> Result<Option<Tabulated>, Error>,
 ) -> Result<Option<Tabulated>, Error> {
-    let Some(guess) = search(request, |cells| meets(cells, Look::Near))? else {
+    let most = request.most_cells();
+    let near = smallest(most, EXHAUSTIVE, |cells| meets(cells, Look::Near))?;
+    let Some((guess, found)) = near else {
         return Ok(None);
     };
-    if guess.cells <= EXHAUSTIVE {
-        return Ok(Some(guess));
-    }
-    if let Some(found) = meets(guess.cells, Look::All)? {
+    if guess <= EXHAUSTIVE {
         return Ok(Some(found));
     }
-    search(request, |cells| {
-        if cells <= guess.cells {
+    if let Some(found) = meets(guess, Look::All)? {
+        return Ok(Some(found));
+    }
+    let larger = smallest(most, EXHAUSTIVE, |cells| {
+        if cells <= guess {
             return Ok(None);
         }
         meets(cells, Look::All)
-    })
+    })?;
+    Ok(larger.map(|(_, found)| found))
 }
 
 /// Where a table errs most, and its number of cells.

@@ -3,16 +3,14 @@
 use super::measure::{measure, measure_until};
 use super::near::{Look, meets_near, search_near};
 use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, Tabulated, fill};
-use crate::curve::{Format, MAX_CELLS, Set, Table};
+use crate::curve::{Format, Set, Table};
 use crate::machine::Reducible;
 use crate::number::spline::MIN_CELLS;
 use crate::{Error, Scale};
 
 /// Finds the table with the fewest cells that meets the request, fills `words` with it, and says how exact it is.
 ///
-/// Sizes that grow by a quarter each are tried until one meets the request; then the sizes below it: every one of them from
-/// the smallest on, up to [`EXHAUSTIVE`] cells, and beyond by bisection, which takes for granted that more cells err less. A
-/// candidate is dropped at its first position that misses, which is looked for first where the one before it was worst. In the
+/// Sizes are tried as by [`smallest`], every one up to [`EXHAUSTIVE`] cells. A candidate is dropped at its first position that misses, which is looked for first where the one before it was worst. In the
 /// bisection only the cells near the worst position are looked at; the size that comes out is checked at all places, and
 /// larger ones after it if it misses. In fixed point the machine units of the table are those in [`Tabulated::scale`].
 ///
@@ -69,42 +67,48 @@ fn candidate<'w, F: Format>(
     Ok(table)
 }
 
-/// The sizes of a table from few cells to `request.max_cells`, growing by a quarter.
-fn sizes(request: &Request) -> impl Iterator<Item = u32> {
-    let least = MIN_CELLS as u32;
-    let most = request.max_cells.clamp(least, MAX_CELLS);
-    core::iter::successors(Some(least), move |cells| {
+/// Sizes of a table from the smallest on, growing by a quarter each; `most` is the last.
+pub fn growing(most: u32) -> impl Iterator<Item = u32> {
+    core::iter::successors(Some((MIN_CELLS as u32).min(most)), move |cells| {
         (*cells < most).then(|| (cells + cells.div_ceil(4)).min(most))
     })
 }
 
-/// The smallest size that `meets` says yes to, as [`tabulate`] looks for it.
-pub(super) fn search(
-    request: &Request,
-    mut meets: impl FnMut(u32) -> Result<Option<Tabulated>, Error>,
-) -> Result<Option<Tabulated>, Error> {
-    let mut below = 0; // the largest size known to miss
-    let mut best = None;
-    for cells in sizes(request) {
-        best = meets(cells)?;
+/// The smallest size up to `most` cells for which `meets` gives something, and what it gives.
+///
+/// [Growing](growing) sizes are tried until one of them meets; then the smaller ones: every size up to `exhaustive` cells, and
+/// beyond by bisection, which assumes that more cells err less.
+///
+/// # Errors
+/// Those of `meets`.
+pub fn smallest<T, E>(
+    most: u32,
+    exhaustive: u32,
+    mut meets: impl FnMut(u32) -> Result<Option<T>, E>,
+) -> Result<Option<(u32, T)>, E> {
+    let (mut below, mut best) = (0, None);
+    for cells in growing(most) {
+        best = meets(cells)?.map(|found| (cells, found));
         if best.is_some() {
             break;
         }
-        below = cells;
+        below = cells; // the largest size known to miss
+    }
+    let end = best.as_ref().map_or(most, |(cells, _)| cells - 1);
+    let every = exhaustive.min(end);
+    for cells in MIN_CELLS as u32..=every {
+        if let Some(found) = meets(cells)? {
+            return Ok(Some((cells, found)));
+        }
     }
     let Some(mut best) = best else {
         return Ok(None);
     };
-    for cells in MIN_CELLS as u32..best.cells.min(EXHAUSTIVE) {
-        if let Some(found) = meets(cells)? {
-            return Ok(Some(found));
-        }
-    }
-    below = below.max(EXHAUSTIVE.min(best.cells) - 1);
-    while below + 1 < best.cells {
-        let middle = below.midpoint(best.cells);
+    below = below.max(every);
+    while below + 1 < best.0 {
+        let middle = below.midpoint(best.0);
         match meets(middle)? {
-            Some(found) => best = found,
+            Some(found) => best = (middle, found),
             None => below = middle,
         }
     }
@@ -139,7 +143,7 @@ fn not_reached(
         ..Tabulated::default()
     };
     let mut refused = None;
-    for cells in sizes(request) {
+    for cells in growing(request.most_cells()) {
         // A coarse curve may dip below zero or overshoot: more cells cure it. What the largest size says counts.
         refused = match measured(cells) {
             Ok(found) => {

@@ -157,13 +157,6 @@ impl<'m> Search<'m> {
     }
 }
 
-/// Sizes that grow by a quarter each, the last one too.
-fn growing(most: u32) -> impl Iterator<Item = u32> {
-    std::iter::successors(Some((MIN_CELLS as u32).min(most)), move |cells| {
-        (*cells < most).then(|| (cells + cells.div_ceil(4)).min(most))
-    })
-}
-
 struct Attempt<'s, F: Format> {
     search: &'s Search<'s>,
     number: Number,
@@ -184,7 +177,8 @@ impl<'s, F: Format> Attempt<'s, F> {
             return Ok(Answer::TooLarge(self.bytes(MIN_CELLS as u32)));
         };
         if let Some(allowed) = goal.torque_error
-            && let Some(candidate) = self.smallest(most, allowed)?
+            && let Some((_, candidate)) =
+                tabulate::smallest(most, EXHAUSTIVE, |cells| self.make(cells, allowed))?
         {
             return Ok(Answer::Meets(Box::new(candidate)));
         }
@@ -223,42 +217,10 @@ impl<'s, F: Format> Attempt<'s, F> {
         Some(fitting)
     }
 
-    /// The table with the fewest cells that meets the error: every size up to [`EXHAUSTIVE`] is tried, beyond it bisection
-    /// takes for granted that more cells err less.
-    fn smallest(&mut self, most: u32, allowed: f64) -> Result<Option<Candidate>, Error> {
-        let mut above = None;
-        for cells in growing(most) {
-            if let Some(found) = self.make(cells, allowed)? {
-                above = Some(found);
-                break;
-            }
-        }
-        let end = above.as_ref().map_or(most, |c| c.found.cells - 1);
-        for cells in MIN_CELLS as u32..=end.min(EXHAUSTIVE) {
-            if let Some(found) = self.make(cells, allowed)? {
-                return Ok(Some(found));
-            }
-        }
-        let Some(mut best) = above else {
-            return Ok(None);
-        };
-        // The growing size before it misses.
-        let before = growing(most).take_while(|cells| *cells < best.found.cells);
-        let mut below = before.last().unwrap_or(0).max(EXHAUSTIVE.min(end));
-        while below + 1 < best.found.cells {
-            let middle = below.midpoint(best.found.cells);
-            match self.make(middle, allowed)? {
-                Some(found) => best = found,
-                None => below = middle,
-            }
-        }
-        Ok(Some(best))
-    }
-
     /// The most exact table of up to `most` cells: of all sizes up to [`EXHAUSTIVE`], and of growing ones beyond.
     fn best(&mut self, most: u32) -> Result<Option<Candidate>, Error> {
         let all = (MIN_CELLS as u32..=most.min(EXHAUSTIVE)).rev();
-        let beyond = growing(most).filter(|cells| *cells > EXHAUSTIVE);
+        let beyond = tabulate::growing(most).filter(|cells| *cells > EXHAUSTIVE);
         let mut sizes: Vec<(f64, u32)> = Vec::new();
         let mut least = f64::INFINITY;
         for cells in beyond.chain(all) {
