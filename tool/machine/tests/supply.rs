@@ -104,7 +104,7 @@ fn what_cannot_be_is_refused() {
     refuses(&supply("mains_voltage = \"400 V\""), &["both given", "√2"]);
     refuses(
         &supply("max_voltage = \"820 A\""),
-        &["must be a voltage", "in A"],
+        &["must be a voltage", "is a current"],
     );
     refuses(
         &supply("brake_resistor = { power = \"200 W\" }"),

@@ -29,7 +29,7 @@ pub use amplifier::{Amplifier, Resistor};
 #[cfg(feature = "fs")]
 pub use disk::Sources;
 pub use drive::{Drive, DriveId};
-pub use fault::{CatalogueError, Misplaced, SHOWN, Several};
+pub use fault::{CatalogueError, SHOWN, Several};
 pub use gearbox::Gearbox;
 
 pub use motor::{Brake, Commutation, Motor, MotorKind, Thermal, Winding};

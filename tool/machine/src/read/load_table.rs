@@ -10,6 +10,7 @@ use crate::model::tabulated::{Course, StandIn};
 use crate::number::spline::{MIN_POINTS, Way};
 use crate::text::columns;
 use crate::text::columns::{CsvFile, Format, Known, known};
+use crate::text::csv;
 use crate::text::file::Files;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
@@ -145,7 +146,7 @@ fn curves(text: &str, drive: DriveLink, target: &Target) -> Result<Vec<StandIn>>
     let columns = columns::read(text, &format)?;
     let header = |message: &str| {
         Problem::new(message)
-            .at(columns::header_place(text), "header")
+            .at(csv::header_place(text), "header")
             .help(format!(
                 "the first line gives column names with units: {example}"
             ))

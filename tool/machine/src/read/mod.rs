@@ -36,7 +36,6 @@ use std::path::Path;
 
 use jred::Machine;
 use miette::{Report, miette};
-use toml::de::{DeTable, DeValue};
 
 use crate::model::machine::MachineFile;
 use crate::model::rules::RuleSet;
@@ -45,6 +44,7 @@ use crate::units::kind::ACCELERATION;
 
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
+use crate::text::tree;
 use drive_link::DriveLink;
 
 /// The largest machine file (bytes).
@@ -136,7 +136,7 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<MachineFile> {
         ))
         .help(fault.help));
     }
-    let tree = DeTable::parse(text).map_err(|error| syntax(&error, text))?;
+    let tree = tree::parse(text)?;
     if tree.get_ref().is_empty() {
         return Err(Problem::new(format!("the machine file {name} is empty")).help(
             "a machine file needs at least gravity = [\"9.81 m/s^2\", \"0 m/s^2\"] and a [mechanism] with its type",
@@ -229,52 +229,4 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<MachineFile> {
     check::inertia(&file, &section)?;
     contact::check(&file, &section)?;
     Ok(file)
-}
-
-/// Text that is not TOML.
-fn syntax(error: &toml::de::Error, text: &str) -> Problem {
-    let span = error.span().unwrap_or(0..0);
-    let start = text
-        .get(..span.start)
-        .map_or(0, |before| before.rfind('\n').map_or(0, |at| at + 1));
-    let line = text
-        .get(start..)
-        .and_then(|rest| rest.lines().next())
-        .unwrap_or_default();
-    let (key, value) = line.split_once('=').unwrap_or((line, ""));
-    let at_key = span.start <= start + key.len();
-    let bare = !at_key && !value.contains(['"', '[', '{', '\'']);
-    let value = value.split('#').next().unwrap_or_default().trim();
-    let help = if at_key
-        && text
-            .get(span.clone())
-            .is_some_and(|key| is_twice(key, text))
-    {
-        "remove or rename one of the two".to_owned()
-    } else if bare && !value.is_empty() {
-        let key = key.trim();
-        format!("write texts and quantities in quotes: {key} = \"{value}\"")
-    } else {
-        "a line is key = \"value\", a [table] or a [[table of a list]]; write texts in quotes"
-            .to_owned()
-    };
-    Problem::new(format!("the file is not valid TOML: {}", error.message()))
-        .at(span, "here")
-        .help(help)
-}
-
-/// Whether a text that is not valid TOML has this key where it can be read; what is wrong is then that it stands there again.
-fn is_twice(key: &str, text: &str) -> bool {
-    fn has(value: &DeValue, key: &str) -> bool {
-        match value {
-            DeValue::Table(table) => {
-                let mut entries = table.iter();
-                entries.any(|(name, value)| name.get_ref() == key || has(value.get_ref(), key))
-            }
-            DeValue::Array(array) => array.iter().any(|value| has(value.get_ref(), key)),
-            _ => false,
-        }
-    }
-    let (table, _) = DeTable::parse_recoverable(text);
-    has(&DeValue::Table(table.into_inner()), key)
 }

@@ -13,6 +13,7 @@ use super::motion;
 use crate::number::rounding::figure;
 use crate::text::columns;
 use crate::text::columns::{Columns, CsvFile, Format, Known, known};
+use crate::text::csv;
 use crate::text::item::Value;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
@@ -127,7 +128,7 @@ fn read_columns(text: &str, drive: DriveLink) -> Result<Columns> {
         return Err(Problem::new(
             "the header must have a column either for the position or for the speed",
         )
-        .at(columns::header_place(text), "header")
+        .at(csv::header_place(text), "header")
         .help(format!(
             "the first line gives column names with units: {example}"
         )));
@@ -185,7 +186,7 @@ fn curve(
     };
     let unmade = |fault| {
         Problem::new(format!("no motion fits these rows: {fault}"))
-            .at(columns::header_place(text), "in this file")
+            .at(csv::header_place(text), "in this file")
     };
     let most = |default: f64| {
         request

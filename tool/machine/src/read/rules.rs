@@ -2,8 +2,7 @@
 
 use std::ops::Range;
 use std::path::Path;
-
-use toml::de::DeTable;
+use std::sync::Arc;
 
 use crate::model::rule::Rule;
 use crate::model::rules::{
@@ -14,6 +13,7 @@ use crate::text::file::Files;
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result, quoted};
 use crate::text::section::Section;
+use crate::text::tree;
 use crate::units::did_you_mean;
 use crate::units::kind::SHARE;
 
@@ -99,7 +99,7 @@ pub(super) fn named_or_file(word: &str, files: &dyn Files) -> Result<RuleSet> {
         ))
         .help(fault.help)
     })?;
-    parse(&name, &text).map_err(|problem| problem.in_file(&name, &text))
+    parse(&name, &text).map_err(|problem| problem.in_file(&name, &Arc::new(text)))
 }
 
 fn named(name: &str) -> Result<RuleSet> {
@@ -127,7 +127,7 @@ fn chosen(word: &Item, files: &dyn Files) -> Result<RuleSet> {
 
 /// Reads a rule set from the text of its file.
 fn parse(name: &str, text: &str) -> Result<RuleSet> {
-    let tree = DeTable::parse(text).map_err(|error| super::syntax(&error, text))?;
+    let tree = tree::parse(text)?;
     let root = Section::new(String::new(), 0..0, tree.get_ref());
     let title = root.require("title", "title = \"Rules of our house\"")?;
     let title = title.text("Rules of our house")?.to_owned();

@@ -59,11 +59,6 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
 /// A temperature on the Celsius scale (°C).
 fn celsius(item: &Item) -> Result<f64> {
     let value = item.quantity(&TEMPERATURE)?;
-    if !value.shown().ends_with("degC") {
-        return Err(item
-            .problem("is not in degrees Celsius", "which unit?")
-            .help("write a temperature in degrees Celsius, such as \"40 degC\""));
-    }
     let [low, high] = TEMPERATURES;
     if !(low..=high).contains(&value.si) {
         let what = format!(

@@ -1,16 +1,17 @@
-//! CSV files from other programs: columns of numbers with units in the header.
-//!
-//! Commas, semicolons or tabs between the values, a byte order mark, comments (`#`), and, where no comma separates, decimal
-//! commas. Every mistake is shown in the CSV file.
+//! CSV files from other programs: columns of numbers with units in the header; where no comma separates, decimals may have
+//! one. Every mistake is shown in the CSV file.
 
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::csv::{Table, name_and_unit};
 use super::file::Files;
 use super::item::Item;
 use super::problem::{Problem, Result};
 use crate::number::rounding::figure;
 use crate::units::did_you_mean;
 use crate::units::kind::Kind;
-use crate::units::unit;
-use std::ops::Range;
+use crate::units::quantity;
 
 /// The largest CSV file (bytes).
 const MAX_SIZE: u64 = 64 << 20;
@@ -43,7 +44,7 @@ pub(crate) struct Format<'f> {
 
 /// The file that `item` names, among `files`.
 pub(crate) struct CsvFile {
-    pub(crate) text: String,
+    pub(crate) text: Arc<String>,
     name: String,
 }
 
@@ -55,8 +56,10 @@ impl CsvFile {
                 .help(fault.help)
         })?;
         let name = files.shown(file);
-        let text = text.trim_start_matches('\u{feff}').to_owned();
-        Ok(Self { text, name })
+        Ok(Self {
+            text: Arc::new(text),
+            name,
+        })
     }
 
     /// The problem, shown in this file.
@@ -96,8 +99,8 @@ impl Columns {
         let Some((header, scale)) = self.headers.get(index) else {
             return figure(value);
         };
-        let unit = split_header(header).map_or("", |(_, unit)| unit);
-        format!("{} {unit}", figure(value / scale))
+        let (_, unit) = name_and_unit(header);
+        format!("{} {}", figure(value / scale), unit.unwrap_or_default())
             .trim_end()
             .to_owned()
     }
@@ -106,7 +109,7 @@ impl Columns {
     pub(crate) fn problem(&self, index: usize, row: usize, what: &str) -> Problem {
         let value = self.get(index).and_then(|values| values.get(row));
         let header = self.headers.get(index).map_or("", |(header, _)| header);
-        let name = split_header(header).map_or(header, |(name, _)| name);
+        let (name, _) = name_and_unit(header);
         let shown = self.shown(index, value.copied().unwrap_or(f64::NAN));
         Problem::new(format!("row {}: {name} = {shown} {what}", row + 1))
             .at(self.place(row), "this row")
@@ -129,106 +132,38 @@ impl Columns {
     }
 }
 
-/// `name [unit]`
-fn split_header(header: &str) -> Option<(&str, &str)> {
-    let (name, unit) = header.strip_suffix(']')?.rsplit_once('[')?;
-    Some((name.trim_end(), unit.trim()))
-}
-
-/// The first line that is no comment.
-pub(crate) fn header_of(text: &str) -> &str {
-    let mut lines = text
-        .lines()
-        .filter(|line| !line.starts_with('#') && !line.trim().is_empty());
-    lines.next().unwrap_or_default()
-}
-
-/// Where the header is.
-pub(crate) fn header_place(text: &str) -> Range<usize> {
-    let header = header_of(text);
-    let start = text.find(header).unwrap_or(0);
-    start..start + header.len()
-}
-
-/// Separator of the values: tab or semicolon, whichever the header contains first, otherwise the comma.
-fn delimiter(text: &str) -> u8 {
-    let header = header_of(text);
-    if header.contains('\t') {
-        b'\t'
-    } else if header.contains(';') {
-        b';'
-    } else {
-        b','
-    }
-}
-
 /// Reads header and rows.
 pub(crate) fn read(text: &str, format: &Format) -> Result<Columns> {
-    let delimiter = delimiter(text);
-    let mut reader = csv::ReaderBuilder::new()
-        .delimiter(delimiter)
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .flexible(true)
-        .from_reader(text.as_bytes());
-    let broken = |error: &csv::Error| {
-        let start = error.position().map_or(0, |p| p.byte() as usize);
-        Problem::new(format!("invalid CSV: {error}"))
-            .at(line_at(text, start), "here")
-            .help(format!(
-                "give columns of numbers under the header {}",
-                format.example
-            ))
-    };
-    let header = reader.headers().map_err(|error| broken(&error))?.clone();
-    let columns = header_columns(&header, text, format)?;
+    let mut table = Table::read(text)?;
+    let columns = header_columns(&table, format)?;
     let mut values: Vec<Option<Vec<f64>>> = vec![None; format.known.len()];
     let mut headers = vec![(String::new(), 1.0); format.known.len()];
-    for (column, name) in columns.iter().zip(&header) {
+    for (column, name) in columns.iter().zip(table.header()) {
         if let Some((index, scale)) = column {
             values[*index] = Some(Vec::new());
             headers[*index] = (name.to_owned(), *scale);
         }
     }
     let mut places = Vec::new();
-    for (number, record) in reader.records().enumerate() {
-        let record = record.map_err(|error| broken(&error))?;
-        let start = record.position().map_or(0, |p| p.byte() as usize);
-        let place = line_at(text, start);
-        if record.len() != columns.len() {
-            return Err(Problem::new(format!(
-                "row {} has {} values, but the header has {} columns",
-                number + 1,
-                record.len(),
-                columns.len()
-            ))
-            .at(place, "this row")
-            .help(
-                "separate the values as the header does; with commas between them decimals have a point, with semicolons or \
-                 tabs they may have a comma",
-            ));
-        }
-        for ((field, column), name) in record.iter().zip(&columns).zip(&header) {
+    while let Some(row) = table.advance() {
+        row?;
+        let (number, place) = (places.len() + 1, table.row_place());
+        for ((field, column), name) in table.row().iter().zip(&columns).zip(table.header()) {
             let Some((index, scale)) = *column else {
                 continue;
             };
-            let value = number_of(field, delimiter).ok_or_else(|| {
-                Problem::new(format!(
-                    "row {}: \"{field}\" in the column \"{name}\" is not a finite number",
-                    number + 1
-                ))
-                .at(place.clone(), "this row")
-                .help("write plain numbers with a decimal point and no units, such as 12.5; leave no cell empty")
+            let fault = |what: &str| {
+                let message =
+                    format!("row {number}: \"{field}\" in the column \"{name}\" is {what}");
+                Problem::new(message).at(place.clone(), "this row")
+            };
+            let value = number_of(field, table.separator()).ok_or_else(|| {
+                fault("not a finite number")
+                    .help("write plain numbers with a decimal point and no units, such as 12.5; leave no cell empty")
             })? * scale;
             let kind = format.known[index].kind;
             if value.abs() > kind.largest {
-                return Err(Problem::new(format!(
-                    "row {}: {field} in the column \"{name}\" is too large for {}",
-                    number + 1,
-                    kind.name
-                ))
-                .at(place, "this row")
-                .help(format!(
+                return Err(fault(&format!("too large for {}", kind.name)).help(format!(
                     "at most {} {name} is accepted: check the number and the unit in the header",
                     figure(kind.largest / scale)
                 )));
@@ -258,8 +193,8 @@ pub(crate) fn read(text: &str, format: &Format) -> Result<Columns> {
 }
 
 /// A number, with a decimal comma where no comma separates.
-fn number_of(field: &str, delimiter: u8) -> Option<f64> {
-    let number = if delimiter != b',' && field.contains(',') && !field.contains('.') {
+fn number_of(field: &str, separator: char) -> Option<f64> {
+    let number = if separator != ',' && field.contains(',') && !field.contains('.') {
         field.replacen(',', ".", 1).parse()
     } else {
         field.parse()
@@ -268,22 +203,16 @@ fn number_of(field: &str, delimiter: u8) -> Option<f64> {
 }
 
 /// For each column of the file, which of the format's it is and the size of its unit; `None` if it is passed over.
-fn header_columns(
-    header: &csv::StringRecord,
-    text: &str,
-    format: &Format,
-) -> Result<Vec<Option<(usize, f64)>>> {
-    let place = header_place(text);
+fn header_columns(table: &Table, format: &Format) -> Result<Vec<Option<(usize, f64)>>> {
     let help = format!(
         "the first line gives column names with units: {}",
         format.example
     );
-    let fault = |message: String, help: String| {
-        Problem::new(message).at(place.clone(), "header").help(help)
-    };
     let mut columns: Vec<Option<(usize, f64)>> = Vec::new();
-    for whole in header {
-        let name = split_header(whole).map_or(whole, |(name, _)| name);
+    for (at, whole) in table.header().iter().enumerate() {
+        let fault =
+            |message: String| Problem::new(message).at(table.title_place(at), "this column");
+        let (name, _) = name_and_unit(whole);
         let is = |known: &Known| known.names.iter().any(|n| n.eq_ignore_ascii_case(name));
         let Some(index) = format.known.iter().position(is) else {
             if (format.ignored)(name) {
@@ -291,47 +220,16 @@ fn header_columns(
                 continue;
             }
             let names: Vec<&str> = format.known.iter().flat_map(|k| k.names).copied().collect();
-            let near = did_you_mean(name, &names);
-            return Err(fault(format!("unknown column \"{whole}\""), near + &help));
+            return Err(fault(format!("unknown column \"{whole}\""))
+                .help(did_you_mean(name, &names) + &help));
         };
         let kind = format.known[index].kind;
-        let Some((_, unit)) = split_header(whole) else {
-            return Err(fault(
-                format!("the column \"{whole}\" has no unit"),
-                format!(
-                    "write \"{name} [{}]\"; possible units: {}",
-                    kind.unit, kind.units
-                ),
-            ));
-        };
-        let read = unit::read(&unit::tidy(unit))
-            .map_err(|f| fault(format!("the column \"{whole}\" {}", f.message), f.help))?;
-        if !kind.is_measured_by(read.dimension) {
-            return Err(fault(
-                format!(
-                    "the column \"{whole}\" is {}, but must be {}",
-                    crate::units::kind::describe(read.dimension),
-                    kind.name
-                ),
-                format!("possible units: {}", kind.units),
-            ));
-        }
+        let (unit, _) = table.unit(at, &[kind], |unit| quantity::unit_of(unit, &[kind]))?;
         if columns.iter().flatten().any(|(other, _)| *other == index) {
-            return Err(fault(
-                format!("duplicate column \"{name}\""),
-                format!("remove one of the two; {help}"),
-            ));
+            return Err(fault(format!("duplicate column \"{name}\""))
+                .help(format!("remove one of the two; {help}")));
         }
-        columns.push(Some((index, read.scale)));
+        columns.push(Some((index, unit.scale)));
     }
     Ok(columns)
-}
-
-/// The line that begins at or after `start`.
-fn line_at(text: &str, start: usize) -> Range<usize> {
-    let rest = text.get(start..).unwrap_or_default();
-    let start = start + rest.len() - rest.trim_start().len();
-    let line = text.get(start..).unwrap_or_default();
-    let length = line.find(['\n', '\r']).unwrap_or(line.len());
-    start..start + length
 }

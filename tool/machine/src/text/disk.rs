@@ -63,15 +63,18 @@ pub(crate) fn read(path: &Path, limit: u64) -> Result<String, Fault> {
     if bytes.len() as u64 > limit {
         return Err(too_large(&format!("more than {}", size(limit)), limit));
     }
+    utf8(bytes)
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// It is not UTF-8, with the line where that shows.
+pub fn utf8(bytes: Vec<u8>) -> Result<String, Fault> {
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
-        let line = error
-            .as_bytes()
-            .iter()
-            .take(valid)
-            .filter(|b| **b == b'\n')
-            .count()
-            + 1;
+        let before = error.as_bytes().iter().take(valid);
+        let line = before.filter(|b| **b == b'\n').count() + 1;
         Fault::new(
             format!("it is not UTF-8 text: line {line} contains an invalid byte"),
             "save it as UTF-8 text; spreadsheets and images are not supported",

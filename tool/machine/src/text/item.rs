@@ -1,5 +1,6 @@
 //! One value of the machine file with its place, converted to the type of its key.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use toml::Spanned;
@@ -14,7 +15,7 @@ use crate::units::{Fault, did_you_mean};
 
 /// A value with its name for messages.
 #[derive(Clone, Debug)]
-pub(crate) struct Item<'a> {
+pub struct Item<'a> {
     /// "`length` in [mechanism.crank]"
     name: String,
     key: &'static str,
@@ -49,21 +50,22 @@ impl<'a> Item<'a> {
     }
 
     /// The place of the value.
-    pub(crate) fn span(&self) -> Range<usize> {
+    pub fn span(&self) -> Range<usize> {
         self.value.span()
     }
 
     /// The place of the key.
-    pub(crate) fn key_span(&self) -> Range<usize> {
+    pub fn key_span(&self) -> Range<usize> {
         self.key_span.clone()
     }
 
     /// A problem with this value: "`length` in [mechanism.crank] " and `what`.
-    pub(crate) fn problem(&self, what: &str, label: &str) -> Problem {
+    pub fn problem(&self, what: &str, label: &str) -> Problem {
         Problem::new(format!("{} {what}", self.name)).at(self.span(), label)
     }
 
-    fn fault(&self, fault: Fault) -> Problem {
+    /// The problem of a fault of this value.
+    pub fn fault(&self, fault: Fault) -> Problem {
         self.problem(&fault.message, &fault.label).help(fault.help)
     }
 
@@ -180,6 +182,31 @@ impl<'a> Item<'a> {
         Ok(text.trim())
     }
 
+    /// What is written in a plain value: a text, a number, "yes" or "no", the texts of a list with semicolons between them.
+    ///
+    /// # Errors
+    /// The value is none of these.
+    pub fn words(&self) -> Result<Cow<'a, str>> {
+        let words = match self.value.get_ref() {
+            DeValue::String(text) => Cow::Borrowed(text.trim()),
+            DeValue::Integer(number) => Cow::Owned(number.to_string()),
+            DeValue::Float(number) => Cow::Owned(number.to_string()),
+            DeValue::Boolean(true) => Cow::Borrowed("yes"),
+            DeValue::Boolean(false) => Cow::Borrowed("no"),
+            DeValue::Array(items) => {
+                let texts = items.iter().map(|item| item.get_ref().as_str());
+                let texts: Option<Vec<&str>> = texts.collect();
+                let texts = texts.ok_or_else(|| {
+                    self.problem("contains something that is not a text", "here")
+                        .help("write a list of quoted texts: [\"…\", \"…\"]")
+                })?;
+                Cow::Owned(texts.join("; "))
+            }
+            _ => return Err(self.wrong_type("a text or a number", "a quoted text or a number")),
+        };
+        Ok(words)
+    }
+
     /// Whether the value is this text.
     pub(crate) fn is_word(&self, word: &str) -> bool {
         matches!(self.value.get_ref(), DeValue::String(text) if text.trim() == word)
@@ -260,7 +287,10 @@ impl<'a> Item<'a> {
     }
 
     /// An array of tables, called `title` and their number in messages.
-    pub(crate) fn sections(&self, title: &str) -> Result<Vec<Section<'a>>> {
+    ///
+    /// # Errors
+    /// The value is something else.
+    pub fn sections(&self, title: &str) -> Result<Vec<Section<'a>>> {
         let DeValue::Array(array) = self.value.get_ref() else {
             let example = format!("the header in double brackets: {title}, once for each");
             return Err(self.wrong_type("a list of tables", &example));

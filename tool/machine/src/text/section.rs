@@ -12,7 +12,7 @@ use crate::units::kind::Kind;
 
 /// A table with its name for messages.
 #[derive(Debug)]
-pub(crate) struct Section<'a> {
+pub struct Section<'a> {
     /// "[mechanism.crank]"; empty for the top of the file.
     title: String,
     /// The table's header.
@@ -22,7 +22,8 @@ pub(crate) struct Section<'a> {
 }
 
 impl<'a> Section<'a> {
-    pub(crate) fn new(title: String, header: Range<usize>, table: &'a DeTable<'a>) -> Self {
+    /// The `table`, whose header is at this place.
+    pub fn new(title: String, header: Range<usize>, table: &'a DeTable<'a>) -> Self {
         Self {
             title,
             header,
@@ -37,7 +38,7 @@ impl<'a> Section<'a> {
     }
 
     /// The place of the header.
-    pub(crate) fn header(&self) -> Range<usize> {
+    pub fn header(&self) -> Range<usize> {
         self.header.clone()
     }
 
@@ -63,7 +64,7 @@ impl<'a> Section<'a> {
     }
 
     /// The value of `key`, if the table has it.
-    pub(crate) fn get(&self, key: &'static str) -> Option<Item<'a>> {
+    pub fn get(&self, key: &'static str) -> Option<Item<'a>> {
         let mut known = self.known.borrow_mut();
         if !known.contains(&key) {
             known.push(key);
@@ -72,7 +73,7 @@ impl<'a> Section<'a> {
     }
 
     /// The value of `key` without marking it as read; for messages.
-    pub(crate) fn peek(&self, key: &'static str) -> Option<Item<'a>> {
+    pub fn peek(&self, key: &'static str) -> Option<Item<'a>> {
         let (found, value) = self.table.get_key_value(key)?;
         Some(Item::new(self.name(key), key, found.span(), value))
     }
@@ -123,7 +124,7 @@ impl<'a> Section<'a> {
     }
 
     /// All entries in the order of the text, for a table whose keys are names that the user chooses.
-    pub(crate) fn entries(&self) -> Vec<(&'a str, Item<'a>)> {
+    pub fn entries(&self) -> Vec<(&'a str, Item<'a>)> {
         let mut entries: Vec<_> = self.table.iter().collect();
         entries.sort_by_key(|(key, _)| key.span().start);
         let entry = |(key, value): (&'a toml::Spanned<_>, _)| {
@@ -154,7 +155,10 @@ impl<'a> Section<'a> {
     }
 
     /// As [`finish`](Self::finish), with an explanation for keys that belong elsewhere.
-    pub(crate) fn finish_with(&self, explain: impl Fn(&str) -> Option<&'static str>) -> Result<()> {
+    ///
+    /// # Errors
+    /// The first of them, with a word like it.
+    pub fn finish_with(&self, explain: impl Fn(&str) -> Option<&'static str>) -> Result<()> {
         let known = self.known.borrow();
         let unknown = self.table.iter().map(|(key, _)| key);
         let unknown = unknown.filter(|key| !known.contains(&key.get_ref().as_ref()));

@@ -60,7 +60,7 @@ kinds! {
     ALTITUDE "an altitude" "1400 m" "m" "m, km" 1e-6 1e5;
     MASS "a mass" "3.5 kg" "kg" "kg, g, t" 1e-9 1e6;
     INERTIA "a moment of inertia" "2.4 kg cm^2" "kg m^2" "kg m^2, kg cm^2, g mm^2" 1e-12 1e8;
-    ANGLE "an angle" "90 deg" "deg" "deg, rad" 1e-9 1e7;
+    ANGLE "an angle" "90 deg" "deg" "deg, rad, arcmin" 1e-9 1e7;
     ANGULAR_SPEED "an angular speed" "1450 rpm" "rpm" "rpm, rad/s, deg/s" 1e-6 1e6;
     ANGULAR_ACCELERATION "an angular acceleration" "120 rad/s^2" "rad/s^2" "rad/s^2, deg/s^2" 1e-9 1e9;
     VELOCITY "a speed" "0.2 m/s" "m/s" "m/s, mm/s" 1e-9 1e6;
@@ -71,7 +71,7 @@ kinds! {
     VISCOUS_FORCE "a viscous coefficient (force per speed)" "30 N s/m" "N s/m" "N s/m, N s/mm" 1e-9 1e10;
     VISCOUS_MOMENT "a viscous coefficient (moment per angular speed)" "0.4 N m s/rad" "N m s/rad" "N m s/rad, N m/rpm" 1e-9 1e10;
     STIFFNESS "a stiffness (force per length)" "12 N/mm" "N/mm" "N/m, N/mm, kN/m" 1e-9 1e12;
-    TORSION_STIFFNESS "a torsional stiffness (moment per angle)" "15 N m/rad" "N m/rad" "N m/rad, N m/deg" 1e-9 1e12;
+    TORSION_STIFFNESS "a torsional stiffness (moment per angle)" "15 N m/rad" "N m/rad" "N m/rad, N m/deg, N m/arcmin" 1e-9 1e12;
     SHARE "a share" "97 %" "%" "%, or a plain number such as 0.97" 1e-6 1e3;
     VOLTAGE "a voltage" "560 V" "V" "V, kV, mV" 1e-6 1e5;
     RESISTANCE "a resistance" "47 Ohm" "Ohm" "Ohm, mOhm, kOhm" 1e-6 1e6;
@@ -81,6 +81,14 @@ kinds! {
     TEMPERATURE "a temperature" "40 degC" "degC" "degC" 1e-9 1e3;
     INERTIA_SLOPE "a moment of inertia per angle" "0.01 kg m^2/rad" "kg m^2/rad" "kg m^2/rad, kg cm^2/deg" 1e-12 1e10;
     MASS_SLOPE "a mass per length" "2 kg/m" "kg/m" "kg/m, kg/mm" 1e-12 1e10;
+    CURRENT "a current" "5.2 A" "A" "A, A rms, A peak, mA" 1e-9 1e6;
+    INDUCTANCE "an inductance" "6.5 mH" "mH" "H, mH, uH" 1e-9 1e3;
+    TORQUE_CONSTANT "a torque per current" "1.2 N m/A" "N m/A" "N m/A, N m/A peak, mN m/A" 1e-9 1e6;
+    FORCE_CONSTANT "a force per current" "60 N/A" "N/A" "N/A, N/A peak" 1e-9 1e6;
+    VOLTAGE_CONSTANT "a voltage per angular speed" "0.9 V s/rad" "V s/rad" "V s/rad, V/krpm, mV/rpm" 1e-9 1e6;
+    LINEAR_VOLTAGE_CONSTANT "a voltage per speed" "35 V s/m" "V s/m" "V s/m" 1e-9 1e6;
+    THERMAL_RESISTANCE "a thermal resistance" "0.4 K/W" "K/W" "K/W" 1e-9 1e6;
+    LOSS "a power per current" "8 W/A" "W/A" "W/A" 1e-9 1e6;
     CUTOFF "a frequency" "40 Hz" "Hz" "Hz, kHz" 1e-6 1e6;
 }
 

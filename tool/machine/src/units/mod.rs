@@ -16,7 +16,7 @@ mod word;
 
 pub use fault::{Fault, closest, did_you_mean};
 pub use vocabulary::{Sentence, Term, Vocabulary};
-pub use word::{Dimension, scale};
+pub use word::Dimension;
 
 /// rad/s of one revolution per minute.
 pub const RPM: f64 = PI / 30.0;

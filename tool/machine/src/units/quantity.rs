@@ -1,7 +1,7 @@
 //! Quantities: a number and its unit, of a kind that the key asks for.
 
 use super::fault::Fault;
-use super::kind::{ANGULAR_SPEED, CUTOFF, Kind, SHARE, describe};
+use super::kind::{ANGULAR_SPEED, CUTOFF, Kind, SHARE, TEMPERATURE, describe};
 use super::unit::{self, Unit};
 use crate::number::rounding::figure;
 
@@ -41,8 +41,34 @@ pub fn read(text: &str, kind: &Kind) -> Result<Quantity, Fault> {
         return Err(no_unit(&number, kind));
     }
     let unit = unit::read(rest)?;
-    check_dimension(&unit, text, kind)?;
+    let units = || {
+        let (name, example, units) = (kind.name, kind.example, kind.units);
+        format!("write {name} such as \"{example}\"; possible units: {units}")
+    };
+    if let Some(fault) = misfit(&unit, text, &[kind], units) {
+        return Err(fault);
+    }
     finish(number, unit, kind)
+}
+
+/// Reads a unit of one of the `kinds`, and says of which. None is the unit of a share.
+///
+/// # Errors
+/// No unit, one that cannot be read, or one of another kind.
+pub fn unit_of(text: &str, kinds: &[&Kind]) -> Result<(Unit, usize), Fault> {
+    let unit = match text {
+        "" => plain(),
+        text => unit::read_listed(text)?,
+    };
+    if let Some(fault) = misfit(&unit, text, kinds, || possible_units(kinds)) {
+        return Err(match text {
+            "" => Fault::new("has no unit", possible_units(kinds)).label("no unit"),
+            _ => fault,
+        });
+    }
+    let fits = |kind: &&Kind| kind.is_measured_by(unit.dimension);
+    let kind = kinds.iter().position(fits).unwrap_or_default();
+    Ok((unit, kind))
 }
 
 /// The fault of a number without a unit.
@@ -205,36 +231,44 @@ pub fn split_number<'t>(text: &'t str, kind: &Kind) -> Result<(String, &'t str),
     Ok((number, rest.trim_start_matches([' ', '*'])))
 }
 
-fn check_dimension(unit: &Unit, text: &str, kind: &Kind) -> Result<(), Fault> {
+/// What is wrong with the unit of `text`, if it does not measure any of the `kinds`; `units` says which do.
+fn misfit(
+    unit: &Unit,
+    text: &str,
+    kinds: &[&Kind],
+    units: impl FnOnce() -> String,
+) -> Option<Fault> {
     let found = unit.dimension;
-    if kind.is_measured_by(found) {
-        return Ok(());
+    let kind = kinds.iter().find(|kind| kind.is_measured_by(found));
+    if kind.is_some_and(|kind| kind.dimension == TEMPERATURE.dimension) && unit.text.contains('K') {
+        let cure = "write a temperature in degrees Celsius, such as \"40 degC\"";
+        return Some(Fault::new("is not in degrees Celsius", cure).label("which unit?"));
     }
-    let help = if found == CUTOFF.dimension && kind.dimension == ANGULAR_SPEED.dimension {
+    if kind.is_some() {
+        return None;
+    }
+    let turns = kinds.iter().any(|k| k.dimension == ANGULAR_SPEED.dimension);
+    let help = if found == CUTOFF.dimension && turns {
         "\"Hz\" and \"1/s\" do not say whether they count turns or radians: write \"rpm\" or \"rad/s\" (1 turn per \
          second = 60 rpm = 6.2832 rad/s)"
             .to_owned()
-    } else if found == SHARE.dimension && kind.dimension.angle == 1 {
-        format!(
-            "write the angle with its unit, as in \"{}\"; possible units: {}",
-            kind.example, kind.units
-        )
     } else {
-        format!(
-            "write {} such as \"{}\"; possible units: {}",
-            kind.name, kind.example, kind.units
-        )
+        units()
     };
-    Err(Fault::new(
-        format!(
-            "must be {}, but \"{}\" is {}",
-            kind.name,
-            text.trim(),
-            describe(found)
-        ),
-        help,
-    )
-    .label(describe(found)))
+    let names: Vec<&str> = kinds.iter().map(|kind| kind.name).collect();
+    let message = format!(
+        "must be {}, but \"{}\" is {}",
+        names.join(" or "),
+        text.trim(),
+        describe(found)
+    );
+    Some(Fault::new(message, help).label(describe(found)))
+}
+
+/// `possible units: …`
+pub fn possible_units(kinds: &[&Kind]) -> String {
+    let units: Vec<&str> = kinds.iter().map(|kind| kind.units).collect();
+    format!("possible units: {}", units.join(", "))
 }
 
 #[cfg(test)]

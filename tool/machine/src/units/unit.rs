@@ -1,7 +1,7 @@
 //! Units as they are written: words with powers, at most one "/"; and what to write instead of one that cannot be read.
 
 use super::fault::{Fault, closest};
-use super::word::{Dimension, Product, WORDS, Word};
+use super::word::{Dimension, LISTED, Product, WORDS, Word};
 
 /// A unit as read.
 #[derive(Clone, Debug)]
@@ -47,12 +47,36 @@ const FOREIGN: [(&[&str], &str); 18] = [
 /// # Errors
 /// An unknown word, or powers and divisions that can be read in more than one way.
 pub fn read(text: &str) -> Result<Unit, Fault> {
+    of_words(text, text, WORDS)
+}
+
+/// Reads a unit as data sheets write it: there are more words, such as "A peak", and they may run together.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_listed(text: &str) -> Result<Unit, Fault> {
+    // An ampere of an alternating current is one word.
+    let tidy = tidy(text).replace(" rms", "rms").replace(" peak", "peak");
+    let (mut spaced, mut rest) = (String::new(), tidy.as_str());
+    while !rest.is_empty() {
+        let end = rest.find([' ', '*', '/', '(', ')']).unwrap_or(rest.len());
+        let (token, after) = rest.split_at(end);
+        let (word, exponent) = token.split_at(token.find('^').unwrap_or(end));
+        spaced += &apart(word, exponent, LISTED).unwrap_or_else(|| token.to_owned());
+        let mut separators = after.chars();
+        spaced.extend(separators.next());
+        rest = separators.as_str();
+    }
+    of_words(&spaced, text, LISTED)
+}
+
+fn of_words(text: &str, written: &str, words: &'static [Word]) -> Result<Unit, Fault> {
     let mut product = Product::ONE;
-    for (word, power) in factors(text)? {
+    for (word, power) in factors(text, words)? {
         product = product.times(word, power);
     }
     Ok(Unit {
-        text: text.to_owned(),
+        text: written.to_owned(),
         scale: product.scale(),
         dimension: product.dimension,
     })
@@ -63,7 +87,7 @@ const SHAPE: &str = "separate units by blanks, write powers with ^ and at most o
                      \"m/s^2\", \"N m s/rad\"";
 
 /// The words of a unit with their powers.
-fn factors(text: &str) -> Result<Vec<(&'static Word, i8)>, Fault> {
+fn factors(text: &str, known: &'static [Word]) -> Result<Vec<(&'static Word, i8)>, Fault> {
     let (above, below) = match text.split_once('/') {
         None => (text, ""),
         Some((_, below)) if below.trim().is_empty() || below.contains('/') => {
@@ -77,7 +101,7 @@ fn factors(text: &str) -> Result<Vec<(&'static Word, i8)>, Fault> {
     let mut factors = Vec::new();
     if above.trim() != "1" || below.is_empty() {
         for token in words(above) {
-            factors.push(factor(token)?);
+            factors.push(factor(token, known)?);
         }
         if factors.is_empty() {
             return Err(Fault::new("begins its unit with \"/\"", SHAPE));
@@ -96,7 +120,7 @@ fn factors(text: &str) -> Result<Vec<(&'static Word, i8)>, Fault> {
         ));
     }
     for token in divisors {
-        let (word, power) = factor(token)?;
+        let (word, power) = factor(token, known)?;
         if word.text == "%" {
             return Err(Fault::new(
                 format!("has the unit \"{text}\", which is divided by \"%\""),
@@ -116,7 +140,7 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
 }
 
 /// One word with its power: "cm^2".
-fn factor(token: &str) -> Result<(&'static Word, i8), Fault> {
+fn factor(token: &str, words: &'static [Word]) -> Result<(&'static Word, i8), Fault> {
     if token.starts_with(|c: char| c.is_ascii_digit() || ".+-".contains(c)) {
         return Err(Fault::new(
             format!("contains more than one number (\"{token}\" is the second)"),
@@ -141,7 +165,7 @@ fn factor(token: &str) -> Result<(&'static Word, i8), Fault> {
             }
         },
     };
-    let known = WORDS.iter().find(|known| known.text == word);
+    let known = words.iter().find(|known| known.text == word);
     if let Some(known) = known.filter(|_| word != "%" || power == 1) {
         return Ok((known, power));
     }
@@ -154,15 +178,8 @@ fn cure(word: &str, exponent: &str) -> String {
     if let Some((_, cure)) = FOREIGN.iter().find(|(words, _)| words.contains(&word)) {
         return format!("this unit is not accepted here: {cure}");
     }
-    let letters = word.trim_end_matches(|c: char| c.is_ascii_digit());
-    let power = word.get(letters.len()..).unwrap_or_default();
-    if let Some(words) = split(letters, 4) {
-        let power = if power.is_empty() {
-            exponent.to_owned()
-        } else {
-            format!("^{power}")
-        };
-        return format!("write it as \"{}{power}\"", words.join(" "));
+    if let Some(words) = apart(word, exponent, WORDS) {
+        return format!("write it as \"{words}\"");
     }
     let known: Vec<&str> = WORDS.iter().map(|word| word.text).collect();
     closest(word, &known).map_or_else(
@@ -171,18 +188,27 @@ fn cure(word: &str, exponent: &str) -> String {
     )
 }
 
+/// Words that were written without blanks, and perhaps with a bare power, with them: "kgcm2" is "kg cm^2".
+fn apart(word: &str, exponent: &str, known: &'static [Word]) -> Option<String> {
+    let letters = word.trim_end_matches(|c: char| c.is_ascii_digit());
+    let words = split(letters, 4, known)?.join(" ");
+    Some(match word.get(letters.len()..).unwrap_or_default() {
+        _ if words.is_empty() => return None,
+        "" => words + exponent,
+        power => format!("{words}^{power}"),
+    })
+}
+
 /// Splits words that were written without a blank: "kgcm" into "kg", "cm".
-fn split(letters: &str, most: usize) -> Option<Vec<&'static str>> {
+fn split(letters: &str, most: usize, known: &'static [Word]) -> Option<Vec<&'static str>> {
     if letters.is_empty() {
         return Some(Vec::new());
     }
-    if most == 0 {
-        return None;
-    }
-    let mut known: Vec<&'static str> = WORDS.iter().map(|word| word.text).collect();
-    known.sort_by_key(|word| std::cmp::Reverse(word.len()));
-    known.into_iter().find_map(|word| {
-        let rest = split(letters.strip_prefix(word)?, most - 1)?;
+    let most = most.checked_sub(1)?;
+    let mut words: Vec<&'static str> = known.iter().map(|word| word.text).collect();
+    words.sort_by_key(|word| std::cmp::Reverse(word.len()));
+    words.into_iter().find_map(|word| {
+        let rest = split(letters.strip_prefix(word)?, most, known)?;
         Some([vec![word], rest].concat())
     })
 }

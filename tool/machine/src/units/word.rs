@@ -97,9 +97,9 @@ const CAPACITANCE: Dimension = powers([-2, -1, 4, 0, 2, 0]);
 const INDUCTANCE: Dimension = powers([2, 1, -2, 0, -2, 0]);
 const TEMPERATURE: Dimension = powers([0, 0, 0, 0, 0, 1]);
 
-/// Every unit word. A degree Celsius is as large as a kelvin; where it begins to count is the affair of who asks for a
-/// temperature.
-pub(super) const WORDS: [Word; 48] = [
+/// Every unit word, at the end those of data sheets only. A degree Celsius is as large as a kelvin; where it begins to count is the
+/// affair of who asks for a temperature. An alternating current is stated by its RMS value or by its peak.
+pub(super) const LISTED: &[Word] = &[
     ten("mm", -3, LENGTH),
     ten("m", 0, LENGTH),
     ten("km", 3, LENGTH),
@@ -148,21 +148,19 @@ pub(super) const WORDS: [Word; 48] = [
     ten("uH", -6, INDUCTANCE),
     ten("K", 0, TEMPERATURE),
     ten("degC", 0, TEMPERATURE),
-];
-
-/// Words that only the columns of a catalogue have. An alternating current is stated by its RMS value or by its peak.
-const LISTED: [Word; 10] = [
+    // Of data sheets.
     ten("J", 0, TORQUE),
     ten("kJ", 3, TORQUE),
     sized("min", 60.0, TIME),
     sized("krpm", 1e3 * RPM, ANGULAR_SPEED),
     ten("ohm", 0, RESISTANCE),
-    ten("Ω", 0, RESISTANCE),
     ten("C", 0, TEMPERATURE),
-    ten("°C", 0, TEMPERATURE),
-    ten("rms", 0, NUMBER),
-    sized("peak", 1.0 / SQRT_2, NUMBER),
+    ten("Arms", 0, CURRENT),
+    sized("Apeak", 1.0 / SQRT_2, CURRENT),
 ];
+
+/// The words of machine files.
+pub(super) const WORDS: &[Word] = LISTED.split_at(LISTED.len() - 8).0;
 
 /// Words multiplied. Powers of ten are added up as exponents: "g mm^2" is exactly 1e-9.
 pub(super) struct Product {
@@ -203,13 +201,7 @@ const fn raised(x: f64, power: i32) -> f64 {
     if power < 0 { 1.0 / product } else { product }
 }
 
-/// One of a unit in SI, for units that stand in the source; those of a catalogue's columns are known as well. A word that
-/// there is not does not compile.
-pub const fn scale(unit: &str) -> f64 {
-    product(unit).scale()
-}
-
-/// What a unit measures that stands in the source.
+/// What a unit measures that stands in the source. A word that there is not does not compile.
 pub(super) const fn dimension(unit: &str) -> Dimension {
     product(unit).dimension
 }
@@ -240,18 +232,13 @@ const fn product(unit: &str) -> Product {
 
 /// The word that stands in a text.
 const fn find(text: &[u8], from: usize, to: usize) -> &'static Word {
-    const ALL: [&[Word]; 2] = [&WORDS, &LISTED];
-    let mut list = 0;
-    while list < ALL.len() {
-        let mut at = 0;
-        while at < ALL[list].len() {
-            let word = &ALL[list][at];
-            if stands(word.text.as_bytes(), text, from, to) {
-                return word;
-            }
-            at += 1;
+    let mut at = 0;
+    while at < WORDS.len() {
+        let word = &WORDS[at];
+        if stands(word.text.as_bytes(), text, from, to) {
+            return word;
         }
-        list += 1;
+        at += 1;
     }
     panic!("a unit word that is in no list")
 }
@@ -263,43 +250,4 @@ const fn stands(word: &[u8], text: &[u8], from: usize, to: usize) -> bool {
         at += 1;
     }
     at == word.len() && from + at == to
-}
-
-#[cfg(test)]
-mod tests {
-    use std::f64::consts::{PI, SQRT_2};
-
-    use super::scale;
-
-    #[test]
-    fn the_compiler_works_out_units() {
-        let exact = [
-            ("kg cm^2", 1e-4),
-            ("g cm^2", 1e-7),
-            ("N m", 1.0),
-            ("mN m/A", 1e-3),
-            ("m/s", 1.0),
-            ("%", 1e-2),
-            ("kJ", 1e3),
-            ("Ω", 1.0),
-            ("°C", 1.0),
-            ("", 1.0),
-        ];
-        for (unit, expected) in exact {
-            assert_eq!(scale(unit).to_bits(), f64::to_bits(expected), "{unit}");
-        }
-        let near = [
-            ("rpm", PI / 30.0),
-            ("N m/deg", 180.0 / PI),
-            ("N m/arcmin", 10_800.0 / PI),
-            ("V/krpm", 30e-3 / PI),
-            ("mV/rpm", 30e-3 / PI),
-            ("A peak", 1.0 / SQRT_2),
-            ("N m/A peak", SQRT_2),
-        ];
-        for (unit, expected) in near {
-            let away = scale(unit).to_bits().abs_diff(f64::to_bits(expected));
-            assert!(away <= 1, "{unit}: {away} doubles away");
-        }
-    }
 }

@@ -81,7 +81,7 @@ fn curves_that_cannot_be_meant_are_refused() {
     );
     refused(
         turn(curves("phi [deg],J [kg]", plain)),
-        &["\"J [kg]\" is a mass", "must be a moment of inertia"],
+        &["\"J [kg]\" must be a moment of inertia", "is a mass"],
     );
     refused(
         turn(curves("phi [deg],J", plain)),

@@ -60,9 +60,9 @@ fn texts_that_are_no_machine_files_are_refused() {
     );
     let deep = format!("gravity = {}", "[".repeat(100_000));
     refuses(&deep, &["not valid TOML"]);
-    // A line that would fill the screen is named by its number.
+    // A line that would fill the screen is named by its file and number.
     let line = format!("{gravity}title = \"{}\" 3", "x".repeat(5000));
-    refuses(&line, &["line 2", "not valid TOML"]);
+    refuses(&line, &["machine.toml:2:", "not valid TOML"]);
     let long = format!("# {}", "x".repeat(1 << 20));
     refuses(&long, &["the maximum is 1 MiB"]);
 }

@@ -1,80 +1,42 @@
 //! Quantities in cells: a number with its unit in the header, a number with its own unit, points of a curve.
 
-use jred_machine::units::{Fault, did_you_mean};
+use jred_machine::units::Fault;
+use jred_machine::units::kind::SHARE;
+use jred_machine::units::quantity::{no_unit, split_number};
+use jred_machine::units::unit::tidy;
 
-use super::column::{For, Unit};
+use super::column::{For, Holds, Unit};
 
 /// Content of a cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cell<'t> {
     pub(super) text: &'t str,
     /// The unit, if the cell is a number.
-    pub(super) unit: Option<&'static Unit>,
-}
-
-/// Finds the unit `text`, whatever its product signs, blanks and notation of powers.
-pub(super) fn find_unit(text: &str, units: &'static [Unit]) -> Option<&'static Unit> {
-    let same = |unit: &&Unit| unit.text == text;
-    let alike = |unit: &&Unit| folded(unit.text).eq(folded(text));
-    units.iter().find(same).or_else(|| units.iter().find(alike))
-}
-
-fn folded(text: &str) -> impl Iterator<Item = char> {
-    text.chars().filter_map(|c| match c {
-        ' ' | '\u{a0}' | '·' | '⋅' | '*' | '^' => None,
-        '²' => Some('2'),
-        'µ' | 'μ' => Some('u'),
-        '\u{2126}' => Some('Ω'),
-        c => Some(c),
-    })
-}
-
-/// The fault of the unit `text`, with the accepted units as its cure, the most similar first.
-pub(super) fn unit_cure(text: &str, units: &[Unit]) -> String {
-    let names: Vec<&str> = units
-        .iter()
-        .map(|u| u.text)
-        .filter(|t| !t.is_empty())
-        .collect();
-    let near = did_you_mean(text, &names);
-    format!("{near}possible units: {}", names.join(", "))
+    pub(super) unit: Option<&'t Unit>,
 }
 
 /// Splits "3.2 N m" into its number and its unit.
-pub(super) fn split(text: &str) -> (&str, &str) {
-    let bytes = text.as_bytes();
-    let digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);
-    let mut end = 0;
-    while let Some(byte) = bytes.get(end) {
-        let exponent = matches!(byte, b'e' | b'E')
-            && end > 0
-            && (digit(end + 1)
-                || matches!(bytes.get(end + 1), Some(b'+' | b'-')) && digit(end + 2));
-        let sign = matches!(byte, b'+' | b'-')
-            && (end == 0 || matches!(bytes.get(end - 1), Some(b'e' | b'E')));
-        if !(byte.is_ascii_digit() || matches!(byte, b'.' | b',') || exponent || sign) {
-            break;
-        }
-        end += 1;
-    }
-    let (number, unit) = text.split_at_checked(end).unwrap_or((text, ""));
-    (number, unit.trim())
+pub(super) fn number_and_unit(text: &str, holds: Holds) -> Result<(String, Unit), Fault> {
+    let tidy = tidy(text);
+    let kind = holds.kinds().first();
+    let (number, unit) =
+        split_number(&tidy, kind.unwrap_or(&&SHARE)).map_err(|fault| match kind {
+            Some(_) => fault,
+            None => Fault::new(fault.message, NUMBER_CURE),
+        })?;
+    let found = holds.unit(unit).map_err(|fault| match kind {
+        Some(kind) if unit.is_empty() => no_unit(&number, kind),
+        _ => fault,
+    })?;
+    Ok((number, found))
 }
 
 /// A number with its unit, in SI.
-pub(super) fn quantity(text: &str, units: &'static [Unit]) -> Result<(f64, For), Fault> {
-    let (number, word) = split(text.trim());
-    let Some(unit) = find_unit(word, units) else {
-        let message = if word.is_empty() {
-            "has no unit".to_owned()
-        } else {
-            format!("has the unit \"{word}\"")
-        };
-        return Err(Fault::new(message, unit_cure(word, units)));
-    };
+fn quantity(text: &str, holds: Holds) -> Result<(f64, For), Fault> {
+    let (number, unit) = number_and_unit(text, holds)?;
     match number.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok((value * unit.si, unit.motors)),
-        _ => Err(Fault::new("is not a number", NUMBER_CURE)),
+        _ => Err(Fault::new("is not a finite number", NUMBER_CURE)),
     }
 }
 
@@ -85,7 +47,7 @@ pub(super) const NUMBER_CURE: &str =
 /// Points "0 rpm: 12 N m; 3000 rpm: 10 N m", in SI.
 pub(super) fn points(
     text: &str,
-    [x_units, y_units]: [&'static [Unit]; 2],
+    [x_holds, y_holds]: [Holds; 2],
     motors: For,
 ) -> Result<Vec<[f64; 2]>, Fault> {
     let mut points: Vec<[f64; 2]> = Vec::new();
@@ -108,8 +70,8 @@ pub(super) fn points(
             );
             Fault::new(message, fault.help)
         };
-        let (x_value, x_for) = quantity(x, x_units).map_err(|e| of(e, x))?;
-        let (y_value, y_for) = quantity(y, y_units).map_err(|e| of(e, y))?;
+        let (x_value, x_for) = quantity(x, x_holds).map_err(|e| of(e, x))?;
+        let (y_value, y_for) = quantity(y, y_holds).map_err(|e| of(e, y))?;
         for found in [x_for, y_for] {
             if found != For::Any && found != motors {
                 return Err(Fault::new(

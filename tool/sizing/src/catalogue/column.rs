@@ -1,6 +1,8 @@
 //! The columns of jred's own catalogue format: name, units, and the tables that have them.
 
-use jred_machine::units::scale;
+use jred_machine::units::Fault;
+use jred_machine::units::kind as units;
+use jred_machine::units::quantity::unit_of;
 
 /// A table of the catalogue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -52,128 +54,64 @@ pub(super) enum For {
     Linear,
 }
 
-/// A unit that a column accepts.
+/// A unit of a column.
 #[derive(Debug)]
 pub(super) struct Unit {
-    pub(super) text: &'static str,
+    pub(super) text: String,
     /// Its value in SI.
     pub(super) si: f64,
     pub(super) motors: For,
 }
 
-const fn unit(text: &'static str) -> Unit {
-    of(text, For::Any)
+/// What is written in a cell or in a point of a curve.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Holds {
+    /// Cycles per hour.
+    Hourly,
+    /// A quantity of a kind, or of two: of a motor that turns, of one that slides. None: words, quantities that carry their units
+    /// themselves, or plain numbers. The header of a price names the currency, any word chosen by the user, which is only
+    /// compared.
+    Of(&'static [&'static units::Kind]),
 }
 
-const fn rotary(text: &'static str) -> Unit {
-    of(text, For::Rotary)
-}
+/// Speeds of a curve.
+pub(super) const SPEED: Holds = Holds::Of(&[&units::ANGULAR_SPEED, &units::VELOCITY]);
+/// Torques or forces of a curve.
+pub(super) const EFFORT: Holds = Holds::Of(&[&units::TORQUE, &units::FORCE]);
+/// Factors.
+pub(super) const FACTOR: Holds = Holds::Of(&[&units::SHARE]);
 
-const fn linear(text: &'static str) -> Unit {
-    of(text, For::Linear)
-}
+impl Holds {
+    /// The kinds of its quantities.
+    pub(super) const fn kinds(self) -> &'static [&'static units::Kind] {
+        match self {
+            Self::Hourly => &[],
+            Self::Of(kinds) => kinds,
+        }
+    }
 
-const fn of(text: &'static str, motors: For) -> Unit {
-    Unit {
-        text,
-        si: scale(text),
-        motors,
+    /// Reads the unit of such a quantity.
+    pub(super) fn unit(self, text: &str) -> Result<Unit, Fault> {
+        let foreign = |cure| Err(Fault::new(format!("has the unit \"{text}\""), cure));
+        let (si, motors) = match self {
+            Self::Hourly if ["/h", "1/h", "per hour"].contains(&text) => (1.0, For::Any),
+            Self::Hourly => return foreign("write cycles per hour: \"1000/h\""),
+            Self::Of([]) if text.is_empty() => (1.0, For::Any),
+            Self::Of([]) => return foreign("write it without a unit"),
+            Self::Of(kinds) => {
+                let (unit, kind) = unit_of(text, kinds)?;
+                let motors = [For::Rotary, For::Linear].into_iter().nth(kind);
+                let motors = motors.filter(|_| kinds.len() > 1);
+                (unit.scale, motors.unwrap_or(For::Any))
+            }
+        };
+        let text = text.to_owned();
+        Ok(Unit { text, si, motors })
     }
 }
-
-/// What is counted.
-const fn count(text: &'static str) -> Unit {
-    Unit {
-        text,
-        si: 1.0,
-        motors: For::Any,
-    }
-}
-
-/// Cells are words, or quantities that carry their units themselves.
-const WORDS: &[Unit] = &[unit("")];
-const NUMBER: &[Unit] = &[unit("")];
-const TORQUE: &[Unit] = &[
-    unit("N m"),
-    unit("Nm"),
-    unit("mN m"),
-    unit("mNm"),
-    unit("kN m"),
-];
-const FORCE: &[Unit] = &[linear("N"), linear("kN")];
-pub(super) const SPEED: &[Unit] = &[
-    rotary("rpm"),
-    rotary("rad/s"),
-    linear("m/s"),
-    linear("mm/s"),
-];
-const TURNING: &[Unit] = &[unit("rpm"), unit("rad/s")];
-/// Torque or force, for the points of a curve.
-pub(super) const EFFORT: &[Unit] = &[
-    rotary("N m"),
-    rotary("Nm"),
-    rotary("mN m"),
-    rotary("mNm"),
-    rotary("kN m"),
-    linear("N"),
-    linear("kN"),
-];
-/// Cycles per hour, for shock factors.
-pub(super) const CYCLES: &[Unit] = &[count("/h"), count("1/h"), count("per hour")];
-pub(super) const FACTOR: &[Unit] = &[unit(""), unit("%")];
-const INERTIA: &[Unit] = &[
-    unit("kg cm^2"),
-    unit("kg m^2"),
-    unit("g cm^2"),
-    unit("kg mm^2"),
-];
-const MASS: &[Unit] = &[unit("kg"), unit("g"), unit("t")];
-const VOLTAGE: &[Unit] = &[unit("V")];
-/// An alternating current is given by its RMS value or by its amplitude.
-const CURRENT: &[Unit] = &[unit("A"), unit("A rms"), unit("A peak"), unit("mA")];
-const TORQUE_CONSTANT: &[Unit] = &[
-    rotary("N m/A"),
-    rotary("N m/A rms"),
-    rotary("N m/A peak"),
-    rotary("mN m/A"),
-    linear("N/A"),
-    linear("N/A rms"),
-    linear("N/A peak"),
-];
-const VOLTAGE_CONSTANT: &[Unit] = &[
-    rotary("V s/rad"),
-    rotary("V/krpm"),
-    rotary("mV/rpm"),
-    linear("V s/m"),
-];
-const RESISTANCE: &[Unit] = &[unit("Ohm"), unit("ohm"), unit("Ω"), unit("mOhm")];
-const INDUCTANCE: &[Unit] = &[unit("H"), unit("mH"), unit("uH")];
-const CAPACITANCE: &[Unit] = &[unit("F"), unit("mF"), unit("uF")];
-const POWER: &[Unit] = &[unit("W"), unit("kW")];
-const ENERGY: &[Unit] = &[unit("J"), unit("kJ")];
-const TIME: &[Unit] = &[unit("s"), unit("ms"), unit("min")];
-const THERMAL: &[Unit] = &[unit("K/W")];
-const TEMPERATURE: &[Unit] = &[unit("C"), unit("°C"), unit("degC")];
-const VISCOUS: &[Unit] = &[
-    rotary("N m s/rad"),
-    rotary("N m s"),
-    rotary("N m/krpm"),
-    linear("N s/m"),
-];
-const SHARE: &[Unit] = &[unit("%"), unit("")];
-const PLAY: &[Unit] = &[unit("arcmin"), unit("deg"), unit("rad")];
-const STIFFNESS: &[Unit] = &[
-    unit("N m/arcmin"),
-    unit("N m/rad"),
-    unit("kN m/rad"),
-    unit("N m/deg"),
-];
-const LOSS: &[Unit] = &[unit("W/A"), unit("V")];
-/// The currency is any word chosen by the user; it is only compared.
-const PRICE: &[Unit] = &[unit("")];
 
 macro_rules! columns {
-    ($($column:ident $name:literal $units:ident [$($kind:ident)*];)*) => {
+    ($($column:ident $name:literal [$($kind:ident)*] [$($holds:ident)*];)*) => {
         /// A column; as an index its place in [`Column::ALL`].
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Column { $($column,)* }
@@ -185,9 +123,8 @@ macro_rules! columns {
                 match self { $(Self::$column => $name,)* }
             }
 
-            /// Units accepted, each with its factor to SI.
-            pub(super) const fn units(self) -> &'static [Unit] {
-                match self { $(Self::$column => $units,)* }
+            pub(super) const fn holds(self) -> Holds {
+                match self { $(Self::$column => Holds::Of(&[$(&units::$holds,)*]),)* }
             }
 
             /// The tables that have it.
@@ -199,85 +136,85 @@ macro_rules! columns {
 }
 
 columns! {
-    Key "key" WORDS [Motors Gearboxes Amplifiers Resistors];
-    Maker "maker" WORDS [Motors Gearboxes Amplifiers Resistors];
-    Model "model" WORDS [Motors Gearboxes Amplifiers Resistors];
-    MotorKind "kind" WORDS [Motors];
-    RatedTorque "rated_torque" TORQUE [Motors];
-    RatedForce "rated_force" FORCE [Motors];
-    RatedSpeed "rated_speed" SPEED [Motors];
-    StandstillTorque "standstill_torque" TORQUE [Motors];
-    StandstillForce "standstill_force" FORCE [Motors];
-    PeakTorque "peak_torque" TORQUE [Motors];
-    PeakForce "peak_force" FORCE [Motors];
-    MaxSpeed "max_speed" SPEED [Motors];
-    MaxPower "max_power" POWER [Motors];
-    NoLoadSpeed "no_load_speed" SPEED [Motors];
-    RotorInertia "rotor_inertia" INERTIA [Motors];
-    MovingMass "moving_mass" MASS [Motors];
-    CornerSpeed "peak_corner_speed" SPEED [Motors];
-    TorqueAtMaxSpeed "peak_torque_at_max_speed" TORQUE [Motors];
-    ForceAtMaxSpeed "peak_force_at_max_speed" FORCE [Motors];
-    PeakCurve "peak_curve" WORDS [Motors];
-    ContinuousCurve "continuous_curve" WORDS [Motors];
-    CoulombFriction "coulomb_friction" TORQUE [Motors];
-    FrictionForce "friction_force" FORCE [Motors];
-    ViscousFriction "viscous_friction" VISCOUS [Motors];
-    Commutation "commutation" WORDS [Motors];
-    TorqueConstant "torque_constant" TORQUE_CONSTANT [Motors];
-    VoltageConstant "voltage_constant" VOLTAGE_CONSTANT [Motors];
-    WindingResistance "winding_resistance" RESISTANCE [Motors];
-    WindingInductance "winding_inductance" INDUCTANCE [Motors];
-    PolePairs "pole_pairs" NUMBER [Motors];
-    StandstillCurrent "standstill_current" CURRENT [Motors];
-    NoLoadCurrent "no_load_current" CURRENT [Motors];
-    WindingThermalResistance "thermal_resistance_winding" THERMAL [Motors];
-    HousingThermalResistance "thermal_resistance_housing" THERMAL [Motors];
-    WindingTime "thermal_time_winding" TIME [Motors];
-    HousingTime "thermal_time_housing" TIME [Motors];
-    MaxTemperature "max_winding_temperature" TEMPERATURE [Motors];
-    BrakeTorque "brake_torque" TORQUE [Motors];
-    BrakeForce "brake_force" FORCE [Motors];
-    BrakeInertia "brake_inertia" INERTIA [Motors];
-    BrakeMass "brake_mass" MASS [Motors];
-    BuiltInGearbox "built_in_gearbox" WORDS [Motors];
-    BusVoltage "bus_voltage" VOLTAGE [Motors Amplifiers];
-    RatedCurrent "rated_current" CURRENT [Motors Amplifiers];
-    PeakCurrent "peak_current" CURRENT [Motors Amplifiers];
-    Ratio "ratio" NUMBER [Gearboxes];
-    Reverses "reverses" WORDS [Gearboxes];
-    Stages "stages" NUMBER [Gearboxes];
-    RatedOutputTorque "rated_output_torque" TORQUE [Gearboxes];
-    PeakOutputTorque "peak_output_torque" TORQUE [Gearboxes];
-    EmergencyOutputTorque "emergency_output_torque" TORQUE [Gearboxes];
-    RatedInputSpeed "rated_input_speed" TURNING [Gearboxes];
-    MaxInputSpeed "max_input_speed" TURNING [Gearboxes];
-    InputInertia "input_inertia" INERTIA [Gearboxes];
-    Efficiency "efficiency" SHARE [Gearboxes];
-    BackDriving "back_driving" SHARE [Gearboxes];
-    NoLoadTorque "no_load_torque" TORQUE [Gearboxes];
-    Stiffness "stiffness" STIFFNESS [Gearboxes];
-    Backlash "backlash" PLAY [Gearboxes];
-    ShockFactors "shock_factors" WORDS [Gearboxes];
-    PeakTime "peak_time" TIME [Amplifiers];
-    Capacitance "capacitance" CAPACITANCE [Amplifiers];
-    ChopperVoltage "chopper_voltage" VOLTAGE [Amplifiers];
-    MaxVoltage "max_voltage" VOLTAGE [Amplifiers];
-    MinResistance "min_resistance" RESISTANCE [Amplifiers];
-    ConstantLoss "constant_loss" POWER [Amplifiers];
-    CurrentLoss "loss_per_current" LOSS [Amplifiers];
-    Resistance "resistance" RESISTANCE [Resistors];
-    RatedPower "rated_power" POWER [Resistors];
-    PeakPower "peak_power" POWER [Resistors];
-    PulseEnergy "pulse_energy" ENERGY [Resistors];
-    Mass "mass" MASS [Motors Gearboxes Amplifiers];
-    Price "price" PRICE [Motors Gearboxes Amplifiers Resistors];
-    FiguresFrom "figures_from" WORDS [Motors Gearboxes Amplifiers Resistors];
-    Source "source" WORDS [Motors Gearboxes Amplifiers Resistors];
-    ListedMotor "motor" WORDS [Compatibility];
-    ListedGearboxes "gearboxes" WORDS [Compatibility];
-    Direct "direct" WORDS [Compatibility];
-    ListedAmplifiers "amplifiers" WORDS [Compatibility];
+    Key "key" [Motors Gearboxes Amplifiers Resistors] [];
+    Maker "maker" [Motors Gearboxes Amplifiers Resistors] [];
+    Model "model" [Motors Gearboxes Amplifiers Resistors] [];
+    MotorKind "kind" [Motors] [];
+    RatedTorque "rated_torque" [Motors] [TORQUE];
+    RatedForce "rated_force" [Motors] [FORCE];
+    RatedSpeed "rated_speed" [Motors] [ANGULAR_SPEED VELOCITY];
+    StandstillTorque "standstill_torque" [Motors] [TORQUE];
+    StandstillForce "standstill_force" [Motors] [FORCE];
+    PeakTorque "peak_torque" [Motors] [TORQUE];
+    PeakForce "peak_force" [Motors] [FORCE];
+    MaxSpeed "max_speed" [Motors] [ANGULAR_SPEED VELOCITY];
+    MaxPower "max_power" [Motors] [POWER];
+    NoLoadSpeed "no_load_speed" [Motors] [ANGULAR_SPEED VELOCITY];
+    RotorInertia "rotor_inertia" [Motors] [INERTIA];
+    MovingMass "moving_mass" [Motors] [MASS];
+    CornerSpeed "peak_corner_speed" [Motors] [ANGULAR_SPEED VELOCITY];
+    TorqueAtMaxSpeed "peak_torque_at_max_speed" [Motors] [TORQUE];
+    ForceAtMaxSpeed "peak_force_at_max_speed" [Motors] [FORCE];
+    PeakCurve "peak_curve" [Motors] [];
+    ContinuousCurve "continuous_curve" [Motors] [];
+    CoulombFriction "coulomb_friction" [Motors] [TORQUE];
+    FrictionForce "friction_force" [Motors] [FORCE];
+    ViscousFriction "viscous_friction" [Motors] [VISCOUS_MOMENT VISCOUS_FORCE];
+    Commutation "commutation" [Motors] [];
+    TorqueConstant "torque_constant" [Motors] [TORQUE_CONSTANT FORCE_CONSTANT];
+    VoltageConstant "voltage_constant" [Motors] [VOLTAGE_CONSTANT LINEAR_VOLTAGE_CONSTANT];
+    WindingResistance "winding_resistance" [Motors] [RESISTANCE];
+    WindingInductance "winding_inductance" [Motors] [INDUCTANCE];
+    PolePairs "pole_pairs" [Motors] [];
+    StandstillCurrent "standstill_current" [Motors] [CURRENT];
+    NoLoadCurrent "no_load_current" [Motors] [CURRENT];
+    WindingThermalResistance "thermal_resistance_winding" [Motors] [THERMAL_RESISTANCE];
+    HousingThermalResistance "thermal_resistance_housing" [Motors] [THERMAL_RESISTANCE];
+    WindingTime "thermal_time_winding" [Motors] [TIME];
+    HousingTime "thermal_time_housing" [Motors] [TIME];
+    MaxTemperature "max_winding_temperature" [Motors] [TEMPERATURE];
+    BrakeTorque "brake_torque" [Motors] [TORQUE];
+    BrakeForce "brake_force" [Motors] [FORCE];
+    BrakeInertia "brake_inertia" [Motors] [INERTIA];
+    BrakeMass "brake_mass" [Motors] [MASS];
+    BuiltInGearbox "built_in_gearbox" [Motors] [];
+    BusVoltage "bus_voltage" [Motors Amplifiers] [VOLTAGE];
+    RatedCurrent "rated_current" [Motors Amplifiers] [CURRENT];
+    PeakCurrent "peak_current" [Motors Amplifiers] [CURRENT];
+    Ratio "ratio" [Gearboxes] [];
+    Reverses "reverses" [Gearboxes] [];
+    Stages "stages" [Gearboxes] [];
+    RatedOutputTorque "rated_output_torque" [Gearboxes] [TORQUE];
+    PeakOutputTorque "peak_output_torque" [Gearboxes] [TORQUE];
+    EmergencyOutputTorque "emergency_output_torque" [Gearboxes] [TORQUE];
+    RatedInputSpeed "rated_input_speed" [Gearboxes] [ANGULAR_SPEED];
+    MaxInputSpeed "max_input_speed" [Gearboxes] [ANGULAR_SPEED];
+    InputInertia "input_inertia" [Gearboxes] [INERTIA];
+    Efficiency "efficiency" [Gearboxes] [SHARE];
+    BackDriving "back_driving" [Gearboxes] [SHARE];
+    NoLoadTorque "no_load_torque" [Gearboxes] [TORQUE];
+    Stiffness "stiffness" [Gearboxes] [TORSION_STIFFNESS];
+    Backlash "backlash" [Gearboxes] [ANGLE];
+    ShockFactors "shock_factors" [Gearboxes] [];
+    PeakTime "peak_time" [Amplifiers] [TIME];
+    Capacitance "capacitance" [Amplifiers] [CAPACITANCE];
+    ChopperVoltage "chopper_voltage" [Amplifiers] [VOLTAGE];
+    MaxVoltage "max_voltage" [Amplifiers] [VOLTAGE];
+    MinResistance "min_resistance" [Amplifiers] [RESISTANCE];
+    ConstantLoss "constant_loss" [Amplifiers] [POWER];
+    CurrentLoss "loss_per_current" [Amplifiers] [LOSS];
+    Resistance "resistance" [Resistors] [RESISTANCE];
+    RatedPower "rated_power" [Resistors] [POWER];
+    PeakPower "peak_power" [Resistors] [POWER];
+    PulseEnergy "pulse_energy" [Resistors] [ENERGY];
+    Mass "mass" [Motors Gearboxes Amplifiers] [MASS];
+    Price "price" [Motors Gearboxes Amplifiers Resistors] [];
+    FiguresFrom "figures_from" [Motors Gearboxes Amplifiers Resistors] [];
+    Source "source" [Motors Gearboxes Amplifiers Resistors] [];
+    ListedMotor "motor" [Compatibility] [];
+    ListedGearboxes "gearboxes" [Compatibility] [];
+    Direct "direct" [Compatibility] [];
+    ListedAmplifiers "amplifiers" [Compatibility] [];
 }
 
 impl Column {
@@ -287,12 +224,5 @@ impl Column {
     pub(super) fn of(kind: Kind) -> impl Iterator<Item = Self> {
         let all = Self::ALL.iter().copied();
         all.filter(move |column| column.kinds().contains(&kind))
-    }
-
-    /// Its units for messages: "[N m], [mN m]"; nothing if it has none.
-    pub(super) fn unit_list(self) -> String {
-        let units = self.units().iter().filter(|unit| !unit.text.is_empty());
-        let units: Vec<String> = units.map(|unit| format!("[{}]", unit.text)).collect();
-        units.join(", ")
     }
 }

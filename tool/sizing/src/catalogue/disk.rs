@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use jred_machine::text::disk::utf8;
 use jred_machine::units::closest;
 
 use super::Catalogue;
@@ -115,15 +116,9 @@ fn beside(path: &Path) -> Option<PathBuf> {
 
 fn read(path: &Path) -> Result<Text, CatalogueError> {
     let bytes = std::fs::read(path).map_err(|error| cannot_read(path, &error))?;
-    let text = String::from_utf8(bytes).map_err(|error| {
-        let valid = error.utf8_error().valid_up_to();
-        let before = error.as_bytes().iter().take(valid);
-        let line = before.filter(|b| **b == b'\n').count() + 1;
-        unreadable(
-            path,
-            format!("it is not UTF-8 text: line {line} contains an invalid byte"),
-            "save the sheet as CSV in UTF-8 and pass that file with --catalogue, --motors or --gearboxes",
-        )
+    let text = utf8(bytes).map_err(|fault| {
+        let cure = "save the sheet as CSV in UTF-8 and pass that file with --catalogue, --motors or --gearboxes";
+        unreadable(path, fault.message, cure)
     })?;
     Ok(Text::new(path.display().to_string(), text).at(real(path)))
 }

@@ -3,7 +3,7 @@
 mod motor;
 
 use super::amplifier::{Amplifier, Resistor};
-use super::column::{CYCLES, Column, FACTOR, Kind};
+use super::column::{Column, FACTOR, Holds, Kind};
 use super::gearbox::Gearbox;
 use super::lists::{Listing, listing};
 use super::motor::Motor;
@@ -79,7 +79,7 @@ fn gearbox(row: &Row) -> Read<Gearbox> {
         no_load_torque: row.not_negative(Column::NoLoadTorque).unwrap_or(0.0),
         stiffness: row.optional(Column::Stiffness),
         backlash: row.not_negative(Column::Backlash),
-        shock_factors: row.points(Column::ShockFactors, [CYCLES, FACTOR]),
+        shock_factors: row.points(Column::ShockFactors, [Holds::Hourly, FACTOR]),
         mass: row.optional(Column::Mass),
         price: row.optional(Column::Price),
         from_maker: from_maker(row),
@@ -87,10 +87,10 @@ fn gearbox(row: &Row) -> Read<Gearbox> {
     };
     row.checked()?;
     if gearbox.peak_torque.or(gearbox.rated_torque).is_none() {
-        row.add(row.missing(Column::PeakOutputTorque, &[Column::RatedOutputTorque]));
+        row.missing(Column::PeakOutputTorque, &[Column::RatedOutputTorque]);
     }
     if gearbox.max_speed.or(gearbox.rated_speed).is_none() {
-        row.add(row.missing(Column::MaxInputSpeed, &[Column::RatedInputSpeed]));
+        row.missing(Column::MaxInputSpeed, &[Column::RatedInputSpeed]);
     }
     let peak = (Column::PeakOutputTorque, gearbox.peak_torque);
     row.at_least(peak, (Column::RatedOutputTorque, gearbox.rated_torque));

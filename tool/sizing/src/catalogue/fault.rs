@@ -2,11 +2,11 @@
 //! places.
 
 use std::fmt::Write as _;
-use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use miette::{Diagnostic, NamedSource, SourceSpan};
+use jred_machine::text::problem::Problem;
+use miette::Diagnostic;
 use thiserror::Error;
 
 /// Number of broken rows shown with their places; the others are counted.
@@ -29,7 +29,7 @@ pub enum CatalogueError {
     /// One place is wrong.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Wrong(Box<Misplaced>),
+    Wrong(Problem),
     /// Several places are wrong.
     #[error("{0}")]
     #[diagnostic(transparent)]
@@ -74,7 +74,7 @@ pub struct Several {
     pub faults: usize,
     /// The first of the faults.
     #[related]
-    pub shown: Vec<Misplaced>,
+    pub shown: Vec<Problem>,
 }
 
 impl Several {
@@ -91,20 +91,6 @@ impl Several {
         }
         words
     }
-}
-
-/// A fault at a place in a catalogue file.
-#[derive(Debug, Error, Diagnostic)]
-#[error("{message}")]
-pub struct Misplaced {
-    message: String,
-    #[source_code]
-    file: NamedSource<Arc<String>>,
-    #[label("{label}")]
-    place: SourceSpan,
-    label: String,
-    #[help]
-    help: String,
 }
 
 /// A catalogue file: its name for messages and its text.
@@ -134,48 +120,8 @@ impl Text {
     }
 
     /// The fault at its place in this text.
-    pub(super) fn misplaced(&self, fault: Fault) -> Misplaced {
-        Misplaced {
-            message: fault.message,
-            file: NamedSource::new(&self.name, Arc::clone(&self.text)),
-            place: (fault.at.start, fault.at.len()).into(),
-            label: fault.label.to_owned(),
-            help: fault.help,
-        }
-    }
-}
-
-/// Message, place in the text, and cure.
-#[derive(Clone, Debug)]
-pub(super) struct Fault {
-    pub(super) message: String,
-    pub(super) at: Range<usize>,
-    pub(super) label: &'static str,
-    pub(super) help: String,
-    /// Whether the fault is the same for every row of the file, such as a missing column.
-    pub(super) whole_file: bool,
-}
-
-impl Fault {
-    pub(super) fn new(
-        message: impl Into<String>,
-        at: Range<usize>,
-        label: &'static str,
-        help: impl Into<String>,
-    ) -> Self {
-        Self {
-            message: message.into(),
-            at,
-            label,
-            help: help.into(),
-            whole_file: false,
-        }
-    }
-
-    /// The same for every row.
-    pub(super) const fn of_whole_file(mut self) -> Self {
-        self.whole_file = true;
-        self
+    pub(super) fn shows(&self, problem: Problem) -> Problem {
+        problem.in_file(&self.name, &self.text)
     }
 }
 
@@ -184,22 +130,22 @@ impl Fault {
 pub(super) struct Faults {
     rows: usize,
     count: usize,
-    shown: Vec<Misplaced>,
+    shown: Vec<Problem>,
 }
 
 impl Faults {
     /// A row with one fault.
-    pub(super) fn add(&mut self, text: &Text, fault: Fault) {
+    pub(super) fn add(&mut self, text: &Text, fault: Problem) {
         self.add_row(text, [fault]);
     }
 
     /// A row with all its faults.
-    pub(super) fn add_row(&mut self, text: &Text, faults: impl IntoIterator<Item = Fault>) {
+    pub(super) fn add_row(&mut self, text: &Text, faults: impl IntoIterator<Item = Problem>) {
         self.rows += 1;
         for fault in faults {
             self.count += 1;
             if self.shown.len() < SHOWN {
-                self.shown.push(text.misplaced(fault));
+                self.shown.push(text.shows(fault));
             }
         }
     }
@@ -213,7 +159,7 @@ impl Faults {
     pub(super) fn into_result(mut self) -> Result<(), CatalogueError> {
         match self.shown.pop() {
             None => Ok(()),
-            Some(only) if self.count == 1 => Err(CatalogueError::Wrong(Box::new(only))),
+            Some(only) if self.count == 1 => Err(CatalogueError::Wrong(only)),
             Some(last) => {
                 self.shown.push(last);
                 Err(CatalogueError::Several(Box::new(Several {

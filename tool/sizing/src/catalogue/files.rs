@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use jred_machine::text::csv;
+
 use super::column::{Column, Kind};
 use super::fault::{CatalogueError, Text};
 use super::mgdb;
@@ -51,10 +53,7 @@ const fn database(kind: Kind) -> bool {
 /// jred's own format, or that of the database.
 pub(super) fn format_of(kind: Kind, text: &Text) -> Format {
     let own_list = || {
-        let titles = text.text.trim_start_matches('\u{feff}').lines();
-        let mut titles = titles.filter(|l| !(l.starts_with('#') || l.trim().is_empty()));
-        let first = titles.next().unwrap_or_default();
-        first
+        csv::header_of(&text.text)
             .split([',', ';', '\t'])
             .any(|title| title.trim() == Column::ListedMotor.name())
     };

@@ -3,11 +3,11 @@
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
+use jred_machine::text::problem::Problem;
 use jred_machine::units::did_you_mean;
 
 use super::Pairing;
 use super::column::Column;
-use super::fault::Fault;
 use super::load::{Group, Loader};
 use super::pairing::Keys;
 use super::row::{Read, Row};
@@ -41,17 +41,12 @@ impl Loader {
                 *built_in = true;
             } else if let Some(text) = self.texts.get(*index) {
                 let near = did_you_mean(key, &keys.names());
-                self.faults.add(
-                    text,
-                    Fault::new(
-                        format!("no gearbox has the key \"{key}\""),
-                        at.clone(),
-                        "not a gearbox of the catalogue",
-                        format!(
-                            "{near}add the gearbox to a gearbox table, or leave this cell empty"
-                        ),
-                    ),
-                );
+                let fault = Problem::new(format!("no gearbox has the key \"{key}\""))
+                    .at(at.clone(), "not a gearbox of the catalogue")
+                    .help(format!(
+                        "{near}add the gearbox to a gearbox table, or leave this cell empty"
+                    ));
+                self.faults.add(text, fault);
             }
             if let Some(partners) = pairing.motors.get_mut(*motor as usize) {
                 partners.gearboxes = Some(found.into());
@@ -85,22 +80,16 @@ impl Loader {
                 keys.find(pattern, |i| indices.push(i));
                 if indices.is_empty() && !self.broken.contains(pattern) {
                     let near = did_you_mean(pattern, &keys.names());
-                    self.faults.add(
-                        text,
-                        Fault::new(
-                            if what == "motor" {
-                                format!("no motor has the key \"{pattern}\"")
-                            } else {
-                                format!(
-                                    "no {what} has the key \"{pattern}\", which the list of \"{}\" names",
-                                    listing.motor
-                                )
-                            },
-                            listing.at.clone(),
-                            "in this list",
-                            format!("{near}correct the key; a \"*\" at its end matches all keys that start like this"),
-                        ),
-                    );
+                    let names = match what {
+                        "motor" => String::new(),
+                        _ => format!(", which the list of \"{}\" names", listing.motor),
+                    };
+                    let fault = Problem::new(format!("no {what} has the key \"{pattern}\"{names}"))
+                        .at(listing.at.clone(), "in this list")
+                        .help(format!(
+                            "{near}correct the key; a \"*\" at its end matches all keys that start like this"
+                        ));
+                    self.faults.add(text, fault);
                 }
                 indices
             };

@@ -4,9 +4,11 @@ use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use jred_machine::text::problem::Problem;
+
 use super::column::{Column, Kind};
 use super::entry::Entry;
-use super::fault::{CatalogueError, Fault, Faults, Remarks, Text};
+use super::fault::{CatalogueError, Faults, Remarks, Text};
 use super::files::Format;
 use super::lists::Listing;
 use super::pairing::Partners;
@@ -34,8 +36,8 @@ pub(super) struct Loader {
     read: HashMap<PathBuf, PathBuf>,
     /// Whether broken rows are skipped.
     skip: bool,
-    /// Faults that every row of the current file has.
-    whole_file: Option<Fault>,
+    /// A column that the current file lacks.
+    lacking: Option<Problem>,
     /// Keys of broken rows, which lists may still contain.
     pub(super) broken: HashSet<String>,
     /// Gear motors: index of the motor, key of its gearbox, and the place of this entry.
@@ -76,7 +78,7 @@ impl Loader {
             let count = match format {
                 Format::Csv(kind) => self.csv(kind, index, &text, &mut group)?,
                 Format::Toml => {
-                    toml_table::each(&text, |row| self.row(index, &text, &mut group, row))
+                    toml_table::each(&text.text, |row| self.row(index, &text, &mut group, row))
                         .map_err(|fault| wrong(&text, fault))?
                 }
                 Format::Database(kind) => self.database(kind, index, &text, &mut group)?,
@@ -100,12 +102,12 @@ impl Loader {
         text: &Text,
         group: &mut Group,
     ) -> Result<usize, CatalogueError> {
-        let table = Table::read(text, kind).map_err(|fault| wrong(text, fault))?;
+        let table = Table::read(&text.text, kind).map_err(|fault| wrong(text, fault))?;
         let Some(table) = table else {
             return Ok(0);
         };
         let count = table.each(|row| self.row(index, text, group, row));
-        match self.whole_file.take() {
+        match self.lacking.take() {
             Some(fault) => Err(wrong(text, fault)),
             None => Ok(count),
         }
@@ -166,7 +168,7 @@ impl Loader {
         index: usize,
         text: &Text,
         group: &mut Group,
-        row: Result<(Row, usize), Fault>,
+        row: Result<(Row, usize), Problem>,
     ) {
         let faults = match row {
             Err(fault) => vec![fault],
@@ -175,22 +177,17 @@ impl Loader {
                     return;
                 };
                 self.broken.insert(row.name().to_owned());
+                self.lacking = self.lacking.take().or_else(|| row.lacking());
                 faults
             }
         };
-        // A missing column affects every row, but is reported once.
-        let (of_file, of_row): (Vec<Fault>, Vec<Fault>) =
-            faults.into_iter().partition(|fault| fault.whole_file);
-        if let Some(fault) = of_file.into_iter().next() {
-            self.whole_file = self.whole_file.take().or(Some(fault));
-        }
-        if !of_row.is_empty() {
-            self.faults.add_row(text, of_row);
+        if !faults.is_empty() {
+            self.faults.add_row(text, faults);
         }
     }
 
     /// The key of a row must be unique, even if the row is broken; skipped rows do not claim a key.
-    fn key(&mut self, index: usize, row: &Row, broken: bool) -> Option<Fault> {
+    fn key(&mut self, index: usize, row: &Row, broken: bool) -> Option<Problem> {
         let key = row
             .words(Column::Key)
             .filter(|_| row.kind != Kind::Compatibility)?;
@@ -269,7 +266,7 @@ impl Loader {
         false
     }
 
-    fn clash(&self, key: &str, before: usize, index: usize, at: Range<usize>) -> Fault {
+    fn clash(&self, key: &str, before: usize, index: usize, at: Range<usize>) -> Problem {
         let name = |index: usize| self.texts.get(index).map_or("", |text| text.name.as_str());
         let message = if before == index {
             format!("duplicate key \"{key}\"")
@@ -280,7 +277,9 @@ impl Loader {
                 name(index)
             )
         };
-        Fault::new(message, at, "again here", "give every row a unique key")
+        Problem::new(message)
+            .at(at, "again here")
+            .help("give every row a unique key")
     }
 
     fn finish(mut self, groups: Vec<Group>) -> Result<Catalogue, CatalogueError> {
@@ -319,6 +318,6 @@ pub(super) fn twice(path: &Path, before: &Path) -> CatalogueError {
     }
 }
 
-fn wrong(text: &Text, fault: Fault) -> CatalogueError {
-    CatalogueError::Wrong(Box::new(text.misplaced(fault)))
+fn wrong(text: &Text, fault: Problem) -> CatalogueError {
+    CatalogueError::Wrong(text.shows(fault))
 }

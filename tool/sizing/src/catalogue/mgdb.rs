@@ -3,11 +3,13 @@
 
 use std::ops::Range;
 
-use super::fault::{Fault, Remarks, Text};
+use jred_machine::text::csv::{self, Table};
+use jred_machine::text::problem::Problem;
+
+use super::fault::{Remarks, Text};
 use super::gearbox::Gearbox;
 use super::lists::Listing;
 use super::motor::{Motor, Thermal, Winding};
-use super::table::{cell_start, csv_fault};
 use crate::catalogue::Commutation;
 
 /// Efficiency of a stage if the database gives none: 608 of the 613 gearboxes of this maker with a given efficiency have at
@@ -16,9 +18,7 @@ const STAGE_EFFICIENCY: f64 = 0.87;
 
 /// Whether a header is that of the database.
 pub(super) fn is_header(text: &str) -> bool {
-    let start = text.trim_start_matches('\u{feff}');
-    let header = start.lines().next().unwrap_or_default();
-    let titles: Vec<&str> = header.split(',').map(str::trim).collect();
+    let titles: Vec<&str> = csv::header_of(text).split(',').map(str::trim).collect();
     ["key", "manufacturer", "ID"]
         .iter()
         .all(|t| titles.contains(t))
@@ -26,33 +26,28 @@ pub(super) fn is_header(text: &str) -> bool {
 
 /// The rows of a file with their titles.
 struct Sheet<'t> {
-    text: &'t Text,
-    header: csv::StringRecord,
-    record: csv::StringRecord,
+    name: &'t str,
+    csv: Table<'t>,
 }
 
 impl Sheet<'_> {
     fn index(&self, title: &str) -> Option<usize> {
-        self.header.iter().position(|t| t == title)
+        self.csv.header().iter().position(|t| t == title)
     }
 
     fn word(&self, title: &str) -> &str {
         let index = self.index(title);
-        index.and_then(|i| self.record.get(i)).unwrap_or_default()
+        index
+            .and_then(|i| self.csv.row().get(i))
+            .unwrap_or_default()
     }
 
     fn place(&self, title: &str) -> Range<usize> {
-        let row = self.record.position().map_or(0, |p| p.byte() as usize);
-        let start = cell_start(&self.text.text, row, self.index(title).unwrap_or(0), ',');
-        start..start + self.word(title).len()
-    }
-
-    fn line(&self) -> usize {
-        self.record.position().map_or(0, csv::Position::line) as usize
+        self.csv.place(self.index(title).unwrap_or(0))
     }
 
     fn at_line(&self) -> String {
-        format!("{}:{}", self.text.name, self.line())
+        format!("{}:{}", self.name, self.csv.line())
     }
 
     /// A value above zero; `None` if not given. A cell that is not a number counts as not given, with a warning.
@@ -75,7 +70,7 @@ impl Sheet<'_> {
     }
 
     /// A value that is required for every drive.
-    fn needed(&self, title: &str) -> Result<f64, Fault> {
+    fn needed(&self, title: &str) -> Result<f64, Problem> {
         let value = self.word(title).parse::<f64>().ok();
         value.filter(|v| v.is_finite() && *v > 0.0).ok_or_else(|| {
             self.fault(
@@ -86,16 +81,18 @@ impl Sheet<'_> {
         })
     }
 
-    fn fault(&self, title: &str, label: &'static str, help: String) -> Fault {
+    fn fault(&self, title: &str, label: &'static str, help: String) -> Problem {
         let message = format!(
             "{title} of \"{}\" is \"{}\"",
             self.word("key"),
             self.word(title)
         );
-        Fault::new(message, self.place(title), label, help)
+        Problem::new(message)
+            .at(self.place(title), label)
+            .help(help)
     }
 
-    fn key(&self) -> Result<String, Fault> {
+    fn key(&self) -> Result<String, Problem> {
         match self.word("key") {
             "" => Err(self.fault(
                 "key",
@@ -109,48 +106,32 @@ impl Sheet<'_> {
     fn source(&self) -> String {
         format!(
             "Motor-Gearbox Database, {}, row {}",
-            self.text.name,
+            self.name,
             self.word("key")
         )
     }
 }
 
 /// An entry with its line and place.
-type Take<'a, T> = &'a mut dyn FnMut(Result<(T, usize, Range<usize>), Fault>);
+type Take<'a, T> = &'a mut dyn FnMut(Result<(T, usize, Range<usize>), Problem>);
 
 fn each<T>(
     text: &Text,
     remarks: &mut Remarks,
-    build: impl Fn(&Sheet, &mut Remarks) -> Result<T, Fault>,
+    build: impl Fn(&Sheet, &mut Remarks) -> Result<T, Problem>,
     take: Take<T>,
-) -> Result<usize, Fault> {
-    let mut reader = csv::ReaderBuilder::new()
-        .trim(csv::Trim::All)
-        .from_reader(text.text.as_bytes());
-    let header = reader
-        .headers()
-        .map_err(|e| csv_fault(&text.text, &e, ','))?
-        .clone();
+) -> Result<usize, Problem> {
     let mut sheet = Sheet {
-        text,
-        header,
-        record: csv::StringRecord::new(),
+        name: &text.name,
+        csv: Table::read(&text.text)?,
     };
     let mut count = 0;
-    loop {
-        match reader.read_record(&mut sheet.record) {
-            Ok(false) => return Ok(count),
-            Ok(true) => {
-                count += 1;
-                let entry = build(&sheet, remarks);
-                take(entry.map(|entry| (entry, sheet.line(), sheet.place("key"))));
-            }
-            Err(error) => {
-                count += 1;
-                take(Err(csv_fault(&text.text, &error, ',')));
-            }
-        }
+    while let Some(row) = sheet.csv.advance() {
+        count += 1;
+        let entry = row.and_then(|()| build(&sheet, remarks));
+        take(entry.map(|entry| (entry, sheet.csv.line(), sheet.place("key"))));
     }
+    Ok(count)
 }
 
 /// Motors.
@@ -158,11 +139,11 @@ pub(super) fn motors(
     text: &Text,
     remarks: &mut Remarks,
     take: Take<Motor>,
-) -> Result<usize, Fault> {
+) -> Result<usize, Problem> {
     each(text, remarks, motor, take)
 }
 
-fn motor(sheet: &Sheet, remarks: &mut Remarks) -> Result<Motor, Fault> {
+fn motor(sheet: &Sheet, remarks: &mut Remarks) -> Result<Motor, Problem> {
     let mut figure = |title| sheet.figure(title, remarks);
     let torque_constant = figure("k_t");
     let rated_current = figure("I_nom");
@@ -221,11 +202,11 @@ pub(super) fn gearboxes(
     text: &Text,
     remarks: &mut Remarks,
     take: Take<Gearbox>,
-) -> Result<usize, Fault> {
+) -> Result<usize, Problem> {
     each(text, remarks, gearbox, take)
 }
 
-fn gearbox(sheet: &Sheet, remarks: &mut Remarks) -> Result<Gearbox, Fault> {
+fn gearbox(sheet: &Sheet, remarks: &mut Remarks) -> Result<Gearbox, Problem> {
     let ratio = sheet.needed("ratio")?;
     let reverses = match sheet.word("direction").parse::<f64>() {
         Ok(direction) => direction < 0.0,
@@ -277,29 +258,19 @@ fn gearbox(sheet: &Sheet, remarks: &mut Remarks) -> Result<Gearbox, Fault> {
 }
 
 /// A compatibility file: no header; motor key, then gearbox keys.
-pub(super) fn listings(text: &Text, mut take: impl FnMut(Result<Listing, Fault>)) {
-    let mut reader = csv::ReaderBuilder::new()
-        .trim(csv::Trim::All)
-        .has_headers(false)
-        .flexible(true)
-        .from_reader(text.text.as_bytes());
-    let mut record = csv::StringRecord::new();
-    loop {
-        match reader.read_record(&mut record) {
-            Ok(false) => return,
-            Ok(true) => {
-                let start = record.position().map_or(0, |p| p.byte() as usize);
-                let motor = record.get(0).unwrap_or_default().to_owned();
-                let keys = record.iter().skip(1).filter(|key| !key.is_empty());
-                take(Ok(Listing {
-                    at: start..start + motor.len(),
-                    motor,
-                    gearboxes: Some(keys.map(ToOwned::to_owned).collect()),
-                    direct: true,
-                    amplifiers: None,
-                }));
+pub(super) fn listings(text: &Text, mut take: impl FnMut(Result<Listing, Problem>)) {
+    let mut table = Table::without_header(&text.text);
+    while let Some(row) = table.advance() {
+        take(row.map(|()| {
+            let at = table.place(0);
+            let mut keys = table.row().iter().map(ToOwned::to_owned);
+            Listing {
+                at,
+                motor: keys.next().unwrap_or_default(),
+                gearboxes: Some(keys.filter(|key| !key.is_empty()).collect()),
+                direct: true,
+                amplifiers: None,
             }
-            Err(error) => take(Err(csv_fault(&text.text, &error, ','))),
-        }
+        }));
     }
 }

@@ -3,9 +3,11 @@
 use std::cell::RefCell;
 use std::ops::Range;
 
+use jred_machine::text::problem::Problem;
+use jred_machine::units::quantity::possible_units;
+
 use super::cell::{self, Cell, NUMBER_CURE};
-use super::column::{Column, For, Kind, Unit};
-use super::fault::Fault;
+use super::column::{Column, For, Holds, Kind};
 
 /// Where the cells of a row come from.
 pub(super) trait Cells {
@@ -24,7 +26,7 @@ pub(super) trait Cells {
 }
 
 /// All faults of a row.
-pub(super) type Read<T> = Result<T, Vec<Fault>>;
+pub(super) type Read<T> = Result<T, Vec<Problem>>;
 
 /// One row. A faulty cell is recorded and read as a substitute value, so that all faults of a row are found at once;
 /// [`Row::checked`] returns them.
@@ -33,7 +35,9 @@ pub(super) struct Row<'t> {
     cells: &'t dyn Cells,
     /// Which motors its units must be for.
     motors: For,
-    faults: RefCell<Vec<Fault>>,
+    faults: RefCell<Vec<Problem>>,
+    /// A column that its whole table lacks.
+    lacking: RefCell<Option<Problem>>,
 }
 
 impl<'t> Row<'t> {
@@ -43,16 +47,17 @@ impl<'t> Row<'t> {
             cells,
             motors: For::Any,
             faults: RefCell::default(),
+            lacking: RefCell::default(),
         }
     }
 
     /// Keeps a fault.
-    pub(super) fn add(&self, fault: Fault) {
+    pub(super) fn add(&self, fault: Problem) {
         self.faults.borrow_mut().push(fault);
     }
 
     /// Records the fault, if any, and returns a substitute value.
-    fn keep<T>(&self, read: Result<T, Fault>, stand_in: T) -> T {
+    fn keep<T>(&self, read: Result<T, Problem>, stand_in: T) -> T {
         read.unwrap_or_else(|fault| {
             self.add(fault);
             stand_in
@@ -62,11 +67,16 @@ impl<'t> Row<'t> {
     /// An error with the faults kept so far, if there are any.
     pub(super) fn checked(&self) -> Read<()> {
         let faults = self.faults.take();
-        if faults.is_empty() {
+        if faults.is_empty() && self.lacking.borrow().is_none() {
             Ok(())
         } else {
             Err(faults)
         }
+    }
+
+    /// The fault of a column that its whole table lacks.
+    pub(super) fn lacking(&self) -> Option<Problem> {
+        self.lacking.take()
     }
 
     /// From now on, units of the other kind of motor are faults.
@@ -100,9 +110,11 @@ impl<'t> Row<'t> {
         what: &str,
         label: &'static str,
         help: impl Into<String>,
-    ) -> Fault {
+    ) -> Problem {
         let message = format!("{} of \"{}\" {what}", column.name(), self.name());
-        Fault::new(message, self.place(column), label, help)
+        Problem::new(message)
+            .at(self.place(column), label)
+            .help(help)
     }
 
     /// Words, which may be missing.
@@ -117,42 +129,33 @@ impl<'t> Row<'t> {
 
     /// Words that must be there.
     pub(super) fn text(&self, column: Column) -> String {
-        let words = self.words(column).map(ToOwned::to_owned);
-        self.keep(
-            words.ok_or_else(|| self.missing(column, &[])),
-            String::new(),
-        )
+        let words = self.words(column);
+        if words.is_none() {
+            self.missing(column, &[]);
+        }
+        words.unwrap_or_default().to_owned()
     }
 
-    /// The fault of a missing cell; one of `instead` would also be sufficient.
-    pub(super) fn missing(&self, column: Column, instead: &[Column]) -> Fault {
+    /// Keeps the fault of a missing cell; one of `instead` would also be sufficient.
+    pub(super) fn missing(&self, column: Column, instead: &[Column]) {
         let name = column.name();
-        let mut or = String::new();
-        for other in instead {
-            or += ", or ";
-            or += other.name();
-        }
+        let others = instead.iter().map(|other| other.name());
+        let or: String = others.flat_map(|other| [", or ", other]).collect();
         if self.cells.has(column) {
-            return self.fault(
-                column,
-                "is empty",
-                "required in every row",
-                format!("fill in {name}{or}, or remove the row"),
-            );
+            let help = format!("fill in {name}{or}, or remove the row");
+            self.add(self.fault(column, "is empty", "required in every row", help));
+            return;
         }
-        let units = column.unit_list();
-        let units = if units.is_empty() {
-            units
-        } else {
-            format!(" with its unit ({units})")
+        let units = match column.holds().kinds() {
+            [] => String::new(),
+            kinds => format!(" with its unit ({})", possible_units(kinds)),
         };
-        Fault::new(
-            format!("the column \"{name}\" is missing"),
-            self.cells.header(),
-            "in this header",
-            format!("add the column \"{name}\"{units}{or}; docs/catalogue.md shows all columns"),
-        )
-        .of_whole_file()
+        let fault = Problem::new(format!("the column \"{name}\" is missing"))
+            .at(self.cells.header(), "in this header")
+            .help(format!(
+                "add the column \"{name}\"{units}{or}; docs/catalogue.md shows all columns"
+            ));
+        self.lacking.borrow_mut().get_or_insert(fault);
     }
 
     /// A number that may be left out, in SI.
@@ -161,18 +164,21 @@ impl<'t> Row<'t> {
         column: Column,
         least: f64,
         label: &'static str,
-    ) -> Result<Option<f64>, Fault> {
+    ) -> Result<Option<f64>, Problem> {
         let Some(Cell { text, unit }) = self.cells.cell(column) else {
             return Ok(None);
         };
-        let Unit { si, motors, .. } = unit.unwrap_or(&PLAIN);
-        if *motors != For::Any && self.motors != For::Any && *motors != self.motors {
+        if let Some(unit) = unit
+            && unit.motors != For::Any
+            && self.motors != For::Any
+            && unit.motors != self.motors
+        {
             return Err(self.fault(
                 column,
                 &format!(
                     "is in [{}], a unit for {} motors, but the motor is {}",
-                    unit.map_or("", |u| u.text),
-                    cell::words(*motors),
+                    unit.text,
+                    cell::words(unit.motors),
                     cell::words(self.motors)
                 ),
                 "wrong unit for this motor",
@@ -181,7 +187,7 @@ impl<'t> Row<'t> {
         }
         let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
         match value {
-            Some(value) if value > least => Ok(Some(value * si)),
+            Some(value) if value > least => Ok(Some(value * unit.map_or(1.0, |unit| unit.si))),
             _ => {
                 let cure = if text.contains(',') {
                     format!("{NUMBER_CURE}: \"{}\"", text.replace(',', "."))
@@ -202,8 +208,7 @@ impl<'t> Row<'t> {
 
     /// A figure greater than zero that must be there, in SI.
     pub(super) fn positive(&self, column: Column) -> f64 {
-        let number = self.number(column, 0.0, ABOVE_ZERO);
-        self.keep(number.and_then(|x| self.needed(column, x)), 1.0)
+        self.needed(column, self.number(column, 0.0, ABOVE_ZERO), 1.0)
     }
 
     /// A figure that may be zero and may be left out, in SI.
@@ -213,12 +218,18 @@ impl<'t> Row<'t> {
 
     /// A figure that may be zero and must be there, in SI.
     pub(super) fn zero_or_more(&self, column: Column) -> f64 {
-        let number = self.number(column, -f64::MIN_POSITIVE, FROM_ZERO);
-        self.keep(number.and_then(|x| self.needed(column, x)), 0.0)
+        self.needed(
+            column,
+            self.number(column, -f64::MIN_POSITIVE, FROM_ZERO),
+            0.0,
+        )
     }
 
-    fn needed(&self, column: Column, number: Option<f64>) -> Result<f64, Fault> {
-        number.ok_or_else(|| self.missing(column, &[]))
+    fn needed(&self, column: Column, number: Result<Option<f64>, Problem>, stand_in: f64) -> f64 {
+        self.keep(number, Some(stand_in)).unwrap_or_else(|| {
+            self.missing(column, &[]);
+            stand_in
+        })
     }
 
     /// A whole number from 1 to 1000 that may be left out.
@@ -237,11 +248,11 @@ impl<'t> Row<'t> {
     }
 
     /// Points "x: y; x: y", in SI; none if the cell is empty.
-    pub(super) fn points(&self, column: Column, units: [&'static [Unit]; 2]) -> Vec<[f64; 2]> {
+    pub(super) fn points(&self, column: Column, holds: [Holds; 2]) -> Vec<[f64; 2]> {
         let Some(text) = self.words(column) else {
             return Vec::new();
         };
-        let points = cell::points(text, units, self.motors)
+        let points = cell::points(text, holds, self.motors)
             .map_err(|wrong| self.fault(column, &wrong.message, "here", wrong.help));
         self.keep(points, Vec::new())
     }
@@ -296,10 +307,3 @@ impl<'t> Row<'t> {
 
 const ABOVE_ZERO: &str = "not a number greater than zero";
 const FROM_ZERO: &str = "not a number of zero or more";
-
-/// The unit of a plain number.
-const PLAIN: Unit = Unit {
-    text: "",
-    si: 1.0,
-    motors: For::Any,
-};

@@ -1,14 +1,16 @@
 //! A catalogue in TOML: the same columns as keys, each value with its unit.
 
-use std::borrow::Cow;
 use std::ops::Range;
 
-use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use jred_machine::text::item::Item;
+use jred_machine::text::problem::Problem;
+use jred_machine::text::section::Section;
+use jred_machine::text::tree;
+use jred_machine::units::kind::SHARE;
+use jred_machine::units::quantity::split_number;
 
-use super::cell::{self, Cell, unit_cure};
+use super::cell::{Cell, number_and_unit};
 use super::column::{Column, Kind, Unit};
-use super::fault::{Fault, Text};
 use super::row::{Cells, Row};
 use super::table::unknown;
 
@@ -17,14 +19,12 @@ struct TomlRow {
     at: Range<usize>,
     cells: Vec<TomlCell>,
     currency: String,
-    /// Faults of keys and units.
-    faults: Vec<Fault>,
 }
 
 struct TomlCell {
     column: Column,
     text: String,
-    unit: Option<&'static Unit>,
+    unit: Option<Unit>,
     at: Range<usize>,
 }
 
@@ -33,7 +33,7 @@ impl Cells for TomlRow {
         let found = self.cells.iter().find(|cell| cell.column == column)?;
         (!found.text.is_empty()).then_some(Cell {
             text: &found.text,
-            unit: found.unit,
+            unit: found.unit.as_ref(),
         })
     }
 
@@ -62,187 +62,77 @@ impl Cells for TomlRow {
 
 /// Calls `take` with every row of every table, or with what makes it unreadable.
 pub(super) fn each(
-    text: &Text,
-    mut take: impl FnMut(Result<(Row<'_>, usize), Fault>),
-) -> Result<usize, Fault> {
-    let tree = DeTable::parse(&text.text).map_err(|error| {
-        Fault::new(
-            format!("invalid TOML: {}", error.message()),
-            error.span().unwrap_or(0..0),
-            "here",
-            "tables are [[motor]], [[gearbox]], [[amplifier]], [[resistor]], [[compatibility]]; values with a unit are \
-             written in quotes: rated_torque = \"3.2 N m\"",
-        )
-    })?;
-    if let Some((name, _)) = tree
-        .get_ref()
-        .iter()
-        .find(|(name, _)| name.get_ref() == "mechanism")
-    {
-        return Err(Fault::new(
-            "this is a machine file, not a catalogue",
-            name.span(),
-            "a machine has a [mechanism]",
-            "use --catalogue for a folder of motors and gearboxes only: `jred size MACHINE --catalogue FOLDER`",
-        ));
+    text: &str,
+    mut take: impl FnMut(Result<(Row<'_>, usize), Problem>),
+) -> Result<usize, Problem> {
+    let tree = tree::parse(text)?;
+    let root = Section::new(String::new(), 0..0, tree.get_ref());
+    if let Some(mechanism) = root.peek("mechanism") {
+        return Err(Problem::new("this is a machine file, not a catalogue")
+            .at(mechanism.key_span(), "a machine has a [mechanism]")
+            .help("use --catalogue for a folder of motors and gearboxes only: `jred size MACHINE --catalogue FOLDER`"));
     }
-    let mut tables: Vec<(Kind, &Spanned<DeValue>)> = Vec::new();
-    for (name, value) in tree.get_ref() {
-        let kind = Kind::ALL
-            .into_iter()
-            .find(|k| k.singular() == name.get_ref());
-        let kind = kind.ok_or_else(|| {
-            let names: Vec<String> = Kind::ALL
-                .iter()
-                .map(|k| format!("[[{}]]", k.singular()))
-                .collect();
-            Fault::new(
-                format!("unknown table \"{}\"", name.get_ref()),
-                name.span(),
-                "not a table of a catalogue",
-                format!("tables are {}", names.join(", ")),
-            )
-        })?;
-        let DeValue::Array(rows) = value.get_ref() else {
-            return Err(Fault::new(
-                format!("\"{}\" is a single table", kind.singular()),
-                name.span(),
-                "one pair of brackets",
-                format!("write [[{}]] with two pairs of brackets", kind.singular()),
-            ));
-        };
-        tables.extend(rows.iter().map(|row| (kind, row)));
-    }
-    // In the file's order, which the map of names does not keep.
-    tables.sort_by_key(|(_, row)| row.span().start);
-    let mut lines = Lines::new(&text.text);
-    let count = tables.len();
-    for (kind, row) in tables {
-        let line = lines.of(row.span().start);
-        match read_row(kind, row) {
-            Ok(cells) => {
-                let row = Row::new(kind, &cells);
-                for fault in &cells.faults {
-                    row.add(fault.clone());
-                }
-                take(Ok((row, line)));
-            }
-            Err(fault) => take(Err(fault)),
+    let mut rows = Vec::new();
+    for kind in Kind::ALL {
+        if let Some(item) = root.get(kind.singular()) {
+            let tables = item.sections(&format!("[[{}]]", kind.singular()))?;
+            rows.extend(tables.into_iter().map(|table| (kind, table)));
         }
     }
-    Ok(count)
+    root.finish_with(|_| Some("a catalogue has tables in double brackets, such as [[motor]]"))?;
+    // In the file's order, which the map of names does not keep.
+    rows.sort_by_key(|(_, table)| table.header().start);
+    let mut lines = Lines::new(text);
+    for (kind, table) in &rows {
+        let (cells, faults) = read_row(*kind, table);
+        let row = Row::new(*kind, &cells);
+        for fault in faults {
+            row.add(fault);
+        }
+        take(Ok((row, lines.of(table.header().start))));
+    }
+    Ok(rows.len())
 }
 
-fn read_row(kind: Kind, row: &Spanned<DeValue>) -> Result<TomlRow, Fault> {
-    let DeValue::Table(table) = row.get_ref() else {
-        return Err(Fault::new(
-            format!(
-                "\"{}\" contains something that is not a table",
-                kind.singular()
-            ),
-            row.span(),
-            "here",
-            format!("write [[{}]] and its keys below", kind.singular()),
-        ));
+/// The cells of a row, and the faults of its keys and units.
+fn read_row(kind: Kind, table: &Section) -> (TomlRow, Vec<Problem>) {
+    let mut row = TomlRow {
+        at: table.header(),
+        cells: Vec::new(),
+        currency: String::new(),
     };
-    let mut cells = Vec::with_capacity(table.len());
-    let (mut currency, mut faults) = (String::new(), Vec::new());
-    for (name, value) in table {
-        let column = Column::of(kind).find(|c| c.name() == name.get_ref());
-        let column = column.ok_or_else(|| unknown(name.get_ref(), kind, name.span()));
-        match column.and_then(|column| read_cell(column, value)) {
-            Ok(mut cell) => {
-                if cell.column == Column::Price {
-                    let (number, word) = cell::split(&cell.text);
-                    word.clone_into(&mut currency);
-                    let length = number.len();
-                    cell.text.truncate(length);
-                }
-                cells.push(cell);
-            }
+    let mut faults = Vec::new();
+    for (name, item) in table.entries() {
+        let column = Column::of(kind).find(|column| column.name() == name);
+        let cell = column.ok_or_else(|| unknown(name, kind, item.key_span()));
+        match cell.and_then(|column| read_cell(column, &item, &mut row.currency)) {
+            Ok(cell) => row.cells.push(cell),
             Err(fault) => faults.push(fault),
         }
     }
-    Ok(TomlRow {
-        at: row.span(),
-        cells,
-        currency,
-        faults,
-    })
+    (row, faults)
 }
 
-fn read_cell(column: Column, value: &Spanned<DeValue>) -> Result<TomlCell, Fault> {
-    let at = value.span();
-    let text: Cow<str> = match value.get_ref() {
-        DeValue::String(text) => Cow::Borrowed(text.as_ref()),
-        DeValue::Integer(number) => Cow::Owned(number.to_string()),
-        DeValue::Float(number) => Cow::Owned(number.to_string()),
-        DeValue::Boolean(true) => Cow::Borrowed("yes"),
-        DeValue::Boolean(false) => Cow::Borrowed("no"),
-        DeValue::Array(items) => {
-            let words = items.iter().map(|item| item.get_ref().as_str());
-            let words: Option<Vec<&str>> = words.collect();
-            let words = words.ok_or_else(|| {
-                Fault::new(
-                    format!("{} contains something that is not a text", column.name()),
-                    at.clone(),
-                    "here",
-                    "write a list of quoted texts: [\"…\", \"…\"]",
-                )
-            })?;
-            Cow::Owned(words.join("; "))
-        }
-        _ => {
-            return Err(Fault::new(
-                format!("{} is neither a text nor a number", column.name()),
-                at,
-                "here",
-                "write a quoted text or a number",
-            ));
-        }
-    };
-    let units = column.units();
-    let carries_unit = units.iter().any(|unit| !unit.text.is_empty());
-    if !carries_unit {
-        return Ok(TomlCell {
-            column,
-            text: text.trim().to_owned(),
-            unit: units.first(),
-            at,
-        });
-    }
-    // Words among quantities, such as back_driving = "friction".
-    if text.trim().starts_with(|c: char| c.is_alphabetic()) {
-        return Ok(TomlCell {
-            column,
-            text: text.trim().to_owned(),
-            unit: None,
-            at,
-        });
-    }
-    let (number, word) = cell::split(text.trim());
-    let unit = cell::find_unit(word, units).ok_or_else(|| {
-        let what = if word.is_empty() {
-            format!("{} has no unit: {number}", column.name())
-        } else {
-            format!("{} has the unit \"{word}\"", column.name())
-        };
-        Fault::new(
-            what,
-            at.clone(),
-            "not a unit of this quantity",
-            format!(
-                "write the value with its unit in quotes; {}",
-                unit_cure(word, units)
-            ),
-        )
-    })?;
-    Ok(TomlCell {
+fn read_cell(column: Column, item: &Item, currency: &mut String) -> Result<TomlCell, Problem> {
+    let words = item.words()?;
+    let mut cell = TomlCell {
         column,
-        text: number.to_owned(),
-        unit: Some(unit),
-        at,
-    })
+        text: words.trim().to_owned(),
+        unit: None,
+        at: item.span(),
+    };
+    let holds = column.holds();
+    if column == Column::Price {
+        if let Ok((number, word)) = split_number(&words, &SHARE) {
+            word.clone_into(currency);
+            cell.text = number;
+        }
+    } else if !holds.kinds().is_empty() && !words.starts_with(char::is_alphabetic) {
+        // Words may stand among quantities, such as back_driving = "friction".
+        let (number, unit) = number_and_unit(&words, holds).map_err(|fault| item.fault(fault))?;
+        (cell.text, cell.unit) = (number, Some(unit));
+    }
+    Ok(cell)
 }
 
 /// Numbers of lines for rising places, each part of the text looked at once.

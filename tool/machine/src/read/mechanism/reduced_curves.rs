@@ -12,6 +12,7 @@ use crate::read::curve_file::Positions;
 use crate::read::drive_link::DriveLink;
 use crate::text::columns;
 use crate::text::columns::{Columns, CsvFile, Format, Known, known};
+use crate::text::csv;
 use crate::text::file::Files;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
@@ -207,7 +208,7 @@ fn read_columns(text: &str, turn: bool) -> Result<(Columns, Coordinate)> {
         &LENGTHS,
         "\"s [mm],m [kg]\", and F, F_potential [N], b [N s/m], c [N] if there are any",
     );
-    let mut names = columns::header_of(text).split([',', ';', '\t']);
+    let mut names = csv::header_of(text).split([',', ';', '\t']);
     let slides = names.any(|name| {
         name.trim()
             .trim_matches('"')
@@ -224,7 +225,7 @@ fn read_columns(text: &str, turn: bool) -> Result<(Columns, Coordinate)> {
         if columns.get(index).is_none() {
             return Err(
                 Problem::new(format!("the column for the {what} is missing"))
-                    .at(columns::header_place(text), "header")
+                    .at(csv::header_place(text), "header")
                     .help(format!(
                         "the first line gives column names with units: {}",
                         format.example
@@ -235,7 +236,7 @@ fn read_columns(text: &str, turn: bool) -> Result<(Columns, Coordinate)> {
     if slides && turn {
         return Err(
             Problem::new("the drive link slides, so its range is not a turn")
-                .at(columns::header_place(text), "s is a displacement")
+                .at(csv::header_place(text), "s is a displacement")
                 .help("write range = \"stroke\" in [mechanism]"),
         );
     }

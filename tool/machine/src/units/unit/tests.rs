@@ -1,6 +1,8 @@
 //! Every word, and the compound units in use, against a table of their sizes and dimensions.
 
-use super::{WORDS, read};
+use std::f64::consts::{PI, SQRT_2};
+
+use super::{WORDS, read, read_listed};
 
 /// Unit, size in SI, powers of m, kg, s, rad, A, K.
 const GOLDEN: &str = include_str!("golden.tsv");
@@ -26,7 +28,7 @@ fn sizes_and_dimensions_are_those_of_the_table() {
 
 #[test]
 fn every_word_is_in_the_table_and_has_powers() {
-    for word in &WORDS {
+    for word in WORDS {
         let listed = |line: &str| line.split('\t').next() == Some(word.text);
         assert!(GOLDEN.lines().any(listed), "{}", word.text);
         for power in [-4, -3, -2, -1, 2, 3, 4] {
@@ -53,5 +55,52 @@ fn every_word_is_in_the_table_and_has_powers() {
 fn a_unit_is_not_divided_by_per_cent() {
     for text in ["m/%", "1/%", "N/(m %)"] {
         assert!(read(text).unwrap_err().message.contains("divided by \"%\""));
+    }
+}
+
+#[test]
+fn units_of_data_sheets() {
+    let exact = [
+        ("kg cm^2", 1e-4),
+        ("kgcm²", 1e-4),
+        ("g·cm2", 1e-7),
+        ("N m", 1.0),
+        ("Nm", 1.0),
+        ("mN m/A", 1e-3),
+        ("Nms/rad", 1.0),
+        ("m/s", 1.0),
+        ("%", 1e-2),
+        ("kJ", 1e3),
+        ("Ω", 1.0),
+        ("ohm", 1.0),
+        ("µH", 1e-6),
+        ("°C", 1.0),
+        ("C", 1.0),
+        ("A rms", 1.0),
+        ("min", 60.0),
+    ];
+    for (unit, expected) in exact {
+        let scale = read_listed(unit).unwrap().scale;
+        assert_eq!(scale.to_bits(), f64::to_bits(expected), "{unit}");
+    }
+    let near = [
+        ("rpm", PI / 30.0),
+        ("N m/deg", 180.0 / PI),
+        ("Nm/arcmin", 10_800.0 / PI),
+        ("V/krpm", 30e-3 / PI),
+        ("mV/rpm", 30e-3 / PI),
+        ("A peak", 1.0 / SQRT_2),
+        ("N m/A peak", SQRT_2),
+    ];
+    for (unit, expected) in near {
+        let away = read_listed(unit)
+            .unwrap()
+            .scale
+            .to_bits()
+            .abs_diff(f64::to_bits(expected));
+        assert!(away <= 1, "{unit}: {away} doubles away");
+    }
+    for unit in ["apples", "2", "m^9", "N m/rad s"] {
+        assert!(read_listed(unit).is_err(), "{unit}");
     }
 }

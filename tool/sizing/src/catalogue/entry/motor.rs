@@ -138,17 +138,17 @@ pub(super) fn motor(row: &mut Row) -> Read<(Motor, Option<String>)> {
 fn torque_and_speed(row: &Row, motor: &Motor, own: &Efforts) {
     let continuous = motor.rated_torque.or(motor.standstill_torque);
     if continuous.is_none() && motor.continuous_curve.is_empty() {
-        row.add(row.missing(own.rated, &[own.standstill, Column::ContinuousCurve]));
+        row.missing(own.rated, &[own.standstill, Column::ContinuousCurve]);
     }
     if motor.peak_torque.is_none() && motor.peak_curve.is_empty() {
-        row.add(row.missing(own.peak, &[Column::PeakCurve]));
+        row.missing(own.peak, &[Column::PeakCurve]);
     }
     let speed = motor.rated_speed.or(motor.max_speed);
     if speed.is_none() && motor.continuous_curve.is_empty() {
-        row.add(row.missing(
+        row.missing(
             Column::RatedSpeed,
             &[Column::MaxSpeed, Column::ContinuousCurve],
-        ));
+        );
     }
     let peak = (own.peak, motor.peak_torque);
     row.at_least(peak, (own.rated, motor.rated_torque));
@@ -208,7 +208,7 @@ fn winding(row: &Row) -> Winding {
 fn brake(row: &Row, own: &Efforts) -> Option<Brake> {
     let inertia = row.not_negative(own.brake_inertia);
     if inertia.is_some() && row.words(own.brake).is_none() {
-        row.add(row.missing(own.brake, &[]));
+        row.missing(own.brake, &[]);
     }
     Some(Brake {
         torque: row.optional(own.brake)?,

@@ -1,0 +1,234 @@
+//! CSV tables with places: a header, and rows of as many cells.
+//!
+//! Commas, semicolons or tabs between the cells, a byte order mark, comments (`#`), quotes.
+
+use std::ops::Range;
+
+use csv::{Error, ErrorKind, Position, Reader, ReaderBuilder, StringRecord, Trim};
+
+use super::problem::{Problem, Result};
+use crate::units::Fault;
+use crate::units::kind::Kind;
+
+/// A table, read row by row.
+#[derive(Debug)]
+pub struct Table<'t> {
+    text: &'t str,
+    separator: char,
+    reader: Reader<&'t [u8]>,
+    header: StringRecord,
+    record: StringRecord,
+    rows: usize,
+    over: bool,
+}
+
+impl<'t> Table<'t> {
+    /// A table with a header.
+    ///
+    /// # Errors
+    /// The header cannot be read.
+    pub fn read(text: &'t str) -> Result<Self> {
+        let mut table = Self::new(text, ReaderBuilder::new().comment(Some(b'#')));
+        let header = table.reader.headers().cloned();
+        table.header = header.map_err(|error| table.broken(&error))?;
+        Ok(table)
+    }
+
+    /// Rows of any length without a header.
+    pub fn without_header(text: &'t str) -> Self {
+        Self::new(text, ReaderBuilder::new().has_headers(false).flexible(true))
+    }
+
+    fn new(text: &'t str, reader: &mut ReaderBuilder) -> Self {
+        let header = header_of(text);
+        let separator = ['\t', ';'].into_iter().find(|c| header.contains(*c));
+        let separator = separator.unwrap_or(',');
+        Self {
+            text,
+            separator,
+            reader: reader
+                .trim(Trim::All)
+                .delimiter(separator as u8)
+                .from_reader(text.as_bytes()),
+            header: StringRecord::new(),
+            record: StringRecord::new(),
+            rows: 0,
+            over: false,
+        }
+    }
+
+    /// What separates the cells: a tab or a semicolon, if the header contains one, otherwise the comma.
+    pub const fn separator(&self) -> char {
+        self.separator
+    }
+
+    /// The titles of the columns.
+    pub const fn header(&self) -> &StringRecord {
+        &self.header
+    }
+
+    /// The cells of this row.
+    pub const fn row(&self) -> &StringRecord {
+        &self.record
+    }
+
+    /// Goes on to the next row; `None` at the end.
+    pub fn advance(&mut self) -> Option<Result<()>> {
+        if self.over {
+            return None;
+        }
+        self.rows += 1;
+        match self.reader.read_record(&mut self.record) {
+            Ok(false) => None,
+            Ok(true) if self.record == self.header => Some(Err(Problem::new("duplicate header")
+                .at(self.place(0), "again here")
+                .help("remove this line: a table has one header"))),
+            Ok(true) => Some(Ok(())),
+            Err(error) => {
+                // Only a row of the wrong length leaves the reader where it can go on.
+                self.over = !matches!(error.kind(), ErrorKind::UnequalLengths { .. });
+                Some(Err(self.broken(&error)))
+            }
+        }
+    }
+
+    fn broken(&self, error: &Error) -> Problem {
+        let (message, help) = match error.kind() {
+            ErrorKind::UnequalLengths {
+                expected_len, len, ..
+            } => {
+                let separator = match self.separator {
+                    ';' => "semicolon",
+                    '\t' => "tab",
+                    _ => "comma",
+                };
+                let message = format!(
+                    "row {} has {len} values, but the header has {expected_len} columns",
+                    self.rows
+                );
+                let help = format!(
+                    "every row must have as many cells as the header: separate the values as the header does, quote those that \
+                     contain a {separator}; with commas between them decimals have a point"
+                );
+                (message, help)
+            }
+            _ => (
+                format!("invalid CSV: {error}"),
+                "write a header, and below it one row for each line".to_owned(),
+            ),
+        };
+        let from = error.position().map_or(0, |p| p.byte() as usize);
+        Problem::new(message)
+            .at(line_from(self.text, from), "this row")
+            .help(help)
+    }
+
+    /// Number of this row's line in the text.
+    pub fn line(&self) -> usize {
+        self.record.position().map_or(0, Position::line) as usize
+    }
+
+    /// The place of this row.
+    pub fn row_place(&self) -> Range<usize> {
+        line_from(self.text, self.start())
+    }
+
+    /// The place of a cell of this row.
+    pub fn place(&self, index: usize) -> Range<usize> {
+        self.find(self.start(), index, self.record.get(index))
+    }
+
+    /// The place of a title in the header.
+    pub fn title_place(&self, index: usize) -> Range<usize> {
+        self.find(0, index, self.header.get(index))
+    }
+
+    /// Reads the unit of a column, one of the `kinds`, from its title.
+    ///
+    /// # Errors
+    /// What `read` says of it.
+    pub fn unit<U>(
+        &self,
+        index: usize,
+        kinds: &[&Kind],
+        read: impl FnOnce(&str) -> std::result::Result<U, Fault>,
+    ) -> Result<U> {
+        let title = self.header.get(index).unwrap_or_default();
+        let (name, unit) = name_and_unit(title);
+        read(unit.unwrap_or_default()).map_err(|fault| {
+            let help = match (unit, kinds) {
+                (None, [kind, ..]) => format!("write \"{name} [{}]\"; {}", kind.unit, fault.help),
+                _ => fault.help,
+            };
+            Problem::new(format!("the column \"{title}\" {}", fault.message))
+                .at(self.title_place(index), fault.label)
+                .help(help)
+        })
+    }
+
+    fn start(&self) -> usize {
+        self.record.position().map_or(0, |p| p.byte() as usize)
+    }
+
+    /// Where `cell`, number `index` of the row that follows byte `from`, is: past as many separators outside quotes.
+    fn find(&self, from: usize, index: usize, cell: Option<&str>) -> Range<usize> {
+        let row = row_start(self.text, from);
+        let rest = self.text.get(row..).unwrap_or_default();
+        let mut quoted = false;
+        let separators = rest.char_indices().filter(|(_, c)| {
+            quoted ^= *c == '"';
+            *c == self.separator && !quoted
+        });
+        let mut starts = std::iter::once(0).chain(separators.map(|(at, _)| at + 1));
+        let start = starts.nth(index).unwrap_or(0);
+        let from = rest.get(start..).unwrap_or_default();
+        let within = |cell: &str| {
+            let at_once = from.starts_with(cell).then_some(0);
+            at_once.or_else(|| from.lines().next()?.find(cell))
+        };
+        match cell.and_then(|cell| Some((within(cell)?, cell.len()))) {
+            Some((at, length)) => row + start + at..row + start + at + length,
+            None => row + start..row + start,
+        }
+    }
+}
+
+/// Where the row begins that follows byte `from`: past a byte order mark, comments and blank lines.
+fn row_start(text: &str, from: usize) -> usize {
+    let mut start = from.min(text.len());
+    if start == 0 && text.starts_with('\u{feff}') {
+        start = '\u{feff}'.len_utf8();
+    }
+    for line in text.get(start..).unwrap_or_default().split_inclusive('\n') {
+        if !(line.starts_with('#') || line.trim().is_empty()) {
+            break;
+        }
+        start += line.len();
+    }
+    start
+}
+
+/// Where the header is: the first line that is no comment.
+pub fn header_place(text: &str) -> Range<usize> {
+    line_from(text, 0)
+}
+
+/// The header as it is written.
+pub fn header_of(text: &str) -> &str {
+    text.get(header_place(text)).unwrap_or_default()
+}
+
+/// The line of the row that follows byte `from`.
+fn line_from(text: &str, from: usize) -> Range<usize> {
+    let start = row_start(text, from);
+    let line = text.get(start..).and_then(|rest| rest.lines().next());
+    start..start + line.map_or(0, str::len)
+}
+
+/// Name and unit of a title, `name [unit]`; no unit: `None`.
+pub fn name_and_unit(title: &str) -> (&str, Option<&str>) {
+    let split = title.strip_suffix(']').and_then(|t| t.rsplit_once('['));
+    split.map_or((title, None), |(name, unit)| {
+        (name.trim_end(), Some(unit.trim()))
+    })
+}

@@ -1,0 +1,64 @@
+//! A text as a tree of TOML tables, or what is wrong with its syntax.
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::problem::{Problem, Result};
+
+/// Reads a text.
+///
+/// # Errors
+/// It is not TOML.
+pub fn parse(text: &str) -> Result<Spanned<DeTable<'_>>> {
+    DeTable::parse(text).map_err(|error| syntax(&error, text))
+}
+
+/// Text that is not TOML.
+fn syntax(error: &toml::de::Error, text: &str) -> Problem {
+    let span = error.span().unwrap_or(0..0);
+    let start = text
+        .get(..span.start)
+        .map_or(0, |before| before.rfind('\n').map_or(0, |at| at + 1));
+    let line = text
+        .get(start..)
+        .and_then(|rest| rest.lines().next())
+        .unwrap_or_default();
+    let (key, value) = line.split_once('=').unwrap_or((line, ""));
+    let in_value = span.start > start + key.len();
+    let bare = in_value && !value.contains(['"', '[', '{', '\'']);
+    let value = value.split('#').next().unwrap_or_default().trim();
+    let after = text.get(span.end..).unwrap_or_default().trim_start();
+    let at_key = after.starts_with(['=', '.', ']']);
+    let help = if at_key
+        && text
+            .get(span.clone())
+            .is_some_and(|key| is_twice(key, text))
+    {
+        "remove or rename one of the two".to_owned()
+    } else if bare && !value.is_empty() {
+        let key = key.trim();
+        format!("write texts and quantities in quotes: {key} = \"{value}\"")
+    } else {
+        "a line is key = \"value\", a [table] or a [[table of a list]]; write texts in quotes"
+            .to_owned()
+    };
+    Problem::new(format!("the file is not valid TOML: {}", error.message()))
+        .at(span, "here")
+        .help(help)
+}
+
+/// Whether a text that is not valid TOML has this key where it can be read; what is wrong is then that it stands there again.
+fn is_twice(key: &str, text: &str) -> bool {
+    fn has(value: &DeValue, key: &str) -> bool {
+        match value {
+            DeValue::Table(table) => {
+                let mut entries = table.iter();
+                entries.any(|(name, value)| name.get_ref() == key || has(value.get_ref(), key))
+            }
+            DeValue::Array(array) => array.iter().any(|value| has(value.get_ref(), key)),
+            _ => false,
+        }
+    }
+    let (table, _) = DeTable::parse_recoverable(text);
+    has(&DeValue::Table(table.into_inner()), key)
+}
