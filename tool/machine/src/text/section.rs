@@ -154,7 +154,7 @@ impl<'a> Section<'a> {
         self.finish_with(|_| None)
     }
 
-    /// As [`finish`](Self::finish), with an explanation for keys that belong elsewhere.
+    /// Reports a key that was not read, with an explanation for keys that belong elsewhere.
     ///
     /// # Errors
     /// The first of them, with a word like it.
