@@ -36,7 +36,7 @@ const PEAK: [[f32; 2]; 3] = [[0.0, 43.0], [160.0, 43.0], [209.0, 25.0]];
 fn word(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::NotChecked => "not checked",
-        Verdict::Holds => "holds",
+        Verdict::Satisfied => "satisfied",
         Verdict::Exceeded => "EXCEEDED",
     }
 }

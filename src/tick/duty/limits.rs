@@ -153,7 +153,7 @@ pub enum Verdict {
     #[default]
     NotChecked,
     /// At or below the limit.
-    Holds,
+    Satisfied,
     /// Above it.
     Exceeded,
 }
@@ -196,7 +196,7 @@ impl Verdicts {
         }
         let judge = |figure: R, limit: Option<R>| match limit {
             None => Verdict::NotChecked,
-            Some(limit) if figure <= limit => Verdict::Holds,
+            Some(limit) if figure <= limit => Verdict::Satisfied,
             Some(_) => Verdict::Exceeded,
         };
         let one = R::from_f64(1.0);
@@ -219,7 +219,7 @@ impl Verdicts {
                 _ => judge(figures.cycles_per_hour, limits.cycles_per_hour),
             },
             readings: match figures.invalid {
-                0 => Verdict::Holds,
+                0 => Verdict::Satisfied,
                 _ => Verdict::Exceeded,
             },
         }
@@ -243,7 +243,7 @@ impl Verdicts {
 
     /// Whether no limit is exceeded. Limits that were not checked do not count against it.
     #[must_use]
-    pub fn hold(&self) -> bool {
+    pub fn satisfied(&self) -> bool {
         !self.all().contains(&Verdict::Exceeded)
     }
 }

@@ -50,7 +50,7 @@
 //! assert!((figures.rms_torque - 3.0311).abs() < 1e-4);
 //! let verdicts = meter.verdicts();
 //! assert_eq!(verdicts.rms_torque, Verdict::Exceeded); // 3.03 N·m of 2.36 N·m
-//! assert_eq!(verdicts.peak_torque, Verdict::Holds);
+//! assert_eq!(verdicts.peak_torque, Verdict::Satisfied);
 //! assert_eq!(verdicts.output_peak, Verdict::NotChecked);
 //! # Ok(())
 //! # }

@@ -112,7 +112,7 @@ fn the_meter_has_the_figures_of_sizing() {
         let verdict = if share > 1.0 {
             Verdict::Exceeded
         } else {
-            Verdict::Holds
+            Verdict::Satisfied
         };
         assert_eq!(meter.verdicts().peak_torque, verdict);
         let mut worst = 0.0f64;

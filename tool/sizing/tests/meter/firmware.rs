@@ -170,14 +170,14 @@ fn the_meter_judges_as_sizing_does() {
             "{share} of the curve, {used} of the envelope"
         );
         // There are verdicts of both kinds.
-        assert_eq!(verdicts.rms_torque, Verdict::Holds);
+        assert_eq!(verdicts.rms_torque, Verdict::Satisfied);
         assert_eq!(verdicts.cycles_per_hour, Verdict::Exceeded);
     });
 }
 
 fn expected(check: &Check) -> Verdict {
     match check.verdict {
-        Sized::Pass => Verdict::Holds,
+        Sized::Pass => Verdict::Satisfied,
         // The meter knows one limit: where there is only a warning, that of the warning.
         Sized::Warn | Sized::Fail => Verdict::Exceeded,
         Sized::Off | Sized::NotChecked => Verdict::NotChecked,
