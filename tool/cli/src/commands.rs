@@ -23,9 +23,7 @@ use jred_machine::analysis::reduce;
 use jred_machine::analysis::reduce::{Over, Sets, reduce};
 use jred_machine::analysis::simulate;
 use jred_machine::export::{Choice, Export, Failure, Form, Number, Task};
-use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
-use jred_machine::model::motion::Motion;
 use jred_machine::model::variator;
 use jred_machine::read;
 use jred_report::list::alternatives;
@@ -81,16 +79,13 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
                 "with --over time, the motion of the machine file gives the speed"
             ));
         }
-        motion(&file, &options.file)?;
+        file.required_motion()?;
     }
     let state = state(options, &file)?;
     let moves = file.motion.is_some() || state.is_some();
     if (options.reactions || options.energy) && !moves {
-        return Err(miette!(
-            help = "give a speed, for example --speed \"60 rpm\" (\"0 rpm\" for a machine at rest), or add a [motion]",
-            "forces and energies need a speed: {} has no [motion]",
-            options.file.display()
-        ));
+        let instead = "forces and energies need a speed: give one, for example --speed \"60 rpm\" (\"0 rpm\" for a machine at rest), or ";
+        file.motion_or(instead)?;
     }
     let sets = Sets {
         curves: !(options.points || options.reactions || options.energy),
@@ -174,7 +169,7 @@ fn state(options: &options::Reduce, file: &MachineFile) -> Result<Option<[f64; 2
     let Some(speed) = &options.speed else {
         return Ok(None);
     };
-    let coordinate = Coordinate::of(file.machine.mechanism()).map_err(core_report)?;
+    let coordinate = file.machine.mechanism().coordinate();
     let refused =
         |name: &str, text: &str, why: &str| miette!("--{name} {text:?} cannot be used: {why}");
     let omega =
@@ -212,7 +207,7 @@ fn run_simulate(options: &options::Simulate) -> Result<Done> {
     })?;
     let columns = simulate::simulate(&file, simulation)?;
     if let Some(path) = &options.plot {
-        let page = page::simulation_page(&file, simulation, &columns).map_err(core_report)?;
+        let page = page::simulation_page(&file, simulation, &columns);
         write(path, page.as_bytes(), &options.file)?;
     }
     let title = format!(
@@ -242,7 +237,7 @@ fn run_export(options: &options::Export) -> Result<Done> {
             options.layout.name()
         ));
     }
-    let coordinate = Coordinate::of(file.machine.mechanism()).map_err(core_report)?;
+    let coordinate = file.machine.mechanism().coordinate();
     let quantity = |name: &str, text: &Option<String>, read: read::Reader| {
         let value = text.as_deref().map(|text| {
             read(text, coordinate).map_err(|why| miette!("--{name} {text:?} cannot be used: {why}"))
@@ -252,7 +247,7 @@ fn run_export(options: &options::Export) -> Result<Done> {
     let torque_error = quantity("torque-error", &options.torque_error, read::drive_effort)?;
     let omega = quantity("omega", &options.omega, read::largest_speed)?;
     let alpha = quantity("alpha", &options.alpha, read::largest_acceleration)?;
-    let (omega, alpha) = range([omega, alpha], &file, &options.file)?;
+    let (omega, alpha) = range([omega, alpha], &file)?;
     let task = Task {
         number: options.number,
         layout: options.layout,
@@ -295,39 +290,19 @@ fn run_export(options: &options::Export) -> Result<Done> {
 
 /// Largest speed and acceleration: as given, else those of the motion. Where there is no acceleration, at constant speed or
 /// without a motion, the speed reached within a radian stands in.
-fn range(given: [Option<f64>; 2], file: &MachineFile, path: &Path) -> Result<(f64, f64)> {
+fn range(given: [Option<f64>; 2], file: &MachineFile) -> Result<(f64, f64)> {
     match (given, &file.motion) {
         ([Some(omega), Some(alpha)], _) => return Ok((omega, alpha)),
         ([Some(omega), None], None) => return Ok((omega, omega * omega)),
         _ => {}
     }
-    let motion = file.motion.as_ref().ok_or_else(|| {
-        miette!(
-            help = "give --omega, or add a [motion] to the machine file",
-            "no maximum speed: {} has no [motion]",
-            path.display()
-        )
-    })?;
+    let motion = file.motion_or("the table needs a largest speed: give --omega, or ")?;
     let duty = Duty::new(file, motion, jred_machine::analysis::duty::STEPS).map_err(core_report)?;
     let [omega, alpha] = given;
     let omega = omega.unwrap_or(duty.figures(|i| i.omega).peak());
     let moved = duty.figures(|i| i.alpha).peak();
     let own = if moved > 0.0 { moved } else { omega * omega };
     Ok((omega, alpha.unwrap_or(own)))
-}
-
-/// The motion of a machine file.
-///
-/// # Errors
-/// It has none.
-pub(crate) fn motion<'f>(file: &'f MachineFile, path: &Path) -> Result<&'f Motion> {
-    file.motion.as_ref().ok_or_else(|| {
-        miette!(
-            help = "add a [motion], for example type = \"constant-speed\", speed = \"60 rpm\"",
-            "{} has no [motion]",
-            path.display()
-        )
-    })
 }
 
 /// Prints to stdout; a closed pipe (`jred … | head`) is no error.

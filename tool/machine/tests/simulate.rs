@@ -22,7 +22,7 @@ pub(crate) fn run(text: &str) -> Result<Columns, String> {
     let simulation = file.simulation.as_ref().unwrap();
     let found = analysis::simulate::simulate(&file, simulation).map_err(|e| report(e.into()))?;
     Ok(Columns {
-        names: found.names().to_vec(),
+        names: found.names(),
         rows: found.rows().to_vec(),
     })
 }

@@ -11,7 +11,7 @@ use jred::machine::Mechanism as _;
 
 use crate::plot::PALETTE;
 use crate::plot::svg::{Anchor, Ink, Svg};
-use jred_machine::model::coordinate::{Coordinate, positions};
+use jred_machine::model::coordinate::positions;
 use jred_machine::model::machine::AnyMechanism;
 
 mod glyphs;
@@ -53,7 +53,7 @@ pub fn still(mechanism: &AnyMechanism) -> Result<String, Error> {
     let phi = mechanism.domain().position(SHOWN);
     let sketch = Sketch::new(mechanism)?;
     let pose = sketch.pose(mechanism, phi)?;
-    let place = Coordinate::of(mechanism)?.place(phi);
+    let place = mechanism.coordinate().place(phi);
     Ok(draw(mechanism, &sketch, &pose, &place))
 }
 
@@ -62,7 +62,7 @@ pub fn still(mechanism: &AnyMechanism) -> Result<String, Error> {
 /// # Errors
 /// The mechanism cannot be placed.
 pub fn moving(mechanism: &AnyMechanism) -> Result<Moving, Error> {
-    let coordinate = Coordinate::of(mechanism)?;
+    let coordinate = mechanism.coordinate();
     let sketch = Sketch::new(mechanism)?;
     let view = View::of(&sketch);
     let places: Vec<f64> = positions(mechanism.domain(), PICTURES).collect();

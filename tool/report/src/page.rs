@@ -301,7 +301,7 @@ fn over_time(subject: &Subject, words: &Vocabulary) -> Vec<Figure> {
 
 fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec<Figure>, Error> {
     let words = subject.words();
-    let (what, term) = match Coordinate::of(file.machine.mechanism())? {
+    let (what, term) = match file.machine.mechanism().coordinate() {
         Coordinate::Angle => (
             "Reduced inertia",
             "J_red varies, a drive with a constant mean value makes an error of ½·J′·ω²",
@@ -363,17 +363,10 @@ struct SimulationPage<'a> {
 }
 
 /// The page with the plots of a simulation.
-///
-/// # Errors
-/// Those of the machine.
-pub fn simulation_page(
-    file: &MachineFile,
-    simulation: &Simulation,
-    run: &Columns,
-) -> Result<String, Error> {
+pub fn simulation_page(file: &MachineFile, simulation: &Simulation, run: &Columns) -> String {
     let page = SimulationPage {
         title: &file.title,
-        figures: figures::simulation(file, simulation, run)?,
+        figures: figures::simulation(file, simulation, run),
     };
-    Ok(page.render().unwrap_or_default())
+    page.render().unwrap_or_default()
 }

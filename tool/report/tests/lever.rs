@@ -86,10 +86,7 @@ fn request(sets: Sets) -> Request {
 #[test]
 fn a_sliding_drive_link() {
     let file = lever();
-    assert_eq!(
-        Coordinate::of(file.machine.mechanism()).unwrap(),
-        Coordinate::Length
-    );
+    assert_eq!(file.machine.mechanism().coordinate(), Coordinate::Length);
     let curves = Sets {
         curves: true,
         ..Sets::default()

@@ -7,7 +7,7 @@ use miette::{Result, miette};
 use indicatif::ProgressBar;
 
 use crate::commands::core_error::core_report;
-use crate::commands::{Done, motion, print};
+use crate::commands::{Done, print};
 use crate::options::bus::Bus as Options;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
@@ -148,7 +148,7 @@ fn axis(
     steps: u32,
 ) -> Result<Axis> {
     variator::refuse(file, "bus")?;
-    let motion = motion(file, path)?;
+    let motion = file.required_motion()?;
     let mut own = catalogue.clone();
     fit_input(&mut own, file)?;
     let duty = Duty::new(file, motion, steps as usize).map_err(core_report)?;

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::commands::core_error::core_report;
 use crate::commands::vary::catalogue;
-use crate::commands::{Done, motion, print};
+use crate::commands::{Done, print};
 use crate::options::search::Ratio;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
@@ -36,13 +36,13 @@ pub fn ratio(options: &Ratio) -> Result<Done> {
         file.rules = read::rules_based_on(&file.rules, set)?;
     }
     sizeable(&file)?;
-    let motion = motion(&file, &options.file)?;
+    let motion = file.required_motion()?;
     let named = Filter {
         motors: options.motor.clone(),
         ..Filter::default()
     };
     let mut catalogue = catalogue(&options.supply, &named)?;
-    if jred_sizing::select::fit::input_kind(&file)? == MotorKind::Linear {
+    if jred_sizing::select::fit::input_kind(&file) == MotorKind::Linear {
         return Err(miette!(
             help =
                 "use `jred size` for linear motors, or add a [[drive_train]] with a rotating input",

@@ -6,7 +6,7 @@ use miette::{Report, Result, miette};
 
 use crate::commands::core_error::core_report;
 use crate::commands::vary::catalogue;
-use crate::commands::{Done, distinct, motion, print, write};
+use crate::commands::{Done, distinct, print, write};
 use crate::options::Size;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
@@ -38,7 +38,7 @@ pub fn size(options: &Size) -> Result<Done> {
         file.rules = read::rules_based_on(&file.rules, set)?;
     }
     variator::refuse(&file, "size")?;
-    let motion = motion(&file, &options.file)?;
+    let motion = file.required_motion()?;
     let filter = options.search.filter();
     let mut catalogue = catalogue(&options.supply, &filter)?;
     let objectives = options.pareto.as_ref().map_or(&[][..], |o| &o.0);

@@ -115,7 +115,7 @@ impl OneWay {
     ) -> Result<Parted, Error> {
         let mechanism = machine.mechanism();
         let name = mechanism.joint_names().get(self.joint);
-        let coordinate = Coordinate::of(mechanism)?;
+        let coordinate = mechanism.coordinate();
         let state = match coordinate {
             Coordinate::Length => format!("{}, {} m/s", coordinate.place(phi), figure(omega)),
             Coordinate::Angle => {

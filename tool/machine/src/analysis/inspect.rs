@@ -128,7 +128,7 @@ impl Findings {
         Ok(Self {
             title: file.title.clone(),
             kind: mechanism.kind(),
-            coordinate: Coordinate::of(mechanism)?,
+            coordinate: mechanism.coordinate(),
             domain,
             links: mechanism.links().len(),
             joints: joint_findings(mechanism, &joints),
@@ -204,7 +204,7 @@ impl Findings {
 fn facts(file: &MachineFile) -> Result<Vec<Fact>, Error> {
     let mechanism = file.machine.mechanism();
     let mut facts = mechanism.facts().to_vec();
-    if Coordinate::of(mechanism)? == Coordinate::Length {
+    if mechanism.coordinate() == Coordinate::Length {
         return Ok(facts);
     }
     // The way the motion goes; a cam that swings has the limit of its way forward.

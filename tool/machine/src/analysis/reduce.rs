@@ -93,7 +93,7 @@ pub fn reduce(file: &MachineFile, request: &Request) -> Result<Columns, Error> {
     let source = Source {
         file,
         machine: file.with_drive_train()?,
-        coordinate: Coordinate::of(file.machine.mechanism())?,
+        coordinate: file.machine.mechanism().coordinate(),
     };
     let moves = file.motion.is_some() || request.state.is_some();
     let in_time = request.over == Over::Time || request.state.is_some();

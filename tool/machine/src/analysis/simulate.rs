@@ -26,7 +26,7 @@ pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Columns, 
             file,
             simulation,
         ),
-        None => run::run(&machine::Plant::new(file, simulation)?, file, simulation),
+        None => run::run(&machine::Plant::new(file, simulation), file, simulation),
     }
 }
 

@@ -92,7 +92,7 @@ impl Export {
         let machine = file
             .with_drive_train()?
             .with_flywheel(task.rotor * ratio * ratio)?;
-        let coordinate = Coordinate::of(file.machine.mechanism())?;
+        let coordinate = file.machine.mechanism().coordinate();
         let goal = Goal {
             torque_error: task.torque_error,
             range: [task.omega, task.alpha],

@@ -2,10 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use jred::machine::{Joint, Jointed as _, Mechanism as _};
+use jred::machine::{Joint, Jointed};
 use jred::{Domain, Error};
 
-use crate::model::machine::AnyMechanism;
 use crate::number::columns::{Column, Quantity};
 
 /// Type of motion of the drive link.
@@ -22,7 +21,7 @@ impl Coordinate {
     ///
     /// # Errors
     /// The mechanism cannot be placed.
-    pub fn of(mechanism: &AnyMechanism) -> Result<Self, Error> {
+    pub(crate) fn of(mechanism: &impl Jointed) -> Result<Self, Error> {
         let phi = mechanism.domain().position(0.0);
         let joints = mechanism.joints(phi, &mechanism.frames(phi)?)?;
         Ok(match joints.get(mechanism.drive()) {

@@ -56,6 +56,7 @@ pub struct Fact {
 #[derive(Clone, Debug)]
 pub struct AnyMechanism {
     kind: &'static str,
+    coordinate: Coordinate,
     inner: Arc<dyn Inner>,
     links: Vec<String>,
     joints: Vec<String>,
@@ -83,6 +84,8 @@ impl AnyMechanism {
     ) -> Self {
         Self {
             kind,
+            // One that cannot be placed at all is refused by the reader, and by every question that follows.
+            coordinate: Coordinate::of(&mechanism).unwrap_or(Coordinate::Angle),
             inner: Arc::new(mechanism),
             links: links.into_iter().map(Into::into).collect(),
             joints: joints.into_iter().map(Into::into).collect(),
@@ -225,6 +228,11 @@ impl AnyMechanism {
         self.kind
     }
 
+    /// The coordinate of its drive link.
+    pub const fn coordinate(&self) -> Coordinate {
+        self.coordinate
+    }
+
     /// The names of the links, as loads and reports use them.
     pub fn link_names(&self) -> &[String] {
         &self.links
@@ -353,13 +361,38 @@ pub struct Simulation {
 
 impl Simulation {
     /// Whether the motor drives a link that slides, without a stage that turns: its torque is then a force.
-    pub fn drives_a_slide(&self, file: &MachineFile, coordinate: Coordinate) -> bool {
+    pub fn drives_a_slide(&self, file: &MachineFile) -> bool {
+        let coordinate = file.machine.mechanism().coordinate();
         let direct = self.at == Shaft::DriveLink || file.drive_train.stages().is_empty();
         coordinate == Coordinate::Length && direct
     }
 }
 
 impl MachineFile {
+    /// The motion of a file that must have one.
+    ///
+    /// # Errors
+    /// It has none.
+    pub fn required_motion(&self) -> miette::Result<&Motion> {
+        self.motion_or("")
+    }
+
+    /// The same where an option can stand in for it: `instead` is the beginning of the cure, such as `give --omega, or `.
+    ///
+    /// # Errors
+    /// It has none.
+    pub fn motion_or(&self, instead: &str) -> miette::Result<&Motion> {
+        self.motion.as_ref().ok_or_else(|| {
+            miette::miette!(
+                help = format!(
+                    "{instead}add a [motion], for example type = \"constant-speed\", speed = \"60 rpm\""
+                ),
+                "the machine file of \"{}\" has no [motion]",
+                self.title
+            )
+        })
+    }
+
     /// The reduced link at `phi` without the drive train, as [`Machine::bare_reduction`] gives it, but with the weight of
     /// payloads from tables in U′ and not among the process loads. U itself stays without it: a payload that varies with the
     /// position has none.

@@ -131,7 +131,7 @@ fn a_cubic_over_a_stroke_is_exact() {
     }
     let file = of_curves(&csv, "stroke").unwrap();
     let mechanism = file.machine.mechanism();
-    assert_eq!(Coordinate::of(mechanism).unwrap(), Coordinate::Length);
+    assert_eq!(mechanism.coordinate(), Coordinate::Length);
     let start = file.machine.reduction(0.1).unwrap().potential_energy;
     for k in 0..=300 {
         let s = (0.1 + 0.4 * f64::from(k) / 300.0).min(0.5);

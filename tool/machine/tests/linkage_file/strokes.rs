@@ -23,7 +23,7 @@ pub(crate) fn boom(s: f64) -> [f64; 2] {
 fn a_cylinder_lifts_a_boom() {
     let file = read(LIFT);
     let mechanism = file.machine.mechanism();
-    assert_eq!(Coordinate::of(mechanism).unwrap(), Coordinate::Length);
+    assert_eq!(mechanism.coordinate(), Coordinate::Length);
     assert_eq!(mechanism.domain(), Domain::Stroke { from: 0.4, to: 0.8 });
     for k in 0..=40 {
         let s = 0.4 + 0.01 * f64::from(k);

@@ -6,7 +6,7 @@ use super::chart::{Chart, Form};
 use super::figures::{dashed, line};
 use crate::plot::{Axes, Axis, Series, Style};
 use jred_machine::analysis::duty::Duty;
-use jred_machine::model::coordinate::{Coordinate, whole_range};
+use jred_machine::model::coordinate::whole_range;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
@@ -230,7 +230,7 @@ impl Subject<'_> {
     /// λ over the range of the drive link, and the value that is checked.
     pub(super) fn inertia_ratio(&self, file: &MachineFile) -> Result<Chart, Error> {
         let machine = file.with_drive_train()?;
-        let coordinate = Coordinate::of(machine.mechanism())?;
+        let coordinate = machine.mechanism().coordinate();
         let ratio = file.drive_train.ratio();
         let mut points = Vec::new();
         for phi in whole_range(machine.domain(), 360) {

@@ -30,7 +30,7 @@ pub(super) fn dashed(name: &str, points: Vec<(f64, f64)>) -> Series<'_> {
 /// J_red and J_red′ over the range.
 pub(super) fn reduced_inertia(file: &MachineFile) -> Result<Chart, Error> {
     let machine = file.with_drive_train()?;
-    let coordinate = Coordinate::of(machine.mechanism())?;
+    let coordinate = machine.mechanism().coordinate();
     let (mut inertia, mut slope) = (Vec::new(), Vec::new());
     for phi in whole_range(machine.domain(), POSITIONS) {
         let point = machine.reduction(phi)?;
@@ -56,7 +56,7 @@ pub(super) fn reduced_inertia(file: &MachineFile) -> Result<Chart, Error> {
 
 /// The parts of the reduced torque over the range; the viscous one at the size of the speed `speed`.
 pub(super) fn reduced_torque(file: &MachineFile, speed: f64) -> Result<Chart, Error> {
-    let coordinate = Coordinate::of(file.machine.mechanism())?;
+    let coordinate = file.machine.mechanism().coordinate();
     let mut parts = [const { Vec::new() }; 4];
     for phi in whole_range(file.machine.domain(), POSITIONS) {
         let point = file.bare_reduction(phi)?;
@@ -98,8 +98,7 @@ pub(super) fn simulation(
     file: &MachineFile,
     simulation: &Simulation,
     run: &Columns,
-) -> Result<Vec<(&'static str, String)>, Error> {
-    let coordinate = Coordinate::of(file.machine.mechanism())?;
+) -> Vec<(&'static str, String)> {
     let plot = |y: &str, quantity: Quantity| {
         let chosen = run.of(quantity);
         let titles: Vec<(usize, String)> = chosen.map(|(k, head)| (k, head.title())).collect();
@@ -119,16 +118,16 @@ pub(super) fn simulation(
         };
         lines(&axes, &series)
     };
-    let (position, place, speed) = match coordinate {
+    let (position, place, speed) = match file.machine.mechanism().coordinate() {
         Coordinate::Angle => ("Angle of the drive link", "φ [deg]", "ω [rad/s]"),
         Coordinate::Length => ("Position of the drive link", "s [mm]", "v [m/s]"),
     };
-    let (effort, motor) = if simulation.drives_a_slide(file, coordinate) {
+    let (effort, motor) = if simulation.drives_a_slide(file) {
         ("Motor force", "force [N]")
     } else {
         ("Motor torque", "torque [N·m]")
     };
-    Ok(vec![
+    vec![
         ("Speed of the drive link", plot(speed, Quantity::DriveSpeed)),
         (position, plot(place, Quantity::Position)),
         (effort, plot(motor, Quantity::MotorEffort)),
@@ -137,5 +136,5 @@ pub(super) fn simulation(
             "Energy balance: zero except for the integration error",
             plot("energy [J]", Quantity::EnergyBalance),
         ),
-    ])
+    ]
 }

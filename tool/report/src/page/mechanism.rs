@@ -121,7 +121,7 @@ pub fn mechanism_page(
     };
     let source = Source {
         file,
-        coordinate: Coordinate::of(mechanism)?,
+        coordinate: mechanism.coordinate(),
         over,
         state,
     };

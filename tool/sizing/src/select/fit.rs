@@ -1,21 +1,18 @@
 //! Motors that fit the machine's input: turning ones, or linear ones.
 
-use miette::{IntoDiagnostic as _, Result, miette};
+use miette::{Result, miette};
 
 use crate::catalogue::{Catalogue, MotorKind};
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
 
 /// Kind of motor at the input: a sliding drive link without a drive train needs a linear motor.
-///
-/// # Errors
-/// The mechanism cannot be placed.
-pub fn input_kind(file: &MachineFile) -> Result<MotorKind> {
-    let coordinate = Coordinate::of(file.machine.mechanism()).into_diagnostic()?;
+pub fn input_kind(file: &MachineFile) -> MotorKind {
+    let coordinate = file.machine.mechanism().coordinate();
     if coordinate == Coordinate::Angle || !file.drive_train.stages().is_empty() {
-        Ok(MotorKind::Rotary)
+        MotorKind::Rotary
     } else {
-        Ok(MotorKind::Linear)
+        MotorKind::Linear
     }
 }
 
@@ -24,7 +21,7 @@ pub fn input_kind(file: &MachineFile) -> Result<MotorKind> {
 /// # Errors
 /// There are none.
 pub fn fit_input(catalogue: &mut Catalogue, file: &MachineFile) -> Result<()> {
-    let kind = input_kind(file)?;
+    let kind = input_kind(file);
     catalogue.keep_kind(kind);
     if !catalogue.motors.is_empty() {
         return Ok(());

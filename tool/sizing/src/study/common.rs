@@ -8,7 +8,6 @@ use crate::catalogue::{Drive, DriveId};
 use crate::cycle::Cycle;
 use crate::select::fit::fit_input;
 use jred_machine::analysis::duty::Duty;
-use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::read;
@@ -173,16 +172,9 @@ impl Study {
 /// # Errors
 /// A machine without a motion, or one that cannot follow it.
 pub fn cycle(file: &MachineFile, steps: usize) -> Result<Cycle> {
-    let motion = file.motion.as_ref().ok_or_else(no_motion)?;
+    let motion = file.required_motion()?;
     let duty = Duty::new(file, motion, steps).into_diagnostic()?;
     Ok(Cycle::new(&duty))
-}
-
-fn no_motion() -> Report {
-    miette!(
-        help = "add a [motion], for example type = \"constant-speed\", speed = \"60 rpm\"",
-        "the machine file has no [motion]"
-    )
 }
 
 /// Refuses machines that cannot be sized over the catalogue.
@@ -191,8 +183,7 @@ fn no_motion() -> Report {
 /// A machine with a variator, or no motion.
 pub fn sizeable(file: &MachineFile) -> Result<()> {
     jred_machine::model::variator::refuse(file, "size")?;
-    file.motion.as_ref().map(|_| ()).ok_or_else(no_motion)?;
-    Coordinate::of(file.machine.mechanism()).into_diagnostic()?;
+    file.required_motion()?;
     Ok(())
 }
 

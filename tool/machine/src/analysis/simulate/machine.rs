@@ -28,12 +28,12 @@ struct Instant {
 }
 
 impl<'a> Plant<'a> {
-    pub(super) fn new(file: &'a MachineFile, simulation: &'a Simulation) -> Result<Self, Error> {
-        Ok(Self {
+    pub(super) fn new(file: &'a MachineFile, simulation: &'a Simulation) -> Self {
+        Self {
             file,
             simulation,
-            coordinate: Coordinate::of(file.machine.mechanism())?,
-        })
+            coordinate: file.machine.mechanism().coordinate(),
+        }
     }
 
     /// Motor torque, and the speed of the shaft at which it acts.
@@ -135,7 +135,7 @@ impl run::Plant<5> for Plant<'_> {
     fn heads(&self) -> Vec<Column> {
         let coordinate = self.coordinate;
         let [speed, acceleration] = coordinate.rates();
-        let (motor, unit) = if self.simulation.drives_a_slide(self.file, coordinate) {
+        let (motor, unit) = if self.simulation.drives_a_slide(self.file) {
             ("motor force", "N")
         } else {
             ("motor torque", "N m")

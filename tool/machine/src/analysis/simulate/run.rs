@@ -5,7 +5,6 @@ use jred::{Domain, Error, Reducible as _};
 use super::SimulationError;
 use super::error::stopped;
 use super::watch::{At, Watch};
-use crate::model::coordinate::Coordinate;
 use crate::model::machine::{MachineFile, Simulation};
 use crate::number::columns::{Column, Columns, Quantity};
 use crate::number::numerics::dormand_prince::{Accuracy, Point};
@@ -297,7 +296,7 @@ impl<P> Run<'_, P> {
         if (from - slack..=to + slack).contains(&phi) {
             return Ok(());
         }
-        let coordinate = Coordinate::of(self.file.machine.mechanism())?;
+        let coordinate = self.file.machine.mechanism().coordinate();
         Err(SimulationError::EndOfStroke {
             t,
             end: coordinate.place(if phi < from { from } else { to }),
