@@ -6,4 +6,7 @@ pub mod bus_text;
 pub mod front;
 pub mod inspection;
 pub mod listing;
+pub mod ratio;
 pub mod rule_list;
+pub mod sensitivity;
+pub mod tolerance;

@@ -13,6 +13,7 @@ pub mod edit;
 pub mod grid;
 pub mod header;
 pub mod one;
+pub mod ratio;
 pub mod sensitivity;
 pub mod shard;
 pub mod task;

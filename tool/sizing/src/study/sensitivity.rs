@@ -279,6 +279,12 @@ impl Sensitivity {
         })
     }
 
+    /// Whether the drive violates a rule as it is, so that there is no room.
+    pub fn is_broken(&self) -> bool {
+        let mut all = self.dependences.iter();
+        all.any(|d| d.room.contains(&Room::Broken))
+    }
+
     /// The quantity with the smallest change that violates a rule, and its room.
     pub fn first_to_break(&self) -> Option<(usize, &Room)> {
         let rooms = self

@@ -17,12 +17,13 @@ use rand_distr::{Distribution as _, StandardNormal};
 
 use crate::judge::broken;
 use crate::study::cell::Cell;
-use crate::study::common::{Study, sentence};
+use crate::study::common::{Prepared as Machine, Study, sentence};
 use crate::study::edit::Edit;
 use crate::study::header::{Header, digest};
 use crate::study::one::One;
 use crate::study::task::Task;
 use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::Limit;
 use jred_machine::model::tolerance::{Shape, Tolerance};
 
 /// One quantity that scatters.
@@ -83,6 +84,28 @@ impl Scatter {
         })
     }
 
+    /// The tolerances of the machine file, each replaced by a `given` one for the same quantity, and the other given ones.
+    ///
+    /// # Errors
+    /// A tolerance that does not suit its quantity; none at all.
+    pub fn all(study: &Study, given: &[Tolerance]) -> Result<Vec<Self>> {
+        let mut scatters: Vec<Self> = Vec::new();
+        for tolerance in study.nominal.tolerances.iter().chain(given) {
+            let scatter = Self::new(study, tolerance)?;
+            match scatters.iter_mut().find(|s| s.quantity == scatter.quantity) {
+                Some(earlier) => *earlier = scatter,
+                None => scatters.push(scatter),
+            }
+        }
+        if scatters.is_empty() {
+            return Err(miette!(
+                help = "add a [tolerance] with lines such as \"slider.mass\" = \"±5 %\", or give --tolerance slider.mass=5%",
+                "no quantity has a tolerance"
+            ));
+        }
+        Ok(scatters)
+    }
+
     /// A value.
     fn draw(&self, rng: &mut ChaCha8Rng) -> f64 {
         let deviation: f64 = match self.shape {
@@ -118,13 +141,41 @@ pub struct Samples<'s> {
     pub scatters: Vec<Scatter>,
     /// The rules that can be checked.
     pub rules: Vec<Rule>,
+    /// Those for which the nominal machine or the drive has no data.
+    pub unknown: Vec<Rule>,
     /// Number of machines to draw.
     pub count: u64,
     /// Seed of the random numbers.
     pub seed: u64,
 }
 
-impl Samples<'_> {
+impl<'s> Samples<'s> {
+    /// So many machines about the nominal one; the rules are those that can be checked for that.
+    pub fn new(
+        study: &'s Study,
+        one: &'s One,
+        nominal: &Machine,
+        scatters: Vec<Scatter>,
+        count: u64,
+        seed: u64,
+    ) -> Self {
+        let findings = one.findings(nominal);
+        let limits = &nominal.file.rules;
+        let (known, unknown): (Vec<_>, Vec<_>) = findings.iter().partition(|(_, f)| f.is_known());
+        let rules = known.iter().map(|(rule, _)| *rule);
+        Self {
+            study,
+            one,
+            scatters,
+            rules: rules
+                .filter(|rule| limits.limit(*rule) != Limit::default())
+                .collect(),
+            unknown: unknown.iter().map(|(rule, _)| *rule).collect(),
+            count,
+            seed,
+        }
+    }
+
     /// The values of sample `index`, in the order of the scatters.
     pub fn values(&self, index: u64) -> Vec<f64> {
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);

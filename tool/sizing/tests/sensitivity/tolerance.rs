@@ -48,6 +48,7 @@ fn samples<'s>(
         one,
         scatters: tolerances.iter().map(scatter).collect(),
         rules: vec![Rule::Speed],
+        unknown: Vec::new(),
         count,
         seed: 7,
     }

@@ -1,0 +1,173 @@
+//! Gear ratios for every motor as a sheet.
+
+use crate::table::sheet::{Reading, Sheet};
+use jred_machine::model::rule::Rule;
+use jred_machine::number::rounding::{short, significant};
+use jred_sizing::select::ratio::obstacle::Obstacle;
+use jred_sizing::select::ratio::{Gear, Range};
+use jred_sizing::study::cell::Cell;
+use jred_sizing::study::ratio::{MotorRatio, Ratios};
+
+const COLUMNS: [&str; 14] = [
+    "motor",
+    "rated power [W]",
+    "alpha [W/s]",
+    "beta [W/s]",
+    "best ratio",
+    "RMS torque there [N m]",
+    "RMS ratio from",
+    "RMS ratio to",
+    "ratio from",
+    "ended by",
+    "ratio to",
+    "ended by (above)",
+    "gearboxes",
+    "why none",
+];
+
+const READING: [&str; 8] = [
+    "motor",
+    "rated [kW]",
+    "alpha/beta",
+    "best ratio",
+    "RMS [N m]",
+    "RMS ratio",
+    "ratio",
+    "limited by: gearboxes; or why none",
+];
+
+/// The ranges of every motor; with `top`, those of so many suitable motors.
+pub fn sheet(study: &Ratios, mut rows: Vec<MotorRatio>, top: Option<usize>) -> Sheet {
+    let share = study.rms_share();
+    let gear = match study.gear {
+        Gear::IDEAL => "no inertia and no losses in the gearbox".to_owned(),
+        Gear {
+            inertia,
+            efficiency,
+        } => format!(
+            "a gearbox with {} % efficiency and {} kg cm^2 at its input",
+            short(efficiency * 100.0),
+            short(inertia * 1e4)
+        ),
+    };
+    let mut notes = vec![
+            format!(
+                "alpha: (rated torque × {})²/J, the accelerating factor; beta: the load factor. A motor with alpha \
+                 below beta is too small at any ratio.",
+                short(share)
+            ),
+            "best ratio: the ratio with the smallest RMS torque, which is listed as RMS. RMS ratio: range in which \
+             that torque is within the limit for the rated torque. Ratio: range in which the motor satisfies every \
+             rule (S1 torque at its speed, peak torque, speed, holding torque and inertia ratio); limited by: the rule \
+             violated below and above the range, or the reason why there is none."
+                .to_owned(),
+            "gearboxes: those in the catalogue with a ratio in the range; in brackets: the drive violates a rule \
+             because of the limits, inertia or losses of the gearbox."
+                .to_owned(),
+        ];
+    if let Some(top) = top {
+        let all = rows.len();
+        rows.retain(|row| row.found.is_ok());
+        let hold = rows.len();
+        rows.truncate(top);
+        notes.push(format!(
+                "--top: {} of {hold} ranges in which a motor satisfies every rule; motors without a suitable ratio: {}.",
+                rows.len(),
+                all - hold
+            ));
+    }
+    Sheet {
+        schema: "jred-ratio/1",
+        title: format!(
+            "{}: gear ratio for every motor in the catalogue, with {gear}",
+            study.file.title
+        ),
+        columns: COLUMNS.map(str::to_owned).to_vec(),
+        reading: Some(Reading {
+            columns: READING.map(str::to_owned).to_vec(),
+            rows: rows.iter().map(reading).collect(),
+            whole: READING.len() - 1,
+        }),
+        rows: rows.iter().map(cells).collect(),
+        notes,
+    }
+}
+
+/// Every figure.
+fn cells(row: &MotorRatio) -> Vec<Cell> {
+    let found = row.found.as_ref().ok();
+    let ended = |rule: Option<Rule>| rule.map_or(Cell::Empty, |rule| rule.name().into());
+    let text = |text: String| {
+        if text.is_empty() {
+            Cell::Empty
+        } else {
+            text.into()
+        }
+    };
+    let [alpha, beta] = row.factors();
+    vec![
+        row.motor.key.as_str().into(),
+        row.motor.rated_power().into(),
+        alpha.into(),
+        beta.into(),
+        row.best.into(),
+        row.rms_torque().into(),
+        row.rms.map(|[from, _]| from).into(),
+        row.rms.map(|[_, to]| to).into(),
+        found.map(|found| found.range[0]).into(),
+        ended(found.and_then(|found| found.below)),
+        found.map(|found| found.range[1]).into(),
+        ended(found.and_then(|found| found.above)),
+        text(gearboxes(row)),
+        text(why(row)),
+    ]
+}
+
+/// The same for reading: ranges in one cell, and the reason where the range would be.
+fn reading(row: &MotorRatio) -> Vec<Cell> {
+    let range = |range: Range| -> Cell {
+        let [from, to] = range.map(|x| significant(x, 3));
+        format!("{from} to {to}").into()
+    };
+    let [alpha, beta] = row.factors();
+    let factors = alpha.zip(beta).map(|(alpha, beta)| alpha / beta);
+    let mut cells = vec![
+        row.motor.key.as_str().into(),
+        row.motor.rated_power().map(|power| power / 1000.0).into(),
+        factors.into(),
+        row.best.into(),
+        row.rms_torque().into(),
+        row.rms.map_or_else(|| "none".into(), range),
+    ];
+    match &row.found {
+        Ok(found) => {
+            let name = |rule: Option<Rule>| rule.map_or("-", Rule::name);
+            let [below, above] = [name(found.below), name(found.above)];
+            cells.push(range(found.range));
+            let ends = format!("{below} / {above}: {}", gearboxes(row));
+            cells.push(ends.trim_end_matches([':', ' ']).into());
+        }
+        Err(_) => cells.extend(["none".into(), why(row).into()]),
+    }
+    cells
+}
+
+/// Why there is no range.
+fn why(row: &MotorRatio) -> String {
+    match &row.found {
+        Ok(_) => String::new(),
+        Err(obstacle) => obstacle.as_ref().map_or_else(
+            || "narrower than the step of the search".to_owned(),
+            Obstacle::words,
+        ),
+    }
+}
+
+/// The keys of the gearboxes; in brackets if the drive violates a rule.
+fn gearboxes(row: &MotorRatio) -> String {
+    let names = row.gearboxes.iter().map(|(gearbox, fits)| match fits {
+        true => gearbox.key.clone(),
+        false => format!("({})", gearbox.key),
+    });
+    names.collect::<Vec<_>>().join(" ")
+}
