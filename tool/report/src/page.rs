@@ -304,11 +304,11 @@ fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec
     let (what, term) = match file.machine.mechanism().coordinate() {
         Coordinate::Angle => (
             "Reduced inertia",
-            "J_red varies, a drive with a constant mean value makes an error of ½·J′·ω²",
+            "J_red varies, a drive that uses its mean value makes an error of ½·J′·ω²",
         ),
         Coordinate::Length => (
             "Reduced mass",
-            "m_red varies, a drive with a constant mean value makes an error of ½·m′·v²",
+            "m_red varies, a drive that uses its mean value makes an error of ½·m′·v²",
         ),
     };
     let reduced = format!(
@@ -319,7 +319,7 @@ fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec
         Figure::new(
             figures::reduced_torque(file, mean_speed)?,
             format!(
-                "Parts of the reduced {} that do not depend on the motion: weight, process loads, and the sizes of the viscous and motion-opposing loads at the mean speed.",
+                "Parts of the reduced {} that do not depend on the motion: weight, process loads, and the magnitudes of the viscous and motion-opposing loads at the mean speed.",
                 words.torque
             ),
         ),

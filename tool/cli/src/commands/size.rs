@@ -11,6 +11,7 @@ use crate::options::Size;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
+use jred_machine::number::words::counted;
 use jred_machine::read;
 use jred_report::list::listing;
 use jred_report::page;
@@ -172,8 +173,12 @@ fn asked_for<'c>(
                 "without {given}, every drive is considered; {}",
                 help.unwrap_or_default()
             ),
-            "{error}; {} drives pass the filter",
-            selection.fit.len() + selection.refused.len()
+            "{error}; {}",
+            counted(
+                selection.fit.len() + selection.refused.len(),
+                "drive passes the filter",
+                "drives pass the filter"
+            )
         )
     })
 }

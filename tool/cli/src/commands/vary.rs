@@ -8,7 +8,7 @@ use crate::commands::{Done, print};
 use crate::options::search::{Merge, Rows, SizingOptions, Vary};
 use crate::rows::merge::merge;
 use crate::rows::run::{Ended, Plan, run};
-use jred_machine::number::words::Word as _;
+use jred_machine::number::words::{Word as _, counted};
 use jred_report::table::rows::{Form, table};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::select::filter::Filter;
@@ -122,7 +122,9 @@ impl Counts {
             0 => String::new(),
             n => format!(", {n} cannot be built as described"),
         };
-        format!("{} of {all} machines have a drive{refused}", self.fit)
+        let have = if self.fit == 1 { "has" } else { "have" };
+        let machines = counted(all as usize, "machine", "machines");
+        format!("{} of {machines} {have} a drive{refused}", self.fit)
     }
 }
 
@@ -159,7 +161,8 @@ pub fn run_merge(options: &Merge) -> Result<Done> {
     }
     let rows = merge(&options.out, &options.parts)?;
     print(&format!(
-        "{rows} rows written to {}\n",
+        "{} written to {}\n",
+        counted(rows as usize, "row", "rows"),
         options.out.display()
     ))
 }

@@ -11,7 +11,7 @@ use jred_report::table::output::Format;
 /// `jred bus`
 #[derive(Debug, Args)]
 pub struct Bus {
-    /// Machine files, one for each axis; the bus is that of the `[supply]` that any one of them states.
+    /// Machine files, one for each axis; at least one of them describes the common bus in its `[supply]`.
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
     /// What drives are made of.

@@ -9,6 +9,7 @@ use super::catalogue::CatalogueFiles;
 use super::word::word;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::number::words::Word as _;
+use jred_machine::number::words::counted;
 use jred_machine::read;
 use jred_report::table::output::Format;
 use jred_report::table::rows::Form;
@@ -83,7 +84,8 @@ impl Search {
         let mut gaps = Vec::new();
         for (n, what) in [(unknown.mass, "mass"), (unknown.price, "price")] {
             if n > 0 {
-                gaps.push(format!("{n} drives left out: no data for their {what}"));
+                let drives = counted(n, "drive", "drives");
+                gaps.push(format!("{drives} left out: no data for the {what}"));
             }
         }
         if let Some(objective) = self.rank {

@@ -120,7 +120,7 @@ fn keys_that_clash_are_found_beside_broken_rows() {
         &"16",
     ]);
     assert!(
-        run.err.contains("1 broken rows of the catalogue skipped"),
+        run.err.contains("1 broken row of the catalogue skipped"),
         "{}",
         run.err
     );

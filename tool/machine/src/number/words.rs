@@ -1,4 +1,4 @@
-//! Values that a command line names by a word, each with what it means: said once, beside the value.
+//! Values that a command line names by a word, each with what it means: said once, beside the value; counts with their nouns.
 
 /// A value with its word.
 pub trait Word: Copy + Send + Sync + 'static {
@@ -10,6 +10,12 @@ pub trait Word: Copy + Send + Sync + 'static {
         let known = Self::WORDS.iter().find(|(_, own, _)| *own == word);
         known.map(|(value, ..)| *value)
     }
+}
+
+/// A count with its noun: `1 drive`, `3 drives`.
+pub fn counted(count: usize, one: &str, many: &str) -> String {
+    let noun = if count == 1 { one } else { many };
+    format!("{count} {noun}")
 }
 
 /// An enum whose variants have words: `Variant = "word"`. The doc comments are its meanings.

@@ -139,7 +139,7 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<MachineFile> {
     let tree = tree::parse(text)?;
     if tree.get_ref().is_empty() {
         return Err(Problem::new(format!("the machine file {name} is empty")).help(
-            "a machine file needs at least gravity = [\"9.81 m/s^2\", \"0 m/s^2\"] and a [mechanism] with its type",
+            "a machine file needs at least gravity = [\"9.81 m/s^2\", \"0 m/s^2\"] and a [mechanism] with a type, for example type = \"slider-crank\"",
         ));
     }
     let root = Section::new(String::new(), 0..0, tree.get_ref());

@@ -2,6 +2,7 @@
 
 use crate::table::sheet::{Reading, Sheet};
 use jred_machine::number::rounding::{short, significant};
+use jred_machine::number::words::counted;
 use jred_machine::units::Vocabulary;
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::common::Study;
@@ -96,15 +97,15 @@ fn notes(study: &Study, found: &Sensitivity, reach: Reach, words: &Vocabulary) -
     let idle: Vec<&str> = idle.map(|d| path(d.quantity)).collect();
     if !idle.is_empty() {
         notes.push(format!(
-            "{} quantities affect no rule: {}",
-            idle.len(),
+            "{} no rule: {}",
+            counted(idle.len(), "quantity affects", "quantities affect"),
             idle.join(", ")
         ));
     }
     if found.left_out > 0 {
         notes.push(format!(
-            "{} quantities in [simulation] and [tolerance] left out: no rule depends on them",
-            found.left_out
+            "{} in [simulation] and [tolerance] left out: no rule depends on them",
+            counted(found.left_out, "quantity", "quantities")
         ));
     }
     for dependence in &found.dependences {
@@ -161,7 +162,7 @@ fn reading(study: &Study, found: &Sensitivity, words: &Vocabulary) -> Reading {
     }
 }
 
-/// The same as words; a note says why a machine file is refused.
+/// The same as words; a note says why the machine file is invalid then.
 fn room_words(room: &Room, words: &Vocabulary) -> Cell {
     let change = significant(room.change() * 100.0, 3);
     match room {
@@ -178,7 +179,7 @@ fn room(room: &Room, words: &Vocabulary) -> [Cell; 2] {
     match room {
         Room::AtLeast(_) => [percent, "still satisfied".into()],
         Room::UpTo(_, rule) => [percent, rule.named(words).into()],
-        Room::Refused(_, why) => [percent, format!("refused: {why}").into()],
+        Room::Refused(_, why) => [percent, format!("invalid: {why}").into()],
         Room::Broken => [Cell::Empty, Cell::Empty],
     }
 }

@@ -3,6 +3,7 @@
 use crate::table::sheet::{Reading, Sheet};
 use jred_machine::model::rules::RuleSet;
 use jred_machine::number::rounding::short;
+use jred_machine::number::words::counted;
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::tolerance::Samples;
 use jred_sizing::study::tolerance::summary::{Probability, Summary, quantile};
@@ -91,14 +92,15 @@ pub fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
     ];
     if summary.refused > 0 {
         notes.push(format!(
-            "{} of {} machines drawn cannot be built and are not counted; --out FILE writes the reason for each",
-            summary.refused, summary.machines
+            "not counted, because they cannot be built: {} of {} drawn; --out FILE writes the reason for each",
+            summary.refused,
+            counted(summary.machines as usize, "machine", "machines")
         ));
     }
     if summary.unchecked > 0 {
         notes.push(format!(
-            "in {} machines a rule cannot be checked: they count as violations",
-            summary.unchecked
+            "in {} a rule cannot be checked: this counts as a violation",
+            counted(summary.unchecked as usize, "machine", "machines")
         ));
     }
     if !samples.unknown.is_empty() {
@@ -112,10 +114,10 @@ pub fn sheet(samples: &Samples, summary: &Summary, rules: &RuleSet) -> Sheet {
     Sheet {
         schema: "jred-tolerance/1",
         title: format!(
-            "{}: {}, {} machines, seed {}",
+            "{}: {}, {}, seed {}",
             samples.study.nominal.title,
             samples.one.name(),
-            summary.machines,
+            counted(summary.machines as usize, "machine", "machines"),
             samples.seed
         ),
         reading: Some(Reading {

@@ -15,6 +15,7 @@ use super::pairing::Partners;
 use super::row::{Read, Row};
 use super::table::Table;
 use super::{Catalogue, Pairing, mgdb, plausible, toml_table};
+use jred_machine::number::words::counted;
 
 /// The files of one catalogue; they share a compatibility list.
 #[derive(Debug, Default)]
@@ -296,7 +297,8 @@ impl Loader {
             self.faults.into_result()?;
         } else if broken > 0 {
             self.remarks.add("skipped rows", || {
-                format!("{broken} broken rows of the catalogue skipped")
+                let rows = counted(broken, "broken row", "broken rows");
+                format!("{rows} of the catalogue skipped")
             });
         }
         let mut catalogue = self.catalogue;

@@ -76,7 +76,7 @@ pub(super) fn words(context: &Context, rule: Rule, finding: Finding) -> Words {
     }
     let (rating, place) = if let Some([_, free]) = frequencies(context) {
         let shafts = match (context.drive.gearbox, context.site.shaft_stiffness) {
-            (Some(_), None) => ", shafts assumed rigid",
+            (Some(_), None) => "; stiffness of the shafts not given; using rigid shafts",
             _ => "",
         };
         let free = short(free);
@@ -112,7 +112,7 @@ fn backlash(context: &Context, finding: Finding) -> Words {
         "backlash of the gearbox".to_owned()
     };
     let train = match context.site.train_play {
-        None if finding.is_known() => "; drive train assumed free of backlash",
+        None if finding.is_known() => "; backlash of the drive train not given; using none",
         _ => "",
     };
     Words {

@@ -64,13 +64,13 @@ impl Filter {
         if catalogue.motors.is_empty() {
             return Err(miette!(
                 help = "in patterns, * matches any text and ? any character; without --maker and --motor all motors are considered",
-                "none of the {motors} motors in the catalogue passes the filter"
+                "no motor in the catalogue ({motors} in total) passes the filter"
             ));
         }
         if catalogue.gearboxes.is_empty() && !self.allows_direct() {
             return Err(miette!(
                 help = "in patterns, * matches any text and ? any character; a direct drive has the ratio 1",
-                "none of the {gearboxes} gearboxes in the catalogue passes the filter"
+                "no gearbox in the catalogue ({gearboxes} in total) passes the filter"
             ));
         }
         Ok(())

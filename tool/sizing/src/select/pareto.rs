@@ -4,6 +4,7 @@ use miette::{Report, miette};
 
 use crate::select::rank::Objective;
 use crate::select::size::{Candidate, Selection};
+use jred_machine::number::words::counted;
 
 /// A drive of the front with its values, one for each objective.
 #[derive(Clone, Debug)]
@@ -108,14 +109,18 @@ impl<'c> Front<'c> {
             .filter(|(_, n)| **n > 0)
             .map(|(objective, n)| match *n {
                 n if n == self.fit => format!("none has data for the {}", objective.name()),
-                n => format!("{n} have no data for the {}", objective.name()),
+                n => format!(
+                    "{} no data for the {}",
+                    counted(n, "has", "have"),
+                    objective.name()
+                ),
             })
             .collect();
         Some(miette!(
             help =
                 "fill in the column of the catalogue (docs/catalogue.md), or use another objective",
-            "{} drives are suitable, but {}: there is nothing to compare",
-            self.fit,
+            "{} suitable, but {}: there is nothing to compare",
+            counted(self.fit, "drive is", "drives are"),
             missing.join(", ")
         ))
     }

@@ -9,6 +9,7 @@ use crate::study::cell::Cell;
 use crate::study::common::{Study, sentence};
 use crate::study::header::{Header, digest};
 use crate::study::task::Task;
+use jred_machine::number::words::counted;
 
 /// Machines of a grid, to be sized.
 #[derive(Debug)]
@@ -128,7 +129,8 @@ impl GridStudy<'_> {
                 cells.push(match best.outcome.not_checked {
                     0 => Cell::Empty,
                     n => format!(
-                        "{n} rules not checked: data missing in the catalogue or the machine file"
+                        "{} not checked: data missing in the catalogue or the machine file",
+                        counted(n as usize, "rule", "rules")
                     )
                     .into(),
                 });

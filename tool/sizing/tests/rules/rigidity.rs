@@ -101,7 +101,7 @@ fn the_motor_holds_its_position() {
             .unwrap();
         near("free", shown, free, 1e-3);
         assert_eq!(
-            check.note.contains("assumed rigid"),
+            check.note.contains("using rigid shafts"),
             section.is_empty(),
             "{}",
             check.note

@@ -7,6 +7,7 @@ use miette::Result;
 use super::explained;
 use jred_machine::model::rules::Verdict;
 use jred_machine::number::rounding::significant;
+use jred_machine::number::words::counted;
 use jred_sizing::select::size::{Candidate, Selection};
 
 /// A drive and its place.
@@ -59,8 +60,8 @@ impl<'c> Asked<'c> {
             );
         };
         let mut words = format!(
-            "violates no rule: rank {rank} of {} suitable drives ({all} in total); ranked: {}",
-            selection.fit.len(),
+            "violates no rule: rank {rank} of {} ({all} in total); ranked: {}",
+            counted(selection.fit.len(), "suitable drive", "suitable drives"),
             selection.ranking(kind.vocabulary())
         );
         // Only the default ranking uses values that every drive has.
@@ -90,8 +91,7 @@ fn figures(candidate: &Candidate) -> String {
     );
     let warnings = match outcome.warnings {
         0 => "no warning".to_owned(),
-        1 => "1 warning".to_owned(),
-        n => format!("{n} warnings"),
+        n => counted(n as usize, "warning", "warnings"),
     };
     let most = outcome.worst_rule.map_or_else(String::new, |rule| {
         let used = significant(outcome.worst_use * 100.0, 3);

@@ -10,6 +10,7 @@ use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Verdict;
 use jred_machine::number::figures::Figures;
 use jred_machine::number::rounding::{rounded, short, significant};
+use jred_machine::number::words::counted;
 use jred_machine::units::Vocabulary;
 use jred_sizing::catalogue::MotorKind;
 use jred_sizing::judge::Judged;
@@ -70,14 +71,21 @@ pub fn text(
             }
         };
         parts.push(format!(
-            "\n{} of {all} drives violate no rule{open}",
-            selection.fit.len()
+            "\n{} of {} {} no rule{open}",
+            selection.fit.len(),
+            counted(all, "drive", "drives"),
+            if selection.fit.len() == 1 {
+                "violates"
+            } else {
+                "violate"
+            }
         ));
         parts.push(ranking(list, selection, words));
     } else if let Some(nearest) = selection.refused.first() {
         let nearest = &selection.judged(nearest);
         parts.push(format!(
-            "None of {all} drives satisfies every rule. The closest one: {}\n{}",
+            "None of {} satisfies every rule. The closest one: {}\n{}",
+            counted(all, "drive", "drives"),
             nearest.drive.name(),
             drive_text(nearest)
         ));
@@ -98,8 +106,8 @@ pub fn text(
             "; --explain shows what would have to change"
         };
         parts.push(format!(
-            "{} drives refused; --refused lists them with their reasons{explain}",
-            selection.refused.len()
+            "{} refused; --refused lists them with their reasons{explain}",
+            counted(selection.refused.len(), "drive", "drives")
         ));
     }
     parts.join("\n") + "\n"
