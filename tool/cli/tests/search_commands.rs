@@ -90,7 +90,7 @@ fn options_of_size() {
         .says(&["no ratio lies between 9 and 3"]);
     jred([&"size", &press, &"--maker", &"Nobody"])
         .ends(2)
-        .says(&["none of the", "passes the filter"]);
+        .says(&["no motor in the catalogue", "passes the filter"]);
     jred([&"size", &press, &"--max-mass", &"5 mm"])
         .ends(2)
         .says(&["must be a mass"]);

@@ -140,7 +140,7 @@ fn one_when_no_machine_has_a_drive() {
     let none = vary("load.pressing force.force.0=-900,-800kN", 1);
     assert!(none.contains("0 of 2 machines have a drive"), "{none}");
     let one = vary("load.pressing force.force.0=-900,-10kN", 0);
-    assert!(one.contains("1 of 2 machines have a drive"), "{one}");
+    assert!(one.contains("1 of 2 machines has a drive"), "{one}");
     jred([
         &"vary",
         &press,

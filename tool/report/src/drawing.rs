@@ -12,7 +12,7 @@ use jred::machine::Mechanism as _;
 use crate::plot::PALETTE;
 use crate::plot::svg::{Anchor, Ink, Svg};
 use jred_machine::model::coordinate::positions;
-use jred_machine::model::machine::AnyMechanism;
+use jred_machine::model::mechanism::AnyMechanism;
 
 mod glyphs;
 mod sketch;

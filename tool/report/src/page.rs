@@ -14,7 +14,7 @@ use jred_machine::number::columns::Columns;
 use jred_machine::number::rounding::{rounded, short};
 use jred_machine::units::Vocabulary;
 use jred_sizing::catalogue::MotorKind;
-use jred_sizing::explain::{Breakdown, Cells, Lever, Remedies};
+use jred_sizing::explain::{Breakdown, Contributions, Lever, Remedies};
 use jred_sizing::select::size::{Candidate, Selection};
 
 mod chart;
@@ -128,8 +128,8 @@ impl Page {
             torque, inertia, ..
         } = words;
         let explanation = Explanation::new(file, duty, selection, candidate, CHANGED)?;
-        let cells = Cells::new(file, duty, &best.drive)?;
-        let breakdown = Breakdown::of(duty, &best.drive, &cells);
+        let contributions = Contributions::new(file, duty, &best.drive)?;
+        let breakdown = Breakdown::of(duty, &best.drive, &contributions);
         let subject = Subject {
             context: selection.context(candidate),
             judged: best,
@@ -168,7 +168,7 @@ impl Page {
             inertias: rows::inertia_rows(&breakdown),
             peak_time: short(breakdown.peak_time),
             effects_chart: vec![Figure::new(
-                subject.effects(&cells),
+                subject.effects(&contributions),
                 format!(
                     "Contributions to the motor {torque} over the cycle; at every instant they add up to the motor {torque}."
                 ),

@@ -9,7 +9,8 @@ use jred::{Domain, Link, Machine};
 use jred_machine::analysis::inspect::Findings;
 use jred_machine::analysis::reduce::{Over, Request, Sets, reduce};
 use jred_machine::model::coordinate::Coordinate;
-use jred_machine::model::machine::{AnyMechanism, MachineFile};
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::mechanism::AnyMechanism;
 use serde_json::Value;
 
 /// A block on a guide along x, driven along it, with a pin that swings a slotted lever about (0, −h).

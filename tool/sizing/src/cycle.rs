@@ -21,20 +21,20 @@ use jred_machine::number::figures::Figures;
 
 mod against;
 mod beyond;
+mod extremes;
 mod factor;
 mod floor;
 pub mod form;
 mod front;
 mod kernels;
 mod power;
-mod search;
 pub(crate) mod speeds;
 mod tree;
 
 pub(crate) use against::Against;
+use extremes::Stretches;
 use factor::Factor;
 use front::Front;
-use search::Stretches;
 use speeds::Speeds;
 use tree::Tree;
 

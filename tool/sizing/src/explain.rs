@@ -2,12 +2,14 @@
 
 mod altered;
 mod breakdown;
+mod contributions;
 mod course;
 mod remedy;
 mod seek;
 mod words;
 
 pub use altered::{Alteration, Altered};
-pub use breakdown::{Breakdown, Cell, Cells, Effect, InertiaShare, Share};
+pub use breakdown::{Breakdown, InertiaShare, Share};
+pub use contributions::{Contribution, Contributions, Effect};
 pub use course::ratio_course;
 pub use remedy::{Edge, Lever, Miss, Remedies, Remedy};

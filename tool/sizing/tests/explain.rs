@@ -10,7 +10,7 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::read;
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::catalogue::Drive;
-use jred_sizing::explain::{Alteration, Altered, Breakdown, Cells, Effect, Share};
+use jred_sizing::explain::{Alteration, Altered, Breakdown, Contributions, Effect, Share};
 
 use crate::support::{budget, edited, near, press_text, within};
 
@@ -87,13 +87,13 @@ fn the_cells_of_every_instant_add_up_to_the_motor_torque() {
                 .map(|i| drive.motor_point(i).torque)
                 .collect();
             let largest = crate::support::largest(&torques);
-            let cells = Cells::new(&file, &duty, &drive).unwrap();
+            let contributions = Contributions::new(&file, &duty, &drive).unwrap();
             for (k, torque) in torques.iter().enumerate() {
-                let sum = cells.cells.iter().map(|cell| cell.torque[k]);
+                let sum = contributions.torques.iter().map(|cell| cell.torque[k]);
                 let name = format!("{} at {k}", path.display());
                 within(&name, sum.sum(), *torque, budget::CELLS * largest);
             }
-            let breakdown = Breakdown::of(&duty, &drive, &cells);
+            let breakdown = Breakdown::of(&duty, &drive, &contributions);
             for shares in [&breakdown.effects, &breakdown.parts] {
                 let squares = total(shares, |s| s.mean_square);
                 within("mean square", squares, 1.0, budget::CELLS);
@@ -289,8 +289,11 @@ fn springs_keep_their_torque_without_masses() {
     });
     let mut catalogue = catalogue();
     let drive = lossy(&mut catalogue);
-    let cells = Cells::new(&file, &duty, &drive).unwrap();
-    let springs = cells.cells.iter().filter(|c| c.effect == Effect::Springs);
+    let contributions = Contributions::new(&file, &duty, &drive).unwrap();
+    let springs = contributions
+        .torques
+        .iter()
+        .filter(|c| c.effect == Effect::Springs);
     let ratio = drive.ratio() * file.drive_train.ratio();
     let springs: Vec<&Vec<f64>> = springs.map(|c| &c.torque).collect();
     let mut largest = 0.0f64;

@@ -14,8 +14,8 @@ use jred_sizing::catalogue::{Catalogue, Gearbox};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::Context;
 use jred_sizing::select::filter::Filter;
+use jred_sizing::study::chosen::ChosenDrive;
 use jred_sizing::study::common::Study;
-use jred_sizing::study::one::One;
 use jred_sizing::study::sensitivity::{Reach, Room, Sensitivity};
 
 /// A motor that limits nothing by its speed, and no gearbox.
@@ -74,7 +74,7 @@ const RACK: &str = include_str!("../../../machines/rack.toml");
 fn slope_of_the_rms_torque_by_the_duty_itself() {
     const STEPS: usize = 400;
     let (_folder, study) = study(RACK, STEPS);
-    let one = One::choose(&study, Some("strong+five"), &Filter::default(), None).unwrap();
+    let one = ChosenDrive::choose(&study, Some("strong+five"), &Filter::default(), None).unwrap();
     let reach = Reach {
         change: 0.01,
         most: 0.02,
@@ -151,7 +151,7 @@ fn room_in_closed_form() {
         "{conveyor}\n[rules]\nspeed = \"50 %\"\ninertia_ratio = 900\ninertia_ratio_warning = 900\n"
     );
     let (_folder, study) = study(&text, 64);
-    let one = One::choose(&study, Some("strong+five"), &Filter::default(), None).unwrap();
+    let one = ChosenDrive::choose(&study, Some("strong+five"), &Filter::default(), None).unwrap();
     let reach = Reach {
         change: 0.01,
         most: 0.5,
@@ -219,7 +219,7 @@ fn just_beyond_its_room_a_quantity_breaks_the_rule() {
     let file = folder.file("press.toml", press_text());
     let catalogue = Catalogue::load(None, None).unwrap();
     let study = Study::open(&file, catalogue, None, 200).unwrap();
-    let one = One::choose(&study, None, &Filter::default(), None).unwrap();
+    let one = ChosenDrive::choose(&study, None, &Filter::default(), None).unwrap();
     let found = Sensitivity::new(
         &study,
         &one,
@@ -259,7 +259,7 @@ fn just_beyond_its_room_a_quantity_breaks_the_rule() {
 #[test]
 fn one_drive_is_judged_as_in_the_catalogue() {
     let (_folder, study) = study(RACK, 64);
-    let one = One::choose(&study, Some("strong+five"), &Filter::default(), None).unwrap();
+    let one = ChosenDrive::choose(&study, Some("strong+five"), &Filter::default(), None).unwrap();
     let machine = study.machine(&[]).unwrap();
     let motors = study.catalogue.prepare(&machine.file.site);
     let (id, drive) = study.drive("strong+five").unwrap();

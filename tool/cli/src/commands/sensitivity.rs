@@ -7,7 +7,7 @@ use crate::commands::vary::study;
 use crate::commands::{Done, print};
 use crate::options::search::Sensitivity as Options;
 use jred_report::list::sensitivity::sheet;
-use jred_sizing::study::one::One;
+use jred_sizing::study::chosen::ChosenDrive;
 use jred_sizing::study::sensitivity::{Reach, Sensitivity};
 
 /// Runs `jred sensitivity`.
@@ -18,7 +18,7 @@ pub fn sensitivity(options: &Options) -> Result<Done> {
     let filter = options.search.filter();
     let study = study(&options.file, &options.supply, &filter)?;
     options.search.check(&study.catalogue, &[])?;
-    let one = One::choose(
+    let one = ChosenDrive::choose(
         &study,
         options.drive.as_deref(),
         &filter,

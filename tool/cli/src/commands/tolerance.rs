@@ -9,8 +9,8 @@ use crate::rows::run::run;
 use jred_machine::model::tolerance::Tolerance;
 use jred_report::list::tolerance::sheet;
 use jred_report::table::output::Format;
-use jred_report::table::rows::Form;
-use jred_sizing::study::one::One;
+use jred_report::table::rows::RowFormat;
+use jred_sizing::study::chosen::ChosenDrive;
 use jred_sizing::study::tolerance::summary::Summary;
 use jred_sizing::study::tolerance::{Samples, Scatter};
 
@@ -24,7 +24,7 @@ pub fn tolerance(options: &Options) -> Result<Done> {
     options.search.check(&study.catalogue, &[])?;
     let given = options.tolerance.iter().map(|text| given(text));
     let scatters = Scatter::all(&study, &given.collect::<Result<Vec<_>>>()?)?;
-    let one = One::choose(
+    let one = ChosenDrive::choose(
         &study,
         options.drive.as_deref(),
         &filter,
@@ -42,12 +42,12 @@ pub fn tolerance(options: &Options) -> Result<Done> {
     let mut plan = options.rows.plan();
     // Without a file the summary is what is printed; rows go to a file.
     let format = match plan.form {
-        Form::Table => Format::Table,
-        Form::Csv => Format::Csv,
-        Form::Json => Format::Json,
+        RowFormat::Table => Format::Table,
+        RowFormat::Csv => Format::Csv,
+        RowFormat::Json => Format::Json,
     };
     if plan.out.is_none() {
-        plan.form = Form::Table;
+        plan.form = RowFormat::Table;
     }
     let mut summary = Summary::new(samples.scatters.len(), samples.rules.len());
     let ended = run(&samples, &plan, &mut |_, cells| summary.add(cells))?;

@@ -9,7 +9,7 @@ use crate::options::search::{Merge, Rows, SizingOptions, Vary};
 use crate::rows::merge::merge;
 use crate::rows::run::{Ended, Plan, run};
 use jred_machine::number::words::{Word as _, counted};
-use jred_report::table::rows::{Form, table};
+use jred_report::table::rows::{RowFormat, table};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::select::filter::Filter;
 use jred_sizing::study::axis::{Axis, Grid};
@@ -74,11 +74,11 @@ pub fn vary(options: &Vary) -> Result<Done> {
     let (mut shown, mut counts) = (Vec::new(), Counts::default());
     let ended = run(&task, &plan, &mut |index, cells| {
         counts.add(cells.get(verdict));
-        if plan.out.is_none() && plan.form == Form::Table {
+        if plan.out.is_none() && plan.form == RowFormat::Table {
             shown.push((index, cells.to_vec()));
         }
     })?;
-    if plan.out.is_none() && plan.form == Form::Table {
+    if plan.out.is_none() && plan.form == RowFormat::Table {
         let title = format!("{}: {}", study.nominal.title, counts.words());
         print(&format!("{title}\n{}", table(&columns, &shown)))?;
     } else if let Some(path) = &plan.out {

@@ -12,7 +12,7 @@ use jred_machine::number::words::Word as _;
 use jred_machine::number::words::counted;
 use jred_machine::read;
 use jred_report::table::output::Format;
-use jred_report::table::rows::Form;
+use jred_report::table::rows::RowFormat;
 use jred_sizing::catalogue::{Catalogue, CatalogueError};
 use jred_sizing::select::filter::Filter;
 use jred_sizing::select::rank::{Objective, rank};
@@ -214,8 +214,8 @@ fn objectives(text: &str) -> Result<Vec<Objective>, String> {
 #[command(next_help_heading = "Rows")]
 pub struct Rows {
     /// Format of the rows; a file contains CSV or JSON lines.
-    #[arg(long, value_parser = word::<Form>(), default_value_t)]
-    pub format: Form,
+    #[arg(long, value_parser = word::<RowFormat>(), default_value_t)]
+    pub format: RowFormat,
     /// File to write the rows to, as they are computed.
     #[arg(long, short, value_parser = super::output_file())]
     pub out: Option<PathBuf>,

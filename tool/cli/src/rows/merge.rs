@@ -9,14 +9,14 @@ use std::path::{Path, PathBuf};
 use miette::{IntoDiagnostic as _, Report, Result, WrapErr as _, miette};
 
 use super::store;
-use jred_report::table::rows::Form;
+use jred_report::table::rows::RowFormat;
 use jred_sizing::study::header::Header;
 
 /// A share, read line by line.
 struct Part {
     path: PathBuf,
     header: Header,
-    form: Form,
+    form: RowFormat,
     reader: BufReader<File>,
 }
 
@@ -29,7 +29,7 @@ impl Part {
         let mut line = String::new();
         reader.read_line(&mut line).into_diagnostic()?;
         let (header, form) = store::parse(line.trim_end(), path)?;
-        if form == Form::Csv {
+        if form == RowFormat::Csv {
             reader.read_line(&mut line).into_diagnostic()?;
         }
         Ok(Self {

@@ -10,7 +10,7 @@ use miette::{IntoDiagnostic as _, Result, WrapErr as _};
 use rayon::prelude::*;
 
 use super::store;
-use jred_report::table::rows::Form;
+use jred_report::table::rows::RowFormat;
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::shard::Shard;
 use jred_sizing::study::task::Task;
@@ -21,7 +21,7 @@ pub struct Plan {
     /// File to write; `None`: standard output.
     pub out: Option<PathBuf>,
     /// How rows are written.
-    pub form: Form,
+    pub form: RowFormat,
     /// Whether the file is continued.
     pub resume: bool,
     /// Which rows.
@@ -76,7 +76,7 @@ pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) ->
     let shard = header.share();
     let of = shard.len(header.rows);
     let form = match plan.form {
-        Form::Table if plan.out.is_some() => Form::Csv,
+        RowFormat::Table if plan.out.is_some() => RowFormat::Csv,
         form => form,
     };
     let mut done = 0;
@@ -90,7 +90,7 @@ pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) ->
             Some(Box::new(file))
         }
         Some(path) => Some(Box::new(store::begin(path, &store::lines(&header, form)?)?)),
-        None if form == Form::Table => None,
+        None if form == RowFormat::Table => None,
         None => {
             let mut out = std::io::stdout();
             let _ = out.write_all(store::lines(&header, form)?.as_bytes());

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use miette::{IntoDiagnostic as _, Report, Result, WrapErr as _, miette};
 
-use jred_report::table::rows::Form;
+use jred_report::table::rows::RowFormat;
 use jred_sizing::study::header::Header;
 
 fn no_rows(path: &Path) -> Report {
@@ -24,7 +24,7 @@ fn no_rows(path: &Path) -> Report {
 ///
 /// # Errors
 /// None that can be provoked.
-pub fn lines(header: &Header, form: Form) -> Result<String> {
+pub fn lines(header: &Header, form: RowFormat) -> Result<String> {
     let json = serde_json::to_string(header).into_diagnostic()?;
     Ok(format!(
         "{}{json}\n{}",
@@ -37,11 +37,11 @@ pub fn lines(header: &Header, form: Form) -> Result<String> {
 ///
 /// # Errors
 /// A line that is none.
-pub fn parse(line: &str, path: &Path) -> Result<(Header, Form)> {
+pub fn parse(line: &str, path: &Path) -> Result<(Header, RowFormat)> {
     let form = if line.starts_with("# ") {
-        Form::Csv
+        RowFormat::Csv
     } else {
-        Form::Json
+        RowFormat::Json
     };
     let json = line.strip_prefix(form.mark()).unwrap_or(line);
     let header = serde_json::from_str(json).map_err(|_| no_rows(path))?;
@@ -79,7 +79,7 @@ pub fn begin(path: &Path, lines: &str) -> Result<File> {
 pub fn resume(
     path: &Path,
     header: &Header,
-    form: Form,
+    form: RowFormat,
     seen: &mut dyn FnMut(u64, &str),
 ) -> Result<(File, u64)> {
     let shown = path.display();

@@ -22,7 +22,7 @@ fn a_filter_that_leaves_nothing_is_an_error() {
     .ends(2);
     run.says(&[
         "possible drives passes the filter",
-        "drives left out: no data for their mass",
+        "drives left out: no data for the mass",
         "widen or remove --max-mass",
     ]);
     assert!(run.out.is_empty() && !page.exists(), "{}", run.out);

@@ -6,7 +6,8 @@ use jred::{
     Cubic, Image, ImageError, Phase, Q31, Quadratic, Reducible as _, Rows16, Set, Spline, Spline16,
     curves,
 };
-use jred_machine::model::machine::{AnyMechanism, MachineFile};
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::mechanism::AnyMechanism;
 
 use super::{KINDS, export, export_of, image, number_after, words_of};
 use crate::support::{Folder, budget, press_file};

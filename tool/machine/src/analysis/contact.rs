@@ -8,7 +8,7 @@ use jred::mechanism::cam::{contact_force, lift_off};
 use jred::{Error, Machine};
 
 use crate::model::coordinate::{Coordinate, positions};
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 use crate::number::rounding::figure;
 
 /// A rope force above minus this value (N) is a rounding error, not slack.

@@ -12,7 +12,8 @@ use jred::{Domain, Error};
 use serde::Serialize;
 
 use crate::model::coordinate::{Coordinate, whole_range};
-use crate::model::machine::{AnyMechanism, Fact, MachineFile};
+use crate::model::machine::MachineFile;
+use crate::model::mechanism::{AnyMechanism, Fact};
 use crate::number::numerics;
 use crate::number::rounding::short;
 

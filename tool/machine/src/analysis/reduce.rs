@@ -6,7 +6,8 @@ use jred::machine::{Frames, Mechanism as _};
 use jred::{Domain, Error, Machine, Reducible as _};
 
 use crate::model::coordinate::{Coordinate, positions};
-use crate::model::machine::{AnyMechanism, MachineFile};
+use crate::model::machine::MachineFile;
+use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::Motion;
 use crate::number::columns::{Column, Columns, Quantity};
 

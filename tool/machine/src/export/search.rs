@@ -13,7 +13,7 @@ use super::choice::{LayoutName, Number};
 use super::reference::{Reference, Remembered};
 use super::size::{Buffers, Made, Size, bytes};
 use super::ticks::Ticks;
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 
 /// Sizes up to this one are all tried.
 pub const EXHAUSTIVE: u32 = 512;

@@ -2,6 +2,7 @@
 
 pub mod coordinate;
 pub mod machine;
+pub mod mechanism;
 pub mod motion;
 pub mod operation;
 pub mod rule;

@@ -26,7 +26,7 @@ use jred::machine::{
 use jred::number::{RangeError, Transfer};
 use jred::{Domain, Error, Link};
 
-use crate::model::machine::Inner;
+use crate::model::mechanism::Inner;
 use crate::number::spline::Spline;
 
 /// Kind of curve that a stand-in represents.

@@ -6,7 +6,7 @@ use jred::machine::Mechanism as _;
 use jred::{Domain, Error};
 
 use crate::model::coordinate::Coordinate;
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 
 use crate::units::kind::{ANGLE, ANGULAR_SPEED, FORCE, Kind, LENGTH, TORQUE, VELOCITY};
 

@@ -7,7 +7,7 @@ use jred::machine::{Body, Element, MAX_ELEMENTS, Marker, Mechanism as _};
 use jred::number::Transfer;
 
 use crate::model::coordinate::Coordinate;
-use crate::model::machine::{AnyMechanism, NamedElement};
+use crate::model::mechanism::{AnyMechanism, NamedElement};
 use crate::number::numerics;
 
 use crate::text::item::Item;

@@ -5,7 +5,7 @@ use jred::machine::MAX_LOADS;
 use super::curve_file::Positions;
 use super::drive_link::DriveLink;
 use crate::model::coordinate::Coordinate;
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 use crate::model::tabulated::{Course, StandIn};
 use crate::number::spline::{MIN_POINTS, Way};
 use crate::text::columns;

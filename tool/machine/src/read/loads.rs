@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use jred::Domain;
 use jred::machine::{Action, Load, MAX_LOADS, Mechanism as _, Window};
 
-use crate::model::machine::{AnyMechanism, NamedLoad};
+use crate::model::mechanism::{AnyMechanism, NamedLoad};
 
 use super::drive_link::DriveLink;
 use super::load_table;

@@ -3,7 +3,7 @@
 use jred::machine::Mechanism as _;
 
 use crate::model::coordinate;
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 use crate::model::site::{Tool, ToolPlace};
 
 use crate::text::item::Item;

@@ -5,15 +5,15 @@ use jred_machine::number::rounding::{short, significant};
 use jred_machine::number::words::counted;
 use jred_machine::units::Vocabulary;
 use jred_sizing::study::cell::Cell;
+use jred_sizing::study::chosen::ChosenDrive;
 use jred_sizing::study::common::Study;
-use jred_sizing::study::one::One;
 use jred_sizing::study::sensitivity::{Dependence, Reach, Room, Sensitivity};
 
 /// An uncertainty below this share of a slope does not show in three digits.
 const LAST_DIGIT: f64 = 0.005;
 
 /// Every quantity with the slopes of the rules and the room until one is violated.
-pub fn sheet(study: &Study, one: &One, found: &Sensitivity, reach: Reach) -> Sheet {
+pub fn sheet(study: &Study, one: &ChosenDrive, found: &Sensitivity, reach: Reach) -> Sheet {
     let words = one.drive().motor.kind.vocabulary();
     let mut columns: Vec<String> = [
         "quantity",

@@ -14,7 +14,7 @@ pub(super) struct Chart {
 
 /// Kind of chart in the script.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Form {
+pub(super) enum ChartKind {
     /// Curves over a common axis.
     Course,
     /// Curves over time: their cursors move together, and with the point in the plane.
@@ -23,7 +23,7 @@ pub(super) enum Form {
     Plane,
 }
 
-impl Form {
+impl ChartKind {
     const fn name(self) -> &'static str {
         match self {
             Self::Course => "course",
@@ -35,7 +35,7 @@ impl Form {
 
 impl Chart {
     /// Curves over one pair of axes.
-    pub(super) fn new(form: Form, axes: &Axes, series: &[Series]) -> Self {
+    pub(super) fn new(form: ChartKind, axes: &Axes, series: &[Series]) -> Self {
         Self {
             svg: lines(axes, series),
             data: data(form, axes, "", series, &[]),
@@ -46,7 +46,7 @@ impl Chart {
     pub(super) fn two_axes(axes: &Axes, left: &[Series], label: &str, right: &[Series]) -> Self {
         Self {
             svg: lines_two_axes(axes, left, label, right),
-            data: data(Form::Course, axes, label, left, right),
+            data: data(ChartKind::Course, axes, label, left, right),
         }
     }
 
@@ -65,7 +65,13 @@ impl Chart {
 }
 
 /// Series that share their places name one list of them.
-fn data(form: Form, axes: &Axes, right_label: &str, left: &[Series], right: &[Series]) -> Value {
+fn data(
+    form: ChartKind,
+    axes: &Axes,
+    right_label: &str,
+    left: &[Series],
+    right: &[Series],
+) -> Value {
     let mut places: Vec<Value> = Vec::new();
     let mut one = |index: usize, series: &Series, right: bool| {
         let style = match series.style {

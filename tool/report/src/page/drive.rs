@@ -2,7 +2,7 @@
 
 use jred::{Error, Reducible as _};
 
-use super::chart::{Chart, Form};
+use super::chart::{Chart, ChartKind};
 use super::figures::{dashed, line};
 use crate::plot::{Axes, Axis, Series, Style};
 use jred_machine::analysis::duty::Duty;
@@ -11,7 +11,7 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::units::Vocabulary;
-use jred_sizing::explain::{Cells, Effect, ratio_course};
+use jred_sizing::explain::{Contributions, Effect, ratio_course};
 use jred_sizing::judge::Context;
 use jred_sizing::judge::Judged;
 use jred_sizing::motor::envelope::Envelope;
@@ -106,7 +106,7 @@ impl Subject<'_> {
             "closest to the peak".to_owned(),
         ];
         let chart = Chart::new(
-            Form::Plane,
+            ChartKind::Plane,
             &axes,
             &[
                 line(&names[0], peak(1.0)),
@@ -149,13 +149,13 @@ impl Subject<'_> {
             line(&own, rotor.collect()),
             dashed("RMS", self.level(self.judged.duty.torque.rms)),
         ];
-        Chart::new(Form::Time, &time_axes(&axis), &series)
+        Chart::new(ChartKind::Time, &time_axes(&axis), &series)
     }
 
     /// Motor torque, effect by effect.
-    pub(super) fn effects(&self, cells: &Cells) -> Chart {
+    pub(super) fn effects(&self, contributions: &Contributions) -> Chart {
         let mut sums: Vec<(Effect, Vec<f64>)> = Vec::new();
-        for cell in &cells.cells {
+        for cell in &contributions.torques {
             match sums.iter_mut().find(|(name, _)| *name == cell.effect) {
                 Some((_, sum)) => {
                     for (sum, torque) in sum.iter_mut().zip(&cell.torque) {
@@ -176,7 +176,11 @@ impl Subject<'_> {
             .iter()
             .map(|(name, values)| line(name, times().zip(values.iter().copied()).collect()))
             .collect();
-        Chart::new(Form::Time, &time_axes(&self.torque_axis("motor")), &series)
+        Chart::new(
+            ChartKind::Time,
+            &time_axes(&self.torque_axis("motor")),
+            &series,
+        )
     }
 
     /// Motor speed.
@@ -185,7 +189,7 @@ impl Subject<'_> {
         let scale = words.speed.scale;
         let axis = format!("motor speed [{}]", words.speed.unit);
         let speed = self.over_time(|_, speed| speed / scale);
-        Chart::new(Form::Time, &time_axes(&axis), &[line("speed", speed)])
+        Chart::new(ChartKind::Time, &time_axes(&axis), &[line("speed", speed)])
     }
 
     /// Mechanical power at the motor shaft.
@@ -196,7 +200,7 @@ impl Subject<'_> {
             dashed("mean", self.level(mean)),
         ];
         Chart::new(
-            Form::Time,
+            ChartKind::Time,
             &time_axes("power at the motor shaft [W]"),
             &series,
         )
@@ -216,7 +220,7 @@ impl Subject<'_> {
             series.push(line("housing", body(1)));
         }
         let axes = time_axes("temperature rise above ambient [K]");
-        Some(Chart::new(Form::Time, &axes, &series))
+        Some(Chart::new(ChartKind::Time, &axes, &series))
     }
 
     /// Voltage of the DC bus over the cycle, where it is known.
@@ -224,7 +228,7 @@ impl Subject<'_> {
         let trace = thinned(self.context.bus_voltage());
         let points: Vec<(f64, f64)> = trace.iter().map(|[t, voltage]| (*t, *voltage)).collect();
         let axes = time_axes("voltage of the DC bus [V]");
-        (!points.is_empty()).then(|| Chart::new(Form::Time, &axes, &[line("bus", points)]))
+        (!points.is_empty()).then(|| Chart::new(ChartKind::Time, &axes, &[line("bus", points)]))
     }
 
     /// λ over the range of the drive link, and the value that is checked.
@@ -257,7 +261,7 @@ impl Subject<'_> {
             x: Axis::of(coordinate),
             y: &format!("{} ratio λ", self.words().inertia),
         };
-        Ok(Chart::new(Form::Course, &axes, &series))
+        Ok(Chart::new(ChartKind::Course, &axes, &series))
     }
 
     /// Use of the limit of every rule over the gear ratio, with everything else unchanged; rules that follow time are left
@@ -288,7 +292,7 @@ impl Subject<'_> {
             x: Axis::new("gear ratio i"),
             y: "share of the limit [%]",
         };
-        Chart::new(Form::Course, &axes, &series)
+        Chart::new(ChartKind::Course, &axes, &series)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use jred::{Error, Reducible as _};
 
-use super::chart::{Chart, Form};
+use super::chart::{Chart, ChartKind};
 use crate::plot::{Axes, Axis, Series, Style, lines};
 use jred_machine::model::coordinate::{Coordinate, whole_range};
 use jred_machine::model::machine::{MachineFile, Simulation};
@@ -90,7 +90,7 @@ pub(super) fn reduced_torque(file: &MachineFile, speed: f64) -> Result<Chart, Er
             Coordinate::Length => "reduced force [N]",
         },
     };
-    Ok(Chart::new(Form::Course, &axes, &series))
+    Ok(Chart::new(ChartKind::Course, &axes, &series))
 }
 
 /// The plots of a simulation, with their headings.

@@ -9,7 +9,7 @@ use jred_sizing::study::cell::Cell;
 
 jred_machine::words! {
     /// How rows are written.
-    pub enum Form default Table {
+    pub enum RowFormat default Table {
         /// An aligned table for reading, when all rows are there.
         Table = "table",
         /// Comma-separated, every digit.
@@ -19,7 +19,7 @@ jred_machine::words! {
     }
 }
 
-impl Form {
+impl RowFormat {
     /// Prefix of the header object in a file.
     pub const fn mark(self) -> &'static str {
         match self {

@@ -2,7 +2,7 @@
 //! peak.
 
 use super::Sample;
-use super::search::Stretches;
+use super::extremes::Stretches;
 use crate::cycle::form::Coefficients;
 use crate::motor::envelope::Envelope;
 

@@ -1,7 +1,7 @@
 //! Finds the samples with a large torque without visiting the others.
 
 use super::Sample;
-use super::search::Stretches;
+use super::extremes::Stretches;
 use crate::cycle::form::{Coefficients, LOADS};
 
 impl Stretches<'_> {

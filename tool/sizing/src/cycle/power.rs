@@ -1,7 +1,7 @@
 //! Signs of the power over a cycle: energy put in and taken back, by stretches of the [tree](super::tree).
 
 use super::Sample;
-use super::search::Stretches;
+use super::extremes::Stretches;
 use super::tree::Direction;
 use crate::cycle::form::{Coefficients, LOADS};
 

@@ -17,7 +17,8 @@ use jred::{Error, Machine};
 use jred_machine::analysis::duty::{Duty, Instant};
 use jred_machine::analysis::mechanics::Mechanics;
 use jred_machine::model::coordinate::positions;
-use jred_machine::model::machine::{AnyMechanism, MachineFile};
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::mechanism::AnyMechanism;
 
 /// Factors on parts of the machine and its motion.
 #[derive(Clone, Copy, Debug, PartialEq)]

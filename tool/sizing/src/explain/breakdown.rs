@@ -1,6 +1,6 @@
 //! Contributions to the motor torque and to the inertia at the motor.
 //!
-//! At every instant the motor torque is a sum of cells, one for each part of the machine and each effect that it has:
+//! At every instant the motor torque is a sum of contributions, one for each part of the machine and each effect that it has:
 //!
 //! ```text
 //! T = Σ links, flywheel (J_k·α + ½·J_k′·ω²)/(i_t·i) + Σ links U_k′/(i_t·i) + Σ springs + Σ loads + Σ dampers
@@ -9,16 +9,16 @@
 //! ```
 //!
 //! i_t is the ratio of the machine's drive train, i that of the gearbox, τ the torque at the input of the drive train. A loss
-//! is what a stage asks for beyond its lossless torque. The cells of an instant add up to the motor torque (test
+//! is what a stage asks for beyond its lossless torque. The contributions of an instant add up to the motor torque (test
 //! `tests/explain.rs`, 1e-12 of the largest).
 //!
-//! Each cell's share of the mean square is ⟨T_k·T⟩/⟨T²⟩, its projection on the whole: the shares add up to one. A share may be
-//! negative: without that cell the RMS torque would be greater.
+//! Each one's share of the mean square is ⟨T_k·T⟩/⟨T²⟩, its projection on the whole: the shares add up to one. A share may be
+//! negative: without that one the RMS torque would be greater.
 
-use jred::machine::Mechanism as _;
-use jred::{Error, Link};
+use jred::Error;
 use serde::Serialize;
 
+use super::contributions::{Contribution, Contributions, Effect, PartKind};
 use crate::catalogue::Drive;
 use crate::cycle::form::loads;
 use jred_machine::analysis::duty::Duty;
@@ -84,150 +84,17 @@ pub struct Breakdown {
     pub total_inertia: InertiaShare,
 }
 
-/// Torque at the motor of one part through one effect, at every instant.
-#[derive(Clone, Debug)]
-pub struct Cell {
-    kind: Kind,
-    /// Name of the part.
-    pub part: String,
-    /// Its effect.
-    pub effect: Effect,
-    /// Torque at the motor at every instant of the duty (N·m).
-    pub torque: Vec<f64>,
-}
-
-/// What a part does to the motor torque, in the order of reports.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Effect {
-    /// J·α of the machine.
-    Acceleration,
-    /// ½·J′·ω² of the machine.
-    Velocity,
-    /// Its weight.
-    Weight,
-    /// Its springs.
-    Springs,
-    /// Process loads.
-    Process,
-    /// Viscous loads.
-    Viscous,
-    /// Loads against the motion.
-    Coulomb,
-    /// Inertia of the drive train.
-    Train,
-    /// Losses of the drive train.
-    TrainLoss,
-    /// Inertia of the gearbox.
-    Gearbox,
-    /// Losses of the gearbox.
-    GearboxLoss,
-    /// Inertia of rotor and brake.
-    Rotor,
-    /// Friction of the motor.
-    Friction,
-}
-
-impl Effect {
-    const ALL: [Self; 13] = [
-        Self::Acceleration,
-        Self::Velocity,
-        Self::Weight,
-        Self::Springs,
-        Self::Process,
-        Self::Viscous,
-        Self::Coulomb,
-        Self::Train,
-        Self::TrainLoss,
-        Self::Gearbox,
-        Self::GearboxLoss,
-        Self::Rotor,
-        Self::Friction,
-    ];
-
-    /// Its name for a kind of motor.
-    pub fn name(self, Vocabulary { inertia, rotor, .. }: &Vocabulary) -> String {
-        match self {
-            Self::Acceleration => "acceleration J·α".to_owned(),
-            Self::Velocity => "velocity ½·J′·ω²".to_owned(),
-            Self::Weight => "weight".to_owned(),
-            Self::Springs => "springs".to_owned(),
-            Self::Process => "process".to_owned(),
-            Self::Viscous => "viscous".to_owned(),
-            Self::Coulomb => "Coulomb".to_owned(),
-            Self::Train => format!("drive train, {inertia}"),
-            Self::TrainLoss => "drive train, losses".to_owned(),
-            Self::Gearbox => format!("gearbox, {inertia}"),
-            Self::GearboxLoss => "gearbox, losses".to_owned(),
-            Self::Rotor => (*rotor).to_owned(),
-            Self::Friction => "motor friction".to_owned(),
-        }
-    }
-}
-
-/// Kind of a part, since a link and a load may have the same name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    Link,
-    Load,
-    Element,
-    Drive,
-}
-
-/// All cells of a drive's cycle.
-#[derive(Clone, Debug, Default)]
-pub struct Cells {
-    /// The torques.
-    pub cells: Vec<Cell>,
-    inertias: Vec<(String, Vec<f64>)>,
-    /// Places of the next cell and the next inertia while an instant is filled in: every instant has the same.
-    next: usize,
-    next_inertia: usize,
-}
-
-impl Cells {
-    /// Divides the torque of a drive into cells. Cost: one evaluation of the mechanism per instant.
-    ///
-    /// # Errors
-    /// Those of the machine.
-    pub fn new(file: &MachineFile, duty: &Duty, drive: &Drive) -> Result<Self, Error> {
-        let mut cells = Self::default();
-        for instant in &duty.instants {
-            (cells.next, cells.next_inertia) = (0, 0);
-            machine(&mut cells, file, drive, instant)?;
-            drive_parts(&mut cells, file, drive, instant);
-        }
-        Ok(cells)
-    }
-
-    fn add(&mut self, (kind, part): (Kind, &str), effect: Effect, torque: f64) {
-        if self.next == self.cells.len() {
-            self.cells.push(Cell {
-                kind,
-                part: part.to_owned(),
-                effect,
-                torque: Vec::new(),
-            });
-        }
-        self.cells[self.next].torque.push(torque);
-        self.next += 1;
-    }
-
-    fn add_inertia(&mut self, part: &str, inertia: f64) {
-        if self.next_inertia == self.inertias.len() {
-            self.inertias.push((part.to_owned(), Vec::new()));
-        }
-        self.inertias[self.next_inertia].1.push(inertia);
-        self.next_inertia += 1;
-    }
-}
-
 impl Breakdown {
     /// The figures of every part and every effect.
     ///
     /// # Errors
     /// Those of the machine.
     pub fn new(file: &MachineFile, duty: &Duty, drive: &Drive) -> Result<Self, Error> {
-        Ok(Self::of(duty, drive, &Cells::new(file, duty, drive)?))
+        Ok(Self::of(
+            duty,
+            drive,
+            &Contributions::new(file, duty, drive)?,
+        ))
     }
 
     /// Reference energy (J) for recognising rounding errors.
@@ -238,8 +105,8 @@ impl Breakdown {
             .max(self.stored)
     }
 
-    /// The figures of cells that are there already.
-    pub fn of(duty: &Duty, drive: &Drive, cells: &Cells) -> Self {
+    /// The figures of contributions that are there already.
+    pub fn of(duty: &Duty, drive: &Drive, contributions: &Contributions) -> Self {
         let words = drive.motor.kind.vocabulary();
         let coefficients = drive.coefficients();
         let whole: Vec<f64> = duty
@@ -263,32 +130,32 @@ impl Breakdown {
                 energy: duty.integral_of(power.map(|(i, t)| t * i.input_speed * ratio)),
             }
         };
-        let sum_of = |chosen: &dyn Fn(&Cell) -> bool| {
+        let sum_of = |chosen: &dyn Fn(&Contribution) -> bool| {
             let mut sum = vec![0.0; whole.len()];
-            for cell in cells.cells.iter().filter(|cell| chosen(cell)) {
-                for (sum, torque) in sum.iter_mut().zip(&cell.torque) {
+            for one in contributions.torques.iter().filter(|one| chosen(one)) {
+                for (sum, torque) in sum.iter_mut().zip(&one.torque) {
                     *sum += torque;
                 }
             }
             sum
         };
         let acts = |share: &Share| share.torque.peak() > 0.0;
-        let mut parts: Vec<(Kind, &str)> = Vec::new();
-        for cell in &cells.cells {
-            if !parts.contains(&(cell.kind, &cell.part)) {
-                parts.push((cell.kind, &cell.part));
+        let mut parts: Vec<(PartKind, &str)> = Vec::new();
+        for one in &contributions.torques {
+            if !parts.contains(&(one.kind, &one.part)) {
+                parts.push((one.kind, &one.part));
             }
         }
         let parts = parts.into_iter().map(|(kind, part)| {
-            let own = sum_of(&|cell| cell.kind == kind && cell.part == part);
+            let own = sum_of(&|one| one.kind == kind && one.part == part);
             share(part, &own)
         });
         let effects = Effect::ALL.into_iter().map(|effect| {
-            let own = sum_of(&|cell| cell.effect == effect);
+            let own = sum_of(&|one| one.effect == effect);
             share(&effect.name(words), &own)
         });
         let mut inertia_whole = vec![0.0; whole.len()];
-        for (_, values) in &cells.inertias {
+        for (_, values) in &contributions.inertias {
             for (sum, value) in inertia_whole.iter_mut().zip(values) {
                 *sum += value;
             }
@@ -302,7 +169,7 @@ impl Breakdown {
                 of_mean: if mean > 0.0 { inertia.mean / mean } else { 0.0 },
             }
         };
-        let inertias = cells.inertias.iter();
+        let inertias = contributions.inertias.iter();
         let inertias = inertias.map(|(name, values)| inertia(name, values));
         Self {
             drive: drive.name(),
@@ -319,120 +186,4 @@ impl Breakdown {
             total_inertia: inertia("at the motor", &inertia_whole),
         }
     }
-}
-
-/// Links, flywheel, loads, springs and dampers.
-fn machine(
-    cells: &mut Cells,
-    file: &MachineFile,
-    drive: &Drive,
-    instant: &jred_machine::analysis::duty::Instant,
-) -> Result<(), Error> {
-    let machine = &file.machine;
-    let mechanism = machine.mechanism();
-    let total = file.drive_train.ratio() * drive.ratio();
-    let (omega, alpha) = (instant.omega, instant.alpha);
-    let sign = if omega == 0.0 { 0.0 } else { omega.signum() };
-    let frames = mechanism.frames(instant.phi)?;
-    let names = mechanism.link_names();
-    let links = mechanism.links().iter().zip(&frames).zip(names);
-    for ((link, frame), name) in links {
-        let [inertia, slope, _] = Link::reduced_inertia(link, frame);
-        let [_, weight] = link.potential_energy(frame, machine.gravity());
-        cells.add(
-            (Kind::Link, name),
-            Effect::Acceleration,
-            inertia * alpha / total,
-        );
-        cells.add(
-            (Kind::Link, name),
-            Effect::Velocity,
-            0.5 * slope * omega * omega / total,
-        );
-        cells.add((Kind::Link, name), Effect::Weight, weight / total);
-        cells.add_inertia(name, inertia / (total * total));
-    }
-    cells.add(
-        (Kind::Drive, "flywheel"),
-        Effect::Acceleration,
-        machine.flywheel() * alpha / total,
-    );
-    cells.add_inertia("flywheel", machine.flywheel() / (total * total));
-    for (load, named) in machine.loads().iter().zip(&file.loads) {
-        let curves = frames.get(load.link());
-        let curves = curves.map(|frame| load.reduce(frame, instant.phi));
-        let curves = curves.unwrap_or_default();
-        let part = (Kind::Load, named.name.as_str());
-        let effect = if mechanism.is_weight(load) {
-            Effect::Weight
-        } else {
-            Effect::Process
-        };
-        cells.add(part, effect, -curves.process / total);
-        cells.add(part, Effect::Viscous, curves.viscous * omega / total);
-        cells.add(part, Effect::Coulomb, curves.coulomb * sign / total);
-    }
-    for (element, named) in machine.elements().iter().zip(&file.elements) {
-        let slope = element.length(&frames).d1;
-        let still = element.effort(&frames, 0.0);
-        let moving = element.effort(&frames, omega);
-        // The effort acts on the element's end; the drive gives the opposite.
-        let part = (Kind::Element, named.name.as_str());
-        cells.add(part, Effect::Springs, -still * slope / total);
-        cells.add(part, Effect::Viscous, (still - moving) * slope / total);
-    }
-    Ok(())
-}
-
-/// Drive train, gearbox and motor.
-fn drive_parts(
-    cells: &mut Cells,
-    file: &MachineFile,
-    drive: &Drive,
-    instant: &jred_machine::analysis::duty::Instant,
-) {
-    let train = &file.drive_train;
-    let ratio = drive.ratio();
-    let alpha = instant.input_alpha * ratio;
-    let behind = train.inertia_at_input();
-    let lossless = instant.terms.total() / train.ratio() + behind * instant.input_alpha;
-    let loss = (instant.input_torque - lossless) / ratio;
-    cells.add(
-        (Kind::Drive, "drive train"),
-        Effect::Train,
-        behind * instant.input_alpha / ratio,
-    );
-    cells.add((Kind::Drive, "drive train"), Effect::TrainLoss, loss);
-    cells.add_inertia("drive train", behind / (ratio * ratio));
-    let [_, driving, back, speed, sign] = loads(instant);
-    let [_, to_machine, from_machine, viscous, coulomb] = drive.coefficients().0;
-    let losses = driving * (to_machine - 1.0 / ratio) + back * (from_machine - 1.0 / ratio);
-    let [own_coulomb, _] = drive.motor.friction;
-    let gearbox = drive.gearbox.map_or(0.0, |g| g.inertia);
-    cells.add((Kind::Drive, "gearbox"), Effect::Gearbox, gearbox * alpha);
-    cells.add(
-        (Kind::Drive, "gearbox"),
-        Effect::GearboxLoss,
-        losses + (coulomb - own_coulomb) * sign,
-    );
-    cells.add_inertia("gearbox", gearbox);
-    let rotor = drive.motor.kind.vocabulary().rotor;
-    let brake = drive.motor.brake_inertia();
-    cells.add(
-        (Kind::Drive, rotor),
-        Effect::Rotor,
-        drive.motor.rotor_inertia * alpha,
-    );
-    cells.add_inertia(rotor, drive.motor.rotor_inertia);
-    cells.add(
-        (Kind::Drive, "brake of the motor"),
-        Effect::Rotor,
-        brake * alpha,
-    );
-    cells.add_inertia("brake of the motor", brake);
-    cells.add(
-        (Kind::Drive, "motor friction"),
-        Effect::Friction,
-        viscous * speed + own_coulomb * sign,
-    );
 }

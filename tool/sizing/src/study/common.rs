@@ -35,7 +35,7 @@ pub struct Study {
 
 /// A machine ready to be sized.
 #[derive(Debug)]
-pub struct Prepared {
+pub struct PreparedMachine {
     /// The machine.
     pub file: MachineFile,
     /// Its cycle.
@@ -155,7 +155,7 @@ impl Study {
     ///
     /// # Errors
     /// The errors of that machine.
-    pub fn machine(&self, edits: &[Edit]) -> Result<Prepared> {
+    pub fn machine(&self, edits: &[Edit]) -> Result<PreparedMachine> {
         let text = self.document.with(edits);
         let mut file = read::parse(&self.name, &text, &*self.files)?;
         if let Some(set) = &self.rules {
@@ -163,7 +163,7 @@ impl Study {
         }
         sizeable(&file)?;
         let cycle = cycle(&file, self.steps)?;
-        Ok(Prepared { file, cycle })
+        Ok(PreparedMachine { file, cycle })
     }
 }
 

@@ -8,11 +8,11 @@
 
 pub mod axis;
 pub mod cell;
+pub mod chosen;
 pub mod common;
 pub mod edit;
 pub mod grid;
 pub mod header;
-pub mod one;
 pub mod ratio;
 pub mod sensitivity;
 pub mod shard;

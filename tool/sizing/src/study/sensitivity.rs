@@ -9,9 +9,9 @@
 
 use crate::judge::Findings;
 use crate::judge::broken;
+use crate::study::chosen::ChosenDrive;
 use crate::study::common::{Study, sentence};
 use crate::study::edit::Edit;
-use crate::study::one::One;
 use crate::threads;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::{Limit, RuleSet};
@@ -120,7 +120,7 @@ pub fn shares(rules: &RuleSet, findings: &Findings) -> Vec<(Rule, f64)> {
 /// A quantity of a study, moved.
 struct Mover<'a> {
     study: &'a Study,
-    one: &'a One,
+    one: &'a ChosenDrive,
     quantity: usize,
     number: f64,
     unit: &'a str,
@@ -215,7 +215,7 @@ impl Sensitivity {
     /// Those of the machine as it is.
     pub fn new(
         study: &Study,
-        one: &One,
+        one: &ChosenDrive,
         reach: Reach,
         progress: impl Fn() + Sync,
     ) -> miette::Result<Self> {

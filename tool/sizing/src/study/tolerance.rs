@@ -17,10 +17,10 @@ use rand_distr::{Distribution as _, StandardNormal};
 
 use crate::judge::broken;
 use crate::study::cell::Cell;
-use crate::study::common::{Prepared as Machine, Study, sentence};
+use crate::study::chosen::ChosenDrive;
+use crate::study::common::{PreparedMachine, Study, sentence};
 use crate::study::edit::Edit;
 use crate::study::header::{Header, digest};
-use crate::study::one::One;
 use crate::study::task::Task;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Limit;
@@ -136,7 +136,7 @@ pub struct Samples<'s> {
     /// Common data.
     pub study: &'s Study,
     /// The drive that is checked.
-    pub one: &'s One,
+    pub one: &'s ChosenDrive,
     /// Quantities that scatter.
     pub scatters: Vec<Scatter>,
     /// The rules that can be checked.
@@ -153,8 +153,8 @@ impl<'s> Samples<'s> {
     /// So many machines about the nominal one; the rules are those that can be checked for that.
     pub fn new(
         study: &'s Study,
-        one: &'s One,
-        nominal: &Machine,
+        one: &'s ChosenDrive,
+        nominal: &PreparedMachine,
         scatters: Vec<Scatter>,
         count: u64,
         seed: u64,

@@ -114,7 +114,7 @@ fn filters_leave_what_they_say() {
     };
     let message = nothing.thin(&mut all.clone()).unwrap_err().to_string();
     assert!(
-        message.contains(&format!("none of the {motors} motors")),
+        message.contains(&format!("no motor in the catalogue ({motors} in total)")),
         "{message}"
     );
 }

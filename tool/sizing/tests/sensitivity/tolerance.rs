@@ -7,8 +7,8 @@ use jred_machine::model::tolerance::Tolerance;
 use jred_machine::units::RPM;
 use jred_sizing::select::filter::Filter;
 use jred_sizing::study::cell::Cell;
+use jred_sizing::study::chosen::ChosenDrive;
 use jred_sizing::study::common::Study;
-use jred_sizing::study::one::One;
 use jred_sizing::study::task::Task as _;
 use jred_sizing::study::tolerance::summary::{Probability, quantile};
 use jred_sizing::study::tolerance::{Samples, Scatter};
@@ -36,7 +36,7 @@ fn wilsons_interval_of_published_cases() {
 
 fn samples<'s>(
     study: &'s Study,
-    one: &'s One,
+    one: &'s ChosenDrive,
     tolerances: &[(&str, &str)],
     count: u64,
 ) -> Samples<'s> {
@@ -59,7 +59,7 @@ fn samples<'s>(
 fn draws_have_their_moments() {
     const N: u64 = 40_000;
     let (_folder, study) = study(RACK, 64);
-    let one = One::choose(&study, Some("strong+five"), &Filter::default(), None).unwrap();
+    let one = ChosenDrive::choose(&study, Some("strong+five"), &Filter::default(), None).unwrap();
     let samples = samples(
         &study,
         &one,
@@ -110,7 +110,7 @@ fn a_probability_in_closed_form() {
         "{conveyor}\n[rules]\nspeed = \"50 %\"\ninertia_ratio = 900\ninertia_ratio_warning = 900\n"
     );
     let (_folder, study) = study(&text, 16);
-    let one = One::choose(&study, Some("strong+five"), &Filter::default(), None).unwrap();
+    let one = ChosenDrive::choose(&study, Some("strong+five"), &Filter::default(), None).unwrap();
     let samples = samples(&study, &one, &[("motion.speed", "20 %")], N);
     let mut hold = 0;
     for k in 0..N {

@@ -6,7 +6,8 @@ use serde::Serialize;
 
 use crate::analysis::duty;
 use crate::model::coordinate::whole_range;
-use crate::model::machine::{AnyMechanism, MachineFile};
+use crate::model::machine::MachineFile;
+use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::Motion;
 use crate::number::numerics;
 

@@ -6,7 +6,7 @@ use jred::{Domain, Error};
 use serde::Serialize;
 
 use crate::model::coordinate::Coordinate;
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 use crate::number::numerics::edge;
 
 /// Places that are sampled over the range.

@@ -20,10 +20,10 @@
 use jred::machine::{Body, Frames, Joint, Joints};
 
 mod closure;
-mod motion;
+mod twists;
 
 use closure::{Closure, System};
-use motion::Motion;
+use twists::Twists;
 
 /// Links that are held together by the links before them.
 #[derive(Clone, Debug)]
@@ -210,7 +210,7 @@ fn groups(joints: &[Joint], drive: usize, links: usize) -> Vec<Group> {
 impl Group {
     /// How fast each variable opens the joints that are left, at one position.
     fn system(&self, joints: &[Joint], drive: usize, frames: &Frames, length: f64) -> System {
-        let mut motion = Motion::new(frames, &self.links);
+        let mut motion = Twists::new(frames, &self.links);
         let mut left = self.joints.clone();
         while let Some(place) = motion.next_joint(joints, drive, &left) {
             let k = left.remove(place);

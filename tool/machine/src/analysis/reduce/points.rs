@@ -7,7 +7,7 @@ use jred::number::Transfer;
 
 use super::{Place, Set, Source};
 use crate::model::coordinate::Coordinate;
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 use crate::number::columns::{Column, Quantity};
 
 /// Every named point, every link's centre of mass (of links that have a mass), and every link's angle.

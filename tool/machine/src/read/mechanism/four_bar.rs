@@ -5,7 +5,7 @@ use jred::mechanism::{Blocked, BuildError, FourBar, FourBarDimensions, Grashof, 
 use jred::number::RangeError;
 
 use super::{core, link};
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 use crate::number::rounding::short;
 use crate::text::item::{Item, Value};
 use crate::text::problem::{Problem, Result};

@@ -2,7 +2,7 @@
 
 use jred::friction::{Arrangement, Flow, FrictionDrive, Stage};
 
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 use crate::read::variator::{flow, share};
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;

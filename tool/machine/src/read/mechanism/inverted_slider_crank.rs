@@ -3,7 +3,7 @@
 use jred::mechanism::{BuildError, InvertedSliderCrank, InvertedSliderCrankDimensions, Misfit};
 
 use super::{core, link};
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::LENGTH;

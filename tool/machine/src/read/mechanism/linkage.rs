@@ -12,7 +12,7 @@ use jred::mechanism::linkage::Pair;
 use jred::{Domain, Link};
 
 use crate::model::coordinate::Coordinate;
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 use crate::text::item::Item;
 use crate::text::problem::Result;
 use crate::text::section::Section;

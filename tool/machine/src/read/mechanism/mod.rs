@@ -21,7 +21,7 @@ mod train;
 
 use jred::{Error, Link};
 
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 use crate::text::file::Files;
 
 use crate::text::problem::{Problem, Result};

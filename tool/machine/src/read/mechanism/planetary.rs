@@ -4,7 +4,7 @@ use jred::Link;
 use jred::mechanism::{BuildError, Member, Misfit, Planetary, PlanetaryDimensions, PlanetaryGears};
 
 use super::{core, parts};
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::LENGTH;

@@ -3,7 +3,7 @@
 use jred::mechanism::RackAndPinion;
 
 use super::{core, link, parts};
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::LENGTH;

@@ -4,7 +4,7 @@ use jred::Domain;
 
 use super::core;
 use crate::model::coordinate::Coordinate;
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 use crate::model::tabulated::{Course, DriveLinkAlone, StandIn};
 use crate::number::rounding::figure;
 use crate::number::spline::{MIN_POINTS, Spline, Way};

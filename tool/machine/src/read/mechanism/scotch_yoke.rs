@@ -6,7 +6,7 @@ use jred::mechanism::{BuildError, ScotchYoke, ScotchYokeDimensions};
 use jred::number::RangeError;
 
 use super::{core, link, parts};
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::{ANGLE, LENGTH};

@@ -5,7 +5,7 @@ use jred::mechanism::{Branch, SixLink, SixLinkDimensions};
 use super::four_bar::{blocked, length};
 use super::link;
 use super::parts::slide;
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::LENGTH;

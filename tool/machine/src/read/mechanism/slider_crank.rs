@@ -3,7 +3,7 @@
 use jred::Link;
 use jred::mechanism::{Blocked, Branch, BuildError, SliderCrank, SliderCrankDimensions};
 
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 
 use super::{core, link};
 use crate::text::problem::Result;

@@ -2,7 +2,7 @@
 
 use jred::machine::Mechanism as _;
 
-use crate::model::machine::AnyMechanism;
+use crate::model::mechanism::AnyMechanism;
 use crate::read::stage;
 use crate::read::stage::{Losses, Placed};
 use crate::text::problem::Result;

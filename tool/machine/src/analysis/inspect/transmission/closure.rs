@@ -3,7 +3,7 @@
 use jred::machine::{Joint, Marker, Wrench};
 
 use super::Block;
-use super::motion::{Motion, direction, pivot};
+use super::twists::{Twists, direction, pivot};
 
 /// How fast each variable opens the joints that are left.
 pub(super) struct System {
@@ -23,7 +23,7 @@ pub(super) struct Closure {
 }
 
 impl Closure {
-    pub(super) fn new(joint: &Joint, held: bool, motion: &Motion, length: f64) -> Self {
+    pub(super) fn new(joint: &Joint, held: bool, motion: &Twists, length: f64) -> Self {
         let variables = 0..motion.variables;
         let [first, second] = joint.bodies();
         let at = pivot(joint, motion.frames);
@@ -61,7 +61,7 @@ impl Closure {
     }
 
     /// The power of one unit of the transmission's effort.
-    fn transmission(wrenches: &[Wrench; 2], motion: &Motion) -> Self {
+    fn transmission(wrenches: &[Wrench; 2], motion: &Twists) -> Self {
         let (mut row, mut full) = (Vec::new(), Vec::new());
         for k in 0..motion.variables {
             let (mut power, mut most) = (0.0, 0.0);

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use jred::mechanism::{DiscCam, Follower, Roller, RollerDimensions};
 
 use super::{core, link, parts};
-use crate::model::machine::{AnyMechanism, Contact, NamedElement};
+use crate::model::mechanism::{AnyMechanism, Contact, NamedElement};
 use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::{FORCE, INERTIA, LENGTH, MASS, STIFFNESS, TORQUE, TORSION_STIFFNESS};

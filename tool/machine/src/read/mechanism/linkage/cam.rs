@@ -9,7 +9,7 @@ use jred::mechanism::cam::Piece;
 use jred::mechanism::linkage::{Pair, PlacedCam};
 use jred::mechanism::{CamProfile, Follower, Roller, RollerDimensions};
 
-use crate::model::machine::{AnyMechanism, Contact};
+use crate::model::mechanism::{AnyMechanism, Contact};
 use crate::number::rounding::figure;
 use crate::read::mechanism::{core, disc_cam};
 use crate::text::problem::{Problem, Result};

@@ -9,17 +9,17 @@ use crate::motor::envelope::Prepared;
 use crate::select::filter::Filter;
 use crate::select::rank::{Objective, rank};
 use crate::select::size::Selection;
-use crate::study::common::{Prepared as Machine, Study};
+use crate::study::common::{PreparedMachine, Study};
 
 /// A drive of the catalogue.
 #[derive(Clone, Debug)]
-pub struct One {
+pub struct ChosenDrive {
     motor: Motor,
     gearbox: Option<Gearbox>,
     amplifier: Option<Amplifier>,
 }
 
-impl One {
+impl ChosenDrive {
     /// The drive of this name; without a name the best one for the nominal machine, or the closest one.
     ///
     /// # Errors
@@ -69,7 +69,7 @@ impl One {
     }
 
     /// Findings of every rule in a machine.
-    pub fn findings(&self, machine: &Machine) -> Findings {
+    pub fn findings(&self, machine: &PreparedMachine) -> Findings {
         let site = &machine.file.site;
         let limits = Prepared::new(&self.motor, self.amplifier.as_ref(), site);
         Context::new(&machine.cycle, site, self.drive(), &limits).findings(&machine.file.rules)

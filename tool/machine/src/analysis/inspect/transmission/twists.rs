@@ -6,19 +6,19 @@ use jred::machine::{Body, Frames, Joint, Marker};
 type Twist = [f64; 3];
 
 /// How the links of a group move with each of its variables.
-pub(super) struct Motion<'a> {
+pub(super) struct Twists<'a> {
     pub(super) frames: &'a Frames,
     /// For links of the group: their twist for each variable, once they are attached.
-    twists: Vec<Option<Vec<Twist>>>,
+    of: Vec<Option<Vec<Twist>>>,
     members: &'a [usize],
     pub(super) variables: usize,
 }
 
-impl<'a> Motion<'a> {
+impl<'a> Twists<'a> {
     pub(super) fn new(frames: &'a Frames, members: &'a [usize]) -> Self {
         Self {
             frames,
-            twists: vec![None; frames.len()],
+            of: vec![None; frames.len()],
             members,
             variables: 0,
         }
@@ -26,7 +26,7 @@ impl<'a> Motion<'a> {
 
     fn is_placed(&self, body: Body) -> bool {
         body.link()
-            .is_none_or(|k| !self.members.contains(&k) || self.twists[k].is_some())
+            .is_none_or(|k| !self.members.contains(&k) || self.of[k].is_some())
     }
 
     /// The joint to attach the next link by: one whose first or second body is placed, guides before pins, so that every
@@ -57,14 +57,14 @@ impl<'a> Motion<'a> {
             return Some(place);
         }
         // A link that only contacts hold moves freely: along x, along y, and about its origin.
-        let loose = self.members.iter().find(|&&k| self.twists[k].is_none());
+        let loose = self.members.iter().find(|&&k| self.of[k].is_none());
         if let Some(&link) = loose {
             let frame = &self.frames[link];
             let (x, y) = (frame.x.value, frame.y.value);
             let mut twists = vec![[0.0; 3]; self.variables];
             twists.extend([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [y, -x, 1.0]]);
             self.variables += 3;
-            self.twists[link] = Some(twists);
+            self.of[link] = Some(twists);
             return self.next_joint(joints, drive, left);
         }
         None
@@ -72,7 +72,7 @@ impl<'a> Motion<'a> {
 
     /// The body's twist for one variable; placed bodies stand still.
     pub(super) fn twist(&self, body: Body, variable: usize) -> Twist {
-        let moving = body.link().and_then(|k| self.twists[k].as_ref());
+        let moving = body.link().and_then(|k| self.of[k].as_ref());
         moving
             .and_then(|twists| twists.get(variable).copied())
             .unwrap_or_default()
@@ -131,7 +131,7 @@ impl<'a> Motion<'a> {
             }
         }
         self.variables = twists.len().max(self.variables);
-        self.twists[link] = Some(twists);
+        self.of[link] = Some(twists);
     }
 }
 

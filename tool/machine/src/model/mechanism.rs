@@ -1,0 +1,294 @@
+//! Any mechanism that a machine file can name, with the names of its parts.
+
+use std::fmt;
+use std::sync::Arc;
+
+use jred::machine::PoseError;
+use jred::machine::{Element, Frames, Jointed, Joints, Load, Mechanism};
+use jred::{Domain, Error, Link};
+
+use crate::model::coordinate::Coordinate;
+use crate::model::tabulated::{Course, StandIn, Tabulated};
+
+/// A mechanism that knows its joints and can be kept in a machine.
+pub trait Inner: Jointed + fmt::Debug + Send + Sync {}
+
+impl<M: Jointed + fmt::Debug + Send + Sync> Inner for M {}
+
+/// A point of a link, with the name that tables and drawings use.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedPoint {
+    /// Such as `B`.
+    pub name: String,
+    /// Index of the link.
+    pub link: usize,
+    /// Where it is in the link's frame (m).
+    pub at: [f64; 2],
+}
+
+/// A joint in which two surfaces only press on each other, as a follower on its cam.
+#[derive(Clone, Debug)]
+pub struct Contact {
+    /// Index of the joint.
+    pub joint: usize,
+    /// Whether the file names it; otherwise it is the only one.
+    pub named: bool,
+    /// The pieces of the drive's range in which it is smooth.
+    pub pieces: Vec<jred::mechanism::cam::Piece>,
+}
+
+/// A property of one kind of mechanism, such as the largest pressure angle of a cam.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct Fact {
+    /// Its name.
+    pub label: String,
+    /// The figure, its unit and where it is.
+    pub text: String,
+}
+
+/// Any mechanism that a machine file can name, with the names of its parts.
+#[derive(Clone, Debug)]
+pub struct AnyMechanism {
+    kind: &'static str,
+    coordinate: Coordinate,
+    inner: Arc<dyn Inner>,
+    links: Vec<String>,
+    joints: Vec<String>,
+    points: Vec<NamedPoint>,
+    outlines: Vec<(usize, Vec<[f64; 2]>)>,
+    ground_points: Vec<(String, [f64; 2])>,
+    elements: Vec<NamedElement>,
+    loads: Vec<NamedLoad>,
+    stand_ins: usize,
+    /// The stand-ins, as links, on which the weight of a payload acts.
+    pub(super) weights: Vec<usize>,
+    contacts: Vec<Contact>,
+    ropes: Vec<usize>,
+    facts: Vec<Fact>,
+}
+
+impl AnyMechanism {
+    /// A mechanism of the `kind` that machine files write as `type`, with a name for each link and each joint, in the order
+    /// of the mechanism's own lists.
+    pub fn new<S: Into<String>, J: Into<String>>(
+        kind: &'static str,
+        mechanism: impl Inner + 'static,
+        links: impl IntoIterator<Item = S>,
+        joints: impl IntoIterator<Item = J>,
+    ) -> Self {
+        Self {
+            kind,
+            // One that cannot be placed at all is refused by the reader, and by every question that follows.
+            coordinate: Coordinate::of(&mechanism).unwrap_or(Coordinate::Angle),
+            inner: Arc::new(mechanism),
+            links: links.into_iter().map(Into::into).collect(),
+            joints: joints.into_iter().map(Into::into).collect(),
+            points: Vec::new(),
+            outlines: Vec::new(),
+            ground_points: Vec::new(),
+            elements: Vec::new(),
+            loads: Vec::new(),
+            stand_ins: 0,
+            weights: Vec::new(),
+            contacts: Vec::new(),
+            ropes: Vec::new(),
+            facts: Vec::new(),
+        }
+    }
+
+    /// With one more named point, `at` [u, v] (m) of link number `link`.
+    #[must_use]
+    pub fn with_point(mut self, name: impl Into<String>, link: usize, at: [f64; 2]) -> Self {
+        let name = name.into();
+        self.points.push(NamedPoint { name, link, at });
+        self
+    }
+
+    /// With one more closed outline, points [u, v] (m) of link number `link`: a cam's profile, a wheel's pitch circle. A link
+    /// that has outlines is drawn by them.
+    #[must_use]
+    pub fn with_outline(mut self, link: usize, outline: Vec<[f64; 2]>) -> Self {
+        self.outlines.push((link, outline));
+        self
+    }
+
+    /// With one more named point of the ground, in global coordinates (m).
+    #[must_use]
+    pub fn with_ground_point(mut self, name: impl Into<String>, at: [f64; 2]) -> Self {
+        self.ground_points.push((name.into(), at));
+        self
+    }
+
+    /// With springs of its own, such as that which closes a cam.
+    #[must_use]
+    pub fn with_elements(mut self, elements: impl IntoIterator<Item = NamedElement>) -> Self {
+        self.elements.extend(elements);
+        self
+    }
+
+    /// With curves over the drive link's position: each becomes a link with its bearing and gearing, and a load or a spring.
+    ///
+    /// # Errors
+    /// More links than a mechanism may have.
+    pub fn with_stand_ins(mut self, stand_ins: &[StandIn]) -> Result<Self, Error> {
+        let own = self.links.len();
+        self.inner = Arc::new(Tabulated::new(Arc::clone(&self.inner), stand_ins)?);
+        for (k, StandIn { name, course }) in stand_ins.iter().enumerate() {
+            if let Some(load) = course.load(own + k)? {
+                let name = name.clone();
+                self.loads.push(NamedLoad { name, load });
+            }
+            if let Some(element) = course.spring(own + k)? {
+                let name = name.clone();
+                self.elements.push(NamedElement { name, element });
+            }
+            if matches!(course, Course::Weight { .. }) {
+                self.weights.push(own + k);
+            }
+            self.links.push(name.clone());
+            self.joints.push(format!("bearing of {name}"));
+            self.joints.push(format!("gearing of {name}"));
+        }
+        self.stand_ins += stand_ins.len();
+        Ok(self)
+    }
+
+    /// Number of links that are parts of the mechanism; those after them stand in for curves.
+    pub fn own_links(&self) -> usize {
+        self.links.len() - self.stand_ins
+    }
+
+    /// Whether a load is the weight of a payload: a part of the machine, not of its process.
+    pub fn is_weight(&self, load: &Load) -> bool {
+        self.weights.contains(&load.link())
+    }
+
+    /// The mechanism's own loads.
+    pub fn own_loads(&self) -> &[NamedLoad] {
+        &self.loads
+    }
+
+    /// With one more contact that must not separate.
+    #[must_use]
+    pub fn with_contact(mut self, contact: Contact) -> Self {
+        self.contacts.push(contact);
+        self
+    }
+
+    /// With one more joint, number `joint`, whose rope can only pull: its force on the second body is positive then.
+    #[must_use]
+    pub fn with_rope(mut self, joint: usize) -> Self {
+        self.ropes.push(joint);
+        self
+    }
+
+    /// With one more property for `jred check` to show.
+    #[must_use]
+    pub fn with_fact(mut self, label: impl Into<String>, text: impl Into<String>) -> Self {
+        let (label, text) = (label.into(), text.into());
+        self.facts.push(Fact { label, text });
+        self
+    }
+
+    /// The mechanism's own springs.
+    pub fn own_elements(&self) -> &[NamedElement] {
+        &self.elements
+    }
+
+    /// The contacts that must not separate.
+    pub fn contacts(&self) -> &[Contact] {
+        &self.contacts
+    }
+
+    /// How messages begin that are about the contact in this joint: with its name, if the file gives one.
+    pub fn contact_prefix(&self, joint: usize) -> String {
+        let named = self.contacts.iter().any(|c| c.joint == joint && c.named);
+        let name = self.joints.get(joint).filter(|_| named);
+        name.map_or_else(String::new, |name| format!("joint \"{name}\": "))
+    }
+
+    /// The joints that are ropes.
+    pub fn ropes(&self) -> &[usize] {
+        &self.ropes
+    }
+
+    /// The figures of its kind.
+    pub fn facts(&self) -> &[Fact] {
+        &self.facts
+    }
+
+    /// The `type` of the machine file.
+    pub const fn kind(&self) -> &'static str {
+        self.kind
+    }
+
+    /// The coordinate of its drive link.
+    pub const fn coordinate(&self) -> Coordinate {
+        self.coordinate
+    }
+
+    /// The names of the links, as loads and reports use them.
+    pub fn link_names(&self) -> &[String] {
+        &self.links
+    }
+
+    /// The names of the joints.
+    pub fn joint_names(&self) -> &[String] {
+        &self.joints
+    }
+
+    /// The points that have a name.
+    pub fn points(&self) -> &[NamedPoint] {
+        &self.points
+    }
+
+    /// The points of the ground that have a name, in global coordinates (m).
+    pub fn ground_points(&self) -> &[(String, [f64; 2])] {
+        &self.ground_points
+    }
+
+    /// The outlines of link number `link`.
+    pub fn outlines(&self, link: usize) -> impl Iterator<Item = &[[f64; 2]]> {
+        let own = self.outlines.iter().filter(move |(k, _)| *k == link);
+        own.map(|(_, outline)| outline.as_slice())
+    }
+}
+
+impl Mechanism for AnyMechanism {
+    fn links(&self) -> &[Link] {
+        self.inner.links()
+    }
+    fn domain(&self) -> Domain {
+        self.inner.domain()
+    }
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
+        self.inner.frames(phi)
+    }
+}
+
+impl Jointed for AnyMechanism {
+    fn joints(&self, phi: f64, frames: &Frames) -> Result<Joints, PoseError> {
+        self.inner.joints(phi, frames)
+    }
+    fn drive(&self) -> usize {
+        self.inner.drive()
+    }
+}
+
+/// A load with the name that reports use.
+#[derive(Clone, Debug)]
+pub struct NamedLoad {
+    /// Name from the file, or made from what the load does.
+    pub name: String,
+    /// The load.
+    pub load: Load,
+}
+
+/// A spring or a damper with the name that reports use.
+#[derive(Clone, Debug)]
+pub struct NamedElement {
+    /// Name from the file, or made from its ends.
+    pub name: String,
+    /// The spring or damper.
+    pub element: Element,
+}

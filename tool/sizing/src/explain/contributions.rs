@@ -1,0 +1,267 @@
+//! The torque of a drive, divided by parts and by effects, at every instant of its cycle.
+
+use jred::machine::Mechanism as _;
+use jred::{Error, Link};
+
+use crate::catalogue::Drive;
+use crate::cycle::form::loads;
+use jred_machine::analysis::duty::{Duty, Instant};
+use jred_machine::model::machine::MachineFile;
+use jred_machine::units::Vocabulary;
+
+/// Torque at the motor of one part through one effect, at every instant.
+#[derive(Clone, Debug)]
+pub struct Contribution {
+    pub(super) kind: PartKind,
+    /// Name of the part.
+    pub part: String,
+    /// Its effect.
+    pub effect: Effect,
+    /// Torque at the motor at every instant of the duty (N·m).
+    pub torque: Vec<f64>,
+}
+
+/// What a part does to the motor torque, in the order of reports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effect {
+    /// J·α of the machine.
+    Acceleration,
+    /// ½·J′·ω² of the machine.
+    Velocity,
+    /// Its weight.
+    Weight,
+    /// Its springs.
+    Springs,
+    /// Process loads.
+    Process,
+    /// Viscous loads.
+    Viscous,
+    /// Loads against the motion.
+    Coulomb,
+    /// Inertia of the drive train.
+    Train,
+    /// Losses of the drive train.
+    TrainLoss,
+    /// Inertia of the gearbox.
+    Gearbox,
+    /// Losses of the gearbox.
+    GearboxLoss,
+    /// Inertia of rotor and brake.
+    Rotor,
+    /// Friction of the motor.
+    Friction,
+}
+
+impl Effect {
+    pub(super) const ALL: [Self; 13] = [
+        Self::Acceleration,
+        Self::Velocity,
+        Self::Weight,
+        Self::Springs,
+        Self::Process,
+        Self::Viscous,
+        Self::Coulomb,
+        Self::Train,
+        Self::TrainLoss,
+        Self::Gearbox,
+        Self::GearboxLoss,
+        Self::Rotor,
+        Self::Friction,
+    ];
+
+    /// Its name for a kind of motor.
+    pub fn name(self, Vocabulary { inertia, rotor, .. }: &Vocabulary) -> String {
+        match self {
+            Self::Acceleration => "acceleration J·α".to_owned(),
+            Self::Velocity => "velocity ½·J′·ω²".to_owned(),
+            Self::Weight => "weight".to_owned(),
+            Self::Springs => "springs".to_owned(),
+            Self::Process => "process".to_owned(),
+            Self::Viscous => "viscous".to_owned(),
+            Self::Coulomb => "Coulomb".to_owned(),
+            Self::Train => format!("drive train, {inertia}"),
+            Self::TrainLoss => "drive train, losses".to_owned(),
+            Self::Gearbox => format!("gearbox, {inertia}"),
+            Self::GearboxLoss => "gearbox, losses".to_owned(),
+            Self::Rotor => (*rotor).to_owned(),
+            Self::Friction => "motor friction".to_owned(),
+        }
+    }
+}
+
+/// Kind of a part, since a link and a load may have the same name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum PartKind {
+    Link,
+    Load,
+    Element,
+    Drive,
+}
+
+/// All contributions over a drive's cycle.
+#[derive(Clone, Debug, Default)]
+pub struct Contributions {
+    /// The torques.
+    pub torques: Vec<Contribution>,
+    pub(super) inertias: Vec<(String, Vec<f64>)>,
+    /// Places of the next torque and the next inertia while an instant is filled in: every instant has the same.
+    next: usize,
+    next_inertia: usize,
+}
+
+impl Contributions {
+    /// Divides the torque of a drive. Cost: one evaluation of the mechanism per instant.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub fn new(file: &MachineFile, duty: &Duty, drive: &Drive) -> Result<Self, Error> {
+        let mut contributions = Self::default();
+        for instant in &duty.instants {
+            (contributions.next, contributions.next_inertia) = (0, 0);
+            machine(&mut contributions, file, drive, instant)?;
+            drive_parts(&mut contributions, file, drive, instant);
+        }
+        Ok(contributions)
+    }
+
+    fn add(&mut self, (kind, part): (PartKind, &str), effect: Effect, torque: f64) {
+        if self.next == self.torques.len() {
+            self.torques.push(Contribution {
+                kind,
+                part: part.to_owned(),
+                effect,
+                torque: Vec::new(),
+            });
+        }
+        self.torques[self.next].torque.push(torque);
+        self.next += 1;
+    }
+
+    fn add_inertia(&mut self, part: &str, inertia: f64) {
+        if self.next_inertia == self.inertias.len() {
+            self.inertias.push((part.to_owned(), Vec::new()));
+        }
+        self.inertias[self.next_inertia].1.push(inertia);
+        self.next_inertia += 1;
+    }
+}
+
+/// Links, flywheel, loads, springs and dampers.
+fn machine(
+    contributions: &mut Contributions,
+    file: &MachineFile,
+    drive: &Drive,
+    instant: &Instant,
+) -> Result<(), Error> {
+    let machine = &file.machine;
+    let mechanism = machine.mechanism();
+    let total = file.drive_train.ratio() * drive.ratio();
+    let (omega, alpha) = (instant.omega, instant.alpha);
+    let sign = if omega == 0.0 { 0.0 } else { omega.signum() };
+    let frames = mechanism.frames(instant.phi)?;
+    let names = mechanism.link_names();
+    let links = mechanism.links().iter().zip(&frames).zip(names);
+    for ((link, frame), name) in links {
+        let [inertia, slope, _] = Link::reduced_inertia(link, frame);
+        let [_, weight] = link.potential_energy(frame, machine.gravity());
+        contributions.add(
+            (PartKind::Link, name),
+            Effect::Acceleration,
+            inertia * alpha / total,
+        );
+        contributions.add(
+            (PartKind::Link, name),
+            Effect::Velocity,
+            0.5 * slope * omega * omega / total,
+        );
+        contributions.add((PartKind::Link, name), Effect::Weight, weight / total);
+        contributions.add_inertia(name, inertia / (total * total));
+    }
+    contributions.add(
+        (PartKind::Drive, "flywheel"),
+        Effect::Acceleration,
+        machine.flywheel() * alpha / total,
+    );
+    contributions.add_inertia("flywheel", machine.flywheel() / (total * total));
+    for (load, named) in machine.loads().iter().zip(&file.loads) {
+        let curves = frames.get(load.link());
+        let curves = curves.map(|frame| load.reduce(frame, instant.phi));
+        let curves = curves.unwrap_or_default();
+        let part = (PartKind::Load, named.name.as_str());
+        let effect = if mechanism.is_weight(load) {
+            Effect::Weight
+        } else {
+            Effect::Process
+        };
+        contributions.add(part, effect, -curves.process / total);
+        contributions.add(part, Effect::Viscous, curves.viscous * omega / total);
+        contributions.add(part, Effect::Coulomb, curves.coulomb * sign / total);
+    }
+    for (element, named) in machine.elements().iter().zip(&file.elements) {
+        let slope = element.length(&frames).d1;
+        let still = element.effort(&frames, 0.0);
+        let moving = element.effort(&frames, omega);
+        // The effort acts on the element's end; the drive gives the opposite.
+        let part = (PartKind::Element, named.name.as_str());
+        contributions.add(part, Effect::Springs, -still * slope / total);
+        contributions.add(part, Effect::Viscous, (still - moving) * slope / total);
+    }
+    Ok(())
+}
+
+/// Drive train, gearbox and motor.
+fn drive_parts(
+    contributions: &mut Contributions,
+    file: &MachineFile,
+    drive: &Drive,
+    instant: &Instant,
+) {
+    let train = &file.drive_train;
+    let ratio = drive.ratio();
+    let alpha = instant.input_alpha * ratio;
+    let behind = train.inertia_at_input();
+    let lossless = instant.terms.total() / train.ratio() + behind * instant.input_alpha;
+    let loss = (instant.input_torque - lossless) / ratio;
+    contributions.add(
+        (PartKind::Drive, "drive train"),
+        Effect::Train,
+        behind * instant.input_alpha / ratio,
+    );
+    contributions.add((PartKind::Drive, "drive train"), Effect::TrainLoss, loss);
+    contributions.add_inertia("drive train", behind / (ratio * ratio));
+    let [_, driving, back, speed, sign] = loads(instant);
+    let [_, to_machine, from_machine, viscous, coulomb] = drive.coefficients().0;
+    let losses = driving * (to_machine - 1.0 / ratio) + back * (from_machine - 1.0 / ratio);
+    let [own_coulomb, _] = drive.motor.friction;
+    let gearbox = drive.gearbox.map_or(0.0, |g| g.inertia);
+    contributions.add(
+        (PartKind::Drive, "gearbox"),
+        Effect::Gearbox,
+        gearbox * alpha,
+    );
+    contributions.add(
+        (PartKind::Drive, "gearbox"),
+        Effect::GearboxLoss,
+        losses + (coulomb - own_coulomb) * sign,
+    );
+    contributions.add_inertia("gearbox", gearbox);
+    let rotor = drive.motor.kind.vocabulary().rotor;
+    let brake = drive.motor.brake_inertia();
+    contributions.add(
+        (PartKind::Drive, rotor),
+        Effect::Rotor,
+        drive.motor.rotor_inertia * alpha,
+    );
+    contributions.add_inertia(rotor, drive.motor.rotor_inertia);
+    contributions.add(
+        (PartKind::Drive, "brake of the motor"),
+        Effect::Rotor,
+        brake * alpha,
+    );
+    contributions.add_inertia("brake of the motor", brake);
+    contributions.add(
+        (PartKind::Drive, "motor friction"),
+        Effect::Friction,
+        viscous * speed + own_coulomb * sign,
+    );
+}
