@@ -4,6 +4,7 @@
 //! - d'Alembert's drive torque is that of the reduced equation, and every link is in equilibrium about the point of each of
 //!   its reactions.
 //! - The reduced kinetic energy is that of the links one by one.
+//! - Transfer functions, J′, J″ and U′ are the derivatives of what they are called after.
 //! - No link jumps over the drive's range.
 //!
 //! The closed forms against the general solver: `library_as_linkages.rs`. What belongs to one mechanism alone stands in its
@@ -13,6 +14,7 @@ use std::f64::consts::TAU;
 
 use proptest::prelude::*;
 
+use crate::support::derivatives::derivatives;
 use crate::support::jointed::{holds, turns};
 use crate::support::{cams, config};
 use crate::{
@@ -33,6 +35,11 @@ macro_rules! conforms {
                 #[test]
                 fn joints_close_and_forces_balance(machine in $machines, phi in $phi, omega in $omega, alpha in $alpha) {
                     holds(&machine, phi, omega, alpha);
+                }
+
+                #[test]
+                fn curves_are_derivatives(machine in $machines, phi in $phi) {
+                    derivatives(&machine, phi);
                 }
 
                 $(#[test]

@@ -8,6 +8,15 @@ use crate::support::cams::{follower, four, links};
 use jred::machine::motion::Law;
 use jred::mechanism::cam::{CamError, Program, Segment};
 use jred::mechanism::{DiscCam, Follower, Roller, RollerDimensions, Swing};
+use jred::number::RangeError;
+
+fn roller_of(radius: f64, mass: f64, inertia: f64) -> Result<Roller, RangeError> {
+    Roller::new(RollerDimensions {
+        radius,
+        mass,
+        inertia,
+    })
+}
 
 /// Undercut names the place, the radius and the base radius that cures it: a flat face needs r_b > −min(s + s″).
 #[test]
@@ -82,12 +91,7 @@ fn refused(program: Program, base_radius: f64, follower: Follower) -> String {
 
 #[test]
 fn impossible_cams_are_refused() {
-    let roller = Roller::new(RollerDimensions {
-        radius: 0.01,
-        mass: 0.1,
-        inertia: 1e-5,
-    })
-    .unwrap();
+    let roller = roller_of(0.01, 0.1, 1e-5).unwrap();
     let face = Follower::TranslatingFace { offset: 0.0 };
     let sliding = |offset| Follower::TranslatingRoller { offset, roller };
     let arm = |pivot, arm| Follower::OscillatingRoller {
@@ -170,14 +174,7 @@ fn impossible_cams_are_refused() {
         "{message}"
     );
     for (radius, mass, inertia) in [(0.0, 1.0, 1.0), (0.01, -1.0, 1.0), (0.01, 1.0, f64::NAN)] {
-        assert!(
-            Roller::new(RollerDimensions {
-                radius,
-                mass,
-                inertia
-            })
-            .is_err()
-        );
+        assert!(roller_of(radius, mass, inertia).is_err());
     }
     let message = refused(four(0.03), 0.01, face);
     assert!(message.starts_with("undercut at φ = "), "{message}");

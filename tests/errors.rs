@@ -135,19 +135,6 @@ fn values_out_of_bounds_are_named() {
         Load::new(0, Action::ViscousMoment(-3.0)),
         &["viscous", "-3"],
     );
-    says(Window::new(Domain::Turn, [1.0, 1.5], 0.0), &["ramp", "0"]);
-    says(
-        Window::new(Domain::Turn, [1.0, 0.5], 0.1),
-        &["width", "-0.5"],
-    );
-    says(
-        Window::new(Domain::Turn, [1.0, 1.5], 0.3),
-        &["width", "0.5", "0.6"],
-    );
-    says(
-        Window::new(Domain::Turn, [0.0, 7.0], 0.3),
-        &["width", "7", "6.28"],
-    );
     says(Scale::new(0.0, 1.0, 1.0), &["torque base", "0"]);
     says(Scale::new(1.0, -2.0, 1.0), &["speed base", "-2"]);
     says(Scale::new(1.0, 1.0, -2.0), &["inertia base", "-2"]);
@@ -174,6 +161,15 @@ fn values_out_of_bounds_are_named() {
         Move::new(trapezoid_law(), 0.0, 1.0, 0.0),
         &["duration", "0"],
     );
+}
+
+#[test]
+fn windows_out_of_bounds_are_named() {
+    let window = |range, ramp| Window::new(Domain::Turn, range, ramp);
+    says(window([1.0, 1.5], 0.0), &["ramp", "0"]);
+    says(window([1.0, 0.5], 0.1), &["width", "-0.5"]);
+    says(window([1.0, 1.5], 0.3), &["width", "0.5", "0.6"]);
+    says(window([0.0, 7.0], 0.3), &["width", "7", "6.28"]);
 }
 
 fn trapezoid_law() -> Law {

@@ -73,7 +73,6 @@ fn kinks_and_hidden_harmonics_are_refused() {
 }
 
 #[test]
-#[expect(clippy::too_many_lines, reason = "one request after another")]
 fn bad_requests_are_named() {
     let machine = press();
     let stroke = Wave {

@@ -102,9 +102,9 @@ impl<M: Jointed> Machine<M> {
         // in whichever order they are named. So it changes the drive's effort and no reaction.
         let inertia = -self.flywheel() * driven.coordinate(&frames).acceleration(omega, alpha);
         let unit_drive = driven.unit_drive(&frames);
-        unit_drive
-            .iter()
-            .for_each(|on| balance.add(&on.times(inertia)));
+        for on in &unit_drive {
+            balance.add(&on.times(inertia));
+        }
         self.add_active_forces(&mut balance, phi, omega)?;
         let (shaking_force, shaking_moment) = balance.add_inertia_forces(omega, alpha);
         // Σ unknown reactions = −(active forces + inertia forces)

@@ -421,8 +421,10 @@ impl<M: Mechanism> Reducible for Machine<M> {
                 let [a, b] = [element.effort(&now, 1.0), element.effort(&later, 1.0)];
                 math::abs(a - b) <= REPEATS * (math::abs(a) + math::abs(b))
             });
-            let [inertia, later] = [phi, phi + TAU].map(|phi| self.bare_reduction(phi));
-            let [a, b] = [inertia?.inertia, later?.inertia];
+            let [a, b] = [&now, &later].map(|frames| {
+                let links = self.each_link(frames).map(|[inertia, ..]| inertia);
+                links.sum::<f64>() + self.flywheel
+            });
             let inert = math::abs(a - b) <= REPEATS * (math::abs(a) + math::abs(b));
             if !(forced && weighed && sprung && inert) {
                 return Err(PoseError::NotPeriodic { phi });

@@ -20,8 +20,6 @@ pub trait Ring:
 /// A curve is evaluated in [`Raw`](Self::Raw) numbers, in a format that its [`Role`] fixes; see `fixed` for those of the
 /// fixed-point types. For floating point every format is the plain number.
 pub trait Kernel: Number {
-    /// A number as it lies in a table image.
-    type Word: bytemuck::Pod + Default + fmt::Debug + PartialEq;
     /// What polynomials are evaluated and torques are summed in.
     type Raw: Ring;
     /// As `Raw`, wide enough that no check overflows.
@@ -128,7 +126,6 @@ macro_rules! float {
         }
 
         impl Kernel for $float {
-            type Word = $float;
             type Raw = $float;
             type Wide = $float;
             type Factor = $float;

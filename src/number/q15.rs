@@ -37,6 +37,7 @@ impl Q15 {
 
 impl Number for Q15 {
     type Real = f32;
+    type Word = i16;
     const NAME: &'static str = "i16";
     const FIXED: bool = true;
 

@@ -68,6 +68,7 @@ const fn unit(role: Role) -> f64 {
 
 impl Number for Q31 {
     type Real = f32;
+    type Word = i32;
     const NAME: &'static str = "i32";
     const FIXED: bool = true;
 
@@ -90,7 +91,6 @@ impl Number for Q31 {
 }
 
 impl Kernel for Q31 {
-    type Word = i32;
     type Raw = Wrapping<i32>;
     type Wide = i64;
     type Factor = i32;

@@ -13,6 +13,8 @@ pub trait Number:
 {
     /// The type for lengths and spans: `f64` for `f64`, otherwise `f32`.
     type Real: Real;
+    /// A number as it lies in a table: `f32`, `f64`, `i32` for `Q31`, `i16` for `Q15`.
+    type Word: bytemuck::Pod + Default + fmt::Debug + PartialEq;
     /// Name as the command line and the generated sources use it.
     const NAME: &'static str;
     /// Fixed point: the largest number is 1, and forward dynamics can do without a division.
@@ -29,6 +31,9 @@ pub trait Number:
 }
 
 /// A number in tables of polynomials: `f32`, `f64`, [`Q31`](crate::Q31). Sealed.
+///
+/// Its supertrait `Kernel` is the arithmetic behind a tick, which may change with every release: it cannot be named outside the
+/// crate.
 pub trait Scalar: Number + Kernel {}
 
 /// A result, and whether it was limited to the number's range.
@@ -47,6 +52,7 @@ macro_rules! float {
 
         impl Number for $float {
             type Real = $float;
+            type Word = $float;
             const NAME: &'static str = stringify!($float);
             const FIXED: bool = false;
 

@@ -26,70 +26,27 @@ fn stages_and_courses() {
         assert_eq!(text(stage.with_slip(slip, Flow::default())), expected);
         assert_eq!(text(Creep::new(CreepLimit { slip, torque: 5.0 })), expected);
     }
-    assert!(
-        CreepContact::new(CreepLimit {
-            slip: 0.0,
-            torque: 5.0
-        })
-        .is_err()
-            && CreepContact::new(CreepLimit {
-                slip: 0.1,
-                torque: 0.0
-            })
-            .is_err()
-    );
-    assert!(
-        Creep::new(CreepLimit {
-            slip: 0.1,
-            torque: -1.0
-        })
-        .is_err()
-    );
-    assert!(
-        Ramp::linear(
-            Variable::Time,
-            RampShape {
-                start: 0.0,
-                length: 0.0,
-                values: [1.0, 2.0]
-            }
-        )
-        .is_err()
-    );
-    assert!(
-        Ramp::new(
-            Variable::Time,
-            RampShape {
-                start: 0.0,
-                length: 1.0,
-                values: [1.0, f64::NAN]
-            },
-            Law::default()
-        )
-        .is_err()
-    );
-    assert!(
-        Sine::new(
-            Variable::Time,
-            SineShape {
-                mean: 1.0,
-                amplitude: 1.0,
-                frequency: f64::INFINITY,
-                phase: 0.0
-            }
-        )
-        .is_err()
-    );
+    let limit = |slip, torque| CreepLimit { slip, torque };
+    assert!(CreepContact::new(limit(0.0, 5.0)).is_err());
+    assert!(CreepContact::new(limit(0.1, 0.0)).is_err());
+    assert!(Creep::new(limit(0.1, -1.0)).is_err());
+    let shape = |length, last| RampShape {
+        start: 0.0,
+        length,
+        values: [1.0, last],
+    };
+    assert!(Ramp::linear(Variable::Time, shape(0.0, 2.0)).is_err());
+    let broken = shape(1.0, f64::NAN);
+    assert!(Ramp::new(Variable::Time, broken, Law::default()).is_err());
+    let endless = SineShape {
+        mean: 1.0,
+        amplitude: 1.0,
+        frequency: f64::INFINITY,
+        phase: 0.0,
+    };
+    assert!(Sine::new(Variable::Time, endless).is_err());
     // A ratio that passes through zero is refused where it does, not before.
-    let through = Ramp::linear(
-        Variable::Time,
-        RampShape {
-            start: 0.0,
-            length: 1.0,
-            values: [1.0, -1.0],
-        },
-    )
-    .unwrap();
+    let through = Ramp::linear(Variable::Time, shape(1.0, -1.0)).unwrap();
     let stage = Stage::new(&through).unwrap();
     assert!(stage.at(Place::new(0.4, 0.0, 0.0)).is_ok());
     assert_eq!(text(stage.at(Place::new(0.5, 0.0, 0.0))), zero);

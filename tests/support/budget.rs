@@ -180,6 +180,10 @@ pub(crate) const DALEMBERT: f64 = 1e-10;
 /// Joint reactions against 50-digit golden data, of the column's largest value.
 pub(crate) const REACTIONS: f64 = 1e-10;
 
+/// Rounding of a difference: 64 roundings of the curve, over the smallest step of 1/1024; relative to the curve and what it is the
+/// derivative of.
+pub(crate) const DIFFERENCES: f64 = 64.0 * 1024.0 * f64::EPSILON;
+
 /// A derivative by extrapolated differences of order 6 at a step of 1e-2, of the curve's size.
 pub(crate) const ENERGY_SLOPE: f64 = 1e-8;
 

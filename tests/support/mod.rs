@@ -3,6 +3,7 @@
 
 pub(crate) mod budget;
 pub(crate) mod cams;
+pub(crate) mod derivatives;
 pub(crate) mod exact;
 pub(crate) mod golden;
 pub(crate) mod harmonics;

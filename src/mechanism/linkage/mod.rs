@@ -21,8 +21,9 @@ pub use pair::Pair;
 pub use walk::Assembly;
 
 use crate::machine::error::MachineError;
-use crate::machine::joint::{Body, Joint};
+use crate::machine::joint::{Body, Joint, MAX_JOINTS};
 use crate::machine::link::{Frame, Link};
+use crate::machine::mechanism::MAX_LINKS;
 use crate::math;
 use crate::number::error::RangeError;
 use crate::number::error::finite;
@@ -101,11 +102,7 @@ impl<const LINKS: usize, const PAIRS: usize, const CAMS: usize> Linkage<LINKS, P
         cams: &[PlacedCam],
         drive: usize,
     ) -> Result<Self, LinkageError> {
-        const {
-            assert!(
-                LINKS <= crate::machine::MAX_LINKS && PAIRS <= crate::machine::joint::MAX_JOINTS
-            )
-        }
+        const { assert!(LINKS <= MAX_LINKS && PAIRS <= MAX_JOINTS) }
         let too_many = |what, capacity| RangeError::TooMany { what, capacity };
         let links = heapless::Vec::from_slice(links).map_err(|_| too_many("links", LINKS))?;
         let pairs: heapless::Vec<Pair, PAIRS> =

@@ -48,7 +48,7 @@ pub struct More<R> {
     gain: R,
 }
 
-pub(crate) type Word<L> = <<L as Layout>::Scalar as Kernel>::Word;
+pub(crate) type Word<L> = <<L as Layout>::Scalar as Number>::Word;
 type Raw<L> = <<L as Layout>::Scalar as Kernel>::Raw;
 type Fraction<L> = <<L as Layout>::Scalar as Kernel>::Fraction;
 
