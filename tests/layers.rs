@@ -142,6 +142,7 @@ const TOOL: [(&str, &[&str]); 4] = [
     (
         "sizing",
         &[
+            "threads",
             "catalogue",
             "motor",
             "cycle",
