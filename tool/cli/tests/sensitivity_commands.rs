@@ -199,7 +199,7 @@ fn draws_that_cannot_be_built_are_counted_apart() {
         .count();
     assert!((5..75).contains(&refused), "{refused}");
     let built = 80 - refused;
-    let words = format!("{refused} of 80 machines drawn cannot be built");
+    let words = format!("because they cannot be built: {refused} of 80 machines drawn");
     assert!(run.out.contains(&words), "{words}: {}", run.out);
     assert!(
         run.out.contains(&format!("shares are of {built} machines")),
