@@ -15,6 +15,8 @@ use crate::model::variator::Variator;
 /// The content of a machine file.
 #[derive(Clone, Debug)]
 pub struct MachineFile {
+    /// Name of the file, for messages.
+    pub name: String,
     /// Title for reports.
     pub title: String,
     /// The mechanism with gravity, loads and flywheel, *without* the drive train.
@@ -100,8 +102,8 @@ impl MachineFile {
                 help = format!(
                     "{instead}add a [motion], for example type = \"constant-speed\", speed = \"60 rpm\""
                 ),
-                "the machine file of \"{}\" has no [motion]",
-                self.title
+                "{} has no [motion]",
+                self.name
             )
         })
     }

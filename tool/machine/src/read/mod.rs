@@ -208,6 +208,7 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<MachineFile> {
                 .help(error.cure().to_string())
         })?;
     let file = MachineFile {
+        name: name.to_owned(),
         title,
         machine,
         flywheel,
