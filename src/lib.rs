@@ -126,7 +126,8 @@ pub use curve::{
 };
 pub use error::Error;
 pub use machine::link::Link;
-pub use machine::reduction::{Machine, Reducible, Reduction};
+pub use machine::reducible::Reducible;
+pub use machine::reduction::{Machine, Reduction};
 pub use number::phase::{Domain, Phase};
 pub use number::q15::Q15;
 pub use number::q31::Q31;

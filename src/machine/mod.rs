@@ -12,6 +12,7 @@ pub(crate) mod link;
 pub(crate) mod load;
 pub(crate) mod mechanism;
 pub mod motion;
+pub(crate) mod reducible;
 pub(crate) mod reduction;
 
 pub use element::{Element, MAX_ELEMENTS};
@@ -22,5 +23,5 @@ pub use link::Frame;
 pub(crate) use link::Link;
 pub use load::{Action, Load, LoadCurves, Window};
 pub use mechanism::{Frames, Jointed, MAX_LINKS, MAX_STAGES, Mechanism};
-pub(crate) use reduction::Reducible;
+pub(crate) use reducible::Reducible;
 pub use reduction::{MAX_LOADS, TorqueTerms};

@@ -12,58 +12,15 @@
 use crate::machine::error::MachineError;
 use crate::machine::error::PoseError;
 use crate::number::error::RangeError;
-use core::f64::consts::TAU;
 
 use crate::machine::element::{Element, MAX_ELEMENTS};
 use crate::machine::load::Load;
 use crate::machine::mechanism::{Frames, MAX_LINKS, Mechanism};
+use crate::math;
 use crate::number::error::{finite, not_negative};
-use crate::{Domain, math};
 
 /// The most loads of a machine.
 pub const MAX_LOADS: usize = 16;
-
-/// Anything that can be reduced to one link: the source of tables.
-pub trait Reducible {
-    /// Range of the drive link.
-    fn domain(&self) -> Domain;
-
-    /// The reduced link at the drive link's position `phi` (rad, or m for a sliding link).
-    ///
-    /// # Errors
-    /// The mechanism cannot be placed there, or the reduced inertia is not positive.
-    fn reduction(&self, phi: f64) -> Result<Reduction, PoseError>;
-
-    /// Whether a table of one turn represents every turn: inertia and loads are the same a turn later. Used for a drive link
-    /// that turns fully, before a table is made. This default checks three places.
-    ///
-    /// # Errors
-    /// [`PoseError::NotPeriodic`], with a place where they differ; those of [`reduction`](Self::reduction).
-    fn check_repeats(&self) -> Result<(), PoseError> {
-        for phi in SAMPLES {
-            let [now, later] = [self.reduction(phi)?, self.reduction(phi + TAU)?];
-            for (a, b) in [
-                (now.inertia, later.inertia),
-                (now.load_torque(), later.load_torque()),
-                (now.viscous, later.viscous),
-                (now.coulomb, later.coulomb),
-            ] {
-                // U′ and the process may cancel in the load torque.
-                let size = math::abs(a) + math::abs(b) + math::abs(now.process);
-                if math::abs(a - b) > REPEATS * size {
-                    return Err(PoseError::NotPeriodic { phi });
-                }
-            }
-        }
-        Ok(())
-    }
-}
-
-/// Places to compare with those a turn later.
-const SAMPLES: [f64; 3] = [0.4, 2.9, 5.1];
-
-/// Largest difference between two turns, of the size compared: roundings of φ + 2π, and of the sums.
-const REPEATS: f64 = 1e-6;
 
 /// The reduced link at one position.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -370,66 +327,13 @@ impl<M: Mechanism> Machine<M> {
         Ok(reduction)
     }
 
-    fn each_link<'a>(&'a self, frames: &'a Frames) -> impl Iterator<Item = [f64; 3]> + 'a {
+    pub(super) fn each_link<'a>(
+        &'a self,
+        frames: &'a Frames,
+    ) -> impl Iterator<Item = [f64; 3]> + 'a {
         let links = self.mechanism.links().iter();
         links
             .zip(frames)
             .map(|(link, frame)| link.reduced_inertia(frame))
-    }
-}
-
-impl<M: Mechanism> Reducible for Machine<M> {
-    fn domain(&self) -> Domain {
-        self.mechanism.domain()
-    }
-
-    fn reduction(&self, phi: f64) -> Result<Reduction, PoseError> {
-        let reduction = self.bare_reduction(phi)?;
-        if reduction.inertia > 0.0 {
-            Ok(reduction)
-        } else {
-            Err(PoseError::NoInertia { phi })
-        }
-    }
-
-    /// Decided by the inertia and by where the links are a turn later, not by the size of the loads, which may act in a
-    /// part of the turn only: a force or a weight of fixed direction needs a link that points the same way again, a spring the
-    /// same length.
-    fn check_repeats(&self) -> Result<(), PoseError> {
-        let links = self.mechanism.links();
-        for phi in SAMPLES {
-            let [now, later] = [
-                self.mechanism.frames(phi)?,
-                self.mechanism.frames(phi + TAU)?,
-            ];
-            let comes_back = |link: usize| {
-                now.get(link).zip(later.get(link)).is_none_or(|(a, b)| {
-                    let turns = (b.psi.value - a.psi.value) / TAU;
-                    math::abs(turns - math::floor(turns + 0.5)) <= REPEATS
-                })
-            };
-            let heavy = |link: usize| {
-                let off_axis = links
-                    .get(link)
-                    .is_some_and(|l| l.mass() > 0.0 && !l.is_centred());
-                off_axis && self.gravity.iter().any(|g| math::abs(*g) > 0.0)
-            };
-            let mut pulled = self.loads.iter().filter(|load| load.has_fixed_direction());
-            let forced = pulled.all(|load| comes_back(load.link()));
-            let weighed = (0..links.len()).all(|link| !heavy(link) || comes_back(link));
-            let sprung = self.elements.iter().all(|element| {
-                let [a, b] = [element.effort(&now, 1.0), element.effort(&later, 1.0)];
-                math::abs(a - b) <= REPEATS * (math::abs(a) + math::abs(b))
-            });
-            let [a, b] = [&now, &later].map(|frames| {
-                let links = self.each_link(frames).map(|[inertia, ..]| inertia);
-                links.sum::<f64>() + self.flywheel
-            });
-            let inert = math::abs(a - b) <= REPEATS * (math::abs(a) + math::abs(b));
-            if !(forced && weighed && sprung && inert) {
-                return Err(PoseError::NotPeriodic { phi });
-            }
-        }
-        Ok(())
     }
 }

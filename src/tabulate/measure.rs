@@ -2,7 +2,8 @@
 
 use super::{CHECKS_PER_CELL, Request, Tabulated};
 use crate::curve::{CurveValues, Format, Table};
-use crate::machine::reduction::{Reducible, Reduction};
+use crate::machine::reducible::Reducible;
+use crate::machine::reduction::Reduction;
 use crate::{Domain, Error, Phase, math};
 
 /// The largest torque error of a table within the range of the request. With 16 bits the roundings of the tick count, and are

@@ -10,7 +10,7 @@ use super::search::smallest;
 use super::{CHECKS_PER_CELL, COARSE_CHECKS, EXHAUSTIVE, Request, Tabulated};
 use crate::Error;
 use crate::curve::{Format, Table};
-use crate::machine::reduction::Reducible;
+use crate::machine::reducible::Reducible;
 
 /// Cells on each side of the worst place that are looked at.
 const NEIGHBOURS: u32 = 8;

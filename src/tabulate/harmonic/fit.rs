@@ -14,7 +14,7 @@ use crate::curve::{
     Circular, Coefficient, Curve, Format, Harmonic, Kind, MAX_HARMONICS, Shape, Table, in_use,
     words_len,
 };
-use crate::machine::reduction::Reducible;
+use crate::machine::reducible::Reducible;
 use crate::number::Number;
 use crate::number::error::{RangeError, positive};
 use crate::tabulate::{Request, torque_between};

@@ -15,7 +15,7 @@ use core::f64::consts::TAU;
 
 use crate::curve::Curve;
 use crate::curve::unfold;
-use crate::machine::reduction::Reducible;
+use crate::machine::reducible::Reducible;
 use crate::number::error::finite;
 use crate::{Error, math};
 

@@ -1,5 +1,8 @@
 //! `[supply]`, `[surroundings]` and `[duty]` of the machine file: values, and what a user is told about wrong ones.
 
+// Copied figures are exact.
+#![allow(clippy::float_cmp)]
+
 use std::path::Path;
 
 use crate::reading::{rendered, says};

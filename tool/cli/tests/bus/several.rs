@@ -1,6 +1,9 @@
 //! `jred bus` with several axes: three and more, periods that do not meet, named drives, resistors of a catalogue, and whose
 //! `[supply]` counts.
 
+// A check repeats the figure that it judges.
+#![allow(clippy::float_cmp)]
+
 use std::path::PathBuf;
 
 use serde_json::Value;

@@ -189,19 +189,11 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<MachineFile> {
     duty_type::read(&root, &mut site)?;
     root.finish()?;
 
-    let machine = Machine::new(mechanism)
-        .with_gravity(gravity)
-        .and_then(|machine| machine.with_flywheel(flywheel))
-        .and_then(|machine| {
-            loads
-                .iter()
-                .try_fold(machine, |m, named| m.with_load(named.load))
-        })
-        .and_then(|machine| {
-            elements
-                .iter()
-                .try_fold(machine, |m, named| m.with_element(named.element))
-        })
+    let loaded =
+        (loads.iter()).try_fold(Machine::new(mechanism), |m, named| m.with_load(named.load));
+    let machine = loaded
+        .and_then(|m| (elements.iter()).try_fold(m, |m, named| m.with_element(named.element)))
+        .and_then(|m| m.with_gravity(gravity)?.with_flywheel(flywheel))
         .map_err(|error| {
             section
                 .problem(error.to_string(), "in this machine")
