@@ -100,6 +100,9 @@
 //! Ticks run in the numbers of the table's [`Format`](table::Format): `f32` (SI units, no double precision anywhere), [`Q31`] and [`Q15`] (fixed
 //! point in per-unit, see [`Scale`]; integers only), or `f64`. The same code gives the same bits on every processor.
 //!
+//! A table in fixed point needs machine units that its curves fit in: [`Scale::covering`] chooses them. Which curves a machine
+//! has, [`tabulate::curves_in_use`] says.
+//!
 //! # Features
 //!
 //! - `defmt`: `defmt::Format` for the public value types;

@@ -20,8 +20,18 @@ const FOREIGN: [(&[&str], &str); 18] = [
     (&["h", "hr", "hour"], "1 h = 3600 s"),
     (&["sec", "second", "seconds"], "seconds are \"s\""),
     (
-        &["turn", "turns", "rev", "revolution", "revolutions", "U"],
-        "1 turn = 360 deg; turns per minute are \"rpm\"",
+        &[
+            "turn",
+            "turns",
+            "rev",
+            "r",
+            "revolution",
+            "revolutions",
+            "U",
+            "stroke",
+            "strokes",
+        ],
+        "1 turn = 360 deg; turns per minute, or strokes of a crank, are \"rpm\"",
     ),
     (&["grad", "gon"], "1 gon = 0.9 deg"),
     (&["degrees", "Deg", "DEG", "Grad"], "degrees are \"deg\""),
@@ -177,6 +187,11 @@ fn factor(token: &str, words: &'static [Word]) -> Result<(&'static Word, i8), Fa
 fn cure(word: &str, exponent: &str) -> String {
     if let Some((_, cure)) = FOREIGN.iter().find(|(words, _)| words.contains(&word)) {
         return format!("this unit is not accepted here: {cure}");
+    }
+    // "Kg" is no kelvin times gram.
+    let mut same = (WORDS.iter()).filter(|known| known.text.eq_ignore_ascii_case(word));
+    if let (Some(known), None) = (same.next(), same.next()) {
+        return format!("did you mean \"{}\"?", known.text);
     }
     if let Some(words) = apart(word, exponent, WORDS) {
         return format!("write it as \"{words}\"");

@@ -104,3 +104,19 @@ fn units_of_data_sheets() {
         assert!(read_listed(unit).is_err(), "{unit}");
     }
 }
+
+#[test]
+fn a_slip_of_the_shift_key_is_not_taken_for_a_product() {
+    for (text, cure) in [
+        ("Kg", "did you mean \"kg\"?"),
+        ("KN", "did you mean \"kN\"?"),
+        ("KG cm^2", "did you mean \"kg\"?"),
+        ("kgcm^2", "write it as \"kg cm^2\""),
+    ] {
+        assert_eq!(read(text).unwrap_err().help, cure, "{text}");
+    }
+    for text in ["r/min", "strokes/min"] {
+        let fault = read(text).unwrap_err();
+        assert!(fault.help.contains("\"rpm\""), "{text}: {fault:?}");
+    }
+}
