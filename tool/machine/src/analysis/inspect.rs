@@ -126,6 +126,7 @@ impl Findings {
         let start = domain.position(0.0);
         let frames = mechanism.frames(start)?;
         let joints = mechanism.joints(start, &frames)?;
+        let machine = file.with_drive_train()?;
         Ok(Self {
             title: file.title.clone(),
             kind: mechanism.kind(),
@@ -136,8 +137,8 @@ impl Findings {
             closure: closure(mechanism)?,
             travels: centres::travels(mechanism)?,
             transmission: transmission(file)?,
-            inertia: agreement::inertia(file)?,
-            agreement: agreement::agreement(file)?,
+            inertia: agreement::inertia(&machine)?,
+            agreement: agreement::agreement(file, &machine)?,
             facts: facts(file)?,
             notes: crate::model::variator::integrability_text(file)
                 .into_iter()

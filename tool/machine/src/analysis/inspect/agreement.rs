@@ -43,8 +43,8 @@ pub struct Agreement {
     pub energy: Option<f64>,
 }
 
-pub(super) fn inertia(file: &MachineFile) -> Result<Inertia, Error> {
-    let machine = file.with_drive_train()?;
+/// Of a machine with its drive train.
+pub(super) fn inertia(machine: &Machine<AnyMechanism>) -> Result<Inertia, Error> {
     let values = whole_range(machine.domain(), STEPS)
         .map(|phi| Ok(machine.bare_reduction(phi)?.inertia))
         .collect::<Result<Vec<f64>, Error>>()?;
@@ -70,8 +70,11 @@ pub(super) fn inertia(file: &MachineFile) -> Result<Inertia, Error> {
     })
 }
 
-pub(super) fn agreement(file: &MachineFile) -> Result<Agreement, Error> {
-    let machine = file.with_drive_train()?;
+/// Of a machine file, and its machine with the drive train.
+pub(super) fn agreement(
+    file: &MachineFile,
+    machine: &Machine<AnyMechanism>,
+) -> Result<Agreement, Error> {
     let states: Vec<[f64; 3]> = match &file.motion {
         Some(motion) => (0..=STEPS)
             .map(|k| motion.at(motion.duration() * k as f64 / STEPS as f64))
@@ -99,7 +102,7 @@ pub(super) fn agreement(file: &MachineFile) -> Result<Agreement, Error> {
         worst
     };
     let energy = match &file.motion {
-        Some(motion) => Some(balance(file, &machine, motion)?),
+        Some(motion) => Some(balance(file, machine, motion)?),
         None => None,
     };
     Ok(Agreement {
