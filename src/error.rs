@@ -17,6 +17,30 @@ use crate::tick::ImageError;
 ///
 /// Values are in SI units (m, kg, s, rad); angles of the drive link are printed in degrees as well. The message says what
 /// is wrong, [`cure`](Self::cure) what to do about it.
+///
+/// A later version may add errors, so a `match` needs an arm for the rest:
+///
+/// ```
+/// # use jred::Error;
+/// fn is_about_the_image(error: &Error) -> bool {
+///     match error {
+///         Error::Image(_) => true,
+///         _ => false,
+///     }
+/// }
+/// ```
+///
+/// ```compile_fail,E0004
+/// # use jred::Error;
+/// fn is_about_the_image(error: &Error) -> bool {
+///     match error {
+///         Error::Image(_) => true,
+///         Error::Range(_) | Error::Pose(_) | Error::Machine(_) | Error::Build(_) | Error::Cam(_) => false,
+///         Error::Linkage(_) | Error::Friction(_) | Error::Harmonic(_) | Error::Table(_) => false,
+///         Error::TorqueErrorNotReached { .. } => false,
+///     }
+/// }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]

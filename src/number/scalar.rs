@@ -8,6 +8,58 @@ use crate::math::Real;
 /// A number of a tick: `f32`, `f64`, [`Q31`](crate::Q31) or [`Q15`](crate::Q15). Sealed.
 ///
 /// Floating point works in SI units or in per-unit, as its [`Scale`](crate::Scale) says; fixed point always in per-unit.
+///
+/// ```
+/// use jred::Q31;
+/// use jred::number::Number;
+///
+/// fn doubled<S: Number>(x: S) -> Option<S> {
+///     S::from_f64(2.0 * x.to_f64())
+/// }
+/// assert_eq!(doubled(0.25), Some(0.5));
+/// assert_eq!(doubled(Q31::MAX), None);
+/// ```
+///
+/// A number of one's own does not compile, complete or not:
+///
+/// ```compile_fail,E0277
+/// use jred::Outcome;
+/// use jred::number::Number;
+///
+/// #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
+/// struct Mine(f32);
+///
+/// impl Number for Mine {
+///     type Real = f32;
+///     type Word = f32;
+///     const NAME: &'static str = "mine";
+///     const FIXED: bool = false;
+///     fn from_f64(value: f64) -> Option<Self> {
+///         Some(Self(value as f32))
+///     }
+///     fn to_f64(self) -> f64 {
+///         self.0.into()
+///     }
+///     fn per_unit(value: f32, base: f32) -> Outcome<Self> {
+///         Outcome { value: Self(value / base), saturated: false }
+///     }
+///     fn si(self, base: f32) -> f32 {
+///         self.0 * base
+///     }
+/// }
+/// ```
+///
+/// Nor is a number of 16 bits one of 32:
+///
+/// ```
+/// # use jred::{Q15, Q31};
+/// let half = Q31::from_bits(i32::from(Q15::from_bits(1 << 14).to_bits()) << 16);
+/// ```
+///
+/// ```compile_fail,E0308
+/// # use jred::{Q15, Q31};
+/// let half: Q31 = Q15::from_bits(1 << 14);
+/// ```
 pub trait Number:
     Copy + Default + PartialEq + PartialOrd + fmt::Debug + crate::sealed::Sealed + 'static
 {

@@ -31,13 +31,42 @@ use crate::{Error, Model, Scale};
 /// }
 /// ```
 ///
-/// A length that is not that of the table does not compile:
+/// A length that is not that of the table does not compile. 32 cells take 35 control points of J and 35 of the load:
 ///
-/// ```compile_fail
-/// use jred::tabulate::TableBuffer;
-/// use jred::{Spline, curves};
+/// ```
+/// # use jred::tabulate::TableBuffer;
+/// # use jred::{Spline, curves};
+/// let buffer = TableBuffer::<Spline<f32>, { curves::LOAD }, 32, 70>::new();
+/// ```
 ///
+/// ```compile_fail,E0080
+/// # use jred::tabulate::TableBuffer;
+/// # use jred::{Spline, curves};
 /// let buffer = TableBuffer::<Spline<f32>, { curves::LOAD }, 32, 35>::new();
+/// ```
+///
+/// Nor does a table that is made anew while the model over the last one is in use:
+///
+/// ```
+/// # use jred::tabulate::TableBuffer;
+/// # use jred::{Error, Machine, Phase, Scale, Spline};
+/// # type Buffer = TableBuffer::<Spline<f32>, 0, 32, 35>;
+/// # fn twice(buffer: &mut Buffer, machine: &impl jred::Reducible, scratch: &mut [f64]) -> Result<f32, Error> {
+/// let before = buffer.fill(machine, 32, &Scale::SI, scratch)?.torque(Phase::default(), 0.0, 1.0);
+/// let after = buffer.fill(machine, 32, &Scale::SI, scratch)?.torque(Phase::default(), 0.0, 1.0);
+/// # Ok(after - before)
+/// # }
+/// ```
+///
+/// ```compile_fail,E0499
+/// # use jred::tabulate::TableBuffer;
+/// # use jred::{Error, Machine, Phase, Scale, Spline};
+/// # type Buffer = TableBuffer::<Spline<f32>, 0, 32, 35>;
+/// # fn twice(buffer: &mut Buffer, machine: &impl jred::Reducible, scratch: &mut [f64]) -> Result<f32, Error> {
+/// let before = buffer.fill(machine, 32, &Scale::SI, scratch)?;
+/// let after = buffer.fill(machine, 32, &Scale::SI, scratch)?;
+/// # Ok(after.torque(Phase::default(), 0.0, 1.0) - before.torque(Phase::default(), 0.0, 1.0))
+/// # }
 /// ```
 #[derive(Clone, Debug)]
 pub struct TableBuffer<F: Format, const SET: Set, const CELLS: u32, const WORDS: usize> {

@@ -45,6 +45,18 @@ const COARSE_CHECKS: u32 = 8;
 pub const EXHAUSTIVE: u32 = 128;
 
 /// What a table is for.
+///
+/// ```
+/// # use jred::tabulate::Request;
+/// let request = Request::new(0.01).with_omega(60.0).with_alpha(400.0).with_max_cells(128);
+/// ```
+///
+/// It may have more fields one day, so a program cannot list them:
+///
+/// ```compile_fail,E0639
+/// # use jred::tabulate::Request;
+/// let request = Request { torque_error: 0.01, omega: 60.0, alpha: 400.0, max_cells: 128 };
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Request {

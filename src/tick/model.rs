@@ -19,18 +19,61 @@ use crate::{Outcome, Phase};
 /// Everything was checked when it was built: [`torque`](Self::torque), [`acceleration`](Self::acceleration) and
 /// [`acceleration_range`](Self::acceleration_range) neither fail nor panic nor allocate, and take the same path every time.
 ///
-/// A model in per-unit takes no SI numbers, and a model of one set of curves is none of another:
+/// A tick takes a [`Phase`] and numbers of the model's format:
 ///
-/// ```compile_fail
+/// ```
 /// # use jred::{Model, Phase, Q31, Spline};
-/// fn torque(model: &Model<Spline<Q31>, 0>) -> Q31 {
-///     model.torque(Phase::default(), 10.0, 50.0)
+/// fn torque(model: &Model<Spline<Q31>, 0>, omega: Q31, alpha: Q31) -> Q31 {
+///     model.torque(Phase::from_radians(0.5), omega, alpha)
 /// }
 /// ```
 ///
-/// ```compile_fail
+/// These do not compile: an angle in radians,
+///
+/// ```compile_fail,E0308
+/// # use jred::{Model, Phase, Q31, Spline};
+/// fn torque(model: &Model<Spline<Q31>, 0>, omega: Q31, alpha: Q31) -> Q31 {
+///     model.torque(0.5, omega, alpha)
+/// }
+/// ```
+///
+/// SI numbers in a model in per-unit,
+///
+/// ```compile_fail,E0308
+/// # use jred::{Model, Phase, Q31, Spline};
+/// fn torque(model: &Model<Spline<Q31>, 0>) -> Q31 {
+///     model.torque(Phase::from_radians(0.5), 10.0, 50.0)
+/// }
+/// ```
+///
+/// and numbers of 16 bits in a model of 32:
+///
+/// ```compile_fail,E0308
+/// # use jred::{Model, Phase, Q15, Q31, Spline};
+/// fn torque(model: &Model<Spline<Q31>, 0>, omega: Q15, alpha: Q15) -> Q31 {
+///     model.torque(Phase::from_radians(0.5), omega, alpha)
+/// }
+/// ```
+///
+/// A model of one format or set of curves is none of another:
+///
+/// ```
 /// # use jred::{Model, Spline, curves};
-/// fn narrowed<'a>(model: Model<'a, Spline<f32>, { curves::LOAD }>) -> Model<'a, Spline<f32>, 0> {
+/// fn same<'a>(model: Model<'a, Spline<f32>, { curves::LOAD }>) -> Model<'a, Spline<f32>, { curves::LOAD }> {
+///     model
+/// }
+/// ```
+///
+/// ```compile_fail,E0308
+/// # use jred::{Cubic, Model, Spline, curves};
+/// fn same<'a>(model: Model<'a, Cubic<f32>, { curves::LOAD }>) -> Model<'a, Spline<f32>, { curves::LOAD }> {
+///     model
+/// }
+/// ```
+///
+/// ```compile_fail,E0308
+/// # use jred::{Model, Spline, curves};
+/// fn same<'a>(model: Model<'a, Spline<f32>, { curves::INERTIA }>) -> Model<'a, Spline<f32>, { curves::LOAD }> {
 ///     model
 /// }
 /// ```

@@ -43,6 +43,36 @@ use crate::{Outcome, Phase, Scale};
 pub(crate) const CONSTANTS: usize = 11;
 
 /// A way to store and evaluate curves. Sealed: [`Spline`], [`Spline16`], [`Cubic`], [`Quadratic`], [`Rows16`], [`Harmonic`].
+///
+/// A program can be generic over it, for any number that the format has:
+///
+/// ```
+/// # use jred::table::{Format, words_len};
+/// # use jred::{Cubic, Harmonic, Q31, Rows16, Spline, curves};
+/// const fn bytes<F: Format>(cells: u32) -> usize {
+///     words_len::<F>(cells, curves::LOAD) * size_of::<F::Word>()
+/// }
+/// let all = [bytes::<Spline<f32>>(64), bytes::<Cubic<Q31>>(64), bytes::<Rows16>(64), bytes::<Harmonic<f32>>(64)];
+/// ```
+///
+/// Splines have no numbers of 16 bits, harmonics no fixed point, and nobody can add a format:
+///
+/// ```compile_fail,E0277
+/// # use jred::{Q15, Spline, curves, table::words_len};
+/// let words = words_len::<Spline<Q15>>(64, curves::LOAD);
+/// ```
+///
+/// ```compile_fail,E0277
+/// # use jred::{Harmonic, Q31, curves, table::words_len};
+/// let words = words_len::<Harmonic<Q31>>(64, curves::LOAD);
+/// ```
+///
+/// ```compile_fail,E0277
+/// # use jred::{Outcome, Phase, Scale, Set, table::{CurveValues, Format, Table, TableError, Usage}};
+/// #[derive(Clone, Copy, Debug, PartialEq)]
+/// struct Mine;
+/// impl Format for Mine {}
+/// ```
 pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 'static {
     /// Numbers that a tick takes and gives.
     type Number: Number;

@@ -164,6 +164,32 @@ impl<'a> Image<'a> {
 
     /// The model, its table in place in the image.
     ///
+    /// Its format and its set of curves are named where the program is written:
+    ///
+    /// ```
+    /// # use jred::{Image, ImageError, Model, Spline, curves};
+    /// fn model<'a>(image: &Image<'a>) -> Result<Model<'a, Spline<f32>, { curves::LOAD }>, ImageError> {
+    ///     image.model::<Spline<f32>, { curves::LOAD }>()
+    /// }
+    /// ```
+    ///
+    /// Neither another format nor a set that is known only when the program runs compiles:
+    ///
+    /// ```compile_fail,E0308
+    /// # use jred::{Image, ImageError, Model, Q31, Spline, curves};
+    /// fn model<'a>(image: &Image<'a>) -> Result<Model<'a, Spline<f32>, { curves::LOAD }>, ImageError> {
+    ///     image.model::<Spline<Q31>, { curves::LOAD }>()
+    /// }
+    /// ```
+    ///
+    /// ```compile_fail,E0435
+    /// # use jred::{Image, ImageError, Model, Spline, curves};
+    /// fn model<'a>(image: &Image<'a>) -> Result<Model<'a, Spline<f32>, { curves::LOAD }>, ImageError> {
+    ///     let set = image.set();
+    ///     image.model::<Spline<f32>, { set }>()
+    /// }
+    /// ```
+    ///
     /// # Errors
     /// Another number type, format or other curves than the image has, or a table that is not sound.
     pub fn model<F: Format, const SET: Set>(&self) -> Result<Model<'a, F, SET>, ImageError> {
@@ -171,6 +197,29 @@ impl<'a> Image<'a> {
     }
 
     /// The model, for a program that does not know its curves when it is compiled.
+    ///
+    /// It borrows the words of the image, as every model does:
+    ///
+    /// ```
+    /// # use jred::{Image, ImageError, Phase, Spline};
+    /// fn torque(words: &mut [u32]) -> Result<f32, ImageError> {
+    ///     let model = Image::new(words)?.any_model::<Spline<f32>>()?;
+    ///     let torque = model.torque(Phase::default(), 10.0, 50.0);
+    ///     words[0] = 0;
+    ///     Ok(torque)
+    /// }
+    /// ```
+    ///
+    /// so it does not compile to overwrite them before the last tick:
+    ///
+    /// ```compile_fail,E0506
+    /// # use jred::{Image, ImageError, Phase, Spline};
+    /// fn torque(words: &mut [u32]) -> Result<f32, ImageError> {
+    ///     let model = Image::new(words)?.any_model::<Spline<f32>>()?;
+    ///     words[0] = 0;
+    ///     Ok(model.torque(Phase::default(), 10.0, 50.0))
+    /// }
+    /// ```
     ///
     /// # Errors
     /// As [`model`](Self::model).
