@@ -9,13 +9,13 @@ pub mod split;
 pub mod tolerance;
 pub mod vary;
 
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use miette::{IntoDiagnostic as _, Result, WrapErr as _, miette};
+use miette::{Result, miette};
 
 use crate::commands::core_error::core_report;
 use crate::options;
+use crate::output;
 use jred_machine::analysis::contact::OneWay;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::analysis::inspect::Findings;
@@ -26,10 +26,11 @@ use jred_machine::export::{Choice, Export, Failure, Form, Number, Task};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
 use jred_machine::read;
+use jred_machine::text::plain;
 use jred_report::list::alternatives;
 use jred_report::list::inspection;
 use jred_report::page;
-use jred_report::table::output;
+use jred_report::table::output as sheet;
 use jred_report::table::output::Format;
 
 /// How a command ended without an error.
@@ -71,6 +72,7 @@ pub fn run(command: &options::Command) -> Result<Done> {
 
 fn run_reduce(options: &options::Reduce) -> Result<Done> {
     let file = read::read(&options.file)?;
+    output::check([("--report", &options.report)])?;
     variator::refuse(&file, "reduce")?;
     if options.over == Over::Time {
         if options.speed.is_some() {
@@ -105,9 +107,9 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
         warn(&file, state)?;
     }
     if let Some(path) = &options.report {
-        let name = options.file.display().to_string();
+        let name = plain::path(&options.file);
         let page = page::mechanism_page(&name, &file, state).map_err(core_report)?;
-        write(path, page.as_bytes(), &options.file)?;
+        output::write(path, page.as_bytes())?;
     }
     let mut title = if sets.curves {
         format!(
@@ -131,7 +133,7 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
     };
     match options.format {
         Format::Table => {
-            let mut text = output::write(&columns, Format::Table, &title);
+            let mut text = sheet::write(&columns, Format::Table, &title);
             if !largest.is_empty() {
                 let sentences: Vec<String> =
                     largest.iter().map(reduce::Largest::sentence).collect();
@@ -141,25 +143,25 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
             }
             if let Some(path) = &options.report {
                 text += "report written to ";
-                text += &path.display().to_string();
+                text += &plain::path(path);
                 text += "\n";
             }
             print(&text)
         }
         Format::Json if sets.reactions => {
-            let mut map = output::json(&columns);
+            let mut map = sheet::json(&columns);
             map.insert("title".into(), title.into());
             map.insert("largest".into(), serde_json::json!(largest));
             print(&format!("{:#}\n", serde_json::Value::Object(map)))
         }
-        Format::Csv | Format::Json => print(&output::write(&columns, options.format, &title)),
+        Format::Csv | Format::Json => print(&sheet::write(&columns, options.format, &title)),
     }
 }
 
 /// Warns on standard error if a contact separates at this speed and acceleration; the result is computed nevertheless.
 fn warn(file: &MachineFile, state: [f64; 2]) -> Result<()> {
     if let Some(words) = OneWay::warning(&file.machine, state).map_err(core_report)? {
-        eprintln!("{words}");
+        output::say(&words);
     }
     Ok(())
 }
@@ -198,27 +200,29 @@ fn run_check(options: &options::Check) -> Result<Done> {
 
 fn run_simulate(options: &options::Simulate) -> Result<Done> {
     let file = read::read(&options.file)?;
+    output::check([("--plot", &options.plot)])?;
     let simulation = file.simulation.as_ref().ok_or_else(|| {
         miette!(
             help = "add a [simulation] with start_angle, duration, output_step and torque; docs/machine-file.md shows how",
             "{} has no [simulation]",
-            options.file.display()
+            plain::path(&options.file)
         )
     })?;
     let columns = simulate::simulate(&file, simulation)?;
     if let Some(path) = &options.plot {
         let page = page::simulation_page(&file, simulation, &columns);
-        write(path, page.as_bytes(), &options.file)?;
+        output::write(path, page.as_bytes())?;
     }
     let title = format!(
         "{}: free motion, Dormand-Prince 8(5,3), tolerance {:e}",
         file.title, simulation.tolerance
     );
-    print(&output::write(&columns, options.format, &title))
+    print(&sheet::write(&columns, options.format, &title))
 }
 
 fn run_export(options: &options::Export) -> Result<Done> {
     let file = read::read(&options.file)?;
+    output::check([("--out", &options.out)])?;
     variator::refuse(&file, "export")?;
     let reciprocal = options.reciprocal == Choice::Yes;
     if reciprocal && options.number == Number::F32 {
@@ -262,14 +266,14 @@ fn run_export(options: &options::Export) -> Result<Done> {
     let export = match Export::new(&file, task) {
         Ok(export) => export,
         Err(Failure::NotReached(why)) => {
-            eprintln!("{why}");
+            output::say(&why);
             return Ok(Done::Violated);
         }
         Err(Failure::NoneFits { message, help }) => return Err(miette!(help = help, "{message}")),
         Err(Failure::Machine(error)) => return Err(core_report(error)),
     };
     if let Some(out) = &options.out {
-        write(out, &export.write(options.format), &options.file)?;
+        output::write(out, &export.write(options.format))?;
     }
     warn(&file, [omega, 0.0])?;
     match (&options.out, options.format) {
@@ -283,7 +287,7 @@ fn run_export(options: &options::Export) -> Result<Done> {
             "{}\n{}written to {}\n",
             export.summary(),
             alternatives::alternatives(&export),
-            out.display()
+            plain::path(out)
         )),
     }
 }
@@ -305,58 +309,7 @@ fn range(given: [Option<f64>; 2], file: &MachineFile) -> Result<(f64, f64)> {
     Ok((omega, alpha.unwrap_or(own)))
 }
 
-/// Prints to stdout; a closed pipe (`jred … | head`) is no error.
+/// Prints to stdout.
 pub(crate) fn print(text: &str) -> Result<Done> {
-    match std::io::stdout().write_all(text.as_bytes()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error)
-            .into_diagnostic()
-            .wrap_err("cannot write the result"),
-        _ => Ok(Done::Holds),
-    }
-}
-
-/// Refuses two output files with the same path.
-///
-/// # Errors
-/// They are.
-pub(crate) fn distinct(options: [&str; 2], paths: [&Path; 2]) -> Result<()> {
-    let [a, b] = paths.map(place);
-    if a != b {
-        return Ok(());
-    }
-    let [first, second] = options;
-    Err(miette!(
-        help = "use two different files",
-        "{first} and {second} both name {}: one would overwrite the other",
-        paths[1].display()
-    ))
-}
-
-/// Canonical path of a file that may not exist yet.
-fn place(path: &Path) -> PathBuf {
-    let of_folder = || {
-        let folder = path.parent().filter(|folder| *folder != Path::new(""));
-        let folder = folder.unwrap_or(Path::new(".")).canonicalize().ok()?;
-        Some(folder.join(path.file_name()?))
-    };
-    let own = path.canonicalize().ok();
-    own.or_else(of_folder).unwrap_or_else(|| path.to_owned())
-}
-
-/// Writes a file, but never over the machine file that it was made from.
-///
-/// # Errors
-/// A file that cannot be written.
-pub(crate) fn write(path: &Path, bytes: &[u8], machine: &Path) -> Result<()> {
-    let same = |a: &Path, b: &Path| Some(a.canonicalize().ok()? == b.canonicalize().ok()?);
-    if same(path, machine) == Some(true) {
-        return Err(miette!(
-            help = "choose another file",
-            "{} is the machine file: not overwritten",
-            path.display()
-        ));
-    }
-    std::fs::write(path, bytes)
-        .into_diagnostic()
-        .wrap_err_with(|| format!("cannot write {}", path.display()))
+    output::print(text).map(|()| Done::Holds)
 }

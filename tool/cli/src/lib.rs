@@ -2,4 +2,5 @@
 
 pub mod commands;
 pub mod options;
+pub mod output;
 pub mod rows;

@@ -258,7 +258,4 @@ fn without_a_motion() {
     .ends(0);
     let page = std::fs::read_to_string(report).unwrap();
     assert!(page.contains("<h2>Forces</h2>") && page.contains("<h2>Largest forces</h2>"));
-    jred([&"reduce", &file, &"--report", &file])
-        .ends(2)
-        .says(&["not overwritten"]);
 }

@@ -1,4 +1,5 @@
 //! The one test program of the command.
+#![allow(clippy::disallowed_methods, reason = "tests show paths that they made")]
 
 mod bus {
     //! `jred bus`.
@@ -15,6 +16,7 @@ mod envelope_commands;
 mod export;
 mod machines;
 mod meter;
+mod outputs;
 mod points;
 mod press;
 mod reactions;

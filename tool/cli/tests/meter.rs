@@ -62,5 +62,5 @@ fn without_a_drive_that_holds_nothing_is_written() {
     );
     // Never over the machine file.
     let run = jred([&"size", &file, &"--why", &DRIVE, &"--meter", &file]).ends(2);
-    run.says(&["is the machine file"]);
+    run.says(&["read by this command"]);
 }

@@ -9,6 +9,7 @@
 //! Every drive is judged by both ways first: verdicts and figures must agree. Instructions, counted by Valgrind, drives judged in
 //! full and memory are judged by `benches/ceilings.txt`, those of the synthetic catalogue; times depend on the machine and are
 //! printed. docs/performance.md has the results.
+#![allow(clippy::disallowed_methods, reason = "a benchmark shows its own paths")]
 
 #[path = "../../../benches/support/bench.rs"]
 mod bench;

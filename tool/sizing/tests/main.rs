@@ -1,4 +1,5 @@
 //! The one test program of the package.
+#![allow(clippy::disallowed_methods, reason = "tests show paths that they made")]
 
 mod brute;
 mod bus;

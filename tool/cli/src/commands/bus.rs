@@ -15,6 +15,7 @@ use jred_machine::model::site::Site;
 use jred_machine::model::supply::Supply;
 use jred_machine::model::variator;
 use jred_machine::read;
+use jred_machine::text::plain;
 use jred_report::list::listing;
 use jred_report::table::output::Format;
 use jred_sizing::bus::answer::{Answer, Axis};
@@ -91,8 +92,8 @@ fn supply(options: &Options, files: &[MachineFile]) -> Result<[Site; 2]> {
         return Err(miette!(
             help = "all axes on a bus share one supply: remove [supply] from one file or make both identical",
             "[supply] in {} differs from that in {}",
-            other.display(),
-            path.display()
+            plain::path(other),
+            plain::path(path)
         ));
     }
     let (supply, bus_voltage) = first.map_or((Supply::default(), None), |(_, stated)| stated);
@@ -159,7 +160,7 @@ fn axis(
         miette!(
             help = "give a catalogue with at least one motor",
             "no drive can be built for {}",
-            path.display()
+            plain::path(path)
         )
     })?;
     let drive = &candidate.drive;

@@ -6,13 +6,15 @@ use miette::{Report, Result, miette};
 
 use crate::commands::core_error::core_report;
 use crate::commands::vary::catalogue;
-use crate::commands::{Done, distinct, print, write};
+use crate::commands::{Done, print};
 use crate::options::Size;
+use crate::output;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
 use jred_machine::number::words::counted;
 use jred_machine::read;
+use jred_machine::text::plain;
 use jred_report::list::listing;
 use jred_report::page;
 use jred_report::table::output::Format;
@@ -26,14 +28,7 @@ use jred_sizing::select::size::Selection;
 ///
 /// # Errors
 /// Bad input, or a file that cannot be written.
-#[expect(
-    clippy::too_many_lines,
-    reason = "one command, from its options to its outputs"
-)]
 pub fn size(options: &Size) -> Result<Done> {
-    if let (Some(report), Some(meter)) = (&options.report, &options.meter) {
-        distinct(["--report", "--meter"], [report, meter])?;
-    }
     let mut file = read::read(&options.file)?;
     if let Some(set) = options.supply.rule_set()? {
         file.rules = read::rules_based_on(&file.rules, set)?;
@@ -42,6 +37,7 @@ pub fn size(options: &Size) -> Result<Done> {
     let motion = file.required_motion()?;
     let filter = options.search.filter();
     let mut catalogue = catalogue(&options.supply, &filter)?;
+    output::check([("--report", &options.report), ("--meter", &options.meter)])?;
     let objectives = options.pareto.as_ref().map_or(&[][..], |o| &o.0);
     options.search.check(&catalogue, objectives)?;
     fit_input(&mut catalogue, &file)?;
@@ -55,7 +51,7 @@ pub fn size(options: &Size) -> Result<Done> {
         return Err(none_left(options, catalogue.count(), &gaps));
     }
     for gap in gaps {
-        eprintln!("warning: {gap}");
+        output::say(&format!("warning: {gap}"));
     }
     if let Some(objectives) = &options.pareto {
         let front = Front::new(&selection, &objectives.0);
@@ -78,10 +74,10 @@ pub fn size(options: &Size) -> Result<Done> {
         });
     }
     if let Some(path) = &options.report {
-        let name = options.file.display().to_string();
+        let name = plain::path(&options.file);
         let page = page::page(&name, &file, &duty, &selection).map_err(core_report)?;
         let page = page.ok_or_else(|| none_left(options, catalogue.count(), &[]))?;
-        write(path, page.as_bytes(), &options.file)?;
+        output::write(path, page.as_bytes())?;
     }
     let list = listing::List {
         top: options.top,
@@ -111,12 +107,12 @@ pub fn size(options: &Size) -> Result<Done> {
                 explanation,
             ))?;
             if let Some(path) = &options.report {
-                print(&format!("report written to {}\n", path.display()))?;
+                print(&format!("report written to {}\n", plain::path(path)))?;
             }
             if let Some(path) = options.meter.as_ref().filter(|_| meter) {
                 print(&format!(
                     "limits for the duty meter written to {}\n",
-                    path.display()
+                    plain::path(path)
                 ))?;
             }
         }
@@ -193,25 +189,25 @@ fn write_meter(
 ) -> Result<bool> {
     let best = || selection.first_fit(1).first().copied();
     let Some(candidate) = asked.map(|asked| asked.candidate).or_else(best) else {
-        eprintln!(
+        output::say(&format!(
             "no drive satisfies every rule: {} is not written (--why DRIVE writes the limits of a drive that does not)",
-            path.display()
-        );
+            plain::path(path)
+        ));
         return Ok(false);
     };
     let context = selection.context(&candidate);
     let limits = MeterLimits::new(&context, selection.rules);
     let name = options.file.file_name().unwrap_or_default();
-    let machine = format!("{}, {}", name.display(), file.title);
-    write(path, limits.source(&machine).as_bytes(), &options.file)?;
+    let machine = format!("{}, {}", plain::path(name), file.title);
+    output::write(path, limits.source(&machine).as_bytes())?;
     let broken = limits.broken();
     if !broken.is_empty() {
-        eprintln!(
+        output::say(&format!(
             "warning: {} violates rules ({}): staying within the limits in {} does not make it acceptable",
             candidate.drive.name(),
             broken.join("; "),
-            path.display()
-        );
+            plain::path(path)
+        ));
     }
     Ok(true)
 }

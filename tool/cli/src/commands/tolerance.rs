@@ -5,6 +5,7 @@ use miette::{Result, miette};
 use crate::commands::vary::{stopped, study};
 use crate::commands::{Done, print};
 use crate::options::search::Tolerance as Options;
+use crate::output;
 use crate::rows::run::run;
 use jred_machine::model::tolerance::Tolerance;
 use jred_report::list::tolerance::sheet;
@@ -21,6 +22,7 @@ use jred_sizing::study::tolerance::{Samples, Scatter};
 pub fn tolerance(options: &Options) -> Result<Done> {
     let filter = options.search.filter();
     let study = study(&options.file, &options.supply, &filter)?;
+    output::check([("--out", &options.rows.out)])?;
     options.search.check(&study.catalogue, &[])?;
     let given = options.tolerance.iter().map(|text| given(text));
     let scatters = Scatter::all(&study, &given.collect::<Result<Vec<_>>>()?)?;

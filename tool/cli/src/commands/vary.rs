@@ -2,13 +2,15 @@
 
 use std::path::Path;
 
-use miette::{Result, miette};
+use miette::Result;
 
 use crate::commands::{Done, print};
 use crate::options::search::{Merge, Rows, SizingOptions, Vary};
+use crate::output;
 use crate::rows::merge::merge;
 use crate::rows::run::{Ended, Plan, run};
 use jred_machine::number::words::{Word as _, counted};
+use jred_machine::text::plain;
 use jred_report::table::rows::{RowFormat, table};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::select::filter::Filter;
@@ -56,6 +58,7 @@ impl Rows {
 pub fn vary(options: &Vary) -> Result<Done> {
     let filter = options.search.filter();
     let study = study(&options.file, &options.supply, &filter)?;
+    output::check([("--out", &options.rows.out)])?;
     options.search.check(&study.catalogue, &[])?;
     let axes = options
         .vary
@@ -85,7 +88,7 @@ pub fn vary(options: &Vary) -> Result<Done> {
         print(&format!(
             "{}; rows written to {}\n",
             counts.words(),
-            path.display()
+            plain::path(path)
         ))?;
     }
     let done = stopped(ended, &plan)?;
@@ -139,11 +142,14 @@ pub fn stopped(ended: Ended, plan: &Plan) -> Result<Done> {
     let cure = match &plan.out {
         Some(path) => format!(
             "run the same command with --resume to continue {}",
-            path.display()
+            plain::path(path)
         ),
         None => "use --out FILE to make a run resumable".to_owned(),
     };
-    eprintln!("stopped after {} of {} rows; {cure}", ended.rows, ended.of);
+    output::say(&format!(
+        "stopped after {} of {} rows; {cure}",
+        ended.rows, ended.of
+    ));
     Ok(Done::Stopped)
 }
 
@@ -152,17 +158,10 @@ pub fn stopped(ended: Ended, plan: &Plan) -> Result<Done> {
 /// # Errors
 /// Shares that do not make one study.
 pub fn run_merge(options: &Merge) -> Result<Done> {
-    if options.parts.contains(&options.out) {
-        return Err(miette!(
-            help = "give the file to write first, then the shares",
-            "{} is both written and read",
-            options.out.display()
-        ));
-    }
     let rows = merge(&options.out, &options.parts)?;
     print(&format!(
         "{} written to {}\n",
         counted(rows as usize, "row", "rows"),
-        options.out.display()
+        plain::path(&options.out)
     ))
 }

@@ -38,7 +38,7 @@ impl CatalogueFiles {
             skip_broken_rows: self.skip_broken_rows,
         })?;
         for warning in &catalogue.warnings {
-            eprintln!("warning: {warning}");
+            crate::output::say(&format!("warning: {warning}"));
         }
         Ok(catalogue)
     }

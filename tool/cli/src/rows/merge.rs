@@ -2,35 +2,39 @@
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-use std::fs::File;
-use std::io::{BufRead as _, BufReader, BufWriter, Write as _};
+use std::io::{BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
+use jred_machine::text::{disk, plain};
 use miette::{IntoDiagnostic as _, Report, Result, WrapErr as _, miette};
 
 use super::store;
+use crate::output::{self, Output};
 use jred_report::table::rows::RowFormat;
 use jred_sizing::study::header::Header;
+
+/// The largest share that comes from a pipe (bytes); files are read line by line.
+const MAX_PIPE: u64 = 64 << 20;
 
 /// A share, read line by line.
 struct Part {
     path: PathBuf,
     header: Header,
     form: RowFormat,
-    reader: BufReader<File>,
+    reader: BufReader<Box<dyn Read>>,
 }
 
 impl Part {
     fn open(path: &Path) -> Result<Self> {
-        let file = File::open(path)
+        let file = disk::open(path, MAX_PIPE)
             .into_diagnostic()
-            .wrap_err_with(|| format!("cannot read {}", path.display()))?;
+            .wrap_err_with(|| format!("cannot read {}", plain::path(path)))?;
         let mut reader = BufReader::new(file);
         let mut line = String::new();
-        reader.read_line(&mut line).into_diagnostic()?;
+        store::read_line(&mut reader, &mut line, path)?;
         let (header, form) = store::parse(line.trim_end(), path)?;
         if form == RowFormat::Csv {
-            reader.read_line(&mut line).into_diagnostic()?;
+            store::read_line(&mut reader, &mut line, path)?;
         }
         Ok(Self {
             path: path.to_owned(),
@@ -43,7 +47,7 @@ impl Part {
     /// The next row: its number and its line.
     fn next(&mut self) -> Result<Option<(u64, String)>> {
         let mut line = String::new();
-        if self.reader.read_line(&mut line).into_diagnostic()? == 0 {
+        if !store::read_line(&mut self.reader, &mut line, &self.path)? {
             return Ok(None);
         }
         let whole = line.strip_suffix('\n').map(ToOwned::to_owned);
@@ -51,9 +55,9 @@ impl Part {
         row.map(Some).ok_or_else(|| {
             miette!(
                 help = "continue the share with --resume: it computes the incomplete row again",
-                "{} contains an incomplete row: {:?}",
-                self.path.display(),
-                line.trim_end().chars().take(60).collect::<String>()
+                "{} contains an incomplete row: \"{}\"",
+                plain::path(&self.path),
+                plain::cut(line.trim_end())
             )
         })
     }
@@ -76,16 +80,16 @@ pub fn merge(out: &Path, paths: &[PathBuf]) -> Result<u64> {
             return Err(miette!(
                 help = "merge shares of one study only",
                 "{} and {} come from different studies: they differ in {words}",
-                first.path.display(),
-                part.path.display()
+                plain::path(&first.path),
+                plain::path(&part.path)
             ));
         }
         if part.form != first.form {
             return Err(miette!(
                 help = "use one --format for all shares",
                 "{} and {} have different formats",
-                first.path.display(),
-                part.path.display()
+                plain::path(&first.path),
+                plain::path(&part.path)
             ));
         }
     }
@@ -94,36 +98,27 @@ pub fn merge(out: &Path, paths: &[PathBuf]) -> Result<u64> {
         ..first.header.clone()
     };
     let front = store::lines(&header, first.form)?;
-    // An incomplete file does not get the final name.
-    let mut unfinished = out.as_os_str().to_owned();
-    unfinished.push(".part");
-    let unfinished = PathBuf::from(unfinished);
-    if out.exists() {
+    output::check([("the first argument", &Some(out.to_owned()))])?;
+    if out.is_file() {
         return Err(miette!(
             help = "choose another file",
             "{} already exists: not overwritten",
-            out.display()
+            plain::path(out)
         ));
     }
-    let _ = std::fs::remove_file(&unfinished);
-    let file = store::begin(&unfinished, &front)?;
-    let merged = rows(&mut parts, header.rows, BufWriter::new(file));
-    match merged {
-        Ok(rows) => {
-            std::fs::rename(&unfinished, out)
-                .into_diagnostic()
-                .wrap_err_with(|| format!("cannot write {}", out.display()))?;
-            Ok(rows)
-        }
-        Err(error) => {
-            let _ = std::fs::remove_file(&unfinished);
-            Err(error)
-        }
-    }
+    let failed = |error| output::failed(out, &error);
+    let mut file = BufWriter::new(Output::create(out).map_err(failed)?);
+    file.write_all(front.as_bytes()).map_err(failed)?;
+    let rows = rows(&mut parts, header.rows, &mut file)?;
+    let file = file
+        .into_inner()
+        .map_err(|error| failed(error.into_error()))?;
+    file.finish().map_err(failed)?;
+    Ok(rows)
 }
 
 /// Writes the rows in order, each exactly once.
-fn rows(parts: &mut [Part], count: u64, mut out: BufWriter<File>) -> Result<u64> {
+fn rows(parts: &mut [Part], count: u64, out: &mut impl Write) -> Result<u64> {
     let mut heap = BinaryHeap::new();
     for (k, part) in parts.iter_mut().enumerate() {
         if let Some((index, line)) = part.next()? {
@@ -136,7 +131,7 @@ fn rows(parts: &mut [Part], count: u64, mut out: BufWriter<File>) -> Result<u64>
             return Err(missing(expected, Some(index)));
         }
         if index < expected {
-            let path = parts.get(k).map(|part| part.path.display().to_string());
+            let path = parts.get(k).map(|part| plain::path(&part.path));
             return Err(miette!(
                 help = "name every share once",
                 "row {index} appears twice, the second time in {}",
@@ -159,7 +154,6 @@ fn rows(parts: &mut [Part], count: u64, mut out: BufWriter<File>) -> Result<u64>
             "there are {expected} rows, but the study has {count}"
         ));
     }
-    out.flush().into_diagnostic()?;
     Ok(expected)
 }
 

@@ -1,14 +1,18 @@
 //! The file of a study's rows: a header that identifies the study, then one line per row, in order.
 //!
 //! The header is a JSON object on the first line (in CSV behind `# `). It contains digests of machine and catalogue, so that
-//! rows of different studies are never mixed. A file that was cut off while it was written is one of fewer rows.
+//! rows of different studies are never mixed. A file that was cut off while it was written is one of fewer rows. So it is
+//! written where it belongs, unlike other outputs; it begins only where no file is, and is continued only if it is of this
+//! study.
 
 use std::fs::{File, OpenOptions};
-use std::io::{BufRead, BufReader, Seek as _, SeekFrom};
+use std::io::{BufRead, BufReader, Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::Path;
 
+use jred_machine::text::plain;
 use miette::{IntoDiagnostic as _, Report, Result, WrapErr as _, miette};
 
+use crate::output;
 use jred_report::table::rows::RowFormat;
 use jred_sizing::study::header::Header;
 
@@ -16,7 +20,7 @@ fn no_rows(path: &Path) -> Report {
     miette!(
         help = "name files written by `jred vary --out` or `jred tolerance --out`",
         "{} is not a file of rows: its first line is not a header",
-        path.display()
+        plain::path(path)
     )
 }
 
@@ -48,26 +52,50 @@ pub fn parse(line: &str, path: &Path) -> Result<(Header, RowFormat)> {
     Ok((header, form))
 }
 
-/// Begins a file of rows, which must not exist yet.
+/// The longest line of a file of rows (bytes).
+const MAX_LINE: u64 = 1 << 20;
+
+/// Reads a line; whether there was one.
+///
+/// # Errors
+/// The file cannot be read, or its line is longer than any row.
+pub fn read_line(reader: &mut impl BufRead, line: &mut String, path: &Path) -> Result<bool> {
+    line.clear();
+    let length = reader
+        .take(MAX_LINE)
+        .read_line(line)
+        .into_diagnostic()
+        .wrap_err_with(|| format!("cannot read {}", plain::path(path)))?;
+    if length as u64 == MAX_LINE {
+        return Err(miette!(
+            help = "name files written by `jred vary --out` or `jred tolerance --out`",
+            "{} is not a file of rows: it has a line of more than 1 MiB",
+            plain::path(path)
+        ));
+    }
+    Ok(length > 0)
+}
+
+/// Begins a file of rows, which must not exist yet; a pipe or a device may.
 ///
 /// # Errors
 /// A file that exists or cannot be written.
 pub fn begin(path: &Path, lines: &str) -> Result<File> {
+    let device = path.metadata().is_ok_and(|old| !old.is_file());
     let mut file = OpenOptions::new()
         .write(true)
-        .create_new(true)
+        .create_new(!device)
         .open(path)
         .map_err(|error| match error.kind() {
             std::io::ErrorKind::AlreadyExists => miette!(
                 help = "continue it with --resume, or choose another file",
                 "{} already exists: not overwritten",
-                path.display()
+                plain::path(path)
             ),
-            _ => miette!("cannot write {}: {error}", path.display()),
+            _ => output::failed(path, &error),
         })?;
-    std::io::Write::write_all(&mut file, lines.as_bytes())
-        .into_diagnostic()
-        .wrap_err_with(|| format!("cannot write {}", path.display()))?;
+    file.write_all(lines.as_bytes())
+        .map_err(|error| output::failed(path, &error))?;
     Ok(file)
 }
 
@@ -82,26 +110,21 @@ pub fn resume(
     form: RowFormat,
     seen: &mut dyn FnMut(u64, &str),
 ) -> Result<(File, u64)> {
-    let shown = path.display();
-    let unreadable = || format!("cannot read {shown}");
+    let shown = plain::path(path);
     let lines = lines(header, form)?;
     let mut file = OpenOptions::new()
         .read(true)
         .write(true)
         .open(path)
         .into_diagnostic()
-        .wrap_err_with(unreadable)?;
+        .wrap_err_with(|| format!("cannot read {shown}"))?;
     let mut reader = BufReader::new(&file);
-    let (mut line, mut end, mut rows) = (String::new(), 0u64, 0u64);
+    let (mut front, mut line) = (String::new(), String::new());
+    let (mut end, mut rows) = (0u64, 0u64);
     let mut number = 0usize;
     let fronts = lines.lines().count();
     loop {
-        line.clear();
-        let length = reader
-            .read_line(&mut line)
-            .into_diagnostic()
-            .wrap_err_with(unreadable)?;
-        if length == 0 || !line.ends_with('\n') {
+        if !read_line(&mut reader, &mut line, path)? || !line.ends_with('\n') {
             break;
         }
         let text = line.trim_end_matches('\n');
@@ -131,16 +154,17 @@ pub fn resume(
             seen(expected, text);
             rows += 1;
         }
-        end += length as u64;
+        if number < fronts {
+            front += &line;
+        }
+        end += line.len() as u64;
         number += 1;
     }
     drop(reader);
     // A header that was cut off is written again.
     if number < fronts {
-        let text = std::fs::read_to_string(path)
-            .into_diagnostic()
-            .wrap_err_with(unreadable)?;
-        if !lines.starts_with(&text) {
+        front += &line;
+        if !lines.starts_with(&front) {
             return Err(no_rows(path));
         }
         end = 0;
@@ -149,7 +173,7 @@ pub fn resume(
     file.set_len(end).into_diagnostic()?;
     file.seek(SeekFrom::Start(end)).into_diagnostic()?;
     if number < fronts {
-        std::io::Write::write_all(&mut file, lines.as_bytes()).into_diagnostic()?;
+        file.write_all(lines.as_bytes()).into_diagnostic()?;
     }
     Ok((file, rows))
 }

@@ -40,6 +40,7 @@ use miette::{Report, miette};
 use crate::model::machine::MachineFile;
 use crate::model::rules::RuleSet;
 use crate::text::file::{self, Files};
+use crate::text::plain;
 use crate::units::kind::ACCELERATION;
 
 use crate::text::problem::{Problem, Result};
@@ -49,6 +50,10 @@ use drive_link::DriveLink;
 
 /// The largest machine file (bytes).
 const MAX_SIZE: u64 = 1 << 20;
+
+/// Cure for a machine file above the limit.
+const LARGE: &str =
+    "put recorded motions into a separate CSV file and name it with `file` in [motion]";
 
 /// The rule set of this name that comes with the tool.
 pub fn built_in_rules(name: &str) -> Option<RuleSet> {
@@ -89,7 +94,7 @@ pub fn rules_based_on(rules: &RuleSet, set: RuleSet) -> std::result::Result<Rule
 /// A file that cannot be read, or anything that [`parse`] reports.
 #[cfg(feature = "fs")]
 pub fn read(path: &Path) -> std::result::Result<MachineFile, Report> {
-    parse(&path.display().to_string(), &text(path)?, folder(path))
+    parse(&plain::path(path), &text(path)?, folder(path))
 }
 
 /// The text of the machine file at `path`.
@@ -98,13 +103,17 @@ pub fn read(path: &Path) -> std::result::Result<MachineFile, Report> {
 /// A file that cannot be read.
 #[cfg(feature = "fs")]
 pub fn text(path: &Path) -> std::result::Result<String, Report> {
-    let name = path.display().to_string();
+    let name = plain::path(path);
     crate::text::disk::read(path, MAX_SIZE).map_err(|fault| {
+        let help = match fault.help.as_str() {
+            file::LARGE => LARGE,
+            help => help,
+        };
         Problem::new(format!(
             "cannot read the machine file {name}: {}",
             fault.message
         ))
-        .help(fault.help)
+        .help(help)
         .into_report(&name, "")
     })
 }
@@ -129,12 +138,10 @@ pub fn parse(
 
 fn machine(name: &str, text: &str, files: &dyn Files) -> Result<MachineFile> {
     if text.len() as u64 > MAX_SIZE {
-        let fault = file::too_large(&file::size(text.len() as u64), MAX_SIZE);
-        return Err(Problem::new(format!(
-            "cannot read the machine file {name}: {}",
-            fault.message
-        ))
-        .help(fault.help));
+        let why = file::too_large(&file::size(text.len() as u64), MAX_SIZE);
+        return Err(
+            Problem::new(format!("cannot read the machine file {name}: {why}")).help(LARGE),
+        );
     }
     let tree = tree::parse(text)?;
     if tree.get_ref().is_empty() {
@@ -147,7 +154,7 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<MachineFile> {
         Some(item) => item.text("Servo press")?.to_owned(),
         None => Path::new(name)
             .file_name()
-            .map_or_else(|| name.to_owned(), |name| name.display().to_string()),
+            .map_or_else(|| name.to_owned(), plain::path),
     };
     let gravity = root
         .require(

@@ -11,6 +11,7 @@ use crate::model::rules::{
 use crate::text::file::Files;
 
 use crate::text::item::Item;
+use crate::text::plain;
 use crate::text::problem::{Problem, Result, quoted};
 use crate::text::section::Section;
 use crate::text::tree;
@@ -160,7 +161,7 @@ fn parse(name: &str, text: &str) -> Result<RuleSet> {
     let stem = path
         .file_stem()
         .filter(|_| path.extension().is_some_and(|e| e == "toml"));
-    set.name = stem.map_or_else(|| name.to_owned(), |stem| stem.display().to_string());
+    set.name = stem.map_or_else(|| name.to_owned(), plain::path);
     set.title = title;
     Ok(set)
 }

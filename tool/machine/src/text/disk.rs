@@ -1,19 +1,29 @@
-//! Files of a disk: the one place of this package that opens any.
+//! Files of a disk: the one place of the tool that reads any.
+//!
+//! Every reader has a limit in bytes, and a limit in time for what is no regular file: a pipe that nobody writes, a terminal, a
+//! device without an end. Which files were read is kept, so that no output is written over one of them.
 
-use std::fs::File;
-use std::io::{ErrorKind, Read};
+use std::collections::HashMap;
+use std::fs::{File, Metadata};
+use std::io::{Error, ErrorKind, Read, Result};
 use std::path::{Path, PathBuf};
+use std::sync::{LazyLock, Mutex, PoisonError, mpsc};
+use std::time::Duration;
 
-use super::file::{Files, size, too_large};
+use super::file::{Files, LARGE, size, too_large};
+use super::plain;
 use crate::units::Fault;
+
+/// How long is waited for the end of a pipe or a device.
+const PATIENCE: Duration = Duration::from_secs(5);
 
 /// A folder, in which files are looked for by their names.
 impl Files for Path {
     fn shown(&self, file: &str) -> String {
-        self.join(file).display().to_string()
+        plain::path(self.join(file))
     }
 
-    fn text(&self, file: &str, limit: u64) -> Result<String, Fault> {
+    fn text(&self, file: &str, limit: u64) -> std::result::Result<String, Fault> {
         read(&self.join(file), limit)
     }
 }
@@ -23,14 +33,14 @@ impl Files for PathBuf {
         self.as_path().shown(file)
     }
 
-    fn text(&self, file: &str, limit: u64) -> Result<String, Fault> {
+    fn text(&self, file: &str, limit: u64) -> std::result::Result<String, Fault> {
         self.as_path().text(file, limit)
     }
 }
 
 /// The text of the file at `path`, which may have up to `limit` bytes.
-pub(crate) fn read(path: &Path, limit: u64) -> Result<String, Fault> {
-    let failed = |error: std::io::Error| match error.kind() {
+pub(crate) fn read(path: &Path, limit: u64) -> std::result::Result<String, Fault> {
+    let bytes = bytes(path, limit).map_err(|error| match error.kind() {
         ErrorKind::NotFound => Fault::new(
             "no such file",
             format!(
@@ -42,35 +52,126 @@ pub(crate) fn read(path: &Path, limit: u64) -> Result<String, Fault> {
             "permission denied",
             format!("make {} readable", absolute(path)),
         ),
+        ErrorKind::IsADirectory => Fault::new("it is a folder, not a file", "name the file in it"),
+        ErrorKind::FileTooLarge => Fault::new(error.to_string(), LARGE),
+        ErrorKind::TimedOut => Fault::new(error.to_string(), SLOW),
         _ => Fault::new(error.to_string(), format!("check {}", absolute(path))),
-    };
-    let file = File::open(path).map_err(failed)?;
-    let metadata = file.metadata().map_err(failed)?;
-    if metadata.is_dir() {
-        return Err(Fault::new(
-            "it is a folder, not a file",
-            "name the file in it",
-        ));
-    }
-    if metadata.len() > limit {
-        return Err(too_large(&size(metadata.len()), limit));
-    }
-    // The size of a device or a pipe is not known beforehand.
-    let mut bytes = Vec::new();
-    file.take(limit + 1)
-        .read_to_end(&mut bytes)
-        .map_err(failed)?;
-    if bytes.len() as u64 > limit {
-        return Err(too_large(&format!("more than {}", size(limit)), limit));
-    }
+    })?;
     utf8(bytes)
+}
+
+/// Cure for a pipe or a device without an end.
+pub const SLOW: &str = "name a regular file, or write the data to one first";
+
+/// The content of the file at `path`, which may have up to `limit` bytes, and is remembered as read.
+///
+/// # Errors
+/// Those of the system; [`ErrorKind::FileTooLarge`] above the limit; [`ErrorKind::TimedOut`] for what is no regular file and
+/// does not end within some seconds.
+pub fn bytes(path: &Path, limit: u64) -> Result<Vec<u8>> {
+    let metadata = path.metadata()?;
+    if metadata.is_dir() {
+        return Err(ErrorKind::IsADirectory.into());
+    }
+    if !metadata.is_file() {
+        return stream(path, limit, PATIENCE);
+    }
+    remember(path, &metadata);
+    if metadata.len() > limit {
+        return Err(above(&size(metadata.len()), limit));
+    }
+    limited(File::open(path)?, limit)
+}
+
+/// Opens a regular file that is read piece by piece, and remembers it; gives the content of anything else, of at most `limit`
+/// bytes.
+///
+/// # Errors
+/// Those of [`bytes`].
+pub fn open(path: &Path, limit: u64) -> Result<Box<dyn Read>> {
+    let metadata = path.metadata()?;
+    if !metadata.is_file() {
+        return Ok(Box::new(std::io::Cursor::new(bytes(path, limit)?)));
+    }
+    remember(path, &metadata);
+    Ok(Box::new(File::open(path)?))
+}
+
+/// The content of a pipe or a device. Opening a pipe waits for its writer; so a thread opens and reads, which ends with the
+/// program at the latest.
+fn stream(path: &Path, limit: u64, patience: Duration) -> Result<Vec<u8>> {
+    let (sender, receiver) = mpsc::channel();
+    let path = path.to_owned();
+    std::thread::spawn(move || {
+        let _ = sender.send(File::open(path).and_then(|file| limited(file, limit)));
+    });
+    receiver.recv_timeout(patience).map_err(|_| {
+        let message = format!(
+            "it is not a regular file, and it did not end within {} s",
+            patience.as_secs_f64()
+        );
+        Error::new(ErrorKind::TimedOut, message)
+    })?
+}
+
+fn limited(file: File, limit: u64) -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    file.take(limit + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > limit {
+        return Err(above(&format!("more than {}", size(limit)), limit));
+    }
+    Ok(bytes)
+}
+
+fn above(size: &str, limit: u64) -> Error {
+    Error::new(ErrorKind::FileTooLarge, too_large(size, limit))
+}
+
+/// What tells a file from others, whatever it is called: device and inode, so that links count.
+#[cfg(unix)]
+type Identity = (u64, u64);
+
+#[cfg(unix)]
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "the same function elsewhere can fail"
+)]
+fn identity(_: &Path, metadata: &Metadata) -> Option<Identity> {
+    use std::os::unix::fs::MetadataExt as _;
+    Some((metadata.dev(), metadata.ino()))
+}
+
+/// What tells a file from others: its canonical path.
+#[cfg(not(unix))]
+type Identity = PathBuf;
+
+#[cfg(not(unix))]
+fn identity(path: &Path, _: &Metadata) -> Option<Identity> {
+    path.canonicalize().ok()
+}
+
+/// The regular files that this process has read, each with the path it was first read by.
+static FILES: LazyLock<Mutex<HashMap<Identity, PathBuf>>> = LazyLock::new(Mutex::default);
+
+fn remember(path: &Path, metadata: &Metadata) {
+    if let Some(identity) = identity(path, metadata) {
+        let mut files = FILES.lock().unwrap_or_else(PoisonError::into_inner);
+        files.entry(identity).or_insert_with(|| path.to_owned());
+    }
+}
+
+/// The path by which this process has read the file at `path`, if it has.
+pub fn read_as(path: &Path) -> Option<PathBuf> {
+    let identity = identity(path, &path.metadata().ok()?)?;
+    let files = FILES.lock().unwrap_or_else(PoisonError::into_inner);
+    files.get(&identity).cloned()
 }
 
 /// The text of a file.
 ///
 /// # Errors
 /// It is not UTF-8, with the line where that shows.
-pub fn utf8(bytes: Vec<u8>) -> Result<String, Fault> {
+pub fn utf8(bytes: Vec<u8>) -> std::result::Result<String, Fault> {
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let before = error.as_bytes().iter().take(valid);
@@ -83,9 +184,65 @@ pub fn utf8(bytes: Vec<u8>) -> Result<String, Fault> {
 }
 
 fn absolute(path: &Path) -> String {
-    std::path::absolute(path)
-        .as_deref()
-        .unwrap_or(path)
-        .display()
-        .to_string()
+    plain::path(std::path::absolute(path).as_deref().unwrap_or(path))
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pipe_without_a_writer_does_not_hang() {
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        assert!(made.unwrap().success());
+        let error = stream(&pipe, 10, Duration::from_millis(20)).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::TimedOut);
+        assert_eq!(
+            error.to_string(),
+            "it is not a regular file, and it did not end within 0.02 s"
+        );
+    }
+
+    #[test]
+    fn a_pipe_with_a_writer_is_read_to_its_end() {
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        assert!(made.unwrap().success());
+        let writer = std::thread::spawn({
+            let pipe = pipe.clone();
+            move || std::fs::write(pipe, "text")
+        });
+        assert_eq!(bytes(&pipe, 4).unwrap(), b"text");
+        writer.join().unwrap().unwrap();
+    }
+
+    #[test]
+    fn a_device_without_an_end_is_read_up_to_the_limit() {
+        let error = bytes(Path::new("/dev/zero"), 1 << 20).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::FileTooLarge);
+        assert_eq!(
+            error.to_string(),
+            "it has more than 1 MiB; the maximum is 1 MiB"
+        );
+    }
+
+    #[test]
+    fn a_file_that_was_read_is_known_by_all_its_names() {
+        let folder = tempfile::tempdir().unwrap();
+        let [file, hard, soft, other] =
+            ["file", "hard", "soft", "other"].map(|name| folder.path().join(name));
+        std::fs::write(&file, "text").unwrap();
+        std::fs::write(&other, "text").unwrap();
+        std::fs::hard_link(&file, &hard).unwrap();
+        std::os::unix::fs::symlink(&file, &soft).unwrap();
+        assert_eq!(read_as(&file), None);
+        bytes(&file, 10).unwrap();
+        for name in [&file, &hard, &soft] {
+            assert_eq!(read_as(name).as_ref(), Some(&file));
+        }
+        assert_eq!(read_as(&other), None);
+    }
 }

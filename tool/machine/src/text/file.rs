@@ -42,19 +42,19 @@ impl Files for BTreeMap<String, String> {
         })?;
         let length = text.len() as u64;
         if length > limit {
-            return Err(too_large(&size(length), limit));
+            return Err(Fault::new(too_large(&size(length), limit), LARGE));
         }
         Ok(text.clone())
     }
 }
 
-/// The fault of a file of `size`.
-pub(crate) fn too_large(size: &str, limit: u64) -> Fault {
-    Fault::new(
-        format!("it has {size}; the maximum is {}", self::size(limit)),
-        "put recorded motions into a separate CSV file and name it with `file` in [motion]",
-    )
+/// What is wrong with a file of `size`.
+pub(crate) fn too_large(size: &str, limit: u64) -> String {
+    format!("it has {size}; the maximum is {}", self::size(limit))
 }
+
+/// Cure for a file above the limit.
+pub const LARGE: &str = "check that it is the file you mean; leave out rows that are not needed";
 
 /// A size in words.
 pub(crate) fn size(bytes: u64) -> String {

@@ -1,10 +1,11 @@
-//! Catalogues on a disk: folders and files, the one place of this package that opens any.
+//! Catalogues on a disk: folders and files.
 
 use std::collections::HashMap;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use jred_machine::text::disk::utf8;
+use jred_machine::text::file::LARGE;
+use jred_machine::text::{disk, plain};
 use jred_machine::units::closest;
 
 use super::Catalogue;
@@ -12,6 +13,9 @@ use super::column::Kind;
 use super::fault::{CatalogueError, Remarks, Text};
 use super::files::{Format, NAMES, built_in, format_of, formatted, is_toml, kind_of, unreadable};
 use super::load::{Loader, twice};
+
+/// The largest file of a catalogue (bytes): some hundred thousand rows.
+const MAX_SIZE: u64 = 64 << 20;
 
 /// What to load.
 #[derive(Clone, Debug, Default)]
@@ -82,7 +86,7 @@ fn cannot_read(path: &Path, error: &std::io::Error) -> CatalogueError {
     match error.kind() {
         ErrorKind::NotFound => {
             let near = beside(path).map_or_else(String::new, |near| {
-                format!("; did you mean {}?", near.display())
+                format!("; did you mean {}?", plain::path(near))
             });
             let cure = format!("{CURE}{near}");
             unreadable(path, "no such file or folder", &cure)
@@ -97,6 +101,8 @@ fn cannot_read(path: &Path, error: &std::io::Error) -> CatalogueError {
             "it is a folder",
             "pass folders with --catalogue, a single CSV file with --motors or --gearboxes",
         ),
+        ErrorKind::FileTooLarge => unreadable(path, error.to_string(), LARGE),
+        ErrorKind::TimedOut => unreadable(path, error.to_string(), disk::SLOW),
         _ => unreadable(path, error.to_string(), CURE),
     }
 }
@@ -115,12 +121,12 @@ fn beside(path: &Path) -> Option<PathBuf> {
 }
 
 fn read(path: &Path) -> Result<Text, CatalogueError> {
-    let bytes = std::fs::read(path).map_err(|error| cannot_read(path, &error))?;
-    let text = utf8(bytes).map_err(|fault| {
+    let bytes = disk::bytes(path, MAX_SIZE).map_err(|error| cannot_read(path, &error))?;
+    let text = disk::utf8(bytes).map_err(|fault| {
         let cure = "save the sheet as CSV in UTF-8 and pass that file with --catalogue, --motors or --gearboxes";
         unreadable(path, fault.message, cure)
     })?;
-    Ok(Text::new(path.display().to_string(), text).at(real(path)))
+    Ok(Text::new(plain::path(path), text).at(real(path)))
 }
 
 fn file(path: &Path) -> Result<Vec<(Format, Text)>, CatalogueError> {
@@ -167,7 +173,7 @@ fn search(
             .is_some_and(|e| e.eq_ignore_ascii_case("csv"))
         {
             remarks.add("ignored CSV files", || {
-                format!("{} was ignored: {NAMES}", path.display())
+                format!("{} was ignored: {NAMES}", plain::path(&path))
             });
         }
     }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use jred_machine::text::csv;
+use jred_machine::text::{csv, plain};
 
 use super::column::{Column, Kind};
 use super::fault::{CatalogueError, Text};
@@ -40,7 +40,7 @@ pub(super) fn built_in(of: impl Fn(Kind) -> bool) -> Vec<(Format, Text)> {
 
 pub(super) fn unreadable(path: &Path, reason: impl Into<String>, cure: &str) -> CatalogueError {
     CatalogueError::Unreadable {
-        path: path.display().to_string(),
+        path: plain::path(path),
         reason: reason.into(),
         cure: cure.to_owned(),
     }

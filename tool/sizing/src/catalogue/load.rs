@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use jred_machine::text::plain;
 use jred_machine::text::problem::Problem;
 
 use super::column::{Column, Kind};
@@ -315,8 +316,8 @@ impl Loader {
 
 pub(super) fn twice(path: &Path, before: &Path) -> CatalogueError {
     CatalogueError::Twice {
-        path: path.display().to_string(),
-        before: before.display().to_string(),
+        path: plain::path(path),
+        before: plain::path(before),
     }
 }
 

@@ -12,6 +12,8 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::read;
 use jred_machine::text::file::Files;
+#[cfg(feature = "fs")]
+use jred_machine::text::plain;
 use jred_machine::units::closest;
 
 /// The common part of a study.
@@ -54,7 +56,7 @@ impl Study {
         rules: Option<RuleSet>,
         steps: usize,
     ) -> Result<Self> {
-        let name = path.display().to_string();
+        let name = plain::path(path);
         let files = Box::new(read::folder(path).to_owned());
         Self::new(name, read::text(path)?, files, catalogue, rules, steps)
     }

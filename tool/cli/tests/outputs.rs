@@ -1,0 +1,330 @@
+//! Nothing is lost: no output is written over a file that the command reads, and what was there stays until the new file is
+//! complete. Nothing hangs: what does not end is given up.
+
+use std::path::{Path, PathBuf};
+
+use crate::support::{Folder, edited_press, jred, jred_with, press_file, press_text};
+
+/// A file of the repository.
+fn of_repository(path: &str) -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    std::fs::read_to_string(root.join(path)).unwrap()
+}
+
+/// A command, the option of an output, and a file that the command reads. `@` is the test's folder.
+const READ: [[&str; 3]; 12] = [
+    ["reduce @press.toml", "--report", "press.toml"],
+    ["reduce @load-table.toml", "--report", "load-table.csv"],
+    [
+        "reduce @reduced-curves.toml",
+        "--report",
+        "reduced-curves.csv",
+    ],
+    ["simulate @reduced-curves.toml", "--plot", "drive-log.csv"],
+    [
+        "export @press.toml --torque-error 1Nm",
+        "--out",
+        "press.toml",
+    ],
+    ["size @named.toml", "--meter", "own.toml"],
+    ["size @press.toml --rules @own.toml", "--report", "own.toml"],
+    [
+        "size @press.toml --motors @motors.csv",
+        "--report",
+        "motors.csv",
+    ],
+    [
+        "size @press.toml --gearboxes @gearboxes.csv",
+        "--meter",
+        "gearboxes.csv",
+    ],
+    [
+        "size @press.toml --catalogue @all",
+        "--report",
+        "all/gearboxes.csv",
+    ],
+    [
+        "vary @press.toml --resume --vary crank.length=30mm",
+        "--out",
+        "press.toml",
+    ],
+    [
+        "tolerance @press.toml --resume --tolerance crank.length=1%",
+        "--out",
+        "press.toml",
+    ],
+];
+
+/// Every file that a command reads, whatever it is for, by every name that it has.
+#[test]
+fn an_output_is_never_a_file_that_was_read() {
+    let folder = Folder::new();
+    for name in [
+        "load-table.toml",
+        "load-table.csv",
+        "reduced-curves.toml",
+        "reduced-curves.csv",
+        "drive-log.csv",
+    ] {
+        folder.file(name, of_repository(&format!("machines/{name}")));
+    }
+    std::fs::create_dir(folder.path("all")).unwrap();
+    for name in ["motors.csv", "gearboxes.csv"] {
+        let table = of_repository(&format!("tool/sizing/catalogue/{name}"));
+        folder.file(name, &table);
+        folder.file(&format!("all/{name}"), table);
+    }
+    folder.file("own.toml", "title = \"Own\"\n[rules]\n");
+    folder.file("press.toml", press_text());
+    let named = edited_press("[motion]", "[rules]\nset = \"own.toml\"\n\n[motion]");
+    folder.file("named.toml", named);
+    let root = folder.path("");
+    for (k, [command, option, read]) in READ.into_iter().enumerate() {
+        let file = folder.path(read);
+        let before = std::fs::read(&file).unwrap();
+        for name in names(&folder, &file, k) {
+            let name = name.to_str().unwrap();
+            let command = command.replace('@', root.to_str().unwrap());
+            let mut arguments: Vec<&str> = command.split(' ').collect();
+            arguments.extend([option, name]);
+            let run = jred_with(&arguments).ends(2);
+            // The message may be broken into lines anywhere in a path.
+            let message = run.err.replace([' ', '\n', '│'], "");
+            for word in [option, name, file.to_str().unwrap(), "notoverwritten"] {
+                assert!(message.contains(word), "{word}\n{}", run.err);
+            }
+            assert!(run.out.is_empty(), "{}", run.out);
+            assert_eq!(std::fs::read(&file).unwrap(), before, "{read}");
+        }
+    }
+}
+
+/// The names of a file: its own, a hard link, a symbolic link.
+fn names(folder: &Folder, file: &Path, k: usize) -> Vec<PathBuf> {
+    let mut names = vec![file.to_owned()];
+    if cfg!(unix) {
+        let hard = folder.path(&format!("hard-{k}"));
+        std::fs::hard_link(file, &hard).unwrap();
+        names.push(hard);
+    }
+    #[cfg(unix)]
+    {
+        let soft = folder.path(&format!("soft-{k}"));
+        std::os::unix::fs::symlink(file, &soft).unwrap();
+        names.push(soft);
+    }
+    names
+}
+
+/// A share is not merged into itself.
+#[test]
+fn a_share_is_not_overwritten_by_the_merged_file() {
+    let folder = Folder::new();
+    let share = folder.path("a.csv");
+    let press = press_file();
+    let vary = [
+        "--steps",
+        "64",
+        "--motor",
+        "sgmsh-10a",
+        "--vary",
+        "mechanism.crank.length=30,31 mm",
+        "--out",
+    ];
+    jred_with(
+        &[
+            &["vary", press.to_str().unwrap()],
+            &vary[..],
+            &[share.to_str().unwrap()],
+        ]
+        .concat(),
+    );
+    let before = std::fs::read(&share).unwrap();
+    jred([&"merge", &share, &share])
+        .ends(2)
+        .says(&["read by this command", "not overwritten"]);
+    assert_eq!(std::fs::read(&share).unwrap(), before);
+}
+
+#[cfg(unix)]
+mod unix {
+    use std::io::Read as _;
+    use std::os::unix::fs::{MetadataExt as _, PermissionsExt, symlink};
+    use std::process::{Command, Stdio};
+
+    use super::*;
+
+    const EXPORT: [&str; 4] = ["--torque-error", "50 N m", "--max-cells", "64"];
+
+    fn export_to(out: &Path) -> crate::support::Run {
+        let (press, out) = (press_file(), out.to_str().unwrap());
+        jred_with(
+            &[
+                &["export", press.to_str().unwrap()],
+                &EXPORT[..],
+                &["--out", out],
+            ]
+            .concat(),
+        )
+    }
+
+    /// The new file is complete before it takes the place of the old one; permissions and links stay.
+    #[test]
+    fn a_file_is_replaced_at_once() {
+        let folder = Folder::new();
+        let old = folder.file("press.jred", "old");
+        std::fs::set_permissions(&old, PermissionsExt::from_mode(0o640)).unwrap();
+        let kept = folder.path("kept");
+        std::fs::hard_link(&old, &kept).unwrap();
+        let link = folder.path("link");
+        symlink("press.jred", &link).unwrap();
+        export_to(&link).ends(0);
+        assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(std::fs::read(&kept).unwrap(), b"old");
+        let new = old.metadata().unwrap();
+        assert_eq!(new.permissions().mode() & 0o777, 0o640);
+        assert_ne!(new.ino(), kept.metadata().unwrap().ino());
+        assert!(std::fs::read(&old).unwrap().starts_with(b"JRED"));
+        // A link that leads to no file yet.
+        symlink("new.jred", folder.path("dangling")).unwrap();
+        export_to(&folder.path("dangling")).ends(0);
+        assert!(folder.path("new.jred").is_file());
+        let names = std::fs::read_dir(folder.path(".")).unwrap();
+        assert_eq!(names.count(), 5, "nothing is left behind");
+    }
+
+    /// A full disk, here a limit on the size of files, leaves the old file and nothing else.
+    #[test]
+    fn a_full_disk_leaves_the_old_file() {
+        let folder = Folder::new();
+        let old = folder.file("r.html", "old");
+        let script = "ulimit -f 1; trap '' XFSZ; exec \"$0\" reduce \"$1\" --report \"$2\"";
+        let run = Command::new("sh")
+            .args(["-c", script, env!("CARGO_BIN_EXE_jred")])
+            .args([&press_file(), &old])
+            .output()
+            .unwrap();
+        let error = String::from_utf8(run.stderr).unwrap();
+        assert_eq!(run.status.code(), Some(2), "{error}");
+        assert!(error.contains("cannot write"), "{error}");
+        assert_eq!(std::fs::read(&old).unwrap(), b"old");
+        assert_eq!(std::fs::read_dir(folder.path(".")).unwrap().count(), 1);
+    }
+
+    /// Pipes and devices are written directly.
+    #[test]
+    fn devices_are_written_directly() {
+        let (press, out) = (press_file(), ["--format", "c", "--out", "/dev/stdout"]);
+        let run = jred_with(&[&["export", press.to_str().unwrap()], &EXPORT[..], &out].concat());
+        assert!(run.out.contains("jred_table["), "{}", run.out);
+        assert!(run.out.contains("written to /dev/stdout"), "{}", run.out);
+        if Path::new("/dev/full").exists() {
+            export_to(Path::new("/dev/full"))
+                .ends(2)
+                .says(&["cannot write /dev/full"]);
+            let full = std::fs::OpenOptions::new()
+                .write(true)
+                .open("/dev/full")
+                .unwrap();
+            let mut split = Command::new(env!("CARGO_BIN_EXE_jred"));
+            split.args(["rules"]).stdout(full).stderr(Stdio::piped());
+            let run = split.output().unwrap();
+            assert_eq!(run.status.code(), Some(2));
+        }
+        export_to(Path::new("/dev/null")).ends(0);
+    }
+
+    /// What stdout is redirected to is no output file as well: the result would be lost.
+    #[test]
+    fn the_file_behind_stdout_is_refused() {
+        let folder = Folder::new();
+        let result = folder.path("result");
+        let run = Command::new(env!("CARGO_BIN_EXE_jred"))
+            .args([Path::new("export"), &press_file()])
+            .args(EXPORT)
+            .args([Path::new("--out"), &result])
+            .stdout(std::fs::File::create(&result).unwrap())
+            .output()
+            .unwrap();
+        let error = String::from_utf8(run.stderr).unwrap();
+        assert_eq!(run.status.code(), Some(2), "{error}");
+        assert!(error.contains("stdout is redirected"), "{error}");
+    }
+
+    /// Every reader gives up what does not end: a device at its limit in bytes, a pipe that nobody writes after some seconds.
+    #[test]
+    fn what_does_not_end_is_given_up() {
+        let folder = Folder::new();
+        let pipe = folder.path("pipe-motors.csv");
+        assert!(
+            Command::new("mkfifo")
+                .arg(&pipe)
+                .status()
+                .unwrap()
+                .success()
+        );
+        let press = press_file();
+        let (press, pipe) = (press.to_str().unwrap(), pipe.to_str().unwrap());
+        let from_zero = folder.file(
+            "zero.toml",
+            edited_press("[motion]", "[rules]\nset = \"/dev/zero\"\n[motion]"),
+        );
+        let out = folder.path("all.csv");
+        let out = out.to_str().unwrap();
+        let zero = "/dev/zero";
+        let cases: [(&[&str], &str); 9] = [
+            (&["check", zero], "the maximum is 1 MiB"),
+            (&["rules", "/dev/zero"], "the maximum is 65536 bytes"),
+            (&["size", press, "--motors", zero], "the maximum is 64 MiB"),
+            (&["merge", out, zero], "the maximum is 64 MiB"),
+            (
+                &["reduce", from_zero.to_str().unwrap()],
+                "the maximum is 65536 bytes",
+            ),
+            (&["check", pipe], "did not end within 5 s"),
+            (&["rules", pipe], "did not end within 5 s"),
+            (
+                &["size", press, "--catalogue", pipe],
+                "did not end within 5 s",
+            ),
+            (&["merge", out, pipe], "did not end within 5 s"),
+        ];
+        let runs = cases.map(|(arguments, words)| {
+            let run = Command::new(env!("CARGO_BIN_EXE_jred"))
+                .args(arguments)
+                .env("NO_COLOR", "1")
+                .stderr(Stdio::piped())
+                .spawn()
+                .unwrap();
+            (run, arguments, words)
+        });
+        for (mut run, arguments, words) in runs {
+            let mut error = String::new();
+            run.stderr
+                .take()
+                .unwrap()
+                .read_to_string(&mut error)
+                .unwrap();
+            let words_of_it = error.split_whitespace().filter(|w| *w != "│");
+            let message = words_of_it.collect::<Vec<_>>().join(" ");
+            assert!(message.contains(words), "{arguments:?}: {error}");
+            assert_eq!(run.wait().unwrap().code(), Some(2));
+        }
+    }
+
+    /// What comes from a pipe that ends is read.
+    #[test]
+    fn a_machine_may_come_from_a_pipe() {
+        let run = assert_cmd::Command::new(env!("CARGO_BIN_EXE_jred"))
+            .args(["check", "/dev/stdin"])
+            .write_stdin(press_text())
+            .output()
+            .unwrap();
+        assert_eq!(
+            run.status.code(),
+            Some(0),
+            "{}",
+            String::from_utf8_lossy(&run.stderr)
+        );
+    }
+}

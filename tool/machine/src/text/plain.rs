@@ -1,0 +1,106 @@
+//! Texts that show all that they hold. Characters that are not seen, or that turn the order of what is seen, are refused where
+//! names and titles are read, and escaped where a path or an argument is printed.
+
+use std::borrow::Cow;
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// Whether a character is not seen or changes how others are seen: a control character, an end of line or paragraph, a
+/// direction of writing, a space without width, a byte order mark.
+pub fn is_hidden(c: char) -> bool {
+    c.is_control()
+        || matches!(
+            c,
+            '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}'
+        )
+}
+
+/// The first hidden character of a text, with its place.
+pub fn hidden(text: &str) -> Option<(usize, char)> {
+    // Names are ASCII nearly always, and then the bytes tell.
+    if text.bytes().all(|b| (b' '..=b'~').contains(&b)) {
+        return None;
+    }
+    text.char_indices().find(|(_, c)| is_hidden(*c))
+}
+
+/// A character as Unicode names it: `U+000D`.
+pub fn code(c: char) -> String {
+    format!("U+{:04X}", u32::from(c))
+}
+
+/// A text in one line, its hidden characters as `\u000d`.
+pub fn escaped(text: &str) -> Cow<'_, str> {
+    without(text, is_hidden)
+}
+
+/// A text of several lines, with tabs; other hidden characters as `\u000d`, which JSON reads as that character.
+pub fn lines(text: &str) -> Cow<'_, str> {
+    without(text, |c| is_hidden(c) && !matches!(c, '\n' | '\t'))
+}
+
+fn without(text: &str, is_hidden: impl Fn(char) -> bool) -> Cow<'_, str> {
+    if !text.contains(&is_hidden) {
+        return Cow::Borrowed(text);
+    }
+    let mut safe = String::with_capacity(text.len());
+    for c in text.chars() {
+        if is_hidden(c) {
+            let _ = write!(safe, "\\u{:04x}", u32::from(c));
+        } else {
+            safe.push(c);
+        }
+    }
+    Cow::Owned(safe)
+}
+
+/// A path as it is shown.
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the one place where a path becomes a text"
+)]
+pub fn path(path: impl AsRef<Path>) -> String {
+    escaped(&path.as_ref().display().to_string()).into_owned()
+}
+
+/// The most characters of a value in a message.
+const MOST: usize = 60;
+
+/// A value as a message shows it: in one line, a long one cut.
+pub fn cut(value: &str) -> String {
+    let value = escaped(value);
+    match value.char_indices().nth(MOST) {
+        Some((at, _)) => format!("{}…", value.get(..at).unwrap_or_default()),
+        None => value.into_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hidden_characters_are_found() {
+        for c in "\0\t\n\r\u{7f}\u{85}\u{61c}\u{200b}\u{200e}\u{200f}\u{2028}\u{2029}\u{202a}\u{202e}\u{2060}\u{2066}\u{2069}\u{feff}"
+            .chars()
+        {
+            assert_eq!(hidden(&format!("è{c}")), Some((2, c)), "{}", code(c));
+        }
+        assert_eq!(hidden("Presse Süd, 5 µm · φ′ – 電動機"), None);
+    }
+
+    #[test]
+    fn what_is_printed_shows_them() {
+        assert_eq!(escaped("a\r\nb\u{202e}"), "a\\u000d\\u000ab\\u202e");
+        assert_eq!(lines("a\tb\nc\u{1b}[31m"), "a\tb\nc\\u001b[31m");
+        assert_eq!(path("out\n.csv"), "out\\u000a.csv");
+        let json = format!("\"{}\"", lines("x\u{202e}"));
+        assert_eq!(serde_json::from_str::<String>(&json).unwrap(), "x\u{202e}");
+    }
+
+    #[test]
+    fn long_values_are_cut() {
+        assert_eq!(cut(&"x".repeat(60)), "x".repeat(60));
+        assert_eq!(cut(&"é".repeat(61)), format!("{}…", "é".repeat(60)));
+    }
+}
