@@ -37,7 +37,7 @@ impl<'a, L: Layout> Cell<'a, L> {
     #[inline(always)]
     fn coefficients(&self, role: Role, column: usize) -> [Raw<L>; 4] {
         let more = self.constants.more::<L>(role);
-        L::coefficients(self.words, column, self.set, more, L::Scalar::raw)
+        L::coefficients(self.words, column, self.set, more, L::Number::raw)
     }
 
     /// J, and its slope a cell times the layout's step.
@@ -57,7 +57,7 @@ impl<'a, L: Layout> Cell<'a, L> {
     #[inline(always)]
     pub(super) fn viscous(&self) -> Option<Raw<L>> {
         if has(self.set, curves::CONSTANT_VISCOUS) {
-            return Some(L::Scalar::raw(self.constants.viscous));
+            return Some(L::Number::raw(self.constants.viscous));
         }
         self.curve(Role::Viscous)
     }
@@ -66,9 +66,9 @@ impl<'a, L: Layout> Cell<'a, L> {
     #[inline(always)]
     pub(super) fn coulomb(&self) -> Option<Raw<L>> {
         if has(self.set, curves::CONSTANT_COULOMB) {
-            return Some(L::Scalar::raw(self.constants.coulomb));
+            return Some(L::Number::raw(self.constants.coulomb));
         }
-        self.curve(Role::Coulomb).map(L::Scalar::magnitude)
+        self.curve(Role::Coulomb).map(L::Number::magnitude)
     }
 
     /// ½·J′·ω + b
@@ -76,19 +76,19 @@ impl<'a, L: Layout> Cell<'a, L> {
     pub(super) fn speed_coefficient(
         &self,
         slope: Raw<L>,
-        factor: <L::Scalar as Kernel>::Factor,
-        omega: L::Scalar,
+        factor: <L::Number as Kernel>::Factor,
+        omega: L::Number,
     ) -> Raw<L> {
-        let velocity = L::Scalar::velocity(slope, factor, omega);
+        let velocity = L::Number::velocity(slope, factor, omega);
         self.viscous().map_or(velocity, |b| velocity + b)
     }
 
     /// sum − load + c·sgn ω, of the curves that the machine has.
     #[inline(always)]
-    pub(super) fn with_load_and_friction(&self, sum: Raw<L>, omega: L::Scalar) -> Raw<L> {
+    pub(super) fn with_load_and_friction(&self, sum: Raw<L>, omega: L::Number) -> Raw<L> {
         let sum = self.curve(Role::Load).map_or(sum, |load| sum - load);
         let coulomb = self.coulomb();
-        coulomb.map_or(sum, |c| L::Scalar::add_signed(sum, c, omega))
+        coulomb.map_or(sum, |c| L::Number::add_signed(sum, c, omega))
     }
 }
 
@@ -96,7 +96,7 @@ impl<W: Copy> Constants<W> {
     #[inline(always)]
     fn more<L: Layout>(&self, role: Role) -> More<Raw<L>>
     where
-        L::Scalar: Kernel<Word = W>,
+        L::Number: Kernel<Word = W>,
     {
         let [inertia, load, viscous, coulomb, reciprocal] = self.gains;
         let gain = match role {
@@ -108,7 +108,7 @@ impl<W: Copy> Constants<W> {
         };
         More {
             offset: match role {
-                Role::Inertia => L::Scalar::raw(self.inertia),
+                Role::Inertia => L::Number::raw(self.inertia),
                 _ => Raw::<L>::default(),
             },
             gain: Ring::whole(gain),
@@ -121,16 +121,16 @@ pub(super) fn wide<L: Layout>(
     table: &Table<'_, L>,
     cell: u32,
     role: Role,
-) -> [<L::Scalar as Kernel>::Wide; 4] {
+) -> [<L::Number as Kernel>::Wide; 4] {
     let set = table.set();
     let words = L::cell(table.words(), cell as usize, set).unwrap_or_default();
     let column = role.column(set).unwrap_or(0);
     let more = table.constants().more::<L>(role);
     let more = More {
-        offset: L::Scalar::widen(more.offset),
-        gain: L::Scalar::widen(more.gain),
+        offset: L::Number::widen(more.offset),
+        gain: L::Number::widen(more.gain),
     };
-    let read = |word| L::Scalar::widen(L::Scalar::raw(word));
+    let read = |word| L::Number::widen(L::Number::raw(word));
     L::coefficients(words, column, set, more, read)
 }
 
@@ -138,7 +138,7 @@ pub(super) fn wide<L: Layout>(
 pub(super) fn polynomial<L: Layout>(table: &Table<'_, L>, cell: u32, role: Role) -> [f32; 4] {
     let mut scale = 1.0;
     let centred = wide(table, cell, role).map(|coefficient| {
-        let unscaled = L::Scalar::approximate(role, coefficient) / scale;
+        let unscaled = L::Number::approximate(role, coefficient) / scale;
         scale *= f32::from(L::STEP);
         unscaled
     });

@@ -19,7 +19,7 @@ pub(super) fn table<L: Layout>(table: &Table<'_, L>) -> Result<(), TableError> {
     }
     for cell in 0..table.cells() {
         for (column, role) in curves::roles(table.set()) {
-            if !L::Scalar::is_sound(wide(table, cell, role)) {
+            if !L::Number::is_sound(wide(table, cell, role)) {
                 let curve = column as u8;
                 return Err(TableError::Range { curve, cell });
             }
@@ -40,7 +40,7 @@ fn constant<L: Layout>(table: &Table<'_, L>, role: Role) -> f32 {
         Role::Viscous => table.constants().viscous,
         _ => table.constants().coulomb,
     };
-    L::Scalar::approximate(role, L::Scalar::widen(L::Scalar::raw(word)))
+    L::Number::approximate(role, L::Number::widen(L::Number::raw(word)))
 }
 
 /// Rows beyond the cells repeat the first ones.
@@ -104,7 +104,7 @@ pub(super) fn usage<L: Layout>(table: &Table<'_, L>) -> Result<Usage, TableError
     // Below 1 by more than the roundings of a tick and of these sums. Those of the slope count as often as the factor of
     // the velocity torque says: less than 8 units of Q30.
     let roundings = 1e-5 + per_slope * (8.0 / 1_073_741_824.0);
-    let limit = if L::Scalar::FIXED {
+    let limit = if L::Number::FIXED {
         1.0 - roundings
     } else {
         1e30
@@ -133,15 +133,15 @@ pub struct Proven<S: Kernel> {
     pub(super) reciprocal: S::Reciprocal,
 }
 
-pub(super) fn model<L: Layout>(table: &Table<'_, L>) -> Result<Proven<L::Scalar>, TableError> {
+pub(super) fn model<L: Layout>(table: &Table<'_, L>) -> Result<Proven<L::Number>, TableError> {
     let (span, scale) = (table.domain().span(), table.scale());
-    let factor = L::Scalar::velocity_factor(table.cells(), span, scale, L::STEP)
+    let factor = L::Number::velocity_factor(table.cells(), span, scale, L::STEP)
         .ok_or(TableError::SpeedBase)?;
     usage(table)?;
     let reciprocal = if curves::has(table.set(), curves::RECIPROCAL) {
         reciprocal(table)?.0
     } else {
-        <L::Scalar as Kernel>::Reciprocal::default()
+        <L::Number as Kernel>::Reciprocal::default()
     };
     Ok(Proven { factor, reciprocal })
 }
@@ -150,7 +150,7 @@ pub(super) fn model<L: Layout>(table: &Table<'_, L>) -> Result<Proven<L::Scalar>
 /// places of every cell.
 pub(super) fn reciprocal<L: Layout>(
     table: &Table<'_, L>,
-) -> Result<(<L::Scalar as Kernel>::Reciprocal, f32), TableError> {
+) -> Result<(<L::Number as Kernel>::Reciprocal, f32), TableError> {
     const PLACES: u64 = 4;
     // A seed may err more: Newton's step squares it.
     let limit = if L::NEWTON { 0.2 } else { 0.02 };
@@ -166,7 +166,7 @@ pub(super) fn reciprocal<L: Layout>(
         let here = Cell::at(table, phase, table.set()).ok_or(refused)?;
         let reciprocal = here.curve(Role::Reciprocal).ok_or(refused)?;
         let inertia = here.inertia().0;
-        let (constants, error) = L::Scalar::reciprocal_of(inertia, reciprocal).ok_or(refused)?;
+        let (constants, error) = L::Number::reciprocal_of(inertia, reciprocal).ok_or(refused)?;
         let close = error < limit;
         if *found.get_or_insert(constants) != constants || !close {
             return Err(refused);
@@ -174,7 +174,7 @@ pub(super) fn reciprocal<L: Layout>(
         most = most.max(if L::NEWTON { error * error } else { error });
     }
     // Between those places as well: Newton's step would overflow from an error of one half on.
-    let unit = found.map_or(0.0, L::Scalar::reciprocal_unit);
+    let unit = found.map_or(0.0, L::Number::reciprocal_unit);
     for cell in 0..table.cells() {
         let product = product(
             bezier(polynomial(table, cell, Role::Inertia)),

@@ -29,7 +29,7 @@ pub(super) fn fill<L: Layout, E: From<TableError> + From<RangeError>>(
         let values = values.get(column * rows..).and_then(|v| v.get(..knots));
         values.unwrap_or_default()
     })?;
-    let middle = L::Scalar::exact(Role::Inertia, L::Scalar::raw(constants.inertia));
+    let middle = L::Number::exact(Role::Inertia, L::Number::raw(constants.inertia));
     for (column, role) in curves::roles(set) {
         let overflow = |cell| match role {
             // More cells cure it.
@@ -147,7 +147,7 @@ fn constants<'v, L: Layout, E: From<TableError>>(
 ) -> Result<Constants<Word<L>>, E> {
     let stored = |role: Role, value: f64| {
         let base = role.base();
-        L::Scalar::word(role, value).ok_or(TableError::Overflow { base, cell: 0 })
+        L::Number::word(role, value).ok_or(TableError::Overflow { base, cell: 0 })
     };
     let start = samples.at_cell(0.0)?;
     let constant = |bit: Set, value: f64| if has(samples.set, bit) { value } else { 0.0 };

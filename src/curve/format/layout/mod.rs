@@ -24,7 +24,7 @@ use crate::curve::table::{CurveValues, Table};
 use crate::curve::{TableError, Usage};
 use crate::number::error::RangeError;
 use crate::number::{Kernel, Number, Ring, Role, Scalar};
-use crate::{Outcome, Phase};
+use crate::{Outcome, Phase, Q31};
 
 /// Constants of a table of polynomials, in addition to its rows; in machine units, zero if there is none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -41,22 +41,21 @@ pub struct Constants<W> {
 
 /// What a curve's coefficients need besides its words.
 #[derive(Clone, Copy, Default)]
-pub struct More<R> {
+pub(crate) struct More<R> {
     /// Added to the value.
     offset: R,
     /// Multiplies 16-bit points.
     gain: R,
 }
 
-pub(crate) type Word<L> = <<L as Layout>::Scalar as Number>::Word;
-type Raw<L> = <<L as Layout>::Scalar as Kernel>::Raw;
-type Fraction<L> = <<L as Layout>::Scalar as Kernel>::Fraction;
+pub(crate) type Word<L> = <<L as Format>::Number as Number>::Word;
+type Raw<L> = <<L as Format>::Number as Kernel>::Raw;
+type Fraction<L> = <<L as Format>::Number as Kernel>::Fraction;
 
-/// Polynomials in memory. Not nameable outside the crate.
-pub trait Layout: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 'static {
-    /// The number type.
-    type Scalar: Scalar;
-    const NAME: &'static str;
+/// Polynomials in memory.
+pub(crate) trait Layout:
+    Format<Number: Scalar, Word = Word<Self>, Constants = Constants<Word<Self>>>
+{
     /// Code in the image header.
     const CODE: u8;
     /// How long a row is.
@@ -71,7 +70,7 @@ pub trait Layout: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     /// Coefficient k is stored times the power k of this, because a product with the place divides by it.
     const STEP: i8 = 1;
     /// The place in a cell that the polynomial is about, 0 to 1.
-    const CENTRE: f64 = <Self::Scalar as Kernel>::ROW_CENTRE;
+    const CENTRE: f64 = <Self::Number as Kernel>::ROW_CENTRE;
     /// Whether a word contains two numbers of 16 bits.
     const HALVES: bool = false;
 
@@ -123,155 +122,167 @@ pub trait Layout: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     }
 }
 
-impl<L: Layout> Format for L {
-    type Number = L::Scalar;
-    type Word = Word<L>;
-    type Constants = Constants<Word<L>>;
-    type Tick<'a> = check::Proven<L::Scalar>;
+/// The format of a layout: an implementation of its own for each, so that the documentation names only what is public.
+macro_rules! format {
+    ($layout:ty, $name:literal, $number:ty $(, $generic:ident)?) => {
+        impl$(<$generic: Scalar>)? Format for $layout {
+            type Number = $number;
+            type Word = <$number as Number>::Word;
+            type Constants = Constants<<$number as Number>::Word>;
+            type Tick<'a> = check::Proven<$number>;
 
-    const NAME: &'static str = L::NAME;
-    const CODES: Option<[u8; 2]> = match <L::Scalar as Kernel>::CODE {
-        Some(number) => Some([number, L::CODE]),
-        None => None,
-    };
-    const SIZE: Size = Size::Rows(L::ROW);
-    const WHOLE_FACTOR: bool = L::Scalar::FIXED;
+            const NAME: &'static str = $name;
+            const CODES: Option<[u8; 2]> = match <$number as Kernel>::CODE {
+                Some(number) => Some([number, <Self as Layout>::CODE]),
+                None => None,
+            };
+            const SIZE: Size = Size::Rows(<Self as Layout>::ROW);
+            const WHOLE_FACTOR: bool = Self::Number::FIXED;
 
-    fn accepts(set: Set) -> bool {
-        curves::is_known(set) && (L::Scalar::FIXED || !curves::has(set, curves::RECIPROCAL))
-    }
-
-    fn check(table: &Table<'_, L>) -> Result<(), TableError> {
-        check::table(table)
-    }
-
-    fn read(table: &Table<'_, L>, phase: Phase) -> CurveValues {
-        let read = per_cell(table, phase);
-        let span = table.domain().to::<f64>().span();
-        CurveValues {
-            inertia_slope: read.inertia_slope * (f64::from(table.cells()) / span),
-            ..read
-        }
-    }
-
-    fn si(table: &Table<'_, L>, phase: Phase, cells_per_position: f64) -> CurveValues {
-        let read = per_cell(table, phase);
-        let [torque, speed, inertia] = bases(table.scale());
-        CurveValues {
-            inertia: read.inertia * inertia,
-            inertia_slope: read.inertia_slope * inertia * cells_per_position,
-            load: read.load * torque,
-            viscous: read.viscous * torque / speed,
-            coulomb: read.coulomb * torque,
-        }
-    }
-
-    fn reciprocal(table: &Table<'_, L>, phase: Phase) -> Option<f64> {
-        let (constants, _) = check::reciprocal(table).ok()?;
-        let unit = f64::from(L::Scalar::reciprocal_unit(constants));
-        let raw = Cell::at(table, phase, table.set())?.curve(Role::Reciprocal)?;
-        Some(L::Scalar::exact(Role::Reciprocal, raw) / unit)
-    }
-
-    fn reciprocal_error(table: &Table<'_, L>) -> f32 {
-        check::reciprocal(table).map_or(0.0, |(_, error)| error)
-    }
-
-    fn fill<E: From<TableError> + From<RangeError>>(
-        samples: &Samples<impl Fn(f64) -> Result<Sample, E>>,
-        scratch: &mut [f64],
-        words: &mut [Word<L>],
-    ) -> Result<Self::Constants, E> {
-        fill::fill::<L, E>(samples, scratch, words)
-    }
-
-    fn base(curve: u8, set: Set) -> &'static str {
-        let mut roles = curves::roles(set);
-        let found = roles.find(|(column, _)| *column == usize::from(curve));
-        found.map_or("torque", |(_, role)| role.base())
-    }
-
-    fn header(constants: &Self::Constants, _: Set) -> [u32; CONSTANTS] {
-        // 64 bits do not fit, and are not stored.
-        let bits = |word: Word<L>| bytemuck::try_cast(word).unwrap_or(0);
-        let [j, load, b, c, reciprocal] = constants.gains.map(u32::from);
-        [
-            bits(constants.inertia),
-            bits(constants.viscous),
-            bits(constants.coulomb),
-            j | load << 16,
-            b | c << 16,
-            reciprocal,
-            0,
-            0,
-            0,
-            0,
-            0,
-        ]
-    }
-
-    fn from_header(header: &[u32; CONSTANTS]) -> Self::Constants {
-        let word = |bits: u32| bytemuck::try_cast(bits).unwrap_or_default();
-        let &[inertia, viscous, coulomb, j_load, b_c, reciprocal, ..] = header;
-        Constants {
-            inertia: word(inertia),
-            viscous: word(viscous),
-            coulomb: word(coulomb),
-            gains: [j_load, j_load >> 16, b_c, b_c >> 16, reciprocal].map(|gain| gain as u16),
-        }
-    }
-
-    fn usage(table: &Table<'_, L>) -> Result<Usage, TableError> {
-        check::usage(table)
-    }
-
-    fn prepare<'a>(table: &Table<'a, L>) -> Result<Self::Tick<'a>, TableError> {
-        check::model(table)
-    }
-
-    #[inline(always)]
-    fn torque(
-        table: &Table<'_, L>,
-        tick: &Self::Tick<'_>,
-        set: Set,
-        phase: Phase,
-        [omega, alpha]: [L::Scalar; 2],
-    ) -> L::Scalar {
-        let Some(cell) = Cell::at(table, phase, set) else {
-            return L::Scalar::default();
-        };
-        let (inertia, slope) = cell.inertia();
-        let sum = L::Scalar::product(cell.speed_coefficient(slope, tick.factor, omega), omega);
-        let sum = L::Scalar::accumulate(sum, inertia, alpha);
-        L::Scalar::torque(cell.with_load_and_friction(sum, omega))
-    }
-
-    #[inline(always)]
-    fn accelerations<const N: usize>(
-        table: &Table<'_, L>,
-        tick: &Self::Tick<'_>,
-        set: Set,
-        phase: Phase,
-        omega: L::Scalar,
-        torques: [L::Scalar; N],
-    ) -> [Outcome<L::Scalar>; N] {
-        let Some(cell) = Cell::at(table, phase, set) else {
-            return [Outcome::default(); N];
-        };
-        let (inertia, slope) = cell.inertia();
-        let resisting =
-            L::Scalar::product(cell.speed_coefficient(slope, tick.factor, omega), omega);
-        let resisting = cell.with_load_and_friction(resisting, omega);
-        let reciprocal = cell.curve(Role::Reciprocal);
-        torques.map(|torque| match reciprocal {
-            Some(reciprocal) => {
-                let inertia = L::NEWTON.then_some(inertia);
-                L::Scalar::by_reciprocal(torque, resisting, reciprocal, tick.reciprocal, inertia)
+            fn accepts(set: Set) -> bool {
+                let divides = !curves::has(set, curves::RECIPROCAL);
+                curves::is_known(set) && (divides || Self::Number::FIXED)
             }
-            None => L::Scalar::quotient(torque, resisting, inertia),
-        })
-    }
+
+            fn check(table: &Table<'_, Self>) -> Result<(), TableError> {
+                check::table(table)
+            }
+
+            fn read(table: &Table<'_, Self>, phase: Phase) -> CurveValues {
+                let read = per_cell(table, phase);
+                let span = table.domain().to::<f64>().span();
+                CurveValues {
+                    inertia_slope: read.inertia_slope * (f64::from(table.cells()) / span),
+                    ..read
+                }
+            }
+
+            fn si(table: &Table<'_, Self>, phase: Phase, cells_per_position: f64) -> CurveValues {
+                let read = per_cell(table, phase);
+                let [torque, speed, inertia] = bases(table.scale());
+                CurveValues {
+                    inertia: read.inertia * inertia,
+                    inertia_slope: read.inertia_slope * inertia * cells_per_position,
+                    load: read.load * torque,
+                    viscous: read.viscous * torque / speed,
+                    coulomb: read.coulomb * torque,
+                }
+            }
+
+            fn reciprocal(table: &Table<'_, Self>, phase: Phase) -> Option<f64> {
+                let (constants, _) = check::reciprocal(table).ok()?;
+                let unit = f64::from(Self::Number::reciprocal_unit(constants));
+                let raw = Cell::at(table, phase, table.set())?.curve(Role::Reciprocal)?;
+                Some(Self::Number::exact(Role::Reciprocal, raw) / unit)
+            }
+
+            fn reciprocal_error(table: &Table<'_, Self>) -> f32 {
+                check::reciprocal(table).map_or(0.0, |(_, error)| error)
+            }
+
+            fn fill<E: From<TableError> + From<RangeError>>(
+                samples: &Samples<impl Fn(f64) -> Result<Sample, E>>,
+                scratch: &mut [f64],
+                words: &mut [Self::Word],
+            ) -> Result<Self::Constants, E> {
+                fill::fill::<Self, E>(samples, scratch, words)
+            }
+
+            fn base(curve: u8, set: Set) -> &'static str {
+                let mut roles = curves::roles(set);
+                let found = roles.find(|(column, _)| *column == usize::from(curve));
+                found.map_or("torque", |(_, role)| role.base())
+            }
+
+            fn header(constants: &Self::Constants, _: Set) -> [u32; CONSTANTS] {
+                // 64 bits do not fit, and are not stored.
+                let bits = |word: Self::Word| bytemuck::try_cast(word).unwrap_or(0);
+                let [j, load, b, c, reciprocal] = constants.gains.map(u32::from);
+                [
+                    bits(constants.inertia),
+                    bits(constants.viscous),
+                    bits(constants.coulomb),
+                    j | load << 16,
+                    b | c << 16,
+                    reciprocal,
+                    0,
+                    0,
+                    0,
+                    0,
+                    0,
+                ]
+            }
+
+            fn from_header(header: &[u32; CONSTANTS]) -> Self::Constants {
+                let word = |bits: u32| bytemuck::try_cast(bits).unwrap_or_default();
+                let &[inertia, viscous, coulomb, j_load, b_c, reciprocal, ..] = header;
+                Constants {
+                    inertia: word(inertia),
+                    viscous: word(viscous),
+                    coulomb: word(coulomb),
+                    gains: [j_load, j_load >> 16, b_c, b_c >> 16, reciprocal].map(|gain| gain as u16),
+                }
+            }
+
+            fn usage(table: &Table<'_, Self>) -> Result<Usage, TableError> {
+                check::usage(table)
+            }
+
+            fn prepare<'a>(table: &Table<'a, Self>) -> Result<Self::Tick<'a>, TableError> {
+                check::model(table)
+            }
+
+            #[inline(always)]
+            fn torque(
+                table: &Table<'_, Self>,
+                tick: &Self::Tick<'_>,
+                set: Set,
+                phase: Phase,
+                [omega, alpha]: [Self::Number; 2],
+            ) -> Self::Number {
+                let Some(cell) = Cell::at(table, phase, set) else {
+                    return Self::Number::default();
+                };
+                let (inertia, slope) = cell.inertia();
+                let sum = Self::Number::product(cell.speed_coefficient(slope, tick.factor, omega), omega);
+                let sum = Self::Number::accumulate(sum, inertia, alpha);
+                Self::Number::torque(cell.with_load_and_friction(sum, omega))
+            }
+
+            #[inline(always)]
+            fn accelerations<const N: usize>(
+                table: &Table<'_, Self>,
+                tick: &Self::Tick<'_>,
+                set: Set,
+                phase: Phase,
+                omega: Self::Number,
+                torques: [Self::Number; N],
+            ) -> [Outcome<Self::Number>; N] {
+                let Some(cell) = Cell::at(table, phase, set) else {
+                    return [Outcome::default(); N];
+                };
+                let (inertia, slope) = cell.inertia();
+                let resisting =
+                    Self::Number::product(cell.speed_coefficient(slope, tick.factor, omega), omega);
+                let resisting = cell.with_load_and_friction(resisting, omega);
+                let reciprocal = cell.curve(Role::Reciprocal);
+                torques.map(|torque| match reciprocal {
+                    Some(reciprocal) => {
+                        let inertia = Self::NEWTON.then_some(inertia);
+                        let constants = tick.reciprocal;
+                        Self::Number::by_reciprocal(torque, resisting, reciprocal, constants, inertia)
+                    }
+                    None => Self::Number::quotient(torque, resisting, inertia),
+                })
+            }
+        }
+    };
 }
+
+format!(Spline<S>, "spline", S, S);
+format!(Spline16, "spline16", Q31);
+format!(Cubic<S>, "cubic", S, S);
+format!(Quadratic<S>, "quadratic", S, S);
 
 /// All curves in machine units, the slope a cell.
 fn per_cell<L: Layout>(table: &Table<'_, L>, phase: Phase) -> CurveValues {
@@ -279,10 +290,10 @@ fn per_cell<L: Layout>(table: &Table<'_, L>, phase: Phase) -> CurveValues {
         return CurveValues::default();
     };
     let (inertia, slope) = cell.inertia();
-    let number = |role, raw: Option<Raw<L>>| raw.map_or(0.0, |raw| L::Scalar::exact(role, raw));
+    let number = |role, raw: Option<Raw<L>>| raw.map_or(0.0, |raw| L::Number::exact(role, raw));
     CurveValues {
-        inertia: L::Scalar::exact(Role::Inertia, inertia),
-        inertia_slope: L::Scalar::exact(Role::Inertia, slope) / f64::from(L::STEP),
+        inertia: L::Number::exact(Role::Inertia, inertia),
+        inertia_slope: L::Number::exact(Role::Inertia, slope) / f64::from(L::STEP),
         load: number(Role::Load, cell.curve(Role::Load)),
         viscous: number(Role::Viscous, cell.viscous()),
         coulomb: number(Role::Coulomb, cell.coulomb()),

@@ -39,12 +39,12 @@ impl<L: Layout> Points<'_, L> {
     fn get(&self, point: usize) -> Option<f64> {
         let word = *self.words.get(self.first + point * self.pitch)?;
         let stored = L::half(word, self.upper);
-        Some(L::Scalar::exact(self.role, L::Scalar::raw(stored)) * self.gain)
+        Some(L::Number::exact(self.role, L::Number::raw(stored)) * self.gain)
     }
 
     /// Stores the number nearest to `value`; `None` if it is out of range.
     pub(super) fn set(&mut self, point: usize, value: f64) -> Option<()> {
-        let stored = L::Scalar::word(self.role, value / self.gain)?;
+        let stored = L::Number::word(self.role, value / self.gain)?;
         let slot = self.words.get_mut(self.first + point * self.pitch)?;
         *slot = L::with_half(*slot, self.upper, stored)?;
         Some(())

@@ -23,8 +23,6 @@ fn run<T, const N: usize>(words: &[T], index: usize) -> Option<&[T]> {
 }
 
 impl<S: Scalar> Layout for Cubic<S> {
-    type Scalar = S;
-    const NAME: &'static str = "cubic";
     const CODE: u8 = 2;
     const ROW: Row = Row {
         head: 0,
@@ -69,8 +67,6 @@ impl<S: Scalar> Layout for Cubic<S> {
 }
 
 impl<S: Scalar> Layout for Quadratic<S> {
-    type Scalar = S;
-    const NAME: &'static str = "quadratic";
     const CODE: u8 = 3;
     const ROW: Row = Row {
         head: 0,

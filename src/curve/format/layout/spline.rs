@@ -29,8 +29,6 @@ fn rows<T, const W: usize>(words: &[T], index: usize) -> Option<&[T]> {
 }
 
 impl<S: Scalar> Layout for Spline<S> {
-    type Scalar = S;
-    const NAME: &'static str = "spline";
     const CODE: u8 = 1;
     const ROW: Row = Row {
         head: 0,
@@ -79,8 +77,6 @@ impl<S: Scalar> Layout for Spline<S> {
 }
 
 impl Layout for Spline16 {
-    type Scalar = Q31;
-    const NAME: &'static str = "spline16";
     const CODE: u8 = 4;
     const ROW: Row = Row {
         head: 0,
