@@ -11,7 +11,7 @@ use crate::support::{assert_near, budget};
 use jred::machine::motion::{Law, Move};
 use jred::machine::{Action, Element, Frame, Frames, Load, Marker, Mechanism, Window};
 use jred::mechanism::{
-    BeltDimensions, Branch, Geneva, Mesh, RackAndPinion, SliderCrank, Stage, Train,
+    BeltDimensions, Branch, GearDimensions, Geneva, Mesh, RackAndPinion, SliderCrank, Stage, Train,
 };
 use jred::table::{CubicSpline, Format, MAX_CELLS, fit_bounded, fit_periodic};
 use jred::tabulate::{Request, fill, tabulate};
@@ -83,11 +83,19 @@ fn values_out_of_bounds_are_named() {
     says(Link::rotor(-0.5), &["inertia", "-0.5"]);
     says(Link::rotor(f64::NAN), &["inertia", "not a finite number"]);
     says(
-        Stage::gears([0, 20], [0.0; 2], Mesh::External),
+        Stage::gears(GearDimensions {
+            teeth: [0, 20],
+            inertias: [0.0; 2],
+            mesh: Mesh::External,
+        }),
         &["teeth of the driver", "0"],
     );
     says(
-        Stage::gears([20, 0], [0.0; 2], Mesh::Internal),
+        Stage::gears(GearDimensions {
+            teeth: [20, 0],
+            inertias: [0.0; 2],
+            mesh: Mesh::Internal,
+        }),
         &["teeth of the driven", "0"],
     );
     says(Stage::new(0.0, [0.0; 2]), &["ratio", "0"]);

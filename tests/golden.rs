@@ -4,7 +4,9 @@ use crate::support::golden::Case;
 use crate::support::machines::golden_slider_crank;
 use crate::support::{assert_near, budget};
 use jred::machine::{Action, Load, Mechanism};
-use jred::mechanism::{BeltDimensions, Mesh, SliderCrank, Stage, Train, TrainOutput};
+use jred::mechanism::{
+    BeltDimensions, GearDimensions, Mesh, SliderCrank, Stage, Train, TrainOutput,
+};
 use jred::{Machine, Reducible};
 
 #[test]
@@ -151,16 +153,16 @@ fn gear_train_golden() {
     let case = Case::new(include_str!("data/05_gear_train_A.json"));
     let teeth = [0, 1, 2, 3].map(|k| case.input(&format!("/z/{k}")) as u32);
     let inertia = [0, 1, 2, 3].map(|k| case.input(&format!("/J/{k}")));
-    let first = Stage::gears(
-        [teeth[0], teeth[1]],
-        [inertia[0], inertia[1]],
-        Mesh::External,
-    );
-    let second = Stage::gears(
-        [teeth[2], teeth[3]],
-        [inertia[2], inertia[3]],
-        Mesh::External,
-    );
+    let first = Stage::gears(GearDimensions {
+        teeth: [teeth[0], teeth[1]],
+        inertias: [inertia[0], inertia[1]],
+        mesh: Mesh::External,
+    });
+    let second = Stage::gears(GearDimensions {
+        teeth: [teeth[2], teeth[3]],
+        inertias: [inertia[2], inertia[3]],
+        mesh: Mesh::External,
+    });
     let train = Train::new(&[first.unwrap(), second.unwrap()]).unwrap();
     compare(&case, "i_12", train.stages()[0].ratio());
     compare(&case, "i_34", train.stages()[1].ratio());
@@ -211,7 +213,12 @@ fn gear_train_golden() {
         );
         assert_near("loss", input.loss, 0.0, 0.0);
     }
-    let ring = Stage::gears([18, 54], [0.0, 0.0], Mesh::Internal).unwrap();
+    let ring = Stage::gears(GearDimensions {
+        teeth: [18, 54],
+        inertias: [0.0, 0.0],
+        mesh: Mesh::Internal,
+    })
+    .unwrap();
     assert_near("internal mesh", ring.ratio(), 3.0, 0.0);
 }
 

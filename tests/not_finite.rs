@@ -4,7 +4,8 @@ use crate::support::machines::Wave;
 use jred::machine::motion::{Law, Move};
 use jred::machine::{Action, Load, Mechanism, Window};
 use jred::mechanism::{
-    BeltDimensions, Branch, BuildError, Mesh, SliderCrank, SliderCrankDimensions, Stage, Train,
+    BeltDimensions, Branch, BuildError, GearDimensions, Mesh, SliderCrank, SliderCrankDimensions,
+    Stage, Train,
 };
 use jred::number::RangeError;
 use jred::table::CubicSpline;
@@ -73,14 +74,22 @@ fn nothing_that_is_not_finite_gets_into_a_machine() {
             Stage::new(1.0, [0.0, x]).map(drop).map_err(Into::into)
         }),
         ("gears", |x| {
-            Stage::gears([9, 9], [x, 0.0], Mesh::Internal)
-                .map(drop)
-                .map_err(Into::into)
+            Stage::gears(GearDimensions {
+                teeth: [9, 9],
+                inertias: [x, 0.0],
+                mesh: Mesh::Internal,
+            })
+            .map(drop)
+            .map_err(Into::into)
         }),
         ("gears", |x| {
-            Stage::gears([9, 9], [0.0, x], Mesh::Internal)
-                .map(drop)
-                .map_err(Into::into)
+            Stage::gears(GearDimensions {
+                teeth: [9, 9],
+                inertias: [0.0, x],
+                mesh: Mesh::Internal,
+            })
+            .map(drop)
+            .map_err(Into::into)
         }),
         ("pulley", |x| {
             Stage::belt(BeltDimensions {

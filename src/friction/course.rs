@@ -12,7 +12,7 @@ use crate::number::spline::CubicSpline;
 
 /// What a course may depend on: time, angle and load of one friction stage, with derivatives by these three.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct OperatingPoint {
     /// Time t (s).
     pub t: Dual<3>,
     /// Angle of the stage's first shaft (rad).
@@ -22,14 +22,32 @@ pub struct Place {
     pub load: Dual<3>,
 }
 
-impl Place {
-    /// The place at a time (s), an angle (rad) and a load (N·m).
+impl OperatingPoint {
+    /// The time `t` (s), at the angle 0 and without load.
     #[must_use]
-    pub fn new(t: f64, phi: f64, load: f64) -> Self {
+    pub fn at_time(t: f64) -> Self {
         Self {
             t: Dual::variable(t, 0),
+            phi: Dual::variable(0.0, 1),
+            load: Dual::variable(0.0, 2),
+        }
+    }
+
+    /// The same at the angle `phi` (rad).
+    #[must_use]
+    pub fn with_angle(self, phi: f64) -> Self {
+        Self {
             phi: Dual::variable(phi, 1),
+            ..self
+        }
+    }
+
+    /// The same under the load `load` (N·m).
+    #[must_use]
+    pub fn with_load(self, load: f64) -> Self {
+        Self {
             load: Dual::variable(load, 2),
+            ..self
         }
     }
 
@@ -57,23 +75,23 @@ pub enum Variable {
     Load,
 }
 
-/// How a ratio or a slip varies. Closures on [`Place`] are courses as well:
+/// How a ratio or a slip varies. Closures on [`OperatingPoint`] are courses as well:
 ///
 /// ```
-/// use jred::friction::{Course, Dual, Place};
+/// use jred::friction::{Course, Dual, OperatingPoint};
 ///
-/// let ratio = |at: Place| (at.t * 3.0).sin_cos().0 * 0.2 + 1.0;
-/// let found = ratio.at(Place::new(0.5, 0.0, 0.0));
+/// let ratio = |at: OperatingPoint| (at.t * 3.0).sin_cos().0 * 0.2 + 1.0;
+/// let found = ratio.at(OperatingPoint::at_time(0.5));
 /// assert!((found.slope[0] - 0.6 * 1.5f64.cos()).abs() < 1e-15);
 /// # let _: Dual<3> = found;
 /// ```
 pub trait Course {
     /// Value with its derivatives by time, angle and load.
-    fn at(&self, at: Place) -> Dual<3>;
+    fn at(&self, at: OperatingPoint) -> Dual<3>;
 }
 
-impl<F: Fn(Place) -> Dual<3>> Course for F {
-    fn at(&self, at: Place) -> Dual<3> {
+impl<F: Fn(OperatingPoint) -> Dual<3>> Course for F {
+    fn at(&self, at: OperatingPoint) -> Dual<3> {
         self(at)
     }
 }
@@ -90,7 +108,7 @@ pub enum Coefficient<'a> {
 impl Coefficient<'_> {
     /// Value with its derivatives.
     #[must_use]
-    pub fn at(&self, at: Place) -> Dual<3> {
+    pub fn at(&self, at: OperatingPoint) -> Dual<3> {
         match self {
             Self::Constant(value) => Dual::constant(*value),
             Self::Course(course) => course.at(at),
@@ -181,7 +199,7 @@ impl Ramp {
 }
 
 impl Course for Ramp {
-    fn at(&self, at: Place) -> Dual<3> {
+    fn at(&self, at: OperatingPoint) -> Dual<3> {
         let z = (at.of(self.over) - self.start) / self.length;
         let [s, slope] = match self.law {
             Some(law) => {
@@ -233,7 +251,7 @@ impl Sine {
 }
 
 impl Course for Sine {
-    fn at(&self, at: Place) -> Dual<3> {
+    fn at(&self, at: OperatingPoint) -> Dual<3> {
         let shape = &self.shape;
         let (sin, _) = (at.of(self.over) * shape.frequency + shape.phase).sin_cos();
         sin * shape.amplitude + shape.mean
@@ -286,7 +304,7 @@ impl<C: AsRef<[f64]>> Curve<C> {
 }
 
 impl<C: AsRef<[f64]>> Course for Curve<C> {
-    fn at(&self, at: Place) -> Dual<3> {
+    fn at(&self, at: OperatingPoint) -> Dual<3> {
         let place = (at.of(self.over) - self.start) / self.length;
         let x = place.value;
         let inside = if self.periodic { x - math::floor(x) } else { x };
@@ -316,7 +334,7 @@ impl Creep {
 }
 
 impl Course for Creep {
-    fn at(&self, at: Place) -> Dual<3> {
+    fn at(&self, at: OperatingPoint) -> Dual<3> {
         at.load * (self.0.slip / self.0.torque)
     }
 }

@@ -14,7 +14,7 @@
 //! give a factor 1 and a free run with ω·J constant; the machine keeps ω·√J. The literature treats the shifted variator
 //! as non-holonomic, too: M. Čavić, M. Penčić, M. Zlokolica, *Thermal Science* 20 (2016) S525-S536.
 
-use super::course::Place;
+use super::course::OperatingPoint;
 use super::error::FrictionError;
 use super::stage::{Flow, Ratios, Stage};
 use super::state::{ContactMotion, Motion, Shaft, ShaftMotion, State};
@@ -240,7 +240,9 @@ impl<'a> Drive<'a> {
             let first = self.first_shaft(k);
             let a = shafts.get(first).copied().unwrap_or(input);
             let phi = state.angles.get(first).copied().unwrap_or(0.0);
-            let ratios = stage.at(Place::new(state.t, phi, *load))?;
+            let ratios = stage.at(OperatingPoint::at_time(state.t)
+                .with_angle(phi)
+                .with_load(*load))?;
             let j = ratios.speed.value;
             let [by_t, by_phi, _] = ratios.speed.slope;
             let rate = by_t + by_phi * a.speed * state.omega;

@@ -15,7 +15,7 @@
 use crate::number::error::RangeError;
 use core::fmt;
 
-use crate::friction::{Drive, Place, Stage};
+use crate::friction::{Drive, OperatingPoint, Stage};
 use crate::machine::MAX_STAGES;
 use crate::math;
 use crate::number::error::finite;
@@ -121,14 +121,19 @@ fn constraint(
     let span = times[1] - times[0];
     let mut fastest: Option<(f64, f64, f64)> = None;
     let mut turns = false;
-    let first = stage.at(Place::new(times[0], angles[0], 0.0))?.speed.value;
+    let first = stage
+        .at(OperatingPoint::at_time(times[0]).with_angle(angles[0]))?
+        .speed
+        .value;
     for l in 0..SAMPLES {
         let phi = grid(angles, l);
         let mut before: Option<(f64, f64)> = None;
         for k in 0..SAMPLES {
             let t = grid(times, k);
-            let speed = stage.at(Place::new(t, phi, 0.0))?.speed;
-            let loaded = stage.at(Place::new(t, phi, LOAD))?.speed;
+            let speed = stage.at(OperatingPoint::at_time(t).with_angle(phi))?.speed;
+            let loaded = stage
+                .at(OperatingPoint::at_time(t).with_angle(phi).with_load(LOAD))?
+                .speed;
             if speed.slope[2] != 0.0 || loaded.slope[2] != 0.0 {
                 return Ok(StageConstraint::Constitutive);
             }

@@ -27,7 +27,7 @@ mod stage;
 mod state;
 
 pub use course::{
-    Coefficient, Course, Creep, Curve, Place, Ramp, RampShape, Sine, SineShape, Variable,
+    Coefficient, Course, Creep, Curve, OperatingPoint, Ramp, RampShape, Sine, SineShape, Variable,
 };
 pub use creep::{CreepContact, CreepLimit, Traction};
 pub use drive::{Arrangement, Contact, Drive, MAX_SHAFTS};

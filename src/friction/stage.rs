@@ -1,7 +1,7 @@
 //! One friction stage: two shafts whose speeds are coupled by a ratio and a slip.
 
 use super::Dual;
-use super::course::{Coefficient, Place};
+use super::course::{Coefficient, OperatingPoint};
 use crate::math;
 use crate::number::error::RangeError;
 use crate::number::error::{finite, positive};
@@ -86,7 +86,7 @@ impl<'a> Stage<'a> {
     pub fn constant(&self) -> Option<f64> {
         match (self.ratio, self.slip) {
             (Coefficient::Constant(_), Coefficient::Constant(_)) => {
-                let found = self.at(Place::new(0.0, 0.0, 0.0)).ok()?;
+                let found = self.at(OperatingPoint::at_time(0.0)).ok()?;
                 Some(found.speed.value)
             }
             _ => None,
@@ -97,7 +97,7 @@ impl<'a> Stage<'a> {
     ///
     /// # Errors
     /// A course that is not finite there, a ratio of zero, or a slip outside (−1, 1).
-    pub fn at(&self, at: Place) -> Result<Ratios, RangeError> {
+    pub fn at(&self, at: OperatingPoint) -> Result<Ratios, RangeError> {
         let (geometric, slip) = (self.ratio.at(at), self.slip.at(at));
         check_ratio(geometric.value)?;
         if !geometric.is_finite() {
@@ -135,7 +135,10 @@ impl<'a> Stage<'a> {
     /// Those of [`at`](Self::at).
     pub fn angle(&self, t: f64, from: f64, to: f64) -> Result<f64, RangeError> {
         crate::number::quadrature::integrate(from, to, 64, |phi| {
-            Ok(self.at(Place::new(t, phi, 0.0))?.speed.value)
+            Ok(self
+                .at(OperatingPoint::at_time(t).with_angle(phi))?
+                .speed
+                .value)
         })
     }
 }

@@ -44,4 +44,4 @@ pub use scotch_yoke::{ScotchYoke, ScotchYokeDimensions};
 pub use six_link::{SixLink, SixLinkDimensions};
 pub use slider_crank::{Branch, SliderCrank, SliderCrankDimensions};
 pub use toggle_press::{DeadCentre, DeadCentres, Standstill, TogglePress, TogglePressDimensions};
-pub use train::{BeltDimensions, Mesh, Stage, Train, TrainInput, TrainOutput};
+pub use train::{BeltDimensions, GearDimensions, Mesh, Stage, Train, TrainInput, TrainOutput};

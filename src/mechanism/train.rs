@@ -21,6 +21,18 @@ pub enum Mesh {
     Internal,
 }
 
+/// Dimensions of a gear pair, the driver's first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct GearDimensions {
+    /// Numbers of teeth.
+    pub teeth: [u32; 2],
+    /// Inertias of the wheels (kg·m²).
+    pub inertias: [f64; 2],
+    /// How they mesh.
+    pub mesh: Mesh,
+}
+
 /// Dimensions of an open belt over two pulleys, the driver's first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -43,18 +55,19 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// A gear pair with numbers of teeth `[driver, driven]` and inertias of the two wheels (kg·m²), lossless.
+    /// A gear pair, lossless.
     ///
     /// # Errors
     /// No teeth, or an inertia negative or not finite.
-    pub fn gears(teeth: [u32; 2], inertia: [f64; 2], mesh: Mesh) -> Result<Self, RangeError> {
-        let driver = positive("teeth of the driver", f64::from(teeth[0]))?;
-        let driven = positive("teeth of the driven gear", f64::from(teeth[1]))?;
-        let sign = match mesh {
+    pub fn gears(dimensions: GearDimensions) -> Result<Self, RangeError> {
+        let [driver, driven] = dimensions.teeth.map(f64::from);
+        let driver = positive("teeth of the driver", driver)?;
+        let driven = positive("teeth of the driven gear", driven)?;
+        let sign = match dimensions.mesh {
             Mesh::External => -1.0,
             Mesh::Internal => 1.0,
         };
-        Self::new(sign * driven / driver, inertia)
+        Self::new(sign * driven / driver, dimensions.inertias)
     }
 
     /// An open belt without slip, lossless.

@@ -3,8 +3,8 @@
 use crate::support::spoken;
 use jred::Error;
 use jred::friction::{
-    Arrangement, Contact, Creep, CreepContact, CreepLimit, Drive, Flow, FrictionDrive, Place, Ramp,
-    RampShape, Shaft, Sine, SineShape, Stage, State, Variable,
+    Arrangement, Contact, Creep, CreepContact, CreepLimit, Drive, Flow, FrictionDrive,
+    OperatingPoint, Ramp, RampShape, Shaft, Sine, SineShape, Stage, State, Variable,
 };
 use jred::machine::motion::Law;
 
@@ -48,8 +48,8 @@ fn stages_and_courses() {
     // A ratio that passes through zero is refused where it does, not before.
     let through = Ramp::linear(Variable::Time, shape(1.0, -1.0)).unwrap();
     let stage = Stage::new(&through).unwrap();
-    assert!(stage.at(Place::new(0.4, 0.0, 0.0)).is_ok());
-    assert_eq!(text(stage.at(Place::new(0.5, 0.0, 0.0))), zero);
+    assert!(stage.at(OperatingPoint::at_time(0.4)).is_ok());
+    assert_eq!(text(stage.at(OperatingPoint::at_time(0.5))), zero);
     let much = Ramp::linear(
         Variable::Load,
         RampShape {
@@ -64,14 +64,14 @@ fn stages_and_courses() {
         .with_slip(&much, Flow::FirstDrives)
         .unwrap();
     assert_eq!(
-        text(stage.at(Place::new(0.0, 0.0, 7.0))),
+        text(stage.at(OperatingPoint::at_time(0.0).with_load(7.0))),
         "slip of the friction stage is 1.4, outside -1 to 1"
     );
-    let broken = |p: Place| p.t / 0.0;
+    let broken = |p: OperatingPoint| p.t / 0.0;
     assert!(
         Stage::new(&broken)
             .unwrap()
-            .at(Place::new(1.0, 0.0, 0.0))
+            .at(OperatingPoint::at_time(1.0))
             .is_err()
     );
 }
@@ -133,7 +133,7 @@ fn drives() {
 /// Slip that grows so fast with the load that load and slip chase each other.
 #[test]
 fn load_and_slip_that_do_not_settle() {
-    let steep = |p: Place| (p.load * 40.0).sin_cos().0 * 0.9;
+    let steep = |p: OperatingPoint| (p.load * 40.0).sin_cos().0 * 0.9;
     let stage = Stage::new(1.0)
         .unwrap()
         .with_slip(&steep, Flow::FirstDrives)

@@ -1,7 +1,8 @@
 //! Courses and the numbers that carry their gradients.
 
 use jred::friction::{
-    Course, Creep, CreepLimit, Curve, Dual, Place, Ramp, RampShape, Sine, SineShape, Variable,
+    Course, Creep, CreepLimit, Curve, Dual, OperatingPoint, Ramp, RampShape, Sine, SineShape,
+    Variable,
 };
 use jred::machine::motion::Law;
 use jred::table::{CubicSpline, control_points, fit_bounded, fit_periodic};
@@ -10,12 +11,18 @@ use crate::support::{assert_near, budget, derivative};
 
 /// Derivatives by all three variables against differences.
 fn check(course: &impl Course, at: [f64; 3]) {
-    let found = course.at(Place::new(at[0], at[1], at[2]));
+    let found = course.at(OperatingPoint::at_time(at[0])
+        .with_angle(at[1])
+        .with_load(at[2]));
     for k in 0..3 {
         let along = |x: f64| {
             let mut moved = at;
             moved[k] = x;
-            course.at(Place::new(moved[0], moved[1], moved[2])).value
+            course
+                .at(OperatingPoint::at_time(moved[0])
+                    .with_angle(moved[1])
+                    .with_load(moved[2]))
+                .value
         };
         let slope = derivative(along, at[k], 1e-3);
         let size = 1.0 + found.slope[k].abs();
@@ -77,7 +84,7 @@ fn courses_have_exact_slopes() {
         at,
     );
     // A formula of the user's own, over all three at once.
-    let own = |p: Place| {
+    let own = |p: OperatingPoint| {
         let (sin, cos) = (p.t * p.phi - p.load * 0.1).sin_cos();
         (sin * 2.0 + cos * p.t + 3.0) / (p.load + 1.0).sqrt() - p.phi
     };
@@ -114,14 +121,14 @@ fn ramps_end_in_their_limits() {
         (9.0, 2.0),
     ] {
         for course in [&shift, &line] {
-            let found = course.at(Place::new(t, 0.0, 0.0));
+            let found = course.at(OperatingPoint::at_time(t));
             assert_near("value", found.value, value, budget::CLOSED_FORM);
             if !(1.0..=3.0).contains(&t) {
                 assert_near("slope", found.slope[0], 0.0, 0.0);
             }
         }
     }
-    let middle = |course: &Ramp| course.at(Place::new(2.0, 0.0, 0.0)).slope[0];
+    let middle = |course: &Ramp| course.at(OperatingPoint::at_time(2.0)).slope[0];
     assert_near("slope", middle(&line), 0.75, budget::CLOSED_FORM);
     assert_near("slope", middle(&shift), 0.75 * 1.875, budget::CLOSED_FORM);
 }
@@ -135,7 +142,7 @@ fn curves_pass_through_their_samples() {
     fit_periodic(&samples, &mut control).unwrap();
     let turn = Curve::turn(CubicSpline::new(control).unwrap());
     for phi in [0.0, 1.3, -2.0, 9.0, 40.0] {
-        let found = turn.at(Place::new(0.0, phi, 0.0));
+        let found = turn.at(OperatingPoint::at_time(0.0).with_angle(phi));
         assert_near("value", found.value, f(phi), budget::CURVE[0]);
         assert_near(
             "slope",
@@ -151,7 +158,7 @@ fn curves_pass_through_their_samples() {
     let part =
         Curve::bounded(Variable::Load, 3.0, 2.0, CubicSpline::new(control).unwrap()).unwrap();
     for (load, x) in [(3.0, 0.0), (3.7, 0.7), (5.0, 2.0)] {
-        let found = part.at(Place::new(0.0, 0.0, load));
+        let found = part.at(OperatingPoint::at_time(0.0).with_load(load));
         assert_near("value", found.value, f(x), budget::CURVE[0]);
         assert_near(
             "slope",
@@ -160,7 +167,7 @@ fn curves_pass_through_their_samples() {
             budget::CURVE[1],
         );
     }
-    let outside = part.at(Place::new(0.0, 0.0, 7.0));
+    let outside = part.at(OperatingPoint::at_time(0.0).with_load(7.0));
     assert_near("end value", outside.value, f(2.0), budget::CLOSED_FORM);
     assert_near("end slope", outside.slope[2], 0.0, 0.0);
 }

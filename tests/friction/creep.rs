@@ -143,8 +143,8 @@ fn quasi_static_creep_approaches_two_speeds() {
         );
         let two = integrate(
             |t, y: &[f64; 4]| {
-                use jred::friction::{Course, Place};
-                let i = ratio.at(Place::new(t, 0.0, 0.0)).value;
+                use jred::friction::{Course, OperatingPoint};
+                let i = ratio.at(OperatingPoint::at_time(t)).value;
                 let l = contact.traction(i * y[2], y[3]).torque;
                 [y[2], y[3], (22.0 - i * l) / 0.03, (l - 15.0) / 0.08]
             },

@@ -1,8 +1,8 @@
 //! Holonomic or not: the stages of a friction drive.
 
 use jred::friction::{
-    Arrangement, Contact, Creep, CreepLimit, Drive, Flow, Place, Ramp, RampShape, Sine, SineShape,
-    Stage, StageConstraint, Variable,
+    Arrangement, Contact, Creep, CreepLimit, Drive, Flow, OperatingPoint, Ramp, RampShape, Sine,
+    SineShape, Stage, StageConstraint, Variable,
 };
 use jred::machine::motion::Law;
 
@@ -46,7 +46,7 @@ fn stages_say_what_they_are() {
     })
     .unwrap();
     let slipping = slow_slip();
-    let both = |p: Place| (p.phi * 2.0 + p.t * 0.1).sin_cos().0 * 0.2 + 1.0;
+    let both = |p: OperatingPoint| (p.phi * 2.0 + p.t * 0.1).sin_cos().0 * 0.2 + 1.0;
     let stages = [
         Stage::new(1.25)
             .unwrap()

@@ -20,8 +20,8 @@ struct DiscAndWheel {
 
 impl DiscAndWheel {
     fn rho(&self, t: f64) -> [f64; 2] {
-        use jred::friction::{Course, Place};
-        let found = self.rho.at(Place::new(t, 0.0, 0.0));
+        use jred::friction::{Course, OperatingPoint};
+        let found = self.rho.at(OperatingPoint::at_time(t));
         [found.value, found.slope[0]]
     }
 

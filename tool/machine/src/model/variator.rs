@@ -6,8 +6,8 @@
 
 use jred::Error;
 use jred::friction::{
-    Arrangement, Contact, Course, CreepContact, Drive, Dual, Flow, Place, Ramp, RampShape, Stage,
-    Variable,
+    Arrangement, Contact, Course, CreepContact, Drive, Dual, Flow, OperatingPoint, Ramp, RampShape,
+    Stage, Variable,
 };
 use jred::machine::motion::Law;
 use miette::{Report, miette};
@@ -67,7 +67,7 @@ impl Ratio {
 
     /// The ratio after the last shift.
     pub fn last(&self) -> f64 {
-        let value = |shift: &Shift| shift.course.at(Place::new(shift.to, 0.0, 0.0)).value;
+        let value = |shift: &Shift| shift.course.at(OperatingPoint::at_time(shift.to)).value;
         self.shifts.last().map_or(self.start, value)
     }
 
@@ -110,7 +110,7 @@ impl Ratio {
 }
 
 impl Course for Ratio {
-    fn at(&self, at: Place) -> Dual<3> {
+    fn at(&self, at: OperatingPoint) -> Dual<3> {
         let begun = self.shifts.partition_point(|s| s.from <= at.t.value);
         let current = begun.checked_sub(1).and_then(|k| self.shifts.get(k));
         current.map_or(Dual::constant(self.start), |s| s.course.at(at))

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use jred::machine::MAX_STAGES;
-use jred::mechanism::{BeltDimensions, Mesh, Stage, Train};
+use jred::mechanism::{BeltDimensions, GearDimensions, Mesh, Stage, Train};
 use jred::number::RangeError;
 
 use crate::text::problem::{Problem, Result};
@@ -62,13 +62,17 @@ fn gear_pair(section: &Section, losses: Losses) -> Result<Placed> {
     };
     let efficiency = efficiency(section, losses)?;
     finish(section, losses)?;
-    Stage::gears([driver, driven], [driver_inertia, driven_inertia], mesh)
-        .and_then(|stage| stage.with_efficiency(efficiency))
-        .map(|stage| Placed {
-            stage,
-            place: section.header(),
-        })
-        .map_err(|error| core(section, error))
+    Stage::gears(GearDimensions {
+        teeth: [driver, driven],
+        inertias: [driver_inertia, driven_inertia],
+        mesh,
+    })
+    .and_then(|stage| stage.with_efficiency(efficiency))
+    .map(|stage| Placed {
+        stage,
+        place: section.header(),
+    })
+    .map_err(|error| core(section, error))
 }
 
 fn gear(section: &Section, key: &'static str) -> Result<(u32, f64)> {

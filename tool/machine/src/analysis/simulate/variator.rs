@@ -2,7 +2,7 @@
 //! speed, never taken from the motor's.
 
 use jred::Error;
-use jred::friction::{Contact, Place, Stage};
+use jred::friction::{Contact, OperatingPoint, Stage};
 use jred::mechanism::TrainOutput;
 
 use super::run::{self, Row};
@@ -95,7 +95,11 @@ impl<'a> Plant<'a> {
 
     /// Speed of the output shaft per speed of the input shaft.
     fn speed_ratio(&self, t: f64, y: &State) -> Result<f64, Error> {
-        Ok(self.stage.at(Place::new(t, y[0], 0.0))?.speed.value)
+        Ok(self
+            .stage
+            .at(OperatingPoint::at_time(t).with_angle(y[0]))?
+            .speed
+            .value)
     }
 
     fn creeps(&self) -> bool {
@@ -104,7 +108,7 @@ impl<'a> Plant<'a> {
 
     fn instant(&self, direction: f64, t: f64, y: &State) -> Result<Instant, Error> {
         let n = self.file.drive_train.ratio();
-        let ratios = self.stage.at(Place::new(t, y[0], 0.0))?;
+        let ratios = self.stage.at(OperatingPoint::at_time(t).with_angle(y[0]))?;
         let (i, j) = (ratios.geometric.value, ratios.speed.value);
         // The ratio depends on time alone.
         let rate = ratios.speed.slope[0];
