@@ -7,12 +7,13 @@ use std::f64::consts::PI;
 
 use crate::support::machines::Wave;
 use crate::support::rows::Rows;
-use crate::support::{assert_near, budget};
+use crate::support::{assert_near, budget, scale_of};
 use jred::machine::motion::{Law, Move};
 use jred::machine::{Action, Element, Frame, Frames, Load, Marker, Mechanism, Window};
 use jred::mechanism::{
     BeltDimensions, Branch, GearDimensions, Geneva, Mesh, RackAndPinion, SliderCrank, Stage, Train,
 };
+use jred::number::Bases;
 use jred::table::{CubicSpline, Format, MAX_CELLS, fit_bounded, fit_periodic};
 use jred::tabulate::{Request, fill, tabulate};
 use jred::{Domain, Error, Link, Machine, Q31, Reducible, Scale, Set, Spline, TableError, curves};
@@ -143,9 +144,30 @@ fn values_out_of_bounds_are_named() {
         Load::new(0, Action::ViscousMoment(-3.0)),
         &["viscous", "-3"],
     );
-    says(Scale::new(0.0, 1.0, 1.0), &["torque base", "0"]);
-    says(Scale::new(1.0, -2.0, 1.0), &["speed base", "-2"]);
-    says(Scale::new(1.0, 1.0, -2.0), &["inertia base", "-2"]);
+    says(
+        Scale::new(Bases {
+            torque: 0.0,
+            speed: 1.0,
+            inertia: 1.0,
+        }),
+        &["torque base", "0"],
+    );
+    says(
+        Scale::new(Bases {
+            torque: 1.0,
+            speed: -2.0,
+            inertia: 1.0,
+        }),
+        &["speed base", "-2"],
+    );
+    says(
+        Scale::new(Bases {
+            torque: 1.0,
+            speed: 1.0,
+            inertia: -2.0,
+        }),
+        &["inertia base", "-2"],
+    );
     says(
         Scale::covering(&machine(), -2.0, 1.0, 8),
         &["largest speed", "-2"],
@@ -347,7 +369,7 @@ fn tables_that_cannot_be_made_say_why() {
         &["reduced inertia", "57.30°", "give the drive link"],
     );
     let wave = Wave::bare(1.0, 0.5);
-    let small = Scale::new(1.0, 1.0, 1.0).unwrap();
+    let small = scale_of(1.0, 1.0, 1.0);
     // The middle of J is stored by itself; J is up to 3.7 with a middle that fits.
     for heavy in [Wave::bare(3.0, 0.5), Wave::bare(1.9, 1.8)] {
         let error = says(
@@ -361,7 +383,7 @@ fn tables_that_cannot_be_made_say_why() {
         );
     }
     let loaded = Wave { load: 9.0, ..wave };
-    let enough = Scale::new(1.0, 1.0, 4.0).unwrap();
+    let enough = scale_of(1.0, 1.0, 4.0);
     let error = says(
         rows::<Q31>(&loaded, 1, 16, &enough),
         &["torque base", "larger"],

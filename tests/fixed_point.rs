@@ -4,7 +4,7 @@ use crate::support::budget::Q31_UNIT;
 use crate::support::exact::place_bits;
 use crate::support::machines::Wave;
 use crate::support::rows::{Fixed, Rows};
-use crate::support::{budget, config, number, samples};
+use crate::support::{budget, config, number, samples, scale_of};
 use jred::{Cubic, Domain, Model, Outcome, Phase, Q31, Quadratic, Scale, Set, Spline, curves};
 use proptest::prelude::*;
 
@@ -39,7 +39,7 @@ fn torque<L: Fixed>(
 /// Nothing but the stated floors separates the tick from exact, in units of 2⁻³¹.
 fn rounds_as_stated<L: Fixed>() {
     let domain = Domain::stroke(0.0, 16.0).unwrap();
-    let scale = Scale::new(32.0, 2.0, 8.0).unwrap();
+    let scale = scale_of(32.0, 2.0, 8.0);
     let wave = (1.5..2.5, 0.1..1.2, -6.0..6.0, 0.4..2.5, 0.4..2.0);
     let machines = samples(40, 0x0011, &wave);
     let states = samples(2000, 0x0012, &(any::<u32>(), any::<i32>(), any::<i32>()));
@@ -145,7 +145,7 @@ fn saturation_is_flagged_exactly() {
 
 #[test]
 fn conversions_flag_what_does_not_fit() {
-    let scale = Scale::new(2.0, 10.0, 0.5).unwrap();
+    let scale = scale_of(2.0, 10.0, 0.5);
     let omega = |omega: f32| scale.omega::<Q31>(omega);
     assert_eq!(
         [9.999_999, -10.0, 0.0].map(|w| omega(w).saturated),

@@ -3,7 +3,7 @@
 use crate::support::images::{VALIDITY, crc32, small, stroke, stroke_in};
 use crate::support::machines::{Spec, Wave, spec};
 use crate::support::rows::Rows;
-use crate::support::{config, number, samples};
+use crate::support::{config, number, samples, scale_of};
 use jred::image::{HEADER_WORDS, VERSION, encode, image_len};
 use jred::table::Format;
 use jred::tabulate::{Request, Tabulated};
@@ -51,7 +51,7 @@ fn known_crc_and_layout() {
             to: 1.5
         }
     );
-    let scale = Scale::new(60.0, 11.0, 2.0).unwrap();
+    let scale = scale_of(60.0, 11.0, 2.0);
     assert_eq!(*read.scale(), scale.for_cells(12, 2.0));
     let mut found = Tabulated::default();
     found.cells = 12;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::support::machines::spec;
 use crate::support::rows::Rows;
-use crate::support::{assert_near, budget, config, largest};
+use crate::support::{assert_near, budget, config, largest, scale_of};
 use jred::number::{Number, Scalar};
 use jred::table::Format;
 use jred::{
@@ -90,7 +90,7 @@ fn errors_fall_with_the_order_of_the_spline() {
 
 /// In every number type as in f64, but for the type's own roundings.
 fn agrees_with_f64<F: Format, E: Format>(roundings: [f64; 2]) {
-    let scale = Scale::new(1.0, 2.0, 1.0).unwrap();
+    let scale = scale_of(1.0, 2.0, 1.0);
     for domain in [Domain::Turn, Domain::stroke(-0.4, 1.3).unwrap()] {
         for cells in [8, 37, 250] {
             let exact = errors::<E>(domain, cells, &scale);
@@ -188,7 +188,7 @@ fn smooth_at_knots<F: Format>(rows: &Rows<F>, roundings: [f64; 2]) {
 }
 
 fn smooth_everywhere<F: Format>(roundings: [f64; 2]) {
-    let scale = Scale::new(1.0, 2.0, 1.0).unwrap();
+    let scale = scale_of(1.0, 2.0, 1.0);
     for domain in [Domain::Turn, Domain::stroke(-0.4, 1.3).unwrap()] {
         for cells in [8, 13, 64, 300] {
             let rows = Rows::<F>::of(&Smooth(domain), ALL, cells, &scale).unwrap();

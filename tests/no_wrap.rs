@@ -1,6 +1,7 @@
 //! Tables at the edge of what a model may be made of: a table that is let in never wraps, whatever its numbers.
 
 use crate::support::rows::Rows;
+use crate::support::scale_of;
 use jred::number::RangeError;
 use jred::tabulate::{Request, tabulate};
 use jred::{
@@ -11,7 +12,7 @@ const SPAN: f32 = core::f32::consts::TAU;
 
 /// The speed base that makes the factor of the velocity torque this, for 4 cells and the other bases 1.
 fn scale(factor: f64) -> Scale {
-    Scale::new(1.0, (0.5 * factor * f64::from(SPAN)).sqrt() as f32, 1.0).unwrap()
+    scale_of(1.0, (0.5 * factor * f64::from(SPAN)).sqrt() as f32, 1.0)
 }
 
 /// The floors of a slope count as often as the factor of the velocity torque says: with a factor of half a million they are as

@@ -7,6 +7,7 @@ use jred::mechanism::{
     BeltDimensions, Branch, BuildError, GearDimensions, Mesh, SliderCrank, SliderCrankDimensions,
     Stage, Train,
 };
+use jred::number::Bases;
 use jred::number::RangeError;
 use jred::table::CubicSpline;
 use jred::tabulate::{Request, tabulate};
@@ -227,13 +228,31 @@ fn nothing_that_is_not_finite_gets_into_motions_scales_and_requests() {
                 .map_err(Into::into)
         }),
         ("scale", |x| {
-            Scale::new(x as f32, 1.0, 1.0).map(drop).map_err(Into::into)
+            Scale::new(Bases {
+                torque: x as f32,
+                speed: 1.0,
+                inertia: 1.0,
+            })
+            .map(drop)
+            .map_err(Into::into)
         }),
         ("scale", |x| {
-            Scale::new(1.0, x as f32, 1.0).map(drop).map_err(Into::into)
+            Scale::new(Bases {
+                torque: 1.0,
+                speed: x as f32,
+                inertia: 1.0,
+            })
+            .map(drop)
+            .map_err(Into::into)
         }),
         ("scale", |x| {
-            Scale::new(1.0, 1.0, x as f32).map(drop).map_err(Into::into)
+            Scale::new(Bases {
+                torque: 1.0,
+                speed: 1.0,
+                inertia: x as f32,
+            })
+            .map(drop)
+            .map_err(Into::into)
         }),
         ("covering", |x| {
             Scale::covering(&machine(), x, 1.0, 4)

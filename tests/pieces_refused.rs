@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::support::machines::Wave;
 use crate::support::rows::Rows;
-use crate::support::{budget, config};
+use crate::support::{budget, config, scale_of};
 use jred::tabulate::Part;
 use jred::{Domain, Phase, Pieces, Reducible, Reduction, Scale, Set, Spline, TableError, curves};
 use proptest::prelude::*;
@@ -160,7 +160,7 @@ fn pieces_that_do_not_belong_together() {
     }
     // One in other units.
     let halves = [part(0.0, 0.5 * TAU), part(0.5 * TAU, 0.5 * TAU)];
-    let doubled = Scale::new(1.0, 2.0, 1.0).unwrap();
+    let doubled = scale_of(1.0, 2.0, 1.0);
     let pieces = Pieces::new([
         (Phase::from_bits(0), halves[0].model::<0>(&Scale::SI)),
         (Phase::from_bits(1 << 31), halves[1].model::<0>(&doubled)),

@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use crate::support::budget::{self, Q31_UNIT};
-use crate::support::config;
 use crate::support::exact::place_bits;
 use crate::support::machines::Wave;
 use crate::support::rows::{Fixed, Rows};
+use crate::support::{config, scale_of};
 use jred::table::Format;
 use jred::{Cubic, Domain, Phase, Q31, Quadratic, Scale, Set, Spline, TableError, curves};
 use proptest::prelude::*;
@@ -80,7 +80,7 @@ fn a_load_that_does_not_fit_is_refused_where_it_does_not() {
 fn velocity_is_bounded<L: Fixed>() {
     let machine = Wave::bare(1.0, 0.25); // ½·J′·ω² is up to 0.125·ω²
     let build = |share: f32, inertia: f32| {
-        let scale = Scale::new(2.0, 4.0 * share.sqrt(), inertia).unwrap();
+        let scale = scale_of(2.0, 4.0 * share.sqrt(), inertia);
         // For this inertia base the factor is so large that a whole one is near: nothing grows but by a millionth.
         let scale = scale.for_cells(CELLS, TAU);
         built::<{ curves::INERTIA }, L>(&machine, &scale)
@@ -109,12 +109,12 @@ fn velocity_torque_outside_the_base_is_refused() {
 
 fn other_speed_bases<F: Format>(fixed: bool) {
     let machine = Wave::bare(0.5, 0.1);
-    let scale = Scale::new(2.0, 4.0, 1.5).unwrap().for_cells(CELLS, TAU);
+    let scale = scale_of(2.0, 4.0, 1.5).for_cells(CELLS, TAU);
     let rows = Rows::<F>::of(&machine, curves::INERTIA, CELLS, &scale).unwrap();
     let build = |scale: &Scale| rows.try_model::<{ curves::INERTIA }>(scale).map(|_| ());
     assert_eq!(build(&scale), Ok(()));
     for share in [1.0 - 1e-5, 1.0 + 1e-5, 0.3, 0.01] {
-        let other = Scale::new(scale.torque(), share * scale.speed(), scale.inertia()).unwrap();
+        let other = scale_of(scale.torque(), share * scale.speed(), scale.inertia());
         let expected = if fixed {
             Err(TableError::SpeedBase)
         } else {
@@ -122,7 +122,7 @@ fn other_speed_bases<F: Format>(fixed: bool) {
         };
         assert_eq!(build(&other), expected, "{share} of the speed base");
     }
-    let overflow = Scale::new(1e-30, 1e30, 1.0).unwrap();
+    let overflow = scale_of(1e-30, 1e30, 1.0);
     assert_eq!(build(&overflow), Err(TableError::SpeedBase));
 }
 
@@ -138,7 +138,7 @@ fn a_speed_base_that_does_not_suit_the_cells_is_refused() {
 #[test]
 fn a_span_that_is_no_length_is_refused() {
     let machine = Wave::bare(0.5, 0.1);
-    let scale = Scale::new(2.0, 4.0, 1.5).unwrap().for_cells(CELLS, TAU);
+    let scale = scale_of(2.0, 4.0, 1.5).for_cells(CELLS, TAU);
     let fixed = Rows::<Spline<Q31>>::of(&machine, curves::INERTIA, CELLS, &scale).unwrap();
     let float = Rows::<Spline<f32>>::of(&machine, curves::INERTIA, CELLS, &scale).unwrap();
     for span in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-40] {
@@ -198,7 +198,7 @@ fn a_slope_whose_rounding_leaves_the_range_is_refused() {
     let rows = Rows::<Spline<Q31>>::plain(words.to_vec(), curves::INERTIA, 4, domain);
     // ½·4 cells/span 2 = 1, and J_b·ω_b²/T_b is the rest of the factor. Two units of Q31 a unit of Q30.
     let edge = 2_147_483_648.0 / 8020.0;
-    let scale = |factor: f64| Scale::new(1.0, 1.0, factor.floor() as f32).unwrap();
+    let scale = |factor: f64| scale_of(1.0, 1.0, factor.floor() as f32);
     let refused = rows
         .try_model::<{ curves::INERTIA }>(&scale(edge))
         .map(|_| ());
@@ -255,7 +255,7 @@ fn never_wraps<L: Fixed>(
 ) -> Result<(), TestCaseError> {
     let domain = Domain::stroke(0.0, 2.0).unwrap();
     let rows = Rows::<L>::plain(words, ALL, 4, domain);
-    let scale = Scale::new(1.0, 1.0, factor as f32).unwrap();
+    let scale = scale_of(1.0, 1.0, factor as f32);
     let Ok(model) = rows.try_model::<ALL>(&scale) else {
         return Err(TestCaseError::reject("not a table, or out of range"));
     };

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::support::budget::{self, Q31_UNIT};
 use crate::support::machines::{Spec, Wave, spec};
 use crate::support::rows::{Fixed, Meaning as _, Plain, Rows};
-use crate::support::{assert_near, config, largest, rk4};
+use crate::support::{assert_near, config, largest, rk4, scale_of};
 use jred::number::Role;
 use jred::{Cubic, Model, Phase, Q31, Quadratic, Scale, Set, Spline, TableError, curves};
 use proptest::prelude::*;
@@ -94,7 +94,7 @@ fn wave() -> Wave {
 fn inconsistency<L: Fixed>(cells: u32) -> [f64; 2] {
     // J is 0.19 to 0.57, so J_m is ⅛; the velocity factor is one.
     let speed = (2.0 * TAU / f64::from(cells) * 5.0 / 2.63).sqrt();
-    let scale = Scale::new(5.0, speed as f32, 2.63).unwrap();
+    let scale = scale_of(5.0, speed as f32, 2.63);
     let scale = scale.for_cells(cells, TAU);
     let rows = Rows::<L>::of(&wave(), SET, cells, &scale).unwrap();
     let model = rows.model::<SET>(&scale);

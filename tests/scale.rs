@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::support::machines::{Wave, spec};
 use crate::support::rows::{Fixed, Rows};
-use crate::support::{assert_near, budget, config, largest};
+use crate::support::{assert_near, budget, config, largest, scale_of};
 use jred::{Cubic, Outcome, Phase, Q31, Quadratic, Reducible, Scale, Set, Spline, curves};
 use proptest::prelude::*;
 
@@ -24,7 +24,7 @@ proptest! {
         torque in -3f32..4.0, speed in -2f32..3.0, inertia in -5f32..2.0, cells in 4u32..2000, span in 0.01..10.0,
     ) {
         let [torque, speed, inertia] = [torque, speed, inertia].map(|x| 10f32.powf(x));
-        let given = Scale::new(torque, speed, inertia).unwrap();
+        let given = scale_of(torque, speed, inertia);
         prop_assume!(factor(&given, cells, span) < 1e5);
         let scale = given.for_cells(cells, span);
         let whole = factor(&scale, cells, span);
@@ -150,7 +150,7 @@ fn covering_scale_covers_forward_dynamics() {
 #[test]
 fn a_slow_machine_has_a_model() {
     let machine = Wave::bare(1.0, 0.25);
-    let slow = Scale::new(1e3, 0.1, 1.5).unwrap();
+    let slow = scale_of(1e3, 0.1, 1.5);
     let scale = slow.for_cells(64, TAU);
     let rows = Rows::<Spline<Q31>>::of(&machine, curves::INERTIA, 64, &scale).unwrap();
     let model = rows.model::<{ curves::INERTIA }>(&scale);
@@ -170,7 +170,7 @@ fn a_slow_machine_has_a_model() {
 
 #[test]
 fn conversions_are_per_unit() {
-    let scale = Scale::new(2.0, 10.0, 0.5).unwrap();
+    let scale = scale_of(2.0, 10.0, 0.5);
     let found = scale.omega::<f32>(25.0);
     assert_eq!(
         found,

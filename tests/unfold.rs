@@ -4,7 +4,7 @@ use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
 use crate::support::rows::Rows;
-use crate::support::{assert_near, budget, config, largest};
+use crate::support::{assert_near, budget, config, largest, scale_of};
 use jred::machine::{Action, Load};
 use jred::mechanism::{Branch, SliderCrank};
 use jred::number::Number;
@@ -157,7 +157,7 @@ proptest! {
         let waves = if twice { 2.0 } else { 1.0 };
         let v = move |phi: f64| mean + (waves * (phi - shift)).sin() + ripple * (3.0 * phi).cos();
         let machine = Friction { domain: Domain::Turn, v };
-        let scale = Scale::new(4.0, 1.0, 2.0).unwrap().for_cells(128, TAU);
+        let scale = scale_of(4.0, 1.0, 2.0).for_cells(128, TAU);
         let h = TAU / 128.0;
         let near = 2.0 * 32.2 * h.powi(4);
         // A quadratic errs by less than h³·f‴/24 of its own; f‴ is 2³ + 0.2·3³ at most.
@@ -194,7 +194,7 @@ impl Reducible for Constant {
 fn constants_are_curves<F: Format>(units: f64) {
     const CURVES: Set = curves::VISCOUS | curves::COULOMB;
     const CONSTANTS: Set = curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
-    let scale = Scale::new(4.0, 3.0, 5.0).unwrap().for_cells(32, TAU);
+    let scale = scale_of(4.0, 3.0, 5.0).for_cells(32, TAU);
     let machine = Constant {
         viscous: 0.3,
         coulomb: 0.7,

@@ -42,5 +42,6 @@ pub(crate) use kernel::{Kernel, Ring};
 pub use role::Role;
 pub(crate) use scalar::Outcome;
 pub use scalar::{Number, Scalar};
+pub use scale::Bases;
 pub(crate) use scale::Scale;
 pub use transfer::Transfer;

@@ -19,6 +19,25 @@ pub struct Scale {
     inertia: f32,
 }
 
+/// What the number 1 is in machine units.
+///
+/// ```
+/// # use jred::{Scale, number::Bases};
+/// let scale = Scale::new(Bases { torque: 20.0, speed: 60.0, inertia: 0.05 })?;
+/// assert_eq!(scale.acceleration(), 400.0);
+/// # Ok::<(), jred::number::RangeError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Bases {
+    /// T_b (N·m).
+    pub torque: f32,
+    /// ω_b (rad/s).
+    pub speed: f32,
+    /// J_b (kg·m²).
+    pub inertia: f32,
+}
+
 impl Scale {
     /// Machine units are SI units: the scale of floating-point models.
     pub const SI: Self = Self {
@@ -27,11 +46,16 @@ impl Scale {
         inertia: 1.0,
     };
 
-    /// From the bases of torque (N·m), speed (rad/s) and inertia (kg·m²).
+    /// The machine units with these bases.
     ///
     /// # Errors
     /// A base that is not positive and finite.
-    pub fn new(torque: f32, speed: f32, inertia: f32) -> Result<Self, RangeError> {
+    pub fn new(bases: Bases) -> Result<Self, RangeError> {
+        let Bases {
+            torque,
+            speed,
+            inertia,
+        } = bases;
         for (what, base) in [
             ("torque base", torque),
             ("speed base", speed),

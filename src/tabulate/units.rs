@@ -1,6 +1,7 @@
 //! Machine units that suit a machine.
 
 use crate::machine::{PoseError, Reducible};
+use crate::number::Bases;
 use crate::number::error::positive;
 use crate::{Scale, math};
 
@@ -86,10 +87,10 @@ impl Most {
     fn scale(&self, alpha: f64) -> Result<Scale, PoseError> {
         let alpha = alpha * Self::MARGIN;
         let torque = (self.inertia * alpha + self.resisting) * Self::MARGIN;
-        Ok(Scale::new(
-            torque as f32,
-            self.omega as f32,
-            (torque / alpha) as f32,
-        )?)
+        Ok(Scale::new(Bases {
+            torque: torque as f32,
+            speed: self.omega as f32,
+            inertia: (torque / alpha) as f32,
+        })?)
     }
 }

@@ -1,11 +1,12 @@
 //! Images of tables of 16-bit rows: word by word, back again, and refused.
 
 use jred::image::{HEADER_WORDS, encode, image_len};
-use jred::{Domain, Image, ImageError, Phase, Q15, Rows16, Scale, Set, Spline, TableError, curves};
+use jred::{Domain, Image, ImageError, Phase, Q15, Rows16, Set, Spline, TableError, curves};
 
 use super::{Short, model, q15};
 use crate::support::images::{VALIDITY, sealed, small};
 use crate::support::machines::Wave;
+use crate::support::scale_of;
 
 const SET: Set = super::CONSTANT;
 
@@ -21,7 +22,7 @@ fn wave(domain: Domain) -> Wave {
 }
 
 fn rows(domain: Domain) -> Short {
-    let scale = Scale::new(60.0, 11.0, 2.0).unwrap();
+    let scale = scale_of(60.0, 11.0, 2.0);
     Short::of(&wave(domain), SET, 40, &scale).unwrap()
 }
 

@@ -1,11 +1,11 @@
 //! The tick against the formulas in wide integers, where nothing wraps: random rows, not only those of machines.
 
 use jred::table::RowConstants;
-use jred::{Domain, Phase, Q15, Scale, Set, curves};
+use jred::{Domain, Phase, Q15, Set, curves};
 use proptest::prelude::*;
 
 use super::{CONSTANT, Short, q15, row_words};
-use crate::support::config;
+use crate::support::{config, scale_of};
 
 const ALL: Set = curves::ALL;
 const FULL: Set = super::EVERY;
@@ -70,7 +70,7 @@ fn quotient<const SET: Set>(words: &[u32], shift: u32, u: i128, net: i128) -> i1
 fn check<const SET: Set>(random: &Random) -> bool {
     let mut words: Vec<u32> = random.words[..row_words(SET)].to_vec();
     // V that belongs to J, or no model is made: per unit, a slope a cell counts eight times.
-    let scale = Scale::new(1.0, 1.0, 1.0).unwrap();
+    let scale = scale_of(1.0, 1.0, 1.0);
     let load = usize::from(SET & curves::LOAD != 0);
     let slope = f64::from(words[load] as i32 >> 16) / 65_536.0;
     let bend = f64::from(words[load] as i16) / 65_536.0;

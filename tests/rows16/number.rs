@@ -1,9 +1,10 @@
 //! The number itself, and its conversions.
 
 use jred::number::Number;
-use jred::{Outcome, Q15, Scale};
+use jred::{Outcome, Q15};
 
 use crate::rows16::q15;
+use crate::support::scale_of;
 
 fn outcome(bits: i16, saturated: bool) -> Outcome<Q15> {
     Outcome {
@@ -14,7 +15,7 @@ fn outcome(bits: i16, saturated: bool) -> Outcome<Q15> {
 
 #[test]
 fn conversions_round_to_the_nearest_and_say_when_they_saturate() {
-    let scale = Scale::new(64.0, 32.0, 2.0).unwrap();
+    let scale = scale_of(64.0, 32.0, 2.0);
     let omega = |units: f32| scale.omega::<Q15>(units * (32.0 / 32_768.0));
     for (given, expected) in [
         (0.0, outcome(0, false)),

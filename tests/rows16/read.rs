@@ -1,10 +1,10 @@
 //! What a table reads, against the machine, for every set, on a turn and on a stroke.
 
 use jred::table::Usage;
-use jred::{Domain, Phase, Reducible, Reduction, Scale, Set, curves};
+use jred::{Domain, Phase, Reducible, Reduction, Set, curves};
 
 use super::{Short, read_at, row_words};
-use crate::support::{budget, largest};
+use crate::support::{budget, largest, scale_of};
 use jred::Rows16;
 use jred::table::Format as _;
 
@@ -34,7 +34,7 @@ fn domains() -> [Domain; 2] {
 
 /// Largest errors of J, V, load, b, c, 1/J, in units of 2⁻¹⁵ (of 2⁻¹⁵ of 1/J).
 fn errors(set: Set, domain: Domain, cells: u32) -> [f64; 6] {
-    let scale = Scale::new(1.0, 0.9, 1.0).unwrap();
+    let scale = scale_of(1.0, 0.9, 1.0);
     let machine = Smooth(domain);
     let rows = Short::of(&machine, set, cells, &scale).unwrap();
     assert_eq!(rows.words.len(), cells as usize * row_words(set));
@@ -114,7 +114,7 @@ fn more_cells_err_less() {
 
 #[test]
 fn value_and_slope_hardly_step_at_knots() {
-    let scale = Scale::new(1.0, 0.9, 1.0).unwrap();
+    let scale = scale_of(1.0, 0.9, 1.0);
     let rows = Short::of(&Smooth(Domain::Turn), curves::LOAD, 60, &scale).unwrap();
     let table = rows.table();
     let step = |of: usize| {
@@ -133,7 +133,7 @@ fn value_and_slope_hardly_step_at_knots() {
 
 #[test]
 fn usage_is_the_largest_size() {
-    let scale = Scale::new(1.0, 0.9, 1.0).unwrap();
+    let scale = scale_of(1.0, 0.9, 1.0);
     for domain in domains() {
         let rows = Short::of(&Smooth(domain), curves::ALL, 100, &scale).unwrap();
         let table = rows.table();

@@ -8,6 +8,7 @@ use jred::{Domain, Error, Rows16, Scale, Set, TableError, curves};
 
 use super::{CONSTANT, Short, model, row_words};
 use crate::support::machines::Wave;
+use crate::support::scale_of;
 
 const SET: Set = super::EVERY;
 
@@ -26,7 +27,7 @@ fn good() -> Short {
         set: SET,
         cells: 4,
         domain: Domain::Turn,
-        scale: Scale::new(1.0, 1.0, 1.0).unwrap(),
+        scale: scale_of(1.0, 1.0, 1.0),
     }
 }
 
@@ -164,7 +165,7 @@ fn a_model_of_another_set_span_or_scale() {
         let error = rows.try_model::<SET>(&rows.scale).map(|_| ());
         assert_eq!(error.unwrap_err(), TableError::SpeedBase, "{to}");
     }
-    let scale = Scale::new(60.0, 11.0, 2.0).unwrap();
+    let scale = scale_of(60.0, 11.0, 2.0);
     let wave = Wave {
         load: 3.0,
         ..Wave::bare(1.0, 0.25)
@@ -183,7 +184,7 @@ fn a_model_of_another_set_span_or_scale() {
         panic!("accepted");
     };
     assert!(cell < 40);
-    let faster = Scale::new(60.0, 12.0, 2.0).unwrap();
+    let faster = scale_of(60.0, 12.0, 2.0);
     let error = model(Domain::Turn, &faster).unwrap_err();
     assert!(matches!(error, TableError::Slope { .. }), "{error:?}");
     assert!(
@@ -203,7 +204,7 @@ fn filled(machine: &Wave, set: Set, cells: u32, scale: &Scale) -> Error {
 
 #[test]
 fn machines_out_of_range() {
-    let scale = Scale::new(60.0, 11.0, 2.0).unwrap();
+    let scale = scale_of(60.0, 11.0, 2.0);
     let wave = Wave::bare(1.0, 0.25);
     let base = |wave: &Wave, set: Set| match filled(wave, set, 40, &scale) {
         Error::Table(TableError::Overflow { base, .. }) => base,
@@ -250,7 +251,7 @@ fn machines_out_of_range() {
 
 #[test]
 fn buffers_and_requests() {
-    let scale = Scale::new(60.0, 11.0, 2.0).unwrap();
+    let scale = scale_of(60.0, 11.0, 2.0);
     let wave = Wave::bare(1.0, 0.25);
     let (scratch, words) = (scratch_len(40, SET), words_len::<Rows16>(40, SET));
     for (scratch, words, needed, given) in [

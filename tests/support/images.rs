@@ -6,6 +6,7 @@ use jred::{Domain, Image, ImageError, Q31, Scale, Set, Spline, Validity, curves}
 
 use super::machines::Wave;
 use super::rows::Rows;
+use super::scale_of;
 
 /// CRC-32 as IEEE 802.3 defines it, bit by bit: polynomial 0x04C11DB7 reflected, start and end inverted.
 pub(crate) fn crc32(words: &[u32]) -> u32 {
@@ -60,7 +61,7 @@ pub(crate) fn stroke_in<F: Format>(set: Set) -> Vec<u32> {
         coulomb: 0.5,
         domain,
     };
-    let scale = Scale::new(60.0, 11.0, 2.0).unwrap();
+    let scale = scale_of(60.0, 11.0, 2.0);
     encoded::<F>(&wave, set, 12, &scale.for_cells(12, domain.span()))
 }
 

@@ -12,7 +12,8 @@ pub(crate) mod jointed;
 pub(crate) mod machines;
 pub(crate) mod rows;
 
-use jred::number::Number;
+use jred::Scale;
+use jred::number::{Bases, Number};
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
@@ -32,6 +33,16 @@ pub(crate) fn samples<T: Strategy>(count: u32, seed: u64, strategy: &T) -> Vec<T
     let mut runner = TestRunner::new(config(count, seed));
     let mut next = || strategy.new_tree(&mut runner).unwrap().current();
     (0..count).map(|_| next()).collect()
+}
+
+/// Machine units with these bases of torque, speed and inertia.
+pub(crate) fn scale_of(torque: f32, speed: f32, inertia: f32) -> Scale {
+    let bases = Bases {
+        torque,
+        speed,
+        inertia,
+    };
+    Scale::new(bases).unwrap()
 }
 
 /// An error's message with its cure; of a quantity outside its range the message, which says all.

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use anyhow::{Result, anyhow};
 use jred::Scale;
+use jred::number::Bases;
 
 use crate::image::{Layout, image};
 use crate::kernels::Kernel;
@@ -55,8 +56,12 @@ pub(crate) fn scale(kernel: &Kernel, example: &Example) -> Result<Scale> {
     }
     let torque = 1.1 * torque;
     let inertia = torque / (ALPHA * MARGIN);
-    let bases = [torque, OMEGA * MARGIN, inertia].map(|base| base as f32);
-    let scale = Scale::new(bases[0], bases[1], bases[2]).map_err(|e| anyhow!("{e}"))?;
+    let bases = Bases {
+        torque: torque as f32,
+        speed: (OMEGA * MARGIN) as f32,
+        inertia: inertia as f32,
+    };
+    let scale = Scale::new(bases).map_err(|e| anyhow!("{e}"))?;
     Ok(match kernel.data {
         Data::Jred { cells, layout, .. } if layout != Layout::Rows16 => scale.for_cells(cells, TAU),
         _ => scale,

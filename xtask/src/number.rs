@@ -105,10 +105,16 @@ pub(crate) fn acceleration_base(scale: &Scale) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use jred::number::Bases;
 
     #[test]
     fn what_is_encoded_is_decoded() {
-        let scale = Scale::new(40.0, 70.0, 0.006).unwrap();
+        let scale = Scale::new(Bases {
+            torque: 40.0,
+            speed: 70.0,
+            inertia: 0.006,
+        })
+        .unwrap();
         for (number, step) in [
             (Number::Radians, 1e-6),
             (Number::PhaseF32, 1e-6),
