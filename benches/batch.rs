@@ -49,8 +49,8 @@ const DIFFERENCE: f64 = 1e-6;
 
 /// λ = 0.25, 10 kg at the slider, largest inertia 5.25 times the least; weight acts along the guide.
 fn slider_crank() -> Result<Machine<SliderCrank>, Error> {
-    let massless = Link::new(0.0, 0.0, [0.0, 0.0])?;
-    let slider = Link::new(10.0, 0.0, [0.0, 0.0])?;
+    let massless = Link::MASSLESS;
+    let slider = Link::point_mass(10.0)?;
     let links = [massless, massless, slider];
     let mechanism = SliderCrank::new(
         SliderCrankDimensions {

@@ -33,8 +33,8 @@ fn time(what: &str, runs: u32, mut work: impl FnMut()) {
 }
 
 fn main() -> Result<(), Error> {
-    let massless = Link::new(0.0, 0.0, [0.0, 0.0])?;
-    let ram = Link::new(10.0, 0.0, [0.0, 0.0])?;
+    let massless = Link::MASSLESS;
+    let ram = Link::point_mass(10.0)?;
     let mechanism = SliderCrank::new(
         SliderCrankDimensions {
             crank: 0.05,

@@ -16,8 +16,7 @@
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 mod support;
-
-use jred::machine::{Joint, Marker, Mechanism};
+use jred::machine::{Joint, Marker, MassProperties, Mechanism};
 use jred::mechanism::linkage::{Assembly, Linkage, Pair, Pose};
 use jred::mechanism::{FourBar, FourBarDimensions, Side};
 use jred::table::words_len;
@@ -61,9 +60,21 @@ impl From<Error> for Failure {
 /// Crank, coupler and empty arm.
 fn links() -> Result<[Link; 3], Error> {
     Ok([
-        Link::new(0.9, 0.002, [0.03, 0.0])?,
-        Link::new(0.6, 0.006, [0.16, 0.01])?,
-        Link::new(1.4, 0.011, [0.12, 0.0])?,
+        Link::new(MassProperties {
+            mass: 0.9,
+            inertia: 0.002,
+            com: [0.03, 0.0],
+        })?,
+        Link::new(MassProperties {
+            mass: 0.6,
+            inertia: 0.006,
+            com: [0.16, 0.01],
+        })?,
+        Link::new(MassProperties {
+            mass: 1.4,
+            inertia: 0.011,
+            com: [0.12, 0.0],
+        })?,
     ])
 }
 
@@ -75,11 +86,11 @@ fn loaded(arm: &Link) -> Result<Link, Error> {
     let com = [(arm.mass() * u + mass * REACH) / sum, arm.mass() * v / sum];
     let apart = (REACH - u) * (REACH - u) + v * v;
     let reduced_mass = arm.mass() * mass / sum;
-    Ok(Link::new(
-        sum,
-        arm.inertia() + inertia + reduced_mass * apart,
+    Ok(Link::new(MassProperties {
+        mass: sum,
+        inertia: arm.inertia() + inertia + reduced_mass * apart,
         com,
-    )?)
+    })?)
 }
 
 /// The linkage by its pins alone, assembled from a rough drawing and followed round a turn.

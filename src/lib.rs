@@ -54,6 +54,7 @@
 //! # From dimensions to a tick
 //!
 //! ```
+//! use jred::machine::MassProperties;
 //! use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 //! use jred::table::words_len;
 //! use jred::tabulate::{Request, fill, scratch_len, tabulate};
@@ -61,9 +62,9 @@
 //!
 //! fn main() -> Result<(), Error> {
 //!     // Crank 50 mm, rod 200 mm; masses in kg, inertias about the centres of mass in kg·m².
-//!     let crank = Link::new(0.8, 0.0006, [0.015, 0.0])?;
-//!     let rod = Link::new(0.45, 0.0021, [0.075, 0.0])?;
-//!     let slider = Link::new(0.6, 0.0, [0.0, 0.0])?;
+//!     let crank = Link::new(MassProperties { mass: 0.8, inertia: 0.0006, com: [0.015, 0.0] })?;
+//!     let rod = Link::new(MassProperties { mass: 0.45, inertia: 0.0021, com: [0.075, 0.0] })?;
+//!     let slider = Link::point_mass(0.6)?;
 //!     let dimensions = SliderCrankDimensions { crank: 0.05, rod: 0.2, offset: 0.0 };
 //!     let mechanism = SliderCrank::new(dimensions, Branch::Right, [crank, rod, slider])?;
 //!     let machine = Machine::new(mechanism).with_gravity([0.0, -9.81])?;
@@ -158,6 +159,7 @@ pub mod table {
 ///
 /// ```
 /// use jred::harmonic::{fit, scratch_len, terms};
+/// use jred::machine::MassProperties;
 /// use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 /// use jred::table::{Shape, words_len};
 /// use jred::tabulate::Request;
@@ -165,7 +167,9 @@ pub mod table {
 ///
 /// fn main() -> Result<(), Error> {
 ///     // Crank 30 mm, rod 120 mm, ram 42 kg: weight acts along the guide, so J is even and the load odd in φ.
-///     let links = [Link::new(9.0, 0.018, [0.006, 0.0])?, Link::new(6.5, 0.03, [0.055, 0.0])?, Link::new(42.0, 0.0, [0.0, 0.0])?];
+///     let crank = Link::new(MassProperties { mass: 9.0, inertia: 0.018, com: [0.006, 0.0] })?;
+///     let rod = Link::new(MassProperties { mass: 6.5, inertia: 0.03, com: [0.055, 0.0] })?;
+///     let links = [crank, rod, Link::point_mass(42.0)?];
 ///     let dimensions = SliderCrankDimensions { crank: 0.03, rod: 0.12, offset: 0.0 };
 ///     let mechanism = SliderCrank::new(dimensions, Branch::Right, links)?;
 ///     let machine = Machine::new(mechanism).with_gravity([9.81, 0.0])?;

@@ -5,7 +5,7 @@ use jred::mechanism::BuildError;
 use jred::number::RangeError;
 use std::f64::consts::TAU;
 
-use crate::support::{assert_near, budget, config};
+use crate::support::{assert_near, budget, config, link_of};
 use jred::machine::{Action, Load, Mechanism};
 use jred::mechanism::{BallScrew, Misfit};
 use jred::{Link, Machine, Reducible};
@@ -15,8 +15,8 @@ const NUT: usize = BallScrew::NUT;
 
 fn links(inertia: f64, mass: f64) -> [Link; 2] {
     [
-        Link::new(3.0, inertia, [0.0, 0.0]).unwrap(),
-        Link::new(mass, 0.0, [0.0, 0.0]).unwrap(),
+        link_of(3.0, inertia, [0.0, 0.0]),
+        Link::point_mass(mass).unwrap(),
     ]
 }
 
@@ -85,8 +85,8 @@ prop_compose! {
         load in [-300.0..300.0, 0.0..100.0, 0.0..20.0],
     ) -> Machine<BallScrew> {
         let links = [
-            Link::new(2.0, inertia, [0.0, 0.0]).unwrap(),
-            Link::new(mass, 0.0, com).unwrap(),
+            link_of(2.0, inertia, [0.0, 0.0]),
+            link_of(mass, 0.0, com),
         ];
         let on = |action| Load::new(NUT, action).unwrap();
         let lead = if left { -lead } else { lead };
@@ -121,7 +121,7 @@ fn wrong_dimensions_are_refused() {
         new(f64::INFINITY),
         BuildError::Range(RangeError::NotFinite("size of the lead"))
     );
-    let off = Link::new(1.0, 1.0, [0.0, -0.25]).unwrap();
+    let off = link_of(1.0, 1.0, [0.0, -0.25]);
     assert_eq!(
         BallScrew::new(0.01, [off, off]).unwrap_err(),
         BuildError::Misfit(Misfit::OffAxis {

@@ -4,7 +4,7 @@ use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::{PI, TAU};
 
 use crate::support::machines::{Spec, spec};
-use crate::support::{assert_near, budget, config, derivative, largest};
+use crate::support::{assert_near, budget, config, derivative, largest, link_of};
 use jred::machine::{Action, Load, Mechanism, Window};
 use jred::mechanism::{Branch, SliderCrank};
 use jred::number::Transfer;
@@ -19,11 +19,7 @@ fn massless() -> Link {
 }
 
 fn slider_only(r: f64, l: f64, mass: f64) -> Machine<SliderCrank> {
-    let links = [
-        massless(),
-        massless(),
-        Link::new(mass, 0.0, [0.0, 0.0]).unwrap(),
-    ];
+    let links = [massless(), massless(), Link::point_mass(mass).unwrap()];
     Machine::new(
         SliderCrank::new(
             SliderCrankDimensions {
@@ -106,7 +102,7 @@ fn long_rod_is_a_scotch_yoke() {
 #[test]
 fn crank_as_a_disc_off_its_centre_follows_steiner() {
     let (mass, radius, [u, v]) = (3.0, 0.25, [0.04, -0.03]);
-    let disc = Link::new(mass, 0.5 * mass * radius * radius, [u, v]).unwrap();
+    let disc = link_of(mass, 0.5 * mass * radius * radius, [u, v]);
     let mechanism = SliderCrank::new(
         SliderCrankDimensions {
             crank: 0.1,
@@ -261,7 +257,7 @@ proptest! {
     fn branches_mirror_each_other(spec in spec(), phi in -7.0..7.0) {
         let [crank, rod, slider] = spec.links();
         let [u1, v1, u2, v2] = spec.com;
-        let flip = |link: Link, com| Link::new(link.mass(), link.inertia(), com).unwrap();
+        let flip = |link: Link, com| link_of(link.mass(), link.inertia(), com);
         let links = [flip(crank, mirrored(&spec, [u1, v1])), flip(rod, mirrored(&spec, [u2, v2])), slider];
         let branch = if spec.left { Branch::Right } else { Branch::Left };
         let offset = spec.offset_ratio * spec.crank;

@@ -6,7 +6,7 @@ use jred::mechanism::{BuildError, FourBarDimensions};
 use jred::number::RangeError;
 use std::f64::consts::{PI, TAU};
 
-use crate::support::{assert_near, budget, config, derivative, jointed, largest};
+use crate::support::{assert_near, budget, config, derivative, jointed, largest, link_of};
 use jred::machine::{Action, Jointed, Load, Mechanism};
 use jred::mechanism::{FourBar, Grashof, Side};
 use jred::{Domain, Link, Machine, Reducible};
@@ -64,7 +64,7 @@ impl Spec {
     fn links(&self) -> [Link; 3] {
         [0, 1, 2].map(|k| {
             let (m, l) = (self.mass[k], self.lengths[k]);
-            Link::new(m, 0.1 * m * l * l, self.com[k]).unwrap()
+            link_of(m, 0.1 * m * l * l, self.com[k])
         })
     }
 

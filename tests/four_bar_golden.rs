@@ -1,10 +1,10 @@
 //! The four-bar linkage against golden data: positions, reduction, motion, and the forces in its joints.
 
 use crate::support::golden::Case;
-use crate::support::{budget, jointed};
+use crate::support::{budget, jointed, link_of};
 use jred::machine::{Action, Load, Mechanism};
 use jred::mechanism::{FourBar, FourBarDimensions, Side};
-use jred::{Link, Machine, Reducible};
+use jred::{Machine, Reducible};
 
 fn golden() -> (Case, Machine<FourBar>) {
     let case = Case::new(include_str!("data/02_four_bar_A.json"));
@@ -14,7 +14,7 @@ fn golden() -> (Case, Machine<FourBar>) {
             input(&format!("/{name}_com/0")),
             input(&format!("/{name}_com/1")),
         ];
-        Link::new(input(&format!("/m{k}")), input(&format!("/I{k}")), com).unwrap()
+        link_of(input(&format!("/m{k}")), input(&format!("/I{k}")), com)
     };
     let links = [link(1, "crank"), link(2, "coupler"), link(3, "rocker")];
     let side = if input("/mode") > 0.0 {

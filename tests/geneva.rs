@@ -6,7 +6,7 @@ use jred::mechanism::BuildError;
 use jred::number::RangeError;
 use std::f64::consts::{PI, TAU};
 
-use crate::support::{assert_near, budget, config, derivative, largest};
+use crate::support::{assert_near, budget, config, derivative, largest, link_of};
 use jred::machine::{Action, Joint, Jointed, Load, Mechanism};
 use jred::mechanism::{Geneva, Misfit};
 use jred::{Link, Machine, Reducible};
@@ -235,8 +235,8 @@ prop_compose! {
         load in [-30.0..30.0, 0.0..10.0, 0.0..2.0],
     ) -> Machine<Geneva> {
         let links = [
-            Link::new(mass[0], inertia[0], com.map(|c: f64| c * centres)).unwrap(),
-            Link::new(mass[1], inertia[1], [0.0, 0.0]).unwrap(),
+            link_of(mass[0], inertia[0], com.map(|c: f64| c * centres)),
+            link_of(mass[1], inertia[1], [0.0, 0.0]),
         ];
         let on = |action| Load::new(WHEEL, action).unwrap();
         Machine::new(Geneva::new(slots, centres, links).unwrap())
@@ -283,7 +283,7 @@ fn wrong_dimensions_are_refused() {
         new(4, -0.2, massless()).to_string(),
         "centre distance is -0.2, but must be greater than zero"
     );
-    let off = Link::new(2.0, 0.1, [0.03, 0.04]).unwrap();
+    let off = link_of(2.0, 0.1, [0.03, 0.04]);
     let error = new(4, 0.2, [off, off]);
     assert_eq!(
         error,

@@ -1,5 +1,6 @@
 //! Harmonics from measurements.
 
+use jred::machine::MassProperties;
 use jred::mechanism::SliderCrankDimensions;
 use jred::number::RangeError;
 use std::f64::consts::TAU;
@@ -26,9 +27,17 @@ const TERMS: Set = terms::SYMMETRIC;
 /// A press whose weight acts along the guide.
 fn press() -> Machine<SliderCrank> {
     let links = [
-        Link::new(9.0, 0.018, [0.006, 0.0]),
-        Link::new(6.5, 0.03, [0.04, 0.0]),
-        Link::new(42.0, 0.0, [0.0, 0.0]),
+        Link::new(MassProperties {
+            mass: 9.0,
+            inertia: 0.018,
+            com: [0.006, 0.0],
+        }),
+        Link::new(MassProperties {
+            mass: 6.5,
+            inertia: 0.03,
+            com: [0.04, 0.0],
+        }),
+        Link::point_mass(42.0),
     ]
     .map(Result::unwrap);
     let mechanism = SliderCrank::new(

@@ -5,7 +5,7 @@ use jred::mechanism::Suspended;
 use jred::number::RangeError;
 use std::f64::consts::TAU;
 
-use crate::support::{assert_near, budget, config};
+use crate::support::{assert_near, budget, config, link_of};
 use jred::machine::{Action, Load, Mechanism};
 use jred::mechanism::{Hoist, Rope};
 use jred::{Link, Machine, Reducible};
@@ -14,7 +14,7 @@ use proptest::prelude::*;
 const G: f64 = 9.81;
 
 fn mass(mass: f64) -> Link {
-    Link::new(mass, 0.0, [0.0, 0.0]).unwrap()
+    Link::point_mass(mass).unwrap()
 }
 
 fn upright(hoist: Hoist) -> Machine<Hoist> {
@@ -23,7 +23,7 @@ fn upright(hoist: Hoist) -> Machine<Hoist> {
 
 #[test]
 fn hoist_textbook() {
-    let drum = Link::new(80.0, 1.5, [0.0, 0.0]).unwrap();
+    let drum = link_of(80.0, 1.5, [0.0, 0.0]);
     let (load, counter) = (600.0, 250.0);
     let (rope, other) = (Rope::new(0.2, 2).unwrap(), Rope::new(0.3, 1).unwrap());
     let plain = upright(Hoist::new(
@@ -127,10 +127,10 @@ prop_compose! {
         load in [-300.0..300.0, 0.0..100.0, 0.0..20.0],
     ) -> Machine<Hoist> {
         let [u0, v0, u1, v1] = com;
-        let drum = Link::new(masses[0], inertia, [u0, v0]).unwrap();
+        let drum = link_of(masses[0], inertia, [u0, v0]);
         let hook = Suspended {
             rope: Rope::new(radius[0], falls[0]).unwrap(),
-            link: Link::new(masses[1], 0.0, [u1, v1]).unwrap(),
+            link: link_of(masses[1], 0.0, [u1, v1]),
         };
         let hoist = if counterweight {
             let rope = Rope::new(radius[1], falls[1]).unwrap();

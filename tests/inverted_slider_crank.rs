@@ -5,7 +5,7 @@ use jred::mechanism::{BuildError, InvertedSliderCrankDimensions};
 use jred::number::RangeError;
 use std::f64::consts::{PI, TAU};
 
-use crate::support::{assert_near, budget, config};
+use crate::support::{assert_near, budget, config, link_of};
 use jred::machine::{Action, Load, Mechanism};
 use jred::mechanism::{InvertedSliderCrank, LeverMotion, Misfit};
 use jred::{Link, Machine};
@@ -184,9 +184,9 @@ prop_compose! {
         let pivot = [centres * towards.cos(), centres * towards.sin()];
         let [u1, v1, u2, v2, u3, v3] = com.map(|c: f64| c * r);
         let links = [
-            Link::new(mass[0], 0.2 * mass[0] * r * r, [u1, v1]).unwrap(),
-            Link::new(mass[1], 0.1 * mass[1] * r * r, [u2, v2]).unwrap(),
-            Link::new(mass[2], 0.5 * mass[2] * r * r, [u3, v3]).unwrap(),
+            link_of(mass[0], 0.2 * mass[0] * r * r, [u1, v1]),
+            link_of(mass[1], 0.1 * mass[1] * r * r, [u2, v2]),
+            link_of(mass[2], 0.5 * mass[2] * r * r, [u3, v3]),
         ];
         let on = |action| Load::new(LEVER, action).unwrap();
         Machine::new(InvertedSliderCrank::new(InvertedSliderCrankDimensions { crank: r, pivot, offset: e }, links).unwrap())

@@ -1,7 +1,7 @@
 //! Library mechanisms against the general linkage: the closed form, and the joints alone solved by continuation, are the
 //! same motion.
 
-use crate::support::{assert_near, budget, config, jointed};
+use crate::support::{assert_near, budget, config, jointed, link_of};
 use jred::machine::{Body, Frame, Joint, Jointed, Marker, Mechanism};
 use jred::mechanism::linkage::{Assembly, Linkage, Pair, Pose};
 use jred::mechanism::{
@@ -18,7 +18,7 @@ const O: [f64; 2] = [0.0, 0.0];
 fn links<const N: usize>() -> [Link; N] {
     std::array::from_fn(|k| {
         let k = k as f64;
-        Link::new(1.0 + k, 0.01 * (1.0 + k), [0.02 * k, 0.01]).unwrap()
+        link_of(1.0 + k, 0.01 * (1.0 + k), [0.02 * k, 0.01])
     })
 }
 
@@ -151,7 +151,7 @@ proptest! {
     #[test]
     fn hoists(radii in [0.05..0.4, 0.05..0.4], falls in [1_u32..6, 1_u32..6], masses in [10.0..900.0, 10.0..900.0], phi in -3.0..3.0) {
         let rope = |k: usize| Rope::new(radii[k], falls[k]).unwrap();
-        let mass = |k: usize| Link::new(masses[k], 0.0, O).unwrap();
+        let mass = |k: usize| Link::point_mass(masses[k]).unwrap();
         let drum = Link::rotor(0.5).unwrap();
         let hoist = Hoist::with_counterweight(drum, Suspended { rope: rope(0), link: mass(0) }, Suspended { rope: rope(1), link: mass(1) });
         let frames = hoist.frames(0.0).unwrap();
@@ -249,7 +249,7 @@ fn a_geneva_drive_while_engaged() {
 /// Rolling pairs: a rack, and a planetary gear with its ring held, as links and teeth.
 #[test]
 fn a_rack_and_a_planetary_gear() {
-    let [pinion, rack] = [Link::rotor(0.01).unwrap(), Link::new(3.0, 0.0, O).unwrap()];
+    let [pinion, rack] = [Link::rotor(0.01).unwrap(), Link::point_mass(3.0).unwrap()];
     let radius = 0.04;
     let closed = RackAndPinion::new(radius, [pinion, rack]).unwrap();
     let start = closed.frames(0.0).unwrap();
@@ -283,7 +283,7 @@ fn a_rack_and_a_planetary_gear() {
     let module = 2.0 * centres / f64::from(teeth[0] + teeth[1]);
     let [sun, planet, ring] = teeth.map(|z| 0.5 * module * f64::from(z));
     let member = Link::rotor(0.002).unwrap();
-    let one_planet = Link::new(0.1, 0.00002, O).unwrap();
+    let one_planet = link_of(0.1, 0.00002, O);
     let gears = PlanetaryGears::new(PlanetaryDimensions {
         sun: teeth[0],
         planet: teeth[1],

@@ -16,10 +16,7 @@ const E: f64 = 0.01;
 
 /// A flat face on an eccentric circle, guided without offset; only the follower has mass.
 fn eccentric_machine(stiffness: f64, preload: f64) -> Machine<DiscCam> {
-    let links = [
-        Link::rotor(0.01).unwrap(),
-        Link::new(MASS, 0.0, [0.0, 0.0]).unwrap(),
-    ];
+    let links = [Link::rotor(0.01).unwrap(), Link::point_mass(MASS).unwrap()];
     let face = Follower::TranslatingFace { offset: 0.0 };
     let mechanism = DiscCam::new(eccentric(E), 0.03, face, links).unwrap();
     let spring = mechanism.closing_spring(stiffness, preload).unwrap();

@@ -2,7 +2,7 @@
 
 use crate::support::golden::Case;
 use crate::support::machines::spec;
-use crate::support::{budget, config, jointed};
+use crate::support::{budget, config, jointed, link_of};
 use jred::machine::{Action, Body, Joint, Load, Marker, Mechanism, PoseError};
 use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, Pose};
 use jred::{Domain, Link, Machine, Reducible};
@@ -18,7 +18,7 @@ fn pin(a: Marker, b: Marker) -> Pair {
 fn golden_four_bar(case: &Case) -> Machine<Assembly<3, 4, 256>> {
     let input = |path: &str| case.input(path);
     let com = |name: &str| [0, 1].map(|k| input(&format!("/{name}_com/{k}")));
-    let link = |m, i, name| Link::new(input(m), input(i), com(name)).unwrap();
+    let link = |m, i, name| link_of(input(m), input(i), com(name));
     let links = [
         link("/m1", "/I1", "crank"),
         link("/m2", "/I2", "coupler"),
@@ -128,7 +128,7 @@ fn few_stations_do_for_every_position() {
 /// pulley 3.
 #[test]
 fn gears_a_rack_and_a_belt_roll_without_slip() {
-    let wheel = Link::new(1.0, 0.01, O).unwrap();
+    let wheel = link_of(1.0, 0.01, O);
     let (r0, r1, r3) = (0.03, 0.09, 0.06);
     let centre = [0.12 * 0.6, 0.12 * 0.8];
     let rack_line = [0.3, centre[1] - r1];
@@ -159,7 +159,7 @@ fn gears_a_rack_and_a_belt_roll_without_slip() {
         },
     ];
     let drawing = [[0.0, 0.0], centre, rack_line, [0.5, 0.5]].map(|[x, y]| Pose { x, y, psi: 0.0 });
-    let links = [wheel, wheel, Link::new(2.0, 0.0, O).unwrap(), wheel];
+    let links = [wheel, wheel, Link::point_mass(2.0).unwrap(), wheel];
     let linkage = Linkage::<4, 7>::new(&links, &pairs, 0).unwrap();
     let stroke = Domain::stroke(-1.0, 2.0).unwrap();
     let assembly: Assembly<4, 7, 9> = linkage.clone().assemble(stroke, 0.0, &drawing).unwrap();
@@ -208,7 +208,7 @@ fn a_planetary_gear_obeys_willis() {
     let (sun, planet) = (0.03, 0.02);
     let ring = sun + 2.0 * planet;
     let carrier = sun + planet;
-    let link = |m| Link::new(m, 0.001, O).unwrap();
+    let link = |m| link_of(m, 0.001, O);
     let pairs = [
         pin(Marker::ground(O), Marker::on(0, O)),
         pin(Marker::ground(O), Marker::on(1, O)),

@@ -5,7 +5,7 @@ use jred::machine::PoseError;
 use jred::mechanism::linkage::LinkageError;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use crate::support::{assert_near, budget, cams, config, jointed};
+use crate::support::{assert_near, budget, cams, config, jointed, link_of};
 use jred::machine::{Body, Frame, Frames, Joint, Marker, Mechanism};
 use jred::mechanism::cam::contact_force;
 use jred::mechanism::linkage::{Assembly, Linkage, Pair, PlacedCam, Pose};
@@ -154,7 +154,7 @@ proptest! {
 fn the_base_may_move() {
     let (follower, lift) = cams::follower(0, 0.01, O, 0.004);
     let cam = cams::build(lift, 0.04, follower).unwrap();
-    let link = Link::new(1.0, 0.001, O).unwrap();
+    let link = link_of(1.0, 0.001, O);
     let along = FRAC_PI_2;
     // Cam 0 and follower 1 in slide 2, which a screw-like gear moves along x while the cam turns: x = r·θ.
     let base = Marker::on(2, O);
@@ -229,7 +229,7 @@ fn lever() -> DiscCam {
 fn chain(domain: Domain) -> Assembly<5, 8, 256, 1> {
     let cam = lever();
     let (pivot, _) = cam.follower().pivot().unwrap();
-    let link = |mass, com| Link::new(mass, 0.003, com).unwrap();
+    let link = |mass, com| link_of(mass, 0.003, com);
     let links = [
         link(0.4, O),
         link(2.0, [0.003, 0.001]),

@@ -1,6 +1,7 @@
 //! What is not a linkage: refused with its place, and never taken for one that closes.
 
 use crate::support::budget;
+use crate::support::link_of;
 use jred::machine::{Body, Joint, Marker, Mechanism, PoseError};
 use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, Pose};
 use jred::{Domain, Link};
@@ -13,7 +14,7 @@ fn pin(a: Marker, b: Marker) -> Pair {
 
 fn four_bar(lengths: [f64; 4], domain: Domain) -> Result<Assembly<3, 4, 64>, LinkageError> {
     let [a, b, c, d] = lengths;
-    let link = Link::new(1.0, 0.01, O).unwrap();
+    let link = link_of(1.0, 0.01, O);
     let pairs = [
         pin(Marker::ground(O), Marker::on(0, O)),
         pin(Marker::on(0, [a, 0.0]), Marker::on(1, O)),
@@ -53,7 +54,7 @@ fn what_cannot_be_a_mechanism_is_refused_with_its_place() {
     assert!(text.contains("cannot be assembled at φ = 85.94°"), "{text}");
 
     // Degrees of freedom.
-    let link = Link::new(1.0, 0.01, O).unwrap();
+    let link = link_of(1.0, 0.01, O);
     let ground = |x| Marker::ground([x, 0.0]);
     let free = [
         pin(ground(0.0), Marker::on(0, O)),
@@ -120,7 +121,7 @@ fn what_repeats_after_two_turns_does_not_close_after_one() {
     let (r, pivot) = (0.02, [0.12, -0.1]);
     let centre = [0.06, 0.0];
     let wheel = Link::rotor(0.001).unwrap();
-    let lever = Link::new(1.0, 0.01, O).unwrap();
+    let lever = link_of(1.0, 0.01, O);
     let pairs = [
         pin(Marker::ground(O), Marker::on(0, O)),
         pin(Marker::ground(centre), Marker::on(1, O)),

@@ -2,7 +2,7 @@
 
 use crate::support::machines::Wave;
 use jred::machine::motion::{Law, Move};
-use jred::machine::{Action, Load, Mechanism, Window};
+use jred::machine::{Action, Load, MassProperties, Mechanism, Window};
 use jred::mechanism::{
     BeltDimensions, Branch, BuildError, GearDimensions, Mesh, SliderCrank, SliderCrankDimensions,
     Stage, Train,
@@ -14,7 +14,11 @@ use jred::tabulate::{Request, tabulate};
 use jred::{Domain, Error, Link, Machine, Reducible, Scale, Spline, curves};
 
 fn slider_crank(r: f64, l: f64, e: f64) -> Result<SliderCrank, BuildError> {
-    let link = Link::new(0.1, 0.001, [0.0, 0.0])?;
+    let link = Link::new(MassProperties {
+        mass: 0.1,
+        inertia: 0.001,
+        com: [0.0, 0.0],
+    })?;
     SliderCrank::new(
         SliderCrankDimensions {
             crank: r,
@@ -38,16 +42,40 @@ type Case = (&'static str, fn(f64) -> Result<(), Error>);
 fn nothing_that_is_not_finite_gets_into_a_machine() {
     let cases: &[Case] = &[
         ("mass", |x| {
-            Link::new(x, 0.0, [0.0; 2]).map(drop).map_err(Into::into)
+            Link::new(MassProperties {
+                mass: x,
+                inertia: 0.0,
+                com: [0.0; 2],
+            })
+            .map(drop)
+            .map_err(Into::into)
         }),
         ("inertia", |x| {
-            Link::new(0.0, x, [0.0; 2]).map(drop).map_err(Into::into)
+            Link::new(MassProperties {
+                mass: 0.0,
+                inertia: x,
+                com: [0.0; 2],
+            })
+            .map(drop)
+            .map_err(Into::into)
         }),
         ("com u", |x| {
-            Link::new(0.0, 0.0, [x, 0.0]).map(drop).map_err(Into::into)
+            Link::new(MassProperties {
+                mass: 0.0,
+                inertia: 0.0,
+                com: [x, 0.0],
+            })
+            .map(drop)
+            .map_err(Into::into)
         }),
         ("com v", |x| {
-            Link::new(0.0, 0.0, [0.0, x]).map(drop).map_err(Into::into)
+            Link::new(MassProperties {
+                mass: 0.0,
+                inertia: 0.0,
+                com: [0.0, x],
+            })
+            .map(drop)
+            .map_err(Into::into)
         }),
         ("rotor", |x| Link::rotor(x).map(drop).map_err(Into::into)),
         ("crank", |x| {
@@ -227,33 +255,9 @@ fn nothing_that_is_not_finite_gets_into_motions_scales_and_requests() {
                 .map(drop)
                 .map_err(Into::into)
         }),
-        ("scale", |x| {
-            Scale::new(Bases {
-                torque: x as f32,
-                speed: 1.0,
-                inertia: 1.0,
-            })
-            .map(drop)
-            .map_err(Into::into)
-        }),
-        ("scale", |x| {
-            Scale::new(Bases {
-                torque: 1.0,
-                speed: x as f32,
-                inertia: 1.0,
-            })
-            .map(drop)
-            .map_err(Into::into)
-        }),
-        ("scale", |x| {
-            Scale::new(Bases {
-                torque: 1.0,
-                speed: 1.0,
-                inertia: x as f32,
-            })
-            .map(drop)
-            .map_err(Into::into)
-        }),
+        ("scale", |x| scale(x, 1.0, 1.0)),
+        ("scale", |x| scale(1.0, x, 1.0)),
+        ("scale", |x| scale(1.0, 1.0, x)),
         ("covering", |x| {
             Scale::covering(&machine(), x, 1.0, 4)
                 .map(drop)
@@ -328,6 +332,16 @@ fn refused(cases: &[Case]) {
             );
         }
     }
+}
+
+fn scale(torque: f64, speed: f64, inertia: f64) -> Result<(), Error> {
+    Scale::new(Bases {
+        torque: torque as f32,
+        speed: speed as f32,
+        inertia: inertia as f32,
+    })
+    .map(drop)
+    .map_err(Into::into)
 }
 
 fn request(torque_error: f64, omega: f64, alpha: f64) -> Result<(), Error> {

@@ -1,6 +1,6 @@
 //! Several driven shafts on one drive shaft.
 
-use crate::support::{assert_near, budget, config};
+use crate::support::{assert_near, budget, config, link_of};
 use jred::machine::{Action, Load, Mechanism, PoseError};
 use jred::mechanism::{BuildError, DrivenShaft, Misfit, ParallelShafts, Stage, Train};
 use jred::number::RangeError;
@@ -116,7 +116,7 @@ fn wrong_dimensions_are_refused() {
         new(&[shaft(1.0, 1.0); 16]).to_string(),
         "too many driven shafts: at most 15 fit"
     );
-    let off = Link::new(1.0, 1.0, [0.5, 0.0]).unwrap();
+    let off = link_of(1.0, 1.0, [0.5, 0.0]);
     let misfit = Misfit::OffAxis {
         link: "driven shaft",
         distance: 0.5,

@@ -4,7 +4,7 @@ use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
 use crate::support::rows::Rows;
-use crate::support::{assert_near, budget, largest, number};
+use crate::support::{assert_near, budget, largest, link_of, number};
 use jred::machine::motion::Law;
 use jred::mechanism::cam::{Program, Segment};
 use jred::mechanism::{Branch, DiscCam, Follower, Roller, RollerDimensions, SliderCrank};
@@ -12,7 +12,7 @@ use jred::number::Number;
 use jred::table::{Format, words_len};
 use jred::tabulate::{Part, Request, scratch_len, tabulate};
 use jred::{
-    Cubic, Domain, Link, Machine, Phase, Pieces, Q31, Quadratic, Reducible, Reduction, Scale, Set,
+    Cubic, Domain, Machine, Phase, Pieces, Q31, Quadratic, Reducible, Reduction, Scale, Set,
     Spline, curves,
 };
 
@@ -40,7 +40,7 @@ impl<M: Reducible> Reducible for Switched<M> {
 
 fn press() -> Machine<SliderCrank> {
     let links = [(0.8, 0.0006), (0.45, 0.0021), (3.0, 0.0)]
-        .map(|(mass, inertia)| Link::new(mass, inertia, [0.0, 0.0]).unwrap());
+        .map(|(mass, inertia)| link_of(mass, inertia, [0.0, 0.0]));
     let mechanism = SliderCrank::new(
         SliderCrankDimensions {
             crank: 0.05,

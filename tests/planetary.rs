@@ -6,7 +6,7 @@ use jred::mechanism::{BuildError, PlanetaryDimensions};
 use jred::number::RangeError;
 use std::f64::consts::TAU;
 
-use crate::support::{assert_near, budget, config};
+use crate::support::{assert_near, budget, config, link_of};
 use jred::machine::{Action, Load, Mechanism};
 use jred::mechanism::{Member, Misfit, Planetary, PlanetaryGears};
 use jred::{Link, Machine, Reducible};
@@ -94,9 +94,9 @@ fn inertia_of_planets_one_by_one() {
     let (mass, spin) = (1.7, 0.004);
     let links = [
         Link::rotor(0.003).unwrap(),
-        Link::new(6.0, 0.05, [0.0, 0.0]).unwrap(),
+        link_of(6.0, 0.05, [0.0, 0.0]),
         Link::rotor(0.4).unwrap(),
-        Link::new(mass, spin, [0.0, 0.0]).unwrap(),
+        link_of(mass, spin, [0.0, 0.0]),
     ];
     let gears = PlanetaryGears::new(PlanetaryDimensions {
         sun: teeth[0],
@@ -191,7 +191,7 @@ prop_compose! {
         let (input, fixed) = uses().nth(choice)?;
         let mut links = rotors([0.0; 4]);
         for (link, (inertia, mass)) in links.iter_mut().zip(inertia.into_iter().zip(masses)) {
-            *link = Link::new(mass, inertia, [0.0, 0.0]).unwrap();
+            *link = link_of(mass, inertia, [0.0, 0.0]);
         }
         let gear = Planetary::new(gears, input, fixed, links).unwrap();
         let output = index(gear.output());
@@ -308,7 +308,7 @@ fn wrong_gears_are_refused() {
         spoken(new(Member::Carrier, Member::Carrier, rotors([1.0; 4]))),
         "the carrier is fixed and cannot be the input as well; choose another member for one of the two"
     );
-    let off = Link::new(1.0, 1.0, [0.0, 0.5]).unwrap();
+    let off = link_of(1.0, 1.0, [0.0, 0.5]);
     for (k, link) in ["sun", "carrier", "ring", "planet"].into_iter().enumerate() {
         let mut links = rotors([1.0; 4]);
         links[k] = off;

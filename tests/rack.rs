@@ -5,7 +5,7 @@ use jred::mechanism::BuildError;
 use jred::number::RangeError;
 use std::f64::consts::TAU;
 
-use crate::support::{assert_near, budget, config};
+use crate::support::{assert_near, budget, config, link_of};
 use jred::machine::{Action, Load, Mechanism};
 use jred::mechanism::RackAndPinion;
 use jred::{Link, Machine, Reducible};
@@ -16,7 +16,7 @@ const RACK: usize = RackAndPinion::RACK;
 fn links(inertia: f64, mass: f64) -> [Link; 2] {
     [
         Link::rotor(inertia).unwrap(),
-        Link::new(mass, 0.0, [0.1, 0.05]).unwrap(),
+        link_of(mass, 0.0, [0.1, 0.05]),
     ]
 }
 
@@ -104,8 +104,8 @@ prop_compose! {
     ) -> Machine<RackAndPinion> {
         let [u1, v1, u2, v2] = com.map(|c: f64| c * r);
         let links = [
-            Link::new(mass[0], 0.4 * mass[0] * r * r, [u1, v1]).unwrap(),
-            Link::new(mass[1], 0.0, [u2, v2]).unwrap(),
+            link_of(mass[0], 0.4 * mass[0] * r * r, [u1, v1]),
+            link_of(mass[1], 0.0, [u2, v2]),
         ];
         let on = |action| Load::new(RACK, action).unwrap();
         Machine::new(RackAndPinion::new(r, links).unwrap())

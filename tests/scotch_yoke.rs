@@ -5,7 +5,7 @@ use jred::mechanism::{BuildError, ScotchYokeDimensions};
 use jred::number::RangeError;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use crate::support::{assert_near, budget};
+use crate::support::{assert_near, budget, link_of};
 use jred::machine::{Action, Load, Mechanism};
 use jred::mechanism::ScotchYoke;
 use jred::{Link, Machine, Reducible};
@@ -54,7 +54,7 @@ fn straight_yoke_is_the_textbook_one() {
     let (r, inertia, mass, force) = (0.07, 0.004, 3.0, 120.0);
     let links = [
         Link::rotor(inertia).unwrap(),
-        Link::new(mass, 0.0, [0.02, 0.05]).unwrap(),
+        link_of(mass, 0.0, [0.02, 0.05]),
     ];
     let load = Load::new(ScotchYoke::YOKE, Action::Force([force, 0.0])).unwrap();
     let machine = Machine::new(
@@ -116,8 +116,8 @@ prop_compose! {
     ) -> Machine<ScotchYoke> {
         let [u1, v1, u2, v2] = com.map(|c: f64| c * r);
         let links = [
-            Link::new(mass[0], 0.2 * mass[0] * r * r, [u1, v1]).unwrap(),
-            Link::new(mass[1], 0.0, [u2, v2]).unwrap(),
+            link_of(mass[0], 0.2 * mass[0] * r * r, [u1, v1]),
+            link_of(mass[1], 0.0, [u2, v2]),
         ];
         let on = |action| Load::new(ScotchYoke::YOKE, action).unwrap();
         Machine::new(ScotchYoke::new(ScotchYokeDimensions { crank: r, slot_angle: beta }, links).unwrap())

@@ -5,7 +5,7 @@ use jred::mechanism::BuildError;
 use jred::mechanism::SixLinkDimensions;
 use std::f64::consts::{PI, TAU};
 
-use crate::support::{assert_near, budget, config, derivative, jointed, largest};
+use crate::support::{assert_near, budget, config, derivative, jointed, largest, link_of};
 use jred::machine::{Action, Jointed, Load, Mechanism};
 use jred::mechanism::{Branch, SixLink};
 use jred::number::Transfer;
@@ -48,7 +48,7 @@ impl Spec {
         let size = [l1, 0.05, l2, l3, 0.1];
         let links = [0, 1, 2, 3, 4].map(|k| {
             let com = [self.com[k] * size[k], 0.1 * self.com[k] * size[k]];
-            Link::new(self.mass[k], 0.1 * self.mass[k] * size[k] * size[k], com).unwrap()
+            link_of(self.mass[k], 0.1 * self.mass[k] * size[k] * size[k], com)
         });
         SixLink::new(
             SixLinkDimensions {

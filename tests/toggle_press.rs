@@ -5,7 +5,7 @@ use jred::mechanism::SliderCrankDimensions;
 use jred::mechanism::TogglePressDimensions;
 use std::f64::consts::TAU;
 
-use crate::support::{assert_near, budget, config, derivative, jointed};
+use crate::support::{assert_near, budget, config, derivative, jointed, link_of};
 use jred::machine::{Action, Load, Mechanism};
 use jred::mechanism::{Blocked, Branch, Side, SliderCrank, Standstill, TogglePress};
 use jred::{Link, Machine, Reducible};
@@ -60,7 +60,7 @@ impl Spec {
         let links = [0, 1, 2, 3, 4].map(|k| {
             let size = self.lengths.get(k).copied().unwrap_or(0.1);
             let com = [self.com[k] * size, 0.1 * self.com[k] * size];
-            Link::new(self.mass[k], 0.1 * self.mass[k] * size * size, com).unwrap()
+            link_of(self.mass[k], 0.1 * self.mass[k] * size * size, com)
         });
         TogglePress::new(
             TogglePressDimensions {

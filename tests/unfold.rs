@@ -4,7 +4,7 @@ use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
 use crate::support::rows::Rows;
-use crate::support::{assert_near, budget, config, largest, scale_of};
+use crate::support::{assert_near, budget, config, largest, link_of, scale_of};
 use jred::machine::{Action, Load};
 use jred::mechanism::{Branch, SliderCrank};
 use jred::number::Number;
@@ -49,12 +49,8 @@ fn error<F: Format>(machine: &impl Reducible, cells: u32, scale: &Scale) -> f64 
 
 /// A slider-crank with friction at its slider, which turns round twice a turn.
 fn press() -> Machine<SliderCrank> {
-    let link = |mass| Link::new(mass, 0.002, [0.01, 0.0]).unwrap();
-    let links = [
-        link(0.8),
-        link(0.5),
-        Link::new(0.6, 0.0, [0.0, 0.0]).unwrap(),
-    ];
+    let link = |mass| link_of(mass, 0.002, [0.01, 0.0]);
+    let links = [link(0.8), link(0.5), Link::point_mass(0.6).unwrap()];
     let mechanism = SliderCrank::new(
         SliderCrankDimensions {
             crank: 0.05,

@@ -1,7 +1,6 @@
 //! What the benchmarks share: the four-bar linkage in two descriptions.
 #![allow(dead_code, reason = "every benchmark uses its own part")]
-
-use jred::machine::{Joint, Marker};
+use jred::machine::{Joint, Marker, MassProperties};
 use jred::mechanism::linkage::{Assembly, Linkage, Pair, Pose};
 use jred::mechanism::{FourBar, FourBarDimensions, Side};
 use jred::{Domain, Error, Link};
@@ -22,9 +21,21 @@ const DIMENSIONS: FourBarDimensions = FourBarDimensions {
 
 fn links() -> Result<[Link; 3], Error> {
     Ok([
-        Link::new(0.9, 0.002, [0.03, 0.0])?,
-        Link::new(0.6, 0.006, [0.16, 0.01])?,
-        Link::new(1.4, 0.011, [0.12, 0.0])?,
+        Link::new(MassProperties {
+            mass: 0.9,
+            inertia: 0.002,
+            com: [0.03, 0.0],
+        })?,
+        Link::new(MassProperties {
+            mass: 0.6,
+            inertia: 0.006,
+            com: [0.16, 0.01],
+        })?,
+        Link::new(MassProperties {
+            mass: 1.4,
+            inertia: 0.011,
+            com: [0.12, 0.0],
+        })?,
     ])
 }
 

@@ -1,13 +1,16 @@
 //! Linkages that grow: a chain of two-link groups, and one group that cannot be divided.
-
-use jred::machine::{Joint, Marker};
+use jred::machine::{Joint, Marker, MassProperties};
 use jred::mechanism::linkage::{Assembly, Linkage, Pair, Pose};
 use jred::{Domain, Error, Link};
 
 use crate::support::{O, pin};
 
 fn link(mass: f64) -> Result<Link, Error> {
-    Ok(Link::new(mass, mass * 0.01, [0.03, 0.01])?)
+    Ok(Link::new(MassProperties {
+        mass,
+        inertia: mass * 0.01,
+        com: [0.03, 0.01],
+    })?)
 }
 
 /// The six-link mechanism of equations (81): crank 0.1, rocker 0.45 about (−0.25, 0), rod 0.6, guide y = −0.35 m.

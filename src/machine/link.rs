@@ -5,7 +5,19 @@ use crate::number::error::RangeError;
 use crate::number::error::{finite, not_negative};
 use crate::number::transfer::Transfer;
 
-/// Mass properties of a rigid link.
+/// Mass, inertia and centre of mass of a rigid link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct MassProperties {
+    /// Mass (kg).
+    pub mass: f64,
+    /// Inertia about the centre of mass (kg·m²).
+    pub inertia: f64,
+    /// Centre of mass `[u, v]` in the link's frame (m): u along the link, v = u turned by +90°.
+    pub com: [f64; 2],
+}
+
+/// A rigid link: its mass properties, checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Link {
     mass: f64,
@@ -14,12 +26,19 @@ pub struct Link {
 }
 
 impl Link {
-    /// A link of `mass` (kg) with `inertia` about its own centre of mass (kg·m²), which lies at `com = [u, v]` (m)
-    /// in the link's frame: u along the link, v = u turned by +90°.
+    /// A link whose mass does not count.
+    pub const MASSLESS: Self = Self {
+        mass: 0.0,
+        inertia: 0.0,
+        com: [0.0, 0.0],
+    };
+
+    /// A link with these mass properties.
     ///
     /// # Errors
     /// Mass or inertia negative, or anything not finite.
-    pub fn new(mass: f64, inertia: f64, com: [f64; 2]) -> Result<Self, RangeError> {
+    pub fn new(properties: MassProperties) -> Result<Self, RangeError> {
+        let MassProperties { mass, inertia, com } = properties;
         Ok(Self {
             mass: not_negative("mass", mass)?,
             inertia: not_negative("inertia", inertia)?,
@@ -30,12 +49,28 @@ impl Link {
         })
     }
 
+    /// A body that moves like its mass (kg) in the origin of its frame, because it does not turn: a slider, a load on a rope.
+    ///
+    /// # Errors
+    /// Mass negative or not finite.
+    pub fn point_mass(mass: f64) -> Result<Self, RangeError> {
+        Self::new(MassProperties {
+            mass,
+            inertia: 0.0,
+            com: [0.0, 0.0],
+        })
+    }
+
     /// A body that only turns about its own centre of mass: a wheel, a shaft, a flywheel.
     ///
     /// # Errors
     /// Inertia negative or not finite.
     pub fn rotor(inertia: f64) -> Result<Self, RangeError> {
-        Self::new(0.0, inertia, [0.0, 0.0])
+        Self::new(MassProperties {
+            mass: 0.0,
+            inertia,
+            com: [0.0, 0.0],
+        })
     }
 
     /// Mass (kg).

@@ -20,7 +20,7 @@ use core::f64::consts::PI;
 use super::Misfit;
 use super::misfit::centred;
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
-use crate::machine::link::{Frame, Link};
+use crate::machine::link::{Frame, Link, MassProperties};
 use crate::number::error::{finite, positive, within};
 use crate::number::transfer::Transfer;
 use crate::{Domain, math};
@@ -199,11 +199,11 @@ impl Planetary {
         let count = f64::from(planets);
         let mass = count * planet.mass();
         let orbital = mass * centres * centres;
-        let carrier = Link::new(
-            carrier.mass() + mass,
-            carrier.inertia() + orbital,
-            [0.0, 0.0],
-        )?;
+        let carrier = Link::new(MassProperties {
+            mass: carrier.mass() + mass,
+            inertia: carrier.inertia() + orbital,
+            com: [0.0, 0.0],
+        })?;
         let planets = Link::rotor(count * planet.inertia())?;
         Ok(Self {
             gears,

@@ -21,7 +21,7 @@ use crate::{Error, Model, Scale};
 ///
 /// fn main() -> Result<(), Error> {
 ///     let dimensions = ScotchYokeDimensions { crank: 0.05, slot_angle: FRAC_PI_2 };
-///     let yoke = ScotchYoke::new(dimensions, [Link::rotor(0.002)?, Link::new(1.5, 0.0, [0.0, 0.0])?])?;
+///     let yoke = ScotchYoke::new(dimensions, [Link::rotor(0.002)?, Link::point_mass(1.5)?])?;
 ///     let machine = Machine::new(yoke);
 ///     let mut scratch = [0.0; scratch_len(CELLS, SET)];
 ///     let mut buffer = TableBuffer::<Spline<f32>, SET, CELLS, WORDS>::new();

@@ -10,7 +10,7 @@ use jred::{Link, Machine, Reducible};
 use proptest::prelude::*;
 
 use super::integrate;
-use crate::support::{assert_near, budget, config, derivative};
+use crate::support::{assert_near, budget, config, derivative, link_of};
 
 /// From 0.6 to 1.9 within a second.
 fn shift() -> Ramp {
@@ -387,9 +387,9 @@ fn slip_slows_the_driven_shaft() {
 #[test]
 fn any_machine_behind_a_variator() {
     let links = [
-        Link::new(9.0, 0.018, [0.006, 0.0]).unwrap(),
-        Link::new(6.5, 0.03, [0.055, 0.0]).unwrap(),
-        Link::new(42.0, 0.0, [0.0, 0.0]).unwrap(),
+        link_of(9.0, 0.018, [0.006, 0.0]),
+        link_of(6.5, 0.03, [0.055, 0.0]),
+        Link::point_mass(42.0).unwrap(),
     ];
     let press = SliderCrank::new(
         SliderCrankDimensions {

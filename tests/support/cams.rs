@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::link_of;
 use jred::Link;
 use jred::machine::motion::Law;
 use jred::mechanism::cam::{CamError, Program, Segment};
@@ -11,8 +12,8 @@ use proptest::prelude::*;
 /// Cam and follower, their centres of mass off the axes.
 pub(crate) fn links() -> [Link; 2] {
     [
-        Link::new(2.0, 0.003, [0.004, -0.002]).unwrap(),
-        Link::new(0.8, 0.0011, [0.015, 0.03]).unwrap(),
+        link_of(2.0, 0.003, [0.004, -0.002]),
+        link_of(0.8, 0.0011, [0.015, 0.03]),
     ]
 }
 

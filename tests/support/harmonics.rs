@@ -90,8 +90,8 @@ prop_compose! {
 
 /// The example press: crank 50 mm, λ = 0.25, a ram of 10 kg that slides vertically, J max/min 5.25.
 pub(crate) fn press() -> Machine<SliderCrank> {
-    let massless = Link::new(0.0, 0.0, [0.0, 0.0]).unwrap();
-    let ram = Link::new(10.0, 0.0, [0.0, 0.0]).unwrap();
+    let massless = Link::MASSLESS;
+    let ram = Link::point_mass(10.0).unwrap();
     let links = [massless, massless, ram];
     let bare = Machine::new(
         SliderCrank::new(

@@ -1,11 +1,11 @@
 //! Machines to test with: random slider-cranks, and a machine whose curves are plain sines.
-
-use jred::machine::{Action, Load};
+use jred::machine::{Action, Load, MassProperties};
 use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 use jred::{Domain, Link, Machine, Reducible, Reduction};
 use proptest::prelude::*;
 
 use super::golden::Case;
+use super::link_of;
 
 /// A random slider-crank with every kind of load.
 #[derive(Clone, Debug)]
@@ -57,9 +57,9 @@ impl Spec {
     pub(crate) fn links(&self) -> [Link; 3] {
         let (r, [m1, m2, m3], [u1, v1, u2, v2]) = (self.crank, self.mass, self.com);
         [
-            Link::new(m1, 0.1 * m1 * r * r, [u1 * r, v1 * r]).unwrap(),
-            Link::new(m2, 0.1 * m2 * self.rod() * self.rod(), [u2 * r, v2 * r]).unwrap(),
-            Link::new(m3, 0.0, [0.0, 0.0]).unwrap(),
+            link_of(m1, 0.1 * m1 * r * r, [u1 * r, v1 * r]),
+            link_of(m2, 0.1 * m2 * self.rod() * self.rod(), [u2 * r, v2 * r]),
+            Link::point_mass(m3).unwrap(),
         ]
     }
 
@@ -172,21 +172,21 @@ impl Reducible for Wave {
 pub(crate) fn golden_slider_crank(case: &Case) -> Machine<SliderCrank> {
     let input = |path| case.input(path);
     let links = [
-        Link::new(
-            input("/m1"),
-            input("/I1"),
-            [input("/crank_com/0"), input("/crank_com/1")],
-        ),
-        Link::new(
-            input("/m2"),
-            input("/I2"),
-            [input("/coupler_com/0"), input("/coupler_com/1")],
-        ),
-        Link::new(
-            input("/m3"),
-            0.0,
-            [input("/slider_com/0"), input("/slider_com/1")],
-        ),
+        Link::new(MassProperties {
+            mass: input("/m1"),
+            inertia: input("/I1"),
+            com: [input("/crank_com/0"), input("/crank_com/1")],
+        }),
+        Link::new(MassProperties {
+            mass: input("/m2"),
+            inertia: input("/I2"),
+            com: [input("/coupler_com/0"), input("/coupler_com/1")],
+        }),
+        Link::new(MassProperties {
+            mass: input("/m3"),
+            inertia: 0.0,
+            com: [input("/slider_com/0"), input("/slider_com/1")],
+        }),
     ]
     .map(Result::unwrap);
     let branch = if input("/branch") > 0.0 {

@@ -12,8 +12,9 @@ pub(crate) mod jointed;
 pub(crate) mod machines;
 pub(crate) mod rows;
 
-use jred::Scale;
+use jred::machine::MassProperties;
 use jred::number::{Bases, Number};
+use jred::{Link, Scale};
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
@@ -33,6 +34,11 @@ pub(crate) fn samples<T: Strategy>(count: u32, seed: u64, strategy: &T) -> Vec<T
     let mut runner = TestRunner::new(config(count, seed));
     let mut next = || strategy.new_tree(&mut runner).unwrap().current();
     (0..count).map(|_| next()).collect()
+}
+
+/// A link of this mass (kg), this inertia about its centre of mass (kg·m²), and this centre of mass (m).
+pub(crate) fn link_of(mass: f64, inertia: f64, com: [f64; 2]) -> Link {
+    Link::new(MassProperties { mass, inertia, com }).unwrap()
 }
 
 /// Machine units with these bases of torque, speed and inertia.

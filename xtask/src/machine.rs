@@ -113,7 +113,7 @@ impl Example {
         let links = [
             Link::rotor(self.rotating)?,
             Link::rotor(0.0)?,
-            Link::new(MASS, 0.0, [0.0, 0.0])?,
+            Link::point_mass(MASS)?,
         ];
         let mechanism = SliderCrank::new(
             SliderCrankDimensions {

@@ -1,6 +1,6 @@
 //! The part that runs on the cam.
 
-use crate::machine::link::Link;
+use crate::machine::link::{Link, MassProperties};
 use crate::math;
 use crate::number::error::RangeError;
 use crate::number::error::{finite, positive};
@@ -54,7 +54,11 @@ impl Roller {
     pub fn new(dimensions: RollerDimensions) -> Result<Self, RangeError> {
         Ok(Self {
             radius: positive("roller radius", dimensions.radius)?,
-            link: Link::new(dimensions.mass, dimensions.inertia, [0.0, 0.0])?,
+            link: Link::new(MassProperties {
+                mass: dimensions.mass,
+                inertia: dimensions.inertia,
+                com: [0.0, 0.0],
+            })?,
         })
     }
 

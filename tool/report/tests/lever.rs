@@ -1,9 +1,8 @@
 //! A mechanism of one's own with a drive link that slides: every heading and unit is that of a stroke.
-
 use std::path::Path;
 
 use crate::support::{budget, near};
-use jred::machine::{Frame, Frames, Joint, Jointed, Joints, Marker, Mechanism};
+use jred::machine::{Frame, Frames, Joint, Jointed, Joints, Marker, MassProperties, Mechanism};
 use jred::number::Transfer;
 use jred::{Domain, Link, Machine};
 use jred_machine::analysis::inspect::Findings;
@@ -57,8 +56,13 @@ fn lever() -> MachineFile {
          driver = { radius = \"1 m\", inertia = \"1 kg m^2\" }\ndriven = { radius = \"1 m\", inertia = \"1 kg m^2\" }\n";
     let file = jred_machine::read::parse("plain", plain, Path::new("")).unwrap();
     let links = [
-        Link::new(3.0, 0.0, [0.0, 0.0]).unwrap(),
-        Link::new(2.0, 0.04, [0.0, 0.0]).unwrap(),
+        Link::point_mass(3.0).unwrap(),
+        Link::new(MassProperties {
+            mass: 2.0,
+            inertia: 0.04,
+            com: [0.0, 0.0],
+        })
+        .unwrap(),
     ];
     let mechanism = AnyMechanism::new(
         "lever",

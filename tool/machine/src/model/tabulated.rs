@@ -309,13 +309,12 @@ pub(crate) struct DriveLinkAlone {
 }
 
 impl DriveLinkAlone {
-    pub(crate) fn new(domain: Domain, slides: bool) -> Result<Self, Error> {
-        let links = [Link::new(0.0, 0.0, [0.0, 0.0])?];
-        Ok(Self {
+    pub(crate) fn new(domain: Domain, slides: bool) -> Self {
+        Self {
             domain,
             slides,
-            links,
-        })
+            links: [Link::MASSLESS],
+        }
     }
 }
 

@@ -1,10 +1,9 @@
 //! What a linkage is, against golden data and closed forms.
-
 use jred::mechanism::SixLinkDimensions;
 use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
-use jred::machine::{Jointed as _, Mechanism as _};
+use jred::machine::{Jointed as _, MassProperties, Mechanism as _};
 use jred::mechanism::{Branch, SixLink, SliderCrank};
 use jred::{Domain, Link, Machine, Reducible as _};
 use serde_json::Value;
@@ -130,7 +129,14 @@ joint = [
 #[test]
 fn a_slider_crank_on_an_inclined_guide() {
     let file = read(INCLINED);
-    let link = |m, j, com| Link::new(m, j, com).unwrap();
+    let link = |m, j, com| {
+        Link::new(MassProperties {
+            mass: m,
+            inertia: j,
+            com,
+        })
+        .unwrap()
+    };
     let links = [
         link(2.0, 0.003, [0.02, 0.004]),
         link(3.0, 0.02, [0.08, 0.0]),
@@ -187,7 +193,14 @@ joint = [
 "#;
 
 fn six_link() -> Machine<SixLink> {
-    let link = |m, j, u| Link::new(m, j, [u, 0.0]).unwrap();
+    let link = |m, j, u| {
+        Link::new(MassProperties {
+            mass: m,
+            inertia: j,
+            com: [u, 0.0],
+        })
+        .unwrap()
+    };
     let links = [
         link(4.0, 0.02, 0.0),
         link(0.6, 0.0003, 0.0),

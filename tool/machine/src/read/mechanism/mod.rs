@@ -19,6 +19,7 @@ mod slider_crank;
 mod toggle_press;
 mod train;
 
+use jred::machine::MassProperties;
 use jred::{Error, Link};
 
 use crate::model::mechanism::AnyMechanism;
@@ -111,7 +112,7 @@ fn link(section: &Section) -> Result<Link> {
     let inertia = section.quantity("inertia", &INERTIA)?.not_negative()?;
     let com = section.point("com", &LENGTH)?;
     section.finish()?;
-    Link::new(mass, inertia, com).map_err(|error| core(section, error))
+    Link::new(MassProperties { mass, inertia, com }).map_err(|error| core(section, error))
 }
 
 /// An error of the core that no key is known for.

@@ -1,6 +1,7 @@
 //! Parts that several mechanisms have: links that only slide, and wheels that only turn.
 
 use jred::Link;
+use jred::machine::MassProperties;
 
 use super::core;
 use crate::text::item::Value;
@@ -16,7 +17,12 @@ pub(super) fn slide(section: &Section) -> Result<Link> {
         (key == "inertia").then_some("this part does not turn, so it has no moment of inertia")
     };
     section.finish_with(turns)?;
-    Link::new(mass, 0.0, com).map_err(|error| core(section, error))
+    Link::new(MassProperties {
+        mass,
+        inertia: 0.0,
+        com,
+    })
+    .map_err(|error| core(section, error))
 }
 
 /// Moment of inertia and, for the forces in its bearings, mass of a part that turns about its own axis, on which its centre
@@ -28,7 +34,12 @@ pub(super) fn wheel(section: &Section) -> Result<Link> {
         (key == "com").then_some("this part is balanced: its centre of mass is on its axis")
     };
     section.finish_with(balanced)?;
-    Link::new(mass, inertia, [0.0, 0.0]).map_err(|error| core(section, error))
+    Link::new(MassProperties {
+        mass,
+        inertia,
+        com: [0.0, 0.0],
+    })
+    .map_err(|error| core(section, error))
 }
 
 /// The mass (kg) of a part that may leave it out.

@@ -44,7 +44,7 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         if member == fixed && section.get("inertia").is_none() {
             let mass = parts::mass(section)?;
             section.finish()?;
-            return Link::new(mass, 0.0, [0.0, 0.0]).map_err(|error| core(section, error));
+            return Link::point_mass(mass).map_err(|error| core(section, error));
         }
         parts::wheel(section)
     };

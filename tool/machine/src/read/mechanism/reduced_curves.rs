@@ -80,8 +80,7 @@ pub(super) fn read(section: &Section, files: &dyn Files) -> Result<AnyMechanism>
     let file = CsvFile::open(&item, "curves.csv", files)?;
     let curves = Curves::read(&file.text, turn).map_err(|problem| file.shows(problem))?;
     let slides = curves.drive.slides();
-    let alone =
-        DriveLinkAlone::new(curves.drive.domain, slides).map_err(|error| core(section, error))?;
+    let alone = DriveLinkAlone::new(curves.drive.domain, slides);
     let joint = if slides {
         "drive guide"
     } else {

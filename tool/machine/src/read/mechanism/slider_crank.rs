@@ -1,6 +1,7 @@
 //! `type = "slider-crank"`.
 
 use jred::Link;
+use jred::machine::MassProperties;
 use jred::mechanism::{Blocked, Branch, BuildError, SliderCrank, SliderCrankDimensions};
 
 use crate::model::mechanism::AnyMechanism;
@@ -33,7 +34,12 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         (key == "inertia").then_some("the slider does not turn, so it has no moment of inertia")
     };
     slider.finish_with(turns)?;
-    let slider = Link::new(mass, 0.0, com).map_err(|error| core(section, error))?;
+    let slider = Link::new(MassProperties {
+        mass,
+        inertia: 0.0,
+        com,
+    })
+    .map_err(|error| core(section, error))?;
     let dimensions = SliderCrankDimensions {
         crank: length,
         rod: rod_length.si,

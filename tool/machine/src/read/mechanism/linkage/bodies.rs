@@ -1,9 +1,8 @@
 //! The bodies of a linkage: mass, approximate drawing, and the points that joints connect.
-
 use std::ops::Range;
 
 use jred::Link;
-use jred::machine::{Body, Marker};
+use jred::machine::{Body, Marker, MassProperties};
 
 use crate::read::mechanism::core;
 use crate::text::item::{Item, Value};
@@ -219,7 +218,8 @@ fn drawn(section: &Section) -> Result<Drawn> {
         "at" => Some("use `position` for the place of the body in the drawing"),
         _ => None,
     })?;
-    let link = Link::new(mass, inertia, com).map_err(|error| core(section, error))?;
+    let link =
+        Link::new(MassProperties { mass, inertia, com }).map_err(|error| core(section, error))?;
     Ok(Drawn {
         name,
         link,
