@@ -4,13 +4,24 @@ use crate::machine::PoseError;
 use crate::number::error::{RangeError, finite};
 use crate::{Domain, Reducible, Reduction};
 
-/// A part of a machine's range, as a stroke: what one table of [`Pieces`](crate::Pieces) is made from.
-#[derive(Clone, Copy, Debug)]
+/// A part of a machine's range, as a stroke from 0 to its length: what one table of [`Pieces`](crate::Pieces) is made from.
+///
+/// Positions count from the part's start, so that its length keeps all digits in single precision, however short it is.
+#[derive(Debug)]
 pub struct Part<'m, M> {
     machine: &'m M,
     from: f64,
     to: f64,
 }
+
+// It only refers to the machine, which need not be copied.
+impl<M> Clone for Part<'_, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M> Copy for Part<'_, M> {}
 
 /// The end of a part belongs to the next one, and its start may be rounded into the one before; so far inside (in lengths of
 /// the part) its first and last place lie.
@@ -35,20 +46,28 @@ impl<'m, M: Reducible> Part<'m, M> {
         }
         Ok(Self { machine, from, to })
     }
+
+    /// Where it begins in the machine's range (rad, or m).
+    #[must_use]
+    pub const fn start(&self) -> f64 {
+        self.from
+    }
 }
 
 impl<M: Reducible> Reducible for Part<'_, M> {
     fn domain(&self) -> Domain {
         Domain::Stroke {
-            from: self.from,
-            to: self.to,
+            from: 0.0,
+            to: self.to - self.from,
         }
     }
 
     fn reduction(&self, phi: f64) -> Result<Reduction, PoseError> {
         let margin = INSIDE * (self.to - self.from);
         // Not `clamp`, which panics if a part is so short that roundings turn the two round.
-        let phi = phi.max(self.from + margin).min(self.to - margin);
+        let phi = (self.from + phi)
+            .max(self.from + margin)
+            .min(self.to - margin);
         self.machine.reduction(phi)
     }
 }

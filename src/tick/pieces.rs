@@ -17,9 +17,10 @@ use crate::{AccelerationRange, Model, Phase};
 /// The place within a piece is right to 2⁻³¹ of its length (test `phases_are_mapped_to_2_31_of_a_piece`). Costs in addition to
 /// the model's tick: N comparisons and one long multiplication.
 ///
-/// In fixed point the machine units of a model go with the width of its cells ([`Scale::for_cells`](crate::Scale::for_cells)).
-/// Pieces share them if all their cells are equally wide: then `for_cells` of all cells together and 2π suits every piece. So
-/// there the jumps must lie at multiples of a cell.
+/// In fixed point with 32 bits the machine units of a model go with the width of its cells
+/// ([`Scale::for_cells`](crate::Scale::for_cells)). Pieces share them if a cell of each is a whole part of one common width:
+/// `for_cells` of that width then suits every piece. So there the jumps must lie at multiples of some small part of the turn,
+/// as `jred export --pieces` finds it.
 ///
 /// ```
 /// use core::f64::consts::TAU;

@@ -16,13 +16,14 @@ use miette::{Result, miette};
 use crate::commands::core_error::core_report;
 use crate::options;
 use crate::output;
+use jred::Reducible as _;
 use jred_machine::analysis::contact::OneWay;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::analysis::inspect::Findings;
 use jred_machine::analysis::reduce;
 use jred_machine::analysis::reduce::{Over, Sets, reduce};
 use jred_machine::analysis::simulate;
-use jred_machine::export::{Choice, Export, Failure, Form, Number, Task};
+use jred_machine::export::{Choice, Export, Failure, Form, Number, Task, edges};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
 use jred_machine::read;
@@ -252,6 +253,20 @@ fn run_export(options: &options::Export) -> Result<Done> {
     let omega = quantity("omega", &options.omega, read::largest_speed)?;
     let alpha = quantity("alpha", &options.alpha, read::largest_acceleration)?;
     let (omega, alpha) = range([omega, alpha], &file)?;
+    let edges = match options.pieces.as_deref() {
+        None => Vec::new(),
+        Some("auto") => edges(&file),
+        Some(list) => read::drive_positions(list, file.machine.domain(), coordinate)
+            .map_err(|why| miette!("--pieces {list:?} cannot be used: {why}"))?,
+    };
+    if options.pieces.is_some() && edges.is_empty() {
+        return Err(miette!(
+            help =
+                "name the positions, for example --pieces \"60 deg, 75 deg\", or remove --pieces",
+            "{} has no load with between and no cam program, so there are no edges for --pieces auto",
+            options.file.display()
+        ));
+    }
     let task = Task {
         number: options.number,
         layout: options.layout,
@@ -262,6 +277,7 @@ fn run_export(options: &options::Export) -> Result<Done> {
         omega,
         alpha,
         rotor: options.rotor_inertia.unwrap_or(0.0),
+        edges,
     };
     let export = match Export::new(&file, task) {
         Ok(export) => export,
@@ -269,11 +285,19 @@ fn run_export(options: &options::Export) -> Result<Done> {
             output::say(&why);
             return Ok(Done::Violated);
         }
-        Err(Failure::NoneFits { message, help }) => return Err(miette!(help = help, "{message}")),
+        Err(Failure::Impossible { message, help }) => {
+            return Err(miette!(help = help, "{message}"));
+        }
         Err(Failure::Machine(error)) => return Err(core_report(error)),
     };
     if let Some(out) = &options.out {
-        output::write(out, &export.write(options.format))?;
+        let bytes = export.write(options.format).ok_or_else(|| {
+            miette!(
+                help = "use --format rust, c or json",
+                "one image cannot hold the tables of several pieces"
+            )
+        })?;
+        output::write(out, &bytes)?;
     }
     warn(&file, [omega, 0.0])?;
     match (&options.out, options.format) {

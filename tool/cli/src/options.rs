@@ -239,6 +239,15 @@ pub struct Export {
     /// of this size.
     #[arg(long)]
     pub max_bytes: Option<u32>,
+    /// A table for each piece of the range, for loads that begin and end steeply and cams with corners: the positions where
+    /// pieces meet, e.g. "60 deg, 75 deg"; or auto, for the edges of loads and cam segments in the machine file.
+    #[arg(
+        long,
+        value_name = "auto|POSITIONS",
+        conflicts_with = "max_bytes",
+        allow_hyphen_values = true
+    )]
+    pub pieces: Option<String>,
     /// File to write; if not given, only a summary is printed (as JSON with --format json).
     #[arg(long, short, value_parser = output_file())]
     pub out: Option<PathBuf>,

@@ -7,6 +7,11 @@ mod document;
 mod forms;
 mod harmonics;
 mod images;
+mod pieces;
+// As the command wrote it.
+#[rustfmt::skip]
+#[allow(clippy::unreadable_literal, clippy::wildcard_imports, unreachable_pub)]
+mod press_pieces;
 mod reader;
 mod refusals;
 

@@ -31,13 +31,15 @@ pub(super) fn machine(file: &MachineFile) -> jred::Machine<AnyMechanism> {
     file.with_drive_train().unwrap()
 }
 
-/// The largest errors of torque (N·m) and, times J, of the acceleration that it gives, at random states.
-fn errors<N: Number>(
+/// The largest errors of torque (N·m) and, times J, of the acceleration that it gives, at random states; `spread` makes a phase
+/// of a number from 0 to 1.
+pub(super) fn errors<N: Number>(
+    machine: &jred::Machine<AnyMechanism>,
     image: &Image<'_>,
+    spread: impl Fn(f64) -> Phase,
     torque: impl Fn(Phase, N, N) -> N,
     acceleration: impl Fn(Phase, N, N) -> jred::Outcome<N>,
 ) -> [f64; 2] {
-    let machine = machine(&jred_machine::read::read(&press_file()).unwrap());
     let scale = image.scale();
     let [torque_base, speed_base] = [scale.torque(), scale.speed()].map(f64::from);
     let acceleration_base = f64::from(scale.acceleration());
@@ -46,7 +48,7 @@ fn errors<N: Number>(
     let mut random = random();
     let mut worst = [0.0f64; 2];
     for k in 0..20_000 {
-        let phase = Phase::from_bits((random() * 4_294_967_296.0) as u32);
+        let phase = spread(random());
         let mut signed = |most: f32| {
             let share = 2.0 * random() - 1.0;
             // Every fourth at an end of the range.
@@ -78,7 +80,9 @@ fn of_model<F: Format, const CURVES: Set>(words: &[u32]) -> [f64; 2] {
     let image = Image::new(words).unwrap();
     let model = image.model::<F, CURVES>().unwrap();
     errors(
+        &machine(&jred_machine::read::read(&press_file()).unwrap()),
         &image,
+        |share| Phase::from_bits((share * 4_294_967_296.0) as u32),
         |phase, omega, alpha| model.torque(phase, omega, alpha),
         |phase, omega, torque| model.acceleration(phase, omega, torque),
     )

@@ -7,7 +7,8 @@ use jred::{
     Cubic, Error, Harmonic, Q15, Q31, Quadratic, Reducible, Rows16, Scale, Spline, Spline16,
 };
 
-use super::search::{Answer, Search};
+use super::candidate::Answer;
+use super::pieces::Searches;
 
 /// Places at which a machine is sampled for its scale and its set of curves.
 pub(super) const PLACES: u32 = 1440;
@@ -131,7 +132,7 @@ impl Number {
     }
 
     /// Result of the search for this type and one of its layouts.
-    pub(super) fn search(self, layout: LayoutName, search: &Search<'_>) -> Result<Answer, Error> {
+    pub(super) fn search(self, layout: LayoutName, search: &Searches<'_>) -> Result<Answer, Error> {
         match (self, layout) {
             (Self::F32, LayoutName::Harmonic) => search.harmonics(),
             (Self::F32, LayoutName::Cubic) => search.run::<Cubic<f32>>(self, layout),
@@ -156,6 +157,14 @@ impl LayoutName {
             Self::Quadratic => Quadratic::<f32>::NAME,
             Self::Rows => Rows16::NAME,
             Self::Harmonic => Harmonic::<f32>::NAME,
+        }
+    }
+
+    /// What its size is counted in.
+    pub const fn counted(self) -> &'static str {
+        match self {
+            Self::Harmonic => "harmonics",
+            _ => "cells",
         }
     }
 

@@ -4,11 +4,13 @@ use std::fmt::Write as _;
 
 use jred::number::RangeError;
 use jred::table::MAX_CELLS;
-use jred::{Cubic, Error, Quadratic, Spline};
+use jred::{Cubic, Error, Quadratic, Spline, TableError};
 
+use super::candidate::{Answer, Candidate, Made};
 use super::choice::{LayoutName, Number};
+use super::pieces::Searches;
 use super::place::{Feature, feature};
-use super::search::{Answer, Candidate, Search};
+use super::search::Search;
 use super::{Failure, Task};
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
@@ -19,7 +21,7 @@ pub(super) struct NotReached<'f> {
     pub(super) file: &'f MachineFile,
     pub(super) coordinate: Coordinate,
     pub(super) task: &'f Task,
-    pub(super) search: &'f Search<'f>,
+    pub(super) search: &'f Searches<'f>,
     pub(super) answers: &'f [(Number, LayoutName, Answer)],
 }
 
@@ -46,12 +48,23 @@ impl NotReached<'_> {
             let text = format!("{error}; {}", error.cure());
             return Ok(Failure::NotReached(text));
         }
+        if let Some(Answer::Refused(Error::Table(TableError::PieceUnits))) = own.first() {
+            return Ok(Failure::Impossible {
+                message: format!(
+                    "the tables of pieces share their machine units, which for {} go with the width of a cell, and these edges \
+                     have none in common with up to {} cells",
+                    self.task.number.name(),
+                    self.task.max_cells
+                ),
+                help: "take --type f32 or --type i16, or edges at multiples of a simple part of the range".to_owned(),
+            });
+        }
         let misses = own.iter().filter_map(|answer| match answer {
             Answer::Misses(candidate) => Some(candidate.as_ref()),
             _ => None,
         });
         let mut misses: Vec<&Candidate> = misses.collect();
-        misses.sort_by(|a, b| a.error.total_cmp(&b.error));
+        misses.sort_by(|a, b| a.error().total_cmp(&b.error()));
         if let Some(most) = self.task.max_bytes {
             return Ok(self.none_fits(most, &own, misses.first().copied()));
         }
@@ -91,14 +104,19 @@ impl NotReached<'_> {
         );
         let mut most_cells = None;
         for candidate in misses {
-            let cells = candidate.found.cells;
+            let Some(worst) = self.worst(candidate) else {
+                continue;
+            };
+            let (cells, error) = (worst.table.found.cells, worst.table.error);
             let _ = write!(
                 text,
-                "  {}: {cells} cells reach {}",
+                "  {}: {cells} {} reach {}{}",
                 candidate.layout.name(),
-                self.error(candidate.error)
+                candidate.layout.counted(),
+                self.error(error),
+                self.piece(worst.table)
             );
-            match self.limit(candidate)? {
+            match worst.limit(self.task)? {
                 Limit::Rounding => {
                     let _ = write!(
                         text,
@@ -110,7 +128,7 @@ impl NotReached<'_> {
                         text,
                         "; the error falls with the number of cells to the power of {order:.1}"
                     );
-                    let needed = f64::from(cells) * (candidate.error / allowed).powf(1.0 / order);
+                    let needed = f64::from(cells) * (error / allowed).powf(1.0 / order);
                     // Where less than what was tried would do by this, there is more to the error than its order.
                     if round_up(needed.min(1e9)) <= self.task.max_cells {
                         text += " so far, but does not reach the error asked for";
@@ -128,8 +146,11 @@ impl NotReached<'_> {
             }
             text.push('\n');
         }
-        let rounding = matches!(self.limit(best)?, Limit::Rounding);
-        let worst = best.found.worst;
+        let Some(piece) = self.worst(best) else {
+            return Ok(text);
+        };
+        let rounding = matches!(piece.limit(self.task)?, Limit::Rounding);
+        let (worst, cells) = (piece.table.found.worst, piece.table.found.cells);
         let _ = write!(
             text,
             "the largest error is at {}",
@@ -137,14 +158,14 @@ impl NotReached<'_> {
         );
         let mut found = None;
         if !rounding {
-            found = self.feature(worst, best.found.cells)?;
+            found = self.feature(&piece, worst, cells)?;
             if let Some(found) = &found {
                 let _ = write!(text, ": {}", found.words);
             } else {
                 // With more cells the error decreases where the curve is smooth, so that a kink stands out.
-                let finer = (4 * best.found.cells).min(MAX_CELLS);
-                let (_, worst) = self.without_rounding(best.layout, finer)?;
-                found = self.feature(worst, finer)?;
+                let finer = (4 * cells).min(MAX_CELLS);
+                let (_, worst) = piece.without_rounding(finer)?;
+                found = self.feature(&piece, worst, finer)?;
                 if let Some(found) = &found {
                     let _ = write!(text, "; with more cells, it is where {}", found.words);
                 }
@@ -168,10 +189,39 @@ impl NotReached<'_> {
         Ok(text)
     }
 
+    /// The range in which these tables miss most.
+    fn worst<'a>(&'a self, candidate: &'a Candidate) -> Option<Worst<'a>> {
+        let ranges = self.search.ranges.iter().zip(&candidate.tables);
+        let (search, table) = ranges.max_by(|a, b| a.1.error.total_cmp(&b.1.error))?;
+        Some(Worst {
+            search,
+            table,
+            layout: candidate.layout,
+        })
+    }
+
+    /// Which piece of several a table is.
+    fn piece(&self, table: &Made) -> String {
+        let [from, to] = table.range.map(|end| self.coordinate.place(end));
+        match self.search.ranges.len() {
+            1 => String::new(),
+            _ => format!(" in the piece from {from} to {to}"),
+        }
+    }
+
     /// The feature within one and a half cells of a position.
-    fn feature(&self, at: f64, cells: u32) -> Result<Option<Feature>, Error> {
-        let near = 1.5 * self.search.domain.span() / f64::from(cells);
-        feature(self.file, self.search.machine, self.coordinate, at, near)
+    fn feature(&self, piece: &Worst<'_>, at: f64, cells: u32) -> Result<Option<Feature>, Error> {
+        let near = 1.5 * piece.search.domain.span() / f64::from(cells);
+        let found = feature(self.file, self.search.machine, self.coordinate, at, near)?;
+        // In pieces it is what they are cut at.
+        let cure = |feature: Feature| match self.search.ranges.len() {
+            1 => feature,
+            _ => Feature {
+                cure: None,
+                ..feature
+            },
+        };
+        Ok(found.map(cure))
     }
 
     /// Results of the other layouts and types; each was tried.
@@ -194,7 +244,7 @@ impl NotReached<'_> {
             };
             Some(format!(
                 "{layout} ({} cells, {} bytes)",
-                best.found.cells,
+                best.cells(),
                 best.bytes()
             ))
         };
@@ -205,10 +255,51 @@ impl NotReached<'_> {
             .collect()
     }
 
+    fn none_fits(&self, most: u32, own: &[&Answer], best: Option<&Candidate>) -> Failure {
+        let number = self.task.number.name();
+        let smallest = own.iter().filter_map(|answer| match answer {
+            Answer::TooLarge(bytes) => Some(*bytes),
+            _ => None,
+        });
+        let message = match (best, self.task.torque_error, smallest.min()) {
+            (Some(best), Some(allowed), _) => format!(
+                "no {number} table of {most} bytes meets a {} error of {} {}: the smallest error in that size is {}, with layout {} and {} cells",
+                self.effort(),
+                rounded(allowed),
+                self.coordinate.effort_unit(),
+                self.error(best.error()),
+                best.layout.name(),
+                best.cells()
+            ),
+            (_, _, Some(smallest)) => format!(
+                "no {number} table fits into {most} bytes: the smallest image takes {smallest} bytes"
+            ),
+            _ => format!("no {number} table of {most} bytes is usable: more cells are needed"),
+        };
+        let mut help = "allow more bytes".to_owned();
+        if self.task.torque_error.is_some() {
+            help += ", or a larger error";
+        }
+        for cure in self.cures() {
+            help += ", or take ";
+            help += &cure;
+        }
+        Failure::Impossible { message, help }
+    }
+}
+
+/// The range in which the tables of a layout miss most.
+struct Worst<'f> {
+    search: &'f Search<'f>,
+    table: &'f Made,
+    layout: LayoutName,
+}
+
+impl Worst<'_> {
     /// The torque error in double precision, and where it is largest.
-    fn without_rounding(&self, layout: LayoutName, cells: u32) -> Result<(f64, f64), Error> {
-        match layout {
-            // Harmonics never miss: they are refused with what they reach.
+    fn without_rounding(&self, cells: u32) -> Result<(f64, f64), Error> {
+        match self.layout {
+            // Harmonics are not asked: see `limit`.
             LayoutName::Spline | LayoutName::Spline16 | LayoutName::Harmonic => {
                 self.search.without_rounding::<Spline<f64>>(cells)
             }
@@ -219,19 +310,20 @@ impl NotReached<'_> {
         }
     }
 
-    fn limit(&self, candidate: &Candidate) -> Result<Limit, Error> {
+    fn limit(&self, task: &Task) -> Result<Limit, Error> {
         // Of what is there, or of what is allowed, rounding may make up so much.
         const SHARE: f64 = 0.5;
-        let without = |cells| {
-            self.without_rounding(candidate.layout, cells)
-                .map(|(error, _)| error)
-        };
-        let cells = candidate.found.cells;
-        let allowed = self.task.torque_error.unwrap_or_default();
-        let (bound, error) = (candidate.looked, without(cells)?);
+        // As many coefficients as it takes; only their ticks miss.
+        if self.layout == LayoutName::Harmonic {
+            return Ok(Limit::Rounding);
+        }
+        let without = |cells| self.without_rounding(cells).map(|(error, _)| error);
+        let cells = self.table.found.cells;
+        let allowed = task.torque_error.unwrap_or_default();
+        let (bound, error) = (self.table.looked, without(cells)?);
         // More cells were tried and were worse, though the curves themselves come closer.
-        let larger = cells + cells.div_ceil(4) <= self.task.max_cells;
-        let closer = larger && without(self.task.max_cells)? < SHARE * bound;
+        let larger = cells + cells.div_ceil(4) <= task.max_cells;
+        let closer = larger && without(task.max_cells)? < SHARE * bound;
         if closer || error < SHARE * bound || bound - error > SHARE * allowed {
             return Ok(Limit::Rounding);
         }
@@ -254,38 +346,6 @@ impl NotReached<'_> {
         }
         let order = (mean(cells / 2)? - mean(cells)?) / 2f64.ln();
         Ok(Limit::Cells((order > 0.25).then_some(order)))
-    }
-
-    fn none_fits(&self, most: u32, own: &[&Answer], best: Option<&Candidate>) -> Failure {
-        let number = self.task.number.name();
-        let smallest = own.iter().filter_map(|answer| match answer {
-            Answer::TooLarge(bytes) => Some(*bytes),
-            _ => None,
-        });
-        let message = match (best, self.task.torque_error, smallest.min()) {
-            (Some(best), Some(allowed), _) => format!(
-                "no {number} table of {most} bytes meets a {} error of {} {}: the smallest error in that size is {}, with layout {} and {} cells",
-                self.effort(),
-                rounded(allowed),
-                self.coordinate.effort_unit(),
-                self.error(best.error),
-                best.layout.name(),
-                best.found.cells
-            ),
-            (_, _, Some(smallest)) => format!(
-                "no {number} table fits into {most} bytes: the smallest image takes {smallest} bytes"
-            ),
-            _ => format!("no {number} table of {most} bytes is usable: more cells are needed"),
-        };
-        let mut help = "allow more bytes".to_owned();
-        if self.task.torque_error.is_some() {
-            help += ", or a larger error";
-        }
-        for cure in self.cures() {
-            help += ", or take ";
-            help += &cure;
-        }
-        Failure::NoneFits { message, help }
     }
 }
 

@@ -3,11 +3,10 @@
 use std::fmt::Write as _;
 
 use jred::harmonic::terms;
-use jred::table::Usage;
 use jred::{Set, curves};
 use serde_json::{Value, json};
 
-use super::search::{Answer, Candidate};
+use super::candidate::{Answer, Candidate, Made};
 use super::{Export, LayoutName, Number};
 use crate::model::coordinate::Coordinate;
 use crate::number::rounding::{rounded, short};
@@ -57,11 +56,16 @@ fn rust_set(set: Set) -> String {
     }
 }
 
+/// Format and set of curves as the arguments of a type in Rust.
+pub(super) fn rust_arguments(table: &Candidate) -> String {
+    let format = table.layout.type_name(table.number);
+    let set = rust_set(table.curves());
+    format!("{format}, {{ {set} }}")
+}
+
 /// Rust expression that loads the image.
 fn rust_call(table: &Candidate) -> String {
-    let format = table.layout.type_name(table.number);
-    let set = rust_set(table.curves);
-    format!("image.model::<{format}, {{ {set} }}>()")
+    format!("image.model::<{}>()", rust_arguments(table))
 }
 
 /// The part of a number range that is left, in bits.
@@ -70,7 +74,7 @@ fn headroom(usage: f32) -> Option<f64> {
 }
 
 /// Names and shares of the quantities in a fixed-point tick.
-fn quantities(usage: &Usage, coordinate: Coordinate) -> [(&'static str, f32); 6] {
+fn quantities(table: &Candidate, coordinate: Coordinate) -> [(&'static str, f32); 6] {
     let derivative = match coordinate {
         Coordinate::Angle => "J'·omega^2/2",
         Coordinate::Length => "m'·v^2/2",
@@ -80,12 +84,12 @@ fn quantities(usage: &Usage, coordinate: Coordinate) -> [(&'static str, f32); 6]
         Coordinate::Length => "b·v",
     };
     [
-        (coordinate.inertia(), usage.inertia),
-        (derivative, usage.velocity),
-        ("load", usage.load),
-        (viscous, usage.viscous),
-        ("c", usage.coulomb),
-        ("sum", usage.torque),
+        (coordinate.inertia(), table.usage(|u| u.inertia)),
+        (derivative, table.usage(|u| u.velocity)),
+        ("load", table.usage(|u| u.load)),
+        (viscous, table.usage(|u| u.viscous)),
+        ("c", table.usage(|u| u.coulomb)),
+        ("sum", table.usage(|u| u.torque)),
     ]
 }
 
@@ -107,8 +111,11 @@ impl Export {
             Coordinate::Angle => (["omega", "alpha"], "rad/s^2"),
             Coordinate::Length => (["v", "a"], "m/s^2"),
         };
+        let ticks = chosen.ticks();
         let mut names = vec![coordinate.inertia()];
-        let has = CURVES.iter().filter(|(bit, _, _)| chosen.curves & bit != 0);
+        let has = CURVES
+            .iter()
+            .filter(|(bit, _, _)| chosen.curves() & bit != 0);
         names.extend(has.map(|(_, name, _)| *name));
         let mut text = String::new();
         let _ = writeln!(text, "{}: reduced machine at the drive link", self.title);
@@ -117,25 +124,25 @@ impl Export {
             "{}, layout {}, {} {}, curves: {}; {} bytes of rows, {} bytes of image",
             chosen.number.name(),
             chosen.layout.name(),
-            chosen.found.cells,
-            if chosen.layout == LayoutName::Harmonic {
-                "harmonics"
-            } else {
-                "cells"
-            },
+            chosen.cells(),
+            chosen.layout.counted(),
             names.join(", "),
-            chosen.row_bytes,
+            chosen.row_bytes(),
             chosen.bytes()
         );
-        let _ = writeln!(text, "in Rust: {}", rust_call(chosen));
+        if let [_] = chosen.tables.as_slice() {
+            let _ = writeln!(text, "in Rust: {}", rust_call(chosen));
+        } else {
+            text += &self.pieces(chosen);
+        }
         let allowed = self.task.torque_error.map_or(String::new(), |allowed| {
             format!(" of {} {effort} allowed", rounded(allowed))
         });
         let _ = writeln!(
             text,
             "{word} error reached {} {effort}{allowed}, at {} {}, for |{v}| <= {} {speed}, |{a}| <= {} {acceleration}",
-            rounded(chosen.error),
-            rounded(coordinate.shown(chosen.found.worst)),
+            rounded(chosen.error()),
+            rounded(coordinate.shown(chosen.curve_error().1)),
             coordinate.unit(),
             rounded(self.task.omega),
             rounded(self.task.alpha),
@@ -143,13 +150,13 @@ impl Export {
         let _ = writeln!(
             text,
             "measured in ticks: {word} within {} {effort} ({} of the largest, {} {effort}), {a} within {} {acceleration}",
-            rounded(chosen.ticks.torque),
-            short(chosen.ticks.torque / chosen.ticks.peak_torque),
-            rounded(chosen.ticks.peak_torque),
-            rounded(chosen.ticks.acceleration),
+            rounded(ticks.torque),
+            short(ticks.torque / ticks.peak_torque),
+            rounded(ticks.peak_torque),
+            rounded(ticks.acceleration),
         );
         if chosen.number.is_fixed() {
-            let scale = &chosen.scale;
+            let scale = chosen.scale();
             let _ = writeln!(
                 text,
                 "1.0 stands for: {word} {} {effort}, speed {} {speed}, inertia {} {inertia}, acceleration {} {acceleration}",
@@ -158,12 +165,37 @@ impl Export {
                 rounded(scale.inertia().into()),
                 rounded(scale.acceleration().into()),
             );
-            let unused = quantities(&chosen.usage, coordinate);
+            let unused = quantities(chosen, coordinate);
             let unused = unused.iter().filter_map(|(name, usage)| {
                 headroom(*usage).map(|bits| format!("{name} {bits:.1}"))
             });
             let unused: Vec<String> = unused.collect();
             let _ = writeln!(text, "unused bits: {}", unused.join(", "));
+        }
+        text
+    }
+
+    /// Where the pieces are, and what each takes.
+    fn pieces(&self, chosen: &Candidate) -> String {
+        let mut text = format!(
+            "in Rust: {} pieces, jred::Pieces<'static, {}, {}>\n",
+            chosen.tables.len(),
+            rust_arguments(chosen),
+            chosen.tables.len()
+        );
+        let (coordinate, effort) = (self.coordinate, self.coordinate.effort_unit());
+        for (number, table) in (1..).zip(&chosen.tables) {
+            let [from, to] = table.range.map(|end| rounded(coordinate.shown(end)));
+            let _ = writeln!(
+                text,
+                "piece {number}: {from} to {to} {}, {} {}, {} bytes of image, {} error {} {effort}",
+                coordinate.unit(),
+                table.found.cells,
+                chosen.layout.counted(),
+                table.bytes(),
+                self.effort(),
+                rounded(table.error),
+            );
         }
         text
     }
@@ -203,7 +235,7 @@ impl Export {
         });
         if let Some(map) = object.as_object_mut() {
             map.extend(figures(chosen));
-            let scale = &chosen.scale;
+            let scale = chosen.scale();
             map.insert(
                 "scale".into(),
                 json!({
@@ -214,21 +246,25 @@ impl Export {
                 }),
             );
             if chosen.number.is_fixed() {
-                let usage = &chosen.usage;
                 map.insert(
                     "bits_unused".into(),
                     json!({
-                        "inertia": headroom(usage.inertia),
-                        "velocity": headroom(usage.velocity),
-                        "load": headroom(usage.load),
-                        "viscous": headroom(usage.viscous),
-                        "coulomb": headroom(usage.coulomb),
-                        "torque": headroom(usage.torque),
+                        "inertia": headroom(chosen.usage(|u| u.inertia)),
+                        "velocity": headroom(chosen.usage(|u| u.velocity)),
+                        "load": headroom(chosen.usage(|u| u.load)),
+                        "viscous": headroom(chosen.usage(|u| u.viscous)),
+                        "coulomb": headroom(chosen.usage(|u| u.coulomb)),
+                        "torque": headroom(chosen.usage(|u| u.torque)),
                     }),
                 );
             }
             map.insert("alternatives".into(), alternatives.into());
-            map.insert("words".into(), json!(chosen.words));
+            if let [table] = chosen.tables.as_slice() {
+                map.insert("words".into(), json!(table.words));
+            } else {
+                let pieces = chosen.tables.iter().map(|table| self.piece(table));
+                map.insert("pieces".into(), pieces.collect());
+            }
         }
         object
     }
@@ -236,18 +272,19 @@ impl Export {
 
 /// The figures of a table for JSON.
 fn figures(c: &Candidate) -> serde_json::Map<String, Value> {
+    let ((bound, worst), ticks) = (c.curve_error(), c.ticks());
     let value = json!({
-        "curves": c.curves,
-        "cells": c.found.cells,
-        "row_bytes": c.row_bytes,
+        "curves": c.curves(),
+        "cells": c.cells(),
+        "row_bytes": c.row_bytes(),
         "image_bytes": c.bytes(),
-        "torque_error": c.error,
-        "curve_error": c.found.bound,
-        "worst": c.found.worst,
-        "tick_torque_error": c.ticks.torque,
-        "tick_worst": c.ticks.worst,
-        "tick_acceleration_error": c.ticks.acceleration,
-        "peak_torque": c.ticks.peak_torque,
+        "torque_error": c.error(),
+        "curve_error": bound,
+        "worst": worst,
+        "tick_torque_error": ticks.torque,
+        "tick_worst": ticks.worst,
+        "tick_acceleration_error": ticks.acceleration,
+        "peak_torque": ticks.peak_torque,
     });
     match value {
         Value::Object(map) => map,
@@ -256,6 +293,18 @@ fn figures(c: &Candidate) -> serde_json::Map<String, Value> {
 }
 
 impl Export {
+    /// One of several tables for JSON: its range, the phase at which it starts in units of 2⁻³² of the whole range, its image.
+    fn piece(&self, table: &Made) -> Value {
+        json!({
+            "from": table.range[0],
+            "to": table.range[1],
+            "start": self.start(table).to_bits(),
+            "cells": table.found.cells,
+            "torque_error": table.error,
+            "words": table.words,
+        })
+    }
+
     /// The number type and layout that were chosen.
     pub fn kind(&self) -> (Number, LayoutName) {
         let chosen = self.chosen();

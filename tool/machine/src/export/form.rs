@@ -3,6 +3,8 @@
 use std::fmt::Write as _;
 
 use super::Export;
+use super::candidate::Made;
+use super::figures::rust_arguments;
 
 crate::words! {
     /// Output format of an export.
@@ -18,40 +20,119 @@ crate::words! {
     }
 }
 
+const INDENT: &str = "    ";
+
 impl Export {
-    /// The table in one of the forms.
-    pub fn write(&self, form: Form) -> Vec<u8> {
-        let words = &self.chosen().words;
-        match form {
-            Form::Image => words.iter().flat_map(|w| w.to_le_bytes()).collect(),
-            // `include_image!` and this array are aligned as the words are; rows of a power of two then do not cross cache
-            // lines.
-            Form::Rust => self.source(
-                &format!("pub static TABLE: [u32; {}] = [\n", words.len()),
-                "];\n",
-            ),
-            Form::C => self.source(
-                &format!(
-                    "#include <stdint.h>\n\nconst uint32_t jred_table[{}] = {{\n",
-                    words.len()
-                ),
-                "};\n",
-            ),
-            Form::Json => format!("{:#}\n", self.json()).into_bytes(),
-        }
+    /// The table in one of the forms; `None` for several pieces as one image.
+    pub fn write(&self, form: Form) -> Option<Vec<u8>> {
+        let chosen = self.chosen();
+        Some(match (form, chosen.tables.as_slice()) {
+            (Form::Image, [table]) => table.words.iter().flat_map(|w| w.to_le_bytes()).collect(),
+            (Form::Image, _) => return None,
+            (Form::Rust, [table]) => self.source(&rust_table("TABLE", &table.words)),
+            (Form::Rust, tables) => self.source(&self.rust_pieces(tables)),
+            (Form::C, [table]) => {
+                let table = c_table("jred_table", &table.words);
+                self.source(&format!("#include <stdint.h>\n\n{table}"))
+            }
+            (Form::C, tables) => self.source(&self.c_pieces(tables)),
+            (Form::Json, _) => format!("{:#}\n", self.json()).into_bytes(),
+        })
     }
 
-    fn source(&self, open: &str, close: &str) -> Vec<u8> {
+    /// A source text, with the summary as its comment.
+    fn source(&self, code: &str) -> Vec<u8> {
         let mut text = String::new();
         for line in self.summary().lines() {
             let _ = writeln!(text, "// {line}");
         }
-        text.push_str(open);
-        for row in self.chosen().words.chunks(8) {
-            let words: Vec<String> = row.iter().map(|w| format!("0x{w:08x}")).collect();
-            let _ = writeln!(text, "    {},", words.join(", "));
-        }
-        text.push_str(close);
+        text.push_str(code);
         text.into_bytes()
     }
+
+    /// A table for each piece, and a function that puts them together.
+    fn rust_pieces(&self, tables: &[Made]) -> String {
+        let arguments = rust_arguments(self.chosen());
+        let mut text = format!(
+            "use jred::*;\n\n\
+             /// The machine in pieces.\n\
+             pub type PiecewiseModel = Pieces<'static, {arguments}, {}>;\n\n\
+             /// Checks the tables and puts them together.\n\
+             pub fn pieces() -> Result<PiecewiseModel, ImageError> {{\n\
+             {INDENT}fn piece(start: u32, words: &'static [u32]) -> Result<(Phase, Model<'static, {arguments}>), ImageError> {{\n\
+             {INDENT}{INDENT}Ok((Phase::from_bits(start), Image::new(words)?.model()?))\n\
+             {INDENT}}}\n\
+             {INDENT}Pieces::new([\n",
+            tables.len()
+        );
+        for (number, table) in (1..).zip(tables) {
+            let start = self.start(table).to_bits();
+            let _ = writeln!(text, "        piece(0x{start:08x}, &TABLE_{number})?,");
+        }
+        text += "    ])\n    .map_err(ImageError::Table)\n}\n";
+        for (number, table) in (1..).zip(tables) {
+            let _ = write!(
+                text,
+                "\n{}",
+                rust_table(&format!("TABLE_{number}"), &table.words)
+            );
+        }
+        text
+    }
+
+    /// A table for each piece, and where each starts.
+    fn c_pieces(&self, tables: &[Made]) -> String {
+        let mut text = "#include <stdint.h>\n".to_owned();
+        for (number, table) in (1..).zip(tables) {
+            let _ = write!(
+                text,
+                "\n{}",
+                c_table(&format!("jred_table_{number}"), &table.words)
+            );
+        }
+        let count = tables.len();
+        let starts = tables
+            .iter()
+            .map(|table| format!("0x{:08x}", self.start(table).to_bits()));
+        let starts: Vec<String> = starts.collect();
+        let names: Vec<String> = (1..=count)
+            .map(|number| format!("jred_table_{number}"))
+            .collect();
+        let _ = write!(
+            text,
+            "\n/* Phase at which each begins, in units of 2^-32 of the whole range. */\n\
+             const uint32_t jred_starts[{count}] = {{ {} }};\n\
+             const uint32_t *const jred_tables[{count}] = {{ {} }};\n",
+            starts.join(", "),
+            names.join(", ")
+        );
+        text
+    }
+}
+
+// `include_image!` and these arrays are aligned as the words are; rows of a power of two then do not cross cache lines.
+
+fn rust_table(name: &str, words: &[u32]) -> String {
+    format!(
+        "pub static {name}: [u32; {}] = [\n{}];\n",
+        words.len(),
+        rows(words)
+    )
+}
+
+fn c_table(name: &str, words: &[u32]) -> String {
+    format!(
+        "const uint32_t {name}[{}] = {{\n{}}};\n",
+        words.len(),
+        rows(words)
+    )
+}
+
+fn rows(words: &[u32]) -> String {
+    let mut text = String::new();
+    for row in words.chunks(8) {
+        let words: Vec<String> = row.iter().map(|w| format!("0x{w:08x}")).collect();
+        let _ = writeln!(text, "    {},", words.join(", "));
+    }
+    text
 }

@@ -2,12 +2,13 @@
 
 use jred::harmonic::{self, MAX_HARMONICS, fit, scratch_len, terms_in_use};
 use jred::image::{encode, image_len};
+use jred::number::RangeError;
 use jred::table::{Shape, Usage, words_len};
 use jred::tabulate::{Request, Tabulated};
-use jred::{Error, Harmonic, Image, Reducible as _, Scale, Table, Validity};
+use jred::{Error, Harmonic, Image, Reducible as _, Scale, Set, Table, Validity};
 
-use super::choice::{LayoutName, Number};
-use super::search::{Answer, Candidate, Search};
+use super::candidate::{Answer, Made};
+use super::search::Search;
 use super::size::rounded_up;
 use super::ticks;
 
@@ -17,14 +18,14 @@ type F = Harmonic<f32>;
 const ATTEMPTS: u32 = 8;
 
 impl Search<'_> {
-    /// The harmonics of this machine.
+    /// The harmonics of this range.
     ///
     /// # Errors
     /// Those of the machine.
-    pub(super) fn harmonics(&self) -> Result<Answer, Error> {
+    pub(super) fn harmonics(&self) -> Result<Answer<Made>, Error> {
         let most = self.goal.max_cells.min(MAX_HARMONICS);
         let mut scratch = vec![0.0; scratch_len(most)];
-        let set = match terms_in_use(self.machine, self.set, most, &mut scratch) {
+        let set = match terms_in_use(&self.machine, self.set, most, &mut scratch) {
             Ok(terms) => self.set | terms,
             // A stroke.
             Err(error @ Error::Harmonic(_)) => return Ok(Answer::Refused(error)),
@@ -39,53 +40,45 @@ impl Search<'_> {
         let Some(most) = (0..=most).rev().find(fits) else {
             return Ok(Answer::TooLarge(bytes(0)));
         };
-        let attempt = |error: f64| self.fitted(set, most, error);
-        if let Some(allowed) = self.goal.torque_error {
-            let mut asked = allowed;
-            for _ in 0..ATTEMPTS {
-                match attempt(asked) {
-                    Ok(found) if found.error <= allowed => {
-                        return Ok(Answer::Meets(Box::new(found)));
-                    }
-                    Ok(_) => asked *= 0.8,
-                    Err(error @ (Error::Harmonic(_) | Error::Table(_))) => {
-                        return Ok(Answer::Refused(error));
-                    }
-                    Err(error) => return Err(error),
-                }
-            }
-            return Ok(Answer::Refused(Error::TorqueErrorNotReached {
-                asked: allowed,
-                reached: asked,
-                cells: most,
-            }));
-        }
-        // Without a limit each number of harmonics has an error that it just reaches: halves of it, until none do.
+        // Without a limit each number of harmonics has an error that it just reaches: halves of the largest torque, until none
+        // do. With one it is asked for a little less, again and again.
         let [omega, alpha] = self.goal.range;
         let peak = |place: &super::reference::Place| place.exact.torque(omega, alpha).total().abs();
-        let mut asked = self.reference.places.iter().map(peak).fold(0.0, f64::max);
-        let mut best: Option<Candidate> = None;
-        let refused = loop {
-            match attempt(asked) {
+        let peaks = self.reference.places.iter().map(peak);
+        let allowed = self.goal.torque_error;
+        let (mut asked, less, attempts) = match allowed {
+            Some(allowed) => (allowed, 0.8, ATTEMPTS),
+            None => (peaks.fold(0.0, f64::max), 0.5, u32::MAX),
+        };
+        let (mut best, mut refused): (Option<Made>, _) = (None, None);
+        for _ in 0..attempts {
+            match self.fitted(set, most, asked) {
+                Ok(found) if allowed.is_some_and(|allowed| found.error <= allowed) => {
+                    return Ok(Answer::Meets(Box::new(found)));
+                }
                 Ok(found) => {
                     if best.as_ref().is_none_or(|best| found.error < best.error) {
                         best = Some(found);
                     }
                 }
                 Err(error @ (Error::Harmonic(_) | Error::Table(_))) => {
-                    break error;
+                    refused = Some(error);
+                    break;
                 }
                 Err(error) => return Err(error),
             }
-            asked *= 0.5;
-        };
-        Ok(best.map_or(Answer::Refused(refused), |best| {
-            Answer::Meets(Box::new(best))
-        }))
+            asked *= less;
+        }
+        let sound = RangeError::NotFinite("torque error of the harmonics");
+        Ok(match (best, allowed) {
+            (None, _) => Answer::Refused(refused.unwrap_or(sound.into())),
+            (Some(best), None) => Answer::Meets(Box::new(best)),
+            (Some(best), Some(_)) => Answer::Misses(Box::new(best)),
+        })
     }
 
     /// The fewest harmonics whose coefficients meet this error, and how exact their ticks are.
-    fn fitted(&self, set: jred::Set, most: u32, torque_error: f64) -> Result<Candidate, Error> {
+    fn fitted(&self, set: Set, most: u32, torque_error: f64) -> Result<Made, Error> {
         let [omega, alpha] = self.goal.range;
         let request = Request::new(torque_error)
             .with_omega(omega)
@@ -93,12 +86,12 @@ impl Search<'_> {
             .with_max_cells(most);
         let mut scratch = vec![0.0; scratch_len(most)];
         let mut words = vec![0.0; words_len::<F>(most, set)];
-        let fitted = fit::<f32>(self.machine, set, &request, &mut scratch, &mut words)?;
+        let fitted = fit::<f32>(&self.machine, set, &request, &mut scratch, &mut words)?;
         words.truncate(fitted.words);
         let table = Table::<F>::new(&words, Shape::harmonics(fitted.harmonics, set))
             .map_err(Error::Table)?;
         let places = 4 * fitted.samples + 1;
-        let (measured, worst) = harmonic::measure(self.machine, &table, &request, places)?;
+        let (measured, worst) = harmonic::measure(&self.machine, &table, &request, places)?;
         let domain = self.machine.domain();
         let all = (0, f64::INFINITY);
         let read = |phase| table.si(phase, domain);
@@ -120,9 +113,8 @@ impl Search<'_> {
         let mut found = Tabulated::default();
         found.cells = fitted.harmonics;
         (found.torque_error, found.bound, found.worst) = (measured, bound, worst);
-        Ok(Candidate {
-            number: Number::F32,
-            layout: LayoutName::Harmonic,
+        Ok(Made {
+            range: self.machine.ends(),
             curves: set,
             found,
             error,

@@ -1,31 +1,39 @@
 //! `jred export`: the smallest table that meets a torque error, or the best one for its bytes, as an image or as source
 //! code, beside what other number types and layouts would take.
 
+mod candidate;
 mod choice;
 mod fault;
 mod figures;
 mod form;
 mod harmonic;
+mod pieces;
 mod place;
 mod reference;
 mod search;
 mod size;
 mod ticks;
 
+pub use candidate::{Answer, Candidate, Made};
 pub use choice::{Choice, LayoutChoice, LayoutName, Number};
 pub use form::Form;
-pub use search::{Answer, Candidate, EXHAUSTIVE};
+pub use pieces::edges;
+pub use search::EXHAUSTIVE;
 pub use ticks::Ticks;
 
-use jred::Error;
+use std::f64::consts::TAU;
+
+use jred::machine::Mechanism as _;
+use jred::{Domain, Error, Phase};
 
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
 use fault::NotReached;
-use search::{Goal, Search};
+use pieces::Searches;
+use search::Goal;
 
-/// The request. At least one of torque error and bytes is given.
-#[derive(Clone, Copy, Debug)]
+/// The request. At least one of torque error and bytes is given; bytes only without edges.
+#[derive(Clone, Debug)]
 pub struct Task {
     /// Number type.
     pub number: Number,
@@ -45,7 +53,12 @@ pub struct Task {
     pub alpha: f64,
     /// Inertia of rotor and gearbox at the input of the drive train (kg·m²).
     pub rotor: f64,
+    /// Where pieces with a table each meet (rad, or m); none for one table of the whole range.
+    pub edges: Vec<f64>,
 }
+
+/// Part of the range that a piece must at least have: [`Pieces`](jred::Pieces) takes no shorter one.
+const SHORTEST: f64 = 1.0 / 65_536.0;
 
 /// A table ready to be written, and those of the other types and layouts.
 #[derive(Clone, Debug)]
@@ -53,6 +66,7 @@ pub struct Export {
     title: String,
     /// Whether the drive link turns or slides.
     pub coordinate: Coordinate,
+    domain: Domain,
     task: Task,
     /// Size of every number type and layout.
     pub answers: Vec<(Number, LayoutName, Answer)>,
@@ -67,8 +81,8 @@ pub enum Failure {
     Machine(Error),
     /// No table meets the torque error: the obstacle and the cure.
     NotReached(String),
-    /// No table within the given bytes meets the error: the least error in that size, and the cure.
-    NoneFits {
+    /// What is asked for cannot be: the bytes are too few, or a piece is too short.
+    Impossible {
         /// Message.
         message: String,
         /// Cure.
@@ -100,7 +114,22 @@ impl Export {
             max_bytes: task.max_bytes.map(|most| most as usize),
             reciprocal: task.reciprocal,
         };
-        let search = Search::new(&machine, goal)?;
+        let domain = machine.mechanism().domain();
+        let pieces = pieces::between(domain, &task.edges);
+        if let Some([from, to]) = pieces
+            .iter()
+            .find(|[from, to]| to - from < SHORTEST * domain.span())
+        {
+            return Err(Failure::Impossible {
+                message: format!(
+                    "the piece from {} to {} is shorter than 1/65536 of the range",
+                    coordinate.place(*from),
+                    coordinate.place(*to)
+                ),
+                help: "let edges be farther apart, or make the ramp of the load longer".to_owned(),
+            });
+        }
+        let search = Searches::new(&machine, &pieces, goal)?;
         let mut answers = Vec::new();
         for number in Number::ALL {
             for &layout in number.layouts() {
@@ -124,6 +153,7 @@ impl Export {
         Ok(Self {
             title: file.title.clone(),
             coordinate,
+            domain,
             task,
             answers,
             chosen,
@@ -142,6 +172,16 @@ impl Export {
         }
     }
 
+    /// The phase at which a table's range begins.
+    pub fn start(&self, table: &Made) -> Phase {
+        match self.domain {
+            Domain::Turn => Phase::from_radians(table.range[0]),
+            Domain::Stroke { from, to } => {
+                Phase::from_radians((table.range[0] - from) / (to - from) * TAU)
+            }
+        }
+    }
+
     /// The largest speed of the drive link that it was made for.
     pub const fn omega(&self) -> f64 {
         self.task.omega
@@ -155,7 +195,7 @@ fn choose(task: &Task, answers: &[(Number, LayoutName, Answer)]) -> Option<usize
             Some(_) => candidate.bytes(),
             None => 0,
         };
-        (bytes, candidate.error)
+        (bytes, candidate.error())
     };
     let own = answers.iter().enumerate().filter_map(|(k, answer)| {
         let (number, layout, Answer::Meets(candidate)) = answer else {

@@ -71,8 +71,7 @@ fn window_edge(file: &MachineFile, coordinate: Coordinate, at: f64, near: f64) -
         coordinate.place(edge)
     );
     let cure = Some(format!(
-        "a longer ramp of the load {name:?} in the machine file (or one table for each piece between its edges: Part \
-         and Pieces of the library)"
+        "a longer ramp of the load {name:?} in the machine file, or --pieces auto, a table for each piece between edges"
     ));
     Some(Feature { words, cure })
 }

@@ -1,25 +1,77 @@
 //! The exact curves, computed once and compared with every table that is tried.
 
-use jred::machine::PoseError;
 use std::cell::{OnceCell, RefCell};
 use std::collections::HashMap;
 
+use jred::machine::PoseError;
 use jred::table::CurveValues;
-use jred::{Domain, Error, Phase, Reducible, Reduction};
+use jred::tabulate::Part;
+use jred::{Domain, Error, Machine, Phase, Reducible, Reduction};
+
+use crate::model::mechanism::AnyMechanism;
 
 /// Places of the range, a prime number: no number of cells has a common measure with it, so that they fall on every part of a
 /// cell.
 const PLACES: u32 = 16_381;
 
+/// What one table covers.
+#[derive(Clone, Copy)]
+pub(super) enum Range<'m> {
+    /// The machine's whole range.
+    Whole(&'m Machine<AnyMechanism>),
+    /// A piece of it.
+    Part(Part<'m, Machine<AnyMechanism>>),
+}
+
+impl Range<'_> {
+    /// Where it begins (rad, or m): positions of a part count from there.
+    pub(super) fn origin(&self) -> f64 {
+        match self {
+            Self::Whole(_) => 0.0,
+            Self::Part(part) => part.start(),
+        }
+    }
+
+    /// Where it begins and ends (rad, or m).
+    pub(super) fn ends(&self) -> [f64; 2] {
+        let domain = self.domain();
+        let from = self.origin() + domain.position(0.0);
+        [from, from + domain.span()]
+    }
+}
+
+impl Reducible for Range<'_> {
+    fn domain(&self) -> Domain {
+        match self {
+            Self::Whole(machine) => machine.domain(),
+            Self::Part(part) => part.domain(),
+        }
+    }
+
+    fn reduction(&self, phi: f64) -> Result<Reduction, PoseError> {
+        match self {
+            Self::Whole(machine) => machine.reduction(phi),
+            Self::Part(part) => part.reduction(phi),
+        }
+    }
+
+    fn check_repeats(&self) -> Result<(), PoseError> {
+        match self {
+            Self::Whole(machine) => machine.check_repeats(),
+            Self::Part(part) => part.check_repeats(),
+        }
+    }
+}
+
 /// A machine that remembers its knots: tables of different types and layouts ask for the same ones.
-pub(super) struct Remembered<'m, M> {
-    machine: &'m M,
+pub(super) struct Remembered<M> {
+    machine: M,
     knots: RefCell<HashMap<u64, Reduction>>,
     repeats: OnceCell<Result<(), PoseError>>,
 }
 
-impl<'m, M: Reducible> Remembered<'m, M> {
-    pub(super) fn new(machine: &'m M) -> Self {
+impl<M: Reducible> Remembered<M> {
+    pub(super) fn new(machine: M) -> Self {
         Self {
             machine,
             knots: RefCell::default(),
@@ -28,7 +80,7 @@ impl<'m, M: Reducible> Remembered<'m, M> {
     }
 }
 
-impl<M: Reducible> Reducible for Remembered<'_, M> {
+impl<M: Reducible> Reducible for Remembered<M> {
     fn domain(&self) -> Domain {
         self.machine.domain()
     }

@@ -1,81 +1,20 @@
-//! The smallest table of one number type and layout that meets a torque error, or the best one for its bytes.
+//! The smallest table of one range, number type and layout that meets a torque error, or the best one for its bytes.
 //!
 //! A size is looked at in two steps: against exact curves computed once, which refuses nearly all that miss; then against
 //! [`tabulate::measure`], and by ticking its image. What passes both is a table.
 
 use jred::machine::PoseError;
 use jred::number::RangeError;
-use jred::table::{Format, MAX_CELLS, MIN_CELLS, Usage};
-use jred::tabulate::{self, Request, Tabulated};
-use jred::{Domain, Error, Machine, Reducible as _, Scale, Set, curves};
+use jred::table::{Format, MAX_CELLS, MIN_CELLS};
+use jred::tabulate::{self, Request};
+use jred::{Domain, Error, Reducible as _, Scale, Set, TableError};
 
-use super::choice::{LayoutName, Number};
-use super::reference::{Reference, Remembered};
-use super::size::{Buffers, Made, Size, bytes};
-use super::ticks::Ticks;
-use crate::model::mechanism::AnyMechanism;
+use super::candidate::{Answer, Made};
+use super::reference::{Range, Reference, Remembered};
+use super::size::{Buffers, Size, bytes};
 
 /// Sizes up to this one are all tried.
 pub const EXHAUSTIVE: u32 = 512;
-
-/// A table with its image.
-#[derive(Clone, Debug)]
-pub struct Candidate {
-    /// Number type.
-    pub number: Number,
-    /// Layout.
-    pub layout: LayoutName,
-    /// Set of [`curves`].
-    pub curves: Set,
-    /// Accuracy of its curves.
-    pub found: Tabulated,
-    /// The largest error of the drive torque (N·m, or N): of the curves and of the ticks.
-    pub error: f64,
-    /// Its torque error at the places of the search alone (N·m, or N).
-    pub looked: f64,
-    /// Accuracy of its ticks.
-    pub ticks: Ticks,
-    /// How much of the number range each quantity uses.
-    pub usage: Usage,
-    /// Its machine units.
-    pub scale: Scale,
-    /// Bytes of its rows.
-    pub row_bytes: usize,
-    /// The image.
-    pub words: Vec<u32>,
-}
-
-impl Candidate {
-    /// Bytes of the image.
-    pub fn bytes(&self) -> usize {
-        4 * self.words.len()
-    }
-}
-
-/// Result for one number type and layout.
-#[derive(Clone, Debug)]
-pub enum Answer {
-    /// Meets the request.
-    Meets(Box<Candidate>),
-    /// Even the best one does not meet the request.
-    Misses(Box<Candidate>),
-    /// No size gives a usable table; the reason for the last one.
-    Refused(Error),
-    /// The smallest image does not fit; its bytes.
-    TooLarge(usize),
-}
-
-impl Answer {
-    /// Why it is not taken, in a few words; nothing where it meets what is asked for.
-    pub const fn remark(&self) -> &'static str {
-        match self {
-            Self::Meets(_) => "",
-            Self::Misses(_) => "misses",
-            Self::Refused(_) => "no size is usable",
-            Self::TooLarge(_) => "does not fit",
-        }
-    }
-}
 
 /// The request.
 #[derive(Clone, Copy, Debug)]
@@ -92,10 +31,10 @@ pub(super) struct Goal {
     pub(super) reciprocal: bool,
 }
 
-/// Searches for tables of one machine.
+/// Searches for tables of one range.
 pub(super) struct Search<'m> {
-    pub(super) machine: &'m Machine<AnyMechanism>,
-    pub(super) knots: Remembered<'m, Machine<AnyMechanism>>,
+    pub(super) machine: Range<'m>,
+    pub(super) knots: Remembered<Range<'m>>,
     pub(super) domain: Domain,
     pub(super) reference: Reference,
     pub(super) goal: Goal,
@@ -103,41 +42,33 @@ pub(super) struct Search<'m> {
 }
 
 impl<'m> Search<'m> {
-    pub(super) fn new(machine: &'m Machine<AnyMechanism>, goal: Goal) -> Result<Self, Error> {
-        let domain = machine.domain();
-        if domain == Domain::Turn {
-            machine.check_repeats()?;
-        }
+    /// Of a range of a machine whose curves in use are known.
+    pub(super) fn new(machine: Range<'m>, set: Set, goal: Goal) -> Result<Self, Error> {
         Ok(Self {
             machine,
             knots: Remembered::new(machine),
-            domain,
-            reference: Reference::new(machine)?,
+            domain: machine.domain(),
+            reference: Reference::new(&machine)?,
             goal,
-            set: tabulate::curves_in_use(machine, super::choice::PLACES)?,
+            set,
         })
     }
 
-    /// The table of this type and layout.
+    /// The table of one format, with these curves, in machine units of this scale, and with a multiple of `step` cells.
     ///
     /// # Errors
     /// Those of the machine.
     pub(super) fn run<F: Format>(
         &self,
-        number: Number,
-        layout: LayoutName,
-    ) -> Result<Answer, Error> {
-        let reciprocal = if self.goal.reciprocal && F::accepts(curves::RECIPROCAL) {
-            curves::RECIPROCAL
-        } else {
-            0
-        };
+        set: Set,
+        scale: Scale,
+        step: u32,
+    ) -> Result<Answer<Made>, Error> {
         let mut attempt = Attempt::<F> {
             search: self,
-            number,
-            layout,
-            set: self.set | reciprocal,
-            scale: number.scale(self.machine, self.goal.range)?,
+            set,
+            scale,
+            step,
             buffers: Buffers::default(),
             worst: 0,
             refused: None,
@@ -159,10 +90,10 @@ impl<'m> Search<'m> {
 
 struct Attempt<'s, F: Format> {
     search: &'s Search<'s>,
-    number: Number,
-    layout: LayoutName,
     set: Set,
     scale: Scale,
+    /// What every number of cells is a multiple of.
+    step: u32,
     buffers: Buffers<F>,
     /// Index of the place where the table before was worst: the next one is looked at there first.
     worst: usize,
@@ -171,11 +102,15 @@ struct Attempt<'s, F: Format> {
 }
 
 impl<'s, F: Format> Attempt<'s, F> {
-    fn run(&mut self) -> Result<Answer, Error> {
+    fn run(&mut self) -> Result<Answer<Made>, Error> {
         let goal = self.search.goal;
         let Some(most) = self.most_cells() else {
             return Ok(Answer::TooLarge(self.bytes(MIN_CELLS as u32)));
         };
+        let most = most - most % self.step;
+        if most == 0 {
+            return Ok(Answer::Refused(TableError::PieceUnits.into()));
+        }
         if let Some(allowed) = goal.torque_error
             && let Some((_, candidate)) =
                 tabulate::smallest(most, EXHAUSTIVE, |cells| self.make(cells, allowed))?
@@ -183,14 +118,19 @@ impl<'s, F: Format> Attempt<'s, F> {
             return Ok(Answer::Meets(Box::new(candidate)));
         }
         let Some(candidate) = self.best(most)? else {
-            let sound = RangeError::NotFinite("torque error of the table");
-            return Ok(Answer::Refused(self.refused.unwrap_or(sound.into())));
+            return Ok(Answer::Refused(self.why_refused()));
         };
         let candidate = Box::new(candidate);
         Ok(match goal.torque_error {
             Some(allowed) if candidate.error > allowed => Answer::Misses(candidate),
             _ => Answer::Meets(candidate),
         })
+    }
+
+    /// Why the last size that was refused was.
+    fn why_refused(&self) -> Error {
+        let sound = RangeError::NotFinite("torque error of the table");
+        self.refused.unwrap_or(sound.into())
     }
 
     fn bytes(&self, cells: u32) -> usize {
@@ -218,7 +158,7 @@ impl<'s, F: Format> Attempt<'s, F> {
     }
 
     /// The most exact table of up to `most` cells: of all sizes up to [`EXHAUSTIVE`], and of growing ones beyond.
-    fn best(&mut self, most: u32) -> Result<Option<Candidate>, Error> {
+    fn best(&mut self, most: u32) -> Result<Option<Made>, Error> {
         let all = (MIN_CELLS as u32..=most.min(EXHAUSTIVE)).rev();
         let beyond = tabulate::growing(most).filter(|cells| *cells > EXHAUSTIVE);
         let mut sizes: Vec<(f64, u32)> = Vec::new();
@@ -238,7 +178,9 @@ impl<'s, F: Format> Attempt<'s, F> {
         Ok(None)
     }
 
+    /// With at least so many cells.
     fn size(&self, cells: u32) -> Size<'s> {
+        let cells = cells.next_multiple_of(self.step);
         let mut scale = self.scale;
         if F::WHOLE_FACTOR {
             scale = scale.for_cells(cells, self.search.domain.span());
@@ -265,7 +207,7 @@ impl<'s, F: Format> Attempt<'s, F> {
     }
 
     /// This size, if it meets the limit everywhere.
-    fn make(&mut self, cells: u32, limit: f64) -> Result<Option<Candidate>, Error> {
+    fn make(&mut self, cells: u32, limit: f64) -> Result<Option<Made>, Error> {
         let Some(looked) = self.look(cells, limit)? else {
             return Ok(None);
         };
@@ -275,33 +217,10 @@ impl<'s, F: Format> Attempt<'s, F> {
             .with_alpha(alpha)
             .with_max_cells(cells);
         let size = self.size(cells);
-        let made = match size.make(&mut self.buffers, &request, looked) {
-            Ok(Some(made)) => made,
-            Ok(None) => return Ok(None),
-            Err(error) => return self.refuse(error),
-        };
-        let scale = size.scale;
-        let Made {
-            found,
-            error,
-            usage,
-            ticks,
-            row_bytes,
-            words,
-        } = made;
-        Ok(Some(Candidate {
-            number: self.number,
-            layout: self.layout,
-            curves: self.set,
-            found,
-            error,
-            looked,
-            ticks,
-            usage,
-            scale,
-            row_bytes,
-            words,
-        }))
+        match size.make(&mut self.buffers, &request, looked) {
+            Ok(made) => Ok(made),
+            Err(error) => self.refuse(error),
+        }
     }
 
     /// A coarse curve may dip below zero or leave the range: more cells cure it. Everything else is the machine's fault.

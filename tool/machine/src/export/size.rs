@@ -5,8 +5,9 @@ use jred::table::{Format, Usage, words_len};
 use jred::tabulate::{self, Request, Tabulated};
 use jred::{Error, Image, Scale, Set, Table, Validity};
 
+use super::candidate::Made;
 use super::search::Search;
-use super::ticks::{self, Ticks};
+use super::ticks;
 
 /// A size to look at.
 pub(super) struct Size<'s> {
@@ -14,17 +15,6 @@ pub(super) struct Size<'s> {
     pub(super) set: Set,
     pub(super) cells: u32,
     pub(super) scale: Scale,
-}
-
-/// A table with its image.
-pub(super) struct Made {
-    pub(super) found: Tabulated,
-    /// The largest torque error: of what was measured place by place, and of the ticks.
-    pub(super) error: f64,
-    pub(super) usage: Usage,
-    pub(super) ticks: Ticks,
-    pub(super) row_bytes: usize,
-    pub(super) words: Vec<u32>,
 }
 
 /// Numbers that a table is made of.
@@ -89,7 +79,7 @@ impl Size<'_> {
         let search = self.search;
         let table = self.fill(buffers)?;
         let usage = Usage::of(&table).map_err(Error::Table)?;
-        let found = tabulate::measure(search.machine, &table, request)?;
+        let found = tabulate::measure(&search.machine, &table, request)?;
         if found.bound > request.torque_error {
             return Ok(None);
         }
@@ -105,11 +95,18 @@ impl Size<'_> {
             return Ok(None);
         }
         let words = image(error)?;
+        let (mut found, mut ticks) = (found, ticks);
+        found.worst += search.machine.origin();
+        ticks.worst += search.machine.origin();
         Ok(Some(Made {
+            range: search.machine.ends(),
+            curves: self.set,
             found,
             error,
-            usage,
+            looked,
             ticks,
+            usage,
+            scale: self.scale,
             row_bytes: size_of_val(table.words()),
             words,
         }))
@@ -119,7 +116,10 @@ impl Size<'_> {
     pub(super) fn without_rounding<F: Format>(&self) -> Result<(f64, f64), Error> {
         let (error, index) = self.look::<F>(&mut Buffers::default(), (0, f64::INFINITY))?;
         let worst = self.search.reference.places.get(index);
-        Ok((error, worst.map_or(0.0, |place| place.phi)))
+        Ok((
+            error,
+            worst.map_or(0.0, |place| self.search.machine.origin() + place.phi),
+        ))
     }
 }
 

@@ -20,6 +20,22 @@ pub struct Ticks {
     pub peak_torque: f64,
 }
 
+impl Ticks {
+    /// The larger of the errors of two tables, each with its position.
+    pub(super) fn or_worse(self, other: Self) -> Self {
+        let worse = if other.torque > self.torque {
+            other
+        } else {
+            self
+        };
+        Self {
+            acceleration: self.acceleration.max(other.acceleration),
+            peak_torque: self.peak_torque.max(other.peak_torque),
+            ..worse
+        }
+    }
+}
+
 /// Ticks an image at every place of the reference.
 pub(super) fn measure<F: Format>(
     image: &Image<'_>,

@@ -1,8 +1,12 @@
 //! Quantities on the command line, read as in machine files.
 
+use jred::Domain;
+
 use crate::model::coordinate::Coordinate;
+use crate::number::rounding::rounded;
 use crate::units::kind::{
-    ACCELERATION, ANGULAR_ACCELERATION, ANGULAR_SPEED, FORCE, INERTIA, Kind, MASS, TORQUE, VELOCITY,
+    ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_SPEED, FORCE, INERTIA, Kind, LENGTH, MASS,
+    TORQUE, VELOCITY,
 };
 use crate::units::quantity;
 
@@ -81,6 +85,35 @@ pub fn drive_acceleration(text: &str, coordinate: Coordinate) -> Result<f64, Str
             Coordinate::Length => &ACCELERATION,
         },
     )
+}
+
+/// Positions of the drive link, separated by commas, such as "60 deg, 75 deg", or "10 mm, 12 mm" of one that slides.
+///
+/// # Errors
+/// A message for the command line: no position, or one outside the stroke.
+pub fn drive_positions(
+    text: &str,
+    domain: Domain,
+    coordinate: Coordinate,
+) -> Result<Vec<f64>, String> {
+    let kind = match coordinate {
+        Coordinate::Angle => &ANGLE,
+        Coordinate::Length => &LENGTH,
+    };
+    let position = |part: &str| {
+        let position = any(part.trim(), kind).map_err(|why| format!("{:?}: {why}", part.trim()))?;
+        match domain {
+            Domain::Stroke { from, to } if !(from..=to).contains(&position) => Err(format!(
+                "{:?}: it must lie within the stroke, {} to {} {}",
+                part.trim(),
+                rounded(coordinate.shown(from)),
+                rounded(coordinate.shown(to)),
+                coordinate.unit()
+            )),
+            _ => Ok(position),
+        }
+    };
+    text.split(',').map(position).collect()
 }
 
 fn positive(text: &str, kind: &'static Kind) -> Result<f64, String> {

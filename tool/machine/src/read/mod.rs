@@ -27,8 +27,8 @@ mod tool;
 mod variator;
 
 pub use argument::{
-    Reader, drive_acceleration, drive_effort, drive_speed, inertia_argument, largest_acceleration,
-    largest_speed, mass_argument,
+    Reader, drive_acceleration, drive_effort, drive_positions, drive_speed, inertia_argument,
+    largest_acceleration, largest_speed, mass_argument,
 };
 pub use mechanism::mechanism_types;
 

@@ -30,11 +30,11 @@ pub fn alternatives(export: &Export) -> String {
         match answer {
             Answer::Meets(c) | Answer::Misses(c) => {
                 row.extend([
-                    c.found.cells.to_string(),
-                    c.row_bytes.to_string(),
+                    c.cells().to_string(),
+                    c.row_bytes().to_string(),
                     c.bytes().to_string(),
-                    short(c.error),
-                    short(c.ticks.torque),
+                    short(c.error()),
+                    short(c.ticks().torque),
                     answer.remark().to_owned(),
                 ]);
             }

@@ -1,0 +1,215 @@
+//! The ranges of a machine's tables: all of it, or the pieces between its edges.
+
+use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
+
+use jred::table::Format;
+use jred::tabulate::{self, Part};
+use jred::{Domain, Error, Machine, Reducible as _, Set, TableError, curves};
+
+use super::candidate::Answer;
+use super::choice::{LayoutName, Number, PLACES};
+use super::reference::Range;
+use super::search::{Goal, Search};
+use crate::model::machine::MachineFile;
+use crate::model::mechanism::AnyMechanism;
+
+/// Edges that are closer than this part of the range are one.
+const SAME: f64 = 1e-9;
+
+/// The edges of the machine file (rad, or m): where a load begins, reaches its full value, begins to fall and ends, and where
+/// segments of a cam's program meet.
+pub fn edges(file: &MachineFile) -> Vec<f64> {
+    let windows = file.loads.iter().filter_map(|load| load.load.window());
+    let mut edges: Vec<f64> = windows.flat_map(|window| window.edges()).collect();
+    let contacts = file.machine.mechanism().contacts().iter();
+    edges.extend(contacts.flat_map(|contact| contact.pieces.iter().map(|piece| piece.from)));
+    edges
+}
+
+/// The pieces between edges: of a turn from the first edge to the same one a turn later, of a stroke from end to end.
+/// None where there is no edge.
+pub(super) fn between(domain: Domain, edges: &[f64]) -> Vec<[f64; 2]> {
+    if edges.is_empty() {
+        return Vec::new();
+    }
+    let same = SAME * domain.span();
+    let mut edges = edges.to_vec();
+    match domain {
+        Domain::Turn => {
+            for edge in &mut edges {
+                *edge = edge.rem_euclid(TAU);
+                // What is just before a turn is its beginning.
+                if TAU - *edge < same {
+                    *edge = 0.0;
+                }
+            }
+        }
+        Domain::Stroke { from, to } => {
+            edges.retain(|edge| (from + same..=to - same).contains(edge));
+            edges.extend([from, to]);
+        }
+    }
+    edges.sort_by(f64::total_cmp);
+    edges.dedup_by(|later, earlier| *later - *earlier < same);
+    if let (Domain::Turn, Some(first)) = (domain, edges.first()) {
+        edges.push(first + TAU);
+    }
+    edges.windows(2).map(|pair| [pair[0], pair[1]]).collect()
+}
+
+/// The searches of all ranges of a machine: of the whole, or of each piece.
+pub(super) struct Searches<'m> {
+    pub(super) machine: &'m Machine<AnyMechanism>,
+    pub(super) goal: Goal,
+    set: Set,
+    pub(super) ranges: Vec<Search<'m>>,
+}
+
+impl<'m> Searches<'m> {
+    /// Of these pieces, or of the whole range if there is none.
+    ///
+    /// # Errors
+    /// A machine that cannot be tabulated.
+    pub(super) fn new(
+        machine: &'m Machine<AnyMechanism>,
+        pieces: &[[f64; 2]],
+        goal: Goal,
+    ) -> Result<Self, Error> {
+        let domain = machine.domain();
+        if domain == Domain::Turn {
+            machine.check_repeats()?;
+        }
+        let set = tabulate::curves_in_use(machine, PLACES)?;
+        let search = |range| Search::new(range, set, goal);
+        let ranges = if pieces.is_empty() {
+            vec![search(Range::Whole(machine))?]
+        } else {
+            let part = |&[from, to]: &[f64; 2]| search(Range::Part(Part::new(machine, from, to)?));
+            pieces.iter().map(part).collect::<Result<_, Error>>()?
+        };
+        Ok(Self {
+            machine,
+            goal,
+            set,
+            ranges,
+        })
+    }
+
+    /// The tables of this type and layout.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub(super) fn run<F: Format>(
+        &self,
+        number: Number,
+        layout: LayoutName,
+    ) -> Result<Answer, Error> {
+        let reciprocal = if self.goal.reciprocal && F::accepts(curves::RECIPROCAL) {
+            curves::RECIPROCAL
+        } else {
+            0
+        };
+        let set = self.set | reciprocal;
+        let mut scale = number.scale(self.machine, self.goal.range)?;
+        let mut steps = vec![1; self.ranges.len()];
+        // Pieces share their machine units, which here go with the width of a cell.
+        if F::WHOLE_FACTOR && self.ranges.len() > 1 {
+            let span = self.machine.domain().span();
+            let shares = self.ranges.iter().map(|range| range.domain.span() / span);
+            let Some(common) = common_cells(&shares.collect::<Vec<f64>>()) else {
+                return Ok(Answer::Refused(TableError::PieceUnits.into()));
+            };
+            scale = scale.for_cells(common.0, span);
+            steps = common.1;
+        }
+        let ranges = self.ranges.iter().zip(steps);
+        let answers = ranges.map(|(range, step)| range.run::<F>(set, scale, step));
+        let answers = answers.collect::<Result<_, Error>>()?;
+        Ok(Answer::together(answers, number, layout))
+    }
+
+    /// The harmonics of each range.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub(super) fn harmonics(&self) -> Result<Answer, Error> {
+        let answers = self.ranges.iter().map(Search::harmonics);
+        let answers = answers.collect::<Result<_, Error>>()?;
+        Ok(Answer::together(answers, Number::F32, LayoutName::Harmonic))
+    }
+}
+
+/// A number of cells for the whole range, whose width is the common one, and for each piece (by its share of the range) the
+/// fewest cells of this width or a whole part of it that fill the piece: the number of least cells in all.
+fn common_cells(shares: &[f64]) -> Option<(u32, Vec<u32>)> {
+    /// Machine units grow less for narrower cells, but the whole parts have less choice.
+    const TOTAL: RangeInclusive<u32> = 16..=64;
+    /// Edges come from decimal numbers; the units of the tables hold to 5e-7.
+    const WHOLE: f64 = 1e-7;
+    // All shares as whole parts of one number, the shortest being at least one of them.
+    let whole = |parts: u32| {
+        let shares = shares.iter().map(|share| {
+            let exact = share * f64::from(parts);
+            let near = exact.round();
+            (near >= 1.0 && (exact - near).abs() < WHOLE).then_some(near as u64)
+        });
+        Some((u64::from(parts), shares.collect::<Option<Vec<u64>>>()?))
+    };
+    let (parts, shares) = (1..=1 << 16).find_map(whole)?;
+    let steps = |total: u32| {
+        let step = |share: &u64| {
+            let cells = share * u64::from(total);
+            (cells / gcd(cells, parts)) as u32
+        };
+        (total, shares.iter().map(step).collect())
+    };
+    TOTAL.map(steps).min_by_key(|(_, steps): &(u32, Vec<u32>)| {
+        steps.iter().map(|step| step.max(&4)).sum::<u32>()
+    })
+}
+
+fn gcd(a: u64, b: u64) -> u64 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turn_is_cut_at_its_edges_and_a_stroke_at_its_ends_too() {
+        let edges = [-0.5, 1.0, 1.0 + 1e-12, TAU + 2.0];
+        let turn = between(Domain::Turn, &edges);
+        let last = [TAU - 0.5, TAU + 1.0];
+        assert_eq!(turn.len(), 3);
+        for (piece, expected) in turn.iter().zip([[1.0, 2.0], [2.0, TAU - 0.5], last]) {
+            assert!(
+                (piece[0] - expected[0]).abs() < 1e-11 && (piece[1] - expected[1]).abs() < 1e-11
+            );
+        }
+        let domain = Domain::Stroke { from: 0.0, to: 1.5 };
+        let stroke = between(domain, &edges);
+        assert_eq!(stroke, [[0.0, 1.0], [1.0, 1.5]]);
+    }
+
+    #[test]
+    fn pieces_share_a_width_of_cells() {
+        // 315, 0.5, 44 and 0.5 degrees.
+        let shares = [630.0, 1.0, 88.0, 1.0].map(|halves| halves / 720.0);
+        let (total, steps) = common_cells(&shares).unwrap();
+        for (share, step) in shares.iter().zip(&steps) {
+            // A cell of the piece is a whole part of the common one, and with fewer cells it would not be.
+            let parts = |cells: u32| f64::from(cells) / (share * f64::from(total));
+            let is_whole = |x: f64| (x - x.round()).abs() < 1e-9;
+            assert!(is_whole(parts(*step)), "{total} {steps:?}");
+            assert!(
+                (1..*step).all(|fewer| !is_whole(parts(fewer))),
+                "{total} {steps:?}"
+            );
+        }
+        assert!(steps.iter().sum::<u32>() < 80, "{total} {steps:?}");
+        let pi = std::f64::consts::PI / 360.0;
+        assert_eq!(common_cells(&[pi, 1.0 - pi]), None);
+    }
+}
