@@ -264,7 +264,7 @@ fn run_export(options: &options::Export) -> Result<Done> {
             help =
                 "name the positions, for example --pieces \"60 deg, 75 deg\", or remove --pieces",
             "{} has no load with between and no cam program, so there are no edges for --pieces auto",
-            options.file.display()
+            plain::path(&options.file)
         ));
     }
     let task = Task {

@@ -115,6 +115,17 @@ fn the_most_exact_harmonics_for_their_bytes() {
     }
 }
 
+/// Coefficients can be found for any error, but ticks in single precision have a floor.
+#[test]
+fn the_floor_of_single_precision_is_named() {
+    let folder = Folder::new();
+    let arguments = ["--layout", "harmonic", "--torque-error", "1e-5 N m"];
+    let run = export_of(&smooth(&folder), &arguments, None).ends(1);
+    run.says(&["this is the rounding floor of f32: more harmonics do not lower it"]);
+    let reached = number_after(&run.message(), " harmonics reach ");
+    assert!((1e-5..1e-4).contains(&reached), "{reached}");
+}
+
 #[test]
 fn what_has_an_edge_or_a_stroke_is_refused() {
     let folder = Folder::new();

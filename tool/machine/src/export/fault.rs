@@ -120,7 +120,8 @@ impl NotReached<'_> {
                 Limit::Rounding => {
                     let _ = write!(
                         text,
-                        "; this is the rounding floor of {number}: more cells do not lower it"
+                        "; this is the rounding floor of {number}: more {} do not lower it",
+                        candidate.layout.counted()
                     );
                 }
                 Limit::Cells(Some(order)) => {
