@@ -26,8 +26,8 @@ use jred_machine::analysis::simulate;
 use jred_machine::export::{Choice, Export, Failure, Form, Number, Task, edges};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
+use jred_machine::plain;
 use jred_machine::read;
-use jred_machine::text::plain;
 use jred_report::list::alternatives;
 use jred_report::list::inspection;
 use jred_report::page;
@@ -173,8 +173,9 @@ fn state(options: &options::Reduce, file: &MachineFile) -> Result<Option<[f64; 2
         return Ok(None);
     };
     let coordinate = file.machine.mechanism().coordinate();
-    let refused =
-        |name: &str, text: &str, why: &str| miette!("--{name} {text:?} cannot be used: {why}");
+    let refused = |name: &str, text: &str, why: &str| {
+        miette!("--{name} {} cannot be used: {why}", plain::quoted(text))
+    };
     let omega =
         read::drive_speed(speed, coordinate).map_err(|why| refused("speed", speed, &why))?;
     let alpha = match &options.accel {
@@ -245,7 +246,8 @@ fn run_export(options: &options::Export) -> Result<Done> {
     let coordinate = file.machine.mechanism().coordinate();
     let quantity = |name: &str, text: &Option<String>, read: read::Reader| {
         let value = text.as_deref().map(|text| {
-            read(text, coordinate).map_err(|why| miette!("--{name} {text:?} cannot be used: {why}"))
+            read(text, coordinate)
+                .map_err(|why| miette!("--{name} {} cannot be used: {why}", plain::quoted(text)))
         });
         value.transpose()
     };

@@ -6,16 +6,19 @@ use clap::Parser as _;
 use jred_cli::commands::{Done, run};
 use jred_cli::options::Cli;
 use jred_cli::output;
-use jred_machine::text::plain;
+use jred_machine::plain;
 
 fn main() -> ExitCode {
+    let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
+    let words: Vec<String> = words.collect();
     // Colours are made with characters that are not seen: where an argument holds such, errors are shown without colours, so
     // that all of them can be escaped.
-    let hidden = |word: std::ffi::OsString| plain::hidden(&word.to_string_lossy()).is_some();
-    let hostile = std::env::args_os().any(hidden);
+    let plainly = words.iter().any(|word| plain::hidden(word).is_some());
     let cli = match Cli::try_parse() {
-        Err(error) if hostile => {
-            output::say(&error.render().to_string());
+        Err(error)
+            if error.use_stderr() && (plainly || !words.iter().all(|w| plain::is_short(w))) =>
+        {
+            output::say(&cut(error.render().to_string(), &words));
             return ExitCode::from(2);
         }
         // It ends with 2 on a wrong command line, with 0 after a help text.
@@ -27,8 +30,23 @@ fn main() -> ExitCode {
         // As a shell reports a program that Ctrl-C ended.
         Ok(Done::Stopped) => ExitCode::from(130),
         Err(report) => {
-            output::complain(&report, hostile);
+            output::complain(&report, plainly);
             ExitCode::from(2)
         }
     }
+}
+
+/// A message in which long words of the command line, or their values, are cut.
+fn cut(mut message: String, words: &[String]) -> String {
+    for word in words {
+        let value = word
+            .split_once('=')
+            .map_or(word.as_str(), |(_, value)| value);
+        for long in [word, value] {
+            if !plain::is_short(long) {
+                message = message.replace(long, &plain::cut(long));
+            }
+        }
+    }
+    message
 }

@@ -9,7 +9,8 @@ use std::fs::{File, Metadata, OpenOptions};
 use std::io::{Error, ErrorKind, Result as IoResult, Write};
 use std::path::{Path, PathBuf};
 
-use jred_machine::text::{disk, plain};
+use jred_machine::plain;
+use jred_machine::text::disk;
 use miette::{
     GraphicalReportHandler, GraphicalTheme, IntoDiagnostic as _, Report, Result, WrapErr as _,
     miette,

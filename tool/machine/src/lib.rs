@@ -10,7 +10,7 @@
 //!
 //! The way of the data is that of the folders, each knows those before it:
 //!
-//! 1. [`number`]: rounding, integrals, splines, columns of numbers.
+//! 1. [`number`]: rounding, integrals, splines, columns of numbers; [`plain`]: texts that show all that they hold.
 //! 2. [`units`] and [`text`]: quantities with units, TOML and CSV with places; every fault names its place and its cure.
 //! 3. [`model`]: a machine as a machine file describes it, in SI units.
 //! 4. [`analysis`]: reduction, duty, check of the mechanism, free motion.
@@ -21,6 +21,7 @@ pub mod analysis;
 pub mod export;
 pub mod model;
 pub mod number;
+pub mod plain;
 pub mod read;
 pub mod text;
 pub mod units;

@@ -14,8 +14,8 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::model::site::Site;
 use jred_machine::model::supply::Supply;
 use jred_machine::model::variator;
+use jred_machine::plain;
 use jred_machine::read;
-use jred_machine::text::plain;
 use jred_report::list::listing;
 use jred_report::table::output::Format;
 use jred_sizing::bus::answer::{Answer, Axis};
@@ -125,7 +125,8 @@ fn named(options: &Options) -> Result<Vec<(usize, String)>> {
                 help = format!(
                     "write N=MOTOR+GEARBOX, or N=MOTOR+GEARBOX on AMPLIFIER, with N from 1 to {count}, the place of the machine file on the command line"
                 ),
-                "--drive {text:?} cannot be used"
+                "--drive {} cannot be used",
+                plain::quoted(text)
             ));
         };
         if named.iter().any(|(known, _)| *known == axis) {

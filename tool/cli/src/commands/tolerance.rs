@@ -1,5 +1,6 @@
 //! `jred tolerance`.
 
+use jred_machine::plain;
 use miette::{Result, miette};
 
 use crate::commands::vary::{stopped, study};
@@ -84,7 +85,8 @@ fn given(text: &str) -> Result<Tolerance> {
     parsed.map_err(|why| {
         miette!(
             help = "write PATH=5%, PATH=0.1mm or PATH=normal:2%",
-            "--tolerance {text:?} cannot be used: {why}"
+            "--tolerance {} cannot be used: {why}",
+            plain::quoted(text)
         )
     })
 }

@@ -10,7 +10,7 @@ use crate::output;
 use crate::rows::merge::merge;
 use crate::rows::run::{Ended, Plan, run};
 use jred_machine::number::words::{Word as _, counted};
-use jred_machine::text::plain;
+use jred_machine::plain;
 use jred_report::table::rows::{RowFormat, table};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::select::filter::Filter;

@@ -5,7 +5,8 @@ use std::collections::BinaryHeap;
 use std::io::{BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
-use jred_machine::text::{disk, plain};
+use jred_machine::plain;
+use jred_machine::text::disk;
 use miette::{IntoDiagnostic as _, Report, Result, WrapErr as _, miette};
 
 use super::store;

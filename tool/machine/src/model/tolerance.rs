@@ -1,5 +1,6 @@
 //! How far quantities of a machine file may lie from what it says.
 
+use crate::plain;
 use crate::units::literal::{self, Literal};
 
 /// How deviations are distributed.
@@ -55,14 +56,16 @@ impl Tolerance {
         let amount = text
             .trim_start_matches([' ', ':'])
             .trim_start_matches(['±', ' ']);
-        let amount = literal::read(amount).map_err(|why| format!("{text:?} {why}"))?;
+        let amount =
+            literal::read(amount).map_err(|why| format!("{} {why}", plain::quoted(text)))?;
         if amount.unit.is_empty() {
             return Err(format!(
-                "{text:?} has no unit; write a share, \"5 %\", or an amount with its unit, \"0.1 mm\""
+                "{} has no unit; write a share, \"5 %\", or an amount with its unit, \"0.1 mm\"",
+                plain::quoted(text)
             ));
         }
         if amount.number <= 0.0 {
-            return Err(format!("{text:?} must be greater than zero"));
+            return Err(format!("{} must be greater than zero", plain::quoted(text)));
         }
         Ok(Self {
             path: path.to_owned(),

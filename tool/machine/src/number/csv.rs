@@ -1,7 +1,8 @@
 //! Comma-separated values (RFC 4180): the one way in which every result is written.
 //!
 //! A number has the shortest digits that read back to the same number; a cell is in quotes where it holds a comma, a quote
-//! or a line break. `tests/cli/forms.rs` reads every command's CSV back.
+//! or a line break. `tests/cli/forms.rs` reads every command's CSV back. A text that a spreadsheet would take for a formula gets
+//! an apostrophe in front.
 
 /// Rows as text, each ended by a line feed.
 pub fn rows<R, C>(rows: impl IntoIterator<Item = R>) -> String
@@ -15,10 +16,26 @@ where
         .from_writer(Vec::new());
     for row in rows {
         // Into memory, with rows of any length: there is nothing that could fail.
-        let _ = writer.write_record(row);
+        for cell in row {
+            let cell = cell.as_ref();
+            let _ = if is_formula(cell) {
+                writer.write_field([b"'", cell].concat())
+            } else {
+                writer.write_field(cell)
+            };
+        }
+        let _ = writer.write_record(None::<&[u8]>);
     }
     let bytes = writer.into_inner().unwrap_or_default();
     String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// Whether a spreadsheet would take a cell for a formula: it begins like one, and is neither a number nor signs alone.
+fn is_formula(cell: &[u8]) -> bool {
+    let is_number = || std::str::from_utf8(cell).is_ok_and(|text| text.parse::<f64>().is_ok());
+    matches!(cell, [b'=' | b'+' | b'-' | b'@' | b'\t' | b'\r', ..])
+        && cell.iter().any(u8::is_ascii_alphanumeric)
+        && !is_number()
 }
 
 /// One row as text.
@@ -47,6 +64,14 @@ mod tests {
         }
         assert_eq!(number(-0.0), "0.0");
         assert_eq!(known(None), "");
+    }
+
+    #[test]
+    fn formulas_are_texts() {
+        let cells = [
+            "=1+1", "+a", "-b", "@c", "\td", "-1.5", "+2e-3", "a=b", "+-",
+        ];
+        assert_eq!(row(cells), "'=1+1,'+a,'-b,'@c,'\td,-1.5,+2e-3,a=b,+-\n");
     }
 
     #[test]

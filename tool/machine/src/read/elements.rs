@@ -9,6 +9,7 @@ use jred::number::Transfer;
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::{AnyMechanism, NamedElement};
 use crate::number::numerics;
+use crate::plain;
 
 use crate::text::item::Item;
 use crate::text::problem::{Problem, Result, quoted};
@@ -283,7 +284,10 @@ fn unknown(item: &Item, text: &str, mechanism: &AnyMechanism) -> Problem {
     }));
     let near = did_you_mean(text, &names);
     item.problem(
-        &format!("is \"{text}\", which is no body and no point"),
+        &format!(
+            "is \"{}\", which is no body and no point",
+            plain::cut(text)
+        ),
         "unknown",
     )
     .help(format!(

@@ -39,8 +39,8 @@ use miette::{Report, miette};
 
 use crate::model::machine::MachineFile;
 use crate::model::rules::RuleSet;
+use crate::plain;
 use crate::text::file::{self, Files};
-use crate::text::plain;
 use crate::units::kind::ACCELERATION;
 
 use crate::text::problem::{Problem, Result};

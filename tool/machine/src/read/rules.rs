@@ -10,8 +10,8 @@ use crate::model::rules::{
 };
 use crate::text::file::Files;
 
+use crate::plain;
 use crate::text::item::Item;
-use crate::text::plain;
 use crate::text::problem::{Problem, Result, quoted};
 use crate::text::section::Section;
 use crate::text::tree;
@@ -110,7 +110,8 @@ fn named(name: &str) -> Result<RuleSet> {
 fn unknown(name: &str) -> Problem {
     let names = BUILT_IN.map(|(name, _)| name);
     let near = did_you_mean(name, &names);
-    Problem::new(format!("there is no rule set \"{name}\"")).help(format!(
+    let word = plain::cut(name);
+    Problem::new(format!("there is no rule set \"{word}\"")).help(format!(
         "{near}possible: {}; or a file such as \"our-rules.toml\"; `jred rules` shows them with their sources",
         quoted(&names)
     ))

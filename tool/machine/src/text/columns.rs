@@ -9,6 +9,7 @@ use super::file::Files;
 use super::item::Item;
 use super::problem::{Problem, Result};
 use crate::number::rounding::figure;
+use crate::plain;
 use crate::units::did_you_mean;
 use crate::units::kind::Kind;
 use crate::units::quantity;
@@ -153,6 +154,7 @@ pub(crate) fn read(text: &str, format: &Format) -> Result<Columns> {
                 continue;
             };
             let fault = |what: &str| {
+                let [field, name] = [field, name].map(plain::cut);
                 let message =
                     format!("row {number}: \"{field}\" in the column \"{name}\" is {what}");
                 Problem::new(message).at(place.clone(), "this row")
@@ -220,7 +222,7 @@ fn header_columns(table: &Table, format: &Format) -> Result<Vec<Option<(usize, f
                 continue;
             }
             let names: Vec<&str> = format.known.iter().flat_map(|k| k.names).copied().collect();
-            return Err(fault(format!("unknown column \"{whole}\""))
+            return Err(fault(format!("unknown column \"{}\"", plain::cut(whole)))
                 .help(did_you_mean(name, &names) + &help));
         };
         let kind = format.known[index].kind;

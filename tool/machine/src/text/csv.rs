@@ -7,6 +7,7 @@ use std::ops::Range;
 use csv::{Error, ErrorKind, Position, Reader, ReaderBuilder, StringRecord, Trim};
 
 use super::problem::{Problem, Result};
+use crate::plain;
 use crate::units::Fault;
 use crate::units::kind::Kind;
 
@@ -31,6 +32,16 @@ impl<'t> Table<'t> {
         let mut table = Self::new(text, ReaderBuilder::new().comment(Some(b'#')));
         let header = table.reader.headers().cloned();
         table.header = header.map_err(|error| table.broken(&error))?;
+        if let Some((index, c)) = hidden(&table.header) {
+            let at = table.title_place(index);
+            return Err(Problem::new(format!(
+                "the title of column {} contains {}",
+                index + 1,
+                plain::described(c)
+            ))
+            .at(at, "here")
+            .help(plain::CURE));
+        }
         Ok(table)
     }
 
@@ -83,7 +94,17 @@ impl<'t> Table<'t> {
             Ok(true) if self.record == self.header => Some(Err(Problem::new("duplicate header")
                 .at(self.place(0), "again here")
                 .help("remove this line: a table has one header"))),
-            Ok(true) => Some(Ok(())),
+            Ok(true) => Some(match hidden(&self.record) {
+                None => Ok(()),
+                Some((index, c)) => Err(Problem::new(format!(
+                    "row {}: the cell in column {} contains {}",
+                    self.rows,
+                    index + 1,
+                    plain::described(c)
+                ))
+                .at(self.row_place(), "this row")
+                .help(plain::CURE)),
+            }),
             Err(error) => {
                 // Only a row of the wrong length leaves the reader where it can go on.
                 self.over = !matches!(error.kind(), ErrorKind::UnequalLengths { .. });
@@ -157,12 +178,19 @@ impl<'t> Table<'t> {
         let (name, unit) = name_and_unit(title);
         read(unit.unwrap_or_default()).map_err(|fault| {
             let help = match (unit, kinds) {
-                (None, [kind, ..]) => format!("write \"{name} [{}]\"; {}", kind.unit, fault.help),
+                (None, [kind, ..]) => {
+                    let name = plain::cut(name);
+                    format!("write \"{name} [{}]\"; {}", kind.unit, fault.help)
+                }
                 _ => fault.help,
             };
-            Problem::new(format!("the column \"{title}\" {}", fault.message))
-                .at(self.title_place(index), fault.label)
-                .help(help)
+            Problem::new(format!(
+                "the column \"{}\" {}",
+                plain::cut(title),
+                fault.message
+            ))
+            .at(self.title_place(index), fault.label)
+            .help(help)
         })
     }
 
@@ -191,6 +219,13 @@ impl<'t> Table<'t> {
             None => row + start..row + start,
         }
     }
+}
+
+/// The first hidden character of a row, with the index of its cell.
+fn hidden(row: &StringRecord) -> Option<(usize, char)> {
+    row.iter()
+        .enumerate()
+        .find_map(|(index, cell)| Some((index, plain::hidden(cell)?)))
 }
 
 /// Where the row begins that follows byte `from`: past a byte order mark, comments and blank lines.

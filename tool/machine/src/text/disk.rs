@@ -11,7 +11,7 @@ use std::sync::{LazyLock, Mutex, PoisonError, mpsc};
 use std::time::Duration;
 
 use super::file::{Files, LARGE, size, too_large};
-use super::plain;
+use crate::plain;
 use crate::units::Fault;
 
 /// How long is waited for the end of a pipe or a device.

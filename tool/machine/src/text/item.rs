@@ -9,6 +9,7 @@ use toml::de::DeValue;
 use super::problem::{Problem, Result, quoted};
 use super::section::Section;
 use crate::number::rounding::figure;
+use crate::plain;
 use crate::units::kind::Kind;
 use crate::units::quantity::{self, Quantity};
 use crate::units::{Fault, did_you_mean};
@@ -161,7 +162,10 @@ impl<'a> Item<'a> {
             Ok(count) if (1..=max).contains(&count) => Ok(count),
             _ => Err(self
                 .problem(
-                    &format!("is {integer}, but must be between 1 and {max}"),
+                    &format!(
+                        "is {}, but must be between 1 and {max}",
+                        plain::cut(integer.as_str())
+                    ),
                     "here",
                 )
                 .help(format!("write for instance {example}"))),
@@ -230,7 +234,10 @@ impl<'a> Item<'a> {
         let near = did_you_mean(text, words);
         Err(self
             .problem(
-                &format!("is \"{text}\", which is not a valid choice here"),
+                &format!(
+                    "is \"{}\", which is not a valid choice here",
+                    plain::cut(text)
+                ),
                 "unknown",
             )
             .help(format!("{near}possible: {}", quoted(words))))

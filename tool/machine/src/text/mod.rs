@@ -6,7 +6,6 @@ pub mod csv;
 pub mod disk;
 pub mod file;
 pub mod item;
-pub mod plain;
 pub mod problem;
 pub mod section;
 pub mod tree;

@@ -1,10 +1,13 @@
 //! One fault of a text: message, places and cure.
 
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
 use miette::{Diagnostic, LabeledSpan, NamedSource, Report};
 use thiserror::Error;
+
+use crate::plain;
 
 /// Result of reading a part of a text.
 pub type Result<T> = std::result::Result<T, Problem>;
@@ -57,7 +60,13 @@ impl Problem {
     pub fn in_file(mut self, name: &str, text: &Arc<String>) -> Self {
         if self.0.file.is_none() {
             self.0.point(name, text);
-            self.0.file = Some(NamedSource::new(name, Arc::clone(text)));
+            let text = match plain::masked(text) {
+                Cow::Borrowed(_) if text.lines().all(|line| line.len() <= MAX_LINE) => {
+                    Arc::clone(text)
+                }
+                masked => Arc::new(self.0.narrow(&masked)),
+            };
+            self.0.file = Some(NamedSource::new(name, text));
         }
         self
     }
@@ -105,6 +114,31 @@ impl Parts {
                 )),
             }
         }
+    }
+}
+
+impl Parts {
+    /// The text with long lines cut, which may be shown beside those of the labels; the labels move along.
+    fn narrow(&mut self, text: &str) -> String {
+        let (mut narrow, mut read) = (String::with_capacity(text.len()), 0);
+        for line in text.split_inclusive('\n') {
+            for label in &mut self.places {
+                if (read..read + line.len()).contains(&label.offset()) {
+                    let start = narrow.len() + label.offset() - read;
+                    let name = label.label().map(ToOwned::to_owned);
+                    *label = LabeledSpan::new(name, start, label.len());
+                }
+            }
+            read += line.len();
+            // It becomes shorter, so a label that has moved is not met again.
+            if line.len() > MAX_LINE + "…\n".len() {
+                narrow += line.get(..boundary(line, MAX_LINE)).unwrap_or_default();
+                narrow += "…\n";
+            } else {
+                narrow += line;
+            }
+        }
+        narrow
     }
 }
 

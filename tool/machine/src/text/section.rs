@@ -7,6 +7,7 @@ use toml::de::DeTable;
 
 use super::item::{Item, Value};
 use super::problem::{Problem, Result};
+use crate::plain;
 use crate::units::closest;
 use crate::units::kind::Kind;
 
@@ -50,9 +51,9 @@ impl<'a> Section<'a> {
     /// "`length` in [mechanism.crank]"
     fn name(&self, key: &str) -> String {
         if self.title.is_empty() {
-            format!("`{key}`")
+            format!("`{}`", plain::cut(key))
         } else {
-            format!("`{key}` in {}", self.title)
+            format!("`{}` in {}", plain::cut(key), self.title)
         }
     }
 

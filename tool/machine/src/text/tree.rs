@@ -1,16 +1,51 @@
 //! A text as a tree of TOML tables, or what is wrong with its syntax.
 
+use std::ops::Range;
+
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::problem::{Problem, Result};
+use crate::plain;
 
 /// Reads a text.
 ///
 /// # Errors
-/// It is not TOML.
+/// It is not TOML, or a key or a value holds a character that is not seen.
 pub fn parse(text: &str) -> Result<Spanned<DeTable<'_>>> {
-    DeTable::parse(text).map_err(|error| syntax(&error, text))
+    let tree = DeTable::parse(text).map_err(|error| syntax(&error, text))?;
+    seen(tree.get_ref())?;
+    Ok(tree)
+}
+
+/// Checks that all of a table can be seen.
+fn seen(table: &DeTable) -> Result<()> {
+    for (key, value) in table {
+        if let Some(c) = plain::hidden(key.get_ref()) {
+            let key = plain::cut(key.get_ref());
+            return Err(hidden(&format!("the key `{key}`"), c, value.span()));
+        }
+        seen_value(key.get_ref(), value)?;
+    }
+    Ok(())
+}
+
+fn seen_value(key: &str, value: &Spanned<DeValue>) -> Result<()> {
+    match value.get_ref() {
+        DeValue::String(text) => match plain::hidden(text) {
+            Some(c) => Err(hidden(&format!("the text of `{key}`"), c, value.span())),
+            None => Ok(()),
+        },
+        DeValue::Array(items) => items.iter().try_for_each(|item| seen_value(key, item)),
+        DeValue::Table(table) => seen(table),
+        _ => Ok(()),
+    }
+}
+
+fn hidden(what: &str, c: char, at: Range<usize>) -> Problem {
+    Problem::new(format!("{what} contains {}", plain::described(c)))
+        .at(at, "here")
+        .help(plain::CURE)
 }
 
 /// Text that is not TOML.
@@ -37,14 +72,21 @@ fn syntax(error: &toml::de::Error, text: &str) -> Problem {
         "remove or rename one of the two".to_owned()
     } else if bare && !value.is_empty() {
         let key = key.trim();
-        format!("write texts and quantities in quotes: {key} = \"{value}\"")
+        format!(
+            "write texts and quantities in quotes: {} = \"{}\"",
+            plain::cut(key),
+            plain::cut(value)
+        )
     } else {
         "a line is key = \"value\", a [table] or a [[table of a list]]; write texts in quotes"
             .to_owned()
     };
-    Problem::new(format!("the file is not valid TOML: {}", error.message()))
-        .at(span, "here")
-        .help(help)
+    Problem::new(format!(
+        "the file is not valid TOML: {}",
+        plain::escaped(error.message())
+    ))
+    .at(span, "here")
+    .help(help)
 }
 
 /// Whether a text that is not valid TOML has this key where it can be read; what is wrong is then that it stands there again.

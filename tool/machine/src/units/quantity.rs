@@ -156,6 +156,7 @@ fn scaled(number: &str, scale: f64) -> f64 {
 /// # Errors
 /// No number, more than one, or one that is not written with digits and a decimal point.
 pub fn split_number<'t>(text: &'t str, kind: &Kind) -> Result<(String, &'t str), Fault> {
+    unit::short_enough(text)?;
     let bytes = text.as_bytes();
     let is = |index: usize, set: &[u8]| bytes.get(index).is_some_and(|b| set.contains(b));
     let digits = |from: usize| {

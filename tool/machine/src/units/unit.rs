@@ -2,6 +2,7 @@
 
 use super::fault::{Fault, closest};
 use super::word::{Dimension, LISTED, Product, WORDS, Word};
+use crate::plain;
 
 /// A unit as read.
 #[derive(Clone, Debug)]
@@ -57,6 +58,7 @@ const FOREIGN: [(&[&str], &str); 18] = [
 /// # Errors
 /// An unknown word, or powers and divisions that can be read in more than one way.
 pub fn read(text: &str) -> Result<Unit, Fault> {
+    short_enough(text)?;
     of_words(text, text, WORDS)
 }
 
@@ -65,6 +67,7 @@ pub fn read(text: &str) -> Result<Unit, Fault> {
 /// # Errors
 /// As [`read`].
 pub fn read_listed(text: &str) -> Result<Unit, Fault> {
+    short_enough(text)?;
     // An ampere of an alternating current is one word.
     let tidy = tidy(text).replace(" rms", "rms").replace(" peak", "peak");
     let (mut spaced, mut rest) = (String::new(), tidy.as_str());
@@ -90,6 +93,20 @@ fn of_words(text: &str, written: &str, words: &'static [Word]) -> Result<Unit, F
         scale: product.scale(),
         dimension: product.dimension,
     })
+}
+
+/// Refuses a text that is longer than any quantity, so that messages can show what is refused later.
+///
+/// # Errors
+/// It is.
+pub fn short_enough(text: &str) -> Result<(), Fault> {
+    if plain::is_short(text) {
+        return Ok(());
+    }
+    Err(Fault::new(
+        format!("is {}, longer than any quantity", plain::quoted(text)),
+        "write one number and its unit",
+    ))
 }
 
 /// How a unit is written.

@@ -1,5 +1,6 @@
 //! Quantities in cells: a number with its unit in the header, a number with its own unit, points of a curve.
 
+use jred_machine::plain;
 use jred_machine::units::Fault;
 use jred_machine::units::kind::SHARE;
 use jred_machine::units::quantity::{no_unit, split_number};
@@ -56,16 +57,17 @@ pub(super) fn points(
         .map(str::trim)
         .filter(|part| !part.is_empty())
     {
+        let shown = plain::cut(part);
         let Some((x, y)) = part.split_once(':') else {
             return Err(Fault::new(
-                format!("has the point \"{part}\", which has no colon"),
+                format!("has the point \"{shown}\", which has no colon"),
                 "write the points as \"0 rpm: 12 N m; 3000 rpm: 10 N m\"",
             ));
         };
         let of = |fault: Fault, what: &str| {
             let message = format!(
-                "has the point \"{part}\", where \"{}\" {}",
-                what.trim(),
+                "has the point \"{shown}\", where \"{}\" {}",
+                plain::cut(what.trim()),
                 fault.message
             );
             Fault::new(message, fault.help)
@@ -76,7 +78,7 @@ pub(super) fn points(
             if found != For::Any && found != motors {
                 return Err(Fault::new(
                     format!(
-                        "has the point \"{part}\", whose unit is for a {} motor",
+                        "has the point \"{shown}\", whose unit is for a {} motor",
                         words(found)
                     ),
                     "a rotary motor uses rpm and N m, a linear motor m/s and N; see the column \"kind\"",
@@ -85,14 +87,14 @@ pub(super) fn points(
         }
         if x_value < 0.0 || y_value < 0.0 {
             return Err(Fault::new(
-                format!("has the point \"{part}\", which is negative"),
+                format!("has the point \"{shown}\", which is negative"),
                 "give the first quadrant only: it applies in both directions",
             ));
         }
         if points.last().is_some_and(|last| x_value <= last[0]) {
             return Err(Fault::new(
                 format!(
-                    "has the point \"{part}\", whose speed is not above that of the previous point"
+                    "has the point \"{shown}\", whose speed is not above that of the previous point"
                 ),
                 "write the points in order of increasing speed, each once",
             ));

@@ -1,5 +1,6 @@
 //! The columns of jred's own catalogue format: name, units, and the tables that have them.
 
+use jred_machine::plain;
 use jred_machine::units::Fault;
 use jred_machine::units::kind as units;
 use jred_machine::units::quantity::unit_of;
@@ -92,7 +93,10 @@ impl Holds {
 
     /// Reads the unit of such a quantity.
     pub(super) fn unit(self, text: &str) -> Result<Unit, Fault> {
-        let foreign = |cure| Err(Fault::new(format!("has the unit \"{text}\""), cure));
+        let foreign = |cure| {
+            let shown = plain::cut(text);
+            Err(Fault::new(format!("has the unit \"{shown}\""), cure))
+        };
         let (si, motors) = match self {
             Self::Hourly if ["/h", "1/h", "per hour"].contains(&text) => (1.0, For::Any),
             Self::Hourly => return foreign("write cycles per hour: \"1000/h\""),

@@ -4,8 +4,9 @@ use std::collections::HashMap;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use jred_machine::plain;
+use jred_machine::text::disk;
 use jred_machine::text::file::LARGE;
-use jred_machine::text::{disk, plain};
 use jred_machine::units::closest;
 
 use super::Catalogue;

@@ -8,6 +8,7 @@ use super::gearbox::Gearbox;
 use super::lists::{Listing, listing};
 use super::motor::Motor;
 use super::row::{Read, Row};
+use jred_machine::plain;
 use motor::motor;
 
 /// A row, read.
@@ -122,7 +123,7 @@ fn back_efficiency(row: &Row, efficiency: f64) -> f64 {
         Some(word) if word.starts_with(|c: char| c.is_alphabetic()) => {
             row.add(row.fault(
                 column,
-                &format!("is \"{word}\""),
+                &format!("is \"{}\"", plain::cut(word)),
                 "not known",
                 "write \"same\" (equal to the efficiency), \"friction\" (2 - 1/efficiency), \"self-locking\", or a share",
             ));

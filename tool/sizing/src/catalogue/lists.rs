@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
+use jred_machine::plain;
 use jred_machine::text::problem::Problem;
 use jred_machine::units::did_you_mean;
 
@@ -41,7 +42,7 @@ impl Loader {
                 *built_in = true;
             } else if let Some(text) = self.texts.get(*index) {
                 let near = did_you_mean(key, &keys.names());
-                let fault = Problem::new(format!("no gearbox has the key \"{key}\""))
+                let fault = Problem::new(format!("no gearbox has the key \"{}\"", plain::cut(key)))
                     .at(at.clone(), "not a gearbox of the catalogue")
                     .help(format!(
                         "{near}add the gearbox to a gearbox table, or leave this cell empty"
@@ -84,7 +85,8 @@ impl Loader {
                         "motor" => String::new(),
                         _ => format!(", which the list of \"{}\" names", listing.motor),
                     };
-                    let fault = Problem::new(format!("no {what} has the key \"{pattern}\"{names}"))
+                    let shown = plain::cut(pattern);
+                    let fault = Problem::new(format!("no {what} has the key \"{shown}\"{names}"))
                         .at(listing.at.clone(), "in this list")
                         .help(format!(
                             "{near}correct the key; a \"*\" at its end matches all keys that start like this"

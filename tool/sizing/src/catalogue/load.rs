@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use jred_machine::text::plain;
+use jred_machine::plain;
 use jred_machine::text::problem::Problem;
 
 use super::column::{Column, Kind};
@@ -269,6 +269,7 @@ impl Loader {
     }
 
     fn clash(&self, key: &str, before: usize, index: usize, at: Range<usize>) -> Problem {
+        let key = plain::cut(key);
         let name = |index: usize| self.texts.get(index).map_or("", |text| text.name.as_str());
         let message = if before == index {
             format!("duplicate key \"{key}\"")

@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use jred_machine::plain;
 use jred_machine::text::csv::{self, Table};
 use jred_machine::text::problem::Problem;
 
@@ -60,9 +61,10 @@ impl Sheet<'_> {
         if !matches!(value, Ok(value) if value >= 0.0 || value.is_nan()) {
             remarks.add("cells that are not numbers of zero or more, treated as not given", || {
                 format!(
-                    "{}: {title} of \"{}\" is \"{word}\", not a number of zero or more: treated as not given",
+                    "{}: {title} of \"{}\" is \"{}\", not a number of zero or more: treated as not given",
                     self.at_line(),
-                    self.word("key")
+                    plain::cut(self.word("key")),
+                    plain::cut(word)
                 )
             });
         }
@@ -84,8 +86,8 @@ impl Sheet<'_> {
     fn fault(&self, title: &str, label: &'static str, help: String) -> Problem {
         let message = format!(
             "{title} of \"{}\" is \"{}\"",
-            self.word("key"),
-            self.word(title)
+            plain::cut(self.word("key")),
+            plain::cut(self.word(title))
         );
         Problem::new(message)
             .at(self.place(title), label)

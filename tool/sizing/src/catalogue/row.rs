@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::ops::Range;
 
+use jred_machine::plain;
 use jred_machine::text::problem::Problem;
 use jred_machine::units::quantity::possible_units;
 
@@ -111,7 +112,11 @@ impl<'t> Row<'t> {
         label: &'static str,
         help: impl Into<String>,
     ) -> Problem {
-        let message = format!("{} of \"{}\" {what}", column.name(), self.name());
+        let message = format!(
+            "{} of \"{}\" {what}",
+            column.name(),
+            plain::cut(self.name())
+        );
         Problem::new(message)
             .at(self.place(column), label)
             .help(help)
@@ -190,13 +195,14 @@ impl<'t> Row<'t> {
             Some(value) if value > least => Ok(Some(value * unit.map_or(1.0, |unit| unit.si))),
             _ => {
                 let cure = if text.contains(',') {
-                    format!("{NUMBER_CURE}: \"{}\"", text.replace(',', "."))
+                    format!("{NUMBER_CURE}: \"{}\"", plain::cut(text).replace(',', "."))
                 } else {
                     format!(
                         "{NUMBER_CURE}; its unit is in the header; leave the cell empty if the data sheet gives no value"
                     )
                 };
-                Err(self.fault(column, &format!("is \"{text}\""), label, cure))
+                let what = format!("is \"{}\"", plain::cut(text));
+                Err(self.fault(column, &what, label, cure))
             }
         }
     }
@@ -266,7 +272,8 @@ impl<'t> Row<'t> {
         }
         let names: Vec<String> = words.iter().map(|w| format!("\"{}\"", w.0)).collect();
         let help = format!("write {}", names.join(" or "));
-        self.add(self.fault(column, &format!("is \"{word}\""), "not known", help));
+        let what = format!("is \"{}\"", plain::cut(word));
+        self.add(self.fault(column, &what, "not known", help));
         None
     }
 

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use jred_machine::plain;
 use jred_machine::text::csv::{self, name_and_unit};
 use jred_machine::text::problem::Problem;
 use jred_machine::units::did_you_mean;
@@ -79,7 +80,7 @@ pub(super) fn unknown(name: &str, kind: Kind, at: Range<usize>) -> Problem {
     let elsewhere = elsewhere.map_or(String::new(), |kind| {
         format!("It is a column of {}. ", kind.plural())
     });
-    Problem::new(format!("unknown column \"{name}\""))
+    Problem::new(format!("unknown column \"{}\"", plain::cut(name)))
         .at(at, "not a column of this table")
         .help(format!(
             "{elsewhere}{near}Columns of {}: {}",

@@ -6,6 +6,7 @@
 //! slider.mass=50,60,80kg         these values
 //! ```
 
+use jred_machine::plain;
 use miette::{Result, miette};
 
 use super::edit::Document;
@@ -37,7 +38,13 @@ impl Axis {
     /// # Errors
     /// A quantity that is not there, a unit of another kind, a range without values.
     pub fn parse(document: &Document, text: &str) -> Result<Self> {
-        let wrong = |why: String| miette!(help = SHAPE, "--vary {text:?} cannot be used: {why}");
+        let wrong = |why: String| {
+            miette!(
+                help = SHAPE,
+                "--vary {} cannot be used: {why}",
+                plain::quoted(text)
+            )
+        };
         let (path, range) = text
             .split_once('=')
             .ok_or_else(|| wrong("it has no \"=\"".to_owned()))?;
@@ -50,7 +57,8 @@ impl Axis {
             let (to, steps) = rest.split_once(':').ok_or_else(|| {
                 wrong("the number of values is missing: add for example \":8\"".to_owned())
             })?;
-            let to = literal::read(to).map_err(|why| wrong(format!("the end {to:?} {why}")))?;
+            let to = literal::read(to)
+                .map_err(|why| wrong(format!("the end {} {why}", plain::quoted(to))))?;
             let from = start(from, &to).map_err(wrong)?;
             (
                 spread(from, to.number, steps).map_err(wrong)?,
@@ -67,7 +75,8 @@ impl Axis {
                     "the machine file says {}: write a unit of the same kind",
                     own.shown()
                 ),
-                "--vary {text:?} cannot be used: \"{}\" is not a unit of {}",
+                "--vary {} cannot be used: \"{}\" is not a unit of {}",
+                plain::quoted(text),
                 unit,
                 own.path
             ));
@@ -92,7 +101,8 @@ impl Axis {
 
 /// The start of a range: a number, with the unit of the end or none.
 fn start(text: &str, end: &literal::Literal) -> Result<f64, String> {
-    let from = literal::read(text).map_err(|why| format!("the start {text:?} {why}"))?;
+    let from =
+        literal::read(text).map_err(|why| format!("the start {} {why}", plain::quoted(text)))?;
     if from.unit.is_empty() || from.unit == end.unit {
         Ok(from.number)
     } else {
@@ -110,14 +120,15 @@ fn spread(from: f64, to: f64, steps: &str) -> Result<Vec<f64>, String> {
         Some((steps, "log")) => (steps, true),
         Some((_, other)) => {
             return Err(format!(
-                "{other:?} is not valid after the number of values; only \"log\" is"
+                "{} is not valid after the number of values; only \"log\" is",
+                plain::quoted(other)
             ));
         }
     };
     let steps: u32 = steps
         .trim()
         .parse()
-        .map_err(|_| format!("{steps:?} is not a number of values"))?;
+        .map_err(|_| format!("{} is not a number of values", plain::quoted(steps)))?;
     if !(1..=MOST_STEPS).contains(&steps) {
         return Err(format!("{steps} values, but it must be 1 to {MOST_STEPS}"));
     }
@@ -154,7 +165,7 @@ fn tidy(x: f64) -> f64 {
 /// A list of values; those before the last may leave the unit out.
 fn list(text: &str) -> Result<(Vec<f64>, literal::Literal), String> {
     let (front, last) = text.rsplit_once(',').unwrap_or(("", text));
-    let end = literal::read(last).map_err(|why| format!("{last:?} {why}"))?;
+    let end = literal::read(last).map_err(|why| format!("{} {why}", plain::quoted(last)))?;
     let front = front.split(',').filter(|_| !front.is_empty());
     let mut values = front
         .map(|text| start(text, &end))

@@ -10,10 +10,9 @@ use crate::select::fit::fit_input;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rules::RuleSet;
+use jred_machine::plain;
 use jred_machine::read;
 use jred_machine::text::file::Files;
-#[cfg(feature = "fs")]
-use jred_machine::text::plain;
 use jred_machine::units::closest;
 
 /// The common part of a study.
@@ -149,7 +148,9 @@ impl Study {
         );
         Err(miette!(
             help = near,
-            "the catalogue has no \"{word}\" for the drive {text:?}"
+            "the catalogue has no {} for the drive {}",
+            plain::quoted(word),
+            plain::quoted(text)
         ))
     }
 

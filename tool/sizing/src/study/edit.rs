@@ -6,6 +6,7 @@
 //!
 //! A changed file is the text with other numbers in the same places, so that a message shows the line that the user knows.
 
+use jred_machine::plain;
 use miette::{Result, miette};
 use std::ops::Range;
 use toml_edit::{Document as Toml, Item, Table, TableLike, Value};
@@ -167,13 +168,15 @@ impl Document {
         if !answers.is_empty() {
             return Err(miette!(
                 help = format!("write more of its path: {}", paths(&answers).join(" or ")),
-                "\"{path}\" names {} quantities of the machine file",
+                "{} names {} quantities of the machine file",
+                plain::quoted(path),
                 answers.len()
             ));
         }
         Err(miette!(
             help = self.nearest(path),
-            "the machine file has no quantity \"{path}\""
+            "the machine file has no quantity {}",
+            plain::quoted(path)
         ))
     }
 

@@ -10,6 +10,7 @@
 
 pub mod summary;
 
+use jred_machine::plain;
 use miette::{Result, miette};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
@@ -51,7 +52,8 @@ impl Scatter {
     pub fn new(study: &Study, tolerance: &Tolerance) -> Result<Self> {
         let quantity = study.document.find(&tolerance.path)?;
         let own = study.document.quantities().get(quantity);
-        let own = own.ok_or_else(|| miette!("there is no quantity {:?}", tolerance.path))?;
+        let own =
+            own.ok_or_else(|| miette!("there is no quantity {}", plain::quoted(&tolerance.path)))?;
         let nominal = own.number();
         let given = &tolerance.amount;
         let amount = if given.unit == "%" && own.unit() != "%" {

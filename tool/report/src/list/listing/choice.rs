@@ -75,7 +75,8 @@ pub fn explained<'c>(
         help = format!(
             "write MOTOR+GEARBOX, or MOTOR for a direct drive, with the keys that `jred size --all` lists{closest}"
         ),
-        "there is no drive \"{name}\" in the catalogue"
+        "there is no drive {} in the catalogue",
+        jred_machine::plain::quoted(name)
     ))
 }
 

@@ -4,6 +4,7 @@ use std::ops::Range;
 use jred::Link;
 use jred::machine::{Body, Marker, MassProperties};
 
+use crate::plain;
 use crate::read::mechanism::core;
 use crate::text::item::{Item, Value};
 use crate::text::problem::{Problem, Result, quoted};
@@ -129,7 +130,10 @@ impl Bodies {
         let near = did_you_mean(name, &names);
         Err(item
             .problem(
-                &format!("refers to \"{name}\", but there is no such body"),
+                &format!(
+                    "refers to \"{}\", but there is no such body",
+                    plain::cut(name)
+                ),
                 "unknown body",
             )
             .help(format!("{near}bodies: {}", quoted(&names))))
@@ -157,7 +161,8 @@ impl Bodies {
             return Ok(End { body, at: found.at });
         }
         let names: Vec<&str> = points.iter().map(|p| p.name.as_str()).collect();
-        let near = closest(point, &names).map_or_else(String::new, |near| {
+        let [name, point] = [name, point].map(plain::cut);
+        let near = closest(&point, &names).map_or_else(String::new, |near| {
             format!("did you mean \"{name}.{near}\"? ")
         });
         let known = match (body, names.as_slice()) {
@@ -190,7 +195,7 @@ fn drawn(section: &Section) -> Result<Drawn> {
         let what = if name == GROUND {
             "is \"ground\", the name of the fixed frame".to_owned()
         } else {
-            format!("is \"{name}\", which contains a point")
+            format!("is \"{}\", which contains a point", plain::cut(&name))
         };
         return Err(item
             .problem(&what, "another name")

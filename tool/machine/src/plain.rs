@@ -15,18 +15,50 @@ pub fn is_hidden(c: char) -> bool {
         )
 }
 
-/// The first hidden character of a text, with its place.
-pub fn hidden(text: &str) -> Option<(usize, char)> {
+/// The first hidden character of a text.
+pub fn hidden(text: &str) -> Option<char> {
     // Names are ASCII nearly always, and then the bytes tell.
     if text.bytes().all(|b| (b' '..=b'~').contains(&b)) {
         return None;
     }
-    text.char_indices().find(|(_, c)| is_hidden(*c))
+    text.chars().find(|c| is_hidden(*c))
 }
 
-/// A character as Unicode names it: `U+000D`.
-pub fn code(c: char) -> String {
-    format!("U+{:04X}", u32::from(c))
+/// What a hidden character is, with its code: `U+000D, a control character`.
+pub fn described(c: char) -> String {
+    let kind = match c {
+        '\n' | '\r' | '\u{85}' | '\u{2028}' | '\u{2029}' => "an end of line",
+        '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => {
+            "a mark of the direction of writing"
+        }
+        c if c.is_control() => "a control character",
+        _ => "a character without width",
+    };
+    format!("U+{:04X}, {kind}", u32::from(c))
+}
+
+/// Cure for a hidden character.
+pub const CURE: &str =
+    "remove it: names, titles and other texts are one line of characters that can be seen";
+
+/// A text in which every hidden character but ends of lines and tabs is replaced by a visible one of as many bytes, so that
+/// places in it stay.
+pub fn masked(text: &str) -> Cow<'_, str> {
+    let is_end = |rest: &str| rest.starts_with(['\n', '\t']) || rest.starts_with("\r\n");
+    let mask = |(at, c): (usize, char)| {
+        if !is_hidden(c) || is_end(text.get(at..).unwrap_or_default()) {
+            return c;
+        }
+        match c.len_utf8() {
+            1 => '?',
+            2 => '¿',
+            _ => char::REPLACEMENT_CHARACTER,
+        }
+    };
+    if text.char_indices().all(|(at, c)| mask((at, c)) == c) {
+        return Cow::Borrowed(text);
+    }
+    Cow::Owned(text.char_indices().map(mask).collect())
 }
 
 /// A text in one line, its hidden characters as `\u000d`.
@@ -66,6 +98,11 @@ pub fn path(path: impl AsRef<Path>) -> String {
 /// The most characters of a value in a message.
 const MOST: usize = 60;
 
+/// Whether a message shows all of a value.
+pub fn is_short(value: &str) -> bool {
+    value.len() <= MOST || value.chars().nth(MOST).is_none()
+}
+
 /// A value as a message shows it: in one line, a long one cut.
 pub fn cut(value: &str) -> String {
     let value = escaped(value);
@@ -73,6 +110,11 @@ pub fn cut(value: &str) -> String {
         Some((at, _)) => format!("{}…", value.get(..at).unwrap_or_default()),
         None => value.into_owned(),
     }
+}
+
+/// The same in quotes.
+pub fn quoted(value: &str) -> String {
+    format!("\"{}\"", cut(value))
 }
 
 #[cfg(test)]
@@ -84,7 +126,7 @@ mod tests {
         for c in "\0\t\n\r\u{7f}\u{85}\u{61c}\u{200b}\u{200e}\u{200f}\u{2028}\u{2029}\u{202a}\u{202e}\u{2060}\u{2066}\u{2069}\u{feff}"
             .chars()
         {
-            assert_eq!(hidden(&format!("è{c}")), Some((2, c)), "{}", code(c));
+            assert_eq!(hidden(&format!("è{c}")), Some(c), "{}", described(c));
         }
         assert_eq!(hidden("Presse Süd, 5 µm · φ′ – 電動機"), None);
     }
@@ -96,6 +138,15 @@ mod tests {
         assert_eq!(path("out\n.csv"), "out\\u000a.csv");
         let json = format!("\"{}\"", lines("x\u{202e}"));
         assert_eq!(serde_json::from_str::<String>(&json).unwrap(), "x\u{202e}");
+    }
+
+    #[test]
+    fn places_stay_where_characters_are_masked() {
+        let text = "a\r\n\tb\rc\u{85}d\u{202e}e\u{1b}\n";
+        let shown = masked(text);
+        assert_eq!(shown, "a\r\n\tb?c¿d\u{fffd}e?\n");
+        assert_eq!(shown.len(), text.len());
+        assert!(matches!(masked("µ\r\n"), Cow::Borrowed(_)));
     }
 
     #[test]
