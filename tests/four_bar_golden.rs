@@ -1,7 +1,7 @@
 //! The four-bar linkage against golden data: positions, reduction, motion, and the forces in its joints.
 
 use crate::support::golden::Case;
-use crate::support::{budget, jointed, link_of};
+use crate::support::{budget, forces, link_of};
 use jred::machine::{Action, Load, Mechanism};
 use jred::mechanism::{FourBar, FourBarDimensions, Side};
 use jred::{Machine, Reducible};
@@ -118,5 +118,5 @@ fn four_bar_golden_motion() {
 fn four_bar_reactions_golden() {
     let (case, machine) = golden();
     let table = case.table("motion");
-    jointed::forces_golden(&machine, &table, &["F_0_1", "F_1_2", "F_2_3", "F_0_3"]);
+    forces::golden(&machine, &table, &["F_0_1", "F_1_2", "F_2_3", "F_0_3"]);
 }

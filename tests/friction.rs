@@ -7,6 +7,7 @@ mod creep;
 mod integrability;
 mod motion;
 mod newton;
+mod power;
 
 /// One step of the classical Runge-Kutta method for several states.
 fn rk4<const N: usize>(

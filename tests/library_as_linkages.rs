@@ -1,7 +1,7 @@
 //! Library mechanisms against the general linkage: the closed form, and the joints alone solved by continuation, are the
 //! same motion.
 
-use crate::support::{assert_near, budget, config, jointed, link_of};
+use crate::support::{assert_near, budget, config, forces, jointed, link_of};
 use jred::machine::{Body, Frame, Joint, Jointed, Marker, Mechanism};
 use jred::mechanism::linkage::{Assembly, Linkage, Pair, Pose};
 use jred::mechanism::{
@@ -44,7 +44,7 @@ fn same_motion(mechanism: &(impl Jointed + Clone), phi: f64) {
                 budget::LINKAGE * size,
             );
         }
-        jointed::dalembert(&solved, phi, 12.0, -70.0);
+        forces::dalembert(&solved, phi, 12.0, -70.0);
     }
 }
 
@@ -215,7 +215,7 @@ fn same_shafts(shafts: &(impl Jointed + Clone), belts: &[Pair; 3], phi: f64) {
     ]
     .map(|r| r.unwrap().inertia);
     assert_near("J", b, a, budget::LINKAGE * a);
-    jointed::dalembert(&Machine::new(&linkage), phi, 5.0, -30.0);
+    forces::dalembert(&Machine::new(&linkage), phi, 5.0, -30.0);
 }
 
 /// While the pin is in the slot.
@@ -275,7 +275,7 @@ fn a_rack_and_a_planetary_gear() {
         .unwrap();
     for phi in [-1.9, 0.0, 0.5, 2.9] {
         jointed::same_frames(&closed, &linkage, phi, budget::LINKAGE);
-        jointed::dalembert(&Machine::new(&linkage), phi, 2.0, 5.0);
+        forces::dalembert(&Machine::new(&linkage), phi, 2.0, 5.0);
     }
 
     let teeth = [24, 18, 60];

@@ -2,7 +2,7 @@
 
 use crate::support::golden::Case;
 use crate::support::machines::spec;
-use crate::support::{budget, config, jointed, link_of};
+use crate::support::{budget, config, forces, jointed, link_of};
 use jred::machine::{Action, Body, Joint, Load, Marker, Mechanism, PoseError};
 use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, Pose};
 use jred::{Domain, Link, Machine, Reducible};
@@ -78,7 +78,7 @@ fn four_bar_golden_as_a_linkage() {
     table.compare("Q", &at(&|phi| reduced(phi).load_torque()), budget::LINKAGE);
 
     let table = case.table("motion");
-    jointed::forces_golden(&machine, &table, &["F_0_1", "F_1_2", "F_2_3", "F_0_3"]);
+    forces::golden(&machine, &table, &["F_0_1", "F_1_2", "F_2_3", "F_0_3"]);
 }
 
 proptest! {
@@ -178,7 +178,7 @@ fn gears_a_rack_and_a_belt_roll_without_slip() {
         let machine = Machine::new(assembly.clone())
             .with_gravity([0.0, -9.81])
             .unwrap();
-        jointed::dalembert(&machine, phi, 3.0, -20.0);
+        forces::dalembert(&machine, phi, 3.0, -20.0);
         let expected = 0.01 + (0.01 + 2.0 * r1 * r1 + 0.01 * (r1 / r3).powi(2)) * i * i;
         close("J", machine.reduction(phi).unwrap().inertia, expected);
         // The teeth push gear 1 with what its rack, its pulley and itself need.
@@ -249,7 +249,7 @@ fn a_planetary_gear_obeys_willis() {
             budget::JOINT_CLOSURE,
         );
         jointed::joints_close(&assembly, phi);
-        jointed::dalembert(&Machine::new(assembly.clone()), phi, 3.0, 50.0);
+        forces::dalembert(&Machine::new(assembly.clone()), phi, 3.0, 50.0);
     }
 }
 
@@ -303,7 +303,7 @@ fn a_guide_can_be_driven() {
             heavy,
             budget::LINKAGE * heavy,
         );
-        jointed::dalembert(&Machine::new(pushed.clone()), at(phi), 0.7, -3.0);
+        forces::dalembert(&Machine::new(pushed.clone()), at(phi), 0.7, -3.0);
     }
     // Beyond the crank's dead centre there is nothing to push.
     let too_far = Domain::stroke(from, at(0.0) + 0.5).unwrap();
@@ -351,8 +351,8 @@ fn a_rotor_loads_the_drive_and_no_joint() {
             let light = Machine::new(assembly).with_gravity([1.0, -9.81]).unwrap();
             let (inertia, omega, alpha) = (0.7, 1.3, -20.0);
             let heavy = light.clone().with_flywheel(inertia).unwrap();
-            jointed::dalembert(&heavy, at, omega, alpha);
-            jointed::forces_balance(&heavy, at, omega, alpha);
+            forces::dalembert(&heavy, at, omega, alpha);
+            forces::balance(&heavy, at, omega, alpha);
             let [without, with] = [&light, &heavy].map(|m| m.forces(at, omega, alpha).unwrap());
             let scale = with.drive.abs() + without.drive.abs();
             let more = with.drive - without.drive;

@@ -2,7 +2,7 @@
 
 use crate::support::golden::Case;
 use crate::support::machines::{golden_slider_crank, spec};
-use crate::support::{assert_near, budget, config, derivative, jointed};
+use crate::support::{assert_near, budget, config, derivative, forces, jointed};
 use jred::machine::{Element, Jointed, Marker, Mechanism};
 use jred::{Machine, Reducible};
 use proptest::prelude::*;
@@ -12,7 +12,7 @@ fn slider_crank_reactions_golden() {
     let case = Case::new(include_str!("data/01_slider_crank_A.json"));
     let machine = golden_slider_crank(&case);
     let table = case.table("motion");
-    let forces = jointed::forces_golden(&machine, &table, &["F_0_1", "F_1_2", "F_2_3"]);
+    let forces = forces::golden(&machine, &table, &["F_0_1", "F_1_2", "F_2_3"]);
     let across: Vec<f64> = forces.iter().map(|f| f.reactions[3].force[1]).collect();
     table.compare("N_0_3", &across, budget::REACTIONS);
     // The force in the guide passes through B, where the slider's mass and load are: no moment.
@@ -57,7 +57,7 @@ proptest! {
             .and_then(|m| m.with_element(Element::damper(far, damping[0])?))
             .and_then(|m| m.with_element(Element::torsion_damper(pin, damping[1])?))
             .unwrap();
-        jointed::dalembert(&machine, phi, omega, alpha);
+        forces::dalembert(&machine, phi, omega, alpha);
         jointed::energy(&machine, phi, omega);
         let energy = |phi| machine.reduction(phi).unwrap().potential_energy;
         let found = machine.reduction(phi).unwrap().potential_slope;

@@ -6,7 +6,8 @@ use jred::mechanism::{Stage as Gear, Train};
 use jred::{Machine, Reducible};
 use proptest::prelude::*;
 
-use crate::support::jointed::{dalembert, joints_close, turns};
+use crate::support::forces::dalembert;
+use crate::support::jointed::{joints_close, turns};
 use crate::support::{assert_near, budget, config};
 
 /// Three stages, four shafts.

@@ -5,6 +5,7 @@ pub(crate) mod budget;
 pub(crate) mod cams;
 pub(crate) mod derivatives;
 pub(crate) mod exact;
+pub(crate) mod forces;
 pub(crate) mod golden;
 pub(crate) mod harmonics;
 pub(crate) mod images;

@@ -1,6 +1,9 @@
-//! Gears, racks and belts that do not fit their bearings, and places that do not follow.
+//! Gears, racks and belts: how they move, and what does not fit their bearings or follow.
 
-use super::{refuses, refuses_edit};
+use jred::Reducible as _;
+use jred::machine::Mechanism as _;
+
+use super::{read, refuses, refuses_edit, within};
 
 #[test]
 fn wheels_that_do_not_fit() {
@@ -116,4 +119,96 @@ joint = [
             "two ends of its stroke",
         ],
     );
+}
+
+/// Sun 24 teeth of module 2, planet 18, ring 60: the sun drives, the ring is the ground; 3.5 turns of the sun are one of the
+/// arm.
+const PLANETARY: &str = r#"gravity = ["0 m/s^2", "0 m/s^2"]
+[mechanism]
+type = "linkage"
+drive = "sun bearing"
+stroke = ["0 deg", "1260 deg"]
+body = [
+  { name = "sun", mass = "1 kg", inertia = "3 kg cm^2", angle = "0 deg" },
+  { name = "arm", mass = "2 kg", inertia = "40 kg cm^2", angle = "0 deg", points = { P = ["42 mm", "0 mm"] } },
+  { name = "planet", mass = "0.5 kg", inertia = "1 kg cm^2", angle = "0 deg" },
+]
+joint = [
+  { name = "sun bearing", between = ["ground", "sun"] },
+  { name = "arm bearing", between = ["ground", "arm"] },
+  { name = "planet bearing", between = ["arm.P", "planet"] },
+  { name = "sun and planet", type = "gears", between = ["sun", "planet"], radii = ["24 mm", "18 mm"], carrier = "arm" },
+  { name = "planet and ring", type = "gears", between = ["planet", "ground"], radii = ["18 mm", "60 mm"], mesh = "internal", carrier = "arm" },
+]
+[[load]]
+on = "arm"
+moment = "-10 N m"
+"#;
+
+#[test]
+fn a_planetary_gear_by_willis() {
+    let file = read(PLANETARY);
+    // Willis: ω_arm/ω_sun = z_s/(z_s + z_r); ω_planet = ω_arm·(1 − z_r/z_p).
+    let arm = 24.0 / 84.0;
+    let planet = arm * (1.0 - 60.0 / 18.0);
+    let inertia = 3e-4 + (40e-4 + 0.5 * 0.042 * 0.042) * arm * arm + 1e-4 * planet * planet;
+    for phi in [0.0, 1.0, 4.0, 20.0] {
+        let frames = file.machine.mechanism().frames(phi).unwrap();
+        within(frames[1].psi.d1, arm, 1e-14);
+        within(frames[2].psi.d1, planet, 1e-14);
+        let reduced = file.machine.reduction(phi).unwrap();
+        within(reduced.inertia, inertia, 1e-17);
+        within(reduced.load_torque(), -10.0 * arm, 1e-13);
+        // d'Alembert sees the same torque, through the teeth.
+        let drive = file.machine.forces(phi, 30.0, 200.0).unwrap().drive;
+        within(drive, inertia * 200.0 + 10.0 * arm, 1e-12);
+    }
+}
+
+/// A pinion on a crank bearing moves a rack, which an open belt's second pulley has no part in.
+const RACK: &str = r#"gravity = ["-9.81 m/s^2", "0 m/s^2"]
+[mechanism]
+type = "linkage"
+drive = "bearing"
+stroke = ["0 deg", "720 deg"]
+ground = { P = ["200 mm", "0 mm"], G = ["0 mm", "-70 mm"] }
+body = [
+  { name = "small", mass = "1 kg", inertia = "3 kg cm^2", angle = "0 deg" },
+  { name = "pinion", mass = "2 kg", inertia = "40 kg cm^2", angle = "0 deg" },
+  { name = "rack", mass = "5 kg", points = { R = ["0 mm", "40 mm"] } },
+]
+joint = [
+  { name = "bearing", between = ["ground", "small"] },
+  { name = "pinion bearing", between = ["ground.P", "pinion"] },
+  { name = "belt", type = "belt", between = ["small", "pinion"], radii = ["20 mm", "60 mm"] },
+  { name = "guide", type = "prismatic", between = ["ground.G", "rack"], direction = "0 deg" },
+  { name = "teeth", type = "rack", between = ["pinion", "rack.R"], radius = "30 mm", direction = "0 deg" },
+]
+"#;
+
+#[test]
+fn belt_and_rack() {
+    for (text, sign) in [
+        (RACK.to_owned(), 1.0),
+        // A crossed belt turns the other way round, and so does a rack above the pinion.
+        (
+            RACK.replace(
+                "[\"20 mm\", \"60 mm\"]",
+                "[\"20 mm\", \"60 mm\"], crossed = true",
+            ),
+            -1.0,
+        ),
+        (RACK.replace("\"-70 mm\"", "\"-10 mm\""), -1.0),
+    ] {
+        let file = read(&text);
+        for phi in [0.0, 2.0, 12.0] {
+            let frames = file.machine.mechanism().frames(phi).unwrap();
+            let way = frames[2].x.value;
+            within(way, sign * 0.030 * phi / 3.0, 1e-14);
+            let reduced = file.machine.reduction(phi).unwrap();
+            let inertia = 3e-4 + 40e-4 / 9.0 + 5.0 * 0.01 * 0.01;
+            within(reduced.inertia, inertia, 1e-16);
+            within(reduced.load_torque(), -sign * 5.0 * 9.81 * 0.01, 1e-13);
+        }
+    }
 }
