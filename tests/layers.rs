@@ -136,7 +136,7 @@ const TOOL: [(&str, &[&str]); 4] = [
     (
         "machine",
         &[
-            "number", "units", "text", "model", "analysis", "read", "export",
+            "plain", "number", "units", "text", "model", "analysis", "read", "export",
         ],
     ),
     (
