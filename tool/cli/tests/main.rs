@@ -14,6 +14,7 @@ mod cli;
 mod drawing;
 mod envelope_commands;
 mod export;
+mod finite;
 mod hidden;
 mod machines;
 mod meter;

@@ -1,5 +1,6 @@
 //! Quantities in cells: a number with its unit in the header, a number with its own unit, points of a curve.
 
+use jred_machine::number::rounding::figure;
 use jred_machine::plain;
 use jred_machine::units::Fault;
 use jred_machine::units::kind::SHARE;
@@ -36,6 +37,16 @@ pub(super) fn number_and_unit(text: &str, holds: Holds) -> Result<(String, Unit)
 fn quantity(text: &str, holds: Holds) -> Result<(f64, For), Fault> {
     let (number, unit) = number_and_unit(text, holds)?;
     match number.parse::<f64>() {
+        Ok(value) if (value * unit.si).abs() > unit.range[1] => {
+            let most = format!("{} {}", figure(unit.range[1] / unit.si), unit.text);
+            Err(Fault::new(
+                "is too large for any drive",
+                format!(
+                    "at most {} is accepted: check the number and its unit",
+                    most.trim_end()
+                ),
+            ))
+        }
         Ok(value) if value.is_finite() => Ok((value * unit.si, unit.motors)),
         _ => Err(Fault::new("is not a finite number", NUMBER_CURE)),
     }

@@ -62,7 +62,15 @@ pub(super) struct Unit {
     /// Its value in SI.
     pub(super) si: f64,
     pub(super) motors: For,
+    /// The smallest value above zero and the largest (SI): others are mistakes, and lead to figures without end.
+    pub(super) range: [f64; 2],
 }
+
+/// The range of plain numbers, such as prices.
+pub(super) const PLAIN: [f64; 2] = [1e-6, 1e12];
+
+/// The range of the ratio of a gearbox.
+pub(super) const RATIO: [f64; 2] = [1e-4, 1e6];
 
 /// What is written in a cell or in a point of a curve.
 #[derive(Clone, Copy, Debug)]
@@ -97,20 +105,26 @@ impl Holds {
             let shown = plain::cut(text);
             Err(Fault::new(format!("has the unit \"{shown}\""), cure))
         };
-        let (si, motors) = match self {
-            Self::Hourly if ["/h", "1/h", "per hour"].contains(&text) => (1.0, For::Any),
+        let (si, motors, range) = match self {
+            Self::Hourly if ["/h", "1/h", "per hour"].contains(&text) => (1.0, For::Any, PLAIN),
             Self::Hourly => return foreign("write cycles per hour: \"1000/h\""),
-            Self::Of([]) if text.is_empty() => (1.0, For::Any),
+            Self::Of([]) if text.is_empty() => (1.0, For::Any, PLAIN),
             Self::Of([]) => return foreign("write it without a unit"),
             Self::Of(kinds) => {
                 let (unit, kind) = unit_of(text, kinds)?;
                 let motors = [For::Rotary, For::Linear].into_iter().nth(kind);
                 let motors = motors.filter(|_| kinds.len() > 1);
-                (unit.scale, motors.unwrap_or(For::Any))
+                let range = kinds.get(kind).map_or(PLAIN, |k| [k.smallest, k.largest]);
+                (unit.scale, motors.unwrap_or(For::Any), range)
             }
         };
         let text = text.to_owned();
-        Ok(Unit { text, si, motors })
+        Ok(Unit {
+            text,
+            si,
+            motors,
+            range,
+        })
     }
 }
 

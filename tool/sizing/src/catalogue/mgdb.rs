@@ -31,6 +31,9 @@ struct Sheet<'t> {
     csv: Table<'t>,
 }
 
+/// The figures of a drive (SI) that are plausible; the rest are mistakes.
+const RANGE: std::ops::RangeInclusive<f64> = 1e-15..=1e10;
+
 impl Sheet<'_> {
     fn index(&self, title: &str) -> Option<usize> {
         self.csv.header().iter().position(|t| t == title)
@@ -58,27 +61,35 @@ impl Sheet<'_> {
             return None;
         }
         let value = word.parse::<f64>();
-        if !matches!(value, Ok(value) if value >= 0.0 || value.is_nan()) {
-            remarks.add("cells that are not numbers of zero or more, treated as not given", || {
+        // Infinity and not-a-number mean that the figure is not given.
+        let wrong = |v: f64| v < 0.0 || v > 0.0 && v.is_finite() && !RANGE.contains(&v);
+        if value.as_ref().map_or(true, |value| wrong(*value)) {
+            remarks.add("cells that are not plausible numbers, treated as not given", || {
                 format!(
-                    "{}: {title} of \"{}\" is \"{}\", not a number of zero or more: treated as not given",
+                    "{}: {title} of \"{}\" is \"{}\", not a number from {:e} to {:e} or zero: treated as not given",
                     self.at_line(),
                     plain::cut(self.word("key")),
-                    plain::cut(word)
+                    plain::cut(word),
+                    RANGE.start(),
+                    RANGE.end()
                 )
             });
         }
-        value.ok().filter(|value| value.is_finite() && *value > 0.0)
+        value.ok().filter(|value| RANGE.contains(value))
     }
 
     /// A value that is required for every drive.
     fn needed(&self, title: &str) -> Result<f64, Problem> {
         let value = self.word(title).parse::<f64>().ok();
-        value.filter(|v| v.is_finite() && *v > 0.0).ok_or_else(|| {
+        value.filter(|v| RANGE.contains(v)).ok_or_else(|| {
             self.fault(
                 title,
-                "not a number greater than zero",
-                format!("{title} is required in every row, in SI units"),
+                "not a number in the range",
+                format!(
+                    "{title} is required in every row, in SI units, from {:e} to {:e}",
+                    RANGE.start(),
+                    RANGE.end()
+                ),
             )
         })
     }

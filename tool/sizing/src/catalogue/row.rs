@@ -3,12 +3,13 @@
 use std::cell::RefCell;
 use std::ops::Range;
 
+use jred_machine::number::rounding::figure;
 use jred_machine::plain;
 use jred_machine::text::problem::Problem;
 use jred_machine::units::quantity::possible_units;
 
 use super::cell::{self, Cell, NUMBER_CURE};
-use super::column::{Column, For, Holds, Kind};
+use super::column::{Column, For, Holds, Kind, PLAIN, RATIO, Unit};
 
 /// Where the cells of a row come from.
 pub(super) trait Cells {
@@ -192,7 +193,11 @@ impl<'t> Row<'t> {
         }
         let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
         match value {
-            Some(value) if value > least => Ok(Some(value * unit.map_or(1.0, |unit| unit.si))),
+            Some(value) if value > least => {
+                let scale = unit.map_or(1.0, |unit| unit.si);
+                self.plausible(column, value, unit, least >= 0.0)?;
+                Ok(Some(value * scale))
+            }
             _ => {
                 let cure = if text.contains(',') {
                     format!("{NUMBER_CURE}: \"{}\"", plain::cut(text).replace(',', "."))
@@ -204,6 +209,41 @@ impl<'t> Row<'t> {
                 let what = format!("is \"{}\"", plain::cut(text));
                 Err(self.fault(column, &what, label, cure))
             }
+        }
+    }
+
+    /// Checks that a number is within the range of its kind, down to the smallest value if it must be above zero.
+    fn plausible(
+        &self,
+        column: Column,
+        value: f64,
+        unit: Option<&Unit>,
+        above_zero: bool,
+    ) -> Result<(), Problem> {
+        let [smallest, largest] = match unit {
+            _ if column == Column::Ratio => RATIO,
+            Some(unit) => unit.range,
+            None => PLAIN,
+        };
+        let (scale, text) = unit.map_or((1.0, ""), |unit| (unit.si, unit.text.as_str()));
+        let shown = |value: f64| format!("{} {text}", figure(value)).trim_end().to_owned();
+        let fault = |what: &str, bound: &str, limit: f64| {
+            let limit = shown(limit / scale);
+            self.fault(
+                column,
+                &format!(
+                    "is {}, too {what} for any {}",
+                    shown(value),
+                    self.kind.singular()
+                ),
+                "check number and unit",
+                format!("{bound} {limit} is accepted: check the number and its unit"),
+            )
+        };
+        match value * scale {
+            si if si > largest => Err(fault("large", "at most", largest)),
+            si if above_zero && si < smallest => Err(fault("small", "at least", smallest)),
+            _ => Ok(()),
         }
     }
 

@@ -48,6 +48,16 @@ impl Obstacle {
     pub fn words(&self) -> String {
         let shown = |x: f64| significant(x, 3);
         match *self {
+            Self::Always { rule, used, ratio } if !used.is_finite() => format!(
+                "{}: nothing of its limit is left at any ratio; at best at ratio {}",
+                rule.name(),
+                shown(ratio)
+            ),
+            Self::Together { rule, used, ratio } if !used.is_finite() => format!(
+                "not all rules at once: at ratio {}, the best, nothing is left of the limit of {}",
+                shown(ratio),
+                rule.name()
+            ),
             Self::Always { rule, used, ratio } => format!(
                 "{}: {} % of its limit at best, at ratio {}",
                 rule.name(),
