@@ -148,6 +148,10 @@ fn a_cubic_over_a_stroke_is_exact() {
         assert!((r.potential_energy - start - stored).abs() < 1e-9);
         assert!((r.coulomb - 12.0).abs() < 1e-12);
     }
+    // A column of this name may be an angle or a length: its unit says which.
+    let named = of_curves(&csv.replace("s [mm]", "position [mm]"), "stroke").unwrap();
+    let mechanism = named.machine.mechanism();
+    assert_eq!(mechanism.coordinate(), Coordinate::Length);
 }
 
 /// The machine that comes back asks the same of the drive by d'Alembert's principle, through the gearing of the curves.

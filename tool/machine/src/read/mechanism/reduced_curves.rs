@@ -20,6 +20,7 @@ use crate::units::kind::{
     ANGLE, FORCE, INERTIA, INERTIA_SLOPE, LENGTH, MASS, MASS_SLOPE, TORQUE, VISCOUS_FORCE,
     VISCOUS_MOMENT,
 };
+use crate::units::quantity;
 
 const POSITION: usize = 0;
 const INERTIA_COLUMN: usize = 1;
@@ -191,6 +192,14 @@ impl Curves {
     }
 }
 
+/// Whether a column is the position of a drive link that slides: by its name, or by its unit where the name is also that of an angle.
+fn is_way(title: &str) -> bool {
+    let (name, unit) = csv::name_and_unit(title);
+    let is = |known: &Known| known.names.iter().any(|n| n.eq_ignore_ascii_case(name));
+    let is_length = |unit| quantity::unit_of(unit, &[&LENGTH]).is_ok();
+    is(&LENGTHS[POSITION]) && (!is(&ANGLES[POSITION]) || unit.is_some_and(is_length))
+}
+
 /// The columns, for a rotating or a sliding drive link, depending on its position column.
 fn read_columns(text: &str, turn: bool) -> Result<(Columns, Coordinate)> {
     let format = |known: &'static [Known], example: &'static str| Format {
@@ -207,13 +216,8 @@ fn read_columns(text: &str, turn: bool) -> Result<(Columns, Coordinate)> {
         &LENGTHS,
         "\"s [mm],m [kg]\", and F, F_potential [N], b [N s/m], c [N] if there are any",
     );
-    let mut names = csv::header_of(text).split([',', ';', '\t']);
-    let slides = names.any(|name| {
-        name.trim()
-            .trim_matches('"')
-            .to_lowercase()
-            .starts_with("s [")
-    });
+    let table = csv::Table::read(text)?;
+    let slides = table.header().iter().any(is_way);
     let (format, coordinate) = if slides {
         (lengths, Coordinate::Length)
     } else {

@@ -2,6 +2,7 @@
 
 use miette::{Result, miette};
 
+use jred_machine::units::closest;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::select::size::{Candidate, Selection};
 
@@ -51,33 +52,38 @@ pub fn explained<'c>(
         return Ok(best.copied());
     };
     let asked = plain(name);
-    let is_asked = |drive: &Drive| {
-        let alone = Drive {
-            amplifier: None,
-            ..*drive
-        };
-        let names = [drive, &alone].map(|drive| plain(&drive.name()));
-        names
-            .iter()
-            .any(|name| *name == asked || name.replacen("+direct", "", 1) == asked)
-    };
-    if let Some(found) = selection.find(is_asked) {
+    let called = |name: &str| selection.find(|drive| names(drive).iter().any(|n| n == name));
+    if let Some(found) = called(&asked) {
         return Ok(Some(found));
     }
-    let names = selection.fit.drives().chain(selection.refused.drives());
-    let closest = names
-        .map(|drive| (strsim::jaro_winkler(&plain(&drive.name()), &asked), drive))
-        .max_by(|a, b| a.0.total_cmp(&b.0));
-    let closest = closest.map_or(String::new(), |(_, drive)| {
-        format!("; did you mean \"{}\"?", drive.name())
-    });
+    let drives = selection.fit.drives().chain(selection.refused.drives());
+    let near = closest(
+        &asked,
+        &drives.flat_map(|drive| names(&drive)).collect::<Vec<_>>(),
+    );
+    let near = near
+        .and_then(|name| called(&name))
+        .map_or(String::new(), |found| {
+            format!("; did you mean \"{}\"?", found.drive.name())
+        });
     Err(miette!(
         help = format!(
-            "write MOTOR+GEARBOX, or MOTOR for a direct drive, with the keys that `jred size --all` lists{closest}"
+            "write MOTOR+GEARBOX, or MOTOR for a direct drive, with the keys that `jred size --all` lists{near}"
         ),
         "there is no drive {} in the catalogue",
         jred_machine::plain::quoted(name)
     ))
+}
+
+/// All that a drive is called: with its amplifier and without, a direct drive also by its motor alone.
+fn names(drive: &Drive) -> [String; 4] {
+    let alone = Drive {
+        amplifier: None,
+        ..*drive
+    };
+    let [full, alone] = [drive, &alone].map(|drive| plain(&drive.name()));
+    let motor = |name: &str| name.replacen("+direct", "", 1);
+    [motor(&full), motor(&alone), full, alone]
 }
 
 /// A drive's name with one way of joining its parts, in small letters: "m+g on a", "m+direct".
