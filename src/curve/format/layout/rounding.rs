@@ -16,6 +16,8 @@ use crate::number::{Kernel, Role};
 
 /// The products of slopes next to the diagonal.
 const BESIDE: [f64; 3] = [-1.0 / 8.0, -1.0 / 5.0, -1.0 / 120.0];
+/// How many points on each side that is. No turn has fewer points than one more.
+const REACH: usize = BESIDE.len();
 /// The diagonal, and a little more for the value: errors that are all the same do not change the slope.
 const DIAGONAL: f64 = 2.0 / 3.0 + 0.02;
 const SWEEPS: usize = 6;
@@ -50,30 +52,38 @@ impl<L: Layout> Points<'_, L> {
         Some(())
     }
 
+    /// The error of the point [`REACH`] before `place`, round the turn; before and after those of a stroke there is none.
+    fn error(&self, place: usize, control: &[f64], period: Option<usize>) -> f64 {
+        let point = match period {
+            Some(period) => Some((place + period - REACH) % period),
+            None => place.checked_sub(REACH),
+        };
+        let exact = |point: usize| Some((point, *control.get(point)?));
+        point
+            .and_then(exact)
+            .and_then(|(point, exact)| Some(self.get(point)? - exact))
+            .unwrap_or(0.0)
+    }
+
     /// Rounds the points `control`, which are stored rounded one by one; after `period` of them they repeat.
     pub(super) fn round_together(&mut self, control: &[f64], period: Option<usize>) {
         let points = period.unwrap_or(control.len());
-        let exact = |point: usize| control.get(point).copied().unwrap_or(0.0);
         for _ in 0..SWEEPS {
-            for point in 0..points {
-                let error = |step: isize| {
-                    let neighbour = point.checked_add_signed(step).filter(|k| *k < points);
-                    let neighbour = match (neighbour, period) {
-                        (Some(neighbour), _) => neighbour,
-                        (None, Some(period)) => {
-                            (point + period).saturating_add_signed(step) % period
-                        }
-                        (None, None) => return 0.0,
-                    };
-                    let stored = self.get(neighbour);
-                    stored.map_or(0.0, |stored| stored - exact(neighbour))
+            // The errors from three points before to three after: each is read once, and once more when its point is set.
+            let mut near = [0.0; 2 * REACH + 1];
+            for place in 0..points + 2 * REACH {
+                let [_, c, b, a, d, e, f] = near;
+                near = [c, b, a, d, e, f, self.error(place, control, period)];
+                let Some(point) = place.checked_sub(2 * REACH) else {
+                    continue;
                 };
-                let pull: f64 = (1isize..)
-                    .zip(BESIDE)
-                    .map(|(step, product)| product * (error(step) + error(-step)))
-                    .sum();
+                let [c, b, a, _, d, e, f] = near;
+                let sums = [d + a, e + b, f + c];
+                let pull: f64 = BESIDE.iter().zip(sums).map(|(k, sum)| k * sum).sum();
+                let exact = control.get(point).copied().unwrap_or(0.0);
                 // Out of range it does not change.
-                let _ = self.set(point, exact(point) - pull / DIAGONAL);
+                let _ = self.set(point, exact - pull / DIAGONAL);
+                near[REACH] = self.error(point + REACH, control, period);
             }
         }
         // The rows that close the turn.

@@ -3,6 +3,8 @@
 //! A size is looked at in two steps: against exact curves computed once, which refuses nearly all that miss; then against
 //! [`tabulate::measure`], and by ticking its image. What passes both is a table.
 
+use std::collections::HashMap;
+
 use jred::machine::PoseError;
 use jred::number::RangeError;
 use jred::table::{Format, MAX_CELLS, MIN_CELLS};
@@ -71,6 +73,7 @@ impl<'m> Search<'m> {
             step,
             buffers: Buffers::default(),
             worst: 0,
+            least: HashMap::new(),
             refused: None,
         };
         attempt.run()
@@ -97,6 +100,8 @@ struct Attempt<'s, F: Format> {
     buffers: Buffers<F>,
     /// Index of the place where the table before was worst: the next one is looked at there first.
     worst: usize,
+    /// What the error of a size that was looked at is at least.
+    least: HashMap<u32, f64>,
     /// Why the last size that was refused was.
     refused: Option<Error>,
 }
@@ -196,10 +201,14 @@ impl<'s, F: Format> Attempt<'s, F> {
     /// The bound of the torque error of this size at the places of the reference; `None` if it is above `limit`, or if the
     /// size gives no sound table.
     fn look(&mut self, cells: u32, limit: f64) -> Result<Option<f64>, Error> {
+        if self.least.get(&cells).is_some_and(|error| *error > limit) {
+            return Ok(None);
+        }
         let size = self.size(cells);
         match size.look(&mut self.buffers, (self.worst, limit)) {
             Ok((error, worst)) => {
                 self.worst = worst;
+                self.least.insert(cells, error);
                 Ok((error <= limit).then_some(error))
             }
             Err(error) => self.refuse(error),

@@ -110,9 +110,12 @@ impl Columns {
     }
 
     /// Adds a row with one value for each column.
+    ///
+    /// # Panics
+    /// If it has another number of values.
     pub fn push(&mut self, row: impl IntoIterator<Item = impl Into<Option<f64>>>) {
         let row: Vec<Option<f64>> = row.into_iter().map(Into::into).collect();
-        debug_assert_eq!(row.len(), self.heads.len());
+        assert_eq!(row.len(), self.heads.len());
         self.rows.push(row);
     }
 
