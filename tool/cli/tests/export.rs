@@ -17,6 +17,8 @@ mod refusals;
 
 use std::path::{Path, PathBuf};
 
+use jred_machine::export::{Answer, Export, LayoutChoice, Number, Task};
+
 use crate::support::{Folder, Run, press_file};
 
 /// Every type with its layouts.
@@ -63,6 +65,38 @@ fn image(folder: &Folder, more: &[&str]) -> Vec<u32> {
     let (run, path) = export(folder, more);
     run.ends(0);
     words_of(&path)
+}
+
+/// The images of every type and layout, in the order of [`KINDS`], that one search finds within so many bytes and this range of
+/// speed and acceleration; the command writes that of its `--type` and `--layout`.
+fn images_of(file: &Path, bytes: u32, [omega, alpha]: [f64; 2]) -> Vec<Vec<u32>> {
+    let task = Task {
+        number: Number::F32,
+        layout: LayoutChoice::Auto,
+        reciprocal: false,
+        torque_error: None,
+        max_bytes: Some(bytes),
+        max_cells: 4096,
+        omega,
+        alpha,
+        rotor: 0.0,
+        edges: Vec::new(),
+    };
+    let export = Export::new(&jred_machine::read::read(file).unwrap(), task).unwrap();
+    let images: Vec<_> = export
+        .answers
+        .into_iter()
+        .zip(KINDS)
+        .map(|((number, layout, answer), kind)| {
+            assert_eq!((number.name(), layout.name()), kind);
+            match answer {
+                Answer::Meets(mut candidate) => candidate.tables.remove(0).words,
+                other => panic!("{kind:?}: {}", other.remark()),
+            }
+        })
+        .collect();
+    assert_eq!(images.len(), KINDS.len());
+    images
 }
 
 fn words_of(path: &Path) -> Vec<u32> {

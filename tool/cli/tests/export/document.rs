@@ -1,11 +1,13 @@
 //! The image against its documentation, docs/table-image.md.
 
+use std::f64::consts::TAU;
+
 use jred::table::Format;
 use jred::{Cubic, Image, Phase, Q31, Quadratic, Rows16, Spline, Spline16};
 
 use super::reader::{Read, Reader};
-use super::{KINDS, export_of, image, words_of};
-use crate::support::{Folder, budget};
+use super::{KINDS, image, images_of};
+use crate::support::{Folder, budget, press_file};
 
 /// The library's reading of the same image.
 fn library(words: &[u32], kind: (&str, &str), phase: Phase) -> Read {
@@ -129,31 +131,14 @@ fn the_document_gives_the_curves_of_every_type_and_layout() {
 /// Strokes, and friction that is a curve, a constant, or both kinds.
 #[test]
 fn the_document_gives_the_curves_of_other_machines() {
-    let folder = Folder::new();
-    for (machine, more) in [
-        ("cam-translating.toml", ["--omega", "60 rpm"]),
-        ("excavator-bucket.toml", ["--max-cells", "4096"]),
-        ("geneva.toml", ["--omega", "60 rpm"]),
+    for (machine, range) in [
+        ("cam-translating.toml", [TAU, TAU * TAU]),
+        ("excavator-bucket.toml", [0.151, 0.339]),
+        ("geneva.toml", [TAU, TAU * TAU]),
     ] {
-        let file = crate::support::press_file().with_file_name(machine);
-        for (number, layout) in KINDS {
-            let out = folder.path("other.jred");
-            let run = export_of(
-                &file,
-                &[
-                    "--type",
-                    number,
-                    "--layout",
-                    layout,
-                    "--max-bytes",
-                    "4000",
-                    more[0],
-                    more[1],
-                ],
-                Some(&out),
-            );
-            run.ends(0);
-            compare(&words_of(&out), (number, layout));
+        let file = press_file().with_file_name(machine);
+        for (words, kind) in images_of(&file, 4000, range).iter().zip(KINDS) {
+            compare(words, kind);
         }
     }
 }
