@@ -253,11 +253,21 @@ pub struct Export {
     pub out: Option<PathBuf>,
 }
 
+/// A ratio of one stage or of several.
+fn ratio(text: &str) -> Result<f64, String> {
+    let ratio: f64 = text.parse().map_err(|_| "write a plain number")?;
+    if ratio.is_finite() && ratio.abs() <= 1e6 {
+        Ok(ratio)
+    } else {
+        Err("it must be a number up to 1e6".to_owned())
+    }
+}
+
 /// `jred split`
 #[derive(Debug, Args)]
 pub struct Split {
     /// Total ratio, input speed over output speed.
-    #[arg(long)]
+    #[arg(long, value_parser = ratio)]
     pub ratio: f64,
     /// Number of stages.
     #[arg(long, value_parser = clap::value_parser!(u8).range(2..=jred::mechanism::synthesis::MOST_STAGES as i64))]
@@ -273,10 +283,10 @@ pub struct Split {
     #[arg(long, value_parser = jred_machine::read::inertia_argument)]
     pub load: Option<f64>,
     /// Smallest ratio of a stage.
-    #[arg(long, default_value_t = 1.0)]
+    #[arg(long, default_value_t = 1.0, value_parser = ratio)]
     pub min_ratio: f64,
     /// Largest ratio of a stage.
-    #[arg(long, default_value_t = 10.0)]
+    #[arg(long, default_value_t = 10.0, value_parser = ratio)]
     pub max_ratio: f64,
     /// Number of points of the curve over the split.
     #[arg(long, default_value_t = 25, value_parser = clap::value_parser!(u32).range(2..=10_000))]

@@ -184,7 +184,7 @@ fn wrong_options_are_refused_with_their_cure() {
     );
     refused(
         &["--ratio", "NaN", "--stages", "3", "--pinion", PINION],
-        &["total ratio is not a finite number"],
+        &["it must be a number up to 1e6"],
     );
     refused(
         &["--ratio", "40", "--stages", "5", "--pinion", PINION],
@@ -201,6 +201,10 @@ fn wrong_options_are_refused_with_their_cure() {
         &["has no unit", "kg m^2"],
     );
     refused(&["--ratio", "40", "--stages", "3"], &["--pinion"]);
+    for ratio in ["1e300", "inf", "nan", "1e7"] {
+        let given = ["--ratio", ratio, "--stages", "2", "--pinion", PINION];
+        refused(&given, &["--ratio", "it must be a number up to 1e6"]);
+    }
     refused(
         &[
             "--ratio",

@@ -317,3 +317,20 @@ fn a_crank_that_swings() {
         &["is outside the stroke, -60 deg to 90 deg"],
     );
 }
+
+/// The stroke is shown as it is written, in its unit; the core's error has a wider range, in rad or m.
+#[test]
+fn a_stroke_far_from_the_drawing_is_shown_as_it_is_written() {
+    let from = "drive = \"crank bearing\"";
+    let to = "drive = \"crank bearing\"\nstroke = [\"900 deg\", \"910 deg\"]";
+    refuses_edit(
+        FOUR_BAR,
+        from,
+        to,
+        &[
+            "the drawing shows the drive at",
+            "deg, far from its range from 900 deg to 910 deg",
+            "[\"900 deg\", \"910 deg\"]",
+        ],
+    );
+}

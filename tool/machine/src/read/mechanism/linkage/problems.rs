@@ -3,6 +3,7 @@
 use jred::Domain;
 use jred::machine::{Body, Frame, Joint, PoseError};
 use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, Pose};
+use jred::number::RangeError;
 
 use crate::model::coordinate::Coordinate;
 use crate::number::rounding::figure;
@@ -108,6 +109,12 @@ impl Context<'_> {
                      stroke before this position",
                 ),
             LinkageError::NotClosed { link, gap } => self.not_closed(link, gap),
+            LinkageError::Range(RangeError::OutOfRange {
+                what: "drive position of the drawing",
+                value,
+                min,
+                max,
+            }) => self.far_from_stroke(value, [min, max]),
             LinkageError::OverConstrained { joint, free } => self.held_twice(joint, free),
             _ => core(self.section, error),
         }
@@ -219,6 +226,27 @@ impl Context<'_> {
             figure(shown(from + 0.1 * (to - from)).round()),
             figure(shown(to - 0.1 * (to - from)).round()),
         ))
+    }
+
+    /// The drawing is far from the stroke: outside its range widened by its length at both ends, which is what the core says.
+    fn far_from_stroke(&self, drawn: f64, [min, max]: [f64; 2]) -> Problem {
+        let length = (max - min) / 3.0;
+        let unit = self.coordinate.unit();
+        let shown = |position: f64| {
+            let rounded = (self.coordinate.shown(position) * 1e2).round() / 1e2 + 0.0;
+            format!("{rounded} {unit}")
+        };
+        let message = format!(
+            "the drawing shows the drive at {}, far from its range from {} to {}",
+            shown(drawn),
+            shown(min + length),
+            shown(max - length)
+        );
+        let place = self.section.peek("stroke");
+        let place = place.map_or_else(|| self.section.header(), |item| item.span());
+        Problem::new(message).at(place, "this range").help(
+            "draw the linkage within this range or not farther from it than its length, or change the stroke",
+        )
     }
 
     /// Range of the drive on both sides of the drawn position.
