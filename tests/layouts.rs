@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::support::machines::spec;
 use crate::support::rows::Rows;
-use crate::support::{assert_near, budget, config, largest, scale_of};
+use crate::support::{assert_near, budget, config, grid, largest, scale_of};
 use jred::number::{Number, Scalar};
 use jred::table::Format;
 use jred::{
@@ -41,11 +41,8 @@ fn errors<F: Format>(domain: Domain, cells: u32, scale: &Scale) -> [f64; 2] {
     let table = rows.table();
     let mut found = [0.0; 2];
     let places = 24 * cells;
-    for k in 0..=places {
-        let place = (u64::from(k) << 32) / u64::from(places);
-        let phase = Phase::from_bits(u32::try_from(place).unwrap_or(u32::MAX));
-        let turns = f64::from(phase.to_bits()) / 4_294_967_296.0;
-        let exact = machine.reduction(domain.position(turns)).unwrap();
+    for (phase, position) in grid(domain, places) {
+        let exact = machine.reduction(position).unwrap();
         let read = table.at(phase);
         let [torque, speed, inertia] =
             [scale.torque(), scale.speed(), scale.inertia()].map(f64::from);

@@ -4,7 +4,7 @@ use jred::table::Usage;
 use jred::{Domain, Phase, Reducible, Reduction, Set, curves};
 
 use super::{Short, read_at, row_words};
-use crate::support::{budget, largest, scale_of};
+use crate::support::{budget, grid, largest, scale_of};
 use jred::Rows16;
 use jred::table::Format as _;
 
@@ -44,12 +44,9 @@ fn errors(set: Set, domain: Domain, cells: u32) -> [f64; 6] {
     let has = |of: Set| if set & of == 0 { 0.0 } else { 1.0 };
     let mut found = [0.0; 6];
     let places = 16 * cells;
-    for k in 0..=places {
-        let place = (u64::from(k) << 32) / u64::from(places);
-        let phase = Phase::from_bits(u32::try_from(place).unwrap_or(u32::MAX));
-        let turns = f64::from(phase.to_bits()) / 4_294_967_296.0;
-        let exact = machine.reduction(domain.position(turns)).unwrap();
-        let start = machine.reduction(domain.position(0.0)).unwrap();
+    let start = machine.reduction(domain.position(0.0)).unwrap();
+    for (phase, position) in grid(domain, places) {
+        let exact = machine.reduction(position).unwrap();
         let [inertia, velocity, load, b, c, reciprocal] = read_at(&table, phase);
         let of = |curve: Set, constant: Set, here: f64, at_start: f64| {
             if set & curve != 0 {

@@ -15,7 +15,7 @@ pub(crate) mod rows;
 
 use jred::machine::MassProperties;
 use jred::number::{Bases, Number};
-use jred::{Link, Scale};
+use jred::{Domain, Link, Phase, Scale};
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
@@ -68,6 +68,16 @@ pub(crate) fn assert_near(what: &str, found: f64, expected: f64, budget: f64) {
         error <= budget,
         "{what}: {found:e}, expected {expected:e}, off by {error:e} > {budget:e}"
     );
+}
+
+/// `parts` + 1 phases from one end of the range to the other, with their positions.
+pub(crate) fn grid(domain: Domain, parts: u32) -> impl Iterator<Item = (Phase, f64)> {
+    (0..=parts).map(move |k| {
+        let place = (u64::from(k) << 32) / u64::from(parts);
+        let phase = Phase::from_bits(u32::try_from(place).unwrap_or(u32::MAX));
+        let turns = f64::from(phase.to_bits()) / 4_294_967_296.0;
+        (phase, domain.position(turns))
+    })
 }
 
 /// f′(x) by central differences, extrapolated twice: order 6.
