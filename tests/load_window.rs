@@ -3,8 +3,12 @@
 use std::f64::consts::TAU;
 
 use crate::support::budget;
-use jred::Domain;
-use jred::machine::Window;
+use crate::support::harmonics::press;
+use jred::machine::{Action, Load, Mechanism as _, Window};
+use jred::mechanism::{Geneva, SliderCrank};
+use jred::table::words_len;
+use jred::tabulate::{Part, Request, edge_places, fill, measure, scratch_len, tabulate};
+use jred::{Domain, Error, Link, Machine, Reducible as _, Scale, Set, Spline, curves};
 
 #[track_caller]
 fn near(found: f64, expected: f64) {
@@ -41,9 +45,10 @@ fn on_a_turn_and_on_a_stroke() {
 #[test]
 fn windows_that_are_not_possible() {
     for (from, to, ramp, words) in [
-        (0.0, 0.1, 0.06, "outside 0.12 to inf"),
+        (0.0, 0.1, 0.06, "less than 0.12"),
         (1.0, 1.0, 0.1, "width of the load's window is 0"),
         (0.0, 1.0, 0.0, "ramp of the load's window is 0"),
+        (0.0, 1.0, 8.9e-6, "less than 0.000009"),
         (
             f64::NAN,
             1.0,
@@ -62,4 +67,80 @@ fn windows_that_are_not_possible() {
             .to_string();
         assert!(error.contains(words), "{error}");
     }
+}
+
+/// A reciprocating machine with a force of 10 kN in a window of a thousandth of a degree.
+fn press_with_a_narrow_load() -> Machine<SliderCrank> {
+    let window = Window::new(Domain::Turn, [4.0, 4.0 + 1.8e-5], 8e-6).unwrap();
+    let force = Load::new(SliderCrank::SLIDER, Action::Force([-1e4, 0.0])).unwrap();
+    press().with_load(force.within(window)).unwrap()
+}
+
+/// However narrow a load is, an error of a table where it acts is found.
+#[test]
+fn a_narrow_load_is_not_stepped_over() {
+    const CELLS: u32 = 200;
+    const SET: Set = curves::LOAD | curves::VISCOUS | curves::COULOMB;
+    let machine = press_with_a_narrow_load();
+    let height = (machine.reduction(4.000_009).unwrap().process
+        - machine.reduction(3.99).unwrap().process)
+        .abs();
+    assert!(height > 100.0, "{height}");
+    let request = Request::new(1.0)
+        .with_omega(10.0)
+        .with_alpha(10.0)
+        .with_max_cells(CELLS);
+    let mut scratch = vec![0.0; scratch_len(CELLS, SET)];
+    let mut words = vec![0.0f64; words_len::<Spline<f64>>(CELLS, SET)];
+    let found = tabulate::<Spline<f64>>(
+        &machine,
+        SET,
+        &request,
+        &Scale::SI,
+        &mut scratch,
+        &mut words,
+    );
+    let Err(Error::TorqueErrorNotReached { reached, .. }) = found else {
+        panic!("{found:?}")
+    };
+    assert!((0.9 * height..1.1 * height).contains(&reached), "{reached}");
+    // The table of so many cells, measured.
+    let table =
+        fill::<Spline<f64>>(&machine, SET, CELLS, &Scale::SI, &mut scratch, &mut words).unwrap();
+    let found = measure(&machine, &table, &request).unwrap();
+    assert!(found.bound >= found.torque_error && found.torque_error > 0.9 * height);
+    assert!((4.0..4.000_018).contains(&found.worst), "{}", found.worst);
+}
+
+#[test]
+fn edges_are_those_of_the_mechanism_and_of_the_loads() {
+    let machine = press_with_a_narrow_load();
+    let edges: Vec<f64> = (0..).map_while(|k| machine.edge(k)).collect();
+    assert_eq!(edges.len(), 4);
+    for (found, expected) in edges
+        .into_iter()
+        .zip([4.0, 4.000_008, 4.000_010, 4.000_018])
+    {
+        near(found, expected);
+    }
+    // Seven places between each and the next, and the last one.
+    assert_eq!(
+        edge_places(&machine)
+            .filter(|phi| (4.0..4.000_019).contains(phi))
+            .count(),
+        32
+    );
+    // A part counts from its start, and a turn begins again.
+    let part = Part::new(&machine, 5.0, 10.5).unwrap();
+    near(part.edge(0).unwrap(), 4.0 - 5.0 + TAU);
+    assert_eq!(part.edge(4), None);
+    // A Geneva drive: where its pin leaves the slot and enters it, the acceleration jumps.
+    let geneva = Geneva::new(6, 0.1, [Link::MASSLESS; 2]).unwrap();
+    let jump = |k: usize| {
+        let edge = geneva.edge(k).unwrap();
+        let wheel = |phi: f64| geneva.frames(phi).unwrap()[Geneva::WHEEL].psi.d2;
+        (wheel(edge - 1e-9) - wheel(edge + 1e-9)).abs()
+    };
+    assert!(jump(0) > 0.1 && jump(1) > 0.1, "{} {}", jump(0), jump(1));
+    assert_eq!(geneva.edge(2), None);
 }

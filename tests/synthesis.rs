@@ -329,7 +329,7 @@ fn what_cannot_be_split_is_refused() {
     );
     assert_eq!(
         refused(5.0, &geared, 0.0, [3.0, 2.0]),
-        "largest stage ratio is 2, outside 3 to inf"
+        "largest stage ratio is 2, less than 3"
     );
     assert_eq!(
         refused(5.0, &geared, 0.0, [1.0, f64::NAN]),

@@ -43,16 +43,32 @@ pub struct Window {
 }
 
 impl Window {
+    /// The shortest ramp, as a part of the range: 4000 units of a [`Phase`](crate::Phase).
+    pub const SHORTEST_RAMP: f64 = 1e-6;
+
     /// A window from the first position to the second with edges of width `ramp` (rad, or m), of a drive link with this range.
     ///
     /// On a turn it comes again with every turn, and its end may lie past the turn's. On a stroke it does not, and an end of it
     /// may lie beyond the stroke.
     ///
     /// # Errors
-    /// A window narrower than its two ramps, or wider than a turn on one; a ramp that is not positive.
+    /// A window narrower than its two ramps, or wider than a turn on one; a ramp shorter than
+    /// [`SHORTEST_RAMP`](Self::SHORTEST_RAMP).
     pub fn new(domain: Domain, [from, to]: [f64; 2], ramp: f64) -> Result<Self, RangeError> {
         let from = finite("start of the load's window", from)?;
-        let ramp = positive("ramp of the load's window", ramp)?;
+        let (what, least) = (
+            "ramp of the load's window",
+            Self::SHORTEST_RAMP * domain.span(),
+        );
+        let ramp = positive(what, ramp)?;
+        if ramp < least {
+            return Err(RangeError::OutOfRange {
+                what,
+                value: ramp,
+                min: least,
+                max: f64::INFINITY,
+            });
+        }
         let width = positive(
             "width of the load's window",
             finite("end of the load's window", to)? - from,

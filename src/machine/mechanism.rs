@@ -29,6 +29,13 @@ pub trait Mechanism {
     /// # Errors
     /// A dead point or a position that cannot be assembled; a mechanism checked when built returns none within its domain.
     fn frames(&self, phi: f64) -> Result<Frames, PoseError>;
+
+    /// The `k`-th of the drive link's positions (rad, or m), neighbours one after the other, where its transfer functions are not smooth,
+    /// such as the ends of a cam's segments: there and between them a table is compared with the machine, however close they
+    /// are. None by default.
+    fn edge(&self, _k: usize) -> Option<f64> {
+        None
+    }
 }
 
 /// A mechanism that knows its joints, so that the force in every joint can be calculated
@@ -65,5 +72,8 @@ impl<M: Mechanism + ?Sized> Mechanism for &M {
     }
     fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         (**self).frames(phi)
+    }
+    fn edge(&self, k: usize) -> Option<f64> {
+        (**self).edge(k)
     }
 }

@@ -18,6 +18,13 @@ pub trait Reducible {
     /// The mechanism cannot be placed there, or the reduced inertia is not positive.
     fn reduction(&self, phi: f64) -> Result<Reduction, PoseError>;
 
+    /// The `k`-th of the positions (rad, or m), neighbours one after the other, between which the curves are smooth: the edges of loads and
+    /// [those of the mechanism](Mechanism::edge). A search for the largest error of a table looks there and between them
+    /// ([`edge_places`](crate::tabulate::edge_places)), so that it misses no load, however narrow. None by default.
+    fn edge(&self, _k: usize) -> Option<f64> {
+        None
+    }
+
     /// Whether a table of one turn represents every turn: inertia and loads are the same a turn later. Used for a drive link
     /// that turns fully, before a table is made. This default checks three places.
     ///
@@ -61,6 +68,11 @@ impl<M: Mechanism> Reducible for Machine<M> {
         } else {
             Err(PoseError::NoInertia { phi })
         }
+    }
+
+    fn edge(&self, k: usize) -> Option<f64> {
+        let own = (0..).map_while(|k| self.mechanism().edge(k));
+        own.chain(self.load_edges()).nth(k)
     }
 
     /// Decided by the inertia and by where the links are a turn later, not by the size of the loads, which may act in a

@@ -269,6 +269,12 @@ impl<M: Mechanism> Machine<M> {
         &self.loads
     }
 
+    /// The positions (rad, or m) at which the loads begin, reach their full value, begin to fall and end.
+    pub fn load_edges(&self) -> impl Iterator<Item = f64> {
+        let windows = self.loads.iter().filter_map(Load::window);
+        windows.flat_map(|window| window.edges())
+    }
+
     /// The springs and dampers.
     pub fn elements(&self) -> &[Element] {
         &self.elements

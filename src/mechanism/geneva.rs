@@ -20,7 +20,7 @@
 use crate::machine::error::PoseError;
 use crate::machine::{Frames, Jointed, Mechanism};
 use crate::mechanism::error::BuildError;
-use core::f64::consts::{FRAC_PI_2, PI, TAU};
+use core::f64::consts::{PI, TAU};
 
 use super::misfit::centred;
 use crate::machine::joint::{Body, Joint, Joints, Marker, Wrench};
@@ -118,8 +118,7 @@ impl Geneva {
     fn place(&self, phi: f64) -> (f64, Option<f64>) {
         let turn = math::floor(phi / TAU + 0.5);
         let angle = phi - turn * TAU;
-        let half = FRAC_PI_2 - PI / f64::from(self.slots);
-        let dwell = (math::abs(angle) >= half).then(|| math::sign(angle));
+        let dwell = (math::abs(angle) >= self.engagement() / 2.0).then(|| math::sign(angle));
         (turn, dwell)
     }
 
@@ -167,6 +166,12 @@ impl Mechanism for Geneva {
 
     fn domain(&self) -> Domain {
         Domain::Turn
+    }
+
+    /// Where the pin leaves the slot, and where it enters it.
+    fn edge(&self, k: usize) -> Option<f64> {
+        let half = self.engagement() / 2.0;
+        [half, TAU - half].get(k).copied()
     }
 
     fn frames(&self, phi: f64) -> Result<Frames, PoseError> {

@@ -111,6 +111,12 @@ impl fmt::Display for RangeError {
                 value,
                 min,
                 max,
+            } if max == f64::INFINITY => write!(f, "{what} is {value}, less than {min}"),
+            Self::OutOfRange {
+                what,
+                value,
+                min,
+                max,
             } => write!(f, "{what} is {value}, outside {min} to {max}"),
             Self::TooMany { what, capacity } => {
                 write!(f, "too many {what}: at most {capacity} fit")

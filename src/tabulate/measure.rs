@@ -20,6 +20,18 @@ pub fn measure<F: Format>(
     measure_until(machine, table, request, (0.0, CHECKS_PER_CELL), false)
 }
 
+/// The edges of a machine (rad, or m; [`Reducible::edge`]) and seven places between each and the next: none of its loads is so
+/// narrow that a search for the largest error of a table would step over it.
+pub fn edge_places(machine: &impl Reducible) -> impl Iterator<Item = f64> {
+    const PARTS: u32 = 8;
+    (0..)
+        .map_while(|k| machine.edge(k).map(|edge| (edge, machine.edge(k + 1))))
+        .flat_map(|(edge, next)| {
+            let step = next.map_or(0.0, |next| (next - edge) / f64::from(PARTS));
+            (0..PARTS).map(move |part| edge + step * f64::from(part))
+        })
+}
+
 /// As [`measure`], from `start` on round the range at `places` places a cell; if `stop`, only up to the first that
 /// misses.
 pub(super) fn measure_until<F: Format>(
@@ -30,9 +42,20 @@ pub(super) fn measure_until<F: Format>(
     stop: bool,
 ) -> Result<Tabulated, Error> {
     let limit = stop.then_some(request.torque_error);
-    let found = scan(machine.domain(), table.cells(), limit, from, |phase| {
-        torque_error(machine, table, request, phase)
-    })?;
+    let look = |phase| torque_error(machine, table, request, phase);
+    let mut found = scan(machine.domain(), table.cells(), limit, from, look)?;
+    let within = |found: &Tabulated| limit.is_none_or(|limit| found.torque_error <= limit);
+    for place in edge_places(machine) {
+        // What has missed, misses.
+        if !within(&found) {
+            break;
+        }
+        let (error, phi) = look(machine.domain().phase(place))?;
+        if error > found.torque_error {
+            (found.torque_error, found.worst) = (error, phi);
+            found.bound = found.bound.max(error);
+        }
+    }
     Ok(Tabulated {
         scale: *table.scale(),
         ..found

@@ -11,7 +11,8 @@
 //! ```
 //!
 //! δ is the table's own value, read in its own arithmetic (quantisation and rounding included), against the exact
-//! reduction, at [`CHECKS_PER_CELL`] places of every cell, and at both ends of a stroke.
+//! reduction, at [`CHECKS_PER_CELL`] places of every cell, at both ends of a stroke, and at the [edges](edge_places) of loads and cam
+//! segments and between them.
 
 mod buffer;
 mod fill;
@@ -24,8 +25,8 @@ mod units;
 
 pub use buffer::TableBuffer;
 pub use fill::fill;
-pub use measure::measure;
 pub(crate) use measure::torque_between;
+pub use measure::{edge_places, measure};
 pub use part::Part;
 pub use search::{growing, smallest, tabulate};
 

@@ -2,7 +2,9 @@
 
 use crate::machine::PoseError;
 use crate::number::error::{RangeError, finite};
-use crate::{Domain, Reducible, Reduction};
+use core::f64::consts::TAU;
+
+use crate::{Domain, Reducible, Reduction, math};
 
 /// A part of a machine's range, as a stroke from 0 to its length: what one table of [`Pieces`](crate::Pieces) is made from.
 ///
@@ -60,6 +62,14 @@ impl<M: Reducible> Reducible for Part<'_, M> {
             from: 0.0,
             to: self.to - self.from,
         }
+    }
+
+    fn edge(&self, k: usize) -> Option<f64> {
+        let edge = self.machine.edge(k)? - self.from;
+        Some(match self.machine.domain() {
+            Domain::Turn => edge - TAU * math::floor(edge / TAU),
+            Domain::Stroke { .. } => edge,
+        })
     }
 
     fn reduction(&self, phi: f64) -> Result<Reduction, PoseError> {

@@ -150,14 +150,7 @@ type Edges = heapless::Vec<f64, { 4 * MAX_LOADS }>;
 
 /// The angles at which a load begins or ends to grow, within the turn, in order.
 fn load_edges<M: Jointed>(machine: &Machine<M>) -> Edges {
-    let windows = machine
-        .loads()
-        .iter()
-        .filter_map(crate::machine::Load::window);
-    let mut edges: Edges = windows
-        .flat_map(|window| window.edges())
-        .map(within_turn)
-        .collect();
+    let mut edges: Edges = machine.load_edges().map(within_turn).collect();
     edges.sort_unstable_by(f64::total_cmp);
     edges
 }

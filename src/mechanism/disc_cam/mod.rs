@@ -223,6 +223,11 @@ impl Mechanism for DiscCam {
         Domain::Turn
     }
 
+    /// Where a piece of the program begins.
+    fn edge(&self, k: usize) -> Option<f64> {
+        self.program().pieces().nth(k).map(|piece| piece.from)
+    }
+
     fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         let angle = Transfer::variable(finite("cam angle", phi)?);
         let (program, geometry) = (self.program(), self.profile.geometry());

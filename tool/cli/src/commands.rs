@@ -23,7 +23,7 @@ use jred_machine::analysis::inspect::Findings;
 use jred_machine::analysis::reduce;
 use jred_machine::analysis::reduce::{Over, Sets, reduce};
 use jred_machine::analysis::simulate;
-use jred_machine::export::{Choice, Export, Failure, Form, Number, Task, edges};
+use jred_machine::export::{Choice, Export, Failure, Form, Number, Task};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
 use jred_machine::plain;
@@ -257,7 +257,7 @@ fn run_export(options: &options::Export) -> Result<Done> {
     let (omega, alpha) = range([omega, alpha], &file)?;
     let edges = match options.pieces.as_deref() {
         None => Vec::new(),
-        Some("auto") => edges(&file),
+        Some("auto") => (0..).map_while(|k| file.machine.edge(k)).collect(),
         Some(list) => read::drive_positions(list, file.machine.domain(), coordinate)
             .map_err(|why| miette!("--pieces {list:?} cannot be used: {why}"))?,
     };

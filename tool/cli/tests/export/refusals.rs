@@ -1,6 +1,6 @@
 //! What `jred export` says when there is no table, word by word.
 
-use super::export_of;
+use super::{export_of, number_after};
 use crate::support::{Folder, edited_press, press_file};
 
 #[test]
@@ -197,4 +197,37 @@ fn quantities_of_a_link_that_slides() {
         None,
     );
     run.ends(2).says(&["--alpha \"3 m/s^2\" cannot be used"]);
+}
+
+/// A load of a thousandth of a degree, which none of the even places meets: the table misses all of it, and says so.
+#[test]
+fn a_narrow_load_is_not_stepped_over() {
+    let folder = Folder::new();
+    let text = edited_press(
+        "between = [\"315 deg\", \"360 deg\"]",
+        "between = [\"300 deg\", \"300.001 deg\"]",
+    );
+    let text = text.replace("ramp = \"15 deg\"", "ramp = \"0.0004999995 deg\"");
+    let file = folder.file("narrow.toml", &text);
+    let run = export_of(&file, &["--torque-error", "20 N m"], None).ends(1);
+    run.says(&[
+        "cells reach 281.7 N m; more cells hardly lower it",
+        "the largest error is at φ = 300.0005 deg: the load \"pressing force\"",
+        "or a longer ramp of the load \"pressing force\"",
+    ]);
+    // Twice the height of the load is an error that every table meets.
+    let run = export_of(&file, &["--torque-error", "300 N m"], None).ends(0);
+    let reached = number_after(&run.out, "torque error reached ");
+    assert!((280.0..300.0).contains(&reached), "{reached}");
+    // A ramp that no table can tell from a jump is refused where it is written.
+    let steeper = folder.file(
+        "steeper.toml",
+        text.replace("0.0004999995 deg", "0.0003 deg"),
+    );
+    export_of(&steeper, &["--torque-error", "20 N m"], None)
+        .ends(2)
+        .says(&[
+            "is 0.0003 deg, as steep as a jump",
+            "write at least 0.00036 deg, a millionth of the drive link's range",
+        ]);
 }

@@ -63,11 +63,7 @@ pub(crate) fn smooth_stretches(
     steps: usize,
 ) -> Vec<(f64, f64)> {
     use std::f64::consts::TAU;
-    let loads = file.machine.loads().iter();
-    let edges: Vec<f64> = loads
-        .filter_map(jred::machine::Load::window)
-        .flat_map(|window| window.edges())
-        .collect();
+    let edges: Vec<f64> = file.machine.load_edges().collect();
     // Which side of the edge the drive link is on; on a turn, after how many of its passages.
     let turn = file.machine.domain() == Domain::Turn;
     let turns = |t: f64, edge: f64| {

@@ -17,11 +17,8 @@ mod ticks;
 pub use candidate::{Answer, Candidate, Made};
 pub use choice::{Choice, LayoutChoice, LayoutName, Number};
 pub use form::Form;
-pub use pieces::edges;
 pub use search::EXHAUSTIVE;
 pub use ticks::Ticks;
-
-use std::f64::consts::TAU;
 
 use jred::machine::Mechanism as _;
 use jred::{Domain, Error, Phase};
@@ -174,12 +171,7 @@ impl Export {
 
     /// The phase at which a table's range begins.
     pub fn start(&self, table: &Made) -> Phase {
-        match self.domain {
-            Domain::Turn => Phase::from_radians(table.range[0]),
-            Domain::Stroke { from, to } => {
-                Phase::from_radians((table.range[0] - from) / (to - from) * TAU)
-            }
-        }
+        self.domain.phase(table.range[0])
     }
 
     /// The largest speed of the drive link that it was made for.

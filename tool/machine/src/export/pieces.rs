@@ -11,21 +11,10 @@ use super::candidate::Answer;
 use super::choice::{LayoutName, Number, PLACES};
 use super::reference::Range;
 use super::search::{Goal, Search};
-use crate::model::machine::MachineFile;
 use crate::model::mechanism::AnyMechanism;
 
 /// Edges that are closer than this part of the range are one.
 const SAME: f64 = 1e-9;
-
-/// The edges of the machine file (rad, or m): where a load begins, reaches its full value, begins to fall and ends, and where
-/// segments of a cam's program meet.
-pub fn edges(file: &MachineFile) -> Vec<f64> {
-    let windows = file.loads.iter().filter_map(|load| load.load.window());
-    let mut edges: Vec<f64> = windows.flat_map(|window| window.edges()).collect();
-    let contacts = file.machine.mechanism().contacts().iter();
-    edges.extend(contacts.flat_map(|contact| contact.pieces.iter().map(|piece| piece.from)));
-    edges
-}
 
 /// The pieces between edges: of a turn from the first edge to the same one a turn later, of a stroke from end to end.
 /// None where there is no edge.

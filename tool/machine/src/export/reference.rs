@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use jred::machine::PoseError;
 use jred::table::CurveValues;
-use jred::tabulate::Part;
+use jred::tabulate::{Part, edge_places};
 use jred::{Domain, Error, Machine, Phase, Reducible, Reduction};
 
 use crate::model::mechanism::AnyMechanism;
@@ -55,6 +55,13 @@ impl Reducible for Range<'_> {
         }
     }
 
+    fn edge(&self, k: usize) -> Option<f64> {
+        match self {
+            Self::Whole(machine) => machine.edge(k),
+            Self::Part(part) => part.edge(k),
+        }
+    }
+
     fn check_repeats(&self) -> Result<(), PoseError> {
         match self {
             Self::Whole(machine) => machine.check_repeats(),
@@ -94,6 +101,10 @@ impl<M: Reducible> Reducible for Remembered<M> {
         Ok(found)
     }
 
+    fn edge(&self, k: usize) -> Option<f64> {
+        self.machine.edge(k)
+    }
+
     fn check_repeats(&self) -> Result<(), PoseError> {
         *self.repeats.get_or_init(|| self.machine.check_repeats())
     }
@@ -108,7 +119,7 @@ pub(super) struct Place {
     pub(super) exact: Reduction,
 }
 
-/// The exact curves at places all over the range.
+/// The exact curves at places all over the range, and at its edges and between them.
 #[derive(Clone, Debug)]
 pub(super) struct Reference {
     pub(super) places: Vec<Place>,
@@ -117,13 +128,15 @@ pub(super) struct Reference {
 impl Reference {
     pub(super) fn new(machine: &impl Reducible) -> Result<Self, Error> {
         let domain = machine.domain();
-        let place = |k: u32| {
-            let phase = Phase::from_bits(((u64::from(k) << 32) / u64::from(PLACES)) as u32);
+        let even = (0..PLACES)
+            .map(|k| Phase::from_bits(((u64::from(k) << 32) / u64::from(PLACES)) as u32));
+        let edges = edge_places(machine).map(|phi| domain.phase(phi));
+        let place = |phase: Phase| {
             let phi = domain.position(f64::from(phase.to_bits()) / 4_294_967_296.0);
             let exact = machine.reduction(phi)?;
             Ok(Place { phase, phi, exact })
         };
-        let places = (0..PLACES).map(place).collect::<Result<_, Error>>()?;
+        let places = even.chain(edges).map(place).collect::<Result<_, Error>>()?;
         Ok(Self { places })
     }
 

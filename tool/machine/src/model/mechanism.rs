@@ -264,6 +264,9 @@ impl Mechanism for AnyMechanism {
     fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
         self.inner.frames(phi)
     }
+    fn edge(&self, k: usize) -> Option<f64> {
+        self.inner.edge(k)
+    }
 }
 
 impl Jointed for AnyMechanism {

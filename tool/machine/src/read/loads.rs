@@ -9,7 +9,7 @@ use crate::model::mechanism::{AnyMechanism, NamedLoad};
 
 use super::drive_link::DriveLink;
 use super::load_table;
-use crate::text::item::Item;
+use crate::text::item::{Item, Value};
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::{ANGLE, FORCE, Kind, LENGTH, TORQUE, VISCOUS_FORCE, VISCOUS_MOMENT};
@@ -231,7 +231,7 @@ fn window(section: &Section) -> Result<Option<Window>> {
             ));
         }
     };
-    ramp.check_positive()?;
+    long_enough(&ramp, TAU)?;
     let [from, to] = between.pair([&ANGLE, &ANGLE])?;
     let end = if to.si < from.si { to.si + TAU } else { to.si };
     let width = end - from.si;
@@ -273,6 +273,24 @@ fn window(section: &Section) -> Result<Option<Window>> {
         })
 }
 
+/// A ramp that a table can tell from a jump.
+fn long_enough(ramp: &Value, span: f64) -> Result<()> {
+    ramp.check_positive()?;
+    let least = Window::SHORTEST_RAMP * span;
+    if ramp.si < least {
+        return Err(ramp
+            .problem(
+                &format!("is {}, as steep as a jump", ramp.shown()),
+                "too short",
+            )
+            .help(format!(
+                "write at least {}, a millionth of the drive link's range",
+                ramp.show(least)
+            )));
+    }
+    Ok(())
+}
+
 /// The part of the stroke in which the load acts.
 fn stretch(section: &Section, drive: DriveLink) -> Result<Option<Window>> {
     let kind = drive.position();
@@ -296,7 +314,7 @@ fn stretch(section: &Section, drive: DriveLink) -> Result<Option<Window>> {
             return Err(section.missing("between", &example));
         }
     };
-    ramp.check_positive()?;
+    long_enough(&ramp, drive.domain.span())?;
     let [from, to] = between.pair([kind, kind])?;
     let width = to.si - from.si;
     if width <= 0.0 {
