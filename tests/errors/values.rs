@@ -187,7 +187,7 @@ fn too_few_samples_are_counted() {
     assert!(fit_bounded(&[1.0; 5], &mut [0.0; 7]).is_ok());
     says(
         fit_bounded(&[1.0; 4], &mut [0.0; 6]),
-        &["number of samples", "4", "outside 5"],
+        &["number of samples", "4", "less than 5"],
     );
 }
 #[test]

@@ -45,7 +45,7 @@ fn a_drive_is_found() {
 fn tables_need_as_many_cells_as_documented() {
     let doc = include_str!("../../../docs/mechanisms/geneva.md");
     let folder = Folder::new();
-    for (error, cells) in [("0.1", 66), ("0.01", 785)] {
+    for (error, cells) in [("0.1", 66), ("0.01", 797)] {
         let asked = format!("{error} N m");
         let (path, out) = (machine("geneva.toml"), folder.path("table.img"));
         let run = jred([&"export", &path, &"--torque-error", &asked, &"--out", &out]).ends(0);
@@ -55,6 +55,18 @@ fn tables_need_as_many_cells_as_documented() {
             "{cells}"
         );
     }
+    let path = machine("geneva.toml");
+    let run = jred([
+        &"export",
+        &path,
+        &"--torque-error",
+        &"0.01 N m",
+        &"--pieces",
+        &"auto",
+    ])
+    .ends(0);
+    assert!(run.out.contains("layout spline, 39 cells"), "{}", run.out);
+    assert!(doc.contains("39 cells for 0.01 N·m in two pieces"));
 }
 
 /// A cylinder takes a motor by way of a screw.

@@ -219,7 +219,7 @@ fn wrong_options_are_refused_with_their_cure() {
             "4",
         ],
         &[
-            "largest stage ratio is 4, outside 5",
+            "largest stage ratio is 4, less than 5",
             "--max-ratio at least",
         ],
     );

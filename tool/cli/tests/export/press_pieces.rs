@@ -6,7 +6,7 @@
 // piece 3: 330 to 345 deg, 4 cells, 184 bytes of image, torque error 0.00871103 N m
 // piece 4: 345 to 360 deg, 4 cells, 184 bytes of image, torque error 1.11483 N m
 // torque error reached 1.79591 N m of 2 N m allowed, at 315 deg, for |omega| <= 29.4524 rad/s, |alpha| <= 226.725 rad/s^2
-// measured in ticks: torque within 1.78308 N m (0.009189 of the largest, 194.036 N m), alpha within 12.6454 rad/s^2
+// measured in ticks: torque within 1.78891 N m (0.009219 of the largest, 194.036 N m), alpha within 12.6882 rad/s^2
 use jred::*;
 
 /// The machine in pieces.

@@ -63,7 +63,7 @@ pub(crate) fn smooth_stretches(
     steps: usize,
 ) -> Vec<(f64, f64)> {
     use std::f64::consts::TAU;
-    let edges: Vec<f64> = file.machine.load_edges().collect();
+    let edges: Vec<f64> = (0..).map_while(|k| file.machine.edge(k)).collect();
     // Which side of the edge the drive link is on; on a turn, after how many of its passages.
     let turn = file.machine.domain() == Domain::Turn;
     let turns = |t: f64, edge: f64| {
