@@ -72,10 +72,14 @@ fn hidden_characters_are_refused_where_they_are_read() {
         ('\u{2066}', "U+2066, a mark of the direction of writing"),
         ('\u{200f}', "U+200F, a mark of the direction of writing"),
         ('\u{61c}', "U+061C, a mark of the direction of writing"),
-        ('\u{200b}', "U+200B, a character without width"),
-        ('\u{feff}', "U+FEFF, a character without width"),
+        ('\u{200b}', "U+200B, a character that is not seen"),
+        ('\u{feff}', "U+FEFF, a character that is not seen"),
+        ('\u{ad}', "U+00AD, a character that is not seen"),
+        ('\u{3164}', "U+3164, a character that is not seen"),
+        ('\u{fe0f}', "U+FE0F, a character that is not seen"),
+        ('\u{e0041}', "U+E0041, a character that is not seen"),
     ] {
-        let written = format!("\\u{:04x}", u32::from(c));
+        let written = format!("\\U{:08x}", u32::from(c));
         let machine = edited_press(
             "title = \"Servo press",
             &format!("title = \"Servo{written} press"),
@@ -108,14 +112,15 @@ fn hidden_characters_are_refused_where_they_are_read() {
 #[test]
 fn hidden_characters_of_arguments_are_escaped() {
     let folder = Folder::new();
-    let evil = "a\u{1b}[31m\u{202e}\r\nfn evil() {}";
-    let shown = "a\\u001b[31m\\u202e\\u000d\\u000afn evil()";
+    let evil = "a\u{1b}[31m\u{202e}\u{e0041}\r\nfn evil() {}";
+    let shown = "a\\u001b[31m\\u202e\\udb40\\udc41\\u000d\\u000afn evil()";
     let machine = folder.file(
         &format!("{evil}.toml"),
         press_text().replacen("title =", "# title =", 1),
     );
-    let hidden =
-        |text: &str| text.contains(['\u{1b}', '\u{202e}', '\r']) || text.contains("\nfn evil");
+    let hidden = |text: &str| {
+        text.contains(['\u{1b}', '\u{202e}', '\u{e0041}', '\r']) || text.contains("\nfn evil")
+    };
     // As a title, in C, Rust, CSV, a page, the terminal.
     for (k, form) in ["c", "rust", "json"].iter().enumerate() {
         let out = folder.path(&format!("{k}"));
@@ -157,7 +162,7 @@ fn hidden_characters_of_arguments_are_escaped() {
         &["vary", machine.to_str().unwrap(), "--vary", evil],
     ] {
         let run = jred_with(arguments).ends(2);
-        let bad = run.err.contains(['\u{1b}', '\u{202e}', '\r']);
+        let bad = run.err.contains(['\u{1b}', '\u{202e}', '\u{e0041}', '\r']);
         assert!(!bad, "{arguments:?}\n{}", run.err);
     }
 }

@@ -6,12 +6,17 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 /// Whether a character is not seen or changes how others are seen: a control character, an end of line or paragraph, a
-/// direction of writing, a space without width, a byte order mark.
+/// direction of writing, a space without width, a byte order mark, a filler, a selector of variants, a tag. These are
+/// Unicode's `Default_Ignorable_Code_Point`, the marks of annotations and the empty Braille pattern.
 pub fn is_hidden(c: char) -> bool {
     c.is_control()
         || matches!(
             c,
-            '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}'
+            '\u{ad}' | '\u{34f}' | '\u{61c}' | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}'
+                | '\u{180b}'..='\u{180f}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
+                | '\u{2060}'..='\u{206f}' | '\u{2800}' | '\u{3164}' | '\u{fe00}'..='\u{fe0f}' | '\u{feff}'
+                | '\u{ffa0}' | '\u{fff0}'..='\u{fffb}' | '\u{1bca0}'..='\u{1bca3}'
+                | '\u{1d173}'..='\u{1d17a}' | '\u{e0000}'..='\u{e0fff}'
         )
 }
 
@@ -32,7 +37,7 @@ pub fn described(c: char) -> String {
             "a mark of the direction of writing"
         }
         c if c.is_control() => "a control character",
-        _ => "a character without width",
+        _ => "a character that is not seen",
     };
     format!("U+{:04X}, {kind}", u32::from(c))
 }
@@ -52,7 +57,8 @@ pub fn masked(text: &str) -> Cow<'_, str> {
         match c.len_utf8() {
             1 => '?',
             2 => '¿',
-            _ => char::REPLACEMENT_CHARACTER,
+            3 => char::REPLACEMENT_CHARACTER,
+            _ => '\u{1fbc4}', // a question mark, in white on black
         }
     };
     if text.char_indices().all(|(at, c)| mask((at, c)) == c) {
@@ -66,7 +72,8 @@ pub fn escaped(text: &str) -> Cow<'_, str> {
     without(text, is_hidden)
 }
 
-/// A text of several lines, with tabs; other hidden characters as `\u000d`, which JSON reads as that character.
+/// A text of several lines, with tabs; other hidden characters as `\u000d`, beyond U+FFFF as two such halves, which JSON
+/// reads as that character.
 pub fn lines(text: &str) -> Cow<'_, str> {
     without(text, |c| is_hidden(c) && !matches!(c, '\n' | '\t'))
 }
@@ -78,7 +85,9 @@ fn without(text: &str, is_hidden: impl Fn(char) -> bool) -> Cow<'_, str> {
     let mut safe = String::with_capacity(text.len());
     for c in text.chars() {
         if is_hidden(c) {
-            let _ = write!(safe, "\\u{:04x}", u32::from(c));
+            for half in c.encode_utf16(&mut [0; 2]) {
+                let _ = write!(safe, "\\u{half:04x}");
+            }
         } else {
             safe.push(c);
         }
@@ -123,7 +132,9 @@ mod tests {
 
     #[test]
     fn hidden_characters_are_found() {
-        for c in "\0\t\n\r\u{7f}\u{85}\u{61c}\u{200b}\u{200e}\u{200f}\u{2028}\u{2029}\u{202a}\u{202e}\u{2060}\u{2066}\u{2069}\u{feff}"
+        for c in "\0\t\n\r\u{7f}\u{85}\u{61c}\u{200b}\u{200e}\u{200f}\u{2028}\u{2029}\u{202a}\u{202e}\u{2060}\u{2066}\u{2069}\u{feff}\
+                  \u{ad}\u{34f}\u{115f}\u{1160}\u{17b4}\u{17b5}\u{180b}\u{180f}\u{2800}\u{3164}\u{fe00}\u{fe0f}\u{ffa0}\
+                  \u{fff9}\u{fffb}\u{1bca0}\u{1d173}\u{e0000}\u{e0041}\u{e0fff}"
             .chars()
         {
             assert_eq!(hidden(&format!("è{c}")), Some(c), "{}", described(c));
@@ -136,15 +147,18 @@ mod tests {
         assert_eq!(escaped("a\r\nb\u{202e}"), "a\\u000d\\u000ab\\u202e");
         assert_eq!(lines("a\tb\nc\u{1b}[31m"), "a\tb\nc\\u001b[31m");
         assert_eq!(path("out\n.csv"), "out\\u000a.csv");
-        let json = format!("\"{}\"", lines("x\u{202e}"));
-        assert_eq!(serde_json::from_str::<String>(&json).unwrap(), "x\u{202e}");
+        assert_eq!(escaped("\u{ad}\u{e0041}"), "\\u00ad\\udb40\\udc41");
+        for text in ["x\u{202e}", "\u{e0041}y"] {
+            let json = format!("\"{}\"", lines(text));
+            assert_eq!(serde_json::from_str::<String>(&json).unwrap(), text);
+        }
     }
 
     #[test]
     fn places_stay_where_characters_are_masked() {
-        let text = "a\r\n\tb\rc\u{85}d\u{202e}e\u{1b}\n";
+        let text = "a\r\n\tb\rc\u{85}d\u{202e}e\u{1b}f\u{ad}\u{e0041}\n";
         let shown = masked(text);
-        assert_eq!(shown, "a\r\n\tb?c¿d\u{fffd}e?\n");
+        assert_eq!(shown, "a\r\n\tb?c¿d\u{fffd}e?f¿\u{1fbc4}\n");
         assert_eq!(shown.len(), text.len());
         assert!(matches!(masked("µ\r\n"), Cow::Borrowed(_)));
     }
