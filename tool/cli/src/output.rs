@@ -1,8 +1,8 @@
 //! Everything that the command writes: to the terminal, and to files.
 //!
 //! A file is written beside its place and renamed when it is complete, so that an error, a full disk or a kill leaves what was
-//! there. A file of a study's rows is different: it grows row by row, to be continued after an interruption
-//! (`rows/store.rs`).
+//! there. Only where the new file cannot get the owner of the old one, the old one is written into. A file of a study's rows is
+//! different: it grows row by row, to be continued after an interruption (`rows/store.rs`).
 
 use std::ffi::OsString;
 use std::fs::{File, Metadata, OpenOptions};
@@ -83,7 +83,9 @@ pub fn check<'p>(files: impl IntoIterator<Item = (&'p str, &'p Option<PathBuf>)>
             ));
         }
         let place = place(path);
-        if let Some((first, other, _)) = others.iter().find(|(.., known)| *known == place) {
+        let mut named = others.iter();
+        let same = named.find(|(_, other, known)| *known == place || is_one(other, path));
+        if let Some((first, other, _)) = same {
             let also = plain::path(other);
             return Err(miette!(
                 help = "use two different files",
@@ -100,8 +102,9 @@ pub fn check<'p>(files: impl IntoIterator<Item = (&'p str, &'p Option<PathBuf>)>
     Ok(())
 }
 
-/// Canonical path of a file that may not exist yet.
+/// Canonical path of a file that may not exist yet, even behind a symbolic link.
 fn place(path: &Path) -> PathBuf {
+    let path = &followed(path);
     let of_folder = || {
         let folder = path.parent().filter(|folder| *folder != Path::new(""));
         let folder = folder.unwrap_or(Path::new(".")).canonicalize().ok()?;
@@ -115,13 +118,8 @@ fn place(path: &Path) -> PathBuf {
 #[cfg(unix)]
 fn is_stdout(path: &Path) -> bool {
     use std::os::fd::AsFd as _;
-    use std::os::unix::fs::MetadataExt as _;
-    let stdout = || {
-        let file = File::from(std::io::stdout().as_fd().try_clone_to_owned().ok()?);
-        let [own, other] = [file.metadata().ok()?, path.metadata().ok()?];
-        Some(own.is_file() && (own.dev(), own.ino()) == (other.dev(), other.ino()))
-    };
-    stdout().unwrap_or(false)
+    let stdout = std::io::stdout().as_fd().try_clone_to_owned();
+    stdout.is_ok_and(|stdout| is_same(File::from(stdout).metadata(), path.metadata()))
 }
 
 #[cfg(not(unix))]
@@ -129,10 +127,29 @@ fn is_stdout(_: &Path) -> bool {
     false
 }
 
+/// Whether two paths are hard links of one regular file.
+#[cfg(unix)]
+fn is_one(one: &Path, other: &Path) -> bool {
+    is_same(one.metadata(), other.metadata())
+}
+
+#[cfg(not(unix))]
+fn is_one(_: &Path, _: &Path) -> bool {
+    false
+}
+
+#[cfg(unix)]
+fn is_same(one: IoResult<Metadata>, other: IoResult<Metadata>) -> bool {
+    use std::os::unix::fs::MetadataExt as _;
+    let identity = |file: Metadata| file.is_file().then(|| (file.dev(), file.ino()));
+    let [one, other] = [one, other].map(|file| file.ok().and_then(identity));
+    one.is_some() && one == other
+}
+
 /// Writes a file.
 ///
 /// # Errors
-/// It cannot be written; then it is as it was.
+/// It cannot be written; then it is as it was, unless it has another owner.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     let written = Output::create(path).and_then(|mut output| {
         output.write_all(bytes)?;
@@ -150,38 +167,61 @@ pub fn failed(path: &Path, error: &Error) -> Report {
 #[derive(Debug)]
 pub struct Output {
     file: File,
-    /// Where it is written, and where it belongs; nothing for a pipe or a device.
+    /// Where it is written, and where it belongs; nothing for what is written in its place.
     places: Option<[PathBuf; 2]>,
+    /// Whether no file may be in its place.
+    is_new: bool,
 }
 
 impl Output {
-    /// Begins a file.
+    /// Begins a file, which takes the place of an old one.
     ///
     /// # Errors
     /// The old file must not be written, or its folder.
     pub fn create(path: &Path) -> IoResult<Self> {
+        Self::begin(path, false)
+    }
+
+    /// Begins a file that must not exist yet; a pipe or a device may.
+    ///
+    /// # Errors
+    /// It exists, or its folder must not be written.
+    pub fn create_new(path: &Path) -> IoResult<Self> {
+        Self::begin(path, true)
+    }
+
+    fn begin(path: &Path, is_new: bool) -> IoResult<Self> {
         let old = match path.metadata() {
             Ok(old) => Some(old),
             Err(error) if error.kind() == ErrorKind::NotFound => None,
             Err(error) => return Err(error),
         };
         let write = |path: &Path| OpenOptions::new().write(true).open(path);
-        if old.as_ref().is_some_and(|old| !old.is_file()) {
-            let file = write(path)?;
-            return Ok(Self { file, places: None });
-        }
+        let in_place = |file| Self {
+            file,
+            places: None,
+            is_new,
+        };
         let place = followed(path);
-        if old.is_some() {
-            // Who may not write a file must not replace it either.
-            write(&place)?;
-        }
+        // Who may not write a file must not replace it either.
+        let old = match old {
+            Some(old) if !old.is_file() => return Ok(in_place(write(path)?)),
+            Some(_) if is_new => return Err(ErrorKind::AlreadyExists.into()),
+            Some(old) => Some((write(&place)?, old)),
+            None => None,
+        };
         let (file, unfinished) = beside(&place)?;
         let output = Self {
             file,
             places: Some([unfinished, place]),
+            is_new,
         };
-        if let Some(permissions) = old.as_ref().map(Metadata::permissions) {
-            output.file.set_permissions(permissions)?;
+        if let Some((file, old)) = old {
+            if !is_given_to_owner(&output.file, &old) {
+                file.set_len(0)?;
+                return Ok(in_place(file));
+            }
+            output.file.set_permissions(old.permissions())?;
         }
         Ok(output)
     }
@@ -191,11 +231,16 @@ impl Output {
     /// # Errors
     /// The disk is full, or something else is in that place.
     pub fn finish(mut self) -> IoResult<()> {
-        let Some([unfinished, place]) = &self.places else {
-            return self.file.flush();
-        };
-        self.file.sync_all()?;
-        std::fs::rename(unfinished, place)?;
+        if self.file.metadata()?.is_file() {
+            self.file.sync_all()?;
+        }
+        if let Some([unfinished, place]) = &self.places {
+            if self.is_new {
+                put_new(unfinished, place)?;
+            } else {
+                std::fs::rename(unfinished, place)?;
+            }
+        }
         self.places = None;
         Ok(())
     }
@@ -232,16 +277,81 @@ fn followed(path: &Path) -> PathBuf {
     place
 }
 
-/// A new file in the folder of another one.
+/// Renames a file to a name that must be free: one that another program took meanwhile is an error.
+fn put_new(unfinished: &Path, place: &Path) -> IoResult<()> {
+    match std::fs::hard_link(unfinished, place) {
+        Ok(()) => std::fs::remove_file(unfinished),
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(error),
+        // A file system without hard links.
+        Err(_) if place.symlink_metadata().is_ok() => Err(ErrorKind::AlreadyExists.into()),
+        Err(_) => std::fs::rename(unfinished, place),
+    }
+}
+
+/// Gives a new file the owner and the group of the old one; whether it has them now.
+#[cfg(unix)]
+fn is_given_to_owner(new: &File, old: &Metadata) -> bool {
+    use std::os::unix::fs::{MetadataExt as _, fchown};
+    let is_own = |new: Metadata| (new.uid(), new.gid()) == (old.uid(), old.gid());
+    new.metadata().is_ok_and(is_own) || fchown(new, Some(old.uid()), Some(old.gid())).is_ok()
+}
+
+#[cfg(not(unix))]
+fn is_given_to_owner(_: &File, _: &Metadata) -> bool {
+    true
+}
+
+/// A new file in the folder of another one. Names that killed runs have left are passed over.
 fn beside(place: &Path) -> IoResult<(File, PathBuf)> {
-    let mut taken = 0;
+    let mut taken = 0u64;
     loop {
         let mut name = OsString::from(".jred-");
         name.push(format!("{}-{taken}.part", std::process::id()));
         let path = place.with_file_name(name);
         match OpenOptions::new().write(true).create_new(true).open(&path) {
-            Err(error) if error.kind() == ErrorKind::AlreadyExists && taken < 100 => taken += 1,
-            opened => return Ok((opened?, path)),
+            Ok(file) => return Ok((file, path)),
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => taken += 1,
+            Err(error) => {
+                let folder = place.parent().filter(|folder| *folder != Path::new(""));
+                let folder = plain::path(folder.unwrap_or(Path::new(".")));
+                let message = format!("no file can be made in the folder {folder}: {error}");
+                return Err(Error::new(error.kind(), message));
+            }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What another program writes under the name of a new file meanwhile stays.
+    #[test]
+    fn a_new_file_replaces_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("all.csv");
+        let mut output = Output::create_new(&path).unwrap();
+        output.write_all(b"new").unwrap();
+        std::fs::write(&path, "of another").unwrap();
+        let error = output.finish().unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::AlreadyExists);
+        let error = Output::create_new(&path).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::AlreadyExists);
+        assert_eq!(std::fs::read(&path).unwrap(), b"of another");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    /// Names that are taken, as by runs of the same number that were killed, do not keep a file from being written.
+    #[test]
+    fn leftovers_are_passed_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("r.html");
+        for taken in 0..150 {
+            let name = format!(".jred-{}-{taken}.part", std::process::id());
+            std::fs::write(folder.path().join(name), "").unwrap();
+        }
+        write(&path, b"new").unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"new");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 151);
     }
 }

@@ -150,6 +150,7 @@ fn a_share_is_not_overwritten_by_the_merged_file() {
 mod unix {
     use std::io::Read as _;
     use std::os::unix::fs::{MetadataExt as _, PermissionsExt, symlink};
+    use std::os::unix::process::CommandExt as _;
     use std::process::{Command, Stdio};
 
     use super::*;
@@ -191,6 +192,100 @@ mod unix {
         assert!(folder.path("new.jred").is_file());
         let names = std::fs::read_dir(folder.path(".")).unwrap();
         assert_eq!(names.count(), 5, "nothing is left behind");
+    }
+
+    /// Two outputs are two files: neither a symbolic link, to a file or to nothing yet, nor a hard link makes them one.
+    #[test]
+    fn two_outputs_are_two_files() {
+        let folder = Folder::new();
+        let page = folder.path("b.html");
+        let [soft, hard] = ["soft.html", "hard.html"].map(|name| folder.path(name));
+        symlink("b.html", &soft).unwrap();
+        let refused = |[one, other]: [&Path; 2]| {
+            jred([
+                &"size",
+                &press_file(),
+                &"--report",
+                &one,
+                &"--meter",
+                &other,
+            ])
+            .ends(2)
+            .says(&["--report and --meter both name one file", "two different"]);
+        };
+        refused([&page, &soft]);
+        refused([&soft, &page]);
+        assert!(!page.exists());
+        std::fs::write(&page, "old").unwrap();
+        std::fs::hard_link(&page, &hard).unwrap();
+        refused([&page, &soft]);
+        refused([&hard, &page]);
+        assert_eq!(std::fs::read(&page).unwrap(), b"old");
+    }
+
+    /// A page that user 65534 writes over `old`, in a folder with `mode`; others write as themselves.
+    fn page_of_another_user(folder: &Folder, mode: u32) -> (i32, String) {
+        let permit = |path: &Path, mode| {
+            std::fs::set_permissions(path, PermissionsExt::from_mode(mode)).unwrap();
+        };
+        let [root, jred] = [folder.path(""), folder.path("jred")];
+        let machine = folder.file("m.toml", press_text());
+        std::fs::copy(env!("CARGO_BIN_EXE_jred"), &jred).unwrap();
+        permit(&machine, 0o644);
+        permit(&root, mode);
+        let mut command = Command::new(&jred);
+        command.env("NO_COLOR", "1").arg("reduce").arg(&machine);
+        command.arg("--report").arg(folder.path("r.html"));
+        if root.metadata().unwrap().uid() == 0 {
+            command.uid(65534).gid(65534);
+        }
+        let run = command.output().unwrap();
+        permit(&root, 0o755);
+        let error = String::from_utf8(run.stderr).unwrap();
+        (run.status.code().unwrap(), error)
+    }
+
+    /// A file keeps its owner: root gives the new one to the owner of the old; who may not do that writes into the old one.
+    #[test]
+    fn a_file_keeps_its_owner() {
+        let folder = Folder::new();
+        let old = folder.file("r.html", "old".repeat(1 << 20));
+        if old.metadata().unwrap().uid() != 0 {
+            return; // Only root can give files away.
+        }
+        let owned = || {
+            let file = old.metadata().unwrap();
+            (file.uid(), file.gid(), file.permissions().mode() & 0o7777)
+        };
+        std::os::unix::fs::chown(&old, Some(4321), Some(1234)).unwrap();
+        std::fs::set_permissions(&old, PermissionsExt::from_mode(0o666)).unwrap();
+        let before = old.metadata().unwrap().ino();
+        let (code, error) = page_of_another_user(&folder, 0o777);
+        assert_eq!(code, 0, "{error}");
+        assert_eq!(old.metadata().unwrap().ino(), before);
+        let page = std::fs::read_to_string(&old).unwrap();
+        assert!(page.starts_with("<!") && page.trim_end().ends_with("</html>"));
+        assert_eq!(owned(), (4321, 1234, 0o666));
+        jred([&"reduce", &press_file(), &"--report", &old]).ends(0);
+        assert_ne!(old.metadata().unwrap().ino(), before);
+        assert_eq!(owned(), (4321, 1234, 0o666));
+        let names = std::fs::read_dir(folder.path(".")).unwrap();
+        assert_eq!(names.count(), 3, "nothing is left behind");
+    }
+
+    /// Where the folder must not be written, the message names it, and the old file stays.
+    #[test]
+    fn the_folder_of_an_output_is_named() {
+        let folder = Folder::new();
+        let old = folder.file("r.html", "old");
+        std::fs::set_permissions(&old, PermissionsExt::from_mode(0o666)).unwrap();
+        let (code, error) = page_of_another_user(&folder, 0o555);
+        assert_eq!(code, 2);
+        let message = error.replace([' ', '\n', '│'], "");
+        let root = old.parent().unwrap().to_str().unwrap();
+        let words = format!("nofilecanbemadeinthefolder{root}:Permissiondenied");
+        assert!(message.contains(&words), "{words}\n{error}");
+        assert_eq!(std::fs::read(&old).unwrap(), b"old");
     }
 
     /// A full disk, here a limit on the size of files, leaves the old file and nothing else.

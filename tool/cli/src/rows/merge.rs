@@ -2,7 +2,7 @@
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-use std::io::{BufReader, BufWriter, Read, Write};
+use std::io::{BufReader, BufWriter, Error, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 use jred_machine::plain;
@@ -100,15 +100,15 @@ pub fn merge(out: &Path, paths: &[PathBuf]) -> Result<u64> {
     };
     let front = store::lines(&header, first.form)?;
     output::check([("the first argument", &Some(out.to_owned()))])?;
-    if out.is_file() {
-        return Err(miette!(
+    let failed = |error: Error| match error.kind() {
+        ErrorKind::AlreadyExists => miette!(
             help = "choose another file",
             "{} already exists: not overwritten",
             plain::path(out)
-        ));
-    }
-    let failed = |error| output::failed(out, &error);
-    let mut file = BufWriter::new(Output::create(out).map_err(failed)?);
+        ),
+        _ => output::failed(out, &error),
+    };
+    let mut file = BufWriter::new(Output::create_new(out).map_err(failed)?);
     file.write_all(front.as_bytes()).map_err(failed)?;
     let rows = rows(&mut parts, header.rows, &mut file)?;
     let file = file

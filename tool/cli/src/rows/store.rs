@@ -87,6 +87,11 @@ pub fn begin(path: &Path, lines: &str) -> Result<File> {
         .create_new(!device)
         .open(path)
         .map_err(|error| match error.kind() {
+            std::io::ErrorKind::AlreadyExists if !path.exists() => miette!(
+                help = "name the file itself, or remove the link",
+                "{} is a symbolic link that leads nowhere: no file begins behind it",
+                plain::path(path)
+            ),
             std::io::ErrorKind::AlreadyExists => miette!(
                 help = "continue it with --resume, or choose another file",
                 "{} already exists: not overwritten",

@@ -156,6 +156,24 @@ fn a_run_that_was_cut_off_is_continued() {
     assert_eq!(read(&folder, "new"), whole);
 }
 
+/// No file begins behind a link, and the message does not recommend what fails as well.
+#[cfg(unix)]
+#[test]
+fn a_link_that_leads_nowhere_is_named() {
+    let folder = Folder::new();
+    std::os::unix::fs::symlink("rows.csv", folder.path("link")).unwrap();
+    for more in [&[][..], &["--resume"]] {
+        let (code, message) = study(&folder, "link", more);
+        assert_eq!(code, 2);
+        assert!(
+            message.contains("link is a symbolic link that leads nowhere")
+                && !message.contains("--resume"),
+            "{message}"
+        );
+    }
+    assert!(!folder.path("rows.csv").exists());
+}
+
 /// The number of threads does not change a byte.
 #[test]
 fn rows_do_not_depend_on_threads() {
