@@ -61,8 +61,19 @@ impl Run {
 
     /// The message without line breaks, bars and indentation, so that words can be looked up in it.
     pub(crate) fn message(&self) -> String {
-        let words = self.err.split_whitespace();
-        words.filter(|w| *w != "│").collect::<Vec<_>>().join(" ")
+        let mut message = String::new();
+        for line in self.err.lines() {
+            let words = line.split_whitespace().filter(|word| *word != "│");
+            for (k, word) in words.enumerate() {
+                // Long lines, whose length goes with that of the file's path, are broken behind hyphens as well.
+                let broken = k == 0 && message.ends_with('-') && !message.ends_with(" -");
+                if !message.is_empty() && !broken {
+                    message.push(' ');
+                }
+                message.push_str(word);
+            }
+        }
+        message
     }
 
     /// Checks that the message holds every one of `words`, and no word was printed as a result.

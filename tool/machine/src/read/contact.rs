@@ -1,10 +1,10 @@
 //! Checks that followers stay on their cams and ropes stay taut during the prescribed motion.
 
-use std::f64::consts::TAU;
-
-use jred::Error;
+use jred::machine::Mechanism as _;
+use jred::{Error, Reducible as _};
 
 use crate::analysis::contact::OneWay;
+use crate::analysis::duty::{STEPS, smooth_stretches};
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
 use crate::number::numerics;
@@ -12,11 +12,11 @@ use crate::number::numerics;
 use crate::text::problem::Result;
 use crate::text::section::Section;
 
-/// Samples of a turn of the drive link, and fewest of a stretch of the motion.
-const PER_TURN: f64 = 1440.0;
+/// Samples of the drive link's range, a turn or its stroke, and fewest of a stretch of the motion between edges.
+const SAMPLES: f64 = 1440.0;
 const FEWEST: f64 = 128.0;
 
-/// The most samples of a stretch: a hoist's drum may make a thousand turns.
+/// The most samples of a stretch: a drive link may make a thousand turns.
 const MOST: f64 = 60_000.0;
 
 /// Checks that every cam's contact presses and every rope pulls over the whole motion. A cam that guides its follower on
@@ -40,7 +40,12 @@ fn holds(file: &MachineFile, mechanism: &Section, motion: &Motion, joint: OneWay
         let state = motion.at(t);
         joint.force(&file.machine, [state.phi, state.omega, state.alpha])
     };
-    let (t, least) = smallest(motion, force).map_err(report)?;
+    // The pull of a rope goes with the motion alone, unless a load has edges or a table.
+    let moved = file.machine.mechanism();
+    let tables = moved.own_links() < moved.links().len();
+    let smooth = joint.rope && !tables && file.machine.edge(0).is_none();
+    let samples = if smooth { 0.0 } else { SAMPLES };
+    let (t, least) = smallest(file, motion, samples, force).map_err(report)?;
     if joint.holds(least) {
         return Ok(());
     }
@@ -60,15 +65,18 @@ fn holds(file: &MachineFile, mechanism: &Section, motion: &Motion, joint: OneWay
     Err(mechanism.problem(message, label).help(parted.cure))
 }
 
-/// The time of the smallest force, and the force.
+/// The time of the smallest force, and the force; looked for at so many places of the drive link's range.
 fn smallest(
+    file: &MachineFile,
     motion: &Motion,
+    samples: f64,
     force: impl Fn(f64) -> std::result::Result<f64, Error>,
 ) -> std::result::Result<(f64, f64), Error> {
     let mut best = (0.0, f64::INFINITY);
-    for (from, to) in motion.stretches() {
-        let turned = (motion.at(to).phi - motion.at(from).phi).abs() / TAU;
-        let count = (PER_TURN * turned).ceil().clamp(FEWEST, MOST);
+    let span = file.machine.domain().span();
+    for (from, to) in smooth_stretches(file, motion, STEPS) {
+        let share = (motion.at(to).phi - motion.at(from).phi).abs() / span;
+        let count = (samples * share).ceil().clamp(FEWEST, MOST);
         // Between stretches the acceleration may jump: a hair inside.
         let hair = 1e-9 * (to - from);
         let at = |share: f64| (from + share * (to - from)).clamp(from + hair, to - hair);
