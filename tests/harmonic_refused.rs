@@ -13,6 +13,19 @@ use jred::mechanism::SliderCrank;
 use jred::table::Shape;
 use jred::{Domain, Error, Harmonic, Phase, Set, Table, TableError, curves};
 
+/// A load between all samples is measured at its edges.
+#[test]
+fn a_narrow_load_is_not_stepped_over() {
+    let force = Load::new(SliderCrank::SLIDER, Action::Force([-100.0, 0.0])).unwrap();
+    let window = Window::new(Domain::Turn, [5.0, 5.002], 0.0005).unwrap();
+    let machine = press().with_load(force.within(window)).unwrap();
+    let found = fitted::<f64, { curves::ALL | terms::ALL }>(&machine, &request(1e-3, 32));
+    let Err(Error::Harmonic(HarmonicError::NotConverged { reached, .. })) = found else {
+        panic!("{found:?}")
+    };
+    assert!((1.0..100.0).contains(&reached), "{reached}");
+}
+
 #[test]
 fn kinks_and_hidden_harmonics_are_refused() {
     let constant = Load::new(SliderCrank::CRANK, Action::OpposingMoment(1.0)).unwrap();

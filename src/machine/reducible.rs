@@ -71,8 +71,10 @@ impl<M: Mechanism> Reducible for Machine<M> {
     }
 
     fn edge(&self, k: usize) -> Option<f64> {
-        let own = (0..).map_while(|k| self.mechanism().edge(k));
-        own.chain(self.load_edges()).nth(k)
+        self.mechanism().edge(k).or_else(|| {
+            let own = (0..k).map_while(|k| self.mechanism().edge(k)).count();
+            self.load_edges().nth(k - own)
+        })
     }
 
     /// Decided by the inertia and by where the links are a turn later, not by the size of the loads, which may act in a

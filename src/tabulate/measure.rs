@@ -20,16 +20,31 @@ pub fn measure<F: Format>(
     measure_until(machine, table, request, (0.0, CHECKS_PER_CELL), false)
 }
 
+/// Parts of the range between two edges.
+const PARTS: usize = 8;
+
 /// The edges of a machine (rad, or m; [`Reducible::edge`]) and seven places between each and the next: none of its loads is so
 /// narrow that a search for the largest error of a table would step over it.
 pub fn edge_places(machine: &impl Reducible) -> impl Iterator<Item = f64> {
-    const PARTS: u32 = 8;
-    (0..)
-        .map_while(|k| machine.edge(k).map(|edge| (edge, machine.edge(k + 1))))
-        .flat_map(|(edge, next)| {
-            let step = next.map_or(0.0, |next| (next - edge) / f64::from(PARTS));
-            (0..PARTS).map(move |part| edge + step * f64::from(part))
-        })
+    let mut next = machine.edge(0);
+    let intervals = (1..).map_while(move |k| {
+        let edge = next?;
+        next = machine.edge(k);
+        Some([edge, next.unwrap_or(edge)])
+    });
+    intervals.flat_map(|[edge, next]| {
+        let step = (next - edge) / PARTS as f64;
+        (0..PARTS).map(move |part| edge + step * part as f64)
+    })
+}
+
+/// Positions at which a machine is sampled: so many at equal distances, and the [`edge_places`].
+pub(super) fn sampled(machine: &impl Reducible, positions: u32) -> impl Iterator<Item = f64> {
+    let even = (0..positions).map(move |k| {
+        let place = f64::from(k) / f64::from(positions);
+        machine.domain().position(place)
+    });
+    even.chain(edge_places(machine))
 }
 
 /// As [`measure`], from `start` on round the range at `places` places a cell; if `stop`, only up to the first that
@@ -45,7 +60,9 @@ pub(super) fn measure_until<F: Format>(
     let look = |phase| torque_error(machine, table, request, phase);
     let mut found = scan(machine.domain(), table.cells(), limit, from, look)?;
     let within = |found: &Tabulated| limit.is_none_or(|limit| found.torque_error <= limit);
-    for place in edge_places(machine) {
+    let spacing = machine.domain().span() / f64::from(table.cells() * from.1);
+    let mut before = [(f64::NAN, f64::NAN); 2];
+    for (k, place) in edge_places(machine).enumerate() {
         // What has missed, misses.
         if !within(&found) {
             break;
@@ -53,8 +70,14 @@ pub(super) fn measure_until<F: Format>(
         let (error, phi) = look(machine.domain().phase(place))?;
         if error > found.torque_error {
             (found.torque_error, found.worst) = (error, phi);
-            found.bound = found.bound.max(error);
         }
+        let mut bound = error;
+        // Closer than the places of the cells, and three between the same edges.
+        if k % PARTS >= 2 && place - before[1].0 < spacing {
+            bound += 0.125 * math::abs(error - 2.0 * before[1].1 + before[0].1);
+        }
+        found.bound = found.bound.max(bound);
+        before = [before[1], (place, error)];
     }
     Ok(Tabulated {
         scale: *table.scale(),
@@ -169,9 +192,9 @@ pub(super) fn torque_error<F: Format>(
     Ok((torque_between(request, &read, &exact) + rounding, phi))
 }
 
-/// How far the drive torques of a table and of the machine are apart at most within the range of the request: the bound of the module's
-/// head.
-pub(crate) fn torque_between(request: &Request, read: &CurveValues, exact: &Reduction) -> f64 {
+/// How far the drive torques of a table and of the machine are apart at most within the range of the request: the bound of the
+/// [module](super)'s head.
+pub fn torque_between(request: &Request, read: &CurveValues, exact: &Reduction) -> f64 {
     [
         (read.inertia - exact.inertia) * request.alpha,
         0.5 * (read.inertia_slope - exact.inertia_slope) * request.omega * request.omega,

@@ -25,8 +25,7 @@ mod units;
 
 pub use buffer::TableBuffer;
 pub use fill::fill;
-pub(crate) use measure::torque_between;
-pub use measure::{edge_places, measure};
+pub use measure::{edge_places, measure, torque_between};
 pub use part::Part;
 pub use search::{growing, smallest, tabulate};
 
@@ -160,7 +159,8 @@ pub const fn scratch_len(cells: u32, set: Set) -> usize {
     (curves::width(set) + 1) * control_points(cells as usize)
 }
 
-/// The set of curves that the machine has: those that are not zero at all of `positions` places. Viscous and Coulomb friction
+/// The set of curves that the machine has: those that are not zero at all of `positions` places and of
+/// the [`edge_places`]. Viscous and Coulomb friction
 /// that is the same at all of them is one number instead of a curve.
 ///
 /// # Errors
@@ -170,9 +170,8 @@ pub fn curves_in_use(machine: &impl Reducible, positions: u32) -> Result<Set, Er
     const SAME: f64 = 1e-12;
     let mut set = curves::INERTIA;
     let mut first = None;
-    for k in 0..positions {
-        let place = f64::from(k) / f64::from(positions);
-        let point = machine.reduction(machine.domain().position(place))?;
+    for phi in measure::sampled(machine, positions) {
+        let point = machine.reduction(phi)?;
         let start = *first.get_or_insert(point);
         if point.load_torque() != 0.0 {
             set |= curves::LOAD;

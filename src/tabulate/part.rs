@@ -25,9 +25,9 @@ impl<M> Clone for Part<'_, M> {
 
 impl<M> Copy for Part<'_, M> {}
 
-/// The end of a part belongs to the next one, and its start may be rounded into the one before; so far inside (in lengths of
-/// the part) its first and last place lie.
-const INSIDE: f64 = 1e-11;
+/// The end of a part belongs to the next one, and its start may be rounded into the one before; so far inside (in ranges of the
+/// machine, a unit of a [`Phase`](crate::Phase)) its first and last place lie.
+const INSIDE: f64 = 1.0 / 4_294_967_296.0;
 
 impl<'m, M: Reducible> Part<'m, M> {
     /// From the position `from` to `to` (rad, or m).
@@ -38,7 +38,8 @@ impl<'m, M: Reducible> Part<'m, M> {
         let from = finite("start of the part", from)?;
         let to = finite("end of the part", to)?;
         let span = machine.domain().span();
-        if !(to > from && to - from <= span) {
+        // A turn from one position to the same a turn later may be rounded up.
+        if !(to > from && to - from <= span * (1.0 + 1e-12)) {
             return Err(RangeError::OutOfRange {
                 what: "length of the part",
                 value: to - from,
@@ -47,6 +48,12 @@ impl<'m, M: Reducible> Part<'m, M> {
             });
         }
         Ok(Self { machine, from, to })
+    }
+
+    /// Whether the machine's drive link turns, so that a part may go on into the next turn.
+    #[must_use]
+    pub fn turns(&self) -> bool {
+        self.machine.domain() == Domain::Turn
     }
 
     /// Where it begins in the machine's range (rad, or m).
@@ -66,14 +73,16 @@ impl<M: Reducible> Reducible for Part<'_, M> {
 
     fn edge(&self, k: usize) -> Option<f64> {
         let edge = self.machine.edge(k)? - self.from;
+        // What is a hair before the start is the start.
+        let hair = INSIDE * TAU;
         Some(match self.machine.domain() {
-            Domain::Turn => edge - TAU * math::floor(edge / TAU),
+            Domain::Turn => (edge - TAU * math::floor((edge + hair) / TAU)).max(0.0),
             Domain::Stroke { .. } => edge,
         })
     }
 
     fn reduction(&self, phi: f64) -> Result<Reduction, PoseError> {
-        let margin = INSIDE * (self.to - self.from);
+        let margin = INSIDE * self.machine.domain().span();
         // Not `clamp`, which panics if a part is so short that roundings turn the two round.
         let phi = (self.from + phi)
             .max(self.from + margin)

@@ -3,6 +3,7 @@
 use crate::machine::{PoseError, Reducible};
 use crate::number::Bases;
 use crate::number::error::positive;
+use crate::tabulate::measure::sampled;
 use crate::{Scale, math};
 
 impl Scale {
@@ -69,9 +70,8 @@ impl Most {
             resisting: 0.0,
             omega: omega * Self::MARGIN,
         };
-        for k in 0..positions {
-            let place = f64::from(k) / f64::from(positions);
-            let point = machine.reduction(machine.domain().position(place))?;
+        for phi in sampled(machine, positions) {
+            let point = machine.reduction(phi)?;
             most.least = most.least.min(point.inertia);
             most.inertia = most.inertia.max(point.inertia);
             let resisting = 0.5 * math::abs(point.inertia_slope) * most.omega * most.omega

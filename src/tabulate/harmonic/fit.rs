@@ -17,7 +17,7 @@ use crate::curve::{
 use crate::machine::reducible::Reducible;
 use crate::number::Number;
 use crate::number::error::{RangeError, positive};
-use crate::tabulate::{Request, torque_between};
+use crate::tabulate::{Request, edge_places, torque_between};
 use crate::{AnyModel, Domain, Error, Phase, Set, math};
 
 /// Torque that one unit of the k-th harmonic of a curve makes at most.
@@ -40,7 +40,8 @@ pub struct Fitted {
     pub words: usize,
     /// Bytes that they take.
     pub bytes: usize,
-    /// Bound on the error of the drive torque (N·m) at every phase, but for the rounding of the evaluation.
+    /// Bound on the error of the drive torque (N·m) at every phase, but for the rounding of the evaluation. It holds for curves
+    /// whose harmonics fall on from where the samples end; at edges the error is measured.
     pub bound: f64,
     /// Largest error of the drive torque (N·m) at the places checked, with the rounding of the evaluation.
     pub torque_error: f64,
@@ -169,10 +170,10 @@ where
             if torque_error <= request.torque_error && bound <= request.torque_error {
                 AnyModel::new(table).map_err(Error::Table)?;
                 return Ok(Fitted {
+                    bound: bound.max(torque_error),
                     harmonics,
                     words: count,
                     bytes: count * size_of::<T>(),
-                    bound,
                     torque_error,
                     worst,
                     samples: samples as u32,
@@ -193,7 +194,7 @@ where
 }
 
 /// The largest error of the drive torque (N·m) within the range of the request, in the table's own arithmetic, at so
-/// many places of a turn (an odd number: not in step with any samples), and where it is (rad).
+/// many places of a turn (an odd number: not in step with any samples) and at the [`edge_places`], and where it is (rad).
 ///
 /// # Errors
 /// Those of the machine.
@@ -204,8 +205,9 @@ pub fn measure<F: Format>(
     places: u32,
 ) -> Result<(f64, f64), Error> {
     let mut worst = (0.0, 0.0);
-    for k in 0..u64::from(places) {
-        let phase = Phase::from_bits(((k << 32) / u64::from(places)) as u32);
+    let even =
+        (0..u64::from(places)).map(|k| Phase::from_bits(((k << 32) / u64::from(places)) as u32));
+    for phase in even.chain(edge_places(machine).map(Phase::from_radians)) {
         let exact = machine.reduction(phase.radians())?;
         let error = torque_between(request, &table.si(phase, Domain::Turn), &exact);
         if error > worst.0 {

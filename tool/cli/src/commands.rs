@@ -23,7 +23,7 @@ use jred_machine::analysis::inspect::Findings;
 use jred_machine::analysis::reduce;
 use jred_machine::analysis::reduce::{Over, Sets, reduce};
 use jred_machine::analysis::simulate;
-use jred_machine::export::{Choice, Export, Failure, Form, Number, Task};
+use jred_machine::export::{Choice, Export, Failure, Form, LayoutChoice, Number, Task};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
 use jred_machine::plain;
@@ -243,6 +243,12 @@ fn run_export(options: &options::Export) -> Result<Done> {
             options.layout.name()
         ));
     }
+    if options.layout == LayoutChoice::Harmonic && options.pieces.is_some() {
+        return Err(miette!(
+            help = "remove --pieces, or take another --layout",
+            "harmonics describe a whole turn, not a piece of one"
+        ));
+    }
     let coordinate = file.machine.mechanism().coordinate();
     let quantity = |name: &str, text: &Option<String>, read: read::Reader| {
         let value = text.as_deref().map(|text| {
@@ -265,7 +271,7 @@ fn run_export(options: &options::Export) -> Result<Done> {
         return Err(miette!(
             help =
                 "name the positions, for example --pieces \"60 deg, 75 deg\", or remove --pieces",
-            "{} has no load with between and no cam program, so there are no edges for --pieces auto",
+            "{} has no load with between, no disc cam and no Geneva drive, so there are no edges for --pieces auto",
             plain::path(&options.file)
         ));
     }

@@ -239,8 +239,9 @@ pub struct Export {
     /// of this size.
     #[arg(long)]
     pub max_bytes: Option<u32>,
-    /// A table for each piece of the range, for loads that begin and end steeply and cams with corners: the positions where
-    /// pieces meet, e.g. "60 deg, 75 deg"; or auto, for the edges of loads and cam segments in the machine file.
+    /// A table for each piece of the range, for loads that begin and end steeply and mechanisms with corners: the positions
+    /// where pieces meet, e.g. "60 deg, 75 deg" (of a turn: modulo 360 deg); or auto, for the edges of loads, of a disc cam's
+    /// segments and of a Geneva drive's engagement. Not together with --max-bytes.
     #[arg(
         long,
         value_name = "auto|POSITIONS",

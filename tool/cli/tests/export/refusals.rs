@@ -231,3 +231,65 @@ fn a_narrow_load_is_not_stepped_over() {
             "write at least 0.00036 deg, a millionth of the drive link's range",
         ]);
 }
+
+#[test]
+fn pieces_that_are_not_possible() {
+    let folder = Folder::new();
+    let gripper = press_file().with_file_name("linear-gripper.toml");
+    let plain = press_file().with_file_name("planetary.toml");
+    let refused = |file: &std::path::Path, more: &[&str], words: &[&str]| {
+        let more = [&["--torque-error", "2 N m"], more].concat();
+        export_of(file, &more, None).ends(2).says(words);
+    };
+    let press = press_file();
+    let out = folder.path("table.jred");
+    let more = ["--torque-error", "2 N m", "--pieces", "auto"];
+    let run = export_of(&press, &more, Some(&out)).ends(2);
+    run.says(&[
+        "one image cannot hold the tables of several pieces",
+        "--format rust, c or json",
+    ]);
+    assert!(!out.exists());
+    refused(
+        &press,
+        &["--pieces", "10 deg, 5 mm"],
+        &["--pieces", "\"5 mm\""],
+    );
+    refused(
+        &press,
+        &["--pieces", "10 deg, 10.004 deg"],
+        &[
+            "the piece from φ = 10 deg to φ = 10.004 deg is shorter than 0.005493 deg, 1/65536 of the range",
+        ],
+    );
+    refused(
+        &press,
+        &["--pieces", "auto", "--max-bytes", "900"],
+        &["cannot be used with"],
+    );
+    refused(
+        &plain,
+        &["--pieces", "auto", "--omega", "1 rad/s"],
+        &[
+            "no disc cam and no Geneva drive, so there are no edges for --pieces auto",
+            "--pieces \"60 deg, 75 deg\"",
+        ],
+    );
+    let outside = ["--torque-error", "2 N", "--pieces", "1 m"];
+    export_of(&gripper, &outside, None)
+        .ends(2)
+        .says(&["\"1 m\": it must lie within the stroke, "]);
+    let both = ["--layout", "harmonic", "--pieces", "auto"];
+    refused(
+        &press,
+        &both,
+        &["harmonics describe a whole turn", "remove --pieces"],
+    );
+    // Machine units of i32 go with the width of a cell, of which these pieces have none in common.
+    let irrational = ["--type", "i32", "--pieces", "0 deg, 0.0582492235949962 deg"];
+    refused(
+        &press,
+        &irrational,
+        &["for i32 go with the width of a cell", "--type f32"],
+    );
+}

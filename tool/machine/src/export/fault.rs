@@ -52,11 +52,12 @@ impl NotReached<'_> {
             return Ok(Failure::Impossible {
                 message: format!(
                     "the tables of pieces share their machine units, which for {} go with the width of a cell, and these edges \
-                     have none in common with up to {} cells",
+                     leave no common width with up to {} cells",
                     self.task.number.name(),
                     self.task.max_cells
                 ),
-                help: "take --type f32 or --type i16, or edges at multiples of a simple part of the range".to_owned(),
+                help: "take --type f32 or --type i16, or edges at multiples of a simple part of the range, such as whole degrees"
+                    .to_owned(),
             });
         }
         let misses = own.iter().filter_map(|answer| match answer {
@@ -143,7 +144,13 @@ impl NotReached<'_> {
                         let _ = write!(text, "; at this rate, even {MAX_CELLS} are too few");
                     }
                 }
-                Limit::Cells(None) => text += "; more cells hardly lower it",
+                Limit::Cells(None) => {
+                    let _ = write!(
+                        text,
+                        "; more {} hardly lower it",
+                        candidate.layout.counted()
+                    );
+                }
             }
             text.push('\n');
         }
@@ -314,18 +321,22 @@ impl Worst<'_> {
     fn limit(&self, task: &Task) -> Result<Limit, Error> {
         // Of what is there, or of what is allowed, rounding may make up so much.
         const SHARE: f64 = 0.5;
-        // As many coefficients as it takes; only their ticks miss.
+        // As many coefficients as it takes: their ticks miss, or an edge.
         if self.layout == LayoutName::Harmonic {
-            return Ok(Limit::Rounding);
+            let ticks = self.table.looked <= task.torque_error.unwrap_or_default();
+            return Ok(if ticks {
+                Limit::Rounding
+            } else {
+                Limit::Cells(None)
+            });
         }
         let without = |cells| self.without_rounding(cells).map(|(error, _)| error);
         let cells = self.table.found.cells;
-        let allowed = task.torque_error.unwrap_or_default();
         let (bound, error) = (self.table.looked, without(cells)?);
         // More cells were tried and were worse, though the curves themselves come closer.
         let larger = cells + cells.div_ceil(4) <= task.max_cells;
         let closer = larger && without(task.max_cells)? < SHARE * bound;
-        if closer || error < SHARE * bound || bound - error > SHARE * allowed {
+        if closer || error < SHARE * bound {
             return Ok(Limit::Rounding);
         }
         // The largest error of a curve with a kink swings with the place of the kink in its cell: the mean of a few sizes.

@@ -68,6 +68,12 @@ fn rust_call(table: &Candidate) -> String {
     format!("image.model::<{}>()", rust_arguments(table))
 }
 
+/// The type of the pieces in Rust.
+fn rust_type(pieces: &Candidate) -> String {
+    let (arguments, count) = (rust_arguments(pieces), pieces.tables.len());
+    format!("jred::Pieces<'static, {arguments}, {count}>")
+}
+
 /// The part of a number range that is left, in bits.
 fn headroom(usage: f32) -> Option<f64> {
     (usage > 0.0).then(|| -f64::from(usage).log2())
@@ -130,7 +136,7 @@ impl Export {
             chosen.row_bytes(),
             chosen.bytes()
         );
-        if let [_] = chosen.tables.as_slice() {
+        if self.whole().is_some() {
             let _ = writeln!(text, "in Rust: {}", rust_call(chosen));
         } else {
             text += &self.pieces(chosen);
@@ -178,10 +184,9 @@ impl Export {
     /// Where the pieces are, and what each takes.
     fn pieces(&self, chosen: &Candidate) -> String {
         let mut text = format!(
-            "in Rust: {} pieces, jred::Pieces<'static, {}, {}>\n",
+            "in Rust: {} pieces, {}\n",
             chosen.tables.len(),
-            rust_arguments(chosen),
-            chosen.tables.len()
+            rust_type(chosen)
         );
         let (coordinate, effort) = (self.coordinate, self.coordinate.effort_unit());
         for (number, table) in (1..).zip(&chosen.tables) {
@@ -231,7 +236,10 @@ impl Export {
             "max_cells": task.max_cells,
             "type": chosen.number.name(),
             "layout": chosen.layout.name(),
-            "rust": rust_call(chosen),
+            "rust": match self.whole() {
+                Some(_) => rust_call(chosen),
+                None => rust_type(chosen),
+            },
         });
         if let Some(map) = object.as_object_mut() {
             map.extend(figures(chosen));
@@ -259,7 +267,7 @@ impl Export {
                 );
             }
             map.insert("alternatives".into(), alternatives.into());
-            if let [table] = chosen.tables.as_slice() {
+            if let Some(table) = self.whole() {
                 map.insert("words".into(), json!(table.words));
             } else {
                 let pieces = chosen.tables.iter().map(|table| self.piece(table));

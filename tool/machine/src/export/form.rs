@@ -25,17 +25,19 @@ const INDENT: &str = "    ";
 impl Export {
     /// The table in one of the forms; `None` for several pieces as one image.
     pub fn write(&self, form: Form) -> Option<Vec<u8>> {
-        let chosen = self.chosen();
-        Some(match (form, chosen.tables.as_slice()) {
-            (Form::Image, [table]) => table.words.iter().flat_map(|w| w.to_le_bytes()).collect(),
-            (Form::Image, _) => return None,
-            (Form::Rust, [table]) => self.source(&rust_table("TABLE", &table.words)),
-            (Form::Rust, tables) => self.source(&self.rust_pieces(tables)),
-            (Form::C, [table]) => {
+        let tables = &self.chosen().tables;
+        Some(match (form, self.whole()) {
+            (Form::Image, Some(table)) => {
+                table.words.iter().flat_map(|w| w.to_le_bytes()).collect()
+            }
+            (Form::Image, None) => return None,
+            (Form::Rust, Some(table)) => self.source(&rust_table("TABLE", &table.words)),
+            (Form::Rust, None) => self.source(&self.rust_pieces(tables)),
+            (Form::C, Some(table)) => {
                 let table = c_table("jred_table", &table.words);
                 self.source(&format!("#include <stdint.h>\n\n{table}"))
             }
-            (Form::C, tables) => self.source(&self.c_pieces(tables)),
+            (Form::C, None) => self.source(&self.c_pieces(tables)),
             (Form::Json, _) => format!("{:#}\n", self.json()).into_bytes(),
         })
     }

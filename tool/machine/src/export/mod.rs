@@ -25,6 +25,7 @@ use jred::{Domain, Error, Phase};
 
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
+use crate::number::rounding::short;
 use fault::NotReached;
 use pieces::Searches;
 use search::Goal;
@@ -64,6 +65,8 @@ pub struct Export {
     /// Whether the drive link turns or slides.
     pub coordinate: Coordinate,
     domain: Domain,
+    /// Whether the range is cut; a turn with one edge has one piece, which begins there.
+    in_pieces: bool,
     task: Task,
     /// Size of every number type and layout.
     pub answers: Vec<(Number, LayoutName, Answer)>,
@@ -115,15 +118,18 @@ impl Export {
         let pieces = pieces::between(domain, &task.edges);
         if let Some([from, to]) = pieces
             .iter()
-            .find(|[from, to]| to - from < SHORTEST * domain.span())
+            .find(|[from, to]| to - from < SHORTEST * domain.span() * (1.0 - 1e-9))
         {
             return Err(Failure::Impossible {
                 message: format!(
-                    "the piece from {} to {} is shorter than 1/65536 of the range",
+                    "the piece from {} to {} is shorter than {} {}, 1/65536 of the range",
                     coordinate.place(*from),
-                    coordinate.place(*to)
+                    coordinate.place(*to),
+                    short(coordinate.shown(SHORTEST * domain.span())),
+                    coordinate.unit()
                 ),
-                help: "let edges be farther apart, or make the ramp of the load longer".to_owned(),
+                help: "make the load's ramp longer, or name positions that are farther apart with --pieces"
+                    .to_owned(),
             });
         }
         let search = Searches::new(&machine, &pieces, goal)?;
@@ -151,6 +157,7 @@ impl Export {
             title: file.title.clone(),
             coordinate,
             domain,
+            in_pieces: !pieces.is_empty(),
             task,
             answers,
             chosen,
@@ -167,6 +174,12 @@ impl Export {
             Some(Answer::Meets(candidate)) => candidate,
             _ => unreachable!("only what meets the request is chosen"),
         }
+    }
+
+    /// The table, if there is one of the whole range.
+    fn whole(&self) -> Option<&Made> {
+        let table = self.chosen().tables.first();
+        table.filter(|_| !self.in_pieces)
     }
 
     /// The phase at which a table's range begins.

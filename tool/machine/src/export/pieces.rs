@@ -17,26 +17,26 @@ use crate::model::mechanism::AnyMechanism;
 const SAME: f64 = 1e-9;
 
 /// The pieces between edges: of a turn from the first edge to the same one a turn later, of a stroke from end to end.
-/// None where there is no edge.
+/// None where there is no edge inside. Edges are rounded to phases, as firmware finds the piece by them.
 pub(super) fn between(domain: Domain, edges: &[f64]) -> Vec<[f64; 2]> {
-    if edges.is_empty() {
-        return Vec::new();
-    }
     let same = SAME * domain.span();
-    let mut edges = edges.to_vec();
+    let phase = |edge: &f64| f64::from(domain.phase(*edge).to_bits()) / 4_294_967_296.0;
+    let mut edges: Vec<f64> = edges
+        .iter()
+        .map(|edge| domain.position(phase(edge)))
+        .collect();
     match domain {
         Domain::Turn => {
-            for edge in &mut edges {
-                *edge = edge.rem_euclid(TAU);
-                // What is just before a turn is its beginning.
-                if TAU - *edge < same {
-                    *edge = 0.0;
-                }
+            // What is just before a turn is its beginning.
+            for edge in edges.iter_mut().filter(|edge| TAU - **edge < same) {
+                *edge = 0.0;
             }
         }
         Domain::Stroke { from, to } => {
             edges.retain(|edge| (from + same..=to - same).contains(edge));
-            edges.extend([from, to]);
+            if !edges.is_empty() {
+                edges.extend([from, to]);
+            }
         }
     }
     edges.sort_by(f64::total_cmp);
@@ -134,14 +134,14 @@ impl<'m> Searches<'m> {
 fn common_cells(shares: &[f64]) -> Option<(u32, Vec<u32>)> {
     /// Machine units grow less for narrower cells, but the whole parts have less choice.
     const TOTAL: RangeInclusive<u32> = 16..=64;
-    /// Edges come from decimal numbers; the units of the tables hold to 5e-7.
-    const WHOLE: f64 = 1e-7;
+    /// Of a length: edges are rounded to phases, and a model takes a velocity factor that is whole to 1e-6.
+    const WHOLE: f64 = 6e-7;
     // All shares as whole parts of one number, the shortest being at least one of them.
     let whole = |parts: u32| {
         let shares = shares.iter().map(|share| {
             let exact = share * f64::from(parts);
             let near = exact.round();
-            (near >= 1.0 && (exact - near).abs() < WHOLE).then_some(near as u64)
+            (near >= 1.0 && (exact - near).abs() <= WHOLE * near).then_some(near as u64)
         });
         Some((u64::from(parts), shares.collect::<Option<Vec<u64>>>()?))
     };
@@ -173,13 +173,16 @@ mod tests {
         let last = [TAU - 0.5, TAU + 1.0];
         assert_eq!(turn.len(), 3);
         for (piece, expected) in turn.iter().zip([[1.0, 2.0], [2.0, TAU - 0.5], last]) {
-            assert!(
-                (piece[0] - expected[0]).abs() < 1e-11 && (piece[1] - expected[1]).abs() < 1e-11
-            );
+            // A unit of a phase.
+            let near = |k: usize| (piece[k] - expected[k]).abs() < 1.5e-9;
+            assert!(near(0) && near(1), "{piece:?}");
         }
         let domain = Domain::Stroke { from: 0.0, to: 1.5 };
         let stroke = between(domain, &edges);
-        assert_eq!(stroke, [[0.0, 1.0], [1.0, 1.5]]);
+        assert_eq!(stroke.len(), 2);
+        assert!((stroke[0][1] - 1.0).abs() < 1e-9 && (stroke[1][0] - 1.0).abs() < 1e-9);
+        // With its ends alone it is not cut.
+        assert!(between(domain, &[0.0, 1.5]).is_empty());
     }
 
     #[test]
@@ -198,7 +201,8 @@ mod tests {
             );
         }
         assert!(steps.iter().sum::<u32>() < 80, "{total} {steps:?}");
-        let pi = std::f64::consts::PI / 360.0;
-        assert_eq!(common_cells(&[pi, 1.0 - pi]), None);
+        // Shorter than any part is long, but by more than a rounding.
+        let odd = 1.618_033_988_749_895e-4;
+        assert_eq!(common_cells(&[odd, 1.0 - odd]), None);
     }
 }

@@ -2,10 +2,11 @@
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::HashMap;
+use std::f64::consts::TAU;
 
 use jred::machine::PoseError;
 use jred::table::CurveValues;
-use jred::tabulate::{Part, edge_places};
+use jred::tabulate::{Part, Request, edge_places, torque_between};
 use jred::{Domain, Error, Machine, Phase, Reducible, Reduction};
 
 use crate::model::mechanism::AnyMechanism;
@@ -24,18 +25,19 @@ pub(super) enum Range<'m> {
 }
 
 impl Range<'_> {
-    /// Where it begins (rad, or m): positions of a part count from there.
-    pub(super) fn origin(&self) -> f64 {
+    /// The machine's position of one of the range (rad, or m): a part counts from its start, perhaps on into the next turn.
+    pub(super) fn position(&self, phi: f64) -> f64 {
         match self {
-            Self::Whole(_) => 0.0,
-            Self::Part(part) => part.start(),
+            Self::Whole(_) => phi,
+            Self::Part(part) if part.turns() => (part.start() + phi).rem_euclid(TAU),
+            Self::Part(part) => part.start() + phi,
         }
     }
 
     /// Where it begins and ends (rad, or m).
     pub(super) fn ends(&self) -> [f64; 2] {
         let domain = self.domain();
-        let from = self.origin() + domain.position(0.0);
+        let from = self.position(domain.position(0.0));
         [from, from + domain.span()]
     }
 }
@@ -131,12 +133,18 @@ impl Reference {
         let even = (0..PLACES)
             .map(|k| Phase::from_bits(((u64::from(k) << 32) / u64::from(PLACES)) as u32));
         let edges = edge_places(machine).map(|phi| domain.phase(phi));
+        // No place of a stroke is beside its end.
+        let end = (domain != Domain::Turn).then_some(Phase::from_bits(u32::MAX));
         let place = |phase: Phase| {
             let phi = domain.position(f64::from(phase.to_bits()) / 4_294_967_296.0);
             let exact = machine.reduction(phi)?;
             Ok(Place { phase, phi, exact })
         };
-        let places = even.chain(edges).map(place).collect::<Result<_, Error>>()?;
+        let places = even
+            .chain(edges)
+            .chain(end)
+            .map(place)
+            .collect::<Result<_, Error>>()?;
         Ok(Self { places })
     }
 
@@ -148,15 +156,11 @@ impl Reference {
         [omega, alpha]: [f64; 2],
         (start, limit): (usize, f64),
     ) -> (f64, usize) {
+        let request = Request::new(limit).with_omega(omega).with_alpha(alpha);
         let mut worst = (0.0, start);
         let order = (start..self.places.len()).chain(0..start);
         for (index, place) in order.filter_map(|k| Some((k, self.places.get(k)?))) {
-            let (exact, read) = (&place.exact, read(place.phase));
-            let error = (read.inertia - exact.inertia).abs() * alpha
-                + 0.5 * (read.inertia_slope - exact.inertia_slope).abs() * omega * omega
-                + (read.load - exact.load_torque()).abs()
-                + (read.viscous - exact.viscous).abs() * omega
-                + (read.coulomb - exact.coulomb).abs();
+            let error = torque_between(&request, &read(place.phase), &place.exact);
             if error > worst.0 {
                 worst = (error, index);
                 if error > limit {

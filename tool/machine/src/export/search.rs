@@ -112,8 +112,7 @@ impl<'s, F: Format> Attempt<'s, F> {
         let Some(most) = self.most_cells() else {
             return Ok(Answer::TooLarge(self.bytes(MIN_CELLS as u32)));
         };
-        let most = most - most % self.step;
-        if most == 0 {
+        if most < self.step {
             return Ok(Answer::Refused(TableError::PieceUnits.into()));
         }
         if let Some(allowed) = goal.torque_error
@@ -183,11 +182,10 @@ impl<'s, F: Format> Attempt<'s, F> {
         Ok(None)
     }
 
-    /// With at least so many cells.
     fn size(&self, cells: u32) -> Size<'s> {
-        let cells = cells.next_multiple_of(self.step);
         let mut scale = self.scale;
-        if F::WHOLE_FACTOR {
+        // Pieces share a scale that suits all their widths already.
+        if F::WHOLE_FACTOR && matches!(self.search.machine, Range::Whole(_)) {
             scale = scale.for_cells(cells, self.search.domain.span());
         }
         Size {
@@ -201,6 +199,7 @@ impl<'s, F: Format> Attempt<'s, F> {
     /// The bound of the torque error of this size at the places of the reference; `None` if it is above `limit`, or if the
     /// size gives no sound table.
     fn look(&mut self, cells: u32, limit: f64) -> Result<Option<f64>, Error> {
+        let cells = cells.next_multiple_of(self.step);
         if self.least.get(&cells).is_some_and(|error| *error > limit) {
             return Ok(None);
         }
@@ -211,12 +210,13 @@ impl<'s, F: Format> Attempt<'s, F> {
                 self.least.insert(cells, error);
                 Ok((error <= limit).then_some(error))
             }
-            Err(error) => self.refuse(error),
+            Err(error) => self.refuse(cells, error),
         }
     }
 
-    /// This size, if it meets the limit everywhere.
+    /// The size of at least so many cells, if it meets the limit everywhere.
     fn make(&mut self, cells: u32, limit: f64) -> Result<Option<Made>, Error> {
+        let cells = cells.next_multiple_of(self.step);
         let Some(looked) = self.look(cells, limit)? else {
             return Ok(None);
         };
@@ -227,15 +227,21 @@ impl<'s, F: Format> Attempt<'s, F> {
             .with_max_cells(cells);
         let size = self.size(cells);
         match size.make(&mut self.buffers, &request, looked) {
-            Ok(made) => Ok(made),
-            Err(error) => self.refuse(error),
+            Ok(made) => {
+                if made.is_none() {
+                    self.least.insert(cells, limit.next_up());
+                }
+                Ok(made)
+            }
+            Err(error) => self.refuse(cells, error),
         }
     }
 
     /// A coarse curve may dip below zero or leave the range: more cells cure it. Everything else is the machine's fault.
-    fn refuse<T>(&mut self, error: Error) -> Result<Option<T>, Error> {
+    fn refuse<T>(&mut self, cells: u32, error: Error) -> Result<Option<T>, Error> {
         match error {
             Error::Pose(PoseError::NoInertia { .. }) | Error::Table(_) => {
+                self.least.insert(cells, f64::INFINITY);
                 self.refused = Some(error);
                 Ok(None)
             }

@@ -99,8 +99,8 @@ impl Size<'_> {
         }
         let words = image(error)?;
         let (mut found, mut ticks) = (found, ticks);
-        found.worst += search.machine.origin();
-        ticks.worst += search.machine.origin();
+        found.worst = search.machine.position(found.worst);
+        ticks.worst = search.machine.position(ticks.worst);
         Ok(Some(Made {
             range: search.machine.ends(),
             curves: self.set,
@@ -121,7 +121,7 @@ impl Size<'_> {
         let worst = self.search.reference.places.get(index);
         Ok((
             error,
-            worst.map_or(0.0, |place| self.search.machine.origin() + place.phi),
+            worst.map_or(0.0, |place| self.search.machine.position(place.phi)),
         ))
     }
 }
