@@ -46,7 +46,7 @@ fn the_best_table_of_so_many_bytes() {
             let (run, _) = of(&bytes, &["--torque-error", &less]);
             run.ends(2).says(&[
                 &format!("no {number} table of {bytes} bytes meets a torque error of"),
-                "the smallest error in that size is",
+                "the smallest error found in that size is",
                 &format!("with layout {layout} and "),
                 "allow more bytes, or a larger error",
             ]);

@@ -1,12 +1,15 @@
 //! `jred export --pieces`: a table for each piece between the edges of loads, put together as firmware does it.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use jred::table::Format;
 use jred::{
     Cubic, Image, Model, Phase, Pieces, Q31, Quadratic, Reducible as _, Rows16, Set, Spline,
     Spline16, curves,
 };
+
+use jred_machine::export::{Answer, Export, LayoutChoice, Number, Task};
+use jred_machine::model::machine::MachineFile;
 
 use super::images::{errors, machine};
 use super::{KINDS, export_of, press_pieces};
@@ -33,14 +36,40 @@ fn exported(folder: &Folder, kind: (&str, &str), more: &[&str]) -> Run {
     export_of(&steep(folder), &[&arguments[..], more].concat(), None)
 }
 
+/// The tables of all types and layouts for 0.5 N m, cut at the edges of the loads.
+fn searched(file: &MachineFile) -> Export {
+    let task = Task {
+        number: Number::F32,
+        layout: LayoutChoice::Auto,
+        reciprocal: false,
+        torque_error: Some(0.5),
+        max_bytes: None,
+        max_cells: 4096,
+        omega: 30.0,
+        alpha: 230.0,
+        rotor: 0.0,
+        edges: file.machine.load_edges().collect(),
+    };
+    Export::new(file, task).unwrap()
+}
+
+/// The phases at which pieces start, and their images.
+type Tables = Vec<(u32, Vec<u32>)>;
+
+/// As the command writes them.
+fn written(value: &serde_json::Value) -> Tables {
+    let pieces = value["pieces"].as_array().unwrap().iter();
+    pieces
+        .map(|piece| (piece["start"].as_u64().unwrap() as u32, words(piece)))
+        .collect()
+}
+
 /// The largest errors of four pieces, a quarter of the states in each of them, and close to both of its ends.
-fn errors_of<F: Format>(file: &Path, value: &serde_json::Value) -> [f64; 2] {
-    let pieces = value["pieces"].as_array().unwrap();
-    let words: Vec<Vec<u32>> = pieces.iter().map(words).collect();
-    let images: Vec<Image<'_>> = words.iter().map(|w| Image::new(w).unwrap()).collect();
-    let start = |k: usize| pieces[k % 4]["start"].as_u64().unwrap() as u32;
+fn errors_of<F: Format>(file: &MachineFile, tables: &Tables) -> [f64; 2] {
+    let image = |k: usize| Image::new(&tables[k].1).unwrap();
+    let start = |k: usize| tables[k % 4].0;
     let model = Pieces::<F, SET, 4>::new(std::array::from_fn(|k| {
-        let model: Model<'_, F, SET> = images[k].model().unwrap();
+        let model: Model<'_, F, SET> = image(k).model().unwrap();
         (Phase::from_bits(start(k)), model)
     }))
     .unwrap();
@@ -51,10 +80,9 @@ fn errors_of<F: Format>(file: &Path, value: &serde_json::Value) -> [f64; 2] {
         let length = start(piece + 1).wrapping_sub(start(piece));
         Phase::from_bits(start(piece).wrapping_add((within * f64::from(length)) as u32))
     };
-    let machine = machine(&jred_machine::read::read(file).unwrap());
     errors(
-        &machine,
-        &images[0],
+        &machine(file),
+        &image(0),
         spread,
         |phase, omega, alpha| model.torque(phase, omega, alpha),
         |phase, omega, torque| model.acceleration(phase, omega, torque),
@@ -69,21 +97,28 @@ fn words(piece: &serde_json::Value) -> Vec<u32> {
 #[test]
 fn pieces_of_every_type_and_layout_hold_their_error() {
     let folder = Folder::new();
-    let file = steep(&folder);
-    for kind in KINDS {
-        let run = exported(&folder, kind, &["--pieces", "auto", "--format", "json"]).ends(0);
-        let value = run.json();
-        let found = match kind {
-            ("f32", "spline") => errors_of::<Spline<f32>>(&file, &value),
-            ("f32", "cubic") => errors_of::<Cubic<f32>>(&file, &value),
-            ("f32", _) => errors_of::<Quadratic<f32>>(&file, &value),
-            ("i32", "spline") => errors_of::<Spline<Q31>>(&file, &value),
-            ("i32", "spline16") => errors_of::<Spline16>(&file, &value),
-            ("i32", "cubic") => errors_of::<Cubic<Q31>>(&file, &value),
-            ("i32", _) => errors_of::<Quadratic<Q31>>(&file, &value),
-            _ => errors_of::<Rows16>(&file, &value),
+    let file = jred_machine::read::read(&steep(&folder)).unwrap();
+    let export = searched(&file);
+    for ((number, layout, answer), kind) in export.answers.iter().zip(KINDS) {
+        assert_eq!((number.name(), layout.name()), kind);
+        let Answer::Meets(candidate) = answer else {
+            panic!("{kind:?}: {}", answer.remark())
         };
-        let stated = value["torque_error"].as_f64().unwrap();
+        let tables = candidate.tables.iter();
+        let tables: Tables = tables
+            .map(|table| (export.start(table).to_bits(), table.words.clone()))
+            .collect();
+        let found = match kind {
+            ("f32", "spline") => errors_of::<Spline<f32>>(&file, &tables),
+            ("f32", "cubic") => errors_of::<Cubic<f32>>(&file, &tables),
+            ("f32", _) => errors_of::<Quadratic<f32>>(&file, &tables),
+            ("i32", "spline") => errors_of::<Spline<Q31>>(&file, &tables),
+            ("i32", "spline16") => errors_of::<Spline16>(&file, &tables),
+            ("i32", "cubic") => errors_of::<Cubic<Q31>>(&file, &tables),
+            ("i32", _) => errors_of::<Quadratic<Q31>>(&file, &tables),
+            _ => errors_of::<Rows16>(&file, &tables),
+        };
+        let stated = candidate.error();
         assert!(stated <= 0.5, "{kind:?} {stated}");
         for error in found {
             let most = stated * (1.0 + budget::BETWEEN_PLACES);
@@ -93,14 +128,15 @@ fn pieces_of_every_type_and_layout_hold_their_error() {
             );
         }
         // They meet at the edges of the load: 315, 315.5, 359.5 and 360 degrees.
-        let starts = value["pieces"].as_array().unwrap().iter();
-        let starts: Vec<f64> = starts
-            .map(|p| p["from"].as_f64().unwrap().to_degrees())
-            .collect();
-        for (found, edge) in starts.iter().zip([0.0, 315.0, 315.5, 359.5]) {
-            assert!((found - edge).abs() < 1e-7, "{starts:?}");
+        let starts = candidate
+            .tables
+            .iter()
+            .map(|table| table.range[0].to_degrees());
+        for (found, edge) in starts.zip([0.0, 315.0, 315.5, 359.5]) {
+            assert!((found - edge).abs() < 1e-7, "{found} is not {edge}");
         }
     }
+    assert_eq!(export.answers.len(), KINDS.len());
 }
 
 /// A single table needs as many cells as the steep edge asks for, all over the turn.
@@ -140,7 +176,8 @@ fn steep_edges_that_are_no_whole_phases_hold_their_error() {
     ];
     let run = export_of(&file, &arguments, None).ends(0);
     let stated = run.json()["torque_error"].as_f64().unwrap();
-    let [error, _] = errors_of::<Spline<f32>>(&file, &run.json());
+    let file = jred_machine::read::read(&file).unwrap();
+    let [error, _] = errors_of::<Spline<f32>>(&file, &written(&run.json()));
     assert!(stated <= 0.1 && error > 0.1 * stated, "{error} of {stated}");
     assert!(
         error <= stated * (1.0 + budget::BETWEEN_PLACES),
@@ -182,6 +219,11 @@ fn a_single_piece_begins_at_its_edge() {
             |phase, omega, torque| turn.acceleration(phase, omega, torque),
         );
         assert!((0.5..=2.0).contains(&torque), "{torque}");
+    }
+    for number in ["i32", "i16"] {
+        let edge = ["--pieces", "60 deg", "--type", number];
+        let arguments = [&edge[..], &["--torque-error", "2 N m"]].concat();
+        export_of(&press_file(), &arguments, None).ends(0);
     }
     let out = folder.path("table.rs");
     let arguments = [
@@ -275,22 +317,14 @@ fn a_narrow_load_has_its_curve_and_its_units() {
     let text = text.replace("ramp = \"15 deg\"", "ramp = \"0.0625 deg\"");
     let weightless = text.replace("\"9.81 m/s^2\"", "\"0 m/s^2\"");
     for (name, text) in [("heavy", &text), ("weightless", &weightless)] {
-        let file = folder.file("narrow.toml", text);
-        for number in ["f32", "i32", "i16"] {
-            let arguments = [
-                "--torque-error",
-                "5 N m",
-                "--pieces",
-                "auto",
-                "--type",
-                number,
-            ];
-            let run = export_of(&file, &arguments, None).ends(0);
-            assert!(
-                run.out.contains("curves: J_red, load, "),
-                "{name} {number}: {}",
-                run.out
-            );
+        let file = jred_machine::read::read(&folder.file("narrow.toml", text)).unwrap();
+        for (number, layout, answer) in searched(&file).answers {
+            // Quadratics would need more cells.
+            let Answer::Meets(candidate) = answer else {
+                assert_eq!(answer.remark(), "misses", "{name} {number:?} {layout:?}");
+                continue;
+            };
+            assert_ne!(candidate.curves() & curves::LOAD, 0, "{name} {number:?}");
         }
     }
     let harmonic = ["--torque-error", "5 N m", "--layout", "harmonic"];

@@ -271,7 +271,7 @@ impl NotReached<'_> {
         });
         let message = match (best, self.task.torque_error, smallest.min()) {
             (Some(best), Some(allowed), _) => format!(
-                "no {number} table of {most} bytes meets a {} error of {} {}: the smallest error in that size is {}, with layout {} and {} cells",
+                "no {number} table of {most} bytes meets a {} error of {} {}: the smallest error found in that size is {}, with layout {} and {} cells",
                 self.effort(),
                 rounded(allowed),
                 self.coordinate.effort_unit(),

@@ -101,7 +101,7 @@ impl<'m> Searches<'m> {
         };
         let set = self.set | reciprocal;
         let mut scale = number.scale(self.machine, self.goal.range)?;
-        let mut steps = vec![1; self.ranges.len()];
+        let mut steps = vec![None; self.ranges.len()];
         // Pieces share their machine units, which here go with the width of a cell.
         if F::WHOLE_FACTOR && self.ranges.len() > 1 {
             let span = self.machine.domain().span();
@@ -110,7 +110,7 @@ impl<'m> Searches<'m> {
                 return Ok(Answer::Refused(TableError::PieceUnits.into()));
             };
             scale = scale.for_cells(common.0, span);
-            steps = common.1;
+            steps = common.1.into_iter().map(Some).collect();
         }
         let ranges = self.ranges.iter().zip(steps);
         let answers = ranges.map(|(range, step)| range.run::<F>(set, scale, step));

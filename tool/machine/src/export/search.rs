@@ -56,7 +56,8 @@ impl<'m> Search<'m> {
         })
     }
 
-    /// The table of one format, with these curves, in machine units of this scale, and with a multiple of `step` cells.
+    /// The table of one format, with these curves, in machine units of this scale. Where other pieces share them, it has a multiple
+    /// of `shared` cells, whose width they suit.
     ///
     /// # Errors
     /// Those of the machine.
@@ -64,13 +65,13 @@ impl<'m> Search<'m> {
         &self,
         set: Set,
         scale: Scale,
-        step: u32,
+        shared: Option<u32>,
     ) -> Result<Answer<Made>, Error> {
         let mut attempt = Attempt::<F> {
             search: self,
             set,
             scale,
-            step,
+            shared,
             buffers: Buffers::default(),
             worst: 0,
             least: HashMap::new(),
@@ -95,8 +96,8 @@ struct Attempt<'s, F: Format> {
     search: &'s Search<'s>,
     set: Set,
     scale: Scale,
-    /// What every number of cells is a multiple of.
-    step: u32,
+    /// What every number of cells is a multiple of, if the machine units are shared.
+    shared: Option<u32>,
     buffers: Buffers<F>,
     /// Index of the place where the table before was worst: the next one is looked at there first.
     worst: usize,
@@ -112,7 +113,7 @@ impl<'s, F: Format> Attempt<'s, F> {
         let Some(most) = self.most_cells() else {
             return Ok(Answer::TooLarge(self.bytes(MIN_CELLS as u32)));
         };
-        if most < self.step {
+        if self.shared.is_some_and(|step| most < step) {
             return Ok(Answer::Refused(TableError::PieceUnits.into()));
         }
         if let Some(allowed) = goal.torque_error
@@ -184,8 +185,7 @@ impl<'s, F: Format> Attempt<'s, F> {
 
     fn size(&self, cells: u32) -> Size<'s> {
         let mut scale = self.scale;
-        // Pieces share a scale that suits all their widths already.
-        if F::WHOLE_FACTOR && matches!(self.search.machine, Range::Whole(_)) {
+        if F::WHOLE_FACTOR && self.shared.is_none() {
             scale = scale.for_cells(cells, self.search.domain.span());
         }
         Size {
@@ -199,7 +199,7 @@ impl<'s, F: Format> Attempt<'s, F> {
     /// The bound of the torque error of this size at the places of the reference; `None` if it is above `limit`, or if the
     /// size gives no sound table.
     fn look(&mut self, cells: u32, limit: f64) -> Result<Option<f64>, Error> {
-        let cells = cells.next_multiple_of(self.step);
+        let cells = cells.next_multiple_of(self.shared.unwrap_or(1));
         if self.least.get(&cells).is_some_and(|error| *error > limit) {
             return Ok(None);
         }
@@ -216,7 +216,7 @@ impl<'s, F: Format> Attempt<'s, F> {
 
     /// The size of at least so many cells, if it meets the limit everywhere.
     fn make(&mut self, cells: u32, limit: f64) -> Result<Option<Made>, Error> {
-        let cells = cells.next_multiple_of(self.step);
+        let cells = cells.next_multiple_of(self.shared.unwrap_or(1));
         let Some(looked) = self.look(cells, limit)? else {
             return Ok(None);
         };
