@@ -318,13 +318,18 @@ fn a_narrow_load_has_its_curve_and_its_units() {
     let weightless = text.replace("\"9.81 m/s^2\"", "\"0 m/s^2\"");
     for (name, text) in [("heavy", &text), ("weightless", &weightless)] {
         let file = jred_machine::read::read(&folder.file("narrow.toml", text)).unwrap();
+        let mut met = Vec::new();
         for (number, layout, answer) in searched(&file).answers {
-            // Quadratics would need more cells.
+            // Some layouts would need more cells.
             let Answer::Meets(candidate) = answer else {
                 assert_eq!(answer.remark(), "misses", "{name} {number:?} {layout:?}");
                 continue;
             };
             assert_ne!(candidate.curves() & curves::LOAD, 0, "{name} {number:?}");
+            met.push(number);
+        }
+        for number in Number::ALL {
+            assert!(met.contains(&number), "{name}: no table of {number:?}");
         }
     }
     let harmonic = ["--torque-error", "5 N m", "--layout", "harmonic"];
