@@ -9,44 +9,47 @@ use super::reader::{Read, Reader};
 use super::{KINDS, image, images_of};
 use crate::support::{Folder, budget, press_file};
 
-/// The library's reading of the same image.
-fn library(words: &[u32], kind: (&str, &str), phase: Phase) -> Read {
+/// The library's reading of the same image at these places.
+fn library(words: &[u32], kind: (&str, &str), places: &[u32]) -> Vec<Read> {
     let image = Image::new(words).unwrap();
     match kind {
-        ("f32", "spline") => long::<Spline<f32>>(&image, phase),
-        ("f32", "cubic") => long::<Cubic<f32>>(&image, phase),
-        ("f32", _) => long::<Quadratic<f32>>(&image, phase),
-        ("i32", "spline") => long::<Spline<Q31>>(&image, phase),
-        ("i32", "spline16") => long::<Spline16>(&image, phase),
-        ("i32", "cubic") => long::<Cubic<Q31>>(&image, phase),
-        ("i32", _) => long::<Quadratic<Q31>>(&image, phase),
-        _ => long::<Rows16>(&image, phase),
+        ("f32", "spline") => long::<Spline<f32>>(&image, places),
+        ("f32", "cubic") => long::<Cubic<f32>>(&image, places),
+        ("f32", _) => long::<Quadratic<f32>>(&image, places),
+        ("i32", "spline") => long::<Spline<Q31>>(&image, places),
+        ("i32", "spline16") => long::<Spline16>(&image, places),
+        ("i32", "cubic") => long::<Cubic<Q31>>(&image, places),
+        ("i32", _) => long::<Quadratic<Q31>>(&image, places),
+        _ => long::<Rows16>(&image, places),
     }
 }
 
-fn long<F: Format>(image: &Image<'_>, phase: Phase) -> Read {
+fn long<F: Format>(image: &Image<'_>, places: &[u32]) -> Vec<Read> {
     let table = image.table::<F>().unwrap();
-    let read = table.si(phase, image.domain().to());
-    Read {
-        inertia: read.inertia,
-        slope: read.inertia_slope,
-        load: read.load,
-        viscous: read.viscous,
-        coulomb: read.coulomb,
-        reciprocal: table.reciprocal(phase).unwrap_or(0.0),
-    }
+    let at = |bits: &u32| {
+        let phase = Phase::from_bits(*bits);
+        let read = table.si(phase, image.domain().to());
+        Read {
+            inertia: read.inertia,
+            slope: read.inertia_slope,
+            load: read.load,
+            viscous: read.viscous,
+            coulomb: read.coulomb,
+            reciprocal: table.reciprocal(phase).unwrap_or(0.0),
+        }
+    };
+    places.iter().map(at).collect()
 }
 
 fn compare(words: &[u32], kind: (&str, &str)) {
     let reader = Reader::new(words.to_vec());
     let mut largest = Read::default();
     let mut worst = Read::default();
-    for k in 0..4000u32 {
-        let bits = k.wrapping_mul(1_073_741).wrapping_add(77) ^ k << 20;
-        let (found, library) = (
-            reader.read(bits),
-            library(words, kind, Phase::from_bits(bits)),
-        );
+    let places: Vec<u32> = (0..4000)
+        .map(|k: u32| k.wrapping_mul(1_073_741).wrapping_add(77) ^ k << 20)
+        .collect();
+    for (bits, library) in places.iter().zip(library(words, kind, &places)) {
+        let found = reader.read(*bits);
         for (worst, most, a, b) in [
             (
                 &mut worst.inertia,

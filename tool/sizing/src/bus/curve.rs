@@ -39,7 +39,7 @@ impl PowerCurve {
     }
 
     /// The straight pieces: length (s), power at both ends (W).
-    pub fn pieces(&self) -> impl Iterator<Item = (f64, [f64; 2])> {
+    pub fn pieces(&self) -> impl Iterator<Item = Piece> {
         let pairs = self.points.windows(2);
         pairs.filter_map(|pair| match pair {
             [[t, a], [next, b]] if next > t => Some((next - t, [*a, *b])),
@@ -55,12 +55,12 @@ impl PowerCurve {
     /// Energy drawn and energy fed back over a period (J).
     pub fn energies(&self) -> [f64; 2] {
         let [mut drawn, mut back] = [0.0; 2];
-        for (h, [a, b]) in self.pieces() {
-            for (h, [a, b]) in split(h, [a, b], 0.0) {
+        for piece in self.pieces() {
+            split(piece, 0.0, |(h, [a, b])| {
                 let area = 0.5 * h * (a + b);
                 drawn += area.max(0.0);
                 back += (-area).max(0.0);
-            }
+            });
         }
         [drawn, back]
     }
@@ -188,16 +188,16 @@ impl PowerCurve {
     }
 }
 
-/// A straight piece cut where its power passes `level`.
-pub(super) fn split(h: f64, [a, b]: [f64; 2], level: f64) -> impl Iterator<Item = (f64, [f64; 2])> {
+/// A straight piece of power: length (s), power at both ends (W).
+pub type Piece = (f64, [f64; 2]);
+
+/// The parts of a straight piece, cut where its power passes `level`.
+pub(super) fn split((h, [a, b]): Piece, level: f64, mut part: impl FnMut(Piece)) {
     let place = (level - a) / (b - a);
-    let cut = ((a - level) * (b - level) < 0.0 && place > 0.0 && place < 1.0).then_some(place);
-    let [first, second] = match cut {
-        Some(place) => [
-            Some((h * place, [a, level])),
-            Some((h * (1.0 - place), [level, b])),
-        ],
-        None => [Some((h, [a, b])), None],
-    };
-    first.into_iter().chain(second)
+    if (a - level) * (b - level) < 0.0 && place > 0.0 && place < 1.0 {
+        part((h * place, [a, level]));
+        part((h * (1.0 - place), [level, b]));
+    } else {
+        part((h, [a, b]));
+    }
 }

@@ -9,7 +9,7 @@
 //! voltage further. The chopper's switching and the ripple of the mains are not followed. Power runs in straight lines;
 //! between its events (empty, chopper on, resistor at its most) the course is exact.
 
-use super::curve::{PowerCurve, split};
+use super::curve::{Piece, PowerCurve, split};
 
 /// The bus and everything that determines its voltage.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,10 +72,11 @@ const MOST_PERIODS: u32 = 10_000;
 impl Bus {
     /// Steady state of the bus under a repeated power curve.
     pub fn run(&self, curve: &PowerCurve) -> BusFigures {
-        let pieces: Vec<Piece> = curve
-            .pieces()
-            .flat_map(|(h, ends)| split(h, ends, 0.0))
-            .collect();
+        let mut pieces = Vec::with_capacity(curve.points().len());
+        let most = Walk::new(self, 0.0, 0.0).most;
+        for piece in curve.pieces() {
+            parts(piece, most, |part| pieces.push(part));
+        }
         let [mut drawn, mut back] = [0.0; 2];
         // If more is drawn than fed back, the capacitor is empty where the energy drawn so far is largest. A period from
         // there needs no other one to begin with.
@@ -129,17 +130,20 @@ impl Bus {
         let mut walk = Walk::new(self, figures.stored, 0.0);
         let mut t = 0.0;
         let mut trace = vec![[t, walk.voltage(walk.excess)]];
-        for (h, ends) in curve.pieces() {
-            walk.piece(h, ends);
-            t += h;
+        for piece in curve.pieces() {
+            parts(piece, walk.most, |part| walk.events(part));
+            t += piece.0;
             trace.push([t, walk.voltage(walk.excess)]);
         }
         trace
     }
 }
 
-/// A straight piece of power: length (s), power at both ends (W).
-type Piece = (f64, [f64; 2]);
+/// The parts of a piece in which neither the sign of the power nor whether the resistor can take all of it, `most` (W),
+/// changes.
+fn parts(piece: Piece, most: f64, mut part: impl FnMut(Piece)) {
+    split(piece, 0.0, |one_way| split(one_way, -most, &mut part));
+}
 
 /// The bus on its way through a period.
 struct Walk<'b> {
@@ -197,12 +201,12 @@ impl<'b> Walk<'b> {
     fn period(&mut self, pieces: &[Piece], from: usize) -> f64 {
         self.seen(self.excess);
         let (first, last) = pieces.split_at(from);
-        for (h, ends) in last {
-            self.one_way(*h, *ends);
+        for piece in last {
+            self.events(*piece);
         }
         let stored = self.excess;
-        for (h, ends) in first {
-            self.one_way(*h, *ends);
+        for piece in first {
+            self.events(*piece);
         }
         stored
     }
@@ -219,22 +223,8 @@ impl<'b> Walk<'b> {
         self.figures.highest = self.figures.highest.max(self.voltage(excess));
     }
 
-    /// A straight piece of power.
-    fn piece(&mut self, h: f64, ends: [f64; 2]) {
-        for (h, ends) in split(h, ends, 0.0) {
-            self.one_way(h, ends);
-        }
-    }
-
-    /// A piece in which the power does not change its sign.
-    fn one_way(&mut self, h: f64, ends: [f64; 2]) {
-        for (h, ends) in split(h, ends, -self.most) {
-            self.events(h, ends);
-        }
-    }
-
-    /// A piece in which neither the sign of the power nor whether the resistor can take all of it changes.
-    fn events(&mut self, mut h: f64, [mut a, mut b]: [f64; 2]) {
+    /// One of the [`parts`] of a piece.
+    fn events(&mut self, (mut h, [mut a, mut b]): Piece) {
         if self.bus.regenerative {
             let area = 0.5 * h * (a + b);
             self.figures.supplied += area.max(0.0);
