@@ -3,8 +3,8 @@
 //! Its panic handler calls a function that does not exist. Where the optimiser proves that no call can panic, the handler
 //! is thrown away; one forgotten index, and the linker says `undefined symbol: a_panic_is_reachable`.
 //!
-//! `scripts/test gates` builds it three times: as it is; with `GATE_PANIC=1`, which must not link; and with
-//! `GATE_DOUBLE=1`, where the search for double-precision routines must find some; otherwise it must find none.
+//! `scripts/test gates` builds it three times: as it is; with `--cfg gate_panic`, which must not link; and with
+//! `--cfg gate_double`, where the search for double-precision routines must find some; otherwise it must find none.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 #![cfg_attr(
     target_os = "none",
@@ -74,10 +74,10 @@ fn calls() -> Result<(), ImageError> {
     every_meter(Window::SinceStart);
     every_meter(Window::Exponential(600.0));
 
-    if option_env!("GATE_PANIC").is_some() {
+    if cfg!(gate_panic) {
         black_box([1, 2, 3][black_box(1usize)]);
     }
-    if option_env!("GATE_DOUBLE").is_some() {
+    if cfg!(gate_double) {
         black_box(Phase::from_radians(black_box(1.0)).radians());
     }
     Ok(())

@@ -53,13 +53,7 @@ pub(crate) fn compile(core: &Core, peers: Option<&Path>) -> Result<PathBuf> {
             "json-render-diagnostics",
             "--quiet",
         ]);
-    // Each set of options compiles everything anew: a folder of its own keeps the others.
-    let folder = match (flags.is_empty(), peers) {
-        (true, _) => target_dir(),
-        (_, None) => target_dir().join(core.name),
-        (_, Some(_)) => target_dir().join("peers").join(core.name),
-    };
-    cargo.arg("--target-dir").arg(folder);
+    cargo.arg("--target-dir").arg(target_dir());
     if !flags.is_empty() {
         cargo
             .arg("--config")
