@@ -160,6 +160,26 @@ const TOOL: [(&str, &[&str]); 4] = [
 ];
 
 #[test]
+fn no_crate_of_ours_holds_unsafe_code() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let tools = fs::read_dir(root.join("tool")).unwrap();
+    let packages = tools.map(|entry| entry.unwrap().path());
+    let others = ["", "xtask", "examples/log"].map(|name| root.join(name));
+    let mut seen = 0;
+    for package in packages.chain(others) {
+        for name in ["lib.rs", "main.rs"] {
+            let file = package.join("src").join(name);
+            if file.is_file() {
+                let text = fs::read_to_string(&file).unwrap();
+                assert!(text.contains("#![forbid(unsafe_code)]"), "{file:?}");
+                seen += 1;
+            }
+        }
+    }
+    assert_eq!(seen, 8);
+}
+
+#[test]
 fn a_module_of_the_tool_uses_those_before_it_only() {
     let tool = Path::new(env!("CARGO_MANIFEST_DIR")).join("tool");
     // The library's own package is published without the tool.

@@ -1,4 +1,5 @@
 //! Commands for those who work on jred: `cargo xtask perf`.
+#![forbid(unsafe_code)]
 
 mod calls;
 mod ceilings;

@@ -7,6 +7,7 @@
 //! The texts stay in the program file; only numbers travel, and `defmt-print` puts both together on the host. The level
 //! is fixed when the program is compiled, by `DEFMT_LOG` (see .cargo/config.toml).
 #![cfg_attr(target_os = "none", no_std, no_main)]
+#![forbid(unsafe_code)]
 
 #[cfg(not(target_os = "none"))]
 fn main() {

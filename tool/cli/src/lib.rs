@@ -1,4 +1,5 @@
 //! The command `jred`: options, files, progress and signals round [`jred_machine`], [`jred_sizing`] and [`jred_report`].
+#![forbid(unsafe_code)]
 
 pub mod commands;
 pub mod options;

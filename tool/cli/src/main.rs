@@ -1,4 +1,5 @@
 //! The command `jred`.
+#![forbid(unsafe_code)]
 
 use std::process::ExitCode;
 

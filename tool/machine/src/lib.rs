@@ -16,6 +16,7 @@
 //! 4. [`analysis`]: reduction, duty, check of the mechanism, free motion.
 //! 5. [`read`]: a text in, a [`model::machine::MachineFile`] out.
 //! 6. [`export`]: the smallest table for the firmware that meets a torque error.
+#![forbid(unsafe_code)]
 
 pub mod analysis;
 pub mod export;

@@ -6,6 +6,7 @@
 //! 2. [`list`]: what the commands answer, in words and as JSON.
 //! 3. [`plot`] and [`drawing`]: curves and mechanisms as SVG.
 //! 4. [`page`]: self-contained HTML pages.
+#![forbid(unsafe_code)]
 
 pub mod drawing;
 pub mod list;

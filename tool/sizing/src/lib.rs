@@ -11,6 +11,7 @@
 //! 6. [`select`]: all drives of a catalogue, judged, filtered, ranked.
 //! 7. [`study`]: many machines: varied quantities, sensitivities, tolerances.
 //! 8. [`explain`] and [`meter`]: why a drive stands where it does, and its limits for the firmware's duty meter.
+#![forbid(unsafe_code)]
 
 pub mod bus;
 pub mod catalogue;
