@@ -243,3 +243,19 @@ pub(crate) const METER_SHORTFALL: f64 = 0.05;
 
 /// By how much more between the 2000 speeds that were looked at.
 pub(crate) const METER_BETWEEN: f64 = 1e-3;
+
+/// Roundings of a linear system of up to 21 equations against 40 digits, as a share of the largest figure [4e-15].
+pub(crate) const CROSS_CHECK: f64 = 1e-13;
+
+/// Angles of up to 16 rad printed with 16 digits, and what follows from them at rest [1e-14].
+pub(crate) const PUBLISHED: f64 = 1e-13;
+
+/// Published speeds: with them the constraints move by 2e-9 m/s of 8 m/s [2e-10].
+pub(crate) const PUBLISHED_SPEED: f64 = 1e-9;
+
+/// Published accelerations and multipliers, the least exact parts of a solution of index 3. The source's own equations, solved
+/// with 40 digits at its own angles and speeds, leave them by 1.3e-6.
+pub(crate) const PUBLISHED_ACCELERATION: f64 = 3e-6;
+
+/// Angle and speed at the end of a motion over 2.5 turns, integrated with 1e-12 here [7e-11 and 9e-11, and no closer with 1e-13].
+pub(crate) const PUBLISHED_MOTION: f64 = 1.5e-10;
