@@ -1,4 +1,4 @@
-//! Commands for those who work on jred: `cargo xtask perf`.
+//! Commands for those who work on jred: `cargo xtask perf`, `cargo xtask loaded`.
 #![forbid(unsafe_code)]
 
 mod calls;
@@ -9,6 +9,7 @@ mod elf;
 mod image;
 mod instruction;
 mod kernels;
+mod loaded;
 mod machine;
 mod mnemonic;
 mod number;
@@ -33,11 +34,13 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Perf(perf::Options),
+    Loaded(loaded::Options),
 }
 
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Perf(options) => perf::run(&options),
+        Command::Loaded(options) => loaded::run(&options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
