@@ -264,8 +264,14 @@ fn run_export(options: &options::Export) -> Result<Done> {
     let edges = match options.pieces.as_deref() {
         None => Vec::new(),
         Some("auto") => (0..).map_while(|k| file.machine.edge(k)).collect(),
-        Some(list) => read::drive_positions(list, file.machine.domain(), coordinate)
-            .map_err(|why| miette!("--pieces {list:?} cannot be used: {why}"))?,
+        Some(list) => read::drive_positions(list, file.machine.domain(), coordinate).map_err(
+            |why| {
+                miette!(
+                    help = "write positions with a comma between them, such as \"60 deg, 75 deg\", or auto",
+                    "--pieces {list:?} cannot be used: {why}"
+                )
+            },
+        )?,
     };
     if options.pieces.is_some() && edges.is_empty() {
         return Err(miette!(

@@ -253,7 +253,12 @@ fn pieces_that_are_not_possible() {
     refused(
         &press,
         &["--pieces", "10 deg, 5 mm"],
-        &["--pieces", "\"5 mm\""],
+        &["--pieces", "\"5 mm\"", "or auto"],
+    );
+    refused(
+        &press,
+        &["--pieces", "60 deg, 75 deg, 420 deg"],
+        &["\"420 deg\" is the same place as \"60 deg\"; name each place once"],
     );
     refused(
         &press,

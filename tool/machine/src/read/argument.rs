@@ -90,7 +90,7 @@ pub fn drive_acceleration(text: &str, coordinate: Coordinate) -> Result<f64, Str
 /// Positions of the drive link, separated by commas, such as "60 deg, 75 deg", or "10 mm, 12 mm" of one that slides.
 ///
 /// # Errors
-/// A message for the command line: no position, or one outside the stroke.
+/// A message for the command line: no position, one outside the stroke, or one that is named twice, as 60 deg and 420 deg are.
 pub fn drive_positions(
     text: &str,
     domain: Domain,
@@ -113,7 +113,21 @@ pub fn drive_positions(
             _ => Ok(position),
         }
     };
-    text.split(',').map(position).collect()
+    let parts: Vec<&str> = text.split(',').collect();
+    let positions: Vec<f64> = parts
+        .iter()
+        .map(|part| position(part))
+        .collect::<Result<_, _>>()?;
+    for (k, later) in positions.iter().enumerate() {
+        let same = |earlier: &f64| domain.phase(*earlier) == domain.phase(*later);
+        if let Some(first) = positions.iter().take(k).position(same) {
+            let [first, again] = [first, k].map(|k| parts[k].trim());
+            return Err(format!(
+                "{again:?} is the same place as {first:?}; name each place once"
+            ));
+        }
+    }
+    Ok(positions)
 }
 
 fn positive(text: &str, kind: &'static Kind) -> Result<f64, String> {
