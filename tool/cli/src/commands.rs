@@ -222,6 +222,32 @@ fn run_simulate(options: &options::Simulate) -> Result<Done> {
     print(&sheet::write(&columns, options.format, &title))
 }
 
+/// Where the pieces of the table meet; nowhere without `--pieces`.
+fn edges(options: &options::Export, file: &MachineFile) -> Result<Vec<f64>> {
+    let edges = match options.pieces.as_deref() {
+        None => return Ok(Vec::new()),
+        Some("auto") => (0..).map_while(|k| file.machine.edge(k)).collect(),
+        Some(list) => {
+            let coordinate = file.machine.mechanism().coordinate();
+            read::drive_positions(list, file.machine.domain(), coordinate).map_err(|why| {
+                miette!(
+                    help = "write positions with a comma between them, such as \"60 deg, 75 deg\", or auto",
+                    "--pieces {list:?} cannot be used: {why}"
+                )
+            })?
+        }
+    };
+    if edges.is_empty() {
+        return Err(miette!(
+            help =
+                "name the positions, for example --pieces \"60 deg, 75 deg\", or remove --pieces",
+            "{} has no load with between, no disc cam and no Geneva drive, so there are no edges for --pieces auto",
+            plain::path(&options.file)
+        ));
+    }
+    Ok(edges)
+}
+
 fn run_export(options: &options::Export) -> Result<Done> {
     let file = read::read(&options.file)?;
     output::check([("--out", &options.out)])?;
@@ -261,26 +287,6 @@ fn run_export(options: &options::Export) -> Result<Done> {
     let omega = quantity("omega", &options.omega, read::largest_speed)?;
     let alpha = quantity("alpha", &options.alpha, read::largest_acceleration)?;
     let (omega, alpha) = range([omega, alpha], &file)?;
-    let edges = match options.pieces.as_deref() {
-        None => Vec::new(),
-        Some("auto") => (0..).map_while(|k| file.machine.edge(k)).collect(),
-        Some(list) => read::drive_positions(list, file.machine.domain(), coordinate).map_err(
-            |why| {
-                miette!(
-                    help = "write positions with a comma between them, such as \"60 deg, 75 deg\", or auto",
-                    "--pieces {list:?} cannot be used: {why}"
-                )
-            },
-        )?,
-    };
-    if options.pieces.is_some() && edges.is_empty() {
-        return Err(miette!(
-            help =
-                "name the positions, for example --pieces \"60 deg, 75 deg\", or remove --pieces",
-            "{} has no load with between, no disc cam and no Geneva drive, so there are no edges for --pieces auto",
-            plain::path(&options.file)
-        ));
-    }
     let task = Task {
         number: options.number,
         layout: options.layout,
@@ -291,7 +297,7 @@ fn run_export(options: &options::Export) -> Result<Done> {
         omega,
         alpha,
         rotor: options.rotor_inertia.unwrap_or(0.0),
-        edges,
+        edges: edges(options, &file)?,
     };
     let export = match Export::new(&file, task) {
         Ok(export) => export,
