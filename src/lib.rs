@@ -99,7 +99,8 @@
 //!
 //! Mechanisms, reduction and tabulation run in `f64`: once, on the host or in firmware after a change of payload.
 //! Ticks run in the numbers of the table's [`Format`](table::Format): `f32` (SI units, no double precision anywhere), [`Q31`] and [`Q15`] (fixed
-//! point in per-unit, see [`Scale`]; integers only), or `f64`. The same code gives the same bits on every processor.
+//! point in per-unit, see [`Scale`]; integers only), or `f64`. The same code gives the same bits on every processor: digests of a
+//! million random ticks of every format in `f32` and fixed point agree on x86-64, AArch64, WebAssembly and Cortex-M (`scripts/test bits`).
 //!
 //! A table in fixed point needs machine units that its curves fit in: [`Scale::covering`] chooses them. Which curves a machine
 //! has, [`tabulate::curves_in_use`] says.

@@ -1,0 +1,216 @@
+//! The same bits everywhere: digests of random ticks of every format and number type.
+//!
+//! ```text
+//! cargo run --release -p jred-bits-example
+//! cargo run -p jred-bits-example --profile firmware --target thumbv7em-none-eabihf
+//! scripts/test bits      on the host, on five Cortex-M cores, as WebAssembly and on AArch64
+//! ```
+//!
+//! A tick is a torque and an acceleration at a random phase, speed, acceleration and torque: of all that fixed point can hold, or
+//! up to twice the validity of a table in `f32`. Every bit of their results counts. Digests are printed on the way, so that a
+//! core without a floating-point unit may stop early and still has something to compare.
+#![cfg_attr(target_os = "none", no_std, no_main)]
+#![forbid(unsafe_code)]
+
+#[path = "../../support/mod.rs"]
+#[allow(dead_code, reason = "here everything is printed as bits")]
+mod support;
+
+use jred::harmonic::terms;
+use jred::number::Number;
+use jred::table::Format;
+use jred::{
+    Cubic, Harmonic, Image, Model, Outcome, Phase, Pieces, Q15, Q31, Quadratic, Rows16, Set,
+    Spline, Spline16, Validity, curves, include_image,
+};
+use support::{Failure, println, program};
+
+/// The curves of the press, as `jred export` prints them.
+const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+/// With a curve of 1/J instead of a division.
+const SEED: Set = PRESS | curves::RECIPROCAL;
+/// The curves of the saw as harmonics.
+const SAW: Set =
+    PRESS | terms::INERTIA_COS | terms::LOAD_COS | terms::LOAD_SIN | terms::COULOMB_SIN;
+
+/// Ticks of each model after which the digests are printed.
+const STAGES: [u32; 3] = [10_000, 100_000, 1_000_000];
+/// How many of the stages: one where single precision is software.
+const PRINTED: usize = if cfg!(all(target_os = "none", not(target_abi = "eabihf"))) {
+    1
+} else {
+    STAGES.len()
+};
+
+/// What remains from the ticks of a model.
+#[derive(Clone, Copy)]
+struct Run {
+    random: u32,
+    ticks: u32,
+    digest: u32,
+    saturated: u32,
+}
+
+impl Run {
+    const fn new() -> Self {
+        Self {
+            random: 2_463_534_242,
+            ticks: 0,
+            digest: 2_166_136_261,
+            saturated: 0,
+        }
+    }
+
+    /// Xorshift of G. Marsaglia (*J. Stat. Softw.* 8, 2003).
+    fn random(&mut self) -> u32 {
+        self.random ^= self.random << 13;
+        self.random ^= self.random >> 17;
+        self.random ^= self.random << 5;
+        self.random
+    }
+
+    /// FNV-1a of G. Fowler, L. C. Noll and K.-P. Vo, word by word: a single word that differs always shows.
+    fn digest(&mut self, bits: u32) {
+        self.digest = (self.digest ^ bits).wrapping_mul(16_777_619);
+    }
+}
+
+/// A number of the tick as bits.
+trait Word: Number {
+    /// A random number: of its whole range and smaller ones down to 2⁻⁷ of it, or up to twice the limit.
+    fn random(bits: u32, limit: f32) -> Self;
+    /// `None` if it is not a number.
+    fn bits(self) -> Option<u32>;
+}
+
+impl Word for f32 {
+    fn random(bits: u32, limit: f32) -> Self {
+        bits.cast_signed() as f32 * (limit / 1_073_741_824.0)
+    }
+    fn bits(self) -> Option<u32> {
+        self.is_finite().then_some(self.to_bits())
+    }
+}
+
+impl Word for Q31 {
+    fn random(bits: u32, _: f32) -> Self {
+        Self::from_bits(bits.cast_signed() >> (bits % 8))
+    }
+    fn bits(self) -> Option<u32> {
+        Some(self.to_bits().cast_unsigned())
+    }
+}
+
+impl Word for Q15 {
+    fn random(bits: u32, _: f32) -> Self {
+        Self::from_bits((bits >> 16) as i16 >> (bits % 8))
+    }
+    fn bits(self) -> Option<u32> {
+        Some(i32::from(self.to_bits()).cast_unsigned())
+    }
+}
+
+/// A model: from its place in flash, ticks up to this many.
+type Ticks = fn(&mut Run, u32) -> Result<(), Failure>;
+
+/// A name, a format, its curves and its image.
+macro_rules! models {
+    ($($name:literal: $ticks:ident, $format:ty, $set:ident, $image:literal;)*) => {
+        const MODELS: &[(&str, Ticks)] = &[
+            $(($name, |run, until| $ticks::<$format, $set>(include_image!($image), run, until))),*
+        ];
+    };
+}
+
+models! {
+    "f32 spline         ": of_model, Spline<f32>, PRESS, "../../data/press_f32.jred";
+    "f32 spline, a piece": of_piece, Spline<f32>, PRESS, "../../data/press_f32.jred";
+    "f32 cubic          ": of_model, Cubic<f32>, PRESS, "../data/f32_cubic.jred";
+    "f32 quadratic      ": of_model, Quadratic<f32>, PRESS, "../data/f32_quadratic.jred";
+    "f32 harmonics      ": of_model, Harmonic<f32>, SAW, "../data/f32_harmonic.jred";
+    "q31 spline         ": of_model, Spline<Q31>, PRESS, "../../data/press_q31.jred";
+    "q31 cubic, 1/J     ": of_model, Cubic<Q31>, SEED, "../data/q31_cubic_seed.jred";
+    "q31 quadratic, 1/J ": of_model, Quadratic<Q31>, SEED, "../data/q31_quadratic_seed.jred";
+    "q31 spline16, 1/J  ": of_model, Spline16, SEED, "../data/q31_spline16_seed.jred";
+    "q15 rows           ": of_model, Rows16, PRESS, "../data/q15_rows.jred";
+    "q15 rows, 1/J      ": of_model, Rows16, SEED, "../data/q15_rows_seed.jred";
+}
+
+fn of_model<F: Format<Number: Word>, const SET: Set>(
+    image: &[u8],
+    run: &mut Run,
+    until: u32,
+) -> Result<(), Failure> {
+    let image = Image::from_bytes(image)?;
+    let model: Model<'_, F, SET> = image.model()?;
+    ticks(
+        run,
+        until,
+        image.validity(),
+        |phase, omega, alpha| model.torque(phase, omega, alpha),
+        |phase, omega, torque| model.acceleration(phase, omega, torque),
+    )
+}
+
+/// The whole turn as one piece that starts at some phase.
+fn of_piece<F: Format<Number: Word>, const SET: Set>(
+    image: &[u8],
+    run: &mut Run,
+    until: u32,
+) -> Result<(), Failure> {
+    let image = Image::from_bytes(image)?;
+    let turn: Pieces<'_, F, SET, 1> =
+        Pieces::new([(Phase::from_bits(0x1234_5679), image.model()?)])
+            .map_err(|_| "a turn is a piece")?;
+    ticks(
+        run,
+        until,
+        image.validity(),
+        |phase, omega, alpha| turn.torque(phase, omega, alpha),
+        |phase, omega, torque| turn.acceleration(phase, omega, torque),
+    )
+}
+
+fn ticks<N: Word>(
+    run: &mut Run,
+    until: u32,
+    validity: Validity,
+    torque: impl Fn(Phase, N, N) -> N,
+    acceleration: impl Fn(Phase, N, N) -> Outcome<N>,
+) -> Result<(), Failure> {
+    // N m, for f32
+    const MOST_TORQUE: f32 = 500.0;
+    while run.ticks < until {
+        let phase = Phase::from_bits(run.random());
+        // At standstill there is no friction.
+        let standstill = run.ticks.is_multiple_of(16);
+        let omega = match run.random() {
+            _ if standstill => N::default(),
+            bits => N::random(bits, validity.omega),
+        };
+        let needed = torque(phase, omega, N::random(run.random(), validity.alpha));
+        let gained = acceleration(phase, omega, N::random(run.random(), MOST_TORQUE));
+        for result in [needed, gained.value] {
+            run.digest(result.bits().ok_or("a result is not a number")?);
+        }
+        run.digest(gained.saturated.into());
+        run.saturated += u32::from(gained.saturated);
+        run.ticks += 1;
+    }
+    Ok(())
+}
+
+fn run() -> Result<(), Failure> {
+    let mut runs = [Run::new(); MODELS.len()];
+    for until in STAGES.into_iter().take(PRINTED) {
+        println!("model                  digest  saturated");
+        for ((name, ticks), run) in MODELS.iter().zip(&mut runs) {
+            ticks(run, until)?;
+            println!("{}  {:08x}  {:9}", name, run.digest, run.saturated);
+        }
+        println!("{until} ticks of each");
+    }
+    Ok(())
+}
+
+program!(run);
