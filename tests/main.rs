@@ -51,6 +51,7 @@ mod rows16;
 mod scale;
 mod scotch_yoke;
 
+mod similar;
 mod six_link;
 mod spline;
 mod spline_quadratic;

@@ -358,3 +358,6 @@ pub(crate) const METER_RECTANGLE: f64 = 3e-7;
 
 /// The cube root in f32 promises three units in the last place: the last step has six roundings.
 pub(crate) const CUBE_ROOT_ULP: f64 = 3.0;
+
+/// The same machine drawn in another frame and other units, of the size of the largest force or torque [1e-13].
+pub(crate) const SIMILAR: f64 = 1e-11;

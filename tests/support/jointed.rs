@@ -8,7 +8,7 @@ use jred::{Domain, Machine, Reducible};
 use super::{assert_near, budget, forces, largest};
 
 /// Largest distance from the origin of anything in the mechanism, at least 1 mm: what lengths are measured by.
-pub(super) fn size(mechanism: &impl Jointed, phi: f64, frames: &Frames) -> f64 {
+pub(crate) fn size(mechanism: &impl Jointed, phi: f64, frames: &Frames) -> f64 {
     let joints = mechanism.joints(phi, frames).unwrap();
     let of = |joint: &Joint| match joint {
         Joint::Revolute(m) | Joint::Prismatic(m) | Joint::Fixed(m) | Joint::PinInSlot(m) => m
