@@ -3,6 +3,7 @@
 #![allow(clippy::float_cmp)]
 
 mod backlash;
+mod bigger;
 mod emergency;
 mod gearbox;
 mod holding;
