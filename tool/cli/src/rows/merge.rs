@@ -23,6 +23,8 @@ struct Part {
     header: Header,
     form: RowFormat,
     reader: BufReader<Box<dyn Read>>,
+    /// Lines read.
+    lines: u64,
 }
 
 impl Part {
@@ -34,7 +36,9 @@ impl Part {
         let mut line = String::new();
         store::read_line(&mut reader, &mut line, path)?;
         let (header, form) = store::parse(line.trim_end(), path)?;
+        let mut lines = 1;
         if form == RowFormat::Csv {
+            lines += 1;
             store::read_line(&mut reader, &mut line, path)?;
         }
         Ok(Self {
@@ -42,6 +46,7 @@ impl Part {
             header,
             form,
             reader,
+            lines,
         })
     }
 
@@ -51,16 +56,24 @@ impl Part {
         if !store::read_line(&mut self.reader, &mut line, &self.path)? {
             return Ok(None);
         }
+        self.lines += 1;
         let whole = line.strip_suffix('\n').map(ToOwned::to_owned);
-        let row = whole.and_then(|line| Some((self.form.index(&line)?, line)));
-        row.map(Some).ok_or_else(|| {
-            miette!(
+        let Some(whole) = whole else {
+            return Err(miette!(
                 help = "continue the share with --resume: it computes the incomplete row again",
                 "{} contains an incomplete row: \"{}\"",
                 plain::path(&self.path),
                 plain::cut(line.trim_end())
-            )
-        })
+            ));
+        };
+        match store::row(self.form, &self.header.columns, &whole) {
+            Some((index, _)) => Ok(Some((index, whole))),
+            None => Err(store::damaged(
+                &format!("{} cannot be merged", plain::path(&self.path)),
+                self.lines,
+                &whole,
+            )),
+        }
     }
 }
 

@@ -82,10 +82,7 @@ pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) ->
     let mut done = 0;
     let mut sink: Option<Box<dyn Write>> = match &plan.out {
         Some(path) if plan.resume && path.is_file() => {
-            let columns = header.columns.clone();
-            let (file, rows) = store::resume(path, &header, form, &mut |index, line| {
-                seen(index, &form.cells(line, &columns).unwrap_or_default());
-            })?;
+            let (file, rows) = store::resume(path, &header, form, seen)?;
             done = rows;
             Some(Box::new(file))
         }

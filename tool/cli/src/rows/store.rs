@@ -14,6 +14,7 @@ use miette::{IntoDiagnostic as _, Report, Result, WrapErr as _, miette};
 
 use crate::output;
 use jred_report::table::rows::RowFormat;
+use jred_sizing::study::cell::Cell;
 use jred_sizing::study::header::Header;
 
 fn no_rows(path: &Path) -> Report {
@@ -104,16 +105,31 @@ pub fn begin(path: &Path, lines: &str) -> Result<File> {
     Ok(file)
 }
 
+/// The number and the cells of a line; `None`: it is no row of these columns, or contains what no row does.
+pub fn row(form: RowFormat, columns: &[String], line: &str) -> Option<(u64, Vec<Cell>)> {
+    let clean = !line.contains(char::is_control);
+    clean.then(|| Some((form.index(line)?, form.cells(line, columns)?)))?
+}
+
+/// What is said of a line that is no row; `what` names the file and what cannot be done with it.
+pub fn damaged(what: &str, line: u64, text: &str) -> Report {
+    miette!(
+        help = format!("delete line {line} and all lines after it: --resume computes them again"),
+        "{what}: line {line} is damaged, it is no row of this study: \"{}\"",
+        plain::cut(text)
+    )
+}
+
 /// Opens a file of rows to continue it: the file, cut after its last whole row, and number of rows in it. Each row is
 /// shown to `seen`.
 ///
 /// # Errors
-/// A file of another study, or rows out of order.
+/// A file of another study, a line that is no row of it, or rows out of order.
 pub fn resume(
     path: &Path,
     header: &Header,
     form: RowFormat,
-    seen: &mut dyn FnMut(u64, &str),
+    seen: &mut dyn FnMut(u64, &[Cell]),
 ) -> Result<(File, u64)> {
     let shown = plain::path(path);
     let lines = lines(header, form)?;
@@ -149,14 +165,18 @@ pub fn resume(
             }
         } else if number >= fronts {
             let expected = header.share().row(rows);
-            if form.index(text) != Some(expected) {
+            let Some((index, cells)) = row(form, &header.columns, text) else {
+                let what = format!("{shown} cannot be continued");
+                return Err(damaged(&what, number as u64 + 1, text));
+            };
+            if index != expected {
                 return Err(miette!(
                     help = "write to another file",
                     "{shown} cannot be continued: line {} should be row {expected}",
                     number + 1
                 ));
             }
-            seen(expected, text);
+            seen(expected, &cells);
             rows += 1;
         }
         if number < fronts {

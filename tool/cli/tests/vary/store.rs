@@ -156,6 +156,48 @@ fn a_run_that_was_cut_off_is_continued() {
     assert_eq!(read(&folder, "new"), whole);
 }
 
+/// Damage in the middle of a file is no row, whatever it looks like: nothing is taken over from it, and the file stays.
+#[test]
+fn damage_in_the_middle_is_named() {
+    for format in ["csv", "json"] {
+        let folder = Folder::new();
+        let more = ["--format", format];
+        assert_eq!(study(&folder, "whole", &more).0, 0);
+        let whole = read(&folder, "whole");
+        let lines: Vec<&str> = whole.lines().collect();
+        let hurt = lines.len() - 6;
+        let row = lines[hurt];
+        let zeros = "\0".repeat(8);
+        for damaged in [
+            zeros.clone(),
+            row[..row.len() / 2].to_owned(),
+            format!("{}{zeros}{}", &row[..10], &row[18..]),
+            format!("{}{}", &row[..row.len() / 2], lines[hurt + 1]),
+            String::new(),
+        ] {
+            let mut text = lines.clone();
+            text[hurt] = &damaged;
+            let text = text.join("\n") + "\n";
+            folder.file("hurt", &text);
+            let (code, message) = study(&folder, "hurt", &["--format", format, "--resume"]);
+            assert_eq!(code, 2, "{damaged:?}: {message}");
+            let place = format!("line {} is damaged", hurt + 1);
+            let cure = format!("delete line {} and all lines after it", hurt + 1);
+            assert!(message.contains(&place), "{damaged:?}: {message}");
+            assert!(message.contains(&cure), "{message}");
+            assert_eq!(read(&folder, "hurt"), text);
+            jred([&"merge", &folder.path("out"), &folder.path("hurt")])
+                .ends(2)
+                .says(&["cannot be merged", &place, &cure]);
+            // The cure.
+            folder.file("hurt", lines[..hurt].join("\n") + "\n");
+            let (code, message) = study(&folder, "hurt", &["--format", format, "--resume"]);
+            assert_eq!(code, 0, "{message}");
+            assert_eq!(read(&folder, "hurt"), whole);
+        }
+    }
+}
+
 /// No file begins behind a link, and the message does not recommend what fails as well.
 #[cfg(unix)]
 #[test]
