@@ -5,6 +5,15 @@
 //!
 //! `scripts/test gates` builds it three times: as it is; with `--cfg gate_panic`, which must not link; and with
 //! `--cfg gate_double`, where the search for double-precision routines must find some; otherwise it must find none.
+//!
+//! Every public function of the layers `number`, `curve` and `tick` is called here by its path, as `tests/no_panic_list.rs` sees to.
+//! What computes in double precision is called with `--cfg gate_double`, where no panic can be reached, either. Except:
+//!
+//! - `Transfer`: derivatives of mechanisms, of which tables are made
+//! - `CubicSpline`, `control_points`: curves of which tables are made
+//! - `fit_periodic`, `fit_bounded`, `fit_quadratic_periodic`, `fit_quadratic_bounded`: they make tables
+//! - `Phase::sin_cos_approx`: of a feature that is off here; a polynomial for displays
+//! - `$error::cure`: words of an error for people
 #![cfg_attr(target_os = "none", no_std, no_main)]
 #![cfg_attr(
     target_os = "none",
@@ -17,12 +26,16 @@
 use core::hint::black_box;
 use core::num::NonZeroU32;
 
-use jred::duty::{Curve, Limits, Meter, Window};
+use jred::curves::{self, width};
+use jred::duty::{Curve, Limits, Meter, Verdicts, Window};
+use jred::harmonic::{Coefficient, terms};
+use jred::image::{encode, image_len};
 use jred::machine::motion::{Law, Move};
-use jred::table::Format;
+use jred::number::Bases;
+use jred::table::{Format, Shape, Usage, words_len};
 use jred::{
-    Cubic, Image, ImageError, Model, Outcome, Phase, Pieces, Q31, Quadratic, Rows16, Set, Spline,
-    Spline16, curves, include_image,
+    AnyModel, Cubic, Domain, Harmonic, Image, ImageError, Model, Outcome, Phase, Pieces, Q15, Q31,
+    Quadratic, Rows16, Scale, Set, Spline, Spline16, Table, include_image,
 };
 
 /// The curves of the press, as `jred export` prints them.
@@ -42,19 +55,138 @@ fn calls() -> Result<(), ImageError> {
     every_tick::<Spline<f32>, PRESS>(float)?;
     every_tick::<Spline<Q31>, PRESS>(fixed)?;
     // Refused, because the images have other layouts and sets; the linker does not know.
+    let other = || {
+        [
+            every_tick::<Cubic<f32>, { curves::ALL }>(float),
+            every_tick::<Quadratic<f32>, CONSTANTS>(float),
+            every_tick::<Harmonic<f32>, { curves::ALL | terms::ALL }>(float),
+            every_tick::<Harmonic<f32>, { CONSTANTS | terms::SYMMETRIC }>(float),
+            every_tick::<Spline<Q31>, EVERY>(fixed),
+            every_tick::<Cubic<Q31>, EVERY>(fixed),
+            every_tick::<Quadratic<Q31>, { curves::LOAD | curves::RECIPROCAL }>(fixed),
+            every_tick::<Spline16, EVERY>(fixed),
+            every_tick::<Rows16, { curves::ALL }>(fixed),
+            every_tick::<Rows16, EVERY>(fixed),
+            every_tick::<Rows16, { CONSTANTS | curves::RECIPROCAL }>(fixed),
+        ]
+    };
+    // Without them there is room in the flash of the smallest board for double precision.
+    if !cfg!(gate_double) {
+        let _ = black_box(other());
+    }
+    every_format::<Spline<f32>>(float)?;
+    every_format::<Spline<Q31>>(fixed)?;
     let other = [
-        every_tick::<Cubic<f32>, { curves::ALL }>(float),
-        every_tick::<Quadratic<f32>, CONSTANTS>(float),
-        every_tick::<Spline<Q31>, EVERY>(fixed),
-        every_tick::<Cubic<Q31>, EVERY>(fixed),
-        every_tick::<Quadratic<Q31>, { curves::LOAD | curves::RECIPROCAL }>(fixed),
-        every_tick::<Spline16, EVERY>(fixed),
-        every_tick::<Rows16, { curves::ALL }>(fixed),
-        every_tick::<Rows16, EVERY>(fixed),
-        every_tick::<Rows16, { CONSTANTS | curves::RECIPROCAL }>(fixed),
+        every_format::<Cubic<f32>>(float),
+        every_format::<Quadratic<f32>>(float),
+        every_format::<Harmonic<f32>>(float),
+        every_format::<Cubic<Q31>>(fixed),
+        every_format::<Quadratic<Q31>>(fixed),
+        every_format::<Spline16>(fixed),
+        every_format::<Rows16>(fixed),
     ];
     let _ = black_box(other);
+    every_number();
+    every_meter(Window::SinceStart);
+    every_meter(Window::Exponential(600.0));
 
+    if cfg!(gate_panic) {
+        black_box([1, 2, 3][black_box(1usize)]);
+    }
+    Ok(())
+}
+
+fn every_tick<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), ImageError> {
+    let image = Image::from_bytes(black_box(bytes))?;
+    let model = Image::model::<F, SET>(&image)?;
+    let scale = Image::scale(&image);
+    let phase = Domain::<f32>::phase(Image::domain(&image), black_box(1.0));
+    let omega: Outcome<F::Number> = Scale::omega(scale, black_box(10.0));
+    let alpha: Outcome<F::Number> = Scale::alpha(scale, black_box(50.0));
+    let limit: Outcome<F::Number> = Scale::to_torque(scale, black_box(100.0));
+    let [omega, alpha, limit] = [omega, alpha, limit].map(|given| given.value);
+    let torque = Model::torque(&model, phase, omega, alpha);
+    let back = Model::acceleration(&model, phase, omega, limit);
+    let range = Model::acceleration_range(&model, phase, omega, torque, limit);
+    let (phases, omegas, alphas) = black_box(([phase; 3], [omega; 3], [alpha; 3]));
+    let mut torques = black_box([F::Number::default(); 3]);
+    let done = Model::torques(&model, &phases, &omegas, &alphas, &mut torques);
+    let si = (
+        Scale::torque_si(scale, torque),
+        Scale::alpha_si(scale, back.value),
+    );
+    black_box((si, range, done, torques));
+
+    let half = Phase::from_bits(1 << 31);
+    if let Ok(pieces) = Pieces::new(black_box([(Phase::default(), model), (half, model)])) {
+        black_box(Pieces::torque(&pieces, phase, omega, alpha));
+        black_box(Pieces::acceleration(&pieces, phase, omega, torque));
+        black_box(Pieces::acceleration_range(
+            &pieces, phase, omega, torque, limit,
+        ));
+    }
+
+    let again: Result<Model<'_, F, SET>, _> = Model::new(*Model::table(&model));
+    let _ = black_box(again);
+    Ok(())
+}
+
+/// As `every_tick`, of a set of curves that is known when the program runs only; and the table without a model.
+fn every_format<F: Format>(bytes: &'static [u8]) -> Result<(), ImageError> {
+    let image = Image::from_bytes(black_box(bytes))?;
+    let any = Image::any_model::<F>(&image)?;
+    let (phase, [omega, alpha]) = black_box((Phase::default(), [F::Number::default(); 2]));
+    let torque = AnyModel::torque(&any, phase, omega, alpha);
+    black_box(AnyModel::acceleration(&any, phase, omega, torque));
+    black_box(AnyModel::acceleration_range(
+        &any, phase, omega, torque, alpha,
+    ));
+    let mut torques = black_box([torque; 3]);
+    black_box(AnyModel::torques(
+        &any,
+        &[phase; 3],
+        &[omega; 3],
+        &[alpha; 3],
+        &mut torques,
+    ));
+    let _ = black_box((torques, AnyModel::new(*AnyModel::table(&any))));
+    every_table(&image, Image::table::<F>(&image)?);
+    if cfg!(gate_double) {
+        every_double(Image::table::<F>(&image)?);
+    }
+    Ok(())
+}
+
+/// What a table says of itself, and its image made again.
+fn every_table<F: Format>(image: &Image<'_>, table: Table<'_, F>) {
+    let (cells, set) = (Table::cells(&table), Table::set(&table));
+    black_box((
+        width(set),
+        words_len::<F>(cells, set),
+        image_len::<F>(cells, set),
+    ));
+    black_box(
+        (
+            Table::constants(&table),
+            Table::scale(&table),
+            Usage::of(&table),
+        )
+            .2
+            .is_ok(),
+    );
+    black_box((
+        Domain::span(Table::domain(&table)),
+        Table::reciprocal_error(&table),
+    ));
+    let again = Table::<F>::new(black_box(Table::words(&table)), Table::shape(&table));
+    let _ = black_box(again);
+    black_box((Image::cells(image), Image::set(image)));
+    let mut buffer = black_box([0; 64]);
+    let written = encode(&table, Image::validity(image), &mut buffer).unwrap_or_default();
+    let _ = black_box(Image::new(written));
+}
+
+fn every_number() {
     let stroke = Move::new(
         Law::Polynomial345,
         black_box(0.0f32),
@@ -66,69 +198,66 @@ fn calls() -> Result<(), ImageError> {
     }
     if let Some(per_turn) = NonZeroU32::new(black_box(4096)) {
         let sum = Phase::from_counts(black_box(1), per_turn) + Phase::from_bits(black_box(2));
-        black_box((sum - Phase::from_radians_f32(black_box(1.0))).cell(black_box(100)));
-        #[cfg(feature = "micromath")]
-        black_box(sum.sin_cos_approx());
+        let difference = sum - Phase::from_radians_f32(black_box(1.0));
+        black_box((Phase::cell(difference, black_box(100)), Phase::to_bits(sum)));
     }
-
-    every_meter(Window::SinceStart);
-    every_meter(Window::Exponential(600.0));
-
-    if cfg!(gate_panic) {
-        black_box([1, 2, 3][black_box(1usize)]);
-    }
-    if cfg!(gate_double) {
-        black_box(Phase::from_radians(black_box(1.0)).radians());
-    }
-    Ok(())
-}
-
-fn every_tick<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), ImageError> {
-    let image = Image::from_bytes(black_box(bytes))?;
-    let model: Model<'_, F, SET> = image.model()?;
-    let scale = image.scale();
-    let phase = image.domain().phase(black_box(1.0));
-    let omega: Outcome<F::Number> = scale.omega(black_box(10.0));
-    let alpha: Outcome<F::Number> = scale.alpha(black_box(50.0));
-    let limit: Outcome<F::Number> = scale.to_torque(black_box(100.0));
-    let torque = model.torque(phase, omega.value, alpha.value);
-    let back = model.acceleration(phase, omega.value, limit.value);
-    let range = model.acceleration_range(phase, omega.value, torque, limit.value);
-    let mut torques = black_box([F::Number::default(); 3]);
-    let done = model.torques(
-        black_box(&[phase; 3]),
-        black_box(&[omega.value; 3]),
-        black_box(&[alpha.value; 3]),
-        &mut torques,
-    );
-    black_box((
-        scale.torque_si(torque),
-        scale.alpha_si(back.value),
-        range,
-        done,
-        torques,
-    ));
-    let half = Phase::from_bits(1 << 31);
-    if let Ok(pieces) = Pieces::new(black_box([(Phase::default(), model), (half, model)])) {
-        black_box(pieces.torque(phase, omega.value, alpha.value));
-        black_box(pieces.acceleration(phase, omega.value, torque));
-    }
-    Ok(())
+    black_box(Q31::to_bits(Q31::from_bits(black_box(1))));
+    black_box(Q15::to_bits(Q15::from_bits(black_box(1))));
+    let scale = black_box(Scale::SI);
+    black_box((Scale::torque(&scale), Scale::speed(&scale)));
+    black_box((Scale::inertia(&scale), Scale::acceleration(&scale)));
+    black_box(Domain::to::<f32>(black_box(Domain::<f32>::Turn)));
+    let shape = Shape::harmonics(black_box(1), black_box(terms::ALL));
+    let series: Result<Table<'_, Harmonic<f32>>, _> = Table::new(black_box(&[1.0, 0.5]), shape);
+    black_box(series.is_ok());
+    black_box(Coefficient::of_word(black_box(1), black_box(terms::ALL)));
 }
 
 fn every_meter(window: Window<f32>) {
-    let mut limits = Limits::new().with_speed(black_box(300.0));
-    limits.continuous = Curve::new(black_box(&[[0.0, 3.0], [300.0, 2.0]])).ok();
-    limits.peak = Curve::new(black_box(&[[0.0, 9.0], [200.0, 9.0], [300.0, 4.0]])).ok();
+    let point = |most| Curve::new(black_box(&[[0.0, most], [300.0, 2.0]]));
+    let mut limits = Limits::with_speed(Limits::new(), black_box(300.0));
+    if let (Ok(continuous), Ok(peak)) = (point(3.0), point(9.0)) {
+        black_box(Curve::at(&peak, black_box(100.0)));
+        limits = Limits::with_peak(Limits::with_continuous(limits, continuous), peak);
+    }
+    limits = Limits::with_mean_speed(limits, black_box(200.0));
+    limits = Limits::with_output_peak(limits, black_box(9.0));
+    limits = Limits::with_output_mean(limits, black_box(5.0));
+    limits = Limits::with_regenerative_power(limits, black_box(50.0));
+    limits = Limits::with_cycles_per_hour(limits, black_box(1000.0));
     if let Ok(mut meter) = Meter::new(limits, black_box(1e-3), black_box(window)) {
         for _ in 0..black_box(3) {
-            meter.tick(black_box(1.0), black_box(100.0), black_box(5.0));
+            Meter::tick(&mut meter, black_box(1.0), black_box(100.0), black_box(5.0));
         }
-        meter.count_cycle();
-        black_box((meter.figures(), meter.verdicts()));
-        meter.restart();
+        Meter::count_cycle(&mut meter);
+        let verdicts = Meter::verdicts(&meter);
+        black_box((Verdicts::all(&verdicts), Verdicts::satisfied(&verdicts)));
+        black_box((Meter::figures(&meter), Meter::limits(&meter)));
+        Meter::restart(&mut meter);
         black_box(&meter);
     }
+}
+
+/// What computes in double precision.
+fn every_double<F: Format>(table: Table<'_, F>) {
+    let phase = Phase::from_radians(black_box(1.0));
+    black_box(Phase::radians(phase));
+    if let Ok(stroke) = Domain::<f64>::stroke(black_box(0.0), black_box(1.0)) {
+        black_box((
+            Domain::<f64>::phase(stroke, black_box(0.5)),
+            Domain::<f64>::position(stroke, 0.5),
+        ));
+    }
+    let bases = Bases {
+        torque: 1.0,
+        speed: 1.0,
+        inertia: 1.0,
+    };
+    if let Ok(scale) = Scale::new(black_box(bases)) {
+        black_box(Scale::for_cells(scale, black_box(64), black_box(1.0)));
+    }
+    black_box((Table::at(&table, phase), Table::reciprocal(&table, phase)));
+    black_box(Table::si(&table, phase, Domain::Turn));
 }
 
 #[cfg(not(target_os = "none"))]

@@ -36,6 +36,7 @@ mod linkage_cam;
 mod linkage_refused;
 mod load_window;
 mod motion;
+mod no_panic_list;
 mod no_wrap;
 mod not_finite;
 mod parallel_shafts;

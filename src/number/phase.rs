@@ -163,7 +163,7 @@ pub enum Domain<R = f64> {
     },
 }
 
-impl Domain {
+impl Domain<f64> {
     /// A stroke, checked.
     ///
     /// # Errors
