@@ -75,6 +75,9 @@ pub(crate) const TOLERANCE_1E10: f64 = 1e-8;
 /// The same sums in another order of operations, relative to the largest term.
 pub(crate) const SAME_SUMS: f64 = 1e-11;
 
+/// A peak between two steps of a duty, which resolves it to 1e-5 of itself: twice that, for the search.
+pub(crate) const PEAK_BETWEEN_STEPS: f64 = 2e-5;
+
 /// Simpson's rule at 2000 steps over laws with bounded fourth derivatives, the ends of a stretch taken from 1e-9 inside.
 pub(crate) const SIMPSON: f64 = 1e-8;
 

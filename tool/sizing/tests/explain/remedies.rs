@@ -1,12 +1,15 @@
 //! The values at which a drive begins to hold: closed forms, and the machine file with that value written into it.
 
+use std::f64::consts::PI;
+
+use jred_machine::analysis::duty::Duty;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Verdict;
 use jred_machine::model::rules::{Limit, RuleSet};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::cycle::Cycle;
-use jred_sizing::explain::{Altered, Lever, Remedies, Remedy};
+use jred_sizing::explain::{Alteration, Altered, Lever, Remedies, Remedy};
 use jred_sizing::judge::Context;
 use jred_sizing::select::size::Selection;
 
@@ -163,6 +166,43 @@ fn no_value_helps_where_the_rotor_alone_is_too_heavy() {
             .sentence(1.0, remedies.words)
             .contains("> 1000 % of its limit")
     );
+}
+
+/// Between few steps the peak torque is resolved by instants without a weight. The search looks at those with one first, and yet
+/// its range ends where the peak of the motion law says: α = 10/√3·s/t².
+#[test]
+fn a_peak_between_the_steps_ends_the_range() {
+    let folder = Folder::new();
+    let motors = folder.file("m.csv", MOTOR);
+    let catalogue = Catalogue::load(Some(&motors), None).unwrap();
+    let file = parse(WHEEL);
+    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 32).unwrap();
+    let altered = Altered::new(&file, &duty).unwrap();
+    let peak = |duty: &Duty| duty.figures(|i| i.input_torque).peak();
+    let outline = altered.outline(Alteration::default()).unwrap();
+    assert!(peak(&outline) < 0.999 * peak(&duty));
+    near(
+        "RMS",
+        outline.figures(|i| i.input_torque).rms,
+        duty.figures(|i| i.input_torque).rms,
+        budget::SAME_SUMS,
+    );
+    let mut rules = only_rms();
+    rules.set(Rule::RmsTorque, Limit::default());
+    let fail = Some(0.1);
+    rules.set(Rule::PeakTorque, Limit { fail, warn: None });
+    let drive = Drive {
+        motor: &catalogue.motors[0],
+        gearbox: None,
+        amplifier: None,
+    };
+    let prepared = catalogue.prepare(&file.site);
+    let remedies = Remedies::new(&altered, &file.site, &rules, drive, &prepared[0]);
+    // A tenth of 1000 N·m turns two wheels of 0.5 kg·m² and a rotor of 80 kg·cm² by half a turn.
+    let shortest = (10.0 / 3.0f64.sqrt() * PI * (1.0 + 80e-4) / 100.0).sqrt() / 0.5;
+    let [low, _] = remedy(&remedies, Lever::CycleTime).range.unwrap();
+    assert_eq!(low.rule, Some(Rule::PeakTorque));
+    near("time", low.value, shortest, budget::PEAK_BETWEEN_STEPS);
 }
 
 /// The temperature of a motor that is far too small is beyond all measure, but it is not what the drive is refused for: the

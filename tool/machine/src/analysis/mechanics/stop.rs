@@ -15,6 +15,8 @@
 //! at standstill, the worst is taken. Between those two speeds d is a convex or a falling function of the speed, so
 //! nothing lies beyond. Losses of the drive train, which would help to brake, are left out.
 
+use std::cmp::Ordering;
+
 use crate::analysis::duty::Instant;
 
 /// States (J, d) from which a stop may begin: the upper hull of all, J rising. τ is a quotient of two linear functions of J and
@@ -50,6 +52,12 @@ impl Braking {
     }
 }
 
+/// Twice the area of the triangle, negative where the way over `b` turns to the right: `b` then lies above the line from `a` to
+/// `c`.
+fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
 impl Stop {
     /// The states of a motion whose drive train has this ratio (without sign).
     pub(super) fn of(instants: &[Instant], ratio: f64) -> Self {
@@ -66,12 +74,36 @@ impl Stop {
 
     /// The upper hull of states [J (kg·m²), d (N·m)].
     pub fn among(mut states: Vec<[f64; 2]>) -> Self {
-        states.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+        // Most lie below the lines from the upper end on the left over the top to that on the right: they need no sorting.
+        let most = |key: fn(&[f64; 2]) -> [f64; 2]| {
+            let by = |a: &&[f64; 2], b: &&[f64; 2]| key(a).partial_cmp(&key(b));
+            let later = |a, b| {
+                if by(&a, &b) == Some(Ordering::Less) {
+                    b
+                } else {
+                    a
+                }
+            };
+            states.iter().reduce(later).copied()
+        };
+        let corners = most(|[j, d]| [-j, *d])
+            .zip(most(|[j, d]| [*d, *j]))
+            .zip(most(|[j, d]| [*j, *d]));
+        if let Some(((left, top), right)) = corners {
+            states.retain(|state| {
+                let [from, to] = if state[0] <= top[0] {
+                    [left, top]
+                } else {
+                    [top, right]
+                };
+                turn(from, *state, to) <= 0.0
+            });
+        }
+        states.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
         let mut hull: Vec<[f64; 2]> = Vec::new();
         for point in states {
             while let [.., a, b] = hull.as_slice() {
-                let turn = (b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0]);
-                if turn < 0.0 {
+                if turn(*a, *b, point) < 0.0 {
                     break;
                 }
                 hull.pop();
