@@ -103,6 +103,12 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
         sets,
         state,
     };
+    check_size(&file, &request)?;
+    let largest = if sets.reactions {
+        reduce::largest(&file, &request).map_err(core_report)?
+    } else {
+        Vec::new()
+    };
     let columns = reduce(&file, &request).map_err(core_report)?;
     if let Some(state) = state {
         warn(&file, state)?;
@@ -127,14 +133,9 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
     if moves && columns.has_empty_cells() {
         title += "\nthe motion does not pass every position exactly once: use --over time";
     }
-    let largest = if sets.reactions {
-        reduce::largest(&file, &request).map_err(core_report)?
-    } else {
-        Vec::new()
-    };
     match options.format {
         Format::Table => {
-            let mut text = sheet::write(&columns, Format::Table, &title);
+            let mut text = String::new();
             if !largest.is_empty() {
                 let sentences: Vec<String> =
                     largest.iter().map(reduce::Largest::sentence).collect();
@@ -147,16 +148,37 @@ fn run_reduce(options: &options::Reduce) -> Result<Done> {
                 text += &plain::path(path);
                 text += "\n";
             }
-            print(&text)
+            print_parts(sheet::parts(&columns, Format::Table, &title).chain([text]))
         }
         Format::Json if sets.reactions => {
-            let mut map = sheet::json(&columns);
-            map.insert("title".into(), title.into());
-            map.insert("largest".into(), serde_json::json!(largest));
-            print(&format!("{:#}\n", serde_json::Value::Object(map)))
+            let mut after = serde_json::Map::new();
+            after.insert("title".into(), title.into());
+            after.insert("largest".into(), serde_json::json!(largest));
+            print_parts(sheet::json_parts(&columns, serde_json::Map::new(), after))
         }
-        Format::Csv | Format::Json => print(&sheet::write(&columns, options.format, &title)),
+        Format::Csv | Format::Json => print_parts(sheet::parts(&columns, options.format, &title)),
     }
+}
+
+/// Most numbers that are held at once: 320 MB.
+const MOST_NUMBERS: usize = 20_000_000;
+
+/// Refuses more numbers than are held.
+fn check_size(file: &MachineFile, request: &reduce::Request) -> Result<()> {
+    let two = reduce::Request {
+        positions: 2,
+        ..*request
+    };
+    let columns = reduce(file, &two).map_err(core_report)?.heads().len();
+    let most = MOST_NUMBERS / columns.max(1);
+    if request.positions <= most {
+        return Ok(());
+    }
+    Err(miette!(
+        help = format!("use --positions {most} or fewer"),
+        "{} positions of {columns} columns are too many numbers; at most {MOST_NUMBERS}",
+        request.positions
+    ))
 }
 
 /// Warns on standard error if a contact separates at this speed and acceleration; the result is computed nevertheless.
@@ -219,7 +241,7 @@ fn run_simulate(options: &options::Simulate) -> Result<Done> {
         "{}: free motion, Dormand-Prince 8(5,3), tolerance {:e}",
         file.title, simulation.tolerance
     );
-    print(&sheet::write(&columns, options.format, &title))
+    print_parts(sheet::parts(&columns, options.format, &title))
 }
 
 /// Where the pieces of the table meet; nowhere without `--pieces`.
@@ -356,4 +378,10 @@ fn range(given: [Option<f64>; 2], file: &MachineFile) -> Result<(f64, f64)> {
 /// Prints to stdout.
 pub(crate) fn print(text: &str) -> Result<Done> {
     output::print(text).map(|()| Done::Holds)
+}
+
+/// Prints a text in parts.
+fn print_parts(parts: impl IntoIterator<Item = String>) -> Result<Done> {
+    output::print_parts(parts)?;
+    Ok(Done::Holds)
 }

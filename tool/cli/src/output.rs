@@ -21,16 +21,30 @@ use miette::{
 /// # Errors
 /// The text cannot be written, as on a full disk.
 pub fn print(text: &str) -> Result<()> {
+    print_parts(std::iter::once(text))
+}
+
+/// The same for a text in parts; behind a closed pipe the rest is not made.
+///
+/// # Errors
+/// As for [`print`].
+pub fn print_parts(parts: impl IntoIterator<Item = impl AsRef<str>>) -> Result<()> {
     let mut stdout = std::io::stdout();
-    let written = stdout
-        .write_all(plain::lines(text).as_bytes())
-        .and_then(|()| stdout.flush());
-    match written {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(error)
-            .into_diagnostic()
-            .wrap_err("cannot write the result"),
-        _ => Ok(()),
+    for part in parts {
+        let written = stdout
+            .write_all(plain::lines(part.as_ref()).as_bytes())
+            .and_then(|()| stdout.flush());
+        match written {
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => break,
+            Err(error) => {
+                return Err(error)
+                    .into_diagnostic()
+                    .wrap_err("cannot write the result");
+            }
+            Ok(()) => {}
+        }
     }
+    Ok(())
 }
 
 /// Prints a line to stderr.

@@ -143,29 +143,31 @@ pub fn reduce(file: &MachineFile, request: &Request) -> Result<Columns, Error> {
     Ok(columns)
 }
 
-/// Time (over time only), position and state of every row.
-fn rows(file: &MachineFile, request: &Request) -> Vec<(Option<f64>, f64, Option<State<f64>>)> {
+/// Time (over time only), position and state of a row.
+type Row = (Option<f64>, f64, Option<State<f64>>);
+
+/// The rows, one after another.
+fn rows<'f>(file: &'f MachineFile, request: &Request) -> Box<dyn Iterator<Item = Row> + 'f> {
     if let (Over::Time, Some(motion)) = (request.over, &file.motion) {
         let last = (request.positions - 1).max(1) as f64;
-        let row = |k: usize| {
+        let row = move |k: usize| {
             let t = motion.duration() * k as f64 / last;
             let state = motion.at(t);
             (Some(t), state.phi, Some(state))
         };
-        return (0..request.positions).map(row).collect();
+        return Box::new((0..request.positions).map(row));
     }
     let domain = file.machine.domain();
     let pass = match &file.motion {
         Some(motion) if request.state.is_none() => Pass::of(motion, domain),
         _ => None,
     };
-    let state = |phi| match request.state {
+    let given = request.state;
+    let state = move |phi| match given {
         Some([omega, alpha]) => Some(State { phi, omega, alpha }),
         None => pass.as_ref()?.at(phi),
     };
-    positions(domain, request.positions)
-        .map(|phi| (None, phi, state(phi)))
-        .collect()
+    Box::new(positions(domain, request.positions).map(move |phi| (None, phi, state(phi))))
 }
 
 /// A motion that passes every position at most once: it goes one way, through exactly one turn or within the stroke.

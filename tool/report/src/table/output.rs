@@ -21,65 +21,130 @@ jred_machine::words! {
 
 /// The columns in one of the formats, under a title for tables and JSON.
 pub fn write(columns: &Columns, format: Format, title: &str) -> String {
+    parts(columns, format, title).collect()
+}
+
+/// Rows of a part.
+const PART: usize = 4096;
+
+/// The same part by part, each of some thousand rows: the text of a million rows is many times larger than the rows.
+pub fn parts<'c>(
+    columns: &'c Columns,
+    format: Format,
+    title: &str,
+) -> Box<dyn Iterator<Item = String> + 'c> {
     match format {
-        Format::Table => format!("{title}\n{}\n", table(columns)),
-        Format::Csv => csv(columns),
+        Format::Table => {
+            let title = std::iter::once(format!("{title}\n"));
+            Box::new(title.chain(table(columns)))
+        }
+        Format::Csv => {
+            let rows = columns.rows().chunks(PART).map(|part| {
+                let rows = part.iter().map(|row| row.iter().copied().map(csv::known));
+                csv::rows(rows)
+            });
+            Box::new(std::iter::once(csv::row(columns.names())).chain(rows))
+        }
         Format::Json => {
             let mut map = Map::new();
             map.insert("title".into(), title.into());
-            map.extend(json(columns));
-            format!("{:#}\n", Value::Object(map))
+            Box::new(json_parts(columns, map, Map::new()))
         }
     }
+}
+
+/// JSON with `columns` and `rows` between other entries, part by part.
+pub fn json_parts(
+    columns: &Columns,
+    before: Map<String, Value>,
+    after: Map<String, Value>,
+) -> impl Iterator<Item = String> {
+    let mut map = before;
+    map.insert("columns".into(), json!(columns.names()));
+    map.insert("rows".into(), Value::Null);
+    map.extend(after);
+    let text = format!("{:#}\n", Value::Object(map));
+    // No text in JSON holds a line feed: this is the entry itself.
+    let (head, tail) = text.split_once("\n  \"rows\": null").unwrap_or_default();
+    let opening = format!("{head}\n  \"rows\": [");
+    let closing = if columns.rows().is_empty() {
+        "]"
+    } else {
+        "\n  ]"
+    };
+    let closing = format!("{closing}{tail}");
+    let rows = columns.rows().chunks(PART).enumerate().map(|(k, part)| {
+        let part: Vec<_> = part.iter().map(|row| tidy(row)).collect();
+        let text = format!("{:#}", json!(part)).replace('\n', "\n  ");
+        let rows = text.trim_start_matches('[').trim_end_matches("\n  ]");
+        let comma = if k > 0 { "," } else { "" };
+        format!("{comma}{rows}")
+    });
+    std::iter::once(opening)
+        .chain(rows)
+        .chain(std::iter::once(closing))
+}
+
+/// A row without −0.
+fn tidy(row: &[Option<f64>]) -> Vec<Option<f64>> {
+    row.iter().map(|x| x.map(|x| x + 0.0)).collect()
 }
 
 /// `columns` and `rows` for JSON.
 pub fn json(columns: &Columns) -> Map<String, Value> {
     let mut map = Map::new();
     map.insert("columns".into(), json!(columns.names()));
-    let tidy = |row: &Vec<Option<f64>>| -> Vec<Option<f64>> {
-        row.iter().map(|x| x.map(|x| x + 0.0)).collect() // no −0
-    };
-    let rows: Vec<_> = columns.rows().iter().map(tidy).collect();
+    let rows: Vec<_> = columns.rows().iter().map(|row| tidy(row)).collect();
     map.insert("rows".into(), json!(rows));
     map
 }
 
-fn table(columns: &Columns) -> String {
-    let mut table = text_table(
-        &columns
-            .names()
-            .iter()
-            .map(|n| narrow(n))
-            .collect::<Vec<_>>(),
-    );
+fn table(columns: &Columns) -> impl Iterator<Item = String> {
+    let header: Vec<String> = columns.names().iter().map(|name| narrow(name)).collect();
     // Rounding errors compared with the largest number of the column are shown as zero.
-    let mut largest = vec![0.0f64; columns.names().len()];
+    let mut largest = vec![0.0f64; header.len()];
     for row in columns.rows() {
         for (most, value) in largest.iter_mut().zip(row) {
             *most = most.max(value.map_or(0.0, f64::abs));
         }
     }
-    for row in columns.rows() {
+    let cells = move |row: &[Option<f64>]| -> Vec<String> {
         let cells = row.iter().zip(&largest).map(|(value, most)| match value {
             Some(x) if x.abs() < 1e-12 * most => "0".to_owned(),
             Some(x) => rounded(*x),
             None => String::new(),
         });
-        table.add_row(cells);
+        cells.collect()
+    };
+    // Every part is as wide as the widest.
+    let mut widths = vec![0; header.len()];
+    if columns.rows().len() > PART {
+        for row in columns.rows() {
+            for (width, cell) in widths.iter_mut().zip(cells(row)) {
+                *width = cell.len().max(*width);
+            }
+        }
+        for (width, name) in widths.iter_mut().zip(&header) {
+            let lines = name.lines().map(|line| line.chars().count());
+            *width = lines.max().unwrap_or(0).max(*width);
+        }
     }
-    for column in table.column_iter_mut() {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    table.to_string()
-}
-
-fn csv(columns: &Columns) -> String {
-    let rows = columns
-        .rows()
-        .iter()
-        .map(|row| row.iter().copied().map(csv::known));
-    csv::row(columns.names()) + &csv::rows(rows)
+    let parts = columns.rows().len().div_ceil(PART).max(1);
+    (0..parts).map(move |part| {
+        let mut table = if part == 0 {
+            text_table(&header)
+        } else {
+            bare_table()
+        };
+        for row in columns.rows().iter().skip(part * PART).take(PART) {
+            let cells = cells(row).into_iter().zip(&widths);
+            table.add_row(cells.map(|(cell, width)| format!("{cell:>width$}")));
+        }
+        for column in table.column_iter_mut() {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+        format!("{table}\n")
+    })
 }
 
 /// A column's name over several lines: one word a line, the unit whole.
@@ -98,10 +163,15 @@ const STYLE: TableStyle =
 
 /// An empty table with this header, in the tool's style.
 pub fn text_table(header: &[impl ToString]) -> comfy_table::Table {
+    let mut table = bare_table();
+    table.set_header(header.iter().map(ToString::to_string));
+    table
+}
+
+fn bare_table() -> comfy_table::Table {
     let mut table = comfy_table::Table::new();
     table
         .load_style(STYLE)
-        .set_content_arrangement(ContentArrangement::Disabled)
-        .set_header(header.iter().map(ToString::to_string));
+        .set_content_arrangement(ContentArrangement::Disabled);
     table
 }

@@ -1,0 +1,105 @@
+//! Results of many rows: written part by part, within a ceiling of memory.
+
+use std::process::{Command, Stdio};
+
+use crate::support::json::row_numbers;
+use crate::support::{jred, press_file};
+
+/// Rows of a result that is written in two parts, the second a short one.
+const ROWS: usize = 4100;
+
+fn reduced(format: &str) -> String {
+    let (file, rows) = (press_file(), ROWS.to_string());
+    jred([
+        &"reduce",
+        &file,
+        &"--positions",
+        &rows,
+        &"--format",
+        &format,
+    ])
+    .ends(0)
+    .out
+}
+
+/// Where one part ends and the next begins, the columns stay in line.
+#[test]
+fn a_long_table_is_as_wide_everywhere() {
+    let table = reduced("table");
+    let (_, rows) = table.split_once("─\n").unwrap();
+    let widths: Vec<usize> = rows.lines().map(|line| line.chars().count()).collect();
+    assert_eq!(widths.len(), ROWS);
+    assert!(widths.iter().all(|width| *width == widths[0]), "{widths:?}");
+    let ends: Vec<Vec<usize>> = [4095, 4096]
+        .map(|row| {
+            let cells = rows.lines().nth(row).unwrap().split(' ');
+            let mut place = 0;
+            let ends = cells.filter_map(|cell| {
+                place += cell.len() + 1;
+                (!cell.is_empty()).then_some(place)
+            });
+            ends.collect()
+        })
+        .to_vec();
+    assert!(ends[0].len() > 5);
+    assert_eq!(ends[0], ends[1]);
+}
+
+/// CSV and JSON have the same rows, whatever parts they are written in.
+#[test]
+fn long_forms_have_the_same_rows() {
+    let csv = reduced("csv");
+    let json = reduced("json");
+    let rows: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(rows["rows"].as_array().unwrap().len(), ROWS);
+    let cells = csv.lines().skip(1).flat_map(|line| line.split(','));
+    let of_csv: Vec<Option<f64>> = cells.map(|cell| cell.parse().ok()).collect();
+    assert_eq!(row_numbers(&json), of_csv);
+}
+
+/// Whether a run ends by itself where the system gives it no more than this much memory for data (KB).
+fn runs_within(kilobytes: usize, arguments: &[&str]) -> bool {
+    let limited = format!("ulimit -d {kilobytes} && exec \"$0\" \"$@\"");
+    let mut command = Command::new("sh");
+    command
+        .args(["-c", &limited, env!("CARGO_BIN_EXE_jred")])
+        .args(arguments)
+        .env("RAYON_NUM_THREADS", "2")
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
+    let code = command.status().unwrap().code();
+    matches!(code, Some(0 | 1))
+}
+
+/// 20,000 rows of a result and 100,000 instants of a cycle take a few ten megabytes, so that the largest that are accepted, 50 and
+/// 10 times as many, take less than 500. The ceiling is seen to refuse: more rows than fit are not held.
+#[test]
+fn heavy_inputs_stay_below_a_ceiling() {
+    const CEILING: usize = 48 * 1024;
+    if !cfg!(target_os = "linux") {
+        eprintln!("not checked: the system does not limit the memory of a program (ulimit -d)");
+        return;
+    }
+    let press = press_file();
+    let press = press.to_str().unwrap();
+    let reduce = |rows, format| ["reduce", press, "--positions", rows, "--format", format];
+    for format in ["table", "csv", "json"] {
+        assert!(runs_within(CEILING, &reduce("20000", format)), "{format}");
+    }
+    let size = ["size", press, "--steps", "100000", "--format", "csv"];
+    assert!(runs_within(CEILING, &size), "size");
+    assert!(!runs_within(CEILING, &reduce("300000", "csv")));
+}
+
+/// What would not fit is refused before it is computed, with the number that fits.
+#[test]
+fn more_numbers_than_fit_are_refused() {
+    let file = press_file();
+    let run = jred([&"reduce", &file, &"--points", &"--positions", &"1000000"]);
+    run.ends(2).says(&[
+        "1000000 positions of",
+        "are too many numbers",
+        "use --positions",
+        "or fewer",
+    ]);
+}
