@@ -27,7 +27,7 @@ pub fn print(text: &str) -> Result<()> {
 /// The same for a text in parts; behind a closed pipe the rest is not made.
 ///
 /// # Errors
-/// As for [`print`].
+/// As for [`print()`].
 pub fn print_parts(parts: impl IntoIterator<Item = impl AsRef<str>>) -> Result<()> {
     let mut stdout = std::io::stdout();
     for part in parts {
