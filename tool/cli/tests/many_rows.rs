@@ -71,8 +71,8 @@ fn runs_within(kilobytes: usize, arguments: &[&str]) -> bool {
     matches!(code, Some(0 | 1))
 }
 
-/// 20,000 rows of a result and 100,000 instants of a cycle take a few ten megabytes, so that the largest that are accepted, 50 and
-/// 10 times as many, take less than 500. The ceiling is seen to refuse: more rows than fit are not held.
+/// 20,000 rows of a result and 100,000 instants of a cycle take a few ten megabytes. The ceiling is seen to refuse: more rows
+/// than fit are not held.
 #[test]
 fn heavy_inputs_stay_below_a_ceiling() {
     const CEILING: usize = 48 * 1024;

@@ -48,8 +48,6 @@ pub struct Altered<'a> {
     duty: &'a Duty,
     /// U′ of the weight at every instant (N·m).
     weights: Vec<f64>,
-    /// The instants that have a weight in the integrals, if others have none.
-    outline: Option<Vec<usize>>,
     /// [U′ of the weight, U′ of the rest] at positions over the range (N·m).
     range: Vec<[f64; 2]>,
 }
@@ -82,12 +80,6 @@ impl<'a> Altered<'a> {
                 .iter()
                 .map(|i| weight(i.phi))
                 .collect::<Result<_, Error>>()?,
-            outline: {
-                let all = duty.instants.iter().enumerate();
-                let weighed = all.filter(|(_, instant)| instant.weight > 0.0);
-                let weighed: Vec<usize> = weighed.map(|(k, _)| k).collect();
-                (weighed.len() < duty.instants.len()).then_some(weighed)
-            },
             file,
             duty,
         })
@@ -100,21 +92,10 @@ impl<'a> Altered<'a> {
 
     /// The altered duty.
     pub fn duty(&self, by: Alteration) -> Duty {
-        self.of(0..self.duty.instants.len(), by)
-    }
-
-    /// The altered duty without the instants that only resolve a peak; `None` if there are none of them. Its integrals are those of
-    /// the whole duty, and no peak of it is higher: a rule that it violates is violated.
-    pub fn outline(&self, by: Alteration) -> Option<Duty> {
-        let weighed = self.outline.as_ref()?;
-        Some(self.of(weighed.iter().copied(), by))
-    }
-
-    /// The altered duty at some of its instants.
-    fn of(&self, instants: impl Iterator<Item = usize>, by: Alteration) -> Duty {
         let ratio = self.file.drive_train.ratio();
+        let instants = self.duty.instants.iter().zip(&self.weights);
         let instants: Vec<Instant> = instants
-            .map(|k| self.instant(&self.duty.instants[k], self.weights[k], by))
+            .map(|(instant, weight)| self.instant(instant, *weight, by))
             .collect();
         let hold = self.range.iter();
         let hold = hold.map(|[weight, rest]| ((by.mass * weight + rest) / ratio).abs());

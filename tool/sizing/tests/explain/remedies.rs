@@ -168,8 +168,8 @@ fn no_value_helps_where_the_rotor_alone_is_too_heavy() {
     );
 }
 
-/// Between few steps the peak torque is resolved by instants without a weight. The search looks at those with one first, and yet
-/// its range ends where the peak of the motion law says: α = 10/√3·s/t².
+/// Between few steps the peak torque is resolved by instants without a weight, so that a range ends where the peak of the motion
+/// law says: α = 10/√3·s/t².
 #[test]
 fn a_peak_between_the_steps_ends_the_range() {
     let folder = Folder::new();
@@ -178,15 +178,6 @@ fn a_peak_between_the_steps_ends_the_range() {
     let file = parse(WHEEL);
     let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 32).unwrap();
     let altered = Altered::new(&file, &duty).unwrap();
-    let peak = |duty: &Duty| duty.figures(|i| i.input_torque).peak();
-    let outline = altered.outline(Alteration::default()).unwrap();
-    assert!(peak(&outline) < 0.999 * peak(&duty));
-    near(
-        "RMS",
-        outline.figures(|i| i.input_torque).rms,
-        duty.figures(|i| i.input_torque).rms,
-        budget::SAME_SUMS,
-    );
     let mut rules = only_rms();
     rules.set(Rule::RmsTorque, Limit::default());
     let fail = Some(0.1);
