@@ -9,7 +9,7 @@ use jred_machine::model::rules::{Limit, RuleSet};
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::cycle::Cycle;
-use jred_sizing::explain::{Alteration, Altered, Lever, Remedies, Remedy};
+use jred_sizing::explain::{Altered, Lever, Remedies, Remedy};
 use jred_sizing::judge::Context;
 use jred_sizing::select::size::Selection;
 
