@@ -32,8 +32,7 @@ pub fn run(options: &options::Split) -> Result<String> {
             map.insert("optimum".into(), split(&best));
             map.insert("equal".into(), split(&equal));
             map.insert("equal_within_bounds".into(), within(&equal, options).into());
-            map.extend(output::json(&columns));
-            format!("{:#}\n", Value::Object(map))
+            output::json_parts(&columns, map, Map::new()).collect()
         }
     })
 }

@@ -118,9 +118,9 @@ pub fn drive_positions(
         .iter()
         .map(|part| position(part))
         .collect::<Result<_, _>>()?;
-    for (k, later) in positions.iter().enumerate() {
-        let same = |earlier: &f64| domain.phase(*earlier) == domain.phase(*later);
-        if let Some(first) = positions.iter().take(k).position(same) {
+    let phases: Vec<_> = positions.iter().map(|place| domain.phase(*place)).collect();
+    for (k, phase) in phases.iter().enumerate() {
+        if let Some(first) = phases.iter().take(k).position(|earlier| earlier == phase) {
             let [first, again] = [first, k].map(|k| parts[k].trim());
             return Err(format!(
                 "{again:?} is the same place as {first:?}; name each place once"

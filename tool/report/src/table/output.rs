@@ -90,15 +90,6 @@ fn tidy(row: &[Option<f64>]) -> Vec<Option<f64>> {
     row.iter().map(|x| x.map(|x| x + 0.0)).collect()
 }
 
-/// `columns` and `rows` for JSON.
-pub fn json(columns: &Columns) -> Map<String, Value> {
-    let mut map = Map::new();
-    map.insert("columns".into(), json!(columns.names()));
-    let rows: Vec<_> = columns.rows().iter().map(|row| tidy(row)).collect();
-    map.insert("rows".into(), json!(rows));
-    map
-}
-
 fn table(columns: &Columns) -> impl Iterator<Item = String> {
     let header: Vec<String> = columns.names().iter().map(|name| narrow(name)).collect();
     // Rounding errors compared with the largest number of the column are shown as zero.
