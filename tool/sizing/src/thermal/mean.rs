@@ -57,7 +57,9 @@ pub fn rms_current(
 ) -> Option<f64> {
     let curve = prepared.torques?;
     if prepared.circuit.as_ref().is_some_and(|c| c.weakens) {
-        let squares = cycle.samples().iter().map(|sample| {
+        // An instant without weight adds nothing, even where no current gives its torque.
+        let weighed = cycle.samples().iter().filter(|sample| sample.weight > 0.0);
+        let squares = weighed.map(|sample| {
             let torque = coefficients.torque(&sample.loads());
             let current = prepared.current(torque, sample.speed() * ratio);
             sample.weight * current.unwrap_or(f64::NAN).powi(2)
@@ -69,6 +71,9 @@ pub fn rms_current(
     let mut more = 0.0;
     if curve.saturates() {
         cycle.beyond(coefficients, curve.knee(), |sample, torque| {
+            if sample.weight == 0.0 {
+                return;
+            }
             let (current, along) = (curve.current(torque), torque.abs() / constant);
             more += sample.weight * (current - along) * (current + along);
         });

@@ -1,5 +1,6 @@
 //! Mean losses against plain loops over the samples: random cycles, S1 curves of every kind, saturating iron.
 
+use jred_machine::analysis::duty::{Duty, Instant};
 use jred_machine::model::site::Site;
 use jred_machine::model::surroundings::Surroundings;
 use jred_sizing::catalogue::Commutation;
@@ -214,4 +215,40 @@ fn rms_currents_are_those_of_a_plain_loop() {
         Ok(())
     };
     runner(4000).run(&every, check).unwrap();
+}
+
+/// An instant without a weight, at which no amplifier could supply the current, leaves the mean as it is.
+#[test]
+fn an_instant_without_weight_adds_no_current() {
+    let check = |(duty, c): (Duty, Coefficients)| {
+        let motor = Motor {
+            rated_torque: Some(1.0),
+            max_speed: Some(400.0),
+            bus_voltage: Some(48.0),
+            winding: Winding {
+                torque_constant: Some(1.0),
+                resistance: Some(0.1),
+                inductance: Some(1e-3),
+                pole_pairs: Some(2.0),
+                peak_current: Some(100.0),
+                ..Winding::default()
+            },
+            ..Motor::default()
+        };
+        let prepared = Prepared::new(&motor, None, &Site::default());
+        prop_assert!(prepared.circuit.as_ref().is_some_and(|c| c.weakens));
+        let mut more = duty.clone();
+        let instant = Instant {
+            weight: 0.0,
+            input_torque: 1e200,
+            ..duty.instants[0]
+        };
+        more.instants.push(instant);
+        let [found, with] =
+            [&duty, &more].map(|duty| rms_current(&Cycle::new(duty), &c, 1.0, &prepared).unwrap());
+        prop_assert!(found.is_finite());
+        prop_assert_eq!(found, with);
+        Ok(())
+    };
+    runner(100).run(&(duty(), coefficients()), check).unwrap();
 }
