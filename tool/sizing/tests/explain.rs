@@ -1,5 +1,6 @@
 //! What a drive's torque is made of, and what would have to change for it to hold.
 
+mod outline;
 mod remedies;
 
 use jred::mechanism::TrainOutput;

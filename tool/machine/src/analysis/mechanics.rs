@@ -39,8 +39,6 @@ pub struct Mechanics {
 impl Mechanics {
     /// The figures of a motion.
     pub fn new(file: &MachineFile, instants: &[Instant], duration: f64, hold_torque: f64) -> Self {
-        let ratio = file.drive_train.ratio().abs();
-        let efficiency = file.drive_train.efficiency();
         let moves = moves::Moves::of(
             instants,
             duration,
@@ -54,6 +52,28 @@ impl Mechanics {
         let accelerates = instants.iter().any(|i| i.alpha != 0.0);
         let count = moves.count.max(u32::from(accelerates));
         let shortest = moves.shortest.map_or(0.0, |time| 1.0 / time);
+        let motion = Self {
+            moves: count,
+            move_rate: f64::from(count) / duration,
+            drive_frequency: turning.max(shortest),
+            tool_slope: tool_slope(file, instants),
+            ..Self::default()
+        };
+        motion.with_loads(file, instants, 1.0, hold_torque)
+    }
+
+    /// The figures of the same motion in `time` times its time, under other loads: those of `instants`, which may be some of its
+    /// instants only.
+    #[must_use]
+    pub fn with_loads(
+        &self,
+        file: &MachineFile,
+        instants: &[Instant],
+        time: f64,
+        hold_torque: f64,
+    ) -> Self {
+        let ratio = file.drive_train.ratio().abs();
+        let efficiency = file.drive_train.efficiency();
         let mut constant = [0.0f64; 2];
         for instant in instants.iter().filter(|i| i.omega != 0.0) {
             let terms = &instant.terms;
@@ -64,14 +84,14 @@ impl Mechanics {
             *driving = driving.max(-resisting * efficiency);
         }
         Self {
-            moves: count,
-            move_rate: f64::from(count) / duration,
-            drive_frequency: turning.max(shortest),
+            moves: self.moves,
+            move_rate: self.move_rate / time,
+            drive_frequency: self.drive_frequency / time,
             holding: hold_torque / efficiency,
             constant,
             stop: Stop::of(instants, ratio),
             train_ratio: ratio,
-            tool_slope: tool_slope(file, instants),
+            tool_slope: self.tool_slope,
         }
     }
 }

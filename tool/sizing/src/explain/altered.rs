@@ -15,7 +15,6 @@ use jred::mechanism::TrainOutput;
 use jred::{Error, Machine};
 
 use jred_machine::analysis::duty::{Duty, Instant};
-use jred_machine::analysis::mechanics::Mechanics;
 use jred_machine::model::coordinate::positions;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::mechanism::AnyMechanism;
@@ -48,6 +47,8 @@ pub struct Altered<'a> {
     duty: &'a Duty,
     /// U′ of the weight at every instant (N·m).
     weights: Vec<f64>,
+    /// The instants of an [outline](Self::outline), if others can be left out.
+    outline: Option<Vec<usize>>,
     /// [U′ of the weight, U′ of the rest] at positions over the range (N·m).
     range: Vec<[f64; 2]>,
 }
@@ -80,6 +81,7 @@ impl<'a> Altered<'a> {
                 .iter()
                 .map(|i| weight(i.phi))
                 .collect::<Result<_, Error>>()?,
+            outline: outline(&duty.instants),
             file,
             duty,
         })
@@ -92,10 +94,22 @@ impl<'a> Altered<'a> {
 
     /// The altered duty.
     pub fn duty(&self, by: Alteration) -> Duty {
+        self.of(0..self.duty.instants.len(), by)
+    }
+
+    /// The altered duty without most of the instants that only resolve a peak; `None` if there are none of them. Its integrals, its
+    /// moves and the extremes of its inertia are those of the whole duty, and no peak of it is higher: what violates a rule that
+    /// needs no time course violates it over all instants.
+    pub fn outline(&self, by: Alteration) -> Option<Duty> {
+        let some = self.outline.as_ref()?;
+        Some(self.of(some.iter().copied(), by))
+    }
+
+    /// The altered duty at some of its instants.
+    fn of(&self, instants: impl Iterator<Item = usize>, by: Alteration) -> Duty {
         let ratio = self.file.drive_train.ratio();
-        let instants = self.duty.instants.iter().zip(&self.weights);
         let instants: Vec<Instant> = instants
-            .map(|(instant, weight)| self.instant(instant, *weight, by))
+            .map(|k| self.instant(&self.duty.instants[k], self.weights[k], by))
             .collect();
         let hold = self.range.iter();
         let hold = hold.map(|[weight, rest]| ((by.mass * weight + rest) / ratio).abs());
@@ -104,7 +118,7 @@ impl<'a> Altered<'a> {
         let hold_torque = hold.chain(held).fold(0.0, f64::max);
         let duration = self.duty.duration * by.time;
         Duty {
-            mechanics: Mechanics::new(self.file, &instants, duration, hold_torque),
+            mechanics: (self.duty.mechanics).with_loads(self.file, &instants, by.time, hold_torque),
             hold_torque,
             duration,
             instants,
@@ -147,4 +161,22 @@ impl<'a> Altered<'a> {
             input_inertia: inertia / (ratio * ratio) + train.inertia_at_input(),
         }
     }
+}
+
+/// The instants that have a weight in the integrals, and those of the extremes; `None`: that is all of them.
+fn outline(instants: &[Instant]) -> Option<Vec<usize>> {
+    let figures: [fn(&Instant) -> f64; 4] =
+        [|i| i.inertia, |i| i.omega, |i| i.alpha, |i| i.input_torque];
+    let extremes = figures.into_iter().flat_map(|figure| {
+        let by = |a: &usize, b: &usize| figure(&instants[*a]).total_cmp(&figure(&instants[*b]));
+        [
+            (0..instants.len()).min_by(by),
+            (0..instants.len()).max_by(by),
+        ]
+    });
+    let extremes: Vec<usize> = extremes.flatten().collect();
+    let all = instants.iter().enumerate();
+    let some = all.filter(|(k, instant)| instant.weight > 0.0 || extremes.contains(k));
+    let some: Vec<usize> = some.map(|(k, _)| k).collect();
+    (some.len() < instants.len()).then_some(some)
 }

@@ -4,19 +4,22 @@
 //! the moving masses, the process loads. The range in which every rule is satisfied is searched on a grid, outwards from the
 //! current value, and its ends by bisection to 1e-10; the duty at every value is exact ([`Altered`]). A range narrower than
 //! the grid's step (3 % of the ratio, a tenth of the others) is found if it lies around the value at which the worst rule
-//! uses least. Cost: up to some hundred judgements of one drive for each quantity.
+//! uses least. Cost: up to some hundred judgements of one drive for each quantity. Where instants were added only to resolve peaks,
+//! most judgements do without them: what is violated without them is violated ([`Altered::outline`]), and between the values of the
+//! grid nothing is sought where the result rises at once to both sides.
 
 use jred::Error;
 use serde::Serialize;
 
 use super::altered::{Alteration, Altered};
-use super::seek::State;
+use super::seek::{Judge, State};
 use crate::catalogue::Drive;
 use crate::catalogue::{Gearbox, MotorKind};
 use crate::cycle::Cycle;
 use crate::judge::Context;
 use crate::motor::envelope::Prepared;
 use crate::select::size::Selection;
+use jred_machine::analysis::duty::Duty;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::model::rules::Verdict;
@@ -129,6 +132,9 @@ pub struct Remedies {
     pub remedies: Vec<Remedy>,
 }
 
+/// Judges a drive by all rules, or by some.
+type Rules = fn(&Context, &RuleSet) -> State;
+
 impl Remedies {
     /// Computes the changes for `drive`.
     pub fn new(
@@ -140,6 +146,8 @@ impl Remedies {
     ) -> Self {
         let cycle = Cycle::new(altered.original());
         let context = Context::new(&cycle, site, drive, motor);
+        let outline = altered.outline(Alteration::default());
+        let outline = outline.map(|duty| Cycle::new(&duty));
         let misses = misses(&context, rules);
         let free = |lever: &Lever| match lever {
             Lever::GearRatio => drive.gearbox.is_some(),
@@ -152,23 +160,35 @@ impl Remedies {
         };
         let levers = Lever::ALL.into_iter().filter(free);
         let remedies = levers.map(|lever| {
-            let by = |value: f64| match lever {
+            let at_ratio = |context: &Context<'_>, ratio: f64, judge: Rules| {
+                let gearbox = with_ratio(drive.gearbox, ratio);
+                let gearbox = Some(&gearbox);
+                judge(&context.with(Drive { gearbox, ..drive }), rules)
+            };
+            let of = |duty: &Duty, judge: Rules| {
+                let cycle = Cycle::new(duty);
+                judge(&Context::new(&cycle, site, drive, motor), rules)
+            };
+            let state = |value: f64| match lever {
+                Lever::GearRatio | Lever::IdealGearbox => at_ratio(&context, value, State::of),
+                _ => of(&altered.duty(lever.alteration(value)), State::of),
+            };
+            let at_best = |value: f64| match lever {
                 Lever::GearRatio | Lever::IdealGearbox => {
-                    let gearbox = with_ratio(drive.gearbox, value);
-                    let gearbox = Some(&gearbox);
-                    let drive = Drive { gearbox, ..drive };
-                    State::of(&context.with(drive), rules)
+                    let cycle = outline.as_ref()?;
+                    let context = Context::new(cycle, site, drive, motor);
+                    Some(at_ratio(&context, value, State::direct))
                 }
                 _ => {
-                    let cycle = Cycle::new(&altered.duty(lever.alteration(value)));
-                    State::of(&Context::new(&cycle, site, drive, motor), rules)
+                    let duty = altered.outline(lever.alteration(value))?;
+                    Some(of(&duty, State::direct))
                 }
             };
             let now = match lever {
                 Lever::GearRatio | Lever::IdealGearbox => drive.ratio(),
                 _ => 1.0,
             };
-            Remedy::find(lever, now, by)
+            Remedy::find(lever, now, &Judge { state, at_best })
         });
         Self {
             drive: drive.name(),

@@ -6,6 +6,9 @@ use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::model::rules::Verdict;
 
+/// What violating a limit of zero adds to a score.
+const BEYOND: f64 = 1e6;
+
 /// Result of a drive at one value.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct State {
@@ -22,10 +25,17 @@ impl State {
         let mut findings = Findings::default();
         context.measure_directly(rules, &mut findings);
         let direct = Self::worst(&findings, rules);
-        if direct.rule.is_some() {
+        if !direct.holds() {
             return direct;
         }
         context.follow_time(&mut findings);
+        Self::worst(&findings, rules)
+    }
+
+    /// The rules that need no time course, alone.
+    pub(super) fn direct(context: &Context, rules: &RuleSet) -> Self {
+        let mut findings = Findings::default();
+        context.measure_directly(rules, &mut findings);
         Self::worst(&findings, rules)
     }
 
@@ -59,22 +69,129 @@ impl State {
 
     /// Increases with the distance from satisfying every rule.
     const fn score(&self) -> f64 {
-        self.used + if self.beyond { 1e6 } else { 0.0 }
+        self.used + if self.beyond { BEYOND } else { 0.0 }
+    }
+
+    /// No score is less of which this is the result over some of the instants: over all of them any limit may be zero.
+    const fn bound(&self) -> f64 {
+        if self.beyond {
+            BEYOND
+        } else {
+            self.used.min(BEYOND)
+        }
+    }
+}
+
+/// Judges a drive at the values of one quantity.
+pub(super) struct Judge<S, O> {
+    /// The result at a value.
+    pub(super) state: S,
+    /// Where it costs less, a result that is no worse: of the rules that need no time course, over fewer instants.
+    pub(super) at_best: O,
+}
+
+impl<S: Fn(f64) -> State, O: Fn(f64) -> Option<State>> Judge<S, O> {
+    fn state(&self, value: f64) -> State {
+        (self.state)(value)
+    }
+
+    fn holds(&self, value: f64) -> bool {
+        (self.at_best)(value).is_none_or(|state| state.holds()) && self.state(value).holds()
+    }
+
+    /// Bisection for the end of the range between `inside`, where every rule is satisfied, and `outside`, where one is
+    /// violated.
+    fn bisect(&self, mut inside: f64, mut outside: f64) -> Edge {
+        for _ in 0..50 {
+            if (outside - inside).abs() <= 1e-10 * inside.abs().max(outside.abs()) {
+                break;
+            }
+            let middle = 0.5 * (inside + outside);
+            if self.holds(middle) {
+                inside = middle;
+            } else {
+                outside = middle;
+            }
+        }
+        Edge {
+            value: inside,
+            rule: (self.state(outside).rule)
+                .or_else(|| (self.at_best)(outside).and_then(|state| state.rule)),
+        }
+    }
+}
+
+/// Share of the way to the next value of the grid at which a result is compared with that of a value.
+const BESIDE: f64 = 1e-4;
+
+/// The values of a grid with their results, as far as they are known.
+struct Tried<'j, S, O> {
+    judge: &'j Judge<S, O>,
+    grid: &'j [f64],
+    states: Vec<Option<State>>,
+    at_best: Vec<Option<State>>,
+}
+
+impl<S: Fn(f64) -> State, O: Fn(f64) -> Option<State>> Tried<'_, S, O> {
+    fn state(&mut self, k: usize) -> State {
+        *self.states[k].get_or_insert_with(|| self.judge.state(self.grid[k]))
+    }
+
+    fn at_best(&mut self, k: usize) -> State {
+        if let Some(known) = self.at_best[k] {
+            return known;
+        }
+        let outline = (self.judge.at_best)(self.grid[k]);
+        let state = outline.unwrap_or_else(|| self.state(k));
+        self.at_best[k] = Some(state);
+        state
+    }
+
+    fn holds(&mut self, k: usize) -> bool {
+        self.at_best(k).holds() && self.state(k).holds()
+    }
+
+    /// The value at which the worst rule uses least; of equal ones the first in this order.
+    fn least(&mut self, order: &[usize]) -> Option<(usize, State)> {
+        let mut promising: Vec<(f64, usize)> = (order.iter().enumerate())
+            .map(|(place, &k)| (self.at_best(k).bound(), place))
+            .collect();
+        promising.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut least: Option<(f64, usize, State)> = None;
+        for (bound, place) in promising {
+            let better =
+                |score: f64| least.is_none_or(|(least, at, _)| (score, place) < (least, at));
+            if better(bound) {
+                let state = self.state(order[place]);
+                if better(state.score()) {
+                    least = Some((state.score(), place, state));
+                }
+            }
+        }
+        least.map(|(_, place, state)| (order[place], state))
     }
 }
 
 impl Remedy {
-    pub(super) fn find(lever: Lever, now: f64, judge: impl Fn(f64) -> State) -> Self {
+    pub(super) fn find<S, O>(lever: Lever, now: f64, judge: &Judge<S, O>) -> Self
+    where
+        S: Fn(f64) -> State,
+        O: Fn(f64) -> Option<State>,
+    {
         let mut grid = lever.grid();
         grid.push(now);
         grid.sort_by(f64::total_cmp);
         grid.dedup();
-        let mut states: Vec<Option<State>> = vec![None; grid.len()];
-        let mut at = |k: usize| *states[k].get_or_insert_with(|| judge(grid[k]));
+        let mut tried = Tried {
+            judge,
+            grid: &grid,
+            states: vec![None; grid.len()],
+            at_best: vec![None; grid.len()],
+        };
         let distance = |value: f64| (value.max(1e-3) / now).ln().abs();
         let mut outwards: Vec<usize> = (0..grid.len()).collect();
         outwards.sort_by(|&a, &b| distance(grid[a]).total_cmp(&distance(grid[b])));
-        let nearest = outwards.iter().copied().find(|&k| at(k).holds());
+        let nearest = outwards.iter().copied().find(|&k| tried.holds(k));
         let remedy = |range, best: Option<(f64, State)>| Self {
             lever,
             now,
@@ -86,10 +203,10 @@ impl Remedy {
             best_use: best.map(|b| b.1.used).filter(|used| *used > 0.0),
         };
         if let Some(inside) = nearest {
-            let below = (0..inside).rev().find(|&k| !at(k).holds());
-            let above = (inside..grid.len()).find(|&k| !at(k).holds());
+            let below = (0..inside).rev().find(|&k| !tried.holds(k));
+            let above = (inside..grid.len()).find(|&k| !tried.holds(k));
             let edge = |outside: Option<usize>, inner: usize, end: usize| match outside {
-                Some(outside) => bisect(&judge, grid[inner], grid[outside]),
+                Some(outside) => judge.bisect(grid[inner], grid[outside]),
                 None => Edge {
                     value: grid[end],
                     rule: None,
@@ -100,18 +217,24 @@ impl Remedy {
             return remedy(Some([low, high]), None);
         }
         // Of equal ones the first, which is the nearest.
-        let scored = outwards.iter().map(|&k| (k, at(k)));
-        let least = scored.min_by(|a, b| a.1.score().total_cmp(&b.1.score()));
-        let Some((least, first)) = least else {
+        let Some((least, first)) = tried.least(&outwards) else {
             return remedy(None, None);
         };
         let around = [
             grid[least.saturating_sub(1)],
             grid[(least + 1).min(grid.len() - 1)],
         ];
-        let (value, state) = golden(&judge, around);
+        // Where it rises at once to both sides, there is nothing to seek between the values of the grid.
+        let falls = |end: &f64| {
+            let beside = grid[least] + BESIDE * (end - grid[least]);
+            judge.state(beside).score() < first.score()
+        };
+        if !around.iter().any(falls) {
+            return remedy(None, Some((grid[least], first)));
+        }
+        let (value, state) = golden(|value| judge.state(value), around);
         if state.holds() {
-            let [low, high] = around.map(|outside| bisect(&judge, value, outside));
+            let [low, high] = around.map(|outside| judge.bisect(value, outside));
             return remedy(Some([low, high]), None);
         }
         let best = if state.score() < first.score() {
@@ -123,30 +246,8 @@ impl Remedy {
     }
 }
 
-/// Bisection for the end of the range between `inside`, where every rule is satisfied, and `outside`, where one is violated.
-fn bisect(judge: &impl Fn(f64) -> State, mut inside: f64, mut outside: f64) -> Edge {
-    let mut rule = judge(outside).rule;
-    for _ in 0..50 {
-        if (outside - inside).abs() <= 1e-10 * inside.abs().max(outside.abs()) {
-            break;
-        }
-        let middle = 0.5 * (inside + outside);
-        let state = judge(middle);
-        if state.holds() {
-            inside = middle;
-        } else {
-            outside = middle;
-            rule = state.rule;
-        }
-    }
-    Edge {
-        value: inside,
-        rule,
-    }
-}
-
 /// The value between two others at which the worst rule uses least, by golden section.
-fn golden(judge: &impl Fn(f64) -> State, [mut low, mut high]: [f64; 2]) -> (f64, State) {
+fn golden(judge: impl Fn(f64) -> State, [mut low, mut high]: [f64; 2]) -> (f64, State) {
     const SECTION: f64 = 0.381_966_011_250_105_1;
     let at = |value: f64| (value, judge(value));
     let mut left = at(low + SECTION * (high - low));
