@@ -1,7 +1,7 @@
 //! Harmonics that are refused, and why.
 
 use jred::machine::PoseError;
-use jred::number::RangeError;
+use jred::number::{Bases, RangeError};
 use std::f64::consts::TAU;
 
 use crate::support::assert_near;
@@ -11,7 +11,7 @@ use jred::harmonic::{HarmonicError, fit, scratch_len, terms};
 use jred::machine::{Action, Load, Window};
 use jred::mechanism::SliderCrank;
 use jred::table::Shape;
-use jred::{Domain, Error, Harmonic, Phase, Set, Table, TableError, curves};
+use jred::{AnyModel, Domain, Error, Harmonic, Phase, Scale, Set, Table, TableError, curves};
 
 /// A load between all samples is measured at its edges.
 #[test]
@@ -201,6 +201,21 @@ fn bad_coefficients_are_named() {
             Some(TableError::Range { curve: 0, cell: 2 })
         );
     }
+    // Each number is one, but with this torque base their products are none: inf · 0 at standstill.
+    let bases = Bases {
+        torque: 1e-38,
+        speed: 1.0,
+        inertia: 1.0,
+    };
+    let shape = Shape::<Harmonic<f32>> {
+        scale: Scale::new(bases).unwrap(),
+        ..Shape::harmonics(1, terms::INERTIA_COS)
+    };
+    let table = Table::new(&[10.0, 9.0], shape).unwrap();
+    assert_eq!(
+        AnyModel::new(table).map(|_| ()),
+        Err(TableError::TorqueRange { cell: 0 })
+    );
     let at = |bits| {
         Some(TableError::NoInertiaAt {
             phase: Phase::from_bits(bits),

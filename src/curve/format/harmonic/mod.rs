@@ -192,7 +192,12 @@ macro_rules! harmonic {
             fn prepare<'a>(table: &Table<'a, Self>) -> Result<Self::Tick<'a>, TableError> {
                 let series = Series::new(table.words(), table.set(), table.scale());
                 series.check_inertia(table.set())?;
-                Ok(series)
+                // Below this no sum of a tick overflows, whatever the phase. NaN is not less than anything.
+                if usage(&series, table.set()).torque < 1e30 {
+                    Ok(series)
+                } else {
+                    Err(TableError::TorqueRange { cell: 0 })
+                }
             }
 
             #[inline(always)]

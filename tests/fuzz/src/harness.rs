@@ -1,0 +1,386 @@
+//! One function for each kind of input. It returns whether the input was understood, and panics where it finds something.
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+use clap::Parser as _;
+use jred::table::Format;
+use jred::{
+    Cubic, Harmonic, Image, Phase, Q31, Quadratic, Rows16, Spline, Spline16, number::Number,
+};
+use jred_cli::options::Cli;
+use jred_cli::rows::store;
+use jred_machine::analysis::duty::Duty;
+use jred_machine::analysis::inspect::Findings;
+use jred_machine::analysis::reduce::{Over, Request, Sets, reduce};
+use jred_machine::analysis::simulate::simulate;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::number::columns::Columns;
+use jred_machine::read;
+use jred_report::list::inspection;
+use jred_report::table::output::{Format as Sheet, write};
+use jred_sizing::catalogue::Catalogue;
+use jred_sizing::cycle::Cycle;
+use jred_sizing::select::fit::fit_input;
+use jred_sizing::select::size::Selection;
+
+use crate::{at, files};
+
+/// An input that is read, what it is changed from, and what is done with it.
+#[derive(Clone, Copy, Debug)]
+pub struct Harness {
+    /// Its name, which is that of its folder in `corpus/`.
+    pub name: &'static str,
+    /// What inputs are made from.
+    pub seeds: fn() -> Vec<Vec<u8>>,
+    /// Does with an input all that jred does with it; whether it was understood.
+    pub run: fn(&[u8]) -> bool,
+}
+
+/// All of them.
+pub const ALL: [Harness; 6] = [
+    Harness {
+        name: "image",
+        seeds: || files(&["examples/data", "examples/bits/data"], ".jred"),
+        run: image,
+    },
+    Harness {
+        name: "machine",
+        seeds: || files(&["machines"], ".toml"),
+        run: |text| texts(text, machine),
+    },
+    Harness {
+        name: "profile",
+        seeds: || files(&["machines"], "log.csv"),
+        run: |text| texts(text, profile),
+    },
+    Harness {
+        name: "catalogue",
+        seeds: catalogues,
+        run: |text| texts(text, catalogue),
+    },
+    Harness {
+        name: "rows",
+        seeds: || files(&["tests/fuzz/corpus/rows"], ""),
+        run: |text| texts(text, rows),
+    },
+    Harness {
+        name: "arguments",
+        seeds: || files(&["tests/fuzz/corpus/arguments"], ""),
+        run: |text| texts(text, arguments),
+    },
+];
+
+/// The harness of this name.
+pub fn named(name: &str) -> Option<Harness> {
+    ALL.into_iter().find(|harness| harness.name == name)
+}
+
+/// What is no text is refused before it gets to a reader.
+fn texts(bytes: &[u8], run: fn(&str) -> bool) -> bool {
+    std::str::from_utf8(bytes).is_ok_and(run)
+}
+
+/// A table image: its CRC is made right, so that what is behind it is looked at; what is let in is ticked.
+fn image(bytes: &[u8]) -> bool {
+    let words = bytes
+        .chunks_exact(4)
+        .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]));
+    let mut words: Vec<u32> = words.collect();
+    let Some((last, before)) = words.split_last_mut() else {
+        return Image::new(&words).is_ok();
+    };
+    *last = crc32(before);
+    let Ok(image) = Image::new(&words) else {
+        return false;
+    };
+    let found = [
+        ticks::<Spline<f32>>(&image),
+        ticks::<Cubic<f32>>(&image),
+        ticks::<Quadratic<f32>>(&image),
+        ticks::<Harmonic<f32>>(&image),
+        ticks::<Spline<Q31>>(&image),
+        ticks::<Cubic<Q31>>(&image),
+        ticks::<Quadratic<Q31>>(&image),
+        ticks::<Spline16>(&image),
+        ticks::<Rows16>(&image),
+    ];
+    found.contains(&true)
+}
+
+/// Ticks at the ends of every cell, at the ends of the range of numbers; whether the image has this format.
+fn ticks<F: Format>(image: &Image<'_>) -> bool {
+    let Ok(model) = image.any_model::<F>() else {
+        return false;
+    };
+    // In f32 as far as a table's own figures can be; a fixed-point number is limited to its range.
+    let numbers = [0.0, 0.999, -1.0, 0.3, -1e-3].into_iter();
+    let numbers: Vec<F::Number> = numbers.filter_map(F::Number::from_f64).collect();
+    for k in 0..512u32 {
+        let phase = Phase::from_bits(((k / 2) << 24).wrapping_sub(k % 2));
+        for &a in &numbers {
+            let b = numbers[k as usize % numbers.len()];
+            let torque = model.torque(phase, a, b);
+            let reach = model.acceleration_range(phase, a, b, torque);
+            for value in [torque, reach.least.value, reach.greatest.value] {
+                // A table of f32 may hold figures whose products are beyond its range.
+                assert!(
+                    !value.to_f64().is_nan(),
+                    "{phase:?}, {a:?}, {b:?}: {value:?}"
+                );
+            }
+        }
+    }
+    true
+}
+
+/// CRC-32 as IEEE 802.3 defines it.
+fn crc32(words: &[u32]) -> u32 {
+    !words
+        .iter()
+        .flat_map(|word| word.to_le_bytes())
+        .fold(u32::MAX, |crc, byte| {
+            (0..8).fold(crc ^ u32::from(byte), |crc, _| {
+                (crc >> 1) ^ (0xEDB8_8320 & (crc & 1).wrapping_neg())
+            })
+        })
+}
+
+/// The CSV files that machine files name.
+fn data() -> BTreeMap<String, String> {
+    let names = ["drive-log.csv", "load-table.csv", "reduced-curves.csv"];
+    let text = |name: &str| std::fs::read_to_string(at("machines").join(name)).expect("an example");
+    names.map(|name| (name.to_owned(), text(name))).into()
+}
+
+/// A machine file: what is in it is reduced, checked, run through its motion, and sized with the built-in catalogue.
+fn machine(text: &str) -> bool {
+    static DATA: OnceLock<BTreeMap<String, String>> = OnceLock::new();
+    computed(text, DATA.get_or_init(data))
+}
+
+/// A recorded motion: `time,position` behind a header, in the file of the conveyor.
+fn profile(text: &str) -> bool {
+    let machine = std::fs::read_to_string(at("machines/conveyor.toml")).expect("an example");
+    computed(
+        &machine,
+        &BTreeMap::from([("drive-log.csv".to_owned(), text.to_owned())]),
+    )
+}
+
+fn computed(text: &str, files: &BTreeMap<String, String>) -> bool {
+    let file = match read::parse("machine.toml", text, files) {
+        Ok(file) => file,
+        Err(report) => {
+            assert!(!format!("{report:?}").is_empty());
+            return false;
+        }
+    };
+    let curves = Sets {
+        curves: true,
+        links: true,
+        ..Sets::default()
+    };
+    let others = [
+        Sets {
+            points: true,
+            ..Sets::default()
+        },
+        Sets {
+            reactions: true,
+            ..Sets::default()
+        },
+        Sets {
+            energy: true,
+            ..Sets::default()
+        },
+    ];
+    for (over, sets) in [(Over::Angle, curves), (Over::Time, curves)]
+        .into_iter()
+        .chain(others.map(|sets| (Over::Time, sets)))
+    {
+        if over == Over::Time && file.motion.is_none() {
+            continue;
+        }
+        let request = Request {
+            over,
+            positions: 9,
+            sets,
+            state: None,
+        };
+        if let Ok(columns) = reduce(&file, &request) {
+            written(&columns);
+        }
+    }
+    if let Some(simulation) = &file.simulation
+        && let Ok(columns) = simulate(&file, simulation)
+    {
+        written(&columns);
+    }
+    if let Ok(findings) = Findings::of(&file) {
+        let json = inspection::json(&findings).to_string();
+        sound(&json);
+        sound(&inspection::text(&findings));
+    }
+    sized(&file);
+    true
+}
+
+/// Text, CSV and JSON of the same columns: finite, and the same numbers.
+fn written(columns: &Columns) {
+    for row in columns.rows() {
+        assert!(
+            row.iter().flatten().all(|cell| cell.is_finite()),
+            "{row:?} of {:?}",
+            columns.names()
+        );
+    }
+    let csv = write(columns, Sheet::Csv, "");
+    let json: serde_json::Value =
+        serde_json::from_str(&write(columns, Sheet::Json, "")).expect("JSON");
+    let mut rows = csv::Reader::from_reader(csv.as_bytes());
+    let rows: Vec<csv::StringRecord> = rows.records().collect::<Result<_, _>>().expect("CSV");
+    let of_json = json["rows"].as_array().expect("rows");
+    assert_eq!(rows.len(), of_json.len());
+    for (row, of_json) in rows.iter().zip(of_json) {
+        for (cell, of_json) in row.iter().zip(of_json.as_array().expect("a row")) {
+            let cell: Option<f64> = cell.parse().ok();
+            // The general parser of JSON may be off by a unit in the last place.
+            let close = |(a, b): (f64, f64)| (a - b).abs() <= 2.0 * f64::EPSILON * a.abs();
+            assert!(
+                cell == of_json.as_f64() || cell.zip(of_json.as_f64()).is_some_and(close),
+                "{cell:?}, {of_json:?}"
+            );
+        }
+    }
+    sound(&write(columns, Sheet::Table, ""));
+}
+
+/// No number is none.
+///
+/// # Panics
+/// One is.
+pub(crate) fn sound(text: &str) {
+    let mut words = text.split(|c: char| !c.is_alphanumeric());
+    let found = words.find(|word| ["inf", "NaN", "Infinity"].contains(word));
+    assert_eq!(found, None, "in {text}");
+}
+
+fn sized(file: &MachineFile) {
+    let Some(motion) = &file.motion else {
+        return;
+    };
+    let mut catalogue = built_in().clone();
+    let (Ok(()), Ok(duty)) = (
+        fit_input(&mut catalogue, file),
+        Duty::new(file, motion, 200),
+    ) else {
+        return;
+    };
+    judged(&catalogue, &Cycle::new(&duty), file);
+}
+
+fn judged(catalogue: &Catalogue, cycle: &Cycle, file: &MachineFile) {
+    let motors = catalogue.prepare(&file.site);
+    let selection = Selection::new(catalogue, &motors, cycle, &file.site, &file.rules);
+    for candidate in selection
+        .first_fit(3)
+        .iter()
+        .chain(&selection.first_refused(3))
+    {
+        sound(&selection.judged(candidate).reasons());
+    }
+}
+
+fn built_in() -> &'static Catalogue {
+    static CATALOGUE: OnceLock<Catalogue> = OnceLock::new();
+    CATALOGUE.get_or_init(|| Catalogue::built_in().expect("the built-in catalogue"))
+}
+
+/// Between the name of a catalogue's table and its text in an input.
+const NAME_ENDS: char = '\n';
+
+/// The built-in tables, and those of the examples, each behind its name.
+fn catalogues() -> Vec<Vec<u8>> {
+    let folder = |folder: &str| std::fs::read_dir(at(folder)).expect("a folder");
+    let mut paths: Vec<_> = ["tool/sizing/catalogue", "tests/fuzz/corpus/tables"]
+        .into_iter()
+        .flat_map(folder)
+        .map(|entry| entry.expect("a file").path())
+        .collect();
+    paths.sort();
+    let seed = |path: &std::path::PathBuf| {
+        let name = path.file_name()?.to_str()?;
+        let text = std::fs::read_to_string(path).ok()?;
+        // The first rows: a mutation of the hundredth shows no more.
+        let text: Vec<&str> = text.lines().take(8).collect();
+        Some(format!("{name}{NAME_ENDS}{}\n", text.join("\n")).into_bytes())
+    };
+    paths.iter().filter_map(seed).collect()
+}
+
+/// A table of a catalogue: the name of its file on the first line, then its text. The press is sized with what it holds.
+fn catalogue(input: &str) -> bool {
+    static PRESS: OnceLock<(MachineFile, Cycle)> = OnceLock::new();
+    let (press, cycle) = PRESS.get_or_init(|| {
+        let file = read::read(&at("machines/press.toml")).expect("an example");
+        let motion = file.motion.as_ref().expect("a motion");
+        let cycle = Cycle::new(&Duty::new(&file, motion, 200).expect("a duty"));
+        (file, cycle)
+    });
+    let Some((name, text)) = input.split_once(NAME_ENDS) else {
+        return false;
+    };
+    let found = [false, true].map(|skip| Catalogue::of_texts([(name, text)], skip));
+    for found in found.iter().filter_map(|found| found.as_ref().err()) {
+        assert!(!found.to_string().is_empty());
+    }
+    let mut understood = false;
+    for mut catalogue in found.into_iter().flatten() {
+        understood = true;
+        if catalogue.motors.is_empty() {
+            catalogue.motors.clone_from(&built_in().motors);
+        }
+        let _ = catalogue.one_currency();
+        if fit_input(&mut catalogue, press).is_ok() {
+            judged(&catalogue, cycle, press);
+        }
+    }
+    understood
+}
+
+/// A file of a study's rows: its header, and every line as a row of it.
+fn rows(text: &str) -> bool {
+    let path = std::path::Path::new("rows.csv");
+    let mut lines = text.lines();
+    let Ok((header, form)) = store::parse(lines.next().unwrap_or_default(), path) else {
+        return false;
+    };
+    let mut found = 0;
+    for line in lines {
+        let Some((index, cells)) = store::row(form, &header.columns, line) else {
+            continue;
+        };
+        assert_eq!(cells.len(), header.columns.len());
+        // What was read is written as it stood.
+        let again = form.line(&header.columns, index, &cells);
+        assert!(
+            store::row(form, &header.columns, again.trim_end()).is_some(),
+            "{line:?} is written as {again:?}"
+        );
+        found += 1;
+    }
+    found > 0
+}
+
+/// Words of a command line, one on each line, behind the name of the program: they are read, nothing is run.
+fn arguments(text: &str) -> bool {
+    let words = std::iter::once("jred").chain(text.lines());
+    match Cli::try_parse_from(words) {
+        Ok(_) => true,
+        Err(error) => {
+            assert!(!error.render().to_string().is_empty());
+            false
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! Hostile inputs for everything that jred reads: nothing may panic, give a number that is none, or take minutes.
+//!
+//! 1. [`mutate`]: texts and images, changed byte by byte; [`machine`]: machine files, changed value by value.
+//! 2. [`harness`]: one function for each kind of input; it panics where it finds something.
+//! 3. [`command`]: machine files through every command of `jred`, each with a limit of time and memory.
+//!
+//! The same functions are run three ways: so many inputs each by `cargo test`, as long as one likes by the program
+//! `jred-fuzz`, and guided by coverage (libFuzzer) by `scripts/fuzz`. What was once found is kept in `corpus/`, and is tried first.
+#![forbid(unsafe_code)]
+
+pub mod command;
+pub mod harness;
+pub mod machine;
+pub mod mutate;
+
+use std::path::{Path, PathBuf};
+
+/// A path within the workspace.
+pub fn at(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../..")
+        .join(path)
+}
+
+/// The contents of every file of these folders with this ending, in the order of their names.
+///
+/// # Panics
+/// A folder cannot be read.
+pub fn files(folders: &[&str], ending: &str) -> Vec<Vec<u8>> {
+    let mut paths: Vec<PathBuf> = Vec::new();
+    for folder in folders {
+        let entries =
+            std::fs::read_dir(at(folder)).unwrap_or_else(|error| panic!("{folder}: {error}"));
+        paths.extend(entries.map(|entry| entry.unwrap().path()));
+    }
+    paths.retain(|path| path.is_file() && path.to_string_lossy().ends_with(ending));
+    paths.sort();
+    paths
+        .iter()
+        .map(|path| std::fs::read(path).unwrap())
+        .collect()
+}

@@ -1,0 +1,96 @@
+//! What was once found, and so many random inputs each: the same ones in every run. `jred-fuzz` and `scripts/fuzz` try more.
+
+use std::path::Path;
+
+use jred_fuzz::machine::Machines;
+use jred_fuzz::{at, command, files, harness, mutate};
+use rand::SeedableRng as _;
+use rand::rngs::ChaCha8Rng;
+
+const SEED: u64 = 0x0051;
+
+/// Runs a harness over its corpus and so many changed seeds; at least a share of 1/64 must be understood, or nothing is shown.
+fn bounded(name: &str, inputs: u32) {
+    let harness = harness::named(name).unwrap();
+    let seeds = (harness.seeds)();
+    let corpus = format!("tests/fuzz/corpus/{name}");
+    let found = if at(&corpus).is_dir() {
+        files(&[&corpus], "")
+    } else {
+        Vec::new()
+    };
+    for seed in seeds.iter().chain(&found) {
+        (harness.run)(seed);
+    }
+    let mut rng = ChaCha8Rng::seed_from_u64(SEED);
+    let understood = (0..inputs).filter(|_| (harness.run)(&mutate::mutated(&mut rng, &seeds)));
+    let understood = understood.count();
+    assert!(
+        understood >= inputs as usize / 64,
+        "only {understood} of {inputs}"
+    );
+}
+
+#[test]
+fn images() {
+    bounded("image", 4000);
+}
+
+#[test]
+fn machines() {
+    bounded("machine", 400);
+}
+
+#[test]
+fn profiles() {
+    bounded("profile", 150);
+}
+
+#[test]
+fn catalogues() {
+    bounded("catalogue", 2000);
+}
+
+#[test]
+fn rows() {
+    bounded("rows", 2000);
+}
+
+#[test]
+fn arguments() {
+    bounded("arguments", 2000);
+}
+
+#[test]
+fn values_of_machines() {
+    let machines = Machines::new(&files(&["machines"], ".toml"));
+    let harness = harness::named("machine").unwrap();
+    let mut rng = ChaCha8Rng::seed_from_u64(SEED);
+    let understood = (0..60).filter(|_| (harness.run)(machines.mutated(&mut rng).as_bytes()));
+    assert!(understood.count() >= 20);
+}
+
+/// Machine files through every command. The program `jred` is a neighbour of this test: cargo builds both.
+#[test]
+fn commands() {
+    let this = std::env::current_exe().unwrap();
+    let jred = this.parent().and_then(Path::parent).unwrap().join("jred");
+    if !jred.exists() {
+        println!("SKIP the program jred is not built: cargo build -p jred-cli");
+        assert!(
+            std::env::var_os("CI").is_none(),
+            "nothing may be left out in CI"
+        );
+        return;
+    }
+    let machines = Machines::new(&files(&["machines"], ".toml"));
+    let mut rng = ChaCha8Rng::seed_from_u64(SEED);
+    let mut codes = [0; 3];
+    for _ in 0..40 {
+        let text = machines.mutated(&mut rng);
+        let code = command::run(&mut rng, &jred, &text)
+            .unwrap_or_else(|what| panic!("{what}\nof\n{text}"));
+        codes[code as usize] += 1;
+    }
+    assert!(codes[0] > 0 && codes[2] > 0, "{codes:?}");
+}
