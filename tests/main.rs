@@ -44,6 +44,7 @@ mod phase;
 mod pieces;
 mod pieces_refused;
 mod planetary;
+mod proven;
 mod rack;
 mod range;
 mod reactions;

@@ -17,6 +17,7 @@ mod no_wrap;
 mod phase;
 mod pieces;
 mod pieces_refused;
+mod proven;
 mod range;
 mod reciprocal;
 mod rows16;

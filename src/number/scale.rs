@@ -80,8 +80,11 @@ impl Scale {
     /// One integer multiplication then replaces a product with a fraction and a shift. Speed grows to the next whole number, a
     /// few percent where the number is not small. The bases of torque and inertia grow with its square, so that no curve leaves
     /// the range that it was in, but not more than by 2 or as the speed (from the whole number 1 on, the velocity torque is
-    /// only the slope a cell); that of the acceleration stays. The bases are rounded to single precision, which leaves an error
-    /// of up to 3e-7 of the velocity torque.
+    /// only the slope a cell); that of the acceleration stays.
+    ///
+    /// Accuracy: the bases are rounded to single precision, which leaves an error of up to 2.5e-7 of the velocity torque
+    /// (`tests/proofs/scale.g`, test `for_cells_makes_the_factor_whole`). A scale that is as near as that to a whole multiple is
+    /// returned as it is.
     #[must_use]
     pub fn for_cells(self, cells: u32, span: f64) -> Self {
         let (torque, speed, inertia) = (
@@ -91,9 +94,9 @@ impl Scale {
         );
         let per_square = 0.5 * f64::from(cells) / span * inertia / torque;
         let factor = per_square * speed * speed;
-        // A scale that is already whole does not change.
+        // A scale that is already whole does not change: four roundings of 2⁻²⁴ are 2.4e-7.
         let nearest = math::floor(factor + 0.5);
-        if nearest >= 1.0 && math::abs(factor - nearest) < 5e-7 * factor {
+        if nearest >= 1.0 && math::abs(factor - nearest) < 2.5e-7 * factor {
             return self;
         }
         let growth = (math::floor(factor) + 1.0) / factor;

@@ -162,9 +162,19 @@ macro_rules! dynamics {
             /// Inverse dynamics: the torque on the drive link (N·m, or per unit) that the speed `omega` and the acceleration
             /// `alpha` need. It never saturates.
             ///
-            /// Exact for the table's curves to the roundings of the number type: in `Q31` to 10 units of 2⁻³¹ of the torque base
-            /// (test `tests/fixed_point.rs`), in `Q15` to ¾ of a unit of 2⁻¹⁵ (test `torque_is_that_of_the_curves`). What the
-            /// table itself is off by, `tabulate` says. Cost: docs/performance.md.
+            /// Accuracy, against the same formula without a rounding, of the table's own words at the place in the cell that
+            /// the tick reads; the scripts of `tests/proofs` prove it (`scripts/test proofs`), and the tests of `tests/proven.rs`
+            /// try to exceed it:
+            ///
+            /// - `Q31`: 24 units of 2⁻³¹ of the torque base, and 7 more (`Spline` 3½, `Quadratic` 4) for each whole slope a cell
+            ///   that [`Scale::for_cells`](crate::Scale::for_cells) makes the velocity torque. Of it, the sum of what
+            ///   [`Table::at`] reads has 10 (test `q31_torque_rounds_as_stated`).
+            /// - `Q15`: 5.75 units of 2⁻¹⁵; of it, the sum has ¾ (test `torque_is_that_of_the_curves`).
+            /// - `f32`, with cells: 115 units of 2⁻²⁴ (`Spline` 192), if coefficients (of a `Spline`, eight times its points) and
+            ///   arguments are up to 1.
+            ///
+            /// Not in it: the bases of the scale, which leave 2.5e-7 of the velocity torque in `Q31`, 3e-7 in `f32`; and what
+            /// the table is off by, which `tabulate` says. docs/theory.md adds them up. Cost: docs/performance.md.
             #[inline]
             pub fn torque(&self, phase: Phase, omega: F::Number, alpha: F::Number) -> F::Number {
                 let $any = self.any();

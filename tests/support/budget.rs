@@ -113,8 +113,8 @@ pub(crate) const Q31_ENERGY_RECIPROCAL: f64 = 2e-5;
 /// The factor ½·cells/span·J_b·ω_b²/T_b is computed in f32 in six operations with span rounded once: relative.
 pub(crate) const FACTOR_ROUNDING: f64 = 7.0 * 5.97e-8;
 
-/// `Scale::for_cells` promises this share of the factor: three bases rounded to 2⁻²⁵ each, the speed squared.
-pub(crate) const WHOLE_FACTOR: f64 = 3e-7;
+/// `Scale::for_cells` promises this share of the factor: three bases rounded by up to 2⁻²⁴ of themselves, the speed squared.
+pub(crate) const WHOLE_FACTOR: f64 = 2.5e-7;
 
 /// A quotient of two bases in f32, before and after: five roundings of 2⁻²⁴.
 pub(crate) const BASE_ROUNDINGS: f64 = 3e-7;
@@ -361,3 +361,63 @@ pub(crate) const CUBE_ROOT_ULP: f64 = 3.0;
 
 /// The same machine drawn in another frame and other units, of the size of the largest force or torque [1e-13].
 pub(crate) const SIMILAR: f64 = 1e-11;
+
+/// What the arithmetic of a tick may be off by, as a script of `tests/proofs` proves it: the torque, and in Q31 what is added for
+/// each whole slope a cell that the velocity torque counts at full speed.
+pub(crate) struct Proven {
+    pub(crate) torque: [f64; 2],
+    pub(crate) slope: [f64; 2],
+    /// The least share of either end that the search reaches. Nowhere are all roundings at their worst.
+    pub(crate) reached: f64,
+    /// Rounding of the exact value in f64.
+    pub(crate) exact: f64,
+}
+
+/// Of `Spline<Q31>`, in units of 2⁻³¹ of the torque base [−23 to 19 found, and −27 with three slopes a cell].
+pub(crate) const Q31_SPLINE: Proven = Proven {
+    torque: [-24.0, 23.0],
+    slope: [-3.5, 0.0],
+    reached: 0.6,
+    exact: Q31_EXACT_UNITS,
+};
+
+/// Of `Cubic<Q31>`.
+pub(crate) const Q31_CUBIC: Proven = Proven {
+    torque: [-24.0, 23.0],
+    slope: [-7.0, 3.0],
+    reached: 0.5,
+    exact: Q31_EXACT_UNITS,
+};
+
+/// Of `Quadratic<Q31>`.
+pub(crate) const Q31_QUADRATIC: Proven = Proven {
+    torque: [-22.0, 20.0],
+    slope: [-4.0, 0.0],
+    reached: 0.6,
+    exact: Q31_EXACT_UNITS,
+};
+
+/// Of `Rows16`, in units of 2⁻¹⁵ of the torque base.
+pub(crate) const Q15_ROWS: Proven = Proven {
+    torque: [-5.75, 3.75],
+    slope: [0.0, 0.0],
+    reached: 0.6,
+    exact: 1e-9,
+};
+
+/// Of `Cubic<f32>`, in units of 2⁻²⁴, of coefficients and arguments up to 1. The proof adds up the worst of 31 roundings, of the
+/// largest numbers that each may have.
+pub(crate) const F32_ROWS: Proven = Proven {
+    torque: [-114.5, 114.5],
+    slope: [0.0, 0.0],
+    reached: 0.1,
+    exact: 1e-6,
+};
+
+/// Of `Spline<f32>`, of control points up to ⅛: 68 roundings.
+pub(crate) const F32_SPLINE: Proven = Proven {
+    torque: [-191.5, 191.5],
+    slope: [0.0, 0.0],
+    reached: 0.05,
+    exact: 1e-6,
+};

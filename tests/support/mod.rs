@@ -12,6 +12,7 @@ pub(crate) mod images;
 pub(crate) mod jointed;
 pub(crate) mod machines;
 pub(crate) mod rows;
+pub(crate) mod search;
 
 use jred::machine::MassProperties;
 use jred::number::{Bases, Number};
