@@ -1,5 +1,6 @@
 //! The one test program of the library.
 
+mod accuracy;
 mod ball_screw;
 mod cam;
 mod closed_form;

@@ -34,7 +34,7 @@ const MOST: usize = 3 * MAX_LINKS;
 /// | pin in a slot | the pin |
 /// | transmission | where its effort acts on the second body: teeth in mesh, the end of a rope; of a moment alone the origin |
 ///
-/// The test `forces_balance` checks the balance of every link about each of these points.
+/// The test `joints_close_and_forces_balance` checks the balance of every link about each of these points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]

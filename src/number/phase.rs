@@ -42,7 +42,8 @@ impl Phase {
         Self((((within as u64) << 32) / per_turn.get() as u64) as u32)
     }
 
-    /// From an angle in radians, wrapped to one turn; half a unit of 2⁻³² turn for |φ| ≤ 2π. NaN gives phase 0.
+    /// From an angle in radians, wrapped to one turn; half a unit of 2⁻³² turn for |φ| ≤ 2π (test
+    /// `radians_round_to_half_a_unit`). NaN gives phase 0.
     #[must_use]
     pub fn from_radians(phi: f64) -> Self {
         let turns = phi / TAU;
@@ -52,7 +53,7 @@ impl Phase {
     }
 
     /// From an angle in radians in single precision, without any double-precision code: 6e-8 of a turn for
-    /// |φ| ≤ 2π. Beyond ±6e8 rad, where a single-precision number no longer tells turns apart, and for NaN, the phase
+    /// |φ| ≤ 2π (test `single_precision_radians_keep_their_promise`). Beyond ±6e8 rad, where a single-precision number no longer tells turns apart, and for NaN, the phase
     /// is 0.
     #[must_use]
     pub fn from_radians_f32(phi: f32) -> Self {

@@ -7,7 +7,7 @@ use crate::machine::reduction::Reduction;
 use crate::{Domain, Error, Phase, math};
 
 /// The largest torque error of a table within the range of the request. With 16 bits the roundings of the tick count, and are
-/// added: at most ¾ of a unit of 2⁻¹⁵ of the torque base. So at the places checked no tick within the range of the request, whose
+/// added: at most ¾ of a unit of 2⁻¹⁵ of the torque base (`tests/proofs/q15_rows.g`). So at the places checked no tick within the range of the request, whose
 /// ω and α are numbers of the type, is off by more.
 ///
 /// # Errors

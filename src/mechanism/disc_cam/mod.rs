@@ -43,7 +43,7 @@ use spin::Spin;
 /// rolls on the cam without slip).
 ///
 /// Accuracy: the drive torque that follows from the point and the normal of contact is that of the reduced equation to
-/// 1e-10 (test `dalembert_proves_the_normal`); the roller touches the profile to 1e-12 of its radius (test
+/// 1e-10 (test `joints_close_and_forces_balance`); the roller touches the profile to 1e-12 of its radius (test
 /// `roller_touches_the_profile_all_round`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiscCam {
