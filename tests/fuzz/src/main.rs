@@ -91,7 +91,7 @@ mod program {
                 let text = machines.mutated(&mut rng);
                 let start = Instant::now();
                 let what = if options.harness == "command" {
-                    command::run(&mut rng, &options.jred, &text).map(|code| code < 2)
+                    command::run(command::any(&mut rng), &options.jred, &text).map(|code| code < 2)
                 } else {
                     caught(machine.run, text.as_bytes())
                 };

@@ -86,9 +86,17 @@ fn commands() {
     let machines = Machines::new(&files(&["machines"], ".toml"));
     let mut rng = ChaCha8Rng::seed_from_u64(SEED);
     let mut codes = [0; 3];
+    // The first line of what was found is the command.
+    for found in files(&["tests/fuzz/corpus/command"], ".toml") {
+        let text = String::from_utf8(found).unwrap();
+        let (command, machine) = text.split_once('\n').unwrap();
+        let command = command.strip_prefix("# ").unwrap();
+        command::run(command, &jred, machine)
+            .unwrap_or_else(|what| panic!("{what}\nof\n{machine}"));
+    }
     for _ in 0..40 {
         let text = machines.mutated(&mut rng);
-        let code = command::run(&mut rng, &jred, &text)
+        let code = command::run(command::any(&mut rng), &jred, &text)
             .unwrap_or_else(|what| panic!("{what}\nof\n{text}"));
         codes[code as usize] += 1;
     }

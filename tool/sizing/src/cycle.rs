@@ -132,6 +132,14 @@ impl Cycle {
             }
             peak_output_torque = peak_output_torque.max(sample.output_torque().abs());
         }
+        // A torque is rounded as ½·J′·ω² is, even where nothing is left of it: a machine that turns evenly without a load has
+        // only roundings, and no bound would tell one from the other.
+        for instant in &duty.instants {
+            let energy = instant.input_inertia * instant.input_speed * instant.input_speed;
+            for torque in [1, 2] {
+                largest[torque] = largest[torque].max(energy);
+            }
+        }
         let tree = Tree::new(&samples, &largest);
         Self {
             duration: duty.duration,
