@@ -6,7 +6,7 @@ use crate::support::rows::Rows;
 use crate::support::{assert_near, budget, largest, samples};
 use jred::number::Number;
 use jred::table::{Format, MIN_CELLS, words_len};
-use jred::tabulate::{Request, Tabulated, measure, scratch_len, tabulate};
+use jred::tabulate::{CHECKS_PER_CELL, Request, Tabulated, measure, scratch_len, tabulate};
 use jred::{Cubic, Phase, Q31, Quadratic, Reducible, Scale, Set, Spline, Table, curves};
 use proptest::prelude::any;
 
@@ -149,6 +149,9 @@ fn finds_the_smallest<F: Format>() {
         assert!(found.torque_error <= torque_error);
         let again = measure(&machine, &table, &request).unwrap();
         assert_eq!(again.torque_error.to_bits(), found.torque_error.to_bits());
+        let places = f64::from(found.cells * CHECKS_PER_CELL);
+        let spacing = machine.domain().span() / places;
+        assert_near("spacing", found.spacing, spacing, 1e-15 * spacing);
         assert!(found.bound > found.torque_error);
         assert!(found.bound < budget::BOUND_SLACK * found.torque_error);
         let everywhere = dense(&machine, &table, &request, &found.scale);

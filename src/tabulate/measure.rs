@@ -60,7 +60,6 @@ pub(super) fn measure_until<F: Format>(
     let look = |phase| torque_error(machine, table, request, phase);
     let mut found = scan(machine.domain(), table.cells(), limit, from, look)?;
     let within = |found: &Tabulated| limit.is_none_or(|limit| found.torque_error <= limit);
-    let spacing = machine.domain().span() / f64::from(table.cells() * from.1);
     let mut before = [(f64::NAN, f64::NAN); 2];
     for (k, place) in edge_places(machine).enumerate() {
         // What has missed, misses.
@@ -73,7 +72,7 @@ pub(super) fn measure_until<F: Format>(
         }
         let mut bound = error;
         // Closer than the places of the cells, and three between the same edges.
-        if k % PARTS >= 2 && place - before[1].0 < spacing {
+        if k % PARTS >= 2 && place - before[1].0 < found.spacing {
             bound += 0.125 * math::abs(error - 2.0 * before[1].1 + before[0].1);
         }
         found.bound = found.bound.max(bound);
@@ -137,6 +136,7 @@ pub(super) fn scan_places(
         cells,
         torque_error: 0.0,
         bound: 0.0,
+        spacing: domain.span() / all.max(1) as f64,
         ..Tabulated::default()
     };
     let mut find = |phase: Phase| -> Result<(f64, bool), Error> {

@@ -9,7 +9,7 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::number::numerics::integral;
 use jred_machine::read;
 
-fn machines() -> Vec<(PathBuf, MachineFile)> {
+pub(crate) fn machines() -> Vec<(PathBuf, MachineFile)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines");
     let mut paths: Vec<PathBuf> = fs::read_dir(folder)
         .unwrap()
