@@ -74,6 +74,12 @@ pub(crate) struct Instruction {
     pub(crate) float_writes: u32,
     /// Whether the address is a register and an immediate.
     pub(crate) immediate_offset: bool,
+    /// Where a branch leads to that names its place.
+    pub(crate) target: Option<u32>,
+    /// Whether a branch may not be taken.
+    pub(crate) conditional: bool,
+    /// How many of the next instructions may be skipped, if this one says so: `it`.
+    pub(crate) skips: Option<u32>,
 }
 
 /// Decodes the instructions of a program, each of them once.

@@ -1,6 +1,7 @@
 //! Commands for those who work on jred: `cargo xtask perf`, `cargo xtask loaded`.
 #![forbid(unsafe_code)]
 
+mod bounds;
 mod calls;
 mod ceilings;
 mod cores;

@@ -89,7 +89,11 @@ impl Operands {
     ) -> Result<Instruction> {
         let (name, suffix) = mnemonic.split_once('.').unwrap_or((mnemonic, ""));
         let (kind, stack) = self.classify(name, suffix, writeback)?;
+        let branches = matches!(kind, Kind::Branch { .. });
         Ok(Instruction {
+            target: self.immediate.filter(|_| branches).map(i32::cast_unsigned),
+            conditional: branches && !matches!(name, "b" | "bl"),
+            skips: is_it(name).then(|| name.len() as u32 - 1),
             size,
             kind,
             stack,
@@ -198,6 +202,12 @@ impl Operands {
             _ => Stack::Restore,
         }
     }
+}
+
+/// `it`, `itt`, `ite`, …
+fn is_it(name: &str) -> bool {
+    name.strip_prefix("it")
+        .is_some_and(|rest| rest.chars().all(|c| c == 't' || c == 'e'))
 }
 
 fn is_condition(name: &str) -> bool {

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::bounds::Bound;
 use crate::calls::Call;
 use crate::cores::Core;
 use crate::kernels::{Kernel, Quantity};
@@ -12,6 +13,8 @@ pub(crate) struct Measurement {
     pub(crate) core: &'static Core,
     /// The most of each figure over all points.
     pub(crate) worst: Call,
+    /// What no call can exceed, of the library's kernels.
+    pub(crate) bound: Option<Bound>,
     /// Instructions on average.
     pub(crate) mean: f64,
     /// Bytes of code, with all functions called.
@@ -48,14 +51,18 @@ impl Report {
     /// Every figure, a line for each kernel and core.
     pub(crate) fn text(&self) -> String {
         let head = [
-            "core", "kernel", "instr.", "mean", "~cycles", "code B", "stack B", "table B", "error",
+            "core", "kernel", "instr.", "mean", "at most", "~cycles", "code B", "stack B",
+            "at most", "table B", "error",
         ];
         let lines = self.measurements.iter().map(|m| {
+            let bound =
+                |of: fn(Bound) -> u32| m.bound.map_or("-".to_owned(), |b| of(b).to_string());
             [
                 m.core.name.to_owned(),
                 m.kernel.name.to_owned(),
                 m.worst.instructions.to_string(),
                 format!("{:.1}", m.mean),
+                bound(|b| b.instructions),
                 if m.worst.cycles == 0 {
                     "-".to_owned()
                 } else {
@@ -63,6 +70,7 @@ impl Report {
                 },
                 m.code.to_string(),
                 m.worst.stack.to_string(),
+                bound(|b| b.stack),
                 m.table.to_string(),
                 format!("{:.1e}", m.error),
             ]
@@ -216,6 +224,10 @@ mod tests {
                 cycles,
                 stack: 8,
             },
+            bound: Some(Bound {
+                instructions: 60,
+                stack: 16,
+            }),
             mean: 48.0,
             code: 192,
             table: 3084,
