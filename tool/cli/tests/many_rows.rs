@@ -1,9 +1,10 @@
 //! Results of many rows: written part by part, within a ceiling of memory.
 
+use std::fmt::Write as _;
 use std::process::{Command, Stdio};
 
 use crate::support::json::row_numbers;
-use crate::support::{jred, press_file};
+use crate::support::{Folder, jred, jred_with, press_file};
 
 /// Rows of a result that is written in two parts, the second a short one.
 const ROWS: usize = 4100;
@@ -89,6 +90,56 @@ fn heavy_inputs_stay_below_a_ceiling() {
     let size = ["size", press, "--steps", "100000", "--format", "csv"];
     assert!(runs_within(CEILING, &size), "size");
     assert!(!runs_within(CEILING, &reduce("300000", "csv")));
+}
+
+/// The text of a drive takes some kilobytes, of which none is held: twelve hundred drives take no more memory than four hundred.
+#[test]
+fn every_drive_of_a_catalogue_is_written_one_by_one() {
+    const CEILING: usize = 32 * 1024;
+    if !cfg!(target_os = "linux") {
+        eprintln!("not checked: the system does not limit the memory of a program (ulimit -d)");
+        return;
+    }
+    let folder = Folder::new();
+    let mut motors = "key,maker,model,rated_torque [N m],rated_speed [rpm],peak_torque [N m],rotor_inertia [kg cm^2],source\n".to_owned();
+    for k in 0..1200 {
+        let _ = writeln!(
+            motors,
+            "m{k},A,B,{},3000,{},{},none",
+            1 + k % 40,
+            3 * (1 + k % 40),
+            1 + k % 90
+        );
+    }
+    let motors = folder.file("motors.csv", motors);
+    let (press, motors) = (press_file(), motors.to_str().unwrap());
+    let press = press.to_str().unwrap();
+    let all = |format| {
+        let fixed = [
+            "size",
+            press,
+            "--motors",
+            motors,
+            "--direct-only",
+            "--steps",
+            "200",
+        ];
+        [&fixed[..], &["--all", "--format", format]].concat()
+    };
+    for format in ["json", "csv", "table"] {
+        assert!(runs_within(CEILING, &all(format)), "{format}");
+    }
+    let run = jred_with(&all("json")).ends(0);
+    let answer: serde_json::Value = serde_json::from_str(&run.out).unwrap();
+    let drives = ["fit", "refused"].map(|list| answer[list].as_array().unwrap().len());
+    assert_eq!(drives[0] + drives[1], 1200);
+    // The same lines but for the last digits of numbers.
+    let shape = |text: &str| -> Vec<String> {
+        let lines = text.lines();
+        let lines = lines.map(|line| line.trim_end_matches(|c| ",.-e0123456789".contains(c)));
+        lines.map(ToOwned::to_owned).collect()
+    };
+    assert_eq!(shape(&run.out), shape(&format!("{answer:#}")));
 }
 
 /// What would not fit is refused before it is computed, with the number that fits.

@@ -117,11 +117,11 @@ pub fn size(options: &Size) -> Result<Done> {
             }
         }
         Format::Csv => {
-            print(&listing::csv(list, &selection, asked))?;
+            output::print_parts(listing::csv(list, &selection, asked))?;
         }
         Format::Json => {
-            let answer = listing::json(list, &file, &duty, &selection, asked, explanation);
-            print(&format!("{answer:#}\n"))?;
+            let parts = listing::json(list, &file, &duty, &selection, asked, explanation);
+            output::print_parts(parts)?;
         }
     }
     Ok(if selection.fit.is_empty() {

@@ -3,6 +3,7 @@
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, TableStyle};
 use serde_json::{Map, Value, json};
 
+use super::json::split_at_entry;
 use jred_machine::number::columns::Columns;
 use jred_machine::number::csv;
 use jred_machine::number::rounding::rounded;
@@ -64,9 +65,8 @@ pub fn json_parts(
     map.insert("rows".into(), Value::Null);
     map.extend(after);
     let text = format!("{:#}\n", Value::Object(map));
-    // No text in JSON holds a line feed: this is the entry itself.
-    let (head, tail) = text.split_once("\n  \"rows\": null").unwrap_or_default();
-    let opening = format!("{head}\n  \"rows\": [");
+    let (head, tail) = split_at_entry(&text, "rows");
+    let opening = format!("{head}[");
     let closing = if columns.rows().is_empty() {
         "]"
     } else {
@@ -112,7 +112,7 @@ fn table(columns: &Columns) -> impl Iterator<Item = String> {
     if columns.rows().len() > PART {
         for row in columns.rows() {
             for (width, cell) in widths.iter_mut().zip(cells(row)) {
-                *width = cell.len().max(*width);
+                *width = cell.chars().count().max(*width);
             }
         }
         for (width, name) in widths.iter_mut().zip(&header) {

@@ -3,6 +3,7 @@
 use serde_json::{Map, Value, json as object};
 
 use super::{Asked, Explanation, List};
+use crate::table::json::{array_parts, split_at_entry};
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rule::Rule;
@@ -12,21 +13,19 @@ use jred_sizing::select::size::{Candidate, Selection};
 /// Name and version of the form. The number is raised whenever a key is removed or changes its meaning.
 pub const SCHEMA: &str = "jred-size/2";
 
-/// The listed drives and the one asked for with every digit, and how many there are in all.
-pub fn json(
+/// The listed drives and the one asked for with every digit, and how many there are in all; part by part, a drive each: the text of
+/// all drives of a catalogue is many times larger than they are.
+pub fn json<'c>(
     list: List,
     file: &MachineFile,
     duty: &Duty,
-    selection: &Selection,
+    selection: &'c Selection,
     asked: Option<&Asked>,
     explanation: Option<&Explanation>,
-) -> Value {
+) -> impl Iterator<Item = String> {
     let first = selection.fit.first().or(selection.refused.first());
     let shown = asked.map(|asked| &asked.candidate).or(first);
     let kind = shown.map_or(MotorKind::Rotary, |c| c.drive.motor.kind);
-    let drives = |candidates: &[Candidate]| -> Vec<Value> {
-        candidates.iter().map(|c| drive(selection, c)).collect()
-    };
     let limits: Map<String, Value> = Rule::ALL
         .into_iter()
         .filter(|rule| selection.rules.shows(*rule))
@@ -56,8 +55,8 @@ pub fn json(
             "fit, not all rules checked": selection.partly_checked(),
             "refused": selection.refused.len(),
         },
-        "fit": drives(&list.fit(selection)),
-        "refused": drives(&list.refused(selection)),
+        "fit": Value::Null,
+        "refused": Value::Null,
     });
     if let (Some(asked), Some(map)) = (asked, value.as_object_mut()) {
         let mut found = drive(selection, &asked.candidate);
@@ -67,7 +66,18 @@ pub fn json(
     if let (Some(explanation), Some(map)) = (explanation, value.as_object_mut()) {
         map.insert("explanation".to_owned(), object!(explanation));
     }
-    value
+    let text = format!("{value:#}\n");
+    let (before, rest) = split_at_entry(&text, "fit");
+    let (between, after) = split_at_entry(&rest, "refused");
+    let drives = move |candidates: Vec<Candidate<'c>>| {
+        let drives = candidates.into_iter();
+        array_parts(drives.map(|candidate| drive(selection, &candidate)))
+    };
+    std::iter::once(before)
+        .chain(drives(list.fit(selection)))
+        .chain(std::iter::once(between))
+        .chain(drives(list.refused(selection)))
+        .chain(std::iter::once(after))
 }
 
 fn drive(selection: &Selection, candidate: &Candidate) -> Value {
