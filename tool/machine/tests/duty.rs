@@ -236,3 +236,50 @@ fn a_dwell_without_torque_takes_no_more_instants() {
     let dwell = duty.instants.iter().filter(|i| i.t > 1.0).count();
     assert!((900..=1100).contains(&dwell), "{dwell}");
 }
+
+/// The press under a force on a short way, at `turns` turns forth and back.
+fn turning(turns: u32) -> String {
+    let text = press_text();
+    let (machine, _) = text.split_once("[[motion.segment]]").unwrap();
+    let law = "law = \"polynomial-345\"\nduration = \"1000 s\"";
+    format!(
+        "{machine}\n[[motion.segment]]\n{law}\nmove = \"{0} deg\"\n[[motion.segment]]\n{law}\nmove = \"-{0} deg\"\n",
+        360 * turns
+    )
+}
+
+/// The force has four edges, so that 600 turns forth and back pass 4800, and 700 turns too many. A motion of a million radians
+/// took 90 s to check and a gigabyte to sample.
+#[test]
+fn a_motion_that_passes_too_many_edges_is_refused() {
+    let parse = |turns| read::parse("machine.toml", &turning(turns), Path::new(""));
+    assert!(parse(600).is_ok());
+    for turns in [700, 159_155] {
+        let problem = parse(turns).unwrap_err();
+        let words = format!("{problem} {}", problem.help().unwrap());
+        let passed = format!(
+            "passes edges of loads or cams {} times; at most 5000",
+            8 * turns
+        );
+        assert!(words.contains(&passed), "{words}");
+        assert!(words.contains("describe one cycle that repeats"), "{words}");
+    }
+}
+
+/// However many segments bend sharply, and in however many steps: the instants between the steps are limited in number.
+#[test]
+fn instants_between_steps_are_limited() {
+    let mut text = CONSTANT_SPEED.split("[motion]").next().unwrap().to_owned();
+    text += "[motion]\ntype = \"cycle\"\n";
+    for _ in 0..1000 {
+        text += "[[motion.segment]]\nlaw = \"polynomial-345\"\nmove = \"0.36 deg\"\nduration = \"0.4 ms\"\n";
+    }
+    let file = read(&text);
+    for steps in [100, 200_000] {
+        let duty = duty_of(&file, steps);
+        let (count, weighed) = (duty.instants.len(), duty.instants.iter());
+        let weighed = weighed.filter(|i| i.weight > 0.0).count();
+        assert!(weighed >= steps && count > weighed, "{weighed} of {count}");
+        assert!(count <= 1_000_000 + weighed, "{count}");
+    }
+}

@@ -55,6 +55,32 @@ pub struct Duty {
 /// Default number of time steps of a cycle.
 pub const STEPS: usize = 2000;
 
+/// On which side of an edge the drive link is at a time; on a turn, after how many of its passages.
+fn side(file: &MachineFile, motion: &Motion, t: f64, edge: f64) -> i64 {
+    let beyond = motion.at(t).phi - edge;
+    if file.machine.domain() == Domain::Turn {
+        (beyond / std::f64::consts::TAU).floor() as i64
+    } else {
+        i64::from(beyond >= 0.0)
+    }
+}
+
+/// Positions at which a load begins or ends, or a cam's segments meet.
+fn edges(file: &MachineFile) -> Vec<f64> {
+    (0..).map_while(|k| file.machine.edge(k)).collect()
+}
+
+/// How often the drive link passes an edge, at least: there and back within a piece of the motion is not counted.
+pub(crate) fn passages(file: &MachineFile, motion: &Motion) -> u64 {
+    let edges = edges(file);
+    let sides = |t: f64| edges.iter().map(move |&edge| side(file, motion, t, edge));
+    let passed = motion.stretches().into_iter().flat_map(|(from, to)| {
+        let sides = sides(from).zip(sides(to));
+        sides.map(|(from, to)| from.abs_diff(to))
+    });
+    passed.fold(0, u64::saturating_add)
+}
+
 /// The stretches of the motion, also cut where the drive link passes an edge of a load's window, so that a short load has
 /// its own instants.
 pub(crate) fn smooth_stretches(
@@ -62,18 +88,8 @@ pub(crate) fn smooth_stretches(
     motion: &Motion,
     steps: usize,
 ) -> Vec<(f64, f64)> {
-    use std::f64::consts::TAU;
-    let edges: Vec<f64> = (0..).map_while(|k| file.machine.edge(k)).collect();
-    // Which side of the edge the drive link is on; on a turn, after how many of its passages.
-    let turn = file.machine.domain() == Domain::Turn;
-    let turns = |t: f64, edge: f64| {
-        let beyond = motion.at(t).phi - edge;
-        if turn {
-            (beyond / TAU).floor() as i64
-        } else {
-            i64::from(beyond >= 0.0)
-        }
-    };
+    let edges = edges(file);
+    let turns = |t: f64, edge: f64| side(file, motion, t, edge);
     let mut stretches = Vec::new();
     for (from, to) in motion.stretches() {
         let n = ((steps as f64 * (to - from) / motion.duration()).ceil() as usize).max(16);
@@ -114,15 +130,22 @@ pub(crate) fn smooth_stretches(
 /// Share of the largest input torque by which a peak between two instants may be missed.
 const PEAK_MISSED: f64 = 1e-5;
 
+/// Most parts of a step where the torque bends sharply.
+const MOST_PARTS: f64 = 64.0;
+
+/// Most instants of a motion, unless it has more stretches and steps: those of two cycles fit into 500 MB.
+const MOST_INSTANTS: f64 = 1e6;
+
 /// Inserts instants of zero weight where the input torque bends sharply, starting at index `first`. Between instants at a
-/// distance h any peak stands out by at most T″·h²/8, whatever a motor's own inertia, which bends little, adds to it.
+/// distance h any peak stands out by at most T″·h²/8, whatever a motor's own inertia, which bends little, adds to it. A step is
+/// cut into at most so many parts.
 fn refine_bends(
     file: &MachineFile,
     motion: &Motion,
     first: usize,
+    most_parts: f64,
     instants: &mut Vec<Instant>,
 ) -> Result<(), Error> {
-    const MOST_PARTS: f64 = 64.0;
     let stretch = instants.get(first..).unwrap_or_default();
     let torques = stretch.iter().map(|i| i.input_torque.abs());
     let most = PEAK_MISSED * torques.fold(0.0, f64::max);
@@ -137,7 +160,7 @@ fn refine_bends(
         let missed = bend(a, b, c).max(bend(b, c, d)) / 8.0;
         // A stretch without torque misses nothing.
         let parts = if missed > most {
-            (missed / most).sqrt().ceil().min(MOST_PARTS) as u32
+            (missed / most).sqrt().ceil().min(most_parts) as u32
         } else {
             1
         };
@@ -197,10 +220,16 @@ impl Duty {
         const INSIDE: f64 = 1e-9;
         let duration = motion.duration();
         let mut instants = Vec::with_capacity(steps + 1024);
-        for (from, to) in smooth_stretches(file, motion, steps) {
+        let stretches = smooth_stretches(file, motion, steps);
+        let parts = |(from, to): (f64, f64)| {
+            let share = (steps as f64 * (to - from) / duration / 2.0).ceil();
+            2 * share.max(8.0) as usize
+        };
+        let all: usize = stretches.iter().map(|&stretch| parts(stretch)).sum();
+        let most_parts = (MOST_INSTANTS / all as f64).clamp(1.0, MOST_PARTS);
+        for (from, to) in stretches {
             let span = to - from;
-            let share = (steps as f64 * span / duration / 2.0).ceil().max(8.0);
-            let n = 2 * share as usize;
+            let n = parts((from, to));
             let step = span / n as f64;
             let first = instants.len();
             for k in 0..=n {
@@ -213,7 +242,7 @@ impl Duty {
                 let place = (k as f64 / n as f64).clamp(INSIDE, 1.0 - INSIDE);
                 instants.push(Instant::new(file, motion, from + place * span, weight)?);
             }
-            refine_bends(file, motion, first, &mut instants)?;
+            refine_bends(file, motion, first, most_parts, &mut instants)?;
         }
         let ratio = file.drive_train.ratio();
         let mut hold_torque = 0.0f64;

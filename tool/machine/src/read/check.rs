@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use jred::machine::PoseError;
 use jred::{Domain, Error, Reducible};
 
+use crate::analysis::duty;
 use crate::model::machine::MachineFile;
 use crate::number::numerics;
 
@@ -60,4 +61,22 @@ fn no_inertia(mechanism: &Section, error: &Error) -> Problem {
         "a real drive link has a moment of inertia: give the mass and inertia of the crank or shaft, \
          or add flywheel = \"0.05 kg m^2\" under [mechanism]",
     )
+}
+
+/// Most passages of the edges of loads and cams in a motion: between two of them it has instants of its own.
+const MOST_PASSAGES: u64 = 5000;
+
+/// Refuses a motion that passes more edges than are resolved.
+pub(super) fn passages(file: &MachineFile, root: &Section) -> Result<()> {
+    let passed = (file.motion.as_ref()).map_or(0, |motion| duty::passages(file, motion));
+    if passed <= MOST_PASSAGES {
+        return Ok(());
+    }
+    let message = format!(
+        "the motion passes edges of loads or cams {passed} times; at most {MOST_PASSAGES} are resolved"
+    );
+    let help =
+        "describe one cycle that repeats, or fewer turns; a load without between has no edges";
+    let section = root.section("motion")?;
+    Err(section.problem(message, "in this motion").help(help))
 }

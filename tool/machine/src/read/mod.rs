@@ -227,6 +227,7 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<MachineFile> {
         },
     };
     check::inertia(&file, &section)?;
+    check::passages(&file, &root)?;
     contact::check(&file, &section)?;
     Ok(file)
 }
