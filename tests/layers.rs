@@ -156,7 +156,7 @@ const TOOL: [(&str, &[&str]); 4] = [
         ],
     ),
     ("report", &["table", "list", "plot", "drawing", "page"]),
-    ("cli", &["output", "options", "rows", "commands"]),
+    ("cli", &["busy", "output", "options", "rows", "commands"]),
 ];
 
 #[test]

@@ -13,6 +13,7 @@ use std::path::Path;
 
 use miette::{Result, miette};
 
+use crate::busy;
 use crate::commands::core_error::core_report;
 use crate::options;
 use crate::output;
@@ -50,6 +51,13 @@ pub enum Done {
 /// # Errors
 /// Bad input, or a file that cannot be written.
 pub fn run(command: &options::Command) -> Result<Done> {
+    busy::begin(doing(command));
+    let done = dispatch(command);
+    busy::end();
+    done
+}
+
+fn dispatch(command: &options::Command) -> Result<Done> {
     match command {
         options::Command::Reduce(options) => run_reduce(options),
         options::Command::Check(options) => run_check(options),
@@ -68,6 +76,25 @@ pub fn run(command: &options::Command) -> Result<Done> {
             options.format,
         )?),
         options::Command::Split(options) => print(&split::run(options)?),
+    }
+}
+
+/// What a command does, for those who wait.
+const fn doing(command: &options::Command) -> &'static str {
+    use options::Command;
+    match command {
+        Command::Reduce(_) => "reducing the machine",
+        Command::Check(_) => "checking the machine",
+        Command::Size(_) => "checking drives",
+        Command::Vary(_) | Command::Tolerance(_) => "reading machine and catalogue",
+        Command::Ratio(_) => "seeking ratios",
+        Command::Sensitivity(_) => "changing each quantity",
+        Command::Merge(_) => "merging rows",
+        Command::Bus(_) => "following the DC bus",
+        Command::Simulate(_) => "following the motion",
+        Command::Export(_) => "seeking the smallest table",
+        Command::Rules(_) => "reading rules",
+        Command::Split(_) => "dividing the ratio",
     }
 }
 
@@ -169,7 +196,11 @@ fn check_size(file: &MachineFile, request: &reduce::Request) -> Result<()> {
         positions: 2,
         ..*request
     };
-    let columns = reduce(file, &two).map_err(core_report)?.heads().len();
+    // A machine that cannot take these positions is refused where it cannot take one of its own.
+    let Ok(columns) = reduce(file, &two) else {
+        return Ok(());
+    };
+    let columns = columns.heads().len();
     let most = MOST_NUMBERS / columns.max(1);
     if request.positions <= most {
         return Ok(());

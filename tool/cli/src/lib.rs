@@ -1,6 +1,7 @@
 //! The command `jred`: options, files, progress and signals round [`jred_machine`], [`jred_sizing`] and [`jred_report`].
 #![forbid(unsafe_code)]
 
+pub mod busy;
 pub mod commands;
 pub mod options;
 pub mod output;

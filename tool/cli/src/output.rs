@@ -6,9 +6,10 @@
 
 use std::ffi::OsString;
 use std::fs::{File, Metadata, OpenOptions};
-use std::io::{Error, ErrorKind, Result as IoResult, Write};
+use std::io::{Error, ErrorKind, IsTerminal as _, Result as IoResult, Write};
 use std::path::{Path, PathBuf};
 
+use crate::busy;
 use jred_machine::plain;
 use jred_machine::text::disk;
 use miette::{
@@ -31,6 +32,9 @@ pub fn print(text: &str) -> Result<()> {
 pub fn print_parts(parts: impl IntoIterator<Item = impl AsRef<str>>) -> Result<()> {
     let mut stdout = std::io::stdout();
     for part in parts {
+        if stdout.is_terminal() {
+            busy::end();
+        }
         let written = stdout
             .write_all(plain::lines(part.as_ref()).as_bytes())
             .and_then(|()| stdout.flush());
@@ -49,11 +53,12 @@ pub fn print_parts(parts: impl IntoIterator<Item = impl AsRef<str>>) -> Result<(
 
 /// Prints a line to stderr.
 pub fn say(line: &str) {
-    eprintln!("{}", plain::lines(line));
+    busy::aside(|| eprintln!("{}", plain::lines(line)));
 }
 
 /// Prints an error to stderr; `plainly`: without colours, every hidden character escaped.
 pub fn complain(report: &Report, plainly: bool) {
+    busy::end();
     if !plainly {
         eprintln!("{report:?}");
         return;

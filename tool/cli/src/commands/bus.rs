@@ -6,6 +6,7 @@ use miette::{Result, miette};
 
 use indicatif::ProgressBar;
 
+use crate::busy;
 use crate::commands::core_error::core_report;
 use crate::commands::{Done, print};
 use crate::options::bus::Bus as Options;
@@ -60,6 +61,7 @@ pub fn run(options: &Options) -> Result<Done> {
         axes.push(axis(path, file, &own, &catalogue, name, options.steps)?);
     }
     // Drawn on standard error, and only where that is a terminal.
+    busy::end();
     let bar = ProgressBar::new(0);
     let answer = Answer::new(axes, options.in_step, &own.supply, &catalogue, &Bar(&bar))?;
     bar.finish_and_clear();

@@ -3,6 +3,7 @@
 use indicatif::ProgressBar;
 use miette::Result;
 
+use crate::busy;
 use crate::commands::vary::study;
 use crate::commands::{Done, print};
 use crate::options::search::Sensitivity as Options;
@@ -28,6 +29,7 @@ pub fn sensitivity(options: &Options) -> Result<Done> {
         change: options.change / 100.0,
         most: options.most.max(options.change) / 100.0,
     };
+    busy::end();
     let bar = ProgressBar::new(study.document.quantities().len() as u64);
     let sensitivity = Sensitivity::new(&study, &one, reach, || bar.inc(1))?;
     bar.finish_and_clear();

@@ -10,6 +10,7 @@ use miette::{IntoDiagnostic as _, Result, WrapErr as _};
 use rayon::prelude::*;
 
 use super::store;
+use crate::busy;
 use jred_report::table::rows::RowFormat;
 use jred_sizing::study::cell::Cell;
 use jred_sizing::study::shard::Shard;
@@ -94,6 +95,7 @@ pub fn run(task: &impl Task, plan: &Plan, seen: &mut dyn FnMut(u64, &[Cell])) ->
             Some(Box::new(out))
         }
     };
+    busy::end();
     let bar = bar(of, done);
     let block = BLOCK * rayon::current_num_threads() as u64;
     while done < of && !STOP.load(Ordering::Relaxed) {
