@@ -37,14 +37,15 @@ fn main() -> ExitCode {
     }
 }
 
-/// A message in which long words of the command line, or their values, are cut.
+/// A message in which words of the command line, or their values, are cut where they are long, and escaped where they hold what
+/// is not seen, such as an end of line.
 fn cut(mut message: String, words: &[String]) -> String {
     for word in words {
         let value = word
             .split_once('=')
             .map_or(word.as_str(), |(_, value)| value);
         for long in [word, value] {
-            if !plain::is_short(long) {
+            if !plain::is_short(long) || plain::hidden(long).is_some() {
                 message = message.replace(long, &plain::cut(long));
             }
         }

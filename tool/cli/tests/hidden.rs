@@ -249,3 +249,14 @@ fn long_values_are_cut() {
         assert!(!message.contains(&"x".repeat(401)), "{}", run.err);
     }
 }
+
+/// An end of line within the value of an option does not make a line of its own.
+#[test]
+fn an_end_of_line_in_an_option_is_escaped() {
+    let press = press_file();
+    for option in ["--rank", "--top", "--ratio"] {
+        let run = jred([&"size", &press, &option, &"3\nerror: all is well"]).ends(2);
+        run.says(&["3\\u000aerror: all is well"]);
+        assert!(!run.err.contains("\nerror: all"), "{}", run.err);
+    }
+}

@@ -62,9 +62,10 @@ const MAX_LINE: u64 = 1 << 20;
 /// The file cannot be read, or its line is longer than any row.
 pub fn read_line(reader: &mut impl BufRead, line: &mut String, path: &Path) -> Result<bool> {
     line.clear();
+    let mut bytes = Vec::new();
     let length = reader
         .take(MAX_LINE)
-        .read_line(line)
+        .read_until(b'\n', &mut bytes)
         .into_diagnostic()
         .wrap_err_with(|| format!("cannot read {}", plain::path(path)))?;
     if length as u64 == MAX_LINE {
@@ -74,6 +75,8 @@ pub fn read_line(reader: &mut impl BufRead, line: &mut String, path: &Path) -> R
             plain::path(path)
         ));
     }
+    // What is no UTF-8 becomes a character that no row has.
+    line.push_str(&String::from_utf8_lossy(&bytes));
     Ok(length > 0)
 }
 
@@ -107,7 +110,7 @@ pub fn begin(path: &Path, lines: &str) -> Result<File> {
 
 /// The number and the cells of a line; `None`: it is no row of these columns, or contains what no row does.
 pub fn row(form: RowFormat, columns: &[String], line: &str) -> Option<(u64, Vec<Cell>)> {
-    let clean = !line.contains(char::is_control);
+    let clean = !line.contains(|c: char| c.is_control() || c == char::REPLACEMENT_CHARACTER);
     clean.then(|| Some((form.index(line)?, form.cells(line, columns)?)))?
 }
 

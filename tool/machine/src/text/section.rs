@@ -8,8 +8,8 @@ use toml::de::DeTable;
 use super::item::{Item, Value};
 use super::problem::{Problem, Result};
 use crate::plain;
-use crate::units::closest;
 use crate::units::kind::Kind;
+use crate::units::{self, closest};
 
 /// A table with its name for messages.
 #[derive(Debug)]
@@ -171,9 +171,10 @@ impl<'a> Section<'a> {
             Some(near) => format!("did you mean \"{near}\"?"),
             None => "not a key of this table".to_owned(),
         };
+        let others = units::known(word, &known, "docs/machine-file.md or docs/catalogue.md");
         let help = explain(word).map_or_else(
-            || format!("known here: {}", known.join(", ")),
-            |reason| format!("{reason}; known here: {}", known.join(", ")),
+            || format!("known here: {others}"),
+            |reason| format!("{reason}; known here: {others}"),
         );
         Err(Problem::new(format!("unknown key {}", self.name(word)))
             .at(key.span(), label)

@@ -46,6 +46,21 @@ pub fn closest<S: AsRef<str>>(wrong: &str, words: &[S]) -> Option<String> {
         .map(|(_, word)| word.to_owned())
 }
 
+/// More words than a message lists.
+const MANY: usize = 12;
+
+/// Words that are known instead of `wrong`: all of them, or the nearest three and where the others are found.
+pub(crate) fn known<S: AsRef<str>>(wrong: &str, words: &[S], place: &str) -> String {
+    let mut words: Vec<&str> = words.iter().map(AsRef::as_ref).collect();
+    if words.len() <= MANY {
+        return words.join(", ");
+    }
+    let lower = wrong.to_lowercase();
+    words.sort_by_key(|word| strsim::damerau_levenshtein(&lower, &word.to_lowercase()));
+    let nearest = words.get(..3).unwrap_or_default().join(", ");
+    format!("{nearest} and {} others: see {place}", words.len() - 3)
+}
+
 /// The beginning of a cure that names this word: `did you mean "…"? `; empty if there is none.
 pub fn did_you_mean<S: AsRef<str>>(wrong: &str, words: &[S]) -> String {
     closest(wrong, words).map_or_else(String::new, |near| format!("did you mean \"{near}\"? "))

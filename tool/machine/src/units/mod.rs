@@ -14,6 +14,7 @@ pub mod unit;
 mod vocabulary;
 mod word;
 
+pub(crate) use fault::known;
 pub use fault::{Fault, closest, did_you_mean};
 pub use vocabulary::{Sentence, Term, Vocabulary};
 pub use word::Dimension;

@@ -18,6 +18,9 @@ use super::load::{Loader, twice};
 /// The largest file of a catalogue (bytes): some hundred thousand rows.
 const MAX_SIZE: u64 = 64 << 20;
 
+/// The largest folder (bytes), all its tables together.
+const MAX_FOLDER: u64 = 256 << 20;
+
 /// What to load.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {
@@ -142,6 +145,11 @@ fn folder(path: &Path, remarks: &mut Remarks) -> Result<Vec<(Format, Text)>, Cat
     search(path, DEPTH, &mut found, remarks)?;
     if found.is_empty() {
         return Err(unreadable(path, "this folder contains no table", NAMES));
+    }
+    let size = |path: &PathBuf| path.metadata().map_or(0, |data| data.len());
+    if found.iter().map(size).sum::<u64>() > MAX_FOLDER {
+        let reason = "its tables have more than 256 MiB together";
+        return Err(unreadable(path, reason, "name a folder of fewer tables"));
     }
     let mut files = Vec::new();
     for path in found {
