@@ -8,7 +8,7 @@ use crate::support::{Folder, press_file};
 #[test]
 fn the_best_table_of_so_many_bytes() {
     let folder = Folder::new();
-    let sizes = [1500, 3000, 6000];
+    let sizes = [800, 1500, 3000];
     let [omega, alpha] = [29.4524, 226.725];
     let images = sizes.map(|bytes| images_of(&press_file(), bytes, [omega, alpha]));
     let range = [omega, alpha].map(|most| most.to_string());

@@ -140,7 +140,7 @@ fn the_document_gives_the_curves_of_other_machines() {
         ("geneva.toml", [TAU, TAU * TAU]),
     ] {
         let file = press_file().with_file_name(machine);
-        for (words, kind) in images_of(&file, 4000, range).iter().zip(KINDS) {
+        for (words, kind) in images_of(&file, 1500, range).iter().zip(KINDS) {
             compare(words, kind);
         }
     }
