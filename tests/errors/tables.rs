@@ -1,6 +1,8 @@
 //! Machines of which no table can be made, and words that are no table.
 
-use jred::machine::{Action, Element, Frame, Frames, Load, Marker, Mechanism, PoseError, Window};
+use jred::machine::{
+    Action, Element, Frame, Frames, Load, Marker, MassProperties, Mechanism, PoseError, Window,
+};
 use jred::mechanism::{Branch, Geneva, RackAndPinion, SliderCrank, SliderCrankDimensions};
 use jred::number::{RangeError, Transfer};
 use jred::table::{CubicSpline, Format, MAX_CELLS};
@@ -160,6 +162,41 @@ fn an_inertia_that_does_not_repeat_is_not_tabulated() {
     let machine = Machine::new(spiral).with_flywheel(0.01).unwrap();
     let refused = rows::<f64>(&machine, 0, 16, &Scale::SI).unwrap_err();
     assert_eq!(refused, Error::Pose(PoseError::NotPeriodic { phi: 0.4 }));
+}
+
+/// A wheel that turns half as fast as the drive link.
+struct Half([Link; 1]);
+
+impl Mechanism for Half {
+    fn links(&self) -> &[Link] {
+        &self.0
+    }
+    fn domain(&self) -> Domain {
+        Domain::Turn
+    }
+    fn frames(&self, phi: f64) -> Result<Frames, PoseError> {
+        let psi = Transfer::variable(phi) * 0.5;
+        Ok(std::iter::once(Frame::turning([0.0, 0.0], psi)).collect())
+    }
+}
+
+/// Heavier on one side, a turn of the drive link later its weight acts at the other side.
+#[test]
+fn a_weight_that_does_not_come_back_is_not_tabulated() {
+    let tabulated = |com: f64, gravity: f64| {
+        let wheel = MassProperties {
+            mass: 4.0,
+            inertia: 0.3,
+            com: [com, 0.0],
+        };
+        let machine = Machine::new(Half([Link::new(wheel).unwrap()]));
+        let machine = machine.with_gravity([0.0, -gravity]).unwrap();
+        rows::<f64>(&machine, curves::LOAD, 64, &Scale::SI).map(|_| ())
+    };
+    assert_eq!(tabulated(0.0, 9.81), Ok(()));
+    assert_eq!(tabulated(0.01, 0.0), Ok(()));
+    let refused = Err(Error::Pose(PoseError::NotPeriodic { phi: 0.4 }));
+    assert_eq!(tabulated(0.01, 9.81), refused);
 }
 
 /// Geneva wheel: a force of fixed direction on it turns with the stations, even if it acts in a part of the turn only, where
