@@ -198,6 +198,23 @@ fn damage_in_the_middle_is_named() {
     }
 }
 
+/// Bytes that are no text are named with their line, too, and the file stays.
+#[test]
+fn bytes_that_are_no_text_are_named() {
+    let folder = Folder::new();
+    assert_eq!(study(&folder, "hurt", &[]).0, 0);
+    let mut bytes = read(&folder, "hurt").into_bytes();
+    let ends: Vec<usize> = (0..bytes.len()).filter(|k| bytes[*k] == b'\n').collect();
+    let hurt = ends.len() - 3;
+    bytes[ends[hurt] - 2] = 0xff;
+    std::fs::write(folder.path("hurt"), &bytes).unwrap();
+    let (code, message) = study(&folder, "hurt", &["--resume"]);
+    assert_eq!(code, 2, "{message}");
+    let place = format!("line {} is damaged", hurt + 1);
+    assert!(message.contains(&place), "{message}");
+    assert_eq!(std::fs::read(folder.path("hurt")).unwrap(), bytes);
+}
+
 /// No file begins behind a link, and the message does not recommend what fails as well.
 #[cfg(unix)]
 #[test]

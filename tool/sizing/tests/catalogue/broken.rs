@@ -79,3 +79,20 @@ fn lists_that_name_broken_rows() {
     assert_eq!(catalogue.count(), 2);
     assert_eq!(catalogue.left_out, 2);
 }
+
+/// Tables that are large together are refused before one is read: their holes would take the time to read them.
+#[test]
+fn a_folder_of_too_many_bytes_is_refused() {
+    let folder = Folder::new();
+    for k in 0..5 {
+        let table = folder.file(&format!("a{k}_motors.csv"), HEADER);
+        let table = std::fs::File::options().write(true).open(table).unwrap();
+        table.set_len(60 << 20).unwrap();
+    }
+    let sources = Sources {
+        catalogues: vec![folder.path("")],
+        ..Sources::default()
+    };
+    let error = Catalogue::open(&sources).unwrap_err();
+    assert!(error.to_string().contains("more than 256 MiB"), "{error}");
+}
