@@ -339,38 +339,3 @@ fn beside(place: &Path) -> IoResult<(File, PathBuf)> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// What another program writes under the name of a new file meanwhile stays.
-    #[test]
-    fn a_new_file_replaces_nothing() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("all.csv");
-        let mut output = Output::create_new(&path).unwrap();
-        output.write_all(b"new").unwrap();
-        std::fs::write(&path, "of another").unwrap();
-        let error = output.finish().unwrap_err();
-        assert_eq!(error.kind(), ErrorKind::AlreadyExists);
-        let error = Output::create_new(&path).unwrap_err();
-        assert_eq!(error.kind(), ErrorKind::AlreadyExists);
-        assert_eq!(std::fs::read(&path).unwrap(), b"of another");
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
-    }
-
-    /// Names that are taken, as by runs of the same number that were killed, do not keep a file from being written.
-    #[test]
-    fn leftovers_are_passed_over() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("r.html");
-        for taken in 0..150 {
-            let name = format!(".jred-{}-{taken}.part", std::process::id());
-            std::fs::write(folder.path().join(name), "").unwrap();
-        }
-        write(&path, b"new").unwrap();
-        assert_eq!(std::fs::read(&path).unwrap(), b"new");
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 151);
-    }
-}

@@ -1,7 +1,10 @@
 //! Nothing is lost: no output is written over a file that the command reads, and what was there stays until the new file is
 //! complete. Nothing hangs: what does not end is given up.
 
+use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
+
+use jred_cli::output::{Output, write};
 
 use crate::support::{Folder, edited_press, jred, jred_with, press_file, press_text};
 
@@ -422,4 +425,34 @@ mod unix {
             String::from_utf8_lossy(&run.stderr)
         );
     }
+}
+
+/// What another program writes under the name of a new file meanwhile stays.
+#[test]
+fn a_new_file_replaces_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("all.csv");
+    let mut output = Output::create_new(&path).unwrap();
+    output.write_all(b"new").unwrap();
+    std::fs::write(&path, "of another").unwrap();
+    let error = output.finish().unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::AlreadyExists);
+    let error = Output::create_new(&path).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::AlreadyExists);
+    assert_eq!(std::fs::read(&path).unwrap(), b"of another");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+/// Names that are taken, as by runs of the same number that were killed, do not keep a file from being written.
+#[test]
+fn leftovers_are_passed_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("r.html");
+    for taken in 0..150 {
+        let name = format!(".jred-{}-{taken}.part", std::process::id());
+        std::fs::write(folder.path().join(name), "").unwrap();
+    }
+    write(&path, b"new").unwrap();
+    assert_eq!(std::fs::read(&path).unwrap(), b"new");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 151);
 }
