@@ -33,7 +33,7 @@ fn bounded(name: &str, inputs: u32) {
 
 #[test]
 fn images() {
-    bounded("image", 4000);
+    bounded("image", 2000);
 }
 
 #[test]
@@ -43,7 +43,7 @@ fn machines() {
 
 #[test]
 fn profiles() {
-    bounded("profile", 150);
+    bounded("profile", 100);
 }
 
 #[test]

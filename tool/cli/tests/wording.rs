@@ -112,6 +112,7 @@ fn compare(name: &str, text: &str) {
     settings.add_filter(r" *-?\d(\.\d+)?e-1\d\b", " [rounding]");
     settings.add_filter(r"(\d\.\d{5})\d+", "$1…");
     settings.add_filter(r"\b[0-9a-f]{16,64}\b", "[digest]");
+    settings.add_filter(r"(?m),[0-9a-f]{8}$", ",[check]");
     settings.add_filter(r"/\S*/\.tmp\w+", "[folder]");
     settings.add_filter(r"\bjred \d+\.\d+\.\d+", "jred [version]");
     settings.bind(|| insta::assert_snapshot!(name, text));

@@ -111,7 +111,7 @@ pub fn begin(path: &Path, lines: &str) -> Result<File> {
 /// The number and the cells of a line; `None`: it is no row of these columns, or contains what no row does.
 pub fn row(form: RowFormat, columns: &[String], line: &str) -> Option<(u64, Vec<Cell>)> {
     let clean = !line.contains(|c: char| c.is_control() || c == char::REPLACEMENT_CHARACTER);
-    clean.then(|| Some((form.index(line)?, form.cells(line, columns)?)))?
+    clean.then(|| form.row(line, columns))?
 }
 
 /// What is said of a line that is no row; `what` names the file and what cannot be done with it.

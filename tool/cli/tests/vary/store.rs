@@ -156,6 +156,16 @@ fn a_run_that_was_cut_off_is_continued() {
     assert_eq!(read(&folder, "new"), whole);
 }
 
+/// The row with one digit, in its middle, that became the next.
+fn flipped(row: &str) -> String {
+    let place = row.len() / 2
+        + row[row.len() / 2..]
+            .find(|c: char| c.is_ascii_digit())
+            .unwrap();
+    let digit = row.as_bytes()[place] - b'0';
+    format!("{}{}{}", &row[..place], (digit + 1) % 10, &row[place + 1..])
+}
+
 /// Damage in the middle of a file is no row, whatever it looks like: nothing is taken over from it, and the file stays.
 #[test]
 fn damage_in_the_middle_is_named() {
@@ -174,6 +184,7 @@ fn damage_in_the_middle_is_named() {
             format!("{}{zeros}{}", &row[..10], &row[18..]),
             format!("{}{}", &row[..row.len() / 2], lines[hurt + 1]),
             String::new(),
+            flipped(row),
         ] {
             let mut text = lines.clone();
             text[hurt] = &damaged;

@@ -6,6 +6,7 @@ use crate::table::output::text_table;
 use jred_machine::number::csv;
 use jred_machine::number::rounding::rounded;
 use jred_sizing::study::cell::Cell;
+use jred_sizing::study::header::digest;
 
 jred_machine::words! {
     /// How rows are written.
@@ -32,14 +33,15 @@ impl RowFormat {
     pub fn names(self, columns: &[String]) -> String {
         match self {
             Self::Csv => {
-                let row = columns.iter().map(|name| Cell::from(name.as_str()));
-                csv_line(std::iter::once(Cell::from("row")).chain(row))
+                let names = columns.iter().map(String::as_str);
+                let names = std::iter::once("row").chain(names).chain([CHECK]);
+                csv_line(names.map(Cell::from))
             }
             _ => String::new(),
         }
     }
 
-    /// Row number `index` as a line.
+    /// Row number `index` as a line, with a check sum of all before it.
     pub fn line(self, columns: &[String], index: u64, cells: &[Cell]) -> String {
         match self {
             Self::Json => {
@@ -48,46 +50,62 @@ impl RowFormat {
                 for (name, cell) in columns.iter().zip(cells) {
                     map.insert(name.clone(), cell.json());
                 }
-                Value::Object(map).to_string() + "\n"
+                let row = Value::Object(map).to_string();
+                let open = row.strip_suffix('}').unwrap_or(&row);
+                format!("{open}{JSON_CHECK}{}\"}}\n", check_sum(open))
             }
-            _ => csv_line(
-                std::iter::once(Cell::Text(index.to_string())).chain(cells.iter().cloned()),
-            ),
+            _ => {
+                let cells = cells.iter().cloned();
+                let row = csv_line(std::iter::once(Cell::Text(index.to_string())).chain(cells));
+                let row = row.trim_end();
+                format!("{row},{}\n", check_sum(row))
+            }
         }
     }
 
-    /// The number of a line's row; `None`: the line is no row.
-    pub fn index(self, line: &str) -> Option<u64> {
-        match self {
-            Self::Json => line
-                .strip_prefix("{\"row\":")?
-                .split_once([',', '}'])?
-                .0
-                .parse()
-                .ok(),
-            _ => line.split_once(',')?.0.parse().ok(),
+    /// The number and the cells of a line; `None`: it is no row of these columns, or not as it was written.
+    pub fn row(self, line: &str, columns: &[String]) -> Option<(u64, Vec<Cell>)> {
+        let (row, sum) = match self {
+            Self::Json => line.strip_suffix("\"}")?.rsplit_once(JSON_CHECK)?,
+            _ => line.rsplit_once(',')?,
+        };
+        if sum != check_sum(row) {
+            return None;
         }
-    }
-
-    /// The cells of a line; `None` if the line is not a row with this number of columns.
-    pub fn cells(self, line: &str, columns: &[String]) -> Option<Vec<Cell>> {
         if self == Self::Json {
             let map: Map<String, Value> = serde_json::from_str(line).ok()?;
+            let index = map.get("row")?.as_u64()?;
             let cell = |name: &String| Cell::of_json(map.get(name)?);
-            return columns.iter().map(cell).collect();
+            let cells = columns.iter().map(cell).collect::<Option<_>>()?;
+            return Some((index, cells));
         }
         let mut reader = ::csv::ReaderBuilder::new()
             .has_headers(false)
-            .from_reader(line.as_bytes());
+            .from_reader(row.as_bytes());
         let record = reader.records().next()?.ok()?;
-        let cells = record.iter().skip(1).map(|text| match text.parse::<f64>() {
+        let mut texts = record.iter();
+        let index = texts.next()?.parse().ok()?;
+        let cells = texts.map(|text| match text.parse::<f64>() {
             _ if text.is_empty() => Cell::Empty,
             Ok(number) => Cell::Number(number),
             Err(_) => Cell::Text(text.to_owned()),
         });
         let cells: Vec<Cell> = cells.collect();
-        (cells.len() == columns.len()).then_some(cells)
+        (cells.len() == columns.len()).then_some((index, cells))
     }
+}
+
+/// The column of the check sums.
+const CHECK: &str = "check";
+
+/// What stands before the check sum of a row in JSON.
+const JSON_CHECK: &str = ",\"check\":\"";
+
+/// Eight digits of a SHA-256: a digit that became another one is found but for one case in four thousand million.
+fn check_sum(row: &str) -> String {
+    let mut sum = digest(&row);
+    sum.truncate(8);
+    sum
 }
 
 /// Cells as a line of CSV.

@@ -10,7 +10,7 @@ use super::shard::Shard;
 /// Identity of the study that a file of rows belongs to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Header {
-    /// Kind of study and version of the form, such as "vary/1".
+    /// Kind of study and version of the form, such as "vary/2".
     pub jred: String,
     /// Version of the tool.
     pub version: String,
@@ -52,7 +52,10 @@ impl Header {
     /// How another header differs; `None` if it differs at most in the share.
     pub fn difference(&self, other: &Self) -> Option<String> {
         let parts = [
-            (self.jred != other.jred, "kind of study"),
+            (
+                self.jred != other.jred,
+                "the kind of study or the form of its rows",
+            ),
             (self.version != other.version, "the version of jred"),
             (self.machine_digest != other.machine_digest, "the machine"),
             (
