@@ -262,3 +262,7 @@ pub(crate) const PUBLISHED_ACCELERATION: f64 = 3e-6;
 
 /// Angle and speed at the end of a motion over 2.5 turns, integrated with 1e-12 here [7e-11 and 9e-11, and no closer with 1e-13].
 pub(crate) const PUBLISHED_MOTION: f64 = 1.5e-10;
+
+/// Torque of many turns, squared and summed: with all edges found, the instants between them are at least 16 a stretch, whose
+/// Simpson sums differ by this share where a dwell takes most of the steps.
+pub(crate) const LOADS_FOUND: f64 = 1e-3;

@@ -266,6 +266,25 @@ fn a_motion_that_passes_too_many_edges_is_refused() {
     }
 }
 
+/// Many turns in a small share of the cycle: a dwell after them, however long, changes nothing of what they need.
+#[test]
+fn every_turn_of_a_long_cycle_has_its_load() {
+    let text = press_text();
+    let (machine, _) = text.split_once("[[motion.segment]]").unwrap();
+    let square = |dwell: &str| {
+        let text = format!(
+            "{machine}\n[[motion.segment]]\nlaw = \"polynomial-345\"\nmove = \"72000 deg\"\nduration = \"200 s\"\n\
+             [[motion.segment]]\ndwell = \"{dwell}\"\n"
+        );
+        duty_of(&read(&text), 2000).integral(|i| i.input_torque * i.input_torque)
+    };
+    let [short, long] = ["1 s", "20000 s"].map(square);
+    assert!(
+        (long / short - 1.0).abs() < budget::LOADS_FOUND,
+        "{short} {long}"
+    );
+}
+
 /// However many segments bend sharply, and in however many steps: the instants between the steps are limited in number.
 #[test]
 fn instants_between_steps_are_limited() {

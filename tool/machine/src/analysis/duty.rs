@@ -81,6 +81,20 @@ pub(crate) fn passages(file: &MachineFile, motion: &Motion) -> u64 {
     passed.fold(0, u64::saturating_add)
 }
 
+/// Adds the times at which the side of an edge changes, by bisection; between them a step may hold any number of turns.
+fn crossings(side: &impl Fn(f64) -> i64, [from, to]: [f64; 2], least: f64, cuts: &mut Vec<f64>) {
+    if side(from) == side(to) {
+        return;
+    }
+    let middle = 0.5 * (from + to);
+    if to - from <= least || middle <= from || middle >= to {
+        cuts.push(to);
+        return;
+    }
+    crossings(side, [from, middle], least, cuts);
+    crossings(side, [middle, to], least, cuts);
+}
+
 /// The stretches of the motion, also cut where the drive link passes an edge of a load's window, so that a short load has
 /// its own instants.
 pub(crate) fn smooth_stretches(
@@ -97,20 +111,13 @@ pub(crate) fn smooth_stretches(
         for k in 0..n {
             let time = |k: usize| from + (to - from) * k as f64 / n as f64;
             for &edge in &edges {
-                let (mut before, mut after) = (time(k), time(k + 1));
-                let start = turns(before, edge);
-                if start == turns(after, edge) {
-                    continue;
-                }
-                while after - before > 1e-13 * motion.duration() {
-                    let middle = 0.5 * (before + after);
-                    if turns(middle, edge) == start {
-                        before = middle;
-                    } else {
-                        after = middle;
-                    }
-                }
-                cuts.push(after);
+                let least = 1e-13 * motion.duration();
+                crossings(
+                    &|t| turns(t, edge),
+                    [time(k), time(k + 1)],
+                    least,
+                    &mut cuts,
+                );
             }
         }
         cuts.sort_by(f64::total_cmp);
