@@ -170,10 +170,11 @@ macro_rules! dynamics {
             ///   that [`Scale::for_cells`](crate::Scale::for_cells) makes the velocity torque. Of it, the sum of what
             ///   [`Table::at`] reads has 10 (test `q31_torque_rounds_as_stated`).
             /// - `Q15`: 5.75 units of 2⁻¹⁵; of it, the sum has ¾ (test `torque_is_that_of_the_curves`).
-            /// - `f32`, with cells: 115 units of 2⁻²⁴ (`Spline` 192), if coefficients (of a `Spline`, eight times its points) and
-            ///   arguments are up to 1.
+            /// - `f32`, with cells: 115 units of 2⁻²⁴ (`Spline` 192), if coefficients (of a `Spline`, eight times its points),
+            ///   arguments and the factor of the velocity torque (½·cells/range in SI units) are up to 1; else of the largest term.
             ///
-            /// Not in it: the bases of the scale, which leave 2.5e-7 of the velocity torque in `Q31`, 3e-7 in `f32`; and what
+            /// Not in it: the bases of the scale, which leave 2.5e-7 of the velocity torque in `Q31` if `Scale::for_cells` made
+            /// them (1.4e-6 are accepted), 3e-7 in `f32`; and what
             /// the table is off by, which `tabulate` says. docs/theory.md adds them up. Cost: docs/performance.md.
             #[inline]
             pub fn torque(&self, phase: Phase, omega: F::Number, alpha: F::Number) -> F::Number {

@@ -117,12 +117,15 @@ impl<'p> Bounds<'p> {
             Stack::By(bytes) => bytes,
             Stack::Restore => 0,
         };
+        let executed = after
+            .stack
+            .saturating_add_signed(down)
+            .max(down.max(0).cast_unsigned());
+        // What an IT block skips gives no stack back.
+        let skipped = if skippable > 0 { after.stack } else { 0 };
         let bound = Bound {
             instructions: 1 + after.instructions,
-            stack: after
-                .stack
-                .saturating_add_signed(down)
-                .max(down.max(0).cast_unsigned()),
+            stack: executed.max(skipped),
         };
         self.open.remove(&address);
         self.known.insert(address, bound);
@@ -176,6 +179,22 @@ mod tests {
             Bound {
                 instructions: 6,
                 stack: 16
+            }
+        );
+    }
+
+    #[test]
+    fn what_is_skipped_gives_no_stack_back() {
+        // push {r7, lr}; it eq; pop(eq) {r7, pc}; bl +6 (the function below); pop {r7, pc}; sub sp, #20; add sp, #20; bx lr
+        let code = [
+            0x80, 0xb5, 0x08, 0xbf, 0x80, 0xbd, 0x00, 0xf0, 0x01, 0xf8, 0x80, 0xbd, 0x85, 0xb0,
+            0x05, 0xb0, 0x70, 0x47,
+        ];
+        assert_eq!(
+            bound(&code).unwrap(),
+            Bound {
+                instructions: 8,
+                stack: 28
             }
         );
     }

@@ -78,7 +78,7 @@ fn runs_within(kilobytes: usize, arguments: &[&str]) -> bool {
 fn heavy_inputs_stay_below_a_ceiling() {
     const CEILING: usize = 48 * 1024;
     if !cfg!(target_os = "linux") {
-        eprintln!("not checked: the system does not limit the memory of a program (ulimit -d)");
+        eprintln!("SKIP not checked: only Linux limits the memory of a program (ulimit -d)");
         return;
     }
     let press = press_file();
@@ -97,7 +97,7 @@ fn heavy_inputs_stay_below_a_ceiling() {
 fn every_drive_of_a_catalogue_is_written_one_by_one() {
     const CEILING: usize = 32 * 1024;
     if !cfg!(target_os = "linux") {
-        eprintln!("not checked: the system does not limit the memory of a program (ulimit -d)");
+        eprintln!("SKIP not checked: only Linux limits the memory of a program (ulimit -d)");
         return;
     }
     let folder = Folder::new();
