@@ -43,24 +43,20 @@ impl RowFormat {
 
     /// Row number `index` as a line, with a check sum of all before it.
     pub fn line(self, columns: &[String], index: u64, cells: &[Cell]) -> String {
-        match self {
-            Self::Json => {
-                let mut map = Map::new();
-                map.insert("row".to_owned(), index.into());
-                for (name, cell) in columns.iter().zip(cells) {
-                    map.insert(name.clone(), cell.json());
-                }
-                let row = Value::Object(map).to_string();
-                let open = row.strip_suffix('}').unwrap_or(&row);
-                format!("{open}{JSON_CHECK}{}\"}}\n", check_sum(open))
+        if self == Self::Json {
+            let mut map = Map::new();
+            map.insert("row".to_owned(), index.into());
+            for (name, cell) in columns.iter().zip(cells) {
+                map.insert(name.clone(), cell.json());
             }
-            _ => {
-                let cells = cells.iter().cloned();
-                let row = csv_line(std::iter::once(Cell::Text(index.to_string())).chain(cells));
-                let row = row.trim_end();
-                format!("{row},{}\n", check_sum(row))
-            }
+            let row = Value::Object(map).to_string();
+            let open = row.strip_suffix('}').unwrap_or(&row);
+            return format!("{open}{JSON_CHECK}{}\"}}\n", check_sum(open));
         }
+        let cells = cells.iter().cloned();
+        let row = csv_line(std::iter::once(Cell::Text(index.to_string())).chain(cells));
+        let row = row.trim_end();
+        format!("{row},{}\n", check_sum(row))
     }
 
     /// The number and the cells of a line; `None`: it is no row of these columns, or not as it was written.
