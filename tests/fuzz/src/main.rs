@@ -84,6 +84,14 @@ mod program {
                 println!("input {inputs}: {what}");
             }
         };
+        let jred = std::path::absolute(&options.jred).unwrap_or_else(|_| options.jred.clone());
+        if options.harness == "command" && !jred.is_file() {
+            eprintln!(
+                "there is no program {}: cargo build --release, or name it with --jred",
+                jred.display()
+            );
+            return ExitCode::from(2);
+        }
         if options.harness == "command" || options.harness == "values" {
             let machines = machines();
             let machine = harness::named("machine").expect("a harness");
@@ -91,7 +99,7 @@ mod program {
                 let text = machines.mutated(&mut rng);
                 let start = Instant::now();
                 let what = if options.harness == "command" {
-                    command::run(command::any(&mut rng), &options.jred, &text).map(|code| code < 2)
+                    command::run(command::any(&mut rng), &jred, &text).map(|code| code < 2)
                 } else {
                     caught(machine.run, text.as_bytes())
                 };
