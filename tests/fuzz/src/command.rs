@@ -5,6 +5,8 @@ use std::process::{Command, Output};
 
 use rand::{Rng, RngExt as _};
 
+use crate::{NAMED, no_number};
+
 /// Processor time (s) and memory (KiB) of a command: more than any example takes, `sensitivity` of the excavator with overflow
 /// checks included.
 const SECONDS: u32 = 60;
@@ -54,7 +56,7 @@ pub fn any(rng: &mut impl Rng) -> &'static str {
 /// The command cannot be started, or the machine file cannot be written.
 pub fn run(command: &str, jred: &Path, machine: &str) -> Result<i32, String> {
     let folder = tempfile::tempdir().unwrap();
-    for name in ["drive-log.csv", "load-table.csv", "reduced-curves.csv"] {
+    for name in NAMED {
         std::fs::copy(crate::at("machines").join(name), folder.path().join(name)).unwrap();
     }
     std::fs::write(folder.path().join("machine.toml"), machine).unwrap();
@@ -97,15 +99,9 @@ fn judge(output: &Output, written: Option<&[u8]>) -> Result<i32, String> {
     // Pages hold scripts, whose words are not numbers.
     let page = page.split("<script").next().unwrap_or_default().to_owned();
     for (name, text) in [("result", &out), ("message", &err), ("file", &page)] {
-        if let Some(word) = none(text) {
+        if let Some(word) = no_number(text) {
             return Err(format!("{word:?} in the {name}: {text}"));
         }
     }
     Ok(code)
-}
-
-/// The first word that is a number which is none.
-fn none(text: &str) -> Option<&str> {
-    let mut words = text.split(|c: char| !c.is_alphanumeric());
-    words.find(|word| ["inf", "NaN", "Infinity"].contains(word))
 }

@@ -25,7 +25,7 @@ use jred_sizing::select::fit::fit_input;
 use jred_sizing::select::size::Selection;
 use jred_sizing::study::cell::Cell;
 
-use crate::{at, files};
+use crate::{NAMED, at, files, no_number};
 
 /// An input that is read, what it is changed from, and what is done with it.
 #[derive(Clone, Copy, Debug)]
@@ -149,9 +149,8 @@ fn crc32(words: &[u32]) -> u32 {
 
 /// The CSV files that machine files name.
 fn data() -> BTreeMap<String, String> {
-    let names = ["drive-log.csv", "load-table.csv", "reduced-curves.csv"];
     let text = |name: &str| std::fs::read_to_string(at("machines").join(name)).expect("an example");
-    names.map(|name| (name.to_owned(), text(name))).into()
+    NAMED.map(|name| (name.to_owned(), text(name))).into()
 }
 
 /// A machine file: what is in it is reduced, checked, run through its motion, and sized with the built-in catalogue.
@@ -261,10 +260,8 @@ fn written(columns: &Columns) {
 ///
 /// # Panics
 /// One is.
-pub(crate) fn sound(text: &str) {
-    let mut words = text.split(|c: char| !c.is_alphanumeric());
-    let found = words.find(|word| ["inf", "NaN", "Infinity"].contains(word));
-    assert_eq!(found, None, "in {text}");
+fn sound(text: &str) {
+    assert_eq!(no_number(text), None, "in {text}");
 }
 
 fn sized(file: &MachineFile) {

@@ -40,3 +40,12 @@ pub fn files(folders: &[&str], ending: &str) -> Vec<Vec<u8>> {
         .map(|path| std::fs::read(path).unwrap())
         .collect()
 }
+
+/// The CSV files that machine files of the examples name.
+const NAMED: [&str; 3] = ["drive-log.csv", "load-table.csv", "reduced-curves.csv"];
+
+/// The first word that stands for a number and is none.
+fn no_number(text: &str) -> Option<&str> {
+    let mut words = text.split(|c: char| !c.is_alphanumeric());
+    words.find(|word| ["inf", "NaN", "Infinity"].contains(word))
+}
