@@ -11,7 +11,7 @@ use crate::every_machine::machines;
 const OMEGA: f64 = 7.0;
 const ALPHA: f64 = 40.0;
 
-/// Climbs from so many of the worst places, two to a cell beside the worst that is known and the neighbours of edges.
+/// The search starts from so many places with the largest errors, two of them in each cell, from the worst place that is known, and beside edges.
 const CLIMBS: usize = 8;
 
 /// The largest error that is found (N·m), at any phase.

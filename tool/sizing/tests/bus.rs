@@ -3,7 +3,7 @@
 #![allow(clippy::float_cmp)]
 
 mod conflict;
-mod drive;
+pub(crate) mod drive;
 mod phases;
 
 use crate::support::{budget, near, within};

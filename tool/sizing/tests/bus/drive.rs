@@ -26,7 +26,7 @@ fn cycle() -> Cycle {
 }
 
 /// A motor that turns the press without a gearbox, and at 30 V runs into the weakened field.
-fn motor() -> Motor {
+pub(crate) fn motor() -> Motor {
     Motor {
         key: "m".to_owned(),
         rated_torque: Some(40.0),

@@ -18,6 +18,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{RngAlgorithm, TestRng, TestRunner};
 
 use super::parse;
+use crate::bus::drive::motor;
 use crate::support::{Folder, budget, near, press_text};
 
 /// The press with everything that a rule asks for, under these segments: way (deg; zero is a dwell) and time (ms).
@@ -42,23 +43,14 @@ fn press(segments: &[(i32, u32)]) -> MachineFile {
 
 /// A motor that runs into the weakened field, with a brake-less gearbox that has every rating.
 fn parts() -> (Motor, Gearbox, Amplifier) {
+    let weakened = motor();
     let motor = Motor {
-        key: "m".to_owned(),
-        rated_torque: Some(40.0),
-        rated_speed: Some(200.0),
-        max_speed: Some(400.0),
-        peak_torque: Some(400.0),
-        rotor_inertia: 0.01,
         friction: [0.1, 1e-3],
         winding: Winding {
-            torque_constant: Some(2.0),
-            resistance: Some(0.6),
-            inductance: Some(5e-3),
-            pole_pairs: Some(5.0),
             peak_current: Some(220.0),
-            ..Winding::default()
+            ..weakened.winding
         },
-        ..Motor::default()
+        ..weakened
     };
     let gearbox = Gearbox {
         key: "g".to_owned(),
