@@ -118,3 +118,30 @@ fn paths_exist() {
     }
     assert!(missing.is_empty(), "{}", missing.join("\n"));
 }
+
+/// Each promise of docs/safety.md names steps of `scripts/test`; that its files exist, `paths_exist` looks at.
+#[test]
+fn steps_of_promises_exist() {
+    let Some(root) = repository() else { return };
+    let safety = fs::read_to_string(root.join("docs/safety.md")).unwrap();
+    let script = fs::read_to_string(root.join("scripts/test")).unwrap();
+    let tables = safety.split("| promise | how it is shown | step |\n");
+    let rows = tables.skip(1).flat_map(|table| {
+        let rows = table.lines().skip(1);
+        rows.take_while(|line| line.starts_with('|'))
+    });
+    let mut promises = 0;
+    for row in rows {
+        let cells: Vec<_> = row.trim_matches('|').split('|').collect();
+        let [_, _, steps] = cells[..] else {
+            panic!("not three cells: {row}")
+        };
+        for step in steps.split(',') {
+            let step = step.trim().trim_matches('`');
+            let function = format!("\nstep_{step}() {{");
+            assert!(script.contains(&function), "no step `{step}`: {row}");
+        }
+        promises += 1;
+    }
+    assert!(promises > 15, "{promises} promises are found");
+}
