@@ -6,6 +6,7 @@ pub(crate) mod catalogue;
 pub(crate) mod machines;
 pub(crate) mod numerics;
 pub(crate) mod press;
+pub(crate) mod skip;
 
 use std::path::{Path, PathBuf};
 

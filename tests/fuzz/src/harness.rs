@@ -30,8 +30,10 @@ use crate::{NAMED, at, files, no_number};
 /// An input that is read, what it is changed from, and what is done with it.
 #[derive(Clone, Copy, Debug)]
 pub struct Harness {
-    /// Its name, which is that of its folder in `corpus/`.
+    /// Its name.
     pub name: &'static str,
+    /// Whether `corpus/` has a folder of this name.
+    pub kept: bool,
     /// What inputs are made from.
     pub seeds: fn() -> Vec<Vec<u8>>,
     /// Does with an input all that jred does with it; whether it was understood.
@@ -42,35 +44,54 @@ pub struct Harness {
 pub const ALL: [Harness; 6] = [
     Harness {
         name: "image",
+        kept: true,
         seeds: || files(&["examples/data", "examples/bits/data"], ".jred"),
         run: image,
     },
     Harness {
         name: "machine",
+        kept: false,
         seeds: || files(&["machines"], ".toml"),
         run: |text| texts(text, machine),
     },
     Harness {
         name: "profile",
+        kept: false,
         seeds: || files(&["machines"], "log.csv"),
         run: |text| texts(text, profile),
     },
     Harness {
         name: "catalogue",
+        kept: true,
         seeds: catalogues,
         run: |text| texts(text, catalogue),
     },
     Harness {
         name: "rows",
+        kept: true,
         seeds: || files(&["tests/fuzz/corpus/rows"], ""),
         run: |text| texts(text, rows),
     },
     Harness {
         name: "arguments",
+        kept: true,
         seeds: || files(&["tests/fuzz/corpus/arguments"], ""),
         run: |text| texts(text, arguments),
     },
 ];
+
+impl Harness {
+    /// What was once found, or is worth changing: whole inputs.
+    ///
+    /// # Panics
+    /// The folder is not there.
+    pub fn corpus(&self) -> Vec<Vec<u8>> {
+        if !self.kept {
+            return Vec::new();
+        }
+        files(&[&format!("tests/fuzz/corpus/{}", self.name)], "")
+    }
+}
 
 /// The harness of this name.
 pub fn named(name: &str) -> Option<Harness> {
@@ -298,23 +319,17 @@ fn built_in() -> &'static Catalogue {
 /// Between the name of a catalogue's table and its text in an input.
 const NAME_ENDS: char = '\n';
 
-/// The built-in tables, and those of the examples, each behind its name.
+/// The first rows of the built-in tables, each behind its name: a mutation of the hundredth row shows no more. Only what was kept
+/// has gearboxes with every column, and a catalogue in TOML.
 fn catalogues() -> Vec<Vec<u8>> {
-    let folder = |folder: &str| std::fs::read_dir(at(folder)).expect("a folder");
-    let mut paths: Vec<_> = ["tool/sizing/catalogue", "tests/fuzz/corpus/tables"]
-        .into_iter()
-        .flat_map(folder)
-        .map(|entry| entry.expect("a file").path())
-        .collect();
-    paths.sort();
-    let seed = |path: &std::path::PathBuf| {
-        let name = path.file_name()?.to_str()?;
-        let text = std::fs::read_to_string(path).ok()?;
-        // The first rows: a mutation of the hundredth shows no more.
-        let text: Vec<&str> = text.lines().take(8).collect();
-        Some(format!("{name}{NAME_ENDS}{}\n", text.join("\n")).into_bytes())
+    let table = |name: &str| {
+        let table = at("tool/sizing/catalogue").join(name);
+        let text = std::fs::read_to_string(table).expect("a built-in table");
+        let rows: Vec<&str> = text.lines().take(8).collect();
+        format!("{name}{NAME_ENDS}{}\n", rows.join("\n")).into_bytes()
     };
-    paths.iter().filter_map(seed).collect()
+    let built_in = ["gearboxes.csv", "motors.csv", "resistors.csv"].map(table);
+    [&built_in[..], &files(&["tests/fuzz/corpus/catalogue"], "")].concat()
 }
 
 /// A table of a catalogue: the name of its file on the first line, then its text. The press is sized with what it holds.

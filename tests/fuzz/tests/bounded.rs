@@ -1,11 +1,16 @@
 //! What was once found, and so many random inputs each: the same ones in every run. `jred-fuzz` and `scripts/fuzz` try more.
 
+#[path = "../../../tool/support/skip.rs"]
+mod skip;
+
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use jred_fuzz::machine::Machines;
 use jred_fuzz::{at, command, files, harness, mutate};
 use rand::SeedableRng as _;
 use rand::rngs::ChaCha8Rng;
+use skip::skip;
 
 const SEED: u64 = 0x0051;
 
@@ -13,13 +18,7 @@ const SEED: u64 = 0x0051;
 fn bounded(name: &str, inputs: u32) {
     let harness = harness::named(name).unwrap();
     let seeds = (harness.seeds)();
-    let corpus = format!("tests/fuzz/corpus/{name}");
-    let found = if at(&corpus).is_dir() {
-        files(&[&corpus], "")
-    } else {
-        Vec::new()
-    };
-    for seed in seeds.iter().chain(&found) {
+    for seed in seeds.iter().chain(&harness.corpus()) {
         (harness.run)(seed);
     }
     let mut rng = ChaCha8Rng::seed_from_u64(SEED);
@@ -29,6 +28,20 @@ fn bounded(name: &str, inputs: u32) {
         understood >= inputs as usize / 64,
         "only {understood} of {inputs}"
     );
+}
+
+/// Every folder of the corpus is some harness's, and every harness that says so has one.
+#[test]
+fn folders_of_the_corpus() {
+    let folders = std::fs::read_dir(at("tests/fuzz/corpus")).unwrap();
+    let folders = folders.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let folders: BTreeSet<String> = folders.collect();
+    let kept = harness::ALL.iter().filter(|harness| harness.kept);
+    let names = kept.map(|harness| harness.name).chain(["command"]);
+    assert_eq!(folders, names.map(ToOwned::to_owned).collect());
+    for harness in harness::ALL.iter().filter(|harness| harness.kept) {
+        assert!(!harness.corpus().is_empty(), "{}", harness.name);
+    }
 }
 
 #[test]
@@ -76,10 +89,8 @@ fn commands() {
     let this = std::env::current_exe().unwrap();
     let jred = this.parent().and_then(Path::parent).unwrap().join("jred");
     if !jred.exists() {
-        println!("SKIP the program jred is not built: cargo build -p jred-cli");
-        assert!(
-            std::env::var_os("CI").is_none(),
-            "nothing may be left out in CI"
+        skip(
+            "machines through every command: the program jred is not built (cargo build -p jred-cli)",
         );
         return;
     }

@@ -1,10 +1,15 @@
 //! Results of many rows: written part by part, within a ceiling of memory.
 
-use std::fmt::Write as _;
-use std::process::{Command, Stdio};
+#[cfg(target_os = "linux")]
+use std::{
+    fmt::Write as _,
+    process::{Command, Stdio},
+};
 
 use crate::support::json::row_numbers;
-use crate::support::{Folder, jred, jred_with, press_file};
+#[cfg(target_os = "linux")]
+use crate::support::{Folder, jred_with};
+use crate::support::{jred, press_file};
 
 /// Rows of a result that is written in two parts, the second a short one.
 const ROWS: usize = 4100;
@@ -58,7 +63,8 @@ fn long_forms_have_the_same_rows() {
     assert_eq!(row_numbers(&json), of_csv);
 }
 
-/// Whether a run ends by itself where the system gives it no more than this much memory for data (KB).
+/// Whether a run ends by itself where the system gives it no more than this much memory for data (KB); only Linux limits that.
+#[cfg(target_os = "linux")]
 fn runs_within(kilobytes: usize, arguments: &[&str]) -> bool {
     let limited = format!("ulimit -d {kilobytes} && exec \"$0\" \"$@\"");
     let mut command = Command::new("sh");
@@ -74,13 +80,10 @@ fn runs_within(kilobytes: usize, arguments: &[&str]) -> bool {
 
 /// 20,000 rows of a result and 100,000 instants of a cycle take a few ten megabytes. The ceiling is seen to refuse: more rows
 /// than fit are not held.
+#[cfg(target_os = "linux")]
 #[test]
 fn heavy_inputs_stay_below_a_ceiling() {
     const CEILING: usize = 48 * 1024;
-    if !cfg!(target_os = "linux") {
-        eprintln!("SKIP not checked: only Linux limits the memory of a program (ulimit -d)");
-        return;
-    }
     let press = press_file();
     let press = press.to_str().unwrap();
     let reduce = |rows, format| ["reduce", press, "--positions", rows, "--format", format];
@@ -93,13 +96,10 @@ fn heavy_inputs_stay_below_a_ceiling() {
 }
 
 /// The text of a drive takes some kilobytes, of which none is held: twelve hundred drives take no more memory than four hundred.
+#[cfg(target_os = "linux")]
 #[test]
 fn every_drive_of_a_catalogue_is_written_one_by_one() {
     const CEILING: usize = 32 * 1024;
-    if !cfg!(target_os = "linux") {
-        eprintln!("SKIP not checked: only Linux limits the memory of a program (ulimit -d)");
-        return;
-    }
     let folder = Folder::new();
     let mut motors = "key,maker,model,rated_torque [N m],rated_speed [rpm],peak_torque [N m],rotor_inertia [kg cm^2],source\n".to_owned();
     for k in 0..1200 {

@@ -1,6 +1,7 @@
 //! What an export is written as: image, source text, JSON, and the words on the terminal.
 
 use super::{KINDS, export, export_of, image, words_of};
+use crate::support::skip::skip;
 use crate::support::{Folder, edited_press, press_file};
 
 /// The hexadecimal words of a source text.
@@ -43,13 +44,14 @@ fn source_texts_hold_the_image() {
         assert_eq!(words_in(&c), words);
         for text in [&rust, &c] {
             // Outside the comment: a declaration, words, and a closing bracket; as many open as close.
-            let code: String = text.lines().filter(|l| !l.starts_with("//")).collect();
+            let is_code = |line: &&str| !line.starts_with(['/', '#']);
+            let code: String = text.lines().filter(is_code).collect();
             let count = |c: char| code.matches(c).count();
             assert_eq!(
                 (count('['), count('{'), count('(')),
                 (count(']'), count('}'), count(')'))
             );
-            assert!(code.trim_end().ends_with("};") || code.trim_end().ends_with("];"));
+            assert!(["};", "];", "};}"].iter().any(|end| code.ends_with(end)));
             assert!(
                 text.lines()
                     .all(|line| line.is_ascii() || line.starts_with("//"))
@@ -68,6 +70,66 @@ fn source_texts_hold_the_image() {
                 _ => format!("image.model::<Rows16, {set}>()"),
             };
             assert!(text.contains(&format!("// in Rust: {call}\n")), "{text}");
+        }
+    }
+}
+
+/// A file of C is compiled as C and as C++, also where it is included twice; another one sees its names.
+#[cfg(unix)]
+#[test]
+fn the_c_file_is_c_and_cpp() {
+    let folder = Folder::new();
+    let edges = ["--pieces", "auto"];
+    for (pieces, table) in [(&[][..], "jred_table"), (&edges[..], "jred_tables")] {
+        let options = [
+            "--format",
+            "c",
+            "--torque-error",
+            "2 N m",
+            "--max-cells",
+            "200",
+        ];
+        export_of(
+            &press_file(),
+            &[&options, pieces].concat(),
+            Some(&folder.path("table.c")),
+        )
+        .ends(0);
+        let user = format!(
+            "#include \"table.c\"\n#include \"table.c\"\nint main(void) {{ return {table}[0] == 0; }}\n"
+        );
+        let other = format!(
+            "#include <stdint.h>\n#ifdef __cplusplus\nextern \"C\" {{\n#endif\nextern const uintptr_t {table}[1];\n\
+             #ifdef __cplusplus\n}}\n#endif\n\
+             int main(void) {{ return {table}[0] == 0; }}\n"
+        );
+        folder.file("user.c", user);
+        folder.file("other.c", other);
+        for language in ["c", "c++"] {
+            for sources in [&["user.c"][..], &["other.c", "table.c"]] {
+                let run = std::process::Command::new("cc")
+                    .current_dir(folder.path(""))
+                    .args([
+                        "-x",
+                        language,
+                        "-Wall",
+                        "-Wextra",
+                        "-pedantic",
+                        "-Werror",
+                        "-o",
+                        "program",
+                    ])
+                    .args(sources)
+                    .output();
+                let run = run.expect("a C compiler is what Rust links with");
+                let words = String::from_utf8_lossy(&run.stderr);
+                // A C compiler need not bring one for C++ along.
+                if language == "c++" && words.contains("cc1plus") {
+                    skip("a table in C was not compiled as C++: no C++ compiler");
+                    continue;
+                }
+                assert!(run.status.success(), "{language} {sources:?}: {words}");
+            }
         }
     }
 }
