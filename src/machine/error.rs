@@ -77,11 +77,9 @@ impl fmt::Display for PoseError {
                 "the ends of a spring or damper meet at {}, where it has no direction",
                 Place(phi)
             ),
-            Self::NoInertia { phi } => write!(
-                f,
-                "the reduced inertia is not positive at φ = {:.2}°",
-                phi.to_degrees()
-            ),
+            Self::NoInertia { phi } => {
+                write!(f, "the reduced inertia is not positive at {}", Place(phi))
+            }
             Self::NotPeriodic { phi } => write!(
                 f,
                 "inertia or load at {} are not the same a turn of the drive link later: a spring, or a force of fixed \

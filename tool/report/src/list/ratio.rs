@@ -65,6 +65,13 @@ pub fn sheet(study: &Ratios, mut rows: Vec<MotorRatio>, top: Option<usize>) -> S
              because of the limits, inertia or losses of the gearbox."
                 .to_owned(),
         ];
+    if rows.iter().any(|row| row.best.is_none()) {
+        notes.push(
+            "no best ratio and no beta: nothing accelerates, and the RMS torque falls with every larger ratio; or \
+             nothing loads the output, and it falls with every smaller one. The RMS ratio is open on that side."
+                .to_owned(),
+        );
+    }
     if let Some(top) = top {
         let all = rows.len();
         rows.retain(|row| row.found.is_ok());
@@ -113,6 +120,7 @@ fn cells(row: &MotorRatio) -> Vec<Cell> {
         row.best.into(),
         row.rms_torque().into(),
         row.rms.map(|[from, _]| from).into(),
+        // Empty where it is open.
         row.rms.map(|[_, to]| to).into(),
         found.map(|found| found.range[0]).into(),
         ended(found.and_then(|found| found.below)),
@@ -127,7 +135,12 @@ fn cells(row: &MotorRatio) -> Vec<Cell> {
 fn reading(row: &MotorRatio) -> Vec<Cell> {
     let range = |range: Range| -> Cell {
         let [from, to] = range.map(|x| significant(x, 3));
-        format!("{from} to {to}").into()
+        match range {
+            [0.0, f64::INFINITY] => "any".into(),
+            [_, f64::INFINITY] => format!("{from} or more").into(),
+            [0.0, _] => format!("{to} or less").into(),
+            _ => format!("{from} to {to}").into(),
+        }
     };
     let [alpha, beta] = row.factors();
     let factors = alpha.zip(beta).map(|(alpha, beta)| alpha / beta);

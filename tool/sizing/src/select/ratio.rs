@@ -139,9 +139,12 @@ impl Moments {
             .map(|ratio| self.mean_square(ratio) / self.inertia)
     }
 
-    /// The ratios around i* with which the RMS torque is at most `torque` (N·m); `None`: with no ratio.
+    /// The ratios around i* with which the RMS torque is at most `torque` (N·m); `None`: with no ratio. Where there is no i*
+    /// the range is open, up to infinity or down to zero.
     pub fn range(&self, torque: f64) -> Option<Range> {
-        let best = self.best_ratio()?;
+        let Some(best) = self.best_ratio() else {
+            return self.open_range(torque);
+        };
         if self.mean_square(best) > torque * torque {
             return None;
         }
@@ -163,6 +166,22 @@ impl Moments {
             found.ok()
         };
         Some([end(0.5)?, end(2.0)?])
+    }
+
+    /// The range where nothing accelerates, ⟨C²⟩ + 2⟨BC⟩/i + ⟨B²⟩/i² ≤ T², or nothing loads the output,
+    /// ⟨A²⟩·i² + 2⟨AC⟩·i + ⟨C²⟩ ≤ T².
+    fn open_range(&self, torque: f64) -> Option<Range> {
+        let left = torque * torque - self.cc;
+        if left <= 0.0 {
+            return None;
+        }
+        // The larger root x of square·x² + 2·half·x = left, which may be infinite.
+        let most = |square: f64, half: f64| left / (half + (half * half + square * left).sqrt());
+        Some(if self.aa <= 0.0 {
+            [1.0 / most(self.bb, self.bc), f64::INFINITY]
+        } else {
+            [0.0, most(self.aa, self.ac)]
+        })
     }
 }
 

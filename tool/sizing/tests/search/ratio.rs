@@ -11,6 +11,7 @@ use jred_sizing::judge::Context;
 use jred_sizing::select::ratio::ranges::Trial;
 use jred_sizing::select::ratio::{Gear, Moments, accelerating_factor};
 
+const CONVEYOR: &str = include_str!("../../../../machines/conveyor.toml");
 const SCREW: &str = include_str!("../../../../machines/ball-screw.toml");
 
 /// The drive of a motor and a gear of some ratio, as the tool's own drives are.
@@ -136,6 +137,34 @@ fn a_pure_inertia() {
         4.0 * load * acceleration * acceleration,
         budget::RATIO_END,
     );
+}
+
+/// Where nothing accelerates, every larger ratio does; where nothing loads the output, every smaller one. The torque at the
+/// other end is the limit, and beyond it more.
+#[test]
+fn without_a_best_ratio_the_range_is_open() {
+    let mut motor = catalogue().motors[5].clone();
+    let limit = 0.8 * motor.rated_torque.unwrap();
+    for coulomb in [0.0, 0.4 * limit] {
+        motor.friction = [coulomb, 0.0];
+        let steady = case(CONVEYOR, 200);
+        let moments = Moments::new(&steady.duty, &motor, Gear::IDEAL);
+        let [from, to] = moments.range(limit).unwrap();
+        assert_eq!((moments.best_ratio(), to), (None, f64::INFINITY));
+        near("from", moments.rms_torque(from), limit, budget::RATIO_END);
+        assert!(moments.rms_torque(1.01 * from) < limit);
+        assert_eq!(moments.range(0.9 * coulomb), None);
+
+        let mut unloaded = case(RACK, 200);
+        for instant in &mut unloaded.duty.instants {
+            instant.input_torque = 0.0;
+        }
+        let moments = Moments::new(&unloaded.duty, &motor, Gear::IDEAL);
+        let [from, to] = moments.range(limit).unwrap();
+        assert_eq!((moments.best_ratio(), from), (None, 0.0));
+        near("to", moments.rms_torque(to), limit, budget::RATIO_END);
+        assert!(moments.rms_torque(0.99 * to) < limit);
+    }
 }
 
 /// A motor whose S1 torque is the same at every speed.
