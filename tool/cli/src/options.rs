@@ -8,7 +8,7 @@ mod word;
 use std::path::PathBuf;
 
 use clap::builder::{PathBufValueParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand};
+use clap::{ArgGroup, Args, Parser, Subcommand};
 
 use self::search::Objectives;
 use self::word::word;
@@ -140,7 +140,7 @@ pub struct Size {
     /// Which drives are considered and how they are ranked.
     #[command(flatten)]
     pub search: search::Search,
-    /// Number of ranked drives to list.
+    /// Number of ranked drives to list; in CSV and JSON the closest refused ones follow, which --nearest 0 leaves out.
     #[arg(long, default_value_t = 10)]
     pub top: usize,
     /// Number of refused drives to list in CSV and JSON and to explain with --explain, closest first.
@@ -199,6 +199,7 @@ pub struct Simulate {
 
 /// `jred export`
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("target").required(true).multiple(true).args(["torque_error", "max_bytes"]))]
 pub struct Export {
     /// Machine file.
     pub file: PathBuf,
@@ -216,11 +217,7 @@ pub struct Export {
     pub reciprocal: Choice,
     /// Largest error of the drive torque at the drive link, e.g. "0.5 N m" ("5 N" for a sliding link); optional with
     /// --max-bytes.
-    #[arg(
-        long,
-        required_unless_present = "max_bytes",
-        allow_hyphen_values = true
-    )]
+    #[arg(long, allow_hyphen_values = true)]
     pub torque_error: Option<String>,
     /// Largest speed of the drive link, e.g. "90 rpm" ("0.2 m/s" for a sliding link); if not given, that of the motion.
     #[arg(long, allow_hyphen_values = true)]

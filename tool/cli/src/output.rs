@@ -179,7 +179,18 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
 
 /// The report of a file that cannot be written.
 pub fn failed(path: &Path, error: &Error) -> Report {
-    miette!("cannot write {}: {error}", plain::path(path))
+    let help = match error.kind() {
+        ErrorKind::NotFound => "make the folder first, or choose another one",
+        ErrorKind::IsADirectory => "name a file in this folder",
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            "choose a file and a folder that you may write"
+        }
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+            "free some space, or choose another disk"
+        }
+        _ => "choose another file",
+    };
+    miette!(help = help, "cannot write {}: {error}", plain::path(path))
 }
 
 /// A file in the making.

@@ -107,6 +107,28 @@ fn hidden_characters_are_refused_where_they_are_read() {
     }
 }
 
+/// A raw control character is not TOML: the message names it, and its cure.
+#[test]
+fn a_raw_control_character_is_named() {
+    let folder = Folder::new();
+    for (c, code) in [
+        ('\u{1}', "U+0001"),
+        ('\u{1b}', "U+001B"),
+        ('\u{7f}', "U+007F"),
+    ] {
+        let file = folder.file("m.toml", format!("title = \"a{c}b\"\n[mechanism]\n"));
+        let run = jred([&"check", &file]).ends(2);
+        run.says(&[
+            "not valid TOML",
+            code,
+            "a control character",
+            "remove it",
+            "m.toml:1:11",
+        ]);
+        assert!(!run.err.contains(c));
+    }
+}
+
 /// What a path or an argument holds is escaped wherever it is printed.
 #[cfg(unix)]
 #[test]

@@ -134,6 +134,27 @@ fn the_command_lists_ratios() {
         .says(&["at most 1"]);
 }
 
+/// At constant speed there is no best ratio: the range of the RMS torque is open above, and a note says why.
+#[test]
+fn an_open_range_of_ratios_is_said_to_be_open() {
+    let conveyor = press_file().with_file_name("conveyor.toml");
+    let table = jred([&"ratio", &conveyor, &"--motor", &"sgmsh-30a"]).ends(0);
+    assert!(table.out.contains(" or more"), "{}", table.out);
+    assert!(table.out.contains("nothing accelerates"), "{}", table.out);
+    let form = [
+        &"ratio" as &dyn AsRef<std::ffi::OsStr>,
+        &conveyor,
+        &"--motor",
+        &"sgmsh-30a",
+        &"--format",
+        &"json",
+    ];
+    let json = jred(form).ends(0).json();
+    let row = &json["rows"][0];
+    assert!(row["RMS ratio from"].as_f64().unwrap() > 0.0, "{row}");
+    assert!(row["RMS ratio to"].is_null(), "{row}");
+}
+
 /// The table fits on a page, says why there is no range, and can be cut to what is asked for.
 #[test]
 fn the_table_of_ratios_is_narrow_and_can_be_cut() {

@@ -203,6 +203,10 @@ fn what_cannot_be_varied_is_said() {
     says("slider.mass=30..60kg:4:lin", &["\"lin\" is not valid"]);
     says("slider.mass", &["has no \"=\""]);
     says("slider.mass=heavy", &["does not begin with a number"]);
+    for values in ["nan..60kg:3", "30..inf kg:3", "nan,60kg"] {
+        let words = ["is not a finite number; write a quantity as a number with a unit: \"60 kg\""];
+        says(&format!("slider.mass={values}"), &words);
+    }
     says("slider.mass=30..60kilos:3", &["unknown unit \"kilos\""]);
     let twice = jred([
         &"vary",

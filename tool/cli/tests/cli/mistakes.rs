@@ -97,7 +97,10 @@ fn wrong_command_lines() {
             &["reduce", press, "--over", "space"],
             &["space", "angle", "time"],
         ),
-        (&["export", press, "--out", "x"], &["--torque-error"]),
+        (
+            &["export", press, "--out", "x"],
+            &["--torque-error", "--max-bytes"],
+        ),
         (
             &["export", press, "--torque-error", "1 N m", "--type", "q31"],
             &["q31", "f32", "i32", "i16"],
@@ -198,7 +201,7 @@ fn output_that_cannot_be_written() {
         let press = press_file();
         arguments.extend([nowhere.to_str().unwrap(), press.to_str().unwrap()]);
         let done = run(&arguments).ends(2);
-        done.says(&["cannot write", "out.html"]);
+        done.says(&["cannot write", "out.html", "help: "]);
     }
 }
 

@@ -168,3 +168,21 @@ fn a_drive_that_the_filter_took_out() {
     ]);
     assert!(jred_with(&why).ends(0).err.is_empty());
 }
+
+/// `--top 1` in CSV: the rules of one ranked drive, then of the closest refused ones; `--nearest 0` leaves these out.
+#[test]
+fn the_closest_refused_drives_can_be_left_out() {
+    let press = press_file();
+    let drives = |nearest: &str| {
+        let form = ["--top", "1", "--nearest", nearest, "--format", "csv"];
+        let press = press.to_str().unwrap();
+        let run = jred_with(&[&["size", press, "--steps", "64"], &form[..]].concat()).ends(0);
+        let lines = run.out.lines().skip(1);
+        let names = lines.map(|line| line.split(',').take(4).collect::<Vec<_>>().join(","));
+        let names: std::collections::BTreeSet<String> = names.collect();
+        let ranked = names.iter().filter(|name| name.starts_with("1,")).count();
+        (ranked, names.len() - ranked)
+    };
+    assert_eq!(drives("0"), (1, 0));
+    assert_eq!(drives("3"), (1, 3));
+}

@@ -19,7 +19,7 @@ fn too_few_cells_name_the_load_and_the_cures() {
         "spline: ",
         " cells reach ",
         "the error falls with the number of cells to the power of ",
-        "; at this rate, about ",
+        "; at this rate, --max-cells ",
         " would be enough",
         "the largest error is at φ = ",
         "the load \"pressing force\"",

@@ -139,7 +139,8 @@ impl NotReached<'_> {
                         if most_cells.is_none_or(|most| needed < most) {
                             most_cells = Some(needed);
                         }
-                        let _ = write!(text, "; at this rate, about {needed} would be enough");
+                        let _ =
+                            write!(text, "; at this rate, --max-cells {needed} would be enough");
                     } else {
                         let _ = write!(text, "; at this rate, even {MAX_CELLS} are too few");
                     }

@@ -43,9 +43,13 @@ pub fn row<C: AsRef<[u8]>>(cells: impl IntoIterator<Item = C>) -> String {
     rows([cells])
 }
 
-/// A number with every digit, tiny and huge ones with an exponent; zero has no sign.
+/// A number with every digit, tiny and huge ones with an exponent; zero has no sign, a whole number no point.
 pub fn number(x: f64) -> String {
-    format!("{:?}", x + 0.0)
+    let mut text = format!("{:?}", x + 0.0);
+    if text.ends_with(".0") {
+        text.truncate(text.len() - 2);
+    }
+    text
 }
 
 /// A number, or an empty cell where there is none.
@@ -62,7 +66,10 @@ mod tests {
         for x in [0.1 + 0.2, -1e-300, 5e300, f64::MIN_POSITIVE, 1.0 / 3.0] {
             assert_eq!(number(x).parse::<f64>().map(f64::to_bits), Ok(x.to_bits()));
         }
-        assert_eq!(number(-0.0), "0.0");
+        assert_eq!(
+            [-0.0, 440.0, -20.0, 1e300].map(number),
+            ["0", "440", "-20", "1e300"]
+        );
         assert_eq!(known(None), "");
     }
 

@@ -64,7 +64,12 @@ fn syntax(error: &toml::de::Error, text: &str) -> Problem {
     let value = value.split('#').next().unwrap_or_default().trim();
     let after = text.get(span.end..).unwrap_or_default().trim_start();
     let at_key = after.starts_with(['=', '.', ']']);
-    let help = if at_key
+    let hidden = text.get(span.clone()).and_then(plain::hidden);
+    // What may end a line is not what is wrong with it.
+    let hidden = hidden.filter(|c| !c.is_whitespace());
+    let help = if let Some(c) = hidden {
+        format!("{} stands here; {}", plain::described(c), plain::CURE)
+    } else if at_key
         && text
             .get(span.clone())
             .is_some_and(|key| is_twice(key, text))

@@ -1,7 +1,7 @@
 //! A number with a unit of any kind, as in texts of a machine file, for code that changes quantities without knowing their
 //! meaning.
 
-use super::kind::SHARE;
+use super::kind::{Kind, SHARE};
 use super::quantity::split_number;
 use super::unit;
 
@@ -46,6 +46,13 @@ impl Literal {
     }
 }
 
+/// What messages ask for.
+const ANY: Kind = Kind {
+    name: "a quantity",
+    example: "60 kg",
+    ..SHARE
+};
+
 /// Reads "1.2e-3 kg m^2", "12 %" or "0.8".
 ///
 /// # Errors
@@ -53,7 +60,7 @@ impl Literal {
 pub fn read(text: &str) -> Result<Literal, String> {
     let tidy = unit::tidy(text);
     let words = |fault: super::fault::Fault| format!("{}; {}", fault.message, fault.help);
-    let (number, rest) = split_number(&tidy, &SHARE).map_err(words)?;
+    let (number, rest) = split_number(&tidy, &ANY).map_err(words)?;
     let number = number
         .parse::<f64>()
         .ok()

@@ -240,7 +240,12 @@ fn split(letters: &str, most: usize, known: &'static [Word]) -> Option<Vec<&'sta
     let mut words: Vec<&'static str> = known.iter().map(|word| word.text).collect();
     words.sort_by_key(|word| std::cmp::Reverse(word.len()));
     words.into_iter().find_map(|word| {
-        let rest = split(letters.strip_prefix(word)?, most, known)?;
+        let rest = letters.strip_prefix(word)?;
+        // In "Nmm" the millimetre is one word.
+        if word.ends_with("Nm") && rest.starts_with('m') {
+            return None;
+        }
+        let rest = split(rest, most, known)?;
         Some([vec![word], rest].concat())
     })
 }

@@ -5,7 +5,7 @@
     python cross_check.py JRED --write    and write the results, which `cargo test -p jred-machine cross_check` reads
 
 JRED is the built command, such as target/debug/jred. The machine file gives dimensions and loads; joints, equations and signs are stated here anew.
-Exit status 1 if a figure violates the tolerance.
+Exit status 1 if a figure violates the tolerance, 2 if JRED is not given or not there.
 """
 
 import csv
@@ -254,7 +254,11 @@ def kind(column):
 
 
 def main():
-    command = sys.argv[1]
+    words = [word for word in sys.argv[1:] if word != "--write"]
+    if len(words) != 1 or not Path(words[0]).is_file():
+        print("name the built command: python cross_check.py ../../../../target/debug/jred [--write]", file=sys.stderr)
+        return 2
+    command = words[0]
     worst = 0.0
     print(f"{'machine':<20} {'quantity':<10} {'figures':>8} {'largest':>12} {'error':>10}")
     for name in CASES:

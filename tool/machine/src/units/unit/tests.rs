@@ -112,6 +112,9 @@ fn a_slip_of_the_shift_key_is_not_taken_for_a_product() {
         ("KN", "did you mean \"kN\"?"),
         ("KG cm^2", "did you mean \"kg\"?"),
         ("kgcm^2", "write it as \"kg cm^2\""),
+        ("Nmm", "write it as \"N mm\""),
+        ("kNmm", "write it as \"kN mm\""),
+        ("Nms", "write it as \"Nm s\""),
     ] {
         assert_eq!(read(text).unwrap_err().help, cure, "{text}");
     }
