@@ -1,5 +1,7 @@
 //! The three layouts against the exact machine, against each other, at knots, at the turn and at the ends of a stroke.
 
+mod halves;
+
 use std::f64::consts::TAU;
 
 use crate::support::machines::spec;

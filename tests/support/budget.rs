@@ -93,6 +93,10 @@ pub(crate) const F32_READ: f64 = 4e-7;
 /// six of them in a Spline, and the floors of [`Q31_SPLINE_READ`]; slopes of differences of two.
 pub(crate) const Q31_READ: [f64; 2] = [6.0 * 4.0 * Q31_UNIT, 12.0 * 4.0 * Q31_UNIT];
 
+/// Weight of a point's own error beside that of the slope, where the points of a spline are rounded together; and half as much
+/// for the exact points, which are rounded to 32 bits.
+pub(crate) const ROUNDED_VALUE: f64 = 0.03;
+
 /// Forward dynamics by the curve of 1/J, in units of 2⁻³¹ over J_m: product and Newton's step are in Q28 times J_m, eight units
 /// each; the step's factor is in Q29, four units of a full acceleration. And as much again for the curves' own words.
 pub(crate) const RECIPROCAL_UNITS: f64 = 40.0;
