@@ -155,6 +155,14 @@ fn impossible_cams_are_refused() {
         "the follower swings too far at φ = 180.00°: beyond the line of the two pivots, or square to it; reduce the rise \
          or move the pivot"
     );
+    // The same the other way: beyond the line of the pivots, and square to it, on the side that the follower falls to.
+    for (follower, fall) in [(arm([0.1, 0.0], 0.09), -2.9), (swinging(0.1, 0.0), -1.9)] {
+        let message = refused(four(fall), 0.03, follower);
+        assert!(
+            message.starts_with("the follower swings too far at φ = 180.00°"),
+            "{message}"
+        );
+    }
     let below = Program::new(&[
         Segment::law(Law::Cycloidal, PI, -0.02),
         Segment::law(Law::Cycloidal, PI, 0.02),

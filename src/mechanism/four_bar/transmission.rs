@@ -62,3 +62,16 @@ impl FourBar {
         ]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{TAU, beyond};
+
+    #[test]
+    fn an_angle_just_below_a_turn_that_rounds_to_it_is_zero() {
+        for angle in [-1e-20, -1e-300, 3.0 * TAU, -TAU] {
+            assert_eq!(beyond(angle).to_bits(), 0, "{angle}");
+        }
+        assert!((6.0..TAU).contains(&beyond(-1e-9)));
+    }
+}

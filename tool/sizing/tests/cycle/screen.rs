@@ -6,6 +6,7 @@ use jred_machine::analysis::duty::Duty;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::model::rules::Verdict;
 use jred_machine::model::site::Site;
+use jred_machine::model::supply::BrakeResistor;
 use jred_machine::read;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Amplifier, Catalogue};
@@ -207,6 +208,28 @@ fn drives_on_amplifiers_are_screened_as_in_full() {
         let first = expected.iter().find(|(name, _)| is_asked(name));
         assert_eq!(found.unwrap().drive.name(), first.unwrap().0);
     }
+}
+
+/// Without an amplifier, and without the highest voltage of the bus: a resistance too small for the chopper still decides.
+#[test]
+fn a_resistor_is_screened_as_in_full() {
+    let text = press_text();
+    let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 300).unwrap();
+    let cycle = Cycle::new(&duty);
+    let [small, large] = [15.0, 25.0].map(|resistance| {
+        let mut site = Site::default();
+        site.supply.min_resistance = Some(20.0);
+        site.supply.brake_resistor = Some(BrakeResistor {
+            resistance,
+            power: 100.0,
+            peak_power: None,
+            pulse_energy: None,
+        });
+        compare(&with_more_ratios(), &cycle, &site, &RuleSet::default())
+    });
+    assert_eq!((small[0], small[1]), (0, large[0] + large[1]));
+    assert!(large[0] > 0, "{large:?}");
 }
 
 /// A catalogue of which every drive is equal: they stand in the order of the catalogue.

@@ -182,6 +182,76 @@ fn every_model_that_data_allow() {
     );
 }
 
+/// The heat of both losses flows through the housing; the copper's are those at the temperature of the winding.
+#[test]
+fn the_housing_keeps_its_limit_where_it_is_known() {
+    let at_most = |housing| {
+        let mut site = Site::default();
+        site.surroundings.housing = housing;
+        site
+    };
+    let housing = |motor: &Motor, site: &Site| {
+        let checks = checks(motor, None, site);
+        let found = checks.iter().find(|c| c.id == Rule::HousingTemperature);
+        found.cloned()
+    };
+    let mut steady = motor();
+    steady.thermal.winding_time = None;
+    steady.thermal.housing_time = None;
+    let (rms, friction) = sums(&steady);
+    let copper = 1.5 * 0.6 * (1.0 + COPPER * 20.0) * rms * rms;
+    let growth = COPPER / (1.0 + COPPER * 20.0);
+    let rise = winding(&steady, &Site::default()).value.unwrap();
+    let expected = 0.35 * (copper * (1.0 + growth * rise) + friction);
+
+    let found = housing(&steady, &at_most(Some(70.0))).unwrap();
+    near("rise", found.value.unwrap(), expected, budget::SIMPSON);
+    near("limit", found.limit.unwrap(), 30.0, budget::THERMAL);
+    for (margin, verdict) in [(1.01, Verdict::Pass), (0.99, Verdict::Fail)] {
+        let found = housing(&steady, &at_most(Some(40.0 + margin * expected)));
+        assert_eq!(found.unwrap().verdict, verdict);
+    }
+    // Bodies with time constants: the mean, but for a ripple.
+    let found = housing(&motor(), &at_most(Some(70.0))).unwrap();
+    let ripple = found.value.unwrap() / expected - 1.0;
+    assert!(ripple.abs() < 0.01, "{ripple}");
+
+    assert!(housing(&steady, &at_most(None)).is_none());
+    for part in [0, 1] {
+        let mut one = steady.clone();
+        if part == 0 {
+            one.thermal.winding_resistance = None;
+        } else {
+            one.thermal.housing_resistance = None;
+        }
+        let found = housing(&one, &at_most(Some(70.0))).unwrap();
+        assert_eq!(found.verdict, Verdict::NotChecked);
+        assert!(found.note.contains("thermal resistances"), "{}", found.note);
+    }
+}
+
+/// The hottest point of the course that the page draws is the figure that is judged.
+#[test]
+fn the_course_of_the_temperatures_reaches_the_judged_figure() {
+    let (motor, site, cycle) = (motor(), Site::default(), cycle());
+    let prepared = Prepared::new(&motor, None, &site);
+    let drive = Drive {
+        motor: &motor,
+        gearbox: None,
+        amplifier: None,
+    };
+    let course = Context::new(&cycle, &site, drive, &prepared)
+        .rises()
+        .unwrap();
+    assert!(course.is_sorted_by(|a, b| a.0 < b.0));
+    let ends = [course[0].0, course[course.len() - 1].0];
+    near("end", ends[1], cycle.duration(), budget::THERMAL);
+    assert!(ends[0].abs() < budget::THERMAL);
+    let hottest = course.iter().map(|(_, rise)| rise[0]).fold(0.0, f64::max);
+    let judged = winding(&motor, &site).value.unwrap();
+    near("hottest", hottest, judged, budget::SIMPSON);
+}
+
 #[test]
 fn what_is_missing_is_said() {
     let site = Site::default();
