@@ -133,6 +133,12 @@ fn figures_are_those_of_closed_forms() {
         budget::METER_RECTANGLE,
         "energy",
     );
+    near(
+        figures.regenerative_energy,
+        10.0 * power,
+        budget::METER_RECTANGLE,
+        "energy back",
+    );
     near(figures.duration, 10.0, 1e-12, "duration");
     near(figures.peak_torque, 10.0, 1e-6, "peak torque");
     near(figures.peak_speed, 130.0, 1e-6, "peak speed");

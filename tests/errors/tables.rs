@@ -117,6 +117,50 @@ fn tables_that_cannot_be_made_say_why() {
     says(CubicSpline::new([0.0; 6]), &["holds 6", "7"]);
 }
 
+/// What the user can do is said, by the name of what is to be changed; where words are simply damaged, nothing.
+#[test]
+fn tables_and_models_that_can_be_cured_say_how() {
+    let (cell, phase) = (3, jred::Phase::default());
+    for (error, cure) in [
+        (
+            TableError::Overflow {
+                base: "speed",
+                cell,
+            },
+            "larger speed base",
+        ),
+        (TableError::NoInertia { cell }, "more cells"),
+        (TableError::VelocityTorque { cell }, "smaller speed base"),
+        (TableError::SpeedBase, "Scale::for_cells"),
+        (TableError::TorqueRange { cell }, "larger torque base"),
+        (TableError::PieceUnits, "same machine units"),
+        (TableError::NoInertiaAt { phase }, "more harmonics"),
+        (
+            TableError::InertiaNotShown { phase },
+            "give the drive link an inertia",
+        ),
+        (TableError::Stroke, "a table"),
+        (TableError::Harmonics, "harmonic::fit"),
+        (
+            TableError::Slope { cell },
+            "the scale that the table was made with",
+        ),
+    ] {
+        let found = Error::from(error).cure().to_string();
+        assert!(found.contains(cure), "{error:?}: \"{found}\"");
+    }
+    for damaged in [
+        TableError::Length {
+            needed: 2,
+            given: 1,
+        },
+        TableError::NotClosed { curve: 0 },
+        TableError::Constant,
+    ] {
+        assert_eq!(Error::from(damaged).cure().to_string(), "");
+    }
+}
+
 /// One turn's table of a rack that pulls a spring would be wrong from the second turn on.
 #[test]
 fn a_load_that_does_not_repeat_is_not_tabulated() {

@@ -45,6 +45,9 @@ fn the_judged_figure_is_chosen() {
             _ => "largest λ",
         };
         assert!(check.note.contains(words), "{}", check.note);
+        // A ratio has no unit: the value is the number itself.
+        assert_eq!(check.unit, "");
+        near(word, check.value.unwrap(), expected, budget::SAME_SUMS);
     }
     // The RMS of the load's inertia, then reduced.
     let stand = Stand::new(&format!(

@@ -125,6 +125,13 @@ fn every_model_that_data_allow() {
         "{}",
         two.note
     );
+    // Thin air is named where it counts, above 1000 m.
+    for (altitude, thin) in [(1000.0, false), (1001.0, true)] {
+        let mut high = site.clone();
+        high.surroundings.altitude = altitude;
+        let note = winding(&full, &high).note;
+        assert_eq!(note.contains("less 1 % per 100 m"), thin, "{note}");
+    }
 
     let mut steady = full.clone();
     steady.thermal.winding_time = None;
