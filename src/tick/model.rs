@@ -78,6 +78,7 @@ use crate::{Outcome, Phase};
 /// }
 /// ```
 #[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
 pub struct Model<'a, F: Format, const SET: Set>(AnyModel<'a, F>);
 
 /// As [`Model`], with a set of [`curves`](crate::curves) that is known when the program runs: for hosts, which tick any table

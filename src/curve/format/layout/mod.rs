@@ -266,14 +266,19 @@ macro_rules! format {
                     Self::Number::product(cell.speed_coefficient(slope, tick.factor, omega), omega);
                 let resisting = cell.with_load_and_friction(resisting, omega);
                 let reciprocal = cell.curve(Role::Reciprocal);
-                torques.map(|torque| match reciprocal {
-                    Some(reciprocal) => {
-                        let inertia = Self::NEWTON.then_some(inertia);
-                        let constants = tick.reciprocal;
-                        Self::Number::by_reciprocal(torque, resisting, reciprocal, constants, inertia)
-                    }
-                    None => Self::Number::quotient(torque, resisting, inertia),
-                })
+                // Not `map`, which many models share as one function that knows no set of curves.
+                let mut outcomes = [Outcome::default(); N];
+                for (outcome, torque) in outcomes.iter_mut().zip(torques) {
+                    *outcome = match reciprocal {
+                        Some(reciprocal) => {
+                            let inertia = Self::NEWTON.then_some(inertia);
+                            let constants = tick.reciprocal;
+                            Self::Number::by_reciprocal(torque, resisting, reciprocal, constants, inertia)
+                        }
+                        None => Self::Number::quotient(torque, resisting, inertia),
+                    };
+                }
+                outcomes
             }
         }
     };
