@@ -40,7 +40,7 @@ fn source_texts_hold_the_image() {
         assert!(rust.contains(&format!("pub static TABLE: [u32; {}] = [", words.len())));
         assert_eq!(words_in(&rust), words);
         assert!(c.contains("#include <stdint.h>"));
-        assert!(c.contains(&format!("const uint32_t jred_table[{}] = {{", words.len())));
+        assert!(c.contains(&format!("const uint32_t press_words[{}] = {{", words.len())));
         assert_eq!(words_in(&c), words);
         for text in [&rust, &c] {
             // Outside the comment: a declaration, words, and a closing bracket; as many open as close.
@@ -51,7 +51,11 @@ fn source_texts_hold_the_image() {
                 (count('['), count('{'), count('(')),
                 (count(']'), count('}'), count(')'))
             );
-            assert!(["};", "];", "};}"].iter().any(|end| code.ends_with(end)));
+            assert!(
+                ["};", "];", "};}", "}"]
+                    .iter()
+                    .any(|end| code.ends_with(end))
+            );
             assert!(
                 text.lines()
                     .all(|line| line.is_ascii() || line.starts_with("//"))
@@ -80,7 +84,7 @@ fn source_texts_hold_the_image() {
 fn the_c_file_is_c_and_cpp() {
     let folder = Folder::new();
     let edges = ["--pieces", "auto"];
-    for (pieces, table) in [(&[][..], "jred_table"), (&edges[..], "jred_tables")] {
+    for (pieces, table) in [(&[][..], "press_words"), (&edges[..], "press_tables")] {
         let options = [
             "--format",
             "c",

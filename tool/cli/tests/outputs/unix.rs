@@ -163,7 +163,7 @@ fn a_full_disk_leaves_the_old_file() {
 fn devices_are_written_directly() {
     let (press, out) = (press_file(), ["--format", "c", "--out", "/dev/stdout"]);
     let run = jred_with(&[&["export", press.to_str().unwrap()], &EXPORT[..], &out].concat());
-    assert!(run.out.contains("jred_table["), "{}", run.out);
+    assert!(run.out.contains("_words["), "{}", run.out);
     assert!(run.out.contains("written to /dev/stdout"), "{}", run.out);
     if Path::new("/dev/full").exists() {
         export_to(Path::new("/dev/full"))

@@ -13,7 +13,7 @@ crate::words! {
         Image = "image",
         /// A Rust source file with the image as a `static` array of words.
         Rust = "rust",
-        /// A C or C++ source file with the image as a `const` array of words, to be compiled or included once.
+        /// A C or C++ source file with the image as a `const` array of words, and the functions of `jred.h`.
         C = "c",
         /// JSON: the words, all properties of the table, and its alternatives.
         Json = "json",
@@ -33,8 +33,8 @@ impl Export {
             (Form::Image, None) => return None,
             (Form::Rust, Some(table)) => self.source(&rust_table("TABLE", &table.words)),
             (Form::Rust, None) => self.source(&self.rust_pieces(tables)),
-            (Form::C, Some(table)) => self.source(&c_source(&c_table("jred_table", &table.words))),
-            (Form::C, None) => self.source(&c_source(&self.c_pieces(tables))),
+            (Form::C, Some(table)) => self.source(&self.c_table(table)),
+            (Form::C, None) => self.source(&self.c_pieces(tables)),
             (Form::Json, _) => format!("{:#}\n", self.json()).into_bytes(),
         })
     }
@@ -78,34 +78,6 @@ impl Export {
         }
         text
     }
-
-    /// A table for each piece, and where each starts.
-    fn c_pieces(&self, tables: &[Made]) -> String {
-        let mut text = String::new();
-        for (number, table) in (1..).zip(tables) {
-            text += &c_table(&format!("jred_table_{number}"), &table.words);
-            text.push('\n');
-        }
-        let count = tables.len();
-        let starts = tables
-            .iter()
-            .map(|table| format!("0x{:08x}", self.start(table).to_bits()));
-        let starts: Vec<String> = starts.collect();
-        let names: Vec<String> = (1..=count)
-            .map(|number| format!("jred_table_{number}"))
-            .collect();
-        let _ = write!(
-            text,
-            "/* Phase at which each begins, in units of 2^-32 of the whole range. */\n\
-             extern const uint32_t jred_starts[{count}];\n\
-             const uint32_t jred_starts[{count}] = {{ {} }};\n\
-             extern const uint32_t *const jred_tables[{count}];\n\
-             const uint32_t *const jred_tables[{count}] = {{ {} }};\n",
-            starts.join(", "),
-            names.join(", ")
-        );
-        text
-    }
 }
 
 // `include_image!` and these arrays are aligned as the words are; rows of a power of two then do not cross cache lines.
@@ -118,25 +90,7 @@ fn rust_table(name: &str, words: &[u32]) -> String {
     )
 }
 
-/// In C++ a constant is seen in its file only, unless it was declared `extern`.
-fn c_table(name: &str, words: &[u32]) -> String {
-    let count = words.len();
-    format!(
-        "extern const uint32_t {name}[{count}];\nconst uint32_t {name}[{count}] = {{\n{}}};\n",
-        rows(words)
-    )
-}
-
-/// A source file of C or C++, compiled or included: once, and with the same names in both.
-fn c_source(code: &str) -> String {
-    format!(
-        "#ifndef JRED_TABLE\n#define JRED_TABLE\n\n#include <stdint.h>\n\n\
-         #ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n{code}\n\
-         #ifdef __cplusplus\n}}\n#endif\n\n#endif\n"
-    )
-}
-
-fn rows(words: &[u32]) -> String {
+pub(super) fn rows(words: &[u32]) -> String {
     let mut text = String::new();
     for row in words.chunks(8) {
         let words: Vec<String> = row.iter().map(|w| format!("0x{w:08x}")).collect();

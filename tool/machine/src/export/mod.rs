@@ -1,6 +1,7 @@
 //! `jred export`: the smallest table that meets a torque error, or the best one for its bytes, as an image or as source
 //! code, beside what other number types and layouts would take.
 
+mod c_source;
 mod candidate;
 mod choice;
 mod fault;
@@ -61,6 +62,8 @@ const SHORTEST: f64 = 1.0 / 65_536.0;
 /// A table ready to be written, and those of the other types and layouts.
 #[derive(Clone, Debug)]
 pub struct Export {
+    /// Name of the machine file.
+    name: String,
     title: String,
     /// Whether the drive link turns or slides.
     pub coordinate: Coordinate,
@@ -154,6 +157,7 @@ impl Export {
             .failure()?);
         };
         Ok(Self {
+            name: file.name.clone(),
             title: file.title.clone(),
             coordinate,
             domain,
