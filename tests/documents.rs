@@ -93,6 +93,7 @@ fn paths_exist() {
         "benches/",
         "docs/",
         "examples/",
+        "ffi/",
         "machines/",
         "scripts/",
         "src/",

@@ -166,6 +166,7 @@ fn no_crate_of_ours_holds_unsafe_code() {
     let packages = tools.map(|entry| entry.unwrap().path());
     let others =
         ["", "xtask", "examples/log", "examples/bits", "tests/fuzz"].map(|name| root.join(name));
+    // `ffi`, the boundary to C, is made of names for the linker and of pointers.
     let mut seen = 0;
     for package in packages.chain(others) {
         for name in ["lib.rs", "main.rs"] {

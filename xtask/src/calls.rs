@@ -78,7 +78,7 @@ impl<'p> Splitter<'p> {
     pub(crate) fn new(
         program: &'p Program,
         timing: Option<Timing>,
-        kernels: &[&str],
+        kernels: &[impl AsRef<str>],
     ) -> Result<Self> {
         let find = |name: &str| {
             program
@@ -86,9 +86,9 @@ impl<'p> Splitter<'p> {
                 .with_context(|| format!("no function {name} in the program"))
         };
         let mut entries = HashMap::new();
-        for (index, name) in kernels.iter().enumerate() {
+        for (index, name) in kernels.iter().map(AsRef::as_ref).enumerate() {
             if let Some(other) = entries.insert(find(name)?, index) {
-                bail!("{name} and {} are the same code", kernels[other]);
+                bail!("{name} and {} are the same code", kernels[other].as_ref());
             }
         }
         Ok(Self {

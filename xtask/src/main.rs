@@ -1,7 +1,8 @@
-//! Commands for those who work on jred: `cargo xtask perf`, `cargo xtask loaded`.
+//! Commands for those who work on jred: `cargo xtask perf`, `cargo xtask loaded`, `cargo xtask c`.
 #![forbid(unsafe_code)]
 
 mod bounds;
+mod c;
 mod calls;
 mod ceilings;
 mod cores;
@@ -36,12 +37,14 @@ struct Cli {
 enum Command {
     Perf(perf::Options),
     Loaded(loaded::Options),
+    C(c::Options),
 }
 
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Perf(options) => perf::run(&options),
         Command::Loaded(options) => loaded::run(&options),
+        Command::C(options) => c::run(&options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

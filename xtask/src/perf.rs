@@ -84,9 +84,10 @@ pub(crate) fn run(options: &Options) -> Result<()> {
             .map(|sources| peers::compile(core, sources))
             .transpose()?;
         let program = program::compile(core, objects.as_deref())?;
-        report
-            .measurements
-            .extend(measure(emulator, core, &program, &kernels)?);
+        let folder = program::files(core);
+        let name = |kernel: &Kernel| kernel.name.to_owned();
+        let found = measure(emulator, core, &program, &folder, &kernels, name)?;
+        report.measurements.extend(found);
     }
     if options.markdown {
         println!("{}{}.", report.markdown(), tools(with_peers)?.join(", "));
@@ -109,33 +110,35 @@ fn tools(with_peers: bool) -> Result<Vec<String>> {
     tools.map(version).collect()
 }
 
-/// Runs the program twice, once for the trace and once for the clock, and puts both together.
-fn measure(
+/// Runs the program twice, once for the trace and once for the clock, and puts both together. The program reads and writes its
+/// files in `folder`; `symbol` is what it calls a kernel.
+pub(crate) fn measure(
     emulator: Emulator,
     core: &'static Core,
     path: &Path,
+    folder: &Path,
     kernels: &[&'static Kernel],
+    symbol: impl Fn(&Kernel) -> String,
 ) -> Result<Vec<Measurement>> {
     let example = Example::new();
-    let folder = program::target_dir().join("tick").join(core.name);
     // Nothing of an earlier run may be taken for a result.
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
+    let _ = std::fs::remove_dir_all(folder);
+    std::fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     let work = kernels
         .iter()
         .map(|kernel| Work::new(kernel, &example))
         .collect::<Result<Vec<_>>>()?;
     for (kernel, work) in kernels.iter().zip(&work) {
-        work.write(kernel, &folder)?;
+        work.write(kernel, folder)?;
     }
     let program = Program::read(path)?;
-    let names: Vec<_> = kernels.iter().map(|kernel| kernel.name).collect();
+    let names: Vec<_> = kernels.iter().map(|kernel| symbol(kernel)).collect();
     let mut splitter = Splitter::new(&program, core.timing, &names)?;
-    emulator.trace(core, path, &folder, program.range(), |address| {
+    emulator.trace(core, path, folder, program.range(), |address| {
         splitter.step(address)
     })?;
     let calls = splitter.finish()?;
-    Emulator::count(core, path, &folder)?;
+    Emulator::count(core, path, folder)?;
 
     let mut bounds = Bounds::new(&program)?;
     let mut found = Vec::new();
@@ -147,7 +150,7 @@ fn measure(
             kernel.name,
             work.calls()
         );
-        let (error, ticks) = work.read(kernel, &folder)?;
+        let (error, ticks) = work.read(kernel, folder)?;
         let most = if kernel.origin == Origin::Jred {
             ERROR
         } else {
@@ -174,7 +177,7 @@ fn measure(
             stack: most(|call| call.stack),
         };
         let bound = (kernel.origin == Origin::Jred)
-            .then(|| bounds.of(kernel.name))
+            .then(|| bounds.of(&symbol(kernel)))
             .transpose()?;
         ensure!(
             bound.is_none_or(|b| worst.instructions <= b.instructions && worst.stack <= b.stack),

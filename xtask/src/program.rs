@@ -24,6 +24,11 @@ pub(crate) fn target_dir() -> PathBuf {
     root().join(set)
 }
 
+/// Where the program for `core` reads and writes its files.
+pub(crate) fn files(core: &Core) -> PathBuf {
+    target_dir().join("tick").join(core.name)
+}
+
 /// Compiles the program for `core`, with the objects of `peers` if there are any.
 pub(crate) fn compile(core: &Core, peers: Option<&Path>) -> Result<PathBuf> {
     let mut flags: Vec<String> = core.rustc.iter().map(|flag| (*flag).to_owned()).collect();

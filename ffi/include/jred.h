@@ -1,0 +1,207 @@
+/* jred in C and C++: ticks over a table image. docs/c.md shows how; this is the reference.
+ *
+ *     #include "jred.h"
+ *     #include "press.h"                           written by: jred export press.toml --format c --out press.h
+ *
+ *     static press_model press;                    memory of yours; nothing is allocated
+ *     if (press_load(&press) != JRED_OK) ...       once: every check is made here
+ *     float torque = press_torque(&press, phase, omega, alpha);      in every tick
+ *
+ * Link with libjred_ffi.a and `--gc-sections`: only what is called stays in the program.
+ */
+#ifndef JRED_H
+#define JRED_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+#define JRED_C_ extern "C"
+extern "C" {
+#else
+#define JRED_C_ extern
+#endif
+
+/* ---- status ------------------------------------------------------------------------------------------------------ */
+
+/* What a function answers; 0 is good. */
+typedef int32_t jred_status;
+enum {
+    JRED_OK = 0,
+    JRED_LIMITED = 1,       /* done, but outside the range of the number type: the nearest end was taken */
+    JRED_NULL = 2,          /* a pointer is null */
+    JRED_MISALIGNED = 3,    /* the words do not lie on a 4-byte boundary */
+    JRED_BIG_ENDIAN = 4,    /* images are little-endian, and this processor is not */
+    JRED_LENGTH = 5,        /* not the number of words that the image says: truncated, or padded */
+    JRED_NOT_AN_IMAGE = 6,  /* the words do not begin with "JRED" */
+    JRED_VERSION = 7,       /* another version of the layout: export the table anew */
+    JRED_CRC = 8,           /* the image is damaged */
+    JRED_HEADER = 9,        /* a word of the header has no meaning */
+    JRED_NUMBER_TYPE = 10,  /* the image holds another number type */
+    JRED_LAYOUT = 11,       /* the image has another layout */
+    JRED_SET = 12,          /* the image has another set of curves */
+    JRED_CELLS = 13,        /* too few or too many cells or harmonics */
+    JRED_ROWS = 14,         /* not as many rows as cells and curves need */
+    JRED_RANGE = 15,        /* a number is not finite or leaves its range */
+    JRED_NO_INERTIA = 16,   /* the inertia is not positive everywhere */
+    JRED_NOT_CLOSED = 17,   /* a periodic curve does not close */
+    JRED_TORQUE_RANGE = 18, /* a torque may leave the number range */
+    JRED_UNITS = 19,        /* the machine units are not those of the table */
+    JRED_CONSTANT = 20,     /* a constant friction is negative or not finite */
+    JRED_RECIPROCAL = 21,   /* the curve of 1/J is not that of J */
+    JRED_TABLE = 22         /* anything else that is wrong with a table */
+};
+
+/* The name of a status, such as "JRED_CRC"; "JRED_UNKNOWN" for another number. */
+const char *jred_status_name(int32_t status);
+
+/* ---- phase ------------------------------------------------------------------------------------------------------- */
+
+/* The angle of the drive link in units of 2^-32 turns (of the stroke, if it slides). It wraps by itself. */
+
+/* From the count of an encoder with per_turn counts a turn. A counter that overflows keeps its angle only if per_turn is a power
+ * of two; let others wrap at a whole number of turns. Without counts a turn the phase is 0. */
+uint32_t jred_phase_from_counts(uint32_t count, uint32_t per_turn);
+/* From radians, 6e-8 of a turn for |phi| <= 2 pi; 0 beyond 6e8 rad and for NaN. */
+uint32_t jred_phase_from_radians(float phi);
+/* From a position within a stroke (jred_info), limited to it. */
+uint32_t jred_phase_from_stroke(float position, float from, float to);
+
+/* ---- image ------------------------------------------------------------------------------------------------------- */
+
+/* What an image says of itself. For a drive link that slides read force, speed, mass. */
+typedef struct {
+    uint32_t set;            /* curves, as docs/table-image.md has them */
+    uint32_t cells;          /* or harmonics */
+    uint32_t stroke;         /* 0: a turn; 1: a stroke */
+    float from;              /* start and end of the stroke (m, or rad) */
+    float to;
+    float torque_base;       /* machine units: what the number 1 is (N m); 1 in single precision */
+    float speed_base;        /* rad/s */
+    float inertia_base;      /* kg m^2 */
+    float acceleration_base; /* rad/s^2 */
+    float most_speed;        /* the table was made up to this speed (rad/s) */
+    float most_acceleration; /* and this acceleration (rad/s^2) */
+    float torque_error;      /* the largest error of the torque within them (N m) */
+} jred_info;
+
+/* Checks header and CRC and fills info. */
+jred_status jred_image_info(const uint32_t *words, size_t length, jred_info *info);
+
+/* ---- machine units ----------------------------------------------------------------------------------------------- */
+
+/* Fixed point is per unit: INT32_MAX, or INT16_MAX, is just below 1, the base. A number in units of a base of jred_info: JRED_OK, or
+ * JRED_LIMITED if it did not fit. */
+jred_status jred_q31_from_si(float si, float base, int32_t *number);
+jred_status jred_q15_from_si(float si, float base, int16_t *number);
+/* And back. */
+float jred_q31_to_si(int32_t number, float base);
+float jred_q15_to_si(int16_t number, float base);
+
+/* ---- model ------------------------------------------------------------------------------------------------------- */
+
+/* Memory of a model, anywhere; zeros are no model. A model is not copied to another machine, but may be moved or copied as bytes. */
+#define JRED_MEMORY_POINTERS 27
+typedef struct {
+    uintptr_t tag; /* the set of curves and 1; 0: no model */
+    void *opaque[JRED_MEMORY_POINTERS];
+} jred_memory;
+
+/* Any set of curves. */
+#define JRED_ANY 0xffff
+
+/* A tick looks whether the model is there, three instructions in its caller. Define JRED_UNCHECKED before this header where the status
+ * of every load is looked at, to leave that out. */
+#ifdef JRED_UNCHECKED
+#define JRED_IS_LOADED_(model, set) true
+#else
+#define JRED_IS_LOADED_(model, set) \
+    ((model) != NULL && ((set) == JRED_ANY ? (model)->memory.tag != 0 : (model)->memory.tag == (uintptr_t)(set) + 1))
+#endif
+
+/* A machine by its name, format and set of curves, as `jred export --format c` writes them:
+ *
+ *     JRED_MODEL(press, spline_f32, 21)
+ *
+ * declares the type press_model and
+ *
+ *     jred_status press_load_words(press_model *, const uint32_t *words, size_t length);
+ *     number      press_torque(const press_model *, uint32_t phase, number omega, number alpha);
+ *     number      press_acceleration(const press_model *, uint32_t phase, number omega, number torque);
+ *     range       press_acceleration_range(const press_model *, uint32_t phase, number omega, number least, number greatest);
+ *
+ * where number is float, int32_t or int16_t, as the format ends in f32, q31 or q15. The words must live and stay the same as long as
+ * the model is ticked. A tick of
+ * no model (a null pointer, one that was not loaded or whose loading failed) gives 0. An acceleration that does not fit is the nearest end of the range;
+ * press_acceleration_range says so of each.
+ *
+ * Formats: spline_f32, cubic_f32, quadratic_f32, spline_q31, cubic_q31, quadratic_q31, spline16_q31, rows_q15, harmonic_f32.
+ */
+#define JRED_MODEL(name, format, set) JRED_MODEL_(name, format, JRED_NUMBER_##format, s##set, set)
+/* The same for whatever set of curves an image has: a tick looks which they are, and takes longer. */
+#define JRED_ANY_MODEL(name, format) JRED_MODEL_(name, format, JRED_NUMBER_##format, any, JRED_ANY)
+
+#define JRED_NUMBER_spline_f32 f32
+#define JRED_NUMBER_cubic_f32 f32
+#define JRED_NUMBER_quadratic_f32 f32
+#define JRED_NUMBER_harmonic_f32 f32
+#define JRED_NUMBER_spline_q31 q31
+#define JRED_NUMBER_cubic_q31 q31
+#define JRED_NUMBER_quadratic_q31 q31
+#define JRED_NUMBER_spline16_q31 q31
+#define JRED_NUMBER_rows_q15 q15
+
+typedef float jred_f32;
+typedef int32_t jred_q31;
+typedef int16_t jred_q15;
+
+#define JRED_RANGE_(n)         \
+    typedef struct {           \
+        jred_##n least;        \
+        jred_##n greatest;     \
+        bool least_limited;    \
+        bool greatest_limited; \
+    } jred_##n##_range;
+/* The accelerations at the least and at the greatest torque, and whether each was limited to the number range: never in single
+ * precision. */
+JRED_RANGE_(f32)
+JRED_RANGE_(q31)
+JRED_RANGE_(q15)
+
+#ifdef __cplusplus
+}
+#endif
+
+#define JRED_MODEL_(name, format, number, family, set) JRED_MODEL__(name, format, number, family, set)
+#define JRED_MODEL__(name, format, n, family, set)                                                                            \
+    JRED_C_ jred_status jred_##format##_load(jred_memory *memory, uint16_t set_, const uint32_t *words, size_t length);       \
+    JRED_C_ jred_##n jred_##format##_##family##_torque(const jred_memory *memory, uint32_t phase, jred_##n omega,             \
+                                                       jred_##n alpha);                                                       \
+    JRED_C_ jred_##n jred_##format##_##family##_acceleration(const jred_memory *memory, uint32_t phase,                       \
+                                                                       jred_##n omega, jred_##n torque);                      \
+    JRED_C_ void jred_##format##_##family##_acceleration_range(const jred_memory *memory, uint32_t phase, jred_##n omega,     \
+                                                               jred_##n least, jred_##n greatest, jred_##n##_range *range);   \
+    typedef struct {                                                                                                          \
+        jred_memory memory;                                                                                                   \
+    } name##_model;                                                                                                           \
+    static inline jred_status name##_load_words(name##_model *model, const uint32_t *words, size_t length) {                  \
+        return jred_##format##_load((jred_memory *)model, set, words, length);                                                \
+    }                                                                                                                         \
+    static inline jred_##n name##_torque(const name##_model *model, uint32_t phase, jred_##n omega, jred_##n alpha) {         \
+        return JRED_IS_LOADED_(model, set) ? jred_##format##_##family##_torque(&model->memory, phase, omega, alpha) : 0;      \
+    }                                                                                                                         \
+    static inline jred_##n name##_acceleration(const name##_model *model, uint32_t phase, jred_##n omega,                     \
+                                                         jred_##n torque) {                                                   \
+        return JRED_IS_LOADED_(model, set) ? jred_##format##_##family##_acceleration(&model->memory, phase, omega, torque) : 0;\
+    }                                                                                                                         \
+    static inline jred_##n##_range name##_acceleration_range(const name##_model *model, uint32_t phase, jred_##n omega,       \
+                                                             jred_##n least, jred_##n greatest) {                             \
+        jred_##n##_range range = {0, 0, false, false};                                                                        \
+        if (JRED_IS_LOADED_(model, set))                                                                                      \
+            jred_##format##_##family##_acceleration_range(&model->memory, phase, omega, least, greatest, &range);             \
+        return range;                                                                                                         \
+    }                                                                                                                         \
+    struct jred_semicolon_ /* takes the semicolon behind the macro */
+
+#endif

@@ -1,0 +1,70 @@
+//! What an image says of itself.
+
+use core::mem::MaybeUninit;
+
+use jred::{Domain, Image, ImageError};
+
+use crate::memory::words;
+use crate::status::Status;
+
+/// `jred_info` in C.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Info {
+    set: u32,
+    cells: u32,
+    /// 0: a turn; 1: a stroke.
+    stroke: u32,
+    from: f32,
+    to: f32,
+    torque_base: f32,
+    speed_base: f32,
+    inertia_base: f32,
+    acceleration_base: f32,
+    most_speed: f32,
+    most_acceleration: f32,
+    torque_error: f32,
+}
+
+impl Info {
+    fn of(words: &[u32]) -> Result<Self, ImageError> {
+        let image = Image::new(words)?;
+        let (stroke, from, to) = match image.domain() {
+            Domain::Turn => (0, 0.0, 0.0),
+            Domain::Stroke { from, to } => (1, from, to),
+        };
+        let (scale, validity) = (image.scale(), image.validity());
+        Ok(Self {
+            set: image.set().into(),
+            cells: image.cells(),
+            stroke,
+            from,
+            to,
+            torque_base: scale.torque(),
+            speed_base: scale.speed(),
+            inertia_base: scale.inertia(),
+            acceleration_base: scale.acceleration(),
+            most_speed: validity.omega,
+            most_acceleration: validity.alpha,
+            torque_error: validity.torque_error,
+        })
+    }
+}
+
+/// # Safety
+/// `words` is null, or the address of `length` words; `info` is null or memory of a `jred_info`.
+#[unsafe(no_mangle)]
+pub(crate) unsafe extern "C" fn jred_image_info(
+    words: *const u32,
+    length: usize,
+    info: Option<&mut MaybeUninit<Info>>,
+) -> Status {
+    // SAFETY: as promised by the caller.
+    let words = unsafe { self::words(words, length) };
+    let (words, info) = match (words, info) {
+        (Ok(words), Some(info)) => (words, info),
+        (Err(status), _) => return status,
+        (_, None) => return Status::Null,
+    };
+    Info::of(words).map(|found| _ = info.write(found)).into()
+}

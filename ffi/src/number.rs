@@ -1,0 +1,97 @@
+//! Numbers of a tick as C has them, and SI units.
+
+use jred::number::Number;
+use jred::{Q15, Q31};
+
+use crate::status::Status;
+
+/// A number of a tick, and what stands for it in C.
+pub(crate) trait CNumber: Number {
+    /// `float`, `int32_t` or `int16_t`.
+    type C: Copy + Default;
+
+    fn number(c: Self::C) -> Self;
+    fn c(self) -> Self::C;
+}
+
+impl CNumber for f32 {
+    type C = Self;
+
+    #[inline]
+    fn number(c: Self) -> Self {
+        c
+    }
+    #[inline]
+    fn c(self) -> Self {
+        self
+    }
+}
+
+impl CNumber for Q31 {
+    type C = i32;
+
+    #[inline]
+    fn number(c: i32) -> Self {
+        Self::from_bits(c)
+    }
+    #[inline]
+    fn c(self) -> i32 {
+        self.to_bits()
+    }
+}
+
+impl CNumber for Q15 {
+    type C = i16;
+
+    #[inline]
+    fn number(c: i16) -> Self {
+        Self::from_bits(c)
+    }
+    #[inline]
+    fn c(self) -> i16 {
+        self.to_bits()
+    }
+}
+
+/// `jred_…_range` in C.
+#[repr(C)]
+pub(crate) struct Range<C> {
+    pub(crate) least: C,
+    pub(crate) greatest: C,
+    pub(crate) least_limited: bool,
+    pub(crate) greatest_limited: bool,
+}
+
+/// `si` in units of `base`.
+fn from_si<N: CNumber>(si: f32, base: f32, number: Option<&mut N::C>) -> Status {
+    let Some(number) = number else {
+        return Status::Null;
+    };
+    let found = N::per_unit(si, base);
+    *number = found.value.c();
+    if found.saturated {
+        Status::Limited
+    } else {
+        Status::Ok
+    }
+}
+
+#[unsafe(no_mangle)]
+pub(crate) extern "C" fn jred_q31_from_si(si: f32, base: f32, number: Option<&mut i32>) -> Status {
+    from_si::<Q31>(si, base, number)
+}
+
+#[unsafe(no_mangle)]
+pub(crate) extern "C" fn jred_q15_from_si(si: f32, base: f32, number: Option<&mut i16>) -> Status {
+    from_si::<Q15>(si, base, number)
+}
+
+#[unsafe(no_mangle)]
+pub(crate) extern "C" fn jred_q31_to_si(number: i32, base: f32) -> f32 {
+    Q31::from_bits(number).si(base)
+}
+
+#[unsafe(no_mangle)]
+pub(crate) extern "C" fn jred_q15_to_si(number: i16, base: f32) -> f32 {
+    Q15::from_bits(number).si(base)
+}

@@ -1,0 +1,20 @@
+//! Phases from counts and angles.
+
+use core::num::NonZeroU32;
+
+use jred::{Domain, Phase};
+
+#[unsafe(no_mangle)]
+pub(crate) extern "C" fn jred_phase_from_counts(count: u32, per_turn: u32) -> u32 {
+    NonZeroU32::new(per_turn).map_or(0, |per_turn| Phase::from_counts(count, per_turn).to_bits())
+}
+
+#[unsafe(no_mangle)]
+pub(crate) extern "C" fn jred_phase_from_radians(phi: f32) -> u32 {
+    Phase::from_radians_f32(phi).to_bits()
+}
+
+#[unsafe(no_mangle)]
+pub(crate) extern "C" fn jred_phase_from_stroke(position: f32, from: f32, to: f32) -> u32 {
+    Domain::Stroke { from, to }.phase(position).to_bits()
+}

@@ -1,0 +1,128 @@
+//! What a function answers.
+
+use core::ffi::{CStr, c_char};
+
+use jred::{ImageError, TableError};
+
+macro_rules! statuses {
+    ($($(#[$doc:meta])* $variant:ident = $code:literal $name:literal,)*) => {
+        /// What a function answers: 0 is good. The names in C are those that [`name`](Self::name) gives.
+        #[repr(i32)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(crate) enum Status {
+            $($(#[$doc])* $variant = $code,)*
+        }
+
+        impl Status {
+            /// Every status.
+            pub(crate) const ALL: &[Self] = &[$(Self::$variant),*];
+
+            /// Its name in C.
+            pub(crate) const fn name(self) -> &'static CStr {
+                match self {
+                    $(Self::$variant => $name,)*
+                }
+            }
+        }
+    };
+}
+
+statuses! {
+    /// Done.
+    Ok = 0 c"JRED_OK",
+    /// Done, but the number lies outside the range of the number type: the nearest end was taken.
+    Limited = 1 c"JRED_LIMITED",
+    /// A pointer is null.
+    Null = 2 c"JRED_NULL",
+    /// The words do not lie on a 4-byte boundary.
+    Misaligned = 3 c"JRED_MISALIGNED",
+    /// Images are little-endian, and this processor is not.
+    BigEndian = 4 c"JRED_BIG_ENDIAN",
+    /// Not the number of words that the image says: truncated, or padded.
+    Length = 5 c"JRED_LENGTH",
+    /// The words do not begin with "JRED".
+    NotAnImage = 6 c"JRED_NOT_AN_IMAGE",
+    /// The image has another version of the layout.
+    Version = 7 c"JRED_VERSION",
+    /// The image is damaged.
+    Crc = 8 c"JRED_CRC",
+    /// A word of the header has no meaning.
+    Header = 9 c"JRED_HEADER",
+    /// The image holds another number type.
+    NumberType = 10 c"JRED_NUMBER_TYPE",
+    /// The image has another layout.
+    Layout = 11 c"JRED_LAYOUT",
+    /// The image has another set of curves.
+    Set = 12 c"JRED_SET",
+    /// Too few or too many cells or harmonics.
+    Cells = 13 c"JRED_CELLS",
+    /// Not as many rows as cells and curves need.
+    Rows = 14 c"JRED_ROWS",
+    /// A number is not finite or leaves its range.
+    Range = 15 c"JRED_RANGE",
+    /// The inertia is not positive everywhere.
+    NoInertia = 16 c"JRED_NO_INERTIA",
+    /// A periodic curve does not close.
+    NotClosed = 17 c"JRED_NOT_CLOSED",
+    /// A torque may leave the number range.
+    TorqueRange = 18 c"JRED_TORQUE_RANGE",
+    /// The machine units are not those of the table.
+    Units = 19 c"JRED_UNITS",
+    /// A constant friction is negative or not finite.
+    Constant = 20 c"JRED_CONSTANT",
+    /// The curve of 1/J is not that of J.
+    Reciprocal = 21 c"JRED_RECIPROCAL",
+    /// Anything else that is wrong with a table.
+    Table = 22 c"JRED_TABLE",
+}
+
+impl From<ImageError> for Status {
+    fn from(error: ImageError) -> Self {
+        match error {
+            ImageError::Misaligned => Self::Misaligned,
+            ImageError::BigEndian => Self::BigEndian,
+            ImageError::Length { .. } => Self::Length,
+            ImageError::NotAnImage(_) => Self::NotAnImage,
+            ImageError::Version { .. } => Self::Version,
+            ImageError::Crc { .. } => Self::Crc,
+            ImageError::Header(_) => Self::Header,
+            ImageError::NumberType(_) => Self::NumberType,
+            ImageError::Layout(_) => Self::Layout,
+            ImageError::Table(error) => error.into(),
+            _ => Self::Table,
+        }
+    }
+}
+
+impl From<TableError> for Status {
+    fn from(error: TableError) -> Self {
+        match error {
+            TableError::Curves(_) => Self::Set,
+            TableError::Cells(_) => Self::Cells,
+            TableError::Length { .. } => Self::Rows,
+            TableError::Range { .. } | TableError::Overflow { .. } => Self::Range,
+            TableError::NoInertia { .. }
+            | TableError::NoInertiaAt { .. }
+            | TableError::InertiaNotShown { .. } => Self::NoInertia,
+            TableError::NotClosed { .. } => Self::NotClosed,
+            TableError::VelocityTorque { .. } | TableError::TorqueRange { .. } => Self::TorqueRange,
+            TableError::SpeedBase | TableError::Slope { .. } => Self::Units,
+            TableError::Constant => Self::Constant,
+            TableError::Reciprocal { .. } => Self::Reciprocal,
+            _ => Self::Table,
+        }
+    }
+}
+
+impl From<Result<(), ImageError>> for Status {
+    fn from(result: Result<(), ImageError>) -> Self {
+        result.map_or_else(Self::from, |()| Self::Ok)
+    }
+}
+
+/// The name of a status, such as `JRED_CRC`; `JRED_UNKNOWN` for another number.
+#[unsafe(no_mangle)]
+pub(crate) extern "C" fn jred_status_name(status: i32) -> *const c_char {
+    let found = Status::ALL.iter().find(|known| **known as i32 == status);
+    found.map_or(c"JRED_UNKNOWN", |known| known.name()).as_ptr()
+}

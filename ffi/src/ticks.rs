@@ -1,0 +1,71 @@
+//! The functions of one model.
+
+/// The ticks under the names that begin with `$prefix`. Whoever calls one has looked that
+/// the memory has a model of this set, as the functions of `jred.h` do: here it would cost registers that the tick needs.
+macro_rules! ticks {
+    ($prefix:expr, $format:ty, $number:ty, $model:expr) => {
+        const _: () = {
+            use core::mem::MaybeUninit;
+
+            use jred::Phase;
+
+            use $crate::memory::Memory;
+            use $crate::number::{CNumber, Range};
+
+            type C = <$number as CNumber>::C;
+
+            #[unsafe(export_name = concat!($prefix, "torque"))]
+            unsafe extern "C" fn torque(
+                memory: &Memory<$format>,
+                phase: u32,
+                omega: C,
+                alpha: C,
+            ) -> C {
+                // SAFETY: as promised by the caller.
+                let model = unsafe { $model(memory) };
+                let (omega, alpha) = (<$number>::number(omega), <$number>::number(alpha));
+                model.torque(Phase::from_bits(phase), omega, alpha).c()
+            }
+
+            #[unsafe(export_name = concat!($prefix, "acceleration"))]
+            unsafe extern "C" fn acceleration(
+                memory: &Memory<$format>,
+                phase: u32,
+                omega: C,
+                torque: C,
+            ) -> C {
+                // SAFETY: as promised by the caller.
+                let model = unsafe { $model(memory) };
+                let (omega, torque) = (<$number>::number(omega), <$number>::number(torque));
+                model
+                    .acceleration(Phase::from_bits(phase), omega, torque)
+                    .value
+                    .c()
+            }
+
+            #[unsafe(export_name = concat!($prefix, "acceleration_range"))]
+            unsafe extern "C" fn acceleration_range(
+                memory: &Memory<$format>,
+                phase: u32,
+                omega: C,
+                least: C,
+                greatest: C,
+                range: &mut MaybeUninit<Range<C>>,
+            ) {
+                // SAFETY: as promised by the caller.
+                let model = unsafe { $model(memory) };
+                let omega = <$number>::number(omega);
+                let (least, greatest) = (<$number>::number(least), <$number>::number(greatest));
+                let found =
+                    model.acceleration_range(Phase::from_bits(phase), omega, least, greatest);
+                range.write(Range {
+                    least: found.least.value.c(),
+                    greatest: found.greatest.value.c(),
+                    least_limited: found.least.saturated,
+                    greatest_limited: found.greatest.saturated,
+                });
+            }
+        };
+    };
+}
+pub(crate) use ticks;
