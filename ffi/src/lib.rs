@@ -2,7 +2,7 @@
 //! jred for C and C++: the functions that `include/jred.h` declares, in a static library.
 //!
 //! `docs/c.md` shows how a program uses them. This is the boundary and nothing else: pointers are checked, errors become a
-//! [`status`](status::Status), and the library's own tick is called, with its format and its set of curves known when this is
+//! status, and the library's own tick is called, with its format and its set of curves known when this is
 //! compiled. So there is a family of functions for each format and set; the linker takes what a program calls.
 
 // The boundary itself: names for the linker, words and memory of the caller. Each `unsafe` block has its reason.
