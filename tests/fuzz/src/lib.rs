@@ -3,6 +3,7 @@
 //! 1. [`mutate`]: texts and images, changed byte by byte; [`machine`]: machine files, changed value by value.
 //! 2. [`harness`]: one function for each kind of input; it panics where it finds something.
 //! 3. [`command`]: machine files through every command of `jred`, each with a limit of time and memory.
+//! 4. [`heavy`]: the largest inputs that each command accepts, below a ceiling of memory.
 //!
 //! The same functions are run three ways: so many inputs each by `cargo test`, as long as one likes by the program
 //! `jred-fuzz`, and guided by coverage (libFuzzer) by `scripts/fuzz`. What was once found is kept in `corpus/`, and is tried first.
@@ -10,6 +11,7 @@
 
 pub mod command;
 pub mod harness;
+pub mod heavy;
 pub mod machine;
 pub mod mutate;
 

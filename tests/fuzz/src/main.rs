@@ -30,6 +30,7 @@ mod program {
     use std::process::ExitCode;
     use std::time::{Duration, Instant};
 
+    use jred_fuzz::heavy::{COMMANDS, Inputs};
     use jred_fuzz::machine::Machines;
     use jred_fuzz::{command, files, harness, mutate};
     use rand::SeedableRng as _;
@@ -38,7 +39,7 @@ mod program {
     /// Runs random inputs.
     #[derive(clap::Parser)]
     pub(super) struct Options {
-        /// Harness: image, machine, values (of machine files), profile, catalogue, rows, arguments, or command.
+        /// Harness: image, machine, values (of machine files), profile, catalogue, rows, arguments, command, or heavy (the largest inputs of each command).
         harness: String,
         /// How long.
         #[arg(long, default_value_t = 60)]
@@ -46,7 +47,7 @@ mod program {
         /// Seed of the random numbers.
         #[arg(long, default_value_t = 1)]
         seed: u64,
-        /// The program `jred`, for `command`.
+        /// The program `jred`, for `command` and `heavy`.
         #[arg(long, default_value = "target/release/jred")]
         jred: PathBuf,
         /// Instead of running: write what inputs are made from into this folder, for a fuzzer to begin with.
@@ -85,12 +86,16 @@ mod program {
             }
         };
         let jred = std::path::absolute(&options.jred).unwrap_or_else(|_| options.jred.clone());
-        if options.harness == "command" && !jred.is_file() {
+        let commands = ["command", "heavy"].contains(&options.harness.as_str());
+        if commands && !jred.is_file() {
             eprintln!(
                 "there is no program {}: cargo build --release, or name it with --jred",
                 jred.display()
             );
             return ExitCode::from(2);
+        }
+        if options.harness == "heavy" {
+            return heavy(&jred);
         }
         if options.harness == "command" || options.harness == "values" {
             let machines = machines();
@@ -128,6 +133,27 @@ mod program {
             options.harness
         );
         ExitCode::from(u8::from(found > 0))
+    }
+
+    /// A table of what every command takes at its largest input.
+    fn heavy(jred: &Path) -> ExitCode {
+        let inputs = Inputs::write();
+        let mut found = 0u8;
+        for command in COMMANDS {
+            match inputs.run(command, jred) {
+                Ok(taken) => println!(
+                    "{:>4} MB {:>6.1} s  {}",
+                    taken.memory,
+                    taken.time.as_secs_f64(),
+                    command.words
+                ),
+                Err(what) => {
+                    found = 1;
+                    println!("{what}");
+                }
+            }
+        }
+        ExitCode::from(found)
     }
 
     /// A panic as words.

@@ -4,8 +4,10 @@
 mod skip;
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+#[cfg(target_os = "linux")]
+use jred_fuzz::heavy;
 use jred_fuzz::machine::Machines;
 use jred_fuzz::{at, command, files, harness, mutate};
 use rand::SeedableRng as _;
@@ -83,17 +85,52 @@ fn values_of_machines() {
     assert!(understood.count() >= 20);
 }
 
+/// The program `jred`, a neighbour of this test.
+fn jred() -> Option<PathBuf> {
+    let this = std::env::current_exe().unwrap();
+    let jred = this.parent().and_then(Path::parent).unwrap().join("jred");
+    if jred.exists() {
+        return Some(jred);
+    }
+    skip("commands: the program jred is not built (cargo build -p jred-cli)");
+    None
+}
+
+/// The largest inputs that commands accept, those that take a second or two.
+#[cfg(target_os = "linux")]
+#[test]
+fn heavy_inputs() {
+    let Some(jred) = jred() else { return };
+    let inputs = heavy::Inputs::write();
+    for command in heavy::COMMANDS.into_iter().filter(|heavy| heavy.quick) {
+        let taken = inputs.run(command, &jred);
+        let taken = taken.unwrap_or_else(|what| panic!("{what}"));
+        assert!(taken.memory > 0, "{command:?}: {taken:?}");
+    }
+    // More than is accepted is refused in words, not by the system.
+    for (words, why) in [
+        ("size press.toml --steps 200001", "16..=200000"),
+        ("size press.toml --motors motors.csv", "drives are too many"),
+        (
+            "size press.toml --motors motors.csv --gearboxes drives/gearboxes.csv",
+            "100000 rows",
+        ),
+        (
+            "export press.toml --torque-error 1_N_m --max-cells 60000 --pieces 1deg,2deg,3deg,4deg,5deg,6deg,7deg,8deg,9deg",
+            "are too many cells",
+        ),
+    ] {
+        let command = heavy::Heavy { words, quick: true };
+        let refused = inputs.run(command, &jred).unwrap_err();
+        assert!(refused.contains("code: Some(2)"), "{refused}");
+        assert!(refused.contains(why), "{refused}");
+    }
+}
+
 /// Machine files through every command. The program `jred` is a neighbour of this test: cargo builds both.
 #[test]
 fn commands() {
-    let this = std::env::current_exe().unwrap();
-    let jred = this.parent().and_then(Path::parent).unwrap().join("jred");
-    if !jred.exists() {
-        skip(
-            "machines through every command: the program jred is not built (cargo build -p jred-cli)",
-        );
-        return;
-    }
+    let Some(jred) = jred() else { return };
     let machines = Machines::new(&files(&["machines"], ".toml"));
     let mut rng = ChaCha8Rng::seed_from_u64(SEED);
     let mut codes = [0; 3];

@@ -30,6 +30,9 @@ const EXIT_CODES: &str = "Exit codes: 0 done, every rule satisfied; 1 a sizing r
      reached); 2 bad input.\ndocs/machine-file.md describes machine files; machines/press.toml is a good one to start \
      from.";
 
+/// Most time steps of a cycle: --explain and the report, which compute it anew for many machines, take half a minute with them.
+const MOST_STEPS: i64 = 200_000;
+
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use miette::Result;
+use miette::{Result, miette};
 
 use crate::commands::{Done, print};
 use crate::options::search::{Merge, Rows, SizingOptions, Vary};
@@ -20,6 +20,9 @@ use jred_sizing::study::common::Study;
 use jred_sizing::study::grid::{GridStudy, Verdict};
 use jred_sizing::study::task::Task as _;
 
+/// Most drives that are judged at once: their results take 170 MB.
+const MOST_DRIVES: usize = 2_000_000;
+
 /// The catalogue that the options name, thinned by a filter.
 ///
 /// # Errors
@@ -27,6 +30,13 @@ use jred_sizing::study::task::Task as _;
 pub fn catalogue(supply: &SizingOptions, filter: &Filter) -> Result<Catalogue> {
     let mut catalogue = supply.catalogue.open()?;
     filter.thin(&mut catalogue)?;
+    let drives = catalogue.count();
+    if drives > MOST_DRIVES {
+        return Err(miette!(
+            help = "take a smaller catalogue, or only a part of it: --motor, --gearbox, --maker",
+            "{drives} drives are too many: one command judges at most {MOST_DRIVES}"
+        ));
+    }
     Ok(catalogue)
 }
 

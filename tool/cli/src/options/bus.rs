@@ -26,7 +26,7 @@ pub struct Bus {
     #[arg(long)]
     pub in_step: bool,
     /// Number of time steps per cycle.
-    #[arg(long, default_value_t = jred_machine::analysis::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=1_000_000))]
+    #[arg(long, default_value_t = jred_machine::analysis::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=super::MOST_STEPS))]
     pub steps: u32,
     /// Output format; CSV contains power and voltage over time with all axes in step.
     #[arg(long, value_parser = word::<Format>(), default_value_t)]

@@ -30,7 +30,7 @@ pub struct SizingOptions {
     #[arg(long, value_name = "SET")]
     pub rules: Option<String>,
     /// Number of time steps per cycle.
-    #[arg(long, default_value_t = jred_machine::analysis::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=1_000_000))]
+    #[arg(long, default_value_t = jred_machine::analysis::duty::STEPS as u32, value_parser = clap::value_parser!(u32).range(16..=super::MOST_STEPS))]
     pub steps: u32,
 }
 

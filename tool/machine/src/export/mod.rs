@@ -59,6 +59,9 @@ pub struct Task {
 /// Part of the range that a piece must at least have: [`Pieces`](jred::Pieces) takes no shorter one.
 const SHORTEST: f64 = 1.0 / 65_536.0;
 
+/// Most cells of all pieces together: their tables of every type and layout take 130 MB.
+const MOST_CELLS: usize = 1 << 19;
+
 /// A table ready to be written, and those of the other types and layouts.
 #[derive(Clone, Debug)]
 pub struct Export {
@@ -133,6 +136,16 @@ impl Export {
                 ),
                 help: "make the load's ramp longer, or name positions that are farther apart with --pieces"
                     .to_owned(),
+            });
+        }
+        if pieces.len() * task.max_cells as usize > MOST_CELLS {
+            return Err(Failure::Impossible {
+                message: format!(
+                    "{} pieces of up to {} cells are too many cells; at most {MOST_CELLS}",
+                    pieces.len(),
+                    task.max_cells
+                ),
+                help: format!("use --max-cells {} or fewer", MOST_CELLS / pieces.len()),
             });
         }
         let search = Searches::new(&machine, &pieces, goal)?;

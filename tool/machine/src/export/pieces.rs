@@ -16,6 +16,9 @@ use crate::model::mechanism::AnyMechanism;
 /// Edges that are closer than this part of the range are one.
 const SAME: f64 = 1e-9;
 
+/// Most knots that the searches of all pieces remember: 160 MB.
+const MOST_KNOTS: usize = 1 << 20;
+
 /// The pieces between edges: of a turn from the first edge to the same one a turn later, of a stroke from end to end.
 /// None where there is no edge inside. Edges are rounded to phases, as firmware finds the piece by them.
 pub(super) fn between(domain: Domain, edges: &[f64]) -> Vec<[f64; 2]> {
@@ -70,7 +73,8 @@ impl<'m> Searches<'m> {
             machine.check_repeats()?;
         }
         let set = tabulate::curves_in_use(machine, PLACES)?;
-        let search = |range| Search::new(range, set, goal);
+        let most_knots = MOST_KNOTS / pieces.len().max(1);
+        let search = |range| Search::new(range, set, goal, most_knots);
         let ranges = if pieces.is_empty() {
             vec![search(Range::Whole(machine))?]
         } else {

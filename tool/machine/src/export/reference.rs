@@ -76,14 +76,17 @@ impl Reducible for Range<'_> {
 pub(super) struct Remembered<M> {
     machine: M,
     knots: RefCell<HashMap<u64, Reduction>>,
+    most: usize,
     repeats: OnceCell<Result<(), PoseError>>,
 }
 
 impl<M: Reducible> Remembered<M> {
-    pub(super) fn new(machine: M) -> Self {
+    /// Remembers so many at most; then it forgets all, and computes those of the next tables anew.
+    pub(super) fn new(machine: M, most: usize) -> Self {
         Self {
             machine,
             knots: RefCell::default(),
+            most,
             repeats: OnceCell::new(),
         }
     }
@@ -99,7 +102,11 @@ impl<M: Reducible> Reducible for Remembered<M> {
             return Ok(*known);
         }
         let found = self.machine.reduction(phi)?;
-        self.knots.borrow_mut().insert(phi.to_bits(), found);
+        let mut knots = self.knots.borrow_mut();
+        if knots.len() >= self.most {
+            knots.clear();
+        }
+        knots.insert(phi.to_bits(), found);
         Ok(found)
     }
 

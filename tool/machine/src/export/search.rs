@@ -44,11 +44,16 @@ pub(super) struct Search<'m> {
 }
 
 impl<'m> Search<'m> {
-    /// Of a range of a machine whose curves in use are known.
-    pub(super) fn new(machine: Range<'m>, set: Set, goal: Goal) -> Result<Self, Error> {
+    /// Of a range of a machine whose curves in use are known; so many knots are remembered at most.
+    pub(super) fn new(
+        machine: Range<'m>,
+        set: Set,
+        goal: Goal,
+        most_knots: usize,
+    ) -> Result<Self, Error> {
         Ok(Self {
             machine,
-            knots: Remembered::new(machine),
+            knots: Remembered::new(machine, most_knots),
             domain: machine.domain(),
             reference: Reference::new(&machine)?,
             goal,

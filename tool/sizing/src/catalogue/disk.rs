@@ -19,7 +19,7 @@ use super::load::{Loader, twice};
 const MAX_SIZE: u64 = 64 << 20;
 
 /// The largest folder (bytes), all its tables together.
-const MAX_FOLDER: u64 = 256 << 20;
+const MAX_FOLDER: u64 = 64 << 20;
 
 /// What to load.
 #[derive(Clone, Debug, Default)]
@@ -148,7 +148,7 @@ fn folder(path: &Path, remarks: &mut Remarks) -> Result<Vec<(Format, Text)>, Cat
     }
     let size = |path: &PathBuf| path.metadata().map_or(0, |data| data.len());
     if found.iter().map(size).sum::<u64>() > MAX_FOLDER {
-        let reason = "its tables have more than 256 MiB together";
+        let reason = "its tables have more than 64 MiB together";
         return Err(unreadable(path, reason, "name a folder of fewer tables"));
     }
     let mut files = Vec::new();

@@ -10,13 +10,25 @@ use jred_machine::text::problem::Problem;
 use super::column::{Column, Kind};
 use super::entry::Entry;
 use super::fault::{CatalogueError, Faults, Remarks, Text};
-use super::files::Format;
+use super::files::{Format, unreadable};
 use super::lists::Listing;
 use super::pairing::Partners;
 use super::row::{Read, Row};
 use super::table::Table;
 use super::{Catalogue, Pairing, mgdb, plausible, toml_table};
 use jred_machine::number::words::counted;
+
+/// Most rows of all tables: motors with their limits take 150 MB.
+const MOST_ROWS: usize = 100_000;
+
+/// How many rows a table has at most; those of lists are of a few bytes and not counted.
+fn rows(format: Format, text: &str) -> usize {
+    match format {
+        Format::Csv(Kind::Compatibility) | Format::Database(Kind::Compatibility) => 0,
+        Format::Csv(_) | Format::Database(_) => text.lines().skip(1).count(),
+        Format::Toml => text.matches("[[").count(),
+    }
+}
 
 /// The files of one catalogue; they share a compatibility list.
 #[derive(Debug, Default)]
@@ -30,6 +42,8 @@ pub(super) struct Group {
 pub(super) struct Loader {
     pub(super) catalogue: Catalogue,
     pub(super) texts: Vec<Text>,
+    /// How many rows they have.
+    rows: usize,
     pub(super) faults: Faults,
     remarks: Remarks,
     /// Kind and key of each entry, with its file.
@@ -74,6 +88,15 @@ impl Loader {
             let path = PathBuf::from(&text.name);
             if let Some(before) = self.read.insert(text.place.clone(), path.clone()) {
                 return Err(twice(&path, &before));
+            }
+            self.rows += rows(format, &text.text);
+            if self.rows > MOST_ROWS {
+                let reason = format!("the catalogue has more than {MOST_ROWS} rows with it");
+                return Err(unreadable(
+                    &path,
+                    reason,
+                    "take a smaller table, or only a part of it",
+                ));
             }
             self.texts.push(text.clone());
             let index = self.texts.len() - 1;

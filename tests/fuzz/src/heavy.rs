@@ -1,0 +1,190 @@
+//! The heaviest inputs that each command accepts, and the memory that it may take for them.
+
+use std::fmt::Write as _;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// The memory that a command may take (MB), data and heap.
+pub const CEILING: u32 = 500;
+
+/// A command with its heaviest input.
+#[derive(Clone, Copy, Debug)]
+pub struct Heavy {
+    /// Its words, `_` for a space within one. Machine files are those of `machines/`, or what [`Inputs::write`] writes.
+    pub words: &'static str,
+    /// Whether it takes a second or two and runs with every test; `jred-fuzz heavy` runs all.
+    pub quick: bool,
+}
+
+/// The commands. What is not here takes what its machine file holds, which has 1 MiB at most.
+pub const COMMANDS: [Heavy; 26] = [
+    quick("size press.toml --steps 200000"),
+    quick("size press.toml --steps 64 --catalogue drives --format csv"),
+    quick("size press.toml --steps 64 --motors motors.csv --direct-only"),
+    quick("ratio press.toml --steps 200000"),
+    quick("check excavator-bucket.toml"),
+    slow("reduce press.toml --positions 1000000"),
+    slow("reduce press.toml --positions 1000000 --format csv"),
+    slow("reduce press.toml --positions 1000000 --format json"),
+    slow("reduce press.toml --positions 300000 --points --speed 60_rpm --format csv"),
+    slow("size press.toml --steps 200000 --explain"),
+    slow("size press.toml --steps 200000 --explain --format json"),
+    slow("size press.toml --steps 200000 --all --format json"),
+    slow("size press.toml --steps 200000 --all --format csv"),
+    slow("size press.toml --steps 100000 --report OUT"),
+    slow("size press.toml --steps 64 --catalogue drives --pareto power,energy"),
+    slow("sensitivity press.toml --steps 200000"),
+    slow("sensitivity hoist.toml"),
+    slow("sensitivity excavator-bucket.toml"),
+    slow("simulate long.toml --plot OUT"),
+    slow("tolerance press.toml --tolerance slider.mass=5% --samples 20000 --out OUT"),
+    slow("vary press.toml --vary slider.mass=50,60kg --steps 200000"),
+    slow("bus press.toml --drive sgmsh-30a+npt025mf-5 --voltage 560_V --steps 200000"),
+    slow("export press.toml --torque-error 1e-9_N_m --max-cells 65535 --format c --out OUT"),
+    slow("export press.toml --max-bytes 100000000 --max-cells 65535 --format json --out OUT"),
+    slow("export scotch-yoke.toml --torque-error 1e-9_N_m --max-cells 65535 --layout harmonic"),
+    slow("export press.toml --torque-error 1e-6_N_m --max-cells 65535 --pieces auto --format rust"),
+];
+
+const fn quick(words: &'static str) -> Heavy {
+    Heavy { words, quick: true }
+}
+
+const fn slow(words: &'static str) -> Heavy {
+    Heavy {
+        words,
+        quick: false,
+    }
+}
+
+/// A folder of inputs.
+#[derive(Debug)]
+pub struct Inputs(tempfile::TempDir);
+
+/// What a command took.
+#[derive(Clone, Copy, Debug)]
+pub struct Taken {
+    /// Its exit code; `None`: it was ended.
+    pub code: Option<i32>,
+    /// Resident memory at its largest (MB), as last seen a moment before the end.
+    pub memory: u64,
+    /// How long it took.
+    pub time: Duration,
+}
+
+impl Inputs {
+    /// Machine files, catalogues at their limits, and a long simulation.
+    ///
+    /// # Panics
+    /// A file cannot be written.
+    pub fn write() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        for entry in std::fs::read_dir(crate::at("machines")).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_file() {
+                std::fs::copy(&path, at(path.file_name().unwrap().to_str().unwrap())).unwrap();
+            }
+        }
+        let press = std::fs::read_to_string(at("press.toml")).unwrap();
+        std::fs::write(at("long.toml"), long(&press)).unwrap();
+        std::fs::create_dir(at("drives")).unwrap();
+        // 1413 motors, with each of as many gearboxes and without: just below two million drives.
+        std::fs::write(at("drives/motors.csv"), motors(1413)).unwrap();
+        std::fs::write(at("drives/gearboxes.csv"), gearboxes(1413)).unwrap();
+        std::fs::write(at("motors.csv"), motors(99_000)).unwrap();
+        Self(folder)
+    }
+
+    /// Runs a command where the system gives it no more data than the ceiling.
+    ///
+    /// # Errors
+    /// What is wrong with how it ended.
+    ///
+    /// # Panics
+    /// It cannot be started.
+    pub fn run(&self, heavy: Heavy, jred: &Path) -> Result<Taken, String> {
+        let at = |name: &str| self.0.path().join(name);
+        // The rows of a study begin only where no file is.
+        let _ = std::fs::remove_file(at("OUT"));
+        let limit = format!("ulimit -d {} && exec \"$@\"", CEILING * 1000);
+        let start = Instant::now();
+        let mut child = Command::new("sh")
+            .args(["-c", &limit, "sh"])
+            .arg(jred)
+            .args(heavy.words.split(' ').map(|word| word.replace('_', " ")))
+            .current_dir(self.0.path())
+            .env("RAYON_NUM_THREADS", "2")
+            .stdout(Stdio::null())
+            .stderr(std::fs::File::create(at("stderr")).unwrap())
+            .spawn()
+            .unwrap();
+        let mut memory = 0;
+        let code = loop {
+            memory = resident(child.id()).max(memory);
+            match child.try_wait().unwrap() {
+                Some(status) => break status.code(),
+                None => std::thread::sleep(Duration::from_millis(2)),
+            }
+        };
+        let taken = Taken {
+            code,
+            memory,
+            time: start.elapsed(),
+        };
+        if matches!(code, Some(0 | 1)) && memory <= u64::from(CEILING) {
+            return Ok(taken);
+        }
+        let said = std::fs::read_to_string(at("stderr")).unwrap_or_default();
+        Err(format!(
+            "jred {}: {taken:?}, ceiling {CEILING} MB\n{said}",
+            heavy.words
+        ))
+    }
+}
+
+/// The most resident memory of a process so far (MB); zero where the system does not say.
+fn resident(process: u32) -> u64 {
+    let status = std::fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kilobytes = line.and_then(|line| line.trim().strip_suffix(" kB")?.parse::<u64>().ok());
+    kilobytes.unwrap_or(0) * 1024 / 1_000_000
+}
+
+/// The press, simulated for as many rows as are accepted.
+fn long(press: &str) -> String {
+    let head = press.split("[simulation]").next().unwrap_or_default();
+    format!(
+        "{head}[simulation]\nstart_angle = \"0 deg\"\nstart_speed = \"60 rpm\"\nduration = \"10 s\"\n\
+         output_step = \"0.1 ms\"\ntorque = \"100 N m\"\n"
+    )
+}
+
+fn motors(count: u32) -> String {
+    let columns = "key,maker,model,rated_torque [N m],rated_speed [rpm],peak_torque [N m],rotor_inertia [kg cm^2],source\n";
+    let mut table = columns.to_owned();
+    for k in 0..count {
+        let (torque, inertia) = (1 + k % 40, 1 + k % 90);
+        let _ = writeln!(
+            table,
+            "m{k},A,B,{torque},3000,{},{inertia},none",
+            3 * torque
+        );
+    }
+    table
+}
+
+fn gearboxes(count: u32) -> String {
+    let columns = "key,maker,model,ratio,rated_output_torque [N m],peak_output_torque [N m],rated_input_speed [rpm],max_input_speed [rpm],input_inertia [kg cm^2],efficiency [%],source\n";
+    let mut table = columns.to_owned();
+    for k in 0..count {
+        let (ratio, torque) = (2 + k % 50, 50 + k % 60);
+        let _ = writeln!(
+            table,
+            "g{k},A,B,{ratio},{torque},{},3000,7000,0.5,97,none",
+            2 * torque
+        );
+    }
+    table
+}
