@@ -112,6 +112,8 @@
 //!
 //! Neither is on by default.
 
+#[deny(clippy::indexing_slicing)]
+pub mod axis;
 // What a tick reads takes elements by `get`, never by an index that could be out of bounds.
 #[deny(clippy::indexing_slicing)]
 mod curve;

@@ -1,6 +1,7 @@
 //! The one test program of the library.
 
 mod accuracy;
+mod axis;
 mod ball_screw;
 mod cam;
 mod closed_form;

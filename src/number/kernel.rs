@@ -60,24 +60,24 @@ pub trait Kernel: Number {
     /// The cell that a phase lies in, and where.
     fn locate(phase: u32, cells: u32) -> (u32, Self::Fraction);
     /// As `locate`, the place from `ROW_CENTRE` on.
-    #[inline]
+    #[inline(always)]
     fn locate_row(phase: u32, cells: u32) -> (u32, Self::Fraction) {
         Self::locate(phase, cells)
     }
     /// As `locate_row`, to 2⁻¹⁶ of a cell.
-    #[inline]
+    #[inline(always)]
     fn locate_row_short(phase: u32, cells: u32) -> (u32, Self::Fraction) {
         Self::locate_row(phase, cells)
     }
     /// x·u/STEP, for a place of `locate`.
     fn step(x: Self::Raw, u: Self::Fraction) -> Self::Raw;
     /// x·u, for a place of `locate_row`.
-    #[inline]
+    #[inline(always)]
     fn row_step(x: Self::Raw, u: Self::Fraction) -> Self::Raw {
         Self::step(x, u)
     }
     /// x·u, for a place of `locate_row_short`.
-    #[inline]
+    #[inline(always)]
     fn row_step_short(x: Self::Raw, u: Self::Fraction) -> Self::Raw {
         Self::row_step(x, u)
     }
@@ -88,7 +88,7 @@ pub trait Kernel: Number {
     /// a·b: J·α, or (½·J′·ω + b)·ω.
     fn product(a: Self::Raw, b: Self) -> Self::Raw;
     /// sum + a·b
-    #[inline]
+    #[inline(always)]
     fn accumulate(sum: Self::Raw, a: Self::Raw, b: Self) -> Self::Raw {
         sum + Self::product(a, b)
     }
@@ -115,11 +115,11 @@ pub trait Kernel: Number {
 macro_rules! float {
     ($float:ident, $code:expr) => {
         impl Ring for $float {
-            #[inline]
+            #[inline(always)]
             fn times(self, factor: i8) -> Self {
                 self * $float::from(factor)
             }
-            #[inline]
+            #[inline(always)]
             fn whole(number: u16) -> Self {
                 $float::from(number)
             }
@@ -135,7 +135,7 @@ macro_rules! float {
             const STEP: i8 = 1;
             const ROW_CENTRE: f64 = 0.0;
 
-            #[inline]
+            #[inline(always)]
             fn raw(word: $float) -> $float {
                 word
             }
@@ -160,42 +160,43 @@ macro_rules! float {
                 let factor = 0.5 * cells as $float / span * bases;
                 (factor.is_finite() && factor > 0.0).then_some(factor)
             }
-            #[inline]
+            #[inline(always)]
             fn locate(phase: u32, cells: u32) -> (u32, $float) {
                 let (cell, fraction) = crate::number::phase::cell(phase, cells);
                 (cell, fraction as $float * (1.0 / 4_294_967_296.0))
             }
-            #[inline]
+            #[inline(always)]
             fn step(x: $float, u: $float) -> $float {
                 x * u
             }
-            #[inline]
+            #[inline(always)]
             fn magnitude(raw: $float) -> $float {
                 raw.abs()
             }
-            #[inline]
+            #[inline(always)]
             fn velocity(slope: $float, factor: $float, omega: $float) -> $float {
                 slope * factor * omega
             }
-            #[inline]
+            #[inline(always)]
             fn product(a: $float, b: $float) -> $float {
                 a * b
             }
-            #[inline]
+            #[inline(always)]
             fn add_signed(sum: $float, c: $float, omega: $float) -> $float {
-                if omega > 0.0 {
-                    sum + c
-                } else if omega < 0.0 {
-                    sum - c
+                // By the bits of ω, without a comparison of floating point: that is a call where it is software.
+                let bits = omega.to_bits();
+                let c = if bits & $float::INFINITY.to_bits() == 0 {
+                    0
                 } else {
-                    sum
-                }
+                    c.to_bits()
+                };
+                sum + $float::from_bits(c ^ bits & (-0.0 as $float).to_bits())
             }
-            #[inline]
+            #[inline(always)]
             fn torque(sum: $float) -> $float {
                 sum
             }
-            #[inline]
+            #[inline(always)]
             fn quotient(torque: $float, resisting: $float, inertia: $float) -> Outcome<$float> {
                 Outcome {
                     value: (torque - resisting) / inertia,
@@ -208,7 +209,7 @@ macro_rules! float {
             fn reciprocal_unit((): ()) -> f32 {
                 1.0
             }
-            #[inline]
+            #[inline(always)]
             fn by_reciprocal(
                 torque: $float,
                 resisting: $float,

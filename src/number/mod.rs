@@ -29,6 +29,7 @@ mod product;
 pub(crate) mod q15;
 pub(crate) mod q31;
 pub(crate) mod quadrature;
+mod rate;
 mod role;
 pub(crate) mod scalar;
 pub(crate) mod scale;
@@ -39,6 +40,8 @@ pub use crate::math::Real;
 pub use error::{Cure, RangeError};
 pub(crate) use kernel::{Kernel, Ring};
 
+pub(crate) use product::upper_of_sum;
+pub(crate) use rate::Rate;
 pub use role::Role;
 pub(crate) use scalar::Outcome;
 pub use scalar::{Number, Scalar};

@@ -77,7 +77,7 @@ impl Phase {
     ///
     /// One long multiplication (two short ones on a Cortex-M0); any number of cells up to 65535.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn cell(self, cells: u32) -> (u32, u32) {
         cell(self.0, cells)
     }
@@ -95,7 +95,7 @@ impl Phase {
 }
 
 /// Index of the cell, and the place within it as a fraction of 2³²; for up to 65535 cells.
-#[inline]
+#[inline(always)]
 pub(crate) fn cell(phase: u32, cells: u32) -> (u32, u32) {
     if cfg!(short_multiply) {
         cell_by_halves(phase, cells)
@@ -106,7 +106,7 @@ pub(crate) fn cell(phase: u32, cells: u32) -> (u32, u32) {
 }
 
 /// As `cell`; only the upper half of the place is sure to be right.
-#[inline]
+#[inline(always)]
 pub(crate) fn cell_short(phase: u32, cells: u32) -> (u32, u32) {
     if cfg!(short_multiply) {
         let [upper, _] = products(phase, cells);
@@ -123,7 +123,7 @@ fn cell_by_halves(phase: u32, cells: u32) -> (u32, u32) {
 }
 
 /// phase·cells/2¹⁶, and phase's lower half·cells.
-#[inline]
+#[inline(always)]
 fn products(phase: u32, cells: u32) -> [u32; 2] {
     let low = (phase & 0xffff).wrapping_mul(cells);
     [

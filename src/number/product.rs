@@ -5,7 +5,7 @@
 //! `short_multiply` for them; the tests compare both.
 
 /// Floor of a·b/2³².
-#[inline]
+#[inline(always)]
 pub(crate) fn high(a: i32, b: i32) -> i32 {
     if cfg!(short_multiply) {
         high_by_halves(a, b)
@@ -14,7 +14,7 @@ pub(crate) fn high(a: i32, b: i32) -> i32 {
     }
 }
 
-#[inline]
+#[inline(always)]
 fn high_by_halves(a: i32, b: i32) -> i32 {
     let (a1, a0) = (a >> 16, a & 0xffff);
     let (b1, b0) = (b >> 16, b & 0xffff);
@@ -28,7 +28,7 @@ fn high_by_halves(a: i32, b: i32) -> i32 {
 }
 
 /// Floor of x·n/2¹⁶, where n is the upper half of u.
-#[inline]
+#[inline(always)]
 pub(crate) fn high_short(x: i32, u: i32) -> i32 {
     if cfg!(short_multiply) {
         high_short_by_halves(x, u)
@@ -40,16 +40,43 @@ pub(crate) fn high_short(x: i32, u: i32) -> i32 {
     }
 }
 
-#[inline]
+#[inline(always)]
 fn high_short_by_halves(x: i32, u: i32) -> i32 {
     let n = u >> 16;
     let low = (x & 0xffff).wrapping_mul(n) >> 16;
     (x >> 16).wrapping_mul(n).wrapping_add(low)
 }
 
+/// Floor of (a·b + c)/2³², modulo 2³².
+#[inline(always)]
+pub(crate) const fn upper_of_sum(a: u32, b: u64, c: u64) -> u32 {
+    if cfg!(short_multiply) {
+        upper_of_sum_by_halves(a, b, c)
+    } else {
+        ((a as u64).wrapping_mul(b).wrapping_add(c) >> 32) as u32
+    }
+}
+
+#[inline(always)]
+const fn upper_of_sum_by_halves(a: u32, b: u64, c: u64) -> u32 {
+    let (a1, a0) = (a >> 16, a & 0xffff);
+    let (b1, b0) = (b as u32 >> 16, b as u32 & 0xffff);
+    // The lower word of b: no sum overflows, as in `high_by_halves`.
+    let low = a0 * b0;
+    let middle = a0 * b1 + (low >> 16);
+    let other = a1 * b0 + (middle & 0xffff);
+    let upper = a1 * b1 + (middle >> 16) + (other >> 16);
+    let (_, carry) = (other << 16 | low & 0xffff).overflowing_add(c as u32);
+    // What does not fit is whole turns.
+    upper
+        .wrapping_add(a.wrapping_mul((b >> 32) as u32))
+        .wrapping_add((c >> 32) as u32)
+        .wrapping_add(carry as u32)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{high_by_halves, high_short_by_halves};
+    use super::{high_by_halves, high_short_by_halves, upper_of_sum_by_halves};
 
     /// A fixed sequence of numbers of every size (xorshift; G. Marsaglia 2003), after the extremes.
     fn numbers() -> impl Iterator<Item = i32> + Clone {
@@ -84,6 +111,18 @@ mod tests {
                 let u = b;
                 let long = ((i64::from(a) * i64::from(u & !0xffff)) >> 32) as i32;
                 assert_eq!(high_short_by_halves(a, u), long, "{a} · {u}");
+            }
+        }
+    }
+    #[test]
+    fn halves_give_the_upper_word_of_the_sum() {
+        for a in numbers().take(200) {
+            for b in numbers().take(200) {
+                let a = a as u32;
+                let b = u64::from(b as u32) << 32 | u64::from((b ^ a as i32) as u32);
+                let c = b.rotate_left(17);
+                let long = (u64::from(a).wrapping_mul(b).wrapping_add(c) >> 32) as u32;
+                assert_eq!(upper_of_sum_by_halves(a, b, c), long, "{a} · {b} + {c}");
             }
         }
     }

@@ -1,7 +1,8 @@
 //! Fixed point with 16-bit tables.
 
+use crate::Q31;
 use crate::math;
-use crate::number::{Number, Outcome};
+use crate::number::{Number, Outcome, Rate};
 
 /// A per-unit number in [−1, 1): an `i16` in units of 2⁻¹⁵, for tables of [`Rows16`](crate::curve::Rows16).
 ///
@@ -64,5 +65,19 @@ impl Number for Q15 {
 
     fn si(self, base: f32) -> f32 {
         f32::from(self.0) * (1.0 / UNIT) * base
+    }
+
+    #[inline(always)]
+    fn of_count(count: i32, rate: &Rate) -> Outcome<Self> {
+        let wide = Q31::of_count(count, rate);
+        Outcome {
+            value: Self((wide.value.to_bits() >> 16) as i16),
+            saturated: wide.saturated,
+        }
+    }
+
+    #[inline(always)]
+    fn to_count(self, rate: &Rate) -> i32 {
+        Q31::from_bits(i32::from(self.0) << 16).to_count(rate)
     }
 }

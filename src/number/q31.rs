@@ -4,7 +4,7 @@ use core::num::{NonZeroU64, Wrapping};
 
 use super::kernel::{Kernel, Ring};
 use super::product::{high, high_short};
-use super::{Number, Outcome, Role, Scalar, Scale};
+use super::{Number, Outcome, Rate, Role, Scalar, Scale};
 use crate::math;
 
 /// A per-unit number in [−1, 1): an `i32` in units of 2⁻³¹.
@@ -34,22 +34,22 @@ impl Q31 {
 }
 
 impl Ring for Wrapping<i32> {
-    #[inline]
+    #[inline(always)]
     fn times(self, factor: i8) -> Self {
         self * Self(i32::from(factor))
     }
-    #[inline]
+    #[inline(always)]
     fn whole(number: u16) -> Self {
         Self(i32::from(number))
     }
 }
 
 impl Ring for i64 {
-    #[inline]
+    #[inline(always)]
     fn times(self, factor: i8) -> Self {
         self * Self::from(factor)
     }
-    #[inline]
+    #[inline(always)]
     fn whole(number: u16) -> Self {
         Self::from(number)
     }
@@ -88,6 +88,18 @@ impl Number for Q31 {
     fn si(self, base: f32) -> f32 {
         self.0 as f32 * (1.0 / 2_147_483_648.0) * base
     }
+    #[inline(always)]
+    fn of_count(count: i32, rate: &Rate) -> Outcome<Self> {
+        let (value, saturated) = rate.of(count);
+        Outcome {
+            value: Self(value),
+            saturated,
+        }
+    }
+    #[inline(always)]
+    fn to_count(self, rate: &Rate) -> i32 {
+        rate.back(self.0)
+    }
 }
 
 impl Kernel for Q31 {
@@ -99,7 +111,7 @@ impl Kernel for Q31 {
     const CODE: Option<u8> = Some(2);
     const STEP: i8 = 2;
     const ROW_CENTRE: f64 = 0.5;
-    #[inline]
+    #[inline(always)]
     fn raw(word: i32) -> Self::Raw {
         Wrapping(word)
     }
@@ -127,43 +139,43 @@ impl Kernel for Q31 {
     fn velocity_factor(cells: u32, span: f32, scale: &Scale, step: i8) -> Option<i32> {
         whole(f32::velocity_factor(cells, span, scale, step)? * 2.0 / f32::from(step))
     }
-    #[inline]
+    #[inline(always)]
     fn locate(phase: u32, cells: u32) -> (u32, i32) {
         let (cell, fraction) = crate::number::phase::cell(phase, cells);
         (cell, (fraction >> 1) as i32)
     }
-    #[inline]
+    #[inline(always)]
     fn locate_row(phase: u32, cells: u32) -> (u32, i32) {
         let (cell, fraction) = crate::number::phase::cell(phase, cells);
         (cell, (fraction ^ 0x8000_0000) as i32)
     }
-    #[inline]
+    #[inline(always)]
     fn locate_row_short(phase: u32, cells: u32) -> (u32, i32) {
         let (cell, fraction) = crate::number::phase::cell_short(phase, cells);
         (cell, (fraction ^ 0x8000_0000) as i32)
     }
-    #[inline]
+    #[inline(always)]
     fn step(x: Self::Raw, u: i32) -> Self::Raw {
         Wrapping(high(x.0, u))
     }
-    #[inline]
+    #[inline(always)]
     fn row_step_short(x: Self::Raw, u: i32) -> Self::Raw {
         Wrapping(high_short(x.0, u))
     }
-    #[inline]
+    #[inline(always)]
     fn magnitude(raw: Self::Raw) -> Self::Raw {
         Wrapping(raw.0.wrapping_abs())
     }
-    #[inline]
+    #[inline(always)]
     fn velocity(slope: Self::Raw, factor: i32, omega: Self) -> Self::Raw {
         // The slope is Q30 times `step`, the factor makes 31 fractional bits of it. `Model::new` saw to it that the product fits.
         Wrapping(high(slope.0.wrapping_mul(factor), omega.0))
     }
-    #[inline]
+    #[inline(always)]
     fn product(a: Self::Raw, b: Self) -> Self::Raw {
         Wrapping(high(a.0, b.0))
     }
-    #[inline]
+    #[inline(always)]
     fn add_signed(sum: Self::Raw, c: Self::Raw, omega: Self) -> Self::Raw {
         // A match on the ordering would cost eight instructions more.
         #[expect(clippy::comparison_chain)]
@@ -175,7 +187,7 @@ impl Kernel for Q31 {
             sum
         }
     }
-    #[inline]
+    #[inline(always)]
     fn torque(sum: Self::Raw) -> Self {
         Self(sum.0.wrapping_shl(2))
     }
@@ -212,7 +224,7 @@ impl Kernel for Q31 {
     fn reciprocal_unit(constants: Reciprocal) -> f32 {
         constants.unit as f32 / 268_435_456.0 // 2²⁸
     }
-    #[inline]
+    #[inline(always)]
     fn by_reciprocal(
         torque: Self,
         resisting: Self::Raw,

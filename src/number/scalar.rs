@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use super::Rate;
 use super::kernel::Kernel;
 use crate::math::Real;
 
@@ -80,6 +81,12 @@ pub trait Number:
     fn per_unit(value: f32, base: f32) -> Outcome<Self>;
     /// Back to SI.
     fn si(self, base: f32) -> f32;
+    /// `count` times the factor; limited and flagged in fixed point.
+    #[doc(hidden)]
+    fn of_count(count: i32, rate: &Rate) -> Outcome<Self>;
+    /// The whole count below this number; limited, and 0 for what is no number.
+    #[doc(hidden)]
+    fn to_count(self, rate: &Rate) -> i32;
 }
 
 /// A number in tables of polynomials: `f32`, `f64`, [`Q31`](crate::Q31). Sealed.
@@ -123,6 +130,17 @@ macro_rules! float {
             }
             fn si(self, base: f32) -> f32 {
                 self as f32 * base
+            }
+            #[inline(always)]
+            fn of_count(count: i32, rate: &Rate) -> Outcome<Self> {
+                Outcome {
+                    value: count as $float * rate.factor as $float,
+                    saturated: false,
+                }
+            }
+            #[inline(always)]
+            fn to_count(self, rate: &Rate) -> i32 {
+                (self * rate.counts as $float) as i32
             }
         }
     };

@@ -278,6 +278,7 @@ impl<C: AsRef<[f64]>> CubicSpline<C> {
 }
 
 /// The cubic of a cell from the control points (in sixths) of a uniform cubic B-spline; coefficient k times stepᵏ.
+#[inline(always)]
 pub(crate) fn cubic<R: Ring>([c0, c1, c2, c3]: [R; 4], step: i8) -> [R; 4] {
     // Differences of neighbours are exact in floating point, sums of points are not: the slope would lose digits.
     let (d0, d1, d2) = (c1 - c0, c2 - c1, c3 - c2);

@@ -425,3 +425,5 @@ pub(crate) const F32_SPLINE: Proven = Proven {
     reached: 0.05,
     exact: 1e-6,
 };
+/// RMS of 200,000 samples of filtered noise, as a share.
+pub(crate) const NOISE: f64 = 0.03;

@@ -87,14 +87,14 @@ pub(crate) trait Layout:
     fn locate(phase: u32, cells: u32) -> (u32, Fraction<Self>);
     /// x·u
     fn times(x: Raw<Self>, u: Fraction<Self>) -> Raw<Self>;
-    #[inline]
+    #[inline(always)]
     fn value([p0, p1, p2, p3]: [Raw<Self>; 4], u: Fraction<Self>) -> Raw<Self> {
         let times = Self::times;
         p0 + times(p1 + times(p2 + times(p3, u), u), u)
     }
     /// Value, and slope a cell times `STEP`. Horner's scheme twice over (the second row is that of the derivative) shares two of
     /// its products.
-    #[inline]
+    #[inline(always)]
     fn value_and_slope(
         [p0, p1, p2, p3]: [Raw<Self>; 4],
         u: Fraction<Self>,
@@ -108,7 +108,7 @@ pub(crate) trait Layout:
     /// coefficients, or the point c₀ first; `COLUMN` of them count.
     fn stored(points: [f64; 4]) -> [f64; 4];
     /// A number of 16 bits, the upper or lower half of a word, if words contain halves.
-    #[inline]
+    #[inline(always)]
     fn half(word: Word<Self>, _upper: bool) -> Word<Self> {
         word
     }
@@ -319,7 +319,7 @@ where
     ]
 }
 
-#[inline]
+#[inline(always)]
 fn word<T: Copy, R: Ring>(cell: &[T], index: usize, read: impl Fn(T) -> R) -> R {
     cell.get(index).map_or(R::default(), |w| read(*w))
 }

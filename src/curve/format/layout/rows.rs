@@ -51,13 +51,14 @@ impl<S: Scalar> Layout for Cubic<S> {
         _: More<R>,
         read: impl Fn(Word<Self>) -> R,
     ) -> [R; 4] {
-        [0, 1, 2, 3].map(|k| word(cell, 4 * column + k, &read))
+        let p = |k| word(cell, 4 * column + k, &read);
+        [p(0), p(1), p(2), p(3)]
     }
-    #[inline]
+    #[inline(always)]
     fn locate(phase: u32, cells: u32) -> (u32, Fraction<Self>) {
         S::locate_row(phase, cells)
     }
-    #[inline]
+    #[inline(always)]
     fn times(x: Raw<Self>, u: Fraction<Self>) -> Raw<Self> {
         S::row_step(x, u)
     }
@@ -94,22 +95,22 @@ impl<S: Scalar> Layout for Quadratic<S> {
         _: More<R>,
         read: impl Fn(Word<Self>) -> R,
     ) -> [R; 4] {
-        let [p0, p1, p2] = [0, 1, 2].map(|k| word(cell, 3 * column + k, &read));
-        [p0, p1, p2, R::default()]
+        let p = |k| word(cell, 3 * column + k, &read);
+        [p(0), p(1), p(2), R::default()]
     }
-    #[inline]
+    #[inline(always)]
     fn locate(phase: u32, cells: u32) -> (u32, Fraction<Self>) {
         S::locate_row_short(phase, cells)
     }
-    #[inline]
+    #[inline(always)]
     fn times(x: Raw<Self>, u: Fraction<Self>) -> Raw<Self> {
         S::row_step_short(x, u)
     }
-    #[inline]
+    #[inline(always)]
     fn value([p0, p1, p2, _]: [Raw<Self>; 4], u: Fraction<Self>) -> Raw<Self> {
         p0 + S::row_step_short(p1 + S::row_step_short(p2, u), u)
     }
-    #[inline]
+    #[inline(always)]
     fn value_and_slope(
         [p0, p1, p2, _]: [Raw<Self>; 4],
         u: Fraction<Self>,

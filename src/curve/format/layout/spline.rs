@@ -60,14 +60,14 @@ impl<S: Scalar> Layout for Spline<S> {
         read: impl Fn(Word<Self>) -> R,
     ) -> [R; 4] {
         let point = |row: usize| word(cell, row * width(set) + column, &read);
-        let [p0, p1, p2, p3] = cubic([0, 1, 2, 3].map(point), S::STEP);
+        let [p0, p1, p2, p3] = cubic([point(0), point(1), point(2), point(3)], S::STEP);
         [p0 + more.offset, p1, p2, p3]
     }
-    #[inline]
+    #[inline(always)]
     fn locate(phase: u32, cells: u32) -> (u32, Fraction<Self>) {
         S::locate(phase, cells)
     }
-    #[inline]
+    #[inline(always)]
     fn times(x: Raw<Self>, u: Fraction<Self>) -> Raw<Self> {
         S::step(x, u)
     }
@@ -108,21 +108,22 @@ impl Layout for Spline16 {
     ) -> [R; 4] {
         let half = |word| read(Self::half(word, column % 2 == 1));
         let point = |row: usize| word(cell, row * Self::ROW.pitch(set) + column / 2, half);
-        let [p0, p1, p2, p3] = cubic([0, 1, 2, 3].map(point), Q31::STEP).map(|p| p * more.gain);
-        [p0 + more.offset, p1, p2, p3]
+        let [p0, p1, p2, p3] = cubic([point(0), point(1), point(2), point(3)], Q31::STEP);
+        let gain = more.gain;
+        [p0 * gain + more.offset, p1 * gain, p2 * gain, p3 * gain]
     }
-    #[inline]
+    #[inline(always)]
     fn locate(phase: u32, cells: u32) -> (u32, Fraction<Self>) {
         Q31::locate(phase, cells)
     }
-    #[inline]
+    #[inline(always)]
     fn times(x: Raw<Self>, u: Fraction<Self>) -> Raw<Self> {
         Q31::step(x, u)
     }
     fn stored(points: [f64; 4]) -> [f64; 4] {
         points
     }
-    #[inline]
+    #[inline(always)]
     fn half(word: i32, upper: bool) -> i32 {
         if upper {
             word >> 16

@@ -1,0 +1,46 @@
+//! Counts that do not end: a hardware counter's, extended to 64 bits.
+
+/// Extends the counts of a hardware counter of `BITS` bits (1 to 32), which overflows, to 64 bits.
+///
+/// The machine must move less than half the counter's range between two readings: 32 767 counts for 16 bits.
+///
+/// ```
+/// use jred::axis::Counter;
+///
+/// let mut counter = Counter::<16>::default();
+/// assert_eq!(counter.extend(65_000), -536);
+/// assert_eq!(counter.extend(100), 100);
+/// assert_eq!(counter.extend(32_000), 32_000);
+/// assert_eq!(counter.extend(64_000), 64_000);
+/// ```
+///
+/// A timer that an index pulse or a limit of its own sets to zero once a turn needs none: its count is that of an
+/// [`Encoder`](super::Encoder) as it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Counter<const BITS: u32> {
+    count: i64,
+}
+
+impl<const BITS: u32> Counter<BITS> {
+    /// How far a reading is to the left of 32 bits.
+    const SHIFT: u32 = {
+        assert!(BITS >= 1 && BITS <= 32, "a counter has 1 to 32 bits");
+        32 - BITS
+    };
+
+    /// That has this count now.
+    #[must_use]
+    pub const fn at(count: i64) -> Self {
+        Self { count }
+    }
+
+    /// The count, of what the counter reads now: the nearest to the last one.
+    #[inline]
+    pub const fn extend(&mut self, reading: u32) -> i64 {
+        let moved = (reading << Self::SHIFT).wrapping_sub((self.count as u32) << Self::SHIFT);
+        let moved = (moved as i32) >> Self::SHIFT;
+        self.count = self.count.wrapping_add(moved as i64);
+        self.count
+    }
+}

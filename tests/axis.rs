@@ -1,0 +1,4 @@
+//! From an encoder's count to a torque command.
+
+mod encoder;
+mod tracker;

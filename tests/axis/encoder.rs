@@ -1,0 +1,245 @@
+use jred::Domain;
+use jred::axis::{Counter, Counting, Encoder, Mounting, Scaled, StrokeEncoder};
+use jred::number::RangeError;
+use proptest::prelude::*;
+
+use crate::support::config;
+
+fn mounting() -> impl Strategy<Value = Mounting> {
+    let per = prop_oneof![
+        2..5000u32,
+        any::<u32>().prop_map(|per| per.max(2)),
+        (1..31u32).prop_map(|n| 1 << n)
+    ];
+    let gear = prop_oneof![
+        Just([1, 1]),
+        [1..200u32, 1..200],
+        [any::<u32>(), any::<u32>()]
+    ];
+    let home = prop_oneof![Just(0), -100_000..100_000i64, any::<i64>()];
+    (per, gear, any::<bool>(), home)
+        .prop_map(|(counts_per_turn, gear, up, home)| Mounting {
+            counts_per_turn,
+            gear,
+            counting: if up { Counting::Up } else { Counting::Down },
+            home,
+        })
+        .prop_filter("two counts a turn", |m| {
+            m.gear[0] > 0
+                && m.gear[1] > 0
+                && u64::from(m.counts_per_turn) * u64::from(m.gear[0]) >= 2 * u64::from(m.gear[1])
+        })
+}
+
+/// The phase against the exact one, in parts of a unit of 2⁻³² of a turn: as many as the encoder has counts a turn, and more.
+fn check(mounting: &Mounting, count: i64, phase: u32) {
+    let per = i128::from(mounting.counts_per_turn) * i128::from(mounting.gear[0]);
+    let from_home = i128::from(count) - i128::from(mounting.home);
+    let counts = match mounting.counting {
+        Counting::Up => from_home,
+        Counting::Down => -from_home,
+    };
+    let exact = (counts * i128::from(mounting.gear[1])).rem_euclid(per) << 32;
+    let above = (i128::from(phase) * per - exact).rem_euclid(per << 32);
+    let above = if above > per << 31 {
+        above - (per << 32)
+    } else {
+        above
+    };
+    // A whole number of units is exact.
+    let most = if exact % per == 0 { 0 } else { per - 1 };
+    assert!(
+        above.abs() <= most,
+        "{mounting:?} at {count}: {above}/{per} of a unit"
+    );
+}
+
+proptest! {
+    #![proptest_config(config(2000, 0xe2c0))]
+
+    #[test]
+    fn the_phase_of_every_count_is_within_a_unit(
+        mounting in mounting(),
+        counts in prop::collection::vec(prop_oneof![any::<i64>(), any::<i32>().prop_map(i64::from), -100..100i64, Just(i64::MIN), Just(i64::MAX), Just(i64::from(i32::MIN))], 8),
+    ) {
+        let encoder = Encoder::new(mounting).unwrap();
+        for count in counts {
+            check(&mounting, count, encoder.phase_wide(count).to_bits());
+            let narrow = count as i32;
+            check(&mounting, narrow.into(), encoder.phase(narrow).to_bits());
+        }
+        // Home and whole turns.
+        let per = i64::from(mounting.counts_per_turn) * i64::from(mounting.gear[0].min(1 << 20));
+        if mounting.gear[1] == 1 && mounting.gear[0] < 1 << 20 {
+            for turns in [0, 1, -3, 100] {
+                let count = mounting.home.wrapping_add(turns * per);
+                if mounting.home.checked_add(turns * per).is_some() {
+                    prop_assert_eq!(encoder.phase_wide(count).to_bits(), 0);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_phase_along_a_stroke_is_within_a_unit(
+        span in 1e-3..10.0f64,
+        from in -10.0..10.0f64,
+        counts in 2.0..1e9f64,
+        down: bool,
+        home in -1_000_000..1_000_000i32,
+        part in -0.5..1.5,
+        at in prop::collection::vec(-1.2..1.2f64, 8),
+    ) {
+        let to: f64 = from + span;
+        let span: f64 = to - from;
+        let resolution = if down { -span } else { span } / counts;
+        let at_home = from + part * span;
+        let domain = Domain::Stroke { from, to };
+        let encoder = StrokeEncoder::new(domain, Scaled { resolution, home, at_home }).unwrap();
+        for at in at {
+            let count = (at * counts) as i32;
+            let counted = f64::from(count) - f64::from(home);
+            let exact = (counted * (resolution / span) + (at_home - from) / span) * 4_294_967_296.0;
+            let found = encoder.phase(count);
+            let limited = exact.clamp(0.0, 4_294_967_295.0);
+            // Half a unit, a quarter for a step that is half a unit of 2⁻⁶⁴ off 2³¹ times, and what double precision leaves of the reference.
+            let most = 0.5 + 0.25 * f64::from(count).abs() / 2_147_483_648.0 + 1e-5;
+            prop_assert!((f64::from(found.value.to_bits()) - limited).abs() < most, "{count}: {exact}");
+            if !(-1.0..1.0).contains(&exact) && (exact - 4_294_967_296.0).abs() > 1.0 {
+                prop_assert_eq!(found.saturated, !(0.0..4_294_967_296.0).contains(&exact));
+            }
+        }
+    }
+
+    #[test]
+    fn a_counter_that_overflows_is_followed(start in any::<i64>(), moves in prop::collection::vec(any::<i16>(), 1..50)) {
+        let mut counter = Counter::<16>::at(start);
+        let mut wide = Counter::<32>::at(start);
+        let mut count = start;
+        for moved in moves {
+            // Half of the range and no more.
+            count = count.wrapping_add((moved / 2).into());
+            prop_assert_eq!(counter.extend(u32::from(count as u16)), count);
+            prop_assert_eq!(wide.extend(count as u32), count);
+        }
+    }
+}
+
+#[test]
+fn an_encoder_that_cannot_be_is_refused() {
+    let good = Mounting::direct(10_000);
+    let refused = |mounting| Encoder::new(mounting).unwrap_err();
+    for (mounting, what) in [
+        (
+            Mounting {
+                counts_per_turn: 0,
+                ..good
+            },
+            "counts of a turn of the encoder",
+        ),
+        (
+            Mounting {
+                gear: [0, 1],
+                ..good
+            },
+            "turns of the encoder in its gear",
+        ),
+        (
+            Mounting {
+                gear: [1, 0],
+                ..good
+            },
+            "turns of the drive link in the encoder's gear",
+        ),
+    ] {
+        assert_eq!(refused(mounting), RangeError::NotPositive(what, 0.0));
+    }
+    let coarse = refused(Mounting {
+        counts_per_turn: 3,
+        gear: [1, 2],
+        ..good
+    });
+    assert_eq!(
+        coarse.to_string(),
+        "counts of a turn of the drive link is 1.5, less than 2"
+    );
+
+    let stroke = Domain::Stroke { from: 0.0, to: 0.5 };
+    let good = Scaled {
+        resolution: 1e-6,
+        home: 0,
+        at_home: 0.0,
+    };
+    for (domain, scaled, says) in [
+        (
+            Domain::Turn,
+            good,
+            "counts of the stroke is 0, outside 2 to 1073741824",
+        ),
+        (
+            stroke,
+            Scaled {
+                resolution: f64::NAN,
+                ..good
+            },
+            "the encoder's resolution is not a finite number",
+        ),
+        (
+            stroke,
+            Scaled {
+                resolution: 0.0,
+                ..good
+            },
+            "the encoder's resolution is 0, but must be greater than zero",
+        ),
+        (
+            stroke,
+            Scaled {
+                resolution: 0.3,
+                ..good
+            },
+            "counts of the stroke is 1.66",
+        ),
+        (
+            stroke,
+            Scaled {
+                at_home: f64::INFINITY,
+                ..good
+            },
+            "the position at home is not a finite number",
+        ),
+        (
+            stroke,
+            Scaled {
+                at_home: 1e9,
+                ..good
+            },
+            "the position at home in strokes is 2000000000",
+        ),
+    ] {
+        let error = StrokeEncoder::new(domain, scaled).unwrap_err().to_string();
+        assert!(error.starts_with(says), "{error}");
+    }
+}
+
+#[test]
+fn an_end_of_the_stroke_is_in_it() {
+    for counts in [1000, 3333, 65_536, 100_000_007] {
+        let domain = Domain::Stroke { from: 0.1, to: 0.4 };
+        let resolution = (0.4 - 0.1) / f64::from(counts);
+        let encoder = StrokeEncoder::new(
+            domain,
+            Scaled {
+                resolution,
+                home: -5,
+                at_home: 0.1,
+            },
+        )
+        .unwrap();
+        let (first, last) = (encoder.phase(-5), encoder.phase(counts - 5));
+        assert_eq!((first.value.to_bits(), first.saturated), (0, false));
+        assert_eq!((last.value.to_bits(), last.saturated), (u32::MAX, false));
+        assert!(encoder.phase(-6).saturated && encoder.phase(counts - 4).saturated);
+        assert!(encoder.phase(i32::MIN).saturated && encoder.phase(i32::MAX).saturated);
+    }
+}

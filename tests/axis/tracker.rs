@@ -1,0 +1,182 @@
+use core::f64::consts::TAU;
+
+use jred::axis::{Rates, Tracked, Tracker};
+use jred::number::Number;
+use jred::{Domain, Phase, Q15, Q31, Scale};
+
+use crate::support::{assert_near, budget, samples, scale_of};
+
+/// Feeds the phases of φ(k)/2π, k = 1, 2, …
+fn follow(tracker: &mut Tracker, periods: u32, turns: impl Fn(f64) -> f64) -> Tracked {
+    let mut last = Tracked::default();
+    for k in 1..=periods {
+        let turn = turns(f64::from(k)).rem_euclid(1.0);
+        last = tracker.update(Phase::from_bits((turn * 4_294_967_296.0) as u32));
+    }
+    last
+}
+
+const UNIT: f64 = 1.0 / 4_294_967_296.0;
+
+/// In ranges a period, and a period squared.
+fn speed(tracked: Tracked) -> f64 {
+    f64::from(tracked.speed) * UNIT
+}
+
+fn acceleration(tracked: Tracked) -> f64 {
+    f64::from(tracked.acceleration) * UNIT / 256.0
+}
+
+#[test]
+fn a_constant_acceleration_is_followed_without_a_lag() {
+    for memory in [0.0, 0.5, 0.9, 0.99] {
+        for (omega, alpha) in [(0.3, 0.3), (-0.4, 0.5), (0.4, -0.9), (0.0, 0.0)] {
+            // What the filter still follows from rest.
+            let rest = 1.0 - f64::from(memory);
+            let (omega, alpha) = (omega * rest, alpha * 1e-3 * rest * rest);
+            let periods = 5 + (40.0 / (1.0 - f64::from(memory))) as u32;
+            let turns = |k: f64| 0.3 + omega * k + 0.5 * alpha * k * k;
+            let mut tracker = Tracker::new(memory)
+                .unwrap()
+                .at(Phase::from_bits((0.3 / UNIT) as u32));
+            let last = follow(&mut tracker, periods, turns);
+            let k = f64::from(periods);
+            let phase = f64::from(last.phase.to_bits()) * UNIT;
+            let off = (phase - turns(k) + 0.5).rem_euclid(1.0) - 0.5;
+            // The phases are floored to a unit; without memory three of them make the acceleration.
+            assert!(off.abs() < 3.0 * UNIT, "{memory} {omega}: phase {off:e}");
+            assert_near("speed", speed(last), omega + alpha * k, 4.0 * UNIT);
+            assert_near("acceleration", acceleration(last), alpha, 5.0 * UNIT);
+        }
+    }
+}
+
+#[test]
+fn the_filter_settles_and_smooths_as_stated() {
+    for memory in [0.8f32, 0.9, 0.95] {
+        let theta = f64::from(memory);
+        let rest = 1.0 - theta;
+        // A step of the acceleration: 1 % after 8.4/(1 − θ).
+        let alpha = 1e-5;
+        let mut tracker = Tracker::new(memory).unwrap();
+        let turns = |k: f64| 0.5 * alpha * k * k;
+        let near = |k: f64| (k / rest) as u32;
+        let mut at = [1.0; 2];
+        for (k, left) in [7.4, 9.4].into_iter().zip(&mut at) {
+            let last = follow(&mut tracker.at(Phase::default()), near(k), turns);
+            *left = (acceleration(last) / alpha - 1.0).abs();
+        }
+        assert!(at[0] > 0.01 && at[1] < 0.01, "{memory}: {at:?}");
+
+        // White noise of a quantisation, against the closed forms of Morrison (1969), chapter 13.
+        let per = (1.0 + theta).powi(5);
+        let of_speed = rest.powi(3) / per * (49.0 + 50.0 * theta + 13.0 * theta * theta) / 2.0;
+        let of_acceleration = 6.0 * rest.powi(5) / per;
+        let count = 1.0 / 10_000.0;
+        let (mut sums, mut number) = ([0.0; 2], 0.0);
+        for (k, noise) in samples(200_000, 0x7ac3, &(-0.5..0.5))
+            .into_iter()
+            .enumerate()
+        {
+            let turn = (0.5 + noise * count) / UNIT;
+            let last = tracker.update(Phase::from_bits(turn as u32));
+            if k > 1000 {
+                // That of the next period: the closed form is of the prediction.
+                sums[0] += (speed(last) + acceleration(last)).powi(2);
+                sums[1] += acceleration(last).powi(2);
+                number += 1.0;
+            }
+        }
+        let [found_speed, found_acceleration] = sums.map(|sum| (sum / number).sqrt() / count);
+        let expected = [of_speed, of_acceleration].map(|reduction: f64| (reduction / 12.0).sqrt());
+        assert_near("speed noise", found_speed / expected[0], 1.0, budget::NOISE);
+        assert_near(
+            "acceleration noise",
+            found_acceleration / expected[1],
+            1.0,
+            budget::NOISE,
+        );
+    }
+}
+
+#[test]
+fn rates_give_the_motion_in_every_number() {
+    let (period, omega, alpha) = (1e-4, 12.0, -340.0);
+    let tracked = Tracked {
+        phase: Phase::default(),
+        speed: (omega * f64::from(period) / TAU / UNIT) as i32,
+        acceleration: (alpha * f64::from(period).powi(2) / TAU / UNIT * 256.0) as i32,
+    };
+    fn found<N: Number>(period: f32, tracked: Tracked, scale: Scale) -> [f64; 3] {
+        let rates = Rates::<N>::new(period, Domain::<f64>::Turn, &scale).unwrap();
+        let [omega, alpha] = [rates.omega(tracked), rates.alpha(tracked)];
+        assert!(!omega.saturated && !alpha.saturated);
+        let back = rates.moved(omega.value).to_bits().cast_signed();
+        let bases = [scale.speed(), scale.acceleration()].map(f64::from);
+        [
+            omega.value.to_f64() * bases[0],
+            alpha.value.to_f64() * bases[1],
+            f64::from(back),
+        ]
+    }
+    let scale = scale_of(100.0, 20.0, 0.2);
+    let wanted = [omega, alpha, f64::from(tracked.speed)];
+    let check = |name: &str, [omega, alpha, back]: [f64; 3], share: f64| {
+        assert_near(&format!("{name} speed"), omega, wanted[0], 20.0 * share);
+        assert_near(
+            &format!("{name} acceleration"),
+            alpha,
+            wanted[1],
+            500.0 * share,
+        );
+        assert_near(&format!("{name} moved"), back / wanted[2], 1.0, 2.0 * share);
+    };
+    check("f64", found::<f64>(period, tracked, Scale::SI), 1e-6);
+    check("f32", found::<f32>(period, tracked, Scale::SI), 1e-6);
+    check("q31", found::<Q31>(period, tracked, scale), 1e-6);
+    check("q15", found::<Q15>(period, tracked, scale), 1.0 / 32_768.0);
+
+    // Beyond the machine units: limited and flagged, both ways.
+    let rates = Rates::<Q31>::new(period, Domain::<f64>::Turn, &scale).unwrap();
+    for sign in [1, -1] {
+        let fast = Tracked {
+            speed: 2 * sign * tracked.speed,
+            acceleration: 2 * sign * tracked.acceleration,
+            ..tracked
+        };
+        let [omega, alpha] = [rates.omega(fast), rates.alpha(fast)];
+        assert!(omega.saturated && alpha.saturated);
+        assert_eq!(omega.value, if sign > 0 { Q31::MAX } else { Q31::MIN });
+        assert_eq!(alpha.value, if sign < 0 { Q31::MAX } else { Q31::MIN });
+    }
+}
+
+#[test]
+fn filters_that_cannot_be_are_refused() {
+    for memory in [f32::NAN, -0.1, 0.9995, 1.0] {
+        assert!(Tracker::new(memory).is_err(), "{memory}");
+    }
+    for (bandwidth, period) in [
+        (0.0, 1e-4),
+        (-5.0, 1e-4),
+        (f32::NAN, 1e-4),
+        (50.0, 0.0),
+        (0.1, 1e-4),
+        (50.0, f32::INFINITY),
+    ] {
+        assert!(
+            Tracker::with_bandwidth(bandwidth, period).is_err(),
+            "{bandwidth} {period}"
+        );
+    }
+    assert_eq!(
+        Tracker::with_bandwidth(50.0, 1e-4).unwrap(),
+        Tracker::new((-TAU as f32 * 50.0 * 1e-4).exp()).unwrap()
+    );
+    for period in [f32::NAN, 0.0, -1.0, f32::INFINITY, 1e-38, 1e38] {
+        assert!(
+            Rates::<Q31>::new(period, Domain::<f64>::Turn, &Scale::SI).is_err(),
+            "{period}"
+        );
+    }
+}
