@@ -140,7 +140,9 @@ pub use number::q15::Q15;
 pub use number::q31::Q31;
 pub use number::scalar::Outcome;
 pub use number::scale::Scale;
-pub use tick::{AccelerationRange, AnyModel, Image, ImageError, Model, Pieces, Validity, duty};
+pub use tick::{
+    AccelerationRange, AnyModel, Contributions, Image, ImageError, Model, Pieces, Validity, duty,
+};
 
 /// Tables: their formats, how words and curves are made, checked and read, for those who make or keep their own.
 ///

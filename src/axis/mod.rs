@@ -2,10 +2,16 @@
 
 mod counter;
 mod encoder;
+mod feed_forward;
+mod motion;
 mod stroke;
 mod tracker;
+mod transmission;
 
 pub use counter::Counter;
 pub use encoder::{Counting, Encoder, Mounting};
+pub use feed_forward::{Checked, FeedForward, Limited, Ramp, Status, TorqueLimits};
+pub use motion::{Motion, Period};
 pub use stroke::{Scaled, StrokeEncoder};
-pub use tracker::{Rates, Tracked, Tracker};
+pub use tracker::{Tracked, Tracker};
+pub use transmission::{Gearbox, Transmission};

@@ -1,11 +1,9 @@
 //! Speed and acceleration from the counts of an encoder.
 
-use core::marker::PhantomData;
-
+use crate::Phase;
 use crate::math;
+use crate::number::RangeError;
 use crate::number::error::{positive, within};
-use crate::number::{Number, RangeError, Rate, Real};
-use crate::{Domain, Outcome, Phase, Scale};
 
 /// A tracking filter: phase, speed and acceleration of a drive link, of the phases that an encoder gives, one each period.
 ///
@@ -125,65 +123,5 @@ impl Tracker {
                 upper >> 31 ^ i32::MAX
             },
         }
-    }
-}
-
-/// What makes speeds and accelerations of a model of what a [`Tracker`] finds, and phases of speeds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Rates<N> {
-    speed: Rate,
-    acceleration: Rate,
-    number: PhantomData<N>,
-}
-
-impl<N: Number> Rates<N> {
-    /// For a tick every `period` (s), of a model with this range and these machine units.
-    ///
-    /// # Errors
-    /// A period that is not positive and finite, or so short or long that nothing fits.
-    pub fn new<R: Real>(period: f32, domain: Domain<R>, scale: &Scale) -> Result<Self, RangeError> {
-        positive("period of the tick", f64::from(period))?;
-        let span = domain.span().to_f32();
-        let unit = 1.0 / 4_294_967_296.0; // 2⁻³²
-        let speed = span / period * unit;
-        let acceleration = span / period / period * (unit / 256.0);
-        let rate = |unit: f32, base: f32| {
-            Rate::new(unit / base).ok_or(RangeError::OutOfRange {
-                what: "period of the tick",
-                value: f64::from(period),
-                min: 1e-9,
-                max: 1e3,
-            })
-        };
-        let rates = Self {
-            speed: rate(speed, scale.speed())?,
-            acceleration: rate(acceleration, scale.acceleration())?,
-            number: PhantomData,
-        };
-        if N::FIXED {
-            // The number 1 must be a speed at which the shorter way round is the way.
-            let base = f64::from(scale.speed() * period / span);
-            within("speed base, in ranges a period", base, [0.0, 0.25])?;
-        }
-        Ok(rates)
-    }
-
-    /// The speed in machine units; limited and flagged in fixed point.
-    #[inline]
-    pub fn omega(&self, tracked: Tracked) -> Outcome<N> {
-        N::of_count(tracked.speed, &self.speed)
-    }
-
-    /// The acceleration in machine units; limited and flagged in fixed point.
-    #[inline]
-    pub fn alpha(&self, tracked: Tracked) -> Outcome<N> {
-        N::of_count(tracked.acceleration, &self.acceleration)
-    }
-
-    /// How far the drive link moves in a period at this speed: what to add to a phase.
-    #[inline]
-    pub fn moved(&self, omega: N) -> Phase {
-        Phase::from_bits(omega.to_count(&self.speed).cast_unsigned())
     }
 }

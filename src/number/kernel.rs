@@ -3,7 +3,7 @@
 use core::fmt;
 use core::ops::{Add, Mul, Sub};
 
-use super::{Number, Outcome, Role, Scale};
+use super::{Number, Outcome, Role, Scale, Sliding};
 
 /// What coefficients of a cell are computed in.
 pub trait Ring:
@@ -94,6 +94,16 @@ pub trait Kernel: Number {
     }
     /// sum + c·sgn ω; nothing for ω = 0.
     fn add_signed(sum: Self::Raw, c: Self::Raw, omega: Self) -> Self::Raw;
+    /// sum + c·share
+    fn add_share(sum: Self::Raw, c: Self::Raw, share: Self) -> Self::Raw;
+    /// sum and Coulomb friction.
+    #[inline(always)]
+    fn add_sliding(sum: Self::Raw, c: Self::Raw, sliding: Sliding<Self>) -> Self::Raw {
+        match sliding {
+            Sliding::Against(omega) => Self::add_signed(sum, c, omega),
+            Sliding::Share(share) => Self::add_share(sum, c, share),
+        }
+    }
     /// The sum as a torque. It fits: `Model::new` saw to it.
     fn torque(sum: Self::Raw) -> Self;
     /// (torque − resisting)/J
@@ -191,6 +201,10 @@ macro_rules! float {
                     c.to_bits()
                 };
                 sum + $float::from_bits(c ^ bits & (-0.0 as $float).to_bits())
+            }
+            #[inline(always)]
+            fn add_share(sum: $float, c: $float, share: $float) -> $float {
+                sum + c * share
             }
             #[inline(always)]
             fn torque(sum: $float) -> $float {

@@ -17,6 +17,7 @@
 //! table and model are built; so inverse dynamics cannot saturate. Forward dynamics can, and reports it.
 
 pub(crate) mod error;
+mod factor;
 mod kernel;
 #[allow(
     clippy::indexing_slicing,
@@ -29,10 +30,10 @@ mod product;
 pub(crate) mod q15;
 pub(crate) mod q31;
 pub(crate) mod quadrature;
-mod rate;
 mod role;
 pub(crate) mod scalar;
 pub(crate) mod scale;
+mod sliding;
 pub(crate) mod spline;
 pub(crate) mod transfer;
 
@@ -40,11 +41,12 @@ pub use crate::math::Real;
 pub use error::{Cure, RangeError};
 pub(crate) use kernel::{Kernel, Ring};
 
+pub(crate) use factor::Factor;
 pub(crate) use product::upper_of_sum;
-pub(crate) use rate::Rate;
 pub use role::Role;
 pub(crate) use scalar::Outcome;
 pub use scalar::{Number, Scalar};
 pub use scale::Bases;
 pub(crate) use scale::Scale;
+pub use sliding::Sliding;
 pub use transfer::Transfer;

@@ -2,7 +2,7 @@
 
 use crate::Q31;
 use crate::math;
-use crate::number::{Number, Outcome, Rate};
+use crate::number::{Factor, Number, Outcome};
 
 /// A per-unit number in [−1, 1): an `i16` in units of 2⁻¹⁵, for tables of [`Rows16`](crate::curve::Rows16).
 ///
@@ -68,16 +68,63 @@ impl Number for Q15 {
     }
 
     #[inline(always)]
-    fn of_count(count: i32, rate: &Rate) -> Outcome<Self> {
-        let wide = Q31::of_count(count, rate);
-        Outcome {
-            value: Self((wide.value.to_bits() >> 16) as i16),
-            saturated: wide.saturated,
-        }
+    fn of_count(count: i32, factor: &Factor) -> Outcome<Self> {
+        Q31::of_count(count, factor).into()
     }
 
     #[inline(always)]
-    fn to_count(self, rate: &Rate) -> i32 {
-        Q31::from_bits(i32::from(self.0) << 16).to_count(rate)
+    fn to_count(self, factor: &Factor) -> i32 {
+        Q31::from(self).to_count(factor)
+    }
+
+    #[inline(always)]
+    fn times(self, factor: &Factor) -> Outcome<Self> {
+        Q31::from(self).times(factor).into()
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Outcome<Self> {
+        Q31::from(self).plus(other.into()).into()
+    }
+
+    #[inline(always)]
+    fn minus(self, other: Self) -> Outcome<Self> {
+        Q31::from(self).minus(other.into()).into()
+    }
+
+    #[inline(always)]
+    fn mean(self, other: Self) -> Self {
+        Self(self.0.midpoint(other.0))
+    }
+    #[inline(always)]
+    fn to_unit(self) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn exceeds(self, limit: Self) -> bool {
+        self.0.unsigned_abs() > limit.0.unsigned_abs()
+    }
+    #[inline(always)]
+    fn within(self, [least, greatest]: [Self; 2]) -> Self {
+        self.min(greatest).max(least)
+    }
+}
+
+/// The same number.
+impl From<Q15> for Q31 {
+    #[inline(always)]
+    fn from(short: Q15) -> Self {
+        Self::from_bits(i32::from(short.0) << 16)
+    }
+}
+
+/// Rounded down.
+impl From<Outcome<Q31>> for Outcome<Q15> {
+    #[inline(always)]
+    fn from(long: Outcome<Q31>) -> Self {
+        Self {
+            value: Q15((long.value.to_bits() >> 16) as i16),
+            saturated: long.saturated,
+        }
     }
 }

@@ -4,7 +4,7 @@ use core::num::{NonZeroU64, Wrapping};
 
 use super::kernel::{Kernel, Ring};
 use super::product::{high, high_short};
-use super::{Number, Outcome, Rate, Role, Scalar, Scale};
+use super::{Factor, Number, Outcome, Role, Scalar, Scale};
 use crate::math;
 
 /// A per-unit number in [−1, 1): an `i32` in units of 2⁻³¹.
@@ -89,16 +89,52 @@ impl Number for Q31 {
         self.0 as f32 * (1.0 / 2_147_483_648.0) * base
     }
     #[inline(always)]
-    fn of_count(count: i32, rate: &Rate) -> Outcome<Self> {
-        let (value, saturated) = rate.of(count);
+    fn of_count(count: i32, factor: &Factor) -> Outcome<Self> {
+        Self(count).times(factor)
+    }
+    #[inline(always)]
+    fn to_count(self, factor: &Factor) -> i32 {
+        factor.times(self.0).0
+    }
+    #[inline(always)]
+    fn times(self, factor: &Factor) -> Outcome<Self> {
+        let (value, saturated) = factor.times(self.0);
         Outcome {
             value: Self(value),
             saturated,
         }
     }
     #[inline(always)]
-    fn to_count(self, rate: &Rate) -> i32 {
-        rate.back(self.0)
+    fn plus(self, other: Self) -> Outcome<Self> {
+        let value = self.0.saturating_add(other.0);
+        Outcome {
+            value: Self(value),
+            saturated: value != self.0.wrapping_add(other.0),
+        }
+    }
+    #[inline(always)]
+    fn minus(self, other: Self) -> Outcome<Self> {
+        let value = self.0.saturating_sub(other.0);
+        Outcome {
+            value: Self(value),
+            saturated: value != self.0.wrapping_sub(other.0),
+        }
+    }
+    #[inline(always)]
+    fn mean(self, other: Self) -> Self {
+        Self(self.0.midpoint(other.0))
+    }
+    #[inline(always)]
+    fn to_unit(self) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn exceeds(self, limit: Self) -> bool {
+        self.0.unsigned_abs() > limit.0.unsigned_abs()
+    }
+    #[inline(always)]
+    fn within(self, [least, greatest]: [Self; 2]) -> Self {
+        self.min(greatest).max(least)
     }
 }
 
@@ -186,6 +222,10 @@ impl Kernel for Q31 {
         } else {
             sum
         }
+    }
+    #[inline(always)]
+    fn add_share(sum: Self::Raw, c: Self::Raw, share: Self) -> Self::Raw {
+        sum + Wrapping(high(c.0, share.0) << 1)
     }
     #[inline(always)]
     fn torque(sum: Self::Raw) -> Self {

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::Rate;
+use super::Factor;
 use super::kernel::Kernel;
 use crate::math::Real;
 
@@ -83,10 +83,31 @@ pub trait Number:
     fn si(self, base: f32) -> f32;
     /// `count` times the factor; limited and flagged in fixed point.
     #[doc(hidden)]
-    fn of_count(count: i32, rate: &Rate) -> Outcome<Self>;
-    /// The whole count below this number; limited, and 0 for what is no number.
+    fn of_count(count: i32, factor: &Factor) -> Outcome<Self>;
+    /// The number times the factor, as a count; limited, and 0 for what is no number.
     #[doc(hidden)]
-    fn to_count(self, rate: &Rate) -> i32;
+    fn to_count(self, factor: &Factor) -> i32;
+    /// The number times the factor; limited and flagged in fixed point.
+    #[doc(hidden)]
+    fn times(self, factor: &Factor) -> Outcome<Self>;
+    /// The sum; limited and flagged in fixed point.
+    #[doc(hidden)]
+    fn plus(self, other: Self) -> Outcome<Self>;
+    /// self − other; limited and flagged in fixed point.
+    #[doc(hidden)]
+    fn minus(self, other: Self) -> Outcome<Self>;
+    /// The mean of two.
+    #[doc(hidden)]
+    fn mean(self, other: Self) -> Self;
+    /// Limited to −1 … 1.
+    #[doc(hidden)]
+    fn to_unit(self) -> Self;
+    /// Whether its magnitude is greater than the limit, or it is no number.
+    #[doc(hidden)]
+    fn exceeds(self, limit: Self) -> bool;
+    /// Limited; 0 for what is no number.
+    #[doc(hidden)]
+    fn within(self, limits: [Self; 2]) -> Self;
 }
 
 /// A number in tables of polynomials: `f32`, `f64`, [`Q31`](crate::Q31). Sealed.
@@ -103,6 +124,17 @@ pub struct Outcome<S> {
     pub value: S,
     /// The exact result lies outside the range. Never set for floating point.
     pub saturated: bool,
+}
+
+impl<S> Outcome<S> {
+    /// A result that was not limited.
+    #[inline(always)]
+    pub(crate) const fn exact(value: S) -> Self {
+        Self {
+            value,
+            saturated: false,
+        }
+    }
 }
 
 macro_rules! float {
@@ -132,15 +164,49 @@ macro_rules! float {
                 self as f32 * base
             }
             #[inline(always)]
-            fn of_count(count: i32, rate: &Rate) -> Outcome<Self> {
-                Outcome {
-                    value: count as $float * rate.factor as $float,
-                    saturated: false,
-                }
+            fn of_count(count: i32, factor: &Factor) -> Outcome<Self> {
+                (count as $float).times(factor)
             }
             #[inline(always)]
-            fn to_count(self, rate: &Rate) -> i32 {
-                (self * rate.counts as $float) as i32
+            fn to_count(self, factor: &Factor) -> i32 {
+                (self * factor.float as $float) as i32
+            }
+            #[inline(always)]
+            fn times(self, factor: &Factor) -> Outcome<Self> {
+                Outcome::exact(self * factor.float as $float)
+            }
+            #[inline(always)]
+            fn plus(self, other: Self) -> Outcome<Self> {
+                Outcome::exact(self + other)
+            }
+            #[inline(always)]
+            fn minus(self, other: Self) -> Outcome<Self> {
+                Outcome::exact(self - other)
+            }
+            #[inline(always)]
+            fn mean(self, other: Self) -> Self {
+                0.5 * (self + other)
+            }
+            #[inline(always)]
+            fn to_unit(self) -> Self {
+                self.max(-1.0).min(1.0)
+            }
+            #[inline(always)]
+            fn exceeds(self, limit: Self) -> bool {
+                // Magnitudes of floating point compare as their bits do, with what is no number above all.
+                self.to_bits() << 1 > limit.to_bits() << 1
+            }
+            #[inline(always)]
+            fn within(self, [least, greatest]: [Self; 2]) -> Self {
+                if self > greatest {
+                    greatest
+                } else if self >= least {
+                    self
+                } else if self < least {
+                    least
+                } else {
+                    0.0
+                }
             }
         }
     };

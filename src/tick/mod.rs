@@ -6,5 +6,5 @@ mod model;
 mod pieces;
 
 pub use image::{Aligned, HEADER_WORDS, Image, ImageError, VERSION, Validity, encode, image_len};
-pub use model::{AccelerationRange, AnyModel, Model};
+pub use model::{AccelerationRange, AnyModel, Contributions, Model};
 pub use pieces::Pieces;

@@ -11,6 +11,7 @@
 //! other forces.
 
 use crate::curve::{Format, Set, Table, TableError};
+use crate::number::Sliding;
 use crate::{Outcome, Phase};
 
 /// A reduced machine ready for the tick, over a table in RAM or in flash; its set of [`curves`](crate::curves) is part of the
@@ -99,6 +100,22 @@ pub struct AccelerationRange<S> {
     pub greatest: Outcome<S>,
 }
 
+/// The terms of the drive torque.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Contributions<S> {
+    /// J·α
+    pub inertial: S,
+    /// ½·J′·ω²
+    pub velocity: S,
+    /// −load
+    pub load: S,
+    /// b·ω
+    pub viscous: S,
+    /// c·sgn ω
+    pub coulomb: S,
+}
+
 impl<'a, F: Format> AnyModel<'a, F> {
     /// A model over `table`.
     ///
@@ -179,8 +196,35 @@ macro_rules! dynamics {
             /// the table is off by, which `tabulate` says. docs/theory.md adds them up. Cost: docs/performance.md.
             #[inline]
             pub fn torque(&self, phase: Phase, omega: F::Number, alpha: F::Number) -> F::Number {
+                self.torque_with(phase, omega, alpha, Sliding::Against(omega))
+            }
+
+            /// As [`torque`](Self::torque), with Coulomb friction as `sliding` says: by the sign of the set-point, or by a ramp.
+            #[inline]
+            pub fn torque_with(
+                &self,
+                phase: Phase,
+                omega: F::Number,
+                alpha: F::Number,
+                sliding: Sliding<F::Number>,
+            ) -> F::Number {
                 let $any = self.any();
-                F::torque(&$any.table, &$any.tick, $curves, phase, [omega, alpha])
+                F::torque(&$any.table, &$any.tick, $curves, phase, [omega, alpha], sliding)
+            }
+
+            /// The terms of [`torque_with`](Self::torque_with), each for itself: their sum is the torque but for their roundings, each of a unit of
+            /// the number.
+            pub fn contributions(
+                &self,
+                phase: Phase,
+                omega: F::Number,
+                alpha: F::Number,
+                sliding: Sliding<F::Number>,
+            ) -> Contributions<F::Number> {
+                let $any = self.any();
+                let [inertial, velocity, load, viscous, coulomb] =
+                    F::contributions(&$any.table, &$any.tick, $curves, phase, [omega, alpha], sliding);
+                Contributions { inertial, velocity, load, viscous, coulomb }
             }
 
             /// Forward dynamics: the acceleration that the torque `torque` on the drive link gives at the speed `omega`; in
@@ -194,7 +238,8 @@ macro_rules! dynamics {
                 torque: F::Number,
             ) -> Outcome<F::Number> {
                 let $any = self.any();
-                F::accelerations(&$any.table, &$any.tick, $curves, phase, omega, [torque])[0]
+                let sliding = Sliding::Against(omega);
+                F::accelerations(&$any.table, &$any.tick, $curves, phase, omega, sliding, [torque; 2])[0]
             }
 
             /// The accelerations that torques from `least` to `greatest` can give: the limits for planning the motion.
@@ -208,8 +253,9 @@ macro_rules! dynamics {
             ) -> AccelerationRange<F::Number> {
                 let $any = self.any();
                 let torques = [least, greatest];
+                let sliding = Sliding::Against(omega);
                 let [least, greatest] =
-                    F::accelerations(&$any.table, &$any.tick, $curves, phase, omega, torques);
+                    F::accelerations(&$any.table, &$any.tick, $curves, phase, omega, sliding, torques);
                 AccelerationRange { least, greatest }
             }
         }

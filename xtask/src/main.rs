@@ -21,6 +21,7 @@ mod program;
 mod report;
 mod timing;
 mod trace;
+mod user;
 
 use std::process::ExitCode;
 

@@ -19,6 +19,7 @@ use crate::peers;
 use crate::program::{self, Work};
 use crate::report::{Measurement, Report};
 use crate::trace::Emulator;
+use crate::user;
 
 /// Largest error of the library's kernels, relative to the largest result.
 const ERROR: f64 = 5e-4;
@@ -43,10 +44,24 @@ pub(crate) struct Options {
     /// Print the tables of docs/performance.md.
     #[arg(long)]
     markdown: bool,
+    /// Only the functions of a user's firmware, benches/user.
+    #[arg(long)]
+    user: bool,
 }
 
 /// Runs it; an error if a figure is out of bounds.
 pub(crate) fn run(options: &Options) -> Result<()> {
+    let whole = options.core.is_empty() && options.kernel.is_none();
+    if options.user || whole {
+        let failures = user::run(options.markdown)?;
+        ensure!(
+            failures == 0,
+            "{failures} figures of a user's firmware out of bounds"
+        );
+    }
+    if options.user {
+        return Ok(());
+    }
     let emulator = Emulator::installed()?;
     let cores: Vec<&Core> = CORES
         .iter()

@@ -27,16 +27,16 @@ mod rows16;
 pub(crate) use harmonic::in_use;
 pub use harmonic::{Circular, Coefficient, Curve, Harmonic, Kind, MAX_HARMONICS, terms};
 pub use layout::{Constants, Cubic, Quadratic, Spline, Spline16};
-pub(crate) use row::{Row, Size};
+pub(crate) use row::{Row, Rows, Runs, Size};
 pub use rows16::{RowConstants, Rows16};
 
 use super::curves::Set;
 use super::samples::{Sample, Samples};
 use super::table::{CurveValues, Table};
 use super::{MAX_CELLS, TableError, Usage};
-use crate::number::Number;
 use crate::number::error::RangeError;
 use crate::number::spline::MIN_CELLS;
+use crate::number::{Number, Sliding};
 use crate::{Outcome, Phase, Scale};
 
 /// Words of the image's header for the constants of a table.
@@ -168,17 +168,29 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
         set: Set,
         phase: Phase,
         motion: [Self::Number; 2],
+        sliding: Sliding<Self::Number>,
     ) -> Self::Number;
+    /// J·α, ½·J′·ω², −load, b·ω and c·sgn ω: the terms of [`torque`](Self::torque).
+    #[doc(hidden)]
+    fn contributions(
+        table: &Table<'_, Self>,
+        tick: &Self::Tick<'_>,
+        set: Set,
+        phase: Phase,
+        motion: [Self::Number; 2],
+        sliding: Sliding<Self::Number>,
+    ) -> [Self::Number; 5];
     /// Forward dynamics for several torques, as [`torque`](Self::torque).
     #[doc(hidden)]
-    fn accelerations<const N: usize>(
+    fn accelerations(
         table: &Table<'_, Self>,
         tick: &Self::Tick<'_>,
         set: Set,
         phase: Phase,
         omega: Self::Number,
-        torques: [Self::Number; N],
-    ) -> [Outcome<Self::Number>; N];
+        sliding: Sliding<Self::Number>,
+        torques: [Self::Number; 2],
+    ) -> [Outcome<Self::Number>; 2];
 }
 
 /// The bases of torque, speed and inertia in double precision.

@@ -1,4 +1,9 @@
-//! How many words a table has.
+//! How many words a table has, and its rows.
+
+#![allow(
+    clippy::inline_always,
+    reason = "the length of a row is a constant of the tick that all of this is part of"
+)]
 
 use super::harmonic::{means, row};
 use crate::curve::curves::{Set, width};
@@ -44,4 +49,97 @@ impl Row {
         // Without a division, which would have to fear a zero.
         if self.padded { (words + 3) & !3 } else { words }
     }
+}
+
+/// The rows of a table, by their length: those of the length that is in use hold all words. So the compiler knows the length of a row, and a read
+/// from it needs no check; the number of rows is at hand without a division.
+#[derive(Clone, Copy, Debug)]
+pub struct Rows<
+    'a,
+    T,
+    const A: usize,
+    const B: usize,
+    const C: usize,
+    const D: usize,
+    const E: usize,
+> {
+    pub(super) a: &'a [[T; A]],
+    pub(super) b: &'a [[T; B]],
+    pub(super) c: &'a [[T; C]],
+    pub(super) d: &'a [[T; D]],
+    pub(super) e: &'a [[T; E]],
+}
+
+/// Rows of whatever lengths.
+pub trait Runs<'a, T>: Copy + core::fmt::Debug {
+    /// Of rows with `pitch` words.
+    fn new(words: &'a [T], pitch: usize) -> Self;
+    /// A row.
+    fn row(&self, pitch: usize, index: usize) -> Option<&'a [T]>;
+    /// Four rows, from the index-th on.
+    fn four(&self, pitch: usize, index: usize) -> Option<&'a [T]>;
+}
+
+impl<'a, T, const A: usize, const B: usize, const C: usize, const D: usize, const E: usize>
+    Runs<'a, T> for Rows<'a, T, A, B, C, D, E>
+where
+    T: Copy + core::fmt::Debug,
+{
+    fn new(words: &'a [T], pitch: usize) -> Self {
+        let mut rows = Self {
+            a: &[],
+            b: &[],
+            c: &[],
+            d: &[],
+            e: &[],
+        };
+        if pitch == A {
+            rows.a = words.as_chunks().0;
+        } else if pitch == B {
+            rows.b = words.as_chunks().0;
+        } else if pitch == C {
+            rows.c = words.as_chunks().0;
+        } else if pitch == D {
+            rows.d = words.as_chunks().0;
+        } else {
+            rows.e = words.as_chunks().0;
+        }
+        rows
+    }
+
+    #[inline(always)]
+    fn row(&self, pitch: usize, index: usize) -> Option<&'a [T]> {
+        if pitch == A {
+            self.a.get(index).map(<[T; A]>::as_slice)
+        } else if pitch == B {
+            self.b.get(index).map(<[T; B]>::as_slice)
+        } else if pitch == C {
+            self.c.get(index).map(<[T; C]>::as_slice)
+        } else if pitch == D {
+            self.d.get(index).map(<[T; D]>::as_slice)
+        } else {
+            self.e.get(index).map(<[T; E]>::as_slice)
+        }
+    }
+
+    #[inline(always)]
+    fn four(&self, pitch: usize, index: usize) -> Option<&'a [T]> {
+        if pitch == A {
+            four(self.a, index)
+        } else if pitch == B {
+            four(self.b, index)
+        } else if pitch == C {
+            four(self.c, index)
+        } else if pitch == D {
+            four(self.d, index)
+        } else {
+            four(self.e, index)
+        }
+    }
+}
+
+#[inline(always)]
+fn four<T, const W: usize>(rows: &[[T; W]], index: usize) -> Option<&[T]> {
+    let rows = rows.get(index..)?.first_chunk::<4>()?;
+    Some(rows.as_flattened())
 }

@@ -31,7 +31,7 @@ pub(crate) use coefficient::{in_use, means, row};
 
 pub use sine::Circular;
 
-use series::{Series, pair, size};
+use series::{Series, Values, pair, size};
 
 use core::marker::PhantomData;
 
@@ -39,8 +39,8 @@ use super::{CONSTANTS, Format, Size};
 use crate::curve::curves::{self, Set};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::{CurveValues, Shape, Table, TableError, Usage};
-use crate::number::Number;
 use crate::number::error::RangeError;
+use crate::number::{Kernel, Number, Sliding};
 use crate::{Domain, Outcome, Phase, Scale};
 
 /// Most harmonics of a series.
@@ -111,6 +111,21 @@ fn usage<T: Circular>(series: &Series<'_, T>, set: Set) -> Usage {
         viscous,
         coulomb: coulomb + constant,
         torque: inertia + velocity + load + viscous + coulomb + constant,
+    }
+}
+
+/// sum + c·sgn ω, if the machine has it.
+#[inline(always)]
+fn with_friction<T: Kernel<Raw = T>>(
+    sum: T,
+    values: &Values<T>,
+    set: Set,
+    sliding: Sliding<T>,
+) -> T {
+    if Curve::Coulomb.is_in(set) || Curve::Constant.is_in(set) {
+        T::add_sliding(sum, values.coulomb, sliding)
+    } else {
+        sum
     }
 }
 
@@ -207,27 +222,47 @@ macro_rules! harmonic {
                 set: Set,
                 phase: Phase,
                 [omega, alpha]: [$number; 2],
+                sliding: Sliding<$number>,
             ) -> $number {
                 let values = tick.at(set, phase);
-                values.inertia * alpha + tick.resisting(&values, set, omega)
+                values.inertia * alpha
+                    + with_friction(tick.resisting(&values, set, omega), &values, set, sliding)
+            }
+
+            fn contributions(
+                _: &Table<'_, Self>,
+                tick: &Self::Tick<'_>,
+                set: Set,
+                phase: Phase,
+                [omega, alpha]: [$number; 2],
+                sliding: Sliding<$number>,
+            ) -> [$number; 5] {
+                let values = tick.at(set, phase);
+                [
+                    values.inertia * alpha,
+                    tick.velocity(&values, omega),
+                    -values.load,
+                    values.viscous * omega,
+                    with_friction(0.0, &values, set, sliding),
+                ]
             }
 
             #[inline(always)]
-            fn accelerations<const N: usize>(
+            fn accelerations(
                 _: &Table<'_, Self>,
                 tick: &Self::Tick<'_>,
                 set: Set,
                 phase: Phase,
                 omega: $number,
-                torques: [$number; N],
-            ) -> [Outcome<$number>; N] {
+                sliding: Sliding<$number>,
+                torques: [$number; 2],
+            ) -> [Outcome<$number>; 2] {
                 let values = tick.at(set, phase);
                 let resisting = tick.resisting(&values, set, omega);
+                let resisting = with_friction(resisting, &values, set, sliding);
                 // Floating point has room for every acceleration.
-                torques.map(|torque| Outcome {
-                    value: (torque - resisting) / values.inertia,
-                    saturated: false,
-                })
+                let outcome = |torque| Outcome::exact((torque - resisting) / values.inertia);
+                [outcome(torques[0]), outcome(torques[1])]
             }
         }
     };

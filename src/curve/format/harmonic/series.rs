@@ -93,23 +93,21 @@ impl<'a, T: Circular> Series<'a, T> {
         }
     }
 
-    /// ½·J′·ω² − load + b·ω + c·sgn ω, of the curves that the machine has; sgn 0 = 0.
+    /// ½·J′·ω²
+    #[inline(always)]
+    pub(super) fn velocity(&self, values: &Values<T>, omega: T) -> T {
+        self.velocity * values.slope * (omega * omega)
+    }
+
+    /// ½·J′·ω² − load + b·ω, of the curves that the machine has.
     #[inline(always)]
     pub(super) fn resisting(&self, values: &Values<T>, set: Set, omega: T) -> T {
-        let [zero, ..] = T::CONSTANTS;
-        let mut sum = self.velocity * values.slope * (omega * omega);
+        let mut sum = self.velocity(values, omega);
         if Curve::Load.is_in(set) {
             sum = sum - values.load;
         }
         if Curve::Viscous.is_in(set) {
             sum = sum + values.viscous * omega;
-        }
-        if Curve::Coulomb.is_in(set) || Curve::Constant.is_in(set) {
-            if omega > zero {
-                sum = sum + values.coulomb;
-            } else if omega < zero {
-                sum = sum - values.coulomb;
-            }
         }
         sum
     }

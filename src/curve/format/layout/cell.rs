@@ -9,7 +9,7 @@ use super::{Constants, Fraction, Layout, More, Raw, Word};
 use crate::Phase;
 use crate::curve::Table;
 use crate::curve::curves::{self, Set, has};
-use crate::number::{Kernel, Ring, Role};
+use crate::number::{Kernel, Ring, Role, Sliding};
 
 /// One cell's words and the place in it.
 pub(super) struct Cell<'a, L: Layout> {
@@ -23,14 +23,25 @@ impl<'a, L: Layout> Cell<'a, L> {
     /// The cell around `phase`, of a table whose set is `set`: a model knows it when it is compiled. Always `Some`: the
     /// length was checked when the table was built, but saying so costs a compare, not a panic path.
     #[inline(always)]
-    pub(super) fn at(table: &'a Table<'_, L>, phase: Phase, set: Set) -> Option<Self> {
+    pub(super) fn of(
+        table: &'a Table<'_, L>,
+        rows: &L::Rows<'a>,
+        phase: Phase,
+        set: Set,
+    ) -> Option<Self> {
         let (index, u) = L::locate(phase.to_bits(), table.cells());
         Some(Self {
-            words: L::cell(table.words(), index as usize, set)?,
+            words: L::cell(rows, index as usize, set)?,
             set,
             constants: table.constants(),
             u,
         })
+    }
+
+    /// One cell of a table that is not ticked.
+    pub(super) fn at(table: &'a Table<'_, L>, phase: Phase) -> Option<Self> {
+        let rows = L::rows(table.words(), table.set());
+        Self::of(table, &rows, phase, table.set())
     }
 
     /// Coefficients of a curve of the set.
@@ -83,12 +94,39 @@ impl<'a, L: Layout> Cell<'a, L> {
         self.viscous().map_or(velocity, |b| velocity + b)
     }
 
+    /// J·α, ½·J′·ω², −load, b·ω and c·sgn ω.
+    #[inline(always)]
+    pub(super) fn contributions(
+        &self,
+        factor: <L::Number as Kernel>::Factor,
+        [omega, alpha]: [L::Number; 2],
+        sliding: Sliding<L::Number>,
+    ) -> [L::Number; 5] {
+        let zero = Raw::<L>::default();
+        let (inertia, slope) = self.inertia();
+        let velocity = L::Number::velocity(slope, factor, omega);
+        let speed = |b| L::Number::product(b, omega);
+        [
+            L::Number::product(inertia, alpha),
+            speed(velocity),
+            self.curve(Role::Load).map_or(zero, |load| zero - load),
+            self.viscous().map_or(zero, speed),
+            self.coulomb()
+                .map_or(zero, |c| L::Number::add_sliding(zero, c, sliding)),
+        ]
+        .map(L::Number::torque)
+    }
+
     /// sum − load + c·sgn ω, of the curves that the machine has.
     #[inline(always)]
-    pub(super) fn with_load_and_friction(&self, sum: Raw<L>, omega: L::Number) -> Raw<L> {
+    pub(super) fn with_load_and_friction(
+        &self,
+        sum: Raw<L>,
+        sliding: Sliding<L::Number>,
+    ) -> Raw<L> {
         let sum = self.curve(Role::Load).map_or(sum, |load| sum - load);
         let coulomb = self.coulomb();
-        coulomb.map_or(sum, |c| L::Number::add_signed(sum, c, omega))
+        coulomb.map_or(sum, |c| L::Number::add_sliding(sum, c, sliding))
     }
 }
 
@@ -123,7 +161,8 @@ pub(super) fn wide<L: Layout>(
     role: Role,
 ) -> [<L::Number as Kernel>::Wide; 4] {
     let set = table.set();
-    let words = L::cell(table.words(), cell as usize, set).unwrap_or_default();
+    let rows = L::rows(table.words(), set);
+    let words = L::cell(&rows, cell as usize, set).unwrap_or_default();
     let column = role.column(set).unwrap_or(0);
     let more = table.constants().more::<L>(role);
     let more = More {

@@ -127,13 +127,14 @@ pub(super) fn usage<L: Layout>(table: &Table<'_, L>) -> Result<Usage, TableError
 
 /// What makes a model of a table.
 #[derive(Clone, Copy, Debug)]
-pub struct Proven<S: Kernel> {
+pub struct Proven<'a, L: Layout> {
+    pub(super) rows: L::Rows<'a>,
     /// Of the velocity torque.
-    pub(super) factor: S::Factor,
-    pub(super) reciprocal: S::Reciprocal,
+    pub(super) factor: <L::Number as Kernel>::Factor,
+    pub(super) reciprocal: <L::Number as Kernel>::Reciprocal,
 }
 
-pub(super) fn model<L: Layout>(table: &Table<'_, L>) -> Result<Proven<L::Number>, TableError> {
+pub(super) fn model<'a, L: Layout>(table: &Table<'a, L>) -> Result<Proven<'a, L>, TableError> {
     let (span, scale) = (table.domain().span(), table.scale());
     let factor = L::Number::velocity_factor(table.cells(), span, scale, L::STEP)
         .ok_or(TableError::SpeedBase)?;
@@ -143,7 +144,11 @@ pub(super) fn model<L: Layout>(table: &Table<'_, L>) -> Result<Proven<L::Number>
     } else {
         <L::Number as Kernel>::Reciprocal::default()
     };
-    Ok(Proven { factor, reciprocal })
+    Ok(Proven {
+        rows: L::rows(table.words(), table.set()),
+        factor,
+        reciprocal,
+    })
 }
 
 /// The constants of the reciprocal, the same in every cell; and the part of an acceleration that it errs by, as found at four
@@ -163,7 +168,7 @@ pub(super) fn reciprocal<L: Layout>(
         let cell = (place / PLACES) as u32;
         let refused = TableError::Reciprocal { cell };
         let phase = Phase::from_bits(bits as u32);
-        let here = Cell::at(table, phase, table.set()).ok_or(refused)?;
+        let here = Cell::at(table, phase).ok_or(refused)?;
         let reciprocal = here.curve(Role::Reciprocal).ok_or(refused)?;
         let inertia = here.inertia().0;
         let (constants, error) = L::Number::reciprocal_of(inertia, reciprocal).ok_or(refused)?;

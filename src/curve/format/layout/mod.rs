@@ -17,13 +17,13 @@ pub use spline::{Spline, Spline16};
 
 use cell::Cell;
 
-use super::{CONSTANTS, Format, Row, Size, bases};
+use super::{CONSTANTS, Format, Row, Rows, Runs, Size, bases};
 use crate::curve::curves::{self, Set};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::table::{CurveValues, Table};
 use crate::curve::{TableError, Usage};
 use crate::number::error::RangeError;
-use crate::number::{Kernel, Number, Ring, Role, Scalar};
+use crate::number::{Kernel, Number, Ring, Role, Scalar, Sliding};
 use crate::{Outcome, Phase, Q31};
 
 /// Constants of a table of polynomials, in addition to its rows; in machine units, zero if there is none.
@@ -41,7 +41,7 @@ pub struct Constants<W> {
 
 /// What a curve's coefficients need besides its words.
 #[derive(Clone, Copy, Default)]
-pub(crate) struct More<R> {
+pub struct More<R> {
     /// Added to the value.
     offset: R,
     /// Multiplies 16-bit points.
@@ -53,9 +53,11 @@ type Raw<L> = <<L as Format>::Number as Kernel>::Raw;
 type Fraction<L> = <<L as Format>::Number as Kernel>::Fraction;
 
 /// Polynomials in memory.
-pub(crate) trait Layout:
+pub trait Layout:
     Format<Number: Scalar, Word = Word<Self>, Constants = Constants<Word<Self>>>
 {
+    /// Its rows, by the lengths that sets of curves make.
+    type Rows<'a>: Runs<'a, Word<Self>>;
     /// Code in the image header.
     const CODE: u8;
     /// How long a row is.
@@ -74,8 +76,15 @@ pub(crate) trait Layout:
     /// Whether a word contains two numbers of 16 bits.
     const HALVES: bool = false;
 
+    /// The rows of a table.
+    fn rows(words: &[Word<Self>], set: Set) -> Self::Rows<'_> {
+        Runs::new(words, Self::ROW.pitch(set))
+    }
     /// The words that a cell reads.
-    fn cell<T>(words: &[T], index: usize, set: Set) -> Option<&[T]>;
+    #[inline(always)]
+    fn cell<'a>(rows: &Self::Rows<'a>, index: usize, set: Set) -> Option<&'a [Word<Self>]> {
+        rows.row(Self::ROW.pitch(set), index)
+    }
     /// The coefficients of one curve, as computed in R.
     fn coefficients<R: Ring>(
         cell: &[Word<Self>],
@@ -129,7 +138,7 @@ macro_rules! format {
             type Number = $number;
             type Word = <$number as Number>::Word;
             type Constants = Constants<<$number as Number>::Word>;
-            type Tick<'a> = check::Proven<$number>;
+            type Tick<'a> = check::Proven<'a, Self>;
 
             const NAME: &'static str = $name;
             const CODES: Option<[u8; 2]> = match <$number as Kernel>::CODE {
@@ -172,7 +181,7 @@ macro_rules! format {
             fn reciprocal(table: &Table<'_, Self>, phase: Phase) -> Option<f64> {
                 let (constants, _) = check::reciprocal(table).ok()?;
                 let unit = f64::from(Self::Number::reciprocal_unit(constants));
-                let raw = Cell::at(table, phase, table.set())?.curve(Role::Reciprocal)?;
+                let raw = Cell::at(table, phase)?.curve(Role::Reciprocal)?;
                 Some(Self::Number::exact(Role::Reciprocal, raw) / unit)
             }
 
@@ -239,49 +248,74 @@ macro_rules! format {
                 set: Set,
                 phase: Phase,
                 [omega, alpha]: [Self::Number; 2],
+                sliding: Sliding<Self::Number>,
             ) -> Self::Number {
-                let Some(cell) = Cell::at(table, phase, set) else {
+                let Some(cell) = Cell::of(table, &tick.rows, phase, set) else {
                     return Self::Number::default();
                 };
                 let (inertia, slope) = cell.inertia();
                 let sum = Self::Number::product(cell.speed_coefficient(slope, tick.factor, omega), omega);
                 let sum = Self::Number::accumulate(sum, inertia, alpha);
-                Self::Number::torque(cell.with_load_and_friction(sum, omega))
+                Self::Number::torque(cell.with_load_and_friction(sum, sliding))
+            }
+
+            fn contributions(
+                table: &Table<'_, Self>,
+                tick: &Self::Tick<'_>,
+                set: Set,
+                phase: Phase,
+                motion: [Self::Number; 2],
+                sliding: Sliding<Self::Number>,
+            ) -> [Self::Number; 5] {
+                let cell = Cell::of(table, &tick.rows, phase, set);
+                cell.map_or_else(Default::default, |cell| {
+                    cell.contributions(tick.factor, motion, sliding)
+                })
             }
 
             #[inline(always)]
-            fn accelerations<const N: usize>(
+            fn accelerations(
                 table: &Table<'_, Self>,
                 tick: &Self::Tick<'_>,
                 set: Set,
                 phase: Phase,
                 omega: Self::Number,
-                torques: [Self::Number; N],
-            ) -> [Outcome<Self::Number>; N] {
-                let Some(cell) = Cell::at(table, phase, set) else {
-                    return [Outcome::default(); N];
+                sliding: Sliding<Self::Number>,
+                torques: [Self::Number; 2],
+            ) -> [Outcome<Self::Number>; 2] {
+                let Some(cell) = Cell::of(table, &tick.rows, phase, set) else {
+                    return [Outcome::default(); 2];
                 };
                 let (inertia, slope) = cell.inertia();
                 let resisting =
                     Self::Number::product(cell.speed_coefficient(slope, tick.factor, omega), omega);
-                let resisting = cell.with_load_and_friction(resisting, omega);
+                let resisting = cell.with_load_and_friction(resisting, sliding);
                 let reciprocal = cell.curve(Role::Reciprocal);
-                // Not `map`, which many models share as one function that knows no set of curves.
-                let mut outcomes = [Outcome::default(); N];
-                for (outcome, torque) in outcomes.iter_mut().zip(torques) {
-                    *outcome = match reciprocal {
-                        Some(reciprocal) => {
-                            let inertia = Self::NEWTON.then_some(inertia);
-                            let constants = tick.reciprocal;
-                            Self::Number::by_reciprocal(torque, resisting, reciprocal, constants, inertia)
-                        }
-                        None => Self::Number::quotient(torque, resisting, inertia),
-                    };
-                }
-                outcomes
+                // Not by `map`, which may become a loop, and which many models share as one function that knows no set of curves.
+                let [one, other] = torques;
+                [
+                    outcome::<Self>(one, resisting, inertia, reciprocal, tick),
+                    outcome::<Self>(other, resisting, inertia, reciprocal, tick),
+                ]
             }
         }
     };
+}
+
+/// (torque − resisting)/J, by 1/J if the table has it.
+#[inline(always)]
+fn outcome<L: Layout>(
+    torque: L::Number,
+    resisting: Raw<L>,
+    inertia: Raw<L>,
+    reciprocal: Option<Raw<L>>,
+    tick: &check::Proven<'_, L>,
+) -> Outcome<L::Number> {
+    let Some(reciprocal) = reciprocal else {
+        return L::Number::quotient(torque, resisting, inertia);
+    };
+    let inertia = L::NEWTON.then_some(inertia);
+    L::Number::by_reciprocal(torque, resisting, reciprocal, tick.reciprocal, inertia)
 }
 
 format!(Spline<S>, "spline", S, S);
@@ -291,7 +325,7 @@ format!(Quadratic<S>, "quadratic", S, S);
 
 /// All curves in machine units, the slope a cell.
 fn per_cell<L: Layout>(table: &Table<'_, L>, phase: Phase) -> CurveValues {
-    let Some(cell) = Cell::at(table, phase, table.set()) else {
+    let Some(cell) = Cell::at(table, phase) else {
         return CurveValues::default();
     };
     let (inertia, slope) = cell.inertia();

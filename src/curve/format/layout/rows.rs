@@ -2,8 +2,8 @@
 
 use core::marker::PhantomData;
 
-use super::{Fraction, Layout, More, Raw, Row, Word, about, word};
-use crate::curve::curves::{Set, width};
+use super::{Fraction, Layout, More, Raw, Row, Rows, Word, about, word};
+use crate::curve::curves::Set;
 use crate::number::spline::cubic;
 use crate::number::{Ring, Scalar};
 
@@ -16,13 +16,8 @@ pub struct Cubic<S>(PhantomData<S>);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Quadratic<S>(PhantomData<S>);
 
-/// The index-th run of N words. The compiler knows the length of what comes back, so that reads from it need no check.
-#[inline(always)]
-fn run<T, const N: usize>(words: &[T], index: usize) -> Option<&[T]> {
-    words.as_chunks::<N>().0.get(index).map(<[T; N]>::as_slice)
-}
-
 impl<S: Scalar> Layout for Cubic<S> {
+    type Rows<'a> = Rows<'a, Word<Self>, 4, 8, 12, 16, 20>;
     const CODE: u8 = 2;
     const ROW: Row = Row {
         head: 0,
@@ -33,16 +28,6 @@ impl<S: Scalar> Layout for Cubic<S> {
     const DEGREE: u8 = 3;
     const COLUMN: usize = 4;
 
-    #[inline(always)]
-    fn cell<T>(words: &[T], index: usize, set: Set) -> Option<&[T]> {
-        match width(set) {
-            1 => run::<T, 4>(words, index),
-            2 => run::<T, 8>(words, index),
-            3 => run::<T, 12>(words, index),
-            4 => run::<T, 16>(words, index),
-            _ => run::<T, 20>(words, index),
-        }
-    }
     #[inline(always)]
     fn coefficients<R: Ring>(
         cell: &[Word<Self>],
@@ -68,6 +53,7 @@ impl<S: Scalar> Layout for Cubic<S> {
 }
 
 impl<S: Scalar> Layout for Quadratic<S> {
+    type Rows<'a> = Rows<'a, Word<Self>, 4, 8, 12, 16, 20>;
     const CODE: u8 = 3;
     const ROW: Row = Row {
         head: 0,
@@ -78,15 +64,6 @@ impl<S: Scalar> Layout for Quadratic<S> {
     const DEGREE: u8 = 2;
     const COLUMN: usize = 3;
 
-    #[inline(always)]
-    fn cell<T>(words: &[T], index: usize, set: Set) -> Option<&[T]> {
-        match Self::ROW.pitch(set) {
-            4 => run::<T, 4>(words, index),
-            8 => run::<T, 8>(words, index),
-            12 => run::<T, 12>(words, index),
-            _ => run::<T, 16>(words, index),
-        }
-    }
     #[inline(always)]
     fn coefficients<R: Ring>(
         cell: &[Word<Self>],

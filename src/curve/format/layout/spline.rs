@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use super::{Fraction, Layout, More, Raw, Row, Word, word};
+use super::{Fraction, Layout, More, Raw, Row, Rows, Runs, Word, word};
 use crate::Q31;
 use crate::curve::curves::{Set, width};
 use crate::number::spline::cubic;
@@ -21,14 +21,8 @@ pub struct Spline16;
 /// Rows that close a turn.
 const MORE: usize = 3;
 
-/// Four rows of W words each, from the index-th on.
-#[inline(always)]
-fn rows<T, const W: usize>(words: &[T], index: usize) -> Option<&[T]> {
-    let rows = words.as_chunks::<W>().0.get(index..)?;
-    rows.first_chunk::<4>().map(|rows| rows.as_flattened())
-}
-
 impl<S: Scalar> Layout for Spline<S> {
+    type Rows<'a> = Rows<'a, Word<Self>, 1, 2, 3, 4, 5>;
     const CODE: u8 = 1;
     const ROW: Row = Row {
         head: 0,
@@ -42,14 +36,8 @@ impl<S: Scalar> Layout for Spline<S> {
     const CENTRE: f64 = 0.0;
 
     #[inline(always)]
-    fn cell<T>(words: &[T], index: usize, set: Set) -> Option<&[T]> {
-        match width(set) {
-            1 => rows::<T, 1>(words, index),
-            2 => rows::<T, 2>(words, index),
-            3 => rows::<T, 3>(words, index),
-            4 => rows::<T, 4>(words, index),
-            _ => rows::<T, 5>(words, index),
-        }
+    fn cell<'a>(rows: &Self::Rows<'a>, index: usize, set: Set) -> Option<&'a [Word<Self>]> {
+        rows.four(Self::ROW.pitch(set), index)
     }
     #[inline(always)]
     fn coefficients<R: Ring>(
@@ -77,6 +65,7 @@ impl<S: Scalar> Layout for Spline<S> {
 }
 
 impl Layout for Spline16 {
+    type Rows<'a> = Rows<'a, i32, 1, 2, 3, 4, 5>;
     const CODE: u8 = 4;
     const ROW: Row = Row {
         head: 0,
@@ -91,12 +80,8 @@ impl Layout for Spline16 {
     const HALVES: bool = true;
 
     #[inline(always)]
-    fn cell<T>(words: &[T], index: usize, set: Set) -> Option<&[T]> {
-        match Self::ROW.pitch(set) {
-            1 => rows::<T, 1>(words, index),
-            2 => rows::<T, 2>(words, index),
-            _ => rows::<T, 3>(words, index),
-        }
+    fn cell<'a>(rows: &Self::Rows<'a>, index: usize, set: Set) -> Option<&'a [Word<Self>]> {
+        rows.four(Self::ROW.pitch(set), index)
     }
     #[inline(always)]
     fn coefficients<R: Ring>(

@@ -17,7 +17,7 @@
     reason = "inlined later, each function has been optimised for itself: loads move out of branches and past fences"
 )]
 
-use crate::number::Outcome;
+use crate::number::{Outcome, Sliding};
 use crate::{Phase, Q15};
 
 /// A compiler fence where the processor has no long multiplication, nothing elsewhere. No instruction; no value depends on it.
@@ -84,6 +84,18 @@ pub(super) fn add_signed(sum: i32, c: impl FnOnce() -> i32, omega: i32) -> i32 {
         sum.wrapping_sub(c())
     } else {
         sum
+    }
+}
+
+/// sum and Coulomb friction of |c| in Q31.
+#[inline(always)]
+pub(super) fn add_sliding(sum: i32, c: impl FnOnce() -> i32, sliding: Sliding<Q15>) -> i32 {
+    match sliding {
+        Sliding::Against(omega) => add_signed(sum, c, i32::from(omega.to_bits())),
+        Sliding::Share(share) => {
+            let product = (c() >> 16).wrapping_mul(i32::from(share.to_bits())); // Q30
+            sum.wrapping_add(product << 1)
+        }
     }
 }
 

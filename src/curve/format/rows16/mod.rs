@@ -30,6 +30,7 @@ use super::{CONSTANTS, Format, Row, Size, bases};
 use crate::curve::curves::{self, Set, has};
 use crate::curve::samples::{Sample, Samples};
 use crate::curve::{CurveValues, Table, TableError, Usage};
+use crate::number::Sliding;
 use crate::number::error::RangeError;
 use crate::{Outcome, Phase, Q15};
 
@@ -199,20 +200,33 @@ impl Format for Rows16 {
         tick: &tick::Tick<'_>,
         set: Set,
         phase: Phase,
-        [omega, alpha]: [Q15; 2],
+        motion: [Q15; 2],
+        sliding: Sliding<Q15>,
     ) -> Q15 {
-        tick.torque(set, phase, omega, alpha)
+        tick.torque(set, phase, motion, sliding)
+    }
+
+    fn contributions(
+        _: &Table<'_, Self>,
+        tick: &tick::Tick<'_>,
+        set: Set,
+        phase: Phase,
+        motion: [Q15; 2],
+        sliding: Sliding<Q15>,
+    ) -> [Q15; 5] {
+        tick.contributions(set, phase, motion, sliding)
     }
 
     #[inline(always)]
-    fn accelerations<const N: usize>(
+    fn accelerations(
         _: &Table<'_, Self>,
         tick: &tick::Tick<'_>,
         set: Set,
         phase: Phase,
         omega: Q15,
-        torques: [Q15; N],
-    ) -> [Outcome<Q15>; N] {
-        tick.accelerations(set, phase, omega, torques)
+        sliding: Sliding<Q15>,
+        torques: [Q15; 2],
+    ) -> [Outcome<Q15>; 2] {
+        tick.accelerations(set, phase, omega, sliding, torques)
     }
 }

@@ -58,30 +58,8 @@ pub(super) const fn word(upper: u16, lower: u16) -> u32 {
     (upper as u32) << 16 | lower as u32
 }
 
-/// The rows of a table, by their length: the one that is in use has all of them. So the compiler knows the length of a row, and
-/// a read from it needs no check; the number of rows is at hand without a division.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Rows<'a> {
-    pub(super) three: &'a [[u32; 3]],
-    pub(super) four: &'a [[u32; 4]],
-    pub(super) five: &'a [[u32; 5]],
-    pub(super) six: &'a [[u32; 6]],
-    pub(super) seven: &'a [[u32; 7]],
-}
-
-impl<'a> Rows<'a> {
-    pub(super) fn new(words: &'a [u32], set: Set) -> Self {
-        let mut rows = Self::default();
-        match length(set) {
-            3 => rows.three = words.as_chunks().0,
-            4 => rows.four = words.as_chunks().0,
-            5 => rows.five = words.as_chunks().0,
-            6 => rows.six = words.as_chunks().0,
-            _ => rows.seven = words.as_chunks().0,
-        }
-        rows
-    }
-}
+/// The rows of a table.
+pub(super) type Rows<'a> = crate::curve::format::Rows<'a, u32, 3, 4, 5, 6, 7>;
 
 /// A word of a row; 0 beyond its end, where the compiler sees that no read is.
 #[inline(always)]

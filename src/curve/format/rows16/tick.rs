@@ -8,8 +8,9 @@
 use super::kernel;
 use super::row::{self, Rows};
 use crate::curve::curves::{self, Set, has};
+use crate::curve::format::Runs;
 use crate::curve::{Table, TableError};
-use crate::number::Outcome;
+use crate::number::{Outcome, Sliding};
 use crate::{Phase, Q15};
 
 /// What a tick takes of a table.
@@ -48,7 +49,7 @@ impl<'a> Tick<'a> {
             0
         };
         Ok(Self {
-            rows: Rows::new(table.words(), set),
+            rows: Rows::new(table.words(), row::length(set)),
             viscous: constant(curves::CONSTANT_VISCOUS, constants.viscous).saturating_add(1 << 13),
             coulomb: constant(curves::CONSTANT_COULOMB, constants.coulomb),
             shift: Shift::new(shift).ok_or(TableError::Reciprocal { cell: 0 })?,
@@ -56,14 +57,20 @@ impl<'a> Tick<'a> {
     }
 
     #[inline(always)]
-    pub(super) fn torque(&self, set: Set, phase: Phase, omega: Q15, alpha: Q15) -> Q15 {
+    pub(super) fn torque(
+        &self,
+        set: Set,
+        phase: Phase,
+        motion: [Q15; 2],
+        sliding: Sliding<Q15>,
+    ) -> Q15 {
         let rows = &self.rows;
         match row::length(set) {
-            3 => self.torque_of(rows.three, set, phase, omega, alpha),
-            4 => self.torque_of(rows.four, set, phase, omega, alpha),
-            5 => self.torque_of(rows.five, set, phase, omega, alpha),
-            6 => self.torque_of(rows.six, set, phase, omega, alpha),
-            _ => self.torque_of(rows.seven, set, phase, omega, alpha),
+            3 => self.torque_of(rows.a, set, phase, motion, sliding),
+            4 => self.torque_of(rows.b, set, phase, motion, sliding),
+            5 => self.torque_of(rows.c, set, phase, motion, sliding),
+            6 => self.torque_of(rows.d, set, phase, motion, sliding),
+            _ => self.torque_of(rows.e, set, phase, motion, sliding),
         }
     }
 
@@ -73,8 +80,8 @@ impl<'a> Tick<'a> {
         rows: &[[u32; W]],
         set: Set,
         phase: Phase,
-        omega: Q15,
-        alpha: Q15,
+        [omega, alpha]: [Q15; 2],
+        sliding: Sliding<Q15>,
     ) -> Q15 {
         let (index, u) = kernel::locate(phase, rows.len() as u32);
         let Some(row) = rows.get(index) else {
@@ -86,56 +93,58 @@ impl<'a> Tick<'a> {
             sum.wrapping_add(inertia.wrapping_mul(i32::from(alpha.to_bits())))
         };
         if has(set, curves::COULOMB | curves::CONSTANT_COULOMB) {
-            let sum = self.of_speed(set, row, u, omega);
+            let sum = self.of_speed(set, row, u, omega, sliding);
             return kernel::torque(Self::with_load(set, of_inertia(sum), row, start, u));
         }
         let sum = Self::with_load(set, 0, row, start, u);
         let sum = of_inertia(sum);
         // V and b are not read before J·α is done with its registers.
         kernel::fence();
-        kernel::torque(sum.wrapping_add(self.of_speed(set, row, u, omega)))
+        kernel::torque(sum.wrapping_add(self.of_speed(set, row, u, omega, sliding)))
     }
 
     /// Forward dynamics.
     #[inline(always)]
-    pub(super) fn accelerations<const N: usize>(
+    pub(super) fn accelerations(
         &self,
         set: Set,
         phase: Phase,
         omega: Q15,
-        torques: [Q15; N],
-    ) -> [Outcome<Q15>; N] {
+        sliding: Sliding<Q15>,
+        torques: [Q15; 2],
+    ) -> [Outcome<Q15>; 2] {
         let rows = &self.rows;
         match row::length(set) {
-            3 => self.accelerations_of(rows.three, set, phase, omega, torques),
-            4 => self.accelerations_of(rows.four, set, phase, omega, torques),
-            5 => self.accelerations_of(rows.five, set, phase, omega, torques),
-            6 => self.accelerations_of(rows.six, set, phase, omega, torques),
-            _ => self.accelerations_of(rows.seven, set, phase, omega, torques),
+            3 => self.accelerations_of(rows.a, set, phase, omega, sliding, torques),
+            4 => self.accelerations_of(rows.b, set, phase, omega, sliding, torques),
+            5 => self.accelerations_of(rows.c, set, phase, omega, sliding, torques),
+            6 => self.accelerations_of(rows.d, set, phase, omega, sliding, torques),
+            _ => self.accelerations_of(rows.e, set, phase, omega, sliding, torques),
         }
     }
 
     #[inline(always)]
-    fn accelerations_of<const W: usize, const N: usize>(
+    fn accelerations_of<const W: usize>(
         &self,
         rows: &[[u32; W]],
         set: Set,
         phase: Phase,
         omega: Q15,
-        torques: [Q15; N],
-    ) -> [Outcome<Q15>; N] {
+        sliding: Sliding<Q15>,
+        torques: [Q15; 2],
+    ) -> [Outcome<Q15>; 2] {
         let (index, u) = kernel::locate(phase, rows.len() as u32);
         let Some(row) = rows.get(index) else {
             // Or both ways out share their last instructions, and every tick takes more of them.
             kernel::fence();
-            return [Outcome::default(); N];
+            return [Outcome::default(); 2];
         };
         let start = row::at(row, row::start(set));
         let resisting = if set & !curves::RECIPROCAL == curves::INERTIA {
             let velocity = kernel::line(row::at(row, row::velocity(set)), u);
             kernel::of_speed_alone(velocity, i32::from(omega.to_bits()))
         } else {
-            let resisting = self.of_speed(set, row, u, omega);
+            let resisting = self.of_speed(set, row, u, omega, sliding);
             Self::with_load(set, resisting, row, start, u) >> 16
         };
         let inertia = if has(set, curves::RECIPROCAL) {
@@ -143,7 +152,9 @@ impl<'a> Tick<'a> {
         } else {
             kernel::inertia(row::at(row, row::inertia(set)), start, u)
         };
-        torques.map(|torque| self.outcome(set, torque, resisting, inertia))
+        let outcome = |torque| self.outcome(set, torque, resisting, inertia);
+        // Not by `map`, which may become a loop.
+        [outcome(torques[0]), outcome(torques[1])]
     }
 
     /// (torque − resisting)/J, of 1/J or J.
@@ -159,22 +170,85 @@ impl<'a> Tick<'a> {
 
     /// (V·ω + b)·ω + c·sgn ω in Q31
     #[inline(always)]
-    fn of_speed(&self, set: Set, row: &[u32], u: i32, omega: Q15) -> i32 {
+    fn of_speed(&self, set: Set, row: &[u32], u: i32, omega: Q15, sliding: Sliding<Q15>) -> i32 {
         let omega = i32::from(omega.to_bits());
-        let mut b = self.viscous;
-        if has(set, curves::VISCOUS) {
-            b = b.wrapping_add(kernel::line(row::at(row, row::viscous(set)), u) << 15);
-        }
+        let b = self.viscous(set, row, u);
         let velocity = kernel::line(row::at(row, row::velocity(set)), u);
         let sum = kernel::of_speed(velocity, b, omega);
         if has(set, curves::COULOMB) {
             let c = kernel::line(row::at(row, row::coulomb(set)), u).wrapping_abs() << 16;
-            return kernel::add_signed(sum, || c, omega);
+            return kernel::add_sliding(sum, || c, sliding);
         }
         if has(set, curves::CONSTANT_COULOMB) {
-            return kernel::add_signed(sum, || self.coulomb, omega);
+            return kernel::add_sliding(sum, || self.coulomb, sliding);
         }
         sum
+    }
+
+    /// J·α, ½·J′·ω², −load, b·ω and c·sgn ω.
+    pub(super) fn contributions(
+        &self,
+        set: Set,
+        phase: Phase,
+        [omega, alpha]: [Q15; 2],
+        sliding: Sliding<Q15>,
+    ) -> [Q15; 5] {
+        let Some((row, u)) = self.row(set, phase) else {
+            return Default::default();
+        };
+        let half = 1 << 15;
+        let start = row::at(row, row::start(set));
+        let inertia = kernel::inertia(row::at(row, row::inertia(set)), start, u);
+        let velocity = kernel::line(row::at(row, row::velocity(set)), u);
+        let omega = i32::from(omega.to_bits());
+        let coulomb = match self.coulomb(set, row, u) {
+            Some(c) => kernel::add_sliding(half, || c, sliding),
+            None => half,
+        };
+        [
+            inertia
+                .wrapping_mul(i32::from(alpha.to_bits()))
+                .wrapping_add(half),
+            kernel::of_speed(velocity, 1 << 13, omega).wrapping_add(half),
+            Self::with_load(set, 0, row, start, u),
+            kernel::of_speed(0, self.viscous(set, row, u), omega).wrapping_add(half),
+            coulomb,
+        ]
+        .map(kernel::torque)
+    }
+
+    /// The row at a phase, and the place in its cell.
+    fn row(&self, set: Set, phase: Phase) -> Option<(&'a [u32], i32)> {
+        fn of<const W: usize>(rows: &[[u32; W]], phase: Phase) -> Option<(&[u32], i32)> {
+            let (index, u) = kernel::locate(phase, rows.len() as u32);
+            Some((rows.get(index)?, u))
+        }
+        match row::length(set) {
+            3 => of(self.rows.a, phase),
+            4 => of(self.rows.b, phase),
+            5 => of(self.rows.c, phase),
+            6 => of(self.rows.d, phase),
+            _ => of(self.rows.e, phase),
+        }
+    }
+
+    /// b in Q30, and half a unit to round (V·ω + b).
+    #[inline(always)]
+    fn viscous(&self, set: Set, row: &[u32], u: i32) -> i32 {
+        if has(set, curves::VISCOUS) {
+            let b = kernel::line(row::at(row, row::viscous(set)), u) << 15;
+            return self.viscous.wrapping_add(b);
+        }
+        self.viscous
+    }
+
+    /// |c| in Q31
+    #[inline(always)]
+    fn coulomb(&self, set: Set, row: &[u32], u: i32) -> Option<i32> {
+        if has(set, curves::COULOMB) {
+            return Some(kernel::line(row::at(row, row::coulomb(set)), u).wrapping_abs() << 16);
+        }
+        has(set, curves::CONSTANT_COULOMB).then_some(self.coulomb)
     }
 
     /// sum − load, and half a unit of the result to round it: that of a load is in the table.

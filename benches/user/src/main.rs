@@ -1,0 +1,367 @@
+//! The calls of a drive's firmware, each a function of its own so that its instructions can be told.
+//!
+//! They are compiled as in firmware: several calls on one model, the image known only when the program runs, an encoder of 10 000 and one
+//! of 4096 counts. The program is never run; `cargo xtask perf` follows its code.
+#![no_std]
+#![no_main]
+
+use core::hint::black_box;
+use core::ptr::{read_volatile, write_volatile};
+
+use cortex_m_rt::entry;
+use jred::axis::{
+    Encoder, FeedForward, Gearbox, Limited, Motion, Mounting, Period, Ramp, StrokeEncoder,
+    TorqueLimits, Tracked, Tracker, Transmission,
+};
+use jred::number::Sliding;
+use jred::table::Format;
+use jred::{
+    AccelerationRange, Cubic, Image, Model, Outcome, Phase, Q15, Q31, Quadratic, Rows16, Scale,
+    Set, Spline, curves,
+};
+use panic_halt as _;
+
+/// The curves of the press of the examples.
+const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+/// In fixed point, with 1/J instead of a division.
+const FIXED: Set = PRESS | curves::RECIPROCAL;
+
+const fn encoder(counts_per_turn: u32) -> Encoder {
+    match Encoder::new(Mounting::direct(counts_per_turn)) {
+        Ok(encoder) => encoder,
+        Err(_) => panic!("counts"),
+    }
+}
+const TEN_THOUSAND: Encoder = encoder(10_000);
+const POWER_OF_TWO: Encoder = encoder(4096);
+
+/// Arguments come from and results go to where the compiler knows nothing about.
+static mut PORT: [u32; 8] = [0; 8];
+
+fn read(index: usize) -> u32 {
+    unsafe { read_volatile(&raw const PORT[index & 7]) }
+}
+
+fn write(word: u32) {
+    unsafe { write_volatile(&raw mut PORT[7], word) }
+}
+
+/// A number of a tick as a word.
+trait Word {
+    fn read(index: usize) -> Self;
+    fn write(self);
+}
+
+impl Word for f32 {
+    fn read(index: usize) -> Self {
+        Self::from_bits(read(index))
+    }
+    fn write(self) {
+        write(self.to_bits());
+    }
+}
+
+impl Word for Q31 {
+    fn read(index: usize) -> Self {
+        Self::from_bits(read(index).cast_signed())
+    }
+    fn write(self) {
+        write(self.to_bits().cast_unsigned());
+    }
+}
+
+impl Word for Q15 {
+    fn read(index: usize) -> Self {
+        Self::from_bits(read(index) as i16)
+    }
+    fn write(self) {
+        write(u32::from(self.to_bits().cast_unsigned()));
+    }
+}
+
+/// The calls on one model of a format: torque, acceleration, their range, and torque from counts.
+macro_rules! model {
+    ($number:ident $format:ty, $set:ident: $run:ident $torque:ident $acceleration:ident $range:ident $counts:ident $binary:ident) => {
+        #[unsafe(no_mangle)]
+        #[inline(never)]
+        fn $torque(
+            model: &Model<$format, $set>,
+            phase: Phase,
+            omega: $number,
+            alpha: $number,
+        ) -> $number {
+            model.torque(phase, omega, alpha)
+        }
+
+        #[unsafe(no_mangle)]
+        #[inline(never)]
+        fn $acceleration(
+            model: &Model<$format, $set>,
+            phase: Phase,
+            omega: $number,
+            torque: $number,
+        ) -> Outcome<$number> {
+            model.acceleration(phase, omega, torque)
+        }
+
+        #[unsafe(no_mangle)]
+        #[inline(never)]
+        fn $range(
+            model: &Model<$format, $set>,
+            phase: Phase,
+            omega: $number,
+            most: $number,
+        ) -> AccelerationRange<$number> {
+            model.acceleration_range(phase, omega, $number::default(), most)
+        }
+
+        #[unsafe(no_mangle)]
+        #[inline(never)]
+        fn $counts(
+            model: &Model<$format, $set>,
+            count: i32,
+            omega: $number,
+            alpha: $number,
+        ) -> $number {
+            model.torque(TEN_THOUSAND.phase(count), omega, alpha)
+        }
+
+        #[unsafe(no_mangle)]
+        #[inline(never)]
+        fn $binary(
+            model: &Model<$format, $set>,
+            count: i32,
+            omega: $number,
+            alpha: $number,
+        ) -> $number {
+            model.torque(POWER_OF_TWO.phase(count), omega, alpha)
+        }
+
+        fn $run() {
+            let model = model::<$format, $set>();
+            let (count, omega, third) = (read(0).cast_signed(), $number::read(1), $number::read(2));
+            let phase = Phase::from_bits(read(3));
+            $torque(&model, phase, omega, third).write();
+            write($acceleration(&model, phase, omega, third).saturated.into());
+            let range = $range(&model, phase, omega, third);
+            range.least.value.write();
+            write(range.greatest.saturated.into());
+            range.greatest.value.write();
+            $counts(&model, count, omega, third).write();
+            $binary(&model, count, omega, third).write();
+        }
+    };
+}
+
+model!(f32 Cubic<f32>, PRESS: cubic_f32
+    cubic_f32_torque cubic_f32_acceleration cubic_f32_range cubic_f32_counts cubic_f32_binary);
+model!(f32 Spline<f32>, PRESS: spline_f32
+    spline_f32_torque spline_f32_acceleration spline_f32_range spline_f32_counts spline_f32_binary);
+model!(Q31 Cubic<Q31>, FIXED: cubic_q31
+    cubic_q31_torque cubic_q31_acceleration cubic_q31_range cubic_q31_counts cubic_q31_binary);
+model!(Q31 Quadratic<Q31>, FIXED: quadratic_q31
+    quadratic_q31_torque quadratic_q31_acceleration quadratic_q31_range quadratic_q31_counts quadratic_q31_binary);
+model!(Q15 Rows16, FIXED: rows_q15
+    rows_q15_torque rows_q15_acceleration rows_q15_range rows_q15_counts rows_q15_binary);
+
+/// What comes before and after the tick.
+mod around {
+    use super::*;
+
+    #[unsafe(no_mangle)]
+    #[inline(never)]
+    fn encoder_phase(encoder: &Encoder, count: i32) -> Phase {
+        encoder.phase(count)
+    }
+
+    #[unsafe(no_mangle)]
+    #[inline(never)]
+    fn encoder_phase_wide(encoder: &Encoder, count: i64) -> Phase {
+        encoder.phase_wide(count)
+    }
+
+    #[unsafe(no_mangle)]
+    #[inline(never)]
+    fn stroke_phase(encoder: &StrokeEncoder, count: i32) -> Outcome<Phase> {
+        encoder.phase(count)
+    }
+
+    #[unsafe(no_mangle)]
+    #[inline(never)]
+    fn tracker_update(tracker: &mut Tracker, phase: Phase) -> Tracked {
+        tracker.update(phase)
+    }
+
+    #[unsafe(no_mangle)]
+    #[inline(never)]
+    fn omega_f32(period: &Period<f32>, tracked: Tracked) -> Outcome<f32> {
+        period.omega(tracked)
+    }
+
+    #[unsafe(no_mangle)]
+    #[inline(never)]
+    fn omega_q31(period: &Period<Q31>, tracked: Tracked) -> Outcome<Q31> {
+        period.omega(tracked)
+    }
+
+    /// SI in and out of fixed point.
+    #[unsafe(no_mangle)]
+    #[inline(never)]
+    fn si_q31(model: &Model<Quadratic<Q31>, FIXED>, phase: Phase, omega: f32, alpha: f32) -> f32 {
+        let scale = *model.table().scale();
+        let (omega, alpha) = (scale.omega(omega).value, scale.alpha(alpha).value);
+        scale.torque_si(model.torque(phase, omega, alpha))
+    }
+
+    pub(super) fn run() {
+        let (count, phase) = (read(0).cast_signed(), Phase::from_bits(read(3)));
+        write(encoder_phase(black_box(&TEN_THOUSAND), count).to_bits());
+        write(encoder_phase_wide(black_box(&TEN_THOUSAND), i64::from(count) << 7).to_bits());
+        let stroke = jred::Domain::Stroke { from: 0.0, to: 0.5 };
+        let scaled = jred::axis::Scaled {
+            resolution: 1e-6,
+            home: 0,
+            at_home: 0.0,
+        };
+        if let Ok(stroke) = StrokeEncoder::new(stroke, scaled) {
+            let phase = stroke_phase(black_box(&stroke), count);
+            write(phase.value.to_bits());
+            write(phase.saturated.into());
+        }
+        let turn = jred::Domain::<f32>::Turn;
+        if let (Ok(mut tracker), Ok(single), Ok(fixed)) = (
+            Tracker::new(0.9),
+            Period::<f32>::new(1e-4, turn, &Scale::SI),
+            Period::<Q31>::new(1e-4, turn, &Scale::SI),
+        ) {
+            let tracked = tracker_update(black_box(&mut tracker), phase);
+            write(tracked.acceleration.cast_unsigned());
+            omega_f32(black_box(&single), tracked).value.write();
+            let omega = omega_q31(black_box(&fixed), tracked);
+            omega.value.write();
+            write(omega.saturated.into());
+        }
+        let model = model();
+        si_q31(&model, phase, f32::read(1), f32::read(2)).write();
+    }
+}
+
+/// What may be put before and after the model, each for itself.
+mod command {
+    use super::*;
+
+    #[unsafe(no_mangle)]
+    #[inline(never)]
+    fn status_torque(
+        press: &FeedForward<Cubic<f32>, PRESS>,
+        phase: Phase,
+        omega: f32,
+        alpha: f32,
+    ) -> (f32, bool) {
+        let motion = Motion {
+            phase,
+            omega,
+            alpha,
+        };
+        let checked = press.at_reference(motion, Sliding::Against(omega));
+        (checked.torque, checked.status.is_valid())
+    }
+
+    #[unsafe(no_mangle)]
+    #[inline(never)]
+    fn period_later(lead: &Period<f32>, motion: Motion<f32>) -> Motion<f32> {
+        lead.later(motion)
+    }
+
+    #[unsafe(no_mangle)]
+    #[inline(never)]
+    fn ramp_torque(model: &Model<Cubic<f32>, PRESS>, ramp: &Ramp, phase: Phase, omega: f32) -> f32 {
+        model.torque_with(phase, omega, 0.0, ramp.at(omega))
+    }
+
+    #[unsafe(no_mangle)]
+    #[inline(never)]
+    fn transmission_motor(gearbox: &Transmission, torque: f32, omega: f32, alpha: f32) -> f32 {
+        gearbox.motor(torque, omega, alpha).value
+    }
+
+    #[unsafe(no_mangle)]
+    #[inline(never)]
+    fn limits_limited(limits: &TorqueLimits<f32>, torque: f32) -> Limited<f32> {
+        limits.limited(torque)
+    }
+
+    pub(super) fn run() {
+        let Ok(image) = Image::new(words()) else {
+            return;
+        };
+        let Ok(model) = image.model() else { return };
+        let motion = Motion {
+            phase: Phase::from_bits(read(3)),
+            omega: f32::read(1),
+            alpha: f32::read(2),
+        };
+        let feed_forward = FeedForward::new(model, image.validity());
+        let (torque, valid) =
+            status_torque(&feed_forward, motion.phase, motion.omega, motion.alpha);
+        write(valid.into());
+        let gearbox = Gearbox {
+            ratio: 10.0,
+            efficiency: 0.95,
+            rotor: 0.001,
+        };
+        let scale = image.scale();
+        if let (Ok(lead), Ok(ramp), Ok(gearbox), Ok(limits)) = (
+            Period::new(1e-4, image.domain(), scale),
+            Ramp::new(0.1, scale),
+            Transmission::new::<f32>(gearbox, scale),
+            TorqueLimits::new(-5.0, 5.0),
+        ) {
+            let later = period_later(black_box(&lead), motion);
+            let ramped = ramp_torque(
+                black_box(&model),
+                black_box(&ramp),
+                later.phase,
+                later.omega,
+            );
+            let motor = transmission_motor(
+                black_box(&gearbox),
+                torque + ramped,
+                later.omega,
+                later.alpha,
+            );
+            let limited = limits_limited(black_box(&limits), motor);
+            limited.torque.write();
+            limited.clipped.write();
+        }
+    }
+}
+
+/// A table image that comes from outside the program.
+fn words() -> &'static [u32] {
+    static mut IMAGE: [u32; 512] = [0; 512];
+    for k in 0..512 {
+        unsafe { write_volatile(&raw mut IMAGE[k], read(k)) }
+    }
+    black_box(unsafe { &*&raw const IMAGE })
+}
+
+fn model<F: Format, const SET: Set>() -> Model<'static, F, SET> {
+    match Image::new(words()).and_then(|image| image.model()) {
+        Ok(model) => model,
+        Err(_) => panic!("the image"),
+    }
+}
+
+#[entry]
+fn main() -> ! {
+    loop {
+        cubic_f32();
+        spline_f32();
+        cubic_q31();
+        quadratic_q31();
+        rows_q15();
+        around::run();
+        command::run();
+    }
+}

@@ -1,0 +1,237 @@
+//! Feed-forward: the torque that a motion needs, and whether the table was made for that motion.
+
+use super::Motion;
+use crate::curve::{Format, Set};
+use crate::number::error::{finite, positive};
+use crate::number::{Factor, Number, RangeError, Sliding};
+use crate::{Model, Phase, Scale, Validity};
+
+/// What is wrong with a motion: nothing, or the speed, the acceleration, or both are beyond what the table was made for, or no numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Status {
+    /// The speed.
+    pub speed: bool,
+    /// The acceleration.
+    pub acceleration: bool,
+}
+
+impl Status {
+    /// The motion is one that the table was made for.
+    #[must_use]
+    pub const fn is_valid(self) -> bool {
+        !(self.speed || self.acceleration)
+    }
+}
+
+/// A torque on the drive link, and whether the table was made for its motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Checked<N> {
+    /// The torque, as [`Model::torque`] gives it.
+    pub torque: N,
+    /// What is wrong with the motion.
+    pub status: Status,
+}
+
+/// Feed-forward with a model, and with the motions that its table was made for.
+///
+/// Two modes. [`at_reference`](Self::at_reference) takes everything from the set-point: nothing that is measured can disturb it, and it is right as
+/// long as the machine follows. [`at_measured`](Self::at_measured) takes position and speed from the encoder (computed torque): it is right where the
+/// machine *is*, but feeds the encoder's noise back. In both, Coulomb friction should have the sign of the set-point's speed
+/// (`Sliding::Against(reference.omega)`, or a [`Ramp`]), so that the noise of a measured speed around zero does not turn it over.
+///
+/// What else stands between the model and the drive is put before and after it, each piece for itself: a lead time
+/// ([`Period::later`](super::Period::later)), the gearbox ([`Transmission`](super::Transmission)), the limits of the drive
+/// ([`TorqueLimits`], last of all).
+///
+/// ```
+/// use jred::axis::{Encoder, FeedForward, Gearbox, Motion, Mounting, Period, TorqueLimits, Transmission};
+/// use jred::number::Sliding;
+/// use jred::{Image, Model, Set, Spline, curves, include_image};
+///
+/// const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+/// const ENCODER: Encoder = match Encoder::new(Mounting::direct(10_000)) {
+///     Ok(encoder) => encoder,
+///     Err(_) => panic!("the encoder's figures"),
+/// };
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// // Once.
+/// let image = Image::from_bytes(include_image!("../../examples/data/press_f32.jred"))?;
+/// let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
+/// let feed_forward = FeedForward::new(press, image.validity());
+/// // The drive needs 0.2 ms from the command to the torque.
+/// let lead = Period::new(0.000_2, image.domain(), image.scale())?;
+/// let gearbox = Gearbox { ratio: 20.0, efficiency: 0.95, rotor: 0.000_3 };
+/// let gearbox = Transmission::new::<f32>(gearbox, image.scale())?;
+/// let limits = TorqueLimits::new(-12.0, 12.0)?;
+///
+/// // Every tick.
+/// let reference = Motion { phase: ENCODER.phase(1234), omega: 10.0, alpha: 50.0 };
+/// let needed = feed_forward.at_reference(lead.later(reference), Sliding::Against(reference.omega));
+/// assert!(needed.status.is_valid());
+/// let motor = gearbox.motor(needed.torque, reference.omega, reference.alpha).value;
+/// let command = limits.limited(motor);
+/// assert_eq!(command.torque + command.clipped, motor);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct FeedForward<'a, F: Format, const SET: Set> {
+    model: Model<'a, F, SET>,
+    omega: F::Number,
+    alpha: F::Number,
+}
+
+impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
+    /// With a model and what its table was made for ([`Image::validity`](crate::Image::validity)).
+    #[must_use]
+    pub fn new(model: Model<'a, F, SET>, validity: Validity) -> Self {
+        let scale = model.table().scale();
+        let omega = scale.omega(validity.omega).value;
+        let alpha = scale.alpha(validity.alpha).value;
+        Self {
+            model,
+            omega,
+            alpha,
+        }
+    }
+
+    /// The model.
+    #[must_use]
+    pub const fn model(&self) -> &Model<'a, F, SET> {
+        &self.model
+    }
+
+    /// Whether the table was made for these: |ω| and |α| within its validity. Not so what is no number.
+    #[inline]
+    pub fn status(&self, omega: F::Number, alpha: F::Number) -> Status {
+        Status {
+            speed: omega.exceeds(self.omega),
+            acceleration: alpha.exceeds(self.alpha),
+        }
+    }
+
+    /// The torque for the reference, at the reference's phase and speed.
+    #[inline]
+    pub fn at_reference(
+        &self,
+        reference: Motion<F::Number>,
+        sliding: Sliding<F::Number>,
+    ) -> Checked<F::Number> {
+        let Motion {
+            phase,
+            omega,
+            alpha,
+        } = reference;
+        Checked {
+            torque: self.model.torque_with(phase, omega, alpha, sliding),
+            status: self.status(omega, alpha),
+        }
+    }
+
+    /// The torque for the reference's acceleration, at the measured phase and speed.
+    #[inline]
+    pub fn at_measured(
+        &self,
+        phase: Phase,
+        omega: F::Number,
+        reference: Motion<F::Number>,
+        sliding: Sliding<F::Number>,
+    ) -> Checked<F::Number> {
+        let measured = Motion {
+            phase,
+            omega,
+            alpha: reference.alpha,
+        };
+        self.at_reference(measured, sliding)
+    }
+}
+
+/// Coulomb friction that rises in a straight line between standstill and a speed, instead of a jump.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Ramp(Factor);
+
+impl Ramp {
+    /// Up to the speed `width` (rad/s, or m/s), in these machine units.
+    ///
+    /// # Errors
+    /// A width that is not positive and finite, or less than 1e-6 of the speed base.
+    pub fn new(width: f32, scale: &Scale) -> Result<Self, RangeError> {
+        positive("width of the friction ramp", f64::from(width))?;
+        let ratio = scale.speed() / width;
+        let factor = (ratio <= 1e6).then(|| Factor::new(ratio)).flatten();
+        factor.map(Self).ok_or(RangeError::OutOfRange {
+            what: "width of the friction ramp",
+            value: f64::from(width),
+            min: f64::from(scale.speed()) * 1e-6,
+            max: 1e30,
+        })
+    }
+
+    /// How much of c acts at a speed: that of the set-point.
+    #[inline]
+    pub fn at<N: Number>(&self, omega: N) -> Sliding<N> {
+        Sliding::Share(omega.times(&self.0).value.to_unit())
+    }
+}
+
+/// What a drive can do: the command is limited after everything else, so that the drive gets what it was told and the program knows what is missing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct TorqueLimits<N> {
+    limits: [N; 2],
+}
+
+/// A torque within its limits.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Limited<N> {
+    /// The torque; 0 for what is no number.
+    pub torque: N,
+    /// What the limits took away: 0 if nothing.
+    pub clipped: N,
+}
+
+impl<N: Number> TorqueLimits<N> {
+    /// From `least` to `greatest`.
+    ///
+    /// # Errors
+    /// A limit that is not finite; limits that do not contain 0.
+    pub fn new(least: N, greatest: N) -> Result<Self, RangeError> {
+        for (what, value, sign) in [
+            ("least torque", least, -1.0),
+            ("greatest torque", greatest, 1.0),
+        ] {
+            let value = finite(what, value.to_f64())?;
+            if value * sign < 0.0 {
+                let (min, max) = if sign < 0.0 {
+                    (-1e30, 0.0)
+                } else {
+                    (0.0, 1e30)
+                };
+                return Err(RangeError::OutOfRange {
+                    what,
+                    value,
+                    min,
+                    max,
+                });
+            }
+        }
+        Ok(Self {
+            limits: [least, greatest],
+        })
+    }
+
+    /// The torque within the limits, and what they took away.
+    #[inline]
+    pub fn limited(&self, torque: N) -> Limited<N> {
+        let within = torque.within(self.limits);
+        Limited {
+            torque: within,
+            clipped: torque.minus(within).value,
+        }
+    }
+}

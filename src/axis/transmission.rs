@@ -1,0 +1,101 @@
+//! The motor's side of a gearbox.
+
+use crate::number::error::{not_negative, positive, within};
+use crate::number::{Factor, Number, RangeError};
+use crate::{Outcome, Scale};
+
+/// A gearbox between motor and drive link, and the motor's rotor.
+///
+/// ```text
+/// T_M = i·J_M·α + T/(i·η)      the motor drives: T and ω have the same sign
+/// T_M = i·J_M·α + T·η/i        the machine drives the motor
+/// ```
+///
+/// The rotor is *not* part of the machine's reduced inertia then: its torque does not go through the gearbox.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Gearbox {
+    /// i: turns of the motor a turn of the drive link (for a stroke rad/m).
+    pub ratio: f32,
+    /// η, 0 to 1.
+    pub efficiency: f32,
+    /// J_M of the rotor and all that turns with it (kg·m²).
+    pub rotor: f32,
+}
+
+/// A [`Gearbox`] in the machine units of a model: the torque on the motor's shaft of that on the drive link.
+///
+/// Motor torques are in N·m where the model's are, and per unit in fixed point: 1 is [`base`](Self::base), T_b/(i·η).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Transmission {
+    base: f32,
+    driving: Factor,
+    driven: Factor,
+    rotor: Factor,
+}
+
+impl Transmission {
+    /// Of a gearbox, for a model of numbers `N` in these machine units.
+    ///
+    /// # Errors
+    /// A ratio that is not positive, an efficiency outside 0.01 to 1, a negative inertia, or one that single precision does not hold in machine units.
+    pub fn new<N: Number>(gearbox: Gearbox, scale: &Scale) -> Result<Self, RangeError> {
+        let Gearbox {
+            ratio,
+            efficiency,
+            rotor,
+        } = gearbox;
+        positive("ratio of the gearbox", f64::from(ratio))?;
+        within(
+            "efficiency of the gearbox",
+            f64::from(efficiency),
+            [0.01, 1.0],
+        )?;
+        not_negative("inertia of the rotor", f64::from(rotor))?;
+        let torque = scale.torque();
+        let driving = 1.0 / (ratio * efficiency);
+        let base = if N::FIXED { torque * driving } else { 1.0 };
+        let of_rotor = ratio * rotor * scale.acceleration() / base;
+        let all = || {
+            Some(Self {
+                base,
+                driving: Factor::new(torque * driving / base)?,
+                driven: Factor::new(torque * efficiency / ratio / base)?,
+                rotor: if rotor > 0.0 {
+                    Factor::new(of_rotor)?
+                } else {
+                    Factor::default()
+                },
+            })
+        };
+        all().ok_or(RangeError::OutOfRange {
+            what: "ratio of the gearbox",
+            value: f64::from(ratio),
+            min: 1e-6,
+            max: 1e6,
+        })
+    }
+
+    /// Torque of the motor that the number 1 means (N·m).
+    #[must_use]
+    pub const fn base(&self) -> f32 {
+        self.base
+    }
+
+    /// The torque on the motor's shaft for `torque` on the drive link, which accelerates with `alpha` and moves (or is to move) with `omega`. At rest the
+    /// motor is taken to drive.
+    #[inline]
+    pub fn motor<N: Number>(&self, torque: N, omega: N, alpha: N) -> Outcome<N> {
+        let rest = N::default();
+        let driven = (torque < rest && omega > rest) || (torque > rest && omega < rest);
+        let side = if driven { &self.driven } else { &self.driving };
+        let through = torque.times(side);
+        let rotor = alpha.times(&self.rotor);
+        let sum = through.value.plus(rotor.value);
+        Outcome {
+            value: sum.value,
+            saturated: sum.saturated || through.saturated || rotor.saturated,
+        }
+    }
+}

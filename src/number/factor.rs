@@ -1,0 +1,72 @@
+//! Factors of any size between numbers of a tick, and from counts of 32 bits to numbers and back.
+
+#![allow(
+    clippy::inline_always,
+    reason = "a few instructions each; a call would take as many, also where the program is optimised for size"
+)]
+
+use super::product::high;
+
+/// A factor, prepared for floating point and for fixed point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Factor {
+    pub(super) float: f32,
+    /// In fixed point: an argument so shifted uses 31 bits where the result is 1,
+    shift: u32,
+    /// and is a quarter of the result when it is multiplied by this in units of 2⁻³².
+    mantissa: i32,
+}
+
+/// 2³¹
+const ONE: f32 = 2_147_483_648.0;
+
+impl Factor {
+    /// Of a number: result = ratio·number. `None` if the ratio or its inverse is no positive, normal number.
+    pub(crate) fn new(ratio: f32) -> Option<Self> {
+        Self::of(ratio, ratio)
+    }
+
+    /// Of a count: result = ratio·count.
+    pub(crate) fn of_count(ratio: f32) -> Option<Self> {
+        Self::of(ratio, ratio * ONE)
+    }
+
+    /// To a count: result = ratio·number.
+    pub(crate) fn to_count(ratio: f32) -> Option<Self> {
+        Self::of(ratio, ratio / ONE)
+    }
+
+    /// In fixed point a result of 1 is `ratio` arguments of 1.
+    fn of(float: f32, ratio: f32) -> Option<Self> {
+        let argument = 1.0 / ratio;
+        if !(ratio > 0.0 && ratio.is_normal() && argument.is_normal() && float.is_normal()) {
+            return None;
+        }
+        let (mut shift, mut shifted) = (0, argument);
+        while shifted <= 0.5 && shift < 30 {
+            shifted *= 2.0;
+            shift += 1;
+        }
+        Some(Self {
+            float,
+            shift,
+            // Saturates where the least argument is more than 1.
+            mantissa: (0.25 / shifted * 2.0 * ONE) as i32,
+        })
+    }
+
+    /// x times the ratio, limited to 32 bits, and whether it was.
+    #[inline(always)]
+    pub(super) fn times(&self, x: i32) -> (i32, bool) {
+        let shift = self.shift & 31;
+        let shifted = x << shift;
+        let quarter = high(shifted, self.mantissa);
+        let value = quarter << 2;
+        if shifted >> shift == x && value >> 2 == quarter {
+            (value, false)
+        } else {
+            ((x >> 31) ^ i32::MAX, true)
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! A user's firmware, `benches/user`: the instructions that each of its functions can take at most.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use anyhow::{Context, Result, ensure};
+
+use crate::bounds::{Bound, Bounds};
+use crate::ceilings::judge;
+use crate::cores::{CORES, Core};
+use crate::elf::Program;
+use crate::program::{root, target_dir};
+
+/// How the program is compiled: core, profile, further options of rustc.
+struct Build {
+    core: &'static str,
+    profile: &'static str,
+    rustc: &'static [&'static str],
+}
+
+const BUILDS: [Build; 4] = [
+    Build {
+        core: "cortex-m0",
+        profile: "release",
+        rustc: &[],
+    },
+    Build {
+        core: "cortex-m4",
+        profile: "release",
+        rustc: &[],
+    },
+    Build {
+        core: "cortex-m4",
+        profile: "small",
+        rustc: &[],
+    },
+    Build {
+        core: "cortex-m4",
+        profile: "release",
+        rustc: &["-Ctarget-cpu=cortex-m4"],
+    },
+];
+
+/// A function of the program, and what a table calls it.
+const FUNCTIONS: [(&str, &str); 37] = [
+    ("cubic_f32_torque", "f32, cubic: torque"),
+    ("cubic_f32_acceleration", "f32, cubic: acceleration"),
+    ("cubic_f32_range", "f32, cubic: range of accelerations"),
+    ("cubic_f32_counts", "f32, cubic: 10,000 counts → torque"),
+    ("cubic_f32_binary", "f32, cubic: 4096 counts → torque"),
+    ("spline_f32_torque", "f32, spline: torque"),
+    ("spline_f32_acceleration", "f32, spline: acceleration"),
+    ("spline_f32_range", "f32, spline: range of accelerations"),
+    ("spline_f32_counts", "f32, spline: 10,000 counts → torque"),
+    ("spline_f32_binary", "f32, spline: 4096 counts → torque"),
+    ("cubic_q31_torque", "q31, cubic: torque"),
+    ("cubic_q31_acceleration", "q31, cubic, 1/J: acceleration"),
+    ("cubic_q31_range", "q31, cubic, 1/J: range of accelerations"),
+    ("cubic_q31_counts", "q31, cubic: 10,000 counts → torque"),
+    ("cubic_q31_binary", "q31, cubic: 4096 counts → torque"),
+    ("quadratic_q31_torque", "q31, quadratic: torque"),
+    (
+        "quadratic_q31_acceleration",
+        "q31, quadratic, 1/J: acceleration",
+    ),
+    (
+        "quadratic_q31_range",
+        "q31, quadratic, 1/J: range of accelerations",
+    ),
+    (
+        "quadratic_q31_counts",
+        "q31, quadratic: 10,000 counts → torque",
+    ),
+    (
+        "quadratic_q31_binary",
+        "q31, quadratic: 4096 counts → torque",
+    ),
+    ("rows_q15_torque", "q15, 16-bit rows: torque"),
+    (
+        "rows_q15_acceleration",
+        "q15, 16-bit rows, 1/J: acceleration",
+    ),
+    (
+        "rows_q15_range",
+        "q15, 16-bit rows, 1/J: range of accelerations",
+    ),
+    (
+        "rows_q15_counts",
+        "q15, 16-bit rows: 10,000 counts → torque",
+    ),
+    ("rows_q15_binary", "q15, 16-bit rows: 4096 counts → torque"),
+    ("encoder_phase", "`Encoder::phase`"),
+    ("encoder_phase_wide", "`Encoder::phase_wide`"),
+    ("stroke_phase", "`StrokeEncoder::phase`"),
+    ("tracker_update", "`Tracker::update`"),
+    ("omega_f32", "`Period::omega`, f32"),
+    ("omega_q31", "`Period::omega`, q31"),
+    ("si_q31", "q31, quadratic: torque, SI in and out"),
+    ("status_torque", "f32, cubic: torque and status"),
+    ("period_later", "`Period::later` (lead time), f32"),
+    ("ramp_torque", "f32, cubic: torque with `Ramp`"),
+    ("transmission_motor", "`Transmission::motor`, f32"),
+    ("limits_limited", "`TorqueLimits::limited`, f32"),
+];
+
+impl Build {
+    fn core(&self) -> Result<&'static Core> {
+        CORES
+            .iter()
+            .find(|core| core.name == self.core)
+            .context("no such core")
+    }
+
+    /// As `benches/ceilings.txt` names it.
+    fn name(&self) -> String {
+        let options = if self.rustc.is_empty() { "" } else { "-tuned" };
+        format!("user-{}{options}", self.profile)
+    }
+
+    fn compile(&self) -> Result<PathBuf> {
+        let core = self.core()?;
+        // In addition to those of `.cargo/config.toml`: its memory.x lies in the workspace.
+        let mut flags = vec!["-Clink-arg=-L../.."];
+        flags.extend(self.rustc);
+        let folder = target_dir().join(self.name());
+        let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+            .current_dir(root().join("benches/user"))
+            .args([
+                "build",
+                "--quiet",
+                "--profile",
+                self.profile,
+                "--target",
+                core.target,
+            ])
+            .args([
+                "--config",
+                &format!("target.{}.rustflags = {flags:?}", core.target),
+            ])
+            .arg("--target-dir")
+            .arg(&folder)
+            .stderr(Stdio::inherit())
+            .status()
+            .context("cargo")?;
+        ensure!(
+            status.success(),
+            "benches/user does not compile for {}",
+            core.name
+        );
+        Ok(folder.join(core.target).join(self.profile).join("user"))
+    }
+}
+
+/// The bounds of every function, by build.
+fn bounds(program: &Path) -> Result<Vec<Bound>> {
+    let program = Program::read(program)?;
+    let mut bounds = Bounds::new(&program)?;
+    FUNCTIONS.iter().map(|(name, _)| bounds.of(name)).collect()
+}
+
+/// Compiles the program, prints the table, and judges every figure; the number of those out of bounds.
+pub(crate) fn run(markdown: bool) -> Result<u32> {
+    let mut columns = Vec::new();
+    for build in &BUILDS {
+        columns.push(bounds(&build.compile()?)?);
+    }
+    let separator = if markdown { " | " } else { "  " };
+    if markdown {
+        println!(
+            "| instructions at most | M0+ | M4F | M4F, `opt-level = \"s\"` | M4F, `-Ctarget-cpu=cortex-m4` |\n|---|---:|---:|---:|---:|"
+        );
+    }
+    let mut failures = 0;
+    for (k, (name, title)) in FUNCTIONS.iter().enumerate() {
+        let figures: Vec<u32> = columns
+            .iter()
+            .map(|column| column[k].instructions)
+            .collect();
+        let cells: Vec<String> = figures
+            .iter()
+            .map(|figure| format!("{figure:>5}"))
+            .collect();
+        let row = cells.join(separator);
+        if markdown {
+            println!("| {title} | {} |", row.replace("  ", ""));
+        } else {
+            println!("{title:<55} {row}");
+        }
+        for (build, figure) in BUILDS.iter().zip(figures) {
+            let name = format!("{}-{name}", build.name());
+            let verdict = judge(build.core, &name, u64::from(figure));
+            if !verdict.holds() {
+                eprintln!(
+                    "{} {name}: {figure} instructions at most, {verdict}",
+                    build.core
+                );
+                failures += 1;
+            }
+        }
+    }
+    Ok(failures)
+}
