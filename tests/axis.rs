@@ -1,4 +1,5 @@
 //! From an encoder's count to a torque command.
 
 mod encoder;
+mod feed_forward;
 mod tracker;

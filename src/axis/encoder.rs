@@ -7,8 +7,9 @@
 
 use core::num::NonZeroU128;
 
+use super::AxisError;
 use crate::Phase;
-use crate::number::{RangeError, upper_of_sum};
+use crate::number::upper_of_sum;
 
 /// Which way an encoder counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -98,8 +99,8 @@ impl Encoder {
     /// Of an encoder mounted like this. `const`: a program can have it in flash.
     ///
     /// # Errors
-    /// [`RangeError::NotPositive`]: no counts a turn, or a zero in the gear. [`RangeError::OutOfRange`]: less than two counts a turn of the drive link.
-    pub const fn new(mounting: Mounting) -> Result<Self, RangeError> {
+    /// [`AxisError::NotPositive`]: no counts a turn, or a zero in the gear. [`AxisError::OutOfRange`]: less than two counts a turn of the drive link.
+    pub const fn new(mounting: Mounting) -> Result<Self, AxisError> {
         let Mounting {
             counts_per_turn,
             gear: [encoder, link],
@@ -113,21 +114,18 @@ impl Encoder {
             } else {
                 "counts of a turn of the encoder"
             };
-            return Err(RangeError::NotPositive(what, 0.0));
+            return Err(AxisError::NotPositive(what));
         };
         if link == 0 {
-            return Err(RangeError::NotPositive(
+            return Err(AxisError::NotPositive(
                 "turns of the drive link in the encoder's gear",
-                0.0,
             ));
         }
         let link = link as u128;
         if per.get() < 2 * link {
-            return Err(RangeError::OutOfRange {
-                what: "counts of a turn of the drive link",
-                value: per.get() as f64 / link as f64,
-                min: 2.0,
-                max: f64::INFINITY,
+            return Err(AxisError::OutOfRange {
+                what: "the number of counts of a turn of the drive link",
+                range: "at least 2",
             });
         }
         // To the nearest unit of 2⁻⁹⁶: link < 2³².

@@ -1,9 +1,9 @@
 //! Feed-forward: the torque that a motion needs, and whether the table was made for that motion.
 
-use super::Motion;
+use super::error::{positive, within};
+use super::{AxisError, Motion};
 use crate::curve::{Format, Set};
-use crate::number::error::{finite, positive};
-use crate::number::{Factor, Number, RangeError, Sliding};
+use crate::number::{Factor, Number, Sliding};
 use crate::{Model, Phase, Scale, Validity};
 
 /// What is wrong with a motion: nothing, or the speed, the acceleration, or both are beyond what the table was made for, or no numbers.
@@ -159,15 +159,12 @@ impl Ramp {
     ///
     /// # Errors
     /// A width that is not positive and finite, or less than 1e-6 of the speed base.
-    pub fn new(width: f32, scale: &Scale) -> Result<Self, RangeError> {
-        positive("width of the friction ramp", f64::from(width))?;
-        let ratio = scale.speed() / width;
+    pub fn new(width: f32, scale: &Scale) -> Result<Self, AxisError> {
+        let ratio = scale.speed() / positive("the width of the friction ramp", width)?;
         let factor = (ratio <= 1e6).then(|| Factor::new(ratio)).flatten();
-        factor.map(Self).ok_or(RangeError::OutOfRange {
-            what: "width of the friction ramp",
-            value: f64::from(width),
-            min: f64::from(scale.speed()) * 1e-6,
-            max: 1e30,
+        factor.map(Self).ok_or(AxisError::OutOfRange {
+            what: "the width of the friction ramp",
+            range: "at least a millionth of the speed base",
         })
     }
 
@@ -199,27 +196,16 @@ impl<N: Number> TorqueLimits<N> {
     /// From `least` to `greatest`.
     ///
     /// # Errors
-    /// A limit that is not finite; limits that do not contain 0.
-    pub fn new(least: N, greatest: N) -> Result<Self, RangeError> {
-        for (what, value, sign) in [
-            ("least torque", least, -1.0),
-            ("greatest torque", greatest, 1.0),
-        ] {
-            let value = finite(what, value.to_f64())?;
-            if value * sign < 0.0 {
-                let (min, max) = if sign < 0.0 {
-                    (-1e30, 0.0)
-                } else {
-                    (0.0, 1e30)
-                };
-                return Err(RangeError::OutOfRange {
-                    what,
-                    value,
-                    min,
-                    max,
-                });
-            }
-        }
+    /// Limits that do not contain 0, or are no numbers.
+    pub fn new(least: N, greatest: N) -> Result<Self, AxisError> {
+        let rest = N::default();
+        within("the least torque", (), least <= rest, "zero or negative")?;
+        within(
+            "the greatest torque",
+            (),
+            greatest >= rest,
+            "zero or positive",
+        )?;
         Ok(Self {
             limits: [least, greatest],
         })

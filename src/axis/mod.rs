@@ -2,6 +2,7 @@
 
 mod counter;
 mod encoder;
+mod error;
 mod feed_forward;
 mod motion;
 mod stroke;
@@ -10,6 +11,7 @@ mod transmission;
 
 pub use counter::Counter;
 pub use encoder::{Counting, Encoder, Mounting};
+pub use error::AxisError;
 pub use feed_forward::{Checked, FeedForward, Limited, Ramp, Status, TorqueLimits};
 pub use motion::{Motion, Period};
 pub use stroke::{Scaled, StrokeEncoder};

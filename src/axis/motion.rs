@@ -2,9 +2,9 @@
 
 use core::marker::PhantomData;
 
-use super::Tracked;
-use crate::number::error::{positive, within};
-use crate::number::{Factor, Number, RangeError, Real};
+use super::error::{positive, within};
+use super::{AxisError, Tracked};
+use crate::number::{Factor, Number, Real};
 use crate::{Domain, Outcome, Phase, Scale};
 
 /// Where a drive link is and how it moves, in the machine units of a model.
@@ -44,20 +44,17 @@ impl<N: Number> Period<N> {
     /// So many seconds, for a model with this range and these machine units.
     ///
     /// # Errors
-    /// [`RangeError::NotPositive`], [`RangeError::NotFinite`]; [`RangeError::OutOfRange`]: so short or long that single precision does not hold its
+    /// [`AxisError::NotPositive`], [`AxisError::NotFinite`]; [`AxisError::OutOfRange`]: so short or long that single precision does not hold its
     /// factors, or in fixed point so long that the speed base is a quarter of the range a period.
-    pub fn new<R: Real>(
-        seconds: f32,
-        domain: Domain<R>,
-        scale: &Scale,
-    ) -> Result<Self, RangeError> {
-        positive("period", f64::from(seconds))?;
+    pub fn new<R: Real>(seconds: f32, domain: Domain<R>, scale: &Scale) -> Result<Self, AxisError> {
+        positive("the period", seconds)?;
         let span = domain.span().to_f32();
         let (speed, acceleration) = (scale.speed(), scale.acceleration());
         if N::FIXED {
             // The number 1 must be a speed at which the shorter way round is the way.
-            let base = f64::from(speed * seconds / span);
-            within("speed base, in ranges a period", base, [0.0, 0.25])?;
+            let holds = speed * seconds <= 0.25 * span;
+            let range = "short enough for a quarter of the range at the speed base";
+            within("the period", (), holds, range)?;
         }
         let per_count = span / seconds * UNIT / speed;
         let gained = acceleration / speed * seconds;
@@ -73,11 +70,10 @@ impl<N: Number> Period<N> {
                 number: PhantomData,
             })
         };
-        all().ok_or(RangeError::OutOfRange {
-            what: "period",
-            value: f64::from(seconds),
-            min: 1e-9,
-            max: 1e3,
+        let range = "of a length whose factors are normal numbers in single precision";
+        all().ok_or(AxisError::OutOfRange {
+            what: "the period",
+            range,
         })
     }
 
@@ -93,7 +89,7 @@ impl<N: Number> Period<N> {
         N::of_count(tracked.acceleration, &self.acceleration)
     }
 
-    /// How far the drive link moves in the period at this speed: what to add to a phase.
+    /// How far the drive link moves in the period at this speed: what to add to a phase. In fixed point to four units of 2⁻³² of the range.
     #[inline]
     pub fn moved(&self, omega: N) -> Phase {
         Phase::from_bits(omega.to_count(&self.moved).cast_unsigned())

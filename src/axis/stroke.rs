@@ -5,7 +5,9 @@
     reason = "a few instructions each; a call would take as many, also where the program is optimised for size"
 )]
 
-use crate::number::RangeError;
+use super::AxisError;
+use super::error::within;
+use crate::math;
 use crate::{Domain, Outcome, Phase};
 
 /// A scale or encoder along a stroke, and how it is mounted.
@@ -38,7 +40,7 @@ pub struct Scaled {
 /// assert_eq!(encoder.phase(0).value.to_bits(), 1 << 31);
 /// assert!(!encoder.phase(-250_000).saturated);
 /// assert!(encoder.phase(-250_001).saturated && encoder.phase(250_001).saturated);
-/// # Ok::<(), jred::number::RangeError>(())
+/// # Ok::<(), jred::axis::AxisError>(())
 /// ```
 ///
 /// Accuracy: less than a unit of 2⁻³² of the stroke off, for every count of 32 bits; half of one for strokes of up to a million counts (test `the_phase_along_a_stroke_is_within_a_unit`).
@@ -60,10 +62,9 @@ impl StrokeEncoder {
     /// Of an encoder mounted like this, on a drive link with this stroke.
     ///
     /// # Errors
-    /// [`RangeError::NotFinite`]. [`RangeError::NotPositive`]: a resolution of 0. [`RangeError::OutOfRange`]: the domain is a turn (0 m), a stroke of less than 2 or more than 2³⁰ counts, or a home
-    /// a million strokes away.
-    pub fn new(domain: Domain, scaled: Scaled) -> Result<Self, RangeError> {
-        use crate::number::error::{finite, positive, within};
+    /// [`AxisError::NotFinite`]; [`AxisError::OutOfRange`]: a stroke of less than 2 or more than 2³⁰ counts (a turn has no stroke), or a
+    /// home a million strokes away.
+    pub fn new(domain: Domain, scaled: Scaled) -> Result<Self, AxisError> {
         let Scaled {
             resolution,
             home,
@@ -73,13 +74,29 @@ impl StrokeEncoder {
             Domain::Turn => (0.0, 0.0),
             Domain::Stroke { from, to } => (from, to - from),
         };
-        positive("the encoder's resolution", crate::math::abs(resolution))?;
+        if !(resolution.is_finite() && at_home.is_finite()) {
+            return Err(AxisError::NotFinite(
+                "the encoder's resolution, or the position at home,",
+            ));
+        }
         let step = resolution / span;
-        let counts = 1.0 / crate::math::abs(step);
-        within("counts of the stroke", counts, [2.0, 1_073_741_824.0])?;
-        let at_home = (finite("the position at home", at_home)? - from) / span;
-        within("the position at home in strokes", at_home, [-1e6, 1e6])?;
-        let step = crate::math::rint(step * STROKE * STROKE) as i64;
+        let counts = 1.0 / math::abs(step);
+        let holds = (2.0..=1_073_741_824.0).contains(&counts);
+        within(
+            "the number of counts of the stroke",
+            (),
+            holds,
+            "from 2 to 1073741824",
+        )?;
+        let at_home = (at_home - from) / span;
+        let holds = math::abs(at_home) <= 1e6;
+        within(
+            "the position at home",
+            (),
+            holds,
+            "within a million strokes of the stroke",
+        )?;
+        let step = math::rint(step * STROKE * STROKE) as i64;
         let at_home = (at_home * STROKE * STROKE) as i128;
         let start = at_home - i128::from(home) * i128::from(step) + (1 << 31);
         Ok(Self {

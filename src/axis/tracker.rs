@@ -1,9 +1,9 @@
 //! Speed and acceleration from the counts of an encoder.
 
+use super::AxisError;
+use super::error::{positive, within};
 use crate::Phase;
 use crate::math;
-use crate::number::RangeError;
-use crate::number::error::{positive, within};
 
 /// A tracking filter: phase, speed and acceleration of a drive link, of the phases that an encoder gives, one each period.
 ///
@@ -56,9 +56,10 @@ impl Tracker {
     /// A filter with the memory θ, 0 to 0.999: 0 differentiates three phases without smoothing, 0.9 averages over some ten.
     ///
     /// # Errors
-    /// [`RangeError::OutOfRange`]: θ outside 0 to 0.999.
-    pub fn new(memory: f32) -> Result<Self, RangeError> {
-        within("memory of the filter", f64::from(memory), [0.0, 0.999])?;
+    /// [`AxisError::OutOfRange`]: θ outside 0 to 0.999.
+    pub fn new(memory: f32) -> Result<Self, AxisError> {
+        let holds = (0.0..=0.999).contains(&memory);
+        within("the memory of the filter", (), holds, "from 0 to 0.999")?;
         let rest = 1.0 - memory;
         let gains = [
             1.0 - memory * memory * memory,
@@ -78,9 +79,9 @@ impl Tracker {
     ///
     /// # Errors
     /// A number that is not positive and finite, or a memory outside 0 to 0.999.
-    pub fn with_bandwidth(bandwidth: f32, period: f32) -> Result<Self, RangeError> {
-        positive("bandwidth of the filter", f64::from(bandwidth))?;
-        positive("period of the tick", f64::from(period))?;
+    pub fn with_bandwidth(bandwidth: f32, period: f32) -> Result<Self, AxisError> {
+        positive("the bandwidth of the filter", bandwidth)?;
+        positive("the period of the tick", period)?;
         Self::new(math::expf(-core::f32::consts::TAU * bandwidth * period))
     }
 

@@ -1,7 +1,8 @@
 //! The motor's side of a gearbox.
 
-use crate::number::error::{not_negative, positive, within};
-use crate::number::{Factor, Number, RangeError};
+use super::AxisError;
+use super::error::{positive, within};
+use crate::number::{Factor, Number};
 use crate::{Outcome, Scale};
 
 /// A gearbox between motor and drive link, and the motor's rotor.
@@ -40,19 +41,21 @@ impl Transmission {
     ///
     /// # Errors
     /// A ratio that is not positive, an efficiency outside 0.01 to 1, a negative inertia, or one that single precision does not hold in machine units.
-    pub fn new<N: Number>(gearbox: Gearbox, scale: &Scale) -> Result<Self, RangeError> {
+    pub fn new<N: Number>(gearbox: Gearbox, scale: &Scale) -> Result<Self, AxisError> {
         let Gearbox {
             ratio,
             efficiency,
             rotor,
         } = gearbox;
-        positive("ratio of the gearbox", f64::from(ratio))?;
+        positive("the ratio of the gearbox", ratio)?;
+        let holds = (0.01..=1.0).contains(&efficiency);
+        within("the efficiency of the gearbox", (), holds, "from 0.01 to 1")?;
         within(
-            "efficiency of the gearbox",
-            f64::from(efficiency),
-            [0.01, 1.0],
+            "the inertia of the rotor",
+            (),
+            (0.0..1e30).contains(&rotor),
+            "zero or positive",
         )?;
-        not_negative("inertia of the rotor", f64::from(rotor))?;
         let torque = scale.torque();
         let driving = 1.0 / (ratio * efficiency);
         let base = if N::FIXED { torque * driving } else { 1.0 };
@@ -69,11 +72,10 @@ impl Transmission {
                 },
             })
         };
-        all().ok_or(RangeError::OutOfRange {
-            what: "ratio of the gearbox",
-            value: f64::from(ratio),
-            min: 1e-6,
-            max: 1e6,
+        let range = "such that torques on both sides are normal numbers in single precision";
+        all().ok_or(AxisError::OutOfRange {
+            what: "the ratio of the gearbox",
+            range,
         })
     }
 

@@ -1,6 +1,5 @@
 use jred::Domain;
-use jred::axis::{Counter, Counting, Encoder, Mounting, Scaled, StrokeEncoder};
-use jred::number::RangeError;
+use jred::axis::{AxisError, Counter, Counting, Encoder, Mounting, Scaled, StrokeEncoder};
 use proptest::prelude::*;
 
 use crate::support::config;
@@ -152,7 +151,7 @@ fn an_encoder_that_cannot_be_is_refused() {
             "turns of the drive link in the encoder's gear",
         ),
     ] {
-        assert_eq!(refused(mounting), RangeError::NotPositive(what, 0.0));
+        assert_eq!(refused(mounting), AxisError::NotPositive(what));
     }
     let coarse = refused(Mounting {
         counts_per_turn: 3,
@@ -161,7 +160,7 @@ fn an_encoder_that_cannot_be_is_refused() {
     });
     assert_eq!(
         coarse.to_string(),
-        "counts of a turn of the drive link is 1.5, less than 2"
+        "the number of counts of a turn of the drive link must be at least 2"
     );
 
     let stroke = Domain::Stroke { from: 0.0, to: 0.5 };
@@ -174,7 +173,7 @@ fn an_encoder_that_cannot_be_is_refused() {
         (
             Domain::Turn,
             good,
-            "counts of the stroke is 0, outside 2 to 1073741824",
+            "the number of counts of the stroke must be from 2 to 1073741824",
         ),
         (
             stroke,
@@ -182,7 +181,7 @@ fn an_encoder_that_cannot_be_is_refused() {
                 resolution: f64::NAN,
                 ..good
             },
-            "the encoder's resolution is not a finite number",
+            "the encoder's resolution, or the position at home, is not a finite number",
         ),
         (
             stroke,
@@ -190,7 +189,7 @@ fn an_encoder_that_cannot_be_is_refused() {
                 resolution: 0.0,
                 ..good
             },
-            "the encoder's resolution is 0, but must be greater than zero",
+            "the number of counts of the stroke must be from 2 to 1073741824",
         ),
         (
             stroke,
@@ -198,7 +197,7 @@ fn an_encoder_that_cannot_be_is_refused() {
                 resolution: 0.3,
                 ..good
             },
-            "counts of the stroke is 1.66",
+            "the number of counts of the stroke must be from 2",
         ),
         (
             stroke,
@@ -206,7 +205,7 @@ fn an_encoder_that_cannot_be_is_refused() {
                 at_home: f64::INFINITY,
                 ..good
             },
-            "the position at home is not a finite number",
+            "the encoder's resolution, or the position at home, is not a finite number",
         ),
         (
             stroke,
@@ -214,7 +213,7 @@ fn an_encoder_that_cannot_be_is_refused() {
                 at_home: 1e9,
                 ..good
             },
-            "the position at home in strokes is 2000000000",
+            "the position at home must be within a million strokes of the stroke",
         ),
     ] {
         let error = StrokeEncoder::new(domain, scaled).unwrap_err().to_string();
