@@ -11,6 +11,10 @@
         clippy::todo
     )
 )]
+#![allow(
+    clippy::inline_always,
+    reason = "the curves of a model are constants of its tick: optimised for size, a tick that is not inlined whole takes three times as many instructions (benches/user)"
+)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 //! Reduced inertia and torque of machines with one degree of freedom: presses, slider-cranks, linkages, gear trains.
 //!

@@ -8,13 +8,14 @@ use std::path::Path;
 const OUTSIDE: [&str; 2] = ["math", "sealed"];
 
 /// Each layer, and those that it may use.
-const LAYERS: [(&str, &[&str]); 7] = [
+const LAYERS: [(&str, &[&str]); 8] = [
     ("number", &[]),
     ("curve", &["number"]),
     ("machine", &["number"]),
     ("friction", &["number", "machine"]),
     ("mechanism", &["number", "machine"]),
     ("tick", &["number", "curve"]),
+    ("axis", &["number", "curve", "tick"]),
     ("tabulate", &["number", "curve", "machine", "tick"]),
 ];
 

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::Path;
 
 /// The layers that firmware with a finished image uses.
-const LAYERS: [&str; 3] = ["src/number", "src/curve", "src/tick"];
+const LAYERS: [&str; 4] = ["src/number", "src/curve", "src/tick", "src/axis"];
 
 /// The type of `impl<…> Type<…> {` as a path to its functions starts, without parameters of the block itself: `Type`, or
 /// `Type::<f32>` where the block is for that one only.

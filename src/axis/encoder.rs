@@ -1,10 +1,5 @@
 //! From an encoder's count to the phase of a drive link that turns, without a division in the tick.
 
-#![allow(
-    clippy::inline_always,
-    reason = "a few instructions each; a call would take as many, also where the program is optimised for size"
-)]
-
 use core::num::NonZeroU128;
 
 use super::AxisError;

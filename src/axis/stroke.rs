@@ -1,10 +1,5 @@
 //! From an encoder's count to the phase of a drive link that has a stroke.
 
-#![allow(
-    clippy::inline_always,
-    reason = "a few instructions each; a call would take as many, also where the program is optimised for size"
-)]
-
 use super::AxisError;
 use super::error::within;
 use crate::math;

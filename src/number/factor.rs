@@ -1,10 +1,5 @@
 //! Factors of any size between numbers of a tick, and from counts of 32 bits to numbers and back.
 
-#![allow(
-    clippy::inline_always,
-    reason = "a few instructions each; a call would take as many, also where the program is optimised for size"
-)]
-
 use super::product::high;
 
 /// A factor, prepared for floating point and for fixed point.

@@ -98,15 +98,18 @@ pub trait Number:
     fn minus(self, other: Self) -> Outcome<Self>;
     /// The mean of two.
     #[doc(hidden)]
+    #[must_use]
     fn mean(self, other: Self) -> Self;
     /// Limited to −1 … 1.
     #[doc(hidden)]
+    #[must_use]
     fn to_unit(self) -> Self;
     /// Whether its magnitude is greater than the limit, or it is no number.
     #[doc(hidden)]
     fn exceeds(self, limit: Self) -> bool;
     /// Limited; 0 for what is no number.
     #[doc(hidden)]
+    #[must_use]
     fn within(self, limits: [Self; 2]) -> Self;
 }
 

@@ -1,10 +1,5 @@
 //! How many words a table has, and its rows.
 
-#![allow(
-    clippy::inline_always,
-    reason = "the length of a row is a constant of the tick that all of this is part of"
-)]
-
 use super::harmonic::{means, row};
 use crate::curve::curves::{Set, width};
 

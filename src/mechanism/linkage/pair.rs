@@ -4,11 +4,6 @@
 //! the links' coordinates put in, its derivatives are those of (77), (78) and one order more; with a single derivative
 //! seeded it gives a column of the Jacobian.
 
-#![expect(
-    clippy::inline_always,
-    reason = "only then is nothing computed but the order that the solver asks for"
-)]
-
 use crate::machine::joint::{Body, Joint, Marker, Wrench};
 use crate::machine::link::Frame;
 use crate::math;

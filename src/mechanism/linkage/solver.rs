@@ -44,7 +44,6 @@ pub(super) struct Unsolved {
 
 /// An equation's left-hand side, with the drive at `phi`.
 #[inline(always)]
-#[expect(clippy::inline_always, reason = "as in `pair`")]
 pub(super) fn evaluate<const CAMS: usize>(
     pairs: &[Pair],
     cams: &Cams<CAMS>,

@@ -16,11 +16,6 @@
 //! One such pair serves all curves, and its error grows with k only; the recurrence of C. W. Clenshaw (*Math. Comp.* 9,
 //! 1955) needs a pass for each curve and each kind, and near φ = 0 and π its error grows with k².
 
-#![allow(
-    clippy::inline_always,
-    reason = "the set of curves is a constant of the tick that all of this is part of"
-)]
-
 #[allow(clippy::indexing_slicing, reason = "lengths known at compile time")]
 mod coefficient;
 mod series;

@@ -1,10 +1,5 @@
 //! One cell of a table and the place in it: the curves there, and the terms of the equation of motion.
 
-#![allow(
-    clippy::inline_always,
-    reason = "the set of curves is a constant of the tick that all of this is part of"
-)]
-
 use super::{Constants, Fraction, Layout, More, Raw, Word};
 use crate::Phase;
 use crate::curve::Table;

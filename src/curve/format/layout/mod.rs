@@ -1,10 +1,5 @@
 //! Formats with a polynomial for each curve and cell.
 
-#![allow(
-    clippy::inline_always,
-    reason = "the set of curves is a constant of the tick that all of this is part of"
-)]
-
 mod cell;
 mod check;
 mod fill;

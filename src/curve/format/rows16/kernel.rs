@@ -12,11 +12,6 @@
 //! The product (V·ω + b)·ω and the partial sums may wrap: they are taken modulo 2³², and only the whole sum counts, of
 //! which [`Table`](crate::Table) knows that it fits.
 
-#![allow(
-    clippy::inline_always,
-    reason = "inlined later, each function has been optimised for itself: loads move out of branches and past fences"
-)]
-
 use crate::number::{Outcome, Sliding};
 use crate::{Phase, Q15};
 

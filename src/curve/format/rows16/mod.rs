@@ -11,11 +11,6 @@
 //! continuous but for the rounding of their numbers (test `value_and_slope_hardly_step_at_knots`). b, c and 1/J are straight lines from knot to knot. A
 //! [`Scale::limited_to`](crate::Scale::limited_to) makes the best of 16 bits.
 
-#![allow(
-    clippy::inline_always,
-    reason = "inlined later, each function has been optimised for itself, and ticks take more instructions"
-)]
-
 mod check;
 mod fill;
 mod fit;

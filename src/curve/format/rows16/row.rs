@@ -63,7 +63,6 @@ pub(super) type Rows<'a> = crate::curve::format::Rows<'a, u32, 3, 4, 5, 6, 7>;
 
 /// A word of a row; 0 beyond its end, where the compiler sees that no read is.
 #[inline(always)]
-#[allow(clippy::inline_always, reason = "as in the kernel")]
 pub(super) fn at(row: &[u32], index: usize) -> u32 {
     row.get(index).copied().unwrap_or(0)
 }

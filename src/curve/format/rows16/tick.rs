@@ -1,10 +1,5 @@
 //! The tick over 16-bit rows.
 
-#![allow(
-    clippy::inline_always,
-    reason = "inlined later, each function has been optimised for itself: loads move out of branches and past fences"
-)]
-
 use super::kernel;
 use super::row::{self, Rows};
 use crate::curve::curves::{self, Set, has};
