@@ -211,8 +211,8 @@ fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
         omega,
         alpha,
     };
-    let time =
-        Period::<F::Number>::new(black_box(1e-4), Image::domain(&image), Image::scale(&image));
+    let (domain, scale) = (Image::domain(&image), Image::scale(&image));
+    let time: Result<Period<F::Number>, _> = Period::new(black_box(1e-4), domain, scale);
     if let Ok(time) = time {
         let mut tracker = Tracker::new(black_box(0.9)).map(|tracker| Tracker::at(tracker, phase));
         if let Ok(tracker) = &mut tracker {
@@ -261,8 +261,8 @@ fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
 }
 
 fn every_encoder() {
-    let mut counter = Counter::<16>::at(black_box(5));
-    let wide = Counter::<16>::extend(&mut counter, black_box(7));
+    let mut counter: Counter<16> = Counter::at(black_box(5));
+    let wide = Counter::extend(&mut counter, black_box(7));
     if let Ok(encoder) = Encoder::new(black_box(Mounting::direct(10_000))) {
         black_box((
             Encoder::phase(&encoder, black_box(1)),
