@@ -15,8 +15,8 @@ mod support;
 use core::f32::consts::TAU;
 
 use jred::axis::{
-    Counter, Counting, Encoder, FeedForward, Gearbox, Motion, Mounting, Period, Ramp, TorqueLimits,
-    Tracker, Transmission,
+    Checked, Counter, Counting, Encoder, FeedForward, Gearbox, Limited, Motion, Mounting, Period,
+    Ramp, TorqueLimits, Tracker, Transmission,
 };
 use jred::machine::motion::{Law, Move};
 use jred::{Image, Model, Set, Spline, curves, include_image};
@@ -48,67 +48,102 @@ const TICK: f32 = 0.000_5;
 const LEAD: f32 = 0.000_2;
 const TICKS: u16 = 1000;
 
+/// What the interrupt of the drive works with.
+struct Axis<'a> {
+    counter: Counter<16>,
+    tracker: Tracker,
+    tick: Period<f32>,
+    lead: Period<f32>,
+    ramp: Ramp,
+    press: FeedForward<'a, Spline<f32>, PRESS>,
+    gearbox: Transmission,
+    limits: TorqueLimits<f32>,
+}
+
+/// What it has found: the speed of the crank, the torque on it, and the motor's torque within its limits.
+struct Found {
+    count: i64,
+    speed: f32,
+    needed: Checked<f32>,
+    motor: Limited<f32>,
+}
+
+impl<'a> Axis<'a> {
+    fn new(image: &Image<'a>) -> Result<Self, Failure> {
+        let model: Model<'a, Spline<f32>, PRESS> = image.model()?;
+        let (domain, scale) = (image.domain(), image.scale());
+        let wrong = |_| "a figure of the axis is wrong";
+        Ok(Self {
+            counter: Counter::at(1234),
+            tracker: Tracker::with_bandwidth(60.0, TICK).map_err(wrong)?,
+            tick: Period::new(TICK, domain, scale).map_err(wrong)?,
+            lead: Period::new(LEAD, domain, scale).map_err(wrong)?,
+            ramp: Ramp::new(0.05, scale).map_err(wrong)?,
+            press: FeedForward::new(model, image.validity()),
+            gearbox: Transmission::new::<f32>(GEARBOX, scale).map_err(wrong)?,
+            limits: TorqueLimits::new(-6.0, 6.0).map_err(wrong)?,
+        })
+    }
+
+    /// Of the timer's register, and of the speed and the acceleration that the crank shall have.
+    #[inline(never)]
+    fn interrupt(&mut self, register: u16, [omega, alpha]: [f32; 2]) -> Found {
+        let count = self.counter.extend(register.into());
+        let tracked = self.tracker.update(ENCODER.phase_wide(count));
+        let reference = Motion {
+            phase: tracked.phase,
+            omega,
+            alpha,
+        };
+        let friction = self.ramp.at(omega);
+        let needed = self
+            .press
+            .at_reference(self.lead.later(reference), friction);
+        let motor = self.gearbox.motor(needed.torque, omega, alpha).value;
+        Found {
+            count,
+            speed: self.tick.omega(tracked).value,
+            needed,
+            motor: self.limits.limited(motor), // its `torque` goes to the current controller
+        }
+    }
+}
+
 fn run() -> Result<(), Failure> {
     let image = Image::from_bytes(include_image!("data/press_f32.jred"))?;
-    let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
-    let (domain, scale) = (image.domain(), image.scale());
-    let feed_forward = FeedForward::new(press, image.validity());
-
-    let wrong = |_| "a figure of the axis is wrong";
-    let tick = Period::new(TICK, domain, scale).map_err(wrong)?;
-    let lead = Period::new(LEAD, domain, scale).map_err(wrong)?;
-    let ramp = Ramp::new(0.05, scale).map_err(wrong)?;
-    let gearbox = Transmission::new::<f32>(GEARBOX, scale).map_err(wrong)?;
-    let limits = TorqueLimits::new(-6.0, 6.0).map_err(wrong)?;
-    let mut tracker = Tracker::with_bandwidth(60.0, TICK).map_err(wrong)?;
-    let mut counter = Counter::<16>::at(1234);
-
-    // A turn in 0.5 s, as the set-point; and the counts of an encoder on a machine that follows it.
+    let mut axis = Axis::new(&image)?;
+    // A turn in 0.5 s: the set-point, and the machine, which follows it.
     let turn = Move::new(Law::Polynomial345, 0.0, TAU, 0.5).map_err(|_| "the move is not valid")?;
-    let (mut saturated, mut checksum, mut worst) = (0u32, 0u32, 0.0f32);
-    println!("tick  count     speed    wanted   needed     motor   clipped");
+    let (mut limited, mut checksum, mut worst) = (0u32, 0u32, 0.0f32);
+    println!("tick   count     speed  of crank  set-point    needed    motor   clipped");
     for k in 0..TICKS {
         let wanted = turn.at(f32::from(k) * TICK);
         // What the timer's register shows.
         let register = (1234 - (wanted.phi / TAU * COUNTS) as i32) as u16;
+        let found = axis.interrupt(register, [wanted.omega, wanted.alpha]);
 
-        // From here on it is the interrupt of the drive.
-        let count = counter.extend(register.into());
-        let tracked = tracker.update(ENCODER.phase_wide(count));
-        let speed: f32 = tick.omega(tracked).value;
-        let reference = Motion {
-            phase: tracked.phase,
-            omega: wanted.omega,
-            alpha: wanted.alpha,
-        };
-        let friction = ramp.at(reference.omega);
-        let needed = feed_forward.at_reference(lead.later(reference), friction);
-        let motor = gearbox.motor(needed.torque, reference.omega, reference.alpha);
-        let command = limits.limited(motor.value);
-        // To here: `command.torque` goes to the current controller.
-
-        if !needed.status.is_valid() {
+        if !found.needed.status.is_valid() {
             return Err("the table was not made for this motion".into());
         }
-        saturated += u32::from(command.clipped != 0.0);
-        worst = worst.max((speed - wanted.omega).abs());
-        for bits in [speed.to_bits(), command.torque.to_bits()] {
+        limited += u32::from(found.motor.clipped != 0.0);
+        worst = worst.max((found.speed - wanted.omega).abs());
+        for bits in [found.speed.to_bits(), found.motor.torque.to_bits()] {
             checksum = (checksum ^ bits).wrapping_mul(16_777_619);
         }
         if k % 50 == 0 {
             println!(
-                "{:4} {:7} {:6} mrad/s {:6} {:6} N m {:6} mN m {:6}",
+                "{:4} {:7} {:9} mrad/s {:9} {:9} N m {:5} mN m {:5}",
                 k,
-                count,
-                milli(speed),
+                found.count,
+                milli(found.speed),
                 milli(wanted.omega),
-                milli(needed.torque) / 1000,
-                milli(command.torque),
-                milli(command.clipped)
+                milli(found.needed.torque) / 1000,
+                milli(found.motor.torque),
+                milli(found.motor.clipped)
             );
         }
     }
-    println!("checksum {checksum:08x}, {saturated} of {TICKS} ticks limited");
+    println!("checksum {checksum:08x}, {limited} of {TICKS} ticks limited");
     println!("largest error of the speed {} mrad/s", milli(worst));
     if worst < 1.0 {
         Ok(())

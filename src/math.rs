@@ -129,11 +129,6 @@ pub(crate) fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
 
-/// In single precision, without double precision inside.
-pub(crate) fn expf(x: f32) -> f32 {
-    libm::expf(x)
-}
-
 pub(crate) fn ln(x: f64) -> f64 {
     libm::log(x)
 }

@@ -3,7 +3,6 @@
 use super::AxisError;
 use super::error::{positive, within};
 use crate::Phase;
-use crate::math;
 
 /// A tracking filter: phase, speed and acceleration of a drive link, of the phases that an encoder gives, one each period.
 ///
@@ -75,14 +74,15 @@ impl Tracker {
         })
     }
 
-    /// A filter whose poles are at `bandwidth` (Hz), called every `period` (s): θ = exp(−2π·bandwidth·period).
+    /// A filter with the poles of three first-order lags with the corner frequency `bandwidth` (Hz), called every `period` (s): θ = 1/(1 +
+    /// 2π·bandwidth·period), as a first-order lag is usually programmed.
     ///
     /// # Errors
     /// A number that is not positive and finite, or a memory outside 0 to 0.999.
     pub fn with_bandwidth(bandwidth: f32, period: f32) -> Result<Self, AxisError> {
         positive("the bandwidth of the filter", bandwidth)?;
         positive("the period of the tick", period)?;
-        Self::new(math::expf(-core::f32::consts::TAU * bandwidth * period))
+        Self::new(1.0 / (1.0 + core::f32::consts::TAU * bandwidth * period))
     }
 
     /// The same at rest at this phase: where it starts, or after the encoder was set.
