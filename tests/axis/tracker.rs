@@ -99,6 +99,20 @@ fn the_filter_settles_and_smooths_as_stated() {
     }
 }
 
+/// Speed, acceleration, and the counts of that speed, by a period.
+fn found<N: Number>(period: f32, tracked: Tracked, scale: Scale) -> [f64; 3] {
+    let rates = Period::<N>::new(period, Domain::<f64>::Turn, &scale).unwrap();
+    let [omega, alpha] = [rates.omega(tracked), rates.alpha(tracked)];
+    assert!(!omega.saturated && !alpha.saturated);
+    let back = rates.moved(omega.value).to_bits().cast_signed();
+    let bases = [scale.speed(), scale.acceleration()].map(f64::from);
+    [
+        omega.value.to_f64() * bases[0],
+        alpha.value.to_f64() * bases[1],
+        f64::from(back),
+    ]
+}
+
 #[test]
 fn rates_give_the_motion_in_every_number() {
     let (period, omega, alpha) = (1e-4, 12.0, -340.0);
@@ -107,18 +121,6 @@ fn rates_give_the_motion_in_every_number() {
         speed: (omega * f64::from(period) / TAU / UNIT) as i32,
         acceleration: (alpha * f64::from(period).powi(2) / TAU / UNIT * 256.0) as i32,
     };
-    fn found<N: Number>(period: f32, tracked: Tracked, scale: Scale) -> [f64; 3] {
-        let rates = Period::<N>::new(period, Domain::<f64>::Turn, &scale).unwrap();
-        let [omega, alpha] = [rates.omega(tracked), rates.alpha(tracked)];
-        assert!(!omega.saturated && !alpha.saturated);
-        let back = rates.moved(omega.value).to_bits().cast_signed();
-        let bases = [scale.speed(), scale.acceleration()].map(f64::from);
-        [
-            omega.value.to_f64() * bases[0],
-            alpha.value.to_f64() * bases[1],
-            f64::from(back),
-        ]
-    }
     let scale = scale_of(100.0, 20.0, 0.2);
     let wanted = [omega, alpha, f64::from(tracked.speed)];
     let check = |name: &str, [omega, alpha, back]: [f64; 3], share: f64| {
