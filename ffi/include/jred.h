@@ -102,7 +102,7 @@ float jred_q15_to_si(int16_t number, float base);
 /* ---- model ------------------------------------------------------------------------------------------------------- */
 
 /* Memory of a model, anywhere; zeros are no model. A model is not copied to another machine, but may be moved or copied as bytes. */
-#define JRED_MEMORY_POINTERS 27
+#define JRED_MEMORY_POINTERS 37
 typedef struct {
     uintptr_t tag; /* the set of curves and 1; 0: no model */
     void *opaque[JRED_MEMORY_POINTERS];

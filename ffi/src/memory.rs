@@ -9,7 +9,7 @@ use jred::{AnyModel, Image, ImageError, Model, Set, TableError};
 use crate::status::Status;
 
 /// Pointers that a `jred_memory` has room for, as `JRED_MEMORY_POINTERS` of `jred.h` says.
-pub(crate) const POINTERS: usize = 27;
+pub(crate) const POINTERS: usize = 37;
 
 /// Any set of curves: `JRED_ANY` of `jred.h`. No image has it.
 pub(crate) const ANY: Set = !0;
