@@ -190,6 +190,8 @@ fn every_table<F: Format>(image: &Image<'_>, table: Table<'_, F>) {
     let again = Table::<F>::new(black_box(Table::words(&table)), Table::shape(&table));
     let _ = black_box(again);
     black_box((Image::cells(image), Image::set(image)));
+    black_box(Image::is_of::<F, PRESS>(black_box(&[0; 30])));
+    black_box(Image::bytes_are_of::<F, PRESS>(black_box(&[0; 99])));
     let mut buffer = black_box([0; 64]);
     let written = encode(&table, Image::validity(image), &mut buffer).unwrap_or_default();
     let _ = black_box(Image::new(written));

@@ -30,6 +30,7 @@ mod product;
 pub(crate) mod q15;
 pub(crate) mod q31;
 pub(crate) mod quadrature;
+mod quotient;
 mod role;
 pub(crate) mod scalar;
 pub(crate) mod scale;

@@ -1,9 +1,10 @@
 //! Fixed point with 32-bit tables.
 
-use core::num::{NonZeroU64, Wrapping};
+use core::num::Wrapping;
 
 use super::kernel::{Kernel, Ring};
 use super::product::{high, high_short};
+use super::quotient::quotient;
 use super::{Factor, Number, Outcome, Role, Scalar, Scale};
 use crate::math;
 
@@ -234,16 +235,15 @@ impl Kernel for Q31 {
     fn quotient(torque: Self, resisting: Self::Raw, inertia: Self::Raw) -> Outcome<Self> {
         let net = i64::from(torque.0) - (i64::from(resisting.0) << 2); // Q31
         let magnitude = net.unsigned_abs();
-        let divisor =
-            NonZeroU64::new(u64::from(inertia.0.unsigned_abs()) << 1).unwrap_or(NonZeroU64::MIN);
-        if magnitude >= divisor.get() {
+        let divisor = inertia.0.unsigned_abs() << 1;
+        if magnitude >= u64::from(divisor) {
             // |quotient| ≥ 1: outside the range (−1 itself is given as saturated, too).
             return Outcome {
                 value: if net < 0 { Self::MIN } else { Self::MAX },
                 saturated: true,
             };
         }
-        let quotient = ((magnitude << 31) / divisor) as i32; // below 2³¹
+        let quotient = quotient(magnitude as u32, divisor) as i32; // below 2³¹
         Outcome {
             value: Self(if net < 0 { -quotient } else { quotient }),
             saturated: false,

@@ -89,6 +89,9 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     /// Codes of number type and format in the image's header; `None`: not stored in images.
     #[doc(hidden)]
     const CODES: Option<[u8; 2]>;
+    /// Whether its set of curves has terms of harmonics in its upper half.
+    #[doc(hidden)]
+    const TERMS: bool = false;
     /// How many words a table has.
     #[doc(hidden)]
     const SIZE: Size;

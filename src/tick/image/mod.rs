@@ -5,6 +5,7 @@
 //! of it. [`Image::new`] checks header and CRC, [`Image::model`] the table itself: an image that passes both can be ticked.
 
 mod error;
+mod kind;
 
 pub use error::ImageError;
 

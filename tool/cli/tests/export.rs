@@ -12,6 +12,10 @@ mod pieces;
 #[rustfmt::skip]
 #[allow(clippy::unreadable_literal, clippy::wildcard_imports, unreachable_pub)]
 mod press_pieces;
+// As the command wrote it.
+#[rustfmt::skip]
+#[allow(clippy::unreadable_literal, clippy::wildcard_imports, unreachable_pub)]
+mod press_table;
 mod reader;
 mod refusals;
 

@@ -134,6 +134,7 @@ macro_rules! harmonic {
 
             const NAME: &'static str = "harmonic";
             const CODES: Option<[u8; 2]> = $codes;
+            const TERMS: bool = true;
             const SIZE: Size = Size::Harmonics;
             const CELLS: [u32; 2] = [0, MAX_HARMONICS];
             const WHOLE_FACTOR: bool = false;

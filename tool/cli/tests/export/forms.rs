@@ -1,6 +1,6 @@
 //! What an export is written as: image, source text, JSON, and the words on the terminal.
 
-use super::{KINDS, export, export_of, image, words_of};
+use super::{KINDS, export, export_of, image, press_table, words_of};
 use crate::support::skip::skip;
 use crate::support::{Folder, edited_press, press_file};
 
@@ -76,6 +76,36 @@ fn source_texts_hold_the_image() {
             assert!(text.contains(&format!("// in Rust: {call}\n")), "{text}");
         }
     }
+}
+
+/// The source text in Rust is compiled here; of another type it would not be.
+#[test]
+fn the_rust_file_is_a_program() {
+    let folder = Folder::new();
+    let out = folder.path("press_table.rs");
+    let more = [
+        "--torque-error",
+        "2 N m",
+        "--type",
+        "i32",
+        "--layout",
+        "spline16",
+        "--format",
+        "rust",
+    ];
+    export_of(&press_file(), &more, Some(&out)).ends(0);
+    let here = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/export/press_table.rs");
+    let [written, expected] =
+        [out.as_path(), here.as_ref()].map(|path| std::fs::read_to_string(path).unwrap());
+    assert_eq!(written, expected, "see CONTRIBUTING.md, Examples");
+    let model = press_table::model().unwrap();
+    assert_eq!(
+        model.table().words().len() * 4,
+        4 * (press_table::TABLE.len() - 25)
+    );
+    assert!(!jred::Image::is_of::<jred::Spline<jred::Q31>, 0>(
+        &press_table::TABLE
+    ));
 }
 
 /// A file of C is compiled as C and as C++, also where it is included twice; another one sees its names.

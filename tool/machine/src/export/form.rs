@@ -31,7 +31,7 @@ impl Export {
                 table.words.iter().flat_map(|w| w.to_le_bytes()).collect()
             }
             (Form::Image, None) => return None,
-            (Form::Rust, Some(table)) => self.source(&rust_table("TABLE", &table.words)),
+            (Form::Rust, Some(table)) => self.source(&self.rust_whole(table)),
             (Form::Rust, None) => self.source(&self.rust_pieces(tables)),
             (Form::C, Some(table)) => self.source(&self.c_table(table)),
             (Form::C, None) => self.source(&self.c_pieces(tables)),
@@ -47,6 +47,23 @@ impl Export {
         }
         text.push_str(code);
         text.into_bytes()
+    }
+
+    /// A table with the type of its model, which the compiler checks.
+    fn rust_whole(&self, table: &Made) -> String {
+        let arguments = rust_arguments(self.chosen());
+        format!(
+            "use jred::*;\n\n\
+             /// The machine.\n\
+             pub type TableModel = Model<'static, {arguments}>;\n\n\
+             // A table of another type or with other curves does not compile.\n\
+             const _: () = assert!(Image::is_of::<{arguments}>(&TABLE));\n\n\
+             /// Checks the table.\n\
+             pub fn model() -> Result<TableModel, ImageError> {{\n\
+             {INDENT}Image::new(&TABLE)?.model()\n\
+             }}\n\n{}",
+            rust_table("TABLE", &table.words)
+        )
     }
 
     /// A table for each piece, and a function that puts them together.
