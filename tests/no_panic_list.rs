@@ -34,7 +34,7 @@ fn implemented(header: &str) -> Vec<String> {
         return Vec::new();
     }
     let bare = name.split('<').next().unwrap_or(name);
-    vec![if parameters.is_empty() {
+    vec![if parameters.is_empty() && !name.ends_with("<'_>") {
         name.replace('<', "::<")
     } else {
         bare.to_owned()
