@@ -90,19 +90,26 @@ impl<'a> Axis<'a> {
     fn interrupt(&mut self, register: u16, [omega, alpha]: [f32; 2]) -> Found {
         let count = self.counter.extend(register.into());
         let tracked = self.tracker.update(ENCODER.phase_wide(count));
+        let speed = self.tick.omega(tracked).value;
         let reference = Motion {
             phase: tracked.phase,
             omega,
             alpha,
         };
+        // Where the machine will be when the torque acts; friction by the sign of the set-point.
+        let measured = Motion {
+            omega: speed,
+            ..reference
+        };
+        let later = self.lead.later(measured).value;
         let friction = self.ramp.at(omega);
         let needed = self
             .press
-            .at_reference(self.lead.later(reference), friction);
+            .at_measured(later.phase, later.omega, reference, friction);
         let motor = self.gearbox.motor(needed.torque, omega, alpha).value;
         Found {
             count,
-            speed: self.tick.omega(tracked).value,
+            speed,
             needed,
             motor: self.limits.limited(motor), // its `torque` goes to the current controller
         }

@@ -217,6 +217,7 @@ fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
     if let Ok(time) = time {
         let mut tracker = Tracker::new(black_box(0.9)).map(|tracker| Tracker::at(tracker, phase));
         if let Ok(tracker) = &mut tracker {
+            black_box(Tracker::update_stroke(tracker, phase));
             let tracked = Tracker::update(tracker, phase);
             motion.omega = Period::omega(&time, tracked).value;
             motion.alpha = Period::alpha(&time, tracked).value;
@@ -225,7 +226,7 @@ fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
         motion.phase = motion.phase + Period::moved(&time, omega);
         black_box((Period::gained(&time, alpha), Period::needed(&time, omega)));
         black_box(Period::between(&time, phase, omega, alpha));
-        motion = Period::later(&time, motion);
+        motion = Period::later(&time, motion).value;
     }
     let checked = FeedForward::at_reference(&feed_forward, motion, sliding);
     black_box(FeedForward::at_measured(

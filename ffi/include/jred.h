@@ -133,7 +133,7 @@ typedef struct {
  *
  * where number is float, int32_t or int16_t, as the format ends in f32, q31 or q15. The words must live and stay the same as long as
  * the model is ticked. A tick of
- * no model (a null pointer, one that was not loaded or whose loading failed) gives 0. An acceleration that does not fit is the nearest end of the range;
+ * no model (a null pointer, one that is zeroed and not loaded, or whose loading failed) gives 0. An acceleration that does not fit is the nearest end of the range;
  * press_acceleration_range says so of each.
  *
  * Formats: spline_f32, cubic_f32, quadratic_f32, spline_q31, cubic_q31, quadratic_q31, spline16_q31, rows_q15, harmonic_f32.

@@ -11,6 +11,9 @@ use crate::status::Status;
 /// Pointers that a `jred_memory` has room for, as `JRED_MEMORY_POINTERS` of `jred.h` says.
 pub(crate) const POINTERS: usize = 37;
 
+/// More than any image has: 65 535 cells of twenty words, and its header.
+const MOST_WORDS: usize = 1 << 21;
+
 /// Any set of curves: `JRED_ANY` of `jred.h`. No image has it.
 pub(crate) const ANY: Set = !0;
 
@@ -23,8 +26,10 @@ pub(crate) unsafe fn words<'a>(address: *const u32, length: usize) -> Result<&'a
         Err(Status::Null)
     } else if !address.is_aligned() {
         Err(Status::Misaligned)
+    } else if length > MOST_WORDS {
+        Err(Status::Length)
     } else {
-        // SAFETY: neither null nor misaligned, and the caller promises the rest.
+        // SAFETY: neither null nor misaligned nor longer than memory is, and the caller promises the rest.
         Ok(unsafe { slice::from_raw_parts(address, length) })
     }
 }

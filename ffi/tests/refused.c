@@ -49,6 +49,7 @@ int main(void) {
     EXPECT(press_load_words(&press, (const uint32_t *)(const void *)((const char *)press_words + 2), WORDS - 1), JRED_MISALIGNED);
     EXPECT(press_load_words(&press, press_words, 0), JRED_LENGTH);
     EXPECT(press_load_words(&press, press_words, WORDS - 1), JRED_LENGTH);
+    EXPECT(press_load_words(&press, press_words, (size_t)-1), JRED_LENGTH);
     EXPECT(damaged(0), JRED_NOT_AN_IMAGE);
     EXPECT(damaged(1), JRED_VERSION);
     EXPECT(damaged(40), JRED_CRC);

@@ -22,6 +22,14 @@ impl Status {
     pub const fn is_valid(self) -> bool {
         !(self.speed || self.acceleration)
     }
+
+    /// The same, or the speed of the set-point is beyond.
+    const fn or_beyond(self, beyond: bool) -> Self {
+        Self {
+            speed: self.speed || beyond,
+            acceleration: self.acceleration,
+        }
+    }
 }
 
 /// A torque on the drive link, and whether the table was made for its motion.
@@ -69,7 +77,7 @@ pub struct Checked<N> {
 ///
 /// // Every tick.
 /// let reference = Motion { phase: ENCODER.phase(1234), omega: 10.0, alpha: 50.0 };
-/// let needed = feed_forward.at_reference(lead.later(reference), Sliding::Against(reference.omega));
+/// let needed = feed_forward.at_reference(lead.later(reference).value, Sliding::Against(reference.omega));
 /// assert!(needed.status.is_valid());
 /// let motor = gearbox.motor(needed.torque, reference.omega, reference.alpha).value;
 /// let command = limits.limited(motor);
@@ -104,7 +112,7 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
         &self.model
     }
 
-    /// Whether the table was made for these: |ω| and |α| within its validity. Not so what is no number.
+    /// Whether the table was made for these: |ω| and |α| within its validity. NaN is not.
     #[inline]
     pub fn status(&self, omega: F::Number, alpha: F::Number) -> Status {
         Status {
@@ -113,7 +121,7 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
         }
     }
 
-    /// The torque for the reference, at the reference's phase and speed.
+    /// The torque for the reference, at the reference's phase and speed. The status is of the speed that `sliding` is against, too.
     #[inline]
     pub fn at_reference(
         &self,
@@ -127,7 +135,10 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
         } = reference;
         Checked {
             torque: self.model.torque_with(phase, omega, alpha, sliding),
-            status: self.status(omega, alpha),
+            status: self.status(omega, alpha).or_beyond(match sliding {
+                Sliding::Against(omega) => omega.exceeds(self.omega),
+                Sliding::Share(_) => false,
+            }),
         }
     }
 

@@ -21,8 +21,8 @@ pub struct Motion<N> {
 
 /// A period of time, such as that of the tick or a lead time, for motions in the machine units of one model.
 ///
-/// Fixed-point results that leave the number range are limited and flagged. Its factors have single precision: 2⁻²³ of a result, and in `Q15` a
-/// unit.
+/// Fixed-point results that leave the number range are limited and flagged. Its factors have single precision: 2⁻²³ of a result, and six units of
+/// 2⁻³¹, in `Q15` one of 2⁻¹⁵.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Period<N> {
@@ -34,6 +34,8 @@ pub struct Period<N> {
     /// Of accelerations to what a speed gains, and back.
     gained: Factor,
     needed: Factor,
+    /// Phases do not wrap.
+    stroke: bool,
     number: PhantomData<N>,
 }
 
@@ -67,10 +69,11 @@ impl<N: Number> Period<N> {
                 )?,
                 gained: Factor::new(gained)?,
                 needed: Factor::new(1.0 / gained)?,
+                stroke: matches!(domain, Domain::Stroke { .. }),
                 number: PhantomData,
             })
         };
-        let range = "of a length whose factors are normal numbers in single precision";
+        let range = "between a microsecond and a second, or so";
         all().ok_or(AxisError::OutOfRange {
             what: "the period",
             range,
@@ -89,7 +92,7 @@ impl<N: Number> Period<N> {
         N::of_count(tracked.acceleration, &self.acceleration)
     }
 
-    /// How far the drive link moves in the period at this speed: what to add to a phase. In fixed point to four units of 2⁻³² of the range.
+    /// How far the drive link moves in the period at this speed: what to add to a phase. In fixed point to six units of 2⁻³² of the range, and 2⁻²³ of the way.
     #[inline]
     pub fn moved(&self, omega: N) -> Phase {
         Phase::from_bits(omega.to_count(&self.moved).cast_unsigned())
@@ -107,36 +110,54 @@ impl<N: Number> Period<N> {
         gain.times(&self.needed)
     }
 
-    /// The motion a period later, if the acceleration stays: φ + ω·τ + ½·α·τ², ω + α·τ.
+    /// The motion a period later, if the acceleration stays: φ + ω·τ + ½·α·τ², ω + α·τ. On a stroke limited to its ends. Flagged, if the speed was limited.
     ///
-    /// With a lead time as the period it makes up for the dead time of a drive: the torque is that of the time when it acts.
+    /// With a lead time as the period it makes up for the dead time of a drive: the torque is that of the time when it acts. The drive link
+    /// must move less than half of its range in it.
     #[inline]
-    pub fn later(&self, motion: Motion<N>) -> Motion<N> {
-        let omega = motion.omega.plus(self.gained(motion.alpha).value).value;
-        let twice = self.moved(motion.omega) + self.moved(omega);
-        let half = twice.to_bits().cast_signed() >> 1;
-        Motion {
-            phase: motion.phase + Phase::from_bits(half.cast_unsigned()),
-            omega,
-            alpha: motion.alpha,
+    pub fn later(&self, motion: Motion<N>) -> Outcome<Motion<N>> {
+        let gained = self.gained(motion.alpha);
+        let omega = motion.omega.plus(gained.value);
+        let half = |omega: N| self.moved(omega).to_bits().cast_signed() >> 1;
+        let moved = half(motion.omega).wrapping_add(half(omega.value));
+        Outcome {
+            value: Motion {
+                phase: self.advanced(motion.phase, moved),
+                omega: omega.value,
+                alpha: motion.alpha,
+            },
+            saturated: gained.saturated || omega.saturated,
         }
     }
 
     /// The motion in the middle of the period, of the speeds at its beginning and at its end: its torque, constant for the period, takes the machine
-    /// from the one speed to the other.
+    /// from the one speed to the other. On a stroke limited to its ends. Flagged, if the acceleration was limited.
     ///
     /// For firmware whose reference is a speed each tick, without an acceleration. The speed that is reached errs by the third power of the
     /// period; with the acceleration at the beginning and the curves there, by the second (test `the_middle_of_a_tick_is_one_order_better`).
     #[inline]
-    pub fn between(&self, phase: Phase, from: N, to: N) -> Motion<N> {
-        let rising = to.minus(from);
-        let alpha = self.needed(rising.value).value;
+    pub fn between(&self, phase: Phase, from: N, to: N) -> Outcome<Motion<N>> {
+        let gain = to.minus(from);
+        let alpha = self.needed(gain.value);
         let quarter = |omega: N| self.moved(omega).to_bits().cast_signed() >> 2;
         let moved = quarter(from).wrapping_add(quarter(to));
-        Motion {
-            phase: phase + Phase::from_bits(moved.cast_unsigned()),
-            omega: from.mean(to),
-            alpha,
+        Outcome {
+            value: Motion {
+                phase: self.advanced(phase, moved),
+                omega: from.mean(to),
+                alpha: alpha.value,
+            },
+            saturated: gain.saturated || alpha.saturated,
         }
+    }
+
+    /// The phase so many units of 2⁻³² farther on.
+    #[inline]
+    fn advanced(&self, phase: Phase, by: i32) -> Phase {
+        Phase::from_bits(if self.stroke {
+            phase.to_bits().saturating_add_signed(by)
+        } else {
+            phase.to_bits().wrapping_add_signed(by)
+        })
     }
 }

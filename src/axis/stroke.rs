@@ -57,8 +57,8 @@ impl StrokeEncoder {
     /// Of an encoder mounted like this, on a drive link with this stroke.
     ///
     /// # Errors
-    /// [`AxisError::NotFinite`]; [`AxisError::OutOfRange`]: a stroke of less than 2 or more than 2³⁰ counts (a turn has no stroke), or a
-    /// home a million strokes away.
+    /// [`AxisError::NotFinite`]; [`AxisError::OutOfRange`]: a stroke of less than 16 or more than 2³⁰ counts (a turn has no stroke), or a
+    /// home 100,000 strokes away.
     pub fn new(domain: Domain, scaled: Scaled) -> Result<Self, AxisError> {
         let Scaled {
             resolution,
@@ -76,20 +76,20 @@ impl StrokeEncoder {
         }
         let step = resolution / span;
         let counts = 1.0 / math::abs(step);
-        let holds = (2.0..=1_073_741_824.0).contains(&counts);
+        let holds = (16.0..=1_073_741_824.0).contains(&counts);
         within(
             "the number of counts of the stroke",
             (),
             holds,
-            "from 2 to 1073741824",
+            "from 16 to 1073741824",
         )?;
         let at_home = (at_home - from) / span;
-        let holds = math::abs(at_home) <= 1e6;
+        let holds = math::abs(at_home) <= 1e5;
         within(
             "the position at home",
             (),
             holds,
-            "within a million strokes of the stroke",
+            "within 100000 strokes of the stroke",
         )?;
         let step = math::rint(step * STROKE * STROKE) as i64;
         let at_home = (at_home * STROKE * STROKE) as i128;
@@ -107,7 +107,7 @@ impl StrokeEncoder {
     pub const fn phase(&self, count: i32) -> Outcome<Phase> {
         let count = count as i64;
         let lower = (count * (self.step as u32 as i64) + self.rest as i64) >> 32;
-        // |count·step| ≤ 2³¹·2⁶³, and the start is less: no sum overflows.
+        // |count·step| ≤ 2³¹·2⁶⁰, so that each of the terms is less than 2⁶⁰.
         let phase = count * (self.step >> 32) + lower + self.start;
         let end = 1 << 32;
         let value = if phase < 0 {

@@ -16,7 +16,8 @@ use crate::Phase;
 /// ```
 ///
 /// Its three poles are at θ: critically damped. It follows a constant acceleration without a lag; a step of the acceleration is followed
-/// to 1 % after about 8.4/(1 − θ) periods. The quantisation of the encoder, δ a count, leaves a standard deviation of
+/// to 1 % after about 8.4/(1 − θ) periods. Where many counts pass in a period, the quantisation of the encoder, δ a count,
+/// leaves a standard deviation of the speed at the end of the period and of the acceleration of
 ///
 /// ```text
 /// σ_ω = δ/T·√((1 − θ)³·(49 + 50·θ + 13·θ²)/(24·(1 + θ)⁵))
@@ -27,7 +28,7 @@ use crate::Phase;
 ///
 /// Integers of 64 bits throughout: the same bits on every processor, no error that grows with the number of turns. Over a turn phases wrap; the
 /// drive link must turn less than half a turn a period, and the residual must stay less than half a turn: from rest a speed of less than
-/// 1.3·(1 − θ) and an acceleration of less than 1.8·(1 − θ)² turns a period (squared).
+/// 1.3·(1 − θ) and an acceleration of less than 1.6·(1 − θ)² turns a period (squared).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Tracker {
@@ -52,13 +53,13 @@ pub struct Tracked {
 }
 
 impl Tracker {
-    /// A filter with the memory θ, 0 to 0.999: 0 differentiates three phases without smoothing, 0.9 averages over some ten.
+    /// A filter with the memory θ, 0 to 0.99: 0 differentiates three phases without smoothing, 0.9 averages over some ten.
     ///
     /// # Errors
-    /// [`AxisError::OutOfRange`]: θ outside 0 to 0.999.
+    /// [`AxisError::OutOfRange`]: θ outside 0 to 0.99.
     pub fn new(memory: f32) -> Result<Self, AxisError> {
-        let holds = (0.0..=0.999).contains(&memory);
-        within("the memory of the filter", (), holds, "from 0 to 0.999")?;
+        let holds = (0.0..=0.99).contains(&memory);
+        within("the memory of the filter", (), holds, "from 0 to 0.99")?;
         let rest = 1.0 - memory;
         let gains = [
             1.0 - memory * memory * memory,
@@ -78,7 +79,7 @@ impl Tracker {
     /// 2π·bandwidth·period), as a first-order lag is usually programmed.
     ///
     /// # Errors
-    /// A number that is not positive and finite, or a memory outside 0 to 0.999.
+    /// A number that is not positive and finite, or a memory outside 0 to 0.99.
     pub fn with_bandwidth(bandwidth: f32, period: f32) -> Result<Self, AxisError> {
         positive("the bandwidth of the filter", bandwidth)?;
         positive("the period of the tick", period)?;
@@ -96,23 +97,55 @@ impl Tracker {
         }
     }
 
-    /// One period later, with the phase that the encoder gives now.
+    /// One period later, with the phase that the encoder gives now: of a turn.
     #[inline]
     pub const fn update(&mut self, measured: Phase) -> Tracked {
-        let speed = self.speed.wrapping_add(self.acceleration);
         let phase = self
             .phase
             .wrapping_add(self.speed)
             .wrapping_add(self.acceleration >> 1);
         // The shorter way round.
-        let residual = measured.to_bits().wrapping_sub((phase >> 32) as u32) as i32 as i64;
+        let residual = measured.to_bits().wrapping_sub((phase >> 32) as u32) as i32;
+        self.phase = phase.wrapping_add(self.correct(residual));
+        self.tracked()
+    }
+
+    /// As [`update`](Self::update), of a stroke: at its ends phases do not wrap, but stay.
+    #[inline]
+    pub const fn update_stroke(&mut self, measured: Phase) -> Tracked {
+        let phase = (self.phase as u64)
+            .saturating_add_signed(self.speed)
+            .saturating_add_signed(self.acceleration >> 1);
+        let residual = measured.to_bits() as i64 - (phase >> 32) as i64;
+        // Half of the stroke is as wrong as any more.
+        let residual = if residual > i32::MAX as i64 {
+            i32::MAX
+        } else if residual < i32::MIN as i64 {
+            i32::MIN
+        } else {
+            residual as i32
+        };
+        self.phase = phase.saturating_add_signed(self.correct(residual)) as i64;
+        self.tracked()
+    }
+
+    /// Takes a residual into speed and acceleration, and returns what the phase takes of it.
+    #[inline]
+    const fn correct(&mut self, residual: i32) -> i64 {
+        let residual = residual as i64;
         let [of_phase, of_speed, of_acceleration] = self.gains;
         // A residual has 31 bits, a gain 32 in units of 2⁻³¹: no product overflows.
-        self.phase = phase.wrapping_add((residual * of_phase as i64) << 1);
-        self.speed = speed.wrapping_add((residual * of_speed as i64) << 1);
+        let gained = self
+            .acceleration
+            .wrapping_add((residual * of_speed as i64) << 1);
+        self.speed = self.speed.wrapping_add(gained);
         self.acceleration = self
             .acceleration
             .wrapping_add((residual * of_acceleration as i64) << 1);
+        (residual * of_phase as i64) << 1
+    }
+
+    const fn tracked(&self) -> Tracked {
         let wide = self.acceleration >> 24;
         let upper = (wide >> 32) as i32;
         Tracked {

@@ -17,7 +17,7 @@ pub struct Factor {
 const ONE: f32 = 2_147_483_648.0;
 
 impl Factor {
-    /// Of a number: result = ratio·number. `None` if the ratio or its inverse is no positive, normal number.
+    /// Of a number: result = ratio·number. `None` if the ratio is more than 2³⁰, or it or its inverse is no positive, normal number.
     pub(crate) fn new(ratio: f32) -> Option<Self> {
         Self::of(ratio, ratio)
     }
@@ -43,10 +43,10 @@ impl Factor {
             shifted *= 2.0;
             shift += 1;
         }
-        Some(Self {
+        // A result for every argument but 0 would be beyond the range.
+        (shifted > 0.5).then(|| Self {
             float,
             shift,
-            // Saturates where the least argument is more than 1.
             mantissa: (0.25 / shifted * 2.0 * ONE) as i32,
         })
     }

@@ -100,7 +100,7 @@ pub trait Number:
     #[doc(hidden)]
     #[must_use]
     fn mean(self, other: Self) -> Self;
-    /// Limited to −1 … 1.
+    /// Limited to −1 … 1; 0 for what is no number.
     #[doc(hidden)]
     #[must_use]
     fn to_unit(self) -> Self;
@@ -192,7 +192,7 @@ macro_rules! float {
             }
             #[inline(always)]
             fn to_unit(self) -> Self {
-                self.max(-1.0).min(1.0)
+                self.within([-1.0, 1.0])
             }
             #[inline(always)]
             fn exceeds(self, limit: Self) -> bool {

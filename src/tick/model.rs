@@ -212,8 +212,8 @@ macro_rules! dynamics {
                 F::torque(&$any.table, &$any.tick, $curves, phase, [omega, alpha], sliding)
             }
 
-            /// The terms of [`torque_with`](Self::torque_with), each for itself: their sum is the torque but for their roundings, each of a unit of
-            /// the number.
+            /// The terms of [`torque_with`](Self::torque_with), each for itself. Their sum is the torque but for their roundings, each of
+            /// four units in `Q31` and of one in `Q15`.
             pub fn contributions(
                 &self,
                 phase: Phase,

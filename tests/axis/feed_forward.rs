@@ -256,7 +256,7 @@ fn the_middle_of_a_tick_is_one_order_better() {
                 let to = from + alpha * time;
                 let period =
                     Period::<f64>::new(time as f32, Domain::<f64>::Turn, &Scale::SI).unwrap();
-                let middle = period.between(phase, from, to);
+                let middle = period.between(phase, from, to).value;
                 let torque = |m: Motion<f64>| model.torque(m.phase, m.omega, m.alpha);
                 let start = Motion {
                     phase,
@@ -305,7 +305,8 @@ fn a_lead_time_is_made_up_for() {
         };
         let after = Period::<f64>::new(lead as f32, turn, &Scale::SI)
             .unwrap()
-            .later(start);
+            .later(start)
+            .value;
         check("f64", after.phase, after.omega, 1e-6);
         let [w, a] = si::<Q31>(&scale, [omega, alpha]);
         let start = Motion {
@@ -315,7 +316,8 @@ fn a_lead_time_is_made_up_for() {
         };
         let after = Period::<Q31>::new(lead as f32, turn, &scale)
             .unwrap()
-            .later(start);
+            .later(start)
+            .value;
         check("q31", after.phase, after.omega.to_f64() * 10.0, 1e-5);
         let [w, a] = si::<Q15>(&scale, [omega, alpha]);
         let start = Motion {
@@ -325,7 +327,8 @@ fn a_lead_time_is_made_up_for() {
         };
         let after = Period::<Q15>::new(lead as f32, turn, &scale)
             .unwrap()
-            .later(start);
+            .later(start)
+            .value;
         check("q15", after.phase, after.omega.to_f64() * 10.0, 2e-3);
     }
 }
@@ -364,6 +367,35 @@ fn a_gearbox_loses_on_the_side_that_is_driven() {
             1e-4,
         );
     }
+    // At rest the motor drives, whatever the torque's sign.
+    for torque in [50.0, -50.0] {
+        assert_near(
+            "at rest",
+            single.motor(torque, 0.0, 0.0).value,
+            torque / (8.0 * 0.9),
+            1e-5,
+        );
+    }
+    // The gearbox alone, the rotor alone, and their sum leave the range.
+    let half = Q31::from_f64(0.6).unwrap();
+    let light = Transmission::new::<Q31>(
+        Gearbox {
+            rotor: 0.0,
+            ..gearbox
+        },
+        &scale,
+    )
+    .unwrap();
+    assert!(!light.motor(half, half, half).saturated);
+    let heavy = Transmission::new::<Q31>(
+        Gearbox {
+            rotor: 10.0,
+            ..gearbox
+        },
+        &scale,
+    )
+    .unwrap();
+    assert!(heavy.motor(Q31::default(), half, half).saturated);
     let full = fixed.motor(Q31::MAX, Q31::MAX, Q31::MAX);
     assert!(full.saturated && full.value == Q31::MAX);
 }
@@ -435,5 +467,123 @@ fn limits_take_away_and_say_so() {
     }
     for width in [0.0, -1.0, f32::NAN, 1e-7] {
         assert!(Ramp::new(width, &Scale::SI).is_err(), "{width}");
+    }
+}
+
+#[test]
+fn the_measured_state_is_where_the_curves_are_read() {
+    const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+    with_model::<Cubic<f64>, SET>(Scale::SI, |model| {
+        let feed_forward = FeedForward::new(model, VALIDITY);
+        let (at, speed) = (2.0, 6.0);
+        let reference = Motion {
+            phase: Phase::from_radians(0.5),
+            omega: -3.0,
+            alpha: 20.0,
+        };
+        let sliding = Sliding::Against(reference.omega);
+        let found = feed_forward.at_measured(Phase::from_radians(at), speed, reference, sliding);
+        let (sin, cos) = f64::sin_cos(at);
+        let expected =
+            (1.0 + 0.25 * cos) * 20.0 - 0.125 * sin * speed * speed - 3.0 * sin + 0.1 * speed - 0.5;
+        assert_near("at the measured state", found.torque, expected, 1e-5);
+        assert!(found.status.is_valid());
+        let (sin, cos) = f64::sin_cos(0.5);
+        let expected = (1.0 + 0.25 * cos) * 20.0 - 0.125 * sin * 9.0 - 3.0 * sin - 0.3 - 0.5;
+        assert_near(
+            "at the reference",
+            feed_forward.at_reference(reference, sliding).torque,
+            expected,
+            1e-5,
+        );
+        // The measured speed is judged, and a set-point that is no number.
+        assert!(
+            feed_forward
+                .at_measured(reference.phase, 11.0, reference, sliding)
+                .status
+                .speed
+        );
+        let none = Sliding::Against(f64::NAN);
+        assert!(
+            feed_forward
+                .at_measured(reference.phase, 1.0, reference, none)
+                .status
+                .speed
+        );
+        let ramp = Ramp::new(0.2, &Scale::SI).unwrap();
+        assert_eq!(ramp.at(f64::NAN), Sliding::Share(0.0));
+    });
+}
+
+#[test]
+fn a_limited_motion_is_flagged_and_a_stroke_ends() {
+    let scale = scale_of(10.0, 30.0, 1.0);
+    let turn = Domain::<f64>::Turn;
+    let time = Period::<Q31>::new(0.001, turn, &scale).unwrap();
+    let fast = Q31::from_f64(0.8).unwrap();
+    assert!(
+        time.between(Phase::default(), Q31::default(), fast)
+            .saturated
+    );
+    assert!(!time.between(Phase::default(), fast, fast).saturated);
+    let long = Period::<Q31>::new(0.05, turn, &scale_of(1000.0, 30.0, 1.0)).unwrap();
+    let start = Motion {
+        phase: Phase::default(),
+        omega: fast,
+        alpha: Q31::MAX,
+    };
+    assert!(long.later(start).saturated);
+    assert!(
+        !long
+            .later(Motion {
+                alpha: Q31::default(),
+                ..start
+            })
+            .saturated
+    );
+    // A quarter of a turn a period at the speed base is the most.
+    assert!(Period::<Q31>::new(0.25 * TAU as f32 / 30.0 * 1.01, turn, &scale).is_err());
+    assert!(Period::<Q31>::new(0.25 * TAU as f32 / 30.0 * 0.99, turn, &scale).is_ok());
+    // Up to half a turn, in floating point too.
+    let lead = Period::<f64>::new(0.006, turn, &Scale::SI).unwrap();
+    let ahead = lead.later(Motion {
+        phase: Phase::default(),
+        omega: 100.0 * core::f64::consts::PI / 4.0,
+        alpha: 0.0,
+    });
+    assert_near(
+        "turns",
+        f64::from(ahead.value.phase.to_bits()) / 4_294_967_296.0,
+        0.075,
+        1e-6,
+    );
+    let ahead = lead.later(Motion {
+        phase: Phase::default(),
+        omega: 450.0,
+        alpha: 0.0,
+    });
+    assert_near(
+        "turns",
+        f64::from(ahead.value.phase.to_bits()) / 4_294_967_296.0,
+        450.0 * 0.006 / TAU,
+        1e-6,
+    );
+
+    let stroke = Domain::stroke(0.0, 0.5).unwrap();
+    let time = Period::<f64>::new(0.01, stroke, &Scale::SI).unwrap();
+    for (phase, omega, end) in [(0xffff_0000, 1.0, u32::MAX), (0x0001_0000, -1.0, 0)] {
+        let start = Motion {
+            phase: Phase::from_bits(phase),
+            omega,
+            alpha: 0.0,
+        };
+        assert_eq!(time.later(start).value.phase.to_bits(), end);
+        assert_eq!(
+            time.between(start.phase, omega, omega)
+                .value
+                .phase
+                .to_bits(),
+            end
+        );
     }
 }

@@ -141,6 +141,12 @@ fn rates_give_the_motion_in_every_number() {
     check("q15", found::<Q15>(period, tracked, scale), 1.0 / 32_768.0);
 
     // Beyond the machine units: limited and flagged, both ways.
+    let short = Period::<Q15>::new(period, Domain::<f64>::Turn, &scale).unwrap();
+    let fast = Tracked {
+        speed: 2 * tracked.speed,
+        ..tracked
+    };
+    assert!(short.omega(fast).saturated && short.omega(fast).value == Q15::MAX);
     let rates = Period::<Q31>::new(period, Domain::<f64>::Turn, &scale).unwrap();
     for sign in [1, -1] {
         let fast = Tracked {
@@ -157,7 +163,7 @@ fn rates_give_the_motion_in_every_number() {
 
 #[test]
 fn filters_that_cannot_be_are_refused() {
-    for memory in [f32::NAN, -0.1, 0.9995, 1.0] {
+    for memory in [f32::NAN, -0.1, 0.991, 1.0] {
         assert!(Tracker::new(memory).is_err(), "{memory}");
     }
     for (bandwidth, period) in [
@@ -183,4 +189,37 @@ fn filters_that_cannot_be_are_refused() {
             "{period}"
         );
     }
+}
+
+/// A filter overshoots; at the end of a stroke it stays there.
+#[test]
+fn a_stroke_does_not_wrap() {
+    for memory in [0.0, 0.8, 0.95] {
+        let turns = |k: f64| 0.5 - 0.5 * (k * TAU / 400.0).cos();
+        let mut tracker = Tracker::new(memory).unwrap();
+        // What a change of the acceleration leaves.
+        let lag = 0.5 * (TAU / 400.0 / (1.0 - f64::from(memory))).powi(3);
+        for k in 1..=2000 {
+            let turn = turns(k.into());
+            let measured = Phase::from_bits((turn * 4_294_967_295.0) as u32);
+            let tracked = tracker.update_stroke(measured);
+            let off = f64::from(tracked.phase.to_bits()) * UNIT - turn;
+            assert!(off.abs() < 0.02 + lag, "{memory} at {k}: {off}");
+        }
+    }
+}
+
+#[test]
+fn an_acceleration_beyond_its_range_is_limited() {
+    let mut tracker = Tracker::new(0.0).unwrap();
+    tracker.update(Phase::default());
+    assert_eq!(
+        tracker.update(Phase::from_bits(1 << 30)).acceleration,
+        i32::MAX
+    );
+    let mut tracker = Tracker::new(0.0).unwrap();
+    assert_eq!(
+        tracker.update(Phase::from_bits(3 << 30)).acceleration,
+        i32::MIN
+    );
 }

@@ -270,7 +270,7 @@ mod command {
     #[unsafe(no_mangle)]
     #[inline(never)]
     fn period_later(lead: &Period<f32>, motion: Motion<f32>) -> Motion<f32> {
-        lead.later(motion)
+        lead.later(motion).value
     }
 
     #[unsafe(no_mangle)]
