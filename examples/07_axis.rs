@@ -47,6 +47,8 @@ const GEARBOX: Gearbox = Gearbox {
 const TICK: f32 = 0.000_5;
 const LEAD: f32 = 0.000_2;
 const TICKS: u16 = 1000;
+/// What the encoder shows when the program starts.
+const START: i64 = 1234;
 
 /// What the interrupt of the drive works with.
 struct Axis<'a> {
@@ -74,8 +76,11 @@ impl<'a> Axis<'a> {
         let (domain, scale) = (image.domain(), image.scale());
         let wrong = |_| "a figure of the axis is wrong";
         Ok(Self {
-            counter: Counter::at(1234),
-            tracker: Tracker::with_bandwidth(60.0, TICK).map_err(wrong)?,
+            counter: Counter::at(START),
+            // From where the machine is: elsewhere the filter would start with a jump.
+            tracker: Tracker::with_bandwidth(60.0, TICK)
+                .map_err(wrong)?
+                .at(ENCODER.phase_wide(START)),
             tick: Period::new(TICK, domain, scale).map_err(wrong)?,
             lead: Period::new(LEAD, domain, scale).map_err(wrong)?,
             ramp: Ramp::new(0.05, scale).map_err(wrong)?,

@@ -6,6 +6,9 @@ use crate::curve::{Format, Set};
 use crate::number::{Factor, Number, Sliding};
 use crate::{Model, Phase, Scale, Validity};
 
+/// Of the validity.
+const MARGIN: f32 = 1.01;
+
 /// What is wrong with a motion: nothing, or the speed, the acceleration, or both are beyond what the table was made for, or no numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -93,12 +96,13 @@ pub struct FeedForward<'a, F: Format, const SET: Set> {
 }
 
 impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
-    /// With a model and what its table was made for ([`Image::validity`](crate::Image::validity)).
+    /// With a model and what its table was made for ([`Image::validity`](crate::Image::validity)), and a hundredth more: so that the motion that a table was
+    /// made for is valid when it is measured, too. The error of the torque grows by a fiftieth at most there.
     #[must_use]
     pub fn new(model: Model<'a, F, SET>, validity: Validity) -> Self {
         let scale = model.table().scale();
-        let omega = scale.omega(validity.omega).value;
-        let alpha = scale.alpha(validity.alpha).value;
+        let omega = scale.omega(validity.omega * MARGIN).value;
+        let alpha = scale.alpha(validity.alpha * MARGIN).value;
         Self {
             model,
             omega,

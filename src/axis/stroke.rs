@@ -3,6 +3,7 @@
 use super::AxisError;
 use super::error::within;
 use crate::math;
+use crate::number::Real;
 use crate::{Domain, Outcome, Phase};
 
 /// A scale or encoder along a stroke, and how it is mounted.
@@ -59,13 +60,13 @@ impl StrokeEncoder {
     /// # Errors
     /// [`AxisError::NotFinite`]; [`AxisError::OutOfRange`]: a stroke of less than 16 or more than 2³⁰ counts (a turn has no stroke), or a
     /// home 100,000 strokes away.
-    pub fn new(domain: Domain, scaled: Scaled) -> Result<Self, AxisError> {
+    pub fn new<R: Real>(domain: Domain<R>, scaled: Scaled) -> Result<Self, AxisError> {
         let Scaled {
             resolution,
             home,
             at_home,
         } = scaled;
-        let (from, span) = match domain {
+        let (from, span) = match domain.to::<f64>() {
             Domain::Turn => (0.0, 0.0),
             Domain::Stroke { from, to } => (from, to - from),
         };
@@ -74,7 +75,8 @@ impl StrokeEncoder {
                 "the encoder's resolution, or the position at home,",
             ));
         }
-        let step = resolution / span;
+        // A stroke from its upper to its lower end is none.
+        let step = resolution / span.max(0.0);
         let counts = 1.0 / math::abs(step);
         let holds = (16.0..=1_073_741_824.0).contains(&counts);
         within(

@@ -171,6 +171,11 @@ fn an_encoder_that_cannot_be_is_refused() {
     };
     for (domain, scaled, says) in [
         (
+            Domain::Stroke { from: 0.6, to: 0.1 },
+            good,
+            "the number of counts of the stroke must be from 16",
+        ),
+        (
             Domain::Turn,
             good,
             "the number of counts of the stroke must be from 16 to 1073741824",

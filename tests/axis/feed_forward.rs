@@ -189,8 +189,9 @@ fn a_motion_beyond_the_table_is_flagged() {
         &[
             (0.0, 0.0, false, false),
             (4.0, -40.0, false, false),
-            (4.000_001, 40.0, true, false),
-            (-4.0, 40.001, false, true),
+            (4.039, -40.39, false, false),
+            (4.041, 40.0, true, false),
+            (-4.0, 40.41, false, true),
             (-40.0, -400.0, true, true),
             (nan, 0.0, true, false),
             (-0.0, -nan, false, true),

@@ -8,12 +8,14 @@
 use jred::*;
 
 /// The machine.
+#[allow(dead_code)]
 pub type TableModel = Model<'static, Spline16, { curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS }>;
 
 // A table of another type or with other curves does not compile.
 const _: () = assert!(Image::is_of::<Spline16, { curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS }>(&TABLE));
 
 /// Checks the table.
+#[allow(dead_code)]
 pub fn model() -> Result<TableModel, ImageError> {
     Image::new(&TABLE)?.model()
 }

@@ -55,10 +55,12 @@ impl Export {
         format!(
             "use jred::*;\n\n\
              /// The machine.\n\
+             #[allow(dead_code)]\n\
              pub type TableModel = Model<'static, {arguments}>;\n\n\
              // A table of another type or with other curves does not compile.\n\
              const _: () = assert!(Image::is_of::<{arguments}>(&TABLE));\n\n\
              /// Checks the table.\n\
+             #[allow(dead_code)]\n\
              pub fn model() -> Result<TableModel, ImageError> {{\n\
              {INDENT}Image::new(&TABLE)?.model()\n\
              }}\n\n{}",
