@@ -1,0 +1,195 @@
+use core::f64::consts::TAU;
+
+use jred::axis::{Motion, Period};
+use jred::number::Number;
+use jred::{Cubic, Domain, Phase, Q15, Q31, Reducible, Scale, Set, curves};
+
+use super::machine::{WAVE, si, with_model};
+use crate::support::{assert_near, samples, scale_of};
+
+/// Runge-Kutta steps of the exact machine under a constant torque: angle and speed after `time`.
+fn driven(torque: f64, [phi, omega]: [f64; 2], time: f64) -> [f64; 2] {
+    let alpha = |[phi, omega]: [f64; 2]| WAVE.reduction(phi).unwrap().acceleration(omega, torque);
+    let steps = 64;
+    let h = time / f64::from(steps);
+    let mut at = [phi, omega];
+    for _ in 0..steps {
+        let step = |by: [f64; 2], h: f64| [at[0] + h * by[0], at[1] + h * by[1]];
+        let k1 = [at[1], alpha(at)];
+        let p2 = step(k1, h / 2.0);
+        let k2 = [p2[1], alpha(p2)];
+        let p3 = step(k2, h / 2.0);
+        let k3 = [p3[1], alpha(p3)];
+        let p4 = step(k3, h);
+        let k4 = [p4[1], alpha(p4)];
+        for j in 0..2 {
+            at[j] += h / 6.0 * (k1[j] + 2.0 * (k2[j] + k3[j]) + k4[j]);
+        }
+    }
+    at
+}
+
+#[test]
+fn the_middle_of_a_tick_is_one_order_better() {
+    const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+    with_model::<Cubic<f64>, SET>(Scale::SI, |model| {
+        for (bits, from, alpha) in samples(
+            40,
+            0xff02,
+            &(proptest::num::u32::ANY, 2.0..8.0, -60.0..60.0),
+        ) {
+            let phase = Phase::from_bits(bits);
+            let phi = f64::from(bits) / 4_294_967_296.0 * TAU;
+            let missed = |time: f64| {
+                let to = from + alpha * time;
+                let period =
+                    Period::<f64>::new(time as f32, Domain::<f64>::Turn, &Scale::SI).unwrap();
+                let middle = period.between(phase, from, to).value;
+                let torque = |m: Motion<f64>| model.torque(m.phase, m.omega, m.alpha);
+                let start = Motion {
+                    phase,
+                    omega: from,
+                    alpha,
+                };
+                [middle, start].map(|motion| driven(torque(motion), [phi, from], time)[1] - to)
+            };
+            let [coarse, fine] = [missed(0.02), missed(0.01)];
+            // Order two of the start: a quarter. Order three of the middle: an eighth, where it is not zero by chance.
+            assert!(
+                coarse[0].abs() < 0.2 * coarse[1].abs() + 2e-4,
+                "{phi}: {coarse:?}"
+            );
+            assert!(
+                fine[0].abs() < 0.16 * coarse[0].abs() + 2e-6,
+                "{phi}: {coarse:?} {fine:?}"
+            );
+        }
+    });
+}
+
+#[test]
+fn a_lead_time_is_made_up_for() {
+    let turn = Domain::<f64>::Turn;
+    let scale = scale_of(150.0, 10.0, 1.5);
+    for (omega, alpha, lead) in [
+        (3.0, -40.0, 0.002),
+        (-7.0, 80.0, 0.001),
+        (0.0, 90.0, 0.01),
+        (5.0, 0.0, 0.000_1),
+    ] {
+        let [moved, later] = [
+            omega * lead + 0.5 * alpha * lead * lead,
+            omega + alpha * lead,
+        ];
+        let check = |name: &str, phase: Phase, found: f64, error: f64| {
+            let turned = f64::from(phase.to_bits().cast_signed()) / 4_294_967_296.0 * TAU;
+            assert_near(&format!("{name} angle"), turned, moved, error * lead + 1e-8);
+            assert_near(&format!("{name} speed"), found, later, error);
+        };
+        let start = Motion {
+            phase: Phase::default(),
+            omega,
+            alpha,
+        };
+        let after = Period::<f64>::new(lead as f32, turn, &Scale::SI)
+            .unwrap()
+            .later(start)
+            .value;
+        check("f64", after.phase, after.omega, 1e-6);
+        let [w, a] = si::<Q31>(&scale, [omega, alpha]);
+        let start = Motion {
+            phase: Phase::default(),
+            omega: w,
+            alpha: a,
+        };
+        let after = Period::<Q31>::new(lead as f32, turn, &scale)
+            .unwrap()
+            .later(start)
+            .value;
+        check("q31", after.phase, after.omega.to_f64() * 10.0, 1e-5);
+        let [w, a] = si::<Q15>(&scale, [omega, alpha]);
+        let start = Motion {
+            phase: Phase::default(),
+            omega: w,
+            alpha: a,
+        };
+        let after = Period::<Q15>::new(lead as f32, turn, &scale)
+            .unwrap()
+            .later(start)
+            .value;
+        check("q15", after.phase, after.omega.to_f64() * 10.0, 2e-3);
+    }
+}
+
+#[test]
+fn a_limited_motion_is_flagged_and_a_stroke_ends() {
+    let scale = scale_of(10.0, 30.0, 1.0);
+    let turn = Domain::<f64>::Turn;
+    let time = Period::<Q31>::new(0.001, turn, &scale).unwrap();
+    let fast = Q31::from_f64(0.8).unwrap();
+    assert!(
+        time.between(Phase::default(), Q31::default(), fast)
+            .saturated
+    );
+    assert!(!time.between(Phase::default(), fast, fast).saturated);
+    let long = Period::<Q31>::new(0.05, turn, &scale_of(1000.0, 30.0, 1.0)).unwrap();
+    let start = Motion {
+        phase: Phase::default(),
+        omega: fast,
+        alpha: Q31::MAX,
+    };
+    assert!(long.later(start).saturated);
+    assert!(
+        !long
+            .later(Motion {
+                alpha: Q31::default(),
+                ..start
+            })
+            .saturated
+    );
+    // A quarter of a turn a period at the speed base is the most.
+    assert!(Period::<Q31>::new(0.25 * TAU as f32 / 30.0 * 1.01, turn, &scale).is_err());
+    assert!(Period::<Q31>::new(0.25 * TAU as f32 / 30.0 * 0.99, turn, &scale).is_ok());
+    // Up to half a turn, in floating point too.
+    let lead = Period::<f64>::new(0.006, turn, &Scale::SI).unwrap();
+    let ahead = lead.later(Motion {
+        phase: Phase::default(),
+        omega: 100.0 * core::f64::consts::PI / 4.0,
+        alpha: 0.0,
+    });
+    assert_near(
+        "turns",
+        f64::from(ahead.value.phase.to_bits()) / 4_294_967_296.0,
+        0.075,
+        1e-6,
+    );
+    let ahead = lead.later(Motion {
+        phase: Phase::default(),
+        omega: 450.0,
+        alpha: 0.0,
+    });
+    assert_near(
+        "turns",
+        f64::from(ahead.value.phase.to_bits()) / 4_294_967_296.0,
+        450.0 * 0.006 / TAU,
+        1e-6,
+    );
+
+    let stroke = Domain::stroke(0.0, 0.5).unwrap();
+    let time = Period::<f64>::new(0.01, stroke, &Scale::SI).unwrap();
+    for (phase, omega, end) in [(0xffff_0000, 1.0, u32::MAX), (0x0001_0000, -1.0, 0)] {
+        let start = Motion {
+            phase: Phase::from_bits(phase),
+            omega,
+            alpha: 0.0,
+        };
+        assert_eq!(time.later(start).value.phase.to_bits(), end);
+        assert_eq!(
+            time.between(start.phase, omega, omega)
+                .value
+                .phase
+                .to_bits(),
+            end
+        );
+    }
+}
