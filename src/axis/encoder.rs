@@ -125,12 +125,6 @@ impl Encoder {
         }
         // To the nearest unit of 2⁻⁹⁶: link < 2³².
         let step = ((link << 96) + per.get() / 2) / per.get();
-        let step = match counting {
-            Counting::Up => step,
-            Counting::Down => (1 << 96) - step,
-        };
-        let nearest = (step + (1 << 31)) >> 32;
-        let rest = (step as i128 - ((nearest as i128) << 32)) as i32;
         // The phase of home alone, exact: (home mod per)·link mod per, as a part of per.
         let below = home.unsigned_abs() as u128 % per.get();
         let within = if home < 0 && below > 0 {
@@ -141,11 +135,13 @@ impl Encoder {
         let within = within * link % per.get();
         // within < per < 2⁶⁴, so that the quotient has 64 bits.
         let home = (within << 64) / per.get();
-        let step = nearest as u64;
-        let home = match counting {
-            Counting::Up => (home as u64).wrapping_neg(),
-            Counting::Down => home as u64,
+        let (step, home) = match counting {
+            Counting::Up => (step, (home as u64).wrapping_neg()),
+            Counting::Down => ((1 << 96) - step, home as u64),
         };
+        let nearest = (step + (1 << 31)) >> 32;
+        let rest = (step as i128 - ((nearest as i128) << 32)) as i32;
+        let step = nearest as u64;
         let start = home.wrapping_add(HALF);
         Ok(Self {
             step,

@@ -57,15 +57,14 @@ pub(super) fn positive(what: &'static str, value: f32) -> Result<f32, AxisError>
     }
 }
 
-/// `value` if `holds`, which a number that is none does not.
-pub(super) fn within<R>(
+/// An error unless `holds`, which of NaN no comparison does.
+pub(super) fn within(
     what: &'static str,
-    value: R,
     holds: bool,
     range: &'static str,
-) -> Result<R, AxisError> {
+) -> Result<(), AxisError> {
     if holds {
-        Ok(value)
+        Ok(())
     } else {
         Err(AxisError::OutOfRange { what, range })
     }

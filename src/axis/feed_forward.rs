@@ -214,13 +214,8 @@ impl<N: Number> TorqueLimits<N> {
     /// Limits that do not contain 0, or are no numbers.
     pub fn new(least: N, greatest: N) -> Result<Self, AxisError> {
         let rest = N::default();
-        within("the least torque", (), least <= rest, "zero or negative")?;
-        within(
-            "the greatest torque",
-            (),
-            greatest >= rest,
-            "zero or positive",
-        )?;
+        within("the least torque", least <= rest, "zero or negative")?;
+        within("the greatest torque", greatest >= rest, "zero or positive")?;
         Ok(Self {
             limits: [least, greatest],
         })

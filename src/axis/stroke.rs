@@ -81,7 +81,6 @@ impl StrokeEncoder {
         let holds = (16.0..=1_073_741_824.0).contains(&counts);
         within(
             "the number of counts of the stroke",
-            (),
             holds,
             "from 16 to 1073741824",
         )?;
@@ -89,7 +88,6 @@ impl StrokeEncoder {
         let holds = math::abs(at_home) <= 1e5;
         within(
             "the position at home",
-            (),
             holds,
             "within 100000 strokes of the stroke",
         )?;

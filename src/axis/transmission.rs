@@ -49,10 +49,9 @@ impl Transmission {
         } = gearbox;
         positive("the ratio of the gearbox", ratio)?;
         let holds = (0.01..=1.0).contains(&efficiency);
-        within("the efficiency of the gearbox", (), holds, "from 0.01 to 1")?;
+        within("the efficiency of the gearbox", holds, "from 0.01 to 1")?;
         within(
             "the inertia of the rotor",
-            (),
             (0.0..1e30).contains(&rotor),
             "zero or positive",
         )?;

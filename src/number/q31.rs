@@ -126,16 +126,8 @@ impl Number for Q31 {
         Self(self.0.midpoint(other.0))
     }
     #[inline(always)]
-    fn to_unit(self) -> Self {
-        self
-    }
-    #[inline(always)]
     fn exceeds(self, limit: Self) -> bool {
         self.0.unsigned_abs() > limit.0.unsigned_abs()
-    }
-    #[inline(always)]
-    fn within(self, [least, greatest]: [Self; 2]) -> Self {
-        self.min(greatest).max(least)
     }
 }
 

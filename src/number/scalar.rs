@@ -103,14 +103,28 @@ pub trait Number:
     /// Limited to −1 … 1; 0 for what is no number.
     #[doc(hidden)]
     #[must_use]
-    fn to_unit(self) -> Self;
+    #[inline(always)]
+    fn to_unit(self) -> Self {
+        self
+    }
     /// Whether its magnitude is greater than the limit, or it is no number.
     #[doc(hidden)]
     fn exceeds(self, limit: Self) -> bool;
     /// Limited; 0 for what is no number.
     #[doc(hidden)]
     #[must_use]
-    fn within(self, limits: [Self; 2]) -> Self;
+    #[inline(always)]
+    fn within(self, [least, greatest]: [Self; 2]) -> Self {
+        if self > greatest {
+            greatest
+        } else if self >= least {
+            self
+        } else if self < least {
+            least
+        } else {
+            Self::default()
+        }
+    }
 }
 
 /// A number in tables of polynomials: `f32`, `f64`, [`Q31`](crate::Q31). Sealed.
@@ -198,18 +212,6 @@ macro_rules! float {
             fn exceeds(self, limit: Self) -> bool {
                 // Magnitudes of floating point compare as their bits do, with what is no number above all.
                 self.to_bits() << 1 > limit.to_bits() << 1
-            }
-            #[inline(always)]
-            fn within(self, [least, greatest]: [Self; 2]) -> Self {
-                if self > greatest {
-                    greatest
-                } else if self >= least {
-                    self
-                } else if self < least {
-                    least
-                } else {
-                    0.0
-                }
             }
         }
     };

@@ -132,7 +132,7 @@ fn compile(core: &Core) -> Result<PathBuf> {
     let folder = folder_of(core);
     std::fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
     let flags = format!("target.{}.rustflags = {:?}", core.target, core.rustc);
-    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    let mut cargo = program::cargo();
     cargo
         .current_dir(root())
         .args([

@@ -17,6 +17,11 @@ pub(crate) fn root() -> &'static Path {
         .unwrap_or(Path::new("."))
 }
 
+/// The cargo that runs this, or the one that is installed.
+pub(crate) fn cargo() -> Command {
+    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+}
+
 /// Where everything is built.
 pub(crate) fn target_dir() -> PathBuf {
     let set =
@@ -38,7 +43,7 @@ pub(crate) fn compile(core: &Core, peers: Option<&Path>) -> Result<PathBuf> {
             format!("-Clink-arg={}", object.display()),
         ]);
     }
-    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    let mut cargo = cargo();
     cargo
         .current_dir(root())
         .args([

@@ -1,7 +1,7 @@
 //! A user's firmware, `benches/user`: the instructions that each of its functions can take at most.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 
 use anyhow::{Context, Result, ensure};
 
@@ -9,7 +9,7 @@ use crate::bounds::{Bound, Bounds};
 use crate::ceilings::judge;
 use crate::cores::{CORES, Core};
 use crate::elf::Program;
-use crate::program::{root, target_dir};
+use crate::program::{cargo, root, target_dir};
 
 /// How the program is compiled: core, profile, further options of rustc.
 struct Build {
@@ -123,7 +123,7 @@ impl Build {
         let mut flags = vec!["-Clink-arg=-L../.."];
         flags.extend(self.rustc);
         let folder = target_dir().join(self.name());
-        let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+        let status = cargo()
             .current_dir(root().join("benches/user"))
             .args([
                 "build",

@@ -202,14 +202,15 @@ impl Format for Rows16 {
     }
 
     fn contributions(
-        _: &Table<'_, Self>,
+        table: &Table<'_, Self>,
         tick: &tick::Tick<'_>,
         set: Set,
         phase: Phase,
         motion: [Q15; 2],
         sliding: Sliding<Q15>,
     ) -> [Q15; 5] {
-        tick.contributions(set, phase, motion, sliding)
+        let (cell, u) = kernel::locate(phase, table.cells());
+        tick.contributions(set, row_of(table, cell as u32), u, motion, sliding)
     }
 
     #[inline(always)]

@@ -180,17 +180,15 @@ impl<'a> Tick<'a> {
         sum
     }
 
-    /// J·α, ½·J′·ω², −load, b·ω and c·sgn ω.
+    /// J·α, ½·J′·ω², −load, b·ω and c·sgn ω, of the row of a cell and the place in it.
     pub(super) fn contributions(
         &self,
         set: Set,
-        phase: Phase,
+        row: &[u32],
+        u: i32,
         [omega, alpha]: [Q15; 2],
         sliding: Sliding<Q15>,
     ) -> [Q15; 5] {
-        let Some((row, u)) = self.row(set, phase) else {
-            return Default::default();
-        };
         let half = 1 << 15;
         let start = row::at(row, row::start(set));
         let inertia = kernel::inertia(row::at(row, row::inertia(set)), start, u);
@@ -210,21 +208,6 @@ impl<'a> Tick<'a> {
             coulomb,
         ]
         .map(kernel::torque)
-    }
-
-    /// The row at a phase, and the place in its cell.
-    fn row(&self, set: Set, phase: Phase) -> Option<(&'a [u32], i32)> {
-        fn of<const W: usize>(rows: &[[u32; W]], phase: Phase) -> Option<(&[u32], i32)> {
-            let (index, u) = kernel::locate(phase, rows.len() as u32);
-            Some((rows.get(index)?, u))
-        }
-        match row::length(set) {
-            3 => of(self.rows.a, phase),
-            4 => of(self.rows.b, phase),
-            5 => of(self.rows.c, phase),
-            6 => of(self.rows.d, phase),
-            _ => of(self.rows.e, phase),
-        }
     }
 
     /// b in Q30, and half a unit to round (V·ω + b).
