@@ -3,6 +3,9 @@
 mod drive;
 mod encoder;
 mod feed_forward;
+mod governor;
+mod limits;
+mod look_ahead;
 mod machine;
 mod motion;
 mod tracker;

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use crate::Phase;
 use crate::number::error::{Curable, error};
 
 /// Why a part of an axis cannot be made.
@@ -22,6 +23,8 @@ pub enum AxisError {
         /// From where to where.
         range: &'static str,
     },
+    /// Here the load drives the machine with more than the braking torque: nothing would stop it.
+    Overpowered(Phase),
 }
 
 impl fmt::Display for AxisError {
@@ -30,6 +33,13 @@ impl fmt::Display for AxisError {
             Self::NotFinite(what) => write!(f, "{what} is not a finite number"),
             Self::NotPositive(what) => write!(f, "{what} must be greater than zero"),
             Self::OutOfRange { what, range } => write!(f, "{what} must be {range}"),
+            Self::Overpowered(phase) => {
+                let thousandths = (u64::from(phase.to_bits()) * 1000) >> 32;
+                write!(
+                    f,
+                    "the load drives the machine with more than the braking torque at {thousandths}/1000 of the range"
+                )
+            }
         }
     }
 }
@@ -42,6 +52,9 @@ impl Curable for AxisError {
             Self::NotFinite(_) => f.write_str("give a number that is neither NaN nor infinite"),
             Self::NotPositive(_) => f.write_str("give a value greater than zero"),
             Self::OutOfRange { range, .. } => write!(f, "give a value {range}"),
+            Self::Overpowered(_) => {
+                f.write_str("give more braking torque, or a counterbalance to the load")
+            }
         }
     }
 }

@@ -1,18 +1,28 @@
 //! From an encoder's count to the torque command: encoders, speed and acceleration from their counts.
 
+mod braking;
 mod counter;
 mod encoder;
+mod envelope;
 mod error;
 mod feed_forward;
+mod governor;
+mod limits;
+mod look_ahead;
 mod motion;
 mod stroke;
 mod tracker;
 mod transmission;
 
+pub use braking::Braking;
 pub use counter::Counter;
 pub use encoder::{Counting, Encoder, Mounting};
+pub use envelope::Envelope;
 pub use error::AxisError;
 pub use feed_forward::{Checked, FeedForward, Limited, Ramp, Status, TorqueLimits};
+pub use governor::{Governed, Governor};
+pub use limits::{Bounded, Feasible, Limit, Limits};
+pub use look_ahead::{Direction, LookAhead, Stop};
 pub use motion::{Motion, Period};
 pub use stroke::{Scaled, StrokeEncoder};
 pub use tracker::{Tracked, Tracker};

@@ -24,6 +24,18 @@ pub struct Gearbox {
     pub rotor: f32,
 }
 
+impl Gearbox {
+    /// The same, if it can be.
+    pub(super) fn checked(self) -> Result<Self, AxisError> {
+        positive("the ratio of the gearbox", self.ratio)?;
+        let holds = (0.01..=1.0).contains(&self.efficiency);
+        within("the efficiency of the gearbox", holds, "from 0.01 to 1")?;
+        let holds = (0.0..1e30).contains(&self.rotor);
+        within("the inertia of the rotor", holds, "zero or positive")?;
+        Ok(self)
+    }
+}
+
 /// A [`Gearbox`] in the machine units of a model: the torque on the motor's shaft of that on the drive link.
 ///
 /// Motor torques are in N·m where the model's are, and per unit in fixed point: 1 is [`base`](Self::base), T_b/(i·η).
@@ -46,15 +58,7 @@ impl Transmission {
             ratio,
             efficiency,
             rotor,
-        } = gearbox;
-        positive("the ratio of the gearbox", ratio)?;
-        let holds = (0.01..=1.0).contains(&efficiency);
-        within("the efficiency of the gearbox", holds, "from 0.01 to 1")?;
-        within(
-            "the inertia of the rotor",
-            (0.0..1e30).contains(&rotor),
-            "zero or positive",
-        )?;
+        } = gearbox.checked()?;
         let torque = scale.torque();
         let driving = 1.0 / (ratio * efficiency);
         let base = if N::FIXED { torque * driving } else { 1.0 };

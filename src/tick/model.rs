@@ -251,9 +251,19 @@ macro_rules! dynamics {
                 least: F::Number,
                 greatest: F::Number,
             ) -> AccelerationRange<F::Number> {
+                self.acceleration_range_with(phase, omega, Sliding::Against(omega), [least, greatest])
+            }
+
+            /// As [`acceleration_range`](Self::acceleration_range), with Coulomb friction as `sliding` says: at rest, that of the motion that is to begin.
+            #[inline]
+            pub fn acceleration_range_with(
+                &self,
+                phase: Phase,
+                omega: F::Number,
+                sliding: Sliding<F::Number>,
+                torques: [F::Number; 2],
+            ) -> AccelerationRange<F::Number> {
                 let $any = self.any();
-                let torques = [least, greatest];
-                let sliding = Sliding::Against(omega);
                 let [least, greatest] =
                     F::accelerations(&$any.table, &$any.tick, $curves, phase, omega, sliding, torques);
                 AccelerationRange { least, greatest }

@@ -1,7 +1,5 @@
 //! A machine whose curves can be written down, as a model in any format.
 
-use core::f64::consts::TAU;
-
 use jred::number::Number;
 use jred::table::Format;
 use jred::{Domain, Model, Scale, Set};
@@ -23,13 +21,22 @@ pub(crate) fn with_model<F: Format, const SET: Set>(
     scale: Scale,
     with: impl FnOnce(Model<'_, F, SET>),
 ) {
+    with_model_of(&WAVE, scale, with);
+}
+
+/// As `with_model`, of another wave.
+pub(crate) fn with_model_of<F: Format, const SET: Set>(
+    wave: &Wave,
+    scale: Scale,
+    with: impl FnOnce(Model<'_, F, SET>),
+) {
     let cells = 128;
     let scale = if F::WHOLE_FACTOR {
-        scale.for_cells(cells, TAU)
+        scale.for_cells(cells, wave.domain.span())
     } else {
         scale
     };
-    let rows = Rows::<F>::of(&WAVE, SET, cells, &scale).unwrap();
+    let rows = Rows::<F>::of(wave, SET, cells, &scale).unwrap();
     with(Model::new(rows.table()).unwrap());
 }
 

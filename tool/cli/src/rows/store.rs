@@ -49,8 +49,18 @@ pub fn parse(line: &str, path: &Path) -> Result<(Header, RowFormat)> {
         RowFormat::Json
     };
     let json = line.strip_prefix(form.mark()).unwrap_or(line);
-    let header = serde_json::from_str(json).map_err(|_| no_rows(path))?;
-    Ok((header, form))
+    let header: Header = serde_json::from_str(json).map_err(|_| no_rows(path))?;
+    // Otherwise no row that is written below it could be read again.
+    if header.columns.iter().all(|name| is_clean(name)) {
+        Ok((header, form))
+    } else {
+        Err(no_rows(path))
+    }
+}
+
+/// Whether a text contains nothing that no row does.
+fn is_clean(text: &str) -> bool {
+    !text.contains(|c: char| c.is_control() || c == char::REPLACEMENT_CHARACTER)
 }
 
 /// The longest line of a file of rows (bytes).
@@ -110,8 +120,7 @@ pub fn begin(path: &Path, lines: &str) -> Result<File> {
 
 /// The number and the cells of a line; `None`: it is no row of these columns, or contains what no row does.
 pub fn row(form: RowFormat, columns: &[String], line: &str) -> Option<(u64, Vec<Cell>)> {
-    let clean = !line.contains(|c: char| c.is_control() || c == char::REPLACEMENT_CHARACTER);
-    clean.then(|| form.row(line, columns))?
+    is_clean(line).then(|| form.row(line, columns))?
 }
 
 /// What is said of a line that is no row; `what` names the file and what cannot be done with it.

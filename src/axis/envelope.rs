@@ -1,0 +1,173 @@
+//! What a drive can give at each speed.
+
+use super::error::{positive, within};
+use super::{AxisError, Gearbox};
+use crate::number::{Factor, Number};
+use crate::{Outcome, Scale};
+
+/// Torque against speed of a drive, in both directions: where it drives, a curve that falls with the speed; where it brakes, a constant.
+///
+/// ```text
+/// T ∈ [−T_brake, T(ω)]      ω > 0
+/// T ∈ [−T(0), T(0)]         ω = 0
+/// T ∈ [−T(−ω), T_brake]     ω < 0
+/// ```
+///
+/// T(ω) is T₁ up to the first speed, straight between the points, and 0 beyond the last: a motor has a constant peak torque up to a corner, then
+/// the voltage takes it away.
+///
+/// ```
+/// use jred::Scale;
+/// use jred::axis::Envelope;
+///
+/// // 80 N·m up to 6 rad/s, 20 N·m at 12 rad/s; 60 N·m when it brakes.
+/// let envelope = Envelope::<f32, 2>::new([[6.0, 80.0], [12.0, 20.0]], 60.0, &Scale::SI)?;
+/// assert_eq!(envelope.torques(9.0), [-60.0, 50.0]);
+/// assert_eq!(envelope.torques(-3.0), [-80.0, 60.0]);
+/// assert_eq!(envelope.torques(13.0), [-60.0, 0.0]);
+/// # Ok::<(), jred::axis::AxisError>(())
+/// ```
+///
+/// In fixed point a torque is off by six units of 2⁻³¹ of the torque base for each point, and by 2⁻²³ of what it fell (`Q15`: one unit of 2⁻¹⁵ a
+/// point; test `an_envelope_is_that_of_its_points`).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Envelope<N, const POINTS: usize> {
+    /// 0 to T₁.
+    driving: [N; 2],
+    /// T_brake, the other way round.
+    brake: N,
+    falls: [Fall<N>; POINTS],
+    top: N,
+}
+
+/// The straight line that ends at a point: where it begins, its width, and what the torque loses a unit of speed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+struct Fall<N> {
+    from: N,
+    width: [N; 2],
+    slope: Factor,
+}
+
+const SPEEDS: &str = "the speeds of the torque curve";
+const TORQUES: &str = "the torques of the torque curve";
+const BRAKE: &str = "the braking torque";
+
+impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
+    /// Of points `[speed, torque]` on the drive link (rad/s, N·m; or m/s, N) and the torque when it brakes, for a model in these machine units.
+    ///
+    /// # Errors
+    /// No point; a first or a braking torque that is not positive and finite, or a torque that rises with the speed; speeds that do not rise from 0 or
+    /// more; in fixed point a torque or speed beyond its base.
+    pub fn new(driving: [[f32; 2]; POINTS], brake: f32, scale: &Scale) -> Result<Self, AxisError> {
+        let first = driving.first().map_or(0.0, |[_, torque]| *torque);
+        let peak = in_range(TORQUES, scale.to_torque(positive(TORQUES, first)?))?;
+        let brake: N = in_range(BRAKE, scale.to_torque(positive(BRAKE, brake)?))?;
+        let rest = N::default();
+        let mut falls = [Fall::default(); POINTS];
+        let mut last = [0.0, first];
+        let mut top = rest;
+        for (k, (fall, point)) in falls.iter_mut().zip(driving).enumerate() {
+            let [run, lost] = [point[0] - last[0], last[1] - point[1]];
+            within(
+                SPEEDS,
+                run > 0.0 || k == 0 && run >= 0.0,
+                "rising from 0 or more",
+            )?;
+            within(
+                TORQUES,
+                lost >= 0.0 && point[1] >= 0.0,
+                "falling, and 0 or more",
+            )?;
+            let from = top;
+            top = in_range(SPEEDS, scale.omega(point[0]))?;
+            *fall = Fall {
+                from,
+                width: [rest, top.minus(from).value],
+                slope: if lost > 0.0 {
+                    let slope = lost / run * scale.speed() / scale.torque();
+                    Factor::new(slope).ok_or(AxisError::OutOfRange {
+                        what: "the slope of the torque curve",
+                        range: "a normal number, and in fixed point less than 2³⁰ torque bases a speed base",
+                    })?
+                } else {
+                    Factor::default()
+                },
+            };
+            last = point;
+        }
+        Ok(Self {
+            driving: [rest, peak],
+            brake: rest.minus(brake).value,
+            falls,
+            top,
+        })
+    }
+
+    /// As [`new`](Self::new), of the motor's points and braking torque, on the drive link's side of a gearbox: ω/i, T·i·η where the motor drives and T·i/η where it
+    /// brakes. The rotor's inertia must be in the table, as i²·J_M: the torque for it does not depend on the speed.
+    ///
+    /// # Errors
+    /// Those of `new`; a ratio that is not positive, an efficiency outside 0.01 to 1, or a rotor that is not 0.
+    pub fn of_motor(
+        driving: [[f32; 2]; POINTS],
+        brake: f32,
+        gearbox: Gearbox,
+        scale: &Scale,
+    ) -> Result<Self, AxisError> {
+        let Gearbox {
+            ratio,
+            efficiency,
+            rotor,
+        } = gearbox.checked()?;
+        within(
+            "the inertia of the rotor",
+            rotor == 0.0,
+            "0 here, and i²·J_M part of the table",
+        )?;
+        let link = driving.map(|[omega, torque]| [omega / ratio, torque * ratio * efficiency]);
+        Self::new(link, brake * ratio / efficiency, scale)
+    }
+
+    /// The least and the greatest torque at a speed. At a speed that is no number both are 0.
+    #[inline]
+    pub fn torques(&self, omega: N) -> [N; 2] {
+        let rest = N::default();
+        let [_, peak] = self.driving;
+        let forward = omega >= rest;
+        let magnitude = if forward {
+            omega
+        } else {
+            rest.minus(omega).value
+        };
+        let mut driving = peak;
+        for fall in &self.falls {
+            let over = magnitude.minus(fall.from).value.within(fall.width);
+            driving = driving.minus(over.times(&fall.slope).value).value;
+        }
+        if magnitude <= self.top {
+            driving = driving.within(self.driving);
+        } else {
+            driving = rest;
+        }
+        if omega > rest {
+            [self.brake, driving]
+        } else if omega < rest {
+            [rest.minus(driving).value, rest.minus(self.brake).value]
+        } else {
+            [rest.minus(driving).value, driving]
+        }
+    }
+}
+
+/// The number, if it was in range.
+pub(super) fn in_range<N: Number>(what: &'static str, number: Outcome<N>) -> Result<N, AxisError> {
+    let finite = number.value.minus(number.value).value == N::default();
+    within(
+        what,
+        finite && !number.saturated,
+        "finite, and in fixed point less than their base",
+    )?;
+    Ok(number.value)
+}

@@ -1,0 +1,145 @@
+//! A commanded speed, followed as far as all limits allow.
+
+use super::error::within;
+use super::limits::{Bounded, Limit};
+use super::{AxisError, Direction, Limits, LookAhead, Motion};
+use crate::Model;
+use crate::curve::{Format, Set};
+use crate::number::Number;
+
+/// Follows a commanded speed with a motion that the drive can make, and slows down ahead of where it could not.
+///
+/// Each tick it chooses the acceleration that reaches the commanded speed at the end of the tick, within what is
+/// [feasible](super::Limits::feasible) now, and within what a [`LookAhead`] allows:
+///
+/// ```text
+/// α ≤ ½·d(ω_max²)/dφ + (ω_max² − ω²)/(2·ω_top·τ)
+/// ```
+///
+/// The speed is continuous. Along a limit the second term is 0 and the first is the acceleration of the limit itself, so that the command does not
+/// switch between braking and driving (test `the_governor_does_not_chatter`). The limit is approached without overshoot, at the top speed within a
+/// tick and more slowly at less.
+///
+/// ```
+/// use jred::axis::{Braking, Direction, Envelope, Governor, Limits, LookAhead, Motion, Period};
+/// use jred::{Image, Model, Phase, Set, Spline, curves, include_image};
+///
+/// const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// // Once.
+/// let image = Image::from_bytes(include_image!("../../examples/data/press_f32.jred"))?;
+/// let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
+/// let tick = Period::new(0.001, image.domain(), image.scale())?;
+/// let envelope = Envelope::new([[10.0, 250.0], [20.0, 100.0]], 250.0, image.scale())?;
+/// let limits = Limits::new(envelope, 15.0, 100.0, tick, image.scale())?;
+/// let braking = Braking { torque: 200.0, deceleration: 100.0, helped: false };
+/// // In the last quarter of the turn not faster than 6 rad/s.
+/// let limit = |phase: Phase| if phase.to_bits() >= 3 << 30 { 6.0 } else { 12.0 };
+/// let ahead = LookAhead::<f32, 64>::new(&press, Direction::Forward, braking, limit, &tick)?;
+/// let governor = Governor::one_way(&ahead);
+///
+/// // Every tick: the motion that is to follow the commanded 12 rad/s.
+/// let mut motion = Motion::<f32>::default();
+/// for _ in 0..1000 {
+///     motion.alpha = governor.govern(&limits, &press, &motion, 12.0).alpha;
+///     let torque = press.torque(motion.phase, motion.omega, motion.alpha);
+///     assert!(torque.abs() <= 250.01);
+///     motion = tick.later(motion).value;
+///     assert!(motion.omega <= 1.01 * limit(motion.phase));
+/// }
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Governor<'a, N, const NODES: usize> {
+    forward: Option<&'a LookAhead<N, NODES>>,
+    backward: Option<&'a LookAhead<N, NODES>>,
+}
+
+/// The acceleration of a tick, and what kept it from what was commanded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Governed<N> {
+    /// α, in machine units.
+    pub alpha: N,
+    /// The limit that binds; `None`: the commanded speed is reached at the end of the tick.
+    pub by: Option<Limit>,
+    /// As [`Feasible::unkept`](super::Feasible::unkept).
+    pub unkept: Option<Limit>,
+}
+
+impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
+    /// For motions one way: commands the other way stop the machine.
+    #[must_use]
+    pub const fn one_way(ahead: &'a LookAhead<N, NODES>) -> Self {
+        let [forward, backward] = match ahead.direction() {
+            Direction::Forward => [Some(ahead), None],
+            Direction::Backward => [None, Some(ahead)],
+        };
+        Self { forward, backward }
+    }
+
+    /// For motions both ways, with the look-ahead of each.
+    ///
+    /// # Errors
+    /// Both are for the same way.
+    pub fn both_ways(
+        forward: &'a LookAhead<N, NODES>,
+        backward: &'a LookAhead<N, NODES>,
+    ) -> Result<Self, AxisError> {
+        let ways = [forward.direction(), backward.direction()];
+        let holds = ways == [Direction::Forward, Direction::Backward];
+        within("the directions", holds, "forward and backward")?;
+        Ok(Self {
+            forward: Some(forward),
+            backward: Some(backward),
+        })
+    }
+
+    /// The acceleration of this tick, for a machine in this motion that is to reach the speed `commanded`. 0 of what is no number.
+    #[inline]
+    pub fn govern<F: Format<Number = N>, const SET: Set, const POINTS: usize>(
+        &self,
+        limits: &Limits<N, POINTS>,
+        model: &Model<'_, F, SET>,
+        motion: &Motion<N>,
+        commanded: N,
+    ) -> Governed<N> {
+        let rest = N::default();
+        let omega = motion.omega;
+        let period = limits.period();
+        let feasible = limits.feasible(model, motion.phase, omega);
+        // At most to rest, and not back: there is no end behind which the other way begins.
+        let stopped = period.needed(rest.minus(omega).value).value;
+        let bounded = |alpha| {
+            let by = Limit::Ahead;
+            Bounded { alpha, by }.within([feasible.least, feasible.greatest])
+        };
+        let forward = self
+            .forward
+            .map_or(stopped, |way| way.greatest(motion).value);
+        let backward = self
+            .backward
+            .map_or(stopped, |way| rest.minus(way.greatest(motion).value).value);
+        let greatest = bounded(if forward > stopped { forward } else { stopped });
+        let least = bounded(if backward < stopped {
+            backward
+        } else {
+            stopped
+        });
+        let wanted = period.needed(commanded.minus(omega).value).value;
+        let (alpha, by) = if wanted > greatest.alpha {
+            (greatest.alpha, Some(greatest.by))
+        } else if wanted < least.alpha {
+            (least.alpha, Some(least.by))
+        } else {
+            (wanted.within([wanted, wanted]), None)
+        };
+        Governed {
+            alpha,
+            by,
+            unkept: feasible.unkept,
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! The accelerations that are possible in a tick, and what limits them.
+
+use super::envelope::in_range;
+use super::error::positive;
+use super::{AxisError, Envelope, Period};
+use crate::curve::{Format, Set};
+use crate::number::{Number, Sliding};
+use crate::{AccelerationRange, Model, Outcome, Phase, Scale};
+
+/// What limits an acceleration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Limit {
+    /// The torque of the drive at this speed.
+    Torque,
+    /// The greatest acceleration.
+    Acceleration,
+    /// The greatest speed, which would be exceeded at the end of the tick.
+    Speed,
+    /// What lies ahead: a [`LookAhead`](super::LookAhead).
+    Ahead,
+    /// The range of fixed-point numbers: the drive could do more than the acceleration base.
+    Range,
+}
+
+/// An acceleration, and what limits it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Bounded<N> {
+    /// α, in machine units.
+    pub alpha: N,
+    /// Why it is not more, or less.
+    pub by: Limit,
+}
+
+/// The accelerations that are possible in a tick: never none, because a drive's torque always includes 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Feasible<N> {
+    /// The least.
+    pub least: Bounded<N>,
+    /// The greatest.
+    pub greatest: Bounded<N>,
+    /// What cannot be kept: the load takes the machine beyond it, or the speed is beyond it already. The torque always is.
+    pub unkept: Option<Limit>,
+}
+
+/// The limits of a motion: those of the drive, and those that the machine is to keep.
+///
+/// Of a tick's state it tells the possible accelerations:
+///
+/// ```text
+/// α ∈ [(T_least − w)/J, (T_greatest − w)/J],   w = ½·J′·ω² − load + b·ω + c·sgn ω
+/// |α| ≤ α_max,   |ω + α·τ| ≤ ω_max
+/// ```
+///
+/// At rest friction holds the machine until a torque exceeds it: α is 0 there while |T + load| ≤ c.
+///
+/// What cannot be kept all at once is kept in this order: torque, acceleration, speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Limits<N, const POINTS: usize> {
+    envelope: Envelope<N, POINTS>,
+    speed: [N; 2],
+    acceleration: [N; 2],
+    period: Period<N>,
+}
+
+impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
+    /// Of a drive's torque, and the greatest speed (rad/s, or m/s) and acceleration (rad/s², or m/s²) of the drive link either way; `period` is that of the tick.
+    ///
+    /// # Errors
+    /// A limit that is not positive and finite, or in fixed point is beyond its base or less than the least number.
+    pub fn new(
+        envelope: Envelope<N, POINTS>,
+        speed: f32,
+        acceleration: f32,
+        period: Period<N>,
+        scale: &Scale,
+    ) -> Result<Self, AxisError> {
+        const SPEED: &str = "the greatest speed";
+        const ACCELERATION: &str = "the greatest acceleration";
+        positive(SPEED, speed)?;
+        positive(ACCELERATION, acceleration)?;
+        let rest = N::default();
+        let both = |greatest: N| [rest.minus(greatest).value, greatest];
+        Ok(Self {
+            envelope,
+            speed: both(in_range(SPEED, scale.omega(speed))?),
+            acceleration: both(in_range(ACCELERATION, scale.alpha(acceleration))?),
+            period,
+        })
+    }
+
+    /// The drive's torque.
+    #[must_use]
+    pub const fn envelope(&self) -> &Envelope<N, POINTS> {
+        &self.envelope
+    }
+
+    /// The period of the tick.
+    #[must_use]
+    pub const fn period(&self) -> &Period<N> {
+        &self.period
+    }
+
+    /// The accelerations that are possible in this state. Of no number they are 0.
+    #[inline]
+    pub fn feasible<F: Format<Number = N>, const SET: Set>(
+        &self,
+        model: &Model<'_, F, SET>,
+        phase: Phase,
+        omega: N,
+    ) -> Feasible<N> {
+        let torques = self.envelope.torques(omega);
+        let given = |sliding| model.acceleration_range_with(phase, omega, sliding, torques);
+        let AccelerationRange { least, greatest } = if omega == N::default() {
+            let [backward, forward] = self.acceleration.map(|way| given(Sliding::Against(way)));
+            AccelerationRange {
+                least: held(forward.least, backward.least),
+                greatest: held(forward.greatest, backward.greatest),
+            }
+        } else {
+            given(Sliding::Against(omega))
+        };
+        let torque = [of_torque(least), of_torque(greatest)];
+        let [slowest, fastest] = self.speed.map(|speed| {
+            let needed = self.period.needed(speed.minus(omega).value).value;
+            let alpha = needed.within(self.acceleration);
+            let by = if alpha == needed {
+                Limit::Speed
+            } else {
+                Limit::Acceleration
+            };
+            Bounded { alpha, by }
+        });
+        let rest = N::default();
+        let too_fast = fastest.by == Limit::Acceleration && fastest.alpha <= rest;
+        let too_slow = slowest.by == Limit::Acceleration && slowest.alpha >= rest;
+        Feasible {
+            least: slowest.within(torque),
+            greatest: fastest.within(torque),
+            unkept: if fastest.alpha < torque[0].alpha {
+                Some(fastest.by)
+            } else if slowest.alpha > torque[1].alpha {
+                Some(slowest.by)
+            } else {
+                (too_fast || too_slow).then_some(Limit::Speed)
+            },
+        }
+    }
+}
+
+impl<N: Number> Bounded<N> {
+    /// Within others.
+    #[inline]
+    pub(super) fn within(self, [least, greatest]: [Self; 2]) -> Self {
+        if self.alpha < least.alpha {
+            least
+        } else if self.alpha > greatest.alpha {
+            greatest
+        } else {
+            self
+        }
+    }
+}
+
+/// At rest: the acceleration with friction against moving forward, or with friction against moving backward, or none.
+#[inline]
+fn held<N: Number>(forward: Outcome<N>, backward: Outcome<N>) -> Outcome<N> {
+    let rest = N::default();
+    if forward.value > rest {
+        forward
+    } else if backward.value < rest {
+        backward
+    } else {
+        Outcome::exact(rest)
+    }
+}
+
+#[inline]
+fn of_torque<N: Number>(alpha: Outcome<N>) -> Bounded<N> {
+    let Outcome { value, saturated } = alpha;
+    Bounded {
+        // 0 of what is no number.
+        alpha: value.within([value, value]),
+        by: if saturated {
+            Limit::Range
+        } else {
+            Limit::Torque
+        },
+    }
+}

@@ -1,0 +1,276 @@
+//! How fast the drive link may be here, so that the drive can keep all limits that lie ahead, and where it would stop.
+
+use core::marker::PhantomData;
+
+use super::braking::{Braking, Course, Way};
+use super::envelope::in_range;
+use super::error::{positive, within};
+use super::{AxisError, Motion, Period};
+use crate::curve::{Format, Set};
+use crate::number::{Factor, Number, Outcome};
+use crate::{Model, Phase};
+
+/// Which way a drive link moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Direction {
+    /// φ grows.
+    Forward,
+    /// φ falls.
+    Backward,
+}
+
+/// The greatest speed at every phase from which the drive can keep all limits of speed ahead, and the work of its brake: for motion in one direction.
+///
+/// Made once, when the firmware starts, of the model's own table. Between two nodes ω² is a straight line, which is a constant acceleration; the squares are found
+/// from the end backwards, so that the braking torque suffices at both ends and in the middle of every interval:
+///
+/// ```text
+/// d(ω²)/dφ = 2·α ≥ 2·(−T_brake − ½·J′·ω² + load − c)/J
+/// ```
+///
+/// Where it would stop with the full braking torque, if no viscous friction stopped it earlier:
+///
+/// ```text
+/// ½·J·ω² = ∫ (T_brake + c − load) dφ
+/// ```
+///
+/// A tick needs no model for it, and computes with integers alone, whatever the numbers of the model are. Memory: 12 bytes a node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LookAhead<N, const NODES: usize> {
+    way: Way,
+    /// ω² at each node, in units of 2⁻³⁰ of the square of the greatest speed.
+    squares: [u32; NODES],
+    /// The work of the brake from the start to each node, in units of 2⁻³² of that over the range.
+    works: [u32; NODES],
+    /// ½·J at each node: the square times it is that work, shifted.
+    inertias: [u32; NODES],
+    shift: u32,
+    /// Speeds to units of 2⁻³⁰ of the greatest.
+    speed: Factor,
+    /// Differences of squares from node to node to accelerations.
+    alpha: Factor,
+    /// Ticks that an interval takes at the greatest speed, in units of 2⁻⁸.
+    ticks: u32,
+    number: PhantomData<N>,
+}
+
+/// Where a machine stops.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Stop {
+    /// Whole turns before; 0 on a stroke.
+    pub turns: u32,
+    /// Where; the end of a stroke that is too short.
+    pub phase: Phase,
+    /// It is not known: the stroke ends before, the drive link moves the other way, or faster than twice the greatest speed.
+    pub beyond: bool,
+}
+
+/// 2³⁰
+const ONE: f32 = 1_073_741_824.0;
+const SPEED: &str = "the greatest speed";
+const NODE_COUNT: &str = "the number of nodes";
+
+impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
+    /// Of a model, for motions this way. `limit` is the greatest speed (rad/s, or m/s; positive either way) at a phase. It is asked at the nodes and
+    /// halfway between them, so that a slower part is seen if it is longer than half an interval. At the end of a stroke the machine stops. `period` is that of the tick.
+    ///
+    /// # Errors
+    /// [`AxisError::Overpowered`]: somewhere the load drives the machine with more than the braking torque. Otherwise a torque, deceleration or speed
+    /// that is not positive (and finite), or a speed beyond its base; too few nodes for this machine (fewer than 4, or J changes by a quarter from
+    /// one to the next), or too many (more than 4096, or at the greatest speed an interval takes less than a tick).
+    pub fn new<F: Format<Number = N>, const SET: Set>(
+        model: &Model<'_, F, SET>,
+        direction: Direction,
+        braking: Braking,
+        limit: impl Fn(Phase) -> f32,
+        period: &Period<N>,
+    ) -> Result<Self, AxisError> {
+        within(NODE_COUNT, (4..=4096).contains(&NODES), "from 4 to 4096")?;
+        let course = Course::new(model, direction, braking, NODES as u32)?;
+        let way = course.way;
+        // Half an interval to each side, too: so the straight lines at a node do not exceed what the intervals beside it allow.
+        let least = |k: u32| {
+            let around = [
+                (2 * k).saturating_sub(1),
+                2 * k,
+                (2 * k + 1).min(2 * way.intervals),
+            ];
+            around.map(|half| limit(way.node(half)))
+        };
+        let [mut squares, mut works, mut inertias] = [[0; NODES]; 3];
+        let mut top = 0.0_f32;
+        for k in 0..NODES as u32 {
+            for speed in least(k) {
+                top = top.max(positive(SPEED, speed)?);
+            }
+        }
+        for (k, square) in (0..).zip(&mut squares) {
+            let [before, at, after] = least(k);
+            let share = before.min(at).min(after) / top;
+            *square = (share * share * ONE) as u32;
+        }
+        course.slow_down(&mut squares, top)?;
+        let shift = course.works(&mut works, &mut inertias, top)?;
+
+        let scale = model.table().scale();
+        let moved = period.moved(in_range(SPEED, scale.omega(top))?).to_bits();
+        let ticks = (way.width() as f32 / moved as f32 * 256.0) as u32;
+        let holds = moved > 0 && moved < 1 << 31 && (256..u32::MAX).contains(&ticks);
+        within(
+            NODE_COUNT,
+            holds,
+            "such that an interval takes from 1 to 2²⁴ ticks at the greatest speed",
+        )?;
+        let of_difference = top / ONE * top / (2.0 * course.step) / scale.acceleration();
+        let factors =
+            Factor::to_count(ONE * (scale.speed() / top)).zip(Factor::of_count(of_difference));
+        let (speed, alpha) = factors.ok_or(AxisError::OutOfRange {
+            what: SPEED,
+            range: "such that its square is a normal number in machine units",
+        })?;
+        Ok(Self {
+            way,
+            squares,
+            works,
+            inertias,
+            shift,
+            speed,
+            alpha,
+            ticks,
+            number: PhantomData,
+        })
+    }
+
+    /// Which way the motions are that it is for.
+    #[must_use]
+    pub const fn direction(&self) -> Direction {
+        self.way.direction
+    }
+
+    /// The greatest speed at a phase, in rad/s or m/s if `top` is the greatest of all: for plots and tests, not for the tick.
+    #[must_use]
+    pub fn speed_at(&self, phase: Phase, top: f32) -> f32 {
+        let (k, part) = self.way.cell(phase);
+        let [square, next] = self.around(&self.squares, k);
+        let square = along(square, next, part) as f32 / ONE;
+        top * crate::number::Real::sqrt(square)
+    }
+
+    /// The acceleration of a motion this way that keeps it below the greatest speed: that of the limit itself, and of what is left to it as much as
+    /// makes up for it in a tick at the greatest speed, and gently at less. Of a motion the other way, that from rest.
+    #[inline]
+    pub(super) fn greatest(&self, motion: &Motion<N>) -> Outcome<N> {
+        let (k, part) = self.way.cell(motion.phase);
+        let [square, next] = self.around(&self.squares, k);
+        let reached = if self.is_against(motion.omega) {
+            0
+        } else {
+            self.square(motion.omega)
+        };
+        let left = i64::from(along(square, next, part)) - i64::from(reached);
+        let difference =
+            i64::from(next) - i64::from(square) + ((left * i64::from(self.ticks)) >> 8);
+        let limited = difference.clamp(i32::MIN.into(), i32::MAX.into()) as i32;
+        N::of_count(limited, &self.alpha)
+    }
+
+    /// Where the machine stops from this state with the full braking torque: not later, but for the interpolation between the nodes and what the table is off by. Between
+    /// two nodes the work is taken to grow evenly, which errs by up to an eighth of the interval, times the share by which the braking torque changes in it
+    /// (test `it_stops_where_it_was_said`).
+    #[inline]
+    pub fn stop(&self, phase: Phase, omega: N) -> Stop {
+        let square = self.square(omega);
+        let (k, part) = self.way.cell(phase);
+        let [work, next] = self.around(&self.works, k);
+        let reached = work.wrapping_add(share(next.wrapping_sub(work), part));
+        let [inertia, next] = self.around(&self.inertias, k);
+        let needed =
+            (u64::from(along(inertia, next, part)) * u64::from(square)) >> (self.shift & 63);
+        let target = needed.saturating_add(reached.into());
+        let ends = self.way.stroke && target > u32::MAX.into();
+        let stop = (target & !u64::from(u32::MAX)) | u64::from(self.place(target as u32));
+        let distance = stop.saturating_sub(self.way.mirrored(phase).into());
+        if ends {
+            return Stop {
+                turns: 0,
+                phase: self.way.actual(u32::MAX),
+                beyond: true,
+            };
+        }
+        Stop {
+            turns: (distance >> 32) as u32,
+            phase: self
+                .way
+                .actual(self.way.mirrored(phase).wrapping_add(distance as u32)),
+            beyond: self.is_against(omega) || square == u32::MAX,
+        }
+    }
+
+    #[inline]
+    fn is_against(&self, omega: N) -> bool {
+        match self.way.direction {
+            Direction::Forward => omega < N::default(),
+            Direction::Backward => omega > N::default(),
+        }
+    }
+
+    /// The square of a speed, in units of 2⁻³⁰ of that of the greatest; limited to four of it.
+    #[inline]
+    fn square(&self, omega: N) -> u32 {
+        let count = omega.to_count(&self.speed).unsigned_abs();
+        if count < i32::MAX.unsigned_abs() {
+            ((u64::from(count) * u64::from(count)) >> 30) as u32
+        } else {
+            u32::MAX
+        }
+    }
+
+    /// The values at both ends of an interval.
+    #[inline]
+    fn around(&self, nodes: &[u32; NODES], k: u32) -> [u32; 2] {
+        let k = k as usize;
+        let first = nodes.first().copied().unwrap_or_default();
+        let next = nodes.get(k + 1).copied().unwrap_or(first);
+        [nodes.get(k).copied().unwrap_or(first), next]
+    }
+
+    /// Where so much work is done, in units of 2⁻³² of the range.
+    #[inline]
+    fn place(&self, work: u32) -> u32 {
+        let mut k = 0;
+        let mut step = const { NODES.next_power_of_two() / 2 };
+        while step > 0 {
+            let found = self.works.get(k + step).is_some_and(|node| *node <= work);
+            k += if found { step } else { 0 };
+            step /= 2;
+        }
+        let k = k.min(self.way.intervals as usize - 1) as u32;
+        let [start, next] = self.around(&self.works, k);
+        // As many bits as one division of 32 by 32 takes.
+        let width = next.wrapping_sub(start);
+        let shift = 16_u32.saturating_sub(width.leading_zeros());
+        let part = (work.wrapping_sub(start) >> shift << 16) / (width >> shift).max(1);
+        self.way
+            .width()
+            .wrapping_mul(k)
+            .wrapping_add(share(self.way.width(), part.min(0xffff) << 16))
+    }
+}
+
+/// A share of a whole, in units of 2⁻³².
+#[inline]
+fn share(whole: u32, part: u32) -> u32 {
+    ((u64::from(whole) * u64::from(part)) >> 32) as u32
+}
+
+/// Straight from one value to another.
+#[inline]
+fn along(from: u32, to: u32, part: u32) -> u32 {
+    if to >= from {
+        from.wrapping_add(share(to - from, part))
+    } else {
+        from.wrapping_sub(share(from - to, part))
+    }
+}

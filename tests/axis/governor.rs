@@ -1,0 +1,268 @@
+use core::f64::consts::TAU;
+
+use jred::axis::{
+    Braking, Direction, Envelope, Governor, Limit, Limits, LookAhead, Motion, Period,
+};
+use jred::number::Number;
+use jred::table::Format;
+use jred::{Cubic, Domain, Phase, Q31, Quadratic, Rows16, Scale, Set, Spline, curves};
+
+use super::machine::{WAVE, si, with_model, with_model_of};
+use crate::support::machines::Wave;
+use crate::support::scale_of;
+
+const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+const TICK: f32 = 0.000_5;
+/// 8 N·m up to 6 rad/s, 4 at 12; 8 when it brakes.
+const POINTS: [[f32; 2]; 2] = [[6.0, 8.0], [12.0, 4.0]];
+const BRAKE: f32 = 8.0;
+
+/// Fast, but from half to three quarters of the turn.
+fn limit(phase: Phase) -> f32 {
+    if phase.to_bits() >> 30 == 2 { 3.0 } else { 9.0 }
+}
+
+/// What a tick of a governed machine did, in SI units.
+struct Tick {
+    phase: Phase,
+    omega: f64,
+    alpha: f64,
+    torque: f64,
+    by: Option<Limit>,
+    /// The greatest speed here.
+    most: f64,
+}
+
+/// The motion of a governed machine that is to follow `commanded` rad/s (of the time), for so many seconds.
+fn governed<F: Format>(scale: Scale, seconds: f32, commanded: fn(f32) -> f64) -> Vec<Tick> {
+    let mut ticks = Vec::new();
+    with_model::<F, SET>(scale, |model| {
+        let scale = *model.table().scale();
+        let period = Period::new(TICK, Domain::<f64>::Turn, &scale).unwrap();
+        let envelope = Envelope::new(POINTS, BRAKE, &scale).unwrap();
+        let limits = Limits::new(envelope, 11.0, 40.0, period, &scale).unwrap();
+        let braking = Braking {
+            torque: 0.97 * BRAKE,
+            deceleration: 40.0,
+            helped: true,
+        };
+        let ahead = |direction| {
+            LookAhead::<F::Number, 64>::new(&model, direction, braking, limit, &period).unwrap()
+        };
+        let [forward, backward] = [Direction::Forward, Direction::Backward].map(ahead);
+        let governor = Governor::both_ways(&forward, &backward).unwrap();
+        let [torque_base, speed, alpha_base] =
+            [scale.torque(), scale.speed(), scale.acceleration()].map(f64::from);
+        let mut motion = Motion::default();
+        for k in 0..(seconds / TICK) as u32 {
+            let [wanted, _] = si(&scale, [commanded(k as f32 * TICK), 0.0]);
+            let governed = governor.govern(&limits, &model, &motion, wanted);
+            motion.alpha = governed.alpha;
+            let torque = model.torque(motion.phase, motion.omega, motion.alpha);
+            let way = if motion.omega < F::Number::default() {
+                &backward
+            } else {
+                &forward
+            };
+            ticks.push(Tick {
+                phase: motion.phase,
+                omega: motion.omega.to_f64() * speed,
+                alpha: motion.alpha.to_f64() * alpha_base,
+                torque: torque.to_f64() * torque_base,
+                by: governed.by,
+                most: way.speed_at(motion.phase, 9.0).into(),
+            });
+            motion = period.later(motion).value;
+        }
+    });
+    ticks
+}
+
+fn kept<F: Format>(scale: Scale, error: f64) {
+    let ticks = governed::<F>(scale, 8.0, |time| if time < 4.0 { 10.0 } else { -10.0 });
+    let mut seen = [0; 4];
+    for tick in &ticks {
+        let Tick {
+            omega,
+            torque,
+            most,
+            ..
+        } = *tick;
+        let phi = f64::from(tick.phase.to_bits()) / 4_294_967_296.0 * TAU;
+        let at = format!("{} at {phi}: {omega} rad/s, {torque} N·m", F::NAME);
+        // The drive's torque, of which the look-ahead takes 0.97.
+        let driving = if omega.abs() <= 6.0 {
+            8.0
+        } else {
+            8.0 - (omega.abs() - 6.0) * 4.0 / 6.0
+        };
+        let along = torque * omega.signum();
+        assert!(along < driving + error, "{at}");
+        assert!(along > -8.0 - error, "{at}");
+        assert!(
+            omega.abs() < most * (1.0 + 2e-3) + error,
+            "{at}, at most {most}"
+        );
+        assert!(tick.alpha.abs() < 40.0 + error, "{at}");
+        match tick.by {
+            None => seen[0] += 1,
+            Some(Limit::Torque) => seen[1] += 1,
+            Some(Limit::Ahead) => seen[2] += 1,
+            Some(Limit::Acceleration) => seen[3] += 1,
+            Some(other) => panic!("{other:?}"),
+        }
+    }
+    assert!(seen[1] > 100 && seen[2] > 100, "{seen:?}");
+    // Both ways it comes round, again and again.
+    for way in [1.0, -1.0] {
+        let fast = ticks.iter().filter(|tick| tick.omega * way > 5.0).count();
+        assert!(fast > 300, "{fast}");
+    }
+}
+
+#[test]
+fn the_governor_keeps_torque_and_speed() {
+    kept::<Cubic<f64>>(Scale::SI, 1e-3);
+    kept::<Spline<f32>>(Scale::SI, 2e-3);
+    let scale = scale_of(250.0, 12.0, 1.5);
+    kept::<Cubic<Q31>>(scale, 2e-3);
+    kept::<Quadratic<Q31>>(scale, 4e-3);
+    kept::<Rows16>(scale, 0.15);
+}
+
+#[test]
+fn the_governor_does_not_chatter() {
+    let ticks = governed::<Cubic<f64>>(Scale::SI, 4.0, |_| 10.0);
+    // A command that switches between driving and braking would change by 15 rad/s² every tick; this one goes up and down a few times a turn.
+    let changes = ticks
+        .windows(2)
+        .map(|pair| (pair[1].alpha - pair[0].alpha).abs());
+    let passed: f64 = ticks.iter().map(|tick| tick.omega * f64::from(TICK)).sum();
+    let [range, a_turn] = [25.0, changes.sum::<f64>() / (passed / TAU)];
+    assert!(a_turn < 6.0 * range, "{a_turn}");
+    // Where the look-ahead binds, the machine is at the limit, and loses no time.
+    let bound: Vec<&Tick> = ticks
+        .iter()
+        .filter(|tick| tick.by == Some(Limit::Ahead))
+        .collect();
+    let left = bound
+        .iter()
+        .map(|tick| 1.0 - tick.omega / tick.most)
+        .fold(0.0, f64::max);
+    assert!(left < 0.02, "{left}");
+}
+
+#[test]
+fn a_commanded_speed_that_is_possible_is_reached() {
+    let ticks = governed::<Cubic<f64>>(Scale::SI, 3.0, |_| 2.0);
+    let last = &ticks[ticks.len() - 1000..];
+    assert!(
+        last.iter()
+            .all(|tick| tick.by.is_none() && (tick.omega - 2.0).abs() < 1e-6)
+    );
+    // And rest is rest.
+    let ticks = governed::<Spline<f32>>(Scale::SI, 3.0, |time| if time < 1.5 { 9.0 } else { 0.0 });
+    let last = &ticks[ticks.len() - 1000..];
+    assert!(
+        last.iter().all(|tick| tick.omega.abs() < 1e-6),
+        "{}",
+        last[0].omega
+    );
+}
+
+#[test]
+fn one_way_is_one_way() {
+    with_model::<Spline<f32>, SET>(Scale::SI, |model| {
+        let period = Period::new(TICK, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let envelope = Envelope::new(POINTS, BRAKE, &Scale::SI).unwrap();
+        let limits = Limits::new(envelope, 11.0, 40.0, period, &Scale::SI).unwrap();
+        let braking = Braking {
+            torque: BRAKE,
+            deceleration: 40.0,
+            helped: true,
+        };
+        let made = |direction| {
+            LookAhead::<f32, 64>::new(&model, direction, braking, limit, &period).unwrap()
+        };
+        let [forward, backward] = [Direction::Forward, Direction::Backward].map(made);
+        assert!(Governor::both_ways(&backward, &forward).is_err());
+        assert!(Governor::both_ways(&forward, &forward).is_err());
+        for (ahead, way) in [(&forward, 1.0), (&backward, -1.0)] {
+            let governor = Governor::one_way(ahead);
+            let mut motion = Motion::default();
+            for wanted in [way * 3.0, -way * 3.0] {
+                for _ in 0..3000 {
+                    motion.alpha = governor.govern(&limits, &model, &motion, wanted).alpha;
+                    motion = period.later(motion).value;
+                    assert!(motion.omega * way > -1e-3, "{motion:?}");
+                }
+                let expected = (way * 3.0 * (wanted * way).signum().max(0.0)).abs();
+                assert!((motion.omega.abs() - expected).abs() < 1e-3, "{motion:?}");
+            }
+        }
+        let governor = Governor::one_way(&forward);
+        for (omega, wanted) in [
+            (f32::NAN, 1.0),
+            (1.0, f32::NAN),
+            (f32::INFINITY, 1.0),
+            (1.0, f32::INFINITY),
+        ] {
+            let motion = Motion {
+                omega,
+                ..Motion::default()
+            };
+            let found = governor.govern(&limits, &model, &motion, wanted);
+            assert!(found.alpha.is_finite(), "{omega} {wanted}: {found:?}");
+            assert!(found.unkept.is_some() || omega == 1.0);
+        }
+    });
+}
+
+#[test]
+fn a_stroke_is_stopped_at_its_end() {
+    let wave = Wave {
+        domain: Domain::stroke(0.5, 2.5).unwrap(),
+        ..WAVE
+    };
+    with_model_of::<Cubic<Q31>, SET>(&wave, scale_of(250.0, 12.0, 1.5), |model| {
+        let scale = *model.table().scale();
+        let period = Period::new(TICK, wave.domain, &scale).unwrap();
+        let envelope = Envelope::new(POINTS, BRAKE, &scale).unwrap();
+        let limits = Limits::new(envelope, 11.0, 40.0, period, &scale).unwrap();
+        let braking = Braking {
+            torque: 0.97 * BRAKE,
+            deceleration: 40.0,
+            helped: true,
+        };
+        let made = |direction| {
+            LookAhead::<Q31, 65>::new(&model, direction, braking, |_| 8.0, &period).unwrap()
+        };
+        let [forward, backward] = [Direction::Forward, Direction::Backward].map(made);
+        let governor = Governor::both_ways(&forward, &backward).unwrap();
+        let mut motion = Motion::default();
+        for way in [1.0, -1.0, 1.0] {
+            let [wanted, _] = si(&scale, [way * 8.0, 0.0]);
+            let mut fastest = 0.0_f64;
+            let mut end_speed = 0.0_f64;
+            for _ in 0..4000 {
+                motion.alpha = governor.govern(&limits, &model, &motion, wanted).alpha;
+                let before = motion.phase.to_bits();
+                motion = period.later(motion).value;
+                let omega = motion.omega.to_f64() * f64::from(scale.speed());
+                fastest = fastest.max(omega.abs());
+                let clipped = [0, u32::MAX].contains(&motion.phase.to_bits());
+                if clipped && before != motion.phase.to_bits() {
+                    end_speed = end_speed.max(omega.abs());
+                }
+            }
+            // It was fast, and at the end it came to rest instead of being stopped by it.
+            let end = f64::from(motion.phase.to_bits()) / 4_294_967_296.0;
+            let expected = if way > 0.0 { 1.0 } else { 0.0 };
+            assert!(fastest > 2.0, "{fastest}");
+            assert!((end - expected).abs() < 2e-3, "{way}: {end}");
+            assert!(end_speed < 0.05, "{way}: {end_speed}");
+            // But for the rounding of a tick.
+            assert!(motion.omega.to_f64().abs() < 1e-8, "{way}: {motion:?}");
+        }
+    });
+}

@@ -1,0 +1,262 @@
+use core::f64::consts::TAU;
+
+use jred::axis::{AxisError, Envelope, Gearbox, Limit, Limits, Period};
+use jred::number::Number;
+use jred::table::Format;
+use jred::{Cubic, Domain, Phase, Q15, Q31, Quadratic, Rows16, Scale, Set, Spline, curves};
+use proptest::num::u32::ANY;
+
+use super::machine::{si, with_model};
+use crate::support::{assert_near, samples, scale_of};
+
+const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+/// A drive for the wave: 8 N·m up to 4 rad/s, 3 at 8 and nothing beyond; 6 when it brakes.
+const POINTS: [[f32; 2]; 3] = [[4.0, 8.0], [6.0, 7.0], [8.0, 3.0]];
+
+/// The same, written down once more.
+fn driving(omega: f64) -> f64 {
+    match omega {
+        w if w <= 4.0 => 8.0,
+        w if w <= 6.0 => 8.0 - (w - 4.0) / 2.0,
+        w if w <= 8.0 => 7.0 - (w - 6.0) * 2.0,
+        _ => 0.0,
+    }
+}
+
+fn interval(omega: f64) -> [f64; 2] {
+    if omega > 0.0 {
+        [-6.0, driving(omega)]
+    } else if omega < 0.0 {
+        [-driving(-omega), 6.0]
+    } else {
+        [-8.0, 8.0]
+    }
+}
+
+fn envelope_of<N: Number>(scale: &Scale, error: f64) {
+    let envelope = Envelope::<N, 3>::new(POINTS, 6.0, scale).unwrap();
+    let torque = |n: N| n.to_f64() * f64::from(scale.torque());
+    let on_points = [0.0, 4.0, -4.0, 6.0, -6.0, 7.999, 8.5, -8.5];
+    for omega in samples(400, 0xff10, &(-9.0..9.0))
+        .into_iter()
+        .chain(on_points)
+    {
+        let [w, _] = si::<N>(scale, [omega, 0.0]);
+        let exact = interval(w.to_f64() * f64::from(scale.speed()));
+        let found = envelope.torques(w).map(torque);
+        for (found, exact) in found.into_iter().zip(exact) {
+            assert_near(&format!("{} at {omega}", N::NAME), found, exact, error);
+        }
+    }
+}
+
+#[test]
+fn an_envelope_is_that_of_its_points() {
+    let scale = scale_of(10.0, 10.0, 1.5);
+    envelope_of::<f64>(&Scale::SI, 1e-6);
+    envelope_of::<f32>(&Scale::SI, 2e-6);
+    envelope_of::<Q31>(&scale, 10.0 * (3.0 * 6.0 / 2_147_483_648.0) + 2e-6);
+    envelope_of::<Q15>(&scale, 10.0 * 4.0 / 32_768.0);
+    let none = Envelope::<f32, 3>::new(POINTS, 6.0, &Scale::SI)
+        .unwrap()
+        .torques(f32::NAN);
+    assert_eq!(none, [0.0; 2]);
+}
+
+#[test]
+fn an_envelope_of_a_motor_is_that_of_the_drive_link() {
+    let gearbox = Gearbox {
+        ratio: 10.0,
+        efficiency: 0.9,
+        rotor: 0.0,
+    };
+    let motor = [[40.0, 0.8], [60.0, 0.4]];
+    let link = Envelope::<f64, 2>::of_motor(motor, 0.6, gearbox, &Scale::SI).unwrap();
+    // At 5 rad/s the motor turns at 50 and drives with 0.6, of which 0.9 arrives; when it brakes it need not brake what the gearbox does.
+    let found = link.torques(5.0);
+    assert_near("driving", found[1], 0.6 * 10.0 * 0.9, 1e-6);
+    assert_near("braking", found[0], -0.6 * 10.0 / 0.9, 1e-6);
+    let rotor = Gearbox {
+        rotor: 1e-4,
+        ..gearbox
+    };
+    let refused = Envelope::<f64, 2>::of_motor(motor, 0.6, rotor, &Scale::SI);
+    assert!(matches!(
+        refused,
+        Err(AxisError::OutOfRange {
+            what: "the inertia of the rotor",
+            ..
+        })
+    ));
+}
+
+#[test]
+fn envelopes_that_cannot_be_are_refused() {
+    let made = |points: [[f32; 2]; 2], brake| Envelope::<f32, 2>::new(points, brake, &Scale::SI);
+    assert!(made([[0.0, 5.0], [1.0, 0.0]], 5.0).is_ok());
+    let nan = f32::NAN;
+    for (points, brake) in [
+        ([[1.0, 5.0], [1.0, 4.0]], 5.0),
+        ([[-1.0, 5.0], [1.0, 4.0]], 5.0),
+        ([[1.0, 5.0], [2.0, 6.0]], 5.0),
+        ([[1.0, 5.0], [2.0, -1.0]], 5.0),
+        ([[1.0, 0.0], [2.0, 0.0]], 5.0),
+        ([[1.0, nan], [2.0, 1.0]], 5.0),
+        ([[1.0, 5.0], [nan, 1.0]], 5.0),
+        ([[1.0, 5.0], [2.0, nan]], 5.0),
+        ([[1.0, 5.0], [f32::INFINITY, 1.0]], 5.0),
+        ([[1.0, f32::INFINITY], [2.0, 1.0]], 5.0),
+        ([[1.0, 5.0], [2.0, 4.0]], 0.0),
+        ([[1.0, 5.0], [2.0, 4.0]], nan),
+    ] {
+        assert!(made(points, brake).is_err(), "{points:?} {brake}");
+    }
+    assert!(Envelope::<f32, 0>::new([], 5.0, &Scale::SI).is_err());
+    let scale = scale_of(4.0, 10.0, 1.0);
+    assert!(Envelope::<Q31, 1>::new([[5.0, 4.5]], 3.0, &scale).is_err());
+    assert!(Envelope::<Q31, 1>::new([[11.0, 3.5]], 3.0, &scale).is_err());
+    assert!(Envelope::<Q31, 1>::new([[5.0, 3.5]], 4.5, &scale).is_err());
+    assert!(Envelope::<Q31, 1>::new([[5.0, 3.5]], 3.0, &scale).is_ok());
+}
+
+/// In every state: the torque of the accelerations, and which limit binds, against the equation of motion.
+fn feasible<F: Format>(scale: Scale, error: f64) {
+    with_model::<F, SET>(scale, |model| {
+        let scale = *model.table().scale();
+        let period = Period::new(0.05, Domain::<f64>::Turn, &scale).unwrap();
+        let envelope = Envelope::new(POINTS, 6.0, &scale).unwrap();
+        let limits = Limits::new(envelope, 5.5, 7.5, period, &scale).unwrap();
+        let [torque, speed, alpha_base] =
+            [scale.torque(), scale.speed(), scale.acceleration()].map(f64::from);
+        let mut seen = [0; 3];
+        for (bits, omega) in samples(600, 0xff11, &(ANY, -9.0..9.0)) {
+            let phi = f64::from(bits) / 4_294_967_296.0 * TAU;
+            let [w, _] = si::<F::Number>(&scale, [omega, 0.0]);
+            let omega = w.to_f64() * speed;
+            let found = limits.feasible(&model, Phase::from_bits(bits), w);
+            let drag = -0.125 * phi.sin() * omega * omega - 3.0 * phi.sin()
+                + 0.1 * omega
+                + 0.5 * omega.signum();
+            let of_torque = interval(omega).map(|t| (t - drag) / (1.0 + 0.25 * phi.cos()));
+            let of_speed = [-5.5 - omega, 5.5 - omega].map(|gain| gain / 0.05);
+            let clamped = |k: usize| {
+                of_speed[k]
+                    .clamp(-7.5, 7.5)
+                    .clamp(of_torque[0], of_torque[1])
+            };
+            for (k, bound) in [(0, found.least), (1, found.greatest)] {
+                let alpha = bound.alpha.to_f64() * alpha_base;
+                assert_near(
+                    &format!("{} at {phi}, {omega}", F::NAME),
+                    alpha,
+                    clamped(k),
+                    error,
+                );
+                let (by, from) = match bound.by {
+                    Limit::Torque => (0, of_torque[k]),
+                    Limit::Acceleration => (1, [-7.5, 7.5][k]),
+                    Limit::Speed => (2, of_speed[k]),
+                    other => panic!("{other:?}"),
+                };
+                // What is said to bind is what is kept; where nothing can be, the other end of what the torque can.
+                assert!(
+                    (alpha - from).abs() < error || found.unkept.is_some(),
+                    "{bound:?}"
+                );
+                seen[by] += 1;
+            }
+            // The speed is beyond what the acceleration brings back in a tick, or the torque does not suffice.
+            let close = of_speed.map(|alpha| alpha.clamp(-7.5, 7.5));
+            let conflict = close[1] < of_torque[0]
+                || close[0] > of_torque[1]
+                || of_speed[1] < -7.5
+                || of_speed[0] > 7.5;
+            let near = |x: f64, y: f64| (x - y).abs() < error;
+            let unsure = near(of_torque[0], close[1])
+                || near(of_torque[1], close[0])
+                || near(of_speed[1], -7.5)
+                || near(of_speed[0], 7.5);
+            assert!(
+                unsure || found.unkept.is_some() == conflict,
+                "{found:?} {of_torque:?}"
+            );
+            // Back through the model: never more than the drive has.
+            for bound in [found.least, found.greatest] {
+                let needed = model
+                    .torque(Phase::from_bits(bits), w, bound.alpha)
+                    .to_f64()
+                    * torque;
+                let [least, most] = interval(omega);
+                assert!(
+                    needed > least - error && needed < most + error,
+                    "{needed} {bound:?}"
+                );
+            }
+        }
+        assert!(seen.iter().all(|n| *n > 20), "{seen:?}");
+    });
+}
+
+#[test]
+fn feasible_accelerations_are_those_of_the_equation_of_motion() {
+    feasible::<Cubic<f64>>(Scale::SI, 2e-5);
+    feasible::<Spline<f32>>(Scale::SI, 5e-4);
+    let scale = scale_of(60.0, 10.0, 3.0);
+    feasible::<Cubic<Q31>>(scale, 5e-4);
+    feasible::<Quadratic<Q31>>(scale, 2e-3);
+    feasible::<Rows16>(scale, 0.03);
+}
+
+#[test]
+fn friction_holds_a_machine_at_rest() {
+    with_model::<Cubic<f64>, SET>(Scale::SI, |model| {
+        let period = Period::new(0.001, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let at = |phi: f64, peak: f32| {
+            let envelope = Envelope::new([[9.0, peak]], peak, &Scale::SI).unwrap();
+            let limits = Limits::new(envelope, 8.5, 75.0, period, &Scale::SI).unwrap();
+            let found = limits.feasible(&model, Phase::from_radians(phi), 0.0);
+            [found.least.alpha, found.greatest.alpha]
+        };
+        // The load is 3·sin φ, c is 0.5, J is 1 at a quarter turn.
+        let quarter = TAU / 4.0;
+        for (phi, peak, expected) in [
+            (0.0, 0.4, [0.0, 0.0]),
+            (0.0, 1.5, [-1.0 / 1.25, 1.0 / 1.25]),
+            // The load is stronger than friction and drive: the machine starts, and the drive can only hold back.
+            (quarter, 1.0, [3.0 - 0.5 - 1.0, 3.0 - 0.5 + 1.0]),
+            (quarter, 2.8, [0.0, 3.0 - 0.5 + 2.8]),
+            (quarter, 4.0, [3.0 + 0.5 - 4.0, 3.0 - 0.5 + 4.0]),
+            (-quarter, 2.8, [-3.0 + 0.5 - 2.8, 0.0]),
+        ] {
+            let found = at(phi, peak);
+            for (found, expected) in found.into_iter().zip(expected) {
+                assert_near(&format!("at {phi} with {peak}"), found, expected, 1e-5);
+            }
+        }
+    });
+}
+
+#[test]
+fn no_number_gives_no_acceleration_and_says_so() {
+    with_model::<Spline<f32>, SET>(Scale::SI, |model| {
+        let period = Period::new(0.001, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let envelope = Envelope::new(POINTS, 6.0, &Scale::SI).unwrap();
+        let limits = Limits::new(envelope, 8.5, 7.5, period, &Scale::SI).unwrap();
+        for omega in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30] {
+            let found = limits.feasible(&model, Phase::default(), omega);
+            assert!(found.unkept.is_some(), "{omega}: {found:?}");
+            assert!(
+                found.least.alpha.is_finite() && found.greatest.alpha.is_finite(),
+                "{omega}: {found:?}"
+            );
+        }
+        for (speed, acceleration) in [
+            (0.0, 1.0),
+            (1.0, 0.0),
+            (f32::NAN, 1.0),
+            (1.0, f32::INFINITY),
+        ] {
+            assert!(Limits::new(envelope, speed, acceleration, period, &Scale::SI).is_err());
+        }
+    });
+}

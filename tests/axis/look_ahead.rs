@@ -1,0 +1,388 @@
+use core::f64::consts::TAU;
+
+use jred::axis::{AxisError, Braking, Direction, LookAhead, Period};
+use jred::number::Number;
+use jred::table::Format;
+use jred::{Cubic, Domain, Model, Phase, Q31, Reducible, Rows16, Scale, Set, Spline, curves};
+use proptest::num::u32::ANY;
+
+use super::machine::{WAVE, si, with_model, with_model_of};
+use crate::support::machines::Wave;
+use crate::support::{assert_near, samples, scale_of};
+
+const SET: Set = curves::LOAD | curves::CONSTANT_COULOMB;
+const BRAKING: Braking = Braking {
+    torque: 8.0,
+    deceleration: f32::INFINITY,
+    helped: true,
+};
+/// The wave, with nothing that a look-ahead leaves out.
+const INVISCID: Wave = Wave {
+    viscous: 0.0,
+    ..WAVE
+};
+/// Fast, but from half to three quarters of the turn.
+const FAST: f32 = 10.0;
+const SLOW: f32 = 3.0;
+
+fn limit(phase: Phase) -> f32 {
+    if phase.to_bits() >> 30 == 2 {
+        SLOW
+    } else {
+        FAST
+    }
+}
+
+fn turns(phase: Phase) -> f64 {
+    f64::from(phase.to_bits()) / 4_294_967_296.0
+}
+
+fn with_ahead<F: Format, const NODES: usize>(
+    scale: Scale,
+    direction: Direction,
+    braking: Braking,
+    limit: fn(Phase) -> f32,
+    with: impl FnOnce(Model<'_, F, SET>, LookAhead<F::Number, NODES>),
+) {
+    with_model_of::<F, SET>(&INVISCID, scale, |model| {
+        let scale = *model.table().scale();
+        let period = Period::new(0.000_5, Domain::<f64>::Turn, &scale).unwrap();
+        let ahead = LookAhead::new(&model, direction, braking, limit, &period).unwrap();
+        with(model, ahead);
+    });
+}
+
+/// Steps of Runge and Kutta of f(φ, x) from `at` on.
+fn stepped(mut x: f64, at: f64, step: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
+    let k1 = f(at, x);
+    let k2 = f(at + step / 2.0, x + step / 2.0 * k1);
+    let k3 = f(at + step / 2.0, x + step / 2.0 * k2);
+    let k4 = f(at + step, x + step * k3);
+    x += step / 6.0 * (k1 + 2.0 * (k2 + k3) + k4);
+    x
+}
+
+/// d(ω²)/dφ of the exact machine under the brake, moving forward.
+fn braked(phi: f64, square: f64) -> f64 {
+    let reduction = INVISCID.reduction(phi).unwrap();
+    2.0 * reduction.acceleration(square.max(1e-12).sqrt(), -8.0)
+}
+
+#[test]
+fn the_limit_is_what_the_brake_can_do() {
+    // From the slow part backwards in small steps: no speed from which the exact machine can be slowed down in time is higher.
+    let steps = 100_000;
+    let step = -TAU / 2.0 / f64::from(steps);
+    let mut ideal = vec![(TAU / 2.0, f64::from(SLOW * SLOW))];
+    for k in 0..steps {
+        let at = TAU / 2.0 + f64::from(k) * step;
+        let square = stepped(ideal.last().unwrap().1, at, step, braked);
+        ideal.push((at + step, square));
+    }
+    let ideal = |phi: f64| ideal[((phi - TAU / 2.0) / step).round() as usize].1.sqrt();
+    let check = |direction, speed_at: &dyn Fn(Phase) -> f32, slack: f64| {
+        for k in 0..=32_u32 {
+            let phase = Phase::from_bits((k << 26).min(u32::MAX >> 1));
+            let phi = f64::from(k) / 64.0 * TAU;
+            let exact = ideal(phi).min(FAST.into());
+            // The wave is its own mirror image.
+            let found = match direction {
+                Direction::Forward => speed_at(phase),
+                Direction::Backward => speed_at(Phase::from_bits(!phase.to_bits())),
+            };
+            let share = f64::from(found) / exact;
+            assert!(
+                share < 1.0 + 2e-4,
+                "{direction:?} at {phi}: {found}, {exact}"
+            );
+            assert!(
+                share > 1.0 - slack,
+                "{direction:?} at {phi}: {found}, {exact}"
+            );
+        }
+    };
+    // The slow part, mirrored.
+    let mirrored = |phase: Phase| {
+        if (!phase.to_bits()) >> 30 == 2 {
+            SLOW
+        } else {
+            FAST
+        }
+    };
+    for (direction, limit) in [
+        (Direction::Forward, limit as fn(Phase) -> f32),
+        (Direction::Backward, mirrored),
+    ] {
+        with_ahead::<Cubic<f64>, 64>(Scale::SI, direction, BRAKING, limit, |_, ahead| {
+            check(direction, &|phase| ahead.speed_at(phase, FAST), 0.03);
+        });
+        // Four times as many nodes: a quarter of what is left.
+        with_ahead::<Cubic<f64>, 256>(Scale::SI, direction, BRAKING, limit, |_, ahead| {
+            check(direction, &|phase| ahead.speed_at(phase, FAST), 0.03 / 4.0);
+        });
+        with_ahead::<Spline<f32>, 64>(Scale::SI, direction, BRAKING, limit, |_, ahead| {
+            check(direction, &|phase| ahead.speed_at(phase, FAST), 0.03);
+        });
+        with_ahead::<Cubic<Q31>, 64>(
+            scale_of(250.0, 12.0, 1.5),
+            direction,
+            BRAKING,
+            limit,
+            |_, ahead| {
+                check(direction, &|phase| ahead.speed_at(phase, FAST), 0.03);
+            },
+        );
+    }
+}
+
+#[test]
+fn a_deceleration_is_kept() {
+    let braking = Braking {
+        deceleration: 2.0,
+        ..BRAKING
+    };
+    with_ahead::<Cubic<f64>, 64>(Scale::SI, Direction::Forward, braking, limit, |_, ahead| {
+        // From half a turn backwards a straight line in the square: ω² = 9 + 2·2·(π − φ).
+        for k in 16..32_u32 {
+            let phi = f64::from(k) / 64.0 * TAU;
+            let found = ahead.speed_at(Phase::from_bits(k << 26), FAST);
+            let exact = (9.0 + 4.0 * (TAU / 2.0 - phi)).sqrt();
+            assert_near(&format!("at {phi}"), found.into(), exact, 1e-4);
+        }
+    });
+}
+
+/// Angle until the exact machine rests under the brake.
+fn stopped(phi: f64, omega: f64, load: f64, coulomb: f64, viscous: f64) -> f64 {
+    let steps = 20_000;
+    // In time, because friction of the speed has no integral of the angle.
+    let step = omega.abs() / 2.0 / f64::from(steps);
+    let alpha = |phi: f64, omega: f64| {
+        let drag =
+            -0.125 * phi.sin() * omega * omega - load * phi.sin() + viscous * omega + coulomb;
+        (-8.0 - drag) / (1.0 + 0.25 * phi.cos())
+    };
+    let [mut at, mut omega] = [phi, omega];
+    loop {
+        let mid = omega + step / 2.0 * alpha(at, omega);
+        let after = omega + step * alpha(at + step / 2.0 * omega, mid);
+        if after <= 0.0 {
+            // The rest of the way at constant deceleration.
+            return at - phi + omega * omega / (2.0 * -alpha(at, omega));
+        }
+        at += step * mid;
+        omega = after;
+    }
+}
+
+fn stops<F: Format>(scale: Scale, error: f64) {
+    for direction in [Direction::Forward, Direction::Backward] {
+        with_ahead::<F, 128>(
+            scale,
+            direction,
+            BRAKING,
+            |_| FAST,
+            |model, ahead| {
+                let scale = *model.table().scale();
+                for (bits, omega) in samples(200, 0xff12, &(ANY, 0.0..10.0)) {
+                    let forward = direction == Direction::Forward;
+                    let (way, phase) = if forward { (1.0, bits) } else { (-1.0, !bits) };
+                    let [w, _] = si::<F::Number>(&scale, [way * omega, 0.0]);
+                    let omega = (w.to_f64() * f64::from(scale.speed())).abs();
+                    let found = ahead.stop(Phase::from_bits(phase), w);
+                    assert!(!found.beyond);
+                    let to = if forward {
+                        found.phase.to_bits()
+                    } else {
+                        !found.phase.to_bits()
+                    };
+                    let distance =
+                        f64::from(found.turns) + f64::from(to.wrapping_sub(bits)) / 4_294_967_296.0;
+                    let phi = f64::from(bits) / 4_294_967_296.0 * TAU;
+                    let exact = stopped(phi, omega, 3.0, 0.5, 0.0);
+                    let name = format!("{} {direction:?} from {phi} at {omega}", F::NAME);
+                    assert_near(&name, distance * TAU, exact, error * (1.0 + exact));
+                    // Viscous friction only helps; without the help of load and friction it takes longer.
+                    assert!(stopped(phi, omega, 3.0, 0.5, 0.1) <= exact);
+                }
+                // At rest it is where it is.
+                for bits in [0, 1, 0x1234_5678, u32::MAX - 1] {
+                    let found = ahead.stop(Phase::from_bits(bits), F::Number::default());
+                    let off = found.phase.to_bits().wrapping_sub(bits).cast_signed();
+                    assert!(
+                        found.turns == 0 && off.abs() < 1 << 10,
+                        "{bits:x}: {found:x?}"
+                    );
+                }
+            },
+        );
+    }
+}
+
+#[test]
+fn it_stops_where_it_was_said() {
+    stops::<Cubic<f64>>(Scale::SI, 5e-4);
+    stops::<Spline<f32>>(Scale::SI, 5e-4);
+    let scale = scale_of(250.0, 12.0, 1.5);
+    stops::<Cubic<Q31>>(scale, 5e-4);
+    stops::<Rows16>(scale, 5e-3);
+}
+
+#[test]
+fn a_weak_brake_takes_turns_and_help_is_not_counted() {
+    let weak = Braking {
+        torque: 3.5,
+        helped: false,
+        ..BRAKING
+    };
+    with_ahead::<Cubic<f64>, 128>(
+        Scale::SI,
+        Direction::Forward,
+        weak,
+        |_| 30.0,
+        |_, ahead| {
+            // The load drives in the first half of the turn: 6 N·m·rad of 3.5·2π a turn. From the dead centre, where J is 1.25.
+            let a_turn = 3.5 * TAU - 6.0;
+            for n in [1, 3, 20] {
+                let energy = f64::from(n) * a_turn;
+                let found = ahead.stop(Phase::default(), (2.0 * energy / 1.25).sqrt());
+                let passed = f64::from(found.turns) + turns(found.phase);
+                assert_near(&format!("{n} turns"), passed, f64::from(n), 1e-3);
+            }
+            // Half a turn later nothing drives it for the next half.
+            let found = ahead.stop(Phase::from_bits(1 << 31), (2.0 * 3.5_f64 / 0.75).sqrt());
+            assert_near("a radian", (turns(found.phase) - 0.5) * TAU, 1.0, 1e-3);
+            assert!(ahead.stop(Phase::default(), -1.0).beyond);
+            assert!(ahead.stop(Phase::default(), 61.0).beyond);
+            assert!(!ahead.stop(Phase::default(), 59.0).beyond);
+            assert_eq!(ahead.stop(Phase::default(), f64::NAN).turns, 0);
+        },
+    );
+}
+
+#[test]
+fn a_stroke_ends_at_rest() {
+    let wave = Wave {
+        domain: Domain::stroke(0.5, 2.5).unwrap(),
+        load: 0.0,
+        coulomb: 0.0,
+        swing: 0.0,
+        ..INVISCID
+    };
+    with_model_of::<Cubic<f64>, SET>(&wave, Scale::SI, |model| {
+        let period = Period::new(0.000_5, wave.domain, &Scale::SI).unwrap();
+        let both = [Direction::Forward, Direction::Backward].map(|direction| {
+            LookAhead::<f64, 65>::new(&model, direction, BRAKING, |_| 4.0, &period).unwrap()
+        });
+        // α = −8: ω² = 16 until a metre before the end, then a straight line to 0.
+        for k in 0..=64 {
+            let share = f64::from(k) / 64.0;
+            let phase = Phase::from_bits((share * 4_294_967_296.0) as u32);
+            for (ahead, left) in both.iter().zip([1.0 - share, share]) {
+                let exact = (16.0 * 2.0 * left).sqrt().min(4.0);
+                assert_near(
+                    &format!("{k}"),
+                    ahead.speed_at(phase, 4.0).into(),
+                    exact,
+                    2e-3,
+                );
+                // ω²/16 m to stop: before the end or not.
+                let omega = if ahead.direction() == Direction::Forward {
+                    3.1
+                } else {
+                    -3.1
+                };
+                let found = ahead.stop(phase, omega);
+                let ends = 3.1 * 3.1 / 16.0 > 2.0 * left;
+                assert_eq!(found.beyond, ends, "{k}: {found:?}");
+                let way = if ends { left } else { 3.1 * 3.1 / 32.0 };
+                let moved = (turns(found.phase) - turns(phase)).abs();
+                assert_near(&format!("{k}"), moved, way, 1e-5);
+                assert_eq!(found.turns, 0);
+            }
+        }
+    });
+}
+
+#[test]
+fn what_cannot_be_looked_ahead_is_refused() {
+    with_model::<Spline<f32>, { SET | curves::CONSTANT_VISCOUS }>(Scale::SI, |model| {
+        let period = Period::new(0.001, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let made = |braking, limit: f32| {
+            LookAhead::<f32, 32>::new(&model, Direction::Forward, braking, |_| limit, &period)
+        };
+        assert!(made(BRAKING, 10.0).is_ok());
+        // The load is 3 at a quarter turn, friction 0.5.
+        let torque = |torque, helped| {
+            made(
+                Braking {
+                    torque,
+                    helped,
+                    ..BRAKING
+                },
+                10.0,
+            )
+        };
+        assert!(torque(2.52, true).is_ok());
+        let refused = torque(2.48, true).unwrap_err();
+        assert!(
+            matches!(refused, AxisError::Overpowered(phase) if (turns(phase) - 0.25).abs() < 0.05)
+        );
+        assert_eq!(
+            format!("{refused}; {}", refused.cure()),
+            "the load drives the machine with more than the braking torque at 250/1000 of the range; \
+             give more braking torque, or a counterbalance to the load"
+        );
+        assert!(torque(3.02, false).is_ok() && torque(2.98, false).is_err());
+        for braking in [
+            Braking {
+                torque: 0.0,
+                ..BRAKING
+            },
+            Braking {
+                torque: f32::NAN,
+                ..BRAKING
+            },
+            Braking {
+                torque: f32::INFINITY,
+                ..BRAKING
+            },
+            Braking {
+                deceleration: 0.0,
+                ..BRAKING
+            },
+            Braking {
+                deceleration: f32::NAN,
+                ..BRAKING
+            },
+        ] {
+            assert!(made(braking, 10.0).is_err(), "{braking:?}");
+        }
+        for limit in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e30, 1e-30, 200.0] {
+            assert!(made(BRAKING, limit).is_err(), "{limit}");
+        }
+        let few = LookAhead::<f32, 3>::new(&model, Direction::Forward, BRAKING, |_| 1.0, &period);
+        assert!(few.is_err());
+    });
+    // J from 0.1 to 1.9 in half a turn: four nodes do not follow it.
+    let uneven = Wave {
+        swing: 0.9,
+        ..INVISCID
+    };
+    with_model_of::<Spline<f32>, SET>(&uneven, Scale::SI, |model| {
+        let period = Period::new(0.001, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let of = LookAhead::<f32, 8>::new(&model, Direction::Forward, BRAKING, |_| 1.0, &period);
+        assert!(of.is_err());
+        let of = LookAhead::<f32, 64>::new(&model, Direction::Forward, BRAKING, |_| 1.0, &period);
+        assert!(of.is_ok());
+    });
+    // A speed beyond its base.
+    with_model_of::<Cubic<Q31>, SET>(&INVISCID, scale_of(250.0, 12.0, 1.5), |model| {
+        let scale = *model.table().scale();
+        let period = Period::new(0.000_5, Domain::<f64>::Turn, &scale).unwrap();
+        let of = |limit: f32| {
+            LookAhead::<Q31, 32>::new(&model, Direction::Forward, BRAKING, |_| limit, &period)
+        };
+        assert!(of(11.0).is_ok() && of(20.0).is_err());
+    });
+}
