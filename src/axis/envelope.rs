@@ -59,7 +59,7 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
     ///
     /// # Errors
     /// No point; a first or a braking torque that is not positive and finite, or a torque that rises with the speed; speeds that do not rise from 0 or
-    /// more; in fixed point a torque or speed beyond its base.
+    /// more; in fixed point a torque beyond its base.
     pub fn new(driving: [[f32; 2]; POINTS], brake: f32, scale: &Scale) -> Result<Self, AxisError> {
         let first = driving.first().map_or(0.0, |[_, torque]| *torque);
         let peak = in_range(TORQUES, scale.to_torque(positive(TORQUES, first)?))?;
@@ -70,18 +70,17 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
         let mut top = rest;
         for (k, (fall, point)) in falls.iter_mut().zip(driving).enumerate() {
             let [run, lost] = [point[0] - last[0], last[1] - point[1]];
+            let rises = run > 0.0 || k == 0 && run >= 0.0;
             within(
                 SPEEDS,
-                run > 0.0 || k == 0 && run >= 0.0,
-                "rising from 0 or more",
+                rises && run.is_finite(),
+                "rising from 0 or more, and finite",
             )?;
-            within(
-                TORQUES,
-                lost >= 0.0 && point[1] >= 0.0,
-                "falling, and 0 or more",
-            )?;
+            let falling = lost >= 0.0 && point[1] >= 0.0;
+            within(TORQUES, falling, "falling, and 0 or more")?;
+            // In fixed point the line ends at the greatest speed that a number can have.
             let from = top;
-            top = in_range(SPEEDS, scale.omega(point[0]))?;
+            top = scale.omega(point[0]).value;
             *fall = Fall {
                 from,
                 width: [rest, top.minus(from).value],

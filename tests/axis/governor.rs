@@ -124,7 +124,7 @@ fn kept<F: Format>(scale: Scale, error: f64) {
 fn the_governor_keeps_torque_and_speed() {
     kept::<Cubic<f64>>(Scale::SI, 1e-3);
     kept::<Spline<f32>>(Scale::SI, 2e-3);
-    let scale = scale_of(250.0, 12.0, 1.5);
+    let scale = scale_of(250.0, 11.5, 1.5);
     kept::<Cubic<Q31>>(scale, 2e-3);
     kept::<Quadratic<Q31>>(scale, 4e-3);
     kept::<Rows16>(scale, 0.15);
@@ -224,7 +224,7 @@ fn a_stroke_is_stopped_at_its_end() {
         domain: Domain::stroke(0.5, 2.5).unwrap(),
         ..WAVE
     };
-    with_model_of::<Cubic<Q31>, SET>(&wave, scale_of(250.0, 12.0, 1.5), |model| {
+    with_model_of::<Cubic<Q31>, SET>(&wave, scale_of(250.0, 11.5, 1.5), |model| {
         let scale = *model.table().scale();
         let period = Period::new(TICK, wave.domain, &scale).unwrap();
         let envelope = Envelope::new(POINTS, BRAKE, &scale).unwrap();

@@ -114,7 +114,19 @@ fn envelopes_that_cannot_be_are_refused() {
     assert!(Envelope::<f32, 0>::new([], 5.0, &Scale::SI).is_err());
     let scale = scale_of(4.0, 10.0, 1.0);
     assert!(Envelope::<Q31, 1>::new([[5.0, 4.5]], 3.0, &scale).is_err());
-    assert!(Envelope::<Q31, 1>::new([[11.0, 3.5]], 3.0, &scale).is_err());
+    // A curve that goes on beyond the speed base ends there.
+    let beyond = Envelope::<Q31, 2>::new([[5.0, 3.6], [15.0, 1.6]], 3.0, &scale).unwrap();
+    let [least, most] = beyond
+        .torques(Q31::from_f64(0.9).unwrap())
+        .map(|t| 4.0 * t.to_f64());
+    assert_near("least", least, -3.0, 1e-6);
+    assert_near("most", most, 2.8, 1e-6);
+    assert_near(
+        "most",
+        4.0 * beyond.torques(Q31::MAX)[1].to_f64(),
+        2.6,
+        1e-6,
+    );
     assert!(Envelope::<Q31, 1>::new([[5.0, 3.5]], 4.5, &scale).is_err());
     assert!(Envelope::<Q31, 1>::new([[5.0, 3.5]], 3.0, &scale).is_ok());
 }
