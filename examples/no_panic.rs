@@ -6,7 +6,8 @@
 //! `scripts/test gates` builds it three times: as it is; with `--cfg gate_panic`, which must not link; and with
 //! `--cfg gate_double`, where the search for double-precision routines must find some; otherwise it must find none.
 //!
-//! Every public function of the layers `number`, `curve`, `tick` and `axis` is called here by its path, as `tests/no_panic_list.rs` sees to.
+//! Every public function of the layers `number`, `curve` and `tick` is called here by its path, those of `axis` in `no_panic_axis`, as
+//! `tests/no_panic_list.rs` sees to.
 //! What computes in double precision is called with `--cfg gate_double`, where no panic can be reached, either. Except:
 //!
 //! - `Transfer`: derivatives of mechanisms, of which tables are made
@@ -15,21 +16,10 @@
 //! - `Phase::sin_cos_approx`: of a feature that is off here; a polynomial for displays
 //! - `$error::cure`: words of an error for people
 #![cfg_attr(target_os = "none", no_std, no_main)]
-#![cfg_attr(
-    target_os = "none",
-    allow(
-        unsafe_code,
-        reason = "a symbol that does not exist, for the linker to miss"
-    )
-)]
 
 use core::hint::black_box;
 use core::num::NonZeroU32;
 
-use jred::axis::{
-    Counter, Encoder, FeedForward, Gearbox, Motion, Mounting, Period, Ramp, Scaled, Status,
-    StrokeEncoder, TorqueLimits, Tracker, Transmission,
-};
 use jred::curves::{self, width};
 use jred::duty::{Curve, Limits, Meter, Verdicts, Window};
 use jred::harmonic::{Coefficient, terms};
@@ -41,6 +31,10 @@ use jred::{
     AnyModel, Cubic, Domain, Harmonic, Image, ImageError, Model, Outcome, Phase, Pieces, Q15, Q31,
     Quadratic, Rows16, Scale, Set, Spline, Spline16, Table, include_image,
 };
+
+#[cfg(target_os = "none")]
+#[path = "support/gate.rs"]
+mod gate;
 
 /// The curves of the press, as `jred export` prints them.
 const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
@@ -94,11 +88,7 @@ fn calls() -> Result<(), ImageError> {
         every_format::<Rows16>(fixed),
     ];
     let _ = black_box(other);
-    every_axis::<Spline<f32>, PRESS>(float)?;
-    every_axis::<Spline<Q31>, PRESS>(fixed)?;
-    let _ = black_box(every_axis::<Rows16, PRESS>(fixed));
     every_term(float)?;
-    every_encoder();
     every_number();
     every_meter(Window::SinceStart);
     every_meter(Window::Exponential(600.0));
@@ -196,69 +186,6 @@ fn every_table<F: Format>(image: &Image<'_>, table: Table<'_, F>) {
     let _ = black_box(Image::new(written));
 }
 
-/// What stands between an encoder and a torque command.
-fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), ImageError> {
-    let image = Image::from_bytes(black_box(bytes))?;
-    let model = Image::model::<F, SET>(&image)?;
-    let feed_forward = FeedForward::new(model, Image::validity(&image));
-    let model = FeedForward::model(&feed_forward);
-    let (phase, [omega, alpha]) = black_box((Phase::default(), [F::Number::default(); 2]));
-    let mut sliding = Sliding::Against(black_box(omega));
-    if let Ok(ramp) = Ramp::new(black_box(0.1), Image::scale(&image)) {
-        sliding = Ramp::at(&ramp, omega);
-    }
-    let mut motion = Motion {
-        phase,
-        omega,
-        alpha,
-    };
-    let (domain, scale) = (Image::domain(&image), Image::scale(&image));
-    let time: Result<Period<F::Number>, _> = Period::new(black_box(1e-4), domain, scale);
-    if let Ok(time) = time {
-        let mut tracker = Tracker::new(black_box(0.9)).map(|tracker| Tracker::at(tracker, phase));
-        if let Ok(tracker) = &mut tracker {
-            black_box(Tracker::update_stroke(tracker, phase));
-            let tracked = Tracker::update(tracker, phase);
-            motion.omega = Period::omega(&time, tracked).value;
-            motion.alpha = Period::alpha(&time, tracked).value;
-        }
-        black_box(Tracker::with_bandwidth(black_box(50.0), black_box(1e-4)).is_ok());
-        motion.phase = motion.phase + Period::moved(&time, omega);
-        black_box((Period::gained(&time, alpha), Period::needed(&time, omega)));
-        black_box(Period::between(&time, phase, omega, alpha));
-        motion = Period::later(&time, motion).value;
-    }
-    let checked = FeedForward::at_reference(&feed_forward, motion, sliding);
-    black_box(FeedForward::at_measured(
-        &feed_forward,
-        phase,
-        omega,
-        motion,
-        sliding,
-    ));
-    black_box(Status::is_valid(FeedForward::status(
-        &feed_forward,
-        omega,
-        alpha,
-    )));
-    black_box(Model::torque_with(model, phase, omega, alpha, sliding));
-    black_box(Model::contributions(model, phase, omega, alpha, sliding));
-    let gearbox = black_box(Gearbox {
-        ratio: 10.0,
-        efficiency: 0.9,
-        rotor: 0.001,
-    });
-    let mut torque = checked.torque;
-    if let Ok(gearbox) = Transmission::new::<F::Number>(gearbox, Image::scale(&image)) {
-        black_box(Transmission::base(&gearbox));
-        torque = Transmission::motor(&gearbox, torque, omega, alpha).value;
-    }
-    if let Ok(limits) = TorqueLimits::new(black_box(omega), black_box(alpha)) {
-        black_box(TorqueLimits::limited(&limits, torque));
-    }
-    Ok(())
-}
-
 /// Of one format: there is no room for more in the flash of the smallest board.
 fn every_term(bytes: &'static [u8]) -> Result<(), ImageError> {
     let image = Image::from_bytes(black_box(bytes))?;
@@ -270,17 +197,6 @@ fn every_term(bytes: &'static [u8]) -> Result<(), ImageError> {
     black_box(Image::is_of::<Spline<f32>, PRESS>(black_box(&[0; 30])));
     black_box(Image::bytes_are_of::<Spline<f32>, PRESS>(black_box(bytes)));
     Ok(())
-}
-
-fn every_encoder() {
-    let mut counter: Counter<16> = Counter::at(black_box(5));
-    let wide = Counter::extend(&mut counter, black_box(7));
-    if let Ok(encoder) = Encoder::new(black_box(Mounting::direct(10_000))) {
-        black_box((
-            Encoder::phase(&encoder, black_box(1)),
-            Encoder::phase_wide(&encoder, wide),
-        ));
-    }
 }
 
 fn every_number() {
@@ -355,15 +271,6 @@ fn every_double<F: Format>(table: Table<'_, F>) {
     }
     black_box((Table::at(&table, phase), Table::reciprocal(&table, phase)));
     black_box(Table::si(&table, phase, Domain::Turn));
-    let scaled = black_box(Scaled {
-        resolution: 1e-6,
-        home: 0,
-        at_home: 0.0,
-    });
-    let stroke = black_box(Domain::Stroke { from: 0.0, to: 0.5 });
-    if let Ok(encoder) = StrokeEncoder::new(stroke, scaled) {
-        black_box(StrokeEncoder::phase(&encoder, black_box(1)));
-    }
 }
 
 #[cfg(not(target_os = "none"))]
@@ -372,26 +279,7 @@ fn main() -> Result<(), ImageError> {
 }
 
 #[cfg(target_os = "none")]
-mod target {
-    use cortex_m_semihosting::debug;
-
-    #[panic_handler]
-    fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
-        // SAFETY: never called; a program that could call it does not link.
-        unsafe extern "C" {
-            safe fn a_panic_is_reachable() -> !;
-        }
-        a_panic_is_reachable()
-    }
-
-    #[cortex_m_rt::entry]
-    fn main() -> ! {
-        let status = match super::calls() {
-            Ok(()) => debug::EXIT_SUCCESS,
-            Err(_) => debug::EXIT_FAILURE,
-        };
-        loop {
-            debug::exit(status);
-        }
-    }
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    gate::end(calls().is_ok())
 }

@@ -1,4 +1,4 @@
-//! `examples/no_panic.rs`, which links only if no panic can be reached, calls all that a tick can need.
+//! `examples/no_panic.rs` and `no_panic_axis.rs`, which link only if no panic can be reached, call all that a tick can need.
 //!
 //! Implementations of traits are not looked for: operators of an angle stand in the program without a name, and those of a format or
 //! a number are what every tick is made of.
@@ -119,7 +119,9 @@ fn the_gate_calls_all_that_a_tick_can_need() {
     ] {
         assert!(all.contains(known), "{known} is found");
     }
-    let gate = fs::read_to_string(root.join("examples/no_panic.rs")).unwrap();
+    let gate = ["no_panic", "no_panic_axis"]
+        .map(|name| fs::read_to_string(root.join(format!("examples/{name}.rs"))).unwrap())
+        .concat();
     // "//! - `A`, `B::c`: the reason": a function, or a type with all of its own.
     let lines = gate.lines().filter_map(|line| line.strip_prefix("//! - `"));
     let excepted: BTreeSet<_> = lines

@@ -155,10 +155,8 @@ impl<'m, 'a, F: Format, const SET: Set> Course<'m, 'a, F, SET> {
         let most = 2.0 * self.step * (self.braking.deceleration / top / top);
         // Where nothing is limited on a turn, once round: then its beginning is known.
         let rounds = if self.way.stroke { 1 } else { 2 };
-        if self.way.stroke {
-            if let Some(end) = squares.last_mut() {
-                *end = 0;
-            }
+        if let (true, Some(end)) = (self.way.stroke, squares.last_mut()) {
+            *end = 0;
         }
         for _ in 0..rounds {
             let mut after = self.place(2 * self.way.intervals)?;

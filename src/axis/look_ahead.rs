@@ -153,7 +153,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
     #[must_use]
     pub fn speed_at(&self, phase: Phase, top: f32) -> f32 {
         let (k, part) = self.way.cell(phase);
-        let [square, next] = self.around(&self.squares, k);
+        let [square, next] = around(&self.squares, k);
         let square = along(square, next, part) as f32 / ONE;
         top * crate::number::Real::sqrt(square)
     }
@@ -163,7 +163,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
     #[inline]
     pub(super) fn greatest(&self, motion: &Motion<N>) -> Outcome<N> {
         let (k, part) = self.way.cell(motion.phase);
-        let [square, next] = self.around(&self.squares, k);
+        let [square, next] = around(&self.squares, k);
         let reached = if self.is_against(motion.omega) {
             0
         } else {
@@ -183,9 +183,9 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
     pub fn stop(&self, phase: Phase, omega: N) -> Stop {
         let square = self.square(omega);
         let (k, part) = self.way.cell(phase);
-        let [work, next] = self.around(&self.works, k);
+        let [work, next] = around(&self.works, k);
         let reached = work.wrapping_add(share(next.wrapping_sub(work), part));
-        let [inertia, next] = self.around(&self.inertias, k);
+        let [inertia, next] = around(&self.inertias, k);
         let needed =
             (u64::from(along(inertia, next, part)) * u64::from(square)) >> (self.shift & 63);
         let target = needed.saturating_add(reached.into());
@@ -227,15 +227,6 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         }
     }
 
-    /// The values at both ends of an interval.
-    #[inline]
-    fn around(&self, nodes: &[u32; NODES], k: u32) -> [u32; 2] {
-        let k = k as usize;
-        let first = nodes.first().copied().unwrap_or_default();
-        let next = nodes.get(k + 1).copied().unwrap_or(first);
-        [nodes.get(k).copied().unwrap_or(first), next]
-    }
-
     /// Where so much work is done, in units of 2⁻³² of the range.
     #[inline]
     fn place(&self, work: u32) -> u32 {
@@ -247,7 +238,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
             step /= 2;
         }
         let k = k.min(self.way.intervals as usize - 1) as u32;
-        let [start, next] = self.around(&self.works, k);
+        let [start, next] = around(&self.works, k);
         // As many bits as one division of 32 by 32 takes.
         let width = next.wrapping_sub(start);
         let shift = 16_u32.saturating_sub(width.leading_zeros());
@@ -257,6 +248,15 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
             .wrapping_mul(k)
             .wrapping_add(share(self.way.width(), part.min(0xffff) << 16))
     }
+}
+
+/// The values at both ends of an interval.
+#[inline]
+fn around(nodes: &[u32], k: u32) -> [u32; 2] {
+    let k = k as usize;
+    let first = nodes.first().copied().unwrap_or_default();
+    let next = nodes.get(k + 1).copied().unwrap_or(first);
+    [nodes.get(k).copied().unwrap_or(first), next]
 }
 
 /// A share of a whole, in units of 2⁻³².

@@ -1,0 +1,212 @@
+//! The link gate of `no_panic`, of what stands between an encoder and a torque command: the layer `axis`. A program of its own, because
+//! both together do not fit into the flash of the smallest board.
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+use core::hint::black_box;
+
+use jred::axis::{
+    Braking, Counter, Direction, Encoder, Envelope, FeedForward, Gearbox, Governor, Limits,
+    LookAhead, Motion, Mounting, Period, Ramp, Scaled, Status, StrokeEncoder, TorqueLimits,
+    Tracker, Transmission,
+};
+use jred::number::Sliding;
+use jred::table::Format;
+use jred::{
+    Domain, Image, ImageError, Model, Phase, Q31, Rows16, Set, Spline, curves, include_image,
+};
+
+#[cfg(target_os = "none")]
+#[path = "support/gate.rs"]
+mod gate;
+
+/// The curves of the press, as `jred export` prints them.
+const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+
+/// Everything that firmware calls, with arguments unknown to the optimiser; or nothing but a panic.
+fn calls() -> Result<(), ImageError> {
+    if cfg!(gate_panic) {
+        black_box([1, 2, 3][black_box(1usize)]);
+        return Ok(());
+    }
+    let (float, fixed) = (
+        include_image!("data/press_f32.jred"),
+        include_image!("data/press_q31.jred"),
+    );
+    every_axis::<Spline<f32>, PRESS>(float)?;
+    every_axis::<Spline<Q31>, PRESS>(fixed)?;
+    let _ = black_box(every_axis::<Rows16, PRESS>(fixed));
+    every_encoder();
+    if cfg!(gate_double) {
+        every_double();
+    }
+    Ok(())
+}
+
+/// What stands between an encoder and a torque command.
+fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), ImageError> {
+    let image = Image::from_bytes(black_box(bytes))?;
+    let model = Image::model::<F, SET>(&image)?;
+    let feed_forward = FeedForward::new(model, Image::validity(&image));
+    let model = FeedForward::model(&feed_forward);
+    let (phase, [omega, alpha]) = black_box((Phase::default(), [F::Number::default(); 2]));
+    let mut sliding = Sliding::Against(black_box(omega));
+    if let Ok(ramp) = Ramp::new(black_box(0.1), Image::scale(&image)) {
+        sliding = Ramp::at(&ramp, omega);
+    }
+    let mut motion = Motion {
+        phase,
+        omega,
+        alpha,
+    };
+    let (domain, scale) = (Image::domain(&image), Image::scale(&image));
+    let time: Result<Period<F::Number>, _> = Period::new(black_box(1e-4), domain, scale);
+    if let Ok(time) = time {
+        let mut tracker = Tracker::new(black_box(0.9)).map(|tracker| Tracker::at(tracker, phase));
+        if let Ok(tracker) = &mut tracker {
+            black_box(Tracker::update_stroke(tracker, phase));
+            let tracked = Tracker::update(tracker, phase);
+            motion.omega = Period::omega(&time, tracked).value;
+            motion.alpha = Period::alpha(&time, tracked).value;
+        }
+        black_box(Tracker::with_bandwidth(black_box(50.0), black_box(1e-4)).is_ok());
+        motion.phase = motion.phase + Period::moved(&time, omega);
+        black_box((Period::gained(&time, alpha), Period::needed(&time, omega)));
+        black_box(Period::between(&time, phase, omega, alpha));
+        motion = Period::later(&time, motion).value;
+    }
+    let checked = FeedForward::at_reference(&feed_forward, motion, sliding);
+    black_box(FeedForward::at_measured(
+        &feed_forward,
+        phase,
+        omega,
+        motion,
+        sliding,
+    ));
+    black_box(Status::is_valid(FeedForward::status(
+        &feed_forward,
+        omega,
+        alpha,
+    )));
+    black_box(Model::torque_with(model, phase, omega, alpha, sliding));
+    black_box(Model::contributions(model, phase, omega, alpha, sliding));
+    let gearbox = black_box(Gearbox {
+        ratio: 10.0,
+        efficiency: 0.9,
+        rotor: 0.001,
+    });
+    let mut torque = checked.torque;
+    if let Ok(gearbox) = Transmission::new::<F::Number>(gearbox, Image::scale(&image)) {
+        black_box(Transmission::base(&gearbox));
+        torque = Transmission::motor(&gearbox, torque, omega, alpha).value;
+    }
+    if let Ok(limits) = TorqueLimits::new(black_box(omega), black_box(alpha)) {
+        black_box(TorqueLimits::limited(&limits, torque));
+    }
+    every_limit(&image, model, motion)
+}
+
+/// What a drive can do, and what it can do ahead.
+fn every_limit<F: Format, const SET: Set>(
+    image: &Image<'_>,
+    model: &Model<'_, F, SET>,
+    motion: Motion<F::Number>,
+) -> Result<(), ImageError> {
+    let (domain, scale) = (Image::domain(image), Image::scale(image));
+    let points = black_box([[6.0, 80.0], [12.0, 20.0]]);
+    let gearbox = black_box(Gearbox {
+        ratio: 1.0,
+        efficiency: 0.9,
+        rotor: 0.0,
+    });
+    let Ok(period) = Period::new(black_box(1e-3), domain, scale) else {
+        return Ok(());
+    };
+    for envelope in [
+        Envelope::new(points, black_box(60.0), scale),
+        Envelope::of_motor(points, black_box(60.0), gearbox, scale),
+    ]
+    .into_iter()
+    .flatten()
+    {
+        black_box(Envelope::torques(&envelope, motion.omega));
+        let Ok(limits) = Limits::new(envelope, black_box(10.0), black_box(50.0), period, scale)
+        else {
+            continue;
+        };
+        black_box((Limits::envelope(&limits), Limits::period(&limits)));
+        black_box(Limits::feasible(&limits, model, motion.phase, motion.omega));
+        let braking = black_box(Braking {
+            torque: 60.0,
+            deceleration: 50.0,
+            helped: true,
+        });
+        let ahead = |direction| {
+            let limit = |_| black_box(10.0);
+            LookAhead::<F::Number, 16>::new(model, direction, braking, limit, &period)
+        };
+        let [Ok(forward), Ok(backward)] =
+            black_box([Direction::Forward, Direction::Backward]).map(ahead)
+        else {
+            continue;
+        };
+        black_box(LookAhead::direction(&forward));
+        black_box(LookAhead::speed_at(&forward, motion.phase, black_box(10.0)));
+        black_box(LookAhead::stop(&forward, motion.phase, motion.omega));
+        let mut governor = Governor::one_way(&forward);
+        if let Ok(both) = Governor::both_ways(&forward, &backward) {
+            governor = both;
+        }
+        black_box(Governor::govern(
+            &governor,
+            &limits,
+            model,
+            &motion,
+            motion.omega,
+        ));
+    }
+    let sliding = Sliding::Against(motion.omega);
+    let torques = black_box([motion.omega, motion.alpha]);
+    black_box(Model::acceleration_range_with(
+        model,
+        motion.phase,
+        motion.omega,
+        sliding,
+        torques,
+    ));
+    Ok(())
+}
+
+fn every_encoder() {
+    let mut counter: Counter<16> = Counter::at(black_box(5));
+    let wide = Counter::extend(&mut counter, black_box(7));
+    if let Ok(encoder) = Encoder::new(black_box(Mounting::direct(10_000))) {
+        black_box((
+            Encoder::phase(&encoder, black_box(1)),
+            Encoder::phase_wide(&encoder, wide),
+        ));
+    }
+}
+
+/// What computes in double precision.
+fn every_double() {
+    let scaled = black_box(Scaled {
+        resolution: 1e-6,
+        home: 0,
+        at_home: 0.0,
+    });
+    let stroke = black_box(Domain::Stroke { from: 0.0, to: 0.5 });
+    if let Ok(encoder) = StrokeEncoder::new(stroke, scaled) {
+        black_box(StrokeEncoder::phase(&encoder, black_box(1)));
+    }
+}
+
+#[cfg(not(target_os = "none"))]
+fn main() -> Result<(), ImageError> {
+    calls()
+}
+
+#[cfg(target_os = "none")]
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    gate::end(calls().is_ok())
+}
