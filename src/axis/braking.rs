@@ -26,6 +26,8 @@ pub(super) struct Way {
     pub(super) stroke: bool,
     /// How many of the same width the nodes make; those of a stroke have one at its end.
     pub(super) intervals: u32,
+    /// Of an interval, in units of 2⁻³² of the range.
+    pub(super) width: u32,
 }
 
 impl Way {
@@ -51,12 +53,6 @@ impl Way {
     #[inline]
     pub(super) fn cell(self, phase: Phase) -> (u32, u32) {
         Phase::from_bits(self.mirrored(phase)).cell(self.intervals)
-    }
-
-    /// Of an interval, in units of 2⁻³² of the range.
-    #[inline]
-    pub(super) fn width(self) -> u32 {
-        (0x8000_0000 / self.intervals.max(1)).wrapping_mul(2)
     }
 
     /// The phase so many half intervals from the start.
@@ -109,6 +105,7 @@ impl<'m, 'a, F: Format, const SET: Set> Course<'m, 'a, F, SET> {
                 direction,
                 stroke,
                 intervals,
+                width: ((1_u64 << 32) / u64::from(intervals)) as u32,
             },
             step: domain.span().to_f32() / intervals as f32,
             braking,

@@ -28,8 +28,7 @@ use crate::{Outcome, Scale};
 /// # Ok::<(), jred::axis::AxisError>(())
 /// ```
 ///
-/// In fixed point a torque is off by six units of 2⁻³¹ of the torque base for each point, and by 2⁻²³ of what it fell (`Q15`: one unit of 2⁻¹⁵ a
-/// point; test `an_envelope_is_that_of_its_points`).
+/// In fixed point a torque is off by six units of 2⁻³¹ of the torque base, and by 2⁻²³ of what it fell from point to point (`Q15`: three units of 2⁻¹⁵; test `an_envelope_is_that_of_its_points`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Envelope<N, const POINTS: usize> {
@@ -41,12 +40,12 @@ pub struct Envelope<N, const POINTS: usize> {
     top: N,
 }
 
-/// The straight line that ends at a point: where it begins, its width, and what the torque loses a unit of speed.
+/// The straight line to a point: where it begins, and what the torque loses a unit of speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Fall<N> {
     from: N,
-    width: [N; 2],
+    torque: N,
     slope: Factor,
 }
 
@@ -78,12 +77,9 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
             )?;
             let falling = lost >= 0.0 && point[1] >= 0.0;
             within(TORQUES, falling, "falling, and 0 or more")?;
-            // In fixed point the line ends at the greatest speed that a number can have.
-            let from = top;
-            top = scale.omega(point[0]).value;
             *fall = Fall {
-                from,
-                width: [rest, top.minus(from).value],
+                from: top,
+                torque: scale.to_torque(last[1]).value,
                 slope: if lost > 0.0 {
                     let slope = lost / run * scale.speed() / scale.torque();
                     Factor::new(slope).ok_or(AxisError::OutOfRange {
@@ -94,6 +90,8 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
                     Factor::default()
                 },
             };
+            // In fixed point the line ends at the greatest speed that a number can have.
+            top = scale.omega(point[0]).value;
             last = point;
         }
         Ok(Self {
@@ -133,18 +131,21 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
     #[inline]
     pub fn torques(&self, omega: N) -> [N; 2] {
         let rest = N::default();
-        let [_, peak] = self.driving;
         let forward = omega >= rest;
         let magnitude = if forward {
             omega
         } else {
             rest.minus(omega).value
         };
-        let mut driving = peak;
+        // The last line that begins below: the speeds rise.
+        let mut line = Fall::default();
         for fall in &self.falls {
-            let over = magnitude.minus(fall.from).value.within(fall.width);
-            driving = driving.minus(over.times(&fall.slope).value).value;
+            if magnitude >= fall.from {
+                line = *fall;
+            }
         }
+        let lost = magnitude.minus(line.from).value.times(&line.slope).value;
+        let mut driving = line.torque.minus(lost).value;
         if magnitude <= self.top {
             driving = driving.within(self.driving);
         } else {

@@ -114,26 +114,20 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
     ) -> Feasible<N> {
         let torques = self.envelope.torques(omega);
         let given = |sliding| model.acceleration_range_with(phase, omega, sliding, torques);
-        let AccelerationRange { least, greatest } = if omega == N::default() {
-            let [backward, forward] = self.acceleration.map(|way| given(Sliding::Against(way)));
-            AccelerationRange {
-                least: held(forward.least, backward.least),
-                greatest: held(forward.greatest, backward.greatest),
-            }
-        } else {
-            given(Sliding::Against(omega))
-        };
-        let torque = [of_torque(least), of_torque(greatest)];
-        let [slowest, fastest] = self.speed.map(|speed| {
-            let needed = self.period.needed(speed.minus(omega).value).value;
-            let alpha = needed.within(self.acceleration);
-            let by = if alpha == needed {
-                Limit::Speed
-            } else {
-                Limit::Acceleration
+        // At rest against a motion that begins forward, and then against one backward.
+        let [back, forth] = self.acceleration;
+        let rests = omega == N::default();
+        let mut range = given(Sliding::Against(if rests { forth } else { omega }));
+        if rests {
+            let backward = given(Sliding::Against(back));
+            range = AccelerationRange {
+                least: held(range.least, backward.least),
+                greatest: held(range.greatest, backward.greatest),
             };
-            Bounded { alpha, by }
-        });
+        }
+        let torque = [of_torque(range.least), of_torque(range.greatest)];
+        let [low, high] = self.speed;
+        let [slowest, fastest] = [self.up_to(low, omega), self.up_to(high, omega)];
         let rest = N::default();
         let too_fast = fastest.by == Limit::Acceleration && fastest.alpha <= rest;
         let too_slow = slowest.by == Limit::Acceleration && slowest.alpha >= rest;
@@ -148,6 +142,19 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
                 (too_fast || too_slow).then_some(Limit::Speed)
             },
         }
+    }
+
+    /// The acceleration that reaches a speed at the end of the tick, within those that are allowed.
+    #[inline]
+    fn up_to(&self, speed: N, omega: N) -> Bounded<N> {
+        let needed = self.period.needed(speed.minus(omega).value).value;
+        let alpha = needed.within(self.acceleration);
+        let by = if alpha == needed {
+            Limit::Speed
+        } else {
+            Limit::Acceleration
+        };
+        Bounded { alpha, by }
     }
 }
 

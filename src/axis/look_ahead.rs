@@ -35,7 +35,7 @@ pub enum Direction {
 /// ½·J·ω² = ∫ (T_brake + c − load) dφ
 /// ```
 ///
-/// A tick needs no model for it, and computes with integers alone, whatever the numbers of the model are. Memory: 12 bytes a node.
+/// A tick needs no model for it, and computes with integers alone, whatever the numbers of the model are. Memory: 16 bytes a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LookAhead<N, const NODES: usize> {
     way: Way,
@@ -43,6 +43,8 @@ pub struct LookAhead<N, const NODES: usize> {
     squares: [u32; NODES],
     /// The work of the brake from the start to each node, in units of 2⁻³² of that over the range.
     works: [u32; NODES],
+    /// The inverse of the work from each node to the next, shifted so that it has 31 bits: a tick divides by nothing.
+    inverses: [u32; NODES],
     /// ½·J at each node: the square times it is that work, shifted.
     inertias: [u32; NODES],
     shift: u32,
@@ -113,10 +115,16 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         }
         course.slow_down(&mut squares, top)?;
         let shift = course.works(&mut works, &mut inertias, top)?;
+        let mut inverses = [0; NODES];
+        for (k, inverse) in (0..).zip(&mut inverses) {
+            let [work, next] = around(&works, k);
+            let width = next.wrapping_sub(work).max(1);
+            *inverse = ((1 << (31 + width.ilog2())) / u64::from(width)) as u32;
+        }
 
         let scale = model.table().scale();
         let moved = period.moved(in_range(SPEED, scale.omega(top))?).to_bits();
-        let ticks = (way.width() as f32 / moved as f32 * 256.0) as u32;
+        let ticks = (way.width as f32 / moved as f32 * 256.0) as u32;
         let holds = moved > 0 && moved < 1 << 31 && (256..u32::MAX).contains(&ticks);
         within(
             NODE_COUNT,
@@ -134,6 +142,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
             way,
             squares,
             works,
+            inverses,
             inertias,
             shift,
             speed,
@@ -239,14 +248,14 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         }
         let k = k.min(self.way.intervals as usize - 1) as u32;
         let [start, next] = around(&self.works, k);
-        // As many bits as one division of 32 by 32 takes.
         let width = next.wrapping_sub(start);
-        let shift = 16_u32.saturating_sub(width.leading_zeros());
-        let part = (work.wrapping_sub(start) >> shift << 16) / (width >> shift).max(1);
-        self.way
-            .width()
+        let inverse = self.inverses.get(k as usize).copied().unwrap_or_default();
+        let shift = 30_u32.saturating_sub(width.leading_zeros());
+        let part = (u64::from(work.wrapping_sub(start)) * u64::from(inverse)) >> shift;
+        let width = self.way.width;
+        width
             .wrapping_mul(k)
-            .wrapping_add(share(self.way.width(), part.min(0xffff) << 16))
+            .wrapping_add(share(width, part as u32))
     }
 }
 

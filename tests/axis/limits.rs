@@ -55,8 +55,8 @@ fn an_envelope_is_that_of_its_points() {
     let scale = scale_of(10.0, 10.0, 1.5);
     envelope_of::<f64>(&Scale::SI, 1e-6);
     envelope_of::<f32>(&Scale::SI, 2e-6);
-    envelope_of::<Q31>(&scale, 10.0 * (3.0 * 6.0 / 2_147_483_648.0) + 2e-6);
-    envelope_of::<Q15>(&scale, 10.0 * 4.0 / 32_768.0);
+    envelope_of::<Q31>(&scale, 10.0 * 6.0 / 2_147_483_648.0 + 2e-6);
+    envelope_of::<Q15>(&scale, 10.0 * 3.0 / 32_768.0);
     let none = Envelope::<f32, 3>::new(POINTS, 6.0, &Scale::SI)
         .unwrap()
         .torques(f32::NAN);

@@ -10,7 +10,8 @@ use core::ptr::{read_volatile, write_volatile};
 
 use cortex_m_rt::entry;
 use jred::axis::{
-    Encoder, FeedForward, Gearbox, Limited, Motion, Mounting, Period, Ramp, StrokeEncoder,
+    AxisError, Braking, Direction, Encoder, Envelope, Feasible, FeedForward, Gearbox, Governed,
+    Governor, Limited, Limits, LookAhead, Motion, Mounting, Period, Ramp, Stop, StrokeEncoder,
     TorqueLimits, Tracked, Tracker, Transmission,
 };
 use jred::number::Sliding;
@@ -337,6 +338,83 @@ mod command {
     }
 }
 
+/// What the drive can do, now and ahead.
+macro_rules! ahead {
+    ($run:ident $number:ident $format:ty, $set:ident: $feasible:ident $govern:ident $stop:ident) => {
+        #[unsafe(no_mangle)]
+        #[inline(never)]
+        fn $feasible(
+            limits: &Limits<$number, 2>,
+            model: &Model<$format, $set>,
+            phase: Phase,
+            omega: $number,
+        ) -> Feasible<$number> {
+            limits.feasible(model, phase, omega)
+        }
+
+        #[unsafe(no_mangle)]
+        #[inline(never)]
+        fn $govern(
+            governor: &Governor<$number, 64>,
+            limits: &Limits<$number, 2>,
+            model: &Model<$format, $set>,
+            motion: &Motion<$number>,
+            commanded: $number,
+        ) -> Governed<$number> {
+            governor.govern(limits, model, motion, commanded)
+        }
+
+        #[unsafe(no_mangle)]
+        #[inline(never)]
+        fn $stop(ahead: &LookAhead<$number, 64>, phase: Phase, omega: $number) -> Stop {
+            ahead.stop(phase, omega)
+        }
+
+        fn $run() -> Result<(), AxisError> {
+            let Ok(image) = Image::new(words()) else {
+                return Ok(());
+            };
+            let Ok(model) = image.model() else {
+                return Ok(());
+            };
+            let motion = Motion {
+                phase: Phase::from_bits(read(3)),
+                omega: $number::read(1),
+                alpha: $number::read(2),
+            };
+            let scale = image.scale();
+            let period = Period::new(1e-3, image.domain(), scale)?;
+            let envelope = Envelope::new([[10.0, 200.0], [20.0, 100.0]], 200.0, scale)?;
+            let limits = Limits::new(envelope, 15.0, 100.0, period, scale)?;
+            let braking = Braking {
+                torque: 150.0,
+                deceleration: 100.0,
+                helped: false,
+            };
+            let ahead = LookAhead::new(&model, Direction::Forward, braking, |_| 10.0, &period)?;
+            let stop = $stop(black_box(&ahead), motion.phase, motion.omega);
+            write(stop.phase.to_bits());
+            write(stop.turns);
+            let governor = Governor::one_way(&ahead);
+            let feasible = $feasible(
+                black_box(&limits),
+                black_box(&model),
+                motion.phase,
+                motion.omega,
+            );
+            feasible.least.alpha.write();
+            write(feasible.unkept.is_some().into());
+            let governed = $govern(black_box(&governor), &limits, &model, &motion, motion.alpha);
+            governed.alpha.write();
+            write(governed.by.is_some().into());
+            Ok(())
+        }
+    };
+}
+
+ahead!(ahead_f32 f32 Cubic<f32>, PRESS: f32_feasible f32_govern f32_stop);
+ahead!(ahead_q31 Q31 Quadratic<Q31>, FIXED: q31_feasible q31_govern q31_stop);
+
 /// A table image that comes from outside the program.
 fn words() -> &'static [u32] {
     static mut IMAGE: [u32; 512] = [0; 512];
@@ -363,5 +441,7 @@ fn main() -> ! {
         rows_q15();
         around::run();
         command::run();
+        write(ahead_f32().is_ok().into());
+        write(ahead_q31().is_ok().into());
     }
 }
