@@ -114,6 +114,7 @@ fn every_tick<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
     let si = (
         Scale::torque_si(scale, torque),
         Scale::alpha_si(scale, back.value),
+        Scale::omega_si(scale, back.value),
     );
     black_box((si, range, done, torques));
 

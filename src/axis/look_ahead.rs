@@ -76,7 +76,8 @@ const NODE_COUNT: &str = "the number of nodes";
 
 impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
     /// Of a model, for motions this way. `limit` is the greatest speed (rad/s, or m/s; positive either way) at a phase. It is asked at the nodes and
-    /// halfway between them, so that a slower part is seen if it is longer than half an interval. At the end of a stroke the machine stops. `period` is that of the tick.
+    /// halfway between them: a slower part that is longer than half an interval is seen, and the machine is slow in it from end to end, and up to an interval before and
+    /// behind it. At the end of a stroke the machine stops. `period` is that of the tick.
     ///
     /// # Errors
     /// [`AxisError::Overpowered`]: somewhere the load drives the machine with more than the braking torque. Otherwise a torque, deceleration or speed
@@ -92,25 +93,27 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         within(NODE_COUNT, (4..=4096).contains(&NODES), "from 4 to 4096")?;
         let course = Course::new(model, direction, braking, NODES as u32)?;
         let way = course.way;
-        // Half an interval to each side, too: so the straight lines at a node do not exceed what the intervals beside it allow.
-        let least = |k: u32| {
-            let around = [
-                (2 * k).saturating_sub(1),
-                2 * k,
-                (2 * k + 1).min(2 * way.intervals),
-            ];
-            around.map(|half| limit(way.node(half)))
+        // From one node to the next: so no straight line at a node exceeds what the intervals beside it allow.
+        let all = 2 * way.intervals;
+        let beside = |k: u32| {
+            [0, 1, 2, 3, 4].map(|to: u32| {
+                let half = (2 * k + to).saturating_sub(2);
+                limit(way.node(if way.stroke {
+                    half.min(all)
+                } else {
+                    (2 * k + to + all - 2) % all
+                }))
+            })
         };
         let [mut squares, mut works, mut inertias] = [[0; NODES]; 3];
         let mut top = 0.0_f32;
         for k in 0..NODES as u32 {
-            for speed in least(k) {
+            for speed in beside(k) {
                 top = top.max(positive(SPEED, speed)?);
             }
         }
         for (k, square) in (0..).zip(&mut squares) {
-            let [before, at, after] = least(k);
-            let share = before.min(at).min(after) / top;
+            let share = beside(k).into_iter().fold(top, f32::min) / top;
             *square = (share * share * ONE) as u32;
         }
         course.slow_down(&mut squares, top)?;

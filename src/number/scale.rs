@@ -172,6 +172,11 @@ impl Scale {
         torque.si(self.torque)
     }
 
+    /// A speed in machine units, in rad/s.
+    pub fn omega_si<S: Number>(&self, omega: S) -> f32 {
+        omega.si(self.speed)
+    }
+
     /// An acceleration in machine units, in rad/s².
     pub fn alpha_si<S: Number>(&self, alpha: S) -> f32 {
         alpha.si(self.acceleration())

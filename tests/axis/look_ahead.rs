@@ -70,21 +70,23 @@ fn braked(phi: f64, square: f64) -> f64 {
 
 #[test]
 fn the_limit_is_what_the_brake_can_do() {
-    // From the slow part backwards in small steps: no speed from which the exact machine can be slowed down in time is higher.
+    // From the slow part backwards in small steps: no speed from which the exact machine can be slowed down in time is higher. The machine
+    // is slow an interval before.
     let steps = 100_000;
-    let step = -TAU / 2.0 / f64::from(steps);
-    let mut ideal = vec![(TAU / 2.0, f64::from(SLOW * SLOW))];
-    for k in 0..steps {
-        let at = TAU / 2.0 + f64::from(k) * step;
-        let square = stepped(ideal.last().unwrap().1, at, step, braked);
-        ideal.push((at + step, square));
-    }
-    let ideal = |phi: f64| ideal[((phi - TAU / 2.0) / step).round() as usize].1.sqrt();
-    let check = |direction, speed_at: &dyn Fn(Phase) -> f32, slack: f64| {
-        for k in 0..=32_u32 {
-            let phase = Phase::from_bits((k << 26).min(u32::MAX >> 1));
-            let phi = f64::from(k) / 64.0 * TAU;
-            let exact = ideal(phi).min(FAST.into());
+    let check = |direction, nodes: u32, speed_at: &dyn Fn(Phase) -> f32, slack: f64| {
+        let start = TAU / 2.0 - TAU / f64::from(nodes);
+        let step = -start / f64::from(steps);
+        let mut ideal = vec![f64::from(SLOW * SLOW)];
+        for k in 0..steps {
+            let square = *ideal.last().unwrap();
+            ideal.push(stepped(square, start + f64::from(k) * step, step, braked));
+        }
+        for k in 0..nodes / 2 {
+            let phase = Phase::from_bits(k * (u32::MAX / nodes + 1));
+            let phi = turns(phase) * TAU;
+            let exact = ideal[((phi - start) / step).round() as usize]
+                .sqrt()
+                .min(FAST.into());
             // The wave is its own mirror image.
             let found = match direction {
                 Direction::Forward => speed_at(phase),
@@ -114,14 +116,19 @@ fn the_limit_is_what_the_brake_can_do() {
         (Direction::Backward, mirrored),
     ] {
         with_ahead::<Cubic<f64>, 64>(Scale::SI, direction, BRAKING, limit, |_, ahead| {
-            check(direction, &|phase| ahead.speed_at(phase, FAST), 0.03);
+            check(direction, 64, &|phase| ahead.speed_at(phase, FAST), 0.03);
         });
         // Four times as many nodes: a quarter of what is left.
         with_ahead::<Cubic<f64>, 256>(Scale::SI, direction, BRAKING, limit, |_, ahead| {
-            check(direction, &|phase| ahead.speed_at(phase, FAST), 0.03 / 4.0);
+            check(
+                direction,
+                256,
+                &|phase| ahead.speed_at(phase, FAST),
+                0.03 / 4.0,
+            );
         });
         with_ahead::<Spline<f32>, 64>(Scale::SI, direction, BRAKING, limit, |_, ahead| {
-            check(direction, &|phase| ahead.speed_at(phase, FAST), 0.03);
+            check(direction, 64, &|phase| ahead.speed_at(phase, FAST), 0.03);
         });
         with_ahead::<Cubic<Q31>, 64>(
             scale_of(250.0, 12.0, 1.5),
@@ -129,9 +136,44 @@ fn the_limit_is_what_the_brake_can_do() {
             BRAKING,
             limit,
             |_, ahead| {
-                check(direction, &|phase| ahead.speed_at(phase, FAST), 0.03);
+                check(direction, 64, &|phase| ahead.speed_at(phase, FAST), 0.03);
             },
         );
+    }
+}
+
+#[test]
+fn a_slow_part_is_slow_to_its_ends() {
+    // Slow parts that begin and end at nodes, between them, at the start of the turn and across it.
+    for (from, to) in [
+        (0.5, 0.75),
+        (0.511, 0.533),
+        (0.0, 0.1),
+        (0.9, 1.0),
+        (0.95, 1.05),
+    ] {
+        with_model_of::<Spline<f32>, SET>(&INVISCID, Scale::SI, |model| {
+            let period = Period::new(0.000_5, Domain::<f64>::Turn, &Scale::SI).unwrap();
+            let slow = |phase: Phase| {
+                let at = turns(phase);
+                (at >= from && at < to) || (at + 1.0 >= from && at + 1.0 < to)
+            };
+            let limit = |phase| if slow(phase) { SLOW } else { FAST };
+            for direction in [Direction::Forward, Direction::Backward] {
+                let ahead =
+                    LookAhead::<f32, 128>::new(&model, direction, BRAKING, limit, &period).unwrap();
+                for k in 0..4096_u32 {
+                    let phase = Phase::from_bits(k << 20);
+                    let found = ahead.speed_at(phase, FAST);
+                    assert!(
+                        !slow(phase) || found <= SLOW * 1.000_1,
+                        "{from} to {to} at {}: {found}",
+                        turns(phase)
+                    );
+                    assert!(found <= FAST * 1.000_1);
+                }
+            }
+        });
     }
 }
 
@@ -142,11 +184,11 @@ fn a_deceleration_is_kept() {
         ..BRAKING
     };
     with_ahead::<Cubic<f64>, 64>(Scale::SI, Direction::Forward, braking, limit, |_, ahead| {
-        // From half a turn backwards a straight line in the square: ω² = 9 + 2·2·(π − φ).
-        for k in 16..32_u32 {
+        // From an interval before half a turn backwards a straight line in the square.
+        for k in 16..31_u32 {
             let phi = f64::from(k) / 64.0 * TAU;
             let found = ahead.speed_at(Phase::from_bits(k << 26), FAST);
-            let exact = (9.0 + 4.0 * (TAU / 2.0 - phi)).sqrt();
+            let exact = (9.0 + 4.0 * (TAU * 31.0 / 64.0 - phi)).sqrt();
             assert_near(&format!("at {phi}"), found.into(), exact, 1e-4);
         }
     });
