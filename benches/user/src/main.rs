@@ -17,7 +17,7 @@ use jred::number::Sliding;
 use jred::table::Format;
 use jred::{
     AccelerationRange, Cubic, Image, Model, Outcome, Phase, Q15, Q31, Quadratic, Rows16, Scale,
-    Set, Spline, curves,
+    Set, SliderCrankForm, Spline, curves, slider_crank,
 };
 use panic_halt as _;
 
@@ -25,6 +25,9 @@ use panic_halt as _;
 const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 /// In fixed point, with 1/J instead of a division.
 const FIXED: Set = PRESS | curves::RECIPROCAL;
+
+/// As a slider-crank in closed form: the weight of its crank has a part in sin φ.
+const CRANK: Set = PRESS | slider_crank::terms::LOAD_SIN;
 
 const fn encoder(counts_per_turn: u32) -> Encoder {
     match Encoder::new(Mounting::direct(counts_per_turn)) {
@@ -157,6 +160,8 @@ model!(f32 Cubic<f32>, PRESS: cubic_f32
     cubic_f32_torque cubic_f32_acceleration cubic_f32_range cubic_f32_counts cubic_f32_binary);
 model!(f32 Spline<f32>, PRESS: spline_f32
     spline_f32_torque spline_f32_acceleration spline_f32_range spline_f32_counts spline_f32_binary);
+model!(f32 SliderCrankForm, CRANK: crank_f32
+    crank_f32_torque crank_f32_acceleration crank_f32_range crank_f32_counts crank_f32_binary);
 model!(Q31 Cubic<Q31>, FIXED: cubic_q31
     cubic_q31_torque cubic_q31_acceleration cubic_q31_range cubic_q31_counts cubic_q31_binary);
 model!(Q31 Quadratic<Q31>, FIXED: quadratic_q31
@@ -358,6 +363,7 @@ fn main() -> ! {
     loop {
         cubic_f32();
         spline_f32();
+        crank_f32();
         cubic_q31();
         quadratic_q31();
         rows_q15();

@@ -16,7 +16,8 @@ mod tick;
 
 pub use coefficient::{Coefficient, terms};
 pub(crate) use coefficient::{COEFFICIENTS, words};
-pub use tick::{Crank, STEEPEST};
+pub(super) use tick::Crank;
+pub use tick::STEEPEST;
 
 use coefficient::is_known;
 use tick::Values;
