@@ -132,11 +132,11 @@ pub mod tabulate;
 #[deny(clippy::indexing_slicing)]
 mod tick;
 
+#[cfg(feature = "micromath")]
+pub use curve::SliderCrankForm;
 pub use curve::{
     Cubic, Harmonic, Quadratic, Rows16, Set, Spline, Spline16, Table, TableError, curves,
 };
-#[cfg(feature = "micromath")]
-pub use curve::SliderCrankForm;
 pub use error::Error;
 pub use machine::link::Link;
 pub use machine::reducible::Reducible;

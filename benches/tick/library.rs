@@ -7,8 +7,8 @@ use core::hint::black_box;
 use jred::number::Number;
 use jred::table::Format;
 use jred::{
-    Cubic, Image, Model, Phase, Q15, Q31, Quadratic, Rows16, Set, SliderCrankForm, Spline, Spline16,
-    curves,
+    Cubic, Image, Model, Phase, Q15, Q31, Quadratic, Rows16, Set, SliderCrankForm, Spline,
+    Spline16, curves,
 };
 
 use crate::target::{Kernel, Point, each};

@@ -180,7 +180,10 @@ impl fmt::Display for TableError {
                 f,
                 "harmonics and a slider-crank's closed form need a drive link that turns fully, but this one has a stroke"
             ),
-            Self::SliderCrank => write!(f, "a slider-crank's closed form is not filled place by place"),
+            Self::SliderCrank => write!(
+                f,
+                "a slider-crank's closed form is not filled place by place"
+            ),
             Self::ShortRod => write!(
                 f,
                 "the rod is too short for the closed form: (r + |e|)/l is above 0.95"

@@ -84,8 +84,7 @@ fn crank(example: &Example, set: Set) -> Result<Words> {
 
 fn encoded<F: Format>(table: &Table<'_, F>) -> Result<Words> {
     let mut words = vec![0; image_len::<F>(table.cells(), table.set())];
-    encode(table, VALIDITY, &mut words)
-        .map_err(|error| anyhow!("the example machine: {error}"))?;
+    encode(table, VALIDITY, &mut words).map_err(|error| anyhow!("the example machine: {error}"))?;
     Ok(Words {
         words,
         table_bytes: size_of_val(table.words()),

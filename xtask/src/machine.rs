@@ -131,7 +131,10 @@ impl Example {
         }
         let viscous = Load::new(SliderCrank::CRANK, Action::ViscousMoment(VISCOUS))?;
         let coulomb = Load::new(SliderCrank::CRANK, Action::OpposingMoment(COULOMB))?;
-        Ok(machine.with_gravity([-GRAVITY, 0.0])?.with_load(viscous)?.with_load(coulomb)?)
+        Ok(machine
+            .with_gravity([-GRAVITY, 0.0])?
+            .with_load(viscous)?
+            .with_load(coulomb)?)
     }
 
     /// The same machine as the library knows it: mechanism, gravity, friction of the drive link.

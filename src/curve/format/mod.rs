@@ -35,7 +35,9 @@ pub use rows16::{RowConstants, Rows16};
 #[cfg(feature = "micromath")]
 pub(crate) use slider_crank::COEFFICIENTS;
 #[cfg(feature = "micromath")]
-pub use slider_crank::{Coefficient as CrankCoefficient, STEEPEST, SliderCrankForm, terms as crank_terms};
+pub use slider_crank::{
+    Coefficient as CrankCoefficient, STEEPEST, SliderCrankForm, terms as crank_terms,
+};
 
 use super::curves::Set;
 use super::samples::{Sample, Samples};

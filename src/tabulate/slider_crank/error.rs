@@ -21,7 +21,11 @@ impl fmt::Display for SliderCrankError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a slider-crank's closed form cannot hold ")?;
         match self {
-            Self::Window(k) => write!(f, "load {} (counted from 0), which acts in a part of the turn", k),
+            Self::Window(k) => write!(
+                f,
+                "load {} (counted from 0), which acts in a part of the turn",
+                k
+            ),
             Self::RubbingRod(k) => write!(
                 f,
                 "load {k} (counted from 0), which opposes the motion of a point of the rod between its pins"
@@ -36,7 +40,9 @@ error!(SliderCrankError);
 impl Curable for SliderCrankError {
     fn write_cure(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Window(_) => "use a table, of several pieces where the load begins or ends steeply",
+            Self::Window(_) => {
+                "use a table, of several pieces where the load begins or ends steeply"
+            }
             Self::RubbingRod(_) => "use a table",
             Self::Element(_) => "use harmonics (harmonic::fit) or a table",
         })

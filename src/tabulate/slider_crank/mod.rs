@@ -88,11 +88,7 @@ impl Lengths {
             SliderCrank::CRANK => [0.0, -(x * u + y * v), y * u - x * v],
             SliderCrank::ROD => {
                 let (a, b) = (self.ratio * u, self.ratio * v);
-                [
-                    -(x * a + y * b),
-                    y * b - x * (r - a),
-                    x * b + y * (r - a),
-                ]
+                [-(x * a + y * b), y * b - x * (r - a), x * b + y * (r - a)]
             }
             _ => [-r * x, 0.0, 0.0],
         }
@@ -113,7 +109,12 @@ impl Sums {
         }
     }
 
-    fn load(&mut self, lengths: &Lengths, load: &Load, index: usize) -> Result<(), SliderCrankError> {
+    fn load(
+        &mut self,
+        lengths: &Lengths,
+        load: &Load,
+        index: usize,
+    ) -> Result<(), SliderCrankError> {
         const LOAD: [C; 3] = [C::Load, C::LoadSin, C::LoadCos];
         const VISCOUS: [C; 4] = [C::Viscous, C::ViscousSquare, C::ViscousSin, C::ViscousCos];
         if load.window().is_some() {
@@ -165,7 +166,11 @@ impl Sums {
         for (k, link) in machine.mechanism().links().iter().enumerate() {
             sums.add(INERTIA, link.mass(), lengths.speed(k, link.com()));
             sums.add(INERTIA, link.inertia(), lengths.turning(k));
-            sums.add(LOAD, link.mass(), lengths.power(k, link.com(), machine.gravity()));
+            sums.add(
+                LOAD,
+                link.mass(),
+                lengths.power(k, link.com(), machine.gravity()),
+            );
         }
         for (index, load) in machine.loads().iter().enumerate() {
             sums.load(&lengths, load, index)?;
@@ -175,10 +180,16 @@ impl Sums {
 
     /// The set of coefficients that count.
     fn set(&self) -> Set {
-        let size = |part: C| self.of.get(part as usize).map_or(0.0, |sum| math::abs(*sum));
+        let size = |part: C| {
+            self.of
+                .get(part as usize)
+                .map_or(0.0, |sum| math::abs(*sum))
+        };
         let mut set = 0;
         for part in C::ALL {
-            let same = C::ALL.into_iter().filter(|other| other.curve() == part.curve());
+            let same = C::ALL
+                .into_iter()
+                .filter(|other| other.curve() == part.curve());
             let most = same.map(size).fold(0.0, f64::max);
             if size(part) > NOTHING * most {
                 set |= part.bits();
@@ -215,7 +226,10 @@ pub fn form(machine: &Machine<SliderCrank>, set: Set, words: &mut [f32]) -> Resu
     let (needed, given) = (words_len::<SliderCrankForm>(0, set), words.len());
     let short = RangeError::BufferTooShort { needed, given };
     let words = words.get_mut(..needed).ok_or(short)?;
-    let present = C::ALL.into_iter().zip(sums.of).filter(|(part, _)| part.is_in(set));
+    let present = C::ALL
+        .into_iter()
+        .zip(sums.of)
+        .filter(|(part, _)| part.is_in(set));
     for (word, (_, sum)) in words.iter_mut().zip(present) {
         *word = sum as f32;
     }

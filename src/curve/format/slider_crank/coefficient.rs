@@ -105,11 +105,9 @@ impl Coefficient {
     /// The bits that a set must have for it.
     pub(crate) const fn bits(self) -> Set {
         match self {
-            Self::Ratio
-            | Self::Offset
-            | Self::Inertia
-            | Self::InertiaSquare
-            | Self::InertiaSin => curves::INERTIA,
+            Self::Ratio | Self::Offset | Self::Inertia | Self::InertiaSquare | Self::InertiaSin => {
+                curves::INERTIA
+            }
             Self::InertiaCos => terms::INERTIA_COS,
             Self::Load => curves::LOAD,
             Self::LoadSin => curves::LOAD | terms::LOAD_SIN,

@@ -182,7 +182,10 @@ impl Crank {
     pub(super) fn usage(&self) -> Usage {
         let ([most, slope], [y, dy]) = (self.reach(), self.bounds());
         let of = |parts: &[(C, f32)]| -> f32 {
-            parts.iter().map(|(part, by)| size(self.get(*part)) * by).sum()
+            parts
+                .iter()
+                .map(|(part, by)| size(self.get(*part)) * by)
+                .sum()
         };
         let mut usage = Usage {
             inertia: size(self.get(C::Inertia)) + most * y,
@@ -207,8 +210,7 @@ impl Crank {
             ]),
             torque: 0.0,
         };
-        usage.torque =
-            usage.inertia + usage.velocity + usage.load + usage.viscous + usage.coulomb;
+        usage.torque = usage.inertia + usage.velocity + usage.load + usage.viscous + usage.coulomb;
         usage
     }
 
@@ -242,5 +244,26 @@ impl Crank {
             places *= 2;
             falls *= 0.5;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{STEEPEST, inverse_root};
+
+    /// Newton's step takes a relative error δ to 1.5·δ²: 3.5 % to 1.8e-3, 5e-6, 4e-11. What is left are roundings of the last step:
+    /// two of 2⁻²⁴ count fully, that of the difference near 1 by half.
+    #[test]
+    fn the_inverse_root_is_exact_but_for_roundings() {
+        let least = 1.0 - STEEPEST * STEEPEST;
+        let (mut rough, mut worst) = (0.0f64, 0.0f64);
+        for k in 0..=100_000 {
+            let w = least + (1.0 - least) * (k as f32 / 100_000.0);
+            let off = |q: f32| (f64::from(q) * f64::from(w).sqrt() - 1.0).abs();
+            rough = rough.max(off(micromath::F32(w).invsqrt().0));
+            worst = worst.max(off(inverse_root(w)));
+        }
+        assert!((0.034..0.035).contains(&rough), "{rough:e}");
+        assert!((5e-8..1.6e-7).contains(&worst), "{worst:e}");
     }
 }

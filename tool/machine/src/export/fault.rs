@@ -44,7 +44,10 @@ impl NotReached<'_> {
             .map(|(_, _, answer)| answer)
             .collect();
         // What harmonics cannot do, they say themselves.
-        if let [Answer::Refused(error @ (Error::Harmonic(_) | Error::Table(TableError::ShortRod)))] = own[..] {
+        if let [
+            Answer::Refused(error @ (Error::Harmonic(_) | Error::Table(TableError::ShortRod))),
+        ] = own[..]
+        {
             let text = format!("{error}; {}", error.cure());
             return Ok(Failure::NotReached(text));
         }
@@ -312,9 +315,7 @@ impl Worst<'_> {
             LayoutName::Spline
             | LayoutName::Spline16
             | LayoutName::Harmonic
-            | LayoutName::SliderCrank => {
-                self.search.without_rounding::<Spline<f64>>(cells)
-            }
+            | LayoutName::SliderCrank => self.search.without_rounding::<Spline<f64>>(cells),
             LayoutName::Cubic => self.search.without_rounding::<Cubic<f64>>(cells),
             LayoutName::Quadratic | LayoutName::Rows => {
                 self.search.without_rounding::<Quadratic<f64>>(cells)

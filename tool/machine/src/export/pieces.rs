@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
+use jred::mechanism::SliderCrank;
 use jred::table::Format;
 use jred::tabulate::{self, Part};
-use jred::mechanism::SliderCrank;
 use jred::{Domain, Error, Machine, Reducible as _, Set, TableError, curves};
 
 use super::candidate::Answer;
@@ -145,7 +145,11 @@ impl<'m> Searches<'m> {
         let ranges = self.ranges.iter().zip(&self.crank);
         let answers = ranges.map(|(range, crank)| range.slider_crank(crank));
         let answers = answers.collect::<Result<_, Error>>()?;
-        Ok(Answer::together(answers, Number::F32, LayoutName::SliderCrank))
+        Ok(Answer::together(
+            answers,
+            Number::F32,
+            LayoutName::SliderCrank,
+        ))
     }
 }
 

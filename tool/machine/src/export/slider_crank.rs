@@ -102,7 +102,10 @@ impl Search<'_> {
     ///
     /// # Errors
     /// Those of the machine.
-    pub(super) fn slider_crank(&self, machine: &Machine<SliderCrank>) -> Result<Answer<Made>, Error> {
+    pub(super) fn slider_crank(
+        &self,
+        machine: &Machine<SliderCrank>,
+    ) -> Result<Answer<Made>, Error> {
         let set = set_in_use(machine)?;
         let bytes = 4 * image_len::<F>(0, set);
         if self.goal.max_bytes.is_some_and(|most| bytes > most) {
