@@ -34,11 +34,9 @@ pub(super) struct Values {
 #[inline(always)]
 fn inverse_root(w: f32) -> f32 {
     let half = 0.5 * w;
-    let mut q = micromath::F32(w).invsqrt().0;
-    for _ in 0..3 {
-        q = q * (1.5 - half * q * q);
-    }
-    q
+    let step = |q: f32| q * (1.5 - half * q * q);
+    // Not a loop: optimised for size it would stay one.
+    step(step(step(micromath::F32(w).invsqrt().0)))
 }
 
 #[inline(always)]
