@@ -7,13 +7,12 @@
 //! `--cfg gate_double`, where the search for double-precision routines must find some; otherwise it must find none.
 //!
 //! Every public function of the layers `number`, `curve` and `tick` is called here by its path, those of `axis` in `no_panic_axis`, as
-//! `tests/no_panic_list.rs` sees to.
+//! `tests/no_panic_list.rs` sees to. `scripts/test` builds it with the feature `micromath`.
 //! What computes in double precision is called with `--cfg gate_double`, where no panic can be reached, either. Except:
 //!
 //! - `Transfer`: derivatives of mechanisms, of which tables are made
 //! - `CubicSpline`, `control_points`: curves of which tables are made
 //! - `fit_periodic`, `fit_bounded`, `fit_quadratic_periodic`, `fit_quadratic_bounded`: they make tables
-//! - `Phase::sin_cos_approx`: of a feature that is off here; a polynomial for displays
 //! - `$error::cure`: words of an error for people
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
@@ -31,6 +30,8 @@ use jred::{
     AnyModel, Cubic, Domain, Harmonic, Image, ImageError, Model, Outcome, Phase, Pieces, Q15, Q31,
     Quadratic, Rows16, Scale, Set, Spline, Spline16, Table, include_image,
 };
+#[cfg(feature = "micromath")]
+use jred::{SliderCrankForm, slider_crank};
 
 #[cfg(target_os = "none")]
 #[path = "support/gate.rs"]
@@ -41,6 +42,9 @@ const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// Constant friction.
 const CONSTANTS: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+/// Every curve and term of a slider-crank.
+#[cfg(feature = "micromath")]
+const CRANK: Set = curves::ALL | CONSTANTS | slider_crank::terms::ALL;
 /// Every curve.
 const EVERY: Set = curves::ALL | curves::RECIPROCAL;
 
@@ -63,6 +67,9 @@ fn calls() -> Result<(), ImageError> {
             every_tick::<Quadratic<f32>, CONSTANTS>(float),
             every_tick::<Harmonic<f32>, { curves::ALL | terms::ALL }>(float),
             every_tick::<Harmonic<f32>, { CONSTANTS | terms::SYMMETRIC }>(float),
+            // Its tick is long where single precision is software: there only what `every_crank` calls.
+            #[cfg(all(feature = "micromath", not(short_multiply)))]
+            every_tick::<SliderCrankForm, CRANK>(float),
             every_tick::<Spline<Q31>, EVERY>(fixed),
             every_tick::<Cubic<Q31>, EVERY>(fixed),
             every_tick::<Quadratic<Q31>, { curves::LOAD | curves::RECIPROCAL }>(fixed),
@@ -82,6 +89,8 @@ fn calls() -> Result<(), ImageError> {
         every_format::<Cubic<f32>>(float),
         every_format::<Quadratic<f32>>(float),
         every_format::<Harmonic<f32>>(float),
+        #[cfg(all(feature = "micromath", not(short_multiply)))]
+        every_format::<SliderCrankForm>(float),
         every_format::<Cubic<Q31>>(fixed),
         every_format::<Quadratic<Q31>>(fixed),
         every_format::<Spline16>(fixed),
@@ -89,6 +98,8 @@ fn calls() -> Result<(), ImageError> {
     ];
     let _ = black_box(other);
     every_term(float)?;
+    #[cfg(feature = "micromath")]
+    let _ = black_box(every_crank(float));
     every_number();
     every_meter(Window::SinceStart);
     every_meter(Window::Exponential(600.0));
@@ -197,6 +208,21 @@ fn every_term(bytes: &'static [u8]) -> Result<(), ImageError> {
     black_box(AnyModel::contributions(&any, phase, omega, alpha, sliding));
     black_box(Image::is_of::<Spline<f32>, PRESS>(black_box(&[0; 30])));
     black_box(Image::bytes_are_of::<Spline<f32>, PRESS>(black_box(bytes)));
+    Ok(())
+}
+
+#[cfg(feature = "micromath")]
+fn every_crank(bytes: &'static [u8]) -> Result<(), ImageError> {
+    let image = Image::from_bytes(black_box(bytes))?;
+    let model = Image::model::<SliderCrankForm, CRANK>(&image)?;
+    let (phase, [omega, alpha]) = black_box((Phase::default(), [0.0; 2]));
+    let torque = Model::torque(&model, phase, omega, alpha);
+    black_box(Model::acceleration(&model, phase, omega, torque));
+    let shape = Shape::<SliderCrankForm>::slider_crank(black_box(0));
+    let table = Table::new(black_box(&[0.25, 0.0, 0.1, 0.1, 0.0]), shape);
+    black_box(table.is_ok());
+    #[cfg(not(short_multiply))]
+    black_box(Phase::sin_cos_approx(black_box(Phase::default())));
     Ok(())
 }
 

@@ -10,6 +10,8 @@ use crate::mechanism::cam::CamError;
 use crate::mechanism::linkage::LinkageError;
 use crate::number::error::{Curable, RangeError, error};
 use crate::tabulate::harmonic::HarmonicError;
+#[cfg(feature = "micromath")]
+use crate::tabulate::slider_crank::SliderCrankError;
 use crate::tick::ImageError;
 
 /// A reason why a machine, a motion or a table cannot be built: the errors of all layers, each of which has a type of its
@@ -61,6 +63,9 @@ pub enum Error {
     Friction(FrictionError),
     /// A machine without harmonics, or harmonics that cannot be identified.
     Harmonic(HarmonicError),
+    /// A slider-crank without a closed form.
+    #[cfg(feature = "micromath")]
+    SliderCrank(SliderCrankError),
     /// An image that is refused, or cannot be written.
     Image(ImageError),
     /// A table that cannot be made or ticked.
@@ -82,6 +87,13 @@ error!(
     Harmonic(HarmonicError),
     Table(TableError)
 );
+
+#[cfg(feature = "micromath")]
+impl From<SliderCrankError> for Error {
+    fn from(error: SliderCrankError) -> Self {
+        Self::SliderCrank(error)
+    }
+}
 
 impl From<ImageError> for Error {
     fn from(error: ImageError) -> Self {
@@ -161,6 +173,8 @@ impl fmt::Display for Error {
             Self::Linkage(error) => error.fmt(f),
             Self::Friction(error) => error.fmt(f),
             Self::Harmonic(error) => error.fmt(f),
+            #[cfg(feature = "micromath")]
+            Self::SliderCrank(error) => error.fmt(f),
             Self::Image(error) => error.fmt(f),
             Self::Table(error) => error.fmt(f),
             Self::TorqueErrorNotReached {
@@ -186,6 +200,8 @@ impl Curable for Error {
             Self::Linkage(error) => error.write_cure(f),
             Self::Friction(error) => error.write_cure(f),
             Self::Harmonic(error) => error.write_cure(f),
+            #[cfg(feature = "micromath")]
+            Self::SliderCrank(error) => error.write_cure(f),
             Self::Image(error) => error.write_cure(f),
             Self::Table(error) => error.write_cure(f),
             Self::TorqueErrorNotReached { .. } => f.write_str(

@@ -112,7 +112,7 @@
 //! # Features
 //!
 //! - `defmt`: `defmt::Format` for the public value types;
-//! - `micromath`: `Phase::sin_cos_approx`.
+//! - `micromath`: `SliderCrankForm`, a slider-crank without a table, and `Phase::sin_cos_approx`.
 //!
 //! Neither is on by default.
 
@@ -132,6 +132,8 @@ pub mod tabulate;
 #[deny(clippy::indexing_slicing)]
 mod tick;
 
+#[cfg(feature = "micromath")]
+pub use curve::SliderCrankForm;
 pub use curve::{
     Cubic, Harmonic, Quadratic, Rows16, Set, Spline, Spline16, Table, TableError, curves,
 };
@@ -206,6 +208,42 @@ pub mod harmonic {
     };
 }
 
+/// A slider-crank in closed form: its lengths and masses instead of a table, ticked by [`Model`] as the format [`SliderCrankForm`].
+///
+/// ```
+/// use jred::machine::MassProperties;
+/// use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
+/// use jred::slider_crank::{form, terms};
+/// use jred::table::{Shape, words_len};
+/// use jred::{Error, Link, Machine, Model, Phase, Reducible, Set, SliderCrankForm, Table, curves};
+///
+/// fn main() -> Result<(), Error> {
+///     // Crank 30 mm, rod 120 mm, ram 42 kg; weight acts along the guide.
+///     let crank = Link::new(MassProperties { mass: 9.0, inertia: 0.018, com: [0.006, 0.0] })?;
+///     let rod = Link::new(MassProperties { mass: 6.5, inertia: 0.03, com: [0.055, 0.0] })?;
+///     let links = [crank, rod, Link::point_mass(42.0)?];
+///     let dimensions = SliderCrankDimensions { crank: 0.03, rod: 0.12, offset: 0.0 };
+///     let mechanism = SliderCrank::new(dimensions, Branch::Right, links)?;
+///     let machine = Machine::new(mechanism).with_gravity([9.81, 0.0])?;
+///
+///     // Seven numbers: r/l, e/l, three of J, two of the load.
+///     const SET: Set = curves::LOAD | terms::LOAD_SIN;
+///     let mut words = [0.0; words_len::<SliderCrankForm>(0, SET)];
+///     assert_eq!(form(&machine, SET, &mut words)?, 7);
+///     let table = Table::new(&words, Shape::slider_crank(SET)).map_err(Error::Table)?;
+///     let model = Model::<SliderCrankForm, SET>::new(table).map_err(Error::Table)?;
+///     let torque = model.torque(Phase::from_radians(0.5), 10.0, 50.0);
+///     let exact = machine.reduction(0.5)?.torque(10.0, 50.0).total();
+///     assert!((f64::from(torque) - exact).abs() < 1e-6 * exact.abs());
+///     Ok(())
+/// }
+/// ```
+#[cfg(feature = "micromath")]
+pub mod slider_crank {
+    pub use crate::curve::{CrankCoefficient as Coefficient, STEEPEST, crank_terms as terms};
+    pub use crate::tabulate::slider_crank::{SliderCrankError, form, set_in_use};
+}
+
 /// Table images: a machine's curves as the tool exports them and firmware uses them, in place from flash.
 pub mod image {
     pub use crate::tick::{Aligned, HEADER_WORDS, VERSION, encode, image_len};
@@ -225,6 +263,8 @@ mod sealed {
     impl Sealed for crate::Rows16 {}
     impl Sealed for crate::Harmonic<f32> {}
     impl Sealed for crate::Harmonic<f64> {}
+    #[cfg(feature = "micromath")]
+    impl Sealed for crate::SliderCrankForm {}
 }
 
 /// The README's program is compiled and run with the documentation tests.

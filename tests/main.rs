@@ -57,6 +57,10 @@ mod scotch_yoke;
 
 mod similar;
 mod six_link;
+#[cfg(feature = "micromath")]
+mod slider_crank_form;
+#[cfg(feature = "micromath")]
+mod slider_crank_refused;
 mod spline;
 mod spline_quadratic;
 mod support;

@@ -22,6 +22,10 @@ mod range;
 mod reciprocal;
 mod rows16;
 mod scale;
+#[cfg(feature = "micromath")]
+mod slider_crank_form;
+#[cfg(feature = "micromath")]
+mod slider_crank_refused;
 mod spline;
 mod spline_quadratic;
 mod support;

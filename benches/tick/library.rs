@@ -7,7 +7,8 @@ use core::hint::black_box;
 use jred::number::Number;
 use jred::table::Format;
 use jred::{
-    Cubic, Image, Model, Phase, Q15, Q31, Quadratic, Rows16, Set, Spline, Spline16, curves,
+    Cubic, Image, Model, Phase, Q15, Q31, Quadratic, Rows16, Set, SliderCrankForm, Spline,
+    Spline16, curves,
 };
 
 use crate::target::{Kernel, Point, each};
@@ -47,6 +48,8 @@ kernels! {
     jred_f32_acceleration: f32, Cubic<f32>, BARE, |m, p, w, t| m.acceleration(p, w, t).value;
     jred_f32_spline_torque: f32, Spline<f32>, FULL, |m, p, w, a| m.torque(p, w, a);
     jred_f32_spline_acceleration: f32, Spline<f32>, BARE, |m, p, w, t| m.acceleration(p, w, t).value;
+    jred_f32_slider_crank_torque: f32, SliderCrankForm, FULL, |m, p, w, a| m.torque(p, w, a);
+    jred_f32_slider_crank_acceleration: f32, SliderCrankForm, BARE, |m, p, w, t| m.acceleration(p, w, t).value;
     jred_q31_torque: Q31, Cubic<Q31>, FULL, |m, p, w, a| m.torque(p, w, a);
     jred_q31_acceleration: Q31, Cubic<Q31>, SEED, |m, p, w, t| m.acceleration(p, w, t).value;
     jred_q31_quadratic_torque: Q31, Quadratic<Q31>, FULL, |m, p, w, a| m.torque(p, w, a);

@@ -87,10 +87,14 @@ pub enum TableError {
         /// Where it is least.
         phase: Phase,
     },
-    /// Harmonics of a drive link that has a stroke.
+    /// Harmonics, or a slider-crank, of a drive link that has a stroke.
     Stroke,
     /// Harmonics are not filled at so many places: `harmonic::fit` finds them.
     Harmonics,
+    /// A slider-crank is not filled at places: `slider_crank::form` makes it.
+    SliderCrank,
+    /// The rod of a slider-crank in closed form is shorter than (r + |e|)/0.95, or its lengths are no numbers.
+    ShortRod,
     /// The velocity torque in this cell, which a table of 16-bit rows holds, is not that of the slope of its inertia.
     Slope {
         /// Index of the cell.
@@ -174,7 +178,15 @@ impl fmt::Display for TableError {
             ),
             Self::Stroke => write!(
                 f,
-                "harmonics need a drive link that turns fully, but this one has a stroke"
+                "harmonics and a slider-crank's closed form need a drive link that turns fully, but this one has a stroke"
+            ),
+            Self::SliderCrank => write!(
+                f,
+                "a slider-crank's closed form is not filled place by place"
+            ),
+            Self::ShortRod => write!(
+                f,
+                "the rod is too short for the closed form: (r + |e|)/l is above 0.95"
             ),
             Self::Harmonics => write!(f, "harmonics are not filled place by place"),
             Self::Slope { cell } => write!(
@@ -206,7 +218,8 @@ impl Curable for TableError {
             }
             Self::NoInertiaAt { .. } => "give the drive link an inertia, or use more harmonics",
             Self::InertiaNotShown { .. } => "give the drive link an inertia",
-            Self::Stroke => "use a table",
+            Self::Stroke | Self::ShortRod => "use a table",
+            Self::SliderCrank => "use slider_crank::form",
             Self::Harmonics => "use harmonic::fit",
             Self::Slope { .. } => "take the span and the scale that the table was made with",
             _ => "",

@@ -13,11 +13,15 @@ mod usage;
 
 pub use curves::Set;
 pub use error::TableError;
+#[cfg(feature = "micromath")]
+pub(crate) use format::COEFFICIENTS;
 pub(crate) use format::{CONSTANTS, in_use};
 pub use format::{
     Circular, Coefficient, Constants, Cubic, Curve, Format, Harmonic, Kind, MAX_HARMONICS,
     Quadratic, RowConstants, Rows16, Spline, Spline16, terms,
 };
+#[cfg(feature = "micromath")]
+pub use format::{CrankCoefficient, STEEPEST, SliderCrankForm, crank_terms};
 pub(crate) use samples::{Sample, Samples};
 pub use table::{CurveValues, MAX_CELLS, Shape, Table, words_len};
 pub(crate) use unfold::unfold;

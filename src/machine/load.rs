@@ -183,6 +183,18 @@ impl Load {
         self
     }
 
+    /// What it does to its link.
+    #[cfg(feature = "micromath")]
+    pub(crate) const fn action(&self) -> Action {
+        self.action
+    }
+
+    /// Where on its link it acts.
+    #[cfg(feature = "micromath")]
+    pub(crate) const fn point(&self) -> [f64; 2] {
+        self.at
+    }
+
     /// The part of the turn in which it acts, if not the whole.
     pub const fn window(&self) -> Option<Window> {
         self.window

@@ -106,6 +106,11 @@ impl SliderCrank {
         })
     }
 
+    /// On which side of the crank pin the slider is.
+    pub const fn branch(&self) -> Branch {
+        self.branch
+    }
+
     /// The dimensions (m).
     pub const fn dimensions(&self) -> SliderCrankDimensions {
         self.dimensions

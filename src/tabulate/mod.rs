@@ -21,6 +21,8 @@ mod measure;
 mod near;
 mod part;
 mod search;
+#[cfg(feature = "micromath")]
+pub(crate) mod slider_crank;
 mod units;
 
 pub use buffer::TableBuffer;

@@ -49,6 +49,14 @@ pub(crate) const PHASE_F32_TURNS: f64 = 6e-8;
 /// `Phase::sin_cos_approx` promises this, and is not better than half of it: the promise is not slack.
 pub(crate) const SIN_COS_APPROX: f64 = 1.2e-3;
 
+/// A slider-crank in closed form, (r + |e|)/l up to 0.5, as a share of the sum of the largest sizes of the torque's terms: sine and
+/// cosine are off by 1.1e-7, τ by as much, 1/cos ψ by 1.5 units of 2⁻²⁴ and, for τ·δτ/(1 − τ²) ≤ ⅔, by 7e-8; J′ takes the cube
+/// of it; each coefficient is rounded to 2⁻²⁴.
+pub(crate) const SLIDER_CRANK: f64 = 1e-6;
+
+/// The same up to the steepest rod, where τ·δτ/(1 − τ²) is ten times δτ.
+pub(crate) const SLIDER_CRANK_STEEP: f64 = 3e-6;
+
 /// A law in f32 against f64: z is rounded to 2⁻²⁴, S″ varies by up to 40 a unit of z, ten roundings of numbers up to
 /// 20 in size.
 pub(crate) const LAW_F32: f64 = 2e-5;

@@ -3,6 +3,8 @@
 
 pub(crate) mod budget;
 pub(crate) mod cams;
+#[cfg(feature = "micromath")]
+pub(crate) mod cranks;
 pub(crate) mod derivatives;
 pub(crate) mod exact;
 pub(crate) mod forces;

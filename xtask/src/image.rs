@@ -2,9 +2,10 @@
 
 use anyhow::{Result, anyhow, bail};
 use jred::image::{encode, image_len};
-use jred::table::{Format, words_len};
+use jred::slider_crank::form;
+use jred::table::{Format, Shape, words_len};
 use jred::tabulate::{fill, scratch_len};
-use jred::{Q31, Scale, Set, Validity, curves};
+use jred::{Q31, Scale, Set, SliderCrankForm, Table, Validity, curves};
 
 use crate::data::Words;
 use crate::machine::{ALPHA, Example, OMEGA};
@@ -20,6 +21,8 @@ pub(crate) enum Layout {
     Spline16,
     /// [`jred::Rows16`]
     Rows16,
+    /// [`jred::SliderCrankForm`]
+    SliderCrank,
 }
 
 /// Load, and friction of the drive link that does not depend on the angle.
@@ -43,6 +46,7 @@ pub(crate) fn image(
         (Number::PhaseF32, Spline) => make::<jred::Spline<f32>>,
         (Number::PhaseF32, Cubic) => make::<jred::Cubic<f32>>,
         (Number::PhaseF32, Quadratic) => make::<jred::Quadratic<f32>>,
+        (Number::PhaseF32, Layout::SliderCrank) => return crank(example, set),
         (Number::PhaseQ31, Spline) => make::<jred::Spline<Q31>>,
         (Number::PhaseQ31, Cubic) => make::<jred::Cubic<Q31>>,
         (Number::PhaseQ31, Quadratic) => make::<jred::Quadratic<Q31>>,
@@ -65,11 +69,26 @@ fn make<F: Format>(example: &Example, set: Set, cells: u32, scale: &Scale) -> Re
     let mut numbers = vec![F::Word::default(); words_len::<F>(cells, set)];
     let table =
         fill::<F>(&machine, set, cells, scale, &mut scratch, &mut numbers).map_err(failed)?;
-    let table_bytes = size_of_val(table.words());
-    let mut words = vec![0; image_len::<F>(cells, set)];
-    encode(&table, VALIDITY, &mut words)
-        .map_err(|error| anyhow!("the example machine: {error}"))?;
-    Ok(Words { words, table_bytes })
+    encoded(&table)
+}
+
+/// The closed form: with friction of the drive link as loads of the crank, or the inertia alone.
+fn crank(example: &Example, set: Set) -> Result<Words> {
+    let failed = |error| anyhow!("the example machine: {error}");
+    let machine = example.crank(set != BARE).map_err(failed)?;
+    let mut numbers = vec![0.0; words_len::<SliderCrankForm>(0, set)];
+    form(&machine, set, &mut numbers).map_err(failed)?;
+    let table = Table::new(&numbers, Shape::slider_crank(set));
+    encoded(&table.map_err(|error| anyhow!("the example machine: {error}"))?)
+}
+
+fn encoded<F: Format>(table: &Table<'_, F>) -> Result<Words> {
+    let mut words = vec![0; image_len::<F>(table.cells(), table.set())];
+    encode(table, VALIDITY, &mut words).map_err(|error| anyhow!("the example machine: {error}"))?;
+    Ok(Words {
+        words,
+        table_bytes: size_of_val(table.words()),
+    })
 }
 
 /// Nothing reads these three here.

@@ -3,7 +3,7 @@
 //! To add one: a line in [`KERNELS`], and the function of that name in `benches/tick/`.
 
 use crate::data::Data;
-use crate::image::Layout::{self, Cubic, Quadratic, Rows16, Spline, Spline16};
+use crate::image::Layout::{self, Cubic, Quadratic, Rows16, SliderCrank, Spline, Spline16};
 use crate::image::{BARE, FULL, SEED};
 use crate::number::Number;
 
@@ -52,12 +52,12 @@ macro_rules! kernels {
     };
 }
 
-/// A table of the library: 64 cells, quadratics 256.
+/// A table of the library: 64 cells, quadratics 256; a slider-crank none.
 const fn table(layout: Layout, set: jred::Set) -> Data {
-    let cells = if matches!(layout, Quadratic | Rows16) {
-        256
-    } else {
-        64
+    let cells = match layout {
+        SliderCrank => 0,
+        Quadratic | Rows16 => 256,
+        Cubic | Spline | Spline16 => 64,
     };
     Data::Jred { layout, set, cells }
 }
@@ -68,6 +68,7 @@ pub(crate) const KERNELS: &[Kernel] = &kernels![
     // symbol                    quantity     origin number  data, title
     jred_f32_torque              Torque       Jred  PhaseF32 table(Cubic, FULL), "jred f32, cubic";
     jred_f32_spline_torque       Torque       Jred  PhaseF32 table(Spline, FULL), "jred f32, spline";
+    jred_f32_slider_crank_torque Torque       Jred  PhaseF32 table(SliderCrank, FULL), "jred f32, slider-crank";
     jred_q31_torque              Torque       Jred  PhaseQ31 table(Cubic, FULL), "jred q31, cubic";
     jred_q31_quadratic_torque    Torque       Jred  PhaseQ31 table(Quadratic, FULL), "jred q31, quadratic";
     jred_q31_spline16_torque     Torque       Jred  PhaseQ31 table(Spline16, FULL), "jred q31, 16-bit spline";
@@ -82,6 +83,7 @@ pub(crate) const KERNELS: &[Kernel] = &kernels![
     cmsis_analytic_torque        Torque       Peer  Radians  Data::Dimensions, "no table, arm_sin_f32, arm_cos_f32";
     jred_f32_acceleration        Acceleration Jred  PhaseF32 table(Cubic, BARE), "jred f32, cubic";
     jred_f32_spline_acceleration Acceleration Jred  PhaseF32 table(Spline, BARE), "jred f32, spline";
+    jred_f32_slider_crank_acceleration Acceleration Jred PhaseF32 table(SliderCrank, BARE), "jred f32, slider-crank";
     jred_q31_acceleration        Acceleration Jred  PhaseQ31 table(Cubic, SEED), "jred q31, cubic, 1/J";
     jred_q31_quadratic_acceleration Acceleration Jred PhaseQ31 table(Quadratic, SEED), "jred q31, quadratic, 1/J";
     jred_q31_spline16_acceleration Acceleration Jred PhaseQ31 table(Spline16, SEED), "jred q31, 16-bit spline, 1/J";

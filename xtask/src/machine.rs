@@ -11,8 +11,9 @@
 use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
+use jred::machine::{Action, Load};
 use jred::mechanism::{Branch, SliderCrank};
-use jred::{Domain, Error, Link, Machine, Reducible, Reduction};
+use jred::{Error, Link, Machine};
 
 /// Crank radius r (m).
 pub(crate) const RADIUS: f64 = 0.05;
@@ -108,8 +109,8 @@ impl Example {
         (torque - curves.half_slope * omega * omega) / curves.inertia
     }
 
-    /// The same machine as the library knows it: mechanism, gravity, friction of the drive link.
-    pub(crate) fn mechanism(&self) -> Result<Reduced, Error> {
+    /// The mechanism; with weight and the friction of the drive link, as loads of the crank.
+    pub(crate) fn crank(&self, loaded: bool) -> Result<Machine<SliderCrank>, Error> {
         let links = [
             Link::rotor(self.rotating)?,
             Link::rotor(0.0)?,
@@ -124,24 +125,21 @@ impl Example {
             Branch::Right,
             links,
         )?;
-        Ok(Reduced(
-            Machine::new(mechanism).with_gravity([-GRAVITY, 0.0])?,
-        ))
+        let machine = Machine::new(mechanism);
+        if !loaded {
+            return Ok(machine);
+        }
+        let viscous = Load::new(SliderCrank::CRANK, Action::ViscousMoment(VISCOUS))?;
+        let coulomb = Load::new(SliderCrank::CRANK, Action::OpposingMoment(COULOMB))?;
+        Ok(machine
+            .with_gravity([-GRAVITY, 0.0])?
+            .with_load(viscous)?
+            .with_load(coulomb)?)
     }
-}
 
-/// The library's machine with viscous and Coulomb friction of the drive link.
-pub(crate) struct Reduced(Machine<SliderCrank>);
-
-impl Reducible for Reduced {
-    fn domain(&self) -> Domain {
-        self.0.domain()
-    }
-    fn reduction(&self, phi: f64) -> Result<Reduction, jred::machine::PoseError> {
-        let mut reduction = self.0.reduction(phi)?;
-        reduction.viscous += VISCOUS;
-        reduction.coulomb += COULOMB;
-        Ok(reduction)
+    /// The same machine as the library knows it: mechanism, gravity, friction of the drive link.
+    pub(crate) fn mechanism(&self) -> Result<Machine<SliderCrank>, Error> {
+        self.crank(true)
     }
 }
 
@@ -172,6 +170,7 @@ pub(crate) fn motions() -> Vec<Motion> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use jred::Reducible as _;
 
     #[test]
     fn the_reference_and_the_library_know_the_same_machine() {

@@ -51,6 +51,8 @@ pub(crate) fn compile(core: &Core, peers: Option<&Path>) -> Result<PathBuf> {
             "--no-run",
             "--package",
             "jred",
+            "--features",
+            "micromath",
             "--bench",
             "tick",
             "--profile",

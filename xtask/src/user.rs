@@ -42,7 +42,7 @@ const BUILDS: [Build; 4] = [
 ];
 
 /// A function of the program, and what a table calls it.
-const FUNCTIONS: [(&str, &str); 43] = [
+const FUNCTIONS: [(&str, &str); 48] = [
     ("cubic_f32_torque", "f32, cubic: torque"),
     ("cubic_f32_acceleration", "f32, cubic: acceleration"),
     ("cubic_f32_range", "f32, cubic: range of accelerations"),
@@ -53,6 +53,20 @@ const FUNCTIONS: [(&str, &str); 43] = [
     ("spline_f32_range", "f32, spline: range of accelerations"),
     ("spline_f32_counts", "f32, spline: 10,000 counts → torque"),
     ("spline_f32_binary", "f32, spline: 4096 counts → torque"),
+    ("crank_f32_torque", "f32, slider-crank: torque"),
+    ("crank_f32_acceleration", "f32, slider-crank: acceleration"),
+    (
+        "crank_f32_range",
+        "f32, slider-crank: range of accelerations",
+    ),
+    (
+        "crank_f32_counts",
+        "f32, slider-crank: 10,000 counts → torque",
+    ),
+    (
+        "crank_f32_binary",
+        "f32, slider-crank: 4096 counts → torque",
+    ),
     ("cubic_q31_torque", "q31, cubic: torque"),
     ("cubic_q31_acceleration", "q31, cubic, 1/J: acceleration"),
     ("cubic_q31_range", "q31, cubic, 1/J: range of accelerations"),

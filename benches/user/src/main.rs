@@ -18,7 +18,7 @@ use jred::number::Sliding;
 use jred::table::Format;
 use jred::{
     AccelerationRange, Cubic, Image, Model, Outcome, Phase, Q15, Q31, Quadratic, Rows16, Scale,
-    Set, Spline, curves,
+    Set, SliderCrankForm, Spline, curves, slider_crank,
 };
 use panic_halt as _;
 
@@ -26,6 +26,9 @@ use panic_halt as _;
 const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 /// In fixed point, with 1/J instead of a division.
 const FIXED: Set = PRESS | curves::RECIPROCAL;
+
+/// As a slider-crank in closed form: the weight of its crank has a part in sin φ.
+const CRANK: Set = PRESS | slider_crank::terms::LOAD_SIN;
 
 const fn encoder(counts_per_turn: u32) -> Encoder {
     match Encoder::new(Mounting::direct(counts_per_turn)) {
@@ -143,7 +146,9 @@ macro_rules! model {
             let (count, omega, third) = (read(0).cast_signed(), $number::read(1), $number::read(2));
             let phase = Phase::from_bits(read(3));
             $torque(&model, phase, omega, third).write();
-            write($acceleration(&model, phase, omega, third).saturated.into());
+            let reached = $acceleration(&model, phase, omega, third);
+            reached.value.write();
+            write(reached.saturated.into());
             let range = $range(&model, phase, omega, third);
             range.least.value.write();
             write(range.greatest.saturated.into());
@@ -158,6 +163,8 @@ model!(f32 Cubic<f32>, PRESS: cubic_f32
     cubic_f32_torque cubic_f32_acceleration cubic_f32_range cubic_f32_counts cubic_f32_binary);
 model!(f32 Spline<f32>, PRESS: spline_f32
     spline_f32_torque spline_f32_acceleration spline_f32_range spline_f32_counts spline_f32_binary);
+model!(f32 SliderCrankForm, CRANK: crank_f32
+    crank_f32_torque crank_f32_acceleration crank_f32_range crank_f32_counts crank_f32_binary);
 model!(Q31 Cubic<Q31>, FIXED: cubic_q31
     cubic_q31_torque cubic_q31_acceleration cubic_q31_range cubic_q31_counts cubic_q31_binary);
 model!(Q31 Quadratic<Q31>, FIXED: quadratic_q31
@@ -421,7 +428,9 @@ fn words() -> &'static [u32] {
     for k in 0..512 {
         unsafe { write_volatile(&raw mut IMAGE[k], read(k)) }
     }
-    black_box(unsafe { &*&raw const IMAGE })
+    // Of any length: that a slider-crank of 512 words is refused is known when the program is compiled.
+    let image: &[u32] = unsafe { &*&raw const IMAGE };
+    black_box(image)
 }
 
 fn model<F: Format, const SET: Set>() -> Model<'static, F, SET> {
@@ -436,6 +445,7 @@ fn main() -> ! {
     loop {
         cubic_f32();
         spline_f32();
+        crank_f32();
         cubic_q31();
         quadratic_q31();
         rows_q15();

@@ -21,7 +21,7 @@ use jred::number::Number;
 use jred::table::Format;
 use jred::{
     Cubic, Harmonic, Image, Model, Outcome, Phase, Pieces, Q15, Q31, Quadratic, Rows16, Set,
-    Spline, Spline16, Validity, curves, include_image,
+    SliderCrankForm, Spline, Spline16, Validity, curves, include_image, slider_crank,
 };
 use support::{Failure, println, program};
 
@@ -32,6 +32,15 @@ const SEED: Set = PRESS | curves::RECIPROCAL;
 /// The curves of the saw as harmonics.
 const SAW: Set =
     PRESS | terms::INERTIA_COS | terms::LOAD_COS | terms::LOAD_SIN | terms::COULOMB_SIN;
+
+/// The curves and terms of the feeder as a slider-crank.
+const FEEDER: Set = curves::LOAD
+    | curves::VISCOUS
+    | curves::COULOMB
+    | curves::CONSTANT_COULOMB
+    | slider_crank::terms::INERTIA_COS
+    | slider_crank::terms::LOAD_SIN
+    | slider_crank::terms::LOAD_COS;
 
 /// Ticks of each model after which the digests are printed.
 const STAGES: [u32; 3] = [10_000, 100_000, 1_000_000];
@@ -128,6 +137,7 @@ models! {
     "f32 cubic          ": of_model, Cubic<f32>, PRESS, "../data/f32_cubic.jred";
     "f32 quadratic      ": of_model, Quadratic<f32>, PRESS, "../data/f32_quadratic.jred";
     "f32 harmonics      ": of_model, Harmonic<f32>, SAW, "../data/f32_harmonic.jred";
+    "f32 slider-crank   ": of_model, SliderCrankForm, FEEDER, "../data/f32_slider_crank.jred";
     "q31 spline         ": of_model, Spline<Q31>, PRESS, "../../data/press_q31.jred";
     "q31 cubic, 1/J     ": of_model, Cubic<Q31>, SEED, "../data/q31_cubic_seed.jred";
     "q31 quadratic, 1/J ": of_model, Quadratic<Q31>, SEED, "../data/q31_quadratic_seed.jred";

@@ -17,18 +17,27 @@
 //! | [`Quadratic`] | 3, rows padded to 4 | value, slope | the fastest tick without a long multiplication |
 //! | [`Rows16`] | 1, and 2 a cell | value, slope, but for the rounding of 16 bits | processors without a long multiplication |
 //!
-//! [`Harmonic`] holds no cells, but a short Fourier series of each curve.
+//! [`Harmonic`] holds no cells, but a short Fourier series of each curve; `SliderCrankForm` (feature `micromath`) the lengths and masses of a
+//! slider-crank.
 
 mod harmonic;
 mod layout;
 mod row;
 mod rows16;
+#[cfg(feature = "micromath")]
+mod slider_crank;
 
 pub(crate) use harmonic::in_use;
 pub use harmonic::{Circular, Coefficient, Curve, Harmonic, Kind, MAX_HARMONICS, terms};
 pub use layout::{Constants, Cubic, Quadratic, Spline, Spline16};
 pub(crate) use row::{Row, Rows, Runs, Size};
 pub use rows16::{RowConstants, Rows16};
+#[cfg(feature = "micromath")]
+pub(crate) use slider_crank::COEFFICIENTS;
+#[cfg(feature = "micromath")]
+pub use slider_crank::{
+    Coefficient as CrankCoefficient, STEEPEST, SliderCrankForm, terms as crank_terms,
+};
 
 use super::curves::Set;
 use super::samples::{Sample, Samples};
@@ -42,7 +51,8 @@ use crate::{Outcome, Phase, Scale};
 /// Words of the image's header for the constants of a table.
 pub(crate) const CONSTANTS: usize = 11;
 
-/// A way to store and evaluate curves. Sealed: [`Spline`], [`Spline16`], [`Cubic`], [`Quadratic`], [`Rows16`], [`Harmonic`].
+/// A way to store and evaluate curves. Sealed: [`Spline`], [`Spline16`], [`Cubic`], [`Quadratic`], [`Rows16`], [`Harmonic`], and
+/// with feature `micromath` `SliderCrankForm`.
 ///
 /// A program can be generic over it, for any number that the format has:
 ///

@@ -10,6 +10,9 @@ pub enum Size {
     Rows(Row),
     /// Means, then harmonic after harmonic.
     Harmonics,
+    /// The coefficients of a slider-crank.
+    #[cfg(feature = "micromath")]
+    SliderCrank,
 }
 
 impl Size {
@@ -19,6 +22,8 @@ impl Size {
         match self {
             Self::Rows(row) => (cells + row.more) * row.pitch(set),
             Self::Harmonics => means(set) + cells * row(set),
+            #[cfg(feature = "micromath")]
+            Self::SliderCrank => super::slider_crank::words(set),
         }
     }
 }

@@ -39,6 +39,7 @@ pub const COMMANDS: &[&str] = &[
     "export MACHINE --max-bytes 2000 --type i16 --layout rows --out OUT",
     "export MACHINE --max-bytes 3000 --type i32 --layout cubic --format rust --out OUT",
     "export MACHINE --torque-error 5_N_m --type f32 --layout harmonic --out OUT",
+    "export MACHINE --torque-error 5_N_m --type f32 --layout slider-crank --out OUT",
     "export MACHINE --torque-error 5_N_m --pieces auto --format c --out OUT --max-cells 200",
 ];
 

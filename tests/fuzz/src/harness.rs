@@ -6,7 +6,8 @@ use std::sync::OnceLock;
 use clap::Parser as _;
 use jred::table::Format;
 use jred::{
-    Cubic, Harmonic, Image, Phase, Q31, Quadratic, Rows16, Spline, Spline16, number::Number,
+    Cubic, Harmonic, Image, Phase, Q31, Quadratic, Rows16, SliderCrankForm, Spline, Spline16,
+    number::Number,
 };
 use jred_cli::options::Cli;
 use jred_cli::rows::store;
@@ -121,6 +122,7 @@ fn image(bytes: &[u8]) -> bool {
         ticks::<Cubic<f32>>(&image),
         ticks::<Quadratic<f32>>(&image),
         ticks::<Harmonic<f32>>(&image),
+        ticks::<SliderCrankForm>(&image),
         ticks::<Spline<Q31>>(&image),
         ticks::<Cubic<Q31>>(&image),
         ticks::<Quadratic<Q31>>(&image),

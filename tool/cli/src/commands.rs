@@ -322,10 +322,15 @@ fn run_export(options: &options::Export) -> Result<Done> {
             options.layout.name()
         ));
     }
-    if options.layout == LayoutChoice::Harmonic && options.pieces.is_some() {
+    let whole = match options.layout {
+        LayoutChoice::Harmonic => Some("harmonics describe"),
+        LayoutChoice::SliderCrank => Some("a closed form describes"),
+        _ => None,
+    };
+    if let (Some(whole), true) = (whole, options.pieces.is_some()) {
         return Err(miette!(
             help = "remove --pieces, or take another --layout",
-            "harmonics describe a whole turn, not a piece of one"
+            "{whole} a whole turn, not a piece of one"
         ));
     }
     let coordinate = file.machine.mechanism().coordinate();

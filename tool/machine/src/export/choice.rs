@@ -4,7 +4,8 @@ use jred::machine::PoseError;
 use jred::number::Number as _;
 use jred::table::Format as _;
 use jred::{
-    Cubic, Error, Harmonic, Q15, Q31, Quadratic, Reducible, Rows16, Scale, Spline, Spline16,
+    Cubic, Error, Harmonic, Q15, Q31, Quadratic, Reducible, Rows16, Scale, SliderCrankForm, Spline,
+    Spline16,
 };
 
 use super::candidate::Answer;
@@ -40,6 +41,8 @@ pub enum LayoutName {
     Rows,
     /// Coefficients of short Fourier series.
     Harmonic,
+    /// Lengths and masses of a slider-crank.
+    SliderCrank,
 }
 
 crate::words! {
@@ -59,6 +62,8 @@ crate::words! {
         Rows = "rows",
         /// Short Fourier series of a smooth machine that turns: the fewest bytes, f32.
         Harmonic = "harmonic",
+        /// A slider-crank with constant loads in closed form, without a table: f32.
+        SliderCrank = "slider-crank",
     }
 }
 
@@ -107,6 +112,7 @@ impl Number {
                 LayoutName::Cubic,
                 LayoutName::Quadratic,
                 LayoutName::Harmonic,
+                LayoutName::SliderCrank,
             ],
             Self::I32 => &[
                 LayoutName::Spline,
@@ -135,6 +141,7 @@ impl Number {
     pub(super) fn search(self, layout: LayoutName, search: &Searches<'_>) -> Result<Answer, Error> {
         match (self, layout) {
             (Self::F32, LayoutName::Harmonic) => search.harmonics(),
+            (Self::F32, LayoutName::SliderCrank) => search.slider_crank(),
             (Self::F32, LayoutName::Cubic) => search.run::<Cubic<f32>>(self, layout),
             (Self::F32, LayoutName::Quadratic) => search.run::<Quadratic<f32>>(self, layout),
             (Self::F32, _) => search.run::<Spline<f32>>(self, layout),
@@ -157,6 +164,7 @@ impl LayoutName {
             Self::Quadratic => Quadratic::<f32>::NAME,
             Self::Rows => Rows16::NAME,
             Self::Harmonic => Harmonic::<f32>::NAME,
+            Self::SliderCrank => SliderCrankForm::NAME,
         }
     }
 
@@ -164,6 +172,7 @@ impl LayoutName {
     pub const fn counted(self) -> &'static str {
         match self {
             Self::Harmonic => "harmonics",
+            Self::SliderCrank => "coefficients",
             _ => "cells",
         }
     }
@@ -178,6 +187,7 @@ impl LayoutName {
             Self::Quadratic => format!("Quadratic<{number}>"),
             Self::Rows => "Rows16".to_owned(),
             Self::Harmonic => format!("Harmonic<{number}>"),
+            Self::SliderCrank => "SliderCrankForm".to_owned(),
         }
     }
 }
@@ -192,6 +202,7 @@ impl LayoutChoice {
             LayoutName::Quadratic,
             LayoutName::Rows,
             LayoutName::Harmonic,
+            LayoutName::SliderCrank,
         ];
         let mut allowed = all.iter().filter(|layout| self.allows(**layout));
         match (self, allowed.next()) {
@@ -210,6 +221,7 @@ impl LayoutChoice {
             Self::Quadratic => layout == LayoutName::Quadratic,
             Self::Rows => layout == LayoutName::Rows,
             Self::Harmonic => layout == LayoutName::Harmonic,
+            Self::SliderCrank => layout == LayoutName::SliderCrank,
         }
     }
 }

@@ -44,7 +44,10 @@ impl NotReached<'_> {
             .map(|(_, _, answer)| answer)
             .collect();
         // What harmonics cannot do, they say themselves.
-        if let Some(Answer::Refused(error @ Error::Harmonic(_))) = own.first() {
+        if let [
+            Answer::Refused(error @ (Error::Harmonic(_) | Error::Table(TableError::ShortRod))),
+        ] = own[..]
+        {
             let text = format!("{error}; {}", error.cure());
             return Ok(Failure::NotReached(text));
         }
@@ -308,10 +311,11 @@ impl Worst<'_> {
     /// The torque error in double precision, and where it is largest.
     fn without_rounding(&self, cells: u32) -> Result<(f64, f64), Error> {
         match self.layout {
-            // Harmonics are not asked: see `limit`.
-            LayoutName::Spline | LayoutName::Spline16 | LayoutName::Harmonic => {
-                self.search.without_rounding::<Spline<f64>>(cells)
-            }
+            // Harmonics and closed forms are not asked: see `limit`.
+            LayoutName::Spline
+            | LayoutName::Spline16
+            | LayoutName::Harmonic
+            | LayoutName::SliderCrank => self.search.without_rounding::<Spline<f64>>(cells),
             LayoutName::Cubic => self.search.without_rounding::<Cubic<f64>>(cells),
             LayoutName::Quadratic | LayoutName::Rows => {
                 self.search.without_rounding::<Quadratic<f64>>(cells)
@@ -322,6 +326,9 @@ impl Worst<'_> {
     fn limit(&self, task: &Task) -> Result<Limit, Error> {
         // Of what is there, or of what is allowed, rounding may make up so much.
         const SHARE: f64 = 0.5;
+        if self.layout == LayoutName::SliderCrank {
+            return Ok(Limit::Rounding);
+        }
         // As many coefficients as it takes: their ticks miss, or an edge.
         if self.layout == LayoutName::Harmonic {
             let ticks = self.table.looked <= task.torque_error.unwrap_or_default();

@@ -3,11 +3,12 @@
 use std::fmt::Write as _;
 
 use jred::harmonic::terms;
+use jred::slider_crank::terms as crank;
 use jred::{Set, curves};
 use serde_json::{Value, json};
 
 use super::candidate::{Answer, Candidate, Made};
-use super::{Export, LayoutName, Number};
+use super::{Export, LayoutChoice, LayoutName, Number};
 use crate::model::coordinate::Coordinate;
 use crate::number::rounding::{rounded, short};
 
@@ -41,14 +42,34 @@ const TERMS: [(Set, &str); 8] = [
     (terms::COULOMB_SIN, "COULOMB_SIN"),
 ];
 
+/// Instructions of a torque on a Cortex-M4F with load and constant friction, in f32: of a slider-crank, a cubic and a spline, as
+/// docs/performance.md has them.
+const INSTRUCTIONS: [u32; 3] = [101, 50, 83];
+
+/// Bit of a term of a slider-crank, its name in Rust.
+const CRANK_TERMS: [(Set, &str); 8] = [
+    (crank::INERTIA_COS, "INERTIA_COS"),
+    (crank::LOAD_SIN, "LOAD_SIN"),
+    (crank::LOAD_COS, "LOAD_COS"),
+    (crank::LOAD_CONSTANT, "LOAD_CONSTANT"),
+    (crank::LOAD_ROD, "LOAD_ROD"),
+    (crank::VISCOUS_SIN, "VISCOUS_SIN"),
+    (crank::VISCOUS_COS, "VISCOUS_COS"),
+    (crank::COULOMB_ROD, "COULOMB_ROD"),
+];
+
 /// The set as a constant expression in Rust.
-fn rust_set(set: Set) -> String {
+fn rust_set(layout: LayoutName, set: Set) -> String {
     let names = CURVES.iter().filter(|(bit, _, _)| set & bit != 0);
     let mut names: Vec<String> = names
         .map(|(_, _, name)| format!("curves::{name}"))
         .collect();
-    let terms = TERMS.iter().filter(|(bit, _)| set & bit != 0);
-    names.extend(terms.map(|(_, name)| format!("terms::{name}")));
+    let (terms, path) = match layout {
+        LayoutName::SliderCrank => (CRANK_TERMS, "slider_crank::terms"),
+        _ => (TERMS, "terms"),
+    };
+    let terms = terms.iter().filter(|(bit, _)| set & bit != 0);
+    names.extend(terms.map(|(_, name)| format!("{path}::{name}")));
     if names.is_empty() {
         "curves::INERTIA".to_owned()
     } else {
@@ -59,7 +80,7 @@ fn rust_set(set: Set) -> String {
 /// Format and set of curves as the arguments of a type in Rust.
 pub(super) fn rust_arguments(table: &Candidate) -> String {
     let format = table.layout.type_name(table.number);
-    let set = rust_set(table.curves());
+    let set = rust_set(table.layout, table.curves());
     format!("{format}, {{ {set} }}")
 }
 
@@ -141,6 +162,9 @@ impl Export {
         } else {
             text += &self.pieces(chosen);
         }
+        if chosen.layout == LayoutName::SliderCrank {
+            text += &self.closed();
+        }
         let allowed = self.task.torque_error.map_or(String::new(), |allowed| {
             format!(" of {} {effort} allowed", rounded(allowed))
         });
@@ -179,6 +203,19 @@ impl Export {
             let _ = writeln!(text, "unused bits: {}", unused.join(", "));
         }
         text
+    }
+
+    /// What a closed form costs, and how to have a table.
+    fn closed(&self) -> String {
+        let [crank, cubic, spline] = INSTRUCTIONS;
+        let table = match self.task.layout {
+            LayoutChoice::Auto => "; --layout spline, cubic or quadratic asks for a table",
+            _ => "",
+        };
+        format!(
+            "no table: needs jred's feature micromath, and about {crank} instructions a torque on a Cortex-M4F \
+             (cubic {cubic}, spline {spline}){table}\n"
+        )
     }
 
     /// Where the pieces are, and what each takes.

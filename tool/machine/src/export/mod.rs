@@ -13,6 +13,7 @@ mod place;
 mod reference;
 mod search;
 mod size;
+mod slider_crank;
 mod ticks;
 
 pub use candidate::{Answer, Candidate, Made};
@@ -148,12 +149,21 @@ impl Export {
                 help: format!("use --max-cells {} or fewer", MOST_CELLS / pieces.len()),
             });
         }
-        let search = Searches::new(&machine, &pieces, goal)?;
+        // A closed form is of the whole turn.
+        let crank = slider_crank::plain(&machine);
+        if let (LayoutChoice::SliderCrank, Err(why)) = (task.layout, &crank) {
+            return Err(why.failure(file));
+        }
+        let crank = crank.ok().filter(|_| pieces.is_empty());
+        let search = Searches::new(&machine, crank, &pieces, goal)?;
         let mut answers = Vec::new();
         for number in Number::ALL {
             for &layout in number.layouts() {
                 // Harmonics are only looked for where they are asked for.
                 if layout == LayoutName::Harmonic && task.layout != LayoutChoice::Harmonic {
+                    continue;
+                }
+                if layout == LayoutName::SliderCrank && search.crank.is_none() {
                     continue;
                 }
                 answers.push((number, layout, number.search(layout, &search)?));

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
+use jred::mechanism::SliderCrank;
 use jred::table::Format;
 use jred::tabulate::{self, Part};
 use jred::{Domain, Error, Machine, Reducible as _, Set, TableError, curves};
@@ -53,6 +54,8 @@ pub(super) fn between(domain: Domain, edges: &[f64]) -> Vec<[f64; 2]> {
 /// The searches of all ranges of a machine: of the whole, or of each piece.
 pub(super) struct Searches<'m> {
     pub(super) machine: &'m Machine<AnyMechanism>,
+    /// The same, if it has a closed form.
+    pub(super) crank: Option<Machine<SliderCrank>>,
     pub(super) goal: Goal,
     set: Set,
     pub(super) ranges: Vec<Search<'m>>,
@@ -65,6 +68,7 @@ impl<'m> Searches<'m> {
     /// A machine that cannot be tabulated.
     pub(super) fn new(
         machine: &'m Machine<AnyMechanism>,
+        crank: Option<Machine<SliderCrank>>,
         pieces: &[[f64; 2]],
         goal: Goal,
     ) -> Result<Self, Error> {
@@ -83,6 +87,7 @@ impl<'m> Searches<'m> {
         };
         Ok(Self {
             machine,
+            crank,
             goal,
             set,
             ranges,
@@ -130,6 +135,21 @@ impl<'m> Searches<'m> {
         let answers = self.ranges.iter().map(Search::harmonics);
         let answers = answers.collect::<Result<_, Error>>()?;
         Ok(Answer::together(answers, Number::F32, LayoutName::Harmonic))
+    }
+
+    /// The closed form of a machine that has one.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub(super) fn slider_crank(&self) -> Result<Answer, Error> {
+        let ranges = self.ranges.iter().zip(&self.crank);
+        let answers = ranges.map(|(range, crank)| range.slider_crank(crank));
+        let answers = answers.collect::<Result<_, Error>>()?;
+        Ok(Answer::together(
+            answers,
+            Number::F32,
+            LayoutName::SliderCrank,
+        ))
     }
 }
 

@@ -1,5 +1,6 @@
 //! Any mechanism that a machine file can name, with the names of its parts.
 
+use std::any::Any;
 use std::fmt;
 use std::sync::Arc;
 
@@ -11,9 +12,9 @@ use crate::model::coordinate::Coordinate;
 use crate::model::tabulated::{Course, StandIn, Tabulated};
 
 /// A mechanism that knows its joints and can be kept in a machine.
-pub trait Inner: Jointed + fmt::Debug + Send + Sync {}
+pub trait Inner: Jointed + fmt::Debug + Send + Sync + Any {}
 
-impl<M: Jointed + fmt::Debug + Send + Sync> Inner for M {}
+impl<M: Jointed + fmt::Debug + Send + Sync + Any> Inner for M {}
 
 /// A point of a link, with the name that tables and drawings use.
 #[derive(Clone, Debug, PartialEq)]
@@ -215,6 +216,12 @@ impl AnyMechanism {
     /// The figures of its kind.
     pub fn facts(&self) -> &[Fact] {
         &self.facts
+    }
+
+    /// The mechanism itself, if it is of this type and has no curves over the position.
+    pub fn inner<M: Mechanism + 'static>(&self) -> Option<&M> {
+        let inner: &dyn Any = self.inner.as_ref();
+        inner.downcast_ref()
     }
 
     /// The `type` of the machine file.
