@@ -24,6 +24,7 @@ mod layout;
 mod row;
 mod rows16;
 
+#[cfg(feature = "mechanics")]
 pub(crate) use harmonic::in_use;
 pub use harmonic::{Circular, Coefficient, Curve, Harmonic, Kind, MAX_HARMONICS, terms};
 pub use layout::{Constants, Cubic, Quadratic, Spline, Spline16};

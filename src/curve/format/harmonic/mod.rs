@@ -21,8 +21,10 @@ mod coefficient;
 mod series;
 mod sine;
 
+#[cfg(feature = "mechanics")]
+pub(crate) use coefficient::in_use;
 pub use coefficient::{Coefficient, Curve, Kind, terms};
-pub(crate) use coefficient::{in_use, means, row};
+pub(crate) use coefficient::{means, row};
 
 pub use sine::Circular;
 
