@@ -27,13 +27,13 @@ use core::hint::black_box;
 use core::num::NonZeroU32;
 
 use jred::axis::{
-    Counter, Encoder, FeedForward, Gearbox, Motion, Mounting, Period, Ramp, Scaled, Status,
-    StrokeEncoder, TorqueLimits, Tracker, Transmission,
+    Counter, Encoder, FeedForward, Gearbox, ImageSlot, Motion, Mounting, Period, Ramp, Scaled,
+    Status, StrokeEncoder, TorqueLimits, Tracker, Transmission,
 };
 use jred::curves::{self, width};
 use jred::duty::{Curve, Limits, Meter, Verdicts, Window};
 use jred::harmonic::{Coefficient, terms};
-use jred::image::{encode, image_len};
+use jred::image::{ImageCheck, encode, image_len};
 use jred::machine::motion::{Law, Move};
 use jred::number::{Bases, Sliding};
 use jred::table::{Format, Shape, Usage, words_len};
@@ -98,6 +98,7 @@ fn calls() -> Result<(), ImageError> {
     every_axis::<Spline<Q31>, PRESS>(fixed)?;
     let _ = black_box(every_axis::<Rows16, PRESS>(fixed));
     every_term(float)?;
+    every_slot(float);
     every_encoder();
     every_number();
     every_meter(Window::SinceStart);
@@ -270,6 +271,20 @@ fn every_term(bytes: &'static [u8]) -> Result<(), ImageError> {
     black_box(Image::is_of::<Spline<f32>, PRESS>(black_box(&[0; 30])));
     black_box(Image::bytes_are_of::<Spline<f32>, PRESS>(black_box(bytes)));
     Ok(())
+}
+
+/// An image that is exchanged while the machine runs.
+fn every_slot(bytes: &'static [u8]) {
+    let mut slot: ImageSlot<Spline<f32>, PRESS, 600> = ImageSlot::new();
+    let received = ImageSlot::receive(&mut slot, black_box(bytes)).is_ok();
+    let verdict = ImageSlot::check(&mut slot, black_box(16));
+    if let Some(feed_forward) = ImageSlot::feed_forward(&slot) {
+        black_box(FeedForward::status(&feed_forward, 1.0, 1.0));
+    }
+    black_box((received, verdict.is_some(), ImageSlot::validity(&slot)));
+    ImageSlot::clear(&mut slot);
+    let mut check = ImageCheck::new(black_box(&[0; 30]));
+    black_box(ImageCheck::advance(&mut check, black_box(16)).is_some());
 }
 
 fn every_encoder() {

@@ -218,7 +218,7 @@ pub mod harmonic {
 
 /// Table images: a machine's curves as the tool exports them and firmware uses them, in place from flash.
 pub mod image {
-    pub use crate::tick::{Aligned, HEADER_WORDS, VERSION, encode, image_len};
+    pub use crate::tick::{Aligned, HEADER_WORDS, ImageCheck, VERSION, encode, image_len};
 }
 
 mod sealed {

@@ -80,6 +80,7 @@ impl<'a, T, const A: usize, const B: usize, const C: usize, const D: usize, cons
 where
     T: Copy + core::fmt::Debug,
 {
+    #[inline]
     fn new(words: &'a [T], pitch: usize) -> Self {
         let mut rows = Self {
             a: &[],

@@ -214,6 +214,11 @@ macro_rules! harmonic {
             }
 
             #[inline(always)]
+            fn moved<'a>(tick: &Self::Tick<'_>, words: &'a [$number], set: Set) -> Self::Tick<'a> {
+                tick.moved(words, set)
+            }
+
+            #[inline(always)]
             fn torque(
                 _: &Table<'_, Self>,
                 tick: &Self::Tick<'_>,

@@ -2,9 +2,9 @@
 //!
 //! Every polynomial stays within its Bézier points, so the bounds hold everywhere in a cell, not only at the knots.
 
-use super::Layout;
 use super::cell::{Cell, polynomial, wide};
-use crate::curve::{Table, TableError, Usage, curves};
+use super::{Layout, Word};
+use crate::curve::{Set, Table, TableError, Usage, curves};
 use crate::math::Real;
 use crate::number::{Kernel, Number, Role};
 use crate::{Domain, Phase};
@@ -132,6 +132,17 @@ pub struct Proven<'a, L: Layout> {
     /// Of the velocity torque.
     pub(super) factor: <L::Number as Kernel>::Factor,
     pub(super) reciprocal: <L::Number as Kernel>::Reciprocal,
+}
+
+impl<L: Layout> Proven<'_, L> {
+    #[inline(always)]
+    pub(super) fn moved<'a>(&self, words: &'a [Word<L>], set: Set) -> Proven<'a, L> {
+        Proven {
+            rows: L::rows(words, set),
+            factor: self.factor,
+            reciprocal: self.reciprocal,
+        }
+    }
 }
 
 pub(super) fn model<'a, L: Layout>(table: &Table<'a, L>) -> Result<Proven<'a, L>, TableError> {

@@ -72,6 +72,7 @@ pub trait Layout:
     const HALVES: bool = false;
 
     /// The rows of a table.
+    #[inline]
     fn rows(words: &[Word<Self>], set: Set) -> Self::Rows<'_> {
         Runs::new(words, Self::ROW.pitch(set))
     }
@@ -234,6 +235,15 @@ macro_rules! format {
 
             fn prepare<'a>(table: &Table<'a, Self>) -> Result<Self::Tick<'a>, TableError> {
                 check::model(table)
+            }
+
+            #[inline(always)]
+            fn moved<'a>(
+                tick: &Self::Tick<'_>,
+                words: &'a [Self::Word],
+                set: Set,
+            ) -> Self::Tick<'a> {
+                tick.moved(words, set)
             }
 
             #[inline(always)]

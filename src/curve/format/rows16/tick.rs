@@ -52,6 +52,16 @@ impl<'a> Tick<'a> {
     }
 
     #[inline(always)]
+    pub(super) fn moved<'b>(&self, words: &'b [u32], set: Set) -> Tick<'b> {
+        Tick {
+            rows: Rows::new(words, row::length(set)),
+            viscous: self.viscous,
+            coulomb: self.coulomb,
+            shift: self.shift,
+        }
+    }
+
+    #[inline(always)]
     pub(super) fn torque(
         &self,
         set: Set,
