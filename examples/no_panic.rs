@@ -275,7 +275,8 @@ fn every_term(bytes: &'static [u8]) -> Result<(), ImageError> {
 
 /// An image that is exchanged while the machine runs.
 fn every_slot(bytes: &'static [u8]) {
-    let mut slot: ImageSlot<Spline<f32>, PRESS, 600> = ImageSlot::new();
+    let mut memory = black_box([0; 600]);
+    let mut slot: ImageSlot<'_, Spline<f32>, PRESS> = ImageSlot::new(&mut memory);
     let received = ImageSlot::receive(&mut slot, black_box(bytes)).is_ok();
     let verdict = ImageSlot::check(&mut slot, black_box(16));
     if let Some(feed_forward) = ImageSlot::feed_forward(&slot) {

@@ -63,11 +63,13 @@ fn bytes(image: &[u32]) -> Vec<u8> {
     image.iter().flat_map(|word| word.to_le_bytes()).collect()
 }
 
-type Slot<F, const SET: Set> = ImageSlot<F, SET, WORDS>;
-
 /// A slot that has received these bytes, so many at a time.
-fn received<F: Format, const SET: Set>(bytes: &[u8], piece: usize) -> Box<Slot<F, SET>> {
-    let mut slot = Box::new(Slot::new());
+fn received<'m, F: Format, const SET: Set>(
+    memory: &'m mut [u32],
+    bytes: &[u8],
+    piece: usize,
+) -> ImageSlot<'m, F, SET> {
+    let mut slot = ImageSlot::new(memory);
     for piece in bytes.chunks(piece) {
         assert!(slot.feed_forward().is_none() && slot.validity().is_none());
         slot.receive(piece).unwrap();
@@ -76,7 +78,7 @@ fn received<F: Format, const SET: Set>(bytes: &[u8], piece: usize) -> Box<Slot<F
 }
 
 fn checked<F: Format, const SET: Set>(
-    slot: &mut Slot<F, SET>,
+    slot: &mut ImageSlot<'_, F, SET>,
     words: usize,
 ) -> Result<(), ImageError> {
     for _ in 0..=WORDS {
@@ -112,12 +114,14 @@ fn ticks_alike<F: Format, const SET: Set>(image: &[u32]) {
     let expected = torques(&whole);
     assert!(expected.iter().any(|torque| *torque != expected[0]));
     for (piece, words) in [(1, 1), (3, 400), (61, 16), (4096, 5)] {
-        let mut slot = received::<F, SET>(&bytes(image), piece);
+        let mut memory = [[0; WORDS]; 2];
+        let [first, second] = &mut memory;
+        let mut slot = received::<F, SET>(first, &bytes(image), piece);
         checked(&mut slot, words).unwrap();
         assert_eq!(torques(&slot.feed_forward().unwrap()), expected);
         // What it has found does not depend on where it lies.
-        let mut moved = Box::new(Slot::new());
-        core::mem::swap(&mut *slot, &mut *moved);
+        let mut moved = ImageSlot::new(second);
+        core::mem::swap(&mut slot, &mut moved);
         assert_eq!(torques(&moved.feed_forward().unwrap()), expected);
         assert!(slot.feed_forward().is_none());
         assert_eq!(moved.validity(), Some(VALIDITY));
@@ -154,7 +158,11 @@ fn a_slot_ticks_as_the_image_itself() {
 
 /// The verdict of a slot on these bytes.
 fn verdict<const SET: Set>(bytes: &[u8]) -> Result<(), ImageError> {
-    checked(&mut received::<Spline<f32>, SET>(bytes, 10), 16)
+    let mut memory = [u32::MAX; WORDS];
+    checked(
+        &mut received::<Spline<f32>, SET>(&mut memory, bytes, 10),
+        16,
+    )
 }
 
 #[test]
@@ -205,7 +213,8 @@ fn a_slot_is_used_again() {
     let good = bytes(&small());
     let mut damaged = good.clone();
     damaged[100] ^= 1;
-    let mut slot = received::<Spline<f32>, 0>(&damaged, 7);
+    let mut memory = [0; WORDS];
+    let mut slot = received::<Spline<f32>, 0>(&mut memory, &damaged, 7);
     assert!(checked(&mut slot, 3).is_err());
     // The first bytes after a verdict begin another image.
     slot.receive(&good[..11]).unwrap();
@@ -227,7 +236,8 @@ fn a_slot_is_used_again() {
 
 #[test]
 fn more_than_a_slot_holds_is_refused() {
-    let mut slot = Slot::<Spline<f32>, 0>::new();
+    let mut memory = [0; WORDS];
+    let mut slot = ImageSlot::<Spline<f32>, 0>::new(&mut memory);
     slot.receive(&[0; 4 * WORDS - 2]).unwrap();
     let refused = slot.receive(&[1, 2, 3]);
     let short = ImageError::BufferTooShort {

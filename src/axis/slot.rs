@@ -5,7 +5,7 @@ use crate::Validity;
 use crate::curve::{Format, Set};
 use crate::tick::{HEADER_WORDS, ImageError, Progress};
 
-/// Memory for an image of up to `WORDS` words, and the feed-forward over it: to exchange the table while the machine runs.
+/// Memory for an image, and the feed-forward over it: to exchange the table while the machine runs.
 ///
 /// It takes the image in pieces as a link brings them, checks it in slices, and then has a [`FeedForward`] until it is cleared. A program has two. The
 /// tick owns the one that it reads, the background the other; to exchange them is to exchange two `&'static mut`, so that no tick ever sees
@@ -14,7 +14,7 @@ use crate::tick::{HEADER_WORDS, ImageError, Progress};
 /// ```compile_fail,E0502
 /// # use jred::axis::ImageSlot;
 /// # use jred::{Spline, curves};
-/// fn no(slot: &mut ImageSlot<Spline<f32>, { curves::LOAD }, 500>, tick: impl Fn(&dyn core::fmt::Debug)) {
+/// fn no(slot: &mut ImageSlot<'_, Spline<f32>, { curves::LOAD }>, tick: impl Fn(&dyn core::fmt::Debug)) {
 ///     let in_use = slot.feed_forward();
 ///     slot.clear();
 ///     tick(&in_use);
@@ -28,23 +28,23 @@ use crate::tick::{HEADER_WORDS, ImageError, Progress};
 /// use jred::{Set, Spline, curves, include_image};
 ///
 /// const PRESS: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
-/// type Slot = ImageSlot<Spline<f32>, PRESS, 600>;
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// let mut slot = Slot::new();
+/// let mut memory = [0; 600]; // words
+/// let mut slot = ImageSlot::<Spline<f32>, PRESS>::new(&mut memory);
 /// for packet in include_image!("../../examples/data/press_f32.jred").chunks(50) {
 ///     slot.receive(packet)?;
 /// }
 /// // In the background: 16 words at a time.
 /// while slot.check(16).is_none() {}
-/// let feed_forward: FeedForward<'_, _, PRESS> = slot.feed_forward().ok_or("refused")?;
+/// let feed_forward: FeedForward<'_, Spline<f32>, PRESS> = slot.feed_forward().ok_or("refused")?;
 /// # assert!(feed_forward.status(0.0, 0.0).is_valid());
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Clone, Debug)]
-pub struct ImageSlot<F: Format, const SET: Set, const WORDS: usize> {
-    words: [u32; WORDS],
+#[derive(Debug)]
+pub struct ImageSlot<'m, F: Format, const SET: Set> {
+    words: &'m mut [u32],
     /// Bytes that were received.
     received: usize,
     progress: Progress,
@@ -54,12 +54,12 @@ pub struct ImageSlot<F: Format, const SET: Set, const WORDS: usize> {
 /// What was found: the feed-forward, without the words, and what it was made for; or why there is none.
 type Verdict<F, const SET: Set> = Result<(FeedForward<'static, F, SET>, Validity), ImageError>;
 
-impl<F: Format, const SET: Set, const WORDS: usize> ImageSlot<F, SET, WORDS> {
-    /// Empty. `const`, for memory that has its place when the program is linked.
+impl<'m, F: Format, const SET: Set> ImageSlot<'m, F, SET> {
+    /// Empty, with memory for images of up to so many words.
     #[must_use]
-    pub const fn new() -> Self {
+    pub const fn new(memory: &'m mut [u32]) -> Self {
         Self {
-            words: [0; WORDS],
+            words: memory,
             received: 0,
             progress: Progress::START,
             verdict: None,
@@ -82,11 +82,11 @@ impl<F: Format, const SET: Set, const WORDS: usize> ImageSlot<F, SET, WORDS> {
             self.clear();
         }
         let needed = self.received.saturating_add(bytes.len());
-        let memory: &mut [u8] = bytemuck::cast_slice_mut(&mut self.words);
         let short = ImageError::BufferTooShort {
             needed: needed.div_ceil(4),
-            given: WORDS,
+            given: self.words.len(),
         };
+        let memory: &mut [u8] = bytemuck::cast_slice_mut(self.words);
         let place = memory.get_mut(self.received..needed).ok_or(short)?;
         for (slot, byte) in place.iter_mut().zip(bytes) {
             *slot = *byte;
@@ -145,11 +145,5 @@ impl<F: Format, const SET: Set, const WORDS: usize> ImageSlot<F, SET, WORDS> {
             return None;
         };
         Some(*validity)
-    }
-}
-
-impl<F: Format, const SET: Set, const WORDS: usize> Default for ImageSlot<F, SET, WORDS> {
-    fn default() -> Self {
-        Self::new()
     }
 }

@@ -137,10 +137,9 @@ impl<'a, F: Format> AnyModel<'a, F> {
     /// The same model over the words that it was made of, borrowed anew or in another place.
     #[inline(always)]
     fn moved<'b>(&self, words: &'b [F::Word], set: Set) -> AnyModel<'b, F> {
-        AnyModel {
-            table: self.table.moved(words),
-            tick: F::moved(&self.tick, words, set),
-        }
+        let table = self.table.moved(words);
+        let tick = F::moved(&self.tick, &table, set);
+        AnyModel { table, tick }
     }
 }
 

@@ -164,9 +164,9 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     /// Checks that a table can be ticked, and makes what a tick needs in addition to it.
     #[doc(hidden)]
     fn prepare<'a>(table: &Table<'a, Self>) -> Result<Self::Tick<'a>, TableError>;
-    /// The same, over the same words in another place or borrowed anew.
+    /// The same for the same table, whose words lie in another place or are borrowed anew; its set is `set`.
     #[doc(hidden)]
-    fn moved<'a>(tick: &Self::Tick<'_>, words: &'a [Self::Word], set: Set) -> Self::Tick<'a>;
+    fn moved<'a>(tick: &Self::Tick<'_>, table: &Table<'a, Self>, set: Set) -> Self::Tick<'a>;
     /// Inverse dynamics, of a table whose set is `set`: a model knows it when it is compiled.
     #[doc(hidden)]
     fn torque(

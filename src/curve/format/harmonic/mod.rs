@@ -214,8 +214,12 @@ macro_rules! harmonic {
             }
 
             #[inline(always)]
-            fn moved<'a>(tick: &Self::Tick<'_>, words: &'a [$number], set: Set) -> Self::Tick<'a> {
-                tick.moved(words, set)
+            fn moved<'a>(
+                tick: &Self::Tick<'_>,
+                table: &Table<'a, Self>,
+                set: Set,
+            ) -> Self::Tick<'a> {
+                tick.moved(table.words(), set)
             }
 
             #[inline(always)]

@@ -2,8 +2,9 @@
 //!
 //! Every polynomial stays within its Bézier points, so the bounds hold everywhere in a cell, not only at the knots.
 
+use super::Layout;
 use super::cell::{Cell, polynomial, wide};
-use super::{Layout, Word};
+use crate::curve::format::Runs;
 use crate::curve::{Set, Table, TableError, Usage, curves};
 use crate::math::Real;
 use crate::number::{Kernel, Number, Role};
@@ -136,9 +137,11 @@ pub struct Proven<'a, L: Layout> {
 
 impl<L: Layout> Proven<'_, L> {
     #[inline(always)]
-    pub(super) fn moved<'a>(&self, words: &'a [Word<L>], set: Set) -> Proven<'a, L> {
+    pub(super) fn moved<'a>(&self, table: &Table<'a, L>, set: Set) -> Proven<'a, L> {
+        let row = <L as Layout>::ROW;
+        let rows = table.cells() + row.more as u32;
         Proven {
-            rows: L::rows(words, set),
+            rows: Runs::counted(table.words(), row.pitch(set), rows),
             factor: self.factor,
             reciprocal: self.reciprocal,
         }

@@ -72,7 +72,6 @@ pub trait Layout:
     const HALVES: bool = false;
 
     /// The rows of a table.
-    #[inline]
     fn rows(words: &[Word<Self>], set: Set) -> Self::Rows<'_> {
         Runs::new(words, Self::ROW.pitch(set))
     }
@@ -240,10 +239,10 @@ macro_rules! format {
             #[inline(always)]
             fn moved<'a>(
                 tick: &Self::Tick<'_>,
-                words: &'a [Self::Word],
+                table: &Table<'a, Self>,
                 set: Set,
             ) -> Self::Tick<'a> {
-                tick.moved(words, set)
+                tick.moved(table, set)
             }
 
             #[inline(always)]

@@ -190,8 +190,8 @@ impl Format for Rows16 {
     }
 
     #[inline(always)]
-    fn moved<'a>(tick: &tick::Tick<'_>, words: &'a [u32], set: Set) -> tick::Tick<'a> {
-        tick.moved(words, set)
+    fn moved<'a>(tick: &tick::Tick<'_>, table: &Table<'a, Self>, set: Set) -> tick::Tick<'a> {
+        tick.moved(table, set)
     }
 
     #[inline(always)]

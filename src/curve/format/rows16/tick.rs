@@ -52,9 +52,9 @@ impl<'a> Tick<'a> {
     }
 
     #[inline(always)]
-    pub(super) fn moved<'b>(&self, words: &'b [u32], set: Set) -> Tick<'b> {
+    pub(super) fn moved<'b>(&self, table: &Table<'b, super::Rows16>, set: Set) -> Tick<'b> {
         Tick {
-            rows: Rows::new(words, row::length(set)),
+            rows: Rows::counted(table.words(), row::length(set), table.cells()),
             viscous: self.viscous,
             coulomb: self.coulomb,
             shift: self.shift,
