@@ -75,6 +75,8 @@ pub struct Tick {
     /// Of the crank from the place of the exchange on, in this tick; and whether tables may be exchanged at its end.
     way: i32,
     may_exchange: bool,
+    /// Whether the last tick was not done when this one was due.
+    missed: bool,
     ticks: u32,
     with: With,
 }
@@ -96,6 +98,7 @@ impl Tick {
             tracker,
             way: (phase - EXCHANGE_AT).to_bits().cast_signed(),
             may_exchange: false,
+            missed: false,
             ticks: 0,
             with: With::from(0),
         })
@@ -126,12 +129,15 @@ impl Tick {
             if self.may_exchange {
                 self.exchange(cs);
             }
-            status.latest.set(status.latest.get().max(late));
             let taken = (reload - SYST::get_current()).saturating_sub(late);
-            status.longest.set(status.longest.get().max(taken));
-            status
-                .missed
-                .set(status.missed.get() + u32::from(self.timer.has_wrapped()));
+            // The tick after one that took too long begins late because of it.
+            let after_missed = core::mem::replace(&mut self.missed, self.timer.has_wrapped());
+            if self.missed {
+                status.missed.set(status.missed.get() + 1);
+            } else if !after_missed {
+                status.latest.set(status.latest.get().max(late));
+                status.longest.set(status.longest.get().max(taken));
+            }
         });
     }
 

@@ -1,6 +1,6 @@
 //! The boards that QEMU emulates: a simulated machine follows its set-point, and its encoder's timer shows the counts that it would.
 //!
-//! Only this file knows that nothing is there. The tick reads a register of 16 bits that overflows, and once it reads nonsense.
+//! Only this file knows that nothing is there. The tick reads a register of 16 bits that overflows; once it reads nonsense, and once it takes too long.
 
 use cortex_m_semihosting::debug;
 pub use cortex_m_semihosting::hprintln as say;
@@ -57,6 +57,13 @@ const COUNTS: i64 = COUNTS_PER_TURN as i64 * GEAR[0] as i64 / GEAR[1] as i64;
 const TICKS: u32 = 6 * RATE;
 /// In this tick the register shows nonsense.
 const WILD: u32 = 3 * RATE;
+/// This tick takes too long, so that it is seen to be counted.
+const LONG: u32 = 5 * RATE;
+/// By about twice as many cycles in QEMU: enough for the next tick to be due, and for that one to be done in time.
+#[cfg(feature = "qemu-m4f")]
+const DELAY: u32 = 1600;
+#[cfg(feature = "qemu-m0")]
+const DELAY: u32 = 700;
 
 pub struct Board {
     tick: u32,
@@ -79,6 +86,9 @@ impl Board {
 
     /// The encoder's timer.
     pub fn count(&mut self) -> u16 {
+        if self.tick == LONG {
+            cortex_m::asm::delay(DELAY);
+        }
         if self.tick == WILD {
             return 0x5555;
         }
