@@ -5,10 +5,11 @@
 use core::hint::black_box;
 
 use jred::axis::{
-    Braking, Counter, Direction, Encoder, Envelope, FeedForward, Gearbox, Governor, Limits,
-    LookAhead, Motion, Mounting, Period, Ramp, Scaled, Status, StrokeEncoder, TorqueLimits,
+    Braking, Counter, Direction, Encoder, Envelope, FeedForward, Gearbox, Governor, ImageSlot,
+    Limits, LookAhead, Motion, Mounting, Period, Ramp, Scaled, Status, StrokeEncoder, TorqueLimits,
     Tracker, Transmission,
 };
+use jred::image::ImageCheck;
 use jred::number::Sliding;
 use jred::table::Format;
 use jred::{
@@ -35,6 +36,7 @@ fn calls() -> Result<(), ImageError> {
     every_axis::<Spline<f32>, PRESS>(float)?;
     every_axis::<Spline<Q31>, PRESS>(fixed)?;
     let _ = black_box(every_axis::<Rows16, PRESS>(fixed));
+    every_slot(float);
     every_encoder();
     if cfg!(gate_double) {
         every_double();
@@ -174,6 +176,21 @@ fn every_limit<F: Format, const SET: Set>(
         torques,
     ));
     Ok(())
+}
+
+/// An image that is exchanged while the machine runs.
+fn every_slot(bytes: &'static [u8]) {
+    let mut memory = black_box([0; 600]);
+    let mut slot: ImageSlot<'_, Spline<f32>, PRESS> = ImageSlot::new(&mut memory);
+    let received = ImageSlot::receive(&mut slot, black_box(bytes)).is_ok();
+    let verdict = ImageSlot::check(&mut slot, black_box(16));
+    if let Some(feed_forward) = ImageSlot::feed_forward(&slot) {
+        black_box(FeedForward::status(&feed_forward, 1.0, 1.0));
+    }
+    black_box((received, verdict.is_some(), ImageSlot::validity(&slot)));
+    ImageSlot::clear(&mut slot);
+    let mut check = ImageCheck::new(black_box(&[0; 30]));
+    black_box(ImageCheck::advance(&mut check, black_box(16)).is_some());
 }
 
 fn every_encoder() {

@@ -111,23 +111,28 @@
 //!
 //! # Features
 //!
+//! - `mechanics`, the default: what makes tables from machines: [`machine`] but for its motion laws, [`mechanism`], [`friction`], [`tabulate`],
+//!   the search for [`harmonic`]s and [`Error`]. It needs `heapless`. Firmware with a finished image needs none of it and is compiled in a third of the time
+//!   with `default-features = false`; with the feature it makes tables itself. What is linked is the same in both;
 //! - `defmt`: `defmt::Format` for the public value types;
 //! - `micromath`: `SliderCrankForm`, a slider-crank without a table, and `Phase::sin_cos_approx`.
-//!
-//! Neither is on by default.
 
 #[deny(clippy::indexing_slicing)]
 pub mod axis;
 // What a tick reads takes elements by `get`, never by an index that could be out of bounds.
 #[deny(clippy::indexing_slicing)]
 mod curve;
+#[cfg(feature = "mechanics")]
 mod error;
+#[cfg(feature = "mechanics")]
 pub mod friction;
 pub mod machine;
 mod math;
+#[cfg(feature = "mechanics")]
 pub mod mechanism;
 #[deny(clippy::indexing_slicing)]
 pub mod number;
+#[cfg(feature = "mechanics")]
 pub mod tabulate;
 #[deny(clippy::indexing_slicing)]
 mod tick;
@@ -137,9 +142,13 @@ pub use curve::SliderCrankForm;
 pub use curve::{
     Cubic, Harmonic, Quadratic, Rows16, Set, Spline, Spline16, Table, TableError, curves,
 };
+#[cfg(feature = "mechanics")]
 pub use error::Error;
+#[cfg(feature = "mechanics")]
 pub use machine::link::Link;
+#[cfg(feature = "mechanics")]
 pub use machine::reducible::Reducible;
+#[cfg(feature = "mechanics")]
 pub use machine::reduction::{Machine, Reduction};
 pub use number::phase::{Domain, Phase};
 pub use number::q15::Q15;
@@ -202,6 +211,7 @@ pub mod table {
 /// ```
 pub mod harmonic {
     pub use crate::curve::{Circular, Coefficient, Curve, Kind, MAX_HARMONICS, terms};
+    #[cfg(feature = "mechanics")]
     pub use crate::tabulate::harmonic::{
         EXCITED, Fitted, HarmonicError, Identification, Identified, Sample, fit, identify, measure,
         scratch_len, terms_in_use,
@@ -241,12 +251,13 @@ pub mod harmonic {
 #[cfg(feature = "micromath")]
 pub mod slider_crank {
     pub use crate::curve::{CrankCoefficient as Coefficient, STEEPEST, crank_terms as terms};
+    #[cfg(feature = "mechanics")]
     pub use crate::tabulate::slider_crank::{SliderCrankError, form, set_in_use};
 }
 
 /// Table images: a machine's curves as the tool exports them and firmware uses them, in place from flash.
 pub mod image {
-    pub use crate::tick::{Aligned, HEADER_WORDS, VERSION, encode, image_len};
+    pub use crate::tick::{Aligned, HEADER_WORDS, ImageCheck, VERSION, encode, image_len};
 }
 
 mod sealed {

@@ -1,6 +1,10 @@
 //! The only door to `libm`: one library, so the same bits on every processor. `clippy.toml` refuses its functions everywhere
 //! else in the package. They are called by path, so that `std`'s methods never replace them in tests.
 #![allow(clippy::disallowed_methods, reason = "the door itself")]
+#![cfg_attr(
+    not(feature = "mechanics"),
+    allow(dead_code, reason = "ticks need some of it, mechanisms all")
+)]
 
 /// A binary floating-point number: `f32` or `f64`. Sealed.
 ///

@@ -28,6 +28,7 @@ mod hoist;
 mod image;
 mod image_damage;
 mod image_refused;
+mod image_slices;
 mod inverted_slider_crank;
 mod layers;
 mod layouts;

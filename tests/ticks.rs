@@ -12,6 +12,7 @@ mod harmonic_refused;
 mod image;
 mod image_damage;
 mod image_refused;
+mod image_slices;
 mod layouts;
 mod no_wrap;
 mod phase;

@@ -110,6 +110,16 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
         }
     }
 
+    /// The same over the words that its model was made of, borrowed anew or in another place.
+    #[inline(always)]
+    pub(super) fn moved<'b>(&self, words: &'b [F::Word]) -> FeedForward<'b, F, SET> {
+        FeedForward {
+            model: self.model.moved(words),
+            omega: self.omega,
+            alpha: self.alpha,
+        }
+    }
+
     /// The model.
     #[must_use]
     pub const fn model(&self) -> &Model<'a, F, SET> {

@@ -13,15 +13,18 @@ mod usage;
 
 pub use curves::Set;
 pub use error::TableError;
-#[cfg(feature = "micromath")]
+#[cfg(all(feature = "mechanics", feature = "micromath"))]
 pub(crate) use format::COEFFICIENTS;
-pub(crate) use format::{CONSTANTS, in_use};
+pub(crate) use format::CONSTANTS;
+#[cfg(feature = "mechanics")]
+pub(crate) use format::in_use;
 pub use format::{
     Circular, Coefficient, Constants, Cubic, Curve, Format, Harmonic, Kind, MAX_HARMONICS,
     Quadratic, RowConstants, Rows16, Spline, Spline16, terms,
 };
 #[cfg(feature = "micromath")]
 pub use format::{CrankCoefficient, STEEPEST, SliderCrankForm, crank_terms};
+#[cfg(feature = "mechanics")]
 pub(crate) use samples::{Sample, Samples};
 pub use table::{CurveValues, MAX_CELLS, Shape, Table, words_len};
 pub(crate) use unfold::unfold;

@@ -80,6 +80,15 @@ impl<'a, F: Format> Table<'a, F> {
         Ok(table)
     }
 
+    /// The same table over the same words, borrowed anew or in another place.
+    #[inline(always)]
+    pub(crate) const fn moved<'b>(&self, words: &'b [F::Word]) -> Table<'b, F> {
+        Table {
+            words,
+            shape: self.shape,
+        }
+    }
+
     /// The meaning of the words.
     pub const fn shape(&self) -> Shape<F> {
         self.shape

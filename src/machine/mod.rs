@@ -2,26 +2,45 @@
 //!
 //! The second step of the way of the data: a [`Mechanism`] says where its links are, their masses and the loads on them make it
 //! a [`Machine`](crate::Machine), and at every angle it has a [`Reduction`](crate::Reduction): J, J′, J″ and the torque of
-//! the loads. [`motion`] has the laws by which a drive link moves.
+//! the loads. [`motion`] has the laws by which a drive link moves: these alone are there without the feature `mechanics`.
 
+#[cfg(feature = "mechanics")]
 pub(crate) mod element;
+#[cfg(feature = "mechanics")]
 pub(crate) mod error;
+#[cfg(feature = "mechanics")]
 pub(crate) mod joint;
+#[cfg(feature = "mechanics")]
 pub(crate) mod kinetostatics;
+#[cfg(feature = "mechanics")]
 pub(crate) mod link;
+#[cfg(feature = "mechanics")]
 pub(crate) mod load;
+#[cfg(feature = "mechanics")]
 pub(crate) mod mechanism;
 pub mod motion;
+#[cfg(feature = "mechanics")]
 pub(crate) mod reducible;
+#[cfg(feature = "mechanics")]
 pub(crate) mod reduction;
 
+#[cfg(feature = "mechanics")]
 pub use element::{Element, MAX_ELEMENTS};
+#[cfg(feature = "mechanics")]
 pub use error::{MachineError, PoseError};
+#[cfg(feature = "mechanics")]
 pub use joint::{Body, Joint, Joints, MAX_JOINTS, Marker, UnitReactions, Wrench};
+#[cfg(feature = "mechanics")]
 pub use kinetostatics::{Forces, Reaction};
+#[cfg(feature = "mechanics")]
 pub(crate) use link::Link;
+#[cfg(feature = "mechanics")]
 pub use link::{Frame, MassProperties};
+#[cfg(feature = "mechanics")]
 pub use load::{Action, Load, LoadCurves, Window};
+#[cfg(feature = "mechanics")]
 pub use mechanism::{Frames, Jointed, MAX_LINKS, MAX_STAGES, Mechanism};
+#[cfg(feature = "mechanics")]
 pub(crate) use reducible::Reducible;
+#[cfg(feature = "mechanics")]
 pub use reduction::{MAX_LOADS, TorqueTerms};

@@ -155,6 +155,7 @@ pub(crate) fn finite(what: &'static str, value: f64) -> Result<f64, RangeError> 
 }
 
 /// `value` if it is finite and not negative.
+#[cfg(feature = "mechanics")]
 pub(crate) fn not_negative(what: &'static str, value: f64) -> Result<f64, RangeError> {
     if finite(what, value)? < 0.0 {
         Err(RangeError::Negative(what, value))
@@ -173,6 +174,7 @@ pub(crate) fn positive(what: &'static str, value: f64) -> Result<f64, RangeError
 }
 
 /// `value` if it lies in [min, max].
+#[cfg(feature = "mechanics")]
 pub(crate) fn within(
     what: &'static str,
     value: f64,

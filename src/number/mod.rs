@@ -19,6 +19,7 @@
 pub(crate) mod error;
 mod factor;
 mod kernel;
+#[cfg(feature = "mechanics")]
 #[allow(
     clippy::indexing_slicing,
     reason = "mechanisms solve systems, ticks do not"
@@ -29,6 +30,7 @@ pub(crate) mod phase;
 mod product;
 pub(crate) mod q15;
 pub(crate) mod q31;
+#[cfg(feature = "mechanics")]
 pub(crate) mod quadrature;
 mod quotient;
 mod role;

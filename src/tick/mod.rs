@@ -5,6 +5,9 @@ mod image;
 mod model;
 mod pieces;
 
-pub use image::{Aligned, HEADER_WORDS, Image, ImageError, VERSION, Validity, encode, image_len};
+pub(crate) use image::Progress;
+pub use image::{
+    Aligned, HEADER_WORDS, Image, ImageCheck, ImageError, VERSION, Validity, encode, image_len,
+};
 pub use model::{AccelerationRange, AnyModel, Contributions, Model};
 pub use pieces::Pieces;

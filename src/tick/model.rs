@@ -133,6 +133,14 @@ impl<'a, F: Format> AnyModel<'a, F> {
     const fn any(&self) -> &Self {
         self
     }
+
+    /// The same model over the words that it was made of, borrowed anew or in another place.
+    #[inline(always)]
+    fn moved<'b>(&self, words: &'b [F::Word], set: Set) -> AnyModel<'b, F> {
+        let table = self.table.moved(words);
+        let tick = F::moved(&self.tick, &table, set);
+        AnyModel { table, tick }
+    }
 }
 
 impl<'a, F: Format, const SET: Set> Model<'a, F, SET> {
@@ -149,6 +157,12 @@ impl<'a, F: Format, const SET: Set> Model<'a, F, SET> {
 
     const fn any(&self) -> &AnyModel<'a, F> {
         &self.0
+    }
+
+    /// The same model over the words that it was made of, borrowed anew or in another place.
+    #[inline(always)]
+    pub(crate) fn moved<'b>(&self, words: &'b [F::Word]) -> Model<'b, F, SET> {
+        Model(self.0.moved(words, SET))
     }
 }
 

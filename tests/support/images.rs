@@ -1,6 +1,6 @@
 //! Images to test with, and an independent CRC.
 
-use jred::image::{encode, image_len};
+use jred::image::{ImageCheck, encode, image_len};
 use jred::table::Format;
 use jred::{Domain, Image, ImageError, Q31, Scale, Set, Spline, Validity, curves};
 
@@ -65,6 +65,23 @@ pub(crate) fn stroke_in<F: Format>(set: Set) -> Vec<u32> {
     encoded::<F>(&wave, set, 12, &scale.for_cells(12, domain.span()))
 }
 
+/// The verdict on an image that is checked so many words at a time.
+pub(crate) fn in_slices(image: &[u32], words: usize) -> Result<Image<'_>, ImageError> {
+    let mut check = ImageCheck::new(image);
+    for _ in 0..=image.len() {
+        if let Some(verdict) = check.advance(words) {
+            return verdict;
+        }
+    }
+    panic!("the check of {} words does not end", image.len());
+}
+
+/// Why it is refused: at once, and in slices.
 pub(crate) fn refused(image: &[u32]) -> ImageError {
-    Image::new(image).map(|_| ()).unwrap_err()
+    let error = Image::new(image).map(|_| ()).unwrap_err();
+    for words in [1, 7, 64] {
+        let sliced = in_slices(image, words).map(|_| ());
+        assert_eq!(sliced, Err(error), "{words} words at a time");
+    }
+    error
 }

@@ -62,6 +62,13 @@ impl<'p> Bounds<'p> {
             .with_context(|| format!("{name} has no bound"))
     }
 
+    /// The bound of the one function whose mangled name contains `part`.
+    pub(crate) fn containing(&mut self, part: &str) -> Result<Bound> {
+        let address = self.program.address_containing(part)?;
+        self.from(address, 0)
+            .with_context(|| format!("{part} has no bound"))
+    }
+
     /// From `address` on, where so many instructions may be skipped by an IT block. It ends as often as the code branches.
     fn from(&mut self, address: u32, skippable: u32) -> Result<Bound> {
         if let Some(known) = self.known.get(&address) {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use object::{Object, ObjectSection, ObjectSymbol, SymbolKind};
 
 /// A function.
@@ -85,6 +85,19 @@ impl Program {
             .iter()
             .find(|(_, function)| function.name == name)
             .map(|(address, _)| *address)
+    }
+
+    /// Of the one function whose name contains `part`: compilers add their own to a name.
+    pub(crate) fn address_containing(&self, part: &str) -> Result<u32> {
+        let mut found = self
+            .functions
+            .iter()
+            .filter(|(_, function)| function.name.contains(part));
+        match (found.next(), found.next()) {
+            (Some((address, _)), None) => Ok(*address),
+            (None, _) => bail!("no function {part} in the program"),
+            _ => bail!("several functions {part} in the program"),
+        }
     }
 
     /// The function that the instruction at `address` belongs to.

@@ -1,4 +1,4 @@
-//! Commands for those who work on jred: `cargo xtask perf`, `cargo xtask loaded`, `cargo xtask c`.
+//! Commands for those who work on jred: `cargo xtask perf`, `cargo xtask loaded`, `cargo xtask c`, `cargo xtask template`.
 #![forbid(unsafe_code)]
 
 mod bounds;
@@ -19,6 +19,7 @@ mod peers;
 mod perf;
 mod program;
 mod report;
+mod template;
 mod timing;
 mod trace;
 mod user;
@@ -39,6 +40,7 @@ enum Command {
     Perf(perf::Options),
     Loaded(loaded::Options),
     C(c::Options),
+    Template(template::Options),
 }
 
 fn main() -> ExitCode {
@@ -46,6 +48,7 @@ fn main() -> ExitCode {
         Command::Perf(options) => perf::run(&options),
         Command::Loaded(options) => loaded::run(&options),
         Command::C(options) => c::run(&options),
+        Command::Template(options) => template::run(&options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -27,12 +27,13 @@ mod rows16;
 #[cfg(feature = "micromath")]
 mod slider_crank;
 
+#[cfg(feature = "mechanics")]
 pub(crate) use harmonic::in_use;
 pub use harmonic::{Circular, Coefficient, Curve, Harmonic, Kind, MAX_HARMONICS, terms};
 pub use layout::{Constants, Cubic, Quadratic, Spline, Spline16};
 pub(crate) use row::{Row, Rows, Runs, Size};
 pub use rows16::{RowConstants, Rows16};
-#[cfg(feature = "micromath")]
+#[cfg(all(feature = "mechanics", feature = "micromath"))]
 pub(crate) use slider_crank::COEFFICIENTS;
 #[cfg(feature = "micromath")]
 pub use slider_crank::{
@@ -173,6 +174,9 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
     /// Checks that a table can be ticked, and makes what a tick needs in addition to it.
     #[doc(hidden)]
     fn prepare<'a>(table: &Table<'a, Self>) -> Result<Self::Tick<'a>, TableError>;
+    /// The same for the same table, whose words lie in another place or are borrowed anew; its set is `set`.
+    #[doc(hidden)]
+    fn moved<'a>(tick: &Self::Tick<'_>, table: &Table<'a, Self>, set: Set) -> Self::Tick<'a>;
     /// Inverse dynamics, of a table whose set is `set`: a model knows it when it is compiled.
     #[doc(hidden)]
     fn torque(

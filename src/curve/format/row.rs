@@ -74,10 +74,24 @@ pub struct Rows<
 pub trait Runs<'a, T>: Copy + core::fmt::Debug {
     /// Of rows with `pitch` words.
     fn new(words: &'a [T], pitch: usize) -> Self;
+    /// The same of so many rows, at most 17 bits of them: without a division, for a tick.
+    fn counted(words: &'a [T], pitch: usize, rows: u32) -> Self;
     /// A row.
     fn row(&self, pitch: usize, index: usize) -> Option<&'a [T]>;
     /// Four rows, from the index-th on.
     fn four(&self, pitch: usize, index: usize) -> Option<&'a [T]>;
+}
+
+impl<T, const A: usize, const B: usize, const C: usize, const D: usize, const E: usize>
+    Rows<'_, T, A, B, C, D, E>
+{
+    const NONE: Self = Self {
+        a: &[],
+        b: &[],
+        c: &[],
+        d: &[],
+        e: &[],
+    };
 }
 
 impl<'a, T, const A: usize, const B: usize, const C: usize, const D: usize, const E: usize>
@@ -86,13 +100,7 @@ where
     T: Copy + core::fmt::Debug,
 {
     fn new(words: &'a [T], pitch: usize) -> Self {
-        let mut rows = Self {
-            a: &[],
-            b: &[],
-            c: &[],
-            d: &[],
-            e: &[],
-        };
+        let mut rows = Self::NONE;
         if pitch == A {
             rows.a = words.as_chunks().0;
         } else if pitch == B {
@@ -103,6 +111,23 @@ where
             rows.d = words.as_chunks().0;
         } else {
             rows.e = words.as_chunks().0;
+        }
+        rows
+    }
+
+    #[inline(always)]
+    fn counted(words: &'a [T], pitch: usize, count: u32) -> Self {
+        let mut rows = Self::NONE;
+        if pitch == A {
+            rows.a = counted(words, count);
+        } else if pitch == B {
+            rows.b = counted(words, count);
+        } else if pitch == C {
+            rows.c = counted(words, count);
+        } else if pitch == D {
+            rows.d = counted(words, count);
+        } else {
+            rows.e = counted(words, count);
         }
         rows
     }
@@ -136,6 +161,13 @@ where
             four(self.e, index)
         }
     }
+}
+
+/// So many rows. The compiler sees that the product does not overflow, so that dividing by the same number gives it back.
+#[inline(always)]
+fn counted<T, const W: usize>(words: &[T], rows: u32) -> &[[T; W]] {
+    let words = words.get(..(rows & 0x1_ffff) as usize * W);
+    words.unwrap_or_default().as_chunks().0
 }
 
 #[inline(always)]

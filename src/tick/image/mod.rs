@@ -4,9 +4,12 @@
 //! image needs 4-byte alignment and nothing else; no number is copied or converted on loading. A CRC-32 covers all
 //! of it. [`Image::new`] checks header and CRC, [`Image::model`] the table itself: an image that passes both can be ticked.
 
+mod check;
 mod error;
 mod kind;
 
+pub use check::ImageCheck;
+pub(crate) use check::Progress;
 pub use error::ImageError;
 
 use crate::curve::{CONSTANTS, Format, Set, Shape, Table, words_len};
@@ -26,8 +29,6 @@ const KNOWN: u32 = 6;
 /// Domain codes.
 const TURN: u8 = 0;
 const STROKE: u8 = 1;
-
-const CRC: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
 
 /// What the table was made for and how exact it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,23 +59,27 @@ pub struct Image<'a> {
 impl<'a> Image<'a> {
     /// Checks an image given as words: a `static` array as `jred export --format rust` writes it.
     ///
+    /// All of it at once; [`ImageCheck`] does the same in slices.
+    ///
     /// # Errors
     /// What [`ImageError`] lists, except for the table's own errors.
     pub fn new(words: &'a [u32]) -> Result<Self, ImageError> {
-        if cfg!(target_endian = "big") {
-            return Err(ImageError::BigEndian);
-        }
-        let given = words.len() as u32;
+        Self::with_crc(words, Progress::START.all(covered(words)?))
+    }
+
+    /// An image whose words before the last have this CRC-32.
+    #[inline(never)] // a program that checks at once and in slices has it once
+    fn with_crc(words: &'a [u32], computed: u32) -> Result<Self, ImageError> {
         let short = ImageError::Length {
             needed: HEADER_WORDS as u32 + 1,
-            given,
+            given: words.len() as u32,
         };
         let (header, rest) = words.split_first_chunk::<HEADER_WORDS>().ok_or(short)?;
         let (stored, rows) = rest.split_last().ok_or(short)?;
         let &[
-            magic,
+            _,
             version,
-            length,
+            _,
             kind,
             cells,
             from,
@@ -87,23 +92,6 @@ impl<'a> Image<'a> {
             torque_error,
             constants @ ..,
         ] = header;
-        if magic != MAGIC {
-            return Err(ImageError::NotAnImage(magic));
-        }
-        if version as u16 != VERSION {
-            return Err(ImageError::Version {
-                found: version as u16,
-                supported: VERSION,
-            });
-        }
-        if length != given {
-            return Err(ImageError::Length {
-                needed: length,
-                given,
-            });
-        }
-        let covered = words.get(..words.len() - 1).unwrap_or_default();
-        let computed = CRC.checksum(bytemuck::cast_slice(covered));
         if computed != *stored {
             return Err(ImageError::Crc {
                 stored: *stored,
@@ -276,6 +264,36 @@ impl<'a> Image<'a> {
     }
 }
 
+/// The words that the CRC covers, of an image whose magic, version and length are right.
+fn covered(words: &[u32]) -> Result<&[u32], ImageError> {
+    if cfg!(target_endian = "big") {
+        return Err(ImageError::BigEndian);
+    }
+    let given = words.len() as u32;
+    let short = ImageError::Length {
+        needed: HEADER_WORDS as u32 + 1,
+        given,
+    };
+    let (_, covered) = words.split_last().ok_or(short)?;
+    let [magic, version, length, ..] = covered.first_chunk::<HEADER_WORDS>().ok_or(short)?;
+    if *magic != MAGIC {
+        return Err(ImageError::NotAnImage(*magic));
+    }
+    if *version as u16 != VERSION {
+        return Err(ImageError::Version {
+            found: *version as u16,
+            supported: VERSION,
+        });
+    }
+    if *length != given {
+        return Err(ImageError::Length {
+            needed: *length,
+            given,
+        });
+    }
+    Ok(covered)
+}
+
 /// Two half-words in one word.
 const fn word_of(low: u16, high: u16) -> u32 {
     low as u32 | (high as u32) << 16
@@ -332,7 +350,7 @@ pub fn encode<'b, F: Format>(
         *slot = *byte;
     }
     if let Some((crc, covered)) = image.split_last_mut() {
-        *crc = CRC.checksum(bytemuck::cast_slice(covered));
+        *crc = Progress::START.all(covered);
     }
     Ok(image)
 }

@@ -21,8 +21,10 @@ mod coefficient;
 mod series;
 mod sine;
 
+#[cfg(feature = "mechanics")]
+pub(crate) use coefficient::in_use;
 pub use coefficient::{Coefficient, Curve, Kind, terms};
-pub(crate) use coefficient::{in_use, means, row};
+pub(crate) use coefficient::{means, row};
 
 pub use sine::Circular;
 
@@ -209,6 +211,15 @@ macro_rules! harmonic {
                 } else {
                     Err(TableError::TorqueRange { cell: 0 })
                 }
+            }
+
+            #[inline(always)]
+            fn moved<'a>(
+                tick: &Self::Tick<'_>,
+                table: &Table<'a, Self>,
+                set: Set,
+            ) -> Self::Tick<'a> {
+                tick.moved(table.words(), set)
             }
 
             #[inline(always)]

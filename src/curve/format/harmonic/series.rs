@@ -45,6 +45,15 @@ impl<'a, T: Circular> Series<'a, T> {
         }
     }
 
+    #[inline(always)]
+    pub(super) fn moved<'b>(&self, words: &'b [T], set: Set) -> Series<'b, T> {
+        Series {
+            means: self.means,
+            rows: words.get(means(set)..).unwrap_or_default(),
+            velocity: self.velocity,
+        }
+    }
+
     /// Coefficients, harmonic after harmonic.
     #[inline(always)]
     pub(super) fn rows(&self, set: Set) -> core::slice::ChunksExact<'a, T> {

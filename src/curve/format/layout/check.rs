@@ -4,7 +4,8 @@
 
 use super::Layout;
 use super::cell::{Cell, polynomial, wide};
-use crate::curve::{Table, TableError, Usage, curves};
+use crate::curve::format::Runs;
+use crate::curve::{Set, Table, TableError, Usage, curves};
 use crate::math::Real;
 use crate::number::{Kernel, Number, Role};
 use crate::{Domain, Phase};
@@ -132,6 +133,19 @@ pub struct Proven<'a, L: Layout> {
     /// Of the velocity torque.
     pub(super) factor: <L::Number as Kernel>::Factor,
     pub(super) reciprocal: <L::Number as Kernel>::Reciprocal,
+}
+
+impl<L: Layout> Proven<'_, L> {
+    #[inline(always)]
+    pub(super) fn moved<'a>(&self, table: &Table<'a, L>, set: Set) -> Proven<'a, L> {
+        let row = <L as Layout>::ROW;
+        let rows = table.cells() + row.more as u32;
+        Proven {
+            rows: Runs::counted(table.words(), row.pitch(set), rows),
+            factor: self.factor,
+            reciprocal: self.reciprocal,
+        }
+    }
 }
 
 pub(super) fn model<'a, L: Layout>(table: &Table<'a, L>) -> Result<Proven<'a, L>, TableError> {

@@ -237,6 +237,15 @@ macro_rules! format {
             }
 
             #[inline(always)]
+            fn moved<'a>(
+                tick: &Self::Tick<'_>,
+                table: &Table<'a, Self>,
+                set: Set,
+            ) -> Self::Tick<'a> {
+                tick.moved(table, set)
+            }
+
+            #[inline(always)]
             fn torque(
                 table: &Table<'_, Self>,
                 tick: &Self::Tick<'_>,

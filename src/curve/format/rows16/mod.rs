@@ -190,6 +190,11 @@ impl Format for Rows16 {
     }
 
     #[inline(always)]
+    fn moved<'a>(tick: &tick::Tick<'_>, table: &Table<'a, Self>, set: Set) -> tick::Tick<'a> {
+        tick.moved(table, set)
+    }
+
+    #[inline(always)]
     fn torque(
         _: &Table<'_, Self>,
         tick: &tick::Tick<'_>,

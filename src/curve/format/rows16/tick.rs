@@ -52,6 +52,16 @@ impl<'a> Tick<'a> {
     }
 
     #[inline(always)]
+    pub(super) fn moved<'b>(&self, table: &Table<'b, super::Rows16>, set: Set) -> Tick<'b> {
+        Tick {
+            rows: Rows::counted(table.words(), row::length(set), table.cells()),
+            viscous: self.viscous,
+            coulomb: self.coulomb,
+            shift: self.shift,
+        }
+    }
+
+    #[inline(always)]
     pub(super) fn torque(
         &self,
         set: Set,

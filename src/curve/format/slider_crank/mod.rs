@@ -171,6 +171,11 @@ impl Format for SliderCrankForm {
     }
 
     #[inline(always)]
+    fn moved<'a>(tick: &Crank, _: &Table<'a, Self>, _: Set) -> Crank {
+        *tick
+    }
+
+    #[inline(always)]
     fn torque(
         _: &Table<'_, Self>,
         tick: &Crank,

@@ -1,0 +1,107 @@
+//! Two of ST's Nucleo-64 boards: F446RE (Cortex-M4F) and G071RB (Cortex-M0+). **Compiled in the tests of jred, but never run on a board.**
+//!
+//! The encoder's channels A and B at PA0 and PA1, counted by TIM2 in hardware, both edges of both channels; the command as a voltage at PA4, 0 to 3.3 V for
+//! −12 to 12 N·m. The core runs at its 16 MHz after reset: set the PLL here for more ticks a second.
+//! Sources: reference manuals RM0390 and RM0444 (RCC, GPIO, TIM2 encoder mode, DAC), data sheets DS10693 and DS12232 (alternate functions).
+
+use jred::Phase;
+use jred::axis::Tracked;
+use panic_halt as _;
+use stm32_metapac::gpio::vals::Moder;
+use stm32_metapac::timer::vals::{CcmrInputCcs, Sms};
+use stm32_metapac::{DAC1, GPIOA, RCC, TIM2};
+
+use crate::link::Transfer;
+use crate::machine::MOST_TORQUE;
+
+/// Clock cycles a second: the oscillator that the core starts with.
+pub const CLOCK: u32 = 16_000_000;
+/// Ticks a second.
+#[cfg(feature = "nucleo-f446re")]
+pub const RATE: u32 = 10_000;
+#[cfg(feature = "nucleo-g071rb")]
+pub const RATE: u32 = 4000;
+
+/// A link of your own brings new tables: call `renew` in `main.rs` with what it receives.
+pub const TRANSFERS: &[Transfer] = &[];
+
+/// Alternate function of PA0 and PA1 that is TIM2.
+#[cfg(feature = "nucleo-f446re")]
+const TIMER_FUNCTION: u8 = 1;
+#[cfg(feature = "nucleo-g071rb")]
+const TIMER_FUNCTION: u8 = 2;
+
+pub struct Board(());
+
+impl Board {
+    pub fn start() -> Self {
+        clocks();
+        for pin in [0, 1] {
+            GPIOA.afr(0).modify(|w| w.set_afr(pin, TIMER_FUNCTION));
+            GPIOA.moder().modify(|w| w.set_moder(pin, Moder::ALTERNATE));
+        }
+        TIM2.ccmr_input(0).modify(|w| {
+            w.set_ccs(0, CcmrInputCcs::TI4); // "its own input", as TI1 for channel 1
+            w.set_ccs(1, CcmrInputCcs::TI4);
+        });
+        TIM2.smcr().modify(|w| w.set_sms(Sms::ENCODER_MODE_3));
+        TIM2.cr1().modify(|w| w.set_cen(true));
+
+        GPIOA.moder().modify(|w| w.set_moder(4, Moder::ANALOG));
+        let mut board = Self(());
+        board.command(0.0);
+        DAC1.cr().modify(|w| w.set_en(0, true));
+        board
+    }
+
+    /// The encoder's timer: the lower half of its 32 bits, as most timers have no more.
+    pub fn count(&mut self) -> u16 {
+        TIM2.cnt().read() as u16
+    }
+
+    /// The set-point of this tick. Here the machine is to stand still at φ = 0: take it from what plans your motion.
+    pub fn wanted(&mut self) -> Tracked {
+        Tracked {
+            phase: Phase::from_bits(0),
+            speed: 0,
+            acceleration: 0,
+        }
+    }
+
+    /// The drive's torque command (N·m).
+    pub fn command(&mut self, torque: f32) {
+        let share = 0.5 + 0.5 * torque / MOST_TORQUE;
+        DAC1.dhr12r(0).write(|w| w.set_dhr((share * 4095.0) as u16));
+    }
+}
+
+#[cfg(feature = "nucleo-f446re")]
+fn clocks() {
+    RCC.ahb1enr().modify(|w| w.set_gpioaen(true));
+    RCC.apb1enr().modify(|w| {
+        w.set_tim2en(true);
+        w.set_dacen(true);
+    });
+}
+
+#[cfg(feature = "nucleo-g071rb")]
+fn clocks() {
+    RCC.gpioenr().modify(|w| w.set_gpioaen(true));
+    RCC.apbenr1().modify(|w| {
+        w.set_tim2en(true);
+        w.set_dac1en(true);
+    });
+}
+
+/// A firmware does not end.
+pub fn finish(_: u32) -> bool {
+    false
+}
+
+pub fn end() {}
+
+/// Nobody listens: without a debugger semihosting would stop the core. Use a serial line or `defmt-rtt` here.
+macro_rules! say {
+    ($($word:tt)*) => { let _ = core::format_args!($($word)*); };
+}
+pub(crate) use say;

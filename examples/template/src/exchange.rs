@@ -1,0 +1,31 @@
+//! What interrupt and background hand to each other. An owner gives a thing away and the other takes it: nothing is ever seen by both.
+
+use core::cell::Cell;
+
+use critical_section::Mutex;
+
+use crate::table::Table;
+use crate::tick::{Status, Tick};
+
+/// For the interrupt, before its first tick.
+pub static START: Mutex<Cell<Option<Tick>>> = Mutex::new(Cell::new(None));
+/// A table that was checked, for the interrupt; and the one that it had, for the background.
+pub static OFFERED: Mutex<Cell<Option<&'static mut Table>>> = Mutex::new(Cell::new(None));
+pub static RETURNED: Mutex<Cell<Option<&'static mut Table>>> = Mutex::new(Cell::new(None));
+pub static STATUS: Mutex<Status> = Mutex::new(Status::START);
+
+/// How the ticks are doing.
+pub fn status<T>(of: impl Fn(&Status) -> T) -> T {
+    critical_section::with(|cs| of(STATUS.borrow(cs)))
+}
+
+/// Offers a table to the tick, and waits until it has taken it and given the other one back.
+pub fn exchange(table: &'static mut Table) -> &'static mut Table {
+    critical_section::with(|cs| OFFERED.borrow(cs).set(Some(table)));
+    loop {
+        if let Some(other) = critical_section::with(|cs| RETURNED.borrow(cs).take()) {
+            return other;
+        }
+        cortex_m::asm::wfi(); // until the next tick
+    }
+}

@@ -1,0 +1,64 @@
+//! Your machine and its drive: what to change first. Here it is the press of `machines/press.toml` behind a gearbox of 20.
+
+use jred::axis::{Counting, Encoder, Gearbox, Mounting};
+use jred::table::Format;
+use jred::{Image, Phase, Set, curves, include_image};
+
+/// The curves that `jred export` prints for the machine.
+pub const CURVES: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
+
+/// Layout and numbers of the tables: single precision where the core has it (`--type f32`), else fixed point (`--type i32`).
+#[cfg(not(fixed_point))]
+pub type Layout = jred::Spline<f32>;
+#[cfg(fixed_point)]
+pub type Layout = jred::Spline<jred::Q31>;
+/// A number of the tick.
+pub type Number = <Layout as Format>::Number;
+
+/// Words of the largest image: `jred export` prints the bytes, four a word.
+pub const WORDS: usize = 320;
+
+/// The table that the program starts with.
+#[cfg(not(fixed_point))]
+pub static TABLE: &[u8] = include_image!("../tables/press_f32.jred");
+#[cfg(fixed_point)]
+pub static TABLE: &[u8] = include_image!("../tables/press_q31.jred");
+
+// A table of another type or with other curves does not compile.
+const _: () = assert!(Image::bytes_are_of::<Layout, CURVES>(TABLE_BYTES));
+#[cfg(not(fixed_point))]
+const TABLE_BYTES: &[u8] = include_bytes!("../tables/press_f32.jred");
+#[cfg(fixed_point)]
+const TABLE_BYTES: &[u8] = include_bytes!("../tables/press_q31.jred");
+
+/// The encoder sits on the motor, counts down while φ grows, and shows 1234 at φ = 0. docs/axis.md says how to find that count.
+pub const COUNTS_PER_TURN: u32 = 10_000;
+pub const GEAR: [u32; 2] = [20, 1];
+pub const HOME: i64 = 1234;
+pub const ENCODER: Encoder = match Encoder::new(Mounting {
+    counts_per_turn: COUNTS_PER_TURN,
+    gear: GEAR,
+    counting: Counting::Down,
+    home: HOME,
+}) {
+    Ok(encoder) => encoder,
+    Err(_) => panic!("the encoder's figures"), // when it is compiled
+};
+
+/// The table has everything up to the crank; the rotor is not in it.
+pub const GEARBOX: Gearbox = Gearbox {
+    ratio: 20.0,
+    efficiency: 0.95,
+    rotor: 0.000_3,
+};
+/// Largest torque of the motor (N·m).
+pub const MOST_TORQUE: f32 = 12.0;
+/// Coulomb friction rises with the speed up to here (rad/s of the crank).
+pub const FRICTION_RAMP: f32 = 0.5;
+/// From a command to the torque (s).
+pub const LEAD: f32 = 0.000_2;
+/// Corner frequency of the filter of speed and acceleration (Hz).
+pub const BANDWIDTH: f32 = 60.0;
+
+/// Where tables are exchanged: a place where a step of the torque does no harm, here top dead centre.
+pub const EXCHANGE_AT: Phase = Phase::from_bits(1 << 31);

@@ -1,0 +1,86 @@
+//! A table and what is computed from its machine units: exchanged as one.
+
+use core::fmt;
+
+use jred::ImageError;
+use jred::axis::{AxisError, ImageSlot, Period, Ramp, TorqueLimits, Transmission};
+use jred::number::Number as _;
+
+use crate::board::RATE;
+use crate::machine::{CURVES, FRICTION_RAMP, GEARBOX, LEAD, Layout, MOST_TORQUE, Number, WORDS};
+
+/// Memory for a table. There are two: the tick has the one that it reads, the background the other.
+pub struct Table {
+    pub slot: ImageSlot<'static, Layout, CURVES>,
+    pub units: Option<Units>,
+}
+
+/// The figures of the drive in the machine units of a table.
+#[derive(Clone, Copy)]
+pub struct Units {
+    pub tick: Period<Number>,
+    pub lead: Period<Number>,
+    pub ramp: Ramp,
+    pub gearbox: Transmission,
+    pub limits: TorqueLimits<Number>,
+    /// What a torque of 1 is at the motor (N·m).
+    pub base: f32,
+}
+
+/// Why a table is not used.
+pub enum Refused {
+    /// The image.
+    Image(ImageError),
+    /// A figure of the drive that does not suit its machine units.
+    Drive(AxisError),
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Image(error) => error.fmt(f),
+            Self::Drive(error) => error.fmt(f),
+        }
+    }
+}
+
+impl Table {
+    pub const fn new(memory: &'static mut [u32; WORDS]) -> Self {
+        Self {
+            slot: ImageSlot::new(memory),
+            units: None,
+        }
+    }
+
+    pub fn clear(&mut self) {
+        self.slot.clear();
+        self.units = None;
+    }
+
+    /// Checks so many more words; the verdict at the end.
+    pub fn check(&mut self, words: usize) -> Option<Result<(), Refused>> {
+        let verdict = self.slot.check(words)?.map_err(Refused::Image);
+        Some(verdict.and_then(|()| self.convert().map_err(Refused::Drive)))
+    }
+
+    fn convert(&mut self) -> Result<(), AxisError> {
+        let Some(feed_forward) = self.slot.feed_forward() else {
+            return Ok(());
+        };
+        let table = feed_forward.model().table();
+        let (domain, scale) = (table.domain(), table.scale());
+        let gearbox = Transmission::new::<Number>(GEARBOX, scale)?;
+        let base = gearbox.base();
+        let most = Number::per_unit(MOST_TORQUE, base).value;
+        let least = Number::per_unit(-MOST_TORQUE, base).value;
+        self.units = Some(Units {
+            tick: Period::new(1.0 / RATE as f32, domain, scale)?,
+            lead: Period::new(LEAD, domain, scale)?,
+            ramp: Ramp::new(FRICTION_RAMP, scale)?,
+            gearbox,
+            limits: TorqueLimits::new(least, most)?,
+            base,
+        });
+        Ok(())
+    }
+}

@@ -1,0 +1,101 @@
+//! The check of an image in slices, for a program that has something else to do meanwhile.
+
+use super::{Image, ImageError, covered};
+
+const CRC: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
+
+/// How far the CRC of an image has been computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Progress {
+    /// Words done.
+    done: usize,
+    /// Their CRC-32.
+    crc: u32,
+}
+
+impl Progress {
+    pub(crate) const START: Self = Self { done: 0, crc: 0 };
+
+    /// Takes at most `words` more of an image; its verdict, or `None` if some are left. Ask for at least one word, or it never ends.
+    pub(crate) fn advance<'a>(
+        &mut self,
+        image: &'a [u32],
+        words: usize,
+    ) -> Option<Result<Image<'a>, ImageError>> {
+        let covered = match covered(image) {
+            Ok(covered) => covered,
+            Err(error) => return Some(Err(error)),
+        };
+        let rest = covered.get(self.done..).unwrap_or_default();
+        self.take(rest.get(..words).unwrap_or(rest));
+        (self.done >= covered.len()).then(|| Image::with_crc(image, self.crc))
+    }
+
+    /// The CRC-32 of all these words.
+    pub(super) fn all(mut self, covered: &[u32]) -> u32 {
+        self.take(covered);
+        self.crc
+    }
+
+    #[inline(never)] // as `Image::with_crc`
+    fn take(&mut self, slice: &[u32]) {
+        // The register of the CRC is its complement, and a start is given with its bits reversed.
+        let mut digest = CRC.digest_with_initial((!self.crc).reverse_bits());
+        digest.update(bytemuck::cast_slice(slice));
+        self.crc = digest.finalize();
+        self.done += slice.len();
+    }
+}
+
+/// The check of an image in slices: what [`Image::new`] does at once, with the same verdict (test `slices_give_the_same_verdict`, and every damaged image of the tests).
+///
+/// For a program without an operating system that is sent a table while it runs: each call takes a bounded time, so that other work is done between
+/// them. An interrupt that ticks does not need it: it interrupts [`Image::new`], too. Where the memory for the next image is the program's as well,
+/// [`ImageSlot`](crate::axis::ImageSlot) is this check and that memory in one.
+///
+/// ```
+/// use jred::image::ImageCheck;
+/// use jred::{Image, ImageError};
+///
+/// fn check<'a>(words: &'a [u32], mut other_work: impl FnMut()) -> Result<Image<'a>, ImageError> {
+///     let mut check = ImageCheck::new(words);
+///     loop {
+///         if let Some(verdict) = check.advance(64) {
+///             return verdict;
+///         }
+///         other_work();
+///     }
+/// }
+/// # let words: Vec<u32> = jred::include_image!("../../../examples/data/press_f32.jred").chunks(4)
+/// #     .map(|word| u32::from_le_bytes(word.try_into().unwrap())).collect();
+/// # let mut slices = 0;
+/// # assert!(check(&words, || slices += 1).is_ok());
+/// # assert_eq!(slices, (words.len() - 2) / 64);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct ImageCheck<'a> {
+    words: &'a [u32],
+    progress: Progress,
+}
+
+impl<'a> ImageCheck<'a> {
+    /// Of these words; nothing is looked at yet.
+    #[must_use]
+    pub const fn new(words: &'a [u32]) -> Self {
+        Self {
+            words,
+            progress: Progress::START,
+        }
+    }
+
+    /// Takes at most `words` more words into the CRC: the verdict, or `None` if some are left. With 0 words it never ends.
+    ///
+    /// Cost: the CRC takes the same for every word; each call looks at the first words of the header, the last one at all of it.
+    /// What [`Image::model`] checks is not in it.
+    ///
+    /// # Errors
+    /// As [`Image::new`]. A wrong header is found by the first call.
+    pub fn advance(&mut self, words: usize) -> Option<Result<Image<'a>, ImageError>> {
+        self.progress.advance(self.words, words)
+    }
+}
