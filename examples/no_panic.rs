@@ -22,7 +22,7 @@ use core::num::NonZeroU32;
 use jred::curves::{self, width};
 use jred::duty::{Curve, Limits, Meter, Verdicts, Window};
 use jred::harmonic::{Coefficient, terms};
-use jred::image::{encode, image_len};
+use jred::image::{encode, identify, image_len};
 use jred::machine::motion::{Law, Move};
 use jred::number::{Bases, Sliding};
 use jred::table::{Format, Shape, Usage, words_len};
@@ -109,6 +109,7 @@ fn calls() -> Result<(), ImageError> {
 
 fn every_tick<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), ImageError> {
     let image = Image::from_bytes(black_box(bytes))?;
+    let image = Image::of_machine(image, black_box(Image::machine(&image)))?;
     let model = Image::model::<F, SET>(&image)?;
     let scale = Image::scale(&image);
     let phase = Domain::<f32>::phase(Image::domain(&image), black_box(1.0));
@@ -196,6 +197,7 @@ fn every_table<F: Format>(image: &Image<'_>, table: Table<'_, F>) {
     let mut buffer = black_box([0; 64]);
     let written = encode(&table, Image::validity(image), &mut buffer).unwrap_or_default();
     let _ = black_box(Image::new(written));
+    let _ = black_box(identify(&mut buffer, black_box(7)));
 }
 
 /// Of one format: there is no room for more in the flash of the smallest board.

@@ -182,6 +182,7 @@ fn every_limit<F: Format, const SET: Set>(
 fn every_slot(bytes: &'static [u8]) {
     let mut memory = black_box([0; 600]);
     let mut slot: ImageSlot<'_, Spline<f32>, PRESS> = ImageSlot::new(&mut memory);
+    slot = ImageSlot::for_machine(slot, black_box(0));
     let received = ImageSlot::receive(&mut slot, black_box(bytes)).is_ok();
     let verdict = ImageSlot::check(&mut slot, black_box(16));
     if let Some(feed_forward) = ImageSlot::feed_forward(&slot) {

@@ -257,7 +257,9 @@ pub mod slider_crank {
 
 /// Table images: a machine's curves as the tool exports them and firmware uses them, in place from flash.
 pub mod image {
-    pub use crate::tick::{Aligned, HEADER_WORDS, ImageCheck, VERSION, encode, image_len};
+    pub use crate::tick::{
+        Aligned, HEADER_WORDS, ImageCheck, VERSION, encode, identify, image_len,
+    };
 }
 
 mod sealed {

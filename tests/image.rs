@@ -4,7 +4,7 @@ use crate::support::images::{VALIDITY, crc32, small, stroke, stroke_in};
 use crate::support::machines::{Spec, Wave, spec};
 use crate::support::rows::Rows;
 use crate::support::{config, number, samples, scale_of};
-use jred::image::{HEADER_WORDS, VERSION, encode, image_len};
+use jred::image::{HEADER_WORDS, VERSION, encode, identify, image_len};
 use jred::table::Format;
 use jred::tabulate::{Request, Tabulated};
 use jred::{
@@ -86,6 +86,37 @@ fn same_bits<F: Format, const SET: Set>(spec: &Spec, bits: u32, state: [f64; 2])
         after.acceleration(phase, omega, alpha),
         before.acceleration(phase, omega, alpha)
     );
+}
+
+#[test]
+fn an_image_is_of_its_machine() {
+    let machine = Wave::bare(1.0, 0.0);
+    let mut buffer = [0; SMALL as usize];
+    let rows = Rows::<Spline<f32>>::of(&machine, 0, 4, &Scale::SI).unwrap();
+    encode(&rows.table(), VALIDITY, &mut buffer).unwrap();
+    assert_eq!(Image::new(&buffer).unwrap().machine(), 0);
+    identify(&mut buffer, 0x1a2b_3c4d).unwrap();
+    // Word 19, and nothing else but the CRC.
+    assert_eq!(buffer[19], 0x1a2b_3c4d);
+    let image = Image::new(&buffer).unwrap();
+    assert_eq!(image.machine(), 0x1a2b_3c4d);
+    let model: Model<'_, Spline<f32>, 0> = image.of_machine(0x1a2b_3c4d).unwrap().model().unwrap();
+    assert_eq!(model.table().words(), rows.words);
+    let other = image.of_machine(7).unwrap_err();
+    let (found, expected) = (0x1a2b_3c4d, 7);
+    assert_eq!(other, ImageError::Machine { found, expected });
+    assert_eq!(
+        format!("{other}; {}", other.cure()),
+        "the image is of the machine 0x1a2b3c4d, not of 0x00000007; load the image that was exported for this machine"
+    );
+    // What is no image gets no identifier.
+    buffer[24] ^= 1;
+    let damaged = buffer;
+    assert!(matches!(
+        identify(&mut buffer, 7),
+        Err(ImageError::Crc { .. })
+    ));
+    assert_eq!(buffer, damaged);
 }
 
 #[test]

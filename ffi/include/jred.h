@@ -84,6 +84,7 @@ typedef struct {
     float most_speed;        /* the table was made up to this speed (rad/s) */
     float most_acceleration; /* and this acceleration (rad/s^2) */
     float torque_error;      /* the largest error of the torque within them (N m) */
+    uint32_t machine;        /* identifier of the machine; 0 if it has none */
 } jred_info;
 
 /* Checks header and CRC and fills info. */

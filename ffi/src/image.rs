@@ -24,6 +24,7 @@ pub(crate) struct Info {
     most_speed: f32,
     most_acceleration: f32,
     torque_error: f32,
+    machine: u32,
 }
 
 impl Info {
@@ -47,6 +48,7 @@ impl Info {
             most_speed: validity.omega,
             most_acceleration: validity.alpha,
             torque_error: validity.torque_error,
+            machine: image.machine(),
         })
     }
 }

@@ -48,6 +48,8 @@ pub struct ImageSlot<'m, F: Format, const SET: Set> {
     /// Bytes that were received.
     received: usize,
     progress: Progress,
+    /// Of the machine that images must be of; any, if there is none.
+    machine: Option<u32>,
     verdict: Option<Verdict<F, SET>>,
 }
 
@@ -62,8 +64,16 @@ impl<'m, F: Format, const SET: Set> ImageSlot<'m, F, SET> {
             words: memory,
             received: 0,
             progress: Progress::START,
+            machine: None,
             verdict: None,
         }
+    }
+
+    /// The same, for images of the machine with this identifier alone: that of another may have the same type and the same curves.
+    #[must_use]
+    pub const fn for_machine(mut self, machine: u32) -> Self {
+        self.machine = Some(machine);
+        self
     }
 
     /// Forgets the image, to receive another.
@@ -104,7 +114,7 @@ impl<'m, F: Format, const SET: Set> ImageSlot<'m, F, SET> {
     /// cells (docs/performance.md): call this in the background, where the tick interrupts it.
     ///
     /// # Errors
-    /// As [`Image::new`](crate::Image::new) and [`Image::model`](crate::Image::model).
+    /// As [`Image::new`](crate::Image::new), [`Image::of_machine`](crate::Image::of_machine) and [`Image::model`](crate::Image::model).
     pub fn check(&mut self, words: usize) -> Option<Result<(), ImageError>> {
         if self.verdict.is_none() {
             let image = self.words.get(..self.received / 4).unwrap_or_default();
@@ -114,6 +124,10 @@ impl<'m, F: Format, const SET: Set> ImageSlot<'m, F, SET> {
                 Err(ImageError::Misaligned)
             };
             self.verdict = Some(verdict.and_then(|image| {
+                let image = match self.machine {
+                    Some(machine) => image.of_machine(machine)?,
+                    None => image,
+                };
                 let validity = image.validity();
                 let model = image.model()?;
                 Ok((FeedForward::new(model, validity).moved(&[]), validity))

@@ -7,7 +7,8 @@ mod pieces;
 
 pub(crate) use image::Progress;
 pub use image::{
-    Aligned, HEADER_WORDS, Image, ImageCheck, ImageError, VERSION, Validity, encode, image_len,
+    Aligned, HEADER_WORDS, Image, ImageCheck, ImageError, VERSION, Validity, encode, identify,
+    image_len,
 };
 pub use model::{AccelerationRange, AnyModel, Contributions, Model};
 pub use pieces::Pieces;

@@ -43,6 +43,13 @@ pub enum ImageError {
     NumberType(u8),
     /// The image has another layout; its code (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16, 5 = rows of 16 bits, 6 = harmonics).
     Layout(u8),
+    /// The image is of another machine.
+    Machine {
+        /// Its identifier; 0 if it has none.
+        found: u32,
+        /// The one that was asked for.
+        expected: u32,
+    },
     /// The table is not sound.
     Table(TableError),
     /// Tables of this number type are not stored in images.
@@ -97,6 +104,10 @@ impl fmt::Display for ImageError {
                 f,
                 "the image has layout {code} (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16, 5 = rows of 16 bits, 6 = harmonics)"
             ),
+            Self::Machine { found, expected } => write!(
+                f,
+                "the image is of the machine 0x{found:08x}, not of 0x{expected:08x}"
+            ),
             Self::Table(error) => error.fmt(f),
             Self::NotStored(name) => write!(f, "tables of {name} are not stored in images"),
             Self::BufferTooShort { needed, given } => write!(
@@ -113,6 +124,9 @@ impl Curable for ImageError {
     fn write_cure(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Version { .. } => f.write_str("export the table anew"),
+            Self::Machine { .. } => {
+                f.write_str("load the image that was exported for this machine")
+            }
             Self::Table(error) => error.write_cure(f),
             Self::NotStored(_) => f.write_str("use f32 or i32"),
             Self::BufferTooShort { needed, .. } => write!(f, "give it {needed} words"),

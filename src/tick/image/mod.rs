@@ -22,8 +22,10 @@ const MAGIC: u32 = u32::from_le_bytes(*b"JRED");
 pub const VERSION: u16 = 2;
 /// Words of the header.
 pub const HEADER_WORDS: usize = 24;
+/// Word of the machine's identifier.
+const MACHINE: usize = 19;
 /// Words from here on are zero.
-const RESERVED: usize = 19;
+const RESERVED: usize = 20;
 /// Bits of the set of curves that have a meaning.
 const KNOWN: u32 = 6;
 /// Domain codes.
@@ -54,6 +56,7 @@ pub struct Image<'a> {
     domain: Domain<f32>,
     scale: Scale,
     validity: Validity,
+    machine: u32,
 }
 
 impl<'a> Image<'a> {
@@ -139,6 +142,7 @@ impl<'a> Image<'a> {
             domain,
             scale,
             validity,
+            machine: header.get(MACHINE).copied().unwrap_or_default(),
         })
     }
 
@@ -236,6 +240,26 @@ impl<'a> Image<'a> {
             constants: F::from_header(&self.constants),
         };
         Ok(Table::new(words, shape)?)
+    }
+
+    /// The same, if it is of the machine with this identifier: the image of another machine may have the same type and the same curves.
+    ///
+    /// # Errors
+    /// [`ImageError::Machine`].
+    pub const fn of_machine(self, machine: u32) -> Result<Self, ImageError> {
+        if self.machine == machine {
+            Ok(self)
+        } else {
+            Err(ImageError::Machine {
+                found: self.machine,
+                expected: machine,
+            })
+        }
+    }
+
+    /// The identifier of the machine, as [`identify`] wrote it; 0 if it has none.
+    pub const fn machine(&self) -> u32 {
+        self.machine
     }
 
     /// The machine units.
@@ -349,10 +373,28 @@ pub fn encode<'b, F: Format>(
     for (slot, byte) in bytes.iter_mut().skip(4 * HEADER_WORDS).zip(rows) {
         *slot = *byte;
     }
+    seal(image);
+    Ok(image)
+}
+
+/// Writes the identifier of a machine into its image, as `jred export` does.
+///
+/// # Errors
+/// Words that are no image.
+pub fn identify(image: &mut [u32], machine: u32) -> Result<(), ImageError> {
+    Image::new(image)?;
+    if let Some(word) = image.get_mut(MACHINE) {
+        *word = machine;
+    }
+    seal(image);
+    Ok(())
+}
+
+/// Makes the CRC of an image.
+fn seal(image: &mut [u32]) {
     if let Some((crc, covered)) = image.split_last_mut() {
         *crc = Progress::START.all(covered);
     }
-    Ok(image)
 }
 
 /// Bytes on a 4-byte boundary; made by [`include_image!`](crate::include_image).

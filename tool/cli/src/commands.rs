@@ -356,6 +356,7 @@ fn run_export(options: &options::Export) -> Result<Done> {
         alpha,
         rotor: options.rotor_inertia.unwrap_or(0.0),
         edges: edges(options, &file)?,
+        machine: options.machine_id,
     };
     let export = match Export::new(&file, task) {
         Ok(export) => export,

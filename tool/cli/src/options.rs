@@ -249,9 +249,25 @@ pub struct Export {
         allow_hyphen_values = true
     )]
     pub pieces: Option<String>,
+    /// Identifier of the machine in the image, by which firmware refuses the image of another machine, e.g. 7 or 0x1a2b; if not given, the CRC-32 of the
+    /// title.
+    #[arg(long, value_name = "NUMBER", value_parser = machine_id)]
+    pub machine_id: Option<u32>,
     /// File to write; if not given, only a summary is printed (as JSON with --format json).
     #[arg(long, short, value_parser = output_file())]
     pub out: Option<PathBuf>,
+}
+
+/// A number of 32 bits, decimal or hexadecimal.
+fn machine_id(text: &str) -> Result<u32, String> {
+    let found = match text.strip_prefix("0x") {
+        Some(digits) => u32::from_str_radix(digits, 16),
+        None => text.parse(),
+    };
+    found.map_err(|_| {
+        "write a whole number from 0 to 4294967295, or 0x and up to eight hexadecimal digits"
+            .to_owned()
+    })
 }
 
 /// A ratio of one stage or of several.

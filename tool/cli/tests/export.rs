@@ -85,6 +85,7 @@ fn images_of(file: &Path, bytes: u32, [omega, alpha]: [f64; 2]) -> Vec<Vec<u32>>
         alpha,
         rotor: 0.0,
         edges: Vec::new(),
+        machine: None,
     };
     let export = Export::new(&jred_machine::read::read(file).unwrap(), task).unwrap();
     let images: Vec<_> = export

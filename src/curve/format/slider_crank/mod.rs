@@ -14,7 +14,9 @@
 mod coefficient;
 mod tick;
 
-pub(crate) use coefficient::{COEFFICIENTS, words};
+#[cfg(feature = "mechanics")]
+pub(crate) use coefficient::COEFFICIENTS;
+pub(crate) use coefficient::words;
 pub use coefficient::{Coefficient, terms};
 pub(super) use tick::Crank;
 pub use tick::STEEPEST;

@@ -49,6 +49,7 @@ fn searched(file: &MachineFile) -> Export {
         alpha: 230.0,
         rotor: 0.0,
         edges: file.machine.load_edges().collect(),
+        machine: None,
     };
     Export::new(file, task).unwrap()
 }

@@ -37,7 +37,7 @@ impl Reader {
         assert_eq!(words[2] as usize, words.len());
         let (last, before) = words.split_last().unwrap();
         assert_eq!(crc(before.iter().flat_map(|w| w.to_le_bytes())), *last);
-        assert_eq!(words[19..24], [0; 5]);
+        assert_eq!(words[20..24], [0; 4]);
         Self { words }
     }
 

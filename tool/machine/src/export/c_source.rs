@@ -73,14 +73,24 @@ impl Export {
              \x20   return {name}_load_words(model, {name}_words, sizeof {name}_words / sizeof {name}_words[0]);\n\
              }}"
         );
-        let data = array(&format!("{name}_words"), &table.words);
+        let data = self.machine(&name) + &array(&format!("{name}_words"), &table.words);
         source(&name, &data, &format!("{model}\n{load}"))
+    }
+
+    /// The identifier that `jred_info` has of an image of this machine.
+    fn machine(&self, name: &str) -> String {
+        format!(
+            "/* Identifier of the machine: that of another in jred_info is another machine's. */\n\
+             #define {}_MACHINE 0x{:08x}u\n\n",
+            name.to_uppercase(),
+            self.machine
+        )
     }
 
     /// A table for each piece, and where each starts.
     pub(super) fn c_pieces(&self, tables: &[Made]) -> String {
         let name = identifier(&self.name);
-        let mut data = String::new();
+        let mut data = self.machine(&name);
         for (number, table) in (1..).zip(tables) {
             data += &array(&format!("{name}_words_{number}"), &table.words);
             data.push('\n');

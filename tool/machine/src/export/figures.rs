@@ -157,6 +157,16 @@ impl Export {
             chosen.row_bytes(),
             chosen.bytes()
         );
+        let _ = writeln!(
+            text,
+            "machine 0x{:08x}{}",
+            self.machine,
+            if self.task.machine.is_some() {
+                ""
+            } else {
+                " (of its title; --machine-id sets another)"
+            }
+        );
         if self.whole().is_some() {
             let _ = writeln!(text, "in Rust: {}", rust_call(chosen));
         } else {
@@ -264,6 +274,7 @@ impl Export {
         let alternatives: Vec<Value> = alternatives.collect();
         let mut object = json!({
             "title": self.title,
+            "machine": self.machine,
             "position_unit": match self.coordinate { Coordinate::Angle => "rad", Coordinate::Length => "m" },
             "effort_unit": self.coordinate.effort_unit(),
             "omega": task.omega,

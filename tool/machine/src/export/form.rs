@@ -54,6 +54,9 @@ impl Export {
         let arguments = rust_arguments(self.chosen());
         format!(
             "use jred::*;\n\n\
+             /// Identifier of the machine: `Image::of_machine` refuses the image of another.\n\
+             #[allow(dead_code)]\n\
+             pub const MACHINE: u32 = 0x{:08x};\n\n\
              /// The machine.\n\
              #[allow(dead_code)]\n\
              pub type TableModel = Model<'static, {arguments}>;\n\n\
@@ -62,8 +65,9 @@ impl Export {
              /// Checks the table.\n\
              #[allow(dead_code)]\n\
              pub fn model() -> Result<TableModel, ImageError> {{\n\
-             {INDENT}Image::new(&TABLE)?.model()\n\
+             {INDENT}Image::new(&TABLE)?.of_machine(MACHINE)?.model()\n\
              }}\n\n{}",
+            self.machine,
             rust_table("TABLE", &table.words)
         )
     }

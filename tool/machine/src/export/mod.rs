@@ -22,6 +22,8 @@ pub use form::Form;
 pub use search::EXHAUSTIVE;
 pub use ticks::Ticks;
 
+use crc::{CRC_32_ISO_HDLC, Crc};
+use jred::image::identify;
 use jred::machine::Mechanism as _;
 use jred::{Domain, Error, Phase};
 
@@ -55,6 +57,8 @@ pub struct Task {
     pub rotor: f64,
     /// Where pieces with a table each meet (rad, or m); none for one table of the whole range.
     pub edges: Vec<f64>,
+    /// Identifier of the machine in the image; if not given, that of the title.
+    pub machine: Option<u32>,
 }
 
 /// Part of the range that a piece must at least have: [`Pieces`](jred::Pieces) takes no shorter one.
@@ -75,6 +79,8 @@ pub struct Export {
     /// Whether the range is cut; a turn with one edge has one piece, which begins there.
     in_pieces: bool,
     task: Task,
+    /// Identifier of the machine.
+    machine: u32,
     /// Size of every number type and layout.
     pub answers: Vec<(Number, LayoutName, Answer)>,
     /// Which of them was chosen.
@@ -179,6 +185,12 @@ impl Export {
             }
             .failure()?);
         };
+        let machine = task.machine.unwrap_or_else(|| of_title(&file.title));
+        if let Some((_, _, Answer::Meets(candidate))) = answers.get_mut(chosen) {
+            for table in &mut candidate.tables {
+                identify(&mut table.words, machine).map_err(ticks::refusal)?;
+            }
+        }
         Ok(Self {
             name: file.name.clone(),
             title: file.title.clone(),
@@ -186,6 +198,7 @@ impl Export {
             domain,
             in_pieces: !pieces.is_empty(),
             task,
+            machine,
             answers,
             chosen,
         })
@@ -218,6 +231,11 @@ impl Export {
     pub const fn omega(&self) -> f64 {
         self.task.omega
     }
+}
+
+/// The identifier of a machine with this title: its CRC-32, that of the image. Machines without a title have none.
+fn of_title(title: &str) -> u32 {
+    Crc::<u32>::new(&CRC_32_ISO_HDLC).checksum(title.as_bytes())
 }
 
 /// The fewest bytes that meet the error; without a required error, the least error. Of equal ones, the more accurate.
