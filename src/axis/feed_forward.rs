@@ -13,24 +13,24 @@ const MARGIN: f32 = 1.01;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Status {
-    /// The speed.
-    pub speed: bool,
-    /// The acceleration.
-    pub acceleration: bool,
+    /// The speed is.
+    pub speed_beyond: bool,
+    /// The acceleration is.
+    pub acceleration_beyond: bool,
 }
 
 impl Status {
     /// The motion is one that the table was made for.
     #[must_use]
     pub const fn is_valid(self) -> bool {
-        !(self.speed || self.acceleration)
+        !(self.speed_beyond || self.acceleration_beyond)
     }
 
     /// The same, or the speed of the set-point is beyond.
     const fn or_beyond(self, beyond: bool) -> Self {
         Self {
-            speed: self.speed || beyond,
-            acceleration: self.acceleration,
+            speed_beyond: self.speed_beyond || beyond,
+            acceleration_beyond: self.acceleration_beyond,
         }
     }
 }
@@ -130,8 +130,8 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
     #[inline]
     pub fn status(&self, omega: F::Number, alpha: F::Number) -> Status {
         Status {
-            speed: omega.exceeds(self.omega),
-            acceleration: alpha.exceeds(self.alpha),
+            speed_beyond: omega.exceeds(self.omega),
+            acceleration_beyond: alpha.exceeds(self.alpha),
         }
     }
 

@@ -136,7 +136,7 @@ fn a_motion_beyond_the_table_is_flagged() {
             for &(omega, alpha, speed, acceleration) in cases {
                 let status = feed_forward.status(omega, alpha);
                 assert_eq!(
-                    (status.speed, status.acceleration),
+                    (status.speed_beyond, status.acceleration_beyond),
                     (speed, acceleration),
                     "{omega:?} {alpha:?}"
                 );
@@ -219,14 +219,14 @@ fn the_measured_state_is_where_the_curves_are_read() {
             feed_forward
                 .at_measured(reference.phase, 11.0, reference, sliding)
                 .status
-                .speed
+                .speed_beyond
         );
         let none = Sliding::Against(f64::NAN);
         assert!(
             feed_forward
                 .at_measured(reference.phase, 1.0, reference, none)
                 .status
-                .speed
+                .speed_beyond
         );
         let ramp = Ramp::new(0.2, &Scale::SI).unwrap();
         assert_eq!(ramp.at(f64::NAN), Sliding::Share(0.0));

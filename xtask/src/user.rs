@@ -42,7 +42,7 @@ const BUILDS: [Build; 4] = [
 ];
 
 /// A function of the program, and what a table calls it.
-const FUNCTIONS: [(&str, &str); 48] = [
+const FUNCTIONS: [(&str, &str); 49] = [
     ("cubic_f32_torque", "f32, cubic: torque"),
     ("cubic_f32_acceleration", "f32, cubic: acceleration"),
     ("cubic_f32_range", "f32, cubic: range of accelerations"),
@@ -103,6 +103,7 @@ const FUNCTIONS: [(&str, &str); 48] = [
         "q15, 16-bit rows: 10,000 counts → torque",
     ),
     ("rows_q15_binary", "q15, 16-bit rows: 4096 counts → torque"),
+    ("counter_extend", "`Counter::extend`"),
     ("encoder_phase", "`Encoder::phase`"),
     ("encoder_phase_wide", "`Encoder::phase_wide`"),
     ("stroke_phase", "`StrokeEncoder::phase`"),

@@ -10,9 +10,9 @@ use core::ptr::{read_volatile, write_volatile};
 
 use cortex_m_rt::entry;
 use jred::axis::{
-    AxisError, Braking, Direction, Encoder, Envelope, Feasible, FeedForward, Gearbox, Governed,
-    Governor, Limited, Limits, LookAhead, Motion, Mounting, Period, Ramp, Stop, StrokeEncoder,
-    TorqueLimits, Tracked, Tracker, Transmission,
+    AxisError, Braking, Counter, Direction, Encoder, Envelope, Feasible, FeedForward, Gearbox,
+    Governed, Governor, Limited, Limits, LookAhead, Motion, Mounting, Period, Ramp, Stop,
+    StrokeEncoder, TorqueLimits, Tracked, Tracker, Transmission,
 };
 use jred::number::Sliding;
 use jred::table::Format;
@@ -178,6 +178,12 @@ mod around {
 
     #[unsafe(no_mangle)]
     #[inline(never)]
+    fn counter_extend(counter: &mut Counter<16>, register: u32) -> i64 {
+        counter.extend(register)
+    }
+
+    #[unsafe(no_mangle)]
+    #[inline(never)]
     fn encoder_phase(encoder: &Encoder, count: i32) -> Phase {
         encoder.phase(count)
     }
@@ -223,6 +229,8 @@ mod around {
 
     pub(super) fn run() {
         let (count, phase) = (read(0).cast_signed(), Phase::from_bits(read(3)));
+        let wide = counter_extend(black_box(&mut Counter::at(0)), read(0));
+        write(wide as u32);
         write(encoder_phase(black_box(&TEN_THOUSAND), count).to_bits());
         write(encoder_phase_wide(black_box(&TEN_THOUSAND), i64::from(count) << 7).to_bits());
         let stroke = jred::Domain::Stroke { from: 0.0, to: 0.5 };

@@ -77,14 +77,17 @@ impl Export {
         let arguments = rust_arguments(self.chosen());
         let mut text = format!(
             "use jred::*;\n\n\
+             /// Identifier of the machine: `Image::of_machine` refuses the image of another.\n\
+             pub const MACHINE: u32 = 0x{:08x};\n\n\
              /// The machine in pieces.\n\
              pub type PiecewiseModel = Pieces<'static, {arguments}, {}>;\n\n\
              /// Checks the tables and puts them together.\n\
              pub fn pieces() -> Result<PiecewiseModel, ImageError> {{\n\
              {INDENT}fn piece(start: u32, words: &'static [u32]) -> Result<(Phase, Model<'static, {arguments}>), ImageError> {{\n\
-             {INDENT}{INDENT}Ok((Phase::from_bits(start), Image::new(words)?.model()?))\n\
+             {INDENT}{INDENT}Ok((Phase::from_bits(start), Image::new(words)?.of_machine(MACHINE)?.model()?))\n\
              {INDENT}}}\n\
              {INDENT}Pieces::new([\n",
+            self.machine,
             tables.len()
         );
         for (number, table) in (1..).zip(tables) {
