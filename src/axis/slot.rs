@@ -92,8 +92,6 @@ impl<'m, F: Format, const SET: Set> ImageSlot<'m, F, SET> {
             *slot = *byte;
         }
         self.received = needed;
-        // What was checked of the image is what lies there: it starts again.
-        self.progress = Progress::START;
         Ok(())
     }
 
