@@ -227,7 +227,15 @@ fn a_slot_is_used_again() {
     slot.receive(&good[..60]).unwrap();
     assert!(slot.check(1).is_some_and(|found| found.is_err()), "half");
     slot.receive(&good).unwrap();
-    // Checked in part, and more comes: the check begins again.
+    // Checked in part, and more comes: then it is not the image that its header says.
+    assert!(slot.check(2).is_none());
+    slot.receive(&good[..4]).unwrap();
+    assert!(matches!(
+        slot.check(2),
+        Some(Err(ImageError::Length { .. }))
+    ));
+    slot.receive(&good).unwrap();
+    // Checked in part, and given up.
     assert!(slot.check(2).is_none());
     slot.clear();
     slot.receive(&good).unwrap();

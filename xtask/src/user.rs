@@ -42,7 +42,7 @@ const BUILDS: [Build; 4] = [
 ];
 
 /// A function of the program, and what a table calls it.
-const FUNCTIONS: [(&str, &str); 49] = [
+const FUNCTIONS: [(&str, &str); 50] = [
     ("cubic_f32_torque", "f32, cubic: torque"),
     ("cubic_f32_acceleration", "f32, cubic: acceleration"),
     ("cubic_f32_range", "f32, cubic: range of accelerations"),
@@ -112,6 +112,10 @@ const FUNCTIONS: [(&str, &str); 49] = [
     ("omega_q31", "`Period::omega`, q31"),
     ("si_q31", "q31, quadratic: torque, SI in and out"),
     ("status_torque", "f32, cubic: torque and status"),
+    (
+        "slot_torque",
+        "f32, cubic: torque and status, of an `ImageSlot`",
+    ),
     ("period_later", "`Period::later` (lead time), f32"),
     ("ramp_torque", "f32, cubic: torque with `Ramp`"),
     ("transmission_motor", "`Transmission::motor`, f32"),

@@ -11,8 +11,8 @@ use core::ptr::{read_volatile, write_volatile};
 use cortex_m_rt::entry;
 use jred::axis::{
     AxisError, Braking, Counter, Direction, Encoder, Envelope, Feasible, FeedForward, Gearbox,
-    Governed, Governor, Limited, Limits, LookAhead, Motion, Mounting, Period, Ramp, Stop,
-    StrokeEncoder, TorqueLimits, Tracked, Tracker, Transmission,
+    Governed, Governor, ImageSlot, Limited, Limits, LookAhead, Motion, Mounting, Period, Ramp,
+    Stop, StrokeEncoder, TorqueLimits, Tracked, Tracker, Transmission,
 };
 use jred::number::Sliding;
 use jred::table::Format;
@@ -285,6 +285,26 @@ mod command {
 
     #[unsafe(no_mangle)]
     #[inline(never)]
+    fn slot_torque(
+        slot: &ImageSlot<Cubic<f32>, PRESS>,
+        phase: Phase,
+        omega: f32,
+        alpha: f32,
+    ) -> (f32, bool) {
+        let Some(press) = slot.feed_forward() else {
+            return (0.0, false);
+        };
+        let motion = Motion {
+            phase,
+            omega,
+            alpha,
+        };
+        let checked = press.at_reference(motion, Sliding::Against(omega));
+        (checked.torque, checked.status.is_valid())
+    }
+
+    #[unsafe(no_mangle)]
+    #[inline(never)]
     fn period_later(lead: &Period<f32>, motion: Motion<f32>) -> Motion<f32> {
         lead.later(motion).value
     }
@@ -320,6 +340,14 @@ mod command {
         let feed_forward = FeedForward::new(model, image.validity());
         let (torque, valid) =
             status_torque(&feed_forward, motion.phase, motion.omega, motion.alpha);
+        write(valid.into());
+        let mut memory = [0; 1200];
+        let mut slot = ImageSlot::new(&mut memory);
+        let received = slot.receive(black_box(&[]));
+        write((received.is_ok() && slot.check(16).is_some()).into());
+        let (torque_of_slot, valid) =
+            slot_torque(black_box(&slot), motion.phase, motion.omega, motion.alpha);
+        torque_of_slot.write();
         write(valid.into());
         let gearbox = Gearbox {
             ratio: 10.0,

@@ -12,7 +12,7 @@ pub static START: Mutex<Cell<Option<Tick>>> = Mutex::new(Cell::new(None));
 /// A table that was checked, for the interrupt; and the one that it had, for the background.
 pub static OFFERED: Mutex<Cell<Option<&'static mut Table>>> = Mutex::new(Cell::new(None));
 pub static RETURNED: Mutex<Cell<Option<&'static mut Table>>> = Mutex::new(Cell::new(None));
-pub static STATUS: Mutex<Status> = Mutex::new(Status::START);
+pub static STATUS: Mutex<Status> = Mutex::new(Status::new());
 
 /// How the ticks are doing.
 pub fn status<T>(of: impl Fn(&Status) -> T) -> T {

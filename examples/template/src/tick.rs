@@ -54,15 +54,17 @@ impl With {
 }
 
 impl Status {
-    pub const START: Self = Self {
-        ticks: Cell::new(0),
-        turns: Cell::new(0),
-        missed: Cell::new(0),
-        longest: Cell::new(0),
-        latest: Cell::new(0),
-        with: Cell::new(With::from(0)),
-        before: Cell::new(With::from(0)),
-    };
+    pub const fn new() -> Self {
+        Self {
+            ticks: Cell::new(0),
+            turns: Cell::new(0),
+            missed: Cell::new(0),
+            longest: Cell::new(0),
+            latest: Cell::new(0),
+            with: Cell::new(With::from(0)),
+            before: Cell::new(With::from(0)),
+        }
+    }
 }
 
 /// All that the interrupt owns.

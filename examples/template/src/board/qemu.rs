@@ -94,7 +94,7 @@ impl Board {
         }
         // Counts of the whole turns and of the rest, so that nothing overflows.
         let (turns, rest) = (self.place >> 40, self.place & ((1 << 40) - 1));
-        (HOME - turns * COUNTS - ((rest >> 16) * COUNTS >> 24)) as u16
+        (HOME - turns * COUNTS - (((rest >> 16) * COUNTS) >> 24)) as u16
     }
 
     /// The set-point of this tick, in ticks as its unit of time.
