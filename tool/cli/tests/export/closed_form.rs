@@ -133,7 +133,7 @@ fn what_has_no_form_is_refused_with_its_reason() {
         "on = \"rod\"\nopposing_force = \"3 N\"\nat = [\"70 mm\", \"0 mm\"]",
     );
     let sprung = format!(
-        "{feeder}\n[[spring]]\nname = \"return\"\nbetween = [\"slider\", { on = \"ground\", at = [\"300 mm\", \"20 mm\"] }]\n\
+        "{feeder}\n[[spring]]\nname = \"return\"\nbetween = [\"slider\", {{ on = \"ground\", at = [\"300 mm\", \"20 mm\"] }}]\n\
          stiffness = \"1 N/mm\"\nfree_length = \"100 mm\"\n"
     );
     let file = |text: String| folder.file("feeder.toml", text);
