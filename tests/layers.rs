@@ -16,7 +16,10 @@ const LAYERS: [(&str, &[&str]); 8] = [
     ("mechanism", &["number", "machine"]),
     ("tick", &["number", "curve"]),
     ("axis", &["number", "curve", "tick"]),
-    ("tabulate", &["number", "curve", "machine", "tick"]),
+    (
+        "tabulate",
+        &["number", "curve", "machine", "mechanism", "tick"],
+    ),
 ];
 
 /// The text of all files of a folder, without comments.

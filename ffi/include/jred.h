@@ -137,7 +137,8 @@ typedef struct {
  * no model (a null pointer, one that is zeroed and not loaded, or whose loading failed) gives 0. An acceleration that does not fit is the nearest end of the range;
  * press_acceleration_range says so of each.
  *
- * Formats: spline_f32, cubic_f32, quadratic_f32, spline_q31, cubic_q31, quadratic_q31, spline16_q31, rows_q15, harmonic_f32.
+ * Formats: spline_f32, cubic_f32, quadratic_f32, spline_q31, cubic_q31, quadratic_q31, spline16_q31, rows_q15, harmonic_f32,
+ * slider_crank_f32.
  */
 #define JRED_MODEL(name, format, set) JRED_MODEL_(name, format, JRED_NUMBER_##format, s##set, set)
 /* The same for whatever set of curves an image has: a tick looks which they are, and takes longer. */
@@ -147,6 +148,7 @@ typedef struct {
 #define JRED_NUMBER_cubic_f32 f32
 #define JRED_NUMBER_quadratic_f32 f32
 #define JRED_NUMBER_harmonic_f32 f32
+#define JRED_NUMBER_slider_crank_f32 f32
 #define JRED_NUMBER_spline_q31 q31
 #define JRED_NUMBER_cubic_q31 q31
 #define JRED_NUMBER_quadratic_q31 q31

@@ -1,6 +1,6 @@
 //! Which models have functions: every format with every set of curves that it can have.
 
-use jred::{Cubic, Harmonic, Q15, Q31, Quadratic, Rows16, Set, Spline, Spline16};
+use jred::{Cubic, Harmonic, Q15, Q31, Quadratic, Rows16, Set, SliderCrankForm, Spline, Spline16};
 
 use crate::memory::Memory;
 use crate::status::Status;
@@ -67,4 +67,14 @@ family!("harmonic_f32", Harmonic<f32>, f32, [
     16 272 528 784 17 273 529 785 1041 1297 1553 1809 2065 2321 2577 2833 3089 3345 3601 3857
     32 288 544 800 33 289 545 801 1057 1313 1569 1825 2081 2337 2593 2849 3105 3361 3617 3873
     48 304 560 816 49 305 561 817 1073 1329 1585 1841 2097 2353 2609 2865 3121 3377 3633 3889
+]);
+
+// Of a slider-crank: a load with or without parts in the crank's sine and cosine, b none or constant, c none, the slider's, constant
+// or both; the others have the functions for any set.
+#[cfg(few_sets)]
+family!("slider_crank_f32", SliderCrankForm, f32, [529]);
+#[cfg(not(few_sets))]
+family!("slider_crank_f32", SliderCrankForm, f32, [
+    0 1 4 5 16 17 20 21 32 33 36 37 48 49 52 53 513 517 529 533
+    545 549 561 565 1025 1029 1041 1045 1057 1061 1073 1077 1537 1541 1553 1557 1569 1573 1585 1589
 ]);

@@ -8,8 +8,8 @@ use std::collections::BTreeSet;
 use jred::harmonic::terms;
 use jred::table::Format;
 use jred::{
-    Cubic, Harmonic, Image, Model, Phase, Q31, Quadratic, Rows16, Set, Spline, Spline16, curves,
-    include_image,
+    Cubic, Harmonic, Image, Model, Phase, Q31, Quadratic, Rows16, Set, SliderCrankForm, Spline,
+    Spline16, curves, include_image,
 };
 
 use crate::image::{Info, jred_image_info};
@@ -159,6 +159,18 @@ fn harmonics_with_constant_friction_have_a_family() {
                 && (has(*set, curves::LOAD) || !has(*set, load))
         });
     assert_eq!(families, meant.collect());
+}
+
+#[test]
+fn slider_cranks_with_plain_loads_have_a_family() {
+    use jred::slider_crank::terms;
+    let meant = accepted::<SliderCrankForm>(0..1 << 16)
+        .into_iter()
+        .filter(|set| {
+            let others = terms::ALL & !(terms::LOAD_SIN | terms::LOAD_COS);
+            set & (curves::VISCOUS | others) == 0
+        });
+    assert_eq!(listed("// Of a slider-crank"), meant.collect());
 }
 
 #[allow(improper_ctypes, reason = "C sees the memory of a model as bytes")]

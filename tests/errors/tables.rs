@@ -141,6 +141,8 @@ fn tables_and_models_that_can_be_cured_say_how() {
         ),
         (TableError::Stroke, "a table"),
         (TableError::Harmonics, "harmonic::fit"),
+        (TableError::SliderCrank, "slider_crank::form"),
+        (TableError::ShortRod, "a table"),
         (
             TableError::Slope { cell },
             "the scale that the table was made with",

@@ -23,8 +23,7 @@ impl fmt::Display for SliderCrankError {
         match self {
             Self::Window(k) => write!(
                 f,
-                "load {} (counted from 0), which acts in a part of the turn",
-                k
+                "load {k} (counted from 0), which acts in a part of the turn"
             ),
             Self::RubbingRod(k) => write!(
                 f,

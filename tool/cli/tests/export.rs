@@ -3,7 +3,12 @@
 #![allow(clippy::float_cmp)]
 
 mod bytes;
+mod closed_form;
 mod document;
+// As the command wrote it.
+#[rustfmt::skip]
+#[allow(clippy::unreadable_literal, clippy::wildcard_imports, unreachable_pub)]
+mod feeder_form;
 mod forms;
 mod harmonics;
 mod images;

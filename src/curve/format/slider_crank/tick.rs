@@ -84,13 +84,13 @@ impl Crank {
         let mut y = square + self.get(C::InertiaSin) * sin;
         let mut dy = self.get(C::InertiaSin) * cos;
         if C::InertiaCos.is_in(set) {
-            y = y + self.get(C::InertiaCos) * cos;
-            dy = dy - self.get(C::InertiaCos) * sin;
+            y += self.get(C::InertiaCos) * cos;
+            dy -= self.get(C::InertiaCos) * sin;
         }
         let mut load = self.get(C::Load) * x;
         let mut add = |part: C, of: f32| {
             if part.is_in(set) {
-                load = load + self.get(part) * of;
+                load += self.get(part) * of;
             }
         };
         add(C::LoadSin, sin);
@@ -99,21 +99,21 @@ impl Crank {
         add(C::LoadConstant, 1.0);
         let mut viscous = self.get(C::ViscousSquare) * x;
         if C::ViscousSin.is_in(set) {
-            viscous = viscous + self.get(C::ViscousSin) * sin;
+            viscous += self.get(C::ViscousSin) * sin;
         }
         if C::ViscousCos.is_in(set) {
-            viscous = viscous + self.get(C::ViscousCos) * cos;
+            viscous += self.get(C::ViscousCos) * cos;
         }
-        viscous = viscous * x;
+        viscous *= x;
         if C::Viscous.is_in(set) {
-            viscous = viscous + self.get(C::Viscous);
+            viscous += self.get(C::Viscous);
         }
         let mut coulomb = self.get(C::Coulomb) * size(x);
         if C::CoulombRod.is_in(set) {
-            coulomb = coulomb + self.get(C::CoulombRod) * size(psi);
+            coulomb += self.get(C::CoulombRod) * size(psi);
         }
         if C::CoulombConstant.is_in(set) {
-            coulomb = coulomb + self.get(C::CoulombConstant);
+            coulomb += self.get(C::CoulombConstant);
         }
         Values {
             inertia: self.get(C::Inertia) + x * y,
@@ -143,10 +143,10 @@ impl Crank {
     pub(super) fn resisting(values: &Values, set: Set, omega: f32) -> f32 {
         let mut sum = Self::velocity(values, omega);
         if has(set, curves::LOAD) {
-            sum = sum - values.load;
+            sum -= values.load;
         }
         if has(set, curves::VISCOUS | curves::CONSTANT_VISCOUS) {
-            sum = sum + values.viscous * omega;
+            sum += values.viscous * omega;
         }
         sum
     }

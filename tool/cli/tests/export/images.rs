@@ -3,8 +3,8 @@
 use jred::number::Number;
 use jred::table::Format;
 use jred::{
-    Cubic, Image, ImageError, Phase, Q31, Quadratic, Reducible as _, Rows16, Set, Spline, Spline16,
-    curves,
+    Cubic, Image, ImageError, Phase, Q31, Quadratic, Reducible as _, Rows16, Set, SliderCrankForm,
+    Spline, Spline16, curves,
 };
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::mechanism::AnyMechanism;
@@ -242,6 +242,7 @@ fn curves_at(image: &Image<'_>, kind: (&str, &str), phase: Phase) -> [f64; 5] {
     match kind {
         ("f32", "spline") => long::<Spline<f32>>(image, phase),
         ("f32", "cubic") => long::<Cubic<f32>>(image, phase),
+        ("f32", "slider-crank") => long::<SliderCrankForm>(image, phase),
         ("f32", _) => long::<Quadratic<f32>>(image, phase),
         ("i32", "spline") => long::<Spline<Q31>>(image, phase),
         ("i32", "spline16") => long::<Spline16>(image, phase),

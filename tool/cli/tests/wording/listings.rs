@@ -262,7 +262,7 @@ fn split() {
 
 #[test]
 fn export() {
-    let desk = press();
+    let desk = Desk::new().with_machines(&["press.toml", "shaking-feeder.toml"]);
     let export = ["export", "press.toml"];
     let with = |more: &[&'static str]| [&export[..], more].concat();
     compare(
@@ -291,6 +291,8 @@ fn export() {
             ]),
             &with(&["--torque-error", "0.5 N m", "--max-bytes", "200"]),
             &with(&["--max-bytes", "20"]),
+            &with(&["--torque-error", "0.5 N m", "--layout", "slider-crank"]),
+            &["export", "shaking-feeder.toml", "--torque-error", "0.5 N m"],
         ]),
     );
 }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use jred::curves;
+use jred::slider_crank::terms;
 
 use super::Export;
 use super::candidate::{Candidate, Made};
@@ -31,10 +32,16 @@ fn model(name: &str, table: &Candidate) -> String {
         Number::I32 => "q31",
         Number::I16 => "q15",
     };
-    let (layout, set) = (table.layout.name(), table.curves());
-    // Harmonics with frictions that vary have too many sets for functions of their own.
-    let varies = set & (curves::VISCOUS | curves::COULOMB) != 0;
-    if table.layout == LayoutName::Harmonic && varies {
+    let (layout, set) = (table.layout.name().replace('-', "_"), table.curves());
+    // Harmonics with frictions that vary, and slider-cranks with uncommon terms, have too many sets for functions of their own.
+    let rare = match table.layout {
+        LayoutName::Harmonic => curves::VISCOUS | curves::COULOMB,
+        LayoutName::SliderCrank => {
+            curves::VISCOUS | terms::ALL & !(terms::LOAD_SIN | terms::LOAD_COS)
+        }
+        _ => 0,
+    };
+    if set & rare != 0 {
         format!("JRED_ANY_MODEL({name}, {layout}_{number});")
     } else {
         format!("JRED_MODEL({name}, {layout}_{number}, {set});")
