@@ -173,7 +173,7 @@ impl Format for SliderCrankForm {
     }
 
     #[inline(always)]
-    fn moved<'a>(tick: &Crank, _: &Table<'a, Self>, _: Set) -> Crank {
+    fn moved(tick: &Crank, _: &Table<'_, Self>, _: Set) -> Crank {
         *tick
     }
 
