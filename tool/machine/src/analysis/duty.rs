@@ -2,7 +2,7 @@
 
 use jred::machine::TorqueTerms;
 use jred::mechanism::TrainOutput;
-use jred::{Domain, Error, Reducible as _};
+use jred::{Domain, Error, Reducible as _, Reduction};
 
 use crate::analysis::mechanics::Mechanics;
 use crate::model::coordinate;
@@ -147,8 +147,7 @@ const MOST_INSTANTS: f64 = 1e6;
 /// distance h any peak stands out by at most T″·h²/8, whatever a motor's own inertia, which bends little, adds to it. A step is
 /// cut into at most so many parts.
 fn refine_bends(
-    file: &MachineFile,
-    motion: &Motion,
+    moving: &mut Moving,
     first: usize,
     most_parts: f64,
     instants: &mut Vec<Instant>,
@@ -173,7 +172,7 @@ fn refine_bends(
         };
         for k in 1..parts {
             let t = b.t + (c.t - b.t) * f64::from(k) / f64::from(parts);
-            fine.push(Instant::new(file, motion, t, 0.0)?);
+            fine.push(Instant::new(moving, t, 0.0)?);
         }
     }
     instants.extend(fine);
@@ -184,13 +183,33 @@ fn refine_bends(
     Ok(())
 }
 
+/// The machine in its motion. A dwell asks for one position at every step of time: the last one is kept.
+struct Moving<'a> {
+    file: &'a MachineFile,
+    motion: &'a Motion,
+    last: Option<(f64, Reduction)>,
+}
+
+impl Moving<'_> {
+    fn reduction(&mut self, phi: f64) -> Result<Reduction, Error> {
+        if let Some((place, reduction)) = &self.last
+            && place.to_bits() == phi.to_bits()
+        {
+            return Ok(*reduction);
+        }
+        let reduction = self.file.bare_reduction(phi)?;
+        self.last = Some((phi, reduction));
+        Ok(reduction)
+    }
+}
+
 impl Instant {
     /// The machine at time `t` of its motion.
-    fn new(file: &MachineFile, motion: &Motion, t: f64, weight: f64) -> Result<Self, Error> {
-        let train = &file.drive_train;
+    fn new(moving: &mut Moving, t: f64, weight: f64) -> Result<Self, Error> {
+        let train = &moving.file.drive_train;
         let ratio = train.ratio();
-        let state = motion.at(t);
-        let reduction = file.bare_reduction(state.phi)?;
+        let state = moving.motion.at(t);
+        let reduction = moving.reduction(state.phi)?;
         let inertia = reduction.inertia;
         let terms = reduction.torque(state.omega, state.alpha);
         let input = train.input(&TrainOutput {
@@ -227,6 +246,11 @@ impl Duty {
         const INSIDE: f64 = 1e-9;
         let duration = motion.duration();
         let mut instants = Vec::with_capacity(steps + 1024);
+        let mut moving = Moving {
+            file,
+            motion,
+            last: None,
+        };
         let stretches = smooth_stretches(file, motion, steps);
         let parts = |(from, to): (f64, f64)| {
             let share = (steps as f64 * (to - from) / duration / 2.0).ceil();
@@ -247,9 +271,9 @@ impl Duty {
                 } * step
                     / 3.0;
                 let place = (k as f64 / n as f64).clamp(INSIDE, 1.0 - INSIDE);
-                instants.push(Instant::new(file, motion, from + place * span, weight)?);
+                instants.push(Instant::new(&mut moving, from + place * span, weight)?);
             }
-            refine_bends(file, motion, first, most_parts, &mut instants)?;
+            refine_bends(&mut moving, first, most_parts, &mut instants)?;
         }
         let ratio = file.drive_train.ratio();
         let mut hold_torque = 0.0f64;
