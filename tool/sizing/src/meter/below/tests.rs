@@ -1,0 +1,66 @@
+//! Which lines of a curve keep within the bounds on their way.
+
+use super::*;
+
+/// A tunnel between a limit that falls, is level and falls again, and so much below it.
+fn tunnel() -> Tunnel {
+    let at = |speed: f64| (10.0 - speed).max(6.0).min(14.0 - speed);
+    let speeds: Vec<f32> = (0..13_u8).map(f32::from).collect();
+    let between = speeds.windows(2).map(|pair| Interval {
+        ends: [pair[0], pair[1]].map(|speed| at(f64::from(speed))),
+        loose: 0.0,
+    });
+    Tunnel {
+        most: speeds.iter().map(|speed| at(f64::from(*speed))).collect(),
+        between: between.collect(),
+        speeds,
+    }
+}
+
+/// Every line from a place, by every slope: those that `reach` gives for a place are those that lie below the limit up to there and
+/// no further below it than allowed before.
+#[test]
+fn a_line_that_is_taken_keeps_within_the_bounds() {
+    let (tunnel, shortfall) = (tunnel(), 0.2);
+    let count = tunnel.speeds.len();
+    let speed = |place: usize| f64::from(tunnel.speeds[place]);
+    for from in 0..count {
+        for share in [0.0, 0.5, 1.0] {
+            let lowest = tunnel.least(from, shortfall);
+            let start = tunnel.most[from] + share * (lowest - tunnel.most[from]);
+            let mut taken = vec![None; count];
+            tunnel.reach(from, start, shortfall, |place, slopes, span| {
+                assert_eq!(span, speed(place) - speed(from));
+                assert!(taken[place].replace(slopes).is_none(), "{place} twice");
+            });
+            for to in from + 1..count {
+                for step in -300..=100 {
+                    // No line ends on a bound exactly: the two sides may round differently.
+                    let slope = 0.01 * f64::from(step) + 1.7e-4;
+                    let line = |place: usize| start + slope * (speed(place) - speed(from));
+                    let below = (from + 1..=to).all(|place| line(place) <= tunnel.most[place]);
+                    let above =
+                        (from + 1..to).all(|place| line(place) >= tunnel.least(place, shortfall));
+                    let found =
+                        taken[to].is_some_and(|[least, most]| least <= slope && slope <= most);
+                    assert_eq!(found, below && above, "{from} to {to}, {start} by {slope}");
+                }
+            }
+        }
+    }
+}
+
+/// Where the limit jumps between two intervals the lower side counts at both: a line may pass neither.
+#[test]
+fn both_sides_of_a_jump_bound_a_line() {
+    let mut tunnel = tunnel();
+    // From place 3 on the interval begins lower than the one before ends.
+    tunnel.between[3].ends[0] = 5.0;
+    let mut most = Vec::new();
+    tunnel.reach(0, 10.0, 1.0, |place, slopes, _| {
+        most.push((place, slopes[1]))
+    });
+    let at = |place: usize| most.iter().find(|(other, _)| *other == place).unwrap().1;
+    assert!((at(3) + 1.0).abs() < 1e-6, "{most:?}");
+    assert!((at(4) + 5.0 / 3.0).abs() < 1e-6, "{most:?}");
+}
