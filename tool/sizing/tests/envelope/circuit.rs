@@ -178,6 +178,23 @@ fn the_sheets_voltage_says_whether_the_field_is_weakened() {
     }
 }
 
+/// Beyond the speed at which the magnets take the whole voltage there is no current, along the speed or against it; nor at a speed
+/// that is no number.
+#[test]
+fn beyond_the_no_load_speed_there_is_no_current() {
+    let circuit = Prepared::new(&servo(), None, &Site::default())
+        .circuit
+        .unwrap();
+    assert!(!circuit.weakens);
+    for braking in [false, true] {
+        let at = |share: f64| circuit.largest_current(share * circuit.no_load_speed(), braking);
+        assert!(at(0.9) > 0.0);
+        for share in [1.001, 1.5, 100.0, f64::NAN] {
+            assert_eq!(at(share).to_bits(), 0, "{share} times the no-load speed");
+        }
+    }
+}
+
 /// A winding without reactance cannot weaken its field: a sheet that states a corner and a speed beyond the no-load speed that the
 /// corner gives knows more than the winding, and is used. Up to that speed the winding is used.
 #[test]

@@ -132,7 +132,7 @@ fn the_larger_end_is_the_bound() {
     };
     let c = Coefficients([0.7, 0.5, 0.9, 0.02, 1.1]);
     for torques in [[60.0, 50.0], [50.0, 60.0], [-60.0, -50.0], [-50.0, -60.0]] {
-        for speeds in [[10.0, 30.0], [30.0, 10.0]] {
+        for speeds in [[10.0, 30.0], [30.0, 10.0], [20.0, 20.0]] {
             for states in [at(torques, speeds), mirrored(&at(torques, speeds))] {
                 reached(bound(&c, &states, straight(), 0.8));
             }
@@ -160,6 +160,15 @@ fn in_both_directions_the_lowest_limit_counts() {
             "{found} instead of {expected}"
         );
     }
+    // A motor that brakes better than it drives: braking that begins at rest is bounded by what drives there, 10.
+    let brakes_better = Straight {
+        lines: [[10.0, 0.1], [15.0, -0.01]],
+        line: [10.0, 0.0],
+        least: 10.0,
+    };
+    let states = [[0.0, -60.0, 0.0], [0.0, -60.0, 30.0]];
+    let [found, _] = bound(&c, &states, brakes_better, used);
+    assert!((found - (30.0 - used * 10.0)).abs() < 1e-12, "{found}");
     // Braking that does not begin at rest has its own line: 15 − 0.05·2·10 = 14 at the slow end.
     let states = [[0.0, -60.0, 10.0], [0.0, -50.0, 30.0]];
     let [found, _] = bound(&c, &states, straight(), used);

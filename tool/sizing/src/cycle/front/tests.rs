@@ -83,6 +83,13 @@ fn what_drives_and_what_rests_is_known() {
             Ok(false)
         );
     }
+    // Without any torque nothing is against the speed, and there is no rounding either.
+    for still in [DRIVEN, RESTS] {
+        assert_eq!(
+            front(&[still]).0.against_speed(&[0.0; LOADS], 0.0),
+            Ok(false)
+        );
+    }
     // A torque against the speed by less than what counts as rounding is none: here −8.3 N·m.
     let (front, _) = front(&[[[-30.0, 20.0, 10.0]; 3]]);
     let found = [7.0, 9.0].map(|slack| front.against_speed(&C, slack));

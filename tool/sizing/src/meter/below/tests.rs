@@ -50,6 +50,32 @@ fn a_line_that_is_taken_keeps_within_the_bounds() {
     }
 }
 
+/// A line on a level limit is taken, though both round: from speed 4 to 8 the limit is 6.
+#[test]
+fn a_line_on_the_limit_is_taken() {
+    for limit in [6.0, 0.1, 1e5 / 3.0] {
+        let mut tunnel = tunnel();
+        for interval in &mut tunnel.between[4..8] {
+            interval.ends = [limit; 2];
+        }
+        let mut taken = Vec::new();
+        tunnel.reach(4, limit, 0.0, |place, [least, most], _| {
+            if least <= 0.0 && 0.0 <= most {
+                taken.push(place);
+            }
+        });
+        assert!(taken.starts_with(&[5]), "{taken:?}");
+        // By a unit of the last place above it as well.
+        let mut above = Vec::new();
+        tunnel.reach(4, limit.next_up(), 1.0, |place, slopes, _| {
+            if slopes[0] <= 0.0 && 0.0 <= slopes[1] {
+                above.push(place);
+            }
+        });
+        assert!(above.starts_with(&[5, 6, 7, 8]), "{limit}: {above:?}");
+    }
+}
+
 /// Where the limit jumps between two intervals the lower side counts at both: a line may pass neither.
 #[test]
 fn both_sides_of_a_jump_bound_a_line() {
