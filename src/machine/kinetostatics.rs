@@ -15,7 +15,7 @@
 use crate::Machine;
 use crate::machine::error::MachineError;
 use crate::machine::error::PoseError;
-use crate::machine::joint::{Body, Joint, MAX_JOINTS, Wrench};
+use crate::machine::joint::{Body, Joint, Joints, MAX_JOINTS, Wrench};
 use crate::machine::link::{Frame, Link};
 use crate::machine::mechanism::{Frames, Jointed, MAX_LINKS};
 use crate::number::error::finite;
@@ -77,6 +77,17 @@ impl<M: Jointed> Machine<M> {
         let mechanism = self.mechanism();
         let frames = mechanism.frames(phi)?;
         let joints = mechanism.joints(phi, &frames)?;
+        self.forces_in(&frames, &joints, [phi, omega, alpha])
+    }
+
+    /// The forces where the links and the joints are known already; the motion is finite.
+    pub(crate) fn forces_in(
+        &self,
+        frames: &Frames,
+        joints: &Joints,
+        [phi, omega, alpha]: [f64; 3],
+    ) -> Result<Forces, MachineError> {
+        let mechanism = self.mechanism();
         let links = mechanism.links();
         let equations = 3 * links.len();
         let unknowns = 1 + joints.iter().map(Joint::constraints).sum::<usize>();
@@ -95,13 +106,13 @@ impl<M: Jointed> Machine<M> {
 
         let mut balance = Balance {
             links,
-            frames: &frames,
+            frames,
             column: [0.0; MOST],
         };
         // The flywheel moves with the coordinate of the driven joint, as a rotor geared to it does: between its two bodies,
         // in whichever order they are named. So it changes the drive's effort and no reaction.
-        let inertia = -self.flywheel() * driven.coordinate(&frames).acceleration(omega, alpha);
-        let unit_drive = driven.unit_drive(&frames);
+        let inertia = -self.flywheel() * driven.coordinate(frames).acceleration(omega, alpha);
+        let unit_drive = driven.unit_drive(frames);
         for on in &unit_drive {
             balance.add(&on.times(inertia));
         }
@@ -121,8 +132,8 @@ impl<M: Jointed> Machine<M> {
                 column.copy_from_slice(&balance.column[..equations]);
             }
         };
-        for joint in &joints {
-            joint.unit_reactions(&frames).iter().for_each(&mut fill);
+        for joint in joints {
+            joint.unit_reactions(frames).iter().for_each(&mut fill);
         }
         fill(&unit_drive);
 
@@ -142,8 +153,8 @@ impl<M: Jointed> Machine<M> {
 
         let mut values = solution.iter().copied();
         let mut reactions = heapless::Vec::new();
-        for joint in &joints {
-            let units = joint.unit_reactions(&frames);
+        for joint in joints {
+            let units = joint.unit_reactions(frames);
             let mut sum = Reaction {
                 // The force comes first; the moment about its point has none.
                 point: units.first().map_or([0.0; 2], |[_, unit]| unit.point),

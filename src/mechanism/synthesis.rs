@@ -330,6 +330,10 @@ impl RatioSplit {
         let (mut below, mut above) = (least, most);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (below + above);
+            // No number lies between: halving on would ask the same again, for a stage whose ratio is given all the time.
+            if middle <= below || middle >= above {
+                break;
+            }
             let here = with(middle);
             if here.own < here.slope {
                 below = middle;

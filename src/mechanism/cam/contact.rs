@@ -17,6 +17,7 @@ use super::extreme::smallest;
 use super::program::{Piece, within_turn};
 use crate::machine::reduction::MAX_LOADS;
 use crate::machine::{Joint, Jointed};
+use crate::number::error::finite;
 use crate::{Machine, math};
 
 /// Speeds above this (rad/s) are no machine's; where roundings alone would end the contact there, it does not end.
@@ -71,7 +72,8 @@ pub fn contact_force<M: Jointed>(
             joints: joints.len(),
         });
     };
-    let forces = machine.forces(phi, omega, alpha)?;
+    let state = [phi, finite("speed", omega)?, finite("acceleration", alpha)?];
+    let forces = machine.forces_in(&frames, &joints, state)?;
     let reaction = forces.reactions.get(contact).map_or([0.0; 2], |r| r.force);
     Ok(reaction[0] * unit.force[0] + reaction[1] * unit.force[1])
 }

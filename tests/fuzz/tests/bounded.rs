@@ -120,7 +120,11 @@ fn heavy_inputs() {
             "are too many cells",
         ),
     ] {
-        let command = heavy::Heavy { words, quick: true };
+        let command = heavy::Heavy {
+            words,
+            quick: true,
+            code: 0,
+        };
         let refused = inputs.run(command, &jred).unwrap_err();
         assert!(refused.contains("code: Some(2)"), "{refused}");
         assert!(refused.contains(why), "{refused}");

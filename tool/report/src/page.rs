@@ -24,6 +24,7 @@ mod figures;
 mod mechanism;
 mod notes;
 mod rows;
+mod thinned;
 
 use chart::Chart;
 use drive::{Subject, TOP};

@@ -3,7 +3,8 @@
 mod curves;
 mod firmware;
 
-use crate::support::{budget, edited_press};
+use crate::brute;
+use crate::support::{budget, edited_press, near, press_file};
 use jred_machine::analysis::duty::{Duty, STEPS};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::read;
@@ -64,5 +65,53 @@ fn limits_are_those_of_the_rules() {
         assert!(source.contains("// No limit `peak`: the rule \"peak torque\" is not checked."));
         assert!(source.contains("not monitored by the meter:"));
         assert!(!source.contains(".with_peak("));
+    });
+}
+
+/// The figures of the cycle in the source are those of plain loops over its samples: with a drive to which energy comes back.
+#[test]
+fn sized_figures_are_those_of_the_samples() {
+    let file = read::read(&press_file().with_file_name("hoist.toml")).unwrap();
+    with_limits(&file, |context, limits| {
+        let source = limits.source("hoist.toml");
+        let sized = source.split_once("pub const SIZED").unwrap().1;
+        let of = |name: &str| -> f64 {
+            let after = sized.split_once(&format!("    {name}: ")).unwrap().1;
+            let figure = after.split_once(',').unwrap().0;
+            figure.replace('_', "").parse().unwrap()
+        };
+        let (cycle, c, ratio) = (context.cycle, &context.coefficients, context.ratio);
+        let [motoring, back] = brute::energies(cycle, c, ratio);
+        assert!(
+            back > 1.0 && motoring > 1.0 && cycle.duration() != 1.0,
+            "the case shows nothing"
+        );
+        let speeds = || {
+            cycle
+                .samples()
+                .iter()
+                .map(|s| (s.weight, s.speed().abs() * ratio))
+        };
+        let time: f64 = cycle.samples().iter().map(|s| s.weight).sum();
+        let turned: f64 = speeds().map(|(weight, speed)| weight * speed).sum();
+        let fastest = speeds().map(|(_, speed)| speed).fold(0.0, f64::max);
+        for (name, expected) in [
+            ("rms_torque", brute::rms_torque(cycle, c)),
+            ("mean_speed", turned / time),
+            ("output_mean", brute::mean_output_torque(cycle, 3.0)),
+            ("motoring_power", motoring / time),
+            ("regenerative_power", back / time),
+            ("motoring_energy", motoring),
+            ("regenerative_energy", back),
+            ("duration", time),
+            ("peak_speed", fastest),
+            ("output_peak", brute::peak_output_torque(cycle)),
+            // Once up and once down.
+            ("cycles_per_hour", 3600.0 * 2.0 / time),
+        ] {
+            // Written in single precision.
+            near(name, of(name), expected, 1e-6);
+        }
+        assert!((of("cycles") - 2.0).abs() < 0.5);
     });
 }

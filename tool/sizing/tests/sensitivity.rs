@@ -3,8 +3,9 @@
 mod tolerance;
 
 use std::path::Path;
+use std::sync::Arc;
 
-use crate::support::{Folder, budget, near, press_text, within};
+use crate::support::{Folder, budget, near, press_file, press_text, within};
 use jred_machine::analysis::duty::{Duty, Instant};
 use jred_machine::model::rule::Rule;
 use jred_machine::read;
@@ -16,6 +17,7 @@ use jred_sizing::judge::Context;
 use jred_sizing::select::filter::Filter;
 use jred_sizing::study::chosen::ChosenDrive;
 use jred_sizing::study::common::Study;
+use jred_sizing::study::edit::Edit;
 use jred_sizing::study::sensitivity::{Reach, Room, Sensitivity};
 
 /// A motor that limits nothing by its speed, and no gearbox.
@@ -142,6 +144,48 @@ fn slope_of_the_rms_torque_by_the_duty_itself() {
     );
 }
 
+/// A study keeps its cycle where a quantity is moved that only the drive's surroundings, or the rules, have: it is the cycle that reading
+/// and sampling the changed machine anew gives, for these and for all others.
+#[test]
+fn some_sections_do_not_reach_the_cycle() {
+    const STEPS: usize = 60;
+    let mut kept = 0;
+    for name in ["hoist", "press", "rack", "toggle-press", "turntable"] {
+        let path = press_file().with_file_name(format!("{name}.toml"));
+        let study = Study::open(&path, strong(), None, STEPS).unwrap();
+        let nominal = study.machine(&[]).unwrap().cycle;
+        for (quantity, found) in study.document.quantities().iter().enumerate() {
+            let edit = Edit {
+                quantity,
+                number: found.number() * 1.001,
+                unit: found.unit(),
+            };
+            let text = study.document.with(std::slice::from_ref(&edit));
+            let anew = read::parse(&study.name, &text, path.parent().unwrap());
+            let machine = study.machine(&[edit]);
+            let (Ok(anew), Ok(machine)) = (&anew, &machine) else {
+                assert_eq!(anew.is_ok(), machine.is_ok(), "{name}: {}", found.path);
+                continue;
+            };
+            let duty = Duty::new(anew, anew.motion.as_ref().unwrap(), STEPS).unwrap();
+            let expected = Cycle::new(&duty);
+            let at = format!("{name}: {}", found.path);
+            assert_eq!(machine.cycle.samples(), expected.samples(), "{at}");
+            assert_eq!(machine.cycle.hold_torque(), expected.hold_torque(), "{at}");
+            let mechanics = |cycle: &Cycle| format!("{:?}", cycle.mechanics());
+            assert_eq!(mechanics(&machine.cycle), mechanics(&expected), "{at}");
+            assert_eq!(
+                format!("{:?}", machine.file.site),
+                format!("{:?}", anew.site),
+                "{at}"
+            );
+            kept += usize::from(Arc::ptr_eq(&machine.cycle, &nominal));
+        }
+    }
+    // Those of the hoist's supply alone are eight.
+    assert!(kept >= 8, "{kept} quantities kept the cycle");
+}
+
 /// The room up to a rule's limit, in closed form: torque and speed of a conveyor at constant speed.
 #[test]
 fn room_in_closed_form() {
@@ -238,7 +282,7 @@ fn just_beyond_its_room_a_quantity_breaks_the_rule() {
             };
             let quantity = &study.document.quantities()[dependence.quantity];
             let judge = |change: f64| {
-                let edit = jred_sizing::study::edit::Edit {
+                let edit = Edit {
                     quantity: dependence.quantity,
                     number: quantity.number() * (1.0 + change),
                     unit: quantity.unit(),

@@ -45,6 +45,7 @@ impl Watch for Bar<'_> {
 /// # Errors
 /// Bad input.
 pub fn run(options: &Options) -> Result<Done> {
+    bounded(options)?;
     let catalogue = options.catalogue.open()?;
     let files = options.files.iter().map(|path| read::read(path));
     let mut files = files.collect::<Result<Vec<MachineFile>>>()?;
@@ -78,6 +79,22 @@ pub fn run(options: &Options) -> Result<Done> {
     } else {
         Done::Violated
     })
+}
+
+/// Most time steps of all axes together: some 150 bytes each.
+const MOST_STEPS: usize = 2_000_000;
+
+/// Refuses more axes than memory is meant for at so many steps.
+fn bounded(options: &Options) -> Result<()> {
+    let (axes, steps) = (options.files.len(), options.steps as usize);
+    if axes * steps <= MOST_STEPS {
+        return Ok(());
+    }
+    Err(miette!(
+        help = format!("use --steps {} or fewer", MOST_STEPS / axes),
+        "{axes} axes of {steps} steps are too many: {} in all, at most {MOST_STEPS}",
+        axes * steps
+    ))
 }
 
 /// The supply of the bus, and the site for each axis. One file describes the common bus; the others have no supply or the

@@ -2,7 +2,9 @@
 
 use serde_json::Value;
 
-use crate::support::{Folder, Run, budget, edited_press, jred, near, press_file, press_text};
+use crate::support::{
+    Folder, Run, budget, edited_press, jred, jred_with, near, press_file, press_text,
+};
 
 pub(super) const SUPPLY: &str = r#"
 [supply]
@@ -124,6 +126,18 @@ fn one_where_a_limit_is_passed_and_two_for_bad_input() {
     );
     let still = folder.file("still.toml", still);
     jred([&"bus", &still]).ends(2);
+}
+
+/// Memory for all axes together has a limit: eleven of the most steps are refused before a file is read, with what would do.
+#[test]
+fn more_steps_than_memory_is_meant_for_are_refused() {
+    let mut words = vec!["bus"];
+    words.extend(["nowhere.toml"; 11]);
+    words.extend(["--steps", "200000"]);
+    jred_with(&words).ends(2).says(&[
+        "11 axes of 200000 steps are too many",
+        "use --steps 181818 or fewer",
+    ]);
 }
 
 /// A bus of which little is known: what is not checked is said, with what is missing, and nothing passes in silence.

@@ -2,7 +2,7 @@
 
 use jred::machine::TorqueTerms;
 use jred::mechanism::TrainOutput;
-use jred::{Domain, Error, Reducible as _};
+use jred::{Domain, Error, Reducible as _, Reduction};
 
 use crate::analysis::mechanics::Mechanics;
 use crate::model::coordinate;
@@ -55,9 +55,9 @@ pub struct Duty {
 /// Default number of time steps of a cycle.
 pub const STEPS: usize = 2000;
 
-/// On which side of an edge the drive link is at a time; on a turn, after how many of its passages.
-fn side(file: &MachineFile, motion: &Motion, t: f64, edge: f64) -> i64 {
-    let beyond = motion.at(t).phi - edge;
+/// On which side of an edge the drive link is at φ; on a turn, after how many of its passages.
+fn side(file: &MachineFile, phi: f64, edge: f64) -> i64 {
+    let beyond = phi - edge;
     if file.machine.domain() == Domain::Turn {
         (beyond / std::f64::consts::TAU).floor() as i64
     } else {
@@ -73,7 +73,10 @@ fn edges(file: &MachineFile) -> Vec<f64> {
 /// How often the drive link passes an edge, at least: there and back within a piece of the motion is not counted.
 pub(crate) fn passages(file: &MachineFile, motion: &Motion) -> u64 {
     let edges = edges(file);
-    let sides = |t: f64| edges.iter().map(move |&edge| side(file, motion, t, edge));
+    let sides = |t: f64| {
+        let phi = motion.at(t).phi;
+        edges.iter().map(move |&edge| side(file, phi, edge))
+    };
     let passed = motion.stretches().into_iter().flat_map(|(from, to)| {
         let sides = sides(from).zip(sides(to));
         sides.map(|(from, to)| from.abs_diff(to))
@@ -81,16 +84,23 @@ pub(crate) fn passages(file: &MachineFile, motion: &Motion) -> u64 {
     passed.fold(0, u64::saturating_add)
 }
 
-/// Adds the times at which the side of an edge changes, by bisection; between them a step may hold any number of turns.
-fn crossings(side: &impl Fn(f64) -> i64, [from, to]: [f64; 2], least: f64, cuts: &mut Vec<f64>) {
-    if side(from) == side(to) {
+/// Adds the times at which the side of an edge changes, by bisection; between them a step may hold any number of turns. `from` and
+/// `to` are times with their sides.
+fn crossings(
+    side: &impl Fn(f64) -> i64,
+    [from, to]: [(f64, i64); 2],
+    least: f64,
+    cuts: &mut Vec<f64>,
+) {
+    if from.1 == to.1 {
         return;
     }
-    let middle = 0.5 * (from + to);
-    if to - from <= least || middle <= from || middle >= to {
-        cuts.push(to);
+    let middle = 0.5 * (from.0 + to.0);
+    if to.0 - from.0 <= least || middle <= from.0 || middle >= to.0 {
+        cuts.push(to.0);
         return;
     }
+    let middle = (middle, side(middle));
     crossings(side, [from, middle], least, cuts);
     crossings(side, [middle, to], least, cuts);
 }
@@ -103,22 +113,28 @@ pub(crate) fn smooth_stretches(
     steps: usize,
 ) -> Vec<(f64, f64)> {
     let edges = edges(file);
-    let turns = |t: f64, edge: f64| side(file, motion, t, edge);
+    let least = 1e-13 * motion.duration();
     let mut stretches = Vec::new();
     for (from, to) in motion.stretches() {
+        if edges.is_empty() {
+            stretches.push((from, to));
+            continue;
+        }
         let n = ((steps as f64 * (to - from) / motion.duration()).ceil() as usize).max(16);
         let mut cuts = Vec::new();
-        for k in 0..n {
-            let time = |k: usize| from + (to - from) * k as f64 / n as f64;
+        let place = |k: usize| {
+            let t = from + (to - from) * k as f64 / n as f64;
+            (t, motion.at(t).phi)
+        };
+        let mut start = place(0);
+        for k in 1..=n {
+            let end = place(k);
             for &edge in &edges {
-                let least = 1e-13 * motion.duration();
-                crossings(
-                    &|t| turns(t, edge),
-                    [time(k), time(k + 1)],
-                    least,
-                    &mut cuts,
-                );
+                let step = [start, end].map(|(t, phi)| (t, side(file, phi, edge)));
+                let at = |t: f64| side(file, motion.at(t).phi, edge);
+                crossings(&at, step, least, &mut cuts);
             }
+            start = end;
         }
         cuts.sort_by(f64::total_cmp);
         let shortest = 1e-9 * motion.duration();
@@ -147,8 +163,7 @@ const MOST_INSTANTS: f64 = 1e6;
 /// distance h any peak stands out by at most T″·h²/8, whatever a motor's own inertia, which bends little, adds to it. A step is
 /// cut into at most so many parts.
 fn refine_bends(
-    file: &MachineFile,
-    motion: &Motion,
+    moving: &mut Moving,
     first: usize,
     most_parts: f64,
     instants: &mut Vec<Instant>,
@@ -173,7 +188,7 @@ fn refine_bends(
         };
         for k in 1..parts {
             let t = b.t + (c.t - b.t) * f64::from(k) / f64::from(parts);
-            fine.push(Instant::new(file, motion, t, 0.0)?);
+            fine.push(Instant::new(moving, t, 0.0)?);
         }
     }
     instants.extend(fine);
@@ -184,13 +199,33 @@ fn refine_bends(
     Ok(())
 }
 
+/// The machine in its motion. A dwell asks for one position at every step of time: the last one is kept.
+struct Moving<'a> {
+    file: &'a MachineFile,
+    motion: &'a Motion,
+    last: Option<(f64, Reduction)>,
+}
+
+impl Moving<'_> {
+    fn reduction(&mut self, phi: f64) -> Result<Reduction, Error> {
+        if let Some((place, reduction)) = &self.last
+            && place.to_bits() == phi.to_bits()
+        {
+            return Ok(*reduction);
+        }
+        let reduction = self.file.bare_reduction(phi)?;
+        self.last = Some((phi, reduction));
+        Ok(reduction)
+    }
+}
+
 impl Instant {
     /// The machine at time `t` of its motion.
-    fn new(file: &MachineFile, motion: &Motion, t: f64, weight: f64) -> Result<Self, Error> {
-        let train = &file.drive_train;
+    fn new(moving: &mut Moving, t: f64, weight: f64) -> Result<Self, Error> {
+        let train = &moving.file.drive_train;
         let ratio = train.ratio();
-        let state = motion.at(t);
-        let reduction = file.bare_reduction(state.phi)?;
+        let state = moving.motion.at(t);
+        let reduction = moving.reduction(state.phi)?;
         let inertia = reduction.inertia;
         let terms = reduction.torque(state.omega, state.alpha);
         let input = train.input(&TrainOutput {
@@ -227,6 +262,11 @@ impl Duty {
         const INSIDE: f64 = 1e-9;
         let duration = motion.duration();
         let mut instants = Vec::with_capacity(steps + 1024);
+        let mut moving = Moving {
+            file,
+            motion,
+            last: None,
+        };
         let stretches = smooth_stretches(file, motion, steps);
         let parts = |(from, to): (f64, f64)| {
             let share = (steps as f64 * (to - from) / duration / 2.0).ceil();
@@ -247,9 +287,9 @@ impl Duty {
                 } * step
                     / 3.0;
                 let place = (k as f64 / n as f64).clamp(INSIDE, 1.0 - INSIDE);
-                instants.push(Instant::new(file, motion, from + place * span, weight)?);
+                instants.push(Instant::new(&mut moving, from + place * span, weight)?);
             }
-            refine_bends(file, motion, first, most_parts, &mut instants)?;
+            refine_bends(&mut moving, first, most_parts, &mut instants)?;
         }
         let ratio = file.drive_train.ratio();
         let mut hold_torque = 0.0f64;

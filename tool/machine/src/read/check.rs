@@ -32,6 +32,7 @@ pub(super) fn inertia(file: &MachineFile, mechanism: &Section) -> Result<()> {
     let (from, to) = (domain.position(0.0), domain.position(1.0));
     let step = domain.span() / f64::from(SAMPLES);
     let (mut largest, mut smallest, mut place) = (0.0_f64, f64::INFINITY, from);
+    let (mut before, mut steepest) = (None, 0.0_f64);
     for k in 0..=SAMPLES {
         let phi = domain.position(f64::from(k) / f64::from(SAMPLES));
         let value = inertia(phi)?;
@@ -39,6 +40,12 @@ pub(super) fn inertia(file: &MachineFile, mechanism: &Section) -> Result<()> {
         if value < smallest {
             (smallest, place) = (value, phi);
         }
+        steepest = steepest.max((value - before.unwrap_or(value)).abs());
+        before = Some(value);
+    }
+    // Far from zero, as usual: between two samples it falls no further than it changes from one to the next anywhere.
+    if smallest - steepest > ZERO * largest {
+        return Ok(());
     }
     // Between the samples the smallest value is found by thirds.
     let (low, high) = match domain {

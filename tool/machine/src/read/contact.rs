@@ -1,5 +1,7 @@
 //! Checks that followers stay on their cams and ropes stay taut during the prescribed motion.
 
+use std::cell::Cell;
+
 use jred::machine::Mechanism as _;
 use jred::{Error, Reducible as _};
 
@@ -36,9 +38,19 @@ fn holds(file: &MachineFile, mechanism: &Section, motion: &Motion, joint: OneWay
             .problem(error.to_string(), "in this mechanism")
             .help(error.cure().to_string())
     };
+    // A dwell asks for the same state at every sample.
+    let last: Cell<Option<([f64; 3], f64)>> = Cell::new(None);
     let force = |t: f64| {
         let state = motion.at(t);
-        joint.force(&file.machine, [state.phi, state.omega, state.alpha])
+        let state = [state.phi, state.omega, state.alpha];
+        if let Some((known, force)) = last.get()
+            && known.map(f64::to_bits) == state.map(f64::to_bits)
+        {
+            return Ok(force);
+        }
+        let force = joint.force(&file.machine, state)?;
+        last.set(Some((state, force)));
+        Ok(force)
     };
     // The pull of a rope goes with the motion alone, unless a load has edges or a table.
     let moved = file.machine.mechanism();

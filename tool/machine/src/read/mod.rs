@@ -133,10 +133,23 @@ pub fn parse(
     text: &str,
     files: impl Files,
 ) -> std::result::Result<MachineFile, Report> {
-    machine(name, text, &files).map_err(|problem| problem.into_report(name, text))
+    machine(name, text, &files, true).map_err(|problem| problem.into_report(name, text))
 }
 
-fn machine(name: &str, text: &str, files: &dyn Files) -> Result<MachineFile> {
+/// The same for a `text` that differs from one read before in nothing of the machine and its motion: their checks, which take
+/// most of the time, are not repeated.
+///
+/// # Errors
+/// Those of [`parse`].
+pub fn parse_around(
+    name: &str,
+    text: &str,
+    files: impl Files,
+) -> std::result::Result<MachineFile, Report> {
+    machine(name, text, &files, false).map_err(|problem| problem.into_report(name, text))
+}
+
+fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<MachineFile> {
     if text.len() as u64 > MAX_SIZE {
         let why = file::too_large(&file::size(text.len() as u64), MAX_SIZE);
         return Err(
@@ -226,8 +239,10 @@ fn machine(name: &str, text: &str, files: &dyn Files) -> Result<MachineFile> {
             ..site
         },
     };
-    check::inertia(&file, &section)?;
-    check::passages(&file, &root)?;
-    contact::check(&file, &section)?;
+    if moves {
+        check::inertia(&file, &section)?;
+        check::passages(&file, &root)?;
+        contact::check(&file, &section)?;
+    }
     Ok(file)
 }

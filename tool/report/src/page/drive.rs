@@ -4,13 +4,15 @@ use jred::{Error, Reducible as _};
 
 use super::chart::{Chart, ChartKind};
 use super::figures::{dashed, line};
+use super::thinned::kept;
 use crate::plot::{Axes, Axis, Series, Style};
-use jred_machine::analysis::duty::Duty;
+use jred_machine::analysis::duty::{Duty, Instant};
 use jred_machine::model::coordinate::whole_range;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::units::Vocabulary;
+use jred_sizing::cycle::form::MotorPoint;
 use jred_sizing::explain::{Contributions, Effect, ratio_course};
 use jred_sizing::judge::Context;
 use jred_sizing::judge::Judged;
@@ -43,15 +45,26 @@ impl Subject<'_> {
         format!("{what} {torque} [{}]", dotted(torque.unit))
     }
 
-    /// (time, value) at every instant.
-    fn over_time(&self, value: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
-        let instants = self.duty.instants.iter();
-        instants
-            .map(|i| {
-                let point = self.judged.drive.motor_point(i);
-                (i.t, value(point.torque, point.speed))
-            })
-            .collect()
+    /// (time, value) over the cycle of values that are drawn together: they share their times.
+    fn over_time<const N: usize>(
+        &self,
+        values: [&dyn Fn(&Instant) -> f64; N],
+    ) -> [Vec<(f64, f64)>; N] {
+        let instants = &self.duty.instants;
+        let at = values.map(|value| move |k: usize| value(&instants[k]));
+        let kept = kept(
+            instants.len(),
+            &at.each_ref().map(|at| at as &dyn Fn(usize) -> f64),
+        );
+        let course = |value: &dyn Fn(&Instant) -> f64| {
+            let drawn = kept.iter().map(|&k| &instants[k]);
+            drawn.map(|i| (i.t, value(i))).collect()
+        };
+        values.map(course)
+    }
+
+    fn motor_point(&self, instant: &Instant) -> MotorPoint {
+        self.judged.drive.motor_point(instant)
     }
 
     fn level(&self, value: f64) -> Vec<(f64, f64)> {
@@ -64,10 +77,12 @@ impl Subject<'_> {
         let words = self.words();
         let envelope = &self.context.motor.envelope;
         let scale = words.speed.scale;
-        let points = self.duty.instants.iter().map(|i| {
-            let point = self.judged.drive.motor_point(i);
-            (point.speed / scale, point.torque)
-        });
+        let at = |k: usize| self.motor_point(&self.duty.instants[k]);
+        let drawn = kept(
+            self.duty.instants.len(),
+            &[&|k| at(k).speed, &|k| at(k).torque],
+        );
+        let points = drawn.iter().map(|&k| (at(k).speed / scale, at(k).torque));
         let duty = &self.judged.duty;
         let top = match envelope.max_speed() {
             top if top.is_finite() => top,
@@ -122,7 +137,7 @@ impl Subject<'_> {
                 line(&names[5], cross(closest.speed / scale, closest.torque)),
             ],
         );
-        chart.with_times(DUTY, self.duty.instants.iter().map(|i| i.t))
+        chart.with_times(DUTY, drawn.iter().map(|&k| self.duty.instants[k].t))
     }
 
     /// Size of the plane's vertical axis.
@@ -139,14 +154,15 @@ impl Subject<'_> {
     pub(super) fn torque(&self) -> Chart {
         let motor = self.judged.drive.motor;
         let ratio = self.context.ratio;
-        let rotor = self.duty.instants.iter();
-        let rotor = rotor.map(|i| (i.t, motor.rotor_inertia * i.input_alpha * ratio));
+        let [torque, rotor] = self.over_time([&|i| self.motor_point(i).torque, &|i| {
+            motor.rotor_inertia * i.input_alpha * ratio
+        }]);
         let words = self.words();
         let own = format!("of which the {} itself", words.rotor);
         let axis = self.torque_axis("motor");
         let series = [
-            line(words.torque.word, self.over_time(|torque, _| torque)),
-            line(&own, rotor.collect()),
+            line(words.torque.word, torque),
+            line(&own, rotor),
             dashed("RMS", self.level(self.judged.duty.torque.rms)),
         ];
         Chart::new(ChartKind::Time, &time_axes(&axis), &series)
@@ -165,16 +181,22 @@ impl Subject<'_> {
                 None => sums.push((cell.effect, cell.torque.clone())),
             }
         }
-        let times = || self.duty.instants.iter().map(|i| i.t);
-        let acting = sums
+        sums.retain(|(_, values)| values.iter().any(|value| *value != 0.0));
+        let named: Vec<(String, Vec<f64>)> = sums
             .into_iter()
-            .filter(|(_, values)| values.iter().any(|value| *value != 0.0));
-        let named: Vec<(String, Vec<f64>)> = acting
             .map(|(effect, values)| (effect.name(self.words()), values))
             .collect();
+        let at: Vec<_> = named
+            .iter()
+            .map(|(_, values)| |k: usize| values[k])
+            .collect();
+        let at: Vec<&dyn Fn(usize) -> f64> = at.iter().map(|at| at as _).collect();
+        let instants = &self.duty.instants;
+        let drawn = kept(instants.len(), &at);
+        let course = |values: &[f64]| drawn.iter().map(|&k| (instants[k].t, values[k])).collect();
         let series: Vec<Series> = named
             .iter()
-            .map(|(name, values)| line(name, times().zip(values.iter().copied()).collect()))
+            .map(|(name, values)| line(name, course(values)))
             .collect();
         Chart::new(
             ChartKind::Time,
@@ -188,17 +210,18 @@ impl Subject<'_> {
         let words = self.words();
         let scale = words.speed.scale;
         let axis = format!("motor speed [{}]", words.speed.unit);
-        let speed = self.over_time(|_, speed| speed / scale);
+        let [speed] = self.over_time([&|i| self.motor_point(i).speed / scale]);
         Chart::new(ChartKind::Time, &time_axes(&axis), &[line("speed", speed)])
     }
 
     /// Mechanical power at the motor shaft.
     pub(super) fn power(&self) -> Chart {
         let mean = self.judged.duty.power.mean;
-        let series = [
-            line("power", self.over_time(|torque, speed| torque * speed)),
-            dashed("mean", self.level(mean)),
-        ];
+        let [power] = self.over_time([&|i| {
+            let point = self.motor_point(i);
+            point.torque * point.speed
+        }]);
+        let series = [line("power", power), dashed("mean", self.level(mean))];
         Chart::new(
             ChartKind::Time,
             &time_axes("power at the motor shaft [W]"),
@@ -208,12 +231,11 @@ impl Subject<'_> {
 
     /// Rises of winding and housing over the cycle, where they can be followed.
     pub(super) fn rises(&self) -> Option<Chart> {
-        let course = thinned(self.context.rises()?);
-        let body = |k: usize| {
-            course
-                .iter()
-                .map(|(t, rise)| (*t, rise[k]))
-                .collect::<Vec<_>>()
+        let course = self.context.rises()?;
+        let drawn = kept(course.len(), &[&|k| course[k].1[0], &|k| course[k].1[1]]);
+        let body = |body: usize| {
+            let drawn = drawn.iter().map(|&k| course[k]);
+            drawn.map(|(t, rise)| (t, rise[body])).collect()
         };
         let mut series = vec![line("winding", body(0))];
         if course.iter().any(|(_, rise)| rise[1] != 0.0) {
@@ -225,8 +247,9 @@ impl Subject<'_> {
 
     /// Voltage of the DC bus over the cycle, where it is known.
     pub(super) fn bus_voltage(&self) -> Option<Chart> {
-        let trace = thinned(self.context.bus_voltage());
-        let points: Vec<(f64, f64)> = trace.iter().map(|[t, voltage]| (*t, *voltage)).collect();
+        let trace = self.context.bus_voltage();
+        let drawn = kept(trace.len(), &[&|k| trace[k][1]]);
+        let points: Vec<(f64, f64)> = drawn.iter().map(|&k| trace[k].into()).collect();
         let axes = time_axes("voltage of the DC bus [V]");
         (!points.is_empty()).then(|| Chart::new(ChartKind::Time, &axes, &[line("bus", points)]))
     }
@@ -294,16 +317,6 @@ impl Subject<'_> {
         };
         Chart::new(ChartKind::Course, &axes, &series)
     }
-}
-
-/// So many points of a course, spread over it, that a chart shows no more.
-fn thinned<T: Copy>(course: Vec<T>) -> Vec<T> {
-    const MOST: usize = 3000;
-    let every = course.len().div_ceil(MOST).max(1);
-    let last = course.last().copied();
-    let mut kept: Vec<T> = course.into_iter().step_by(every).collect();
-    kept.extend(last);
-    kept
 }
 
 fn time_axes(y: &str) -> Axes<'_> {

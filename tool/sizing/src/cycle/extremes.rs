@@ -341,3 +341,6 @@ impl First<'_> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

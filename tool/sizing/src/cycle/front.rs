@@ -148,3 +148,6 @@ impl Front {
         floors
     }
 }
+
+#[cfg(test)]
+mod tests;

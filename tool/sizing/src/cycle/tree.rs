@@ -132,7 +132,7 @@ fn astray(from: &Sample, to: &Sample, sample: &Sample) -> [f64; LOADS] {
 }
 
 impl Node {
-    fn leaf(samples: &[Sample], first: usize, last: usize) -> Self {
+    pub(super) fn leaf(samples: &[Sample], first: usize, last: usize) -> Self {
         let (from, to) = (&samples[first], &samples[last]);
         let mut node = Self {
             first: first as u32,

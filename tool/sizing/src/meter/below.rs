@@ -332,3 +332,6 @@ impl Interval {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,5 +1,7 @@
 //! Data common to all machines of a study: the machine file, the catalogue, the time steps.
 
+use std::sync::{Arc, OnceLock};
+
 use miette::{IntoDiagnostic as _, Report, Result, miette};
 
 use super::edit::{Document, Edit};
@@ -32,6 +34,8 @@ pub struct Study {
     rules: Option<RuleSet>,
     /// Number of time steps per cycle.
     pub steps: usize,
+    /// The cycle of the machine as the file says, once it was asked for.
+    cycle: OnceLock<Arc<Cycle>>,
 }
 
 /// A machine ready to be sized.
@@ -40,8 +44,12 @@ pub struct PreparedMachine {
     /// The machine.
     pub file: MachineFile,
     /// Its cycle.
-    pub cycle: Cycle,
+    pub cycle: Arc<Cycle>,
 }
+
+/// Sections of a machine file that drives are judged by, and that neither machine nor motion depends on: the cycle is the same
+/// whatever they say (test `some_sections_do_not_reach_the_cycle`).
+const AROUND: [&str; 5] = ["supply.", "surroundings.", "stiffness.", "duty.", "rules."];
 
 impl Study {
     /// The study of the machine file at `path`: see [`Study::new`].
@@ -87,6 +95,7 @@ impl Study {
             catalogue,
             rules,
             steps,
+            cycle: OnceLock::new(),
         })
     }
 
@@ -160,13 +169,32 @@ impl Study {
     /// The errors of that machine.
     pub fn machine(&self, edits: &[Edit]) -> Result<PreparedMachine> {
         let text = self.document.with(edits);
-        let mut file = read::parse(&self.name, &text, &*self.files)?;
+        let around = edits.iter().all(|edit| self.is_around(edit.quantity));
+        let mut file = if around {
+            read::parse_around(&self.name, &text, &*self.files)?
+        } else {
+            read::parse(&self.name, &text, &*self.files)?
+        };
         if let Some(set) = &self.rules {
             file.rules = read::rules_based_on(&file.rules, set.clone())?;
         }
         sizeable(&file)?;
-        let cycle = cycle(&file, self.steps)?;
+        let known = self.cycle.get().filter(|_| around).cloned();
+        let cycle = match known {
+            Some(cycle) => cycle,
+            None => Arc::new(cycle(&file, self.steps)?),
+        };
+        if around {
+            // Another thread may have been first: the cycles are the same.
+            let _ = self.cycle.set(Arc::clone(&cycle));
+        }
         Ok(PreparedMachine { file, cycle })
+    }
+
+    /// Whether a quantity is one that the cycle does not depend on.
+    fn is_around(&self, quantity: usize) -> bool {
+        let quantity = self.document.quantities().get(quantity);
+        quantity.is_some_and(|q| AROUND.iter().any(|section| q.path.starts_with(section)))
     }
 }
 

@@ -10,6 +10,7 @@ pub mod axis;
 pub mod cell;
 pub mod chosen;
 pub mod common;
+mod edge;
 pub mod edit;
 pub mod grid;
 pub mod header;

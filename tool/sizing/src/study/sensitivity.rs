@@ -11,6 +11,7 @@ use crate::judge::Findings;
 use crate::judge::broken;
 use crate::study::chosen::ChosenDrive;
 use crate::study::common::{Study, sentence};
+use crate::study::edge::{Grid, Trial};
 use crate::study::edit::Edit;
 use crate::threads;
 use jred_machine::model::rule::Rule;
@@ -124,14 +125,26 @@ struct Mover<'a> {
     quantity: usize,
     number: f64,
     unit: &'a str,
+    /// The largest share of a limit as the file is.
+    load: f64,
 }
 
-/// Shares of the limits and the violated rule; or why the file was refused.
-type Judged = Result<(Vec<(Rule, f64)>, Option<Rule>), String>;
+/// A drive in a machine of which a quantity was moved.
+struct Judged {
+    /// Shares of the limits.
+    shares: Vec<(Rule, f64)>,
+    /// The violated rule.
+    broken: Option<Rule>,
+    /// The largest share of a limit that can refuse the drive: one where it begins to.
+    load: f64,
+}
+
+/// The drive as judged; or why the file was refused.
+type Tried = Result<Judged, String>;
 
 impl Mover<'_> {
     /// The drive with the quantity moved by a relative change.
-    fn at(&self, change: f64) -> Judged {
+    fn at(&self, change: f64) -> Tried {
         let edit = Edit {
             quantity: self.quantity,
             number: self.number * (1.0 + change),
@@ -143,23 +156,25 @@ impl Mover<'_> {
             .map_err(|report| sentence(&report))?;
         let findings = self.one.findings(&machine);
         let rules = &machine.file.rules;
-        Ok((shares(rules, &findings), broken(rules, &findings)))
+        Ok(Judged {
+            shares: shares(rules, &findings),
+            broken: broken(rules, &findings),
+            load: load(rules, &findings),
+        })
     }
 
-    /// (u(ε) − u(−ε))/(2ε) of every rule.
-    fn difference(&self, change: f64) -> Result<Vec<(Rule, f64)>, String> {
-        let (above, below) = (self.at(change)?.0, self.at(-change)?.0);
-        let pairs = above.iter().filter_map(|(rule, above)| {
-            let below = below.iter().find(|(other, _)| other == rule)?.1;
-            Some((*rule, (above - below) / (2.0 * change)))
-        });
-        Ok(pairs.collect())
-    }
-
-    fn slopes(&self, change: f64) -> Result<Vec<Slope>, String> {
-        let steps = [change, 0.5 * change, 0.25 * change];
-        let [coarse, middle, fine] = steps.map(|step| self.difference(step));
-        let (coarse, middle, fine) = (coarse?, middle?, fine?);
+    /// The slopes by `change`, and what that change makes of the drive, downwards and upwards.
+    fn slopes(&self, change: f64) -> Result<(Vec<Slope>, [Judged; 2]), String> {
+        // Upwards first: where both ends are refused, that is the reason given.
+        let ends = |step: f64| -> Result<[Judged; 2], String> {
+            let above = self.at(step)?;
+            Ok([self.at(-step)?, above])
+        };
+        let outer = ends(change)?;
+        let coarse = differences(&outer, change);
+        let [half, quarter] = [0.5 * change, 0.25 * change];
+        let middle = differences(&ends(half)?, half);
+        let fine = differences(&ends(quarter)?, quarter);
         let of = |all: &[(Rule, f64)], rule: Rule| Some(all.iter().find(|(r, _)| *r == rule)?.1);
         let slope = |(rule, fine): &(Rule, f64)| {
             let (coarse, middle) = (of(&coarse, *rule)?, of(&middle, *rule)?);
@@ -172,40 +187,63 @@ impl Mover<'_> {
                 uncertainty: (second - first).abs(),
             })
         };
-        Ok(fine.iter().filter_map(slope).collect())
+        Ok((fine.iter().filter_map(slope).collect(), outer))
     }
 
-    /// Room of the quantity in the direction of `sign`, by doubling steps, then bisection.
-    fn room(&self, sign: f64, reach: Reach) -> Room {
-        const HALVINGS: u32 = 16;
-        let (mut held, mut tried) = (0.0, reach.change);
+    /// Room of the quantity in the direction of `sign`, by doubling steps, then on a [`Grid`] of the last; `first` is the drive at the first.
+    fn room(&self, sign: f64, reach: Reach, first: Judged) -> Room {
+        let (mut held, mut tried) = ((0.0, self.load), reach.change);
+        let mut there = Ok(first);
         let stopped = loop {
-            match self.at(sign * tried) {
-                Ok((_, None)) => held = tried,
+            match there {
+                Ok(Judged {
+                    broken: None, load, ..
+                }) => held = (tried, load),
                 stopped => break stopped,
             }
             if tried >= reach.most {
                 return Room::AtLeast(sign * tried);
             }
             tried = (2.0 * tried).min(reach.most);
+            there = self.at(sign * tried);
         };
-        let mut stopped = stopped;
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (held + tried);
-            match self.at(sign * middle) {
-                Ok((_, None)) => held = middle,
-                other => {
-                    tried = middle;
-                    stopped = other;
-                }
-            }
-        }
+        let trial = |what: Tried| Trial {
+            holds: matches!(what, Ok(Judged { broken: None, .. })),
+            // No file, no share: the step is halved there.
+            height: what.as_ref().map_or(f64::NAN, |judged| judged.load - 1.0),
+            what,
+        };
+        let grid = Grid {
+            from: held.0,
+            to: tried,
+        };
+        let at = |change: f64| trial(self.at(sign * change));
+        let (held, stopped) = grid.last_held(held.1 - 1.0, trial(stopped), at);
         match stopped {
-            Ok((_, Some(rule))) => Room::UpTo(sign * held, rule),
+            Ok(Judged {
+                broken: Some(rule), ..
+            }) => Room::UpTo(sign * held, rule),
             Err(why) => Room::Refused(sign * held, why),
-            Ok((_, None)) => Room::AtLeast(sign * held),
+            Ok(Judged { broken: None, .. }) => Room::AtLeast(sign * held),
         }
     }
+}
+
+/// The largest share of a limit that can refuse a drive.
+fn load(rules: &RuleSet, findings: &Findings) -> f64 {
+    let uses = findings
+        .iter()
+        .map(|(rule, finding)| rules.use_of_limit(rule, finding));
+    uses.fold(0.0, f64::max)
+}
+
+/// (u(ε) − u(−ε))/(2ε) of every rule.
+fn differences([below, above]: &[Judged; 2], change: f64) -> Vec<(Rule, f64)> {
+    let pairs = above.shares.iter().filter_map(|(rule, above)| {
+        let below = below.shares.iter().find(|(other, _)| other == rule)?.1;
+        Some((*rule, (above - below) / (2.0 * change)))
+    });
+    pairs.collect()
 }
 
 impl Sensitivity {
@@ -223,6 +261,7 @@ impl Sensitivity {
         let findings = one.findings(&machine);
         let rules = &machine.file.rules;
         let holds = broken(rules, &findings).is_none();
+        let load = load(rules, &findings);
         // The free motion of `[simulation]` and the scatter of `[tolerance]` have no bearing on sizing.
         let apart = |path: &str| {
             ["simulation.", "tolerance."]
@@ -240,14 +279,15 @@ impl Sensitivity {
                     quantity: index,
                     number: quantity.number(),
                     unit: quantity.unit(),
+                    load,
                 };
                 let dependence = if quantity.number() == 0.0 {
                     Err("zero has no relative change".to_owned())
                 } else {
-                    mover.slopes(reach.change).map(|slopes| {
-                        let room = |sign| {
+                    mover.slopes(reach.change).map(|(slopes, [below, above])| {
+                        let room = |sign, first| {
                             if holds {
-                                mover.room(sign, reach)
+                                mover.room(sign, reach, first)
                             } else {
                                 Room::Broken
                             }
@@ -255,7 +295,7 @@ impl Sensitivity {
                         Dependence {
                             quantity: index,
                             slopes,
-                            room: [room(-1.0), room(1.0)],
+                            room: [room(-1.0, below), room(1.0, above)],
                         }
                     })
                 };

@@ -232,6 +232,52 @@ fn a_resistor_is_screened_as_in_full() {
     assert!(large[0] > 0, "{large:?}");
 }
 
+/// Without an amplifier too, the highest voltage of the bus decides, though other figures are missing: what comes back charges a
+/// small capacitor far beyond it.
+#[test]
+fn a_voltage_is_screened_as_in_full() {
+    let text = press_text();
+    let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 300).unwrap();
+    let cycle = Cycle::new(&duty);
+    let [small, large] = [1e-6, 1.0].map(|capacitance| {
+        let mut site = Site::default();
+        site.bus_voltage = Some(300.0);
+        site.supply.capacitance = Some(capacitance);
+        site.supply.max_voltage = Some(400.0);
+        compare(&with_more_ratios(), &cycle, &site, &RuleSet::default())
+    });
+    assert!(small[0] < large[0], "{small:?} {large:?}");
+}
+
+/// A drive is itself, and no other is it: in whichever order and selection it stands.
+#[test]
+fn a_drive_is_the_same_as_itself_alone() {
+    let text = press_text();
+    let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 100).unwrap();
+    let cycle = Cycle::new(&duty);
+    let catalogue = Catalogue::load(None, None).unwrap();
+    let (site, rules) = (Site::default(), RuleSet::default());
+    let motors = catalogue.prepare(&site);
+    let selections = [0, 1].map(|_| Selection::new(&catalogue, &motors, &cycle, &site, &rules));
+    let [one, other] = selections
+        .each_ref()
+        .map(|selection| selection.first_refused(20));
+    assert!(one.len() == 20 && other.len() == 20);
+    for (k, a) in one.iter().enumerate() {
+        for (l, b) in other.iter().enumerate() {
+            assert_eq!(
+                a.is_same_drive(b),
+                k == l,
+                "{} and {}",
+                a.drive.name(),
+                b.drive.name()
+            );
+        }
+    }
+}
+
 /// A catalogue of which every drive is equal: they stand in the order of the catalogue.
 #[test]
 fn equal_drives_stand_in_the_order_of_the_catalogue() {

@@ -3,7 +3,7 @@
 use jred_machine::model::site::Site;
 use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Motor, Winding};
-use jred_sizing::motor::envelope::Envelope;
+use jred_sizing::motor::envelope::{Envelope, Prepared};
 
 use super::{RPM, bare, budget, near, servo, site};
 
@@ -157,6 +157,65 @@ fn where_the_field_cannot_be_weakened_enough_the_speed_ends() {
         "{top}"
     );
     assert_eq!(envelope.peak_torque(1.0, 1.001 * top), 0.0);
+}
+
+/// Whether the field is weakened follows from the data sheet's own voltage: only there a stated speed above the winding's no-load speed,
+/// V/k_e with the amplitude of the phase voltage, shows that the sheet reckons with it. The supply of the day changes nothing.
+#[test]
+fn the_sheets_voltage_says_whether_the_field_is_weakened() {
+    let mut motor = servo();
+    // Largest line-to-line RMS voltage: 560 V/√2.
+    let no_load = 560.0 / 2f64.sqrt() / (0.85 / 3f64.sqrt());
+    let weakens = |motor: &Motor, bus: f64| {
+        let prepared = Prepared::new(motor, None, &site(bus));
+        prepared.circuit.unwrap().weakens
+    };
+    for bus in [280.0, 560.0, 1120.0] {
+        motor.max_speed = Some(0.9 * no_load);
+        assert!(!weakens(&motor, bus), "{bus} V");
+        motor.max_speed = Some(1.1 * no_load);
+        assert!(weakens(&motor, bus), "{bus} V");
+    }
+}
+
+/// Beyond the speed at which the magnets take the whole voltage there is no current, along the speed or against it; nor at a speed
+/// that is no number.
+#[test]
+fn beyond_the_no_load_speed_there_is_no_current() {
+    let circuit = Prepared::new(&servo(), None, &Site::default())
+        .circuit
+        .unwrap();
+    assert!(!circuit.weakens);
+    for braking in [false, true] {
+        let at = |share: f64| circuit.largest_current(share * circuit.no_load_speed(), braking);
+        assert!(at(0.9) > 0.0);
+        for share in [1.001, 1.5, 100.0, f64::NAN] {
+            assert_eq!(at(share).to_bits(), 0, "{share} times the no-load speed");
+        }
+    }
+}
+
+/// A winding without reactance cannot weaken its field: a sheet that states a corner and a speed beyond the no-load speed that the
+/// corner gives knows more than the winding, and is used. Up to that speed the winding is used.
+#[test]
+fn a_sheet_beyond_its_winding_is_used() {
+    let mut motor = direct_current();
+    motor.peak_torque = Some(1.0);
+    motor.corner_speed = Some(200.0);
+    // 20 A at 0.4 Ω, and 0.05 V·s/rad at the corner: 18 V, and so 360 rad/s without a load.
+    let from_winding = |motor: &Motor| {
+        Prepared::new(motor, None, &Site::default())
+            .circuit
+            .is_some()
+    };
+    motor.max_speed = Some(350.0);
+    assert!(from_winding(&motor));
+    motor.max_speed = Some(370.0);
+    assert!(!from_winding(&motor));
+    // Without a corner there is nothing but the winding.
+    motor.corner_speed = None;
+    motor.max_speed = Some(1000.0);
+    assert!(from_winding(&motor));
 }
 
 fn direct_current() -> Motor {

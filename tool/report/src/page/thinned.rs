@@ -1,0 +1,82 @@
+//! The points of a long course that a chart can show.
+
+/// Courses up to this length are drawn as they are. A plot is 700 pixels wide; zoomed in ten times it still shows a course of
+/// this length as it is.
+const WHOLE: usize = 8000;
+
+/// Parts of a longer one: of each its ends, and the least and the largest of every value.
+const PARTS: usize = 1500;
+
+/// The places, rising, of the points to draw of `count`: all of them, or those that no line through the others would show. The
+/// extremes of each of the `values`, at a place, are among them.
+pub(super) fn kept(count: usize, values: &[&dyn Fn(usize) -> f64]) -> Vec<usize> {
+    if count <= WHOLE {
+        return (0..count).collect();
+    }
+    let mut kept = Vec::new();
+    for part in 0..PARTS {
+        let (from, to) = (part * count / PARTS, (part + 1) * count / PARTS);
+        let first = kept.len();
+        kept.extend([from, to - 1]);
+        for value in values {
+            let (mut least, mut most) = ((f64::INFINITY, from), (f64::NEG_INFINITY, from));
+            for place in from..to {
+                let here = value(place);
+                if here < least.0 {
+                    least = (here, place);
+                }
+                if here > most.0 {
+                    most = (here, place);
+                }
+            }
+            kept.extend([least.1, most.1]);
+        }
+        kept[first..].sort_unstable();
+    }
+    kept.dedup();
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_short_course_is_whole() {
+        let level = |_: usize| 1.0;
+        assert_eq!(kept(WHOLE, &[&level]), (0..WHOLE).collect::<Vec<_>>());
+        assert!(kept(0, &[&level]).is_empty());
+    }
+
+    /// One point alone stands out upwards, another one in another value downwards: both are kept, with the ends, of a million.
+    #[test]
+    fn the_extremes_of_every_value_are_kept() {
+        const COUNT: usize = 1_000_000;
+        let up = |k: usize| if k == 123_457 { 2.0 } else { (k as f64).sin() };
+        let down = |k: usize| if k == 765_432 { -9.0 } else { k as f64 };
+        let kept = kept(COUNT, &[&up, &down]);
+        assert!(kept.is_sorted_by(|a, b| a < b));
+        for place in [0, 123_457, 765_432, COUNT - 1] {
+            assert!(kept.contains(&place), "{place}");
+        }
+        assert!(kept.len() <= 6 * PARTS, "{}", kept.len());
+        // No gap is wider than a part.
+        assert!(
+            kept.windows(2)
+                .all(|two| two[1] - two[0] <= COUNT / PARTS + 1)
+        );
+    }
+
+    /// What is no number hides no extreme.
+    #[test]
+    fn gaps_do_not_hide_extremes() {
+        let value = |k: usize| {
+            if k % 3 == 0 {
+                f64::NAN
+            } else {
+                -((k as f64) - 5000.0).abs()
+            }
+        };
+        assert!(kept(2 * WHOLE, &[&value]).contains(&5000));
+    }
+}

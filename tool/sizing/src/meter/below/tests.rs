@@ -1,0 +1,92 @@
+//! Which lines of a curve keep within the bounds on their way.
+
+use super::*;
+
+/// A tunnel between a limit that falls, is level and falls again, and so much below it.
+fn tunnel() -> Tunnel {
+    let at = |speed: f64| (10.0 - speed).max(6.0).min(14.0 - speed);
+    let speeds: Vec<f32> = (0..13_u8).map(f32::from).collect();
+    let between = speeds.windows(2).map(|pair| Interval {
+        ends: [pair[0], pair[1]].map(|speed| at(f64::from(speed))),
+        loose: 0.0,
+    });
+    Tunnel {
+        most: speeds.iter().map(|speed| at(f64::from(*speed))).collect(),
+        between: between.collect(),
+        speeds,
+    }
+}
+
+/// Every line from a place, by every slope: those that `reach` gives for a place are those that lie below the limit up to there and
+/// no further below it than allowed before.
+#[test]
+fn a_line_that_is_taken_keeps_within_the_bounds() {
+    let (tunnel, shortfall) = (tunnel(), 0.2);
+    let count = tunnel.speeds.len();
+    let speed = |place: usize| f64::from(tunnel.speeds[place]);
+    for from in 0..count {
+        for share in [0.0, 0.5, 1.0] {
+            let lowest = tunnel.least(from, shortfall);
+            let start = tunnel.most[from] + share * (lowest - tunnel.most[from]);
+            let mut taken = vec![None; count];
+            tunnel.reach(from, start, shortfall, |place, slopes, span| {
+                assert_eq!(span, speed(place) - speed(from));
+                assert!(taken[place].replace(slopes).is_none(), "{place} twice");
+            });
+            for to in from + 1..count {
+                for step in -300..=100 {
+                    // No line ends on a bound exactly: the two sides may round differently.
+                    let slope = 0.01 * f64::from(step) + 1.7e-4;
+                    let line = |place: usize| start + slope * (speed(place) - speed(from));
+                    let below = (from + 1..=to).all(|place| line(place) <= tunnel.most[place]);
+                    let above =
+                        (from + 1..to).all(|place| line(place) >= tunnel.least(place, shortfall));
+                    let found =
+                        taken[to].is_some_and(|[least, most]| least <= slope && slope <= most);
+                    assert_eq!(found, below && above, "{from} to {to}, {start} by {slope}");
+                }
+            }
+        }
+    }
+}
+
+/// A line on a level limit is taken, though both round: from speed 4 to 8 the limit is 6.
+#[test]
+fn a_line_on_the_limit_is_taken() {
+    for limit in [6.0, 0.1, 1e5 / 3.0] {
+        let mut tunnel = tunnel();
+        for interval in &mut tunnel.between[4..8] {
+            interval.ends = [limit; 2];
+        }
+        let mut taken = Vec::new();
+        tunnel.reach(4, limit, 0.0, |place, [least, most], _| {
+            if least <= 0.0 && 0.0 <= most {
+                taken.push(place);
+            }
+        });
+        assert!(taken.starts_with(&[5]), "{taken:?}");
+        // By a unit of the last place above it as well.
+        let mut above = Vec::new();
+        tunnel.reach(4, limit.next_up(), 1.0, |place, slopes, _| {
+            if slopes[0] <= 0.0 && 0.0 <= slopes[1] {
+                above.push(place);
+            }
+        });
+        assert!(above.starts_with(&[5, 6, 7, 8]), "{limit}: {above:?}");
+    }
+}
+
+/// Where the limit jumps between two intervals the lower side counts at both: a line may pass neither.
+#[test]
+fn both_sides_of_a_jump_bound_a_line() {
+    let mut tunnel = tunnel();
+    // From place 3 on the interval begins lower than the one before ends.
+    tunnel.between[3].ends[0] = 5.0;
+    let mut most = Vec::new();
+    tunnel.reach(0, 10.0, 1.0, |place, slopes, _| {
+        most.push((place, slopes[1]))
+    });
+    let at = |place: usize| most.iter().find(|(other, _)| *other == place).unwrap().1;
+    assert!((at(3) + 1.0).abs() < 1e-6, "{most:?}");
+    assert!((at(4) + 5.0 / 3.0).abs() < 1e-6, "{most:?}");
+}
