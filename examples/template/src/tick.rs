@@ -33,7 +33,7 @@ pub struct Status {
 pub struct With {
     pub first_tick: u32,
     pub ticks: u32,
-    /// Ticks whose motion was beyond what the table was made for: they command 0.
+    /// Ticks whose motion was beyond what the table was made for, or their numbers beyond its machine units: they command 0.
     pub flagged: u32,
     /// Ticks whose command the limits of the drive have cut.
     pub clipped: u32,
@@ -166,30 +166,30 @@ impl Tick {
             alpha: units.tick.alpha(wanted).value,
         };
         // Where the machine is, and will be when the torque acts; friction by the sign of the set-point.
-        let omega = units.tick.omega(measured).value;
-        let later = units
-            .lead
-            .later(Motion {
-                phase: measured.phase,
-                omega,
-                alpha: reference.alpha,
-            })
-            .value;
+        let omega = units.tick.omega(measured);
+        let later = units.lead.later(Motion {
+            phase: measured.phase,
+            omega: omega.value,
+            alpha: reference.alpha,
+        });
         let friction = units.ramp.at(reference.omega);
-        let needed = press.at_measured(later.phase, later.omega, reference, friction);
+        let state = later.value;
+        let needed = press.at_measured(state.phase, state.omega, reference, friction);
         let motor = units
             .gearbox
-            .motor(needed.torque, reference.omega, reference.alpha)
-            .value;
-        let limited = units.limits.limited(motor);
+            .motor(needed.torque, reference.omega, reference.alpha);
+        let limited = units.limits.limited(motor.value);
+        // In fixed point a number that does not fit is limited and marked.
+        let beyond = omega.saturated || later.saturated || motor.saturated;
+        let valid = needed.status.is_valid() && !beyond;
         let with = &mut self.with;
         // Beyond the table the drive's own controller works alone.
-        let torque = if needed.status.is_valid() {
+        let torque = if valid {
             limited.torque.si(units.base)
         } else {
             0.0
         };
-        with.flagged += u32::from(!needed.status.is_valid());
+        with.flagged += u32::from(!valid);
         with.clipped += u32::from(limited.clipped != Default::default());
         with.most = with.most.max(torque);
         self.board.command(torque);
