@@ -53,7 +53,7 @@ pub enum TableError {
         cell: u32,
     },
     /// In fixed point the speed base must be one of [`Scale::for_cells`](crate::Scale::for_cells); in floating point the bases
-    /// overflow.
+    /// overflow, or make of J·ω² no torque, as a slider-crank needs.
     SpeedBase,
     /// At full speed and acceleration the torque may leave the fixed-point range in this cell: a larger torque base is
     /// needed, or a larger inertia base (which makes that of the acceleration smaller).

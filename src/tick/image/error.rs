@@ -41,7 +41,7 @@ pub enum ImageError {
     Header(u8),
     /// The image contains another number type; its code (1 = f32, 2 = i32, 3 = i16).
     NumberType(u8),
-    /// The image has another layout; its code (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16, 5 = rows of 16 bits, 6 = harmonics).
+    /// The image has another layout; its code (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16, 5 = rows of 16 bits, 6 = harmonics, 7 = slider-crank).
     Layout(u8),
     /// The image is of another machine.
     Machine {
@@ -102,7 +102,7 @@ impl fmt::Display for ImageError {
             }
             Self::Layout(code) => write!(
                 f,
-                "the image has layout {code} (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16, 5 = rows of 16 bits, 6 = harmonics)"
+                "the image has layout {code} (1 = spline, 2 = cubic, 3 = quadratic, 4 = spline16, 5 = rows of 16 bits, 6 = harmonics, 7 = slider-crank)"
             ),
             Self::Machine { found, expected } => write!(
                 f,
