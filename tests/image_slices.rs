@@ -130,7 +130,7 @@ fn ticks_alike<F: Format, const SET: Set>(image: &[u32]) {
             let omega = whole.model().table().scale().omega(speed).value;
             let status = moved.feed_forward().unwrap().status(omega, omega);
             assert_eq!(status, whole.status(omega, omega));
-            assert_eq!(status.speed, beyond);
+            assert_eq!(status.speed_beyond, beyond);
         }
     }
 }

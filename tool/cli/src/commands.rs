@@ -305,7 +305,11 @@ fn run_export(options: &options::Export) -> Result<Done> {
     let file = read::read(&options.file)?;
     output::check([("--out", &options.out)])?;
     variator::refuse(&file, "export")?;
-    let reciprocal = options.reciprocal == Choice::Yes;
+    let reciprocal = match options.reciprocal {
+        Choice::Auto => options.forward && options.number != Number::F32,
+        Choice::Yes => true,
+        Choice::No => false,
+    };
     if reciprocal && options.number == Number::F32 {
         return Err(miette!(
             help = "remove --reciprocal, or use --type i32",
@@ -348,6 +352,7 @@ fn run_export(options: &options::Export) -> Result<Done> {
     let task = Task {
         number: options.number,
         layout: options.layout,
+        forward: options.forward,
         reciprocal,
         torque_error,
         max_bytes: options.max_bytes,

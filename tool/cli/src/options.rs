@@ -215,7 +215,10 @@ pub struct Export {
     /// Layout of the curves in memory.
     #[arg(long, value_parser = word::<LayoutChoice>(), default_value_t)]
     pub layout: LayoutChoice,
-    /// Add a curve of 1/J, which avoids the division in fixed-point forward dynamics.
+    /// The firmware asks for accelerations, too: forward dynamics, limits, governor. Tables in fixed point then have a curve of 1/J.
+    #[arg(long)]
+    pub forward: bool,
+    /// A curve of 1/J, which avoids the division in fixed-point forward dynamics; auto: with --forward.
     #[arg(long, value_parser = word::<Choice>(), default_value_t)]
     pub reciprocal: Choice,
     /// Largest error of the drive torque at the drive link, e.g. "0.5 N m" ("5 N" for a sliding link); optional with

@@ -82,6 +82,7 @@ fn images_of(file: &Path, bytes: u32, [omega, alpha]: [f64; 2]) -> Vec<Vec<u32>>
     let task = Task {
         number: Number::F32,
         layout: LayoutChoice::Auto,
+        forward: false,
         reciprocal: false,
         torque_error: None,
         max_bytes: Some(bytes),

@@ -41,6 +41,7 @@ fn searched(file: &MachineFile) -> Export {
     let task = Task {
         number: Number::F32,
         layout: LayoutChoice::Auto,
+        forward: false,
         reciprocal: false,
         torque_error: Some(0.5),
         max_bytes: None,

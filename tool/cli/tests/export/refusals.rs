@@ -144,6 +144,45 @@ fn bytes_that_are_too_few() {
 }
 
 #[test]
+fn forward_dynamics_has_a_reciprocal_in_fixed_point() {
+    let summary = |more: &[&str]| {
+        let all: Vec<&str> = ["--torque-error", "2 N m"]
+            .iter()
+            .chain(more)
+            .copied()
+            .collect();
+        export_of(&press_file(), &all, None).ends(0).out.clone()
+    };
+    for (more, curve, said) in [
+        (&["--type", "i32"][..], false, None),
+        (
+            &["--type", "i32", "--forward"],
+            true,
+            Some("without a division"),
+        ),
+        (
+            &["--type", "i16", "--forward", "--reciprocal", "no"],
+            false,
+            Some("divides by J; --reciprocal auto"),
+        ),
+        (
+            &["--forward"],
+            false,
+            Some("divides by J, in single precision"),
+        ),
+    ] {
+        let found = summary(more);
+        assert_eq!(found.contains(", reciprocal"), curve, "{found}");
+        assert_eq!(
+            found.contains("forward dynamics: "),
+            said.is_some(),
+            "{found}"
+        );
+        assert!(said.is_none_or(|said| found.contains(said)), "{found}");
+    }
+}
+
+#[test]
 fn a_reciprocal_of_floating_point() {
     let more = ["--torque-error", "1 N m", "--reciprocal", "yes"];
     let run = export_of(&press_file(), &more, None).ends(2);

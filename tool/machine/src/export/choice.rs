@@ -68,8 +68,10 @@ crate::words! {
 }
 
 crate::words! {
-    /// Yes or no.
-    pub enum Choice default No {
+    /// Whether a table has the curve of 1/J.
+    pub enum Choice default Auto {
+        /// With it in fixed point, if the firmware asks for accelerations.
+        Auto = "auto",
         /// With it.
         Yes = "yes",
         /// Without it.

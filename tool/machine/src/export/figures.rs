@@ -195,6 +195,15 @@ impl Export {
             rounded(ticks.peak_torque),
             rounded(ticks.acceleration),
         );
+        if self.task.forward {
+            text += match (chosen.number.is_fixed(), self.task.reciprocal) {
+                (true, true) => "forward dynamics: by the curve of 1/J, without a division\n",
+                (true, false) => {
+                    "forward dynamics: divides by J; --reciprocal auto adds a curve of 1/J instead\n"
+                }
+                (false, _) => "forward dynamics: divides by J, in single precision\n",
+            };
+        }
         if chosen.number.is_fixed() {
             let scale = chosen.scale();
             let _ = writeln!(

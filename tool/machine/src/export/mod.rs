@@ -41,6 +41,8 @@ pub struct Task {
     pub number: Number,
     /// Layout.
     pub layout: LayoutChoice,
+    /// Whether the firmware asks for accelerations, too.
+    pub forward: bool,
     /// Whether fixed-point tables get the curve of 1/J.
     pub reciprocal: bool,
     /// Largest error of the drive torque (N·m, or N); without one, the least that is possible.
