@@ -208,6 +208,10 @@ fn every_term(bytes: &'static [u8]) -> Result<(), ImageError> {
         black_box((Phase::default(), [0.0; 2], Sliding::Share(0.5)));
     black_box(AnyModel::torque_with(&any, phase, omega, alpha, sliding));
     black_box(AnyModel::contributions(&any, phase, omega, alpha, sliding));
+    let torques = [omega, alpha];
+    black_box(AnyModel::acceleration_range_with(
+        &any, phase, omega, sliding, torques,
+    ));
     black_box(Image::is_of::<Spline<f32>, PRESS>(black_box(&[0; 30])));
     black_box(Image::bytes_are_of::<Spline<f32>, PRESS>(black_box(bytes)));
     Ok(())

@@ -144,7 +144,9 @@ fn every_limit<F: Format, const SET: Set>(
         });
         let ahead = |direction| {
             let limit = |_| black_box(10.0);
-            LookAhead::<F::Number, 16>::new(model, direction, braking, limit, &period)
+            let made: Result<LookAhead<F::Number, 16>, _> =
+                LookAhead::new(model, direction, braking, limit, &period);
+            made
         };
         let [Ok(forward), Ok(backward)] =
             black_box([Direction::Forward, Direction::Backward]).map(ahead)
