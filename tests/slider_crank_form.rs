@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::support::cranks::{ALPHA, Given, OMEGA, cranks, model_of, words_of};
 use crate::support::{assert_near, budget, config, largest, link_of, samples};
+use jred::axis::{FeedForward, Motion};
 use jred::image::{encode, image_len};
 use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 use jred::number::Sliding;
@@ -215,6 +216,17 @@ fn known_and_unknown_sets_tick_alike() {
         torque_error: 1.0,
     };
     let image = encode(any.table(), validity, &mut buffer).unwrap();
+    let feed = FeedForward::new(known, validity);
+    let (phase, omega, alpha) = (Phase::from_bits(0x1357_9bdf), 0.5, 0.25);
+    let motion = Motion {
+        phase,
+        omega,
+        alpha,
+    };
+    let checked = feed.at_reference(motion, Sliding::Against(omega));
+    assert!(checked.status.is_valid());
+    let plain = known.torque(phase, omega, alpha);
+    assert_eq!(checked.torque.to_bits(), plain.to_bits());
     assert!(Image::is_of::<SliderCrankForm, SET>(image));
     assert!(!Image::is_of::<SliderCrankForm, { SET & !terms::LOAD_SIN }>(image));
     assert!(!Image::is_of::<jred::Harmonic<f32>, SET>(image));

@@ -3,7 +3,7 @@
 
 use jred::table::{Format, words_len};
 use jred::tabulate::{Request, curves_in_use, fill, measure, scratch_len, torque_between};
-use jred::{Cubic, Phase, Quadratic, Reducible, Scale, Set, Spline, Table};
+use jred::{Cubic, Phase, Quadratic, Reducible, Scale, Set, Spline, Table, curves};
 
 use crate::every_machine::machines;
 
@@ -84,10 +84,21 @@ fn table<F: Format, T>(
 
 /// The search finds more than the places do by this share at most [1.3 %]. It finds more than the bound where the error has a corner,
 /// which rises above its neighbours by up to half of their second difference, a parabola by an eighth: two machines with loads
-/// that begin within the table have some [0.7 %]. Without an edge it finds no more, to rounding.
+/// that begin within the table have some [0.7 %], one with frictions that add up [0.5 %]. Without a corner it finds no more, to rounding.
 const BEYOND_PLACES: f64 = 1.02;
 const BEYOND_BOUND: f64 = 1.01;
 const SMOOTH: f64 = 1.0 + 1e-9;
+
+/// Whether the friction varies and never falls to zero: then its magnitude is in the table, with the kinks where a part of it does.
+fn adds_up(machine: &impl Reducible) -> bool {
+    let domain = machine.domain();
+    let friction = |k: u32| {
+        let reduced = machine.reduction(domain.position(f64::from(k) / 1024.0));
+        reduced.unwrap().coulomb
+    };
+    let varies = curves_in_use(machine, 256).unwrap() & curves::COULOMB != 0;
+    varies && (0..1024).all(|k| friction(k) > 0.0)
+}
 
 #[test]
 fn hardly_any_place_errs_more_than_the_bound() {
@@ -104,9 +115,10 @@ fn hardly_any_place_errs_more_than_the_bound() {
             let [places, bound] = found.unwrap();
             println!("{name}, {edges} edges: {places} of the places, {bound} of the bound");
             assert!(places <= BEYOND_PLACES, "{name}: {places}");
-            let limit = if edges > 0 { BEYOND_BOUND } else { SMOOTH };
+            let corners = edges > 0 || adds_up(machine);
+            let limit = if corners { BEYOND_BOUND } else { SMOOTH };
             assert!(bound <= limit, "{name}: {bound}");
-            let kind = usize::from(edges > 0);
+            let kind = usize::from(corners);
             most[kind] = most[kind].max(bound);
             most[2] = most[2].max(places);
         }
