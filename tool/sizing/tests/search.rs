@@ -181,6 +181,17 @@ fn the_front_is_what_nothing_beats() {
             })
             .collect();
         assert_eq!(front.compared, values.len());
+        // One sentence for each objective of which a suitable drive has no figure, and none else.
+        let missing = |objective: &&Objective| {
+            let fit = selection.first_fit(usize::MAX);
+            fit.iter().any(|c| objective.value(&selection, c).is_none())
+        };
+        let missing: Vec<&Objective> = objectives.iter().filter(missing).collect();
+        let gaps = front.gaps();
+        assert_eq!(gaps.len(), missing.len(), "{gaps:?}");
+        for (gap, objective) in gaps.iter().zip(missing) {
+            assert!(gap.contains(objective.name()), "{gap}");
+        }
         let beaten = |own: &[f64]| {
             values.iter().any(|(_, other)| {
                 other.iter().zip(own).all(|(a, b)| a <= b)

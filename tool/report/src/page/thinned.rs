@@ -71,7 +71,7 @@ mod tests {
     #[test]
     fn gaps_do_not_hide_extremes() {
         let value = |k: usize| {
-            if k % 3 == 0 {
+            if k.is_multiple_of(3) {
                 f64::NAN
             } else {
                 -((k as f64) - 5000.0).abs()

@@ -192,6 +192,7 @@ mod tests {
             height: f64::NAN,
         };
         let grid = Grid { from: 0.0, to: 0.5 };
-        assert_eq!(grid.last_held(f64::NAN, unknown(0.5), unknown).0, 0.25);
+        let (held, ()) = grid.last_held(f64::NAN, unknown(0.5), unknown);
+        assert_eq!(held.to_bits(), 0.25f64.to_bits());
     }
 }

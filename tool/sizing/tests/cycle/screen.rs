@@ -241,8 +241,10 @@ fn a_voltage_is_screened_as_in_full() {
     let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 300).unwrap();
     let cycle = Cycle::new(&duty);
     let [small, large] = [1e-6, 1.0].map(|capacitance| {
-        let mut site = Site::default();
-        site.bus_voltage = Some(300.0);
+        let mut site = Site {
+            bus_voltage: Some(300.0),
+            ..Site::default()
+        };
         site.supply.capacitance = Some(capacitance);
         site.supply.max_voltage = Some(400.0);
         compare(&with_more_ratios(), &cycle, &site, &RuleSet::default())

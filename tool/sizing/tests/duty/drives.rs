@@ -217,6 +217,8 @@ fn scaling_with_the_ratio() {
             1e-14,
         );
         near("power", geared.power.rms, direct.power.rms, 1e-8);
+        near("largest power", geared.power.max, direct.power.max, 1e-8);
+        near("least power", geared.power.min, direct.power.min, 1e-8);
         let lambda = direct.inertia_ratio.max / (ratio * ratio);
         near("λ", geared.inertia_ratio.max, lambda, 1e-14);
     }

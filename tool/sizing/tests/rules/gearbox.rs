@@ -44,6 +44,18 @@ fn shock_factors() {
     }
 }
 
+/// A gearbox turns as fast as its motor: the ratio times the largest speed of its output.
+#[test]
+fn the_largest_speed_is_that_of_the_input() {
+    let mut stand = Stand::press();
+    let fastest = stand.duty.figures(|i| i.input_speed).peak();
+    for ratio in [0.5, 3.0, 10.0] {
+        stand.gearbox.ratio = ratio;
+        let found = stand.found(true, Rule::GearboxSpeed);
+        near("speed", found.value, ratio * fastest, 1e-14);
+    }
+}
+
 /// The exponent of the mean torque: gears or roller bearings.
 #[test]
 fn mean_torque() {

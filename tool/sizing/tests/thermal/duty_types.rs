@@ -10,6 +10,7 @@ use jred_sizing::thermal::classify::{DutyType, Features};
 
 use super::budget;
 use super::within;
+use crate::support::press_text;
 
 /// A flywheel on a shaft with friction, a load that opposes, and a motion.
 fn machine(load: &str, motion: &str) -> Cycle {
@@ -27,9 +28,12 @@ on = "shaft-1"
 {motion}
 "#
     );
-    let file = read::parse("machine.toml", &text, Path::new("")).unwrap();
-    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 800).unwrap();
-    Cycle::new(&duty)
+    Cycle::new(&duty_of(&text))
+}
+
+fn duty_of(text: &str) -> Duty {
+    let file = read::parse("machine.toml", text, Path::new("")).unwrap();
+    Duty::new(&file, file.motion.as_ref().unwrap(), 800).unwrap()
 }
 
 fn kind(load: &str, motion: &str) -> DutyType {
@@ -72,6 +76,25 @@ fn each_type() {
 }
 
 /// A long run at constant speed between short ramps: the starts do not count thermally.
+/// A speed that swings between half and one and a half of its mean never stops, though it brakes: S8. One that swings down to next to nothing
+/// does: S7.
+#[test]
+fn a_speed_that_swings_does_not_stop() {
+    let direct = Coefficients([0.0, 1.0, 1.0, 0.0, 0.0]);
+    for (swing, number) in [(0.5, 8), (1.0 - 1e-9, 7)] {
+        let mut duty = duty_of(&press_text());
+        let duration = duty.duration;
+        for instant in &mut duty.instants {
+            let turn = std::f64::consts::TAU * instant.t / duration;
+            instant.input_speed = 30.0 * (1.0 - swing * turn.cos());
+            instant.input_torque = 10.0 * turn.sin();
+        }
+        let found = Features::of(&Cycle::new(&duty), &direct, 1.0);
+        assert_eq!(found.stops, swing > 0.9, "{swing}");
+        assert_eq!(found.duty_type().number, number, "{swing}");
+    }
+}
+
 #[test]
 fn starts_that_do_not_count() {
     let long = "law = \"trapezoid\"\naccelerate = \"0.5 %\"\ndecelerate = \"0.5 %\"\nmove = \"36000 deg\"\nduration = \"60 s\"";
