@@ -5,9 +5,12 @@ use crate::support::skip::skip;
 use crate::support::{Folder, edited_press, press_file};
 
 /// The hexadecimal words of a source text.
+/// Those of the rows; the identifier of the machine stands alone before them.
 fn words_in(source: &str) -> Vec<u32> {
     source
-        .split(|c: char| !c.is_ascii_alphanumeric())
+        .lines()
+        .filter(|line| line.starts_with("    0x"))
+        .flat_map(|line| line.split(|c: char| !c.is_ascii_alphanumeric()))
         .filter_map(|word| word.strip_prefix("0x"))
         .map(|word| u32::from_str_radix(word, 16).unwrap())
         .collect()
@@ -42,6 +45,13 @@ fn source_texts_hold_the_image() {
         assert!(c.contains("#include <stdint.h>"));
         assert!(c.contains(&format!("const uint32_t press_words[{}] = {{", words.len())));
         assert_eq!(words_in(&c), words);
+        let machine = format!("0x{:08x}", Image::new(&words).unwrap().machine());
+        assert!(rust.contains(&format!("pub const MACHINE: u32 = {machine};")));
+        assert!(c.contains(&format!("#define PRESS_MACHINE {machine}u")));
+        // Of the title; by its option it is any number.
+        assert_eq!(machine, "0x3d4c7e82");
+        let given = image(&folder, &[&kind[..], &["--machine-id", "0x1A2b"]].concat());
+        assert_eq!(Image::new(&given).unwrap().machine(), 0x1a2b);
         for text in [&rust, &c] {
             // Outside the comment: a declaration, words, and a closing bracket; as many open as close.
             let is_code = |line: &&str| !line.starts_with(['/', '#']);

@@ -10,13 +10,16 @@
 // measured in ticks: torque within 1.78891 N m (0.009219 of the largest, 194.036 N m), alpha within 12.6882 rad/s^2
 use jred::*;
 
+/// Identifier of the machine: `Image::of_machine` refuses the image of another.
+pub const MACHINE: u32 = 0x3d4c7e82;
+
 /// The machine in pieces.
 pub type PiecewiseModel = Pieces<'static, Spline<f32>, { curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS }, 4>;
 
 /// Checks the tables and puts them together.
 pub fn pieces() -> Result<PiecewiseModel, ImageError> {
     fn piece(start: u32, words: &'static [u32]) -> Result<(Phase, Model<'static, Spline<f32>, { curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS }>), ImageError> {
-        Ok((Phase::from_bits(start), Image::new(words)?.model()?))
+        Ok((Phase::from_bits(start), Image::new(words)?.of_machine(MACHINE)?.model()?))
     }
     Pieces::new([
         piece(0x00000000, &TABLE_1)?,

@@ -188,10 +188,12 @@ impl Export {
             .failure()?);
         };
         let machine = task.machine.unwrap_or_else(|| of_title(&file.title));
-        if let Some((_, _, Answer::Meets(candidate))) = answers.get_mut(chosen) {
-            for table in &mut candidate.tables {
-                identify(&mut table.words, machine).map_err(ticks::refusal)?;
-            }
+        let tables = answers.iter_mut().filter_map(|(_, _, answer)| match answer {
+            Answer::Meets(candidate) => Some(&mut candidate.tables),
+            _ => None,
+        });
+        for table in tables.flatten() {
+            identify(&mut table.words, machine).map_err(ticks::refusal)?;
         }
         Ok(Self {
             name: file.name.clone(),
