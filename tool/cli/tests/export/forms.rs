@@ -1,5 +1,7 @@
 //! What an export is written as: image, source text, JSON, and the words on the terminal.
 
+use jred::Image;
+
 use super::{KINDS, export, export_of, image, press_table, words_of};
 use crate::support::skip::skip;
 use crate::support::{Folder, edited_press, press_file};

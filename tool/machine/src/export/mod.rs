@@ -188,10 +188,12 @@ impl Export {
             .failure()?);
         };
         let machine = task.machine.unwrap_or_else(|| of_title(&file.title));
-        let tables = answers.iter_mut().filter_map(|(_, _, answer)| match answer {
-            Answer::Meets(candidate) => Some(&mut candidate.tables),
-            _ => None,
-        });
+        let tables = answers
+            .iter_mut()
+            .filter_map(|(_, _, answer)| match answer {
+                Answer::Meets(candidate) => Some(&mut candidate.tables),
+                _ => None,
+            });
         for table in tables.flatten() {
             identify(&mut table.words, machine).map_err(ticks::refusal)?;
         }
