@@ -162,3 +162,21 @@ fn the_signs_are_those_of_the_samples() {
         least[0]
     );
 }
+
+/// The least of a line over the speeds of each stretch, falling and rising.
+#[test]
+fn floors_are_the_least_of_a_line() {
+    let backwards = mirrored(DRIVEN);
+    let (front, _) = front(&[DRIVEN, backwards, RESTS]);
+    for (line, expected) in [
+        // At the largest speed, 14 rad/s in either direction, and at rest.
+        ([50.0, -2.0], [22.0, 22.0, 50.0]),
+        // At the least, 10 rad/s.
+        ([50.0, 3.0], [80.0, 80.0, 50.0]),
+        ([50.0, 0.0], [50.0, 50.0, 50.0]),
+    ] {
+        for (floor, expected) in front.floors(line).iter().zip(expected) {
+            assert!((floor - expected).abs() < 1e-12, "{floor} of {line:?}");
+        }
+    }
+}
