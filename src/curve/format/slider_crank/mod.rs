@@ -34,14 +34,14 @@ use crate::{Domain, Outcome, Phase, Scale};
 
 /// A slider-crank in closed form, `f32`, SI units: no cells, 20 to 72 bytes for any accuracy that single precision has.
 ///
-/// The words lie as [`Coefficient::ALL`](crate::slider_crank::Coefficient::ALL) says, as far as the set has them; the upper bits of
-/// the set are [`terms`](crate::slider_crank::terms). [`slider_crank::form`](crate::slider_crank::form) makes them from a machine.
+/// The words lie as [`Coefficient::ALL`] says, as far as the set has them; the upper bits of
+/// the set are [`terms`]. [`slider_crank::form`](crate::slider_crank::form) makes them from a machine.
 ///
 /// The inverse square root is `micromath`'s, made exact by three steps of Newton's iteration; sine and cosine are those of
 /// [`Harmonic`](crate::Harmonic).
 ///
 /// **Accuracy**: of the torque 1e-6 of the sum of its terms' largest sizes for (r + |e|)/l ≤ 0.5, 3e-6 up to
-/// [`STEEPEST`](crate::slider_crank::STEEPEST) (test `the_tick_rounds_as_stated`). Cost: 101 instructions on a Cortex-M4F with a load
+/// [`STEEPEST`] (test `the_tick_rounds_as_stated`). Cost: 101 instructions on a Cortex-M4F with a load
 /// and constant friction, the same for every argument; docs/closed-form.md.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SliderCrankForm;
