@@ -83,7 +83,7 @@ fn run() -> Result<(), Failure> {
         let commanded = if k < STOP { fast } else { Q31::default() };
         let governed = governor.govern(&limits, &press, &motion, commanded);
         motion.alpha = governed.alpha;
-        let torque = press.torque(motion.phase, motion.omega, motion.alpha);
+        let torque = press.torque_with(motion.phase, motion.omega, motion.alpha, governed.sliding);
         let stop = ahead.stop(motion.phase, motion.omega);
         if k == STOP {
             promised = stop.phase;

@@ -12,7 +12,8 @@ use crate::{Domain, Model, Phase};
 pub struct Braking {
     /// The torque of the drive against the motion, on the drive link (N·m, or N): the least that it has at any speed up to the greatest.
     pub torque: f32,
-    /// The greatest deceleration (rad/s², or m/s²); infinite if only the torque limits it. Where a machine stops is told without it.
+    /// The greatest deceleration (rad/s², or m/s²): that of [`Limits`](super::Limits), or infinite if only the torque limits it. Where a machine stops is told
+    /// without it.
     pub deceleration: f32,
     /// Whether load and friction count where they help to brake. `false` for a load that may be missing, such as a workpiece: then only what drives the
     /// machine on counts.
@@ -63,164 +64,184 @@ impl Way {
     }
 }
 
-/// A motion through the range of a model, and what brakes it.
-pub(super) struct Course<'m, 'a, F: Format, const SET: Set> {
-    model: &'m Model<'a, F, SET>,
-    pub(super) way: Way,
-    /// Length of an interval (rad, or m).
-    pub(super) step: f32,
-    braking: Braking,
-}
-
 /// What a model says about braking at a place, in units of the torque base.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Place {
     /// J·α_b
     inertial: f32,
-    /// ½·J′·ω_b²
-    velocity: f32,
     /// T_brake + c − load
     braking: f32,
+}
+
+/// An interval: what is at its start, the work of the brake over it (in torque bases times rad or m), and by how much J exceeds the straight line in its middle.
+#[derive(Clone, Copy, Default)]
+struct Interval {
+    inertial: f32,
+    work: f32,
+    bulge: f32,
+}
+
+/// A motion through the range of a model, and what brakes it.
+pub(super) struct Course<const NODES: usize> {
+    pub(super) way: Way,
+    /// Length of an interval (rad, or m).
+    pub(super) step: f32,
+    /// One for each node; of a stroke, the last has no length.
+    intervals: [Interval; NODES],
+    /// What an acceleration of α_b changes of the square of the speed along an interval; what the greatest deceleration does.
+    gained: f32,
+    most: f32,
 }
 
 /// 2³⁰
 const ONE: f32 = 1_073_741_824.0;
 
-impl<'m, 'a, F: Format, const SET: Set> Course<'m, 'a, F, SET> {
-    pub(super) fn new(
-        model: &'m Model<'a, F, SET>,
+/// What a model says at a phase.
+fn place<F: Format, const SET: Set>(
+    model: &Model<'_, F, SET>,
+    way: Way,
+    braking: &Braking,
+    half: u32,
+) -> Result<Place, AxisError> {
+    let phase = way.node(half);
+    // The greatest number that a model takes.
+    let one = F::Number::per_unit(1.0, 1.0).value;
+    let terms = model.contributions(phase, one, one, Sliding::Against(one));
+    let load = terms.load.si(1.0);
+    let resistance = match way.direction {
+        Direction::Forward => load,
+        Direction::Backward => -load,
+    };
+    let helping = if braking.helped {
+        resistance + terms.coulomb.si(1.0)
+    } else {
+        resistance.min(0.0)
+    };
+    let place = Place {
+        inertial: terms.inertial.si(1.0) / one.si(1.0),
+        braking: braking.torque / model.table().scale().torque() + helping,
+    };
+    if place.braking > 0.0 {
+        Ok(place)
+    } else {
+        Err(AxisError::Overpowered(phase))
+    }
+}
+
+impl<const NODES: usize> Course<NODES> {
+    pub(super) fn new<F: Format, const SET: Set>(
+        model: &Model<'_, F, SET>,
         direction: Direction,
         braking: Braking,
-        nodes: u32,
     ) -> Result<Self, AxisError> {
         positive("the braking torque", braking.torque)?;
         let holds = braking.deceleration > 0.0;
         within("the greatest deceleration", holds, "greater than zero")?;
         let domain = model.table().domain();
+        let acceleration = model.table().scale().acceleration();
         let stroke = matches!(domain, Domain::Stroke { .. });
-        let intervals = if stroke { nodes - 1 } else { nodes };
+        let count = NODES as u32 - u32::from(stroke);
+        let way = Way {
+            direction,
+            stroke,
+            intervals: count,
+            width: ((1_u64 << 32) / u64::from(count)) as u32,
+        };
+        let step = domain.span().to_f32() / count as f32;
+        let mut intervals = [Interval::default(); NODES];
+        let mut start = place(model, way, &braking, 0)?;
+        for (k, interval) in (0..).zip(&mut intervals) {
+            interval.inertial = start.inertial;
+            if k == count {
+                break;
+            }
+            let middle = place(model, way, &braking, 2 * k + 1)?;
+            let end = place(model, way, &braking, 2 * k + 2)?;
+            // Simpson's rule: exact for a cubic.
+            interval.work = step / 6.0 * (start.braking + 4.0 * middle.braking + end.braking);
+            let mean = 0.5 * (start.inertial + end.inertial);
+            interval.bulge = (middle.inertial - mean).max(0.0);
+            let close = (end.inertial - start.inertial).abs() <= 0.5 * mean;
+            within(
+                "the number of nodes",
+                close,
+                "greater: J changes by half from one to the next",
+            )?;
+            start = end;
+        }
         Ok(Self {
-            model,
-            way: Way {
-                direction,
-                stroke,
-                intervals,
-                width: ((1_u64 << 32) / u64::from(intervals)) as u32,
-            },
-            step: domain.span().to_f32() / intervals as f32,
-            braking,
+            way,
+            step,
+            intervals,
+            gained: 2.0 * acceleration,
+            most: 2.0 * step * braking.deceleration,
         })
     }
 
-    /// So many half intervals from the start.
-    fn place(&self, half: u32) -> Result<Place, AxisError> {
-        let phase = self.way.node(half);
-        // The greatest number that a model takes.
-        let one = F::Number::per_unit(1.0, 1.0).value;
-        let unit = one.si(1.0);
-        let terms = self
-            .model
-            .contributions(phase, one, one, Sliding::Against(one));
-        let forward = match self.way.direction {
-            Direction::Forward => 1.0,
-            Direction::Backward => -1.0,
+    /// Of the interval after this one.
+    fn next(&self, k: usize) -> Interval {
+        let [first, ..] = self.intervals.as_slice() else {
+            return Interval::default();
         };
-        let resistance = forward * terms.load.si(1.0);
-        let helping = if self.braking.helped {
-            resistance + terms.coulomb.si(1.0)
-        } else {
-            resistance.min(0.0)
-        };
-        let braking = self.braking.torque / self.model.table().scale().torque() + helping;
-        if braking > 0.0 {
-            Ok(Place {
-                inertial: terms.inertial.si(1.0) / unit,
-                velocity: forward * terms.velocity.si(1.0) / (unit * unit),
-                braking,
-            })
-        } else {
-            Err(AxisError::Overpowered(phase))
-        }
+        *self.intervals.get(k + 1).unwrap_or(first)
     }
 
-    /// Lowers the squares of the speed, in units of 2⁻³⁰ of that of `top`, so far that the machine can be braked to each from the one before.
-    pub(super) fn slow_down(&self, squares: &mut [u32], top: f32) -> Result<(), AxisError> {
-        let scale = self.model.table().scale();
-        // What an acceleration of α_b, and the velocity torque of ω_b, change of the square along an interval.
-        let of_alpha = 2.0 * self.step * (scale.acceleration() / top / top);
-        let of_velocity = 2.0 * self.step * (scale.acceleration() / scale.speed() / scale.speed());
-        let most = 2.0 * self.step * (self.braking.deceleration / top / top);
-        // Where nothing is limited on a turn, once round: then its beginning is known.
-        let rounds = if self.way.stroke { 1 } else { 2 };
+    /// Lowers the squares of the speed, in units of 2⁻³⁰ of that of `top`, so far that the machine can be braked to each from the one before:
+    ///
+    /// ```text
+    /// ½·J·ω² ≤ ½·J·ω² there + work between,   ω² ≤ ω² there + 2·a_max·Δφ
+    /// ```
+    pub(super) fn slow_down(&self, squares: &mut [u32; NODES], top: f32) {
+        let [gained, most] = [self.gained, self.most].map(|x| x / top / top);
         if let (true, Some(end)) = (self.way.stroke, squares.last_mut()) {
             *end = 0;
         }
+        // On a turn the second round has the right start: what binds the start in the first is a limit that the second does not lower.
+        let rounds = if self.way.stroke { 1 } else { 2 };
         for _ in 0..rounds {
-            let mut after = self.place(2 * self.way.intervals)?;
-            for k in (0..self.way.intervals).rev() {
-                let [before, middle] = [self.place(2 * k)?, self.place(2 * k + 1)?];
-                let next = squares.get(k as usize + 1).or(squares.first());
-                let next = next.copied().unwrap_or_default() as f32 / ONE;
-                let [slowed, pull] = [
-                    |place: &Place| place.braking / place.inertial,
-                    |place: &Place| place.velocity / place.inertial,
-                ]
-                .map(|of| [&before, &middle, &after].map(of));
-                let [d0, d1, d2] = slowed.map(|d| d * of_alpha);
-                let [v0, v1, v2] = pull.map(|v| v * of_velocity);
-                let close = [v0, v1, v2].iter().all(|v| v.abs() <= 0.25);
-                within(
-                    "the number of nodes",
-                    close,
-                    "greater: J changes by a quarter between two",
-                )?;
-                let least = ((next + d0) / (1.0 - v0))
-                    .min((next * (1.0 + 0.5 * v1) + d1) / (1.0 - 0.5 * v1))
-                    .min(next * (1.0 + v2) + d2)
-                    .min(next + most);
-                if let Some(square) = squares.get_mut(k as usize) {
-                    *square = (*square).min((least * ONE) as u32);
-                }
-                after = before;
+            let first = squares.first().copied().unwrap_or_default();
+            let mut after = if self.way.stroke {
+                0.0
+            } else {
+                first as f32 / ONE
+            };
+            for k in (0..self.way.intervals as usize).rev() {
+                let (Some(interval), Some(square)) = (self.intervals.get(k), squares.get_mut(k))
+                else {
+                    continue;
+                };
+                let energy = self.next(k).inertial * after + gained * interval.work;
+                let least = (energy / interval.inertial).min(after + most);
+                // Rounded down, whatever the last roundings were.
+                *square = (*square).min((least * (ONE * 0.999_999)) as u32);
+                after = *square as f32 / ONE;
             }
         }
-        Ok(())
     }
 
     /// The work of the brake up to each node, in units of 2⁻³² of that over the range; ½·J, so that the square of a speed times it, shifted down by what is
-    /// returned, is that work.
+    /// returned, is that work. Straight lines between the nodes lie above J where it bulges.
     pub(super) fn works(
         &self,
-        works: &mut [u32],
-        inertias: &mut [u32],
+        works: &mut [u32; NODES],
+        inertias: &mut [u32; NODES],
         top: f32,
     ) -> Result<u32, AxisError> {
-        let simpson = |k: u32| -> Result<f32, AxisError> {
-            let [a, b, c] = [
-                self.place(2 * k)?,
-                self.place(2 * k + 1)?,
-                self.place(2 * k + 2)?,
-            ];
-            Ok(self.step / 6.0 * (a.braking + 4.0 * b.braking + c.braking))
-        };
-        let mut all = 0.0;
-        for k in 0..self.way.intervals {
-            all += simpson(k)?;
-        }
+        let all: f32 = self.intervals.iter().map(|interval| interval.work).sum();
         let mut done = 0.0;
-        let mut largest = 0.0_f32;
-        for (k, work) in (0..).zip(works.iter_mut()) {
+        for (interval, work) in self.intervals.iter().zip(works.iter_mut()) {
             *work = (done / all * (4.0 * ONE)) as u32;
-            if k < self.way.intervals {
-                done += simpson(k)?;
-            }
-            largest = largest.max(self.place(2 * k)?.inertial);
+            done += interval.work;
         }
-        // ½·J·top² in such works: of all of J, 31 bits.
-        let energy = |inertial: f32| {
-            0.5 * inertial * (top / self.model.table().scale().acceleration() * top) / all
-        };
-        let exponent = exponent(energy(largest));
+        let energy = |inertial: f32| inertial * (top / self.gained * top) / all;
+        let last = self.intervals.last().map_or(0.0, |interval| interval.bulge);
+        let mut before = if self.way.stroke { 0.0 } else { last };
+        let raised = self.intervals.map(|interval| {
+            let bulge = interval.bulge.max(before);
+            before = interval.bulge;
+            energy(interval.inertial + bulge)
+        });
+        let exponent = exponent(raised.into_iter().fold(0.0, f32::max));
         let range = "less than the work of its brake over 2²⁸ ranges, and more than 2⁻³⁰ of one";
         within(
             "the energy at the greatest speed",
@@ -228,8 +249,8 @@ impl<'m, 'a, F: Format, const SET: Set> Course<'m, 'a, F, SET> {
             range,
         )?;
         let shift = 30 - exponent;
-        for (k, inertia) in (0..).zip(inertias.iter_mut()) {
-            *inertia = (energy(self.place(2 * k)?.inertial) * power_of_two(shift)) as u32;
+        for (inertia, raised) in inertias.iter_mut().zip(raised) {
+            *inertia = (raised * power_of_two(shift)) as u32;
         }
         Ok(shift.cast_unsigned() - 2)
     }

@@ -102,8 +102,8 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
         })
     }
 
-    /// As [`new`](Self::new), of the motor's points and braking torque, on the drive link's side of a gearbox: ω/i, T·i·η where the motor drives and T·i/η where it
-    /// brakes. The rotor's inertia must be in the table, as i²·J_M: the torque for it does not depend on the speed.
+    /// As [`new`](Self::new), of the motor's points and braking torque, on the drive link's side of a gearbox: ω/i, and T·i·η where the motor drives. Where it brakes, T·i:
+    /// the gearbox helps to brake the machine, but not the rotor. The rotor's inertia must be in the table, as i²·J_M.
     ///
     /// # Errors
     /// Those of `new`; a ratio that is not positive, an efficiency outside 0.01 to 1, or a rotor that is not 0.
@@ -124,7 +124,7 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
             "0 here, and i²·J_M part of the table",
         )?;
         let link = driving.map(|[omega, torque]| [omega / ratio, torque * ratio * efficiency]);
-        Self::new(link, brake * ratio / efficiency, scale)
+        Self::new(link, brake * ratio, scale)
     }
 
     /// The least and the greatest torque at a speed. At a speed that is no number both are 0.

@@ -5,7 +5,7 @@ use super::limits::{Bounded, Limit};
 use super::{AxisError, Direction, Limits, LookAhead, Motion};
 use crate::Model;
 use crate::curve::{Format, Set};
-use crate::number::Number;
+use crate::number::{Number, Sliding};
 
 /// Follows a commanded speed with a motion that the drive can make, and slows down ahead of where it could not.
 ///
@@ -42,8 +42,9 @@ use crate::number::Number;
 /// // Every tick: the motion that is to follow the commanded 12 rad/s.
 /// let mut motion = Motion::<f32>::default();
 /// for _ in 0..1000 {
-///     motion.alpha = governor.govern(&limits, &press, &motion, 12.0).alpha;
-///     let torque = press.torque(motion.phase, motion.omega, motion.alpha);
+///     let governed = governor.govern(&limits, &press, &motion, 12.0);
+///     motion.alpha = governed.alpha;
+///     let torque = press.torque_with(motion.phase, motion.omega, motion.alpha, governed.sliding);
 ///     assert!(torque.abs() <= 250.01);
 ///     motion = tick.later(motion).value;
 ///     assert!(motion.omega <= 1.01 * limit(motion.phase));
@@ -65,8 +66,12 @@ pub struct Governed<N> {
     pub alpha: N,
     /// The limit that binds; `None`: the commanded speed is reached at the end of the tick.
     pub by: Option<Limit>,
-    /// As [`Feasible::unkept`](super::Feasible::unkept).
+    /// As [`Feasible::unkept`](super::Feasible::unkept); [`Limit::Ahead`]: the speed is beyond that from which all that lies ahead can be kept;
+    /// [`Limit::Speed`] of a command that is no number.
     pub unkept: Option<Limit>,
+    /// What friction opposes: the speed, and at rest the motion that begins. [`Model::torque_with`] then gives a torque that the drive has; where friction holds the
+    /// machine at rest, of which a torque knows nothing, [`TorqueLimits`](super::TorqueLimits) sees to that.
+    pub sliding: Sliding<N>,
 }
 
 impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
@@ -116,12 +121,14 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
             let by = Limit::Ahead;
             Bounded { alpha, by }.within([feasible.least, feasible.greatest])
         };
-        let forward = self
-            .forward
-            .map_or(stopped, |way| way.greatest(motion).value);
-        let backward = self
-            .backward
-            .map_or(stopped, |way| rest.minus(way.greatest(motion).value).value);
+        let [least, most] = [feasible.least.alpha, feasible.greatest.alpha];
+        let forward = self.forward.map(|way| way.greatest(motion, [least, most]));
+        let (forward, too_fast) = forward.unwrap_or((stopped, false));
+        let opposite = [rest.minus(most).value, rest.minus(least).value];
+        let backward = self.backward.map(|way| way.greatest(motion, opposite));
+        let (backward, too_fast_back) = backward.map_or((stopped, false), |(alpha, beyond)| {
+            (rest.minus(alpha).value, beyond)
+        });
         let greatest = bounded(if forward > stopped { forward } else { stopped });
         let least = bounded(if backward < stopped {
             backward
@@ -136,10 +143,16 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
         } else {
             (wanted.within([wanted, wanted]), None)
         };
+        let known = commanded >= rest || commanded <= rest;
+        let beyond = (too_fast || too_fast_back).then_some(Limit::Ahead);
         Governed {
             alpha,
             by,
-            unkept: feasible.unkept,
+            unkept: feasible
+                .unkept
+                .or(beyond)
+                .or((!known).then_some(Limit::Speed)),
+            sliding: Sliding::Against(if omega == rest { alpha } else { omega }),
         }
     }
 }

@@ -162,9 +162,9 @@ impl<N: Number> Bounded<N> {
     /// Within others.
     #[inline]
     pub(super) fn within(self, [least, greatest]: [Self; 2]) -> Self {
-        if self.alpha < least.alpha {
+        if self.alpha <= least.alpha {
             least
-        } else if self.alpha > greatest.alpha {
+        } else if self.alpha >= greatest.alpha {
             greatest
         } else {
             self

@@ -7,7 +7,7 @@ use super::envelope::in_range;
 use super::error::{positive, within};
 use super::{AxisError, Motion, Period};
 use crate::curve::{Format, Set};
-use crate::number::{Factor, Number, Outcome};
+use crate::number::{Factor, Number};
 use crate::{Model, Phase};
 
 /// Which way a drive link moves.
@@ -22,20 +22,23 @@ pub enum Direction {
 
 /// The greatest speed at every phase from which the drive can keep all limits of speed ahead, and the work of its brake: for motion in one direction.
 ///
-/// Made once, when the firmware starts, of the model's own table. Between two nodes ω² is a straight line, which is a constant acceleration; the squares are found
-/// from the end backwards, so that the braking torque suffices at both ends and in the middle of every interval:
+/// Made once, when the firmware starts, of the model's own table. Between two nodes ω² is a straight line, which is a constant acceleration. The squares are found
+/// from the end backwards: the work of the brake from node to node takes the machine from each to the next,
 ///
 /// ```text
-/// d(ω²)/dφ = 2·α ≥ 2·(−T_brake − ½·J′·ω² + load − c)/J
+/// ½·J·ω² ≤ ½·J·ω² there + ∫ (T_brake + c − load) dφ
 /// ```
 ///
-/// Where it would stop with the full braking torque, if no viscous friction stopped it earlier:
+/// Within an interval the straight line needs more than the braking torque by what that torque, and J, change in it: give the look-ahead some percent
+/// less torque than the drive has. With the same work it tells where the machine would stop, if no viscous friction stopped it earlier:
 ///
 /// ```text
 /// ½·J·ω² = ∫ (T_brake + c − load) dφ
 /// ```
 ///
-/// A tick needs no model for it, and computes with integers alone, whatever the numbers of the model are. Memory: 16 bytes a node.
+/// The table is looked at in the nodes and halfway between them: a peak of the load must be wider than an interval.
+///
+/// A tick needs no model for it, and computes with integers alone, whatever the numbers of the model are. Memory: 16 bytes a node, and as much again, and 12 more, on the stack while it is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LookAhead<N, const NODES: usize> {
     way: Way,
@@ -65,7 +68,8 @@ pub struct Stop {
     pub turns: u32,
     /// Where; the end of a stroke that is too short.
     pub phase: Phase,
-    /// It is not known: the stroke ends before, the drive link moves the other way, or faster than twice the greatest speed.
+    /// It is not known: the stroke ends before, the drive link moves the other way, or faster than twice the greatest speed, or
+    /// with a speed that is no number.
     pub beyond: bool,
 }
 
@@ -81,8 +85,8 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
     ///
     /// # Errors
     /// [`AxisError::Overpowered`]: somewhere the load drives the machine with more than the braking torque. Otherwise a torque, deceleration or speed
-    /// that is not positive (and finite), or a speed beyond its base; too few nodes for this machine (fewer than 4, or J changes by a quarter from
-    /// one to the next), or too many (more than 4096, or at the greatest speed an interval takes less than a tick).
+    /// that is not positive (and finite), or a speed beyond its base; too few nodes for this machine (fewer than 4, or J changes by half from
+    /// one to the next), or too many (more than 4096, or at the greatest speed an interval takes less than a tick; nor more than 2²²).
     pub fn new<F: Format<Number = N>, const SET: Set>(
         model: &Model<'_, F, SET>,
         direction: Direction,
@@ -91,7 +95,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         period: &Period<N>,
     ) -> Result<Self, AxisError> {
         within(NODE_COUNT, (4..=4096).contains(&NODES), "from 4 to 4096")?;
-        let course = Course::new(model, direction, braking, NODES as u32)?;
+        let course = Course::<NODES>::new(model, direction, braking)?;
         let way = course.way;
         // From one node to the next: so no straight line at a node exceeds what the intervals beside it allow.
         let all = 2 * way.intervals;
@@ -116,7 +120,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
             let share = beside(k).into_iter().fold(top, f32::min) / top;
             *square = (share * share * ONE) as u32;
         }
-        course.slow_down(&mut squares, top)?;
+        course.slow_down(&mut squares, top);
         let shift = course.works(&mut works, &mut inertias, top)?;
         let mut inverses = [0; NODES];
         for (k, inverse) in (0..).zip(&mut inverses) {
@@ -128,11 +132,11 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         let scale = model.table().scale();
         let moved = period.moved(in_range(SPEED, scale.omega(top))?).to_bits();
         let ticks = (way.width as f32 / moved as f32 * 256.0) as u32;
-        let holds = moved > 0 && moved < 1 << 31 && (256..u32::MAX).contains(&ticks);
+        let holds = moved > 0 && moved < 1 << 31 && (256..1 << 30).contains(&ticks);
         within(
             NODE_COUNT,
             holds,
-            "such that an interval takes from 1 to 2²⁴ ticks at the greatest speed",
+            "such that an interval takes from 1 to 2²² ticks at the greatest speed",
         )?;
         let of_difference = top / ONE * top / (2.0 * course.step) / scale.acceleration();
         let factors =
@@ -170,10 +174,11 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         top * crate::number::Real::sqrt(square)
     }
 
-    /// The acceleration of a motion this way that keeps it below the greatest speed: that of the limit itself, and of what is left to it as much as
-    /// makes up for it in a tick at the greatest speed, and gently at less. Of a motion the other way, that from rest.
+    /// The acceleration of a motion this way that keeps it below the greatest speed, within those that are possible: that of the limit itself, and of what is left
+    /// to it as much as makes up for it in a tick at the greatest speed, and gently at less. Of a motion the other way, that from rest. And whether the speed is beyond
+    /// the limit, by more than a hundredth of it and of the greatest.
     #[inline]
-    pub(super) fn greatest(&self, motion: &Motion<N>) -> Outcome<N> {
+    pub(super) fn greatest(&self, motion: &Motion<N>, [least, most]: [N; 2]) -> (N, bool) {
         let (k, part) = self.way.cell(motion.phase);
         let [square, next] = around(&self.squares, k);
         let reached = if self.is_against(motion.omega) {
@@ -181,16 +186,22 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         } else {
             self.square(motion.omega)
         };
-        let left = i64::from(along(square, next, part)) - i64::from(reached);
+        let limit = along(square, next, part);
+        let left = i64::from(limit) - i64::from(reached);
+        // 33 bits times 30.
         let difference =
             i64::from(next) - i64::from(square) + ((left * i64::from(self.ticks)) >> 8);
-        let limited = difference.clamp(i32::MIN.into(), i32::MAX.into()) as i32;
-        N::of_count(limited, &self.alpha)
+        let alpha = match i32::try_from(difference) {
+            Ok(difference) => N::of_count(difference, &self.alpha).value,
+            Err(_) if difference > 0 => most,
+            Err(_) => least,
+        };
+        (alpha, left < -i64::from((limit >> 6) + (1 << 17)))
     }
 
-    /// Where the machine stops from this state with the full braking torque: not later, but for the interpolation between the nodes and what the table is off by. Between
-    /// two nodes the work is taken to grow evenly, which errs by up to an eighth of the interval, times the share by which the braking torque changes in it
-    /// (test `it_stops_where_it_was_said`).
+    /// Where the machine stops from this state with the full braking torque: not later, but for what the table is off by, and because the work is taken to grow evenly between
+    /// two nodes: that errs by up to an eighth of an interval, times the share by which the braking torque changes in it, both where it is and where it
+    /// stops (test `it_stops_where_it_was_said`).
     #[inline]
     pub fn stop(&self, phase: Phase, omega: N) -> Stop {
         let square = self.square(omega);
@@ -220,11 +231,12 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         }
     }
 
+    /// Whether it is a motion the other way, or no number.
     #[inline]
     fn is_against(&self, omega: N) -> bool {
         match self.way.direction {
-            Direction::Forward => omega < N::default(),
-            Direction::Backward => omega > N::default(),
+            Direction::Forward => !(omega >= N::default()),
+            Direction::Backward => !(omega <= N::default()),
         }
     }
 

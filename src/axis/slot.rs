@@ -88,6 +88,9 @@ impl<'m, F: Format, const SET: Set> ImageSlot<'m, F, SET> {
     /// # Errors
     /// [`ImageError::BufferTooShort`]: more than the slot holds. Nothing of these bytes is kept.
     pub fn receive(&mut self, bytes: &[u8]) -> Result<(), ImageError> {
+        if bytes.is_empty() {
+            return Ok(());
+        }
         if self.verdict.is_some() {
             self.clear();
         }
@@ -106,7 +109,7 @@ impl<'m, F: Format, const SET: Set> ImageSlot<'m, F, SET> {
     }
 
     /// Checks what was received: takes at most `words` more words into the CRC, and at the end looks at every cell. The verdict, or `None` if something is
-    /// left to do. After the verdict it is repeated.
+    /// left to do: of no words always. After the verdict it is repeated.
     ///
     /// Cost: a slice takes the same for each of its words. The last one makes the model, which takes far longer and grows with the number of
     /// cells (docs/performance.md): call this in the background, where the tick interrupts it.

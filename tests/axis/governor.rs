@@ -58,7 +58,8 @@ fn governed<F: Format>(scale: Scale, seconds: f32, commanded: fn(f32) -> f64) ->
             let [wanted, _] = si(&scale, [commanded(k as f32 * TICK), 0.0]);
             let governed = governor.govern(&limits, &model, &motion, wanted);
             motion.alpha = governed.alpha;
-            let torque = model.torque(motion.phase, motion.omega, motion.alpha);
+            let torque =
+                model.torque_with(motion.phase, motion.omega, motion.alpha, governed.sliding);
             let way = if motion.omega < F::Number::default() {
                 &backward
             } else {
@@ -150,6 +151,97 @@ fn the_governor_does_not_chatter() {
         .map(|tick| 1.0 - tick.omega / tick.most)
         .fold(0.0, f64::max);
     assert!(left < 0.02, "{left}");
+}
+
+#[test]
+fn what_cannot_be_kept_ahead_is_flagged_and_a_slow_machine_may_be_strong() {
+    with_model::<Cubic<f64>, SET>(Scale::SI, |model| {
+        let period = Period::new(TICK, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let braking = Braking {
+            torque: BRAKE,
+            deceleration: f32::INFINITY,
+            helped: true,
+        };
+        let run = |peak: f32, most: f32, limit: fn(Phase) -> f32, turns: u32| {
+            let envelope = Envelope::new([[12.0, peak]], peak, &Scale::SI).unwrap();
+            let limits = Limits::new(envelope, 11.0, most, period, &Scale::SI).unwrap();
+            let ahead =
+                LookAhead::<f64, 64>::new(&model, Direction::Forward, braking, limit, &period)
+                    .unwrap();
+            let governor = Governor::one_way(&ahead);
+            let mut motion = Motion::default();
+            let (mut flagged, mut fastest_change) = (0, 0.0_f64);
+            for _ in 0..turns {
+                let governed = governor.govern(&limits, &model, &motion, 9.0);
+                motion.alpha = governed.alpha;
+                fastest_change = fastest_change.max(governed.alpha);
+                let above =
+                    motion.omega > 1.03 * f64::from(ahead.speed_at(motion.phase, 9.0)) + 0.1;
+                let said = governed.unkept == Some(Limit::Ahead);
+                assert!(said || !above, "{motion:?}");
+                flagged += u32::from(said);
+                motion = period.later(motion).value;
+            }
+            (flagged, fastest_change)
+        };
+        // The look-ahead counts on 8 N·m, the limits allow 2 rad/s² only: too fast into the slow part.
+        assert!(run(8.0, 2.0, limit, 16_000).0 > 100);
+        assert_eq!(run(8.0, 2.0, |_| 9.0, 16_000).0, 0);
+        // A slow machine with a strong drive starts with all that it has: 300 N·m less friction for J = 1.25.
+        let (_, alpha) = run(300.0, 1000.0, |_| 0.5, 10);
+        assert!((alpha - 299.5 / 1.25).abs() < 0.5, "{alpha}");
+    });
+}
+
+#[test]
+fn at_rest_the_torque_is_one_that_the_drive_has() {
+    with_model::<Cubic<f64>, SET>(Scale::SI, |model| {
+        let period = Period::new(TICK, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let braking = Braking {
+            torque: BRAKE,
+            deceleration: 40.0,
+            helped: true,
+        };
+        let made = |direction| {
+            LookAhead::<f64, 64>::new(&model, direction, braking, |_| 9.0, &period).unwrap()
+        };
+        let [forward, backward] = [Direction::Forward, Direction::Backward].map(made);
+        let governor = Governor::both_ways(&forward, &backward).unwrap();
+        // The load pulls forward with 3, friction holds 0.5. A weak drive cannot hold it, one of 2.8 can with the help of friction.
+        for (peak, wanted, least) in [
+            (1.0_f32, 0.0, 1.5),
+            (2.8, 0.0, 0.0),
+            (4.0, 9.0, 3.0),
+            (4.0, -9.0, -0.6),
+        ] {
+            let envelope = Envelope::new([[12.0, peak]], peak, &Scale::SI).unwrap();
+            let limits = Limits::new(envelope, 11.0, 100.0, period, &Scale::SI).unwrap();
+            let motion = Motion {
+                phase: Phase::from_bits(1 << 30),
+                ..Motion::default()
+            };
+            let governed = governor.govern(&limits, &model, &motion, wanted);
+            let torque = model.torque_with(motion.phase, 0.0, governed.alpha, governed.sliding);
+            let held = governed.alpha == 0.0;
+            assert!(
+                held || torque.abs() < f64::from(peak) + 1e-4,
+                "{peak}: {torque}"
+            );
+            // Held by friction: what is missing to balance the load is at most c.
+            assert!(
+                !held || torque.abs() < f64::from(peak) + 0.5,
+                "{peak}: {torque}"
+            );
+            assert!(
+                if wanted < 0.0 {
+                    governed.alpha < least + 0.11
+                } else {
+                    governed.alpha > least - 1e-4
+                },
+                "{governed:?}"
+            );
+        }
+    });
 }
 
 #[test]

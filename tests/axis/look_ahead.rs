@@ -297,9 +297,100 @@ fn a_weak_brake_takes_turns_and_help_is_not_counted() {
             assert!(ahead.stop(Phase::default(), -1.0).beyond);
             assert!(ahead.stop(Phase::default(), 61.0).beyond);
             assert!(!ahead.stop(Phase::default(), 59.0).beyond);
-            assert_eq!(ahead.stop(Phase::default(), f64::NAN).turns, 0);
+            assert!(ahead.stop(Phase::default(), f64::NAN).beyond);
         },
     );
+}
+
+#[test]
+fn it_does_not_stop_later_where_brake_and_inertia_change() {
+    // J from 0.1 to 1.9, a brake of 3 N·m against a load of up to 3: 0.5 to 6.5 N·m with friction.
+    let wave = Wave {
+        swing: 0.9,
+        ..INVISCID
+    };
+    let braking = Braking {
+        torque: 3.0,
+        ..BRAKING
+    };
+    with_model_of::<Cubic<f64>, SET>(&wave, Scale::SI, |model| {
+        let period = Period::new(0.000_5, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let ahead =
+            LookAhead::<f64, 64>::new(&model, Direction::Forward, braking, |_| 12.0, &period)
+                .unwrap();
+        let net = |phi: f64| 3.0 + 0.5 - 3.0 * phi.sin();
+        for (bits, omega) in samples(300, 0xff13, &(ANY, 0.5..12.0)) {
+            let phi = f64::from(bits) / 4_294_967_296.0 * TAU;
+            // ½·J·ω² = ∫ (3.5 − 3·sin) dφ, by bisection: the work grows with the angle.
+            let energy = 0.5 * (1.0 + 0.9 * phi.cos()) * omega * omega;
+            let work = |distance: f64| 3.5 * distance + 3.0 * ((phi + distance).cos() - phi.cos());
+            let [mut low, mut high] = [0.0, energy / 0.5 + 1.0];
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if work(middle) < energy {
+                    low = middle
+                } else {
+                    high = middle
+                }
+            }
+            let found = ahead.stop(Phase::from_bits(bits), omega);
+            let said = f64::from(found.turns)
+                + f64::from(found.phase.to_bits().wrapping_sub(bits)) / 4_294_967_296.0;
+            let late = low - said * TAU;
+            // An eighth of an interval at each end, times the share by which the braking torque changes in the interval; the chords' own curvature is less.
+            let step = TAU / 64.0;
+            let bound: f64 = [phi, phi + low]
+                .iter()
+                .map(|at| step / 8.0 * (net(at - step) / net(at + step)).ln().abs())
+                .sum();
+            assert!(
+                late < bound + 1e-4,
+                "from {phi} at {omega}: {late} later, {bound}"
+            );
+            // Nor much too early: what J bulges between two nodes, half of a percent, and the same again.
+            assert!(
+                late > -0.02 * (1.0 + low) - bound,
+                "from {phi} at {omega}: {late}"
+            );
+        }
+    });
+}
+
+#[test]
+fn a_weak_brake_keeps_what_is_possible_on_a_turn() {
+    // J from 0.32 at half a turn to 1.68 at its start. To have ω ≤ 10 all the way, the energy at the start must be less than ½·J·10² anywhere, and the brake's work up to
+    // there.
+    let wave = Wave {
+        swing: 0.68,
+        load: 0.0,
+        coulomb: 0.0,
+        ..INVISCID
+    };
+    with_model_of::<Cubic<f64>, SET>(&wave, Scale::SI, |model| {
+        let period = Period::new(0.000_5, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        for torque in [0.1_f32, 1.0, 2.0, 10.0] {
+            let braking = Braking { torque, ..BRAKING };
+            for direction in [Direction::Forward, Direction::Backward] {
+                let ahead =
+                    LookAhead::<f64, 64>::new(&model, direction, braking, |_| FAST, &period)
+                        .unwrap();
+                // The place ahead that leaves the least: with a weak brake, half a turn away.
+                let least = (0..10_000)
+                    .map(|k| TAU / 10_000.0 * f64::from(k))
+                    .map(|phi| (1.0 + 0.68 * phi.cos()) * 100.0 + 2.0 * phi * f64::from(torque))
+                    .fold(f64::INFINITY, f64::min);
+                let exact = (least / 1.68).sqrt().min(10.0);
+                let found = f64::from(ahead.speed_at(Phase::default(), FAST));
+                assert_near(&format!("{torque}"), found, exact, 2e-3 * exact);
+                assert_near(
+                    "half a turn",
+                    ahead.speed_at(Phase::from_bits(1 << 31), FAST).into(),
+                    10.0,
+                    1e-3,
+                );
+            }
+        }
+    });
 }
 
 #[test]
@@ -372,7 +463,7 @@ fn what_cannot_be_looked_ahead_is_refused() {
         );
         assert_eq!(
             format!("{refused}; {}", refused.cure()),
-            "the load drives the machine with more than the braking torque at 250/1000 of the range; \
+            "the load drives the machine with more than the braking torque at 234/1000 of the range; \
              give more braking torque, or a counterbalance to the load"
         );
         assert!(torque(3.02, false).is_ok() && torque(2.98, false).is_err());
@@ -403,6 +494,13 @@ fn what_cannot_be_looked_ahead_is_refused() {
         for limit in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e30, 1e-30, 200.0] {
             assert!(made(BRAKING, limit).is_err(), "{limit}");
         }
+        // At this speed an interval takes longer than a tick can count.
+        let slow = Period::new(0.000_1, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let crawl = LookAhead::<f32, 4>::new(&model, Direction::Forward, BRAKING, |_| 0.001, &slow);
+        assert!(
+            matches!(crawl, Err(AxisError::OutOfRange { .. })),
+            "{crawl:?}"
+        );
         let few = LookAhead::<f32, 3>::new(&model, Direction::Forward, BRAKING, |_| 1.0, &period);
         assert!(few.is_err());
     });

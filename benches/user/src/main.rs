@@ -450,6 +450,7 @@ macro_rules! ahead {
             let governed = $govern(black_box(&governor), &limits, &model, &motion, motion.alpha);
             governed.alpha.write();
             write(governed.by.is_some().into());
+            write(governed.unkept.is_some().into());
             Ok(())
         }
     };

@@ -187,9 +187,11 @@ impl Sums {
         };
         let mut set = 0;
         for part in C::ALL {
-            let same = C::ALL
-                .into_iter()
-                .filter(|other| other.curve() == part.curve());
+            // The lengths are no part of J.
+            let lengths = [C::Ratio, C::Offset];
+            let same = C::ALL.into_iter().filter(|other| {
+                other.curve() == part.curve() && lengths.contains(other) == lengths.contains(&part)
+            });
             let most = same.map(size).fold(0.0, f64::max);
             if size(part) > NOTHING * most {
                 set |= part.bits();

@@ -66,7 +66,7 @@ fn rust_set(layout: LayoutName, set: Set) -> String {
         .collect();
     let (terms, path) = match layout {
         LayoutName::SliderCrank => (CRANK_TERMS, "slider_crank::terms"),
-        _ => (TERMS, "terms"),
+        _ => (TERMS, "harmonic::terms"),
     };
     let terms = terms.iter().filter(|(bit, _)| set & bit != 0);
     names.extend(terms.map(|(_, name)| format!("{path}::{name}")));
