@@ -8,10 +8,11 @@ use jred::axis::{FeedForward, Motion};
 use jred::image::{encode, image_len};
 use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 use jred::number::Sliding;
-use jred::slider_crank::{STEEPEST, terms};
+use jred::slider_crank::{STEEPEST, form, set_in_use, terms};
+use jred::table::Shape;
 use jred::{
-    Image, ImageError, Machine, Phase, Reducible, Set, SliderCrankForm, Spline, TableError,
-    Validity, curves,
+    Image, ImageError, Link, Machine, Phase, Reducible, Set, SliderCrankForm, Spline, Table,
+    TableError, Validity, curves,
 };
 use proptest::prelude::*;
 
@@ -230,4 +231,39 @@ fn known_and_unknown_sets_tick_alike() {
     assert!(Image::is_of::<SliderCrankForm, SET>(image));
     assert!(!Image::is_of::<SliderCrankForm, { SET & !terms::LOAD_SIN }>(image));
     assert!(!Image::is_of::<jred::Harmonic<f32>, SET>(image));
+}
+
+/// What counts as nothing is a part of the same curve: in a machine of millimetres an inertia is small beside a length.
+#[test]
+fn a_small_machine_keeps_its_small_coefficients() {
+    for size in [1.0, 0.1, 0.01] {
+        let links = [
+            link_of(0.01 * size, 1e-9 * size * size * size, [0.0, 0.0]),
+            // Its centre of mass is beside its line.
+            link_of(
+                0.002 * size,
+                1e-8 * size * size * size,
+                [0.003 * size, 0.000_1 * size],
+            ),
+            Link::point_mass(0.001 * size).unwrap(),
+        ];
+        let dimensions = SliderCrankDimensions {
+            crank: 0.002 * size,
+            rod: 0.008 * size,
+            offset: 0.0,
+        };
+        let machine = Machine::new(SliderCrank::new(dimensions, Branch::Right, links).unwrap());
+        let set = set_in_use(&machine).unwrap();
+        assert_eq!(set & terms::INERTIA_COS, terms::INERTIA_COS, "{size}");
+        let mut words = [0.0; 18];
+        let count = form(&machine, set, &mut words).unwrap();
+        let table =
+            Table::new(&words[..count], Shape::<SliderCrankForm>::slider_crank(set)).unwrap();
+        for k in 0..64 {
+            let phi = f64::from(k) / 64.0 * TAU;
+            let found = table.at(Phase::from_radians(phi)).inertia;
+            let exact = machine.reduction(phi).unwrap().inertias()[0];
+            assert_near(&format!("{size} at {phi}"), found / exact, 1.0, 2e-6);
+        }
+    }
 }

@@ -112,7 +112,7 @@ impl<'m, F: Format, const SET: Set> ImageSlot<'m, F, SET> {
     /// left to do: of no words always. After the verdict it is repeated.
     ///
     /// Cost: a slice takes the same for each of its words. The last one makes the model, which takes far longer and grows with the number of
-    /// cells (docs/performance.md): call this in the background, where the tick interrupts it.
+    /// cells, of a slider-crank with the places at which its inertia must be looked at (docs/performance.md): call this in the background, where the tick interrupts it.
     ///
     /// # Errors
     /// As [`Image::new`](crate::Image::new), [`Image::of_machine`](crate::Image::of_machine) and [`Image::model`](crate::Image::model).

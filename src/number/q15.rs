@@ -79,7 +79,13 @@ impl Number for Q15 {
 
     #[inline(always)]
     fn times(self, factor: &Factor) -> Outcome<Self> {
-        Q31::from(self).times(factor).into()
+        let Outcome { value, saturated } = Q31::from(self).times(factor);
+        // To the nearest, in words of this length: rounded down, a motion would fall a little each tick.
+        let rounded = value.to_bits().saturating_add(1 << 15) >> 16;
+        Outcome {
+            value: Self(rounded as i16),
+            saturated,
+        }
     }
 
     #[inline(always)]

@@ -193,3 +193,23 @@ fn a_limited_motion_is_flagged_and_a_stroke_ends() {
         );
     }
 }
+
+/// Rounded down, a motion would fall by a unit in each tick in which it should hardly change.
+#[test]
+fn a_short_motion_gains_alike_both_ways() {
+    let scale = scale_of(150.0, 10.0, 1.5);
+    let tick = Period::<Q15>::new(0.000_1, Domain::<f64>::Turn, &scale).unwrap();
+    for alpha in samples(200, 0xff14, &(0.0..90.0)) {
+        let gain = |alpha: f64| {
+            let [_, a] = si::<Q15>(&scale, [0.0, alpha]);
+            (
+                tick.gained(a).value.to_f64(),
+                a.to_f64() * 100.0 * 0.000_1 / 10.0,
+            )
+        };
+        let [(up, exact), (down, _)] = [gain(alpha), gain(-alpha)];
+        let unit = 1.0 / 32_768.0;
+        assert_near("up", up, exact, 0.51 * unit);
+        assert_near("down", down, -exact, 0.51 * unit + 1.1e-3 * unit);
+    }
+}

@@ -4,7 +4,9 @@ use jred::axis::{Counting, Encoder, Gearbox, Mounting};
 use jred::table::Format;
 use jred::{Image, Phase, Set, curves, include_image};
 
-/// The curves that `jred export` prints for the machine.
+/// The identifier of the machine that `jred export` prints: an image of another is refused.
+pub const MACHINE: u32 = 0x3d4c_7e82;
+/// The curves of the table, as `jred export` prints them.
 pub const CURVES: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS;
 
 /// Layout and numbers of the tables: single precision where the core has it (`--type f32`), else fixed point (`--type i32`).

@@ -7,7 +7,9 @@ use jred::axis::{AxisError, ImageSlot, Period, Ramp, TorqueLimits, Transmission}
 use jred::number::Number as _;
 
 use crate::board::RATE;
-use crate::machine::{CURVES, FRICTION_RAMP, GEARBOX, LEAD, Layout, MOST_TORQUE, Number, WORDS};
+use crate::machine::{
+    CURVES, FRICTION_RAMP, GEARBOX, LEAD, Layout, MACHINE, MOST_TORQUE, Number, WORDS,
+};
 
 /// Memory for a table. There are two: the tick has the one that it reads, the background the other.
 pub struct Table {
@@ -47,7 +49,7 @@ impl fmt::Display for Refused {
 impl Table {
     pub const fn new(memory: &'static mut [u32; WORDS]) -> Self {
         Self {
-            slot: ImageSlot::new(memory),
+            slot: ImageSlot::new(memory).for_machine(MACHINE),
             units: None,
         }
     }

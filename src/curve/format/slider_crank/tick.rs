@@ -30,7 +30,7 @@ pub(super) struct Values {
     pub(super) coulomb: f32,
 }
 
-/// 1/√w for w from [`STEEPEST`] to 1: `micromath`'s, whose 3.5 % three steps of Newton's iteration bring down to roundings.
+/// 1/√w for w from 1 − [`STEEPEST`]² to 1: `micromath`'s, whose 3.5 % three steps of Newton's iteration bring down to roundings.
 #[inline(always)]
 fn inverse_root(w: f32) -> f32 {
     let half = 0.5 * w;
