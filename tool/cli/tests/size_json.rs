@@ -66,6 +66,30 @@ fn an_answer_without_a_drive_follows_it_as_well() {
 }
 
 /// The schema can be violated: it is no schema that takes everything.
+/// A drive link that slides has its own keys, and one that has both or none follows no form.
+#[test]
+fn a_slide_has_keys_in_newtons_and_metres() {
+    let bucket = machine("excavator-bucket.toml");
+    let turning = jred([&"size", &press_file(), &"--format", &"json"]).json();
+    let sliding = jred([&"size", &bucket, &"--format", &"json"]).json();
+    check(&turning);
+    check(&sliding);
+    let slides = sliding.get("drive link speed [m/s]").is_some();
+    assert!(slides && sliding.get("drive link speed [rad/s]").is_none());
+    assert!(turning.get("drive link speed [m/s]").is_none());
+    let mut neither = sliding.clone();
+    neither
+        .as_object_mut()
+        .unwrap()
+        .remove("drive link force [N]");
+    assert!(!faults(&schema(), &neither).is_empty());
+    let mut both = sliding;
+    for key in ["drive link torque [N m]", "drive link speed [rad/s]"] {
+        both[key] = turning[key].clone();
+    }
+    assert!(!faults(&schema(), &both).is_empty());
+}
+
 #[test]
 fn the_schema_refuses_what_is_wrong() {
     let best = jred([&"size", &press_file(), &"--top", &"1", &"--format", &"json"]).json();
@@ -88,7 +112,7 @@ fn the_schema_refuses_what_is_wrong() {
     assert_eq!(answer["asked"]["rank"], 1);
     let schema = schema();
     let spoilt: [(&str, Value); 6] = [
-        ("/schema", json!("jred-size/1")),
+        ("/schema", json!("jred-size/2")),
         ("/asked/rank", json!(0)),
         ("/cycle [s]", json!("0.5 s")),
         ("/counts/fit", json!(-1)),

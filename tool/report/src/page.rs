@@ -125,6 +125,7 @@ impl Page {
         let found = !selection.fit.is_empty();
         let best = &selection.judged(candidate);
         let words = best.drive.motor.kind.vocabulary();
+        let link = file.machine.mechanism().coordinate().vocabulary();
         let Vocabulary {
             torque, inertia, ..
         } = words;
@@ -184,7 +185,7 @@ impl Page {
                 .iter()
                 .map(|refused| ChangeRow::of(refused, duty.duration))
                 .collect(),
-            duty: rows::duty_rows(best, duty, words),
+            duty: rows::duty_rows(best, duty, link, words),
             energy: format!(
                 "Over a cycle the motor supplies {} J and feeds back {} J; the brake resistor or the DC bus takes at \
                  most the latter.",
@@ -302,7 +303,8 @@ fn over_time(subject: &Subject, words: &Vocabulary) -> Vec<Figure> {
 
 fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec<Figure>, Error> {
     let words = subject.words();
-    let (what, term) = match file.machine.mechanism().coordinate() {
+    let coordinate = file.machine.mechanism().coordinate();
+    let (what, term) = match coordinate {
         Coordinate::Angle => (
             "Reduced inertia",
             "J_red varies, a drive that uses its mean value makes an error of ½·J′·ω²",
@@ -321,7 +323,7 @@ fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec
             figures::reduced_torque(file, mean_speed)?,
             format!(
                 "Parts of the reduced {} that do not depend on the motion: weight, process loads, and the magnitudes of the viscous and motion-opposing loads at the mean speed.",
-                words.torque
+                coordinate.vocabulary().torque
             ),
         ),
         Figure::new(

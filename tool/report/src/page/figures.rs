@@ -70,12 +70,11 @@ pub(super) fn reduced_torque(file: &MachineFile, speed: f64) -> Result<Chart, Er
             part.push((coordinate.shown(phi), value));
         }
     }
-    let names = [
-        "weight −U′",
-        "process",
-        "viscous −b·ω at mean speed",
-        "opposing −c",
-    ];
+    let viscous = match coordinate {
+        Coordinate::Angle => "viscous −b·ω at mean speed",
+        Coordinate::Length => "viscous −b·v at mean speed",
+    };
+    let names = ["weight −U′", "process", viscous, "opposing −c"];
     let series: Vec<Series> = names
         .into_iter()
         .zip(parts)

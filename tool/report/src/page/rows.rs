@@ -196,10 +196,11 @@ pub(super) fn rule_rows(rules: &RuleSet, words: &Vocabulary) -> Vec<[String; 4]>
         .collect()
 }
 
-/// Minima, means, maxima and RMS values along the way from the drive link to the motor.
+/// Minima, means, maxima and RMS values along the way from the drive link, which has its own words, to the motor.
 pub(super) fn duty_rows(
     best: &Judged,
     duty: &Duty,
+    link: &Vocabulary,
     words: &Vocabulary,
 ) -> Vec<(String, Vec<String>)> {
     let row = |name: String, figures: Figures, unit: f64| {
@@ -210,14 +211,17 @@ pub(super) fn duty_rows(
     let (speed, scale) = (words.speed.unit, words.speed.scale);
     vec![
         row(
-            format!("{word} at the drive link [{torque}], without drive train"),
+            format!(
+                "{} at the drive link [{}], without drive train",
+                link.torque, link.torque.unit
+            ),
             duty.figures(|i| i.terms.total()),
             1.0,
         ),
         row(
-            format!("speed of the drive link [{speed}]"),
+            format!("speed of the drive link [{}]", link.speed.unit),
             duty.figures(|i| i.omega),
-            scale,
+            link.speed.scale,
         ),
         row(
             format!("{word} at the drive train's input [{torque}]"),
