@@ -57,7 +57,7 @@ fn the_press() {
     let text = jred([&"check", &press_file()]).ends(0).out;
     for words in [
         "3·3 links − 8 constraints = 1",
-        "slider slides by 60 mm; dead centres at φ = 0 deg, 180 deg",
+        "slider slides by 60 mm; dead centres at φ = 0 deg (210 mm), 180 deg (150 mm)",
         "smallest transmission index: 0.986",
         "the same over the whole range",
         "every rule is satisfied",
