@@ -162,3 +162,30 @@ fn a_drive_can_be_named() {
         "did you mean \"fxm33-30a + npt025mf-3\"?",
     ]);
 }
+
+/// The motor of the next smaller rated power, with the rules that it violates: no refused motor lies between.
+#[test]
+fn the_next_smaller_motor_says_why_not() {
+    let text = jred([&"size", &press_file()]).ends(0).out;
+    let (_, rest) = text.split_once("next smaller motor, ").unwrap();
+    let line = rest.lines().next().unwrap();
+    let (power, reason) = line.split_once(" kW: ").unwrap();
+    let power: f64 = power.parse().unwrap();
+    let all = jred([&"size", &press_file(), &"--all", &"--format", &"json"]).json();
+    let powers = |list: &str| {
+        let drives = all[list].as_array().unwrap().iter();
+        drives
+            .filter_map(|d| d["rated power [W]"].as_f64())
+            .collect::<Vec<_>>()
+    };
+    let least = powers("fit").into_iter().fold(f64::INFINITY, f64::min);
+    let below = powers("refused").into_iter().filter(|p| *p < least);
+    let next = below.fold(0.0, f64::max);
+    crate::support::within("power", power * 1e3, next, 5e-3 * next);
+    let (name, reasons) = reason.split_once(" is refused: ").unwrap();
+    let refused = jred([&"size", &press_file(), &"--refused"]).ends(0).out;
+    assert!(
+        refused.contains(&format!("{name}: {reasons}")),
+        "{name}: {reasons}"
+    );
+}

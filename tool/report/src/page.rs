@@ -89,6 +89,7 @@ struct Page {
     fit: Vec<FitRow>,
     fit_more: usize,
     ranking: String,
+    next_smaller: String,
     refused_count: usize,
     refused: Vec<(String, String)>,
     rule_set: String,
@@ -198,6 +199,7 @@ impl Page {
             fit: ranked(selection),
             fit_more: selection.fit.len().saturating_sub(LISTED),
             ranking: selection.ranking(words),
+            next_smaller: crate::list::listing::next_smaller(selection).unwrap_or_default(),
             refused_count: selection.refused.len(),
             refused: (selection.first_refused(REFUSED))
                 .iter()
