@@ -18,6 +18,6 @@ out=${OUT:-press}
 export RAYON_NUM_THREADS=${SLURM_CPUS_PER_TASK:-1}
 exec jred vary "$machine" \
     --vary "${SLIDER:-slider.mass=30..60kg:40}" \
-    --vary "${DURATION:-motion.segment.0.duration=0.3..0.6s:25}" \
+    --vary "${DURATION:-motion.segment.1.duration=0.3..0.6s:25}" \
     --shard "$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT" \
     --out "$out.part-$SLURM_ARRAY_TASK_ID.csv" --resume

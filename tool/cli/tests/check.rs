@@ -57,13 +57,40 @@ fn the_press() {
     let text = jred([&"check", &press_file()]).ends(0).out;
     for words in [
         "3·3 links − 8 constraints = 1",
-        "slider slides by 60 mm; dead centres at φ = 0 deg, 180 deg",
+        "slider slides by 60 mm; dead centres at φ = 0 deg (210 mm), 180 deg (150 mm)",
         "smallest transmission index: 0.986",
         "the same over the whole range",
         "every rule is satisfied",
     ] {
         assert!(text.contains(words), "{words} is not in\n{text}");
     }
+}
+
+/// A press whose pressing force has the wrong sign: it pushes the slider on towards φ = 360 deg instead of against it.
+#[test]
+fn a_load_that_drives_is_named() {
+    let folder = Folder::new();
+    let right = jred([&"check", &press_file()]).ends(0).out;
+    assert!(!right.contains("drives the machine"), "{right}");
+    let text = edited_press(
+        "force = [\"-10 kN\", \"0 N\"]",
+        "force = [\"10 kN\", \"0 N\"]",
+    );
+    let wrong = jred([&"check", &folder.file("wrong.toml", text)])
+        .ends(0)
+        .out;
+    let (_, warning) = wrong
+        .split_once("warning: the process load \"pressing force\" drives the machine with up to ")
+        .unwrap_or_else(|| panic!("{wrong}"));
+    assert_eq!(wrong.matches("drives the machine").count(), 1);
+    let (power, place) = warning.split_once(" W, at φ = ").unwrap();
+    // The force rises over 15 deg from 315 deg and is at its most from 330 deg; the slider slows down towards 360 deg.
+    let place: f64 = place.split(' ').next().unwrap().parse().unwrap();
+    assert!((326.0..=332.0).contains(&(place % 360.0)), "{place}");
+    // 10 kN at the speed of the slider of r (sin φ + r/(2 l) sin 2φ) ω, ω at most 29.45 rad/s.
+    let power: f64 = power.parse().unwrap();
+    let most = 10e3 * 0.03 * (0.5 + 30.0 / 360.0 * 0.866) * 29.4524;
+    assert!(power > 0.5 * most && power < 1.1 * most, "{power} {most}");
 }
 
 /// With an offset the dead centres are where crank and rod are in line: sin φ = e/(l ± r).

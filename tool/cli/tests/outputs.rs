@@ -181,3 +181,20 @@ fn leftovers_are_passed_over() {
     assert_eq!(std::fs::read(&path).unwrap(), b"new");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 151);
 }
+
+/// The inertia of a planetary gear is constant: no rounding error of its derivative is printed as a value.
+#[test]
+fn what_is_zero_is_printed_as_zero() {
+    let machine = press_file().with_file_name("linkage-planetary.toml");
+    let reduced = jred([&"reduce", &machine, &"--positions", &"12"])
+        .ends(0)
+        .out;
+    let explained = jred([&"size", &machine, &"--explain"]).out;
+    assert!(reduced.contains("0.0409043") && explained.contains("velocity"));
+    for line in reduced.lines().chain(explained.lines()) {
+        assert!(!line.contains("e-1"), "{line}");
+    }
+    let bucket = press_file().with_file_name("excavator-bucket.toml");
+    let explained = jred([&"size", &bucket, &"--explain"]).out;
+    assert!(explained.contains(" 0.0 %") && !explained.contains("-0.0 %"));
+}

@@ -366,6 +366,23 @@ fn the_page_of_a_simulation_that_slides() {
     }
 }
 
+/// The potential's curve is named after what it holds: a damper stores nothing.
+#[test]
+fn the_potential_names_its_springs() {
+    let folder = Folder::new();
+    let page = |name: &str, file: &Path| {
+        let report = folder.path(name);
+        jred([&"reduce", &file, &"--report", &report]).ends(0);
+        std::fs::read_to_string(report).unwrap()
+    };
+    let press = page("press.html", &press_file());
+    assert!(press.contains("weight −U′") && !press.contains("springs −U′"));
+    let lever = press_file().with_file_name("linkage-cam-lever.toml");
+    let lever = page("lever.html", &lever);
+    assert!(lever.contains("weight and springs −U′"));
+    assert!(!lever.contains("weight −U′"));
+}
+
 /// Machines without loads, without a train, at constant speed: plots of nothing are plots nevertheless.
 #[test]
 fn reports_of_plain_machines() {

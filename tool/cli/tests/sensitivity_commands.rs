@@ -40,7 +40,7 @@ fn the_command_lists_quantities() {
     let run = jred([&"sensitivity", &rack, &"--steps", &"64", &"--most", &"5"]);
     assert!(
         run.out
-            .contains("not varied: motion.segment.0.move: the moves of this cycle add up to"),
+            .contains("not varied: motion.segment.1.move: the moves of this cycle add up to"),
         "{}",
         run.out
     );
@@ -99,14 +99,14 @@ fn the_table_leaves_out_what_moves_nothing() {
     // Gravity is across the axis: in CSV with a slope of zero, in the table by name only.
     assert!(
         csv.lines()
-            .any(|line| line.starts_with("gravity.1,") && line.contains(",nothing,")),
+            .any(|line| line.starts_with("gravity.2,") && line.contains(",nothing,")),
         "{csv}"
     );
     let idle = table
         .lines()
         .find(|line| line.contains("affect no rule"))
         .unwrap();
-    assert!(idle.contains("gravity.1"), "{idle}");
+    assert!(idle.contains("gravity.2"), "{idle}");
 }
 
 /// The command: the table of the file, shares that merge to the whole, a summary from the merged file.
@@ -125,7 +125,7 @@ fn the_command_sums_up_shares_as_one_run() {
             "--steps",
             "64",
             "--tolerance",
-            "drive_train.0.belt_mass=10%",
+            "drive_train.1.belt_mass=10%",
         ]);
         let output = command.args(more).arg("--out").arg(out).output().unwrap();
         assert!(
@@ -268,7 +268,7 @@ fn wrong_tolerances_are_said() {
         &["unknown key `gauss`"],
     );
     says("\"slider.mass\" = 5", &["must be a text"]);
-    says("\"gravity.1\" = \"5 %\"", &["is a share of zero"]);
+    says("\"gravity.2\" = \"5 %\"", &["is a share of zero"]);
     let none = folder.file("none.toml", press_text());
     jred([&"tolerance", &none])
         .ends(2)

@@ -66,6 +66,30 @@ fn an_answer_without_a_drive_follows_it_as_well() {
 }
 
 /// The schema can be violated: it is no schema that takes everything.
+/// A drive link that slides has its own keys, and one that has both or none follows no form.
+#[test]
+fn a_slide_has_keys_in_newtons_and_metres() {
+    let bucket = machine("excavator-bucket.toml");
+    let turning = jred([&"size", &press_file(), &"--format", &"json"]).json();
+    let sliding = jred([&"size", &bucket, &"--format", &"json"]).json();
+    check(&turning);
+    check(&sliding);
+    let slides = sliding.get("drive link speed [m/s]").is_some();
+    assert!(slides && sliding.get("drive link speed [rad/s]").is_none());
+    assert!(turning.get("drive link speed [m/s]").is_none());
+    let mut neither = sliding.clone();
+    neither
+        .as_object_mut()
+        .unwrap()
+        .remove("drive link force [N]");
+    assert!(!faults(&schema(), &neither).is_empty());
+    let mut both = sliding;
+    for key in ["drive link torque [N m]", "drive link speed [rad/s]"] {
+        both[key] = turning[key].clone();
+    }
+    assert!(!faults(&schema(), &both).is_empty());
+}
+
 #[test]
 fn the_schema_refuses_what_is_wrong() {
     let best = jred([&"size", &press_file(), &"--top", &"1", &"--format", &"json"]).json();
@@ -88,7 +112,7 @@ fn the_schema_refuses_what_is_wrong() {
     assert_eq!(answer["asked"]["rank"], 1);
     let schema = schema();
     let spoilt: [(&str, Value); 6] = [
-        ("/schema", json!("jred-size/1")),
+        ("/schema", json!("jred-size/2")),
         ("/asked/rank", json!(0)),
         ("/cycle [s]", json!("0.5 s")),
         ("/counts/fit", json!(-1)),
@@ -137,4 +161,31 @@ fn a_drive_can_be_named() {
         "there is no drive \"fxm33-30a+npt025mf-33\" in the catalogue",
         "did you mean \"fxm33-30a + npt025mf-3\"?",
     ]);
+}
+
+/// The motor of the next smaller rated power, with the rules that it violates: no refused motor lies between.
+#[test]
+fn the_next_smaller_motor_says_why_not() {
+    let text = jred([&"size", &press_file()]).ends(0).out;
+    let (_, rest) = text.split_once("next smaller motor, ").unwrap();
+    let line = rest.lines().next().unwrap();
+    let (power, reason) = line.split_once(" kW: ").unwrap();
+    let power: f64 = power.parse().unwrap();
+    let all = jred([&"size", &press_file(), &"--all", &"--format", &"json"]).json();
+    let powers = |list: &str| {
+        let drives = all[list].as_array().unwrap().iter();
+        drives
+            .filter_map(|d| d["rated power [W]"].as_f64())
+            .collect::<Vec<_>>()
+    };
+    let least = powers("fit").into_iter().fold(f64::INFINITY, f64::min);
+    let below = powers("refused").into_iter().filter(|p| *p < least);
+    let next = below.fold(0.0, f64::max);
+    crate::support::within("power", power * 1e3, next, 5e-3 * next);
+    let (name, reasons) = reason.split_once(" is refused: ").unwrap();
+    let refused = jred([&"size", &press_file(), &"--refused"]).ends(0).out;
+    assert!(
+        refused.contains(&format!("{name}: {reasons}")),
+        "{name}: {reasons}"
+    );
 }

@@ -45,7 +45,7 @@ fn a_row_is_what_sizing_the_changed_file_gives() {
         &"--vary",
         &"slider.mass=42,60kg",
         &"--vary",
-        &"segment.0.duration=0.4,0.3s",
+        &"segment.1.duration=0.4,0.3s",
         &"--format",
         &"csv",
     ])
@@ -61,7 +61,7 @@ fn a_row_is_what_sizing_the_changed_file_gives() {
             )
             .replacen(
                 "\"0.4 s\"",
-                &format!("\"{} s\"", row["motion.segment.0.duration [s]"]),
+                &format!("\"{} s\"", row["motion.segment.1.duration [s]"]),
                 1,
             );
         let file = folder.file("changed.toml", text);
@@ -137,15 +137,15 @@ fn one_when_no_machine_has_a_drive() {
         let run = jred([&"vary", &press, &"--vary", &values, &"--steps", &"64"]);
         run.ends(code).out
     };
-    let none = vary("load.pressing force.force.0=-900,-800kN", 1);
+    let none = vary("load.pressing force.force.1=-900,-800kN", 1);
     assert!(none.contains("0 of 2 machines have a drive"), "{none}");
-    let one = vary("load.pressing force.force.0=-900,-10kN", 0);
+    let one = vary("load.pressing force.force.1=-900,-10kN", 0);
     assert!(one.contains("1 of 2 machines has a drive"), "{one}");
     jred([
         &"vary",
         &press,
         &"--vary",
-        &"load.pressing force.force.0=-900,-800kN",
+        &"load.pressing force.force.1=-900,-800kN",
         &"--steps",
         &"64",
         &"--shard",
@@ -240,4 +240,18 @@ fn what_cannot_be_varied_is_said() {
         &out.path("x"),
     ]);
     shard.ends(2).says(&["there is no share 2 of 2"]);
+}
+
+/// The elements of lists count from 1 as in messages; who counts from 0 is told.
+#[test]
+fn the_first_element_is_number_one() {
+    let run = |path: &str| {
+        let vary = format!("{path}.duration=0.4,0.5s");
+        jred([&"vary", &press_file(), &"--vary", &vary, &"--steps", &"64"])
+    };
+    let first = run("motion.segment.1");
+    assert!(first.code < 2, "{}", first.err);
+    let wrong = run("motion.segment.0").ends(2);
+    let told = wrong.err.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(told.contains("counted from 1"), "{told}");
 }

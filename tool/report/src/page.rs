@@ -89,6 +89,7 @@ struct Page {
     fit: Vec<FitRow>,
     fit_more: usize,
     ranking: String,
+    next_smaller: String,
     refused_count: usize,
     refused: Vec<(String, String)>,
     rule_set: String,
@@ -125,6 +126,7 @@ impl Page {
         let found = !selection.fit.is_empty();
         let best = &selection.judged(candidate);
         let words = best.drive.motor.kind.vocabulary();
+        let link = file.machine.mechanism().coordinate().vocabulary();
         let Vocabulary {
             torque, inertia, ..
         } = words;
@@ -184,7 +186,7 @@ impl Page {
                 .iter()
                 .map(|refused| ChangeRow::of(refused, duty.duration))
                 .collect(),
-            duty: rows::duty_rows(best, duty, words),
+            duty: rows::duty_rows(best, duty, link, words),
             energy: format!(
                 "Over a cycle the motor supplies {} J and feeds back {} J; the brake resistor or the DC bus takes at \
                  most the latter.",
@@ -197,6 +199,7 @@ impl Page {
             fit: ranked(selection),
             fit_more: selection.fit.len().saturating_sub(LISTED),
             ranking: selection.ranking(words),
+            next_smaller: crate::list::listing::next_smaller(selection).unwrap_or_default(),
             refused_count: selection.refused.len(),
             refused: (selection.first_refused(REFUSED))
                 .iter()
@@ -302,7 +305,8 @@ fn over_time(subject: &Subject, words: &Vocabulary) -> Vec<Figure> {
 
 fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec<Figure>, Error> {
     let words = subject.words();
-    let (what, term) = match file.machine.mechanism().coordinate() {
+    let coordinate = file.machine.mechanism().coordinate();
+    let (what, term) = match coordinate {
         Coordinate::Angle => (
             "Reduced inertia",
             "J_red varies, a drive that uses its mean value makes an error of ½·J′·ω²",
@@ -320,8 +324,8 @@ fn machine(subject: &Subject, file: &MachineFile, mean_speed: f64) -> Result<Vec
         Figure::new(
             figures::reduced_torque(file, mean_speed)?,
             format!(
-                "Parts of the reduced {} that do not depend on the motion: weight, process loads, and the magnitudes of the viscous and motion-opposing loads at the mean speed.",
-                words.torque
+                "Parts of the reduced {} that do not depend on the motion: weight and springs, process loads, and the magnitudes of the viscous and motion-opposing loads at the mean speed.",
+                coordinate.vocabulary().torque
             ),
         ),
         Figure::new(

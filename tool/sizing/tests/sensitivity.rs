@@ -115,7 +115,7 @@ fn slope_of_the_rms_torque_by_the_duty_itself() {
     assert!(slope.uncertainty < 1e-3 * slope.slope.abs(), "{slope:?}");
 
     // What moves nothing moves nothing: gravity is across the axis.
-    let gravity = study.document.find("gravity.1").unwrap();
+    let gravity = study.document.find("gravity.2").unwrap();
     let gravity = found
         .dependences
         .iter()
@@ -137,9 +137,9 @@ fn slope_of_the_rms_torque_by_the_duty_itself() {
     assert_eq!(
         fixed,
         [
-            "gravity.0",
-            "motion.segment.0.move",
-            "motion.segment.2.move"
+            "gravity.1",
+            "motion.segment.1.move",
+            "motion.segment.3.move"
         ]
     );
 }

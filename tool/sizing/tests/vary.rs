@@ -26,27 +26,27 @@ fn a_changed_file_differs_in_the_named_place_only() {
             "opposing_force = \"77.5 kg\"",
         ),
         (
-            "load.1.opposing_force",
+            "load.2.opposing_force",
             "opposing_force = \"150 N\"",
             "opposing_force = \"77.5 kg\"",
         ),
         (
-            "segment.0.duration",
+            "segment.1.duration",
             "duration = \"0.4 s\"",
             "duration = \"77.5 kg\"",
         ),
         (
-            "pressing force.between.0",
+            "pressing force.between.1",
             "between = [\"315 deg\"",
             "between = [\"77.5 kg\"",
         ),
         (
-            "drive_train.0.driver.radius",
+            "drive_train.1.driver.radius",
             "driver = { radius = \"40 mm\"",
             "driver = { radius = \"77.5 kg\"",
         ),
         (
-            "simulation.torque_speed.1.1",
+            "simulation.torque_speed.2.2",
             "[\"500 rpm\", \"45 N m\"]",
             "[\"500 rpm\", \"77.5 kg\"]",
         ),
@@ -114,7 +114,7 @@ fn values_of_an_axis() {
     assert_eq!(values("slider.mass=30,45,60kg"), [30.0, 45.0, 60.0]);
     assert_eq!(values("slider.mass=45000g"), [45000.0]);
     assert_eq!(
-        values("com.0=-5..5mm:2".replace("com", "crank.com").as_str()),
+        values("com.1=-5..5mm:2".replace("com", "crank.com").as_str()),
         [-5.0, 5.0]
     );
     // What is in a row is what was put into the file.

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::{charts, plain};
-use crate::support::{Folder, jred, press_file};
+use crate::support::{Folder, jred, press_file, within};
 
 const LINEAR: &str = "\
 key,kind,maker,model,rated_force [N],rated_speed [m/s],standstill_force [N],peak_force [N],max_speed [m/s],moving_mass [kg],source
@@ -48,6 +48,49 @@ fn a_page_of_a_linear_motor_speaks_of_masses() {
     assert!(page.contains("mass ratio λ") && page.contains("mass at the motor"));
     assert!(run.out.contains("mass ratio λ") && run.out.contains("mass at the motor"));
     assert!(page.contains("m_red varies") && !page.contains("J_red varies"));
+}
+
+/// A slide that a turning motor drives through a screw: the drive link has newtons and metres per second, the motor newton metres
+/// and revolutions. The largest speed is that of a modified sine, 1.75960 times the mean: 80 mm in 0.15 s.
+#[test]
+fn a_slide_behind_a_screw_has_its_own_units() {
+    let folder = Folder::new();
+    let gripper = press_file().with_file_name("linear-gripper.toml");
+    let gripper = std::fs::read_to_string(gripper).unwrap();
+    let (gripper, _) = gripper.split_once("[simulation]").unwrap();
+    let screw = "[[drive_train]]\ntype = \"ball-screw\"\nlead = \"20 mm\"\ninertia = \"0.2 kg cm^2\"\n\n[motion]\n";
+    let machine = folder.file("screw.toml", gripper.replacen("[motion]\n", screw, 1));
+    let path = folder.path("report.html");
+    let run = jred([&"size", &machine, &"--report", &path, &"--format", &"json"]);
+    assert!(run.code < 2, "{}", run.err);
+    let answer = run.json();
+    let largest = answer["drive link speed [m/s]"]["max"].as_f64().unwrap();
+    let exact = 1.759_60 * 0.08 / 0.15;
+    within("speed", largest, exact, 1e-3 * exact);
+    let force = answer["drive link force [N]"]["max"].as_f64().unwrap();
+    assert!(answer.get("drive link speed [rad/s]").is_none());
+    assert!(answer.get("drive link torque [N m]").is_none());
+    // The input makes a turn for each lead.
+    let input = answer["input speed [rad/s]"]["max"].as_f64().unwrap();
+    within(
+        "input",
+        input * 0.02 / std::f64::consts::TAU,
+        largest,
+        1e-9 * largest,
+    );
+    let page = std::fs::read_to_string(&path).unwrap();
+    let row = |name: &str| {
+        let (_, rest) = page.split_once(name).unwrap_or_else(|| panic!("{name}"));
+        let cells = rest.split("<td class=\"n\">").skip(1).take(4);
+        let cells = cells.map(|cell| cell.split('<').next().unwrap().trim_end_matches('…'));
+        cells.map(|x| x.parse::<f64>().unwrap()).collect::<Vec<_>>()
+    };
+    let speed = row("speed of the drive link [m/s]");
+    within("row", speed[2], largest, 1e-4 * largest);
+    let forces = row("force at the drive link [N], without drive train");
+    within("row", forces[2], force, 1e-4 * force);
+    assert!(page.contains("drive train&#39;s input [N m]"));
+    assert!(page.contains("Parts of the reduced force"));
 }
 
 /// A plain number's axis has no empty brackets; a curve that leaves the chart is explained below it; no two curves of a chart

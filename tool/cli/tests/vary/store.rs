@@ -9,7 +9,7 @@ const STUDY: [&str; 4] = [
     "--vary",
     "slider.mass=30..60kg:7",
     "--vary",
-    "segment.0.duration=0.3,0.4s",
+    "segment.1.duration=0.3,0.4s",
 ];
 
 /// A quick study into a file.

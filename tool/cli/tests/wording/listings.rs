@@ -307,7 +307,7 @@ fn vary() {
         &desk.runs(&[
             &with(&[]),
             &with(&["--format", "csv"]),
-            &with(&["--vary", "pressing force.force.0=-10,-900kN"]),
+            &with(&["--vary", "pressing force.force.1=-10,-900kN"]),
             &with(&["--out", "a.csv", "--format", "csv", "--shard", "0/2"]),
             &with(&["--out", "b.csv", "--format", "csv", "--shard", "1/2"]),
             &["merge", "all.csv", "a.csv", "b.csv"],
@@ -351,7 +351,7 @@ fn sensitivity_and_tolerance() {
                 "--tolerance",
                 "crank.length=normal:2%",
                 "--tolerance",
-                "segment.0.duration=10%",
+                "segment.1.duration=10%",
             ]),
             &with(&[]),
             &with(&["--tolerance", "slider.mass"]),

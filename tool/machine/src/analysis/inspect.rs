@@ -19,6 +19,7 @@ use crate::number::rounding::short;
 
 mod agreement;
 mod centres;
+mod driving;
 mod transmission;
 
 pub use agreement::{Agreement, Inertia};
@@ -142,6 +143,7 @@ impl Findings {
             facts: facts(file)?,
             notes: crate::model::variator::integrability_text(file)
                 .into_iter()
+                .chain(driving::notes(file)?)
                 .collect(),
         })
     }

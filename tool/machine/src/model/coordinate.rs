@@ -6,6 +6,7 @@ use jred::machine::{Joint, Jointed};
 use jred::{Domain, Error};
 
 use crate::number::columns::{Column, Quantity};
+use crate::units::Vocabulary;
 
 /// Type of motion of the drive link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,6 +35,15 @@ impl Coordinate {
         match self {
             Self::Angle => angle,
             Self::Length => length,
+        }
+    }
+
+    /// What efforts and speeds at the drive link are called and shown in. A motor that drives a slide through a screw has words
+    /// of its own.
+    pub const fn vocabulary(self) -> &'static Vocabulary {
+        match self {
+            Self::Angle => &Vocabulary::ROTARY,
+            Self::Length => &Vocabulary::LINEAR,
         }
     }
 

@@ -28,6 +28,11 @@ pub fn shown(x: f64, largest: f64) -> String {
     short(x)
 }
 
+/// A share in per cent with one decimal, never −0.0.
+pub fn percent(share: f64) -> String {
+    format!("{:.1} %", (share * 1e3).round() / 10.0 + 0.0)
+}
+
 /// A number with six significant digits, plain between 1e-4 and 1e6, else with an exponent.
 pub fn rounded(x: f64) -> String {
     if x == 0.0 {

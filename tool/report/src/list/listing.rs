@@ -12,5 +12,5 @@ pub use choice::{List, explained};
 pub use comma::csv;
 pub use explanation::Explanation;
 pub use json::{SCHEMA, json};
-pub(crate) use text::margin;
 pub use text::text;
+pub(crate) use text::{margin, next_smaller};

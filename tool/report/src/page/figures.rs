@@ -1,5 +1,6 @@
 //! Figures of the machine, and of a simulation.
 
+use jred::machine::Mechanism as _;
 use jred::{Error, Reducible as _};
 
 use super::chart::{Chart, ChartKind};
@@ -58,8 +59,12 @@ pub(super) fn reduced_inertia(file: &MachineFile) -> Result<Chart, Error> {
 pub(super) fn reduced_torque(file: &MachineFile, speed: f64) -> Result<Chart, Error> {
     let coordinate = file.machine.mechanism().coordinate();
     let mut parts = [const { Vec::new() }; 4];
+    let mut sprung = false;
     for phi in whole_range(file.machine.domain(), POSITIONS) {
         let point = file.bare_reduction(phi)?;
+        let frames = file.machine.mechanism().frames(phi)?;
+        let elements = file.machine.elements();
+        sprung |= elements.iter().any(|e| e.effort(&frames, 0.0) != 0.0);
         let values = [
             -point.potential_slope,
             point.process,
@@ -70,12 +75,16 @@ pub(super) fn reduced_torque(file: &MachineFile, speed: f64) -> Result<Chart, Er
             part.push((coordinate.shown(phi), value));
         }
     }
-    let names = [
-        "weight −U′",
-        "process",
-        "viscous −b·ω at mean speed",
-        "opposing −c",
-    ];
+    let potential = if sprung {
+        "weight and springs −U′"
+    } else {
+        "weight −U′"
+    };
+    let viscous = match coordinate {
+        Coordinate::Angle => "viscous −b·ω at mean speed",
+        Coordinate::Length => "viscous −b·v at mean speed",
+    };
+    let names = [potential, "process", viscous, "opposing −c"];
     let series: Vec<Series> = names
         .into_iter()
         .zip(parts)

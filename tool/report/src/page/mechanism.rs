@@ -170,7 +170,10 @@ fn sections(source: &Source) -> Result<Vec<Section>, Error> {
             ),
             figure(
                 figures::reduced_torque(source.file, speed)?.svg,
-                "Parts of the reduced torque: weight and springs, process loads, and the magnitudes of viscous and motion-opposing loads.",
+                &format!(
+                    "Parts of the reduced {}: weight and springs, process loads, and the magnitudes of viscous and motion-opposing loads.",
+                    source.coordinate.vocabulary().torque
+                ),
             ),
         ],
     }];

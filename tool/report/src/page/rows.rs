@@ -5,7 +5,7 @@ use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::model::rules::Verdict;
 use jred_machine::number::figures::Figures;
-use jred_machine::number::rounding::{rounded, short, shown, significant};
+use jred_machine::number::rounding::{percent, rounded, short, shown, significant};
 use jred_machine::units::Vocabulary;
 use jred_sizing::explain::{Breakdown, InertiaShare, Remedies, Share};
 use jred_sizing::judge::Judged;
@@ -118,11 +118,11 @@ pub(super) fn share_rows(shares: &[Share], breakdown: &Breakdown) -> Vec<ShareRo
     let total = &breakdown.total;
     let rows = shares.iter().chain([total]).map(|share| ShareRow {
         name: share.name.clone(),
-        rms: short(share.torque.rms),
-        peak: short(share.torque.peak()),
+        rms: shown(share.torque.rms, total.torque.rms),
+        peak: shown(share.torque.peak(), total.torque.peak()),
         at_peak: shown(share.at_peak, total.at_peak),
         energy: shown(share.energy, breakdown.turned_over()),
-        share: format!("{:.1} %", share.mean_square * 100.0),
+        share: percent(share.mean_square),
         bar: (share.mean_square.abs() * 100.0).min(100.0).round(),
         negative: share.mean_square < 0.0,
     });
@@ -143,7 +143,7 @@ pub(super) fn inertia_rows(breakdown: &Breakdown) -> Vec<InertiaRow> {
         name: share.name.clone(),
         figures: [share.inertia.min, share.inertia.mean, share.inertia.max]
             .map(|x| shown(x / scale, share.inertia.max / scale)),
-        share: format!("{:.1} %", share.of_mean * 100.0),
+        share: percent(share.of_mean),
         bar: (share.of_mean * 100.0).clamp(0.0, 100.0).round(),
     };
     let all = breakdown.inertia.iter().chain([&breakdown.total_inertia]);
@@ -196,10 +196,11 @@ pub(super) fn rule_rows(rules: &RuleSet, words: &Vocabulary) -> Vec<[String; 4]>
         .collect()
 }
 
-/// Minima, means, maxima and RMS values along the way from the drive link to the motor.
+/// Minima, means, maxima and RMS values along the way from the drive link, which has its own words, to the motor.
 pub(super) fn duty_rows(
     best: &Judged,
     duty: &Duty,
+    link: &Vocabulary,
     words: &Vocabulary,
 ) -> Vec<(String, Vec<String>)> {
     let row = |name: String, figures: Figures, unit: f64| {
@@ -210,14 +211,17 @@ pub(super) fn duty_rows(
     let (speed, scale) = (words.speed.unit, words.speed.scale);
     vec![
         row(
-            format!("{word} at the drive link [{torque}], without drive train"),
+            format!(
+                "{} at the drive link [{}], without drive train",
+                link.torque, link.torque.unit
+            ),
             duty.figures(|i| i.terms.total()),
             1.0,
         ),
         row(
-            format!("speed of the drive link [{speed}]"),
+            format!("speed of the drive link [{}]", link.speed.unit),
             duty.figures(|i| i.omega),
-            scale,
+            link.speed.scale,
         ),
         row(
             format!("{word} at the drive train's input [{torque}]"),

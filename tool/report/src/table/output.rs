@@ -4,7 +4,7 @@ use comfy_table::{CellAlignment, ContentArrangement, LineStyle, TableStyle};
 use serde_json::{Map, Value, json};
 
 use super::json::split_at_entry;
-use jred_machine::number::columns::Columns;
+use jred_machine::number::columns::{Columns, Quantity};
 use jred_machine::number::csv;
 use jred_machine::number::rounding::rounded;
 
@@ -99,9 +99,23 @@ fn table(columns: &Columns) -> impl Iterator<Item = String> {
             *most = most.max(value.map_or(0.0, f64::abs));
         }
     }
+    // So are those of a column that has nothing else, compared with all columns of its unit: no sum of them would change.
+    let heads = columns.heads();
+    let floor: Vec<f64> = (heads.iter().zip(&largest))
+        .map(|(head, own)| {
+            let alike = heads.iter().zip(&largest);
+            let alike = alike.filter(|(other, _)| base_unit(&other.unit) == base_unit(&head.unit));
+            let all = alike.map(|(_, most)| *most).fold(0.0, f64::max);
+            // The error of an integration is small, and is what is asked for.
+            if head.quantity == Quantity::EnergyBalance {
+                return 1e-12 * own;
+            }
+            (1e-12 * own).max(1e-15 * all)
+        })
+        .collect();
     let cells = move |row: &[Option<f64>]| -> Vec<String> {
-        let cells = row.iter().zip(&largest).map(|(value, most)| match value {
-            Some(x) if x.abs() < 1e-12 * most => "0".to_owned(),
+        let cells = row.iter().zip(&floor).map(|(value, least)| match value {
+            Some(x) if x.abs() < *least => "0".to_owned(),
             Some(x) => rounded(*x),
             None => String::new(),
         });
@@ -136,6 +150,14 @@ fn table(columns: &Columns) -> impl Iterator<Item = String> {
         }
         format!("{table}\n")
     })
+}
+
+/// The unit of what a derivative with respect to the position is of.
+fn base_unit(unit: &str) -> &str {
+    match unit {
+        "kg/m" | "kg/m^2" => "kg",
+        _ => unit.split("/rad").next().unwrap_or(unit),
+    }
 }
 
 /// A column's name over several lines: one word a line, the unit whole.

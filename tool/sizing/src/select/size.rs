@@ -246,6 +246,17 @@ impl<'c> Selection<'c> {
         })
     }
 
+    /// The refused drive with the motor of the next smaller rated power below every motor that fits, the one that misses by
+    /// least if it has several; `None` where none fits, or none is smaller.
+    pub fn next_smaller(&self) -> Option<Candidate<'c>> {
+        let power = |drive: Drive<'c>| drive.motor.rated_power();
+        let least = self.fit.drives().filter_map(power).reduce(f64::min)?;
+        let smaller = self.refused.drives().filter_map(power);
+        let next = smaller.filter(|power| *power < least).reduce(f64::max)?;
+        // No drive that fits has this power.
+        self.find(|drive| drive.motor.rated_power() == Some(next))
+    }
+
     /// Number of suitable drives that are not fully checked.
     pub fn partly_checked(&self) -> usize {
         self.fit.partly_checked()

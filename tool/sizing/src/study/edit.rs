@@ -1,7 +1,7 @@
 //! The quantities of a machine file by path, and the file with some of them changed.
 //!
-//! A path is the keys from the top of the file, joined by points: `mechanism.slider.mass`, `motion.segment.0.duration`.
-//! An element of a list is called by its number, from 0, or by its `name`: `load.guide friction.opposing_force`. Keys at
+//! A path is the keys from the top of the file, joined by points: `mechanism.slider.mass`, `motion.segment.1.duration`.
+//! An element of a list is called by its number, from 1 as in messages, or by its `name`: `load.guide friction.opposing_force`. Keys at
 //! the front may be left out while one quantity answers to the rest: `slider.mass`.
 //!
 //! A changed file is the text with other numbers in the same places, so that a message shows the line that the user knows.
@@ -190,8 +190,12 @@ impl Document {
             )
         });
         let endings: Vec<&str> = endings.collect();
-        if let Some(near) = closest(path, &endings) {
+        let from_one = steps(path).iter().any(|step| step == "0");
+        if let Some(near) = closest(path, &endings).filter(|_| !from_one) {
             return format!("did you mean \"{near}\"?");
+        }
+        if from_one {
+            return "elements of a list are counted from 1: the first is number 1".to_owned();
         }
         let last = steps(path).pop().unwrap_or_default();
         let same: Vec<String> = (self.quantities.iter())
@@ -265,7 +269,7 @@ impl Finder {
         }
     }
 
-    /// Element number `k` of a list whose elements have these names.
+    /// Element `k`, from 0, of a list whose elements have these names.
     fn element(&mut self, k: usize, names: &[Option<String>], walk: impl FnOnce(&mut Self)) {
         let name = names.get(k).and_then(Option::as_ref);
         let single = |name: &&String| names.iter().flatten().filter(|n| n == name).count() == 1;
@@ -273,7 +277,7 @@ impl Finder {
             .filter(single)
             .cloned()
             .into_iter()
-            .chain([k.to_string()]);
+            .chain([(k + 1).to_string()]);
         self.steps.push(words.collect());
         walk(self);
         self.steps.pop();

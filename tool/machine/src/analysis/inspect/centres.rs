@@ -323,7 +323,12 @@ impl Travel {
         };
         let number = |x: f64| crate::number::rounding::rounded((x * 1e6).round() / 1e6 + 0.0);
         let at = |phi: f64| format!("{} {}", number(drive.shown(phi)), drive.unit());
-        let centres: Vec<String> = self.dead_centres.iter().map(|c| at(c[0])).collect();
+        let centres: Vec<String> = (self.dead_centres.iter())
+            .map(|[place, own_place]| {
+                let own_place = number(own.shown(*own_place));
+                format!("{} ({own_place} {})", at(*place), own.unit())
+            })
+            .collect();
         let centres = match centres.len() {
             0 => "no dead centre".to_owned(),
             1 => format!("dead centre at {} = {}", drive.symbol(), centres[0]),

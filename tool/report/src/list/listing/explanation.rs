@@ -8,7 +8,7 @@ use serde::Serialize;
 use crate::table::output::text_table;
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
-use jred_machine::number::rounding::{short, shown};
+use jred_machine::number::rounding::{percent, short, shown};
 use jred_machine::units::Vocabulary;
 use jred_sizing::explain::{Altered, Breakdown, InertiaShare, Remedies, Share};
 use jred_sizing::select::size::{Candidate, Selection};
@@ -112,10 +112,10 @@ fn contributions_text(breakdown: &Breakdown) -> String {
         for share in shares.iter().chain([&breakdown.total]) {
             table.add_row([
                 share.name.clone(),
-                short(share.torque.rms),
-                short(share.torque.peak()),
+                shown(share.torque.rms, breakdown.total.torque.rms),
+                shown(share.torque.peak(), breakdown.total.torque.peak()),
                 shown(share.at_peak, breakdown.total.at_peak),
-                format!("{:.1} %", share.mean_square * 100.0),
+                percent(share.mean_square),
                 shown(share.energy, breakdown.turned_over()),
             ]);
         }
@@ -131,7 +131,7 @@ fn contributions_text(breakdown: &Breakdown) -> String {
         let figures = share.inertia;
         let [min, mean, max] = [figures.min, figures.mean, figures.max];
         let [min, mean, max] = [min, mean, max].map(|x| shown(x / scale, figures.max / scale));
-        let part = format!("{:.1} %", share.of_mean * 100.0);
+        let part = percent(share.of_mean);
         [share.name.clone(), min, mean, max, part]
     };
     for share in breakdown.inertia.iter().chain([&breakdown.total_inertia]) {

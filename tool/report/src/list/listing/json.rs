@@ -5,13 +5,14 @@ use serde_json::{Map, Value, json as object};
 use super::{Asked, Explanation, List};
 use crate::table::json::{array_parts, split_at_entry};
 use jred_machine::analysis::duty::Duty;
+use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rule::Rule;
 use jred_sizing::catalogue::MotorKind;
 use jred_sizing::select::size::{Candidate, Selection};
 
 /// Name and version of the form. The number is raised whenever a key is removed or changes its meaning.
-pub const SCHEMA: &str = "jred-size/2";
+pub const SCHEMA: &str = "jred-size/3";
 
 /// The listed drives and the one asked for with every digit, and how many there are in all; part by part, a drive each: the text of
 /// all drives of a catalogue is many times larger than they are.
@@ -36,13 +37,18 @@ pub fn json<'c>(
             (rule.key().to_owned(), limit)
         })
         .collect();
+    // The drive link's own units: a rotary motor may drive a slide through a screw.
+    let [effort, speed] = match file.machine.mechanism().coordinate() {
+        Coordinate::Angle => ["drive link torque [N m]", "drive link speed [rad/s]"],
+        Coordinate::Length => ["drive link force [N]", "drive link speed [m/s]"],
+    };
     let mut value = object!({
         "schema": SCHEMA,
         "version": env!("CARGO_PKG_VERSION"),
         "title": file.title,
         "cycle [s]": duty.duration,
-        "drive link torque [N m]": duty.figures(|i| i.terms.total()),
-        "drive link speed [rad/s]": duty.figures(|i| i.omega),
+        effort: duty.figures(|i| i.terms.total()),
+        speed: duty.figures(|i| i.omega),
         "input torque [N m]": duty.figures(|i| i.input_torque),
         "input speed [rad/s]": duty.figures(|i| i.input_speed),
         "input inertia [kg m^2]": duty.figures(|i| i.input_inertia),

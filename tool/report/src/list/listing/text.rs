@@ -81,6 +81,7 @@ pub fn text(
             }
         ));
         parts.push(ranking(list, selection, words));
+        parts.extend(next_smaller(selection));
     } else if let Some(nearest) = selection.refused.first() {
         let nearest = &selection.judged(nearest);
         parts.push(format!(
@@ -126,6 +127,17 @@ fn asked_text(asked: &Asked, selection: &Selection) -> String {
         "Requested drive: {name}\n{place}\n\n{}\n{best}",
         drive_text(judged)
     )
+}
+
+/// Why no smaller motor will do: the next smaller one, and the rules that it violates.
+pub(crate) fn next_smaller(selection: &Selection) -> Option<String> {
+    let next = &selection.judged(&selection.next_smaller()?);
+    Some(format!(
+        "next smaller motor, {} kW: {} is refused: {}",
+        significant(next.rated_power()? / 1e3, 3),
+        next.drive.name(),
+        next.reasons()
+    ))
 }
 
 fn ranking(list: List, selection: &Selection, words: &Vocabulary) -> String {

@@ -1,0 +1,66 @@
+//! Process loads that drive the machine: where their power is positive in the direction of motion.
+
+use jred::Error;
+use jred::machine::Mechanism as _;
+
+use crate::model::coordinate::whole_range;
+use crate::model::machine::MachineFile;
+use crate::number::rounding::short;
+
+/// Positions or instants that are looked at.
+const STEPS: usize = 720;
+
+/// Share of the work that a load does to and fro below which their difference is an error of the sum: a force of constant
+/// direction gives back over a cycle what it takes.
+const BALANCED: f64 = 1e-3;
+
+/// A remark for each process load that drives the machine by more than it resists: over the motion, or, without one, towards
+/// growing positions. Loads that stand for weights are none.
+pub(super) fn notes(file: &MachineFile) -> Result<Vec<String>, Error> {
+    let mechanism = file.machine.mechanism();
+    let coordinate = mechanism.coordinate();
+    let states: Vec<[f64; 2]> = match &file.motion {
+        Some(motion) => (0..=STEPS)
+            .map(|k| motion.at(motion.duration() * k as f64 / STEPS as f64))
+            .map(|state| [state.phi, state.omega])
+            .collect(),
+        None => whole_range(mechanism.domain(), STEPS)
+            .map(|phi| [phi, 1.0])
+            .collect(),
+    };
+    let loads = file.machine.loads().iter().zip(&file.loads);
+    let loads: Vec<_> = loads
+        .filter(|(load, _)| !mechanism.is_weight(load))
+        .collect();
+    // Position of the largest driving power, that power, the sum of all powers and of their magnitudes.
+    let mut found = vec![(0.0, 0.0f64, [0.0f64; 2]); loads.len()];
+    for [phi, omega] in states {
+        let frames = mechanism.frames(phi)?;
+        for ((load, _), (place, driving, [net, moved])) in loads.iter().zip(&mut found) {
+            let Some(frame) = frames.get(load.link()) else {
+                continue;
+            };
+            let power = load.reduce(frame, phi).process * omega;
+            *net += power;
+            *moved += power.abs();
+            if power > *driving {
+                (*place, *driving) = (phi, power);
+            }
+        }
+    }
+    let drive = loads.iter().zip(&found);
+    let drive = drive.filter(|(_, (_, _, [net, moved]))| *net > BALANCED * moved);
+    Ok(drive
+        .map(|((_, named), (place, driving, _))| {
+            let most = if file.motion.is_some() {
+                format!("with up to {} W, at {}", short(*driving), coordinate.place(*place))
+            } else {
+                format!("most at {}", coordinate.place(*place))
+            };
+            format!(
+                "warning: the process load \"{}\" drives the machine {most}: if it should resist, turn its sign",
+                named.name
+            )
+        })
+        .collect())
+}
