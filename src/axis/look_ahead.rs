@@ -181,10 +181,10 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
     pub(super) fn greatest(&self, motion: &Motion<N>, [least, most]: [N; 2]) -> (N, bool) {
         let (k, part) = self.way.cell(motion.phase);
         let [square, next] = around(&self.squares, k);
-        let reached = if self.is_against(motion.omega) {
-            0
-        } else {
+        let reached = if self.is_along(motion.omega) {
             self.square(motion.omega)
+        } else {
+            0
         };
         let limit = along(square, next, part);
         let left = i64::from(limit) - i64::from(reached);
@@ -227,16 +227,16 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
             phase: self
                 .way
                 .actual(self.way.mirrored(phase).wrapping_add(distance as u32)),
-            beyond: self.is_against(omega) || square == u32::MAX,
+            beyond: !self.is_along(omega) || square == u32::MAX,
         }
     }
 
-    /// Whether it is a motion the other way, or no number.
+    /// Whether it is at rest or a motion this way: of no number it is not.
     #[inline]
-    fn is_against(&self, omega: N) -> bool {
+    fn is_along(&self, omega: N) -> bool {
         match self.way.direction {
-            Direction::Forward => !(omega >= N::default()),
-            Direction::Backward => !(omega <= N::default()),
+            Direction::Forward => omega >= N::default(),
+            Direction::Backward => omega <= N::default(),
         }
     }
 

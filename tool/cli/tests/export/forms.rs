@@ -115,7 +115,7 @@ fn the_rust_file_is_a_program() {
         model.table().words().len() * 4,
         4 * (press_table::TABLE.len() - 25)
     );
-    assert!(!jred::Image::is_of::<jred::Spline<jred::Q31>, 0>(
+    assert!(!Image::is_of::<jred::Spline<jred::Q31>, 0>(
         &press_table::TABLE
     ));
 }
