@@ -259,15 +259,3 @@ fn without_a_motion() {
     let page = std::fs::read_to_string(report).unwrap();
     assert!(page.contains("<h2>Forces</h2>") && page.contains("<h2>Largest forces</h2>"));
 }
-
-/// A rack slides: the pinion is the only wheel, and the rack's block lies on a guide.
-#[test]
-fn a_rack_is_no_wheel() {
-    let folder = Folder::new();
-    let page = page(&press_file().with_file_name("rack.toml"), &folder);
-    let (svg, _) = parts(&page);
-    let document = Document::parse(svg).unwrap();
-    let radius = |n: Node| n.attribute("r")?.parse::<f64>().ok();
-    let circles = document.descendants().filter_map(radius);
-    assert_eq!(circles.filter(|r| *r > 6.0).count(), 1, "{svg}");
-}
