@@ -328,9 +328,9 @@ fn it_does_not_stop_later_where_brake_and_inertia_change() {
             for _ in 0..60 {
                 let middle = 0.5 * (low + high);
                 if work(middle) < energy {
-                    low = middle
+                    low = middle;
                 } else {
-                    high = middle
+                    high = middle;
                 }
             }
             let found = ahead.stop(Phase::from_bits(bits), omega);
