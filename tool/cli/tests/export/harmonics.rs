@@ -61,7 +61,7 @@ fn an_image_of_harmonics_holds_its_error() {
         assert_eq!(printed, f64::from(image.cells()));
         assert!(run.out.contains(
             "image.model::<Harmonic<f32>, { curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS | \
-             terms::INERTIA_COS | terms::LOAD_SIN | terms::COULOMB_SIN }>()"
+             harmonic::terms::INERTIA_COS | harmonic::terms::LOAD_SIN | harmonic::terms::COULOMB_SIN }>()"
         ));
         let model = image.model::<Harmonic<f32>, SET>().unwrap();
         let any = image.any_model::<Harmonic<f32>>().unwrap();
