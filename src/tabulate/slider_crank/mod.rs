@@ -214,7 +214,8 @@ pub fn set_in_use(machine: &Machine<SliderCrank>) -> Result<Set, SliderCrankErro
 /// The coefficients of a slider-crank, in the order of [`Coefficient::ALL`](crate::slider_crank::Coefficient::ALL) as far as `set`
 /// has them: the words of a [`SliderCrankForm`]. Returns their number.
 ///
-/// **Accuracy**: in exact arithmetic the form has no error; rounded to `f32` each coefficient is off by 6e-8 of itself.
+/// **Accuracy**: in exact arithmetic the form has no error; rounded to `f32` each coefficient is off by 6e-8 of itself (tests
+/// `the_tick_rounds_as_stated`, `a_small_machine_keeps_its_small_coefficients`).
 ///
 /// # Errors
 /// What a closed form cannot hold; [`TableError::Curves`] with the set that the machine has, if `set` lacks something of it; a
