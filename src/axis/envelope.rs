@@ -127,6 +127,11 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
         Self::new(link, brake * ratio, scale)
     }
 
+    /// The speed of the last point.
+    pub(super) const fn top(&self) -> N {
+        self.top
+    }
+
     /// The least and the greatest torque at a speed. At a speed that is no number both are 0.
     #[inline]
     pub fn torques(&self, omega: N) -> [N; 2] {

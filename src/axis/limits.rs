@@ -68,6 +68,7 @@ pub struct Limits<N, const POINTS: usize> {
 
 impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
     /// Of a drive's torque, and the greatest speed (rad/s, or m/s) and acceleration (rad/s², or m/s²) of the drive link either way; `period` is that of the tick.
+    /// The greatest speed is not beyond the last point of the torque curve: there the torque would come and go with it.
     ///
     /// # Errors
     /// A limit that is not positive and finite, or in fixed point is beyond its base or less than the least number.
@@ -85,8 +86,8 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
         let rest = N::default();
         let both = |greatest: N| [rest.minus(greatest).value, greatest];
         Ok(Self {
+            speed: both(in_range(SPEED, scale.omega::<N>(speed))?.within([rest, envelope.top()])),
             envelope,
-            speed: both(in_range(SPEED, scale.omega(speed))?),
             acceleration: both(in_range(ACCELERATION, scale.alpha(acceleration))?),
             period,
         })
@@ -134,12 +135,13 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
         Feasible {
             least: slowest.within(torque),
             greatest: fastest.within(torque),
-            unkept: if fastest.alpha < torque[0].alpha {
-                Some(fastest.by)
-            } else if slowest.alpha > torque[1].alpha {
-                Some(slowest.by)
+            unkept: if torque[0].alpha > self.acceleration[1]
+                || torque[1].alpha < self.acceleration[0]
+            {
+                Some(Limit::Acceleration)
             } else {
-                (too_fast || too_slow).then_some(Limit::Speed)
+                let lost = fastest.alpha < torque[0].alpha || slowest.alpha > torque[1].alpha;
+                (lost || too_fast || too_slow).then_some(Limit::Speed)
             },
         }
     }

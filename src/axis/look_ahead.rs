@@ -176,7 +176,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
 
     /// The acceleration of a motion this way that keeps it below the greatest speed, within those that are possible: that of the limit itself, and of what is left
     /// to it as much as makes up for it in a tick at the greatest speed, and gently at less. Of a motion the other way, that from rest. And whether the speed is beyond
-    /// the limit, by more than a hundredth of it and of the greatest.
+    /// the limit, by more than about a sixtieth of it and of the greatest.
     #[inline]
     pub(super) fn greatest(&self, motion: &Motion<N>, [least, most]: [N; 2]) -> (N, bool) {
         let (k, part) = self.way.cell(motion.phase);
@@ -196,7 +196,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
             Err(_) if difference > 0 => most,
             Err(_) => least,
         };
-        (alpha, left < -i64::from((limit >> 6) + (1 << 17)))
+        (alpha, left < -i64::from((limit >> 5) + (1 << 18)))
     }
 
     /// Where the machine stops from this state with the full braking torque: not later, but for what the table is off by, and because the work is taken to grow evenly between

@@ -272,3 +272,29 @@ fn no_number_gives_no_acceleration_and_says_so() {
         }
     });
 }
+
+#[test]
+fn what_is_lost_is_named() {
+    with_model::<Cubic<f64>, SET>(Scale::SI, |model| {
+        let period = Period::new(0.05, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let unkept = |peak: f32, speed: f32, most: f32, phase: u32, omega: f64| {
+            let envelope = Envelope::new([[9.0, peak]], peak, &Scale::SI).unwrap();
+            let limits = Limits::new(envelope, speed, most, period, &Scale::SI).unwrap();
+            limits
+                .feasible(&model, Phase::from_bits(phase), omega)
+                .unkept
+        };
+        // Too fast: the brake takes 5.7 rad/s² off, 7.5 are allowed, and 20 are needed.
+        assert_eq!(unkept(6.0, 5.5, 7.5, 0, 6.5), Some(Limit::Speed));
+        assert_eq!(unkept(6.0, 5.5, 75.0, 0, 6.5), Some(Limit::Speed));
+        // The load accelerates the machine with 1.5 rad/s² against the brake, 1 is allowed.
+        assert_eq!(
+            unkept(1.0, 5.5, 1.0, 1 << 30, 0.0),
+            Some(Limit::Acceleration)
+        );
+        assert_eq!(unkept(1.0, 5.5, 2.0, 1 << 30, 0.0), None);
+        // Beyond the last point of the torque curve there is no torque: the greatest speed is not beyond it.
+        assert_eq!(unkept(6.0, 20.0, 75.0, 0, 8.9), None);
+        assert_eq!(unkept(6.0, 20.0, 75.0, 0, 9.5), Some(Limit::Speed));
+    });
+}

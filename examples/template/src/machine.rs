@@ -26,8 +26,10 @@ pub static TABLE: &[u8] = include_image!("../tables/press_f32.jred");
 #[cfg(fixed_point)]
 pub static TABLE: &[u8] = include_image!("../tables/press_q31.jred");
 
-// A table of another type or with other curves does not compile.
-const _: () = assert!(Image::bytes_are_of::<Layout, CURVES>(TABLE_BYTES));
+const _: () = assert!(
+    Image::bytes_are_of::<Layout, CURVES>(TABLE_BYTES),
+    "the table has another type or other curves: take Layout and CURVES from the line `in Rust` of jred export"
+);
 #[cfg(not(fixed_point))]
 const TABLE_BYTES: &[u8] = include_bytes!("../tables/press_f32.jred");
 #[cfg(fixed_point)]
@@ -37,10 +39,11 @@ const TABLE_BYTES: &[u8] = include_bytes!("../tables/press_q31.jred");
 pub const COUNTS_PER_TURN: u32 = 10_000;
 pub const GEAR: [u32; 2] = [20, 1];
 pub const HOME: i64 = 1234;
+pub const COUNTING: Counting = Counting::Down;
 pub const ENCODER: Encoder = match Encoder::new(Mounting {
     counts_per_turn: COUNTS_PER_TURN,
     gear: GEAR,
-    counting: Counting::Down,
+    counting: COUNTING,
     home: HOME,
 }) {
     Ok(encoder) => encoder,

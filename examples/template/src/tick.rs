@@ -10,7 +10,7 @@ use jred::number::Number as _;
 
 use crate::board::{Board, CLOCK, RATE};
 use crate::exchange::{OFFERED, RETURNED, STATUS};
-use crate::machine::{BANDWIDTH, ENCODER, EXCHANGE_AT};
+use crate::machine::{BANDWIDTH, ENCODER, EXCHANGE_AT, HOME};
 use crate::table::Table;
 
 /// What the background sees of the ticks.
@@ -86,7 +86,9 @@ pub struct Tick {
 impl Tick {
     /// With a table that was checked.
     pub fn new(table: &'static mut Table, mut board: Board, timer: SYST) -> Option<Self> {
-        let count = i64::from(board.count());
+        // The register has 16 bits: the machine is taken to be where it shows the count nearest to HOME.
+        let mut counter = Counter::at(HOME);
+        let count = counter.extend(board.count().into());
         // From where the machine is: elsewhere the filter would start with a jump of the speed.
         let phase = ENCODER.phase_wide(count);
         let tracker = Tracker::with_bandwidth(BANDWIDTH, 1.0 / RATE as f32)
@@ -96,7 +98,7 @@ impl Tick {
             table,
             board,
             timer,
-            counter: Counter::at(count),
+            counter,
             tracker,
             way: (phase - EXCHANGE_AT).to_bits().cast_signed(),
             may_exchange: false,

@@ -267,10 +267,14 @@ fn machine_id(text: &str) -> Result<u32, String> {
         Some(digits) => u32::from_str_radix(digits, 16),
         None => text.parse(),
     };
-    found.map_err(|_| {
-        "write a whole number from 0 to 4294967295, or 0x and up to eight hexadecimal digits"
-            .to_owned()
-    })
+    match found {
+        Ok(0) => Err("0 means that an image has no identifier; take another number".to_owned()),
+        Ok(number) => Ok(number),
+        Err(_) => Err(
+            "write a whole number from 1 to 4294967295, or 0x and up to eight hexadecimal digits"
+                .to_owned(),
+        ),
+    }
 }
 
 /// A ratio of one stage or of several.

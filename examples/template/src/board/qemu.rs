@@ -5,11 +5,11 @@
 use cortex_m_semihosting::debug;
 pub use cortex_m_semihosting::hprintln as say;
 use jred::Phase;
-use jred::axis::Tracked;
+use jred::axis::{Counting, Tracked};
 use panic_semihosting as _;
 
 use crate::link::Transfer;
-use crate::machine::{COUNTS_PER_TURN, GEAR, HOME, TABLE};
+use crate::machine::{COUNTING, COUNTS_PER_TURN, GEAR, HOME, TABLE};
 
 /// Clock cycles a second: those of mps2-an386 and microbit.
 #[cfg(feature = "qemu-m4f")]
@@ -94,7 +94,11 @@ impl Board {
         }
         // Counts of the whole turns and of the rest, so that nothing overflows.
         let (turns, rest) = (self.place >> 40, self.place & ((1 << 40) - 1));
-        (HOME - turns * COUNTS - (((rest >> 16) * COUNTS) >> 24)) as u16
+        let moved = turns * COUNTS + (((rest >> 16) * COUNTS) >> 24);
+        match COUNTING {
+            Counting::Up => (HOME + moved) as u16,
+            Counting::Down => (HOME - moved) as u16,
+        }
     }
 
     /// The set-point of this tick, in ticks as its unit of time.
