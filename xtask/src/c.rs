@@ -120,7 +120,8 @@ fn symbol(kernel: &Kernel) -> String {
         Data::Jred { layout, set, .. } => {
             let layout = format!("{layout:?}")
                 .to_lowercase()
-                .replace("rows16", "rows");
+                .replace("rows16", "rows")
+                .replace("slidercrank", "slider_crank");
             format!("jred_{layout}_{number}_s{set}_{quantity}")
         }
         _ => String::new(),
