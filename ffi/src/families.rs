@@ -72,7 +72,7 @@ family!("harmonic_f32", Harmonic<f32>, f32, [
 // Of a slider-crank: a load with or without parts in the crank's sine and cosine, b none or constant, c none, the slider's, constant
 // or both; the others have the functions for any set.
 #[cfg(few_sets)]
-family!("slider_crank_f32", SliderCrankForm, f32, [49 529]);
+family!("slider_crank_f32", SliderCrankForm, f32, [0 49 529]);
 #[cfg(not(few_sets))]
 family!("slider_crank_f32", SliderCrankForm, f32, [
     0 1 4 5 16 17 20 21 32 33 36 37 48 49 52 53 513 517 529 533

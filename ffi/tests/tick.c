@@ -45,6 +45,8 @@ static uint32_t q15_bits(int16_t x) { return (uint32_t)(int32_t)x; }
     DO(f32, acceleration, cubic_f32, f32, 0)               \
     DO(f32_spline, torque, spline_f32, f32, 49)            \
     DO(f32_spline, acceleration, spline_f32, f32, 0)       \
+    DO(f32_slider_crank, torque, slider_crank_f32, f32, 49) \
+    DO(f32_slider_crank, acceleration, slider_crank_f32, f32, 0) \
     DO(q31, torque, cubic_q31, q31, 49)                    \
     DO(q31, acceleration, cubic_q31, q31, 8)               \
     DO(q31_quadratic, torque, quadratic_q31, q31, 49)      \
