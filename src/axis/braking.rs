@@ -93,8 +93,8 @@ pub(super) struct Course<const NODES: usize> {
     most: f32,
 }
 
-/// 2³⁰
-const ONE: f32 = 1_073_741_824.0;
+/// 2³⁰: the square of the greatest speed.
+pub(super) const ONE: f32 = 1_073_741_824.0;
 
 /// What a model says at a phase.
 fn place<F: Format, const SET: Set>(

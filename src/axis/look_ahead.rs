@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use super::braking::{Braking, Course, Way};
+use super::braking::{Braking, Course, ONE, Way};
 use super::envelope::in_range;
 use super::error::{positive, within};
 use super::{AxisError, Motion, Period};
@@ -73,8 +73,6 @@ pub struct Stop {
     pub beyond: bool,
 }
 
-/// 2³⁰
-const ONE: f32 = 1_073_741_824.0;
 const SPEED: &str = "the greatest speed";
 const NODE_COUNT: &str = "the number of nodes";
 
@@ -214,7 +212,8 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         let target = needed.saturating_add(reached.into());
         let ends = self.way.stroke && target > u32::MAX.into();
         let stop = (target & !u64::from(u32::MAX)) | u64::from(self.place(target as u32));
-        let distance = stop.saturating_sub(self.way.mirrored(phase).into());
+        let start = self.way.mirrored(phase);
+        let distance = stop.saturating_sub(start.into());
         if ends {
             return Stop {
                 turns: 0,
@@ -224,9 +223,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         }
         Stop {
             turns: (distance >> 32) as u32,
-            phase: self
-                .way
-                .actual(self.way.mirrored(phase).wrapping_add(distance as u32)),
+            phase: self.way.actual(start.wrapping_add(distance as u32)),
             beyond: !self.is_along(omega) || square == u32::MAX,
         }
     }
