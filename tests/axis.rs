@@ -8,4 +8,5 @@ mod limits;
 mod look_ahead;
 mod machine;
 mod motion;
+mod stop;
 mod tracker;
