@@ -67,6 +67,33 @@ fn laws_rise_from_rest_to_rest() {
 }
 
 /// A law is its own mirror image: S(1 − z) = 1 − S(z); a trapezoid is that of the exchanged shares.
+/// The first and last instants of a move are slow, not at rest: friction and losses go by the sign of the speed. The speed there
+/// is that of the first term of its series.
+#[test]
+fn the_speed_next_to_a_rest_is_not_rounded_to_zero() {
+    let near: f64 = 1e-9;
+    for law in LAWS {
+        let fourth = if law == Law::Polynomial4567 {
+            840.0
+        } else {
+            0.0
+        };
+        let series =
+            |z: f64| law.at(0.0)[2] * z + law.jerk(0.0) * z * z / 2.0 + fourth * z.powi(3) / 6.0;
+        let end = match law {
+            Law::Trapezoid {
+                decelerate,
+                accelerate,
+            } => accelerate / decelerate,
+            _ => 1.0,
+        };
+        for (z, expected) in [(near, series(near)), (1.0 - near, end * series(near))] {
+            let found = law.at(z)[1] / expected;
+            assert_near("share of the series", found, 1.0, budget::LAW_NEAR_REST);
+        }
+    }
+}
+
 #[test]
 fn laws_are_symmetric() {
     for law in LAWS {

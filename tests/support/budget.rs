@@ -147,6 +147,9 @@ pub(crate) const DENSE_GRID_QUADRATIC: f64 = 0.95;
 /// Ends and symmetry of a law: a few roundings of numbers of size one (S″ up to 40 times that).
 pub(crate) const LAW_END: f64 = 4e-15;
 
+/// The speed of a law 1e-9 from its end: 1 − z is rounded by 2⁻⁵³, a share of 1.1e-7 that counts up to three times.
+pub(crate) const LAW_NEAR_REST: f64 = 4e-7;
+
 /// Derivatives of a law by extrapolated differences at a step of 1e-3: rounding 2⁻⁵³/2.5e-4.
 pub(crate) const LAW_DIFFERENCES: f64 = 1e-10;
 

@@ -171,21 +171,21 @@ impl<R: Real> Law<R> {
                 c(30.0) * z * z * (z - c(1.0)) * (z - c(1.0)),
                 c(60.0) * z * (c(2.0) * z - c(1.0)) * (z - c(1.0)),
             ],
-            Self::Cycloidal => {
+            Self::Cycloidal => mirrored(z, |z| {
                 const TAU: f64 = core::f64::consts::TAU;
-                let (sin, cos) = (c(TAU) * z).sin_cos();
-                [z - sin / c(TAU), c(1.0) - cos, c(TAU) * sin]
-            }
-            Self::ModifiedSine => modified_sine(z),
-            Self::SimpleSine => {
+                let [versine, sin] = versine(c(TAU) * z);
+                [z - sin / c(TAU), versine, c(TAU) * sin]
+            }),
+            Self::ModifiedSine => mirrored(z, modified_sine),
+            Self::SimpleSine => mirrored(z, |z| {
                 use core::f64::consts::PI;
-                let (sin, cos) = (c(PI) * z).sin_cos();
+                let [versine, sin] = versine(c(PI) * z);
                 [
-                    c(0.5) * (c(1.0) - cos),
+                    c(0.5) * versine,
                     c(PI / 2.0) * sin,
-                    c(PI * PI / 2.0) * cos,
+                    c(PI * PI / 2.0) * (c(1.0) - versine),
                 ]
-            }
+            }),
             Self::Polynomial4567 => mirrored(z, polynomial_4567),
             Self::ModifiedTrapezoid => mirrored(z, modified_trapezoid),
         }
@@ -232,7 +232,15 @@ impl<R: Real> Law<R> {
     }
 }
 
-/// The law of the first half for both: S(1 − z) = 1 − S(z).
+/// 1 − cos x and sin x, by the half angle: near a rest 1 − cos x itself would be rounded to zero, and a machine that moves a
+/// little would count as one that stands, without friction.
+fn versine<R: Real>(x: R) -> [R; 2] {
+    let c = R::from_f64;
+    let (sin, cos) = (c(0.5) * x).sin_cos();
+    [c(2.0) * sin * sin, c(2.0) * sin * cos]
+}
+
+/// The law of the first half for both: S(1 − z) = 1 − S(z). So its last instants are as exact as its first.
 fn mirrored<R: Real>(z: R, half: impl Fn(R) -> [R; 3]) -> [R; 3] {
     let c = R::from_f64;
     if z > c(0.5) {
@@ -266,12 +274,8 @@ fn modified_trapezoid<R: Real>(z: R) -> [R; 3] {
     const S_2: f64 = S_1 + V_1 / 4.0 + MOST / 32.0;
     let c = R::from_f64;
     if z < c(0.125) {
-        let (sin, cos) = (c(4.0 * PI) * z).sin_cos();
-        [
-            c(V_1) * (z - c(ARC) * sin),
-            c(V_1) * (c(1.0) - cos),
-            c(MOST) * sin,
-        ]
+        let [versine, sin] = versine(c(4.0 * PI) * z);
+        [c(V_1) * (z - c(ARC) * sin), c(V_1) * versine, c(MOST) * sin]
     } else if z < c(0.375) {
         let w = z - c(0.125);
         [
@@ -304,18 +308,16 @@ fn trapezoid<R: Real>(z: R, accelerate: R, decelerate: R) -> [R; 3] {
     }
 }
 
-/// Three sine arcs: quarter-period arcs at the ends, a three times slower one between (z = 1/8 to 7/8).
+/// Quarter of a sine up to z = 1/8, then one that is three times slower up to the middle; in units that make S(1/2) = 1/2.
 fn modified_sine<R: Real>(z: R) -> [R; 3] {
     use core::f64::consts::PI;
     let c = R::from_f64;
     let (share, quarter) = (1.0 / (4.0 + PI), 0.125);
-    let end_arc = !(z > c(quarter) && z < c(1.0 - quarter));
-    if end_arc {
-        let (sin, cos) = (c(4.0 * PI) * z).sin_cos();
-        let before = if z > c(0.5) { 4.0 } else { 0.0 };
+    if z <= c(quarter) {
+        let [versine, sin] = versine(c(4.0 * PI) * z);
         [
-            c(share) * (c(before) + c(PI) * z - c(0.25) * sin),
-            c(share * PI) * (c(1.0) - cos),
+            c(share) * (c(PI) * z - c(0.25) * sin),
+            c(share * PI) * versine,
             c(share * 4.0 * PI * PI) * sin,
         ]
     } else {
