@@ -16,17 +16,14 @@ pub(crate) const DERIVATION: f64 = 5e-11;
 /// An integral by the trapezoidal rule at 1e5 steps over a function with a kink, h²·Δf′ [1.3e-10].
 pub(crate) const QUADRATURE: f64 = 2e-9;
 
-/// Integrals over the cycle at the default of 2000 steps: the ramps of the pressing force leave h⁴, the kinks where power
-/// changes its direction h² times a small step of the slope [5.5e-8 for the RMS; 1e-6 for others].
+/// Integrals over the cycle at the default of 2000 steps, and what the motor puts in and takes back as shares of what it puts in:
+/// the ramps of the pressing force leave h⁴, the kinks of the efficiency where power changes its direction h² times a small step of
+/// the slope [5.5e-8 for the RMS; 1e-6 for others].
 pub(crate) const DEFAULT_STEPS: f64 = 3e-6;
 
-/// What the motor puts in and what it takes back, in units of the other integrals' budget: their integrands have a kink at
-/// every zero of the power [1.1e-5 of the energy put in at the default steps].
-pub(crate) const ENERGY_PARTS: f64 = 6.0;
-
-/// Extremes at the default of 2000 steps: the largest of instants set so close that at most 1e-5 of the largest torque at
-/// the belt is missed; more of the smaller torque at a motor whose rotor takes part of the peak [1e-5].
-pub(crate) const DEFAULT_PEAK: f64 = 3e-5;
+/// Extremes at the default of 2000 steps: that of the parabola through three instants, against the largest of 200 000 samples
+/// [5.7e-8].
+pub(crate) const DEFAULT_PEAK: f64 = 3e-7;
 
 /// Extremes at 200 000 steps, against the largest of the same number of samples, which lies up to T″·h²/8 lower [2.3e-8];
 /// the torque nearest to the envelope is not itself at an extreme: it moves by T′·h with the instant found [3.4e-7].
@@ -145,6 +142,20 @@ pub(crate) const PIECE_JOINT: f64 = 1e-9;
 /// roundings of some hundred terms, and 64 units of the last place that the search may pass over.
 pub(crate) const PREPARED_CYCLE: f64 = 1e-12;
 
+/// A peak between samples at 302 steps of an inclined sine, by the parabola through three: (2π/302)⁴/128 of a sine's peak for a
+/// vertex halfway between two samples, and less elsewhere.
+pub(crate) const PEAK_BETWEEN: f64 = 1.5e-9;
+
+/// Energies about a zero of the power at 302 steps of an inclined sine: of the parabola through three samples the zero is off by
+/// the third power of the step.
+pub(crate) const ENERGY_BETWEEN: f64 = 1e-7;
+
+/// The largest force of a motion: six vertices of parabolas from a quarter of a degree come down to rounding of a flat top.
+pub(crate) const LARGEST_FORCE: f64 = 1e-13;
+
+/// The same at a jump, 1e-9 of the smooth stretch before it.
+pub(crate) const LARGEST_AT_JUMP: f64 = 2e-9;
+
 /// A spline that is one cubic: a few roundings of numbers up to 20, times steps up to 1/30 that are divided by twice.
 pub(crate) const SPLINE_EXACT: f64 = 1e-11;
 
@@ -235,7 +246,7 @@ pub(crate) const SLOW_HOUSING: f64 = 1e-3;
 
 /// The duty meter in the middle of 2000 and 20 000 ticks of a press's cycle against sizing's instants: an extreme lies up to half
 /// a tick away, which counts with the square of the tick, down to what f32 can tell.
-pub(crate) const METERED: [f64; 2] = [1e-3, 5e-7];
+pub(crate) const METERED: [f64; 2] = [1e-3, 5e-6];
 
 /// The duty meter in the middle of 20 000 ticks against the figures written beside its limits: as [`METERED`], and the error of
 /// sizing's own 2000 steps [1.4e-6, the energy that comes back; 1e-6 the output's peak].

@@ -235,6 +235,36 @@ fn a_title_is_text_not_markup() {
     assert!(!page.contains("<b>&\"") && !page.contains("<machine>"));
 }
 
+/// A drive link that slides, of which only the curves are known, is a block on a guide as long as its stroke, not a gear wheel.
+#[test]
+fn a_slide_of_which_only_the_curves_are_known() {
+    let folder = Folder::new();
+    folder.file("curves.csv", "s [mm],m [kg]\n0,8\n100,8\n200,9\n300,9\n");
+    let text =
+        "[mechanism]\ntype = \"reduced-curves\"\nfile = \"curves.csv\"\nrange = \"stroke\"\n";
+    let page = page(&folder.file("slide.toml", text), &folder);
+    let (svg, _) = parts(&page);
+    check_drawing(svg);
+    assert!(
+        !svg.contains("schematic") && !svg.contains("<circle"),
+        "{svg}"
+    );
+    let document = Document::parse(svg).unwrap();
+    let lines = document
+        .descendants()
+        .filter(|node| node.has_tag_name("path"));
+    let lengths = lines.map(|path| {
+        let points = points(path);
+        points
+            .windows(2)
+            .map(|pair| distance(pair[0], pair[1]))
+            .fold(0.0, f64::max)
+    });
+    let longest = lengths.fold(0.0, f64::max);
+    // The guide is drawn 8 pixels longer at each end.
+    within("guide", longest - 16.0, 0.3 * scale(&document), 0.1);
+}
+
 /// What it says of forces and motions depends on whether there is a motion.
 #[test]
 fn without_a_motion() {

@@ -7,6 +7,7 @@ mod duty;
 mod duty_meter;
 mod every_machine;
 mod import;
+mod largest;
 mod linkage_file;
 mod machine_file;
 mod mechanisms;

@@ -6,7 +6,9 @@
 //! - its extremes, its peak against an envelope and the signs of its power are found by branch and bound over stretches of
 //!   samples ([`Cycle::peak`], [`Cycle::torque_extremes`], [`Cycle::energies`]).
 //!
-//! Each equals what a loop over all samples gives, to rounding (1e-12 of the sum of the form's terms; `tests/cycle.rs`).
+//! Each equals what a loop over all samples gives, to rounding (1e-12 of the sum of the form's terms; `tests/cycle.rs`). A peak is
+//! then that of the parabola through the samples around it, and where the power changes its sign the energies are those of the
+//! parabola through Simpson's three samples: `tests/cycle/between.rs` compares both with closed forms.
 //! [`Cycle::new`] is one pass over the samples; after it a drive costs the same at a thousand samples and at a million, but for
 //! the search's few levels more (docs/performance.md).
 
@@ -15,7 +17,7 @@ use std::sync::OnceLock;
 use crate::catalogue::Drive;
 use crate::cycle::form::{Coefficients, LOADS, MotorDuty, loads_of};
 use crate::motor::envelope::Envelope;
-use jred_machine::analysis::duty::Duty;
+use jred_machine::analysis::duty::{Duty, Smooth};
 use jred_machine::analysis::mechanics::Mechanics;
 use jred_machine::number::figures::Figures;
 
@@ -80,6 +82,7 @@ pub struct Cycle {
     hold_torque: f64,
     mechanics: Mechanics,
     samples: Vec<Sample>,
+    smooth: Smooth,
     inertia: Figures,
     speed: Figures,
     mean_speed: f64,
@@ -124,13 +127,11 @@ impl Cycle {
             .collect();
         let mut largest = [0.0f64; LOADS];
         let mut mean_loads = [0.0; LOADS];
-        let mut peak_output_torque = 0.0f64;
         for sample in &samples {
             for (k, load) in sample.loads().into_iter().enumerate() {
                 largest[k] = largest[k].max(load.abs());
                 mean_loads[k] += sample.weight * load;
             }
-            peak_output_torque = peak_output_torque.max(sample.output_torque().abs());
         }
         // A torque is rounded as ½·J′·ω² is, even where nothing is left of it: a machine that turns evenly without a load has
         // only roundings, and no bound would tell one from the other.
@@ -148,7 +149,8 @@ impl Cycle {
             inertia: duty.figures(|i| i.input_inertia),
             speed: duty.figures(|i| i.input_speed),
             mean_speed: duty.integral(|i| i.input_speed.abs()) / duty.duration,
-            peak_output_torque,
+            peak_output_torque: duty.figures(|i| i.input_torque).peak(),
+            smooth: duty.smooth.clone(),
             mean_loads: mean_loads.map(|sum| sum / duty.duration),
             torque: Factor::of_loads(&samples),
             power: Factor::of_powers(&samples),
@@ -298,8 +300,33 @@ impl Cycle {
             samples: &self.samples,
             tree: &self.tree,
             front: &self.front,
+            smooth: &self.smooth,
             largest: &self.largest,
         }
+    }
+
+    /// Least and largest power of the motor (W): a pass over the samples.
+    fn power_extremes(&self, coefficients: &Coefficients, ratio: f64) -> [f64; 2] {
+        let power = |torque: f64, speed: f64| torque * speed;
+        let of =
+            |sample: &Sample| power(coefficients.torque(&sample.loads()), sample.speed() * ratio);
+        let [mut least, mut largest] = [(0, f64::INFINITY), (0, f64::NEG_INFINITY)];
+        for (k, sample) in self.samples.iter().enumerate() {
+            let power = of(sample);
+            if power < least.1 {
+                least = (k, power);
+            }
+            if power > largest.1 {
+                largest = (k, power);
+            }
+        }
+        let stretches = self.stretches();
+        let least_between = stretches.between(least.0, coefficients, ratio, |t, n| -power(t, n));
+        let largest_between = stretches.between(largest.0, coefficients, ratio, power);
+        [
+            least_between.map_or(least.1, |peak| -peak.used),
+            largest_between.map_or(largest.1, |peak| peak.used),
+        ]
     }
 
     /// The duty at the motor of a drive. The extremes of the power take a pass over the samples; all else does not.
@@ -307,12 +334,7 @@ impl Cycle {
         let (coefficients, ratio) = (drive.coefficients(), drive.ratio());
         let [least, largest] = self.torque_extremes(&coefficients);
         let [motoring_energy, regenerative_energy] = self.energies(&coefficients, ratio);
-        let (mut least_power, mut largest_power) = (f64::INFINITY, f64::NEG_INFINITY);
-        for sample in &self.samples {
-            let power = coefficients.torque(&sample.loads()) * (sample.speed() * ratio);
-            least_power = least_power.min(power);
-            largest_power = largest_power.max(power);
-        }
+        let [least_power, largest_power] = self.power_extremes(&coefficients, ratio);
         let scale = 1.0 / (ratio * ratio);
         let gearbox = drive.inertia_ratio(0.0);
         let load = scale / drive.rotor();

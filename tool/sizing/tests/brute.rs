@@ -1,9 +1,16 @@
 //! What a cycle asks of a drive, by plain loops over its samples: the oracle of `Cycle`'s own way, and what it is timed against.
 #![allow(dead_code)]
 
+use jred_machine::analysis::duty::{Duty, Smooth};
 use jred_sizing::cycle::form::Coefficients;
 use jred_sizing::cycle::{Cycle, Peak};
 use jred_sizing::motor::envelope::Envelope;
+
+/// A duty of which no more is known than its instants: what plain loops see.
+pub(crate) fn sampled(mut duty: Duty) -> Duty {
+    duty.smooth = Smooth::default();
+    duty
+}
 
 /// RMS of the motor torque.
 pub(crate) fn rms_torque(cycle: &Cycle, c: &Coefficients) -> f64 {

@@ -1,5 +1,6 @@
 //! A cycle prepared once against plain loops over its samples: every figure, for random cycles, drives and envelopes.
 
+mod between;
 mod catalogue;
 pub(crate) mod random;
 mod screen;

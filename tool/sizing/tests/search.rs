@@ -8,6 +8,7 @@ mod ratio;
 
 use std::path::Path;
 
+use crate::brute;
 use crate::support::{budget, near, press_text};
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
@@ -56,7 +57,8 @@ fn priced() -> Catalogue {
 
 #[test]
 fn ranked_by_what_was_asked_for() {
-    let case = case(&press_text(), 200);
+    let mut case = case(&press_text(), 200);
+    case.cycle = Cycle::new(&brute::sampled(case.duty.clone()));
     let catalogue = priced();
     let prepared = catalogue.prepare(&case.file.site);
     let select = || {

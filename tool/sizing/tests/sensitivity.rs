@@ -96,7 +96,7 @@ fn slope_of_the_rms_torque_by_the_duty_itself() {
 
     // dT/dm = r²·a/i.
     let (duty, torque) = torques(RACK, STEPS);
-    let figures = duty.figures_of(torque.iter().copied());
+    let figures = duty.figures_of(&torque);
     let by_mass = |i: &Instant| 0.03 * 0.03 * i.input_alpha / 5.0;
     let products = torque
         .iter()

@@ -198,7 +198,7 @@ fn check_motor_duty(name: &str, duty: &Value, seen: &AtMotor, tolerances: [f64; 
         let found = duty[what].as_f64().unwrap();
         within(&format!("{name}: {what}"), found, expected, most);
     };
-    let most = budget::ENERGY_PARTS * tolerances[0] * motoring;
+    let most = tolerances[0] * motoring;
     check("regenerative energy [J]", regenerative, most);
     check("motoring energy [J]", motoring, most);
     let most = tolerances[0] * seen.mean_speed;

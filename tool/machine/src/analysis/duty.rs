@@ -2,13 +2,20 @@
 
 use jred::machine::TorqueTerms;
 use jred::mechanism::TrainOutput;
-use jred::{Domain, Error, Reducible as _, Reduction};
+use jred::{Error, Reducible as _, Reduction};
 
 use crate::analysis::mechanics::Mechanics;
 use crate::model::coordinate;
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
 use crate::number::figures::Figures;
+use crate::number::parabola;
+
+mod smooth;
+mod stretches;
+
+pub use smooth::{MOST_RAISED, Smooth};
+pub(crate) use stretches::{passages, smooth_stretches};
 
 /// One instant of the cycle. "Input" is the input shaft of the machine's fixed drive train: what a motor or the
 /// output of its gearbox is coupled to.
@@ -50,105 +57,12 @@ pub struct Duty {
     pub hold_torque: f64,
     /// Data for the mechanical rules.
     pub mechanics: Mechanics,
+    /// Where the instants' smooth stretches begin.
+    pub smooth: Smooth,
 }
 
 /// Default number of time steps of a cycle.
 pub const STEPS: usize = 2000;
-
-/// On which side of an edge the drive link is at φ; on a turn, after how many of its passages.
-fn side(file: &MachineFile, phi: f64, edge: f64) -> i64 {
-    let beyond = phi - edge;
-    if file.machine.domain() == Domain::Turn {
-        (beyond / std::f64::consts::TAU).floor() as i64
-    } else {
-        i64::from(beyond >= 0.0)
-    }
-}
-
-/// Positions at which a load begins or ends, or a cam's segments meet.
-fn edges(file: &MachineFile) -> Vec<f64> {
-    (0..).map_while(|k| file.machine.edge(k)).collect()
-}
-
-/// How often the drive link passes an edge, at least: there and back within a piece of the motion is not counted.
-pub(crate) fn passages(file: &MachineFile, motion: &Motion) -> u64 {
-    let edges = edges(file);
-    let sides = |t: f64| {
-        let phi = motion.at(t).phi;
-        edges.iter().map(move |&edge| side(file, phi, edge))
-    };
-    let passed = motion.stretches().into_iter().flat_map(|(from, to)| {
-        let sides = sides(from).zip(sides(to));
-        sides.map(|(from, to)| from.abs_diff(to))
-    });
-    passed.fold(0, u64::saturating_add)
-}
-
-/// Adds the times at which the side of an edge changes, by bisection; between them a step may hold any number of turns. `from` and
-/// `to` are times with their sides.
-fn crossings(
-    side: &impl Fn(f64) -> i64,
-    [from, to]: [(f64, i64); 2],
-    least: f64,
-    cuts: &mut Vec<f64>,
-) {
-    if from.1 == to.1 {
-        return;
-    }
-    let middle = 0.5 * (from.0 + to.0);
-    if to.0 - from.0 <= least || middle <= from.0 || middle >= to.0 {
-        cuts.push(to.0);
-        return;
-    }
-    let middle = (middle, side(middle));
-    crossings(side, [from, middle], least, cuts);
-    crossings(side, [middle, to], least, cuts);
-}
-
-/// The stretches of the motion, also cut where the drive link passes an edge of a load's window, so that a short load has
-/// its own instants.
-pub(crate) fn smooth_stretches(
-    file: &MachineFile,
-    motion: &Motion,
-    steps: usize,
-) -> Vec<(f64, f64)> {
-    let edges = edges(file);
-    let least = 1e-13 * motion.duration();
-    let mut stretches = Vec::new();
-    for (from, to) in motion.stretches() {
-        if edges.is_empty() {
-            stretches.push((from, to));
-            continue;
-        }
-        let n = ((steps as f64 * (to - from) / motion.duration()).ceil() as usize).max(16);
-        let mut cuts = Vec::new();
-        let place = |k: usize| {
-            let t = from + (to - from) * k as f64 / n as f64;
-            (t, motion.at(t).phi)
-        };
-        let mut start = place(0);
-        for k in 1..=n {
-            let end = place(k);
-            for &edge in &edges {
-                let step = [start, end].map(|(t, phi)| (t, side(file, phi, edge)));
-                let at = |t: f64| side(file, motion.at(t).phi, edge);
-                crossings(&at, step, least, &mut cuts);
-            }
-            start = end;
-        }
-        cuts.sort_by(f64::total_cmp);
-        let shortest = 1e-9 * motion.duration();
-        let mut start = from;
-        for cut in cuts {
-            if cut - start > shortest && to - cut > shortest {
-                stretches.push((start, cut));
-                start = cut;
-            }
-        }
-        stretches.push((start, to));
-    }
-    stretches
-}
 
 /// Share of the largest input torque by which a peak between two instants may be missed.
 const PEAK_MISSED: f64 = 1e-5;
@@ -195,6 +109,46 @@ fn refine_bends(
     if let Some(stretch) = instants.get_mut(first..) {
         // Stable sorting takes half as much memory again.
         stretch.sort_unstable_by(|a, b| a.t.total_cmp(&b.t));
+    }
+    Ok(())
+}
+
+/// Inserts instants of zero weight at the extremes of what no motor changes, each where it is between the instants.
+fn insert_extremes(
+    moving: &mut Moving,
+    instants: &mut Vec<Instant>,
+    smooth: &mut Smooth,
+) -> Result<(), Error> {
+    let quantities: [fn(&Instant) -> f64; 6] = [
+        |i| i.terms.total(),
+        |i| i.input_inertia,
+        |i| i.input_speed,
+        |i| i.input_alpha,
+        |i| i.input_torque,
+        |i| i.input_torque * i.input_speed,
+    ];
+    for quantity in quantities {
+        for sign in [-1.0, 1.0] {
+            let value = |instant: &Instant| sign * quantity(instant);
+            let by = |a: &usize, b: &usize| value(&instants[*a]).total_cmp(&value(&instants[*b]));
+            let Some(most) = (0..instants.len()).max_by(by) else {
+                continue;
+            };
+            let Some(around) = smooth.around(most, instants.len()) else {
+                continue;
+            };
+            let mut at = |t: f64| Instant::new(moving, t, 0.0);
+            let t = parabola::peak(
+                |t| Ok::<_, Error>(value(&at(t)?)),
+                around.map(|k| instants[k].t),
+            )?;
+            let peak = at(t)?;
+            if value(&peak) > value(&instants[most]) {
+                let place = instants.partition_point(|i| i.t < t);
+                smooth.insert(place);
+                instants.insert(place, peak);
+            }
+        }
     }
     Ok(())
 }
@@ -262,6 +216,7 @@ impl Duty {
         const INSIDE: f64 = 1e-9;
         let duration = motion.duration();
         let mut instants = Vec::with_capacity(steps + 1024);
+        let mut smooth = Smooth::default();
         let mut moving = Moving {
             file,
             motion,
@@ -279,6 +234,7 @@ impl Duty {
             let n = parts((from, to));
             let step = span / n as f64;
             let first = instants.len();
+            smooth.begin(first);
             for k in 0..=n {
                 let weight = match k {
                     _ if k == 0 || k == n => 1.0,
@@ -291,6 +247,7 @@ impl Duty {
             }
             refine_bends(&mut moving, first, most_parts, &mut instants)?;
         }
+        insert_extremes(&mut moving, &mut instants, &mut smooth)?;
         let ratio = file.drive_train.ratio();
         let mut hold_torque = 0.0f64;
         for phi in coordinate::positions(file.machine.domain(), 720) {
@@ -305,6 +262,7 @@ impl Duty {
             instants,
             duration,
             hold_torque,
+            smooth,
         })
     }
 
@@ -321,25 +279,50 @@ impl Duty {
             .sum()
     }
 
-    /// Extremes, mean and RMS of a quantity.
+    /// Extremes, mean and RMS of a quantity over the instants. The extremes of what no motor changes, inertia, speed,
+    /// acceleration, torque and power at the input and the torque at the drive link, are instants.
     pub fn figures(&self, quantity: impl Fn(&Instant) -> f64) -> Figures {
-        self.figures_of(self.instants.iter().map(quantity))
+        self.figures_at(|k| quantity(&self.instants[k]), |_, _| None)
     }
 
-    /// Extremes, mean and RMS of the values of a quantity, one for each instant.
-    pub fn figures_of(&self, values: impl Iterator<Item = f64>) -> Figures {
-        let (mut min, mut max) = (f64::INFINITY, f64::NEG_INFINITY);
+    /// The same of the values of a quantity, one for each instant.
+    pub fn figures_of(&self, values: &[f64]) -> Figures {
+        self.figures_at(|k| values[k], |_, _| None)
+    }
+
+    /// The same of what a motor changes: its extremes lie between the instants.
+    pub fn figures_between(&self, values: &[f64]) -> Figures {
+        let time = |k: usize| self.instants[k].t;
+        let between = |k: usize, sign: f64| {
+            let value = |k: usize| sign * values[k];
+            let peak = self.smooth.peak(k, self.instants.len(), time, value)?;
+            Some(sign * peak.value)
+        };
+        self.figures_at(|k| values[k], between)
+    }
+
+    fn figures_at(
+        &self,
+        value: impl Fn(usize) -> f64,
+        between: impl Fn(usize, f64) -> Option<f64>,
+    ) -> Figures {
         let (mut sum, mut squares) = (0.0, 0.0);
-        for (instant, value) in self.instants.iter().zip(values) {
-            min = min.min(value);
-            max = max.max(value);
+        let [mut least, mut largest] = [(0, f64::INFINITY), (0, f64::NEG_INFINITY)];
+        for (k, instant) in self.instants.iter().enumerate() {
+            let value = value(k);
+            if value < least.1 {
+                least = (k, value);
+            }
+            if value > largest.1 {
+                largest = (k, value);
+            }
             sum += instant.weight * value;
             squares += instant.weight * value * value;
         }
         Figures {
-            min,
+            min: between(least.0, -1.0).unwrap_or(least.1),
             mean: sum / self.duration,
-            max,
+            max: between(largest.0, 1.0).unwrap_or(largest.1),
             rms: (squares / self.duration).sqrt(),
         }
     }

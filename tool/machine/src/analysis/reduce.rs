@@ -77,6 +77,21 @@ struct Source<'f> {
     coordinate: Coordinate,
 }
 
+impl<'f> Source<'f> {
+    fn new(file: &'f MachineFile) -> Result<Self, Error> {
+        Ok(Self {
+            file,
+            machine: file.with_drive_train()?,
+            coordinate: file.machine.mechanism().coordinate(),
+        })
+    }
+}
+
+/// The column of times.
+fn time_column() -> Column {
+    Column::new(Quantity::Time, "t", "s")
+}
+
 /// Columns that belong together.
 trait Set {
     /// Their heads.
@@ -91,11 +106,7 @@ trait Set {
 /// # Errors
 /// Those of the machine.
 pub fn reduce(file: &MachineFile, request: &Request) -> Result<Columns, Error> {
-    let source = Source {
-        file,
-        machine: file.with_drive_train()?,
-        coordinate: file.machine.mechanism().coordinate(),
-    };
+    let source = Source::new(file)?;
     let moves = file.motion.is_some() || request.state.is_some();
     let in_time = request.over == Over::Time || request.state.is_some();
     let Sets {
@@ -122,7 +133,7 @@ pub fn reduce(file: &MachineFile, request: &Request) -> Result<Columns, Error> {
     }
     let mut heads = match request.over {
         Over::Angle => vec![],
-        Over::Time => vec![Column::new(Quantity::Time, "t", "s")],
+        Over::Time => vec![time_column()],
     };
     heads.push(source.coordinate.column());
     heads.extend(sets.iter().flat_map(|set| set.heads(&source)));

@@ -4,6 +4,7 @@ pub mod columns;
 pub mod csv;
 pub mod figures;
 pub mod numerics;
+pub mod parabola;
 pub mod rounding;
 pub mod spline;
 pub mod words;

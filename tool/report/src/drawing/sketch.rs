@@ -260,13 +260,17 @@ impl Sketch {
     }
 }
 
-/// Whether all joints of a mechanism are at one place, and no outline says more.
+/// Whether all joints of a mechanism turn at one place, and no outline says more.
 fn is_at_one_point(joints: &[Joint], frames: &Frames, mechanism: &AnyMechanism) -> bool {
     let outlined = (0..frames.len()).any(|k| mechanism.outlines(k).next().is_some());
+    let slides = joints
+        .iter()
+        .any(|joint| matches!(joint, Joint::Prismatic(_)));
     let markers = joints.iter().flat_map(markers);
     let mut places = markers.map(|m| m.position(frames).map(|c| c.value));
     let first = places.next().unwrap_or_default();
     !outlined
+        && !slides
         && mechanism.points().is_empty()
         && places.all(|[x, y]| (x - first[0]).hypot(y - first[1]) <= 0.0)
 }

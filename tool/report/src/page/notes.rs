@@ -66,7 +66,8 @@ pub(super) fn notes(best: &Judged, duty: &Duty) -> Vec<String> {
          back."
             .to_owned(),
         format!(
-            "The cycle is evaluated exactly at {} instants, with Simpson's rule for integrals on each smooth section.",
+            "The cycle is evaluated exactly at {} instants, with Simpson's rule for integrals on each smooth \
+             section; peaks lie between them.",
             duty.instants.len()
         ),
         "Share of mean square: mean of (part × whole) over mean of (whole × whole); the shares add up to 100 %. A \

@@ -6,6 +6,8 @@ use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::read;
 
+use crate::brute;
+
 /// A small dosing press: 30 mm stroke, 60 N over the last part of the way, a turn in two seconds and a rest. Its torque of about
 /// 1 N·m and its largest speed of 6 rad/s suit the middle of the catalogue.
 const MACHINE: &str = r#"
@@ -72,7 +74,8 @@ pub(crate) fn duty(file: &MachineFile, instants: usize) -> Duty {
         panic!("the benchmark's own machine has no motion");
     };
     match Duty::new(file, motion, instants) {
-        Ok(duty) => duty,
+        // What plain loops can be compared with.
+        Ok(duty) => brute::sampled(duty),
         Err(error) => panic!("the benchmark's own machine: {error}"),
     }
 }

@@ -5,6 +5,7 @@ use super::Sample;
 use super::extremes::Stretches;
 use crate::cycle::form::Coefficients;
 use crate::motor::envelope::Envelope;
+use jred_machine::analysis::duty::MOST_RAISED;
 
 /// The peak of a cycle relative to two shares of an envelope.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +38,8 @@ impl Stretches<'_> {
         };
         let front = self.front;
         let [start, slope] = line;
-        let least = low * (1.0 - NEAR);
+        // The bounds are those of the samples; the peak between them may be higher.
+        let least = low * (1.0 - NEAR) / (1.0 + MOST_RAISED);
         if front.most_above(&c.0, [least * start, least * slope]) + self.slack(c) <= 0.0 {
             return Against::Below;
         }

@@ -14,6 +14,7 @@ use super::tree::{Direction, Node, Tree};
 use super::{Peak, Sample};
 use crate::cycle::form::{Coefficients, LOADS};
 use crate::motor::envelope::Envelope;
+use jred_machine::analysis::duty::Smooth;
 
 /// Rounding of a torque and of its bound, as a share of the sum of its terms' largest magnitudes.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -25,19 +26,32 @@ pub(super) struct Stretches<'c> {
     pub(super) tree: &'c Tree,
     pub(super) front: &'c Front,
     pub(super) largest: &'c [f64; LOADS],
+    pub(super) smooth: &'c Smooth,
 }
 
 impl Stretches<'_> {
-    /// The sample that comes closest to the envelope, or is beyond it by most; the first that has no limit at all, if there is
-    /// one.
+    /// Where the cycle comes closest to the envelope, or is beyond it by most; the first sample that has no limit at all, if there
+    /// is one.
     pub(super) fn peak(self, c: &Coefficients, ratio: f64, envelope: &Envelope) -> Option<Peak> {
+        let (sample, peak) = self.sampled_peak(c, ratio, envelope)?;
+        let used = |torque, speed| envelope.peak_used(torque, speed);
+        Some(self.between(sample, c, ratio, used).unwrap_or(peak))
+    }
+
+    /// The sample of that.
+    fn sampled_peak(
+        self,
+        c: &Coefficients,
+        ratio: f64,
+        envelope: &Envelope,
+    ) -> Option<(usize, Peak)> {
         let top = self.tree.nodes.first()?.speed[1] * ratio;
         if let Some(limit) = envelope.level_up_to(top) {
             let known = limit.is_finite() && limit > 0.0;
             let level = Level(if known { limit } else { 1.0 });
-            let mut peak = Search::new(self, c, ratio, level).run();
+            let (sample, mut peak) = Search::new(self, c, ratio, level).run();
             peak.used = envelope.peak_used(peak.torque, peak.speed);
-            return Some(peak);
+            return Some((sample, peak));
         }
         let [driving, braking] = [true, false].map(|driving| envelope.floor(driving, [0.0, top]));
         let [start, end] = [driving[0].min(braking[0]), driving[1].min(braking[1])];
@@ -78,7 +92,9 @@ impl Stretches<'_> {
         if self.samples.is_empty() {
             return 0.0;
         }
-        Search::new(self, c, 1.0, Level(1.0)).run().torque.abs()
+        let (sample, peak) = Search::new(self, c, 1.0, Level(1.0)).run();
+        let between = self.between(sample, c, 1.0, |torque, _| torque.abs());
+        between.unwrap_or(peak).torque.abs()
     }
 
     /// Least and largest value of c·x.
@@ -88,31 +104,78 @@ impl Stretches<'_> {
     }
 
     fn largest_value(self, c: &Coefficients) -> f64 {
-        fn visit(stretches: Stretches, c: &Coefficients, slack: f64, node: usize, best: &mut f64) {
-            let node_index = node;
-            let node = &stretches.tree.nodes[node];
+        type Best = (u32, f64);
+        fn visit(
+            stretches: Stretches,
+            c: &Coefficients,
+            slack: f64,
+            index: usize,
+            best: &mut Best,
+        ) {
+            let node = &stretches.tree.nodes[index];
             let ends = stretches.ends(node, c);
-            *best = best.max(ends[0]).max(ends[1]);
+            let weigh = |best: &mut Best, k: u32, torque: f64| {
+                if torque > best.1 {
+                    *best = (k, torque);
+                }
+            };
+            weigh(best, node.first, ends[0]);
+            weigh(best, node.last, ends[1]);
             let reach: f64 = (0..LOADS).map(|k| c.0[k].abs() * node.reach[k]).sum();
-            if ends[0].max(ends[1]) + reach - slack <= *best {
+            if ends[0].max(ends[1]) + reach - slack <= best.1 {
                 return;
             }
             if node.second == 0 {
-                let samples = &stretches.samples[node.first as usize..=node.last as usize];
-                *best = samples
-                    .iter()
-                    .map(|s| c.torque(&s.loads()))
-                    .fold(*best, f64::max);
+                for k in node.first..=node.last {
+                    weigh(best, k, c.torque(&stretches.samples[k as usize].loads()));
+                }
             } else {
-                visit(stretches, c, slack, node_index + 1, best);
+                visit(stretches, c, slack, index + 1, best);
                 visit(stretches, c, slack, node.second as usize, best);
             }
         }
-        let mut best = f64::NEG_INFINITY;
-        if !self.tree.nodes.is_empty() {
-            visit(self, c, self.slack(c), 0, &mut best);
+        let mut best = (0, f64::NEG_INFINITY);
+        if self.tree.nodes.is_empty() {
+            return best.1;
         }
-        best
+        visit(self, c, self.slack(c), 0, &mut best);
+        let between = self.between(best.0 as usize, c, 1.0, |torque, _| torque);
+        between.map_or(best.1, |peak| peak.torque)
+    }
+
+    /// The peak between the samples next to the sample `k`, at which `used` of torque and speed of the motor is largest; `None`
+    /// where it is that sample. What was computed through a change of the speed's sign or of the power's would be no torque.
+    pub(super) fn between(
+        self,
+        k: usize,
+        c: &Coefficients,
+        ratio: f64,
+        used: impl Fn(f64, f64) -> f64,
+    ) -> Option<Peak> {
+        let at = |k: usize| {
+            let sample = &self.samples[k];
+            (c.torque(&sample.loads()), sample.speed() * ratio)
+        };
+        let score = |k: usize| {
+            let (torque, speed) = at(k);
+            used(torque, speed)
+        };
+        let time = |k: usize| self.samples[k].t;
+        let peak = self.smooth.peak(k, self.samples.len(), time, score)?;
+        let kind = |k: usize| {
+            let [_, driving, back, _, sign] = self.samples[k].loads();
+            [driving, back, sign].map(|x| x != 0.0)
+        };
+        let [a, b, d] = peak.around;
+        let same_kind = kind(a) == kind(b) && kind(b) == kind(d);
+        let torque = peak.other(peak.around.map(|k| at(k).0));
+        let speed = peak.other(peak.around.map(|k| at(k).1));
+        let found = Peak {
+            used: used(torque, speed),
+            torque,
+            speed,
+        };
+        (same_kind && found.used > score(k)).then_some(found)
     }
 
     pub(super) fn slack(self, c: &Coefficients) -> f64 {
@@ -134,6 +197,8 @@ struct Search<'s, F> {
     floor: F,
     slack: f64,
     best: Peak,
+    /// Index of the sample of the best.
+    at: u32,
 }
 
 impl<'s, F: Floor> Search<'s, F> {
@@ -149,10 +214,11 @@ impl<'s, F: Floor> Search<'s, F> {
                 torque: 0.0,
                 speed: 0.0,
             },
+            at: 0,
         }
     }
 
-    fn run(mut self) -> Peak {
+    fn run(mut self) -> (usize, Peak) {
         let front = self.stretches.front;
         let bounds = front.bounds(&self.c.0);
         let floors = front.floors(self.floor.line());
@@ -170,14 +236,14 @@ impl<'s, F: Floor> Search<'s, F> {
                 self.look(front.nodes[k] as usize);
             }
         }
-        self.best
+        (self.at as usize, self.best)
     }
 
     /// Evaluates both ends of a stretch, which may save much of the search.
     fn weigh_ends(&mut self, node: u32) {
         let node = &self.stretches.tree.nodes[node as usize];
         for end in [node.first, node.last] {
-            self.weigh(&self.stretches.samples[end as usize], self.floor.least());
+            self.weigh(end, self.floor.least());
         }
     }
 
@@ -195,10 +261,9 @@ impl<'s, F: Floor> Search<'s, F> {
         let nodes = &self.stretches.tree.nodes;
         let node = &nodes[index];
         if node.second == 0 {
-            let samples = &self.stretches.samples[node.first as usize..=node.last as usize];
             let least = self.least_on(node);
-            for sample in samples {
-                self.weigh(sample, least);
+            for k in node.first..=node.last {
+                self.weigh(k, least);
             }
             return;
         }
@@ -221,7 +286,8 @@ impl<'s, F: Floor> Search<'s, F> {
     }
 
     /// Keeps a sample if it is the best so far; `least` is a lower bound of its limit.
-    fn weigh(&mut self, sample: &Sample, least: f64) {
+    fn weigh(&mut self, k: u32, least: f64) {
+        let sample = &self.stretches.samples[k as usize];
         let torque = self.c.torque(&sample.loads());
         if torque.abs() <= self.best.used * least {
             return;
@@ -236,6 +302,7 @@ impl<'s, F: Floor> Search<'s, F> {
                 0.0
             };
             if used > self.best.used {
+                self.at = k;
                 self.best = Peak {
                     used,
                     torque,
@@ -317,7 +384,7 @@ struct First<'s> {
 
 impl First<'_> {
     /// The first sample in a stretch at whose speed there is no torque.
-    fn visit(&self, index: usize) -> Option<Peak> {
+    fn visit(&self, index: usize) -> Option<(usize, Peak)> {
         let node = &self.stretches.tree.nodes[index];
         if node.speed[1] < self.positive_below {
             return None;
@@ -325,19 +392,20 @@ impl First<'_> {
         if node.second > 0 {
             return (self.visit(index + 1)).or_else(|| self.visit(node.second as usize));
         }
-        let samples = &self.stretches.samples[node.first as usize..=node.last as usize];
-        samples.iter().find_map(|sample| {
+        (node.first as usize..=node.last as usize).find_map(|k| {
+            let sample = &self.stretches.samples[k];
             if sample.speed().abs() < self.positive_below {
                 return None;
             }
             let torque = self.c.torque(&sample.loads());
             let speed = sample.speed() * self.ratio;
             let used = self.envelope.peak_used(torque, speed);
-            used.is_infinite().then_some(Peak {
+            let beyond = Peak {
                 used,
                 torque,
                 speed,
-            })
+            };
+            used.is_infinite().then_some((k, beyond))
         })
     }
 }

@@ -14,7 +14,7 @@ use jred::machine::{Mechanism as _, TorqueTerms};
 use jred::mechanism::TrainOutput;
 use jred::{Error, Machine};
 
-use jred_machine::analysis::duty::{Duty, Instant};
+use jred_machine::analysis::duty::{Duty, Instant, Smooth};
 use jred_machine::model::coordinate::positions;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::mechanism::AnyMechanism;
@@ -94,7 +94,10 @@ impl<'a> Altered<'a> {
 
     /// The altered duty.
     pub fn duty(&self, by: Alteration) -> Duty {
-        self.of(0..self.duty.instants.len(), by)
+        Duty {
+            smooth: self.duty.smooth.clone(),
+            ..self.of(0..self.duty.instants.len(), by)
+        }
     }
 
     /// The altered duty without most of the instants that only resolve a peak; `None` if there are none of them. Its integrals, its
@@ -122,6 +125,8 @@ impl<'a> Altered<'a> {
             hold_torque,
             duration,
             instants,
+            // Of some instants only, nothing is known between them.
+            smooth: Smooth::default(),
         }
     }
 

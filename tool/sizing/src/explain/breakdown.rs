@@ -124,7 +124,7 @@ impl Breakdown {
             let power = duty.instants.iter().zip(torque);
             Share {
                 name: name.to_owned(),
-                torque: duty.figures_of(torque.iter().copied()),
+                torque: duty.figures_between(torque),
                 mean_square: if square > 0.0 { product / square } else { 0.0 },
                 at_peak: torque.get(peak).copied().unwrap_or(0.0),
                 energy: duty.integral_of(power.map(|(i, t)| t * i.input_speed * ratio)),
@@ -160,9 +160,9 @@ impl Breakdown {
                 *sum += value;
             }
         }
-        let mean = duty.figures_of(inertia_whole.iter().copied()).mean;
+        let mean = duty.figures_of(&inertia_whole).mean;
         let inertia = |name: &str, values: &[f64]| {
-            let inertia = duty.figures_of(values.iter().copied());
+            let inertia = duty.figures_of(values);
             InertiaShare {
                 name: name.to_owned(),
                 inertia,

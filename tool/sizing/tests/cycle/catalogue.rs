@@ -44,7 +44,7 @@ pub(crate) fn with_more_ratios() -> Catalogue {
 /// The press and the built-in catalogue, its gearboxes at many more ratios: enough drives that fit and that do not.
 fn ready() -> Ready {
     let file = read::parse("press.toml", &press_text(), Path::new("")).unwrap();
-    let duty = Duty::new(&file, file.motion.as_ref().unwrap(), 400).unwrap();
+    let duty = brute::sampled(Duty::new(&file, file.motion.as_ref().unwrap(), 400).unwrap());
     let catalogue = with_more_ratios();
     let site = Site::default();
     Ready {

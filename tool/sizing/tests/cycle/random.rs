@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use jred::machine::TorqueTerms;
-use jred_machine::analysis::duty::{Duty, Instant};
+use jred_machine::analysis::duty::{Duty, Instant, Smooth};
 use jred_machine::analysis::mechanics::Mechanics;
 use jred_sizing::catalogue::Commutation;
 use jred_sizing::catalogue::{Catalogue, Motor, Winding};
@@ -107,6 +107,8 @@ pub(crate) fn duty() -> impl Strategy<Value = Duty> {
                 duration,
                 hold_torque: 0.5 * of_torque,
                 mechanics: Mechanics::default(),
+                // Peaks and energies of the samples themselves, whatever they are.
+                smooth: Smooth::default(),
             }
         },
     )

@@ -13,6 +13,7 @@ use jred_sizing::motor::envelope::Prepared;
 use jred_sizing::select::size::{Candidate, Selection};
 
 use super::{catalogue, duty_of, read};
+use crate::brute;
 use crate::support::{budget, near, press_text, within};
 
 /// What a selection borrows.
@@ -60,7 +61,7 @@ pub(super) const fn drive<'c>(motor: &'c Motor, gearbox: Option<&'c Gearbox>) ->
 #[test]
 fn every_drive_by_brute_force() {
     let file = read(&press_text());
-    let duty = duty_of(&file, 400);
+    let duty = brute::sampled(duty_of(&file, 400));
     let cycle = 0.5;
     let ready = Ready::new(&duty);
     let mut selection = ready.selection();

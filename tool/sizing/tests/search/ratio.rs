@@ -2,11 +2,12 @@
 
 use super::{RACK, case, catalogue};
 use crate::support::{budget, near, press_text};
+use jred_machine::analysis::duty::Instant;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Verdict;
 use jred_sizing::catalogue::Drive;
 use jred_sizing::catalogue::{Catalogue, Gearbox, Motor};
-use jred_sizing::cycle::form::Coefficients;
+use jred_sizing::cycle::form::{Coefficients, loads};
 use jred_sizing::judge::Context;
 use jred_sizing::select::ratio::ranges::Trial;
 use jred_sizing::select::ratio::{Gear, Moments, accelerating_factor};
@@ -73,12 +74,8 @@ fn best_ratio_by_golden_section() {
                 let moments = Moments::new(&case.duty, &motor, gear);
                 let direct = |ratio: f64| {
                     let coefficients = coefficients(&motor, gear, ratio);
-                    let torques = case
-                        .duty
-                        .instants
-                        .iter()
-                        .map(|i| coefficients.torque(&jred_sizing::cycle::form::loads(i)));
-                    case.duty.figures_of(torques).rms
+                    let torque = |i: &Instant| coefficients.torque(&loads(i));
+                    case.duty.figures(torque).rms
                 };
                 let best = moments.best_ratio().unwrap();
                 for ratio in [0.1 * best, 0.7 * best, best, 3.0 * best, 20.0 * best] {

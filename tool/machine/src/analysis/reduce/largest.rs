@@ -1,15 +1,27 @@
 //! The largest magnitudes of the forces over the motion, and where they occur.
 
-use jred::Error;
+use jred::machine::Mechanism as _;
+use jred::machine::motion::State;
+use jred::{Domain, Error, Reducible as _};
 use serde::{Serialize, Serializer};
 
-use super::{Over, Request, Sets, reduce};
+use super::reactions::Reactions;
+use super::{Over, Pass, Place, Request, Set as _, Source};
+use crate::analysis::duty::smooth_stretches;
 use crate::model::machine::MachineFile;
-use crate::number::columns::{Column, Columns, Quantity};
+use crate::model::motion::Motion;
+use crate::number::columns::{Column, Quantity};
+use crate::number::parabola::peak;
 use crate::number::rounding::short;
 
-/// Positions that are searched at least.
-const SEARCHED: usize = 1441;
+/// Positions that are searched at least: the quarter degrees of a turn.
+const SEARCHED: usize = 1440;
+
+/// Fewest steps of a smooth stretch.
+const FEWEST: usize = 16;
+
+/// The ends of a stretch are taken from inside, by this share of it: what jumps there belongs to both sides.
+const INSIDE: f64 = 1e-9;
 
 /// The largest magnitude of one quantity.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -46,58 +58,178 @@ fn title<S: Serializer>(column: &Column, serializer: S) -> Result<S::Ok, S::Erro
     serializer.serialize_str(&column.title())
 }
 
-/// The largest drive torque, joint forces, and shaking force of the request, searched at no fewer than 1441 positions (the
-/// quarter degrees of a turn).
+/// The largest drive torque, joint forces, and shaking force of the request: each smooth stretch of the motion is searched at steps
+/// that would be 1440 or more over the whole, then the peak beside the largest is closed in.
 ///
 /// # Errors
 /// Those of the machine.
 pub fn largest(file: &MachineFile, request: &Request) -> Result<Vec<Largest>, Error> {
-    let sets = Sets {
-        reactions: true,
-        ..Sets::default()
+    let source = Source::new(file)?;
+    let Some(course) = Course::of(&source, request) else {
+        return Ok(Vec::new());
     };
-    let positions = match request.over {
-        Over::Angle => request.positions.max(SEARCHED - 1),
-        Over::Time => request.positions.max(SEARCHED),
+    let stretches = course.stretches(&source, request.positions.max(SEARCHED));
+    let search = Search {
+        reactions: Reactions::new(&source)?,
+        source: &source,
+        course,
     };
-    let columns = reduce(
-        file,
-        &Request {
-            positions,
-            sets,
-            ..*request
-        },
-    )?;
-    Ok(of_columns(&columns))
-}
-
-fn of_columns(columns: &Columns) -> Vec<Largest> {
-    let Some(over) = columns.heads().first() else {
-        return Vec::new();
-    };
-    let all = columns.rows().iter().flat_map(|row| row.iter().skip(1));
-    let scale = all.flatten().fold(0.0f64, |most, x| most.max(x.abs()));
-    let mut found = Vec::new();
+    let heads = search.reactions.heads(&source);
     // Magnitudes and moments; the components say no more.
     let judged = [Quantity::DriveEffort, Quantity::Force, Quantity::Moment];
-    for (k, head) in columns.heads().iter().enumerate() {
-        if !judged.contains(&head.quantity) {
-            continue;
-        }
-        let values = columns.rows().iter().filter_map(|row| {
-            let value = row.get(k).copied().flatten()?;
-            Some((value, row.first().copied().flatten()?))
-        });
-        let most = values.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
-        // A guide through the centre of mass of its slider has no moment but roundings.
-        if let Some((value, at)) = most.filter(|(value, _)| value.abs() > 1e-12 * scale) {
-            found.push(Largest {
-                quantity: head.clone(),
-                value,
-                over: over.clone(),
-                at,
-            });
+    let judged = heads.iter().map(|head| judged.contains(&head.quantity));
+    let judged: Vec<bool> = judged.collect();
+    let mut most: Vec<Option<(f64, usize, usize)>> = vec![None; heads.len()];
+    let mut scale = 0.0f64;
+    for (number, stretch) in stretches.iter().enumerate() {
+        for step in 0..=stretch.steps {
+            let row = search.at(stretch.place(step))?;
+            for (k, value) in row.into_iter().enumerate() {
+                scale = scale.max(value.abs());
+                if judged[k] && most[k].is_none_or(|(size, ..)| value.abs() > size) {
+                    most[k] = Some((value.abs(), number, step));
+                }
+            }
         }
     }
-    found
+    let mut found = Vec::new();
+    for (k, (head, most)) in heads.iter().zip(most).enumerate() {
+        // A guide through the centre of mass of its slider has no moment but roundings.
+        let Some((_, number, step)) = most.filter(|(size, ..)| *size > 1e-12 * scale) else {
+            continue;
+        };
+        let stretch = &stretches[number];
+        let first = step.saturating_sub(1).min(stretch.steps - 2);
+        let around = [0, 1, 2].map(|next| stretch.place(first + next));
+        let x = peak(|x| Ok::<_, Error>(search.at(x)?[k].abs()), around)?;
+        found.push(Largest {
+            quantity: head.clone(),
+            value: search.at(x)?[k],
+            over: match request.over {
+                Over::Time => super::time_column(),
+                Over::Angle => source.coordinate.column(),
+            },
+            at: match request.over {
+                Over::Time => stretch.snapped(x),
+                Over::Angle => search.position(stretch.snapped(x)),
+            },
+        });
+    }
+    Ok(found)
+}
+
+/// What is searched.
+enum Course<'f> {
+    /// The motion, over its time.
+    Motion(&'f Motion),
+    /// Every position, at this speed and acceleration.
+    State([f64; 2]),
+}
+
+impl<'f> Course<'f> {
+    /// `None` where no row has a motion.
+    fn of(source: &Source<'f>, request: &Request) -> Option<Self> {
+        if let Some(state) = request.state {
+            return Some(Self::State(state));
+        }
+        let motion = source.file.motion.as_ref()?;
+        // Over the position there are forces only where the motion passes each once.
+        let domain = source.file.machine.domain();
+        let known = request.over == Over::Time || Pass::of(motion, domain).is_some();
+        known.then_some(Self::Motion(motion))
+    }
+
+    fn state(&self, x: f64) -> State<f64> {
+        match self {
+            Self::Motion(motion) => motion.at(x),
+            Self::State([omega, alpha]) => State {
+                phi: x,
+                omega: *omega,
+                alpha: *alpha,
+            },
+        }
+    }
+
+    /// What is smooth, in about so many steps.
+    fn stretches(&self, source: &Source, steps: usize) -> Vec<Stretch> {
+        let parts = match self {
+            Self::Motion(motion) => smooth_stretches(source.file, motion, SEARCHED),
+            Self::State(_) => between_edges(source.file),
+        };
+        let whole: f64 = parts.iter().map(|(from, to)| to - from).sum();
+        let stretch = |(from, to): (f64, f64)| Stretch {
+            from,
+            to,
+            steps: ((steps as f64 * (to - from) / whole).ceil() as usize).max(FEWEST),
+        };
+        parts.into_iter().map(stretch).collect()
+    }
+}
+
+/// A part of the course without a jump.
+struct Stretch {
+    from: f64,
+    to: f64,
+    steps: usize,
+}
+
+impl Stretch {
+    fn place(&self, step: usize) -> f64 {
+        let part = step as f64 / self.steps as f64;
+        self.from + part.clamp(INSIDE, 1.0 - INSIDE) * (self.to - self.from)
+    }
+
+    /// The end of the stretch for a place that stands for it.
+    fn snapped(&self, x: f64) -> f64 {
+        let near = 2.0 * INSIDE * (self.to - self.from);
+        let ends = [self.from, self.to].into_iter();
+        ends.filter(|end| (x - end).abs() < near)
+            .fold(x, |_, end| end)
+    }
+}
+
+/// The range of the drive link, cut where a load begins or ends or the segments of a cam meet.
+fn between_edges(file: &MachineFile) -> Vec<(f64, f64)> {
+    let domain = file.machine.domain();
+    let [from, to] = [0.0, 1.0].map(|part| domain.position(part));
+    let edges = (0..).map_while(|k| file.machine.edge(k));
+    let edges = edges.map(|edge| match domain {
+        Domain::Turn => from + (edge - from).rem_euclid(to - from),
+        Domain::Stroke { .. } => edge,
+    });
+    let mut cuts: Vec<f64> = edges.filter(|edge| from < *edge && *edge < to).collect();
+    cuts.extend([from, to]);
+    cuts.sort_by(f64::total_cmp);
+    cuts.dedup();
+    cuts.windows(2).map(|cut| (cut[0], cut[1])).collect()
+}
+
+struct Search<'s, 'f> {
+    source: &'s Source<'f>,
+    reactions: Reactions,
+    course: Course<'f>,
+}
+
+impl Search<'_, '_> {
+    /// The forces at x.
+    fn at(&self, x: f64) -> Result<Vec<f64>, Error> {
+        let state = self.course.state(x);
+        let place = Place {
+            phi: state.phi,
+            frames: self.source.machine.mechanism().frames(state.phi)?,
+            state: Some(state),
+        };
+        let values = self.reactions.values(self.source, &place)?;
+        Ok(values.into_iter().map(Option::unwrap_or_default).collect())
+    }
+
+    /// The position of x as it is shown, on a turn between 0 and 360 degrees.
+    fn position(&self, x: f64) -> f64 {
+        let phi = self.course.state(x).phi;
+        let phi = match self.source.file.machine.domain() {
+            Domain::Turn => phi.rem_euclid(std::f64::consts::TAU),
+            Domain::Stroke { .. } => phi,
+        };
+        self.source.coordinate.shown(phi)
+    }
 }

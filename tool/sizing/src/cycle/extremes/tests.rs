@@ -33,6 +33,7 @@ fn bound<F: Floor>(c: &Coefficients, states: &[[f64; 3]], floor: F, used: f64) -
         samples: &samples,
         tree: &tree,
         front: &front,
+        smooth: &Smooth::default(),
         largest: &largest,
     };
     let mut search = Search::new(stretches, c, RATIO, floor);

@@ -1,0 +1,101 @@
+//! The smooth stretches of a motion: cut where its law bends, and where the drive link passes an edge of a load or a cam.
+
+use jred::{Domain, Reducible as _};
+
+use crate::model::machine::MachineFile;
+use crate::model::motion::Motion;
+
+/// On which side of an edge the drive link is at φ; on a turn, after how many of its passages.
+fn side(file: &MachineFile, phi: f64, edge: f64) -> i64 {
+    let beyond = phi - edge;
+    if file.machine.domain() == Domain::Turn {
+        (beyond / std::f64::consts::TAU).floor() as i64
+    } else {
+        i64::from(beyond >= 0.0)
+    }
+}
+
+/// Positions at which a load begins or ends, or a cam's segments meet.
+fn edges(file: &MachineFile) -> Vec<f64> {
+    (0..).map_while(|k| file.machine.edge(k)).collect()
+}
+
+/// How often the drive link passes an edge, at least: there and back within a piece of the motion is not counted.
+pub(crate) fn passages(file: &MachineFile, motion: &Motion) -> u64 {
+    let edges = edges(file);
+    let sides = |t: f64| {
+        let phi = motion.at(t).phi;
+        edges.iter().map(move |&edge| side(file, phi, edge))
+    };
+    let passed = motion.stretches().into_iter().flat_map(|(from, to)| {
+        let sides = sides(from).zip(sides(to));
+        sides.map(|(from, to)| from.abs_diff(to))
+    });
+    passed.fold(0, u64::saturating_add)
+}
+
+/// Adds the times at which the side of an edge changes, by bisection; between them a step may hold any number of turns. `from` and
+/// `to` are times with their sides.
+fn crossings(
+    side: &impl Fn(f64) -> i64,
+    [from, to]: [(f64, i64); 2],
+    least: f64,
+    cuts: &mut Vec<f64>,
+) {
+    if from.1 == to.1 {
+        return;
+    }
+    let middle = 0.5 * (from.0 + to.0);
+    if to.0 - from.0 <= least || middle <= from.0 || middle >= to.0 {
+        cuts.push(to.0);
+        return;
+    }
+    let middle = (middle, side(middle));
+    crossings(side, [from, middle], least, cuts);
+    crossings(side, [middle, to], least, cuts);
+}
+
+/// The stretches of the motion, also cut where the drive link passes an edge of a load's window, so that a short load has
+/// its own instants.
+pub(crate) fn smooth_stretches(
+    file: &MachineFile,
+    motion: &Motion,
+    steps: usize,
+) -> Vec<(f64, f64)> {
+    let edges = edges(file);
+    let least = 1e-13 * motion.duration();
+    let mut stretches = Vec::new();
+    for (from, to) in motion.stretches() {
+        if edges.is_empty() {
+            stretches.push((from, to));
+            continue;
+        }
+        let n = ((steps as f64 * (to - from) / motion.duration()).ceil() as usize).max(16);
+        let mut cuts = Vec::new();
+        let place = |k: usize| {
+            let t = from + (to - from) * k as f64 / n as f64;
+            (t, motion.at(t).phi)
+        };
+        let mut start = place(0);
+        for k in 1..=n {
+            let end = place(k);
+            for &edge in &edges {
+                let step = [start, end].map(|(t, phi)| (t, side(file, phi, edge)));
+                let at = |t: f64| side(file, motion.at(t).phi, edge);
+                crossings(&at, step, least, &mut cuts);
+            }
+            start = end;
+        }
+        cuts.sort_by(f64::total_cmp);
+        let shortest = 1e-9 * motion.duration();
+        let mut start = from;
+        for cut in cuts {
+            if cut - start > shortest && to - cut > shortest {
+                stretches.push((start, cut));
+                start = cut;
+            }
+        }
+        stretches.push((start, to));
+    }
+    stretches
+}

@@ -1,0 +1,87 @@
+//! The parabola through three points of a curve, and the peak of the curve by it.
+
+/// Steps to a peak, each to the vertex of the parabola through three places around it.
+const CLOSER: u32 = 6;
+
+/// The parabola through three points, in Newton's form.
+#[derive(Clone, Copy, Debug)]
+pub struct Parabola {
+    times: [f64; 2],
+    value: f64,
+    slope: f64,
+    bend: f64,
+}
+
+impl Parabola {
+    /// Through these values at these times.
+    pub fn through([a, b, c]: [f64; 3], [u, v, w]: [f64; 3]) -> Self {
+        let slope = (v - u) / (b - a);
+        Self {
+            times: [a, b],
+            value: u,
+            slope,
+            bend: ((w - v) / (c - b) - slope) / (c - a),
+        }
+    }
+
+    /// Its value at the time `t`.
+    pub fn at(&self, t: f64) -> f64 {
+        let [a, b] = self.times;
+        self.value + (t - a) * (self.slope + (t - b) * self.bend)
+    }
+
+    /// The time of its largest value, if it has one.
+    pub fn vertex(&self) -> Option<f64> {
+        let [a, b] = self.times;
+        (self.bend < 0.0).then(|| a.midpoint(b) - 0.5 * self.slope / self.bend)
+    }
+
+    /// Its integral from `a` to `b`, by Simpson's rule, which is exact for it.
+    pub fn integral(&self, a: f64, b: f64) -> f64 {
+        (b - a) / 6.0 * (self.at(a) + 4.0 * self.at(a.midpoint(b)) + self.at(b))
+    }
+
+    /// The times between `a` and `b` at which it is zero, in order.
+    pub fn zeros(&self, a: f64, b: f64) -> impl Iterator<Item = f64> {
+        // About the middle of the interval: y = u + v·x + bend·x².
+        let middle = a.midpoint(b);
+        let [first, second] = self.times;
+        let v = self.slope + self.bend * (2.0 * middle - first - second);
+        let u = self.at(middle);
+        let root = (v * v - 4.0 * self.bend * u).sqrt();
+        // Neither root is a difference of nearly equal numbers.
+        let q = -0.5 * (v + root.copysign(v));
+        let mut zeros = [middle + q / self.bend, middle + u / q];
+        zeros.sort_by(f64::total_cmp);
+        zeros.into_iter().filter(move |t| a < *t && *t < b)
+    }
+}
+
+/// The place of the largest value of `f` near three places in order, of which none outside is larger than the middle one: by
+/// vertices of parabolas. At an end of a curve's smooth part the largest may be an outer one.
+///
+/// # Errors
+/// Those of `f`.
+pub fn peak<E>(mut f: impl FnMut(f64) -> Result<f64, E>, around: [f64; 3]) -> Result<f64, E> {
+    let [a, b, c] = around;
+    let mut three = [(a, f(a)?), (b, f(b)?), (c, f(c)?)];
+    for _ in 0..CLOSER {
+        let [a, b, c] = three;
+        let vertex = Parabola::through([a.0, b.0, c.0], [a.1, b.1, c.1]).vertex();
+        // A place twice would be a division by zero.
+        let inside = |at: &f64| a.0 < *at && *at < c.0 && at.to_bits() != b.0.to_bits();
+        let Some(at) = vertex.filter(inside) else {
+            break;
+        };
+        let new = (at, f(at)?);
+        // It joins the three; the outer one beside the lower of the two in the middle leaves.
+        let [left, right] = if at < b.0 { [new, b] } else { [b, new] };
+        three = if left.1 > right.1 {
+            [a, left, right]
+        } else {
+            [left, right, c]
+        };
+    }
+    let most = three.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+    Ok(most.map_or(b, |most| most.0))
+}
