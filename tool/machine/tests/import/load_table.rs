@@ -170,7 +170,13 @@ law = "polynomial-345"
         near("constant", *laden, whole, 1e-9);
     }
     let most = whole.figures(|i| i.input_torque).peak();
-    for (laden, whole) in laden.instants.iter().zip(&whole.instants) {
+    // Instants without weight lie at peaks, which are not at the same bits.
+    let [laden, whole] = [&laden, &whole].map(|duty| {
+        let weighted = duty.instants.iter().filter(|i| i.weight > 0.0);
+        weighted.collect::<Vec<_>>()
+    });
+    assert_eq!(laden.len(), whole.len());
+    for (laden, whole) in laden.iter().zip(&whole) {
         within(
             "torque",
             laden.input_torque,

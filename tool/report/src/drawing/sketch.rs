@@ -95,7 +95,8 @@ impl Sketch {
         if is_at_one_point(first, &frames[0], mechanism) {
             sketch.row_of_wheels(first);
         } else {
-            for k in 0..first.len() {
+            let real = |body: Body| body.link().is_none_or(|link| link < mechanism.own_links());
+            for k in (0..first.len()).filter(|&k| markers(&first[k]).iter().all(|m| real(m.body))) {
                 let over_range: Vec<(&Joint, &Frames)> =
                     joints.iter().map(|j| &j[k]).zip(&frames).collect();
                 sketch.joint(&first[k], &over_range);
@@ -184,7 +185,9 @@ impl Sketch {
 
     /// Bars and plates through what each link holds; `size` (m) is that of the mechanism.
     fn bodies(&mut self, mechanism: &AnyMechanism, size: f64) {
-        for (k, parts) in self.links.iter_mut().enumerate() {
+        // A link that only stands for a varying inertia has no shape.
+        let own = mechanism.own_links();
+        for (k, parts) in self.links.iter_mut().enumerate().take(own) {
             let outlines: Vec<Part> = mechanism
                 .outlines(k)
                 .map(|outline| Part::Outline(outline.to_vec()))
