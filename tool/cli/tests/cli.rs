@@ -11,7 +11,7 @@ use std::io::Read as _;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::support::{Folder, Run, edited, edited_press, jred, press_file, press_text};
+use crate::support::{Folder, Run, edited, edited_press, jred, jred_with, press_file, press_text};
 
 fn export(file: &Path, more: &[&str], out: &Path) -> Run {
     let mut arguments: Vec<&str> = vec!["export", file.to_str().unwrap()];
@@ -82,7 +82,10 @@ fn one_when_no_drive_holds() {
     let folder = Folder::new();
     let heavy = edited_press("\"-10 kN\"", "\"-900 kN\"");
     let file = folder.file("heavy.toml", &heavy);
-    let done = jred([&"size", &file]).ends(1);
+    let file = file.to_str().unwrap();
+    let some = ["size", file, "--motor", "f*m*", "--gearbox", "npt*"];
+    let size = |more: &[&str]| jred_with(&[&some[..], more].concat());
+    let done = size(&[]).ends(1);
     done_says(
         &done,
         &[
@@ -92,10 +95,10 @@ fn one_when_no_drive_holds() {
             "refused; --refused lists them with their reasons",
         ],
     );
-    let done = jred([&"size", &file, &"--refused"]).ends(1);
+    let done = size(&["--refused"]).ends(1);
     done_says(&done, &["\nRefused\n", "peak torque", " limit "]);
     // What to relax, with figures.
-    let done = jred([&"size", &file]).ends(1);
+    let done = size(&[]).ends(1);
     done_says(
         &done,
         &[
@@ -105,9 +108,9 @@ fn one_when_no_drive_holds() {
         ],
     );
     for format in ["csv", "json"] {
-        jred([&"size", &file, &"--format", &format]).ends(1);
+        size(&["--format", format]).ends(1);
     }
-    let answer = jred([&"size", &file, &"--all", &"--format", &"json"]).json();
+    let answer = size(&["--all", "--format", "json"]).json();
     assert_eq!(answer["fit"].as_array().unwrap().len(), 0);
     let refused = answer["refused"].as_array().unwrap().len();
     assert_eq!(answer["counts"]["refused"], refused);

@@ -216,6 +216,8 @@ fn size(steps: &str, motors: Option<&str>, gearboxes: Option<&str>) -> Value {
             &"--format",
             &"json",
             &"--all",
+            &"--motor",
+            &"sgm?h-*",
             &"--steps",
             &steps,
         ]),

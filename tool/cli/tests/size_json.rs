@@ -43,7 +43,15 @@ fn answers_follow_the_schema() {
     assert_eq!(answer["fit"].as_array().unwrap().len(), 10);
     assert_eq!(answer["refused"].as_array().unwrap().len(), 3);
     for name in ["hoist.toml", "ball-screw.toml", "geneva.toml"] {
-        let run = jred([&"size", &machine(name), &"--all", &"--format", &"json"]);
+        let run = jred([
+            &"size",
+            &machine(name),
+            &"--motor",
+            &"sgm?h-*",
+            &"--all",
+            &"--format",
+            &"json",
+        ]);
         let answer = run.json();
         check(&answer);
         for list in ["fit", "refused"] {

@@ -47,6 +47,13 @@ at_rest = "holding"
     )
     .unwrap();
     near("√2", site.bus_voltage.unwrap(), 400.0 * 2f64.sqrt(), 1e-15);
+    assert_eq!(site.mains_voltage, Some(400.0));
+    near(
+        "√2 and 10 %",
+        site.highest_supply().unwrap(),
+        622.253_967_444_162,
+        1e-13,
+    );
     let supply = site.supply;
     near("C", supply.capacitance.unwrap(), 470e-6, 1e-15);
     assert_eq!(supply.chopper_voltage, Some(780.0));
@@ -80,6 +87,29 @@ at_rest = "holding"
         assert_eq!((factor * 100.0).round() / 100.0, torque);
     }
     assert_eq!(read("").unwrap(), Site::default());
+}
+
+/// Mains that there are not.
+#[test]
+fn mains_that_cannot_be_are_refused() {
+    let mains = |value: &str| format!("[supply]\nmains_voltage = {value}");
+    for value in ["4000 V", "1001 V", "19 V", "0.4 V"] {
+        refuses(
+            &mains(&format!("\"{value}\"")),
+            &[value, "mains of drives have 20 V to 1000 V", "bus_voltage"],
+        );
+    }
+    for value in ["0 V", "-400 V"] {
+        refuses(
+            &mains(&format!("\"{value}\"")),
+            &[value, "greater than zero"],
+        );
+    }
+    refuses(&mains("400"), &["`mains_voltage` in [supply]", "unit"]);
+    refuses(
+        "[supply]\nmains_voltage = \"400 V\"\nchopper_voltage = \"560 V\"",
+        &["560 V", "√2 times 400 V", "always be on"],
+    );
 }
 
 #[test]

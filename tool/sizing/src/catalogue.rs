@@ -24,6 +24,7 @@ mod plausible;
 mod row;
 mod table;
 mod toml_table;
+mod voltage;
 
 pub use amplifier::{Amplifier, Resistor};
 #[cfg(feature = "fs")]
@@ -34,6 +35,8 @@ pub use gearbox::Gearbox;
 
 pub use motor::{Brake, Commutation, Motor, MotorKind, Thermal, Winding};
 pub use pairing::{Drives, Pairing};
+pub(crate) use voltage::VOLTAGE_CLASS;
+pub use voltage::{Basis, MadeFor};
 
 use fault::{Remarks, Text};
 use load::Loader;

@@ -24,6 +24,7 @@ pub mod overload;
 mod screen;
 mod stiffness;
 mod thermal;
+mod voltage;
 
 pub use judged::Judged;
 pub use outcome::Outcome;
@@ -141,6 +142,9 @@ impl<'a> Context<'a> {
         if self.drive.gearbox.is_some_and(|g| !g.from_maker) {
             assumptions.push("gearbox data not taken from the maker's own document; check them against the data sheet".to_owned());
         }
+        if self.drive.amplifier.is_some_and(|a| !a.from_maker) {
+            assumptions.push("amplifier data not taken from the maker's own document; check them against the data sheet".to_owned());
+        }
         if self.drive.gearbox.is_some_and(|g| g.efficiency_assumed) {
             assumptions.push("gearbox efficiency not given; using 87 % per stage".to_owned());
         }
@@ -159,6 +163,7 @@ impl<'a> Context<'a> {
     /// The rules that need no time course: see [`Rule::follows_time`]. The rule set says by which figure a rule is judged,
     /// where there is more than one.
     pub fn measure_directly(&self, rules: &RuleSet, findings: &mut Findings) {
+        voltage::measure(self.motor, findings);
         gearbox::measure_alone(self, rules, findings);
         stiffness::measure(self, findings);
         motor::measure_speed(self.cycle, self.motor, self.ratio, findings);
@@ -198,10 +203,10 @@ impl<'a> Context<'a> {
 
     fn check(&self, rules: &RuleSet, rule: Rule, finding: Finding) -> Check {
         use Rule::{
-            Backlash, BrakeTorque, ConstantTorque, GearboxCubicMean, GearboxCycles,
-            GearboxEmergency, GearboxMeanSpeed, GearboxPeak, GearboxSpeed, HoldingTorque,
-            HousingTemperature, InertiaRatio, NaturalFrequency, PeakTorque, RmsTorque, Speed,
-            WindingTemperature,
+            AmplifierVoltage, Backlash, BrakeTorque, ConstantTorque, GearboxCubicMean,
+            GearboxCycles, GearboxEmergency, GearboxMeanSpeed, GearboxPeak, GearboxSpeed,
+            HoldingTorque, HousingTemperature, InertiaRatio, MotorVoltage, NaturalFrequency,
+            PeakTorque, RmsTorque, Speed, WindingTemperature,
         };
         let words = match rule {
             RmsTorque | PeakTorque | Speed | HoldingTorque | ConstantTorque | BrakeTorque
@@ -209,6 +214,7 @@ impl<'a> Context<'a> {
             GearboxPeak | GearboxCubicMean | GearboxEmergency | GearboxMeanSpeed | GearboxSpeed
             | GearboxCycles => gearbox::words(self, rules, rule, finding),
             WindingTemperature | HousingTemperature => thermal::words(self, rule, finding),
+            MotorVoltage | AmplifierVoltage => voltage::words(self, rules, rule, finding),
             NaturalFrequency | Backlash => stiffness::words(self, rule, finding),
             _ => electric::words(self, rule, finding),
         };

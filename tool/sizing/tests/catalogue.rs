@@ -10,8 +10,9 @@ mod pairing;
 mod plausible;
 mod spreadsheet;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
+use crate::support::{budget, near};
 use jred_machine::units::RPM;
 use jred_sizing::catalogue::Catalogue;
 
@@ -35,17 +36,17 @@ fn the_built_in_catalogue_is_plausible() {
         let rated_speed = motor.rated_speed.unwrap();
         let peak_torque = motor.peak_torque.unwrap();
         let power = rated_torque * rated_speed;
-        assert!((50.0..20e3).contains(&power), "{key}: {power} W");
+        assert!((30.0..20e3).contains(&power), "{key}: {power} W");
         let rpm = rated_speed / RPM;
         assert!((500.0..6001.0).contains(&rpm), "{key}: {rpm} rpm");
         let overload = peak_torque / rated_torque;
         assert!(
-            (1.5..10.0).contains(&overload),
+            (2.0..14.5).contains(&overload),
             "{key}: peak/rated {overload}"
         );
         if let Some(standstill) = motor.standstill_torque {
             let share = standstill / rated_torque;
-            assert!((1.0..2.0).contains(&share), "{key}: M0/Mn {share}");
+            assert!((1.0..2.2).contains(&share), "{key}: M0/Mn {share}");
             assert!(standstill < peak_torque, "{key}");
         }
         // Rotors grow with the torque to the power 5/3 (similar shape); makers differ by a factor of ten.
@@ -53,28 +54,17 @@ fn the_built_in_catalogue_is_plausible() {
         assert!((5e-7..2e-5).contains(&slimness), "{key}: {slimness:e}");
         // Time to accelerate the bare rotor to rated speed at peak torque.
         let time = motor.rotor_inertia * rated_speed / peak_torque;
-        assert!((1e-3..0.2).contains(&time), "{key}: {time} s");
+        assert!((9e-4..0.2).contains(&time), "{key}: {time} s");
         if let Some(mass) = motor.mass {
             assert!((0.2..20.0).contains(&(rated_torque / mass)), "{key}");
         }
-    }
-    // Torque constants are stated at 20 °C or 100 °C, torques with hot windings.
-    let currents = catalogue.motors.iter().filter_map(|motor| {
-        let winding = &motor.winding;
-        let given = winding.torque_constant.zip(winding.rated_current);
-        given.map(|(k_t, i)| (&motor.key, k_t * i / motor.rated_torque.unwrap()))
-    });
-    let currents: Vec<_> = currents.collect();
-    assert_eq!(currents.len(), 12);
-    for (key, share) in currents {
-        assert!((0.95..1.35).contains(&share), "{key}: {share}");
     }
     let keys: BTreeSet<&str> = catalogue.gearboxes.iter().map(|g| g.key.as_str()).collect();
     assert_eq!(keys.len(), catalogue.gearboxes.len());
     for gearbox in &catalogue.gearboxes {
         let key = &gearbox.key;
         assert!(gearbox.source.len() > 20, "{key}");
-        assert!((2.0..=200.0).contains(&gearbox.ratio), "{key}");
+        assert!((2.0..=220.0).contains(&gearbox.ratio), "{key}");
         assert!((0.8..1.0).contains(&gearbox.efficiency), "{key}");
         if let Some(rated) = gearbox.rated_torque {
             let overload = gearbox.peak_torque.unwrap() / rated;
@@ -83,11 +73,11 @@ fn the_built_in_catalogue_is_plausible() {
         if let Some(speed) = gearbox.rated_speed {
             assert!(speed < gearbox.max_speed.unwrap(), "{key}");
         }
-        assert!((1e-6..1e-2).contains(&gearbox.inertia), "{key}");
+        assert!((1e-6..3e-2).contains(&gearbox.inertia), "{key}");
         if let (Some(stiffness), Some(torque)) = (gearbox.stiffness, gearbox.rated_torque) {
             // The rated torque twists a planetary gearbox by some arcminutes.
             let twist = (torque / stiffness).to_degrees() * 60.0;
-            assert!((3.0..10.0).contains(&twist), "{key}: {twist} arcmin");
+            assert!((1.5..10.0).contains(&twist), "{key}: {twist} arcmin");
         }
         // The ratio is part of the type designation.
         assert!(
@@ -98,6 +88,117 @@ fn the_built_in_catalogue_is_plausible() {
     }
 }
 
+/// Rated power and power rate stand in the same documents as torque, speed and inertia, but not in the catalogue: a typing error in one
+/// of them shows.
+#[test]
+fn the_built_in_motors_agree_with_their_rated_power() {
+    let catalogue = built_in();
+    let table = include_str!("data/rated_power.csv");
+    let (mut powers, mut rates) = (0, 0);
+    for row in table.lines().skip(2) {
+        let cells: Vec<&str> = row.split(',').collect();
+        let motor = catalogue.motors.iter().find(|m| m.key == cells[0]);
+        let motor = motor.unwrap_or_else(|| panic!("{row}"));
+        let torque = motor.rated_torque.unwrap();
+        let power = torque * motor.rated_speed.unwrap();
+        near(
+            row,
+            power,
+            cells[1].parse().unwrap(),
+            budget::DATA_SHEET_POWER,
+        );
+        powers += 1;
+        if let Ok(rate) = cells[2].parse::<f64>() {
+            let found = torque * torque / motor.rotor_inertia;
+            near(row, found, 1e3 * rate, budget::DATA_SHEET_POWER);
+            rates += 1;
+        }
+    }
+    assert_eq!((powers, rates), (107, 48));
+    // Those without a stated power.
+    let others = catalogue.motors.len() - powers;
+    assert_eq!(others, 19, "17 of Fagor, HG-KN43J, SGMUH-30D");
+}
+
+/// The current of a torque at rated, standstill and peak torque; peak over M0 over rated torque.
+#[test]
+fn the_built_in_motors_agree_with_themselves() {
+    let (mut constants, mut currents) = (0, 0);
+    for motor in &built_in().motors {
+        let (key, winding) = (&motor.key, &motor.winding);
+        let rated = motor.rated_torque.unwrap();
+        let peak = motor.peak_torque.unwrap();
+        let standstill = motor.standstill_torque.unwrap_or(rated);
+        assert!(rated <= standstill && standstill <= peak, "{key}");
+        assert!(
+            motor
+                .max_speed
+                .is_none_or(|most| most >= motor.rated_speed.unwrap()),
+            "{key}"
+        );
+        let Some(current) = winding.rated_current else {
+            continue;
+        };
+        currents += 1;
+        // A printed torque constant that differs is left out: the current at the rated torque is what heats.
+        if let Some(constant) = winding.torque_constant {
+            near(key, constant * current, rated, 0.05);
+            constants += 1;
+        }
+        if let Some(at_rest) = winding.standstill_current {
+            near(key, standstill / at_rest, rated / current, 0.05);
+        }
+        // Saturation costs up to a fifth of the torque; friction, part of the rated current, may make it look larger.
+        if let Some(most) = winding.peak_current {
+            let share = (peak / most) / (rated / current);
+            assert!((0.8..1.3).contains(&share), "{key}: {share}");
+        }
+    }
+    assert_eq!((constants, currents), (20, 79));
+}
+
+/// Each stated voltage is one of those that the sources name.
+#[test]
+fn the_built_in_motors_name_their_voltage() {
+    let catalogue = built_in();
+    let mut counts = BTreeMap::new();
+    for motor in &catalogue.motors {
+        let stated = [
+            motor.mains_voltage,
+            motor.bus_voltage,
+            motor.max_bus_voltage,
+        ];
+        let said = if let [Some(mains), None, None] = stated {
+            let [class, ac] = [format!("{mains} V class"), format!("{mains} V AC mains")];
+            assert!(
+                motor.source.contains(&class) || motor.source.contains(&ac),
+                "{}: {}",
+                motor.key,
+                motor.source
+            );
+            format!("{mains} V AC")
+        } else {
+            assert_eq!(stated, [None; 3], "{}", motor.key);
+            assert!(motor.source.contains("voltage not stated"), "{}", motor.key);
+            "not stated".to_owned()
+        };
+        *counts.entry(said).or_insert(0) += 1;
+    }
+    let expected = [
+        ("100 V AC", 9),
+        ("115 V AC", 3),
+        ("200 V AC", 36),
+        ("230 V AC", 3),
+        ("380 V AC", 17),
+        ("400 V AC", 1),
+        ("not stated", 57),
+    ];
+    let expected = expected.map(|(said, count)| (said.to_owned(), count));
+    assert_eq!(counts, BTreeMap::from(expected));
+    let others = catalogue.motors.iter().filter(|motor| !motor.from_maker);
+    assert_eq!(others.count(), 17 + 27 + 17 + 6);
+}
+
 #[test]
 fn the_built_in_brake_resistors() {
     let catalogue = built_in();
@@ -106,7 +207,16 @@ fn the_built_in_brake_resistors() {
         .iter()
         .map(|r| [r.resistance, r.rated_power])
         .collect();
-    let expected = [10.0, 18.0, 23.0, 33.0, 47.0].map(|ohm| [ohm, 450.0]);
+    let mut expected = [10.0, 18.0, 23.0, 33.0, 47.0]
+        .map(|ohm| [ohm, 450.0])
+        .to_vec();
+    expected.extend([
+        [50.0, 20.0],
+        [100.0, 20.0],
+        [47.0, 70.0],
+        [47.0, 70.0],
+        [20.0, 180.0],
+    ]);
     assert_eq!(found, expected);
     assert!(
         catalogue

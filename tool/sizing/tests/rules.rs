@@ -10,6 +10,7 @@ mod holding;
 mod inertia;
 mod moves;
 mod rigidity;
+mod voltage;
 
 use std::path::Path;
 

@@ -45,7 +45,8 @@ fn priced() -> Catalogue {
     let mut catalogue = catalogue();
     for (k, motor) in catalogue.motors.iter_mut().enumerate() {
         motor.mass = (k % 3 != 0).then_some(2.0 + (k * 7 % 13) as f64);
-        motor.price = (k % 4 != 1).then_some(300.0 + (k * 11 % 17) as f64 * 40.0);
+        // The lighter, the dearer.
+        motor.price = (k % 4 != 1).then_some(1000.0 - (k * 7 % 13) as f64 * 40.0 + (k % 3) as f64);
     }
     for (k, gearbox) in catalogue.gearboxes.iter_mut().enumerate() {
         gearbox.mass = Some(1.0 + (k % 5) as f64);
@@ -87,20 +88,31 @@ fn ranked_by_what_was_asked_for() {
             .iter()
             .map(|c| objective.value(&selection, c))
             .collect();
-        let known = values.len() - unknown;
-        assert!(
-            values[..known].iter().all(Option::is_some)
-                && values[known..].iter().all(Option::is_none)
+        // What is in doubt comes last, then what is unknown.
+        let doubts = selection.fit.known().iter();
+        let doubts: Vec<_> = doubts
+            .map(|c| [c.outcome.voltage_unknown, !c.drive.from_makers()])
+            .collect();
+        assert!(doubts.is_sorted());
+        assert_eq!(
+            values.iter().filter(|value| value.is_none()).count(),
+            unknown
         );
         let sign = if objective == Objective::Margin {
             -1.0
         } else {
             1.0
         };
-        assert!(
-            values[..known].is_sorted_by(|a, b| sign * a.unwrap() <= sign * b.unwrap()),
-            "{objective:?}: {values:?}"
-        );
+        for equal in doubts.chunk_by(|a, b| a == b) {
+            let begin = doubts.partition_point(|doubt| doubt < &equal[0]);
+            let group = &values[begin..begin + equal.len()];
+            let known = group.partition_point(Option::is_some);
+            assert!(group[known..].iter().all(Option::is_none));
+            assert!(
+                group[..known].is_sorted_by(|a, b| sign * a.unwrap() <= sign * b.unwrap()),
+                "{objective:?}: {group:?}"
+            );
+        }
         let missing = selection.fit.known().iter().filter(|c| match objective {
             Objective::Mass => c.drive.motor.mass.is_none(),
             Objective::Price => c.drive.motor.price.is_none(),

@@ -58,6 +58,7 @@ pub fn run(options: &Options) -> Result<Done> {
             .find(|(axis, _)| *axis == k)
             .map(|(_, n)| n.as_str());
         file.site.bus_voltage = own.bus_voltage;
+        file.site.mains_voltage = own.mains_voltage;
         file.site.supply = common.supply;
         axes.push(axis(path, file, &own, &catalogue, name, options.steps)?);
     }
@@ -100,7 +101,15 @@ fn bounded(options: &Options) -> Result<()> {
 /// The supply of the bus, and the site for each axis. One file describes the common bus; the others have no supply or the
 /// same one. Regenerated energy is checked on the common bus, not for each axis alone.
 fn supply(options: &Options, files: &[MachineFile]) -> Result<[Site; 2]> {
-    let stated = |file: &MachineFile| (file.site.supply, file.site.bus_voltage);
+    let stated = |file: &MachineFile| {
+        let Site {
+            supply,
+            bus_voltage,
+            mains_voltage,
+            ..
+        } = file.site;
+        (supply, bus_voltage, mains_voltage)
+    };
     let mut given = (options.files.iter().zip(files))
         .filter(|(_, file)| file.site.supply.given)
         .map(|(path, file)| (path, stated(file)));
@@ -115,9 +124,10 @@ fn supply(options: &Options, files: &[MachineFile]) -> Result<[Site; 2]> {
             plain::path(path)
         ));
     }
-    let (supply, bus_voltage) = first.map_or((Supply::default(), None), |(_, stated)| stated);
+    let (supply, bus_voltage, mains_voltage) = first.map(|(_, stated)| stated).unwrap_or_default();
     let site = |supply| Site {
         bus_voltage,
+        mains_voltage,
         supply,
         ..Site::default()
     };

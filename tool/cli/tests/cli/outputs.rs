@@ -15,7 +15,7 @@ fn a_filter_that_leaves_nothing_is_an_error() {
         &"--steps",
         &"64",
         &"--max-mass",
-        &"3kg",
+        &"0.05kg",
         &"--report",
         &page,
     ])
@@ -64,7 +64,7 @@ fn the_front_names_what_is_known_of_none() {
         &"--steps",
         &"64",
         &"--pareto",
-        &"mass,energy",
+        &"price,energy",
     ])
     .ends(2);
     let json = jred([&"size", &press, &"--steps", &"64", &"--format", &"json"])
@@ -72,7 +72,7 @@ fn the_front_names_what_is_known_of_none() {
         .json();
     let fit = &json["counts"]["fit"];
     run.says(&[
-        &format!("{fit} drives are suitable, but none has data for the mass"),
+        &format!("{fit} drives are suitable, but none has data for the price"),
         "use another objective",
     ]);
     assert!(run.out.is_empty(), "{}", run.out);

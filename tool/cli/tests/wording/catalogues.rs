@@ -83,6 +83,20 @@ fn headers_and_rows() {
                 &format!("{ROW},0 rpm: 36 N m; 1000 rpm: 40 N m"),
             ),
             &motors(format!("{HEADER},commutation"), &format!("{ROW},sinus")),
+            &motors(format!("{HEADER},mains_voltage"), &format!("{ROW},400")),
+            &motors(
+                format!("{HEADER},mains_voltage [V]"),
+                &format!("{ROW},4000"),
+            ),
+            &motors(format!("{HEADER},mains_voltage [V]"), &format!("{ROW},0")),
+            &motors(
+                format!("{HEADER},bus_voltage [V],max_bus_voltage [V]"),
+                &format!("{ROW},560,500"),
+            ),
+            &motors(
+                format!("{HEADER},mains_voltage [V],max_bus_voltage [V]"),
+                &format!("{ROW},400,560"),
+            ),
         ],
     );
 }

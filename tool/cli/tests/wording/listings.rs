@@ -113,6 +113,56 @@ fn size_with_every_figure() {
     );
 }
 
+/// Motors and amplifiers of several voltages on one mains, and on none.
+#[test]
+fn size_by_voltage() {
+    let motors = "key,maker,model,rated_torque [N m],rated_speed [rpm],max_speed [rpm],peak_torque [N m],rotor_inertia [kg cm^2],rated_current [A rms],\
+                  mains_voltage [V],bus_voltage [V],max_bus_voltage [V],figures_from,source\n\
+                  low,Maker,48 V,9.8,3000,5000,29.4,7,18.8,,48,,maker,Sheet\n\
+                  class200,Maker,200 V,9.8,3000,5000,29.4,7,18.8,200,,,maker,Sheet\n\
+                  insulated,Maker,800 V,9.8,3000,5000,29.4,7,18.8,,320,800,maker,Sheet\n\
+                  class400,Maker,400 V,12,3000,5000,36,9,18.8,400,,,maker,Sheet\n\
+                  elsewhere,Maker,other,9.8,3000,5000,29.4,7,18.8,400,,,other,Sheet\n\
+                  unknown,Maker,unknown,9.8,3000,5000,29.4,7,18.8,,,,maker,Sheet\n";
+    let amplifiers = "key,maker,model,rated_current [A rms],peak_current [A rms],mains_voltage [V],source\n\
+                      a230,Maker,Drive 230,20,60,230,Sheet\n\
+                      a400,Maker,Drive 400,20,60,400,Sheet\n";
+    let press = Desk::machine("press.toml");
+    let at = |volts: &str| format!("{press}\n[supply]\nmains_voltage = \"{volts} V\"\n");
+    let desk = Desk::new();
+    let gearboxes = std::fs::read_to_string(desk.0.path("drives/gearboxes.csv")).unwrap();
+    std::fs::create_dir(desk.0.path("own")).unwrap();
+    let desk = desk
+        .with("drives/motors.csv", motors)
+        .with("own/motors.csv", motors)
+        .with("own/amplifiers.csv", amplifiers)
+        .with("own/gearboxes.csv", gearboxes)
+        .with("none.toml", &press)
+        .with("200.toml", at("200"))
+        .with("400.toml", at("400"));
+    let own = [
+        "--catalogue",
+        "own",
+        "--gearbox",
+        "npt025mf-5",
+        "--steps",
+        "64",
+    ];
+    compare(
+        "size-voltage",
+        &desk.runs(&[
+            &sized(&["size", "400.toml", "--refused"]),
+            &sized(&["size", "200.toml", "--top", "9"]),
+            &sized(&["size", "none.toml", "--top", "1"]),
+            &sized(&["size", "400.toml", "--why", "unknown+npt025mf-5"]),
+            &sized(&["size", "400.toml", "--why", "class200+npt025mf-5"]),
+            &sized(&["ratio", "400.toml", "--motor", "class*"]),
+            &[&["size", "400.toml", "--refused"], &own[..]].concat(),
+            &[&["size", "none.toml", "--top", "9"], &own[..]].concat(),
+        ]),
+    );
+}
+
 #[test]
 fn ratio() {
     let press = press();
@@ -136,8 +186,8 @@ fn ratio() {
 
 #[test]
 fn bus() {
-    let supply = "\n[supply]\nmains_voltage = \"400 V\"\ncapacitance = \"470 uF\"\nchopper_voltage = \"780 V\"\n\
-                  max_voltage = \"820 V\"\n";
+    let supply = "\n[supply]\nmains_voltage = \"230 V\"\ncapacitance = \"2600 uF\"\nchopper_voltage = \"380 V\"\n\
+                  max_voltage = \"410 V\"\n";
     let text = Desk::machine("press.toml");
     let desk = Desk::new()
         .with("press.toml", text.clone())

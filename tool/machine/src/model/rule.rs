@@ -87,7 +87,11 @@ rules! {
     PeakCurrent, "peak current", "peak_current";
     /// Overload integral I²t of the amplifier.
     Overload, "amplifier overload", "overload";
-    /// Highest voltage of the DC bus.
+    /// Voltage of the supply against the largest that the motor is made for.
+    MotorVoltage, "motor voltage", "motor_voltage";
+    /// Voltage of the supply against the largest that the amplifier is made for.
+    AmplifierVoltage, "amplifier voltage", "amplifier_voltage";
+    /// Highest voltage of the DC bus over the cycle.
     BusVoltage, "bus voltage", "bus_voltage";
     /// Resistance of the brake resistor against the smallest that the chopper may switch.
     BrakeResistance, "brake resistance", "brake_resistance";
@@ -127,6 +131,11 @@ impl Rule {
     /// Whether its limits are plain numbers instead of shares of a rating: a ratio of inertias or of frequencies.
     pub const fn is_ratio(self) -> bool {
         matches!(self, Self::InertiaRatio | Self::NaturalFrequency)
+    }
+
+    /// Whether it says that a part is made for the voltage of the supply, without which nobody can buy it.
+    pub const fn is_of_voltage(self) -> bool {
+        matches!(self, Self::MotorVoltage | Self::AmplifierVoltage)
     }
 
     /// Whether judging it means following the time course of a state (temperature, charge), sample by sample. Such rules

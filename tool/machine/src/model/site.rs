@@ -1,7 +1,7 @@
 //! Site of the drive from the machine file: supply, surroundings, stiffness and tool.
 
 use crate::model::operation::Duty;
-use crate::model::supply::Supply;
+use crate::model::supply::{MAINS_TOLERANCE, Supply, rectified};
 use crate::model::surroundings::Surroundings;
 
 /// The surroundings of the drive.
@@ -9,6 +9,8 @@ use crate::model::surroundings::Surroundings;
 pub struct Site {
     /// Voltage of the DC bus (V); `None`: each motor at the voltage of its data sheet.
     pub bus_voltage: Option<f64>,
+    /// Voltage of the mains that the bus is rectified from (V); `None`: not given, or the bus voltage was given itself.
+    pub mains_voltage: Option<f64>,
     /// The rest of the supply.
     pub supply: Supply,
     /// Ambient conditions of the motor.
@@ -21,6 +23,17 @@ pub struct Site {
     pub train_play: Option<f64>,
     /// The tool, where backlash matters; `None`: none.
     pub tool: Option<Tool>,
+}
+
+impl Site {
+    /// Highest voltage of the DC bus without braking (V): the rectified mains at the upper end of their tolerance, or the bus
+    /// voltage where that was given itself.
+    pub fn highest_supply(&self) -> Option<f64> {
+        let mains = self
+            .mains_voltage
+            .map(|mains| MAINS_TOLERANCE * rectified(mains));
+        mains.or(self.bus_voltage)
+    }
 }
 
 /// The tool: where backlash matters, and how much is allowed.

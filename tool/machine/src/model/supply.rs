@@ -1,5 +1,16 @@
 //! The supply of the DC bus and everything that takes regenerated energy, from the machine file.
 
+/// Mains may be this much above their nominal voltage: 10 % (IEC 60038).
+pub const MAINS_TOLERANCE: f64 = 1.1;
+
+/// Lowest and highest mains voltage of a servo amplifier (V): a transformer for 24 V, and the end of low voltage (IEC 60038).
+pub const MAINS: [f64; 2] = [20.0, 1000.0];
+
+/// Voltage (V) of a DC bus behind a rectifier without load: U_dc = √2·U_ac.
+pub const fn rectified(mains: f64) -> f64 {
+    std::f64::consts::SQRT_2 * mains
+}
+
 /// The supply of the machine file. What is not given is taken from the amplifier.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Supply {

@@ -1,9 +1,7 @@
 //! `[supply]`: the supply of the DC bus and everything that takes regenerated energy.
 
-use std::f64::consts::SQRT_2;
-
 use crate::model::site::Site;
-use crate::model::supply::{BrakeResistor, Supply};
+use crate::model::supply::{BrakeResistor, MAINS, Supply, rectified};
 
 use crate::text::item::Value;
 use crate::text::problem::{Problem, Result};
@@ -18,7 +16,7 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
     let section = item.section("[supply]".into())?;
     let bus = section.optional("bus_voltage", &VOLTAGE)?;
     let mains = section.optional("mains_voltage", &VOLTAGE)?;
-    let voltage = match (bus, mains) {
+    let voltage = match (bus, &mains) {
         (Some(bus), Some(mains)) => {
             return Err(Problem::new("`bus_voltage` and `mains_voltage` in [supply] are both given")
                 .at(bus.span(), "one")
@@ -28,7 +26,8 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
         (Some(bus), None) => Some((bus.shown(), bus.positive()?)),
         (None, Some(mains)) => {
             let shown = format!("√2 times {}", mains.shown());
-            Some((shown, SQRT_2 * mains.positive()?))
+            check_mains(mains)?;
+            Some((shown, rectified(mains.si)))
         }
         (None, None) => None,
     };
@@ -68,6 +67,7 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
     };
     let brake_resistor = resistor(&section, least.as_ref(), regenerative)?;
     section.finish()?;
+    site.mains_voltage = mains.map(|mains| mains.si);
     site.bus_voltage = voltage.map(|(_, volts)| volts);
     site.supply = Supply {
         given: true,
@@ -79,6 +79,22 @@ pub(super) fn read(root: &Section, site: &mut Site) -> Result<()> {
         brake_resistor,
     };
     Ok(())
+}
+
+/// Checks that there are such mains.
+fn check_mains(mains: &Value) -> Result<()> {
+    mains.check_positive()?;
+    let [least, most] = MAINS;
+    if (least..=most).contains(&mains.si) {
+        return Ok(());
+    }
+    let what = format!(
+        "is {}, but mains of drives have {least} V to {most} V",
+        mains.shown()
+    );
+    Err(mains.problem(&what, "no such mains").help(
+        "write the voltage between two conductors of the mains, such as 230 V, 400 V or 480 V; give the voltage of a DC supply as bus_voltage",
+    ))
 }
 
 /// Checks that a voltage is greater than that of the supply.

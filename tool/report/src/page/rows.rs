@@ -57,6 +57,7 @@ impl CheckRow {
 pub(super) struct FitRow {
     pub(super) rank: usize,
     pub(super) motor: String,
+    pub(super) made_for: String,
     pub(super) gearbox: String,
     pub(super) ratio: String,
     pub(super) power: String,
@@ -80,10 +81,14 @@ impl FitRow {
                 remarks.push(format!("{}: {}", verdict.word(), rules.join(", ")));
             }
         }
+        if !drive.from_makers() {
+            remarks.push("figures not from the maker's own document".to_owned());
+        }
         let power = judged.rated_power();
         Self {
             rank,
             motor: format!("{} {}", drive.motor.maker, drive.motor.model),
+            made_for: (drive.motor.made_for()).map_or("–".to_owned(), |made| made.words()),
             gearbox: drive
                 .gearbox
                 .map_or("direct".into(), |g| format!("{} {}", g.maker, g.model)),

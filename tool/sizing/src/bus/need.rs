@@ -97,12 +97,14 @@ impl Need {
                 .is_none_or(|energy| energy >= self.pulse)
     }
 
-    /// The smallest suitable resistor of a catalogue (by rated power, then price).
+    /// The smallest suitable resistor of a catalogue (by rated power, then price), those with the maker's own figures first.
     pub fn proposal<'c>(&self, resistors: &'c [Resistor]) -> Option<&'c Resistor> {
         let price = |r: &Resistor| r.price.unwrap_or(f64::INFINITY);
         let met = resistors.iter().filter(|resistor| self.is_met(resistor));
         met.min_by(|a, b| {
-            (a.rated_power.total_cmp(&b.rated_power)).then(price(a).total_cmp(&price(b)))
+            (b.from_maker.cmp(&a.from_maker))
+                .then(a.rated_power.total_cmp(&b.rated_power))
+                .then(price(a).total_cmp(&price(b)))
         })
     }
 

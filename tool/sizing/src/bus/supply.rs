@@ -25,7 +25,8 @@ pub struct BusData {
 }
 
 impl BusData {
-    /// From the machine file, else the amplifier, else, for the voltage, the motor's data sheet.
+    /// From the machine file, else the amplifier, else, for the voltage, the motor's data sheet. The bus must not exceed what the
+    /// motor's insulation withstands either.
     pub fn new(
         supply: &Supply,
         bus_voltage: Option<f64>,
@@ -34,10 +35,18 @@ impl BusData {
     ) -> Self {
         let own = |figure: fn(&Amplifier) -> Option<f64>| amplifier.and_then(figure);
         Self {
-            voltage: bus_voltage.or(own(|a| a.bus_voltage)).or(motor.bus_voltage),
+            voltage: bus_voltage
+                .or(own(Amplifier::nominal_voltage))
+                .or(motor.bus_voltage),
             capacitance: supply.capacitance.or(own(|a| a.capacitance)),
             chopper_voltage: supply.chopper_voltage.or(own(|a| a.chopper_voltage)),
-            max_voltage: supply.max_voltage.or(own(|a| a.max_voltage)),
+            max_voltage: [
+                supply.max_voltage.or(own(|a| a.max_voltage)),
+                motor.max_bus_voltage,
+            ]
+            .into_iter()
+            .flatten()
+            .reduce(f64::min),
             min_resistance: supply.min_resistance.or(own(|a| a.min_resistance)),
             regenerative: supply.regenerative,
             resistor: supply.brake_resistor,

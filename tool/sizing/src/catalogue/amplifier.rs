@@ -15,8 +15,10 @@ pub struct Amplifier {
     pub peak_current: f64,
     /// How long the peak current may flow from cold (s).
     pub peak_time: Option<f64>,
-    /// DC-bus voltage (V).
+    /// Nominal DC-bus voltage (V).
     pub bus_voltage: Option<f64>,
+    /// Mains voltage that it is made for (V): any of its class.
+    pub mains_voltage: Option<f64>,
     /// DC-bus capacitance (F).
     pub capacitance: Option<f64>,
     /// DC-bus voltage at which the brake resistor switches on (V).

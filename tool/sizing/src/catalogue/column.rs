@@ -197,6 +197,8 @@ columns! {
     BrakeMass "brake_mass" [Motors] [MASS];
     BuiltInGearbox "built_in_gearbox" [Motors] [];
     BusVoltage "bus_voltage" [Motors Amplifiers] [VOLTAGE];
+    MainsVoltage "mains_voltage" [Motors Amplifiers] [VOLTAGE];
+    MaxBusVoltage "max_bus_voltage" [Motors] [VOLTAGE];
     RatedCurrent "rated_current" [Motors Amplifiers] [CURRENT];
     PeakCurrent "peak_current" [Motors Amplifiers] [CURRENT];
     Ratio "ratio" [Gearboxes] [];

@@ -64,6 +64,13 @@ impl Drive<'_> {
         name
     }
 
+    /// Whether all its figures were taken from its makers' own documents.
+    pub fn from_makers(&self) -> bool {
+        self.motor.from_maker
+            && self.gearbox.is_none_or(|gearbox| gearbox.from_maker)
+            && self.amplifier.is_none_or(|amplifier| amplifier.from_maker)
+    }
+
     /// Inertia of the rotor with its brake (kg·m²).
     pub fn rotor(&self) -> f64 {
         self.motor.rotor_with_brake()

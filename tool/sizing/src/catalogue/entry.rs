@@ -8,6 +8,8 @@ use super::gearbox::Gearbox;
 use super::lists::{Listing, listing};
 use super::motor::Motor;
 use super::row::{Read, Row};
+use jred_machine::model::supply::{MAINS, rectified};
+use jred_machine::number::rounding::figure;
 use jred_machine::plain;
 use motor::motor;
 
@@ -154,6 +156,7 @@ fn amplifier(row: &Row) -> Read<Amplifier> {
         peak_current: row.positive(Column::PeakCurrent),
         peak_time: row.optional(Column::PeakTime),
         bus_voltage: row.optional(Column::BusVoltage),
+        mains_voltage: mains_voltage(row),
         capacitance: row.optional(Column::Capacitance),
         chopper_voltage: row.optional(Column::ChopperVoltage),
         max_voltage: row.optional(Column::MaxVoltage),
@@ -177,6 +180,9 @@ fn amplifier(row: &Row) -> Read<Amplifier> {
     row.at_least(chopper, (Column::BusVoltage, amplifier.bus_voltage));
     row.at_least(highest, (Column::BusVoltage, amplifier.bus_voltage));
     row.at_least(highest, chopper);
+    let mains = (Column::MainsVoltage, amplifier.mains_voltage.map(rectified));
+    row.at_least(chopper, mains);
+    row.at_least(highest, mains);
     row.checked()?;
     Ok(amplifier)
 }
@@ -202,6 +208,22 @@ fn resistor(row: &Row) -> Read<Resistor> {
     );
     row.checked()?;
     Ok(resistor)
+}
+
+/// A mains voltage, which must be one that there is.
+fn mains_voltage(row: &Row) -> Option<f64> {
+    let mains = row.optional(Column::MainsVoltage)?;
+    let [least, most] = MAINS;
+    if (least..=most).contains(&mains) {
+        return Some(mains);
+    }
+    row.add(row.fault(
+        Column::MainsVoltage,
+        &format!("is {} V, but mains have {least} V to {most} V", figure(mains)),
+        "no such mains",
+        "write the mains voltage of the data sheet, such as 230 V or 400 V; a DC voltage is bus_voltage or max_bus_voltage",
+    ));
+    None
 }
 
 /// Whether the data were taken from the maker's own document; true if the column is missing or the cell empty.

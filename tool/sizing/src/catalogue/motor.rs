@@ -60,6 +60,10 @@ pub struct Motor {
     pub brake: Option<Brake>,
     /// DC-bus voltage that the data are valid for (V).
     pub bus_voltage: Option<f64>,
+    /// Mains voltage that the motor is made for (V): any of its class.
+    pub mains_voltage: Option<f64>,
+    /// Largest DC-bus voltage that its insulation withstands (V).
+    pub max_bus_voltage: Option<f64>,
     /// Mass (kg).
     pub mass: Option<f64>,
     /// Price, in the currency of the catalogue.
@@ -166,7 +170,7 @@ impl Motor {
         }
         let constant = winding.torque_constant?;
         let current = winding.rated_current.unwrap_or(torque / constant);
-        let voltage = self.bus_voltage? - winding.resistance? * current;
+        let voltage = self.figures_voltage()? - winding.resistance? * current;
         let speed = voltage / winding.voltage_constant.unwrap_or(constant);
         (speed.is_finite() && speed > 0.0).then_some(speed)
     }

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::amplifier::Amplifier;
 use super::motor::{Motor, MotorKind};
+use super::voltage::of_one_class;
 use super::{Catalogue, Gearbox};
 use crate::catalogue::{Drive, DriveId};
 
@@ -30,29 +31,21 @@ pub(super) struct Partners {
     pub(super) amplifiers: Option<Box<[u32]>>,
 }
 
-/// Largest ratio of voltages of one class: 24 and 28 V, 282 and 325 V, 540 and 680 V are in one class; 48 and 325 V, or 325
-/// and 560 V, are not.
-const VOLTAGE_CLASS: f64 = 4.0 / 3.0;
-
 /// Rated current of an amplifier in units of the motor's: smaller ones starve the motor, larger ones regulate it coarsely.
 const CURRENTS: [f64; 2] = [0.5, 4.0];
 
 impl Pairing {
     /// Whether an amplifier is suitable for a motor if no list decides: its bus voltage is within a factor of 4/3 of that of
-    /// the motor data, and its rated current is half to four times that of the motor (standstill, else rated). Missing data
-    /// do not exclude an amplifier.
+    /// the motor data, or higher and within what the motor is stated to be made for, and its rated current is half to four times
+    /// that of the motor (standstill, else rated). Missing data do not exclude an amplifier.
     pub fn suits(motor: &Motor, amplifier: &Amplifier) -> bool {
-        let voltage = motor.bus_voltage.zip(amplifier.bus_voltage);
-        let same_class = voltage.is_none_or(|(motor, amplifier)| {
-            amplifier <= motor * VOLTAGE_CLASS && motor <= amplifier * VOLTAGE_CLASS
-        });
         let winding = &motor.winding;
         let current = winding.standstill_current.or(winding.rated_current);
         let [least, most] = CURRENTS;
         let enough = current.is_none_or(|current| {
             (least * current..=most * current).contains(&amplifier.rated_current)
         });
-        same_class && enough
+        enough && of_one_class(motor, amplifier)
     }
 
     fn partners(&self, motor: usize) -> Option<&Partners> {

@@ -20,6 +20,8 @@ pub struct Outcome {
     pub warnings: u8,
     /// Number of rules that could not be checked: data missing.
     pub not_checked: u8,
+    /// Whether nobody states what voltage the motor or the amplifier is made for.
+    pub voltage_unknown: bool,
     /// Number of rules violated with a limit of zero, where no share of the limit can be given.
     pub beyond_all_limits: u8,
 }
@@ -32,6 +34,7 @@ impl Outcome {
         worst_rule: None,
         warnings: 0,
         not_checked: 0,
+        voltage_unknown: false,
         beyond_all_limits: 0,
     };
 
@@ -82,6 +85,8 @@ impl Record for Tally<'_> {
         outcome.verdict = outcome.verdict.max(verdict);
         outcome.warnings += u8::from(verdict == Verdict::Warn);
         outcome.not_checked += u8::from(verdict == Verdict::NotChecked);
+        outcome.voltage_unknown |=
+            verdict == Verdict::NotChecked && rule.is_of_voltage() && finding.rating.is_nan();
         let used = self.rules.use_of_limit(rule, finding);
         if used.is_infinite() {
             outcome.beyond_all_limits += 1;

@@ -8,7 +8,7 @@
 //! The verdicts are those of [`Context::outcome`], and so is the order of the first (`tests/cycle/screen.rs`).
 
 use super::outcome::Tally;
-use super::{Context, Outcome, electric, gearbox, motor, stiffness, thermal};
+use super::{Context, Outcome, electric, gearbox, motor, stiffness, thermal, voltage};
 use crate::catalogue::{Drive, DriveId, Gearbox, Motor};
 use crate::cycle::{Against, Cycle};
 use crate::motor::envelope::Prepared;
@@ -66,6 +66,7 @@ impl<'c> Screen<'c> {
         };
         let mut tally = Tally::new(self.rules, alone);
         let motor = limits.on(drive.amplifier);
+        voltage::measure(motor, &mut tally);
         motor::measure_speed(self.cycle, motor, drive.ratio(), &mut tally);
         if tally.outcome.fails() {
             return tally.outcome;

@@ -1,6 +1,6 @@
 //! Objectives for ranking and comparing drives.
 
-use crate::select::size::{Candidate, Group, Selection};
+use crate::select::size::{Candidate, Doubt, Group, Selection};
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Finding;
 use jred_machine::units::{Sentence, Vocabulary};
@@ -124,7 +124,7 @@ fn sum(parts: [Option<f64>; 3]) -> Option<f64> {
     parts.into_iter().sum()
 }
 
-/// Ranks the suitable drives by an objective. Drives without data come last in their previous order; equal ones keep their
+/// Ranks the suitable drives by an objective, after what is in doubt. Of equal doubt, drives without data come last in their previous order; equal ones keep their
 /// order; if no drive has data, the ranking does not change. Returns the number of drives without data.
 pub fn rank(selection: &mut Selection, objective: Objective) -> usize {
     selection.complete();
@@ -141,9 +141,14 @@ pub fn rank(selection: &mut Selection, objective: Objective) -> usize {
     };
     // A known cost that is infinite comes before an unknown one.
     let is_unknown = |k: &usize| costs.get(*k).copied().flatten().is_none();
+    let doubt = |k: &usize| {
+        let candidate = selection.fit.known().get(*k);
+        candidate.map(|c| Doubt::of(&c.drive, &c.outcome))
+    };
     order.sort_by(|a, b| {
-        is_unknown(a)
-            .cmp(&is_unknown(b))
+        doubt(a)
+            .cmp(&doubt(b))
+            .then_with(|| is_unknown(a).cmp(&is_unknown(b)))
             .then_with(|| cost(a).total_cmp(&cost(b)))
     });
     selection.ranking = Some(objective.ranking());

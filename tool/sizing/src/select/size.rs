@@ -15,6 +15,7 @@ mod order;
 
 pub use group::{FIRST, Group};
 use group::{Placed, Unranked};
+pub(super) use order::Doubt;
 use order::Order;
 
 /// How drives are ranked unless something else was asked for.
@@ -24,6 +25,10 @@ fn by_size(Vocabulary { torque, .. }: &Vocabulary) -> String {
          first, then by largest margin"
     )
 }
+
+/// What comes last in every ranking.
+const LAST: &str =
+    "; drives whose figures are not the makers' own, and those of unknown voltage, last";
 
 /// Smallest number of motors per unit of parallel work.
 const SHARE: usize = 16;
@@ -141,7 +146,9 @@ impl<'c> Selection<'c> {
 
     /// How the drives that fit are ranked, for a kind of motor.
     pub fn ranking(&self, words: &Vocabulary) -> String {
-        self.ranking.unwrap_or(by_size)(words)
+        let mut ranking = self.ranking.unwrap_or(by_size)(words);
+        ranking += LAST;
+        ranking
     }
 
     fn screen(&self, catalogue: &'c Catalogue) -> Screen<'c> {

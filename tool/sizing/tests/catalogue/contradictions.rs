@@ -61,6 +61,42 @@ fn rows_that_contradict_themselves() {
         ),
         (curve, "peak_curve = \"0 rpm 36 N m\"", "no colon"),
         ("pole_pairs = 4", "pole_pairs = 4.5", "whole number"),
+        (
+            "mains_voltage = \"0.4 kV\"",
+            "mains_voltage = \"4000 V\"",
+            "is 4000 V, but mains have 20 V to 1000 V",
+        ),
+        (
+            "mains_voltage = \"0.4 kV\"",
+            "mains_voltage = \"0 V\"",
+            "not a number greater than zero",
+        ),
+        (
+            "mains_voltage = \"0.4 kV\"",
+            "mains_voltage = \"-400 V\"",
+            "not a number greater than zero",
+        ),
+        (
+            "mains_voltage = \"0.4 kV\"",
+            "mains_voltage = 400",
+            "has no unit: 400",
+        ),
+        (
+            "mains_voltage = \"0.4 kV\"",
+            "mains_voltage = \"400 A\"",
+            "must be a voltage",
+        ),
+        (
+            "max_bus_voltage = \"800 V\"",
+            "max_bus_voltage = \"559 V\"",
+            "below its bus_voltage",
+        ),
+        // √2·0.4 kV = 565.7 V.
+        (
+            "max_bus_voltage = \"800 V\"",
+            "max_bus_voltage = \"565 V\"",
+            "below its mains_voltage",
+        ),
         ("\"sine\"", "\"square\"", "\"sine\" or \"block\""),
         ("brake_torque = \"12 N m\"", "", "brake_torque"),
         (

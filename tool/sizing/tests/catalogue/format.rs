@@ -16,10 +16,10 @@ no_load_speed [rpm],rotor_inertia [kg cm^2],peak_corner_speed [rpm],peak_torque_
 coulomb_friction [mN m],viscous_friction [N m/krpm],commutation,torque_constant [N m/A peak],voltage_constant [V/krpm],\
 winding_resistance [Ohm],winding_inductance [mH],pole_pairs,rated_current [A rms],standstill_current [A peak],peak_current [A],\
 no_load_current [mA],thermal_resistance_winding [K/W],thermal_resistance_housing [K/W],thermal_time_winding [s],\
-thermal_time_housing [min],max_winding_temperature [C],brake_torque [N m],brake_inertia [kg cm^2],bus_voltage [V],mass [kg],\
+thermal_time_housing [min],max_winding_temperature [C],brake_torque [N m],brake_inertia [kg cm^2],bus_voltage [V],mains_voltage [V],max_bus_voltage [kV],mass [kg],\
 price [EUR],figures_from,source
 m1,Maker,Model,8,3000,9000,36,500,3,6000,8.5,2500,10,0 rpm: 36 N m; 2500 rpm: 36 N m; 500 rad/s: 10 N m,0 rpm: 9 N m; 3000 rpm: 8 N m,\
-50,2,sine,1.2,98.5,0.9,6.5,4,5.2,8.4,25,300,0.4,0.6,60,35,155,12,0.6,560,8.1,750.5,other,Sheet
+50,2,sine,1.2,98.5,0.9,6.5,4,5.2,8.4,25,300,0.4,0.6,60,35,155,12,0.6,560,400,0.8,8.1,750.5,other,Sheet
 ";
 
 pub(super) const MOTORS_TOML: &str = r#"
@@ -59,6 +59,8 @@ max_winding_temperature = "155 °C"
 brake_torque = "12 N m"
 brake_inertia = "0.6 kg cm^2"
 bus_voltage = "560 V"
+mains_voltage = "0.4 kV"
+max_bus_voltage = "800 V"
 mass = "8.1 kg"
 price = 750.5
 figures_from = "other"
@@ -84,6 +86,7 @@ rated_current = "6 A"
 peak_current = "18 A rms"
 peak_time = "3000 ms"
 bus_voltage = "560 V"
+mains_voltage = "400 V"
 capacitance = "470 uF"
 chopper_voltage = "760 V"
 max_voltage = "820 V"
@@ -169,6 +172,8 @@ fn every_column_of_a_motor() {
         (thermal.housing_time, 2100.0),
         (thermal.max_temperature, 155.0),
         (motor.bus_voltage, 560.0),
+        (motor.mains_voltage, 400.0),
+        (motor.max_bus_voltage, 800.0),
         (motor.mass, 8.1),
         (motor.price, 750.5),
         (motor.brake.map(|b| b.torque), 12.0),
@@ -278,6 +283,7 @@ fn amplifiers_resistors_and_linear_motors() {
         (Some(a.peak_current), 18.0),
         (a.peak_time, 3.0),
         (a.bus_voltage, 560.0),
+        (a.mains_voltage, 400.0),
         (a.capacitance, 470e-6),
         (a.chopper_voltage, 760.0),
         (a.max_voltage, 820.0),

@@ -270,6 +270,40 @@ fn amplifiers_that_suit() {
     }
 }
 
+/// What a motor is stated to be made for widens the range upwards; a mains voltage is compared behind its rectifier.
+#[test]
+fn amplifiers_that_suit_what_a_motor_is_made_for() {
+    let amplifier = |mains| Amplifier {
+        mains_voltage: Some(mains),
+        rated_current: 5.0,
+        ..Amplifier::default()
+    };
+    let motor = |figures, mains, largest| Motor {
+        bus_voltage: figures,
+        mains_voltage: mains,
+        max_bus_voltage: largest,
+        winding: Winding {
+            rated_current: Some(5.0),
+            ..Winding::default()
+        },
+        ..Motor::default()
+    };
+    for (figures, mains, largest, on, suits) in [
+        (None, Some(200.0), None, 230.0, true),
+        (None, Some(200.0), None, 400.0, false),
+        (None, Some(400.0), None, 230.0, false),
+        (None, Some(400.0), None, 480.0, true),
+        (Some(320.0), None, None, 400.0, false),
+        (Some(320.0), None, Some(800.0), 400.0, true),
+        (Some(320.0), Some(400.0), None, 400.0, true),
+        (None, None, Some(500.0), 400.0, false),
+        (None, None, None, 400.0, true),
+    ] {
+        let found = Pairing::suits(&motor(figures, mains, largest), &amplifier(on));
+        assert_eq!(found, suits, "{figures:?} {mains:?} {largest:?} on {on}");
+    }
+}
+
 /// Random lists with partial keys, against every pair looked at on its own.
 #[test]
 fn random_lists_against_looking_at_every_pair() {

@@ -26,9 +26,20 @@ struct Ready {
     rules: RuleSet,
 }
 
-/// The built-in catalogue with its gearboxes at six times as many ratios.
+/// Some of the built-in motors and gearboxes, from all makers, with the gearboxes at six times as many ratios.
 pub(crate) fn with_more_ratios() -> Catalogue {
     let mut catalogue = Catalogue::load(None, None).unwrap();
+    let motors = catalogue.motors.iter().map(|motor| motor.key.clone());
+    let gearboxes = catalogue
+        .gearboxes
+        .iter()
+        .map(|gearbox| gearbox.key.clone());
+    let [motors, gearboxes]: [Vec<String>; 2] =
+        [motors.step_by(4).collect(), gearboxes.step_by(4).collect()];
+    catalogue.keep(
+        |motor| motors.contains(&motor.key),
+        |gearbox| gearboxes.contains(&gearbox.key),
+    );
     let gearboxes = catalogue.gearboxes.clone();
     for factor in [0.5, 0.7, 1.3, 1.7, 2.3] {
         catalogue.gearboxes.extend(gearboxes.iter().map(|gearbox| {

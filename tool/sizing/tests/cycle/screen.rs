@@ -33,10 +33,13 @@ fn plainly(
         lists[usize::from(outcome.verdict == Verdict::Fail)].push((drive, outcome));
     }
     let power = |drive: &Drive| drive.motor.rated_power().unwrap_or(f64::INFINITY);
+    let doubt = |drive: &Drive, found: &Outcome| (found.voltage_unknown, !drive.from_makers());
     let [fit, refused] = &mut lists;
     // Both sorts are stable: equal drives stay in the order of the catalogue.
     fit.sort_by(|(a, x), (b, y)| {
-        (power(a).total_cmp(&power(b)))
+        doubt(a, x)
+            .cmp(&doubt(b, y))
+            .then(power(a).total_cmp(&power(b)))
             .then((x.warnings > 0).cmp(&(y.warnings > 0)))
             .then(x.worst_use.total_cmp(&y.worst_use))
     });

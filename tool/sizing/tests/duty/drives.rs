@@ -293,6 +293,7 @@ fn ranking() {
     for pair in fit.windows(2) {
         let key = |c: &Candidate| {
             (
+                [c.outcome.voltage_unknown, !c.drive.from_makers()],
                 c.drive.motor.rated_power(),
                 c.outcome.warnings > 0,
                 c.outcome.worst_use,

@@ -29,7 +29,10 @@ fn check_envelope(motor: &Motor) {
     let envelope = Envelope::of(motor);
     let top = envelope.max_speed();
     let n = 20_000;
-    let at = |k: i32| top * f64::from(k) / f64::from(n);
+    let at = |k: i32| {
+        // Not beyond the end by rounding.
+        (top * f64::from(k) / f64::from(n)).min(top)
+    };
     let peak = motor.peak_torque.unwrap();
     let mut before = (
         envelope.peak_torque(1.0, 0.0),

@@ -45,6 +45,7 @@ fn press(segments: &[(i32, u32)]) -> MachineFile {
 fn parts() -> (Motor, Gearbox, Amplifier) {
     let weakened = motor();
     let motor = Motor {
+        max_bus_voltage: Some(150.0),
         friction: [0.1, 1e-3],
         winding: Winding {
             peak_current: Some(220.0),
@@ -68,6 +69,7 @@ fn parts() -> (Motor, Gearbox, Amplifier) {
     };
     let amplifier = Amplifier {
         key: "a".to_owned(),
+        mains_voltage: Some(100.0),
         rated_current: 100.0,
         peak_current: 400.0,
         ..Amplifier::default()

@@ -53,6 +53,7 @@ pub fn json<'c>(
         "input speed [rad/s]": duty.figures(|i| i.input_speed),
         "input inertia [kg m^2]": duty.figures(|i| i.input_inertia),
         "holding torque [N m]": duty.hold_torque,
+        "supply": { "mains voltage [V]": file.site.mains_voltage, "bus voltage [V]": file.site.bus_voltage },
         "rules": { "set": selection.rules.name, "title": selection.rules.title, "limits": limits },
         "ranking": selection.ranking(kind.vocabulary()),
         "counts": {
@@ -95,6 +96,9 @@ fn drive(selection: &Selection, candidate: &Candidate) -> Value {
         "amplifier": drive.amplifier.map(|a| &a.key),
         "ratio": drive.ratio(),
         "rated power [W]": judged.rated_power(),
+        "motor mains voltage [V]": drive.motor.mains_voltage,
+        "motor largest bus voltage [V]": drive.motor.made_for().map(|made| made.largest),
+        "figures from": if drive.from_makers() { "maker" } else { "other" },
         "verdict": judged.verdict(),
         "duty": judged.duty,
         "checks": judged.checks,

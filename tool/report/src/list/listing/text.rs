@@ -8,6 +8,7 @@ use jred_machine::analysis::duty::{Duty, Instant};
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Verdict;
+use jred_machine::model::site::Site;
 use jred_machine::number::figures::Figures;
 use jred_machine::number::rounding::{rounded, short, significant};
 use jred_machine::number::words::counted;
@@ -50,8 +51,9 @@ pub fn text(
         ),
     ]);
     let mut parts = vec![format!(
-        "{}\n\nDuty at the input of the drive train, cycle {} s\n{input}\n",
+        "{}\n\n{}\n\nDuty at the input of the drive train, cycle {} s\n{input}\n",
         file.title,
+        supply(&file.site),
         rounded(duty.duration)
     )];
     let all = selection.fit.len() + selection.refused.len();
@@ -114,6 +116,17 @@ pub fn text(
     parts.join("\n") + "\n"
 }
 
+/// The supply that motors and amplifiers are judged at.
+fn supply(site: &Site) -> String {
+    match (site.mains_voltage, site.bus_voltage) {
+        (Some(mains), Some(bus)) => {
+            format!("Supply: {} V mains, DC bus {} V", short(mains), short(bus))
+        }
+        (_, Some(bus)) => format!("Supply: DC bus {} V", short(bus)),
+        _ => "Supply: not given; using each motor at the voltage of its data. Give mains_voltage in [supply]".to_owned(),
+    }
+}
+
 /// The drive that was asked for, every rule, and the best one's name.
 fn asked_text(asked: &Asked, selection: &Selection) -> String {
     let judged = &selection.judged(&asked.candidate);
@@ -144,6 +157,7 @@ fn ranking(list: List, selection: &Selection, words: &Vocabulary) -> String {
     let mut table = text_table(&[
         "rank",
         "motor",
+        "made for",
         "gearbox",
         "rated [kW]",
         "RMS used",
@@ -151,10 +165,22 @@ fn ranking(list: List, selection: &Selection, words: &Vocabulary) -> String {
         "speed used",
         "λ max",
     ]);
-    for (k, candidate) in list.fit(selection).iter().enumerate() {
+    let shown = list.fit(selection);
+    for (k, candidate) in shown.iter().enumerate() {
         table.add_row(rank_row(k + 1, &selection.judged(candidate)));
     }
-    format!("{table}\nranked: {}", selection.ranking(words))
+    let others = shown.iter().any(|candidate| !candidate.drive.from_makers());
+    let remark = if others { OTHERS } else { "" };
+    format!("{table}\nranked: {}{remark}", selection.ranking(words))
+}
+
+/// What the mark in the ranking means.
+const OTHERS: &str = "\n* figures not from the maker's own document";
+
+/// A key of the catalogue, marked if its figures are not from the maker's own document.
+fn marked(key: &str, from_maker: bool) -> String {
+    let mark = if from_maker { "" } else { " *" };
+    format!("{key}{mark}")
 }
 
 /// Rows of min, mean, max and RMS, each in its unit.
@@ -250,13 +276,16 @@ pub(crate) fn margin(check: &Check) -> String {
     }
 }
 
-fn rank_row(rank: usize, judged: &Judged) -> [String; 8] {
+fn rank_row(rank: usize, judged: &Judged) -> [String; 9] {
     let drive = &judged.drive;
     let power = judged.rated_power();
     [
         rank.to_string(),
-        drive.motor.key.clone(),
-        drive.gearbox.map_or("direct".to_owned(), |g| g.key.clone()),
+        marked(&drive.motor.key, drive.motor.from_maker),
+        (drive.motor.made_for()).map_or("–".to_owned(), |made| made.words()),
+        drive
+            .gearbox
+            .map_or("direct".to_owned(), |g| marked(&g.key, g.from_maker)),
         power.map_or("–".to_owned(), |power| significant(power / 1000.0, 3)),
         judged.used(Rule::RmsTorque),
         judged.used(Rule::PeakTorque),

@@ -3,8 +3,9 @@
 use super::super::column::{Column, EFFORT, For, SPEED};
 use super::super::motor::{Brake, Motor, MotorKind, Thermal, Winding};
 use super::super::row::{Read, Row};
-use super::from_maker;
+use super::{from_maker, mains_voltage};
 use crate::catalogue::Commutation;
+use jred_machine::model::supply::rectified;
 
 /// The columns of a motor that depend on its kind: torque and inertia, or force and mass.
 struct Efforts {
@@ -113,6 +114,8 @@ pub(super) fn motor(row: &mut Row) -> Read<(Motor, Option<String>)> {
         },
         brake: brake(row, &own),
         bus_voltage: row.optional(Column::BusVoltage),
+        mains_voltage: mains_voltage(row),
+        max_bus_voltage: row.optional(Column::MaxBusVoltage),
         mass: row.optional(Column::Mass),
         price: row.optional(Column::Price),
         from_maker: from_maker(row),
@@ -156,6 +159,10 @@ fn torque_and_speed(row: &Row, motor: &Motor, own: &Efforts) {
     row.at_least(peak, (own.at_max_speed, motor.torque_at_max_speed));
     let max_speed = (Column::MaxSpeed, motor.max_speed);
     row.at_least(max_speed, (Column::RatedSpeed, motor.rated_speed));
+    let bus = (Column::MaxBusVoltage, motor.max_bus_voltage);
+    row.at_least(bus, (Column::BusVoltage, motor.bus_voltage));
+    let rectified_mains = motor.mains_voltage.map(rectified);
+    row.at_least(bus, (Column::MainsVoltage, rectified_mains));
     let current = (Column::PeakCurrent, motor.winding.peak_current);
     row.at_least(current, (Column::RatedCurrent, motor.winding.rated_current));
 }

@@ -5,7 +5,7 @@ use super::continuous::Continuous;
 use super::limit::{Limit, Piece};
 use super::{Envelope, voltage};
 use crate::catalogue::Commutation;
-use crate::catalogue::{Amplifier, Motor};
+use crate::catalogue::{Amplifier, Motor, VOLTAGE_CLASS};
 use crate::motor::winding::{CurrentCurve, REFERENCE_TEMPERATURE};
 use jred_machine::model::site::Site;
 use jred_machine::units::{Sentence, Vocabulary};
@@ -25,9 +25,6 @@ pub(super) struct Builder<'a> {
     cap: f64,
     assumptions: Vec<Sentence>,
 }
-
-/// A supply is of the same class as the voltage of a motor's figures up to this share: 325 V for 282 V, 680 V for 540 V.
-const VOLTAGE_CLASS: f64 = 4.0 / 3.0;
 
 /// Whether a value is usable: values far beyond any motor would overflow.
 fn finite(figure: Option<f64>) -> Option<f64> {
@@ -59,8 +56,9 @@ impl<'a> Builder<'a> {
     pub(super) fn new(motor: &'a Motor, amplifier: Option<&Amplifier>, site: &Site) -> Self {
         let mut assumptions: Vec<Sentence> = Vec::new();
         let torques = CurrentCurve::of(motor);
-        let sheet = finite(motor.bus_voltage);
-        let actual = finite(site.bus_voltage).or(finite(amplifier.and_then(|a| a.bus_voltage)));
+        let sheet = finite(motor.figures_voltage());
+        let actual =
+            finite(site.bus_voltage).or(finite(amplifier.and_then(Amplifier::nominal_voltage)));
         let share = match (actual, sheet) {
             (Some(actual), Some(sheet)) => actual / sheet,
             _ => 1.0,
@@ -94,7 +92,7 @@ impl<'a> Builder<'a> {
         if share > VOLTAGE_CLASS {
             assumptions.push(
                 |_| "the supply voltage is more than 4/3 of the voltage that the motor data are for; the effect on \
-                 insulation and bearings is not checked".to_owned(),
+                 the bearings is not checked".to_owned(),
             );
         }
         Self {

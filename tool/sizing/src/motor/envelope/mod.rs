@@ -12,6 +12,7 @@
 //! Equations, units and sources: `docs/motor-limits.md`.
 
 use crate::catalogue::{Amplifier, Catalogue, Motor};
+use crate::motor::supply::Voltages;
 use crate::motor::winding::CurrentCurve;
 use jred_machine::model::site::Site;
 use jred_machine::units::{Sentence, Vocabulary};
@@ -128,6 +129,8 @@ pub struct Prepared {
     pub torques: Option<CurrentCurve>,
     /// The circuit that the envelope is made of; `None`: it comes from the data sheet's speeds and torques.
     pub circuit: Option<Circuit>,
+    /// The voltage of the supply against what motor and amplifier are made for.
+    pub(crate) voltages: Voltages,
     /// Limits of the motor on each of its amplifiers, by key.
     amplified: Box<[(String, Self)]>,
 }
@@ -139,6 +142,7 @@ impl Prepared {
         Self {
             torques: builder.torques,
             circuit: builder.circuit(),
+            voltages: Voltages::new(motor, amplifier, site),
             envelope: builder.build(),
             amplified: Box::default(),
         }

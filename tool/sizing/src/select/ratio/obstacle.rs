@@ -48,6 +48,11 @@ impl Obstacle {
     pub fn words(&self) -> String {
         let shown = |x: f64| significant(x, 3);
         match *self {
+            Self::Always { rule, used, .. } if rule.is_of_voltage() => format!(
+                "{}: {} % of its limit, whatever the ratio",
+                rule.name(),
+                shown(used * 100.0)
+            ),
             Self::Always { rule, used, ratio } if !used.is_finite() => format!(
                 "{}: nothing of its limit is left at any ratio; at best at ratio {}",
                 rule.name(),

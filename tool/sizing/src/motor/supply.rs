@@ -1,0 +1,31 @@
+//! The voltage of the supply against the largest that motor and amplifier are made for.
+//!
+//! Figure: the highest voltage that the supply gives the DC bus, rectified mains at the upper end of their tolerance. Rating: what
+//! the data sheet is for ([`Motor::made_for`]). What braking adds is judged by the rule for the bus voltage.
+
+use crate::catalogue::{Amplifier, Motor};
+use jred_machine::model::rules::Finding;
+use jred_machine::model::site::Site;
+
+/// The findings of a motor on an amplifier at a supply; neither depends on the rest of the drive.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Voltages {
+    /// The motor at the machine file's supply, else at that of the amplifier.
+    pub(crate) motor: Finding,
+    /// The amplifier at the machine file's supply; `None`: no amplifier.
+    pub(crate) amplifier: Option<Finding>,
+}
+
+impl Voltages {
+    pub(crate) fn new(motor: &Motor, amplifier: Option<&Amplifier>, site: &Site) -> Self {
+        let plant = site.highest_supply();
+        let supply = plant.or_else(|| amplifier?.highest_supply());
+        let against =
+            |supply: Option<f64>, largest| Finding::against(supply.unwrap_or(f64::NAN), largest);
+        Self {
+            motor: against(supply, motor.made_for().map(|made| made.largest)),
+            amplifier: amplifier
+                .map(|amplifier| against(plant, amplifier.made_for().map(|made| made.largest))),
+        }
+    }
+}
