@@ -26,7 +26,7 @@ use bench::{Bench, best, once};
 use jred::harmonic::{self, terms};
 use jred::machine::{Action, Load};
 use jred::mechanism::{Branch, SliderCrank};
-use jred::number::Number;
+use jred::number::{Number, Quantity};
 use jred::table::{Format, Shape, words_len};
 use jred::tabulate::{Request, fill, scratch_len, tabulate};
 use jred::{
@@ -87,11 +87,11 @@ fn peak(machine: &impl Reducible) -> Result<f64, Error> {
 }
 
 /// Phases, speeds, accelerations, and room for torques.
-struct Batch<S> {
+struct Batch<S: Number> {
     phases: Vec<Phase>,
-    omegas: Vec<S>,
-    alphas: Vec<S>,
-    torques: Vec<S>,
+    omegas: Vec<S::Speed>,
+    alphas: Vec<S::Acceleration>,
+    torques: Vec<S::Torque>,
 }
 
 impl<S: Number> Batch<S> {
@@ -106,9 +106,13 @@ impl<S: Number> Batch<S> {
             phases: each()
                 .map(|k| Phase::from_bits(k.wrapping_mul(step)))
                 .collect(),
-            omegas: each().map(|k| wave(k, 0.010, OMEGA)).collect(),
-            alphas: each().map(|k| wave(k, 0.013, ALPHA)).collect(),
-            torques: vec![S::default(); samples],
+            omegas: each()
+                .map(|k| Quantity::of(wave(k, 0.010, OMEGA)))
+                .collect(),
+            alphas: each()
+                .map(|k| Quantity::of(wave(k, 0.013, ALPHA)))
+                .collect(),
+            torques: vec![S::Torque::default(); samples],
         }
     }
 

@@ -1,6 +1,7 @@
 //! The same cycle in fixed point, for cores without a floating-point unit, and what that costs in accuracy.
 //!
-//! Numbers are per unit: a `Q31` of 1 is the base in the image's `Scale`. Results that do not fit are limited and have a flag;
+//! Numbers are per unit: a `Speed<Q31>` of 1 is the speed base in the image's `Scale`, an `Acceleration<Q31>` the base of accelerations, and a
+//! `Torque<Q31>` that of torques; to take one for another does not compile. Results that do not fit are limited and have a flag;
 //! nothing wraps.
 //!
 //! ```text
@@ -13,7 +14,7 @@ mod support;
 use core::f32::consts::{PI, TAU};
 
 use jred::machine::motion::{Law, Move};
-use jred::{Image, Model, Q31, Set, Spline, curves, include_image};
+use jred::{Acceleration, Image, Model, Outcome, Q31, Set, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
@@ -62,8 +63,8 @@ fn run() -> Result<(), Failure> {
         for flag in [omega.saturated, alpha.saturated, back.saturated] {
             saturated += u32::from(flag);
         }
-        for value in [torque, back.value] {
-            checksum = (checksum ^ value.to_bits() as u32).wrapping_mul(16_777_619);
+        for bits in [torque.to_bits(), back.value.to_bits()] {
+            checksum = (checksum ^ bits as u32).wrapping_mul(16_777_619);
         }
         if tick % 20 == 0 {
             println!(
@@ -85,7 +86,7 @@ fn run() -> Result<(), Failure> {
     );
 
     // Beyond the bases the answer is the end of the range, and the flag says that it is not the answer.
-    let too_much = scale.alpha::<Q31>(1.0e6);
+    let too_much: Outcome<Acceleration<Q31>> = scale.alpha(1.0e6);
     println!(
         "1e6 rad/s2: {:08x}, saturated {}",
         too_much.value.to_bits(),

@@ -65,7 +65,9 @@ fn report<S: Scalar>(
     counter: &Counter,
     number: &str,
     press: &Press<S>,
-    [omega, alpha, torque]: [S; 3],
+    omega: S::Speed,
+    alpha: S::Acceleration,
+    torque: S::Torque,
 ) {
     let inverse = cycles_of(counter, |phase| {
         black_box(press.torque(phase, black_box(omega), black_box(alpha)));
@@ -93,18 +95,23 @@ fn run() -> Result<(), Failure> {
     let scale = fixed.scale();
     let fixed: Press<Q31> = fixed.model()?;
     let [omega, alpha, torque] = [10.0, 50.0, 20.0];
-    let units = [
+    report(&counter, "f32", &single, omega, alpha, torque);
+    let (omega, alpha, torque) = (
         scale.omega(omega),
         scale.alpha(alpha),
         scale.to_torque(torque),
-    ];
-    if units.iter().any(|number| number.saturated) {
+    );
+    if omega.saturated || alpha.saturated || torque.saturated {
         return Err("the press is not made for these numbers".into());
     }
-    let units = units.map(|number| number.value);
-
-    report(&counter, "f32", &single, [omega, alpha, torque]);
-    report(&counter, "Q31", &fixed, units);
+    report(
+        &counter,
+        "Q31",
+        &fixed,
+        omega.value,
+        alpha.value,
+        torque.value,
+    );
     Ok(())
 }
 

@@ -58,7 +58,7 @@ struct Axis<'a> {
     lead: Period<f32>,
     ramp: Ramp,
     press: FeedForward<'a, Spline<f32>, PRESS>,
-    gearbox: Transmission,
+    gearbox: Transmission<f32>,
     limits: TorqueLimits<f32>,
 }
 
@@ -73,7 +73,6 @@ struct Found {
 impl<'a> Axis<'a> {
     fn new(image: &Image<'a>) -> Result<Self, Failure> {
         let model: Model<'a, Spline<f32>, PRESS> = image.model()?;
-        let (domain, scale) = (image.domain(), image.scale());
         let wrong = |_| "a figure of the axis is wrong";
         Ok(Self {
             counter: Counter::at(START),
@@ -81,11 +80,11 @@ impl<'a> Axis<'a> {
             tracker: Tracker::with_bandwidth(60.0, TICK)
                 .map_err(wrong)?
                 .at(ENCODER.phase_wide(START)),
-            tick: Period::new(TICK, domain, scale).map_err(wrong)?,
-            lead: Period::new(LEAD, domain, scale).map_err(wrong)?,
-            ramp: Ramp::new(0.05, scale).map_err(wrong)?,
+            tick: Period::new(TICK, &model).map_err(wrong)?,
+            lead: Period::new(LEAD, &model).map_err(wrong)?,
+            ramp: Ramp::new(0.05, &model).map_err(wrong)?,
             press: FeedForward::new(model, image.validity()),
-            gearbox: Transmission::new::<f32>(GEARBOX, scale).map_err(wrong)?,
+            gearbox: Transmission::new(GEARBOX, &model).map_err(wrong)?,
             limits: TorqueLimits::new(-6.0, 6.0).map_err(wrong)?,
         })
     }

@@ -15,7 +15,7 @@ mod support;
 use jred::axis::{
     AxisError, Braking, Direction, Envelope, Governor, Limit, Limits, LookAhead, Motion, Period,
 };
-use jred::{Image, Model, Phase, Q31, Set, Spline, curves, include_image};
+use jred::{Image, Model, Phase, Q31, Set, Speed, Spline, curves, include_image};
 use support::{Failure, milli, println, program};
 
 /// The curves of the press, as `jred export` prints them.
@@ -60,11 +60,11 @@ fn name(by: Option<Limit>) -> &'static str {
 fn run() -> Result<(), Failure> {
     let image = Image::from_bytes(include_image!("data/press_q31.jred"))?;
     let press: Model<'_, Spline<Q31>, PRESS> = image.model()?;
-    let scale = *image.scale();
+    let scale = image.scale();
     let wrong = |_: AxisError| "a figure of the drive is wrong";
-    let tick = Period::new(TICK, image.domain(), &scale).map_err(wrong)?;
-    let envelope = Envelope::new(DRIVING, BRAKE, &scale).map_err(wrong)?;
-    let limits = Limits::new(envelope, 22.0, 1400.0, tick, &scale).map_err(wrong)?;
+    let tick = Period::new(TICK, &press).map_err(wrong)?;
+    let envelope = Envelope::new(DRIVING, BRAKE, &press).map_err(wrong)?;
+    let limits = Limits::new(envelope, 22.0, 1400.0, tick, &press).map_err(wrong)?;
     let braking = Braking {
         torque: BRAKE,
         deceleration: f32::INFINITY,
@@ -80,7 +80,7 @@ fn run() -> Result<(), Failure> {
     let mut promised = Phase::default();
     println!("tick     at     speed    torque  limited by       stops at");
     for k in 0..TICKS {
-        let commanded = if k < STOP { fast } else { Q31::default() };
+        let commanded = if k < STOP { fast } else { Speed::default() };
         let governed = governor.govern(&limits, &press, &motion, commanded);
         motion.alpha = governed.alpha;
         let torque = press.torque_with(motion.phase, motion.omega, motion.alpha, governed.sliding);

@@ -25,10 +25,10 @@ use jred::harmonic::{Coefficient, terms};
 use jred::image::{encode, identify, image_len};
 use jred::machine::motion::{Law, Move};
 use jred::number::{Bases, Sliding};
-use jred::table::{Format, Shape, Usage, words_len};
+use jred::table::{AccelerationOf, Format, Shape, SpeedOf, TorqueOf, Usage, words_len};
 use jred::{
     AnyModel, Cubic, Domain, Harmonic, Image, ImageError, Model, Outcome, Phase, Pieces, Q15, Q31,
-    Quadratic, Rows16, Scale, Set, Spline, Spline16, Table, include_image,
+    Quadratic, Rows16, Scale, Set, Speed, Spline, Spline16, Table, include_image,
 };
 #[cfg(feature = "micromath")]
 use jred::{SliderCrankForm, slider_crank};
@@ -113,25 +113,29 @@ fn every_tick<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
     let model = Image::model::<F, SET>(&image)?;
     let scale = Image::scale(&image);
     let phase = Domain::<f32>::phase(Image::domain(&image), black_box(1.0));
-    let omega: Outcome<F::Number> = Scale::omega(scale, black_box(10.0));
-    let alpha: Outcome<F::Number> = Scale::alpha(scale, black_box(50.0));
-    let limit: Outcome<F::Number> = Scale::to_torque(scale, black_box(100.0));
-    let [omega, alpha, limit] = [omega, alpha, limit].map(|given| given.value);
+    let omega: Outcome<SpeedOf<F>> = Scale::omega(scale, black_box(10.0));
+    let alpha: Outcome<AccelerationOf<F>> = Scale::alpha(scale, black_box(50.0));
+    let limit: Outcome<TorqueOf<F>> = Scale::to_torque(scale, black_box(100.0));
+    let (omega, alpha, limit) = (omega.value, alpha.value, limit.value);
     let torque = Model::torque(&model, phase, omega, alpha);
     let back = Model::acceleration(&model, phase, omega, limit);
     let range = Model::acceleration_range(&model, phase, omega, torque, limit);
     let (phases, omegas, alphas) = black_box(([phase; 3], [omega; 3], [alpha; 3]));
-    let mut torques = black_box([F::Number::default(); 3]);
+    let mut torques = black_box([TorqueOf::<F>::default(); 3]);
     let done = Model::torques(&model, &phases, &omegas, &alphas, &mut torques);
     let si = (
         Scale::torque_si(scale, torque),
         Scale::alpha_si(scale, back.value),
-        Scale::omega_si(scale, back.value),
+        Scale::omega_si(scale, omega),
     );
     black_box((si, range, done, torques));
 
     let half = Phase::from_bits(1 << 31);
-    if let Ok(pieces) = Pieces::new(black_box([(Phase::default(), model), (half, model)])) {
+    let domain = black_box(Domain::Turn);
+    if let Ok(pieces) = Pieces::new(
+        domain,
+        black_box([(Phase::default(), model), (half, model)]),
+    ) {
         black_box(Pieces::torque(&pieces, phase, omega, alpha));
         black_box(Pieces::acceleration(&pieces, phase, omega, torque));
         black_box(Pieces::acceleration_range(
@@ -148,11 +152,11 @@ fn every_tick<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
 fn every_format<F: Format>(bytes: &'static [u8]) -> Result<(), ImageError> {
     let image = Image::from_bytes(black_box(bytes))?;
     let any = Image::any_model::<F>(&image)?;
-    let (phase, [omega, alpha]) = black_box((Phase::default(), [F::Number::default(); 2]));
+    let (phase, omega, alpha) = black_box(<(Phase, SpeedOf<F>, AccelerationOf<F>)>::default());
     let torque = AnyModel::torque(&any, phase, omega, alpha);
     black_box(AnyModel::acceleration(&any, phase, omega, torque));
     black_box(AnyModel::acceleration_range(
-        &any, phase, omega, torque, alpha,
+        &any, phase, omega, torque, torque,
     ));
     let mut torques = black_box([torque; 3]);
     black_box(AnyModel::torques(
@@ -249,6 +253,12 @@ fn every_number() {
     }
     black_box(Q31::to_bits(Q31::from_bits(black_box(1))));
     black_box(Q15::to_bits(Q15::from_bits(black_box(1))));
+    // An acceleration and torques have the same functions, written by one macro.
+    let speeds = [1, 2].map(|bits| Speed::<Q31>::from_bits(black_box(bits)));
+    let sum = Speed::saturating_add(speeds[0], speeds[1]);
+    let difference = Speed::saturating_sub(sum, Speed::saturating_neg(speeds[0]));
+    black_box(Speed::<Q31>::to_bits(difference));
+    black_box(Speed::<Q15>::to_bits(Speed::<Q15>::from_bits(black_box(1))));
     let scale = black_box(Scale::SI);
     black_box((Scale::torque(&scale), Scale::speed(&scale)));
     black_box((Scale::inertia(&scale), Scale::acceleration(&scale)));

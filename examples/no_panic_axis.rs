@@ -11,7 +11,7 @@ use jred::axis::{
 };
 use jred::image::ImageCheck;
 use jred::number::Sliding;
-use jred::table::Format;
+use jred::table::{AccelerationOf, Format, SpeedOf, TorqueOf};
 use jred::{
     Domain, Image, ImageError, Model, Phase, Q31, Rows16, Set, Spline, curves, include_image,
 };
@@ -50,9 +50,9 @@ fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
     let model = Image::model::<F, SET>(&image)?;
     let feed_forward = FeedForward::new(model, Image::validity(&image));
     let model = FeedForward::model(&feed_forward);
-    let (phase, [omega, alpha]) = black_box((Phase::default(), [F::Number::default(); 2]));
+    let (phase, omega, alpha) = black_box(<(Phase, SpeedOf<F>, AccelerationOf<F>)>::default());
     let mut sliding = Sliding::Against(black_box(omega));
-    if let Ok(ramp) = Ramp::new(black_box(0.1), Image::scale(&image)) {
+    if let Ok(ramp) = Ramp::new(black_box(0.1), model) {
         sliding = Ramp::at(&ramp, omega);
     }
     let mut motion = Motion {
@@ -60,9 +60,7 @@ fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
         omega,
         alpha,
     };
-    let (domain, scale) = (Image::domain(&image), Image::scale(&image));
-    let time: Result<Period<F::Number>, _> = Period::new(black_box(1e-4), domain, scale);
-    if let Ok(time) = time {
+    if let Ok(time) = Period::new(black_box(1e-4), model) {
         let mut tracker = Tracker::new(black_box(0.9)).map(|tracker| Tracker::at(tracker, phase));
         if let Ok(tracker) = &mut tracker {
             black_box(Tracker::update_stroke(tracker, phase));
@@ -73,7 +71,7 @@ fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
         black_box(Tracker::with_bandwidth(black_box(50.0), black_box(1e-4)).is_ok());
         motion.phase = motion.phase + Period::moved(&time, omega);
         black_box((Period::gained(&time, alpha), Period::needed(&time, omega)));
-        black_box(Period::between(&time, phase, omega, alpha));
+        black_box(Period::between(&time, phase, omega, motion.omega));
         motion = Period::later(&time, motion).value;
     }
     let checked = FeedForward::at_reference(&feed_forward, motion, sliding);
@@ -96,43 +94,39 @@ fn every_axis<F: Format, const SET: Set>(bytes: &'static [u8]) -> Result<(), Ima
         efficiency: 0.9,
         rotor: 0.001,
     });
-    let mut torque = checked.torque;
-    if let Ok(gearbox) = Transmission::new::<F::Number>(gearbox, Image::scale(&image)) {
+    if let Ok(gearbox) = Transmission::new(gearbox, model) {
         black_box(Transmission::base(&gearbox));
-        torque = Transmission::motor(&gearbox, torque, omega, alpha).value;
+        let torque = Transmission::motor(&gearbox, checked.torque, omega, alpha).value;
+        black_box(Transmission::torque_si(&gearbox, torque));
+        let most = Transmission::to_torque(&gearbox, black_box(10.0)).value;
+        if let Ok(limits) = TorqueLimits::new(black_box(torque), black_box(most)) {
+            black_box(TorqueLimits::limited(&limits, torque));
+        }
     }
-    if let Ok(limits) = TorqueLimits::new(black_box(omega), black_box(alpha)) {
-        black_box(TorqueLimits::limited(&limits, torque));
-    }
-    every_limit(&image, model, motion);
+    every_limit(model, motion);
     Ok(())
 }
 
 /// What a drive can do, and what it can do ahead.
-fn every_limit<F: Format, const SET: Set>(
-    image: &Image<'_>,
-    model: &Model<'_, F, SET>,
-    motion: Motion<F::Number>,
-) {
-    let (domain, scale) = (Image::domain(image), Image::scale(image));
+fn every_limit<F: Format, const SET: Set>(model: &Model<'_, F, SET>, motion: Motion<F::Number>) {
     let points = black_box([[6.0, 80.0], [12.0, 20.0]]);
     let gearbox = black_box(Gearbox {
         ratio: 1.0,
         efficiency: 0.9,
         rotor: 0.0,
     });
-    let Ok(period) = Period::new(black_box(1e-3), domain, scale) else {
+    let Ok(period) = Period::new(black_box(1e-3), model) else {
         return;
     };
     for envelope in [
-        Envelope::new(points, black_box(60.0), scale),
-        Envelope::of_motor(points, black_box(60.0), gearbox, scale),
+        Envelope::new(points, black_box(60.0), model),
+        Envelope::of_motor(points, black_box(60.0), gearbox, model),
     ]
     .into_iter()
     .flatten()
     {
         black_box(Envelope::torques(&envelope, motion.omega));
-        let Ok(limits) = Limits::new(envelope, black_box(10.0), black_box(50.0), period, scale)
+        let Ok(limits) = Limits::new(envelope, black_box(10.0), black_box(50.0), period, model)
         else {
             continue;
         };
@@ -170,7 +164,7 @@ fn every_limit<F: Format, const SET: Set>(
         ));
     }
     let sliding = Sliding::Against(motion.omega);
-    let torques = black_box([motion.omega, motion.alpha]);
+    let torques = black_box([TorqueOf::<F>::default(); 2]);
     black_box(Model::acceleration_range_with(
         model,
         motion.phase,

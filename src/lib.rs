@@ -153,10 +153,12 @@ pub use machine::reduction::{Machine, Reduction};
 pub use number::phase::{Domain, Phase};
 pub use number::q15::Q15;
 pub use number::q31::Q31;
+pub use number::quantity::{Acceleration, MotorTorque, Speed, Torque};
 pub use number::scalar::Outcome;
 pub use number::scale::Scale;
 pub use tick::{
-    AccelerationRange, AnyModel, Contributions, Image, ImageError, Model, Pieces, Validity, duty,
+    AccelerationRange, AnyModel, Contributions, Image, ImageError, MachineUnits, Model, Pieces,
+    Validity, duty,
 };
 
 /// Tables: their formats, how words and curves are made, checked and read, for those who make or keep their own.
@@ -164,7 +166,8 @@ pub use tick::{
 /// On the way of the data between [`tabulate`] and [`Model`].
 pub mod table {
     pub use crate::curve::{
-        Constants, CurveValues, Format, MAX_CELLS, RowConstants, Shape, Usage, words_len,
+        AccelerationOf, Constants, CurveValues, Format, MAX_CELLS, RowConstants, Shape, SpeedOf,
+        TorqueOf, Usage, words_len,
     };
     pub use crate::number::spline::{
         CubicSpline, MIN_CELLS, control_points, fit_bounded, fit_periodic, fit_quadratic_bounded,
@@ -265,6 +268,15 @@ pub mod image {
 mod sealed {
     /// Keeps the number traits closed: their contracts are tested type by type.
     pub trait Sealed {}
+    /// What a log of the feature `defmt` takes.
+    #[cfg(feature = "defmt")]
+    pub trait Logged: defmt::Format {}
+    #[cfg(feature = "defmt")]
+    impl<T: defmt::Format> Logged for T {}
+    #[cfg(not(feature = "defmt"))]
+    pub trait Logged {}
+    #[cfg(not(feature = "defmt"))]
+    impl<T> Logged for T {}
     impl Sealed for f32 {}
     impl Sealed for f64 {}
     impl Sealed for crate::Q15 {}

@@ -4,25 +4,25 @@ use crate::support::budget::Q31_UNIT;
 use crate::support::exact::place_bits;
 use crate::support::machines::Wave;
 use crate::support::rows::{Fixed, Rows};
-use crate::support::{budget, config, number, samples, scale_of};
-use jred::{Cubic, Domain, Model, Outcome, Phase, Q31, Quadratic, Scale, Set, Spline, curves};
+use crate::support::{budget, config, quantity, samples, scale_of, value};
+use jred::{
+    Acceleration, Cubic, Domain, Model, Outcome, Phase, Q31, Quadratic, Scale, Set, Speed, Spline,
+    Torque, curves,
+};
 use proptest::prelude::*;
 
 const ALL: Set = curves::ALL;
-
-fn of(x: Q31) -> f64 {
-    f64::from(x.to_bits()) * Q31_UNIT
-}
 
 /// The drive torque in machine units, from the curves as the table reads them.
 fn torque<L: Fixed>(
     model: &Model<'_, L, ALL>,
     factor: f64,
     phase: Phase,
-    [omega, alpha]: [Q31; 2],
+    omega: Speed<Q31>,
+    alpha: Acceleration<Q31>,
 ) -> f64 {
     let read = model.table().at(phase);
-    let [omega, alpha] = [omega, alpha].map(of);
+    let (omega, alpha) = (value(omega), value(alpha));
     let sign = if omega == 0.0 { 0.0 } else { omega.signum() };
     let table = model.table();
     let slope = read.inertia_slope * f64::from(table.domain().span()) / f64::from(table.cells());
@@ -58,10 +58,13 @@ fn rounds_as_stated<L: Fixed>() {
         let rows = Rows::<L>::of(&wave, ALL, 32 * factor as u32, &scale).unwrap();
         let model = rows.model::<ALL>(&scale);
         for (bits, omega, alpha) in &states {
-            let state = [*omega, *alpha].map(Q31::from_bits);
+            let (omega, alpha) = (
+                Speed::<Q31>::from_bits(*omega),
+                Acceleration::<Q31>::from_bits(*alpha),
+            );
             let phase = Phase::from_bits(*bits);
-            let found = model.torque(phase, state[0], state[1]);
-            errors.push((of(found) - torque(&model, factor, phase, state)) / Q31_UNIT);
+            let found = model.torque(phase, omega, alpha);
+            errors.push((value(found) - torque(&model, factor, phase, omega, alpha)) / Q31_UNIT);
         }
     }
     let count = errors.len() as f64;
@@ -107,11 +110,13 @@ fn saturates_exactly<L: Fixed>() {
         for k in -40..40 {
             for omega in [sign, 0, -sign] {
                 let net = sign * (inertia + k);
-                let drive = Q31::from_bits(net + omega * friction);
-                let found = model.acceleration(Phase::default(), Q31::from_bits(omega), drive);
+                let drive = Torque::<Q31>::from_bits(net + omega * friction);
+                let omega = Speed::<Q31>::from_bits(omega);
+                let found = model.acceleration(Phase::default(), omega, drive);
                 assert_eq!(found.saturated, k >= 0, "T − J = {k}");
                 if k >= 0 {
-                    assert_eq!(found.value, if sign > 0 { Q31::MAX } else { Q31::MIN });
+                    let ends = [Acceleration::<Q31>::MIN, Acceleration::<Q31>::MAX];
+                    assert_eq!(found.value, ends[usize::from(sign > 0)]);
                 } else {
                     // Towards zero.
                     let exact = (i64::from(net) << 31) / i64::from(inertia);
@@ -121,15 +126,19 @@ fn saturates_exactly<L: Fixed>() {
         }
         // The net torque itself is up to 1 + c.
         let [end, other] = if sign > 0 {
-            [Q31::MAX, Q31::MIN]
+            [i32::MAX, i32::MIN]
         } else {
-            [Q31::MIN, Q31::MAX]
+            [i32::MIN, i32::MAX]
         };
-        let found = model.acceleration(Phase::default(), other, end);
+        let (omega, torque) = (
+            Speed::<Q31>::from_bits(other),
+            Torque::<Q31>::from_bits(end),
+        );
+        let found = model.acceleration(Phase::default(), omega, torque);
         assert_eq!(
             found,
             Outcome {
-                value: end,
+                value: Acceleration::<Q31>::from_bits(end),
                 saturated: true
             }
         );
@@ -146,7 +155,7 @@ fn saturation_is_flagged_exactly() {
 #[test]
 fn conversions_flag_what_does_not_fit() {
     let scale = scale_of(2.0, 10.0, 0.5);
-    let omega = |omega: f32| scale.omega::<Q31>(omega);
+    let omega = |omega: f32| scale.omega::<Speed<Q31>>(omega);
     assert_eq!(
         [9.999_999, -10.0, 0.0].map(|w| omega(w).saturated),
         [false; 3]
@@ -155,16 +164,24 @@ fn conversions_flag_what_does_not_fit() {
         [10.0, 11.0, -10.000_01, f32::NAN, f32::INFINITY].map(|w| omega(w).saturated),
         [true; 5]
     );
-    assert_eq!([10.0, -11.0].map(|w| omega(w).value), [Q31::MAX, Q31::MIN]);
-    assert_eq!(omega(5.0).value.to_bits(), 1 << 30);
-    assert_eq!(scale.alpha::<Q31>(-1.0).value.to_bits(), -(1 << 29)); // of T_b/J_b = 4
-    assert_eq!(scale.to_torque::<Q31>(0.5).value.to_bits(), 1 << 29);
     assert_eq!(
-        scale.torque_si(number::<Q31>(0.25)).to_bits(),
+        [10.0, -11.0].map(|w| omega(w).value),
+        [Speed::<Q31>::MAX, Speed::<Q31>::MIN]
+    );
+    assert_eq!(omega(5.0).value.to_bits(), 1 << 30);
+    assert_eq!(
+        scale.alpha::<Acceleration<Q31>>(-1.0).value.to_bits(),
+        -(1 << 29)
+    ); // of T_b/J_b = 4
+    assert_eq!(scale.to_torque::<Torque<Q31>>(0.5).value.to_bits(), 1 << 29);
+    assert_eq!(
+        scale.torque_si(quantity::<Torque<Q31>>(0.25)).to_bits(),
         0.5f32.to_bits()
     );
     assert_eq!(
-        scale.alpha_si(number::<Q31>(-0.25)).to_bits(),
+        scale
+            .alpha_si(quantity::<Acceleration<Q31>>(-0.25))
+            .to_bits(),
         (-1.0f32).to_bits()
     );
     assert_eq!(

@@ -3,9 +3,9 @@
 use crate::support::budget::Q31_UNIT;
 use crate::support::machines::{Wave, spec};
 use crate::support::rows::Rows;
-use crate::support::{assert_near, budget, largest, samples};
+use crate::support::{assert_near, budget, largest, samples, value};
 use jred::number::Number;
-use jred::table::{Format, MIN_CELLS, words_len};
+use jred::table::{AccelerationOf, Format, MIN_CELLS, SpeedOf, TorqueOf, words_len};
 use jred::tabulate::{CHECKS_PER_CELL, Request, Tabulated, measure, scratch_len, tabulate};
 use jred::{Cubic, Phase, Q31, Quadratic, Reducible, Scale, Set, Spline, Table, curves};
 use proptest::prelude::any;
@@ -46,27 +46,27 @@ fn ticks_keep_the_stated_error<F: Format>(seed: u64, rounding: f64) {
         for (bits, w, a) in &states {
             let phase = Phase::from_bits(*bits);
             let (omega, alpha) = (
-                scale.omega::<F::Number>((top_speed * w) as f32).value,
-                scale.alpha::<F::Number>((0.9 * top * a) as f32).value,
+                scale.omega::<SpeedOf<F>>((top_speed * w) as f32).value,
+                scale
+                    .alpha::<AccelerationOf<F>>((0.9 * top * a) as f32)
+                    .value,
             );
             let exact = machine.reduction(phase.radians()).unwrap();
             let terms = exact.torque(
-                omega.to_f64() * f64::from(scale.speed()),
-                alpha.to_f64() * f64::from(scale.acceleration()),
+                value(omega) * f64::from(scale.speed()),
+                value(alpha) * f64::from(scale.acceleration()),
             );
-            let torque = model.torque(phase, omega, alpha).to_f64();
+            let torque = value(model.torque(phase, omega, alpha));
             let error = torque - terms.total() / base;
             let size = largest(terms.values()) / base;
             let allowed = budget::DENSE_GRID * found.torque_error / base
                 + rounding
                 + budget::FACTOR_ROUNDING * size;
             assert_near("torque", torque, terms.total() / base, allowed);
-            let drive = scale.to_torque::<F::Number>(terms.total() as f32).value;
-            let expected = exact.acceleration(
-                omega.to_f64() * f64::from(scale.speed()),
-                drive.to_f64() * base,
-            );
-            let back = model.acceleration(phase, omega, drive).value.to_f64()
+            let drive = scale.to_torque::<TorqueOf<F>>(terms.total() as f32).value;
+            let expected =
+                exact.acceleration(value(omega) * f64::from(scale.speed()), value(drive) * base);
+            let back = value(model.acceleration(phase, omega, drive).value)
                 * f64::from(scale.acceleration());
             assert_near(
                 "acceleration",

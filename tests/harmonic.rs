@@ -117,7 +117,7 @@ proptest! {
 /// There and back, the torque against the terms of the reduction, and the range of accelerations.
 fn both_ways<T>(waves: &Waves, omega: f64, alpha: f64, phase: Phase, epsilon: f64)
 where
-    T: Circular + Number,
+    T: Circular + Number<Speed = T, Acceleration = T, Torque = T>,
     Harmonic<T>: Format<Number = T, Word = T, Constants = ()>,
 {
     let words: Vec<T> = words_of(waves)

@@ -3,7 +3,7 @@
 use crate::support::images::{VALIDITY, crc32, small, stroke, stroke_in};
 use crate::support::machines::{Spec, Wave, spec};
 use crate::support::rows::Rows;
-use crate::support::{config, number, samples, scale_of};
+use crate::support::{config, quantity, samples, scale_of};
 use jred::image::{HEADER_WORDS, VERSION, encode, identify, image_len};
 use jred::table::Format;
 use jred::tabulate::{Request, Tabulated};
@@ -77,14 +77,16 @@ fn same_bits<F: Format, const SET: Set>(spec: &Spec, bits: u32, state: [f64; 2])
     assert_eq!(after.table().words(), rows.words);
     assert_eq!(*after.table().constants(), rows.constants);
     assert_eq!(image.table::<F>().unwrap().set(), SET);
-    let (phase, [omega, alpha]) = (Phase::from_bits(bits), state.map(number));
+    let (phase, [omega, alpha]) = (Phase::from_bits(bits), state);
+    let (omega, torque) = (quantity(omega), quantity(alpha));
+    let alpha = quantity(alpha);
     assert_eq!(
         after.torque(phase, omega, alpha),
         before.torque(phase, omega, alpha)
     );
     assert_eq!(
-        after.acceleration(phase, omega, alpha),
-        before.acceleration(phase, omega, alpha)
+        after.acceleration(phase, omega, torque),
+        before.acceleration(phase, omega, torque)
     );
 }
 

@@ -1,11 +1,12 @@
 //! Images that are checked in slices, and slots that take an image in pieces: the verdicts and the bits of an image in flash.
 
 use crate::support::images::{VALIDITY, in_slices, sealed, small, stroke, stroke_in};
+use crate::support::value;
 use jred::axis::{FeedForward, ImageSlot};
 use jred::harmonic::terms;
 use jred::image::{HEADER_WORDS, ImageCheck, encode, image_len};
-use jred::number::{Number, Sliding};
-use jred::table::{Format, Shape};
+use jred::number::{Quantity, Sliding};
+use jred::table::{Format, Shape, SpeedOf};
 use jred::{
     Cubic, Harmonic, Image, ImageError, Phase, Q31, Quadratic, Rows16, Set, Spline, Spline16,
     Table, TableError, curves,
@@ -103,7 +104,7 @@ fn torques<F: Format, const SET: Set>(found: &FeedForward<'_, F, SET>) -> Vec<(f
         let model = found.model();
         let torque = model.torque_with(phase, omega, alpha, Sliding::Against(omega));
         let back = model.acceleration(phase, omega, torque).value;
-        (torque.to_f64(), back.to_f64())
+        (value(torque), value(back))
     };
     (0..100).map(at).collect()
 }
@@ -127,9 +128,10 @@ fn ticks_alike<F: Format, const SET: Set>(image: &[u32]) {
         assert_eq!(moved.validity(), Some(VALIDITY));
         // The images are for 10 rad/s, and the base is 11 at least.
         for (speed, beyond) in [(9.0, false), (10.5, true)] {
-            let omega = whole.model().table().scale().omega(speed).value;
-            let status = moved.feed_forward().unwrap().status(omega, omega);
-            assert_eq!(status, whole.status(omega, omega));
+            let omega: SpeedOf<F> = whole.model().table().scale().omega(speed).value;
+            let alpha = Quantity::of(omega.number());
+            let status = moved.feed_forward().unwrap().status(omega, alpha);
+            assert_eq!(status, whole.status(omega, alpha));
             assert_eq!(status.speed_beyond, beyond);
         }
     }

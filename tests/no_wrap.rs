@@ -5,7 +5,8 @@ use crate::support::scale_of;
 use jred::number::RangeError;
 use jred::tabulate::{Request, tabulate};
 use jred::{
-    Cubic, Domain, Error, Phase, Q31, Reducible, Reduction, Scale, Set, Spline, TableError, curves,
+    Acceleration, Cubic, Domain, Error, Phase, Q31, Reducible, Reduction, Scale, Set, Speed,
+    Spline, TableError, Torque, curves,
 };
 
 const SPAN: f32 = core::f32::consts::TAU;
@@ -41,7 +42,11 @@ fn roundings_of_the_slope_are_in_the_proof() {
             };
             accepted += 1;
             for bits in (0..1 << 14).map(|k: u32| k << 18 | 0xffff) {
-                let torque = model.torque(Phase::from_bits(bits), Q31::MAX, Q31::default());
+                let torque = model.torque(
+                    Phase::from_bits(bits),
+                    Speed::<Q31>::MAX,
+                    Acceleration::default(),
+                );
                 let falling = bits < 1 << 31;
                 assert_eq!(
                     torque.to_bits() < 0,
@@ -82,10 +87,10 @@ fn a_reciprocal_is_looked_at_everywhere() {
         let words: Vec<i32> = row.iter().copied().cycle().take(32).collect();
         let rows = Rows::<Cubic<Q31>>::plain(words, SET, 4, Domain::Turn);
         rows.try_model::<SET>(&scale(1.0)).map(|model| {
-            let torque = Q31::from_bits(1 << 28);
+            let torque = Torque::<Q31>::from_bits(1 << 28);
             let alphas = (0..64u32).map(|k| {
                 let phase = Phase::from_bits(k << 24 | 0xffff);
-                model.acceleration(phase, Q31::default(), torque).value
+                model.acceleration(phase, Speed::default(), torque).value
             });
             alphas
                 .map(|alpha| f64::from(alpha.to_bits()))

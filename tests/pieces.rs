@@ -4,7 +4,7 @@ use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
 use crate::support::rows::Rows;
-use crate::support::{assert_near, budget, largest, link_of, number};
+use crate::support::{assert_near, budget, largest, link_of, quantity, value};
 use jred::machine::motion::Law;
 use jred::mechanism::cam::{Program, Segment};
 use jred::mechanism::{Branch, DiscCam, Follower, Roller, RollerDimensions, SliderCrank};
@@ -176,23 +176,21 @@ fn reaches<F: Format, const N: usize>(machine: &impl Reducible, breaks: [f64; N]
     let asked = share * size;
     let rows = pieces_of::<F>(machine, &breaks, asked);
     let models: Vec<_> = rows.iter().map(|r| r.model::<SET>(&Scale::SI)).collect();
-    let turn: Pieces<'_, F, SET, N> = Pieces::new(std::array::from_fn(|k| {
-        (Phase::from_radians(breaks[k]), models[k])
-    }))
-    .unwrap();
+    let models = std::array::from_fn(|k| (Phase::from_radians(breaks[k]), models[k]));
+    let turn: Pieces<'_, F, SET, N> = Pieces::new(Domain::Turn, models).unwrap();
     let mut most = 0.0f64;
     for phase in places(1 << 16).chain(beside(&breaks)) {
         for sign in [1.0, -1.0] {
-            let [omega, alpha] = AT.map(|x| number::<F::Number>(sign * x));
+            let (omega, alpha) = (quantity(sign * AT[0]), quantity(sign * AT[1]));
             let expected = exact(machine, phase, sign);
             let torque = turn.torque(phase, omega, alpha);
-            most = most.max((torque.to_f64() - expected).abs());
+            most = most.max((value(torque) - expected).abs());
             // Both ways, and the range, are those of the model that the torque came from.
             let back = turn.acceleration(phase, omega, torque);
             let range = turn.acceleration_range(phase, omega, torque, torque);
             assert_near(
                 "back",
-                back.value.to_f64(),
+                value(back.value),
                 sign * AT[1],
                 budget::PIECES_BACK * AT[1],
             );
@@ -292,19 +290,25 @@ fn fixed_agrees<F: Format<Number = Q31>, E: Format<Number = f64>>() {
         .map(|k| Rows::<E>::of(&parts[k], SET, cells[k], &scale).unwrap())
         .collect();
     let start = |k: usize| Phase::from_radians(breaks[k]);
-    let fixed: Pieces<'_, F, SET, 3> =
-        Pieces::new(std::array::from_fn(|k| (start(k), fixed[k].model(&scale)))).unwrap();
-    let float: Pieces<'_, E, SET, 3> =
-        Pieces::new(std::array::from_fn(|k| (start(k), float[k].model(&scale)))).unwrap();
+    let fixed: Pieces<'_, F, SET, 3> = Pieces::new(
+        Domain::Turn,
+        std::array::from_fn(|k| (start(k), fixed[k].model(&scale))),
+    )
+    .unwrap();
+    let float: Pieces<'_, E, SET, 3> = Pieces::new(
+        Domain::Turn,
+        std::array::from_fn(|k| (start(k), float[k].model(&scale))),
+    )
+    .unwrap();
     let mut most = 0.0f64;
     for phase in places(1 << 14).chain(beside(&breaks)) {
         for sign in [1.0, -1.0] {
-            let omega = scale.omega::<Q31>((sign * AT[0]) as f32);
-            let alpha = scale.alpha::<Q31>((sign * AT[1]) as f32);
+            let omega = scale.omega((sign * AT[0]) as f32);
+            let alpha = scale.alpha((sign * AT[1]) as f32);
             assert!(!omega.saturated && !alpha.saturated);
             let torque = fixed.torque(phase, omega.value, alpha.value);
-            let expected = float.torque(phase, omega.value.to_f64(), alpha.value.to_f64());
-            most = most.max((torque.to_f64() - expected).abs());
+            let expected = float.torque(phase, value(omega.value), value(alpha.value));
+            most = most.max((value(torque) - expected).abs());
             let back = fixed.acceleration(phase, omega.value, torque);
             assert!(!back.saturated);
         }

@@ -41,13 +41,13 @@ fn maps<const N: usize>(starts: [u32; N], phases: impl Iterator<Item = u32>) {
             Rows::<Spline<f64>>::of(&ruler, SET, 4, &Scale::SI).unwrap()
         })
         .collect();
-    let turn: Pieces<'_, Spline<f64>, SET, N> = Pieces::new(std::array::from_fn(|k| {
-        (
-            Phase::from_bits(starts[k]),
-            rows[k].model::<SET>(&Scale::SI),
-        )
-    }))
-    .unwrap();
+    let models = std::array::from_fn(|k| {
+        let model = rows[k].model::<SET>(&Scale::SI);
+        (Phase::from_bits(starts[k]), model)
+    });
+    // The ruler is as long as a stroke of 1.
+    let domain = Domain::stroke(0.0, 1.0).unwrap();
+    let turn: Pieces<'_, Spline<f64>, SET, N> = Pieces::new(domain, models).unwrap();
     let ends = starts
         .iter()
         .flat_map(|s| [s.wrapping_sub(1), *s, s.wrapping_add(1)]);
@@ -131,9 +131,8 @@ fn pieces_that_do_not_belong_together() {
     let quarters = [0.0, 0.25, 0.5, 0.75].map(|k| part(k * TAU, 0.25 * TAU));
     let models = quarters.each_ref().map(|rows| rows.model::<0>(&Scale::SI));
     let pieces = |starts: [u32; 4]| {
-        Pieces::<_, 0, 4>::new(std::array::from_fn(|k| {
-            (Phase::from_bits(starts[k]), models[k])
-        }))
+        let models = std::array::from_fn(|k| (Phase::from_bits(starts[k]), models[k]));
+        Pieces::<_, 0, 4>::new(Domain::Turn, models)
     };
     let right = [0, QUARTER, 2 * QUARTER, 3 * QUARTER];
     assert!(pieces(right).is_ok());
@@ -161,19 +160,29 @@ fn pieces_that_do_not_belong_together() {
     // One in other units.
     let halves = [part(0.0, 0.5 * TAU), part(0.5 * TAU, 0.5 * TAU)];
     let doubled = scale_of(1.0, 2.0, 1.0);
-    let pieces = Pieces::new([
-        (Phase::from_bits(0), halves[0].model::<0>(&Scale::SI)),
-        (Phase::from_bits(1 << 31), halves[1].model::<0>(&doubled)),
-    ]);
-    let error = pieces.unwrap_err();
+    let together = |domain, scale| {
+        let models = [
+            (Phase::from_bits(0), halves[0].model::<0>(&Scale::SI)),
+            (Phase::from_bits(1 << 31), halves[1].model::<0>(scale)),
+        ];
+        Pieces::new(domain, models)
+    };
+    let error = together(Domain::Turn, &doubled).unwrap_err();
     assert_eq!(error, TableError::PieceUnits);
     assert!(
         error.cure().to_string().contains("same machine units"),
         "{error}"
     );
+    // Of another range than the whole.
+    assert!(together(Domain::Turn, &Scale::SI).is_ok());
+    let shorter = Domain::stroke(0.0, 6.0).unwrap();
+    assert_eq!(
+        together(shorter, &Scale::SI).unwrap_err(),
+        TableError::PieceUnits
+    );
     let none: [(Phase, jred::Model<'_, Spline<f64>, 0>); 0] = [];
     assert_eq!(
-        Pieces::<_, 0, 0>::new(none).unwrap_err(),
+        Pieces::<_, 0, 0>::new(Domain::Turn, none).unwrap_err(),
         TableError::Pieces
     );
 }

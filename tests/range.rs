@@ -8,7 +8,10 @@ use crate::support::machines::Wave;
 use crate::support::rows::{Fixed, Rows};
 use crate::support::{config, scale_of};
 use jred::table::Format;
-use jred::{Cubic, Domain, Phase, Q31, Quadratic, Scale, Set, Spline, TableError, curves};
+use jred::{
+    Acceleration, Cubic, Domain, Phase, Q31, Quadratic, Scale, Set, Speed, Spline, TableError,
+    curves,
+};
 use proptest::prelude::*;
 
 const ALL: Set = curves::ALL;
@@ -213,7 +216,9 @@ fn a_slope_whose_rounding_leaves_the_range_is_refused() {
     let mut least = i32::MAX;
     for k in 0..4096 {
         let phase = Phase::from_bits(k << 20);
-        let torque = model.torque(phase, Q31::MIN, Q31::from_bits(0)).to_bits();
+        let torque = model
+            .torque(phase, Speed::<Q31>::MIN, Acceleration::default())
+            .to_bits();
         assert!(torque < 0, "{k}: {torque}");
         least = least.min(torque);
     }
@@ -269,7 +274,11 @@ fn never_wraps<L: Fixed>(
         let exact = read.inertia * a + f64::from(factor) * read.inertia_slope * w * w - read.load
             + read.viscous * w
             + read.coulomb * sign;
-        let torque = model.torque(phase, Q31::from_bits(omega), Q31::from_bits(alpha));
+        let (speed, acceleration) = (
+            Speed::<Q31>::from_bits(omega),
+            Acceleration::<Q31>::from_bits(alpha),
+        );
+        let torque = model.torque(phase, speed, acceleration);
         // Each curve as read, and the tick; the slope's floors count `factor` times.
         let slope = if L::NAME == "spline" { 4.25 } else { 2.0 * 3.5 };
         let floors = 12.0 + 4.0 * 2.0 * 4.0 + slope * f64::from(factor);
@@ -313,8 +322,12 @@ fn a_model_may_use_the_range_up_to_its_end() {
     };
     let rows = Rows::<Spline<Q31>>::of(&machine, ALL, CELLS, &scale).unwrap();
     let model = rows.model::<ALL>(&scale);
-    for (end, expected) in [(Q31::MAX, 0.999_98), (Q31::MIN, -0.999_98)] {
-        let found = f64::from(model.torque(Phase::default(), end, end).to_bits()) * Q31_UNIT;
+    for (end, expected) in [(i32::MAX, 0.999_98), (i32::MIN, -0.999_98)] {
+        let (omega, alpha) = (
+            Speed::<Q31>::from_bits(end),
+            Acceleration::<Q31>::from_bits(end),
+        );
+        let found = f64::from(model.torque(Phase::default(), omega, alpha).to_bits()) * Q31_UNIT;
         let units = budget::Q31_TICK_UNITS + budget::Q31_POINTS_UNITS;
         crate::support::assert_near("T", found, expected, units * Q31_UNIT);
     }

@@ -5,16 +5,15 @@ use std::f64::consts::TAU;
 use crate::support::budget::{self, Q31_UNIT};
 use crate::support::machines::{Spec, Wave, spec};
 use crate::support::rows::{Fixed, Meaning as _, Plain, Rows};
-use crate::support::{assert_near, config, largest, rk4, scale_of};
+use crate::support::{assert_near, config, largest, rk4, scale_of, value};
 use jred::number::Role;
-use jred::{Cubic, Model, Phase, Q31, Quadratic, Scale, Set, Spline, TableError, curves};
+use jred::{
+    Acceleration, Cubic, Model, Phase, Q31, Quadratic, Scale, Set, Speed, Spline, TableError,
+    Torque, curves,
+};
 use proptest::prelude::*;
 
 const SET: Set = curves::ALL | curves::RECIPROCAL;
-
-fn of(x: Q31) -> f64 {
-    f64::from(x.to_bits()) * Q31_UNIT
-}
 
 /// J_m: the power of two that J times its reciprocal's curve is.
 fn unit<L: Fixed>(rows: &Rows<L>) -> f64 {
@@ -38,8 +37,8 @@ fn there_and_back<L: Fixed>(
     let Ok(model) = rows.try_model::<SET>(&scale) else {
         return; // too few cells for 1/J: `too_few_cells_are_refused`
     };
-    let omega = scale.omega::<Q31>((60.0 * omega) as f32).value;
-    let [alpha, other] = [alpha, other].map(|a| scale.alpha::<Q31>((900.0 * a) as f32).value);
+    let omega = scale.omega((60.0 * omega) as f32).value;
+    let [alpha, other] = [alpha, other].map(|a| scale.alpha((900.0 * a) as f32).value);
     let torque = model.torque(phase, omega, alpha);
     let back = model.acceleration(phase, omega, torque);
     assert!(!back.saturated, "{back:?}");
@@ -53,8 +52,8 @@ fn there_and_back<L: Fixed>(
     };
     // J·α lost up to a unit of Q29; the quotient and the step each up to one of Q28 times J_m; the step's factor has 29 bits.
     let units = 4.0 / read.inertia + budget::RECIPROCAL_UNITS / unit;
-    let budget = units * Q31_UNIT + left.abs() * of(alpha).abs();
-    assert_near("α", of(back.value), of(alpha), budget);
+    let budget = units * Q31_UNIT + left.abs() * value(alpha).abs();
+    assert_near("α", value(back.value), value(alpha), budget);
     // What the model says of itself is about the same everywhere in the table.
     let stated = f64::from(model.table().reciprocal_error());
     assert!(
@@ -98,14 +97,14 @@ fn inconsistency<L: Fixed>(cells: u32) -> [f64; 2] {
     let scale = scale.for_cells(cells, TAU);
     let rows = Rows::<L>::of(&wave(), SET, cells, &scale).unwrap();
     let model = rows.model::<SET>(&scale);
-    let alpha = scale.alpha::<Q31>(1.8).value;
+    let alpha = scale.alpha(1.8).value;
     let places = 64 * cells;
     let found = largest((0..places).map(|k| {
         let phase = Phase::from_bits(((u64::from(2 * k + 1) << 31) / u64::from(places)) as u32);
-        let torque = model.torque(phase, Q31::default(), alpha);
-        let back = model.acceleration(phase, Q31::default(), torque);
+        let torque = model.torque(phase, Speed::default(), alpha);
+        let back = model.acceleration(phase, Speed::default(), torque);
         assert!(!back.saturated);
-        of(back.value) / of(alpha) - 1.0
+        value(back.value) / value(alpha) - 1.0
     }));
     [found, f64::from(model.table().reciprocal_error())]
 }
@@ -155,14 +154,18 @@ fn saturates<L: Fixed>() {
     let at = |omega: i32, torque: i32| {
         model.acceleration(
             Phase::default(),
-            Q31::from_bits(omega),
-            Q31::from_bits(torque),
+            Speed::<Q31>::from_bits(omega),
+            Torque::<Q31>::from_bits(torque),
         )
     };
     // One unit of T is 1/J of α; J_m is ¼.
     let edge = (budget::RECIPROCAL_UNITS * 4.0 * 0.5) as i32 + 4;
     for sign in [1, -1] {
-        let end = if sign > 0 { Q31::MAX } else { Q31::MIN };
+        let end = if sign > 0 {
+            Acceleration::<Q31>::MAX
+        } else {
+            Acceleration::<Q31>::MIN
+        };
         for k in -400..400 {
             let found = at(sign, sign * (inertia + k + friction));
             if k.abs() > edge {
@@ -174,7 +177,7 @@ fn saturates<L: Fixed>() {
                 let exact = f64::from(sign) * f64::from(inertia + k) / f64::from(inertia);
                 assert_near(
                     "α",
-                    of(found.value),
+                    value(found.value),
                     exact,
                     2.0 * f64::from(edge) * Q31_UNIT,
                 );
@@ -208,10 +211,10 @@ fn energy_drift<const S: Set, L: Fixed>(spec: &Spec) -> f64 {
     let exact = |x: f64| rows.exact(phase(x), !0);
     let width = TAU / f64::from(STEPS);
     let slope = |x: f64, w: f64| {
-        let omega = crate::support::number::<Q31>(w / speed);
-        let found = model.acceleration(phase(x), omega, Q31::default());
+        let omega = crate::support::quantity(w / speed);
+        let found = model.acceleration(phase(x), omega, Torque::default());
         assert!(!found.saturated);
-        of(found.value) * torque / inertia / w * width
+        value(found.value) * torque / inertia / w * width
     };
     let energy = |x: f64, w: f64, u: f64| 0.5 * exact(x).inertia * inertia * w * w + u;
     let (mut w, mut u) = (60.0, 0.0);

@@ -9,6 +9,7 @@ mod refused;
 mod tick;
 
 use crate::support::rows::Rows;
+use jred::number::Quantity;
 use jred::table::CurveValues;
 use jred::{Model, Q15, Rows16, Scale, Set, Table, curves};
 
@@ -49,10 +50,10 @@ fn read_at(table: &Table<'_, Rows16>, phase: jred::Phase) -> [f64; 6] {
 }
 
 /// Units of 2⁻¹⁵.
-fn units(number: Q15) -> f64 {
-    f64::from(number.to_bits())
+fn units(quantity: impl Quantity<Number = Q15>) -> f64 {
+    f64::from(quantity.number().to_bits())
 }
 
-fn q15(bits: i16) -> Q15 {
-    Q15::from_bits(bits)
+fn q15<Q: Quantity<Number = Q15>>(bits: i16) -> Q {
+    Q::of(Q15::from_bits(bits))
 }

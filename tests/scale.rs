@@ -5,7 +5,9 @@ use std::f64::consts::TAU;
 use crate::support::machines::{Wave, spec};
 use crate::support::rows::{Fixed, Rows};
 use crate::support::{assert_near, budget, config, largest, scale_of};
-use jred::{Cubic, Outcome, Phase, Q31, Quadratic, Reducible, Scale, Set, Spline, curves};
+use jred::{
+    Acceleration, Cubic, Outcome, Phase, Q31, Quadratic, Reducible, Scale, Set, Spline, curves,
+};
 use proptest::prelude::*;
 
 const ALL: Set = curves::ALL;
@@ -83,10 +85,7 @@ fn covers<L: Fixed>(
     let model = rows.try_model::<ALL>(&scale);
     let model = model.expect("the scale covers all terms together");
     for [omega, alpha] in states {
-        let (speed, accel) = (
-            scale.omega::<Q31>(*omega as f32),
-            scale.alpha::<Q31>(*alpha as f32),
-        );
+        let (speed, accel) = (scale.omega(*omega as f32), scale.alpha(*alpha as f32));
         prop_assert!(!speed.saturated && !accel.saturated);
         let torque = model.torque(Phase::from_bits(bits), speed.value, accel.value);
         let back = model.acceleration(Phase::from_bits(bits), speed.value, torque);
@@ -122,10 +121,10 @@ fn covering_scale_covers_forward_dynamics() {
         let scale = scale.for_cells(64, TAU);
         let rows = Rows::<Spline<Q31>>::of(&machine, ALL, 64, &scale).unwrap();
         let model = rows.model::<ALL>(&scale);
-        let torque = scale.to_torque::<Q31>(drive).value;
+        let torque = scale.to_torque(drive).value;
         let states = (0..64u32).flat_map(|k| [-10.0, 0.0, 10.0].map(|speed| (k << 26, speed)));
         let limited = states.filter(|(bits, speed)| {
-            let omega = scale.omega::<Q31>(*speed).value;
+            let omega = scale.omega(*speed).value;
             let found = model.acceleration(Phase::from_bits(*bits), omega, torque);
             let exact = machine
                 .reduction(Phase::from_bits(*bits).radians())
@@ -154,9 +153,9 @@ fn a_slow_machine_has_a_model() {
     let scale = slow.for_cells(64, TAU);
     let rows = Rows::<Spline<Q31>>::of(&machine, curves::INERTIA, 64, &scale).unwrap();
     let model = rows.model::<{ curves::INERTIA }>(&scale);
-    let omega = scale.omega::<Q31>(0.1).value;
+    let omega = scale.omega(0.1).value;
     let phase = Phase::from_radians(1.0);
-    let torque = scale.torque_si(model.torque(phase, omega, Q31::default()));
+    let torque = scale.torque_si(model.torque(phase, omega, Acceleration::default()));
     let exact = -0.125 * 0.01 * 1f64.sin();
     println!("{scale:?}: {torque:e} N·m, exact {exact:e}");
     let unit = f64::from(scale.torque()) * budget::Q31_UNIT;

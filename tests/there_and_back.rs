@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 
 use crate::support::machines::{Spec, spec};
 use crate::support::rows::Rows;
-use crate::support::{assert_near, budget, config};
+use crate::support::{assert_near, budget, config, quantity, value};
 use jred::number::Number;
-use jred::table::Format;
+use jred::table::{Format, TorqueOf};
 use jred::{Cubic, Phase, Q31, Quadratic, Scale, Set, Spline, curves};
 use proptest::prelude::*;
 
@@ -28,18 +28,17 @@ fn there_and_back<F: Format>(
     let rows = Rows::<F>::of(&machine, ALL, CELLS, &scale).unwrap();
     let model = rows.model::<ALL>(&scale);
     let (base, acceleration) = (f64::from(scale.speed()), f64::from(scale.acceleration()));
-    let omega = F::Number::from_f64(omega * 60.0 / base).unwrap();
-    let [alpha, other] =
-        [alpha, other].map(|a| F::Number::from_f64(a * 900.0 / acceleration).unwrap());
+    let omega = quantity(omega * 60.0 / base);
+    let [alpha, other] = [alpha, other].map(|a| quantity(a * 900.0 / acceleration));
     let torque = model.torque(phase, omega, alpha);
     let back = model.acceleration(phase, omega, torque);
     assert!(!back.saturated, "{back:?}");
     let inertia = model.table().at(phase).inertia;
-    let budget = bound(inertia * alpha.to_f64(), inertia);
+    let budget = bound(inertia * value(alpha), inertia);
     assert_near(
         <F::Number as Number>::NAME,
-        back.value.to_f64(),
-        alpha.to_f64(),
+        value(back.value),
+        value(alpha),
         budget,
     );
     // Both at once are each by itself.
@@ -47,9 +46,9 @@ fn there_and_back<F: Format>(
     let range = model.acceleration_range(phase, omega, least, torque);
     assert_eq!(range.greatest, back);
     assert_eq!(range.least, model.acceleration(phase, omega, least));
-    let mut many = [F::Number::default(); 3];
+    let mut many = [TorqueOf::<F>::default(); 3];
     let done = model.torques(&[phase; 2], &[omega; 3], &[alpha, other], &mut many);
-    assert_eq!((done, many), (2, [torque, least, F::Number::default()]));
+    assert_eq!((done, many), (2, [torque, least, TorqueOf::<F>::default()]));
 }
 
 fn float(epsilon: f64) -> impl Fn(f64, f64) -> f64 {

@@ -4,10 +4,9 @@ use jred::mechanism::SliderCrankDimensions;
 use std::f64::consts::TAU;
 
 use crate::support::rows::Rows;
-use crate::support::{assert_near, budget, config, largest, link_of, scale_of};
+use crate::support::{assert_near, budget, config, largest, link_of, quantity, scale_of, value};
 use jred::machine::{Action, Load};
 use jred::mechanism::{Branch, SliderCrank};
-use jred::number::Number;
 use jred::table::Format;
 use jred::tabulate::curves_in_use;
 use jred::{
@@ -211,14 +210,14 @@ fn constants_are_curves<F: Format>(units: f64) {
         assert_near("b", b.viscous, a.viscous, units);
         assert_near("c", b.coulomb, a.coulomb, units);
         for omega in [-0.8, 0.0, 0.8] {
-            let [omega, alpha] = [omega, 0.1].map(crate::support::number::<F::Number>);
+            let (omega, alpha) = (quantity(omega), quantity(0.1));
             let [a, b] = [
                 model_a.torque(phase, omega, alpha),
                 model_b.torque(phase, omega, alpha),
             ];
-            assert_near("T", b.to_f64(), a.to_f64(), 2.0 * units);
-            let back = model_b.acceleration(phase, omega, b).value.to_f64();
-            assert_near("α", back, alpha.to_f64(), 2.0 * units / 0.15);
+            assert_near("T", value(b), value(a), 2.0 * units);
+            let back = value(model_b.acceleration(phase, omega, b).value);
+            assert_near("α", back, value(alpha), 2.0 * units / 0.15);
         }
     }
 }

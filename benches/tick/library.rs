@@ -4,7 +4,7 @@
 
 use core::hint::black_box;
 
-use jred::number::Number;
+use jred::number::{Number, Quantity};
 use jred::table::Format;
 use jred::{
     Cubic, Image, Model, Phase, Q15, Q31, Quadratic, Rows16, Set, SliderCrankForm, Spline,
@@ -44,20 +44,25 @@ macro_rules! kernels {
 }
 
 kernels! {
-    jred_f32_torque: f32, Cubic<f32>, FULL, |m, p, w, a| m.torque(p, w, a);
-    jred_f32_acceleration: f32, Cubic<f32>, BARE, |m, p, w, t| m.acceleration(p, w, t).value;
-    jred_f32_spline_torque: f32, Spline<f32>, FULL, |m, p, w, a| m.torque(p, w, a);
-    jred_f32_spline_acceleration: f32, Spline<f32>, BARE, |m, p, w, t| m.acceleration(p, w, t).value;
-    jred_f32_slider_crank_torque: f32, SliderCrankForm, FULL, |m, p, w, a| m.torque(p, w, a);
-    jred_f32_slider_crank_acceleration: f32, SliderCrankForm, BARE, |m, p, w, t| m.acceleration(p, w, t).value;
-    jred_q31_torque: Q31, Cubic<Q31>, FULL, |m, p, w, a| m.torque(p, w, a);
-    jred_q31_acceleration: Q31, Cubic<Q31>, SEED, |m, p, w, t| m.acceleration(p, w, t).value;
-    jred_q31_quadratic_torque: Q31, Quadratic<Q31>, FULL, |m, p, w, a| m.torque(p, w, a);
-    jred_q31_spline16_torque: Q31, Spline16, FULL, |m, p, w, a| m.torque(p, w, a);
-    jred_q31_spline16_acceleration: Q31, Spline16, SEED, |m, p, w, t| m.acceleration(p, w, t).value;
-    jred_q31_quadratic_acceleration: Q31, Quadratic<Q31>, SEED, |m, p, w, t| m.acceleration(p, w, t).value;
-    jred_q15_torque: Q15, Rows16, FULL, |m, p, w, a| m.torque(p, w, a);
-    jred_q15_acceleration: Q15, Rows16, SEED, |m, p, w, t| m.acceleration(p, w, t).value;
+    jred_f32_torque: f32, Cubic<f32>, FULL, |m, p, w, a| m.torque(p, of(w), of(a)).number();
+    jred_f32_acceleration: f32, Cubic<f32>, BARE, |m, p, w, t| m.acceleration(p, of(w), of(t)).value.number();
+    jred_f32_spline_torque: f32, Spline<f32>, FULL, |m, p, w, a| m.torque(p, of(w), of(a)).number();
+    jred_f32_spline_acceleration: f32, Spline<f32>, BARE, |m, p, w, t| m.acceleration(p, of(w), of(t)).value.number();
+    jred_f32_slider_crank_torque: f32, SliderCrankForm, FULL, |m, p, w, a| m.torque(p, of(w), of(a)).number();
+    jred_f32_slider_crank_acceleration: f32, SliderCrankForm, BARE, |m, p, w, t| m.acceleration(p, of(w), of(t)).value.number();
+    jred_q31_torque: Q31, Cubic<Q31>, FULL, |m, p, w, a| m.torque(p, of(w), of(a)).number();
+    jred_q31_acceleration: Q31, Cubic<Q31>, SEED, |m, p, w, t| m.acceleration(p, of(w), of(t)).value.number();
+    jred_q31_quadratic_torque: Q31, Quadratic<Q31>, FULL, |m, p, w, a| m.torque(p, of(w), of(a)).number();
+    jred_q31_spline16_torque: Q31, Spline16, FULL, |m, p, w, a| m.torque(p, of(w), of(a)).number();
+    jred_q31_spline16_acceleration: Q31, Spline16, SEED, |m, p, w, t| m.acceleration(p, of(w), of(t)).value.number();
+    jred_q31_quadratic_acceleration: Q31, Quadratic<Q31>, SEED, |m, p, w, t| m.acceleration(p, of(w), of(t)).value.number();
+    jred_q15_torque: Q15, Rows16, FULL, |m, p, w, a| m.torque(p, of(w), of(a)).number();
+    jred_q15_acceleration: Q15, Rows16, SEED, |m, p, w, t| m.acceleration(p, of(w), of(t)).value.number();
+}
+
+/// A speed, an acceleration or a torque.
+fn of<Q: Quantity>(number: Q::Number) -> Q {
+    Q::of(number)
 }
 
 /// Calls a kernel over the model that the image holds.

@@ -1,6 +1,6 @@
 //! Numbers of a tick as C has them, and SI units.
 
-use jred::number::Number;
+use jred::number::{Number, Quantity};
 use jred::{Q15, Q31};
 
 use crate::status::Status;
@@ -51,6 +51,18 @@ impl CNumber for Q15 {
     fn c(self) -> i16 {
         self.to_bits()
     }
+}
+
+/// A speed, an acceleration or a torque of the number that C has for it: C knows them by the names of parameters alone.
+#[inline]
+pub(crate) fn of<Q: Quantity<Number: CNumber>>(c: <Q::Number as CNumber>::C) -> Q {
+    Q::of(CNumber::number(c))
+}
+
+/// And back.
+#[inline]
+pub(crate) fn to_c<Q: Quantity<Number: CNumber>>(quantity: Q) -> <Q::Number as CNumber>::C {
+    CNumber::c(quantity.number())
 }
 
 /// `jred_…_range` in C.

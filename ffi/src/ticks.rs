@@ -10,7 +10,7 @@ macro_rules! ticks {
             use jred::Phase;
 
             use $crate::memory::Memory;
-            use $crate::number::{CNumber, Range};
+            use $crate::number::{CNumber, Range, of, to_c};
 
             type C = <$number as CNumber>::C;
 
@@ -23,8 +23,7 @@ macro_rules! ticks {
             ) -> C {
                 // SAFETY: as promised by the caller.
                 let model = unsafe { $model(memory) };
-                let (omega, alpha) = (<$number>::number(omega), <$number>::number(alpha));
-                model.torque(Phase::from_bits(phase), omega, alpha).c()
+                to_c(model.torque(Phase::from_bits(phase), of(omega), of(alpha)))
             }
 
             #[unsafe(export_name = concat!($prefix, "acceleration"))]
@@ -36,11 +35,8 @@ macro_rules! ticks {
             ) -> C {
                 // SAFETY: as promised by the caller.
                 let model = unsafe { $model(memory) };
-                let (omega, torque) = (<$number>::number(omega), <$number>::number(torque));
-                model
-                    .acceleration(Phase::from_bits(phase), omega, torque)
-                    .value
-                    .c()
+                let found = model.acceleration(Phase::from_bits(phase), of(omega), of(torque));
+                to_c(found.value)
             }
 
             #[unsafe(export_name = concat!($prefix, "acceleration_range"))]
@@ -54,13 +50,11 @@ macro_rules! ticks {
             ) {
                 // SAFETY: as promised by the caller.
                 let model = unsafe { $model(memory) };
-                let omega = <$number>::number(omega);
-                let (least, greatest) = (<$number>::number(least), <$number>::number(greatest));
-                let found =
-                    model.acceleration_range(Phase::from_bits(phase), omega, least, greatest);
+                let phase = Phase::from_bits(phase);
+                let found = model.acceleration_range(phase, of(omega), of(least), of(greatest));
                 range.write(Range {
-                    least: found.least.value.c(),
-                    greatest: found.greatest.value.c(),
+                    least: to_c(found.least.value),
+                    greatest: to_c(found.greatest.value),
                     least_limited: found.least.saturated,
                     greatest_limited: found.greatest.saturated,
                 });

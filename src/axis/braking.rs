@@ -2,8 +2,8 @@
 
 use super::error::{positive, within};
 use super::{AxisError, Direction};
-use crate::curve::{Format, Set};
-use crate::number::{Number, Real, Sliding};
+use crate::curve::{AccelerationOf, Format, Set, SpeedOf};
+use crate::number::{Number, Quantity as _, Real as _, Sliding};
 use crate::{Domain, Model, Phase};
 
 /// What stops a machine.
@@ -106,19 +106,20 @@ fn place<F: Format, const SET: Set>(
     let phase = way.node(half);
     // The greatest number that a model takes.
     let one = F::Number::per_unit(1.0, 1.0).value;
-    let terms = model.contributions(phase, one, one, Sliding::Against(one));
-    let load = terms.load.si(1.0);
+    let (omega, alpha) = (SpeedOf::<F>::of(one), AccelerationOf::<F>::of(one));
+    let terms = model.contributions(phase, omega, alpha, Sliding::Against(omega));
+    let load = terms.load.to_si(1.0);
     let resistance = match way.direction {
         Direction::Forward => load,
         Direction::Backward => -load,
     };
     let helping = if braking.helped {
-        resistance + terms.coulomb.si(1.0)
+        resistance + terms.coulomb.to_si(1.0)
     } else {
         resistance.min(0.0)
     };
     let place = Place {
-        inertial: terms.inertial.si(1.0) / one.si(1.0),
+        inertial: terms.inertial.to_si(1.0) / one.si(1.0),
         braking: braking.torque / model.table().scale().torque() + helping,
     };
     if place.braking > 0.0 {

@@ -2,8 +2,8 @@
 
 use super::error::{positive, within};
 use super::{AxisError, Gearbox};
-use crate::number::{Factor, Number};
-use crate::{Outcome, Scale};
+use crate::number::{Factor, Number, Quantity};
+use crate::{MachineUnits, Outcome};
 
 /// Torque against speed of a drive, in both directions: where it drives, a curve that falls with the speed; where it brakes, a constant.
 ///
@@ -17,35 +17,39 @@ use crate::{Outcome, Scale};
 /// the voltage takes it away.
 ///
 /// ```
-/// use jred::Scale;
 /// use jred::axis::Envelope;
+/// use jred::{Image, Model, Spline, curves, include_image};
 ///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let image = Image::from_bytes(include_image!("../../examples/data/press_f32.jred"))?;
+/// let press: Model<Spline<f32>, { curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS }> = image.model()?;
 /// // 80 N·m up to 6 rad/s, 20 N·m at 12 rad/s; 60 N·m when it brakes.
-/// let envelope = Envelope::<f32, 2>::new([[6.0, 80.0], [12.0, 20.0]], 60.0, &Scale::SI)?;
+/// let envelope = Envelope::new([[6.0, 80.0], [12.0, 20.0]], 60.0, &press)?;
 /// assert_eq!(envelope.torques(9.0), [-60.0, 50.0]);
 /// assert_eq!(envelope.torques(-3.0), [-80.0, 60.0]);
 /// assert_eq!(envelope.torques(13.0), [-60.0, 0.0]);
-/// # Ok::<(), jred::axis::AxisError>(())
+/// # Ok(())
+/// # }
 /// ```
 ///
 /// In fixed point a torque is off by six units of 2⁻³¹ of the torque base, and by 2⁻²³ of what it fell from point to point (`Q15`: three units of 2⁻¹⁵; test `an_envelope_is_that_of_its_points`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Envelope<N, const POINTS: usize> {
+pub struct Envelope<N: Number, const POINTS: usize> {
     /// 0 to T₁.
-    driving: [N; 2],
+    driving: [N::Torque; 2],
     /// T_brake, the other way round.
-    brake: N,
+    brake: N::Torque,
     falls: [Fall<N>; POINTS],
-    top: N,
+    top: N::Speed,
 }
 
 /// The straight line to a point: where it begins, and what the torque loses a unit of speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-struct Fall<N> {
-    from: N,
-    torque: N,
+struct Fall<N: Number> {
+    from: N::Speed,
+    torque: N::Torque,
     slope: Factor,
 }
 
@@ -54,16 +58,21 @@ const TORQUES: &str = "the torques of the torque curve";
 const BRAKE: &str = "the braking torque";
 
 impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
-    /// Of points `[speed, torque]` on the drive link (rad/s, N·m; or m/s, N) and the torque when it brakes, for a model in these machine units.
+    /// Of points `[speed, torque]` on the drive link (rad/s, N·m; or m/s, N) and the torque when it brakes, for a model in its machine units.
     ///
     /// # Errors
     /// No point; a first or a braking torque that is not positive and finite, or a torque that rises with the speed; speeds that do not rise from 0 or
     /// more; in fixed point a torque beyond its base.
-    pub fn new(driving: [[f32; 2]; POINTS], brake: f32, scale: &Scale) -> Result<Self, AxisError> {
+    pub fn new(
+        driving: [[f32; 2]; POINTS],
+        brake: f32,
+        model: &impl MachineUnits<Number = N>,
+    ) -> Result<Self, AxisError> {
+        let scale = model.scale();
         let first = driving.first().map_or(0.0, |[_, torque]| *torque);
         let peak = in_range(TORQUES, scale.to_torque(positive(TORQUES, first)?))?;
-        let brake: N = in_range(BRAKE, scale.to_torque(positive(BRAKE, brake)?))?;
-        let rest = N::default();
+        let brake: N::Torque = in_range(BRAKE, scale.to_torque(positive(BRAKE, brake)?))?;
+        let rest = N::Speed::default();
         let mut falls = [Fall::default(); POINTS];
         let mut last = [0.0, first];
         let mut top = rest;
@@ -95,8 +104,8 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
             last = point;
         }
         Ok(Self {
-            driving: [rest, peak],
-            brake: rest.minus(brake).value,
+            driving: [N::Torque::default(), peak],
+            brake: brake.negated(),
             falls,
             top,
         })
@@ -111,7 +120,7 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
         driving: [[f32; 2]; POINTS],
         brake: f32,
         gearbox: Gearbox,
-        scale: &Scale,
+        model: &impl MachineUnits<Number = N>,
     ) -> Result<Self, AxisError> {
         let Gearbox {
             ratio,
@@ -124,24 +133,20 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
             "0 here, and i²·J_M part of the table",
         )?;
         let link = driving.map(|[omega, torque]| [omega / ratio, torque * ratio * efficiency]);
-        Self::new(link, brake * ratio, scale)
+        Self::new(link, brake * ratio, model)
     }
 
     /// The speed of the last point.
-    pub(super) const fn top(&self) -> N {
+    pub(super) const fn top(&self) -> N::Speed {
         self.top
     }
 
     /// The least and the greatest torque at a speed. At a speed that is no number both are 0.
     #[inline]
-    pub fn torques(&self, omega: N) -> [N; 2] {
-        let rest = N::default();
+    pub fn torques(&self, omega: N::Speed) -> [N::Torque; 2] {
+        let (rest, none) = (N::Speed::default(), N::Torque::default());
         let forward = omega >= rest;
-        let magnitude = if forward {
-            omega
-        } else {
-            rest.minus(omega).value
-        };
+        let magnitude = if forward { omega } else { omega.negated() };
         // The last line that begins below: the speeds rise.
         let mut line = Fall::default();
         for fall in &self.falls {
@@ -154,21 +159,24 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
         if magnitude <= self.top {
             driving = driving.within(self.driving);
         } else {
-            driving = rest;
+            driving = none;
         }
         if omega > rest {
             [self.brake, driving]
         } else if omega < rest {
-            [rest.minus(driving).value, rest.minus(self.brake).value]
+            [driving.negated(), self.brake.negated()]
         } else {
-            [rest.minus(driving).value, driving]
+            [driving.negated(), driving]
         }
     }
 }
 
 /// The number, if it was in range.
-pub(super) fn in_range<N: Number>(what: &'static str, number: Outcome<N>) -> Result<N, AxisError> {
-    let finite = number.value.minus(number.value).value == N::default();
+pub(super) fn in_range<Q: Quantity>(
+    what: &'static str,
+    number: Outcome<Q>,
+) -> Result<Q, AxisError> {
+    let finite = number.value.minus(number.value).value == Q::default();
     within(
         what,
         finite && !number.saturated,

@@ -2,9 +2,9 @@
 
 use super::error::{positive, within};
 use super::{AxisError, Motion};
-use crate::curve::{Format, Set};
-use crate::number::{Factor, Number, Sliding};
-use crate::{Model, Phase, Scale, Validity};
+use crate::curve::{AccelerationOf, Format, Set, SpeedOf};
+use crate::number::{Factor, Number, Quantity, Sliding};
+use crate::{MachineUnits, Model, Phase, Validity};
 
 /// Of the validity.
 const MARGIN: f32 = 1.01;
@@ -38,9 +38,9 @@ impl Status {
 /// A torque on the drive link, and whether the table was made for its motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Checked<N> {
+pub struct Checked<N: Number> {
     /// The torque, as [`Model::torque`] gives it.
-    pub torque: N,
+    pub torque: N::Torque,
     /// What is wrong with the motion.
     pub status: Status,
 }
@@ -73,9 +73,9 @@ pub struct Checked<N> {
 /// let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
 /// let feed_forward = FeedForward::new(press, image.validity());
 /// // The drive needs 0.2 ms from the command to the torque.
-/// let lead = Period::new(0.000_2, image.domain(), image.scale())?;
+/// let lead = Period::new(0.000_2, &press)?;
 /// let gearbox = Gearbox { ratio: 20.0, efficiency: 0.95, rotor: 0.000_3 };
-/// let gearbox = Transmission::new::<f32>(gearbox, image.scale())?;
+/// let gearbox = Transmission::new(gearbox, &press)?;
 /// let limits = TorqueLimits::new(-12.0, 12.0)?;
 ///
 /// // Every tick.
@@ -91,8 +91,8 @@ pub struct Checked<N> {
 #[derive(Clone, Copy, Debug)]
 pub struct FeedForward<'a, F: Format, const SET: Set> {
     model: Model<'a, F, SET>,
-    omega: F::Number,
-    alpha: F::Number,
+    omega: SpeedOf<F>,
+    alpha: AccelerationOf<F>,
 }
 
 impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
@@ -128,7 +128,7 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
 
     /// Whether the table was made for these: |ω| and |α| within its validity. NaN is not.
     #[inline]
-    pub fn status(&self, omega: F::Number, alpha: F::Number) -> Status {
+    pub fn status(&self, omega: SpeedOf<F>, alpha: AccelerationOf<F>) -> Status {
         Status {
             speed_beyond: omega.exceeds(self.omega),
             acceleration_beyond: alpha.exceeds(self.alpha),
@@ -161,7 +161,7 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
     pub fn at_measured(
         &self,
         phase: Phase,
-        omega: F::Number,
+        omega: SpeedOf<F>,
         reference: Motion<F::Number>,
         sliding: Sliding<F::Number>,
     ) -> Checked<F::Number> {
@@ -180,12 +180,12 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
 pub struct Ramp(Factor);
 
 impl Ramp {
-    /// Up to the speed `width` (rad/s, or m/s), in these machine units.
+    /// Up to the speed `width` (rad/s, or m/s), for a model in its machine units.
     ///
     /// # Errors
     /// A width that is not positive and finite, or less than 1e-6 of the speed base.
-    pub fn new(width: f32, scale: &Scale) -> Result<Self, AxisError> {
-        let ratio = scale.speed() / positive("the width of the friction ramp", width)?;
+    pub fn new(width: f32, model: &impl MachineUnits) -> Result<Self, AxisError> {
+        let ratio = model.scale().speed() / positive("the width of the friction ramp", width)?;
         let factor = (ratio <= 1e6).then(|| Factor::new(ratio)).flatten();
         factor.map(Self).ok_or(AxisError::OutOfRange {
             what: "the width of the friction ramp",
@@ -195,37 +195,37 @@ impl Ramp {
 
     /// How much of c acts at a speed: that of the set-point.
     #[inline]
-    pub fn at<N: Number>(&self, omega: N) -> Sliding<N> {
-        Sliding::Share(omega.times(&self.0).value.to_unit())
+    pub fn at<S: Quantity<Number: Number<Speed = S>>>(&self, omega: S) -> Sliding<S::Number> {
+        Sliding::Share(omega.number().times(&self.0).value.to_unit())
     }
 }
 
 /// What a drive can do: the command is limited after everything else, so that the drive gets what it was told and the program knows what is missing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct TorqueLimits<N> {
-    limits: [N; 2],
+pub struct TorqueLimits<T> {
+    limits: [T; 2],
 }
 
 /// A torque within its limits.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Limited<N> {
+pub struct Limited<T> {
     /// The torque; 0 for what is no number.
-    pub torque: N,
+    pub torque: T,
     /// What the limits took away: 0 if nothing.
-    pub clipped: N,
+    pub clipped: T,
 }
 
-impl<N: Number> TorqueLimits<N> {
+impl<T: Quantity> TorqueLimits<T> {
     /// From `least` to `greatest`.
     ///
     /// # Errors
     /// Limits that do not contain 0, or are no numbers.
-    pub fn new(least: N, greatest: N) -> Result<Self, AxisError> {
-        let rest = N::default();
-        within("the least torque", least <= rest, "zero or negative")?;
-        within("the greatest torque", greatest >= rest, "zero or positive")?;
+    pub fn new(least: T, greatest: T) -> Result<Self, AxisError> {
+        let none = T::default();
+        within("the least torque", least <= none, "zero or negative")?;
+        within("the greatest torque", greatest >= none, "zero or positive")?;
         Ok(Self {
             limits: [least, greatest],
         })
@@ -233,7 +233,7 @@ impl<N: Number> TorqueLimits<N> {
 
     /// The torque within the limits, and what they took away.
     #[inline]
-    pub fn limited(&self, torque: N) -> Limited<N> {
+    pub fn limited(&self, torque: T) -> Limited<T> {
         let within = torque.within(self.limits);
         Limited {
             torque: within,

@@ -5,7 +5,7 @@ use super::limits::{Bounded, Limit};
 use super::{AxisError, Direction, Limits, LookAhead, Motion};
 use crate::Model;
 use crate::curve::{Format, Set};
-use crate::number::{Number, Sliding};
+use crate::number::{Number, Quantity as _, Sliding};
 
 /// Follows a commanded speed with a motion that the drive can make, and slows down ahead of where it could not.
 ///
@@ -30,9 +30,9 @@ use crate::number::{Number, Sliding};
 /// // Once.
 /// let image = Image::from_bytes(include_image!("../../examples/data/press_f32.jred"))?;
 /// let press: Model<'_, Spline<f32>, PRESS> = image.model()?;
-/// let tick = Period::new(0.001, image.domain(), image.scale())?;
-/// let envelope = Envelope::new([[10.0, 250.0], [20.0, 100.0]], 250.0, image.scale())?;
-/// let limits = Limits::new(envelope, 15.0, 100.0, tick, image.scale())?;
+/// let tick = Period::new(0.001, &press)?;
+/// let envelope = Envelope::new([[10.0, 250.0], [20.0, 100.0]], 250.0, &press)?;
+/// let limits = Limits::new(envelope, 15.0, 100.0, tick, &press)?;
 /// let braking = Braking { torque: 200.0, deceleration: 100.0, helped: false };
 /// // In the last quarter of the turn not faster than 6 rad/s.
 /// let limit = |phase: Phase| if phase.to_bits() >= 3 << 30 { 6.0 } else { 12.0 };
@@ -61,15 +61,15 @@ pub struct Governor<'a, N, const NODES: usize> {
 /// The acceleration of a tick, and what kept it from what was commanded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Governed<N> {
+pub struct Governed<N: Number> {
     /// α, in machine units.
-    pub alpha: N,
+    pub alpha: N::Acceleration,
     /// The limit that binds; `None`: the commanded speed is reached at the end of the tick.
     pub by: Option<Limit>,
     /// As [`Feasible::unkept`](super::Feasible::unkept); [`Limit::Ahead`]: the speed is beyond that from which all that lies ahead can be kept;
     /// [`Limit::Speed`] of a command that is no number.
     pub unkept: Option<Limit>,
-    /// What friction opposes: the speed, and at rest the motion that begins. [`Model::torque_with`] then gives a torque that the drive has; where friction holds the
+    /// What friction opposes: the speed, and at rest the motion that begins, with the least speed that way. [`Model::torque_with`] then gives a torque that the drive has; where friction holds the
     /// machine at rest, of which a torque knows nothing, [`TorqueLimits`](super::TorqueLimits) sees to that.
     pub sliding: Sliding<N>,
 }
@@ -109,14 +109,14 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
         limits: &Limits<N, POINTS>,
         model: &Model<'_, F, SET>,
         motion: &Motion<N>,
-        commanded: N,
+        commanded: N::Speed,
     ) -> Governed<N> {
-        let rest = N::default();
+        let rest = N::Speed::default();
         let omega = motion.omega;
         let period = limits.period();
         let feasible = limits.feasible(model, motion.phase, omega);
         // At most to rest, and not back: there is no end behind which the other way begins.
-        let stopped = period.needed(rest.minus(omega).value).value;
+        let stopped = period.needed(omega.negated()).value;
         let bounded = |alpha| {
             let by = Limit::Ahead;
             Bounded { alpha, by }.within([feasible.least, feasible.greatest])
@@ -124,10 +124,10 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
         let [least, most] = [feasible.least.alpha, feasible.greatest.alpha];
         let forward = self.forward.map(|way| way.greatest(motion, [least, most]));
         let (forward, too_fast) = forward.unwrap_or((stopped, false));
-        let opposite = [rest.minus(most).value, rest.minus(least).value];
+        let opposite = [most.negated(), least.negated()];
         let backward = self.backward.map(|way| way.greatest(motion, opposite));
         let (backward, too_fast_back) = backward.map_or((stopped, false), |(alpha, beyond)| {
-            (rest.minus(alpha).value, beyond)
+            (alpha.negated(), beyond)
         });
         let greatest = bounded(if forward > stopped { forward } else { stopped });
         let least = bounded(if backward < stopped {
@@ -152,7 +152,11 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
                 .unkept
                 .or(beyond)
                 .or((!known).then_some(Limit::Speed)),
-            sliding: Sliding::Against(if omega == rest { alpha } else { omega }),
+            sliding: Sliding::Against(if omega == rest {
+                N::Speed::of(alpha.number().least())
+            } else {
+                omega
+            }),
         }
     }
 }

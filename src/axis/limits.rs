@@ -4,8 +4,8 @@ use super::envelope::in_range;
 use super::error::positive;
 use super::{AxisError, Envelope, Period};
 use crate::curve::{Format, Set};
-use crate::number::{Number, Sliding};
-use crate::{AccelerationRange, Model, Outcome, Phase, Scale};
+use crate::number::{Number, Quantity, Sliding};
+use crate::{AccelerationRange, MachineUnits, Model, Outcome, Phase};
 
 /// What limits an acceleration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,9 +26,9 @@ pub enum Limit {
 /// An acceleration, and what limits it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Bounded<N> {
+pub struct Bounded<N: Number> {
     /// α, in machine units.
-    pub alpha: N,
+    pub alpha: N::Acceleration,
     /// Why it is not more, or less.
     pub by: Limit,
 }
@@ -36,7 +36,7 @@ pub struct Bounded<N> {
 /// The accelerations that are possible in a tick: never none, because a drive's torque always includes 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Feasible<N> {
+pub struct Feasible<N: Number> {
     /// The least.
     pub least: Bounded<N>,
     /// The greatest.
@@ -59,10 +59,10 @@ pub struct Feasible<N> {
 /// What cannot be kept all at once is kept in this order: torque, acceleration, speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Limits<N, const POINTS: usize> {
+pub struct Limits<N: Number, const POINTS: usize> {
     envelope: Envelope<N, POINTS>,
-    speed: [N; 2],
-    acceleration: [N; 2],
+    speed: [N::Speed; 2],
+    acceleration: [N::Acceleration; 2],
     period: Period<N>,
 }
 
@@ -77,16 +77,17 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
         speed: f32,
         acceleration: f32,
         period: Period<N>,
-        scale: &Scale,
+        model: &impl MachineUnits<Number = N>,
     ) -> Result<Self, AxisError> {
         const SPEED: &str = "the greatest speed";
         const ACCELERATION: &str = "the greatest acceleration";
         positive(SPEED, speed)?;
         positive(ACCELERATION, acceleration)?;
-        let rest = N::default();
-        let both = |greatest: N| [rest.minus(greatest).value, greatest];
+        let (scale, rest) = (model.scale(), N::Speed::default());
         Ok(Self {
-            speed: both(in_range(SPEED, scale.omega::<N>(speed))?.within([rest, envelope.top()])),
+            speed: both(
+                in_range(SPEED, scale.omega::<N::Speed>(speed))?.within([rest, envelope.top()]),
+            ),
             envelope,
             acceleration: both(in_range(ACCELERATION, scale.alpha(acceleration))?),
             period,
@@ -111,13 +112,13 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
         &self,
         model: &Model<'_, F, SET>,
         phase: Phase,
-        omega: N,
+        omega: N::Speed,
     ) -> Feasible<N> {
         let torques = self.envelope.torques(omega);
         let given = |sliding| model.acceleration_range_with(phase, omega, sliding, torques);
-        // At rest against a motion that begins forward, and then against one backward.
-        let [back, forth] = self.acceleration;
-        let rests = omega == N::default();
+        // At rest against a motion that begins forward, and then against one backward: of a speed against which friction acts only the sign counts.
+        let [back, forth] = self.acceleration.map(|alpha| N::Speed::of(alpha.number()));
+        let rests = omega == N::Speed::default();
         let mut range = given(Sliding::Against(if rests { forth } else { omega }));
         if rests {
             let backward = given(Sliding::Against(back));
@@ -126,10 +127,10 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
                 greatest: held(range.greatest, backward.greatest),
             };
         }
-        let torque = [of_torque(range.least), of_torque(range.greatest)];
+        let torque: [Bounded<N>; 2] = [of_torque(range.least), of_torque(range.greatest)];
         let [low, high] = self.speed;
         let [slowest, fastest] = [self.up_to(low, omega), self.up_to(high, omega)];
-        let rest = N::default();
+        let rest = N::Acceleration::default();
         let too_fast = fastest.by == Limit::Acceleration && fastest.alpha <= rest;
         let too_slow = slowest.by == Limit::Acceleration && slowest.alpha >= rest;
         Feasible {
@@ -148,7 +149,7 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
 
     /// The acceleration that reaches a speed at the end of the tick, within those that are allowed.
     #[inline]
-    fn up_to(&self, speed: N, omega: N) -> Bounded<N> {
+    fn up_to(&self, speed: N::Speed, omega: N::Speed) -> Bounded<N> {
         let needed = self.period.needed(speed.minus(omega).value).value;
         let alpha = needed.within(self.acceleration);
         let by = if alpha == needed {
@@ -174,10 +175,15 @@ impl<N: Number> Bounded<N> {
     }
 }
 
+/// Either way.
+fn both<Q: Quantity>(greatest: Q) -> [Q; 2] {
+    [greatest.negated(), greatest]
+}
+
 /// At rest: the acceleration with friction against moving forward, or with friction against moving backward, or none.
 #[inline]
-fn held<N: Number>(forward: Outcome<N>, backward: Outcome<N>) -> Outcome<N> {
-    let rest = N::default();
+fn held<A: Quantity>(forward: Outcome<A>, backward: Outcome<A>) -> Outcome<A> {
+    let rest = A::default();
     if forward.value > rest {
         forward
     } else if backward.value < rest {
@@ -188,7 +194,7 @@ fn held<N: Number>(forward: Outcome<N>, backward: Outcome<N>) -> Outcome<N> {
 }
 
 #[inline]
-fn of_torque<N: Number>(alpha: Outcome<N>) -> Bounded<N> {
+fn of_torque<N: Number>(alpha: Outcome<N::Acceleration>) -> Bounded<N> {
     let Outcome { value, saturated } = alpha;
     Bounded {
         // 0 of what is no number.

@@ -7,7 +7,7 @@ use super::envelope::in_range;
 use super::error::{positive, within};
 use super::{AxisError, Motion, Period};
 use crate::curve::{Format, Set};
-use crate::number::{Factor, Number};
+use crate::number::{Factor, Number, Quantity as _};
 use crate::{Model, Phase};
 
 /// Which way a drive link moves.
@@ -176,7 +176,11 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
     /// to it as much as makes up for it in a tick at the greatest speed, and gently at less. Of a motion the other way, that from rest. And whether the speed is beyond
     /// the limit, by more than about a sixtieth of it and of the greatest.
     #[inline]
-    pub(super) fn greatest(&self, motion: &Motion<N>, [least, most]: [N; 2]) -> (N, bool) {
+    pub(super) fn greatest(
+        &self,
+        motion: &Motion<N>,
+        [least, most]: [N::Acceleration; 2],
+    ) -> (N::Acceleration, bool) {
         let (k, part) = self.way.cell(motion.phase);
         let [square, next] = around(&self.squares, k);
         let reached = if self.is_along(motion.omega) {
@@ -190,7 +194,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         let difference =
             i64::from(next) - i64::from(square) + ((left * i64::from(self.ticks)) >> 8);
         let alpha = match i32::try_from(difference) {
-            Ok(difference) => N::of_count(difference, &self.alpha).value,
+            Ok(difference) => N::Acceleration::of(N::of_count(difference, &self.alpha).value),
             Err(_) if difference > 0 => most,
             Err(_) => least,
         };
@@ -201,7 +205,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
     /// two nodes: that errs by up to an eighth of an interval, times the share by which the braking torque changes in it, both where it is and where it
     /// stops (test `it_stops_where_it_was_said`).
     #[inline]
-    pub fn stop(&self, phase: Phase, omega: N) -> Stop {
+    pub fn stop(&self, phase: Phase, omega: N::Speed) -> Stop {
         let square = self.square(omega);
         let (k, part) = self.way.cell(phase);
         let [work, next] = around(&self.works, k);
@@ -230,17 +234,17 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
 
     /// Whether it is at rest or a motion this way: of no number it is not.
     #[inline]
-    fn is_along(&self, omega: N) -> bool {
+    fn is_along(&self, omega: N::Speed) -> bool {
         match self.way.direction {
-            Direction::Forward => omega >= N::default(),
-            Direction::Backward => omega <= N::default(),
+            Direction::Forward => omega >= N::Speed::default(),
+            Direction::Backward => omega <= N::Speed::default(),
         }
     }
 
     /// The square of a speed, in units of 2⁻³⁰ of that of the greatest; limited to four of it.
     #[inline]
-    fn square(&self, omega: N) -> u32 {
-        let count = omega.to_count(&self.speed).unsigned_abs();
+    fn square(&self, omega: N::Speed) -> u32 {
+        let count = omega.number().to_count(&self.speed).unsigned_abs();
         if count < i32::MAX.unsigned_abs() {
             ((u64::from(count) * u64::from(count)) >> 30) as u32
         } else {

@@ -4,19 +4,19 @@ use core::marker::PhantomData;
 
 use super::error::{positive, within};
 use super::{AxisError, Tracked};
-use crate::number::{Factor, Number, Real};
-use crate::{Domain, Outcome, Phase, Scale};
+use crate::number::{Factor, Number, Quantity as _, Real as _};
+use crate::{Domain, MachineUnits, Outcome, Phase};
 
 /// Where a drive link is and how it moves, in the machine units of a model.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Motion<N> {
+pub struct Motion<N: Number> {
     /// Its angle or position.
     pub phase: Phase,
     /// ω, or v.
-    pub omega: N,
+    pub omega: N::Speed,
     /// α, or a.
-    pub alpha: N,
+    pub alpha: N::Acceleration,
 }
 
 /// A period of time, such as that of the tick or a lead time, for motions in the machine units of one model.
@@ -43,13 +43,14 @@ pub struct Period<N> {
 const UNIT: f32 = 1.0 / 4_294_967_296.0;
 
 impl<N: Number> Period<N> {
-    /// So many seconds, for a model with this range and these machine units.
+    /// So many seconds, for a model with its range and machine units.
     ///
     /// # Errors
     /// [`AxisError::NotPositive`], [`AxisError::NotFinite`]; [`AxisError::OutOfRange`]: so short or long that single precision does not hold its
     /// factors, or in fixed point so long that the speed base is a quarter of the range a period.
-    pub fn new<R: Real>(seconds: f32, domain: Domain<R>, scale: &Scale) -> Result<Self, AxisError> {
+    pub fn new(seconds: f32, model: &impl MachineUnits<Number = N>) -> Result<Self, AxisError> {
         positive("the period", seconds)?;
+        let (domain, scale) = (model.domain(), model.scale());
         let span = domain.span().to_f32();
         let (speed, acceleration) = (scale.speed(), scale.acceleration());
         if N::FIXED {
@@ -82,31 +83,31 @@ impl<N: Number> Period<N> {
 
     /// The speed of what a [`Tracker`](super::Tracker) found in this period.
     #[inline]
-    pub fn omega(&self, tracked: Tracked) -> Outcome<N> {
-        N::of_count(tracked.speed, &self.speed)
+    pub fn omega(&self, tracked: Tracked) -> Outcome<N::Speed> {
+        N::of_count(tracked.speed, &self.speed).map(N::Speed::of)
     }
 
     /// The acceleration of what a [`Tracker`](super::Tracker) found in this period.
     #[inline]
-    pub fn alpha(&self, tracked: Tracked) -> Outcome<N> {
-        N::of_count(tracked.acceleration, &self.acceleration)
+    pub fn alpha(&self, tracked: Tracked) -> Outcome<N::Acceleration> {
+        N::of_count(tracked.acceleration, &self.acceleration).map(N::Acceleration::of)
     }
 
     /// How far the drive link moves in the period at this speed: what to add to a phase. In fixed point to six units of 2⁻³² of the range, and 2⁻²³ of the way.
     #[inline]
-    pub fn moved(&self, omega: N) -> Phase {
-        Phase::from_bits(omega.to_count(&self.moved).cast_unsigned())
+    pub fn moved(&self, omega: N::Speed) -> Phase {
+        Phase::from_bits(omega.number().to_count(&self.moved).cast_unsigned())
     }
 
     /// The speed that it gains in the period at this acceleration.
     #[inline]
-    pub fn gained(&self, alpha: N) -> Outcome<N> {
+    pub fn gained(&self, alpha: N::Acceleration) -> Outcome<N::Speed> {
         alpha.times(&self.gained)
     }
 
     /// The acceleration that it needs to gain this speed in the period.
     #[inline]
-    pub fn needed(&self, gain: N) -> Outcome<N> {
+    pub fn needed(&self, gain: N::Speed) -> Outcome<N::Acceleration> {
         gain.times(&self.needed)
     }
 
@@ -118,7 +119,7 @@ impl<N: Number> Period<N> {
     pub fn later(&self, motion: Motion<N>) -> Outcome<Motion<N>> {
         let gained = self.gained(motion.alpha);
         let omega = motion.omega.plus(gained.value);
-        let half = |omega: N| self.moved(omega).to_bits().cast_signed() >> 1;
+        let half = |omega| self.moved(omega).to_bits().cast_signed() >> 1;
         let moved = half(motion.omega).wrapping_add(half(omega.value));
         Outcome {
             value: Motion {
@@ -136,10 +137,10 @@ impl<N: Number> Period<N> {
     /// For firmware whose reference is a speed each tick, without an acceleration. The speed that is reached errs by the third power of the
     /// period; with the acceleration at the beginning and the curves there, by the second (test `the_middle_of_a_tick_is_one_order_better`).
     #[inline]
-    pub fn between(&self, phase: Phase, from: N, to: N) -> Outcome<Motion<N>> {
+    pub fn between(&self, phase: Phase, from: N::Speed, to: N::Speed) -> Outcome<Motion<N>> {
         let gain = to.minus(from);
         let alpha = self.needed(gain.value);
-        let quarter = |omega: N| self.moved(omega).to_bits().cast_signed() >> 2;
+        let quarter = |omega| self.moved(omega).to_bits().cast_signed() >> 2;
         let moved = quarter(from).wrapping_add(quarter(to));
         Outcome {
             value: Motion {

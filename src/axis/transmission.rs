@@ -1,9 +1,11 @@
 //! The motor's side of a gearbox.
 
+use core::marker::PhantomData;
+
 use super::AxisError;
 use super::error::{positive, within};
-use crate::number::{Factor, Number};
-use crate::{Outcome, Scale};
+use crate::number::{Factor, Number, Quantity as _};
+use crate::{MachineUnits, Outcome};
 
 /// A gearbox between motor and drive link, and the motor's rotor.
 ///
@@ -38,27 +40,30 @@ impl Gearbox {
 
 /// A [`Gearbox`] in the machine units of a model: the torque on the motor's shaft of that on the drive link.
 ///
-/// Motor torques are in N·m where the model's are, and per unit in fixed point: 1 is [`base`](Self::base), T_b/(i·η).
+/// Motor torques are in N·m where the model's are, and per unit in fixed point: 1 is [`base`](Self::base), T_b/(i·η). So there a
+/// [`MotorTorque`](crate::MotorTorque) is no [`Torque`](crate::Torque).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Transmission {
+pub struct Transmission<N> {
     base: f32,
     driving: Factor,
     driven: Factor,
     rotor: Factor,
+    number: PhantomData<N>,
 }
 
-impl Transmission {
-    /// Of a gearbox, for a model of numbers `N` in these machine units.
+impl<N: Number> Transmission<N> {
+    /// Of a gearbox, for a model in its machine units.
     ///
     /// # Errors
     /// A ratio that is not positive, an efficiency outside 0.01 to 1, a negative inertia, or one that single precision does not hold in machine units.
-    pub fn new<N: Number>(gearbox: Gearbox, scale: &Scale) -> Result<Self, AxisError> {
+    pub fn new(gearbox: Gearbox, model: &impl MachineUnits<Number = N>) -> Result<Self, AxisError> {
         let Gearbox {
             ratio,
             efficiency,
             rotor,
         } = gearbox.checked()?;
+        let scale = model.scale();
         let torque = scale.torque();
         let driving = 1.0 / (ratio * efficiency);
         let base = if N::FIXED { torque * driving } else { 1.0 };
@@ -73,6 +78,7 @@ impl Transmission {
                 } else {
                     Factor::default()
                 },
+                number: PhantomData,
             })
         };
         let range = "such that torques on both sides are normal numbers in single precision";
@@ -88,14 +94,29 @@ impl Transmission {
         self.base
     }
 
+    /// A torque on the motor's shaft (N·m) in its machine units.
+    pub fn to_torque(&self, torque: f32) -> Outcome<N::MotorTorque> {
+        N::MotorTorque::from_si(torque, self.base)
+    }
+
+    /// A torque on the motor's shaft in its machine units, in N·m.
+    pub fn torque_si(&self, torque: N::MotorTorque) -> f32 {
+        torque.to_si(self.base)
+    }
+
     /// The torque on the motor's shaft for `torque` on the drive link, which accelerates with `alpha` and moves (or is to move) with `omega`. At rest the
     /// motor is taken to drive.
     #[inline]
-    pub fn motor<N: Number>(&self, torque: N, omega: N, alpha: N) -> Outcome<N> {
-        let rest = N::default();
-        let driven = (torque < rest && omega > rest) || (torque > rest && omega < rest);
+    pub fn motor(
+        &self,
+        torque: N::Torque,
+        omega: N::Speed,
+        alpha: N::Acceleration,
+    ) -> Outcome<N::MotorTorque> {
+        let (none, rest) = (N::Torque::default(), N::Speed::default());
+        let driven = (torque < none && omega > rest) || (torque > none && omega < rest);
         let side = if driven { &self.driven } else { &self.driving };
-        let through = torque.times(side);
+        let through: Outcome<N::MotorTorque> = torque.times(side);
         let rotor = alpha.times(&self.rotor);
         let sum = through.value.plus(rotor.value);
         Outcome {

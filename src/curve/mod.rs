@@ -19,8 +19,8 @@ pub(crate) use format::CONSTANTS;
 #[cfg(feature = "mechanics")]
 pub(crate) use format::in_use;
 pub use format::{
-    Circular, Coefficient, Constants, Cubic, Curve, Format, Harmonic, Kind, MAX_HARMONICS,
-    Quadratic, RowConstants, Rows16, Spline, Spline16, terms,
+    AccelerationOf, Circular, Coefficient, Constants, Cubic, Curve, Format, Harmonic, Kind,
+    MAX_HARMONICS, Quadratic, RowConstants, Rows16, SpeedOf, Spline, Spline16, TorqueOf, terms,
 };
 #[cfg(feature = "micromath")]
 pub use format::{CrankCoefficient, STEEPEST, SliderCrankForm, crank_terms};

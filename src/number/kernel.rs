@@ -3,7 +3,7 @@
 use core::fmt;
 use core::ops::{Add, Mul, Sub};
 
-use super::{Number, Outcome, Role, Scale, Sliding};
+use super::{Number, Outcome, Quantity as _, Role, Scale, Sliding};
 
 /// What coefficients of a cell are computed in.
 pub trait Ring:
@@ -100,7 +100,7 @@ pub trait Kernel: Number {
     #[inline(always)]
     fn add_sliding(sum: Self::Raw, c: Self::Raw, sliding: Sliding<Self>) -> Self::Raw {
         match sliding {
-            Sliding::Against(omega) => Self::add_signed(sum, c, omega),
+            Sliding::Against(omega) => Self::add_signed(sum, c, omega.number()),
             Sliding::Share(share) => Self::add_share(sum, c, share),
         }
     }

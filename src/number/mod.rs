@@ -11,7 +11,7 @@
 //! | J, b | Q30 | 2³⁰ |
 //! | load, c, sums of torques | Q29 | 2²⁹ |
 //! | seed of 1/J | Q31 | 2³¹ |
-//! | ω, α, T: arguments and results | Q31 | 2³¹ |
+//! | ω, α, T: arguments and results, each a type of its own | Q31 | 2³¹ |
 //!
 //! Products round towards −∞. An overflow inside a cell, or in a sum of torques at full speed and acceleration, is refused when
 //! table and model are built; so inverse dynamics cannot saturate. Forward dynamics can, and reports it.
@@ -32,6 +32,7 @@ pub(crate) mod q15;
 pub(crate) mod q31;
 #[cfg(feature = "mechanics")]
 pub(crate) mod quadrature;
+pub(crate) mod quantity;
 mod quotient;
 mod role;
 pub(crate) mod scalar;
@@ -46,6 +47,7 @@ pub(crate) use kernel::{Kernel, Ring};
 
 pub(crate) use factor::Factor;
 pub(crate) use product::upper_of_sum;
+pub use quantity::Quantity;
 pub use role::Role;
 pub(crate) use scalar::Outcome;
 pub use scalar::{Number, Scalar};

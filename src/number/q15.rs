@@ -1,8 +1,8 @@
 //! Fixed point with 16-bit tables.
 
-use crate::Q31;
 use crate::math;
 use crate::number::{Factor, Number, Outcome};
+use crate::{Acceleration, MotorTorque, Q31, Speed, Torque};
 
 /// A per-unit number in [−1, 1): an `i16` in units of 2⁻¹⁵, for tables of [`Rows16`](crate::curve::Rows16).
 ///
@@ -39,6 +39,10 @@ impl Q15 {
 impl Number for Q15 {
     type Real = f32;
     type Word = i16;
+    type Speed = Speed<Self>;
+    type Acceleration = Acceleration<Self>;
+    type Torque = Torque<Self>;
+    type MotorTorque = MotorTorque<Self>;
     const NAME: &'static str = "i16";
     const FIXED: bool = true;
 
@@ -101,6 +105,10 @@ impl Number for Q15 {
     #[inline(always)]
     fn mean(self, other: Self) -> Self {
         Self(self.0.midpoint(other.0))
+    }
+    #[inline(always)]
+    fn least(self) -> Self {
+        Self(self.0.signum())
     }
     #[inline(always)]
     fn exceeds(self, limit: Self) -> bool {

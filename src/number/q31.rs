@@ -7,6 +7,7 @@ use super::product::{high, high_short};
 use super::quotient::quotient;
 use super::{Factor, Number, Outcome, Role, Scalar, Scale};
 use crate::math;
+use crate::{Acceleration, MotorTorque, Speed, Torque};
 
 /// A per-unit number in [−1, 1): an `i32` in units of 2⁻³¹.
 ///
@@ -70,6 +71,10 @@ const fn unit(role: Role) -> f64 {
 impl Number for Q31 {
     type Real = f32;
     type Word = i32;
+    type Speed = Speed<Self>;
+    type Acceleration = Acceleration<Self>;
+    type Torque = Torque<Self>;
+    type MotorTorque = MotorTorque<Self>;
     const NAME: &'static str = "i32";
     const FIXED: bool = true;
 
@@ -124,6 +129,10 @@ impl Number for Q31 {
     #[inline(always)]
     fn mean(self, other: Self) -> Self {
         Self(self.0.midpoint(other.0))
+    }
+    #[inline(always)]
+    fn least(self) -> Self {
+        Self(self.0.signum())
     }
     #[inline(always)]
     fn exceeds(self, limit: Self) -> bool {

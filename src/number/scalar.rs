@@ -33,6 +33,10 @@ use crate::math::Real;
 /// impl Number for Mine {
 ///     type Real = f32;
 ///     type Word = f32;
+///     type Speed = Self;
+///     type Acceleration = Self;
+///     type Torque = Self;
+///     type MotorTorque = Self;
 ///     const NAME: &'static str = "mine";
 ///     const FIXED: bool = false;
 ///     fn from_f64(value: f64) -> Option<Self> {
@@ -68,6 +72,14 @@ pub trait Number:
     type Real: Real;
     /// A number as it lies in a table: `f32`, `f64`, `i32` for `Q31`, `i16` for `Q15`.
     type Word: bytemuck::Pod + Default + fmt::Debug + PartialEq;
+    /// A speed: the number itself in floating point, [`Speed`](crate::Speed) in fixed point.
+    type Speed: super::Quantity<Number = Self>;
+    /// An acceleration: the number itself, or [`Acceleration`](crate::Acceleration).
+    type Acceleration: super::Quantity<Number = Self>;
+    /// A torque on the drive link: the number itself, or [`Torque`](crate::Torque).
+    type Torque: super::Quantity<Number = Self>;
+    /// A torque on the motor's shaft: the number itself, or [`MotorTorque`](crate::MotorTorque).
+    type MotorTorque: super::Quantity<Number = Self>;
     /// Name as the command line and the generated sources use it.
     const NAME: &'static str;
     /// Fixed point: the largest number is 1, and forward dynamics can do without a division.
@@ -100,6 +112,10 @@ pub trait Number:
     #[doc(hidden)]
     #[must_use]
     fn mean(self, other: Self) -> Self;
+    /// The smallest number with its sign that friction sees; 0 of 0.
+    #[doc(hidden)]
+    #[must_use]
+    fn least(self) -> Self;
     /// Limited to −1 … 1; 0 for what is no number.
     #[doc(hidden)]
     #[must_use]
@@ -152,6 +168,15 @@ impl<S> Outcome<S> {
             saturated: false,
         }
     }
+
+    /// The same of what a function makes of the result.
+    #[inline(always)]
+    pub(crate) fn map<T>(self, of: impl FnOnce(S) -> T) -> Outcome<T> {
+        Outcome {
+            value: of(self.value),
+            saturated: self.saturated,
+        }
+    }
 }
 
 macro_rules! float {
@@ -161,6 +186,10 @@ macro_rules! float {
         impl Number for $float {
             type Real = $float;
             type Word = $float;
+            type Speed = $float;
+            type Acceleration = $float;
+            type Torque = $float;
+            type MotorTorque = $float;
             const NAME: &'static str = stringify!($float);
             const FIXED: bool = false;
 
@@ -203,6 +232,16 @@ macro_rules! float {
             #[inline(always)]
             fn mean(self, other: Self) -> Self {
                 0.5 * (self + other)
+            }
+            #[inline(always)]
+            fn least(self) -> Self {
+                // By the bits, without a comparison of floating point: that is a call where it is software.
+                let size = if self.to_bits() << 1 == 0 {
+                    0.0
+                } else {
+                    $float::MIN_POSITIVE
+                };
+                size.copysign(self)
             }
             #[inline(always)]
             fn to_unit(self) -> Self {

@@ -2,7 +2,7 @@
 
 use crate::math;
 use crate::number::error::{RangeError, positive};
-use crate::number::{Number, Outcome};
+use crate::number::{Number, Outcome, Quantity};
 
 /// The bases of the per-unit system: the SI values of the number 1.
 ///
@@ -153,33 +153,33 @@ impl Scale {
     }
 
     /// A speed (rad/s) in machine units.
-    pub fn omega<S: Number>(&self, omega: f32) -> Outcome<S> {
-        S::per_unit(omega, self.speed)
+    pub fn omega<S: Quantity<Number: Number<Speed = S>>>(&self, omega: f32) -> Outcome<S> {
+        S::from_si(omega, self.speed)
     }
 
     /// An acceleration (rad/s²) in machine units.
-    pub fn alpha<S: Number>(&self, alpha: f32) -> Outcome<S> {
-        S::per_unit(alpha, self.acceleration())
+    pub fn alpha<A: Quantity<Number: Number<Acceleration = A>>>(&self, alpha: f32) -> Outcome<A> {
+        A::from_si(alpha, self.acceleration())
     }
 
-    /// A torque (N·m) in machine units.
-    pub fn to_torque<S: Number>(&self, torque: f32) -> Outcome<S> {
-        S::per_unit(torque, self.torque)
+    /// A torque on the drive link (N·m) in machine units.
+    pub fn to_torque<T: Quantity<Number: Number<Torque = T>>>(&self, torque: f32) -> Outcome<T> {
+        T::from_si(torque, self.torque)
     }
 
-    /// A torque in machine units, in N·m.
-    pub fn torque_si<S: Number>(&self, torque: S) -> f32 {
-        torque.si(self.torque)
+    /// A torque on the drive link in machine units, in N·m.
+    pub fn torque_si<T: Quantity<Number: Number<Torque = T>>>(&self, torque: T) -> f32 {
+        torque.to_si(self.torque)
     }
 
     /// A speed in machine units, in rad/s.
-    pub fn omega_si<S: Number>(&self, omega: S) -> f32 {
-        omega.si(self.speed)
+    pub fn omega_si<S: Quantity<Number: Number<Speed = S>>>(&self, omega: S) -> f32 {
+        omega.to_si(self.speed)
     }
 
     /// An acceleration in machine units, in rad/s².
-    pub fn alpha_si<S: Number>(&self, alpha: S) -> f32 {
-        alpha.si(self.acceleration())
+    pub fn alpha_si<A: Quantity<Number: Number<Acceleration = A>>>(&self, alpha: A) -> f32 {
+        alpha.to_si(self.acceleration())
     }
 }
 

@@ -1,15 +1,17 @@
 //! Which way friction acts.
 
+use super::Number;
+
 /// What Coulomb friction opposes, and with what share of c. The viscous friction always opposes ω itself.
 ///
 /// At standstill friction balances what else acts, up to c either way, and a tick cannot tell: sgn 0 = 0. A *measured* speed changes its sign
 /// there with every count, and ±c with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Sliding<N> {
+pub enum Sliding<N: Number> {
     /// All of c against the sign of this speed: of the motion itself, or of its set-point, which does not chatter. In floating point a speed below the
     /// least normal number is 0.
-    Against(N),
+    Against(N::Speed),
     /// This share of c, −1 to 1: a ramp over a width of speed.
     Share(N),
 }

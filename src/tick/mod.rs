@@ -4,6 +4,7 @@ pub mod duty;
 mod image;
 mod model;
 mod pieces;
+mod units;
 
 pub(crate) use image::Progress;
 pub use image::{
@@ -12,3 +13,4 @@ pub use image::{
 };
 pub use model::{AccelerationRange, AnyModel, Contributions, Model};
 pub use pieces::Pieces;
+pub use units::MachineUnits;

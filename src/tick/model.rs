@@ -10,8 +10,8 @@
 //! i²·J_M (`Machine::with_flywheel`). sgn 0 = 0: at standstill the model has no friction, because friction then balances the
 //! other forces.
 
-use crate::curve::{Format, Set, Table, TableError};
-use crate::number::Sliding;
+use crate::curve::{AccelerationOf, Format, Set, SpeedOf, Table, TableError, TorqueOf};
+use crate::number::{Number, Quantity, Sliding};
 use crate::{Outcome, Phase};
 
 /// A reduced machine ready for the tick, over a table in RAM or in flash; its set of [`curves`](crate::curves) is part of the
@@ -20,11 +20,20 @@ use crate::{Outcome, Phase};
 /// Everything was checked when it was built: [`torque`](Self::torque), [`acceleration`](Self::acceleration) and
 /// [`acceleration_range`](Self::acceleration_range) neither fail nor panic nor allocate, and take the same path every time.
 ///
-/// A tick takes a [`Phase`] and numbers of the model's format:
+/// A tick takes a [`Phase`] and, in numbers of the model's format, a speed and an acceleration. In SI units these are plain numbers,
 ///
 /// ```
-/// # use jred::{Model, Phase, Q31, Spline};
-/// fn torque(model: &Model<Spline<Q31>, 0>, omega: Q31, alpha: Q31) -> Q31 {
+/// # use jred::{Model, Phase, Spline};
+/// fn torque(model: &Model<Spline<f32>, 0>) -> f32 {
+///     model.torque(Phase::from_radians(0.5), 10.0, 50.0)
+/// }
+/// ```
+///
+/// per unit they are types of their own:
+///
+/// ```
+/// # use jred::{Acceleration, Model, Phase, Q31, Speed, Spline, Torque};
+/// fn torque(model: &Model<Spline<Q31>, 0>, omega: Speed<Q31>, alpha: Acceleration<Q31>) -> Torque<Q31> {
 ///     model.torque(Phase::from_radians(0.5), omega, alpha)
 /// }
 /// ```
@@ -32,17 +41,44 @@ use crate::{Outcome, Phase};
 /// These do not compile: an angle in radians,
 ///
 /// ```compile_fail,E0308
-/// # use jred::{Model, Phase, Q31, Spline};
-/// fn torque(model: &Model<Spline<Q31>, 0>, omega: Q31, alpha: Q31) -> Q31 {
+/// # use jred::{Acceleration, Model, Phase, Q31, Speed, Spline, Torque};
+/// fn torque(model: &Model<Spline<Q31>, 0>, omega: Speed<Q31>, alpha: Acceleration<Q31>) -> Torque<Q31> {
 ///     model.torque(0.5, omega, alpha)
+/// }
+/// ```
+///
+/// speed and acceleration swapped,
+///
+/// ```compile_fail,E0308
+/// # use jred::{Acceleration, Model, Phase, Q31, Speed, Spline, Torque};
+/// fn torque(model: &Model<Spline<Q31>, 0>, omega: Speed<Q31>, alpha: Acceleration<Q31>) -> Torque<Q31> {
+///     model.torque(Phase::from_radians(0.5), alpha, omega)
+/// }
+/// ```
+///
+/// a torque given as a speed,
+///
+/// ```compile_fail,E0308
+/// # use jred::{Acceleration, Model, Outcome, Phase, Q31, Speed, Spline, Torque};
+/// fn alpha(model: &Model<Spline<Q31>, 0>, torque: Torque<Q31>) -> Outcome<Acceleration<Q31>> {
+///     model.acceleration(Phase::from_radians(0.5), torque, torque)
+/// }
+/// ```
+///
+/// a torque taken for an acceleration,
+///
+/// ```compile_fail,E0308
+/// # use jred::{Acceleration, Model, Phase, Q31, Speed, Spline, Torque};
+/// fn torque(model: &Model<Spline<Q31>, 0>, omega: Speed<Q31>, alpha: Acceleration<Q31>) -> Acceleration<Q31> {
+///     model.torque(Phase::from_radians(0.5), omega, alpha)
 /// }
 /// ```
 ///
 /// SI numbers in a model in per-unit,
 ///
 /// ```compile_fail,E0308
-/// # use jred::{Model, Phase, Q31, Spline};
-/// fn torque(model: &Model<Spline<Q31>, 0>) -> Q31 {
+/// # use jred::{Model, Phase, Q31, Spline, Torque};
+/// fn torque(model: &Model<Spline<Q31>, 0>) -> Torque<Q31> {
 ///     model.torque(Phase::from_radians(0.5), 10.0, 50.0)
 /// }
 /// ```
@@ -50,8 +86,8 @@ use crate::{Outcome, Phase};
 /// and numbers of 16 bits in a model of 32:
 ///
 /// ```compile_fail,E0308
-/// # use jred::{Model, Phase, Q15, Q31, Spline};
-/// fn torque(model: &Model<Spline<Q31>, 0>, omega: Q15, alpha: Q15) -> Q31 {
+/// # use jred::{Acceleration, Model, Phase, Q15, Q31, Speed, Spline, Torque};
+/// fn torque(model: &Model<Spline<Q31>, 0>, omega: Speed<Q15>, alpha: Acceleration<Q15>) -> Torque<Q31> {
 ///     model.torque(Phase::from_radians(0.5), omega, alpha)
 /// }
 /// ```
@@ -93,27 +129,27 @@ pub struct AnyModel<'a, F: Format> {
 /// The accelerations that an interval of torques can give.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct AccelerationRange<S> {
+pub struct AccelerationRange<N: Number> {
     /// At the least torque.
-    pub least: Outcome<S>,
+    pub least: Outcome<N::Acceleration>,
     /// At the greatest torque.
-    pub greatest: Outcome<S>,
+    pub greatest: Outcome<N::Acceleration>,
 }
 
 /// The terms of the drive torque.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Contributions<S> {
+pub struct Contributions<N: Number> {
     /// J·α
-    pub inertial: S,
+    pub inertial: N::Torque,
     /// ½·J′·ω²
-    pub velocity: S,
+    pub velocity: N::Torque,
     /// −load
-    pub load: S,
+    pub load: N::Torque,
     /// b·ω
-    pub viscous: S,
+    pub viscous: N::Torque,
     /// c·sgn ω
-    pub coulomb: S,
+    pub coulomb: N::Torque,
 }
 
 impl<'a, F: Format> AnyModel<'a, F> {
@@ -179,9 +215,9 @@ macro_rules! dynamics {
             pub fn torques(
                 &self,
                 phases: &[Phase],
-                omegas: &[F::Number],
-                alphas: &[F::Number],
-                torques: &mut [F::Number],
+                omegas: &[SpeedOf<F>],
+                alphas: &[AccelerationOf<F>],
+                torques: &mut [TorqueOf<F>],
             ) -> usize {
                 let samples = phases.iter().zip(omegas).zip(alphas).zip(torques);
                 samples
@@ -209,21 +245,22 @@ macro_rules! dynamics {
             /// them (1.4e-6 are accepted), 3e-7 in `f32`; and what
             /// the table is off by, which `tabulate` says. docs/theory.md adds them up. Cost: docs/performance.md.
             #[inline]
-            pub fn torque(&self, phase: Phase, omega: F::Number, alpha: F::Number) -> F::Number {
+            pub fn torque(&self, phase: Phase, omega: SpeedOf<F>, alpha: AccelerationOf<F>) -> TorqueOf<F> {
                 self.torque_with(phase, omega, alpha, Sliding::Against(omega))
             }
 
             /// As [`torque`](Self::torque), with Coulomb friction as `sliding` says: by the sign of the set-point, or by a ramp.
-            #[inline]
+            #[inline(always)]
             pub fn torque_with(
                 &self,
                 phase: Phase,
-                omega: F::Number,
-                alpha: F::Number,
+                omega: SpeedOf<F>,
+                alpha: AccelerationOf<F>,
                 sliding: Sliding<F::Number>,
-            ) -> F::Number {
+            ) -> TorqueOf<F> {
                 let $any = self.any();
-                F::torque(&$any.table, &$any.tick, $curves, phase, [omega, alpha], sliding)
+                let motion = [omega.number(), alpha.number()];
+                TorqueOf::<F>::of(F::torque(&$any.table, &$any.tick, $curves, phase, motion, sliding))
             }
 
             /// The terms of [`torque_with`](Self::torque_with), each for itself. Their sum is the torque but for their roundings, each of
@@ -231,29 +268,34 @@ macro_rules! dynamics {
             pub fn contributions(
                 &self,
                 phase: Phase,
-                omega: F::Number,
-                alpha: F::Number,
+                omega: SpeedOf<F>,
+                alpha: AccelerationOf<F>,
                 sliding: Sliding<F::Number>,
             ) -> Contributions<F::Number> {
                 let $any = self.any();
+                let motion = [omega.number(), alpha.number()];
                 let [inertial, velocity, load, viscous, coulomb] =
-                    F::contributions(&$any.table, &$any.tick, $curves, phase, [omega, alpha], sliding);
+                    F::contributions(&$any.table, &$any.tick, $curves, phase, motion, sliding)
+                        .map(TorqueOf::<F>::of);
                 Contributions { inertial, velocity, load, viscous, coulomb }
             }
 
             /// Forward dynamics: the acceleration that the torque `torque` on the drive link gives at the speed `omega`; in
             /// fixed point limited to the number range, and flagged. With [`curves::RECIPROCAL`](crate::curves::RECIPROCAL)
             /// there is no division; [`Table::reciprocal_error`] says how far it is from one.
-            #[inline]
+            #[inline(always)]
             pub fn acceleration(
                 &self,
                 phase: Phase,
-                omega: F::Number,
-                torque: F::Number,
-            ) -> Outcome<F::Number> {
+                omega: SpeedOf<F>,
+                torque: TorqueOf<F>,
+            ) -> Outcome<AccelerationOf<F>> {
                 let $any = self.any();
                 let sliding = Sliding::Against(omega);
-                F::accelerations(&$any.table, &$any.tick, $curves, phase, omega, sliding, [torque; 2])[0]
+                let [found, _] = F::accelerations(
+                    &$any.table, &$any.tick, $curves, phase, omega.number(), sliding, [torque.number(); 2],
+                );
+                found.map(AccelerationOf::<F>::of)
             }
 
             /// The accelerations that torques from `least` to `greatest` can give: the limits for planning the motion.
@@ -261,26 +303,32 @@ macro_rules! dynamics {
             pub fn acceleration_range(
                 &self,
                 phase: Phase,
-                omega: F::Number,
-                least: F::Number,
-                greatest: F::Number,
+                omega: SpeedOf<F>,
+                least: TorqueOf<F>,
+                greatest: TorqueOf<F>,
             ) -> AccelerationRange<F::Number> {
                 self.acceleration_range_with(phase, omega, Sliding::Against(omega), [least, greatest])
             }
 
             /// As [`acceleration_range`](Self::acceleration_range), with Coulomb friction as `sliding` says: at rest, that of the motion that is to begin.
-            #[inline]
+            #[inline(always)]
             pub fn acceleration_range_with(
                 &self,
                 phase: Phase,
-                omega: F::Number,
+                omega: SpeedOf<F>,
                 sliding: Sliding<F::Number>,
-                torques: [F::Number; 2],
+                torques: [TorqueOf<F>; 2],
             ) -> AccelerationRange<F::Number> {
                 let $any = self.any();
-                let [least, greatest] =
-                    F::accelerations(&$any.table, &$any.tick, $curves, phase, omega, sliding, torques);
-                AccelerationRange { least, greatest }
+                let [least, greatest] = torques;
+                let [least, greatest] = F::accelerations(
+                    &$any.table, &$any.tick, $curves, phase, omega.number(), sliding,
+                    [least.number(), greatest.number()],
+                );
+                AccelerationRange {
+                    least: least.map(AccelerationOf::<F>::of),
+                    greatest: greatest.map(AccelerationOf::<F>::of),
+                }
             }
         }
     };

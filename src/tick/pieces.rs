@@ -6,10 +6,10 @@
 //! `one_table_cannot_follow_a_jump`). A table for each piece between the jumps has no such cells. A
 //! [`Part`](crate::tabulate::Part) of the machine is tabulated as a stroke; [`Pieces`] puts the models together again.
 
-use crate::curve::{Format, Set, TableError};
+use crate::curve::{AccelerationOf, Format, Set, SpeedOf, TableError, TorqueOf};
 use crate::math::Real;
-use crate::number::Outcome;
-use crate::{AccelerationRange, Model, Phase};
+use crate::number::{Number, Outcome};
+use crate::{AccelerationRange, Domain, Model, Phase, Scale};
 
 /// A turn (or a stroke, whose first piece starts at phase 0) of N pieces, each with a model of its own; they share the machine
 /// units and the set of curves.
@@ -58,7 +58,7 @@ use crate::{AccelerationRange, Model, Phase};
 ///         Ok::<_, Error>((Phase::from_radians(from), model))
 ///     };
 ///     let turn: Pieces<'_, Spline<f32>, SET, 2> =
-///         Pieces::new([model(1.0, 2.0, on)?, model(2.0, 1.0 + TAU, off)?]).map_err(Error::Table)?;
+///         Pieces::new(Domain::Turn, [model(1.0, 2.0, on)?, model(2.0, 1.0 + TAU, off)?]).map_err(Error::Table)?;
 ///     let torque = |phi: f64| turn.torque(Phase::from_radians(phi), 0.0, 0.0);
 ///     assert!(torque(0.999_999).abs() < 0.001 && (torque(1.000_001) - 5.0).abs() < 0.001);
 ///     assert!((torque(1.999_999) - 5.0).abs() < 0.001 && torque(2.000_001).abs() < 0.001);
@@ -67,7 +67,9 @@ use crate::{AccelerationRange, Model, Phase};
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Pieces<'a, F: Format, const SET: Set, const N: usize> {
-    pieces: [Piece<'a, F, SET>; N],
+    models: [Piece<'a, F, SET>; N],
+    pub(super) scale: Scale,
+    pub(super) domain: Domain<<F::Number as Number>::Real>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -82,21 +84,31 @@ struct Piece<'a, F: Format, const SET: Set> {
 
 /// Largest difference of the length of a phase between two pieces: of a length of 2¹⁶ units, rounded to one.
 const UNITS: f32 = 1e-4;
+/// 2³²
+const TURN: f32 = 4_294_967_296.0;
 
 impl<'a, F: Format, const SET: Set, const N: usize> Pieces<'a, F, SET, N> {
-    /// From the models of pieces and the phases at which they start, in ascending order; the last ends where the first starts.
+    /// Of this range, from the models of its pieces and the phases at which they start, in ascending order; the last ends where the first starts.
     ///
     /// # Errors
     /// [`TableError::Pieces`]: no piece, starts that do not ascend, or a piece shorter than 2⁻¹⁶ of a turn.
-    /// [`TableError::PieceUnits`]: a model whose range is not the distance of the starts, or whose machine units are not those of
+    /// [`TableError::PieceUnits`]: a model whose range is not its part of the whole one, or whose machine units are not those of
     /// the first.
-    pub fn new(models: [(Phase, Model<'a, F, SET>); N]) -> Result<Self, TableError> {
+    pub fn new(
+        domain: Domain<<F::Number as Number>::Real>,
+        models: [(Phase, Model<'a, F, SET>); N],
+    ) -> Result<Self, TableError> {
         let starts = models.map(|(start, _)| start.to_bits());
-        if N == 0 || !starts.is_sorted_by(|a, b| a < b) {
+        let Some((_, first)) = models.first() else {
+            return Err(TableError::Pieces);
+        };
+        if !starts.is_sorted_by(|a, b| a < b) {
             return Err(TableError::Pieces);
         }
+        let scale = *first.table().scale();
+        let span = domain.span().to_f32();
         let mut following = starts.iter().cycle().skip(1);
-        let (mut too_short, mut apart, mut first) = (false, false, None);
+        let (mut too_short, mut apart) = (false, false);
         let pieces = models.map(|(start, model)| {
             let start = start.to_bits();
             let next = following.next().copied().unwrap_or(start);
@@ -112,9 +124,8 @@ impl<'a, F: Format, const SET: Set, const N: usize> Pieces<'a, F, SET, N> {
             let stretch = (((1u64 << 63) + shifted / 2) / shifted).min(u64::from(u32::MAX));
             // What a piece's phases are long, as a part of its range.
             let table = model.table();
-            let share = length as f32 / table.domain().span().to_f32();
-            let (expected, scale) = *first.get_or_insert((share, *table.scale()));
-            let near = (share - expected).abs() <= UNITS * expected;
+            let expected = length as f32 / TURN * span;
+            let near = (table.domain().span().to_f32() - expected).abs() <= UNITS * expected;
             apart |= !near || scale != *table.scale();
             Piece {
                 start,
@@ -129,15 +140,19 @@ impl<'a, F: Format, const SET: Set, const N: usize> Pieces<'a, F, SET, N> {
         if apart {
             return Err(TableError::PieceUnits);
         }
-        Ok(Self { pieces })
+        Ok(Self {
+            models: pieces,
+            scale,
+            domain,
+        })
     }
 
     /// The model of the piece at `phase`, and the phase within it.
     #[inline]
     fn at(&self, phase: Phase) -> Option<(&Model<'a, F, SET>, Phase)> {
         // Before the first start it is the last piece, which goes on from the turn before.
-        let mut piece = self.pieces.last()?;
-        for candidate in &self.pieces {
+        let mut piece = self.models.last()?;
+        for candidate in &self.models {
             if phase.to_bits() >= candidate.start {
                 piece = candidate;
             }
@@ -151,9 +166,9 @@ impl<'a, F: Format, const SET: Set, const N: usize> Pieces<'a, F, SET, N> {
 
     /// As [`Model::torque`].
     #[inline]
-    pub fn torque(&self, phase: Phase, omega: F::Number, alpha: F::Number) -> F::Number {
+    pub fn torque(&self, phase: Phase, omega: SpeedOf<F>, alpha: AccelerationOf<F>) -> TorqueOf<F> {
         let found = self.at(phase);
-        found.map_or(F::Number::default(), |(model, phase)| {
+        found.map_or(TorqueOf::<F>::default(), |(model, phase)| {
             model.torque(phase, omega, alpha)
         })
     }
@@ -163,9 +178,9 @@ impl<'a, F: Format, const SET: Set, const N: usize> Pieces<'a, F, SET, N> {
     pub fn acceleration(
         &self,
         phase: Phase,
-        omega: F::Number,
-        torque: F::Number,
-    ) -> Outcome<F::Number> {
+        omega: SpeedOf<F>,
+        torque: TorqueOf<F>,
+    ) -> Outcome<AccelerationOf<F>> {
         let found = self.at(phase);
         found.map_or(Outcome::default(), |(model, phase)| {
             model.acceleration(phase, omega, torque)
@@ -177,9 +192,9 @@ impl<'a, F: Format, const SET: Set, const N: usize> Pieces<'a, F, SET, N> {
     pub fn acceleration_range(
         &self,
         phase: Phase,
-        omega: F::Number,
-        least: F::Number,
-        greatest: F::Number,
+        omega: SpeedOf<F>,
+        least: TorqueOf<F>,
+        greatest: TorqueOf<F>,
     ) -> AccelerationRange<F::Number> {
         let found = self.at(phase);
         found.map_or(AccelerationRange::default(), |(model, phase)| {

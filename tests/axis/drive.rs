@@ -1,9 +1,8 @@
 use jred::axis::{Gearbox, Ramp, TorqueLimits, Transmission};
-use jred::number::Number;
-use jred::{Q15, Q31, Scale};
+use jred::{Acceleration, Domain, MotorTorque, Q15, Q31, Scale, Speed, Spline, Torque};
 
-use super::machine::si;
-use crate::support::{assert_near, samples, scale_of};
+use super::machine::{in_units, si};
+use crate::support::{assert_near, quantity, samples, scale_of, value};
 
 #[test]
 fn a_gearbox_loses_on_the_side_that_is_driven() {
@@ -13,8 +12,10 @@ fn a_gearbox_loses_on_the_side_that_is_driven() {
         rotor: 0.002,
     };
     let scale = scale_of(150.0, 10.0, 1.5);
-    let single = Transmission::new::<f64>(gearbox, &Scale::SI).unwrap();
-    let fixed = Transmission::new::<Q31>(gearbox, &scale).unwrap();
+    let units = in_units::<Spline<Q31>>(Domain::Turn, scale);
+    let single =
+        Transmission::new(gearbox, &in_units::<Spline<f64>>(Domain::Turn, Scale::SI)).unwrap();
+    let fixed = Transmission::new(gearbox, &units).unwrap();
     assert_near("base", fixed.base().into(), 150.0 / (8.0 * 0.9), 1e-5);
     for (torque, omega, alpha) in samples(300, 0xff03, &(-140.0..140.0, -9.0..9.0, -60.0..60.0)) {
         // Power through the gearbox: out is in less the losses, whichever side drives.
@@ -27,14 +28,21 @@ fn a_gearbox_loses_on_the_side_that_is_driven() {
             (-at_load, -at_motor)
         };
         assert_near("power", got, 0.9 * given, 1e-4);
-        let [w, a] = si::<Q31>(&scale, [omega, alpha]);
-        let pu: Q31 = scale.to_torque(torque as f32).value;
+        let (w, a) = si::<Q31>(&scale, [omega, alpha]);
+        let pu = scale.to_torque(torque as f32).value;
         let expected = single.motor(torque, omega, alpha).value;
         let found = fixed.motor(pu, w, a);
         assert!(!found.saturated);
+        let back = fixed.to_torque(fixed.torque_si(found.value));
+        assert_near(
+            "there and back",
+            value(back.value),
+            value(found.value),
+            1e-7,
+        );
         assert_near(
             "q31",
-            found.value.to_f64() * f64::from(fixed.base()),
+            value(found.value) * f64::from(fixed.base()),
             expected,
             1e-4,
         );
@@ -49,27 +57,31 @@ fn a_gearbox_loses_on_the_side_that_is_driven() {
         );
     }
     // The gearbox alone, the rotor alone, and their sum leave the range.
-    let half = Q31::from_f64(0.6).unwrap();
-    let light = Transmission::new::<Q31>(
+    let light = Transmission::new(
         Gearbox {
             rotor: 0.0,
             ..gearbox
         },
-        &scale,
+        &units,
     )
     .unwrap();
-    assert!(!light.motor(half, half, half).saturated);
-    let heavy = Transmission::new::<Q31>(
+    let (torque, omega, alpha) = (quantity(0.6), quantity(0.6), quantity(0.6));
+    assert!(!light.motor(torque, omega, alpha).saturated);
+    let heavy = Transmission::new(
         Gearbox {
             rotor: 10.0,
             ..gearbox
         },
-        &scale,
+        &units,
     )
     .unwrap();
-    assert!(heavy.motor(Q31::default(), half, half).saturated);
-    let full = fixed.motor(Q31::MAX, Q31::MAX, Q31::MAX);
-    assert!(full.saturated && full.value == Q31::MAX);
+    assert!(heavy.motor(Torque::default(), omega, alpha).saturated);
+    let full = fixed.motor(
+        Torque::<Q31>::MAX,
+        Speed::<Q31>::MAX,
+        Acceleration::<Q31>::MAX,
+    );
+    assert!(full.saturated && full.value == MotorTorque::<Q31>::MAX);
 }
 
 #[test]
@@ -89,15 +101,11 @@ fn limits_take_away_and_say_so() {
     assert_near("no number", none.torque, 0.0, 0.0);
     assert!(none.clipped.is_nan());
     assert_near("no end", limits.limited(f64::INFINITY).torque, 5.0, 0.0);
-    let half = Q15::from_f64(0.5).unwrap();
-    let limits = TorqueLimits::new(Q15::MIN, half).unwrap();
-    assert_eq!(limits.limited(Q15::MAX).torque, half);
-    assert_near(
-        "clipped",
-        limits.limited(Q15::MAX).clipped.to_f64(),
-        0.5,
-        1e-4,
-    );
+    let half = quantity(0.5);
+    let most = MotorTorque::<Q15>::MAX;
+    let limits = TorqueLimits::new(MotorTorque::<Q15>::MIN, half).unwrap();
+    assert_eq!(limits.limited(most).torque, half);
+    assert_near("clipped", value(limits.limited(most).clipped), 0.5, 1e-4);
     for (least, greatest) in [(1.0, 2.0), (-2.0, -1.0), (f64::NAN, 1.0), (-1.0, f64::NAN)] {
         assert!(
             TorqueLimits::new(least, greatest).is_err(),
@@ -109,6 +117,7 @@ fn limits_take_away_and_say_so() {
         efficiency: 0.9,
         rotor: 0.002,
     };
+    let units = in_units::<Spline<f32>>(Domain::Turn, Scale::SI);
     for wrong in [
         Gearbox { ratio: 0.0, ..good },
         Gearbox {
@@ -132,12 +141,9 @@ fn limits_take_away_and_say_so() {
             ..good
         },
     ] {
-        assert!(
-            Transmission::new::<f32>(wrong, &Scale::SI).is_err(),
-            "{wrong:?}"
-        );
+        assert!(Transmission::new(wrong, &units).is_err(), "{wrong:?}");
     }
     for width in [0.0, -1.0, f32::NAN, 1e-7] {
-        assert!(Ramp::new(width, &Scale::SI).is_err(), "{width}");
+        assert!(Ramp::new(width, &units).is_err(), "{width}");
     }
 }

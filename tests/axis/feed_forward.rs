@@ -1,13 +1,15 @@
 use core::f64::consts::TAU;
 
 use jred::axis::{FeedForward, Motion, Ramp};
-use jred::number::{Number, Sliding};
+use jred::number::{Number, Quantity, Sliding};
 use jred::table::Format;
-use jred::{Cubic, Phase, Q15, Q31, Quadratic, Rows16, Scale, Set, Spline, Validity, curves};
+use jred::{
+    Cubic, Domain, Phase, Q15, Q31, Quadratic, Rows16, Scale, Set, Speed, Spline, Validity, curves,
+};
 
-use super::machine::{si, with_model};
+use super::machine::{in_units, si, with_model};
 use crate::support::images::VALIDITY;
-use crate::support::{assert_near, samples, scale_of};
+use crate::support::{assert_near, quantity, samples, scale_of, value};
 
 /// Every term against the curve that it is made of; their sum against the torque.
 fn terms<F: Format, const SET: Set>(scale: Scale, error: f64) {
@@ -23,11 +25,11 @@ fn terms<F: Format, const SET: Set>(scale: Scale, error: f64) {
                 Phase::from_bits(bits),
                 f64::from(bits) / 4_294_967_296.0 * TAU,
             );
-            let [w, a] = si::<F::Number>(&scale, [omega, alpha]);
+            let (w, a) = si::<F::Number>(&scale, [omega, alpha]);
             for (sliding, c) in [
                 (Sliding::Against(w), omega.signum()),
                 (
-                    Sliding::Against(si(&scale, [-omega, 0.0])[0]),
+                    Sliding::Against(si::<F::Number>(&scale, [-omega, 0.0]).0),
                     -omega.signum(),
                 ),
                 (Sliding::Share(F::Number::from_f64(share).unwrap()), share),
@@ -42,7 +44,7 @@ fn terms<F: Format, const SET: Set>(scale: Scale, error: f64) {
                 ];
                 let mut sum = 0.0;
                 for (k, (found, exact)) in exact.into_iter().enumerate() {
-                    let found = found.to_f64() * torque;
+                    let found = value(found) * torque;
                     assert_near(
                         &format!("{} term {k} at {phi}", F::NAME),
                         found,
@@ -51,7 +53,7 @@ fn terms<F: Format, const SET: Set>(scale: Scale, error: f64) {
                     );
                     sum += found;
                 }
-                let whole = model.torque_with(phase, w, a, sliding).to_f64() * torque;
+                let whole = value(model.torque_with(phase, w, a, sliding)) * torque;
                 assert_near("their sum", sum, whole, error);
             }
         }
@@ -99,7 +101,7 @@ fn friction_does_not_chatter() {
         assert_near("chatter", chatter[0] - chatter[1], 1.0, 1e-9);
 
         // A ramp is continuous, and c beyond its width.
-        let ramp = Ramp::new(0.2, &Scale::SI).unwrap();
+        let ramp = Ramp::new(0.2, &model).unwrap();
         for (omega, share) in [
             (0.0, 0.0),
             (0.05, 0.25),
@@ -114,9 +116,10 @@ fn friction_does_not_chatter() {
             assert_near("ramp", found, 0.5 * share, 1e-7);
         }
     });
-    let ramp = Ramp::new(0.2, &scale_of(1.0, 10.0, 1.0)).unwrap();
+    let model = in_units::<Spline<Q31>>(Domain::Turn, scale_of(1.0, 10.0, 1.0));
+    let ramp = Ramp::new(0.2, &model).unwrap();
     for (omega, share) in [(0.05, 0.25), (-0.1, -0.5), (0.4, 1.0), (-3.0, -1.0)] {
-        let Sliding::Share(found) = ramp.at(Q31::from_f64(omega / 10.0).unwrap()) else {
+        let Sliding::Share(found) = ramp.at(quantity::<Speed<Q31>>(omega / 10.0)) else {
             panic!("a share");
         };
         assert_near("ramp", found.to_f64(), share, 1e-6);
@@ -134,6 +137,7 @@ fn a_motion_beyond_the_table_is_flagged() {
             };
             let feed_forward = FeedForward::new(model, validity);
             for &(omega, alpha, speed, acceleration) in cases {
+                let (omega, alpha) = (Quantity::of(omega), Quantity::of(alpha));
                 let status = feed_forward.status(omega, alpha);
                 assert_eq!(
                     (status.speed_beyond, status.acceleration_beyond),
@@ -228,7 +232,7 @@ fn the_measured_state_is_where_the_curves_are_read() {
                 .status
                 .speed_beyond
         );
-        let ramp = Ramp::new(0.2, &Scale::SI).unwrap();
+        let ramp = Ramp::new(0.2, &model).unwrap();
         assert_eq!(ramp.at(f64::NAN), Sliding::Share(0.0));
     });
 }

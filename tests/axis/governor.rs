@@ -1,15 +1,15 @@
 use core::f64::consts::TAU;
+use jred::number::Sliding;
 
 use jred::axis::{
-    Braking, Direction, Envelope, Governor, Limit, Limits, LookAhead, Motion, Period,
+    Braking, Direction, Envelope, FeedForward, Governor, Limit, Limits, LookAhead, Motion, Period,
 };
-use jred::number::Number;
 use jred::table::Format;
-use jred::{Cubic, Domain, Phase, Q31, Quadratic, Rows16, Scale, Set, Spline, curves};
+use jred::{Cubic, Domain, Phase, Q31, Quadratic, Rows16, Scale, Set, Spline, Validity, curves};
 
 use super::machine::{WAVE, si, with_model, with_model_of};
 use crate::support::machines::Wave;
-use crate::support::scale_of;
+use crate::support::{scale_of, value};
 
 const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 const TICK: f32 = 0.000_5;
@@ -38,9 +38,9 @@ fn governed<F: Format>(scale: Scale, seconds: f32, commanded: fn(f32) -> f64) ->
     let mut ticks = Vec::new();
     with_model::<F, SET>(scale, |model| {
         let scale = *model.table().scale();
-        let period = Period::new(TICK, Domain::<f64>::Turn, &scale).unwrap();
-        let envelope = Envelope::new(POINTS, BRAKE, &scale).unwrap();
-        let limits = Limits::new(envelope, 11.0, 40.0, period, &scale).unwrap();
+        let period = Period::new(TICK, &model).unwrap();
+        let envelope = Envelope::new(POINTS, BRAKE, &model).unwrap();
+        let limits = Limits::new(envelope, 11.0, 40.0, period, &model).unwrap();
         let braking = Braking {
             torque: 0.97 * BRAKE,
             deceleration: 40.0,
@@ -55,21 +55,21 @@ fn governed<F: Format>(scale: Scale, seconds: f32, commanded: fn(f32) -> f64) ->
             [scale.torque(), scale.speed(), scale.acceleration()].map(f64::from);
         let mut motion = Motion::default();
         for k in 0..(seconds / TICK) as u32 {
-            let [wanted, _] = si(&scale, [commanded(k as f32 * TICK), 0.0]);
+            let (wanted, _) = si::<F::Number>(&scale, [commanded(k as f32 * TICK), 0.0]);
             let governed = governor.govern(&limits, &model, &motion, wanted);
             motion.alpha = governed.alpha;
             let torque =
                 model.torque_with(motion.phase, motion.omega, motion.alpha, governed.sliding);
-            let way = if motion.omega < F::Number::default() {
+            let way = if motion.omega < Default::default() {
                 &backward
             } else {
                 &forward
             };
             ticks.push(Tick {
                 phase: motion.phase,
-                omega: motion.omega.to_f64() * speed,
-                alpha: motion.alpha.to_f64() * alpha_base,
-                torque: torque.to_f64() * torque_base,
+                omega: value(motion.omega) * speed,
+                alpha: value(motion.alpha) * alpha_base,
+                torque: value(torque) * torque_base,
                 by: governed.by,
                 most: way.speed_at(motion.phase, 9.0).into(),
             });
@@ -156,15 +156,15 @@ fn the_governor_does_not_chatter() {
 #[test]
 fn what_cannot_be_kept_ahead_is_flagged_and_a_slow_machine_may_be_strong() {
     with_model::<Cubic<f64>, SET>(Scale::SI, |model| {
-        let period = Period::new(TICK, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let period = Period::new(TICK, &model).unwrap();
         let braking = Braking {
             torque: BRAKE,
             deceleration: f32::INFINITY,
             helped: true,
         };
         let run = |peak: f32, most: f32, limit: fn(Phase) -> f32, turns: u32| {
-            let envelope = Envelope::new([[12.0, peak]], peak, &Scale::SI).unwrap();
-            let limits = Limits::new(envelope, 11.0, most, period, &Scale::SI).unwrap();
+            let envelope = Envelope::new([[12.0, peak]], peak, &model).unwrap();
+            let limits = Limits::new(envelope, 11.0, most, period, &model).unwrap();
             let ahead =
                 LookAhead::<f64, 64>::new(&model, Direction::Forward, braking, limit, &period)
                     .unwrap();
@@ -196,7 +196,7 @@ fn what_cannot_be_kept_ahead_is_flagged_and_a_slow_machine_may_be_strong() {
 #[test]
 fn at_rest_the_torque_is_one_that_the_drive_has() {
     with_model::<Cubic<f64>, SET>(Scale::SI, |model| {
-        let period = Period::new(TICK, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let period = Period::new(TICK, &model).unwrap();
         let braking = Braking {
             torque: BRAKE,
             deceleration: 40.0,
@@ -214,8 +214,8 @@ fn at_rest_the_torque_is_one_that_the_drive_has() {
             (4.0, 9.0, 3.0),
             (4.0, -9.0, -0.6),
         ] {
-            let envelope = Envelope::new([[12.0, peak]], peak, &Scale::SI).unwrap();
-            let limits = Limits::new(envelope, 11.0, 100.0, period, &Scale::SI).unwrap();
+            let envelope = Envelope::new([[12.0, peak]], peak, &model).unwrap();
+            let limits = Limits::new(envelope, 11.0, 100.0, period, &model).unwrap();
             let motion = Motion {
                 phase: Phase::from_bits(1 << 30),
                 ..Motion::default()
@@ -265,9 +265,9 @@ fn a_commanded_speed_that_is_possible_is_reached() {
 #[test]
 fn one_way_is_one_way() {
     with_model::<Spline<f32>, SET>(Scale::SI, |model| {
-        let period = Period::new(TICK, Domain::<f64>::Turn, &Scale::SI).unwrap();
-        let envelope = Envelope::new(POINTS, BRAKE, &Scale::SI).unwrap();
-        let limits = Limits::new(envelope, 11.0, 40.0, period, &Scale::SI).unwrap();
+        let period = Period::new(TICK, &model).unwrap();
+        let envelope = Envelope::new(POINTS, BRAKE, &model).unwrap();
+        let limits = Limits::new(envelope, 11.0, 40.0, period, &model).unwrap();
         let braking = Braking {
             torque: BRAKE,
             deceleration: 40.0,
@@ -318,9 +318,9 @@ fn a_stroke_is_stopped_at_its_end() {
     };
     with_model_of::<Cubic<Q31>, SET>(&wave, scale_of(250.0, 11.5, 1.5), |model| {
         let scale = *model.table().scale();
-        let period = Period::new(TICK, wave.domain, &scale).unwrap();
-        let envelope = Envelope::new(POINTS, BRAKE, &scale).unwrap();
-        let limits = Limits::new(envelope, 11.0, 40.0, period, &scale).unwrap();
+        let period = Period::new(TICK, &model).unwrap();
+        let envelope = Envelope::new(POINTS, BRAKE, &model).unwrap();
+        let limits = Limits::new(envelope, 11.0, 40.0, period, &model).unwrap();
         let braking = Braking {
             torque: 0.97 * BRAKE,
             deceleration: 40.0,
@@ -333,14 +333,14 @@ fn a_stroke_is_stopped_at_its_end() {
         let governor = Governor::both_ways(&forward, &backward).unwrap();
         let mut motion = Motion::default();
         for way in [1.0, -1.0, 1.0] {
-            let [wanted, _] = si(&scale, [way * 8.0, 0.0]);
+            let (wanted, _) = si::<Q31>(&scale, [way * 8.0, 0.0]);
             let mut fastest = 0.0_f64;
             let mut end_speed = 0.0_f64;
             for _ in 0..4000 {
                 motion.alpha = governor.govern(&limits, &model, &motion, wanted).alpha;
                 let before = motion.phase.to_bits();
                 motion = period.later(motion).value;
-                let omega = motion.omega.to_f64() * f64::from(scale.speed());
+                let omega = value(motion.omega) * f64::from(scale.speed());
                 fastest = fastest.max(omega.abs());
                 let clipped = [0, u32::MAX].contains(&motion.phase.to_bits());
                 if clipped && before != motion.phase.to_bits() {
@@ -354,7 +354,57 @@ fn a_stroke_is_stopped_at_its_end() {
             assert!((end - expected).abs() < 2e-3, "{way}: {end}");
             assert!(end_speed < 0.05, "{way}: {end_speed}");
             // But for the rounding of a tick.
-            assert!(motion.omega.to_f64().abs() < 1e-8, "{way}: {motion:?}");
+            assert!(value(motion.omega).abs() < 1e-8, "{way}: {motion:?}");
         }
     });
+}
+
+/// What friction opposes at rest is a speed, and one that the table was made for: not the acceleration's number taken for one.
+#[test]
+fn a_start_from_rest_is_a_valid_motion() {
+    fn starts<F: Format>(scale: Scale) {
+        with_model::<F, SET>(scale, |model| {
+            let scale = *model.table().scale();
+            let period = Period::new(TICK, &model).unwrap();
+            let envelope = Envelope::new([[12.0, 60.0]], BRAKE, &model).unwrap();
+            // More rad/s² than the table is valid for in rad/s.
+            let limits = Limits::new(envelope, 9.0, 40.0, period, &model).unwrap();
+            let braking = Braking {
+                torque: 0.97 * BRAKE,
+                deceleration: 40.0,
+                helped: true,
+            };
+            let ahead = |direction| {
+                LookAhead::<_, 64>::new(&model, direction, braking, limit, &period).unwrap()
+            };
+            let [forward, backward] = [Direction::Forward, Direction::Backward].map(ahead);
+            let governor = Governor::both_ways(&forward, &backward).unwrap();
+            let validity = Validity {
+                omega: 10.0,
+                alpha: 40.0,
+                torque_error: 0.0,
+            };
+            let feed_forward = FeedForward::new(model, validity);
+            for way in [1.0, -1.0] {
+                let mut motion = Motion::default();
+                let (commanded, _) = si::<F::Number>(&scale, [way * 5.0, 0.0]);
+                let governed = governor.govern(&limits, &model, &motion, commanded);
+                motion.alpha = governed.alpha;
+                assert!(
+                    way * value(motion.alpha) * f64::from(scale.acceleration()) > 10.0,
+                    "{motion:?}"
+                );
+                let Sliding::Against(against) = governed.sliding else {
+                    panic!("all of c");
+                };
+                assert!(way * value(against) > 0.0, "{against:?}");
+                let found = feed_forward.at_reference(motion, governed.sliding);
+                assert!(found.status.is_valid(), "{}: {motion:?}", F::NAME);
+            }
+        });
+    }
+    starts::<Cubic<f64>>(Scale::SI);
+    starts::<Spline<f32>>(Scale::SI);
+    starts::<Cubic<Q31>>(scale_of(250.0, 11.5, 1.5));
+    starts::<Rows16>(scale_of(250.0, 11.5, 1.5));
 }

@@ -2,12 +2,12 @@ use core::f64::consts::TAU;
 
 use jred::axis::{AxisError, Envelope, Gearbox, Limit, Limits, Period};
 use jred::number::Number;
-use jred::table::Format;
-use jred::{Cubic, Domain, Phase, Q15, Q31, Quadratic, Rows16, Scale, Set, Spline, curves};
+use jred::table::{Format, TorqueOf};
+use jred::{Cubic, Domain, Phase, Q31, Quadratic, Rows16, Scale, Set, Speed, Spline, curves};
 use proptest::num::u32::ANY;
 
-use super::machine::{si, with_model};
-use crate::support::{assert_near, samples, scale_of};
+use super::machine::{in_units, si, with_model};
+use crate::support::{assert_near, quantity, samples, scale_of, value};
 
 const SET: Set = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
 /// A drive for the wave: 8 N·m up to 4 rad/s, 3 at 8 and nothing beyond; 6 when it brakes.
@@ -33,19 +33,25 @@ fn interval(omega: f64) -> [f64; 2] {
     }
 }
 
-fn envelope_of<N: Number>(scale: &Scale, error: f64) {
-    let envelope = Envelope::<N, 3>::new(POINTS, 6.0, scale).unwrap();
-    let torque = |n: N| n.to_f64() * f64::from(scale.torque());
+fn envelope_of<F: Format>(scale: Scale, error: f64) {
+    let model = in_units::<F>(Domain::Turn, scale);
+    let envelope = Envelope::<_, 3>::new(POINTS, 6.0, &model).unwrap();
+    let torque = |torque| value::<TorqueOf<F>>(torque) * f64::from(scale.torque());
     let on_points = [0.0, 4.0, -4.0, 6.0, -6.0, 7.999, 8.5, -8.5];
     for omega in samples(400, 0xff10, &(-9.0..9.0))
         .into_iter()
         .chain(on_points)
     {
-        let [w, _] = si::<N>(scale, [omega, 0.0]);
-        let exact = interval(w.to_f64() * f64::from(scale.speed()));
+        let (w, _) = si::<F::Number>(&scale, [omega, 0.0]);
+        let exact = interval(value(w) * f64::from(scale.speed()));
         let found = envelope.torques(w).map(torque);
         for (found, exact) in found.into_iter().zip(exact) {
-            assert_near(&format!("{} at {omega}", N::NAME), found, exact, error);
+            assert_near(
+                &format!("{} at {omega}", <F::Number as Number>::NAME),
+                found,
+                exact,
+                error,
+            );
         }
     }
 }
@@ -53,11 +59,12 @@ fn envelope_of<N: Number>(scale: &Scale, error: f64) {
 #[test]
 fn an_envelope_is_that_of_its_points() {
     let scale = scale_of(10.0, 10.0, 1.5);
-    envelope_of::<f64>(&Scale::SI, 1e-6);
-    envelope_of::<f32>(&Scale::SI, 2e-6);
-    envelope_of::<Q31>(&scale, 10.0 * 6.0 / 2_147_483_648.0 + 2e-6);
-    envelope_of::<Q15>(&scale, 10.0 * 3.0 / 32_768.0);
-    let none = Envelope::<f32, 3>::new(POINTS, 6.0, &Scale::SI)
+    envelope_of::<Spline<f64>>(Scale::SI, 1e-6);
+    envelope_of::<Spline<f32>>(Scale::SI, 2e-6);
+    envelope_of::<Spline<Q31>>(scale, 10.0 * 6.0 / 2_147_483_648.0 + 2e-6);
+    envelope_of::<Rows16>(scale, 10.0 * 3.0 / 32_768.0);
+    let model = in_units::<Spline<f32>>(Domain::Turn, Scale::SI);
+    let none = Envelope::new(POINTS, 6.0, &model)
         .unwrap()
         .torques(f32::NAN);
     assert_eq!(none.map(f32::to_bits), [0; 2]);
@@ -71,7 +78,8 @@ fn an_envelope_of_a_motor_is_that_of_the_drive_link() {
         rotor: 0.0,
     };
     let motor = [[40.0, 0.8], [60.0, 0.4]];
-    let link = Envelope::<f64, 2>::of_motor(motor, 0.6, gearbox, &Scale::SI).unwrap();
+    let model = in_units::<Spline<f64>>(Domain::Turn, Scale::SI);
+    let link = Envelope::of_motor(motor, 0.6, gearbox, &model).unwrap();
     // At 5 rad/s the motor turns at 50 and drives with 0.6, of which 0.9 arrives.
     let found = link.torques(5.0);
     assert_near("driving", found[1], 0.6 * 10.0 * 0.9, 1e-6);
@@ -80,7 +88,7 @@ fn an_envelope_of_a_motor_is_that_of_the_drive_link() {
         rotor: 1e-4,
         ..gearbox
     };
-    let refused = Envelope::<f64, 2>::of_motor(motor, 0.6, rotor, &Scale::SI);
+    let refused = Envelope::of_motor(motor, 0.6, rotor, &model);
     assert!(matches!(
         refused,
         Err(AxisError::OutOfRange {
@@ -92,7 +100,8 @@ fn an_envelope_of_a_motor_is_that_of_the_drive_link() {
 
 #[test]
 fn envelopes_that_cannot_be_are_refused() {
-    let made = |points: [[f32; 2]; 2], brake| Envelope::<f32, 2>::new(points, brake, &Scale::SI);
+    let model = in_units::<Spline<f32>>(Domain::Turn, Scale::SI);
+    let made = |points: [[f32; 2]; 2], brake| Envelope::new(points, brake, &model);
     assert!(made([[0.0, 5.0], [1.0, 0.0]], 5.0).is_ok());
     let nan = f32::NAN;
     for (points, brake) in [
@@ -111,40 +120,40 @@ fn envelopes_that_cannot_be_are_refused() {
     ] {
         assert!(made(points, brake).is_err(), "{points:?} {brake}");
     }
-    assert!(Envelope::<f32, 0>::new([], 5.0, &Scale::SI).is_err());
-    let scale = scale_of(4.0, 10.0, 1.0);
-    assert!(Envelope::<Q31, 1>::new([[5.0, 4.5]], 3.0, &scale).is_err());
+    assert!(Envelope::new([], 5.0, &model).is_err());
+    let model = in_units::<Spline<Q31>>(Domain::Turn, scale_of(4.0, 10.0, 1.0));
+    assert!(Envelope::new([[5.0, 4.5]], 3.0, &model).is_err());
     // A curve that goes on beyond the speed base ends there.
-    let beyond = Envelope::<Q31, 2>::new([[5.0, 3.6], [15.0, 1.6]], 3.0, &scale).unwrap();
+    let beyond = Envelope::new([[5.0, 3.6], [15.0, 1.6]], 3.0, &model).unwrap();
     let [least, most] = beyond
-        .torques(Q31::from_f64(0.9).unwrap())
-        .map(|t| 4.0 * t.to_f64());
+        .torques(quantity(0.9))
+        .map(|torque| 4.0 * value(torque));
     assert_near("least", least, -3.0, 1e-6);
     assert_near("most", most, 2.8, 1e-6);
     assert_near(
         "most",
-        4.0 * beyond.torques(Q31::MAX)[1].to_f64(),
+        4.0 * value(beyond.torques(Speed::<Q31>::MAX)[1]),
         2.6,
         1e-6,
     );
-    assert!(Envelope::<Q31, 1>::new([[5.0, 3.5]], 4.5, &scale).is_err());
-    assert!(Envelope::<Q31, 1>::new([[5.0, 3.5]], 3.0, &scale).is_ok());
+    assert!(Envelope::new([[5.0, 3.5]], 4.5, &model).is_err());
+    assert!(Envelope::new([[5.0, 3.5]], 3.0, &model).is_ok());
 }
 
 /// In every state: the torque of the accelerations, and which limit binds, against the equation of motion.
 fn feasible<F: Format>(scale: Scale, error: f64) {
     with_model::<F, SET>(scale, |model| {
         let scale = *model.table().scale();
-        let period = Period::new(0.05, Domain::<f64>::Turn, &scale).unwrap();
-        let envelope = Envelope::new(POINTS, 6.0, &scale).unwrap();
-        let limits = Limits::new(envelope, 5.5, 7.5, period, &scale).unwrap();
+        let period = Period::new(0.05, &model).unwrap();
+        let envelope = Envelope::new(POINTS, 6.0, &model).unwrap();
+        let limits = Limits::new(envelope, 5.5, 7.5, period, &model).unwrap();
         let [torque, speed, alpha_base] =
             [scale.torque(), scale.speed(), scale.acceleration()].map(f64::from);
         let mut seen = [0; 3];
         for (bits, omega) in samples(600, 0xff11, &(ANY, -9.0..9.0)) {
             let phi = f64::from(bits) / 4_294_967_296.0 * TAU;
-            let [w, _] = si::<F::Number>(&scale, [omega, 0.0]);
-            let omega = w.to_f64() * speed;
+            let (w, _) = si::<F::Number>(&scale, [omega, 0.0]);
+            let omega = value(w) * speed;
             let found = limits.feasible(&model, Phase::from_bits(bits), w);
             let drag = -0.125 * phi.sin() * omega * omega - 3.0 * phi.sin()
                 + 0.1 * omega
@@ -157,7 +166,7 @@ fn feasible<F: Format>(scale: Scale, error: f64) {
                     .clamp(of_torque[0], of_torque[1])
             };
             for (k, bound) in [(0, found.least), (1, found.greatest)] {
-                let alpha = bound.alpha.to_f64() * alpha_base;
+                let alpha = value(bound.alpha) * alpha_base;
                 assert_near(
                     &format!("{} at {phi}, {omega}", F::NAME),
                     alpha,
@@ -194,10 +203,7 @@ fn feasible<F: Format>(scale: Scale, error: f64) {
             );
             // Back through the model: never more than the drive has.
             for bound in [found.least, found.greatest] {
-                let needed = model
-                    .torque(Phase::from_bits(bits), w, bound.alpha)
-                    .to_f64()
-                    * torque;
+                let needed = value(model.torque(Phase::from_bits(bits), w, bound.alpha)) * torque;
                 let [least, most] = interval(omega);
                 assert!(
                     needed > least - error && needed < most + error,
@@ -222,10 +228,10 @@ fn feasible_accelerations_are_those_of_the_equation_of_motion() {
 #[test]
 fn friction_holds_a_machine_at_rest() {
     with_model::<Cubic<f64>, SET>(Scale::SI, |model| {
-        let period = Period::new(0.001, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let period = Period::new(0.001, &model).unwrap();
         let at = |phi: f64, peak: f32| {
-            let envelope = Envelope::new([[9.0, peak]], peak, &Scale::SI).unwrap();
-            let limits = Limits::new(envelope, 8.5, 75.0, period, &Scale::SI).unwrap();
+            let envelope = Envelope::new([[9.0, peak]], peak, &model).unwrap();
+            let limits = Limits::new(envelope, 8.5, 75.0, period, &model).unwrap();
             let found = limits.feasible(&model, Phase::from_radians(phi), 0.0);
             [found.least.alpha, found.greatest.alpha]
         };
@@ -251,9 +257,9 @@ fn friction_holds_a_machine_at_rest() {
 #[test]
 fn no_number_gives_no_acceleration_and_says_so() {
     with_model::<Spline<f32>, SET>(Scale::SI, |model| {
-        let period = Period::new(0.001, Domain::<f64>::Turn, &Scale::SI).unwrap();
-        let envelope = Envelope::new(POINTS, 6.0, &Scale::SI).unwrap();
-        let limits = Limits::new(envelope, 8.5, 7.5, period, &Scale::SI).unwrap();
+        let period = Period::new(0.001, &model).unwrap();
+        let envelope = Envelope::new(POINTS, 6.0, &model).unwrap();
+        let limits = Limits::new(envelope, 8.5, 7.5, period, &model).unwrap();
         for omega in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30] {
             let found = limits.feasible(&model, Phase::default(), omega);
             assert!(found.unkept.is_some(), "{omega}: {found:?}");
@@ -268,7 +274,7 @@ fn no_number_gives_no_acceleration_and_says_so() {
             (f32::NAN, 1.0),
             (1.0, f32::INFINITY),
         ] {
-            assert!(Limits::new(envelope, speed, acceleration, period, &Scale::SI).is_err());
+            assert!(Limits::new(envelope, speed, acceleration, period, &model).is_err());
         }
     });
 }
@@ -276,10 +282,10 @@ fn no_number_gives_no_acceleration_and_says_so() {
 #[test]
 fn what_is_lost_is_named() {
     with_model::<Cubic<f64>, SET>(Scale::SI, |model| {
-        let period = Period::new(0.05, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let period = Period::new(0.05, &model).unwrap();
         let unkept = |peak: f32, speed: f32, most: f32, phase: u32, omega: f64| {
-            let envelope = Envelope::new([[9.0, peak]], peak, &Scale::SI).unwrap();
-            let limits = Limits::new(envelope, speed, most, period, &Scale::SI).unwrap();
+            let envelope = Envelope::new([[9.0, peak]], peak, &model).unwrap();
+            let limits = Limits::new(envelope, speed, most, period, &model).unwrap();
             limits
                 .feasible(&model, Phase::from_bits(phase), omega)
                 .unkept

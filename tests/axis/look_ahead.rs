@@ -43,8 +43,7 @@ pub(super) fn with_ahead<F: Format, const NODES: usize>(
     with: impl FnOnce(Model<'_, F, SET>, LookAhead<F::Number, NODES>),
 ) {
     with_model_of::<F, SET>(&INVISCID, scale, |model| {
-        let scale = *model.table().scale();
-        let period = Period::new(0.000_5, Domain::<f64>::Turn, &scale).unwrap();
+        let period = Period::new(0.000_5, &model).unwrap();
         let ahead = LookAhead::new(&model, direction, braking, limit, &period).unwrap();
         with(model, ahead);
     });
@@ -151,7 +150,7 @@ fn a_slow_part_is_slow_to_its_ends() {
         (0.95, 1.05),
     ] {
         with_model_of::<Spline<f32>, SET>(&INVISCID, Scale::SI, |model| {
-            let period = Period::new(0.000_5, Domain::<f64>::Turn, &Scale::SI).unwrap();
+            let period = Period::new(0.000_5, &model).unwrap();
             let slow = |phase: Phase| {
                 let at = turns(phase);
                 (at >= from && at < to) || (at + 1.0 >= from && at + 1.0 < to)
@@ -203,7 +202,7 @@ fn a_weak_brake_keeps_what_is_possible_on_a_turn() {
         ..INVISCID
     };
     with_model_of::<Cubic<f64>, SET>(&wave, Scale::SI, |model| {
-        let period = Period::new(0.000_5, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let period = Period::new(0.000_5, &model).unwrap();
         for torque in [0.1_f32, 1.0, 2.0, 10.0] {
             let braking = Braking { torque, ..BRAKING };
             for direction in [Direction::Forward, Direction::Backward] {
@@ -239,7 +238,7 @@ fn a_stroke_ends_at_rest() {
         ..INVISCID
     };
     with_model_of::<Cubic<f64>, SET>(&wave, Scale::SI, |model| {
-        let period = Period::new(0.000_5, wave.domain, &Scale::SI).unwrap();
+        let period = Period::new(0.000_5, &model).unwrap();
         let both = [Direction::Forward, Direction::Backward].map(|direction| {
             LookAhead::<f64, 65>::new(&model, direction, BRAKING, |_| 4.0, &period).unwrap()
         });
@@ -276,7 +275,7 @@ fn a_stroke_ends_at_rest() {
 #[test]
 fn what_cannot_be_looked_ahead_is_refused() {
     with_model::<Spline<f32>, { SET | curves::CONSTANT_VISCOUS }>(Scale::SI, |model| {
-        let period = Period::new(0.001, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let period = Period::new(0.001, &model).unwrap();
         let made = |braking, limit: f32| {
             LookAhead::<f32, 32>::new(&model, Direction::Forward, braking, |_| limit, &period)
         };
@@ -331,7 +330,7 @@ fn what_cannot_be_looked_ahead_is_refused() {
             assert!(made(BRAKING, limit).is_err(), "{limit}");
         }
         // At this speed an interval takes longer than a tick can count.
-        let slow = Period::new(0.000_1, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let slow = Period::new(0.000_1, &model).unwrap();
         let crawl = LookAhead::<f32, 4>::new(&model, Direction::Forward, BRAKING, |_| 0.001, &slow);
         assert!(
             matches!(crawl, Err(AxisError::OutOfRange { .. })),
@@ -346,7 +345,7 @@ fn what_cannot_be_looked_ahead_is_refused() {
         ..INVISCID
     };
     with_model_of::<Spline<f32>, SET>(&uneven, Scale::SI, |model| {
-        let period = Period::new(0.001, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let period = Period::new(0.001, &model).unwrap();
         let of = LookAhead::<f32, 8>::new(&model, Direction::Forward, BRAKING, |_| 1.0, &period);
         assert!(of.is_err());
         let of = LookAhead::<f32, 64>::new(&model, Direction::Forward, BRAKING, |_| 1.0, &period);
@@ -354,8 +353,7 @@ fn what_cannot_be_looked_ahead_is_refused() {
     });
     // A speed beyond its base.
     with_model_of::<Cubic<Q31>, SET>(&INVISCID, scale_of(250.0, 12.0, 1.5), |model| {
-        let scale = *model.table().scale();
-        let period = Period::new(0.000_5, Domain::<f64>::Turn, &scale).unwrap();
+        let period = Period::new(0.000_5, &model).unwrap();
         let of = |limit: f32| {
             LookAhead::<Q31, 32>::new(&model, Direction::Forward, BRAKING, |_| limit, &period)
         };

@@ -1,8 +1,8 @@
 //! A machine whose curves can be written down, as a model in any format.
 
 use jred::number::Number;
-use jred::table::Format;
-use jred::{Domain, Model, Scale, Set};
+use jred::table::{Format, MAX_CELLS};
+use jred::{Domain, Model, Scale, Set, curves};
 
 use crate::support::machines::Wave;
 use crate::support::rows::Rows;
@@ -40,9 +40,38 @@ pub(crate) fn with_model_of<F: Format, const SET: Set>(
     with(Model::new(rows.table()).unwrap());
 }
 
-pub(crate) fn si<N: Number>(scale: &Scale, [omega, alpha]: [f64; 2]) -> [N; 2] {
-    [
+/// A model with this range and these machine units, of a machine whose inertia does not vary: for what needs no more of it.
+pub(crate) fn in_units<F: Format>(
+    domain: Domain,
+    scale: Scale,
+) -> Model<'static, F, { curves::INERTIA }> {
+    let [torque, speed, inertia] = [scale.torque(), scale.speed(), scale.inertia()].map(f64::from);
+    // Where the velocity torque must be a whole multiple of the slope a cell, so many cells that it is.
+    let a_cell = 0.5 / domain.span() * inertia * speed * speed / torque;
+    let is_whole = |cells: &u32| {
+        let factor = a_cell * f64::from(*cells);
+        factor > 0.5 && (factor - factor.round()).abs() < 3e-7 * factor
+    };
+    let cells = if F::WHOLE_FACTOR {
+        (8..=MAX_CELLS).find(is_whole).expect("a number of cells")
+    } else {
+        8
+    };
+    let wave = Wave {
+        domain,
+        ..Wave::bare(0.5 * inertia, 0.0)
+    };
+    let rows = Rows::<F>::of(&wave, curves::INERTIA, cells, &scale).unwrap();
+    let rows: &'static Rows<F> = Box::leak(Box::new(rows));
+    rows.model(&scale)
+}
+
+pub(crate) fn si<N: Number>(
+    scale: &Scale,
+    [omega, alpha]: [f64; 2],
+) -> (N::Speed, N::Acceleration) {
+    (
         scale.omega(omega as f32).value,
         scale.alpha(alpha as f32).value,
-    ]
+    )
 }

@@ -1,11 +1,13 @@
 use core::f64::consts::TAU;
 
 use jred::axis::{Motion, Period};
-use jred::number::Number;
-use jred::{Cubic, Domain, Phase, Q15, Q31, Reducible, Scale, Set, curves};
+use jred::{
+    Acceleration, Cubic, Domain, Phase, Q15, Q31, Reducible, Rows16, Scale, Set, Speed, Spline,
+    curves,
+};
 
-use super::machine::{WAVE, si, with_model};
-use crate::support::{assert_near, samples, scale_of};
+use super::machine::{WAVE, in_units, si, with_model};
+use crate::support::{assert_near, quantity, samples, scale_of, value};
 
 /// Runge-Kutta steps of the exact machine under a constant torque: angle and speed after `time`.
 fn driven(torque: f64, [phi, omega]: [f64; 2], time: f64) -> [f64; 2] {
@@ -42,8 +44,7 @@ fn the_middle_of_a_tick_is_one_order_better() {
             let phi = f64::from(bits) / 4_294_967_296.0 * TAU;
             let missed = |time: f64| {
                 let to = from + alpha * time;
-                let period =
-                    Period::<f64>::new(time as f32, Domain::<f64>::Turn, &Scale::SI).unwrap();
+                let period = Period::new(time as f32, &model).unwrap();
                 let middle = period.between(phase, from, to).value;
                 let torque = |m: Motion<f64>| model.torque(m.phase, m.omega, m.alpha);
                 let start = Motion {
@@ -69,8 +70,10 @@ fn the_middle_of_a_tick_is_one_order_better() {
 
 #[test]
 fn a_lead_time_is_made_up_for() {
-    let turn = Domain::<f64>::Turn;
     let scale = scale_of(150.0, 10.0, 1.5);
+    let double = in_units::<Spline<f64>>(Domain::Turn, Scale::SI);
+    let long = in_units::<Spline<Q31>>(Domain::Turn, scale);
+    let short = in_units::<Rows16>(Domain::Turn, scale);
     for (omega, alpha, lead) in [
         (3.0, -40.0, 0.002),
         (-7.0, 80.0, 0.001),
@@ -91,67 +94,62 @@ fn a_lead_time_is_made_up_for() {
             omega,
             alpha,
         };
-        let after = Period::<f64>::new(lead as f32, turn, &Scale::SI)
+        let after = Period::new(lead as f32, &double)
             .unwrap()
             .later(start)
             .value;
         check("f64", after.phase, after.omega, 1e-6);
-        let [w, a] = si::<Q31>(&scale, [omega, alpha]);
+        let (w, a) = si::<Q31>(&scale, [omega, alpha]);
         let start = Motion {
             phase: Phase::default(),
             omega: w,
             alpha: a,
         };
-        let after = Period::<Q31>::new(lead as f32, turn, &scale)
-            .unwrap()
-            .later(start)
-            .value;
-        check("q31", after.phase, after.omega.to_f64() * 10.0, 1e-5);
-        let [w, a] = si::<Q15>(&scale, [omega, alpha]);
+        let after = Period::new(lead as f32, &long).unwrap().later(start).value;
+        check("q31", after.phase, value(after.omega) * 10.0, 1e-5);
+        let (w, a) = si::<Q15>(&scale, [omega, alpha]);
         let start = Motion {
             phase: Phase::default(),
             omega: w,
             alpha: a,
         };
-        let after = Period::<Q15>::new(lead as f32, turn, &scale)
-            .unwrap()
-            .later(start)
-            .value;
-        check("q15", after.phase, after.omega.to_f64() * 10.0, 2e-3);
+        let after = Period::new(lead as f32, &short).unwrap().later(start).value;
+        check("q15", after.phase, value(after.omega) * 10.0, 2e-3);
     }
 }
 
 #[test]
 fn a_limited_motion_is_flagged_and_a_stroke_ends() {
     let scale = scale_of(10.0, 30.0, 1.0);
-    let turn = Domain::<f64>::Turn;
-    let time = Period::<Q31>::new(0.001, turn, &scale).unwrap();
-    let fast = Q31::from_f64(0.8).unwrap();
+    let model = in_units::<Spline<Q31>>(Domain::Turn, scale);
+    let time = Period::new(0.001, &model).unwrap();
+    let fast: Speed<Q31> = quantity(0.8);
     assert!(
-        time.between(Phase::default(), Q31::default(), fast)
+        time.between(Phase::default(), Speed::default(), fast)
             .saturated
     );
     assert!(!time.between(Phase::default(), fast, fast).saturated);
-    let long = Period::<Q31>::new(0.05, turn, &scale_of(1000.0, 30.0, 1.0)).unwrap();
+    let strong = in_units::<Spline<Q31>>(Domain::Turn, scale_of(1000.0, 30.0, 1.0));
+    let long = Period::new(0.05, &strong).unwrap();
     let start = Motion {
         phase: Phase::default(),
         omega: fast,
-        alpha: Q31::MAX,
+        alpha: Acceleration::<Q31>::MAX,
     };
     assert!(long.later(start).saturated);
     assert!(
         !long
             .later(Motion {
-                alpha: Q31::default(),
+                alpha: Acceleration::default(),
                 ..start
             })
             .saturated
     );
     // A quarter of a turn a period at the speed base is the most.
-    assert!(Period::<Q31>::new(0.25 * TAU as f32 / 30.0 * 1.01, turn, &scale).is_err());
-    assert!(Period::<Q31>::new(0.25 * TAU as f32 / 30.0 * 0.99, turn, &scale).is_ok());
+    assert!(Period::new(0.25 * TAU as f32 / 30.0 * 1.01, &model).is_err());
+    assert!(Period::new(0.25 * TAU as f32 / 30.0 * 0.99, &model).is_ok());
     // Up to half a turn, in floating point too.
-    let lead = Period::<f64>::new(0.006, turn, &Scale::SI).unwrap();
+    let lead = Period::new(0.006, &in_units::<Spline<f64>>(Domain::Turn, Scale::SI)).unwrap();
     let ahead = lead.later(Motion {
         phase: Phase::default(),
         omega: 100.0 * core::f64::consts::PI / 4.0,
@@ -176,7 +174,7 @@ fn a_limited_motion_is_flagged_and_a_stroke_ends() {
     );
 
     let stroke = Domain::stroke(0.0, 0.5).unwrap();
-    let time = Period::<f64>::new(0.01, stroke, &Scale::SI).unwrap();
+    let time = Period::new(0.01, &in_units::<Spline<f64>>(stroke, Scale::SI)).unwrap();
     for (phase, omega, end) in [(0xffff_0000, 1.0, u32::MAX), (0x0001_0000, -1.0, 0)] {
         let start = Motion {
             phase: Phase::from_bits(phase),
@@ -198,13 +196,13 @@ fn a_limited_motion_is_flagged_and_a_stroke_ends() {
 #[test]
 fn a_short_motion_gains_alike_both_ways() {
     let scale = scale_of(150.0, 10.0, 1.5);
-    let tick = Period::<Q15>::new(0.000_1, Domain::<f64>::Turn, &scale).unwrap();
+    let tick = Period::new(0.000_1, &in_units::<Rows16>(Domain::Turn, scale)).unwrap();
     for alpha in samples(200, 0xff14, &(0.0..90.0)) {
         let gain = |alpha: f64| {
-            let [_, a] = si::<Q15>(&scale, [0.0, alpha]);
+            let (_, a) = si::<Q15>(&scale, [0.0, alpha]);
             (
-                tick.gained(a).value.to_f64(),
-                a.to_f64() * 100.0 * 0.000_1 / 10.0,
+                value(tick.gained(a).value),
+                value(a) * 100.0 * 0.000_1 / 10.0,
             )
         };
         let [(up, exact), (down, _)] = [gain(alpha), gain(-alpha)];

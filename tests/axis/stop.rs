@@ -1,15 +1,14 @@
 use core::f64::consts::TAU;
 
 use jred::axis::{Braking, Direction, LookAhead, Period};
-use jred::number::Number;
 use jred::table::Format;
-use jred::{Cubic, Domain, Phase, Q31, Rows16, Scale, Spline};
+use jred::{Cubic, Phase, Q31, Rows16, Scale, Spline};
 use proptest::num::u32::ANY;
 
 use super::look_ahead::{BRAKING, FAST, INVISCID, SET, turns, with_ahead};
 use super::machine::{si, with_model_of};
 use crate::support::machines::Wave;
-use crate::support::{assert_near, samples, scale_of};
+use crate::support::{assert_near, samples, scale_of, value};
 
 /// Angle until the exact machine rests under the brake.
 fn stopped(phi: f64, omega: f64, load: f64, coulomb: f64, viscous: f64) -> f64 {
@@ -46,8 +45,8 @@ fn stops<F: Format>(scale: Scale, error: f64) {
                 for (bits, omega) in samples(200, 0xff12, &(ANY, 0.0..10.0)) {
                     let forward = direction == Direction::Forward;
                     let (way, phase) = if forward { (1.0, bits) } else { (-1.0, !bits) };
-                    let [w, _] = si::<F::Number>(&scale, [way * omega, 0.0]);
-                    let omega = (w.to_f64() * f64::from(scale.speed())).abs();
+                    let (w, _) = si::<F::Number>(&scale, [way * omega, 0.0]);
+                    let omega = (value(w) * f64::from(scale.speed())).abs();
                     let found = ahead.stop(Phase::from_bits(phase), w);
                     assert!(!found.beyond);
                     let to = if forward {
@@ -66,7 +65,7 @@ fn stops<F: Format>(scale: Scale, error: f64) {
                 }
                 // At rest it is where it is.
                 for bits in [0, 1, 0x1234_5678, u32::MAX - 1] {
-                    let found = ahead.stop(Phase::from_bits(bits), F::Number::default());
+                    let found = ahead.stop(Phase::from_bits(bits), Default::default());
                     let off = found.phase.to_bits().wrapping_sub(bits).cast_signed();
                     assert!(
                         found.turns == 0 && off.abs() < 1 << 10,
@@ -131,7 +130,7 @@ fn it_does_not_stop_later_where_brake_and_inertia_change() {
         ..BRAKING
     };
     with_model_of::<Cubic<f64>, SET>(&wave, Scale::SI, |model| {
-        let period = Period::new(0.000_5, Domain::<f64>::Turn, &Scale::SI).unwrap();
+        let period = Period::new(0.000_5, &model).unwrap();
         let ahead =
             LookAhead::<f64, 64>::new(&model, Direction::Forward, braking, |_| 12.0, &period)
                 .unwrap();

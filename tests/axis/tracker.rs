@@ -1,10 +1,11 @@
 use core::f64::consts::TAU;
 
 use jred::axis::{Period, Tracked, Tracker};
-use jred::number::Number;
-use jred::{Domain, Phase, Q15, Q31, Scale};
+use jred::table::Format;
+use jred::{Domain, Phase, Q15, Q31, Rows16, Scale, Speed, Spline};
 
-use crate::support::{assert_near, budget, samples, scale_of};
+use super::machine::in_units;
+use crate::support::{assert_near, budget, samples, scale_of, value};
 
 /// Feeds the phases of φ(k)/2π, k = 1, 2, …
 fn follow(tracker: &mut Tracker, periods: u32, turns: impl Fn(f64) -> f64) -> Tracked {
@@ -100,15 +101,15 @@ fn the_filter_settles_and_smooths_as_stated() {
 }
 
 /// Speed, acceleration, and the counts of that speed, by a period.
-fn found<N: Number>(period: f32, tracked: Tracked, scale: Scale) -> [f64; 3] {
-    let rates = Period::<N>::new(period, Domain::<f64>::Turn, &scale).unwrap();
-    let [omega, alpha] = [rates.omega(tracked), rates.alpha(tracked)];
+fn found<F: Format>(period: f32, tracked: Tracked, scale: Scale) -> [f64; 3] {
+    let rates = Period::new(period, &in_units::<F>(Domain::Turn, scale)).unwrap();
+    let (omega, alpha) = (rates.omega(tracked), rates.alpha(tracked));
     assert!(!omega.saturated && !alpha.saturated);
     let back = rates.moved(omega.value).to_bits().cast_signed();
     let bases = [scale.speed(), scale.acceleration()].map(f64::from);
     [
-        omega.value.to_f64() * bases[0],
-        alpha.value.to_f64() * bases[1],
+        value(omega.value) * bases[0],
+        value(alpha.value) * bases[1],
         f64::from(back),
     ]
 }
@@ -135,29 +136,42 @@ fn rates_give_the_motion_in_every_number() {
         let off = 4.0 + 2.0 * share * wanted[2];
         assert_near(&format!("{name} moved"), back, wanted[2], off);
     };
-    check("f64", found::<f64>(period, tracked, Scale::SI), 1e-6);
-    check("f32", found::<f32>(period, tracked, Scale::SI), 1e-6);
-    check("q31", found::<Q31>(period, tracked, scale), 1e-6);
-    check("q15", found::<Q15>(period, tracked, scale), 1.0 / 32_768.0);
+    check(
+        "f64",
+        found::<Spline<f64>>(period, tracked, Scale::SI),
+        1e-6,
+    );
+    check(
+        "f32",
+        found::<Spline<f32>>(period, tracked, Scale::SI),
+        1e-6,
+    );
+    check("q31", found::<Spline<Q31>>(period, tracked, scale), 1e-6);
+    check(
+        "q15",
+        found::<Rows16>(period, tracked, scale),
+        1.0 / 32_768.0,
+    );
 
     // Beyond the machine units: limited and flagged, both ways.
-    let short = Period::<Q15>::new(period, Domain::<f64>::Turn, &scale).unwrap();
+    let short = Period::new(period, &in_units::<Rows16>(Domain::Turn, scale)).unwrap();
     let fast = Tracked {
         speed: 2 * tracked.speed,
         ..tracked
     };
-    assert!(short.omega(fast).saturated && short.omega(fast).value == Q15::MAX);
-    let rates = Period::<Q31>::new(period, Domain::<f64>::Turn, &scale).unwrap();
+    assert!(short.omega(fast).saturated && short.omega(fast).value == Speed::<Q15>::MAX);
+    let rates = Period::new(period, &in_units::<Spline<Q31>>(Domain::Turn, scale)).unwrap();
     for sign in [1, -1] {
         let fast = Tracked {
             speed: 2 * sign * tracked.speed,
             acceleration: 2 * sign * tracked.acceleration,
             ..tracked
         };
-        let [omega, alpha] = [rates.omega(fast), rates.alpha(fast)];
+        let (omega, alpha) = (rates.omega(fast), rates.alpha(fast));
         assert!(omega.saturated && alpha.saturated);
-        assert_eq!(omega.value, if sign > 0 { Q31::MAX } else { Q31::MIN });
-        assert_eq!(alpha.value, if sign < 0 { Q31::MAX } else { Q31::MIN });
+        let ends = [i32::MIN, i32::MAX];
+        assert_eq!(omega.value.to_bits(), ends[usize::from(sign > 0)]);
+        assert_eq!(alpha.value.to_bits(), ends[usize::from(sign < 0)]);
     }
 }
 
@@ -183,11 +197,9 @@ fn filters_that_cannot_be_are_refused() {
         Tracker::with_bandwidth(50.0, 1e-4).unwrap(),
         Tracker::new(1.0 / (1.0 + TAU as f32 * 50.0 * 1e-4)).unwrap()
     );
+    let units = in_units::<Spline<Q31>>(Domain::Turn, Scale::SI);
     for period in [f32::NAN, 0.0, -1.0, f32::INFINITY, 1e-38, 1e38] {
-        assert!(
-            Period::<Q31>::new(period, Domain::<f64>::Turn, &Scale::SI).is_err(),
-            "{period}"
-        );
+        assert!(Period::new(period, &units).is_err(), "{period}");
     }
 }
 

@@ -5,7 +5,7 @@ use crate::support::budget;
 use crate::support::rows::Rows;
 use crate::support::scale_of;
 use jred::table::RowConstants;
-use jred::{Domain, Phase, Q15, Rows16, Set, curves};
+use jred::{Acceleration, Domain, Phase, Q15, Rows16, Set, Speed, curves};
 
 const ALL: Set = curves::ALL;
 const CELLS: u32 = 4;
@@ -47,8 +47,8 @@ fn error(genes: &[u32]) -> Option<f64> {
     let place = state[0] >> 16;
     let u = f64::from(place) / 65_536.0;
     let phase = Phase::from_bits(place << 14);
-    let [omega, alpha] = [state[1], state[2]].map(|gene| Q15::from_bits((gene >> 16) as i16));
-    let [w, a] = [omega, alpha].map(|x| f64::from(x.to_bits()) / 32_768.0);
+    let [omega, alpha] = [state[1], state[2]].map(|gene| (gene >> 16) as i16);
+    let [w, a] = [omega, alpha].map(|x| f64::from(x) / 32_768.0);
     let at = |word: u32| {
         let [start, rise] = line(word);
         start + rise * u
@@ -59,7 +59,11 @@ fn error(genes: &[u32]) -> Option<f64> {
     let torque = inertia * a / 2.0
         + (at(v) * w + at(b)) * w
         + minus_load
-        + at(c).abs() * f64::from(omega.to_bits().signum());
+        + at(c).abs() * f64::from(omega.signum());
+    let (omega, alpha) = (
+        Speed::<Q15>::from_bits(omega),
+        Acceleration::<Q15>::from_bits(alpha),
+    );
     Some(f64::from(model.torque(phase, omega, alpha).to_bits()) - torque)
 }
 

@@ -5,7 +5,7 @@ use crate::support::budget::{self, Proven, Q31_UNIT};
 use crate::support::exact::place_bits;
 use crate::support::rows::{Fixed, Rows};
 use crate::support::scale_of;
-use jred::{Cubic, Domain, Phase, Q31, Quadratic, Set, Spline, curves};
+use jred::{Acceleration, Cubic, Domain, Phase, Q31, Quadratic, Set, Speed, Spline, curves};
 
 const ALL: Set = curves::ALL;
 const CELLS: u32 = 4;
@@ -48,13 +48,17 @@ fn error<L: Fixed>(genes: &[u32], whole: f64) -> Option<f64> {
     }
     let model = rows.try_model::<ALL>(&rows.scale).ok()?;
     let phase = Phase::from_bits(state[0] / CELLS);
-    let [omega, alpha] = [state[1], state[2]].map(|gene| Q31::from_bits(gene.cast_signed()));
-    let found = model.torque(phase, omega, alpha).to_bits();
+    let [omega, alpha] = [state[1], state[2]].map(u32::cast_signed);
+    let (speed, acceleration) = (
+        Speed::<Q31>::from_bits(omega),
+        Acceleration::<Q31>::from_bits(alpha),
+    );
+    let found = model.torque(phase, speed, acceleration).to_bits();
     let exact = rows.exact(phase, place_bits::<L>());
-    let [w, a] = [omega, alpha].map(|x| f64::from(x.to_bits()) * Q31_UNIT);
+    let [w, a] = [omega, alpha].map(|x| f64::from(x) * Q31_UNIT);
     let torque = exact.inertia * a + (whole * exact.inertia_slope * w + exact.viscous) * w
         - exact.load
-        + exact.coulomb * f64::from(omega.to_bits().signum());
+        + exact.coulomb * f64::from(omega.signum());
     Some(f64::from(found) - torque / Q31_UNIT)
 }
 

@@ -1,7 +1,7 @@
 //! Images of tables of 16-bit rows: word by word, back again, and refused.
 
 use jred::image::{HEADER_WORDS, encode, image_len};
-use jred::{Domain, Image, ImageError, Phase, Q15, Rows16, Set, Spline, TableError, curves};
+use jred::{Domain, Image, ImageError, Phase, Rows16, Set, Spline, TableError, curves};
 
 use super::{Short, model, q15};
 use crate::support::images::{VALIDITY, sealed, small};
@@ -70,8 +70,9 @@ fn an_image_gives_the_same_bits() {
         assert_eq!(*after.table().constants(), rows.constants);
         for k in 0..1000u32 {
             let phase = Phase::from_bits(k.wrapping_mul(0x9E37_79B9));
-            let [omega, alpha] = [0x3C6E_F372, 0xDAA6_6D2B].map(|m| q15(k.wrapping_mul(m) as i16));
-            let torque: Q15 = before.torque(phase, omega, alpha);
+            let [omega, alpha] = [0x3C6E_F372, 0xDAA6_6D2B].map(|m: u32| k.wrapping_mul(m) as i16);
+            let (omega, alpha) = (q15(omega), q15(alpha));
+            let torque = before.torque(phase, omega, alpha);
             assert_eq!(after.torque(phase, omega, alpha), torque);
             assert_eq!(
                 after.acceleration(phase, omega, torque),

@@ -1,7 +1,7 @@
 //! The tick against the formulas in wide integers, where nothing wraps: random rows, not only those of machines.
 
 use jred::table::RowConstants;
-use jred::{Domain, Phase, Q15, Set, curves};
+use jred::{Domain, Phase, Set, curves};
 use proptest::prelude::*;
 
 use super::{CONSTANT, Short, q15, row_words};
@@ -117,7 +117,7 @@ fn check<const SET: Set>(random: &Random) -> bool {
             let exact = quotient::<SET>(&words, shift, u, net);
             let back = model.acceleration(phase, q15(omega), q15(alpha));
             let limited = exact.clamp(-32_768, 32_767);
-            if back.value == Q15::MIN && SET & curves::RECIPROCAL == 0 {
+            if back.value == q15(i16::MIN) && SET & curves::RECIPROCAL == 0 {
                 // Division gives −1 as saturated, too.
                 assert!(back.saturated && exact <= -32_768);
             } else {

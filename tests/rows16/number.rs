@@ -1,12 +1,12 @@
 //! The number itself, and its conversions.
 
-use jred::number::Number;
-use jred::{Outcome, Q15};
+use jred::number::{Number, Quantity};
+use jred::{Acceleration, Outcome, Q15, Speed, Torque};
 
 use crate::rows16::q15;
 use crate::support::scale_of;
 
-fn outcome(bits: i16, saturated: bool) -> Outcome<Q15> {
+fn outcome<Q: Quantity<Number = Q15>>(bits: i16, saturated: bool) -> Outcome<Q> {
     Outcome {
         value: q15(bits),
         saturated,
@@ -16,7 +16,7 @@ fn outcome(bits: i16, saturated: bool) -> Outcome<Q15> {
 #[test]
 fn conversions_round_to_the_nearest_and_say_when_they_saturate() {
     let scale = scale_of(64.0, 32.0, 2.0);
-    let omega = |units: f32| scale.omega::<Q15>(units * (32.0 / 32_768.0));
+    let omega = |units: f32| scale.omega::<Speed<Q15>>(units * (32.0 / 32_768.0));
     for (given, expected) in [
         (0.0, outcome(0, false)),
         (0.49, outcome(0, false)),
@@ -34,23 +34,36 @@ fn conversions_round_to_the_nearest_and_say_when_they_saturate() {
     ] {
         assert_eq!(omega(given), expected, "{given}");
     }
-    assert_eq!(scale.to_torque::<Q15>(32.0), outcome(1 << 14, false));
-    assert_eq!(scale.alpha::<Q15>(-8.0), outcome(-(1 << 13), false));
     assert_eq!(
-        scale.torque_si(q15(-(1 << 13))).to_bits(),
+        scale.to_torque::<Torque<Q15>>(32.0),
+        outcome(1 << 14, false)
+    );
+    assert_eq!(
+        scale.alpha::<Acceleration<Q15>>(-8.0),
+        outcome(-(1 << 13), false)
+    );
+    assert_eq!(
+        scale.torque_si(q15::<Torque<Q15>>(-(1 << 13))).to_bits(),
         (-16f32).to_bits()
     );
-    assert_eq!(scale.alpha_si(q15(1 << 14)).to_bits(), 16f32.to_bits());
+    assert_eq!(
+        scale.alpha_si(q15::<Acceleration<Q15>>(1 << 14)).to_bits(),
+        16f32.to_bits()
+    );
 }
 
 #[test]
 fn doubles_come_back() {
     for bits in i16::MIN..=i16::MAX {
-        assert_eq!(Q15::from_f64(q15(bits).to_f64()), Some(q15(bits)));
+        let number = Q15::from_bits(bits);
+        assert_eq!(Q15::from_f64(number.to_f64()), Some(number));
     }
-    assert_eq!(q15(i16::MIN).to_f64().to_bits(), (-1f64).to_bits());
+    assert_eq!(Q15::MIN.to_f64().to_bits(), (-1f64).to_bits());
     assert_eq!(Q15::from_f64(1.0), None);
     assert_eq!(Q15::from_f64(-1.0001), None);
     assert_eq!(Q15::from_f64(f64::NAN), None);
-    assert_eq!([Q15::MIN, Q15::MAX], [q15(i16::MIN), q15(i16::MAX)]);
+    assert_eq!(
+        [Q15::MIN, Q15::MAX],
+        [i16::MIN, i16::MAX].map(Q15::from_bits)
+    );
 }

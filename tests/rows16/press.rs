@@ -2,15 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use jred::number::Number;
 use jred::table::words_len;
 use jred::tabulate::{Request, measure, scratch_len, tabulate};
-use jred::{Error, Phase, Q15, Reducible, Rows16, Scale, Set, curves};
+use jred::{Error, Phase, Reducible, Rows16, Scale, Set, curves};
 use proptest::prelude::*;
 
 use super::{Short, model, q15};
 use crate::support::harmonics::press;
-use crate::support::{budget, largest, samples};
+use crate::support::{budget, largest, samples, value};
 
 const OMEGA: f64 = 40.0;
 const ALPHA: f64 = 800.0;
@@ -109,11 +108,11 @@ fn no_tick_errs_more_than_stated() {
             (true, false) => -full,
             _ => alpha,
         };
-        let (omega, alpha): (Q15, Q15) = (q15(omega), q15(alpha));
-        let torque = model.torque(phase, omega, alpha).to_f64() * base;
+        let (omega, alpha) = (q15(omega), q15(alpha));
+        let torque = value(model.torque(phase, omega, alpha)) * base;
         let exact = machine.reduction(phase.radians()).unwrap();
         let exact = exact
-            .torque(omega.to_f64() * speed, alpha.to_f64() * acceleration)
+            .torque(value(omega) * speed, value(alpha) * acceleration)
             .total();
         worst = worst.max((torque - exact).abs());
     }

@@ -1,12 +1,11 @@
 //! The tick against the curves that its table reads, and against itself the other way.
 
-use jred::number::Number;
-use jred::{Phase, Q15, Scale, Set, curves};
+use jred::{Phase, Q15, Scale, Set, Torque, curves};
 use proptest::prelude::*;
 
 use super::{CONSTANT, EVERY, Short, model, q15, units, velocity};
 use crate::support::machines::{Spec, spec};
-use crate::support::{budget, config, largest, samples};
+use crate::support::{budget, config, largest, samples, value};
 use jred::table::CurveValues;
 
 const ALL: Set = curves::ALL;
@@ -30,9 +29,10 @@ fn resisting(read: &CurveValues, scale: &Scale, omega: f64) -> f64 {
 }
 
 /// Torque less that of the curves, in units of 2⁻¹⁵.
-fn torque_error<const SET: Set>(rows: &Short, phase: Phase, omega: Q15, alpha: Q15) -> f64 {
+fn torque_error<const SET: Set>(rows: &Short, phase: Phase, omega: i16, alpha: i16) -> f64 {
     let read = rows.table().at(phase);
-    let (w, a) = (omega.to_f64(), alpha.to_f64());
+    let (omega, alpha) = (q15(omega), q15(alpha));
+    let (w, a) = (value(omega), value(alpha));
     let exact = read.inertia * a + resisting(&read, &rows.scale, w);
     let torque = model::<SET>(rows).torque(phase, omega, alpha);
     units(torque) - 32_768.0 * exact
@@ -57,7 +57,7 @@ fn torque_of_set<const SET: Set>() {
         let phase = Phase::from_bits(phase);
         for omega in [omega, 0, i16::MAX, i16::MIN] {
             for alpha in [alpha, 0, i16::MAX, i16::MIN] {
-                let error = torque_error::<SET>(&rows, phase, q15(omega), q15(alpha));
+                let error = torque_error::<SET>(&rows, phase, omega, alpha);
                 worst = [worst[0].min(error), worst[1].max(error)];
             }
         }
@@ -130,21 +130,22 @@ fn forward_undoes_inverse() {
 }
 
 /// Where the exact acceleration is well out of range or well within it, the flag says so, and the value is the nearest.
-fn saturation<const SET: Set>(rows: &Short, phase: Phase, omega: Q15, torque: Q15) {
+fn saturation<const SET: Set>(rows: &Short, phase: Phase, omega: i16, torque: i16) {
+    let (omega, torque) = (q15(omega), q15(torque));
     let model = model::<SET>(rows);
     let read = model.table().at(phase);
-    let exact = (torque.to_f64() - resisting(&read, &rows.scale, omega.to_f64())) / read.inertia;
+    let exact = (value(torque) - resisting(&read, &rows.scale, value(omega))) / read.inertia;
     let off = f64::from(model.table().reciprocal_error()) * exact.abs()
         + 1e-4 * (1.0 + 3.0 / read.inertia);
     let found = model.acceleration(phase, omega, torque);
     if exact > 1.0 + off {
-        assert_eq!((found.value, found.saturated), (Q15::MAX, true));
+        assert_eq!((found.value, found.saturated), (q15(i16::MAX), true));
     } else if exact < -1.0 - off {
-        assert_eq!((found.value, found.saturated), (Q15::MIN, true));
+        assert_eq!((found.value, found.saturated), (q15(i16::MIN), true));
     } else if exact.abs() < 1.0 - off {
         assert!(!found.saturated);
         assert!(
-            (found.value.to_f64() - exact).abs() <= off,
+            (value(found.value) - exact).abs() <= off,
             "{found:?} {exact}"
         );
     }
@@ -157,10 +158,10 @@ proptest! {
     fn forward_saturates_where_it_must(spec in spec(), phase: u32, omega: i16, torque: i16) {
         let phase = Phase::from_bits(phase);
         if let Some(rows) = table(&spec, ALL | curves::RECIPROCAL) {
-            saturation::<{ ALL | curves::RECIPROCAL }>(&rows, phase, q15(omega), q15(torque));
+            saturation::<{ ALL | curves::RECIPROCAL }>(&rows, phase, omega, torque);
         }
         if let Some(rows) = table(&spec, ALL) {
-            saturation::<ALL>(&rows, phase, q15(omega), q15(torque));
+            saturation::<ALL>(&rows, phase, omega, torque);
         }
     }
 
@@ -183,13 +184,14 @@ fn many_samples_are_single_ones() {
     let rows = table(&spec, ALL).unwrap();
     let model = model::<ALL>(&rows);
     let phases = [1u32, 1 << 30, 3 << 30].map(Phase::from_bits);
-    let [omegas, alphas] = [[100, -200, 300], [-4000, 5000, 6000]].map(|n: [i16; 3]| n.map(q15));
-    let mut torques = [Q15::default(); 4];
+    let omegas = [100, -200, 300].map(q15);
+    let alphas = [-4000, 5000, 6000].map(q15);
+    let mut torques = [Torque::<Q15>::default(); 4];
     assert_eq!(model.torques(&phases, &omegas, &alphas, &mut torques), 3);
     for k in 0..3 {
         assert_eq!(torques[k], model.torque(phases[k], omegas[k], alphas[k]));
     }
-    assert_eq!(torques[3], Q15::default());
+    assert_eq!(torques[3], Torque::default());
 }
 
 /// The bound on 1/J holds everywhere, and is not far above what is found.

@@ -17,7 +17,7 @@ pub(crate) mod rows;
 pub(crate) mod search;
 
 use jred::machine::MassProperties;
-use jred::number::{Bases, Number};
+use jred::number::{Bases, Number as _, Quantity};
 use jred::{Domain, Link, Phase, Scale};
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngSeed, TestRunner};
@@ -105,7 +105,12 @@ pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |most, v| v.abs().max(most))
 }
 
-/// The nearest number of a type; its own name for it is reachable from generic code only.
-pub(crate) fn number<S: Number>(value: f64) -> S {
-    S::from_f64(value).unwrap()
+/// The nearest speed, acceleration or torque in machine units.
+pub(crate) fn quantity<Q: Quantity>(value: f64) -> Q {
+    Q::of(Q::Number::from_f64(value).unwrap())
+}
+
+/// In machine units.
+pub(crate) fn value<Q: Quantity>(quantity: Q) -> f64 {
+    quantity.number().to_f64()
 }

@@ -15,10 +15,10 @@ use jred::axis::{
     Stop, StrokeEncoder, TorqueLimits, Tracked, Tracker, Transmission,
 };
 use jred::number::Sliding;
-use jred::table::Format;
+use jred::table::{AccelerationOf, Format, SpeedOf, TorqueOf};
 use jred::{
-    AccelerationRange, Cubic, Image, Model, Outcome, Phase, Q15, Q31, Quadratic, Rows16, Scale,
-    Set, SliderCrankForm, Spline, curves, slider_crank,
+    Acceleration, AccelerationRange, Cubic, Image, Model, Outcome, Phase, Q15, Q31, Quadratic,
+    Rows16, Set, SliderCrankForm, Speed, Spline, Torque, curves, slider_crank,
 };
 use panic_halt as _;
 
@@ -65,23 +65,36 @@ impl Word for f32 {
     }
 }
 
-impl Word for Q31 {
-    fn read(index: usize) -> Self {
-        Self::from_bits(read(index).cast_signed())
-    }
-    fn write(self) {
-        write(self.to_bits().cast_unsigned());
-    }
+/// A quantity in fixed point.
+macro_rules! word {
+    ($quantity:ident<Q31>) => {
+        impl Word for $quantity<Q31> {
+            fn read(index: usize) -> Self {
+                Self::from_bits(read(index).cast_signed())
+            }
+            fn write(self) {
+                write(self.to_bits().cast_unsigned());
+            }
+        }
+    };
+    ($quantity:ident<Q15>) => {
+        impl Word for $quantity<Q15> {
+            fn read(index: usize) -> Self {
+                Self::from_bits(read(index) as i16)
+            }
+            fn write(self) {
+                write(u32::from(self.to_bits().cast_unsigned()));
+            }
+        }
+    };
 }
 
-impl Word for Q15 {
-    fn read(index: usize) -> Self {
-        Self::from_bits(read(index) as i16)
-    }
-    fn write(self) {
-        write(u32::from(self.to_bits().cast_unsigned()));
-    }
-}
+word!(Speed<Q31>);
+word!(Acceleration<Q31>);
+word!(Torque<Q31>);
+word!(Speed<Q15>);
+word!(Acceleration<Q15>);
+word!(Torque<Q15>);
 
 /// The calls on one model of a format: torque, acceleration, their range, and torque from counts.
 macro_rules! model {
@@ -91,9 +104,9 @@ macro_rules! model {
         fn $torque(
             model: &Model<$format, $set>,
             phase: Phase,
-            omega: $number,
-            alpha: $number,
-        ) -> $number {
+            omega: SpeedOf<$format>,
+            alpha: AccelerationOf<$format>,
+        ) -> TorqueOf<$format> {
             model.torque(phase, omega, alpha)
         }
 
@@ -102,9 +115,9 @@ macro_rules! model {
         fn $acceleration(
             model: &Model<$format, $set>,
             phase: Phase,
-            omega: $number,
-            torque: $number,
-        ) -> Outcome<$number> {
+            omega: SpeedOf<$format>,
+            torque: TorqueOf<$format>,
+        ) -> Outcome<AccelerationOf<$format>> {
             model.acceleration(phase, omega, torque)
         }
 
@@ -113,10 +126,10 @@ macro_rules! model {
         fn $range(
             model: &Model<$format, $set>,
             phase: Phase,
-            omega: $number,
-            most: $number,
+            omega: SpeedOf<$format>,
+            most: TorqueOf<$format>,
         ) -> AccelerationRange<$number> {
-            model.acceleration_range(phase, omega, $number::default(), most)
+            model.acceleration_range(phase, omega, TorqueOf::<$format>::default(), most)
         }
 
         #[unsafe(no_mangle)]
@@ -124,9 +137,9 @@ macro_rules! model {
         fn $counts(
             model: &Model<$format, $set>,
             count: i32,
-            omega: $number,
-            alpha: $number,
-        ) -> $number {
+            omega: SpeedOf<$format>,
+            alpha: AccelerationOf<$format>,
+        ) -> TorqueOf<$format> {
             model.torque(TEN_THOUSAND.phase(count), omega, alpha)
         }
 
@@ -135,26 +148,27 @@ macro_rules! model {
         fn $binary(
             model: &Model<$format, $set>,
             count: i32,
-            omega: $number,
-            alpha: $number,
-        ) -> $number {
+            omega: SpeedOf<$format>,
+            alpha: AccelerationOf<$format>,
+        ) -> TorqueOf<$format> {
             model.torque(POWER_OF_TWO.phase(count), omega, alpha)
         }
 
         fn $run() {
             let model = model::<$format, $set>();
-            let (count, omega, third) = (read(0).cast_signed(), $number::read(1), $number::read(2));
+            let (count, omega) = (read(0).cast_signed(), Word::read(1));
+            let (alpha, torque) = (Word::read(2), Word::read(2));
             let phase = Phase::from_bits(read(3));
-            $torque(&model, phase, omega, third).write();
-            let reached = $acceleration(&model, phase, omega, third);
+            $torque(&model, phase, omega, alpha).write();
+            let reached = $acceleration(&model, phase, omega, torque);
             reached.value.write();
             write(reached.saturated.into());
-            let range = $range(&model, phase, omega, third);
+            let range = $range(&model, phase, omega, torque);
             range.least.value.write();
             write(range.greatest.saturated.into());
             range.greatest.value.write();
-            $counts(&model, count, omega, third).write();
-            $binary(&model, count, omega, third).write();
+            $counts(&model, count, omega, alpha).write();
+            $binary(&model, count, omega, alpha).write();
         }
     };
 }
@@ -214,7 +228,7 @@ mod around {
 
     #[unsafe(no_mangle)]
     #[inline(never)]
-    fn omega_q31(period: &Period<Q31>, tracked: Tracked) -> Outcome<Q31> {
+    fn omega_q31(period: &Period<Q31>, tracked: Tracked) -> Outcome<Speed<Q31>> {
         period.omega(tracked)
     }
 
@@ -244,11 +258,12 @@ mod around {
             write(phase.value.to_bits());
             write(phase.saturated.into());
         }
-        let turn = jred::Domain::<f32>::Turn;
+        let single = model::<Cubic<f32>, PRESS>();
+        let model = model();
         if let (Ok(mut tracker), Ok(single), Ok(fixed)) = (
             Tracker::new(0.9),
-            Period::<f32>::new(1e-4, turn, &Scale::SI),
-            Period::<Q31>::new(1e-4, turn, &Scale::SI),
+            Period::new(1e-4, &single),
+            Period::new(1e-4, &model),
         ) {
             let tracked = tracker_update(black_box(&mut tracker), phase);
             write(tracked.acceleration.cast_unsigned());
@@ -257,7 +272,6 @@ mod around {
             omega.value.write();
             write(omega.saturated.into());
         }
-        let model = model();
         si_q31(&model, phase, f32::read(1), f32::read(2)).write();
     }
 }
@@ -317,7 +331,7 @@ mod command {
 
     #[unsafe(no_mangle)]
     #[inline(never)]
-    fn transmission_motor(gearbox: &Transmission, torque: f32, omega: f32, alpha: f32) -> f32 {
+    fn transmission_motor(gearbox: &Transmission<f32>, torque: f32, omega: f32, alpha: f32) -> f32 {
         gearbox.motor(torque, omega, alpha).value
     }
 
@@ -354,11 +368,10 @@ mod command {
             efficiency: 0.95,
             rotor: 0.001,
         };
-        let scale = image.scale();
         if let (Ok(lead), Ok(ramp), Ok(gearbox), Ok(limits)) = (
-            Period::new(1e-4, image.domain(), scale),
-            Ramp::new(0.1, scale),
-            Transmission::new::<f32>(gearbox, scale),
+            Period::new(1e-4, &model),
+            Ramp::new(0.1, &model),
+            Transmission::new(gearbox, &model),
             TorqueLimits::new(-5.0, 5.0),
         ) {
             let later = period_later(black_box(&lead), motion);
@@ -390,7 +403,7 @@ macro_rules! ahead {
             limits: &Limits<$number, 2>,
             model: &Model<$format, $set>,
             phase: Phase,
-            omega: $number,
+            omega: SpeedOf<$format>,
         ) -> Feasible<$number> {
             limits.feasible(model, phase, omega)
         }
@@ -402,14 +415,14 @@ macro_rules! ahead {
             limits: &Limits<$number, 2>,
             model: &Model<$format, $set>,
             motion: &Motion<$number>,
-            commanded: $number,
+            commanded: SpeedOf<$format>,
         ) -> Governed<$number> {
             governor.govern(limits, model, motion, commanded)
         }
 
         #[unsafe(no_mangle)]
         #[inline(never)]
-        fn $stop(ahead: &LookAhead<$number, 64>, phase: Phase, omega: $number) -> Stop {
+        fn $stop(ahead: &LookAhead<$number, 64>, phase: Phase, omega: SpeedOf<$format>) -> Stop {
             ahead.stop(phase, omega)
         }
 
@@ -422,13 +435,12 @@ macro_rules! ahead {
             };
             let motion = Motion {
                 phase: Phase::from_bits(read(3)),
-                omega: $number::read(1),
-                alpha: $number::read(2),
+                omega: Word::read(1),
+                alpha: Word::read(2),
             };
-            let scale = image.scale();
-            let period = Period::new(1e-3, image.domain(), scale)?;
-            let envelope = Envelope::new([[10.0, 200.0], [20.0, 100.0]], 200.0, scale)?;
-            let limits = Limits::new(envelope, 15.0, 100.0, period, scale)?;
+            let period = Period::new(1e-3, &model)?;
+            let envelope = Envelope::new([[10.0, 200.0], [20.0, 100.0]], 200.0, &model)?;
+            let limits = Limits::new(envelope, 15.0, 100.0, period, &model)?;
             let braking = Braking {
                 torque: 150.0,
                 deceleration: 100.0,
@@ -447,7 +459,13 @@ macro_rules! ahead {
             );
             feasible.least.alpha.write();
             write(feasible.unkept.is_some().into());
-            let governed = $govern(black_box(&governor), &limits, &model, &motion, motion.alpha);
+            let governed = $govern(
+                black_box(&governor),
+                &limits,
+                &model,
+                &motion,
+                Word::read(2),
+            );
             governed.alpha.write();
             write(governed.by.is_some().into());
             write(governed.unkept.is_some().into());

@@ -17,11 +17,11 @@
 mod support;
 
 use jred::harmonic::terms;
-use jred::number::Number;
+use jred::number::{Number, Quantity};
 use jred::table::Format;
 use jred::{
-    Cubic, Harmonic, Image, Model, Outcome, Phase, Pieces, Q15, Q31, Quadratic, Rows16, Set,
-    SliderCrankForm, Spline, Spline16, Validity, curves, include_image, slider_crank,
+    Cubic, Domain, Harmonic, Image, Model, Outcome, Phase, Pieces, Q15, Q31, Quadratic, Rows16,
+    Set, SliderCrankForm, Spline, Spline16, Validity, curves, include_image, slider_crank,
 };
 use support::{Failure, println, program};
 
@@ -153,7 +153,7 @@ fn of_model<F: Format<Number: Word>, const SET: Set>(
 ) -> Result<(), Failure> {
     let image = Image::from_bytes(image)?;
     let model: Model<'_, F, SET> = image.model()?;
-    ticks(
+    ticks::<F::Number>(
         run,
         until,
         image.validity(),
@@ -169,10 +169,12 @@ fn of_piece<F: Format<Number: Word>, const SET: Set>(
     until: u32,
 ) -> Result<(), Failure> {
     let image = Image::from_bytes(image)?;
-    let turn: Pieces<'_, F, SET, 1> =
-        Pieces::new([(Phase::from_bits(0x1234_5679), image.model()?)])
-            .map_err(|_| "a turn is a piece")?;
-    ticks(
+    let turn: Pieces<'_, F, SET, 1> = Pieces::new(
+        Domain::Turn,
+        [(Phase::from_bits(0x1234_5679), image.model()?)],
+    )
+    .map_err(|_| "a turn is a piece")?;
+    ticks::<F::Number>(
         run,
         until,
         image.validity(),
@@ -185,8 +187,8 @@ fn ticks<N: Word>(
     run: &mut Run,
     until: u32,
     validity: Validity,
-    torque: impl Fn(Phase, N, N) -> N,
-    acceleration: impl Fn(Phase, N, N) -> Outcome<N>,
+    torque: impl Fn(Phase, N::Speed, N::Acceleration) -> N::Torque,
+    acceleration: impl Fn(Phase, N::Speed, N::Torque) -> Outcome<N::Acceleration>,
 ) -> Result<(), Failure> {
     // N m, for f32
     const MOST_TORQUE: f32 = 500.0;
@@ -198,9 +200,12 @@ fn ticks<N: Word>(
             _ if standstill => N::default(),
             bits => N::random(bits, validity.omega),
         };
-        let needed = torque(phase, omega, N::random(run.random(), validity.alpha));
-        let gained = acceleration(phase, omega, N::random(run.random(), MOST_TORQUE));
-        for result in [needed, gained.value] {
+        let omega = Quantity::of(omega);
+        let alpha = Quantity::of(N::random(run.random(), validity.alpha));
+        let needed = torque(phase, omega, alpha);
+        let drive = Quantity::of(N::random(run.random(), MOST_TORQUE));
+        let gained = acceleration(phase, omega, drive);
+        for result in [needed.number(), gained.value.number()] {
             run.digest(result.bits().ok_or("a result is not a number")?);
         }
         run.digest(gained.saturated.into());

@@ -14,8 +14,9 @@ pub const CURVES: Set = curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOU
 pub type Layout = jred::Spline<f32>;
 #[cfg(fixed_point)]
 pub type Layout = jred::Spline<jred::Q31>;
-/// A number of the tick.
+/// A number of the tick, and a torque of the motor: with `Q31` a type that is no torque on the crank.
 pub type Number = <Layout as Format>::Number;
+pub type MotorTorque = <Number as jred::number::Number>::MotorTorque;
 
 /// Words of the largest image: `jred export` prints the bytes, four a word.
 pub const WORDS: usize = 320;

@@ -4,11 +4,10 @@ use core::fmt;
 
 use jred::ImageError;
 use jred::axis::{AxisError, ImageSlot, Period, Ramp, TorqueLimits, Transmission};
-use jred::number::Number as _;
 
 use crate::board::RATE;
 use crate::machine::{
-    CURVES, FRICTION_RAMP, GEARBOX, LEAD, Layout, MACHINE, MOST_TORQUE, Number, WORDS,
+    CURVES, FRICTION_RAMP, GEARBOX, LEAD, Layout, MACHINE, MOST_TORQUE, MotorTorque, Number, WORDS,
 };
 
 /// Memory for a table. There are two: the tick has the one that it reads, the background the other.
@@ -23,10 +22,8 @@ pub struct Units {
     pub tick: Period<Number>,
     pub lead: Period<Number>,
     pub ramp: Ramp,
-    pub gearbox: Transmission,
-    pub limits: TorqueLimits<Number>,
-    /// What a torque of 1 is at the motor (N·m).
-    pub base: f32,
+    pub gearbox: Transmission<Number>,
+    pub limits: TorqueLimits<MotorTorque>,
 }
 
 /// Why a table is not used.
@@ -69,19 +66,16 @@ impl Table {
         let Some(feed_forward) = self.slot.feed_forward() else {
             return Ok(());
         };
-        let table = feed_forward.model().table();
-        let (domain, scale) = (table.domain(), table.scale());
-        let gearbox = Transmission::new::<Number>(GEARBOX, scale)?;
-        let base = gearbox.base();
-        let most = Number::per_unit(MOST_TORQUE, base).value;
-        let least = Number::per_unit(-MOST_TORQUE, base).value;
+        let press = feed_forward.model();
+        let gearbox = Transmission::new(GEARBOX, press)?;
+        let [least, most] =
+            [-MOST_TORQUE, MOST_TORQUE].map(|torque| gearbox.to_torque(torque).value);
         self.units = Some(Units {
-            tick: Period::new(1.0 / RATE as f32, domain, scale)?,
-            lead: Period::new(LEAD, domain, scale)?,
-            ramp: Ramp::new(FRICTION_RAMP, scale)?,
+            tick: Period::new(1.0 / RATE as f32, press)?,
+            lead: Period::new(LEAD, press)?,
+            ramp: Ramp::new(FRICTION_RAMP, press)?,
             gearbox,
             limits: TorqueLimits::new(least, most)?,
-            base,
         });
         Ok(())
     }

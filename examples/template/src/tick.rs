@@ -6,7 +6,6 @@ use cortex_m::peripheral::SYST;
 use cortex_m::peripheral::syst::SystClkSource;
 use critical_section::CriticalSection;
 use jred::axis::{Counter, Motion, Tracker};
-use jred::number::Number as _;
 
 use crate::board::{Board, CLOCK, RATE};
 use crate::exchange::{OFFERED, RETURNED, STATUS};
@@ -187,7 +186,7 @@ impl Tick {
         let with = &mut self.with;
         // Beyond the table the drive's own controller works alone.
         let torque = if valid {
-            limited.torque.si(units.base)
+            units.gearbox.torque_si(limited.torque)
         } else {
             0.0
         };

@@ -85,7 +85,7 @@ pub(crate) const CONSTANTS: usize = 11;
 /// impl Format for Mine {}
 /// ```
 pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 'static {
-    /// Numbers that a tick takes and gives.
+    /// Numbers that a tick takes and gives, as [`SpeedOf`], [`AccelerationOf`] and [`TorqueOf`] this format.
     type Number: Number;
     /// A word of the table.
     type Word: bytemuck::Pod + Default + core::fmt::Debug + PartialEq;
@@ -209,6 +209,15 @@ pub trait Format: crate::sealed::Sealed + Copy + core::fmt::Debug + PartialEq + 
         torques: [Self::Number; 2],
     ) -> [Outcome<Self::Number>; 2];
 }
+
+/// What a model of this format takes for a speed: `f32` of `f32`, [`Speed<Q31>`](crate::Speed) of `Q31`.
+pub type SpeedOf<F> = <<F as Format>::Number as Number>::Speed;
+
+/// What a model of this format takes for an acceleration, and gives: `f32` of `f32`, [`Acceleration<Q31>`](crate::Acceleration) of `Q31`.
+pub type AccelerationOf<F> = <<F as Format>::Number as Number>::Acceleration;
+
+/// What a model of this format takes for a torque, and gives: `f32` of `f32`, [`Torque<Q31>`](crate::Torque) of `Q31`.
+pub type TorqueOf<F> = <<F as Format>::Number as Number>::Torque;
 
 /// The bases of torque, speed and inertia in double precision.
 pub(crate) fn bases(scale: &Scale) -> [f64; 3] {

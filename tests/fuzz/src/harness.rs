@@ -1,5 +1,6 @@
 //! One function for each kind of input. It returns whether the input was understood, and panics where it finds something.
 
+use jred::number::Quantity;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
@@ -144,9 +145,11 @@ fn ticks<F: Format>(image: &Image<'_>) -> bool {
         let phase = Phase::from_bits(((k / 2) << 24).wrapping_sub(k % 2));
         for &a in &numbers {
             let b = numbers[k as usize % numbers.len()];
-            let torque = model.torque(phase, a, b);
-            let reach = model.acceleration_range(phase, a, b, torque);
-            for value in [torque, reach.least.value, reach.greatest.value] {
+            let (omega, alpha) = (Quantity::of(a), Quantity::of(b));
+            let torque = model.torque(phase, omega, alpha);
+            let reach = model.acceleration_range(phase, omega, Quantity::of(b), torque);
+            let [least, greatest] = [reach.least, reach.greatest].map(|end| end.value.number());
+            for value in [torque.number(), least, greatest] {
                 // A table of f32 may hold figures whose products are beyond its range.
                 assert!(
                     !value.to_f64().is_nan(),

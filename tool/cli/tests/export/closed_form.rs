@@ -42,7 +42,7 @@ fn a_plain_slider_crank_is_taken_as_its_form() {
         let image = Image::new(&words).unwrap();
         let stated = f64::from(image.validity().torque_error);
         let model = image.model::<SliderCrankForm, SET>().unwrap();
-        let [torque, acceleration] = errors(
+        let [torque, acceleration] = errors::<f32>(
             &machine(&file),
             &image,
             |share| Phase::from_bits((share * 4_294_967_296.0) as u32),

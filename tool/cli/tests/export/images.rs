@@ -1,6 +1,6 @@
 //! Every exported type and layout, loaded and ticked as firmware does it, against the exact reduction.
 
-use jred::number::Number;
+use jred::number::{Number, Quantity};
 use jred::table::Format;
 use jred::{
     Cubic, Image, ImageError, Phase, Q31, Quadratic, Reducible as _, Rows16, Set, SliderCrankForm,
@@ -37,13 +37,12 @@ pub(super) fn errors<N: Number>(
     machine: &jred::Machine<AnyMechanism>,
     image: &Image<'_>,
     spread: impl Fn(f64) -> Phase,
-    torque: impl Fn(Phase, N, N) -> N,
-    acceleration: impl Fn(Phase, N, N) -> jred::Outcome<N>,
+    torque: impl Fn(Phase, N::Speed, N::Acceleration) -> N::Torque,
+    acceleration: impl Fn(Phase, N::Speed, N::Torque) -> jred::Outcome<N::Acceleration>,
 ) -> [f64; 2] {
     let scale = image.scale();
     let [torque_base, speed_base] = [scale.torque(), scale.speed()].map(f64::from);
     let acceleration_base = f64::from(scale.acceleration());
-    let number = |value: f64| N::from_f64(value).unwrap();
     let (most_omega, most_alpha) = (image.validity().omega, image.validity().alpha);
     let mut random = random();
     let mut worst = [0.0f64; 2];
@@ -56,30 +55,39 @@ pub(super) fn errors<N: Number>(
         };
         let (omega, alpha) = (signed(most_omega), signed(most_alpha));
         let (omega, alpha) = (
-            number(omega / speed_base),
-            number(alpha / acceleration_base),
+            quantity::<N::Speed>(omega / speed_base),
+            quantity::<N::Acceleration>(alpha / acceleration_base),
         );
-        let speed = omega.to_f64() * speed_base;
+        let speed = value(omega) * speed_base;
         let exact = machine.reduction(phase.radians()).unwrap();
-        let expected = exact.torque(speed, alpha.to_f64() * acceleration_base);
-        let found = torque(phase, omega, alpha).to_f64() * torque_base;
+        let expected = exact.torque(speed, value(alpha) * acceleration_base);
+        let found = value(torque(phase, omega, alpha)) * torque_base;
         worst[0] = worst[0].max((found - expected.total()).abs());
-        let drive = number(expected.total() / torque_base);
+        let drive = quantity::<N::Torque>(expected.total() / torque_base);
         let back = acceleration(phase, omega, drive);
         if back.saturated {
             continue; // Only 16 bits may: their base is that of the range itself.
         }
-        let expected = exact.acceleration(speed, drive.to_f64() * torque_base);
-        let off = (back.value.to_f64() * acceleration_base - expected).abs();
+        let expected = exact.acceleration(speed, value(drive) * torque_base);
+        let off = (value(back.value) * acceleration_base - expected).abs();
         worst[1] = worst[1].max(off * exact.inertia);
     }
     worst
 }
 
+/// The nearest in machine units.
+fn quantity<Q: Quantity>(value: f64) -> Q {
+    Q::of(Q::Number::from_f64(value).unwrap())
+}
+
+fn value<Q: Quantity>(quantity: Q) -> f64 {
+    quantity.number().to_f64()
+}
+
 fn of_model<F: Format, const CURVES: Set>(words: &[u32]) -> [f64; 2] {
     let image = Image::new(words).unwrap();
     let model = image.model::<F, CURVES>().unwrap();
-    errors(
+    errors::<F::Number>(
         &machine(&jred_machine::read::read(&press_file()).unwrap()),
         &image,
         |share| Phase::from_bits((share * 4_294_967_296.0) as u32),

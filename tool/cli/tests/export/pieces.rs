@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use jred::table::Format;
 use jred::{
-    Cubic, Image, Model, Phase, Pieces, Q31, Quadratic, Reducible as _, Rows16, Set, Spline,
-    Spline16, curves,
+    Cubic, Domain, Image, Model, Phase, Pieces, Q31, Quadratic, Reducible as _, Rows16, Set,
+    Spline, Spline16, curves,
 };
 
 use jred_machine::export::{Answer, Export, LayoutChoice, Number, Task};
@@ -70,11 +70,11 @@ fn written(value: &serde_json::Value) -> Tables {
 fn errors_of<F: Format>(file: &MachineFile, tables: &Tables) -> [f64; 2] {
     let image = |k: usize| Image::new(&tables[k].1).unwrap();
     let start = |k: usize| tables[k % 4].0;
-    let model = Pieces::<F, SET, 4>::new(std::array::from_fn(|k| {
+    let models = std::array::from_fn(|k| {
         let model: Model<'_, F, SET> = image(k).model().unwrap();
         (Phase::from_bits(start(k)), model)
-    }))
-    .unwrap();
+    });
+    let model = Pieces::<F, SET, 4>::new(Domain::Turn, models).unwrap();
     let spread = |share: f64| {
         let (piece, within) = ((4.0 * share) as usize, (4.0 * share).fract());
         // The sine puts more of them at the ends.
@@ -82,7 +82,7 @@ fn errors_of<F: Format>(file: &MachineFile, tables: &Tables) -> [f64; 2] {
         let length = start(piece + 1).wrapping_sub(start(piece));
         Phase::from_bits(start(piece).wrapping_add((within * f64::from(length)) as u32))
     };
-    errors(
+    errors::<F::Number>(
         &machine(file),
         &image(0),
         spread,
@@ -211,9 +211,9 @@ fn a_single_piece_begins_at_its_edge() {
             .unwrap()
             .model::<Spline<f32>, SET>()
             .unwrap();
-        let turn = Pieces::new([(Phase::from_bits(start), model)]).unwrap();
+        let turn = Pieces::new(Domain::Turn, [(Phase::from_bits(start), model)]).unwrap();
         let machine = machine(&jred_machine::read::read(&press_file()).unwrap());
-        let [torque, _] = errors(
+        let [torque, _] = errors::<f32>(
             &machine,
             &Image::new(&words).unwrap(),
             |share| Phase::from_bits((share * 4_294_967_296.0) as u32),
@@ -364,7 +364,7 @@ fn the_source_text_is_a_program() {
     let model = press_pieces::pieces().unwrap();
     let machine = machine(&jred_machine::read::read(&press_file()).unwrap());
     let image = Image::new(&press_pieces::TABLE_1).unwrap();
-    let [torque, _] = errors(
+    let [torque, _] = errors::<f32>(
         &machine,
         &image,
         |share| Phase::from_bits((share * 4_294_967_296.0) as u32),

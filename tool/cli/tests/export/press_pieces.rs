@@ -21,7 +21,7 @@ pub fn pieces() -> Result<PiecewiseModel, ImageError> {
     fn piece(start: u32, words: &'static [u32]) -> Result<(Phase, Model<'static, Spline<f32>, { curves::LOAD | curves::COULOMB | curves::CONSTANT_VISCOUS }>), ImageError> {
         Ok((Phase::from_bits(start), Image::new(words)?.of_machine(MACHINE)?.model()?))
     }
-    Pieces::new([
+    Pieces::new(Domain::Turn, [
         piece(0x00000000, &TABLE_1)?,
         piece(0xe0000000, &TABLE_2)?,
         piece(0xeaaaaaab, &TABLE_3)?,

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use jred::Domain;
+
 use super::Export;
 use super::candidate::Made;
 use super::figures::rust_arguments;
@@ -86,9 +88,15 @@ impl Export {
              {INDENT}fn piece(start: u32, words: &'static [u32]) -> Result<(Phase, Model<'static, {arguments}>), ImageError> {{\n\
              {INDENT}{INDENT}Ok((Phase::from_bits(start), Image::new(words)?.of_machine(MACHINE)?.model()?))\n\
              {INDENT}}}\n\
-             {INDENT}Pieces::new([\n",
+             {INDENT}Pieces::new({}, [\n",
             self.machine,
-            tables.len()
+            tables.len(),
+            match self.domain {
+                Domain::Turn => "Domain::Turn".to_owned(),
+                Domain::Stroke { from, to } => {
+                    format!("Domain::Stroke {{ from: {from:?}, to: {to:?} }}")
+                }
+            }
         );
         for (number, table) in (1..).zip(tables) {
             let start = self.start(table).to_bits();

@@ -1,7 +1,7 @@
 //! An image ticked as firmware does it, against the exact machine.
 
-use jred::number::Number as _;
-use jred::table::Format;
+use jred::number::{Number as _, Quantity};
+use jred::table::{AccelerationOf, Format, SpeedOf, TorqueOf};
 use jred::{Error, Image, ImageError};
 
 use super::reference::{Place, Reference};
@@ -46,10 +46,6 @@ pub(super) fn measure<F: Format>(
     let scale = image.scale();
     let [torque_base, speed_base, acceleration_base] =
         [scale.torque(), scale.speed(), scale.acceleration()].map(f64::from);
-    let (number, value) = (
-        |value: f64| F::Number::from_f64(value).unwrap_or_default(),
-        F::Number::to_f64,
-    );
     // The arguments as the number type holds them: their own rounding is not an error of the table.
     let corners = [
         (omega, alpha),
@@ -59,8 +55,8 @@ pub(super) fn measure<F: Format>(
     ];
     let corners = corners.map(|(omega, alpha)| {
         (
-            number(omega / speed_base),
-            number(alpha / acceleration_base),
+            number::<SpeedOf<F>>(omega / speed_base),
+            number::<AccelerationOf<F>>(alpha / acceleration_base),
         )
     });
     let mut worst = Ticks::default();
@@ -77,7 +73,7 @@ pub(super) fn measure<F: Format>(
                 worst.worst = *phi;
             }
             worst.peak_torque = worst.peak_torque.max(expected.abs());
-            let drive = number(expected / torque_base);
+            let drive = number::<TorqueOf<F>>(expected / torque_base);
             let back = model.acceleration(*phase, omega, drive);
             if !back.saturated {
                 let expected = exact.acceleration(speed, value(drive) * torque_base);
@@ -87,6 +83,15 @@ pub(super) fn measure<F: Format>(
         }
     }
     Ok(worst)
+}
+
+/// The nearest number in machine units; 0 for what is beyond them.
+fn number<Q: Quantity>(value: f64) -> Q {
+    Q::Number::from_f64(value).map(Q::of).unwrap_or_default()
+}
+
+fn value<Q: Quantity>(quantity: Q) -> f64 {
+    quantity.number().to_f64()
 }
 
 pub(super) fn refusal(error: ImageError) -> Error {
