@@ -7,6 +7,7 @@ mod governor;
 mod limits;
 mod look_ahead;
 mod machine;
+mod messages;
 mod motion;
 mod stop;
 mod tracker;

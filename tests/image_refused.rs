@@ -100,6 +100,62 @@ fn unknown_domain_is_refused_with_its_word() {
     assert_eq!(refused(&sealed(image)), ImageError::Header(3));
 }
 
+/// What to do, of everything that can be wrong with an image.
+#[test]
+fn a_refused_image_says_what_to_do() {
+    for (error, cure) in [
+        (ImageError::Misaligned, "include_image!"),
+        (ImageError::BigEndian, "little-endian"),
+        (
+            ImageError::Length {
+                needed: 100,
+                given: 99,
+            },
+            "all words",
+        ),
+        (ImageError::NotAnImage(0), "--format image"),
+        (
+            ImageError::Version {
+                found: 1,
+                supported: 2,
+            },
+            "export the table again",
+        ),
+        (
+            ImageError::Crc {
+                stored: 1,
+                computed: 2,
+            },
+            "load the image again",
+        ),
+        (ImageError::Header(3), "export the table again"),
+        (ImageError::NumberType(2), "--type"),
+        (ImageError::Layout(4), "--layout"),
+        (
+            ImageError::Machine {
+                found: 1,
+                expected: 2,
+            },
+            "this machine",
+        ),
+        (ImageError::NotStored("f64"), "f32 or i32"),
+        (ImageError::TooLong { given: 400 }, "--max-bytes"),
+        (
+            ImageError::BufferTooShort {
+                needed: 100,
+                given: 99,
+            },
+            "100 words",
+        ),
+    ] {
+        let text = error.cure().to_string();
+        assert!(
+            text.contains(cure),
+            "{error}: \"{text}\" does not say \"{cure}\""
+        );
+    }
+}
+
 fn no_model<F: Format, const SET: Set>(image: Vec<u32>) -> ImageError {
     let image = sealed(image);
     let image = Image::new(&image).unwrap();

@@ -250,11 +250,9 @@ fn more_than_a_slot_holds_is_refused() {
     let mut slot = ImageSlot::<Spline<f32>, 0>::new(&mut memory);
     slot.receive(&[0; 4 * WORDS - 2]).unwrap();
     let refused = slot.receive(&[1, 2, 3]);
-    let short = ImageError::BufferTooShort {
-        needed: WORDS + 1,
-        given: WORDS,
-    };
-    assert_eq!(refused, Err(short));
+    let long = ImageError::TooLong { given: WORDS };
+    assert_eq!(refused, Err(long));
+    assert!(long.to_string().contains("400 words"), "{long}");
     slot.receive(&[1, 2]).unwrap();
-    assert_eq!(slot.receive(&[1]), Err(short));
+    assert_eq!(slot.receive(&[1]), Err(long));
 }

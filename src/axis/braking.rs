@@ -125,7 +125,12 @@ fn place<F: Format, const SET: Set>(
     if place.braking > 0.0 {
         Ok(place)
     } else {
-        Err(AxisError::Overpowered(phase))
+        let base = model.table().scale().torque();
+        Err(AxisError::Overpowered {
+            phase,
+            load: -helping * base,
+            braking: braking.torque,
+        })
     }
 }
 
@@ -137,7 +142,12 @@ impl<const NODES: usize> Course<NODES> {
     ) -> Result<Self, AxisError> {
         positive("the braking torque", braking.torque)?;
         let holds = braking.deceleration > 0.0;
-        within("the greatest deceleration", holds, "greater than zero")?;
+        within(
+            "the greatest deceleration",
+            braking.deceleration,
+            holds,
+            "greater than zero",
+        )?;
         let domain = model.table().domain();
         let acceleration = model.table().scale().acceleration();
         let stroke = matches!(domain, Domain::Stroke { .. });
@@ -165,6 +175,7 @@ impl<const NODES: usize> Course<NODES> {
             let close = (end.inertial - start.inertial).abs() <= 0.5 * mean;
             within(
                 "the number of nodes",
+                NODES as f32,
                 close,
                 "greater: J changes by half from one to the next",
             )?;
@@ -242,10 +253,12 @@ impl<const NODES: usize> Course<NODES> {
             before = interval.bulge;
             energy(interval.inertial + bulge)
         });
-        let exponent = exponent(raised.into_iter().fold(0.0, f32::max));
-        let range = "less than the work of its brake over 2²⁸ ranges, and more than 2⁻³⁰ of one";
+        let most = raised.into_iter().fold(0.0, f32::max);
+        let exponent = exponent(most);
+        let range = "less than 2²⁸, and more than 2⁻³⁰";
         within(
-            "the energy at the greatest speed",
+            "the energy at the greatest speed, over the work of the brake in the range,",
+            most,
             (-30..28).contains(&exponent),
             range,
         )?;

@@ -105,21 +105,23 @@ impl Encoder {
         // A count is link/per of a turn.
         let Some(per) = NonZeroU128::new(counts_per_turn as u128 * encoder as u128) else {
             let what = if encoder == 0 {
-                "turns of the encoder in its gear"
+                "the number of turns of the encoder in its gear"
             } else {
-                "counts of a turn of the encoder"
+                "the number of counts of a turn of the encoder"
             };
-            return Err(AxisError::NotPositive(what));
+            return Err(AxisError::NotPositive(what, 0.0));
         };
         if link == 0 {
             return Err(AxisError::NotPositive(
-                "turns of the drive link in the encoder's gear",
+                "the number of turns of the drive link in the encoder's gear",
+                0.0,
             ));
         }
         let link = link as u128;
         if per.get() < 2 * link {
             return Err(AxisError::OutOfRange {
                 what: "the number of counts of a turn of the drive link",
+                value: per.get() as f32 / link as f32,
                 range: "at least 2",
             });
         }

@@ -53,8 +53,9 @@ struct Fall<N: Number> {
     slope: Factor,
 }
 
-const SPEEDS: &str = "the speeds of the torque curve";
-const TORQUES: &str = "the torques of the torque curve";
+const SPEEDS: &str = "a speed of the torque curve";
+const TORQUES: &str = "a torque of the torque curve";
+const POINT_COUNT: &str = "the number of points of the torque curve";
 const BRAKE: &str = "the braking torque";
 
 impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
@@ -69,9 +70,17 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
         model: &impl MachineUnits<Number = N>,
     ) -> Result<Self, AxisError> {
         let scale = model.scale();
+        let base = scale.torque();
+        within(POINT_COUNT, POINTS as f32, POINTS > 0, "at least 1")?;
         let first = driving.first().map_or(0.0, |[_, torque]| *torque);
-        let peak = in_range(TORQUES, scale.to_torque(positive(TORQUES, first)?))?;
-        let brake: N::Torque = in_range(BRAKE, scale.to_torque(positive(BRAKE, brake)?))?;
+        let peak = in_range(
+            TORQUES,
+            positive(TORQUES, first)?,
+            base,
+            scale.to_torque(first),
+        )?;
+        let brake: N::Torque =
+            in_range(BRAKE, positive(BRAKE, brake)?, base, scale.to_torque(brake))?;
         let rest = N::Speed::default();
         let mut falls = [Fall::default(); POINTS];
         let mut last = [0.0, first];
@@ -81,18 +90,25 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
             let rises = run > 0.0 || k == 0 && run >= 0.0;
             within(
                 SPEEDS,
+                point[0],
                 rises && run.is_finite(),
-                "rising from 0 or more, and finite",
+                "finite, from 0 on, and greater than the one before",
             )?;
             let falling = lost >= 0.0 && point[1] >= 0.0;
-            within(TORQUES, falling, "falling, and 0 or more")?;
+            within(
+                TORQUES,
+                point[1],
+                falling,
+                "from 0 on, and not greater than the one before",
+            )?;
             *fall = Fall {
                 from: top,
                 torque: scale.to_torque(last[1]).value,
                 slope: if lost > 0.0 {
                     let slope = lost / run * scale.speed() / scale.torque();
                     Factor::new(slope).ok_or(AxisError::OutOfRange {
-                        what: "the slope of the torque curve",
+                        what: "the slope of the torque curve, in bases of torque and speed,",
+                        value: slope,
                         range: "a normal number, and in fixed point less than 2³⁰ torque bases a speed base",
                     })?
                 } else {
@@ -129,6 +145,7 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
         } = gearbox.checked()?;
         within(
             "the inertia of the rotor",
+            rotor,
             rotor == 0.0,
             "0 here, and i²·J_M part of the table",
         )?;
@@ -171,16 +188,19 @@ impl<N: Number, const POINTS: usize> Envelope<N, POINTS> {
     }
 }
 
-/// The number, if it was in range.
+/// The quantity in machine units, if it is in their range: of this value and base in SI units.
 pub(super) fn in_range<Q: Quantity>(
     what: &'static str,
-    number: Outcome<Q>,
+    value: f32,
+    base: f32,
+    found: Outcome<Q>,
 ) -> Result<Q, AxisError> {
-    let finite = number.value.minus(number.value).value == Q::default();
-    within(
-        what,
-        finite && !number.saturated,
-        "finite, and in fixed point less than their base",
-    )?;
-    Ok(number.value)
+    let finite = found.value.minus(found.value).value == Q::default();
+    if !value.is_finite() {
+        Err(AxisError::NotFinite(what))
+    } else if found.saturated || !finite {
+        Err(AxisError::BeyondBase { what, value, base })
+    } else {
+        Ok(found.value)
+    }
 }

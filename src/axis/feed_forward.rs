@@ -185,10 +185,12 @@ impl Ramp {
     /// # Errors
     /// A width that is not positive and finite, or less than 1e-6 of the speed base.
     pub fn new(width: f32, model: &impl MachineUnits) -> Result<Self, AxisError> {
-        let ratio = model.scale().speed() / positive("the width of the friction ramp", width)?;
+        let base = model.scale().speed();
+        let ratio = base / positive("the width of the friction ramp", width)?;
         let factor = (ratio <= 1e6).then(|| Factor::new(ratio)).flatten();
         factor.map(Self).ok_or(AxisError::OutOfRange {
             what: "the width of the friction ramp",
+            value: width,
             range: "at least a millionth of the speed base",
         })
     }
@@ -221,11 +223,20 @@ impl<T: Quantity> TorqueLimits<T> {
     /// From `least` to `greatest`.
     ///
     /// # Errors
-    /// Limits that do not contain 0, or are no numbers.
+    /// Limits that do not contain 0, or are no numbers; the message has them in machine units.
     pub fn new(least: T, greatest: T) -> Result<Self, AxisError> {
         let none = T::default();
-        within("the least torque", least <= none, "zero or negative")?;
-        within("the greatest torque", greatest >= none, "zero or positive")?;
+        for (what, torque, holds, range) in [
+            ("the least torque", least, least <= none, "zero or negative"),
+            (
+                "the greatest torque",
+                greatest,
+                greatest >= none,
+                "zero or positive",
+            ),
+        ] {
+            within(what, torque.to_si(1.0), holds, range)?;
+        }
         Ok(Self {
             limits: [least, greatest],
         })

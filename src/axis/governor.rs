@@ -1,6 +1,5 @@
 //! A commanded speed, followed as far as all limits allow.
 
-use super::error::within;
 use super::limits::{Bounded, Limit};
 use super::{AxisError, Direction, Limits, LookAhead, Motion};
 use crate::Model;
@@ -88,14 +87,16 @@ impl<'a, N: Number, const NODES: usize> Governor<'a, N, NODES> {
     /// For motions both ways, with the look-ahead of each.
     ///
     /// # Errors
-    /// Both are for the same way.
+    /// [`AxisError::Directions`]: the first is not for motions forward, or the second not for those backward.
     pub fn both_ways(
         forward: &'a LookAhead<N, NODES>,
         backward: &'a LookAhead<N, NODES>,
     ) -> Result<Self, AxisError> {
         let ways = [forward.direction(), backward.direction()];
         let holds = ways == [Direction::Forward, Direction::Backward];
-        within("the directions", holds, "forward and backward")?;
+        if !holds {
+            return Err(AxisError::Directions);
+        }
         Ok(Self {
             forward: Some(forward),
             backward: Some(backward),

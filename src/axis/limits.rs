@@ -86,10 +86,16 @@ impl<N: Number, const POINTS: usize> Limits<N, POINTS> {
         let (scale, rest) = (model.scale(), N::Speed::default());
         Ok(Self {
             speed: both(
-                in_range(SPEED, scale.omega::<N::Speed>(speed))?.within([rest, envelope.top()]),
+                in_range(SPEED, speed, scale.speed(), scale.omega::<N::Speed>(speed))?
+                    .within([rest, envelope.top()]),
             ),
             envelope,
-            acceleration: both(in_range(ACCELERATION, scale.alpha(acceleration))?),
+            acceleration: both(in_range(
+                ACCELERATION,
+                acceleration,
+                scale.acceleration(),
+                scale.alpha(acceleration),
+            )?),
             period,
         })
     }

@@ -92,7 +92,13 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         limit: impl Fn(Phase) -> f32,
         period: &Period<N>,
     ) -> Result<Self, AxisError> {
-        within(NODE_COUNT, (4..=4096).contains(&NODES), "from 4 to 4096")?;
+        let count = NODES as f32;
+        within(
+            NODE_COUNT,
+            count,
+            (4..=4096).contains(&NODES),
+            "from 4 to 4096",
+        )?;
         let course = Course::<NODES>::new(model, direction, braking)?;
         let way = course.way;
         // From one node to the next: so no straight line at a node exceeds what the intervals beside it allow.
@@ -128,11 +134,14 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
         }
 
         let scale = model.table().scale();
-        let moved = period.moved(in_range(SPEED, scale.omega(top))?).to_bits();
+        let moved = period
+            .moved(in_range(SPEED, top, scale.speed(), scale.omega(top))?)
+            .to_bits();
         let ticks = (way.width as f32 / moved as f32 * 256.0) as u32;
         let holds = moved > 0 && moved < 1 << 31 && (256..1 << 30).contains(&ticks);
         within(
             NODE_COUNT,
+            count,
             holds,
             "such that an interval takes from 1 to 2²² ticks at the greatest speed",
         )?;
@@ -141,6 +150,7 @@ impl<N: Number, const NODES: usize> LookAhead<N, NODES> {
             Factor::to_count(ONE * (scale.speed() / top)).zip(Factor::of_count(of_difference));
         let (speed, alpha) = factors.ok_or(AxisError::OutOfRange {
             what: SPEED,
+            value: top,
             range: "such that its square is a normal number in machine units",
         })?;
         Ok(Self {

@@ -57,7 +57,7 @@ impl<N: Number> Period<N> {
             // The number 1 must be a speed at which the shorter way round is the way.
             let holds = speed * seconds <= 0.25 * span;
             let range = "short enough for a quarter of the range at the speed base";
-            within("the period", holds, range)?;
+            within("the period", seconds, holds, range)?;
         }
         let per_count = span / seconds * UNIT / speed;
         let gained = acceleration / speed * seconds;
@@ -77,6 +77,7 @@ impl<N: Number> Period<N> {
         let range = "between a microsecond and a second, or so";
         all().ok_or(AxisError::OutOfRange {
             what: "the period",
+            value: seconds,
             range,
         })
     }

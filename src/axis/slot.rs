@@ -86,7 +86,7 @@ impl<'m, F: Format, const SET: Set> ImageSlot<'m, F, SET> {
     /// Takes the next bytes of the image, any number of them; after a check they are the first of another.
     ///
     /// # Errors
-    /// [`ImageError::BufferTooShort`]: more than the slot holds. Nothing of these bytes is kept.
+    /// [`ImageError::TooLong`]: more than the slot holds. Nothing of these bytes is kept.
     pub fn receive(&mut self, bytes: &[u8]) -> Result<(), ImageError> {
         if bytes.is_empty() {
             return Ok(());
@@ -94,17 +94,15 @@ impl<'m, F: Format, const SET: Set> ImageSlot<'m, F, SET> {
         if self.verdict.is_some() {
             self.clear();
         }
-        let needed = self.received.saturating_add(bytes.len());
-        let short = ImageError::BufferTooShort {
-            needed: needed.div_ceil(4),
-            given: self.words.len(),
-        };
+        let end = self.received.saturating_add(bytes.len());
+        let given = self.words.len();
         let memory: &mut [u8] = bytemuck::cast_slice_mut(self.words);
-        let place = memory.get_mut(self.received..needed).ok_or(short)?;
+        let place = memory.get_mut(self.received..end);
+        let place = place.ok_or(ImageError::TooLong { given })?;
         for (slot, byte) in place.iter_mut().zip(bytes) {
             *slot = *byte;
         }
-        self.received = needed;
+        self.received = end;
         Ok(())
     }
 

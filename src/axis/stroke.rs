@@ -70,10 +70,13 @@ impl StrokeEncoder {
             Domain::Turn => (0.0, 0.0),
             Domain::Stroke { from, to } => (from, to - from),
         };
-        if !(resolution.is_finite() && at_home.is_finite()) {
-            return Err(AxisError::NotFinite(
-                "the encoder's resolution, or the position at home,",
-            ));
+        for (what, value) in [
+            ("the encoder's resolution", resolution),
+            ("the position at home", at_home),
+        ] {
+            if !value.is_finite() {
+                return Err(AxisError::NotFinite(what));
+            }
         }
         // A stroke from its upper to its lower end is none.
         let step = resolution / span.max(0.0);
@@ -81,15 +84,17 @@ impl StrokeEncoder {
         let holds = (16.0..=1_073_741_824.0).contains(&counts);
         within(
             "the number of counts of the stroke",
+            counts as f32,
             holds,
             "from 16 to 1073741824",
         )?;
         let at_home = (at_home - from) / span;
         let holds = math::abs(at_home) <= 1e5;
         within(
-            "the position at home",
+            "the position at home, in strokes,",
+            at_home as f32,
             holds,
-            "within 100000 strokes of the stroke",
+            "from -100000 to 100000",
         )?;
         let step = math::rint(step * STROKE * STROKE) as i64;
         let at_home = (at_home * STROKE * STROKE) as i128;

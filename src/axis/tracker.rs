@@ -59,7 +59,7 @@ impl Tracker {
     /// [`AxisError::OutOfRange`]: θ outside 0 to 0.99.
     pub fn new(memory: f32) -> Result<Self, AxisError> {
         let holds = (0.0..=0.99).contains(&memory);
-        within("the memory of the filter", holds, "from 0 to 0.99")?;
+        within("the memory of the filter", memory, holds, "from 0 to 0.99")?;
         let rest = 1.0 - memory;
         let gains = [
             1.0 - memory * memory * memory,

@@ -31,9 +31,19 @@ impl Gearbox {
     pub(super) fn checked(self) -> Result<Self, AxisError> {
         positive("the ratio of the gearbox", self.ratio)?;
         let holds = (0.01..=1.0).contains(&self.efficiency);
-        within("the efficiency of the gearbox", holds, "from 0.01 to 1")?;
+        within(
+            "the efficiency of the gearbox",
+            self.efficiency,
+            holds,
+            "from 0.01 to 1",
+        )?;
         let holds = (0.0..1e30).contains(&self.rotor);
-        within("the inertia of the rotor", holds, "zero or positive")?;
+        within(
+            "the inertia of the rotor",
+            self.rotor,
+            holds,
+            "zero or positive",
+        )?;
         Ok(self)
     }
 }
@@ -84,6 +94,7 @@ impl<N: Number> Transmission<N> {
         let range = "such that torques on both sides are normal numbers in single precision";
         all().ok_or(AxisError::OutOfRange {
             what: "the ratio of the gearbox",
+            value: ratio,
             range,
         })
     }

@@ -134,24 +134,24 @@ fn an_encoder_that_cannot_be_is_refused() {
                 counts_per_turn: 0,
                 ..good
             },
-            "counts of a turn of the encoder",
+            "the number of counts of a turn of the encoder",
         ),
         (
             Mounting {
                 gear: [0, 1],
                 ..good
             },
-            "turns of the encoder in its gear",
+            "the number of turns of the encoder in its gear",
         ),
         (
             Mounting {
                 gear: [1, 0],
                 ..good
             },
-            "turns of the drive link in the encoder's gear",
+            "the number of turns of the drive link in the encoder's gear",
         ),
     ] {
-        assert_eq!(refused(mounting), AxisError::NotPositive(what));
+        assert_eq!(refused(mounting), AxisError::NotPositive(what, 0.0));
     }
     let coarse = refused(Mounting {
         counts_per_turn: 3,
@@ -160,7 +160,7 @@ fn an_encoder_that_cannot_be_is_refused() {
     });
     assert_eq!(
         coarse.to_string(),
-        "the number of counts of a turn of the drive link must be at least 2"
+        "the number of counts of a turn of the drive link is 1.5, but must be at least 2"
     );
 
     let stroke = Domain::Stroke { from: 0.0, to: 0.5 };
@@ -173,12 +173,12 @@ fn an_encoder_that_cannot_be_is_refused() {
         (
             Domain::Stroke { from: 0.6, to: 0.1 },
             good,
-            "the number of counts of the stroke must be from 16",
+            "the number of counts of the stroke is 0, but must be from 16",
         ),
         (
             Domain::Turn,
             good,
-            "the number of counts of the stroke must be from 16 to 1073741824",
+            "the number of counts of the stroke is 0, but must be from 16 to 1073741824",
         ),
         (
             stroke,
@@ -186,7 +186,7 @@ fn an_encoder_that_cannot_be_is_refused() {
                 resolution: f64::NAN,
                 ..good
             },
-            "the encoder's resolution, or the position at home, is not a finite number",
+            "the encoder's resolution is not a finite number",
         ),
         (
             stroke,
@@ -194,7 +194,7 @@ fn an_encoder_that_cannot_be_is_refused() {
                 resolution: 0.0,
                 ..good
             },
-            "the number of counts of the stroke must be from 16 to 1073741824",
+            "the number of counts of the stroke is infinite, but must be from 16 to 1073741824",
         ),
         (
             stroke,
@@ -202,7 +202,7 @@ fn an_encoder_that_cannot_be_is_refused() {
                 resolution: 0.3,
                 ..good
             },
-            "the number of counts of the stroke must be from 16",
+            "the number of counts of the stroke is 1.667, but must be from 16",
         ),
         (
             stroke,
@@ -210,7 +210,7 @@ fn an_encoder_that_cannot_be_is_refused() {
                 at_home: f64::INFINITY,
                 ..good
             },
-            "the encoder's resolution, or the position at home, is not a finite number",
+            "the position at home is not a finite number",
         ),
         (
             stroke,
@@ -218,7 +218,7 @@ fn an_encoder_that_cannot_be_is_refused() {
                 at_home: 1e9,
                 ..good
             },
-            "the position at home must be within 100000 strokes of the stroke",
+            "the position at home, in strokes, is 2000000000, but must be from -100000 to 100000",
         ),
     ] {
         let error = StrokeEncoder::new(domain, scaled).unwrap_err().to_string();

@@ -54,6 +54,11 @@ pub enum ImageError {
     Table(TableError),
     /// Tables of this number type are not stored in images.
     NotStored(&'static str),
+    /// An image that comes in pieces is longer than the memory for it.
+    TooLong {
+        /// Words of the memory.
+        given: usize,
+    },
     /// The buffer to write the image in is too short.
     BufferTooShort {
         /// Words needed.
@@ -110,6 +115,10 @@ impl fmt::Display for ImageError {
             ),
             Self::Table(error) => error.fmt(f),
             Self::NotStored(name) => write!(f, "tables of {name} are not stored in images"),
+            Self::TooLong { given } => write!(
+                f,
+                "the image is longer than the {given} words of its memory"
+            ),
             Self::BufferTooShort { needed, given } => write!(
                 f,
                 "the buffer holds {given} words, but the image has {needed}"
@@ -123,14 +132,35 @@ error!(ImageError, Table(TableError));
 impl Curable for ImageError {
     fn write_cure(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Version { .. } => f.write_str("export the table anew"),
+            Self::Misaligned => f.write_str(
+                "give all of its bytes, on a 4-byte boundary, as jred::include_image! does",
+            ),
+            Self::BigEndian => f.write_str("tick it on a little-endian processor"),
+            Self::Length { .. } => {
+                f.write_str("give all words that jred export wrote, and none behind them")
+            }
+            Self::NotAnImage(_) => {
+                f.write_str("give a file that jred export wrote, with --format image")
+            }
+            Self::Version { .. } | Self::Header(_) => {
+                f.write_str("export the table again, with the jred of this library's version")
+            }
+            Self::Crc { .. } => f.write_str("load the image again"),
+            Self::NumberType(_) => f.write_str(
+                "export the table again with --type f32, i32 or i16, as the model's numbers are (f32, Q31, Q15), or give the model the format that jred export prints",
+            ),
+            Self::Layout(_) => f.write_str(
+                "export the table again with the --layout of the model's format, or give the model the format that jred export prints",
+            ),
             Self::Machine { .. } => {
                 f.write_str("load the image that was exported for this machine")
             }
             Self::Table(error) => error.write_cure(f),
             Self::NotStored(_) => f.write_str("use f32 or i32"),
+            Self::TooLong { .. } => f.write_str(
+                "give it the bytes that jred export prints, four a word, or export a smaller table (--max-bytes)",
+            ),
             Self::BufferTooShort { needed, .. } => write!(f, "give it {needed} words"),
-            _ => Ok(()),
         }
     }
 }

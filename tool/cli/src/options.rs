@@ -254,7 +254,7 @@ pub struct Export {
     pub pieces: Option<String>,
     /// Identifier of the machine in the image, by which firmware refuses the image of another machine, e.g. 7 or 0x1a2b; if not given, the CRC-32 of the
     /// title.
-    #[arg(long, value_name = "NUMBER", value_parser = machine_id)]
+    #[arg(long, value_name = "NUMBER", value_parser = machine_id, allow_negative_numbers = true)]
     pub machine_id: Option<u32>,
     /// File to write; if not given, only a summary is printed (as JSON with --format json).
     #[arg(long, short, value_parser = output_file())]

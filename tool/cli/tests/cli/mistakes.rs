@@ -170,6 +170,12 @@ fn wrong_quantities_on_the_command_line() {
         done.says(words);
         assert!(!out.exists());
     }
+    // A negative number is a value, not an option that is unknown.
+    for number in ["-1", "0x123456789", "4294967296", "press"] {
+        let more = [&ok[..], &["--machine-id", number]].concat();
+        let done = export(&press_file(), &more, &out).ends(2);
+        done.says(&["--machine-id", "a whole number from 1 to 4294967295"]);
+    }
 }
 
 /// An acceleration that is no acceleration must not silently become another one.
