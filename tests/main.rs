@@ -39,6 +39,7 @@ mod linkage_cam;
 mod linkage_refused;
 mod load_window;
 mod motion;
+mod motion_polynomial;
 mod no_panic_list;
 mod no_wrap;
 mod not_finite;

@@ -162,6 +162,10 @@ pub(crate) const TABLE_BIAS: f64 = 0.1;
 /// Left and right of a break by 1e-9: S′ ≤ 2 and S″ ≤ 10, S‴ ≤ 40 times that; ten and a hundred times as much for S′, S″.
 pub(crate) const LAW_BREAK: f64 = 1e-8;
 
+/// A polynomial of seventh degree at its ends, as a share of its conditions' sizes: coefficients up to 84 times them, each of some ten
+/// roundings; each derivative multiplies by up to the degree.
+pub(crate) const POLYNOMIAL_END: f64 = 1e-13;
+
 /// Positions up to 15 in size, a few roundings.
 pub(crate) const POSITION: f64 = 2e-13;
 

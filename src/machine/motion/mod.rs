@@ -1,8 +1,10 @@
 //! Motion laws and moves of the drive link.
 
 mod law;
+mod polynomial;
 
 pub use law::{Characteristic, Law};
+pub use polynomial::{End, Polynomial};
 
 use crate::math::Real;
 use crate::number::error::RangeError;

@@ -1,6 +1,6 @@
 //! One segment of a cam program.
 
-use crate::machine::motion::Law;
+use crate::machine::motion::{End, Law, Polynomial};
 use crate::mechanism::cam::CamError;
 use crate::number::transfer::Transfer;
 
@@ -120,18 +120,10 @@ impl Segment {
                 [s, v, a, law.jerk(z)].map(|c| c * rise)
             }
             Shape::Polynomial { start, end } => {
-                let [v0, v1] = [start[0], end[0]].map(|v| v * angle);
-                let [a0, a1] = [start[1], end[1]].map(|a| a * angle * angle);
-                let c2 = a0 / 2.0;
-                let c3 = 10.0 * rise - 6.0 * v0 - 4.0 * v1 - (3.0 * a0 - a1) / 2.0;
-                let c4 = -15.0 * rise + 8.0 * v0 + 7.0 * v1 + (3.0 * a0 - 2.0 * a1) / 2.0;
-                let c5 = 6.0 * rise - 3.0 * (v0 + v1) - (a0 - a1) / 2.0;
-                [
-                    z * (v0 + z * (c2 + z * (c3 + z * (c4 + z * c5)))),
-                    v0 + z * (2.0 * c2 + z * (3.0 * c3 + z * (4.0 * c4 + z * 5.0 * c5))),
-                    2.0 * c2 + z * (6.0 * c3 + z * (12.0 * c4 + z * 20.0 * c5)),
-                    6.0 * c3 + z * (24.0 * c4 + z * 60.0 * c5),
-                ]
+                let [start, end] = [start, end].map(|[v, a]| End::new(v, a));
+                let [value, d1, d2, d3] =
+                    Polynomial::between(rise, angle, start, end).at(z * angle);
+                return Transfer { value, d1, d2, d3 };
             }
         };
         Transfer {

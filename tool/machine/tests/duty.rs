@@ -60,18 +60,7 @@ fn laws_integrate_to_their_way() {
     ];
     for (law, speed_squared, alpha_squared) in cases {
         for (way, duration) in [(3.7, 0.8), (-12.0, 0.3)] {
-            let segments = [
-                Segment {
-                    distance: way,
-                    duration,
-                    law,
-                },
-                Segment {
-                    distance: 0.0,
-                    duration: 0.25,
-                    law: Law::default(),
-                },
-            ];
+            let segments = [Segment::law(way, duration, law), Segment::dwell(0.25)];
             let motion = Motion::segments(0.4, &segments, false).unwrap();
             let duty = Duty::new(&file, &motion, 2000).unwrap();
             near("cycle", duty.duration, duration + 0.25, 1e-15);

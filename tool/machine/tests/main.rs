@@ -11,6 +11,7 @@ mod largest;
 mod linkage_file;
 mod machine_file;
 mod mechanisms;
+mod motion;
 mod reading;
 mod rules;
 mod simulate;

@@ -5,4 +5,5 @@ pub mod duty;
 pub mod inspect;
 pub mod mechanics;
 pub mod reduce;
+pub mod repeats;
 pub mod simulate;

@@ -1,8 +1,18 @@
 //! The prescribed motion of the drive link over one cycle.
 
-use jred::machine::motion::{Law, Move, State};
+use std::convert::Infallible;
 
-use crate::number::spline::{Fault, Spline, Way};
+use jred::machine::motion::{Law, Move, Polynomial, State};
+use jred::number::RangeError;
+
+use crate::number::numerics;
+use crate::number::spline::{Fault, Spline};
+
+mod limits;
+mod recording;
+
+pub use limits::{Limits, TooShort, change, fastest};
+pub use recording::{Closing, Recording};
 
 /// A motion in consecutive pieces.
 #[derive(Clone, Debug)]
@@ -14,16 +24,24 @@ pub struct Motion {
 
 #[derive(Clone, Debug)]
 struct Piece {
+    /// Number of its segment.
+    segment: usize,
     start: f64,
     duration: f64,
     kind: Kind,
 }
 
+impl Piece {
+    fn end(&self) -> f64 {
+        self.start + self.duration
+    }
+}
+
 #[derive(Clone, Debug)]
 enum Kind {
-    Constant {
-        phi: f64,
-        omega: f64,
+    Polynomial {
+        start: f64,
+        course: Polynomial,
     },
     Move(Move<f64>),
     /// φ is the curve and a steady advance.
@@ -48,24 +66,114 @@ enum Kind {
 /// swings around zero by a few roundings, and friction must not take that for motion.
 const STANDSTILL: f64 = 1e-6;
 
+/// Parts of a polynomial of seventh degree in which it is looked for a point where it turns back.
+const TURNS: u32 = 64;
+
 /// One segment of a segmented motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Segment {
-    /// Distance (rad); zero for a dwell.
+    /// Distance (rad, or m); zero for a dwell.
     pub distance: f64,
+    /// How it is covered.
+    pub course: Course,
+}
+
+/// How a segment goes from one end to the other.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Course {
+    /// By a motion law, from rest to rest.
+    Law {
+        /// The law.
+        law: Law,
+        /// Duration (s).
+        duration: f64,
+    },
+    /// By polynomials one after another.
+    Phases(Vec<Phase>),
+}
+
+/// One polynomial over the time since its start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Phase {
     /// Duration (s).
     pub duration: f64,
-    /// Motion law.
-    pub law: Law,
+    /// Displacement over the time.
+    pub polynomial: Polynomial,
+}
+
+impl Segment {
+    /// A pause (s).
+    pub fn dwell(duration: f64) -> Self {
+        Self::law(0.0, duration, Law::default())
+    }
+
+    /// A move (rad, or m) by a motion law in a duration (s).
+    pub const fn law(distance: f64, duration: f64, law: Law) -> Self {
+        let course = Course::Law { law, duration };
+        Self { distance, course }
+    }
+
+    /// Polynomials one after another, which cover the distance together.
+    pub const fn phases(distance: f64, phases: Vec<Phase>) -> Self {
+        let course = Course::Phases(phases);
+        Self { distance, course }
+    }
+
+    /// A move by one polynomial.
+    pub fn polynomial(distance: f64, duration: f64, polynomial: Polynomial) -> Self {
+        let phase = Phase {
+            duration,
+            polynomial,
+        };
+        Self::phases(distance, vec![phase])
+    }
+
+    /// A move at constant speed.
+    pub fn constant_speed(distance: f64, duration: f64, speed: f64) -> Self {
+        let steady = Polynomial::constant_jerk([speed, 0.0, 0.0]);
+        Self::polynomial(distance, duration, steady)
+    }
+
+    /// Duration (s).
+    pub fn duration(&self) -> f64 {
+        match &self.course {
+            Course::Law { duration, .. } => *duration,
+            Course::Phases(phases) => phases.iter().map(|phase| phase.duration).sum(),
+        }
+    }
+
+    /// Speed and acceleration at the start and at the end.
+    pub fn ends(&self) -> [[f64; 2]; 2] {
+        match &self.course {
+            Course::Law { law, duration } => {
+                let bend = self.distance / (duration * duration);
+                [0.0, 1.0].map(|z| [0.0, law.at(z)[2] * bend])
+            }
+            Course::Phases(phases) => {
+                let at = |phase: Option<&Phase>, end: bool| {
+                    phase.map_or([0.0; 2], |phase| {
+                        let t = if end { phase.duration } else { 0.0 };
+                        let [_, v, a, _] = phase.polynomial.at(t);
+                        [v, a]
+                    })
+                };
+                [at(phases.first(), false), at(phases.last(), true)]
+            }
+        }
+    }
 }
 
 impl Motion {
     /// Constant speed `omega` (rad/s, not zero) over one turn from `start` (rad).
     pub fn constant_speed(start: f64, omega: f64) -> Self {
-        let kind = Kind::Constant { phi: start, omega };
+        let kind = Kind::Polynomial {
+            start,
+            course: Polynomial::constant_jerk([omega, 0.0, 0.0]),
+        };
         let duration = std::f64::consts::TAU / omega.abs();
         Self {
             pieces: vec![Piece {
+                segment: 0,
                 start: 0.0,
                 duration,
                 kind,
@@ -74,7 +182,7 @@ impl Motion {
         }
     }
 
-    /// Moves and dwells one after another, from `start` (rad).
+    /// Moves and dwells one after another, from `start` (rad, or m).
     ///
     /// # Errors
     /// A duration that is not positive or a law that is not valid, with the index of the segment.
@@ -82,18 +190,39 @@ impl Motion {
         start: f64,
         segments: &[Segment],
         cyclic: bool,
-    ) -> Result<Self, (usize, jred::number::RangeError)> {
+    ) -> Result<Self, (usize, RangeError)> {
         let (mut t, mut phi) = (0.0, start);
         let mut pieces = Vec::with_capacity(segments.len());
         for (index, segment) in segments.iter().enumerate() {
-            let step = Move::new(segment.law, phi, segment.distance, segment.duration)
-                .map_err(|error| (index, error))?;
-            pieces.push(Piece {
-                start: t,
-                duration: segment.duration,
-                kind: Kind::Move(step),
-            });
-            t += segment.duration;
+            match &segment.course {
+                Course::Law { law, duration } => {
+                    let step = Move::new(*law, phi, segment.distance, *duration)
+                        .map_err(|error| (index, error))?;
+                    pieces.push(Piece {
+                        segment: index,
+                        start: t,
+                        duration: *duration,
+                        kind: Kind::Move(step),
+                    });
+                    t += duration;
+                }
+                Course::Phases(phases) => {
+                    let mut start = phi;
+                    for phase in phases {
+                        pieces.push(Piece {
+                            segment: index,
+                            start: t,
+                            duration: phase.duration,
+                            kind: Kind::Polynomial {
+                                start,
+                                course: phase.polynomial,
+                            },
+                        });
+                        t += phase.duration;
+                        start += phase.polynomial.at(phase.duration)[0];
+                    }
+                }
+            }
             phi += segment.distance;
         }
         Ok(Self { pieces, cyclic })
@@ -159,6 +288,7 @@ impl Motion {
     fn recorded(duration: f64, recording: &Recording, kind: Kind) -> Self {
         Self {
             pieces: vec![Piece {
+                segment: 0,
                 start: 0.0,
                 duration,
                 kind,
@@ -169,7 +299,35 @@ impl Motion {
 
     /// Length of the motion (s).
     pub fn duration(&self) -> f64 {
-        self.pieces.last().map_or(0.0, |p| p.start + p.duration)
+        self.pieces.last().map_or(0.0, |p| p.end())
+    }
+
+    /// When segment number `index` ends (s).
+    pub fn end_of(&self, index: usize) -> f64 {
+        let pieces = self.pieces.iter().filter(|piece| piece.segment <= index);
+        pieces.map(Piece::end).fold(0.0, f64::max)
+    }
+
+    /// The times (s) at which the prescribed position may be at an extreme, each with the number of its segment: the ends of the pieces,
+    /// and where a polynomial turns back.
+    pub fn reaches(&self) -> Vec<(usize, f64)> {
+        let mut times = Vec::new();
+        for piece in &self.pieces {
+            if let Kind::Polynomial { course, .. } = &piece.kind {
+                let speed = |t: f64| course.at(t)[1];
+                let place = |k: u32| piece.duration * f64::from(k) / f64::from(TURNS);
+                for k in 0..TURNS {
+                    let [a, b] = [place(k), place(k + 1)];
+                    if speed(a) * speed(b) < 0.0 {
+                        let ahead = |t: f64| Ok::<_, Infallible>(speed(t) * speed(a) > 0.0);
+                        let Ok(t) = numerics::edge(ahead, a, b);
+                        times.push((piece.segment, piece.start + t));
+                    }
+                }
+            }
+            times.push((piece.segment, piece.end()));
+        }
+        times
     }
 
     /// The smooth stretches of the motion as (start, end) in s: between them the acceleration may jump.
@@ -200,11 +358,14 @@ impl Motion {
         };
         let t = (t - piece.start).clamp(0.0, piece.duration);
         match &piece.kind {
-            Kind::Constant { phi, omega } => State {
-                phi: phi + omega * t,
-                omega: *omega,
-                alpha: 0.0,
-            },
+            Kind::Polynomial { start, course } => {
+                let [way, omega, alpha, _] = course.at(t);
+                State {
+                    phi: start + way,
+                    omega,
+                    alpha,
+                }
+            }
             Kind::Move(step) => step.at(t),
             Kind::Positions {
                 curve,
@@ -239,45 +400,4 @@ impl Motion {
 /// A speed, or zero below `standstill`.
 fn moving(speed: f64, standstill: f64) -> f64 {
     if speed.abs() > standstill { speed } else { 0.0 }
-}
-
-/// Whether a recorded motion repeats.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Closing {
-    /// It does not.
-    Open,
-    /// It does, and goes on by this (rad, or m) in a cycle: whole turns, or nothing.
-    After(f64),
-}
-
-/// Rows of a recorded motion.
-#[derive(Clone, Copy, Debug)]
-pub struct Recording<'r> {
-    /// Times from 0 on, rising, the last at the end of the motion (s).
-    pub times: &'r [f64],
-    /// Positions or speeds.
-    pub values: &'r [f64],
-    /// Angular frequency at which smoothing halves an amplitude (rad/s); none: the curve goes through every row.
-    pub cutoff: Option<f64>,
-    /// Whether it repeats: then its last row is its first, a cycle later.
-    pub closing: Closing,
-}
-
-impl Recording<'_> {
-    fn duration(&self) -> Result<f64, Fault> {
-        match self.times {
-            [first, .., last] if *first == 0.0 && *last > 0.0 => Ok(*last),
-            _ => Err(Fault::NotRising),
-        }
-    }
-
-    fn curve(&self, values: &[f64]) -> Result<Spline, Fault> {
-        let way = self.cutoff.map_or(Way::Interpolating, Way::Smoothing);
-        match (self.closing, self.times) {
-            (Closing::After(_), [times @ .., duration]) if values.len() == self.times.len() => {
-                Spline::periodic(times, &values[..times.len()], *duration, way)
-            }
-            _ => Spline::bounded(self.times, values, way),
-        }
-    }
 }

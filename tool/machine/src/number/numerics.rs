@@ -72,7 +72,11 @@ pub fn integral<E>(
     Ok(sum)
 }
 
-fn gauss<E>(f: &impl Fn(f64) -> Result<f64, E>, [a, b]: [f64; 2]) -> Result<f64, E> {
+/// The integral of a smooth `f` from `a` to `b` by Gauss and Legendre's rule with five points.
+///
+/// # Errors
+/// Those of `f`.
+pub fn gauss<E>(f: &impl Fn(f64) -> Result<f64, E>, [a, b]: [f64; 2]) -> Result<f64, E> {
     const POINTS: [(f64, f64); 5] = [
         (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
         (-0.538_469_310_105_683, 0.478_628_670_499_366_5),

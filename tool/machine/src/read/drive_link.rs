@@ -8,7 +8,12 @@ use jred::{Domain, Error};
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::AnyMechanism;
 
-use crate::units::kind::{ANGLE, ANGULAR_SPEED, FORCE, Kind, LENGTH, TORQUE, VELOCITY};
+use crate::number::rounding::figure;
+use crate::units::RPM;
+use crate::units::kind::{
+    ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_JERK, ANGULAR_SPEED, FORCE, JERK, Kind,
+    LENGTH, TORQUE, VELOCITY,
+};
 
 /// Share of a stroke by which a motion may pass its ends: rounding.
 const ROUNDING: f64 = 1e-9;
@@ -46,6 +51,39 @@ impl DriveLink {
         match self.coordinate {
             Coordinate::Angle => &ANGULAR_SPEED,
             Coordinate::Length => &VELOCITY,
+        }
+    }
+
+    /// The kind of its accelerations.
+    pub(super) const fn acceleration(self) -> &'static Kind {
+        match self.coordinate {
+            Coordinate::Angle => &ANGULAR_ACCELERATION,
+            Coordinate::Length => &ACCELERATION,
+        }
+    }
+
+    /// The kind of its jerks.
+    pub(super) const fn jerk(self) -> &'static Kind {
+        match self.coordinate {
+            Coordinate::Angle => &ANGULAR_JERK,
+            Coordinate::Length => &JERK,
+        }
+    }
+
+    /// A distance (rad or m) with its unit.
+    pub(super) fn distance(self, way: f64) -> String {
+        format!(
+            "{} {}",
+            figure(self.coordinate.shown(way)),
+            self.coordinate.unit()
+        )
+    }
+
+    /// A speed (rad/s or m/s) with its unit.
+    pub(super) fn pace(self, speed: f64) -> String {
+        match self.coordinate {
+            Coordinate::Angle => format!("{} rpm", figure(speed / RPM)),
+            Coordinate::Length => format!("{} m/s", figure(speed)),
         }
     }
 

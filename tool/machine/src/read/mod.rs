@@ -11,6 +11,7 @@ mod drive_link;
 mod drive_train;
 mod duty_type;
 mod elements;
+mod law;
 mod load_table;
 mod loads;
 mod mechanism;
@@ -197,18 +198,6 @@ fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<Mac
     let elements = elements::read(&root, &mechanism, drive_link.coordinate)?;
     let drive_train = drive_train::read(&root, drive_link)?;
     let variator = variator::read(&root, drive_link)?;
-    let motion = motion::read(&root, files, drive_link)?;
-    let simulation = simulation::read(&root, drive_link, &drive_train)?;
-    let rules = rules::read(&root, files)?;
-    let stiffness = stiffness::read(&root, drive_link, &drive_train)?;
-    let tool = tool::read(&root, &mechanism)?;
-    let tolerances = tolerance::read(&root)?;
-    let mut site = crate::model::site::Site::default();
-    supply::read(&root, &mut site)?;
-    surroundings::read(&root, &mut site)?;
-    duty_type::read(&root, &mut site)?;
-    root.finish()?;
-
     let loaded =
         (loads.iter()).try_fold(Machine::new(mechanism), |m, named| m.with_load(named.load));
     let machine = loaded
@@ -219,6 +208,18 @@ fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<Mac
                 .problem(error.to_string(), "in this machine")
                 .help(error.cure().to_string())
         })?;
+    let motion = motion::read(&root, files, drive_link, &machine)?;
+    let simulation = simulation::read(&root, drive_link, &drive_train)?;
+    let rules = rules::read(&root, files)?;
+    let stiffness = stiffness::read(&root, drive_link, &drive_train)?;
+    let tool = tool::read(&root, machine.mechanism())?;
+    let tolerances = tolerance::read(&root)?;
+    let mut site = crate::model::site::Site::default();
+    supply::read(&root, &mut site)?;
+    surroundings::read(&root, &mut site)?;
+    duty_type::read(&root, &mut site)?;
+    root.finish()?;
+
     let file = MachineFile {
         name: name.to_owned(),
         title,

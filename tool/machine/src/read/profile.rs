@@ -1,9 +1,11 @@
 //! `[motion] type = "profile"`: positions or speeds over time from a CSV file, as a drive or a motion program records them.
 
-use jred::Domain;
+use jred::{Domain, Machine};
 use std::f64::consts::TAU;
 
+use crate::analysis::repeats::Difference;
 use crate::model::coordinate::Coordinate;
+use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::{Closing, Motion, Recording};
 use crate::number::spline::MIN_POINTS;
 use crate::text::file::Files;
@@ -69,7 +71,12 @@ struct Request {
 }
 
 /// The motion of the file named in `section`.
-pub(super) fn read(section: &Section, files: &dyn Files, drive: DriveLink) -> Result<Motion> {
+pub(super) fn read(
+    section: &Section,
+    files: &dyn Files,
+    drive: DriveLink,
+    machine: &Machine<AnyMechanism>,
+) -> Result<Motion> {
     let item = section.require("file", "file = \"profile.csv\"")?;
     let request = Request {
         cyclic: section.get("cyclic").map_or(Ok(true), |item| item.flag())?,
@@ -88,7 +95,8 @@ pub(super) fn read(section: &Section, files: &dyn Files, drive: DriveLink) -> Re
     let file = CsvFile::open(&item, "profile.csv", files)?;
     let columns = read_columns(&file.text, drive).map_err(|problem| file.shows(problem))?;
     check_request(&request, &columns, drive)?;
-    curve(&columns, &request, drive, &file.text).map_err(|fault| match fault {
+    let repeats = |advance: f64| motion::closed::difference(section, machine, advance);
+    curve(&columns, &request, drive, &file.text, &repeats).map_err(|fault| match fault {
         Place::File(problem) => file.shows(problem),
         Place::Machine(problem) => problem,
     })
@@ -173,6 +181,7 @@ fn curve(
     request: &Request,
     drive: DriveLink,
     text: &str,
+    repeats: &Repeats,
 ) -> std::result::Result<Motion, Place> {
     let times = times(columns, request)?;
     let duration = times.last().copied().unwrap_or_default();
@@ -206,6 +215,7 @@ fn curve(
                 most(CLOSED * drive.domain.span()),
                 columns,
                 drive,
+                repeats,
             )?;
         }
         let recording = Recording {
@@ -239,7 +249,13 @@ fn curve(
                 .at(duration)
                 .phi
                 - start;
-            advance = closed(way, most(CLOSED * drive.domain.span()), columns, drive)?;
+            advance = closed(
+                way,
+                most(CLOSED * drive.domain.span()),
+                columns,
+                drive,
+                repeats,
+            )?;
             recording.closing = Closing::After(advance);
         }
         Motion::speeds(&recording, start).map_err(unmade)?
@@ -341,8 +357,18 @@ fn check_speed_closes(columns: &Columns, speeds: &[f64]) -> Result<()> {
     )
 }
 
-/// The whole turns (or nothing, on a stroke) that a cycle goes on by (rad or m), if it misses them by no more than `most`.
-fn closed(way: f64, most: f64, columns: &Columns, drive: DriveLink) -> Result<f64> {
+/// How the machine differs after an advance of the drive link.
+type Repeats<'a> = dyn Fn(f64) -> Result<Option<Difference>> + 'a;
+
+/// What a cycle goes on by (rad or m): whole turns, or nothing on a stroke, if it misses them by no more than `most`; else any angle
+/// after which the machine comes round.
+fn closed(
+    way: f64,
+    most: f64,
+    columns: &Columns,
+    drive: DriveLink,
+    repeats: &Repeats,
+) -> std::result::Result<f64, Place> {
     let whole = match drive.domain {
         Domain::Turn => (way / TAU).round() * TAU,
         Domain::Stroke { .. } => 0.0,
@@ -351,6 +377,16 @@ fn closed(way: f64, most: f64, columns: &Columns, drive: DriveLink) -> Result<f6
     if gap.abs() <= most {
         return Ok(whole);
     }
+    let differs = match drive.domain {
+        Domain::Turn => match repeats(way).map_err(Place::Machine)? {
+            None => return Ok(way),
+            Some(difference) => format!(
+                ", and the machine is not the same there: {}",
+                motion::closed::in_words(&difference)
+            ),
+        },
+        Domain::Stroke { .. } => String::new(),
+    };
     let shown = |gap: f64| {
         let unit = drive.coordinate.unit();
         format!("{} {unit}", figure(drive.coordinate.shown(gap)))
@@ -363,7 +399,7 @@ fn closed(way: f64, most: f64, columns: &Columns, drive: DriveLink) -> Result<f6
             )
         }
         Domain::Turn => format!(
-            "the last position is {} {} a whole number of turns from the first one",
+            "the last position is {} {} a whole number of turns from the first one{differs}",
             shown(gap.abs()),
             if gap > 0.0 { "beyond" } else { "short of" }
         ),
@@ -376,7 +412,8 @@ fn closed(way: f64, most: f64, columns: &Columns, drive: DriveLink) -> Result<f6
              cycle; for a motion that does not repeat write cyclic = false in [motion]; if the difference is \
              measurement error, write close_within = \"{}\": it is then spread over the cycle as a constant speed",
             format_args!("{} {}", figure(rounded_up(drive.coordinate.shown(gap.abs()))), drive.coordinate.unit())
-        )))
+        ))
+        .into())
 }
 
 /// A little more, with two digits.

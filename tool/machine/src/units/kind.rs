@@ -68,6 +68,8 @@ kinds! {
     FORCE "a force" "150 N" "N" "N, kN" 1e-9 1e10;
     TORQUE "a torque" "12 N m" "N m" "N m, kN m, mN m" 1e-9 1e10;
     ACCELERATION "an acceleration" "9.81 m/s^2" "m/s^2" "m/s^2, mm/s^2" 1e-9 1e6;
+    JERK "a jerk" "50 m/s^3" "m/s^3" "m/s^3, mm/s^3" 1e-9 1e12;
+    ANGULAR_JERK "an angular jerk" "2000 rad/s^3" "rad/s^3" "rad/s^3, deg/s^3" 1e-9 1e12;
     VISCOUS_FORCE "a viscous coefficient (force per speed)" "30 N s/m" "N s/m" "N s/m, N s/mm" 1e-9 1e10;
     VISCOUS_MOMENT "a viscous coefficient (moment per angular speed)" "0.4 N m s/rad" "N m s/rad" "N m s/rad, N m/rpm" 1e-9 1e10;
     STIFFNESS "a stiffness (force per length)" "12 N/mm" "N/mm" "N/m, N/mm, kN/m" 1e-9 1e12;

@@ -7,11 +7,13 @@ use jred_machine::read;
 
 use super::{data, parse, rendered};
 
+/// A belt drive that is the same after whole turns only.
 fn machine(file: &str, more: &str) -> String {
     format!(
         "gravity = [\"0 m/s^2\", \"0 m/s^2\"]\n[mechanism]\ntype = \"belt\"\n\
          driver = {{ radius = \"2 cm\", inertia = \"1 kg cm^2\" }}\n\
          driven = {{ radius = \"5 cm\", inertia = \"6 kg cm^2\" }}\n\
+         [[load]]\non = \"shaft-1\"\nopposing_moment = \"1 N m\"\nbetween = [\"20 deg\", \"60 deg\"]\nramp = \"5 deg\"\n\
          [motion]\ntype = \"profile\"\nfile = \"{file}\"\n{more}"
     )
 }
@@ -173,7 +175,7 @@ fn a_profile_that_cannot_be_read_is_shown_in_the_machine_file() {
         let report = rendered(&parse(&machine(file, "")).unwrap_err());
         for word in words
             .iter()
-            .chain(&["machine.toml:8", "`file` in [motion]"])
+            .chain(&["machine.toml:13", "`file` in [motion]"])
         {
             assert!(report.contains(word), "{word:?} is not in\n{report}");
         }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use jred::mechanism::cam::{CamError, MAX_SEGMENTS, Program, Segment, Shape};
 
 use crate::number::rounding::figure;
-use crate::read::motion;
+use crate::read::law;
 use crate::text::item::{Item, Value};
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
@@ -98,9 +98,7 @@ fn segment<'a>(
     let rise = if *key == "rise" { size.si } else { -size.si };
     let angle = section.quantity("angle", &ANGLE)?.positive()?;
     let law = section.require("law", "law = \"cycloidal\"")?;
-    let names = motion::LAWS
-        .into_iter()
-        .chain([CONSTANT_VELOCITY, POLYNOMIAL]);
+    let names = law::LAWS.into_iter().chain([CONSTANT_VELOCITY, POLYNOMIAL]);
     let names: Vec<&str> = names.collect();
     let read = match names.get(law.choice(&names)?).copied() {
         Some(CONSTANT_VELOCITY) => {
@@ -115,7 +113,7 @@ fn segment<'a>(
         },
         _ => {
             positive(size)?;
-            Written::Known(Segment::law(motion::law(section)?, angle, rise))
+            Written::Known(Segment::law(law::read(section)?, angle, rise))
         }
     };
     section.finish_with(|key| match key {

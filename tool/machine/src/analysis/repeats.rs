@@ -1,0 +1,117 @@
+//! Whether a machine comes round: whether its curves are the same after the drive link has gone on by some angle.
+
+use std::f64::consts::TAU;
+
+use jred::machine::{Mechanism as _, PoseError};
+use jred::{Machine, Reducible as _};
+
+use crate::model::coordinate;
+use crate::model::mechanism::AnyMechanism;
+
+/// Positions of a turn that are compared, beside the edges of loads and cams.
+const POSITIONS: usize = 720;
+
+/// Curves that differ by less than this share of their size are the same.
+const SAME: f64 = 1e-9;
+
+/// The curves that are compared, with their units.
+const CURVES: [(&str, &str); 6] = [
+    ("J_red", "kg m^2"),
+    ("dJ_red/dφ", "kg m^2/rad"),
+    ("the torque of weight and springs", "N m"),
+    ("the torque of the process loads", "N m"),
+    ("the viscous coefficient", "N m s/rad"),
+    ("the friction torque", "N m"),
+];
+
+/// Where a curve is another one further on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Difference {
+    /// What differs.
+    pub curve: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// The position (rad).
+    pub phi: f64,
+    /// The values there and further on.
+    pub values: [f64; 2],
+}
+
+/// The largest difference, as a share of the curve's size, between the machine at φ and at φ + `advance` (rad); `None`: it comes
+/// round.
+///
+/// # Errors
+/// The machine cannot be placed.
+pub fn difference(
+    machine: &Machine<AnyMechanism>,
+    advance: f64,
+) -> Result<Option<Difference>, PoseError> {
+    let mut places: Vec<f64> = coordinate::positions(machine.domain(), POSITIONS).collect();
+    // Between two edges the curves are smooth, however close the edges are.
+    let mut edges: Vec<f64> = (0..).map_while(|k| machine.edge(k)).collect();
+    edges.extend_from_within(..);
+    let shifted = edges.len() / 2;
+    for edge in edges.iter_mut().skip(shifted) {
+        *edge -= advance;
+    }
+    for edge in &mut edges {
+        *edge = edge.rem_euclid(TAU);
+    }
+    edges.sort_by(f64::total_cmp);
+    places.extend(edges.windows(2).map(|pair| pair[0].midpoint(pair[1])));
+    let mut sizes = [0.0_f64; CURVES.len()];
+    let mut rows = Vec::with_capacity(places.len());
+    for phi in places {
+        let [here, there] = [curves(machine, phi)?, curves(machine, phi + advance)?];
+        for (size, values) in sizes.iter_mut().zip(here.1.iter().zip(&there.1)) {
+            *size = size.max(values.0.abs()).max(values.1.abs());
+        }
+        rows.push((phi, here.0, there.0));
+    }
+    let mut worst: Option<(f64, Difference)> = None;
+    for (phi, here, there) in rows {
+        for (k, (curve, unit)) in CURVES.into_iter().enumerate() {
+            let share = (there[k] - here[k]).abs() / sizes[k].max(f64::MIN_POSITIVE);
+            if share > worst.map_or(SAME, |(most, _)| most) {
+                let values = [here[k], there[k]];
+                let difference = Difference {
+                    curve,
+                    unit,
+                    phi,
+                    values,
+                };
+                worst = Some((share, difference));
+            }
+        }
+    }
+    Ok(worst.map(|(_, difference)| difference))
+}
+
+/// The curves at a position, and the size of the terms that they are sums of: what cancels leaves roundings of these.
+fn curves(
+    machine: &Machine<AnyMechanism>,
+    phi: f64,
+) -> Result<([f64; CURVES.len()], [f64; CURVES.len()]), PoseError> {
+    let reduction = machine.bare_reduction(phi)?;
+    let values = [
+        reduction.inertia,
+        reduction.inertia_slope,
+        reduction.potential_slope,
+        reduction.process,
+        reduction.viscous,
+        reduction.coulomb,
+    ];
+    let mut sizes = values;
+    // J′ has the size of J per radian, …
+    sizes[1] = sizes[1].abs().max(reduction.inertia);
+    // … and weights that balance each other have that of each.
+    let [g_x, g_y] = machine.gravity();
+    let mechanism = machine.mechanism();
+    let frames = mechanism.frames(phi)?;
+    let weight = mechanism.links().iter().zip(&frames).map(|(link, frame)| {
+        let [x, y] = frame.point(link.com());
+        link.mass() * g_x.hypot(g_y) * x.d1.hypot(y.d1)
+    });
+    sizes[2] = sizes[2].abs() + weight.sum::<f64>();
+    Ok((values, sizes))
+}

@@ -1,0 +1,44 @@
+//! Rows of a recorded motion, and the curve through them.
+
+use crate::number::spline::{Fault, Spline, Way};
+
+/// Whether a recorded motion repeats.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Closing {
+    /// It does not.
+    Open,
+    /// It does, and goes on by this (rad, or m) in a cycle: whole turns, or nothing.
+    After(f64),
+}
+
+/// Rows of a recorded motion.
+#[derive(Clone, Copy, Debug)]
+pub struct Recording<'r> {
+    /// Times from 0 on, rising, the last at the end of the motion (s).
+    pub times: &'r [f64],
+    /// Positions or speeds.
+    pub values: &'r [f64],
+    /// Angular frequency at which smoothing halves an amplitude (rad/s); none: the curve goes through every row.
+    pub cutoff: Option<f64>,
+    /// Whether it repeats: then its last row is its first, a cycle later.
+    pub closing: Closing,
+}
+
+impl Recording<'_> {
+    pub(super) fn duration(&self) -> Result<f64, Fault> {
+        match self.times {
+            [first, .., last] if *first == 0.0 && *last > 0.0 => Ok(*last),
+            _ => Err(Fault::NotRising),
+        }
+    }
+
+    pub(super) fn curve(&self, values: &[f64]) -> Result<Spline, Fault> {
+        let way = self.cutoff.map_or(Way::Interpolating, Way::Smoothing);
+        match (self.closing, self.times) {
+            (Closing::After(_), [times @ .., duration]) if values.len() == self.times.len() => {
+                Spline::periodic(times, &values[..times.len()], *duration, way)
+            }
+            _ => Spline::bounded(self.times, values, way),
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! `law`: a motion law by its name, for segments of a motion and of a cam.
+
+use jred::machine::motion::Law;
+
+use crate::number::rounding::figure;
+use crate::text::problem::{Problem, Result};
+use crate::text::section::Section;
+use crate::units::kind::SHARE;
+
+/// The motion laws, as machine files write them.
+pub(super) const LAWS: [&str; 7] = [
+    "trapezoid",
+    "polynomial-345",
+    "cycloidal",
+    "modified-sine",
+    "modified-trapezoid",
+    "polynomial-4567",
+    "simple-sine",
+];
+
+/// The law of a segment, with the shares of a trapezoid.
+pub(super) fn read(section: &Section) -> Result<Law> {
+    let law = section.require("law", "law = \"polynomial-345\"")?;
+    Ok(match law.choice(&LAWS)? {
+        0 => {
+            let keys = ["accelerate", "decelerate"];
+            let mut shares = [1.0 / 3.0; 2];
+            let mut place = law.span();
+            for (key, share) in keys.into_iter().zip(&mut shares) {
+                if let Some(value) = section.optional(key, &SHARE)? {
+                    place = value.span();
+                    *share = value.up_to(1.0)?;
+                }
+            }
+            let [accelerate, decelerate] = shares;
+            let law = Law::Trapezoid {
+                accelerate,
+                decelerate,
+            };
+            if law.check().is_err() {
+                return Err(Problem::new(format!(
+                    "`accelerate` and `decelerate` in {} add up to {} % of the duration",
+                    section.title(),
+                    figure((accelerate + decelerate) * 100.0)
+                ))
+                .at(place, "too large")
+                .help(format!(
+                    "at most 100 % in total: here {} % + {} % (a share not given is 1/3)",
+                    figure(accelerate * 100.0),
+                    figure(decelerate * 100.0)
+                )));
+            }
+            law
+        }
+        1 => Law::Polynomial345,
+        2 => Law::Cycloidal,
+        3 => Law::ModifiedSine,
+        4 => Law::ModifiedTrapezoid,
+        5 => Law::Polynomial4567,
+        _ => Law::SimpleSine,
+    })
+}

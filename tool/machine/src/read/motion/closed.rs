@@ -1,0 +1,120 @@
+//! Whether a cycle ends where it began.
+
+use std::f64::consts::TAU;
+
+use jred::{Domain, Machine};
+
+use crate::analysis::repeats::{self, Difference};
+use crate::model::coordinate::Coordinate;
+use crate::model::mechanism::AnyMechanism;
+use crate::model::motion::Segment;
+use crate::number::rounding::{figure, shown};
+use crate::read::drive_link::DriveLink;
+use crate::text::problem::Result;
+use crate::text::section::Section;
+
+/// A cycle closes if its moves miss a whole number of turns by less than this (turns).
+const CLOSED: f64 = 1e-9;
+
+/// A cycle on a stroke ends where it began.
+fn check_returns(
+    section: &Section,
+    parts: &[Section],
+    segments: &[Segment],
+    drive: DriveLink,
+) -> Result<()> {
+    let sum: f64 = segments.iter().map(|s| s.distance).sum();
+    let ways: f64 = segments.iter().map(|s| s.distance.abs()).sum();
+    if sum.abs() <= CLOSED * ways {
+        return Ok(());
+    }
+    let mut problem = section.problem(
+        format!(
+            "the moves of this cycle add up to {}, so it does not end where it started",
+            drive.distance(sum)
+        ),
+        "a cycle must close",
+    );
+    for (part, segment) in parts.iter().zip(segments).take(20) {
+        if segment.distance != 0.0 {
+            problem = problem.at(part.header(), drive.distance(segment.distance));
+        }
+    }
+    Err(problem.help(format!(
+        "add a move of {}, or use type = \"point-to-point\" for a motion that does not repeat",
+        drive.distance(-sum)
+    )))
+}
+
+/// A cycle ends where it began, or so far on that the machine comes round.
+pub(super) fn check(
+    section: &Section,
+    parts: &[Section],
+    segments: &[Segment],
+    drive: DriveLink,
+    machine: &Machine<AnyMechanism>,
+) -> Result<()> {
+    if drive.domain != Domain::Turn {
+        return check_returns(section, parts, segments, drive);
+    }
+    let advance = segments.iter().map(|s| s.distance).sum::<f64>();
+    let turns = advance / TAU;
+    let missing = turns.round() - turns;
+    if missing.abs() <= CLOSED * segments.len() as f64 {
+        return Ok(());
+    }
+    let Some(difference) = difference(section, machine, advance)? else {
+        return Ok(());
+    };
+    let degrees = |turns: f64| format!("{} deg", figure(turns * 360.0));
+    let mut problem = section.problem(
+        format!(
+            "the moves of this cycle add up to {}, which is not a whole number of turns, and the machine is not the same there: {}",
+            degrees(turns),
+            in_words(&difference)
+        ),
+        "a cycle must close",
+    );
+    let moves = parts
+        .iter()
+        .zip(segments)
+        .filter(|(_, segment)| segment.distance != 0.0);
+    for (part, segment) in moves.take(20) {
+        problem = problem.at(part.header(), degrees(segment.distance / TAU));
+    }
+    Err(problem.help(format!(
+        "add a move of {} to reach {}, or use type = \"point-to-point\" for a motion that does not repeat",
+        degrees(missing),
+        degrees(turns.round())
+    )))
+}
+
+/// How the machine differs after the drive link has gone on by `advance` (rad).
+pub(in crate::read) fn difference(
+    section: &Section,
+    machine: &Machine<AnyMechanism>,
+    advance: f64,
+) -> Result<Option<Difference>> {
+    repeats::difference(machine, advance).map_err(|error| {
+        section
+            .problem(error.to_string(), "in this motion")
+            .help(error.cure().to_string())
+    })
+}
+
+/// "J_red is 0.12 kg m^2 at φ = 40 deg, and 0.13 kg m^2 after the cycle"
+pub(in crate::read) fn in_words(difference: &Difference) -> String {
+    let Difference {
+        curve,
+        unit,
+        phi,
+        values: [here, there],
+    } = difference;
+    let size = here.abs().max(there.abs());
+    format!(
+        "{curve} is {} {unit} at {}, and {} {unit} a cycle later",
+        shown(*here, size),
+        Coordinate::Angle.place(*phi),
+        shown(*there, size)
+    )
+}

@@ -1,0 +1,63 @@
+//! Speed, acceleration and jerk at the ends of a segment, as far as the file gives them.
+
+use crate::read::drive_link::DriveLink;
+use crate::text::item::{Item, Value};
+use crate::text::problem::Result;
+use crate::text::section::Section;
+
+/// The ends of a segment; the values that are not given come from its neighbours.
+#[derive(Default)]
+pub(super) struct Ends {
+    pub(super) speeds: [Option<Value>; 2],
+    pub(super) accelerations: [Option<f64>; 2],
+    /// Of polynomials of sixth and seventh degree.
+    pub(super) jerks: [Option<f64>; 2],
+}
+
+impl Ends {
+    /// Speeds only.
+    pub(super) fn speeds(section: &Section, drive: DriveLink) -> Result<Self> {
+        let speeds = [
+            section.optional("start_speed", drive.speed())?,
+            section.optional("end_speed", drive.speed())?,
+        ];
+        Ok(Self {
+            speeds,
+            ..Self::default()
+        })
+    }
+
+    /// Those of the polynomial called `name`: of sixth degree it has the jerk at one end, of seventh at both.
+    pub(super) fn of_polynomial(
+        section: &Section,
+        law: &Item,
+        name: &str,
+        drive: DriveLink,
+    ) -> Result<Self> {
+        let si = |value: Option<Value>| value.map(|value| value.si);
+        let mut ends = Self::speeds(section, drive)?;
+        ends.accelerations = [
+            si(section.optional("start_acceleration", drive.acceleration())?),
+            si(section.optional("end_acceleration", drive.acceleration())?),
+        ];
+        if name == "polynomial-5" {
+            return Ok(ends);
+        }
+        ends.jerks = [
+            si(section.optional("start_jerk", drive.jerk())?),
+            si(section.optional("end_jerk", drive.jerk())?),
+        ];
+        if name == "polynomial-7" {
+            // A jerk that nobody gives is none.
+            ends.jerks = ends.jerks.map(|jerk| jerk.or(Some(0.0)));
+        } else if ends.jerks.iter().flatten().count() != 1 {
+            let zero = format!("0 {}", drive.jerk().unit);
+            return Err(law
+                .problem("needs the jerk at one of its ends", "six conditions and one more")
+                .help(format!(
+                    "write start_jerk = \"{zero}\" or end_jerk = \"{zero}\"; for both write law = \"polynomial-7\", for none \"polynomial-5\""
+                )));
+        }
+        Ok(ends)
+    }
+}

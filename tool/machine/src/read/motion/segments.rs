@@ -1,0 +1,347 @@
+//! The segments of a motion, one after another: their open ends, and whether they fit.
+
+use jred::Machine;
+use jred::machine::motion::{End, Polynomial};
+
+use crate::model::mechanism::AnyMechanism;
+use crate::model::motion::{Motion, Phase, Segment, change, fastest};
+use crate::read::drive_link::DriveLink;
+use crate::text::item::Value;
+use crate::text::problem::{Problem, Result};
+use crate::text::section::Section;
+
+use super::ends::Ends;
+use super::segment::{self, Written};
+use super::{closed, finish, start};
+
+/// The most segments of a motion.
+const MAX_SEGMENTS: usize = 1000;
+
+/// Share of the largest speed by which the speeds of two neighbours may differ: rounding of what the file gives.
+const CONTINUOUS: f64 = 1e-6;
+
+/// The motion of a section with segments.
+pub(super) fn read(
+    section: &Section,
+    cyclic: bool,
+    drive: DriveLink,
+    machine: &Machine<AnyMechanism>,
+) -> Result<Motion> {
+    let start = start(section, drive)?;
+    let item = section.require(
+        "segment",
+        "[[motion.segment]] once for each move = \"…\" and each dwell = \"…\"",
+    )?;
+    let parts = item.sections("[[motion.segment]]")?;
+    finish(section)?;
+    if parts.is_empty() || parts.len() > MAX_SEGMENTS {
+        return Err(item
+            .problem(
+                &format!(
+                    "has {} entries, but must have 1 to {MAX_SEGMENTS}",
+                    parts.len()
+                ),
+                "segments",
+            )
+            .help("give a long motion as positions in a CSV file: type = \"profile\""));
+    }
+    let written = parts
+        .iter()
+        .map(|part| segment::read(part, drive))
+        .collect::<Result<Vec<_>>>()?;
+    let chain = Chain {
+        parts: &parts,
+        written: &written,
+        cyclic,
+        drive,
+    };
+    let segments = chain.segments()?;
+    chain.check_speeds(&segments)?;
+    let motion = Motion::segments(start, &segments, cyclic).map_err(|(index, error)| {
+        let part = parts.get(index).unwrap_or(section);
+        part.problem(format!("{}: {error}", part.title()), "this segment")
+            .help(error.cure().to_string())
+    })?;
+    chain.check_stroke(&motion)?;
+    if cyclic {
+        closed::check(section, &parts, &segments, drive, machine)?;
+    }
+    Ok(motion)
+}
+
+/// The segments as they are written, in their order.
+struct Chain<'a> {
+    parts: &'a [Section<'a>],
+    written: &'a [(Written, Ends)],
+    cyclic: bool,
+    drive: DriveLink,
+}
+
+impl Chain<'_> {
+    /// The neighbour before (0) or after (1) segment number `index`; a cycle goes round.
+    fn neighbour(&self, index: usize, side: usize) -> Option<usize> {
+        let count = self.written.len();
+        match side {
+            0 if index > 0 => Some(index - 1),
+            1 if index + 1 < count => Some(index + 1),
+            _ if !self.cyclic => None,
+            0 => Some(count - 1),
+            _ => Some(0),
+        }
+    }
+
+    /// The speed at the start (0) or end (1) of a segment as far as the segment itself gives it.
+    fn own_speed(&self, index: usize, side: usize) -> Option<f64> {
+        let (written, ends) = &self.written[index];
+        match written {
+            Written::Known(segment) => Some(segment.ends()[side][0]),
+            _ => ends.speeds[side].as_ref().map(|speed| speed.si),
+        }
+    }
+
+    /// The speeds at the ends of a segment: its own, else those of its neighbours, else it is at rest there.
+    fn speeds(&self, index: usize) -> [f64; 2] {
+        [0, 1].map(|side| {
+            let beyond = || {
+                let neighbour = self.neighbour(index, side)?;
+                self.own_speed(neighbour, 1 - side)
+            };
+            self.own_speed(index, side).or_else(beyond).unwrap_or(0.0)
+        })
+    }
+
+    /// All segments with their ends known: polynomials last, because they take accelerations from their neighbours.
+    fn segments(&self) -> Result<Vec<Segment>> {
+        let mut known: Vec<Option<Segment>> = Vec::with_capacity(self.written.len());
+        for (index, (written, ends)) in self.written.iter().enumerate() {
+            let speeds = self.speeds(index);
+            known.push(match written {
+                Written::Known(segment) => Some(segment.clone()),
+                Written::Polynomial { .. } => None,
+                Written::Trapezoid {
+                    distance,
+                    duration,
+                    law,
+                    shares,
+                } => Some(if speeds == [0.0; 2] {
+                    Segment::law(*distance, *duration, *law)
+                } else {
+                    trapezoid(*distance, *duration, *shares, speeds)
+                }),
+                Written::Limited {
+                    distance,
+                    limits,
+                    speed,
+                } => {
+                    let largest = speed.as_ref();
+                    self.check_limits(index, ends, speeds, distance.as_ref(), largest)?;
+                    Some(match distance {
+                        None => {
+                            let (distance, phases) = change(speeds, limits);
+                            Segment::phases(distance, phases)
+                        }
+                        Some(distance) => {
+                            let phases = fastest(distance.si, speeds, limits);
+                            let phases = phases.map_err(|short| {
+                                self.too_short(index, distance, speeds, short.least)
+                            })?;
+                            Segment::phases(distance.si, phases)
+                        }
+                    })
+                }
+            });
+        }
+        let polynomial = |index: usize| {
+            let (written, ends) = &self.written[index];
+            let Written::Polynomial { distance, duration } = *written else {
+                return Segment::dwell(0.0);
+            };
+            let speeds = self.speeds(index);
+            let end = |side: usize| {
+                let neighbour = self.neighbour(index, side);
+                let beyond = neighbour.and_then(|neighbour| match &known[neighbour] {
+                    Some(segment) => Some(segment.ends()[1 - side][1]),
+                    None => self.written[neighbour].1.accelerations[1 - side],
+                });
+                End {
+                    speed: speeds[side],
+                    acceleration: ends.accelerations[side].or(beyond).unwrap_or(0.0),
+                    jerk: ends.jerks[side],
+                }
+            };
+            let course = Polynomial::between(distance, duration, end(0), end(1));
+            Segment::polynomial(distance, duration, course)
+        };
+        let segments = known.iter().enumerate();
+        Ok(segments
+            .map(|(index, segment)| segment.clone().unwrap_or_else(|| polynomial(index)))
+            .collect())
+    }
+
+    /// Speeds at the ends of a limited segment keep its limit and go its way; a change of speed changes it.
+    fn check_limits(
+        &self,
+        index: usize,
+        ends: &Ends,
+        speeds: [f64; 2],
+        distance: Option<&Value>,
+        largest: Option<&Value>,
+    ) -> Result<()> {
+        let title = self.parts[index].title();
+        let drive = self.drive;
+        if distance.is_none() && speeds[0] == speeds[1] {
+            return Err(self.parts[index]
+                .problem(
+                    format!(
+                        "{title} has no `move`, and the speed is {} at both ends",
+                        drive.pace(speeds[0])
+                    ),
+                    "nothing changes",
+                )
+                .help("give `move`, or end_speed for a change of speed whose distance follows from the limits"));
+        }
+        for ((side, word), speed) in ["starts", "ends"].into_iter().enumerate().zip(speeds) {
+            let place = ends.speeds[side]
+                .as_ref()
+                .map_or_else(|| self.parts[index].header(), Value::span);
+            let source = match (&ends.speeds[side], side) {
+                (Some(_), _) => "",
+                (None, 0) => ", the speed at which the segment before it ends",
+                (None, _) => ", the speed at which the segment after it starts",
+            };
+            if let Some(largest) = largest.filter(|most| speed.abs() > most.si * (1.0 + CONTINUOUS))
+            {
+                return Err(Problem::new(format!(
+                    "{title} {word} at {}{source}, but `max_speed` is {}",
+                    drive.pace(speed),
+                    largest.shown()
+                ))
+                .at(place, "faster")
+                .at(largest.span(), "the limit")
+                .help("raise max_speed, or lower the speed at this end"));
+            }
+            if let Some(distance) = distance.filter(|distance| distance.si * speed < 0.0) {
+                return Err(Problem::new(format!(
+                    "{title} {word} at {}{source}, against its move of {}",
+                    drive.pace(speed),
+                    distance.shown()
+                ))
+                .at(place, "the other direction")
+                .at(distance.span(), "the move")
+                .help("first bring the speed to zero: a segment without `move`, with end_speed and the limits"));
+            }
+        }
+        Ok(())
+    }
+
+    fn too_short(&self, index: usize, distance: &Value, speeds: [f64; 2], least: f64) -> Problem {
+        let [from, to] = speeds.map(|speed| self.drive.pace(speed));
+        distance
+            .problem(
+                &format!(
+                    "is {}, but the change of speed from {from} to {to} takes {} within these limits",
+                    distance.shown(),
+                    self.drive.distance(least)
+                ),
+                "too short",
+            )
+            .at(self.parts[index].header(), "these limits")
+            .help("lengthen the move, allow more acceleration or jerk, or change the speeds at its ends")
+    }
+
+    /// Where one segment ends, the next one goes on at the same speed.
+    fn check_speeds(&self, segments: &[Segment]) -> Result<()> {
+        let ends: Vec<[f64; 2]> = segments
+            .iter()
+            .map(|segment| segment.ends().map(|[speed, _]| speed))
+            .collect();
+        let mean = |segment: &Segment| (segment.distance / segment.duration()).abs();
+        let most = (segments.iter().map(mean)).chain(ends.iter().flatten().map(|v| v.abs()));
+        let most = most.fold(0.0, f64::max);
+        for (index, [_, before]) in ends.iter().enumerate() {
+            let Some(next) = self.neighbour(index, 1) else {
+                continue;
+            };
+            let after = ends[next][0];
+            if (after - before).abs() <= CONTINUOUS * most {
+                continue;
+            }
+            let pace = |speed: f64| match speed {
+                0.0 => "at rest".to_owned(),
+                speed => format!("at {}", self.drive.pace(speed)),
+            };
+            let again = if next > index { "" } else { " the next cycle" };
+            let takes = self.written[index].0.is_open() || self.written[next].0.is_open();
+            return Err(Problem::new(format!(
+                "{} ends {}, but number {} starts{again} {}",
+                self.parts[index].title(),
+                pace(*before),
+                next + 1,
+                pace(after)
+            ))
+            .at(self.parts[index].header(), format!("ends {}", pace(*before)))
+            .at(self.parts[next].header(), format!("starts {}", pace(after)))
+            .help(if takes {
+                "give both the same speed with start_speed and end_speed, or leave one of them out: it is then taken from the other segment"
+            } else {
+                "put a segment between them that changes the speed: law = \"polynomial-5\" takes the speeds at its ends from its neighbours"
+            }));
+        }
+        Ok(())
+    }
+
+    /// No move leaves the stroke, at its end or on the way.
+    fn check_stroke(&self, motion: &Motion) -> Result<()> {
+        let drive = self.drive;
+        for (index, t) in motion.reaches() {
+            let position = motion.at(t).phi;
+            if drive.reaches(position) {
+                continue;
+            }
+            let Some(part) = self.parts.get(index) else {
+                continue;
+            };
+            let place = drive.coordinate.place(position);
+            let what = if t < motion.end_of(index) {
+                format!("{} turns back at {place}", part.title())
+            } else {
+                format!("{} ends at {place}", part.title())
+            };
+            return Err(part
+                .problem(
+                    format!("{what}, outside the stroke, {}", drive.range()),
+                    "leaves the stroke",
+                )
+                .help(
+                    "shorten this move, start elsewhere, or lengthen the stroke of the mechanism",
+                ));
+        }
+        Ok(())
+    }
+}
+
+/// Constant acceleration, constant speed, constant deceleration between two speeds; the middle one follows from the distance.
+fn trapezoid(
+    distance: f64,
+    duration: f64,
+    [accelerate, decelerate]: [f64; 2],
+    [first, last]: [f64; 2],
+) -> Segment {
+    let mean = distance / duration - 0.5 * (accelerate * first + decelerate * last);
+    let middle = mean / (1.0 - 0.5 * (accelerate + decelerate));
+    let phase = |share: f64, from: f64, to: f64| {
+        let duration = share * duration;
+        Phase {
+            duration,
+            polynomial: Polynomial::constant_jerk([from, (to - from) / duration, 0.0]),
+        }
+    };
+    let mut phases = vec![phase(accelerate, first, middle)];
+    // Shares that are one together may be rounded.
+    let steady = 1.0 - accelerate - decelerate;
+    if steady > 1e-12 {
+        phases.push(phase(steady, middle, middle));
+    }
+    phases.push(phase(decelerate, middle, last));
+    Segment::phases(distance, phases)
+}
