@@ -3,6 +3,7 @@
 mod limits;
 mod repeats;
 mod segments;
+mod tool;
 
 use jred_machine::model::motion::Motion;
 

@@ -1,6 +1,7 @@
 //! The prescribed motion of the drive link over one cycle.
 
 use std::convert::Infallible;
+use std::sync::Arc;
 
 use jred::machine::motion::{Law, Move, Polynomial, State};
 use jred::number::RangeError;
@@ -10,14 +11,18 @@ use crate::number::spline::{Fault, Spline};
 
 mod limits;
 mod recording;
+mod tool;
 
 pub use limits::{Limits, TooShort, change, fastest};
 pub use recording::{Closing, Recording};
+pub use tool::{Measure, Standstill, ToolCoordinate};
 
 /// A motion in consecutive pieces.
 #[derive(Clone, Debug)]
 pub struct Motion {
     pieces: Vec<Piece>,
+    /// What is prescribed, if it is not the drive link.
+    tool: Option<Arc<ToolCoordinate>>,
     /// Whether the motion repeats; sizing takes the RMS over the whole duration either way.
     pub cyclic: bool,
 }
@@ -68,6 +73,9 @@ const STANDSTILL: f64 = 1e-6;
 
 /// Parts of a polynomial of seventh degree in which it is looked for a point where it turns back.
 const TURNS: u32 = 64;
+
+/// Parts of a recorded motion at whose ends it is looked at.
+const RECORDED: u32 = 10_000;
 
 /// One segment of a segmented motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -164,13 +172,13 @@ impl Segment {
 }
 
 impl Motion {
-    /// Constant speed `omega` (rad/s, not zero) over one turn from `start` (rad).
-    pub fn constant_speed(start: f64, omega: f64) -> Self {
+    /// Constant speed `omega` (rad/s, or m/s of a tool; not zero) from `start`, over one turn of the drive link, which is `turn` (rad, or m).
+    pub fn constant_speed(start: f64, omega: f64, turn: f64) -> Self {
         let kind = Kind::Polynomial {
             start,
             course: Polynomial::constant_jerk([omega, 0.0, 0.0]),
         };
-        let duration = std::f64::consts::TAU / omega.abs();
+        let duration = (turn / omega).abs();
         Self {
             pieces: vec![Piece {
                 segment: 0,
@@ -178,6 +186,7 @@ impl Motion {
                 duration,
                 kind,
             }],
+            tool: None,
             cyclic: true,
         }
     }
@@ -225,7 +234,11 @@ impl Motion {
             }
             phi += segment.distance;
         }
-        Ok(Self { pieces, cyclic })
+        Ok(Self {
+            pieces,
+            tool: None,
+            cyclic,
+        })
     }
 
     /// A motion through recorded positions (rad, or m). The twice continuously differentiable curve through them, or near them,
@@ -293,6 +306,7 @@ impl Motion {
                 duration,
                 kind,
             }],
+            tool: None,
             cyclic: recording.closing != Closing::Open,
         }
     }
@@ -309,7 +323,7 @@ impl Motion {
     }
 
     /// The times (s) at which the prescribed position may be at an extreme, each with the number of its segment: the ends of the pieces,
-    /// and where a polynomial turns back.
+    /// where a polynomial turns back, and a dense row of a recorded motion.
     pub fn reaches(&self) -> Vec<(usize, f64)> {
         let mut times = Vec::new();
         for piece in &self.pieces {
@@ -324,6 +338,10 @@ impl Motion {
                         times.push((piece.segment, piece.start + t));
                     }
                 }
+            }
+            if let Kind::Positions { .. } | Kind::Speeds { .. } = &piece.kind {
+                let place = |k: u32| piece.duration * f64::from(k) / f64::from(RECORDED);
+                times.extend((0..RECORDED).map(|k| (piece.segment, piece.start + place(k))));
             }
             times.push((piece.segment, piece.end()));
         }
@@ -350,8 +368,29 @@ impl Motion {
         stretches
     }
 
-    /// The state at `t` (s), clamped to the motion.
+    /// The same motion, prescribed for a coordinate of the tool.
+    #[must_use]
+    pub fn of_tool(mut self, tool: ToolCoordinate) -> Self {
+        self.tool = Some(Arc::new(tool));
+        self
+    }
+
+    /// The coordinate of the tool that is prescribed; `None`: the drive link.
+    pub fn tool(&self) -> Option<&ToolCoordinate> {
+        self.tool.as_deref()
+    }
+
+    /// The drive link's state at `t` (s), clamped to the motion.
     pub fn at(&self, t: f64) -> State<f64> {
+        let prescribed = self.prescribed(t);
+        match &self.tool {
+            Some(tool) => tool.drive(prescribed),
+            None => prescribed,
+        }
+    }
+
+    /// The state of what is prescribed, the tool or the drive link, at `t` (s), clamped to the motion.
+    pub fn prescribed(&self, t: f64) -> State<f64> {
         let index = self.pieces.partition_point(|p| p.start <= t).max(1) - 1;
         let Some(piece) = self.pieces.get(index) else {
             return State::default();

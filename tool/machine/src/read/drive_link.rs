@@ -18,7 +18,7 @@ use crate::units::kind::{
 /// Share of a stroke by which a motion may pass its ends: rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Type of motion of the drive link.
+/// Type and range of the drive link's motion, or of another coordinate that is prescribed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DriveLink {
     pub(super) coordinate: Coordinate,
@@ -92,6 +92,14 @@ impl DriveLink {
         match self.coordinate {
             Coordinate::Angle => &TORQUE,
             Coordinate::Length => &FORCE,
+        }
+    }
+
+    /// Where a motion starts, if nothing is said: at zero, or at the beginning of the stroke.
+    pub(super) fn start(self) -> f64 {
+        match self.domain {
+            Domain::Turn => 0.0,
+            Domain::Stroke { from, .. } => from,
         }
     }
 

@@ -1,6 +1,6 @@
 //! `[motion]`: the prescribed motion of the drive link.
 
-use jred::{Domain, Machine};
+use jred::Machine;
 
 use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::Motion;
@@ -15,6 +15,9 @@ pub(super) mod closed;
 mod ends;
 mod segment;
 mod segments;
+mod tool;
+
+pub(super) use tool::Prescribed;
 
 /// The prescribed motion, if the file has one. A profile's file is looked for among `files`.
 pub(super) fn read(
@@ -28,16 +31,20 @@ pub(super) fn read(
     };
     let section = item.section("[motion]".into())?;
     let types = ["constant-speed", "cycle", "point-to-point", "profile"];
-    let motion = match section
+    let kind = section
         .require("type", "type = \"cycle\"")?
-        .choice(&types)?
-    {
-        0 => constant_speed(&section, drive)?,
-        1 => segments::read(&section, true, drive, machine)?,
-        2 => segments::read(&section, false, drive, machine)?,
-        _ => profile::read(&section, files, drive, machine)?,
+        .choice(&types)?;
+    let prescribed = Prescribed::read(&section, drive, machine)?;
+    let motion = match kind {
+        0 => constant_speed(&section, &prescribed)?,
+        1 => segments::read(&section, true, &prescribed)?,
+        2 => segments::read(&section, false, &prescribed)?,
+        _ => profile::read(&section, files, &prescribed)?,
     };
-    Ok(Some(motion))
+    Ok(Some(match prescribed.tool {
+        Some(tool) => motion.of_tool(tool),
+        None => motion,
+    }))
 }
 
 /// Reports keys that the type of motion does not have.
@@ -48,48 +55,46 @@ pub(super) fn finish(section: &Section) -> Result<()> {
         "file" | "cyclic" | "step" | "smoothing" | "close_within" => {
             Some("a file and its options are for the type \"profile\"")
         }
+        "point" | "link" | "along" | "slide" => {
+            Some("a motion of the tool is written of = { point = \"slider\", along = \"x\" }")
+        }
         _ => None,
     })
 }
 
-/// Where the motion starts: at zero, or at the beginning of the stroke.
-fn start(section: &Section, drive: DriveLink) -> Result<f64> {
-    let Some(start) = section.optional("start", drive.position())? else {
-        return Ok(match drive.domain {
-            Domain::Turn => 0.0,
-            Domain::Stroke { from, .. } => from,
-        });
+/// Where the motion starts.
+fn start(section: &Section, prescribed: &Prescribed) -> Result<f64> {
+    let axis = prescribed.axis;
+    let Some(start) = section.optional("start", axis.position())? else {
+        return Ok(prescribed.start());
     };
-    if drive.reaches(start.si) {
-        return Ok(start.si);
-    }
-    let what = format!(
-        "is {}, outside the stroke, {}",
-        start.shown(),
-        drive.range()
-    );
-    Err(start
-        .problem(&what, "out of reach")
-        .help("start at a position within the stroke"))
+    prescribed.check_start(&start)?;
+    Ok(start.si)
 }
 
-fn constant_speed(section: &Section, drive: DriveLink) -> Result<Motion> {
-    if drive.domain != Domain::Turn {
+fn constant_speed(section: &Section, prescribed: &Prescribed) -> Result<Motion> {
+    let axis = prescribed.axis;
+    let Some(per_turn) = prescribed.per_turn() else {
         let kind = section.require("type", "type = \"cycle\"")?;
+        let what = match &prescribed.tool {
+            None => format!(
+                "is \"constant-speed\", but the drive link has a stroke, {}: it cannot move on forever",
+                axis.range()
+            ),
+            Some(tool) => format!(
+                "is \"constant-speed\", but the {} goes from {} only: it cannot move on forever",
+                tool.name(),
+                axis.range()
+            ),
+        };
         return Err(kind
-            .problem(
-                &format!(
-                    "is \"constant-speed\", but the drive link has a stroke, {}: it cannot move on forever",
-                    drive.range()
-                ),
-                "not on a stroke",
-            )
+            .problem(&what, "not on a stroke")
             .help("use type = \"cycle\" with moves forth and back, or \"point-to-point\""));
-    }
-    let start = start(section, drive)?;
-    let speed = section.quantity("speed", drive.speed())?;
+    };
+    let start = start(section, prescribed)?;
+    let speed = section.quantity("speed", axis.speed())?;
     finish(section)?;
-    if speed.si.abs() < drive.speed().smallest {
+    if speed.si.abs() < axis.speed().smallest {
         return Err(speed
             .problem(
                 &format!("is {}, but must not be zero", speed.shown()),
@@ -97,5 +102,5 @@ fn constant_speed(section: &Section, drive: DriveLink) -> Result<Motion> {
             )
             .help("a negative speed turns clockwise; for a machine at rest, remove [motion]"));
     }
-    Ok(Motion::constant_speed(start, speed.si))
+    Ok(Motion::constant_speed(start, speed.si, per_turn))
 }

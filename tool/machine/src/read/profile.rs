@@ -1,17 +1,15 @@
 //! `[motion] type = "profile"`: positions or speeds over time from a CSV file, as a drive or a motion program records them.
 
-use jred::{Domain, Machine};
 use std::f64::consts::TAU;
 
 use crate::analysis::repeats::Difference;
 use crate::model::coordinate::Coordinate;
-use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::{Closing, Motion, Recording};
 use crate::number::spline::MIN_POINTS;
 use crate::text::file::Files;
 
 use super::drive_link::DriveLink;
-use super::motion;
+use super::motion::{self, Prescribed};
 use crate::number::rounding::figure;
 use crate::text::columns;
 use crate::text::columns::{Columns, CsvFile, Format, Known, known};
@@ -42,14 +40,14 @@ const SPEED: usize = 2;
 /// The columns of a drive link that turns or swings.
 const ANGLES: [Known; 3] = [
     known(&["t", "time"], &TIME),
-    known(&["phi", "φ", "angle", "position"], &ANGLE),
+    known(&["phi", "φ", "psi", "ψ", "angle", "position"], &ANGLE),
     known(&["omega", "ω", "n", "speed"], &ANGULAR_SPEED),
 ];
 
 /// The columns of one that slides.
 const LENGTHS: [Known; 3] = [
     known(&["t", "time"], &TIME),
-    known(&["s", "position"], &LENGTH),
+    known(&["s", "x", "y", "position"], &LENGTH),
     known(&["v", "speed"], &VELOCITY),
 ];
 
@@ -74,9 +72,9 @@ struct Request {
 pub(super) fn read(
     section: &Section,
     files: &dyn Files,
-    drive: DriveLink,
-    machine: &Machine<AnyMechanism>,
+    prescribed: &Prescribed,
 ) -> Result<Motion> {
+    let drive = prescribed.axis;
     let item = section.require("file", "file = \"profile.csv\"")?;
     let request = Request {
         cyclic: section.get("cyclic").map_or(Ok(true), |item| item.flag())?,
@@ -94,9 +92,10 @@ pub(super) fn read(
     }
     let file = CsvFile::open(&item, "profile.csv", files)?;
     let columns = read_columns(&file.text, drive).map_err(|problem| file.shows(problem))?;
-    check_request(&request, &columns, drive)?;
-    let repeats = |advance: f64| motion::closed::difference(section, machine, advance);
-    curve(&columns, &request, drive, &file.text, &repeats).map_err(|fault| match fault {
+    check_request(&request, &columns, prescribed)?;
+    let repeats =
+        |start: f64, way: f64| motion::closed::difference(section, prescribed, start, way);
+    curve(&columns, &request, prescribed, &file.text, &repeats).map_err(|fault| match fault {
         Place::File(problem) => file.shows(problem),
         Place::Machine(problem) => problem,
     })
@@ -145,26 +144,15 @@ fn read_columns(text: &str, drive: DriveLink) -> Result<Columns> {
 }
 
 /// Checks that the keys of `[motion]` match the columns of the file.
-fn check_request(request: &Request, columns: &Columns, drive: DriveLink) -> Result<()> {
+fn check_request(request: &Request, columns: &Columns, prescribed: &Prescribed) -> Result<()> {
     let of_positions = columns.get(POSITION).is_some();
     if let (Some(start), true) = (&request.start, of_positions) {
         return Err(start
             .problem("is given, but the file has positions", "not needed")
             .help("a profile of positions starts at its first position; remove this"));
     }
-    if let Some(start) = request
-        .start
-        .as_ref()
-        .filter(|start| !drive.reaches(start.si))
-    {
-        let what = format!(
-            "is {}, outside the stroke, {}",
-            start.shown(),
-            drive.range()
-        );
-        return Err(start
-            .problem(&what, "out of reach")
-            .help("start at a position within the stroke"));
+    if let Some(start) = &request.start {
+        prescribed.check_start(start)?;
     }
     match (&request.step, columns.get(TIME_COLUMN)) {
         (Some(step), Some(_)) => Err(step
@@ -179,10 +167,13 @@ fn check_request(request: &Request, columns: &Columns, drive: DriveLink) -> Resu
 fn curve(
     columns: &Columns,
     request: &Request,
-    drive: DriveLink,
+    prescribed: &Prescribed,
     text: &str,
     repeats: &Repeats,
 ) -> std::result::Result<Motion, Place> {
+    let drive = prescribed.axis;
+    let turn = prescribed.per_turn();
+    let span = turn.unwrap_or(drive.domain.span()).abs();
     let times = times(columns, request)?;
     let duration = times.last().copied().unwrap_or_default();
     let cutoff = cutoff(request, &times)?;
@@ -210,13 +201,8 @@ fn curve(
             positions.last().copied().unwrap_or_default(),
         );
         if request.cyclic {
-            advance = closed(
-                last - first,
-                most(CLOSED * drive.domain.span()),
-                columns,
-                drive,
-                repeats,
-            )?;
+            let way = [first, last - first];
+            advance = closed(way, most(CLOSED * span), columns, prescribed, repeats)?;
         }
         let recording = Recording {
             times: &times,
@@ -227,13 +213,10 @@ fn curve(
         Motion::positions(&recording).map_err(unmade)?
     } else {
         let speeds = columns.get(SPEED).unwrap_or_default();
-        let start = request.start.as_ref().map_or_else(
-            || match drive.domain {
-                Domain::Turn => 0.0,
-                Domain::Stroke { from, .. } => from,
-            },
-            |start| start.si,
-        );
+        let start = request
+            .start
+            .as_ref()
+            .map_or_else(|| prescribed.start(), |start| start.si);
         if request.cyclic {
             check_speed_closes(columns, speeds)?;
         }
@@ -249,30 +232,36 @@ fn curve(
                 .at(duration)
                 .phi
                 - start;
-            advance = closed(
-                way,
-                most(CLOSED * drive.domain.span()),
-                columns,
-                drive,
-                repeats,
-            )?;
+            let way = [start, way];
+            advance = closed(way, most(CLOSED * span), columns, prescribed, repeats)?;
             recording.closing = Closing::After(advance);
         }
         Motion::speeds(&recording, start).map_err(unmade)?
     };
-    let outside = times.iter().position(|t| !drive.reaches(motion.at(*t).phi));
-    if let Some(row) = outside {
-        return Err(Problem::new(format!(
-            "row {}: the position {} is outside the stroke, {}",
-            row + 1,
-            drive.coordinate.place(motion.at(times[row]).phi),
-            drive.range()
-        ))
-        .at(columns.place(row), "leaves the stroke")
-        .help("give a motion that stays within the stroke of the mechanism")
-        .into());
+    if prescribed.tool.is_none() {
+        check_stroke(&motion, &times, columns, drive)?;
     }
+    prescribed.check_reach(&motion, |_, what| {
+        Problem::new(format!("the recorded motion {what}"))
+            .at(csv::header_place(text), "in this file")
+    })?;
     Ok(motion)
+}
+
+/// No row leaves the stroke.
+fn check_stroke(motion: &Motion, times: &[f64], columns: &Columns, drive: DriveLink) -> Result<()> {
+    let outside = times.iter().position(|t| !drive.reaches(motion.at(*t).phi));
+    let Some(row) = outside else {
+        return Ok(());
+    };
+    Err(Problem::new(format!(
+        "row {}: the position {} is outside the stroke, {}",
+        row + 1,
+        drive.coordinate.place(motion.at(times[row]).phi),
+        drive.range()
+    ))
+    .at(columns.place(row), "leaves the stroke")
+    .help("give a motion that stays within the stroke of the mechanism"))
 }
 
 /// The times from the first row on (s).
@@ -357,48 +346,46 @@ fn check_speed_closes(columns: &Columns, speeds: &[f64]) -> Result<()> {
     )
 }
 
-/// How the machine differs after an advance of the drive link.
-type Repeats<'a> = dyn Fn(f64) -> Result<Option<Difference>> + 'a;
+/// How the machine differs after the motion has gone on from a start by a way.
+type Repeats<'a> = dyn Fn(f64, f64) -> Result<Option<Difference>> + 'a;
 
-/// What a cycle goes on by (rad or m): whole turns, or nothing on a stroke, if it misses them by no more than `most`; else any angle
-/// after which the machine comes round.
+/// What a cycle goes on by (rad or m): whole turns, or nothing on a stroke, if its way from the start misses them by no more than `most`;
+/// else any way after which the machine is the same.
 fn closed(
-    way: f64,
+    [start, way]: [f64; 2],
     most: f64,
     columns: &Columns,
-    drive: DriveLink,
+    prescribed: &Prescribed,
     repeats: &Repeats,
 ) -> std::result::Result<f64, Place> {
-    let whole = match drive.domain {
-        Domain::Turn => (way / TAU).round() * TAU,
-        Domain::Stroke { .. } => 0.0,
-    };
+    let drive = prescribed.axis;
+    let turn = prescribed.per_turn();
+    let whole = turn.map_or(0.0, |turn| (way / turn).round() * turn);
     let gap = way - whole;
     if gap.abs() <= most {
         return Ok(whole);
     }
-    let differs = match drive.domain {
-        Domain::Turn => match repeats(way).map_err(Place::Machine)? {
-            None => return Ok(way),
-            Some(difference) => format!(
-                ", and the machine is not the same there: {}",
-                motion::closed::in_words(&difference)
-            ),
-        },
-        Domain::Stroke { .. } => String::new(),
-    };
+    let mut differs = String::new();
+    if turn.is_some() {
+        let Some(difference) = repeats(start, way).map_err(Place::Machine)? else {
+            return Ok(way);
+        };
+        differs = format!(
+            "{}, and the machine is not the same there: {}",
+            motion::closed::of_the_drive(prescribed),
+            motion::closed::in_words(&difference)
+        );
+    }
     let shown = |gap: f64| {
         let unit = drive.coordinate.unit();
         format!("{} {unit}", figure(drive.coordinate.shown(gap)))
     };
-    let message = match drive.domain {
-        Domain::Stroke { .. } => {
-            format!(
-                "the last position is {} away from the first one",
-                shown(gap)
-            )
-        }
-        Domain::Turn => format!(
+    let message = match turn {
+        None => format!(
+            "the last position is {} away from the first one",
+            shown(gap)
+        ),
+        Some(_) => format!(
             "the last position is {} {} a whole number of turns from the first one{differs}",
             shown(gap.abs()),
             if gap > 0.0 { "beyond" } else { "short of" }

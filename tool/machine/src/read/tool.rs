@@ -68,31 +68,37 @@ pub(super) fn read(root: &Section, mechanism: &AnyMechanism) -> Result<Option<To
 }
 
 fn of_point(section: &Section, item: &Item, mechanism: &AnyMechanism) -> Result<Tool> {
+    let (name, link, at) = place(section, item, mechanism)?;
+    Ok(Tool {
+        name,
+        link,
+        place: ToolPlace::Point(at),
+        play: section.quantity("play", &LENGTH)?.positive()?,
+    })
+}
+
+/// A named point, or the point `at` of a link: its name, its link, and where it is on it.
+pub(super) fn place(
+    section: &Section,
+    item: &Item,
+    mechanism: &AnyMechanism,
+) -> Result<(String, usize, [f64; 2])> {
     let points = mechanism.points();
     let mut names: Vec<&str> = points.iter().map(|point| point.name.as_str()).collect();
     names.extend(mechanism.link_names().iter().map(String::as_str));
     let index = item.choice(&names)?;
     let name = names.get(index).copied().unwrap_or_default().to_owned();
-    let play = section.quantity("play", &LENGTH)?.positive()?;
     let at = section.get("at");
-    let (link, place) = match (points.get(index), &at) {
-        (Some(point), None) => (point.link, point.at),
-        (Some(_), Some(at)) => {
-            return Err(at
-                .problem(
-                    "is given for a point whose place is already defined",
-                    "remove this",
-                )
-                .help("`at` gives a point on a link"));
-        }
-        (None, _) => (index - points.len(), section.point("at", &LENGTH)?),
-    };
-    Ok(Tool {
-        name,
-        link,
-        place: ToolPlace::Point(place),
-        play,
-    })
+    match (points.get(index), &at) {
+        (Some(point), None) => Ok((name, point.link, point.at)),
+        (Some(_), Some(at)) => Err(at
+            .problem(
+                "is given for a point whose place is already defined",
+                "remove this",
+            )
+            .help("`at` gives a point on a link")),
+        (None, _) => Ok((name, index - points.len(), section.point("at", &LENGTH)?)),
+    }
 }
 
 /// Whether the tool moves anywhere in the range of the drive link.

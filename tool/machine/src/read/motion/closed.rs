@@ -1,17 +1,14 @@
 //! Whether a cycle ends where it began.
 
-use std::f64::consts::TAU;
-
-use jred::{Domain, Machine};
-
 use crate::analysis::repeats::{self, Difference};
 use crate::model::coordinate::Coordinate;
-use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::Segment;
-use crate::number::rounding::{figure, shown};
+use crate::number::rounding::shown;
 use crate::read::drive_link::DriveLink;
 use crate::text::problem::Result;
 use crate::text::section::Section;
+
+use super::Prescribed;
 
 /// A cycle closes if its moves miss a whole number of turns by less than this (turns).
 const CLOSED: f64 = 1e-9;
@@ -51,26 +48,27 @@ pub(super) fn check(
     section: &Section,
     parts: &[Section],
     segments: &[Segment],
-    drive: DriveLink,
-    machine: &Machine<AnyMechanism>,
+    start: f64,
+    prescribed: &Prescribed,
 ) -> Result<()> {
-    if drive.domain != Domain::Turn {
-        return check_returns(section, parts, segments, drive);
-    }
-    let advance = segments.iter().map(|s| s.distance).sum::<f64>();
-    let turns = advance / TAU;
+    let axis = prescribed.axis;
+    let Some(per_turn) = prescribed.per_turn() else {
+        return check_returns(section, parts, segments, axis);
+    };
+    let sum = segments.iter().map(|s| s.distance).sum::<f64>();
+    let turns = sum / per_turn;
     let missing = turns.round() - turns;
     if missing.abs() <= CLOSED * segments.len() as f64 {
         return Ok(());
     }
-    let Some(difference) = difference(section, machine, advance)? else {
+    let Some(difference) = difference(section, prescribed, start, sum)? else {
         return Ok(());
     };
-    let degrees = |turns: f64| format!("{} deg", figure(turns * 360.0));
     let mut problem = section.problem(
         format!(
-            "the moves of this cycle add up to {}, which is not a whole number of turns, and the machine is not the same there: {}",
-            degrees(turns),
+            "the moves of this cycle add up to {}, which is not a whole number of turns{}, and the machine is not the same there: {}",
+            axis.distance(sum),
+            of_the_drive(prescribed),
             in_words(&difference)
         ),
         "a cycle must close",
@@ -80,22 +78,32 @@ pub(super) fn check(
         .zip(segments)
         .filter(|(_, segment)| segment.distance != 0.0);
     for (part, segment) in moves.take(20) {
-        problem = problem.at(part.header(), degrees(segment.distance / TAU));
+        problem = problem.at(part.header(), axis.distance(segment.distance));
     }
     Err(problem.help(format!(
         "add a move of {} to reach {}, or use type = \"point-to-point\" for a motion that does not repeat",
-        degrees(missing),
-        degrees(turns.round())
+        axis.distance(missing * per_turn),
+        axis.distance(turns.round() * per_turn)
     )))
 }
 
-/// How the machine differs after the drive link has gone on by `advance` (rad).
+/// " of the drive link" where something else is prescribed.
+pub(in crate::read) fn of_the_drive(prescribed: &Prescribed) -> &'static str {
+    if prescribed.tool.is_some() {
+        " of the drive link"
+    } else {
+        ""
+    }
+}
+
+/// How the machine differs after what is prescribed has gone on by `way` from `start`.
 pub(in crate::read) fn difference(
     section: &Section,
-    machine: &Machine<AnyMechanism>,
-    advance: f64,
+    prescribed: &Prescribed,
+    start: f64,
+    way: f64,
 ) -> Result<Option<Difference>> {
-    repeats::difference(machine, advance).map_err(|error| {
+    repeats::difference(prescribed.machine, prescribed.advance(start, way)).map_err(|error| {
         section
             .problem(error.to_string(), "in this motion")
             .help(error.cure().to_string())

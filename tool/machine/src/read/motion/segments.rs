@@ -1,9 +1,7 @@
 //! The segments of a motion, one after another: their open ends, and whether they fit.
 
-use jred::Machine;
 use jred::machine::motion::{End, Polynomial};
 
-use crate::model::mechanism::AnyMechanism;
 use crate::model::motion::{Motion, Phase, Segment, change, fastest};
 use crate::read::drive_link::DriveLink;
 use crate::text::item::Value;
@@ -12,7 +10,7 @@ use crate::text::section::Section;
 
 use super::ends::Ends;
 use super::segment::{self, Written};
-use super::{closed, finish, start};
+use super::{Prescribed, closed, finish, start};
 
 /// The most segments of a motion.
 const MAX_SEGMENTS: usize = 1000;
@@ -21,13 +19,9 @@ const MAX_SEGMENTS: usize = 1000;
 const CONTINUOUS: f64 = 1e-6;
 
 /// The motion of a section with segments.
-pub(super) fn read(
-    section: &Section,
-    cyclic: bool,
-    drive: DriveLink,
-    machine: &Machine<AnyMechanism>,
-) -> Result<Motion> {
-    let start = start(section, drive)?;
+pub(super) fn read(section: &Section, cyclic: bool, prescribed: &Prescribed) -> Result<Motion> {
+    let drive = prescribed.axis;
+    let start = start(section, prescribed)?;
     let item = section.require(
         "segment",
         "[[motion.segment]] once for each move = \"…\" and each dwell = \"…\"",
@@ -62,9 +56,15 @@ pub(super) fn read(
         part.problem(format!("{}: {error}", part.title()), "this segment")
             .help(error.cure().to_string())
     })?;
-    chain.check_stroke(&motion)?;
+    if prescribed.tool.is_none() {
+        chain.check_stroke(&motion)?;
+    }
+    prescribed.check_reach(&motion, |index, what| {
+        let part = parts.get(index).unwrap_or(section);
+        part.problem(format!("{} {what}", part.title()), "this segment")
+    })?;
     if cyclic {
-        closed::check(section, &parts, &segments, drive, machine)?;
+        closed::check(section, &parts, &segments, start, prescribed)?;
     }
     Ok(motion)
 }

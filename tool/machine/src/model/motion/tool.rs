@@ -1,0 +1,466 @@
+//! A coordinate of the tool as a function of the drive link's position, and its inverse: what a motion prescribed at the tool asks of the
+//! drive link.
+
+use std::f64::consts::TAU;
+
+use jred::Domain;
+use jred::machine::motion::State;
+use jred::machine::{Jointed as _, Mechanism as _, PoseError};
+use jred::number::Transfer;
+
+use crate::model::coordinate::Coordinate;
+use crate::model::mechanism::AnyMechanism;
+use crate::number::numerics;
+
+/// Places of a turn, or of a stroke, at which the coordinate is known beforehand.
+const PLACES: u32 = 1440;
+
+/// A transfer function below this share of its largest value is zero: there the tool stands whatever the drive link does.
+const STANDS: f64 = 1e-9;
+
+/// The most steps of Newton's method; two are usual, and bisection needs fifty.
+const MOST_STEPS: u32 = 100;
+
+/// What is measured at the tool.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Measure {
+    /// x (0) or y (1) of a point `[u, v]` of a link (m).
+    Position {
+        /// Number of the link.
+        link: usize,
+        /// The point in its frame (m).
+        at: [f64; 2],
+        /// 0: x, 1: y.
+        axis: usize,
+    },
+    /// Distance of a point `[u, v]` of a link along its path (m).
+    Path {
+        /// Number of the link.
+        link: usize,
+        /// The point in its frame (m).
+        at: [f64; 2],
+    },
+    /// Angle of a link (rad).
+    Angle {
+        /// Number of the link.
+        link: usize,
+    },
+    /// Displacement in a guide (m).
+    Slide {
+        /// Number of the joint.
+        joint: usize,
+    },
+}
+
+/// Where the coordinate cannot lead the drive link.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Standstill {
+    /// Near the place where the motion begins, the tool stands.
+    Here,
+    /// The mechanism cannot be placed.
+    Unplaced(PoseError),
+}
+
+/// A place at which the coordinate is known.
+#[derive(Clone, Copy, Debug)]
+struct Knot {
+    phi: f64,
+    /// The coordinate, without jumps by whole turns.
+    value: f64,
+    slope: f64,
+}
+
+/// A coordinate of the tool on the part of the drive link's range on which it goes one way.
+#[derive(Clone, Debug)]
+pub struct ToolCoordinate {
+    mechanism: AnyMechanism,
+    measure: Measure,
+    name: String,
+    /// In the order of φ, from end to end of the branch; at least two.
+    knots: Vec<Knot>,
+    /// The drive link's position around which the branch lies, and the coordinate there.
+    near: [f64; 2],
+    /// What a turn adds, if the tool never turns back.
+    per_turn: Option<f64>,
+}
+
+impl ToolCoordinate {
+    /// The coordinate on the branch around the drive link's position `near` (rad, or m). A distance along the path is zero there.
+    ///
+    /// # Errors
+    /// The tool stands there, or the mechanism cannot be placed.
+    pub fn new(
+        mechanism: &AnyMechanism,
+        measure: Measure,
+        name: String,
+        near: f64,
+    ) -> Result<Self, Standstill> {
+        let raw = Raw { mechanism, measure };
+        let domain = mechanism.domain();
+        let step = domain.span() / f64::from(PLACES);
+        let mut most = 0.0_f64;
+        for k in 0..=PLACES {
+            let phi = domain.position(f64::from(k) / f64::from(PLACES));
+            most = most.max(raw.slope(phi)?.abs());
+        }
+        let least = STANDS * most;
+        let first = raw.slope(near)?;
+        if first.abs() <= least || most == 0.0 {
+            return Err(Standstill::Here);
+        }
+        let moves = |phi: f64| Ok::<_, Standstill>(raw.slope(phi)? * first.signum() > least);
+        let [low, high] = match domain {
+            Domain::Turn => [near - TAU, near + TAU],
+            Domain::Stroke { from, to } => [from, to],
+        };
+        let up = raw.reach(near, step, high, &moves)?;
+        let endless = domain == Domain::Turn && up.closed;
+        let mut places = up.places;
+        if !endless {
+            let down = raw.reach(near, -step, low, &moves)?;
+            places = (down.places.into_iter().rev())
+                .chain(places.into_iter().skip(1))
+                .collect();
+        }
+        let knots = raw.knots(&places, near)?;
+        let ends = knots.first().zip(knots.last());
+        let per_turn = ends.filter(|_| endless).map(|(a, b)| b.value - a.value);
+        let here = knots.iter().find(|knot| knot.phi >= near);
+        let value = here.map_or(0.0, |knot| knot.value);
+        if knots.len() < 2 {
+            return Err(Standstill::Here);
+        }
+        Ok(Self {
+            mechanism: mechanism.clone(),
+            measure,
+            name,
+            knots,
+            near: [near, value],
+            per_turn,
+        })
+    }
+
+    /// Its name, such as "x of ram".
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Whether it is an angle or a length.
+    pub const fn coordinate(&self) -> Coordinate {
+        match self.measure {
+            Measure::Angle { .. } => Coordinate::Angle,
+            _ => Coordinate::Length,
+        }
+    }
+
+    /// Its symbol in columns and messages.
+    pub const fn symbol(&self) -> &'static str {
+        match self.measure {
+            Measure::Position { axis: 0, .. } => "x",
+            Measure::Position { .. } => "y",
+            Measure::Path { .. } | Measure::Slide { .. } => "s",
+            Measure::Angle { .. } => "psi",
+        }
+    }
+
+    /// Its value where the branch was asked for.
+    pub const fn value_near(&self) -> f64 {
+        self.near[1]
+    }
+
+    /// What a turn of the drive link adds; `None`: it turns back within one, or the drive link has a stroke.
+    pub const fn per_turn(&self) -> Option<f64> {
+        self.per_turn
+    }
+
+    /// The ends of the branch as [drive link, tool], the smaller value of the tool first; `None` if it never turns back.
+    pub fn ends(&self) -> Option<[[f64; 2]; 2]> {
+        if self.per_turn.is_some() {
+            return None;
+        }
+        let ends = [self.knots.first()?, self.knots.last()?].map(|knot| [knot.phi, knot.value]);
+        let [first, last] = ends;
+        Some(if first[1] <= last[1] {
+            ends
+        } else {
+            [last, first]
+        })
+    }
+
+    /// The coordinate with its transfer functions at the drive link's position `phi`, which lies on the branch.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed.
+    pub fn at(&self, phi: f64) -> Result<Transfer, PoseError> {
+        let raw = Raw {
+            mechanism: &self.mechanism,
+            measure: self.measure,
+        };
+        let turns = match (self.per_turn, self.knots.first()) {
+            (Some(_), Some(first)) => ((phi - first.phi) / TAU).floor(),
+            _ => 0.0,
+        };
+        let place = phi - turns * TAU;
+        let index = self.knots.partition_point(|knot| knot.phi <= place);
+        let knot = self.knots.get(index.max(1) - 1).copied();
+        let mut found = raw.from(knot.as_ref(), place)?;
+        found.value += turns * self.per_turn.unwrap_or(0.0);
+        Ok(found)
+    }
+
+    /// The drive link's state that gives the tool this one: φ̇ = ṡ/s′, φ̈ = (s̈ − s″·φ̇²)/s′. A value beyond the branch is taken for its
+    /// end.
+    pub fn drive(&self, tool: State<f64>) -> State<f64> {
+        let (turns, value) = match (self.per_turn, self.knots.first()) {
+            (Some(per_turn), Some(first)) => {
+                let turns = ((tool.phi - first.value) / per_turn).floor();
+                (turns, tool.phi - turns * per_turn)
+            }
+            _ => (0.0, tool.phi),
+        };
+        let (phi, transfer) = self.inverse(value);
+        let omega = tool.omega / transfer.d1;
+        State {
+            phi: phi + turns * TAU,
+            omega,
+            alpha: (tool.alpha - transfer.d2 * omega * omega) / transfer.d1,
+        }
+    }
+
+    /// The drive link's position that gives the tool this value.
+    pub fn drive_at(&self, value: f64) -> f64 {
+        let at_rest = State {
+            phi: value,
+            ..State::default()
+        };
+        self.drive(at_rest).phi
+    }
+
+    /// Newton's method between two knots, whose cubic φ(s) is the start; where it leaves the bracket, bisection.
+    fn inverse(&self, value: f64) -> (f64, Transfer) {
+        let rising = self.knots.first().zip(self.knots.last());
+        let rising = rising.is_none_or(|(first, last)| first.value <= last.value);
+        let index = self
+            .knots
+            .partition_point(|knot| (knot.value <= value) == rising)
+            .clamp(1, self.knots.len() - 1);
+        let (a, b) = (self.knots[index - 1], self.knots[index]);
+        let [least, most] = if rising { [a, b] } else { [b, a] }.map(|knot| knot.value);
+        let value = value.clamp(least, most);
+        let scale = f64::EPSILON * a.value.abs().max(b.value.abs());
+        let (mut low, mut high) = (a.phi, b.phi);
+        let mut phi = guess(a, b, value).clamp(low, high);
+        let raw = Raw {
+            mechanism: &self.mechanism,
+            measure: self.measure,
+        };
+        let mut found = Transfer::constant(value);
+        found.d1 = a.slope;
+        for _ in 0..MOST_STEPS {
+            // Between two knots the mechanism was placed at both ends: it is placed here.
+            let Ok(here) = raw.from(Some(&a), phi) else {
+                break;
+            };
+            found = here;
+            let off = here.value - value;
+            if (off > 0.0) == rising {
+                high = phi;
+            } else {
+                low = phi;
+            }
+            let next = phi - off / here.d1;
+            let next = if next > low && next < high {
+                next
+            } else {
+                low.midpoint(high)
+            };
+            if off.abs() <= scale || next == phi || (off == 0.0) {
+                break;
+            }
+            phi = next;
+        }
+        (phi, found)
+    }
+}
+
+/// φ by Hermite's cubic over the coordinate between two knots.
+fn guess(a: Knot, b: Knot, value: f64) -> f64 {
+    let way = b.value - a.value;
+    if way == 0.0 {
+        return a.phi;
+    }
+    let z = (value - a.value) / way;
+    let (rise, first, last) = (b.phi - a.phi, way / a.slope, way / b.slope);
+    let cubic = first + z * (3.0 * rise - 2.0 * first - last + z * (first + last - 2.0 * rise));
+    let phi = a.phi + z * cubic;
+    if phi.is_finite() {
+        phi
+    } else {
+        a.phi.midpoint(b.phi)
+    }
+}
+
+/// The coordinate as the mechanism gives it.
+struct Raw<'a> {
+    mechanism: &'a AnyMechanism,
+    measure: Measure,
+}
+
+/// A way from the start of a branch to its end.
+struct Reach {
+    places: Vec<f64>,
+    /// It went all the way.
+    closed: bool,
+}
+
+impl Raw<'_> {
+    /// The coordinate at φ: an angle with whole turns open, a distance along the path without its value.
+    fn transfer(&self, phi: f64) -> Result<Transfer, PoseError> {
+        let frames = self.mechanism.frames(phi)?;
+        let frame = |link: usize| frames.get(link).copied();
+        Ok(match self.measure {
+            Measure::Position { link, at, axis } => frame(link).map(|frame| {
+                let [x, y] = frame.point(at);
+                if axis == 0 { x } else { y }
+            }),
+            Measure::Path { link, at } => frame(link).map(|frame| {
+                let [x, y] = frame.point(at);
+                let speed = x.d1.hypot(y.d1);
+                let bend = (x.d1 * x.d2 + y.d1 * y.d2) / speed.max(f64::MIN_POSITIVE);
+                Transfer {
+                    value: 0.0,
+                    d1: speed,
+                    d2: bend,
+                    d3: 0.0,
+                }
+            }),
+            Measure::Angle { link } => frame(link).map(|frame| frame.psi),
+            Measure::Slide { joint } => {
+                let joints = self.mechanism.joints(phi, &frames)?;
+                joints.get(joint).map(|joint| joint.coordinate(&frames))
+            }
+        }
+        .unwrap_or(Transfer::constant(0.0)))
+    }
+
+    fn slope(&self, phi: f64) -> Result<f64, Standstill> {
+        Ok(self.transfer(phi).map_err(Standstill::Unplaced)?.d1)
+    }
+
+    /// The same with its value carried on from a knot near it: whole turns, or the way along the path.
+    fn from(&self, knot: Option<&Knot>, phi: f64) -> Result<Transfer, PoseError> {
+        let mut found = self.transfer(phi)?;
+        let Some(knot) = knot else {
+            return Ok(found);
+        };
+        match self.measure {
+            Measure::Angle { .. } => {
+                let expected = knot.value + knot.slope * (phi - knot.phi);
+                found.value += ((expected - found.value) / TAU).round() * TAU;
+            }
+            Measure::Path { .. } => {
+                let speed = |phi: f64| Ok::<_, PoseError>(self.transfer(phi)?.d1);
+                found.value = knot.value + numerics::gauss(&speed, [knot.phi, phi])?;
+            }
+            _ => {}
+        }
+        Ok(found)
+    }
+
+    /// Places from `near` on in steps until the tool stands or the end is reached.
+    fn reach(
+        &self,
+        near: f64,
+        step: f64,
+        end: f64,
+        moves: &impl Fn(f64) -> Result<bool, Standstill>,
+    ) -> Result<Reach, Standstill> {
+        let count = ((end - near) / step).abs().ceil() as usize;
+        let place = |k: usize| {
+            if k < count {
+                near + step * k as f64
+            } else {
+                end
+            }
+        };
+        let speed = |phi: f64| Ok::<_, Standstill>(self.slope(phi)?.abs());
+        let mut speeds = vec![speed(near)?];
+        let mut stop = None;
+        for k in 1..=count {
+            if !moves(place(k))? {
+                stop = Some((k - 1, place(k)));
+                break;
+            }
+            speeds.push(speed(place(k))?);
+            // Between places it may stand where its speed is least.
+            if let [.., a, b, c] = speeds[..]
+                && b <= a
+                && b <= c
+            {
+                let [from, to] = [place(k - 2), place(k)];
+                let slowest = numerics::least(speed, from.min(to), from.max(to))?;
+                if !moves(slowest)? {
+                    let before = if (place(k - 1) - slowest) * step < 0.0 {
+                        k - 1
+                    } else {
+                        k - 2
+                    };
+                    stop = Some((before, slowest));
+                    break;
+                }
+            }
+        }
+        let Some((last, stop)) = stop else {
+            let places = (0..=count).map(place).collect();
+            return Ok(Reach {
+                places,
+                closed: true,
+            });
+        };
+        let mut places: Vec<f64> = (0..=last).map(place).collect();
+        // The last place at which it still moves.
+        let (mut inside, mut outside) = (place(last), stop);
+        for _ in 0..60 {
+            let middle = inside.midpoint(outside);
+            if moves(middle)? {
+                inside = middle;
+            } else {
+                outside = middle;
+            }
+        }
+        if inside != place(last) {
+            places.push(inside);
+        }
+        Ok(Reach {
+            places,
+            closed: false,
+        })
+    }
+
+    /// The coordinate at places in the order of φ; along the path it is zero at `near`.
+    fn knots(&self, places: &[f64], near: f64) -> Result<Vec<Knot>, Standstill> {
+        let mut knots: Vec<Knot> = Vec::with_capacity(places.len());
+        for &phi in places {
+            let found = self.from(knots.last(), phi).map_err(Standstill::Unplaced)?;
+            knots.push(Knot {
+                phi,
+                value: found.value,
+                slope: found.d1,
+            });
+        }
+        // Whole turns, and the zero of the path, are those at `near`.
+        let here = knots.iter().find(|knot| knot.phi >= near);
+        let shift = match (self.measure, here) {
+            (Measure::Path { .. }, Some(here)) => -here.value,
+            (Measure::Angle { .. }, Some(here)) => {
+                let raw = self.transfer(here.phi).map_err(Standstill::Unplaced)?;
+                raw.value - here.value
+            }
+            _ => 0.0,
+        };
+        for knot in &mut knots {
+            knot.value += shift;
+        }
+        Ok(knots)
+    }
+}

@@ -1,0 +1,268 @@
+//! `of` and `near` in `[motion]`: the coordinate of the tool whose motion is prescribed, and where it can lead the drive link.
+
+use std::convert::Infallible;
+use std::f64::consts::TAU;
+
+use jred::machine::{Joint, Jointed as _, Mechanism as _};
+use jred::{Domain, Machine};
+
+use crate::model::mechanism::AnyMechanism;
+use crate::model::motion::{Measure, Motion, Standstill, ToolCoordinate};
+use crate::number::numerics;
+use crate::number::rounding::figure;
+use crate::read::drive_link::DriveLink;
+use crate::read::tool;
+use crate::text::item::{Item, Value};
+use crate::text::problem::{Problem, Result};
+use crate::text::section::Section;
+
+/// Share of the tool's way within which it is at its dead centre: nearer to it the drive link's acceleration has no bound.
+const AT_DEAD_CENTRE: f64 = 1e-8;
+
+/// Share of the tool's way by which it may pass the end of the drive link's stroke: rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// The coordinate whose motion is prescribed: that of the drive link, or one of the tool.
+pub(in crate::read) struct Prescribed<'a> {
+    /// Its kind and range: those of the tool's coordinate, if there is one.
+    pub(in crate::read) axis: DriveLink,
+    pub(in crate::read) tool: Option<ToolCoordinate>,
+    pub(in crate::read) machine: &'a Machine<AnyMechanism>,
+}
+
+impl<'a> Prescribed<'a> {
+    pub(super) fn read(
+        section: &Section,
+        drive: DriveLink,
+        machine: &'a Machine<AnyMechanism>,
+    ) -> Result<Self> {
+        let near = section.optional("near", drive.position())?;
+        let Some(of) = section.get("of") else {
+            if let Some(near) = near {
+                return Err(near
+                    .problem("is given without `of`", "not needed")
+                    .help("`near` says on which branch a motion of the tool lies; the drive link's motion starts at `start`"));
+            }
+            return Ok(Self {
+                axis: drive,
+                tool: None,
+                machine,
+            });
+        };
+        let mechanism = machine.mechanism();
+        let (measure, name) = measure(&of, mechanism)?;
+        if let Some(near) = near.as_ref().filter(|near| !drive.reaches(near.si)) {
+            let what = format!("is {}, outside the stroke, {}", near.shown(), drive.range());
+            return Err(near
+                .problem(&what, "out of reach")
+                .help("give a position within the stroke"));
+        }
+        let place = near
+            .as_ref()
+            .map_or_else(|| drive.domain.position(0.0), |near| near.si);
+        let made = ToolCoordinate::new(mechanism, measure, name.clone(), place);
+        let tool = made.map_err(|standstill| {
+            let problem = |what: &str| match &near {
+                Some(near) => near.problem(what, "here"),
+                None => of.problem(what, "this coordinate"),
+            };
+            match standstill {
+                Standstill::Here => problem(&format!(
+                    "does not do: at {} the {name} does not move with the drive link, so its motion says nothing of that of the drive link",
+                    drive.coordinate.place(place)
+                ))
+                .help("give near = \"…\", a position of the drive link between two dead centres of the tool, on the branch on which it works; `jred check` lists the dead centres"),
+                Standstill::Unplaced(error) => problem(&format!("does not do: {error}")).help(error.cure().to_string()),
+            }
+        })?;
+        let domain = tool
+            .ends()
+            .map_or(Domain::Turn, |[[_, from], [_, to]]| Domain::Stroke {
+                from,
+                to,
+            });
+        let axis = DriveLink {
+            coordinate: tool.coordinate(),
+            domain,
+        };
+        Ok(Self {
+            axis,
+            tool: Some(tool),
+            machine,
+        })
+    }
+
+    /// Where the motion starts, if the file does not say it.
+    pub(in crate::read) fn start(&self) -> f64 {
+        self.tool
+            .as_ref()
+            .map_or_else(|| self.axis.start(), ToolCoordinate::value_near)
+    }
+
+    /// The start lies on the stroke, or on the tool's branch.
+    pub(in crate::read) fn check_start(&self, start: &Value) -> Result<()> {
+        if self.axis.reaches(start.si) {
+            return Ok(());
+        }
+        let (shown, range) = (start.shown(), self.axis.range());
+        Err(match &self.tool {
+            None => start
+                .problem(&format!("is {shown}, outside the stroke, {range}"), "out of reach")
+                .help("start at a position within the stroke"),
+            Some(tool) => start
+                .problem(
+                    &format!(
+                        "is {shown}, but between two dead centres the {} goes from {range}",
+                        tool.name()
+                    ),
+                    "out of reach",
+                )
+                .help("start in this range, or give near = \"…\", a position of the drive link on another branch"),
+        })
+    }
+
+    /// What a turn of the drive link adds to the coordinate, if it goes on without end.
+    pub(in crate::read) fn per_turn(&self) -> Option<f64> {
+        match &self.tool {
+            Some(tool) => tool.per_turn(),
+            None => (self.axis.domain == Domain::Turn).then_some(TAU),
+        }
+    }
+
+    /// How far the drive link goes on while the coordinate goes on by `way` from `start`.
+    pub(in crate::read) fn advance(&self, start: f64, way: f64) -> f64 {
+        let Some(tool) = &self.tool else {
+            return way;
+        };
+        tool.drive_at(start + way) - tool.drive_at(start)
+    }
+
+    /// The tool stays on its branch; `problem` makes the message from what is wrong with segment number so-and-so.
+    pub(in crate::read) fn check_reach(
+        &self,
+        motion: &Motion,
+        problem: impl Fn(usize, &str) -> Problem,
+    ) -> Result<()> {
+        let Some((tool, ends)) = (self.tool.as_ref()).and_then(|tool| Some((tool, tool.ends()?)))
+        else {
+            return Ok(());
+        };
+        let mechanism = self.machine.mechanism();
+        let way = ends[1][1] - ends[0][1];
+        let is_stroke = |phi: f64| match mechanism.domain() {
+            Domain::Turn => false,
+            Domain::Stroke { from, to } => (phi - from).min(to - phi) <= ROUNDING * (to - from),
+        };
+        // How far the tool stays away from each end.
+        let [low, high] = ends.map(|[phi, _]| {
+            if is_stroke(phi) {
+                -ROUNDING * way
+            } else {
+                AT_DEAD_CENTRE * way
+            }
+        });
+        let within = |t: f64| {
+            let value = motion.prescribed(t).phi;
+            (ends[0][1] + low..=ends[1][1] - high).contains(&value)
+        };
+        let mut before = 0.0;
+        for (index, t) in std::iter::once((0, 0.0)).chain(motion.reaches()) {
+            if within(t) {
+                before = t;
+                continue;
+            }
+            let Ok(first) = numerics::edge(|t| Ok::<_, Infallible>(within(t)), before, t);
+            let value = motion.prescribed(t).phi;
+            let [phi, end] = ends[usize::from(value > ends[0][1] + 0.5 * way)];
+            let drive = mechanism.coordinate();
+            let turned = match mechanism.domain() {
+                Domain::Turn => phi.rem_euclid(TAU),
+                Domain::Stroke { .. } => phi,
+            };
+            let (what, cure) = if is_stroke(phi) {
+                ("the end of the drive link's stroke", "")
+            } else {
+                (
+                    "its dead centre",
+                    "; what passes a dead centre is prescribed at the drive link: law = \"join\", or a motion without `of`",
+                )
+            };
+            let [least, most] = ends.map(|[_, end]| self.axis.distance(end));
+            let message = format!(
+                "leads the {} to {}: at t = {} s it reaches {what} at {}, {} = {}, and no position of the drive link takes it further",
+                tool.name(),
+                self.axis.distance(value),
+                figure(first),
+                drive.place(turned),
+                tool.symbol(),
+                self.axis.distance(end),
+            );
+            return Err(problem(index, &message).help(format!(
+                "keep the {} between {least} and {most}{cure}",
+                tool.name()
+            )));
+        }
+        Ok(())
+    }
+}
+
+/// The measure that `of` names, and its name.
+fn measure(of: &Item, mechanism: &AnyMechanism) -> Result<(Measure, String)> {
+    let section = of.section("[motion.of]".into())?;
+    let keys = ["point", "link", "slide"];
+    let given: Vec<(&str, Item)> = keys
+        .into_iter()
+        .filter_map(|key| section.get(key).map(|item| (key, item)))
+        .collect();
+    let [(key, item)] = given.as_slice() else {
+        let example = "of = { point = \"slider\", along = \"x\" }, of = { link = \"table\" } or of = { slide = \"guide\" }";
+        let problem = match given.as_slice() {
+            [(first, one), (second, other), ..] => {
+                Problem::new(format!("[motion.of] has both `{first}` and `{second}`"))
+                    .at(one.key_span(), *first)
+                    .at(other.key_span(), *second)
+            }
+            _ => of.problem("names neither `point` nor `link` nor `slide`", "incomplete"),
+        };
+        return Err(problem.help(format!("write {example}")));
+    };
+    let found = match *key {
+        "link" => {
+            let link = item.choice(mechanism.link_names())?;
+            let name = item.text("table")?;
+            (Measure::Angle { link }, format!("angle of {name}"))
+        }
+        "slide" => {
+            let joint = item.choice(mechanism.joint_names())?;
+            let name = item.text("guide")?;
+            let start = mechanism.domain().position(0.0);
+            let joints = mechanism
+                .frames(start)
+                .and_then(|frames| mechanism.joints(start, &frames));
+            let slides =
+                joints.is_ok_and(|joints| matches!(joints.get(joint), Some(Joint::Prismatic(_))));
+            if !slides {
+                return Err(item
+                    .problem("is not a guide, so nothing slides in it", "this joint")
+                    .help("name a joint of the kind guide: `jred check` lists the joints; for a link that turns write of = { link = \"…\" }"));
+            }
+            (Measure::Slide { joint }, format!("displacement in {name}"))
+        }
+        _ => {
+            let (name, link, at) = tool::place(&section, item, mechanism)?;
+            let along = section.require("along", "along = \"x\", \"y\" or \"path\"")?;
+            let measure = match along.choice(&["x", "y", "path"])? {
+                2 => Measure::Path { link, at },
+                axis => Measure::Position { link, at, axis },
+            };
+            let word = along.text("x")?;
+            (measure, format!("{word} of {name}"))
+        }
+    };
+    section.finish_with(|key| match key {
+        "along" => Some("`along` is for a point"),
+        "at" => Some("`at` gives a point of a link named with `point`"),
+        _ => None,
+    })?;
+    Ok(found)
+}
