@@ -10,13 +10,14 @@ use jred::mechanism::cam::{CamError, Program, Segment};
 use jred::number::Transfer;
 use proptest::prelude::*;
 
-const LAWS: [Law; 6] = [
+const LAWS: [Law; 7] = [
     Law::Polynomial345,
     Law::Polynomial4567,
     Law::Cycloidal,
     Law::ModifiedSine,
     Law::ModifiedTrapezoid,
     Law::SimpleSine,
+    Law::Gutman,
 ];
 const PARABOLA: Law = Law::Trapezoid {
     accelerate: 0.5,

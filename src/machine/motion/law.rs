@@ -34,10 +34,24 @@ pub enum Law<R = f64> {
     /// Modified trapezoid of the acceleration: largest speed 2, largest acceleration 8π/(2 + π) = 4.888, the smallest of
     /// the laws without a jump of it.
     ModifiedTrapezoid,
+    /// z − 15/(32π)·sin 2πz − 1/(96π)·sin 6πz (Gutman, first and third harmonic): largest speed 2, largest acceleration
+    /// 2π·√(2/3) = 5.130; it excites with two frequencies only.
+    Gutman,
 }
 
 /// The characteristic values of a motion law: a rise h in the time T has at most the speed C_v·h/T, the acceleration
-/// C_a·h/T² and the jerk C_j·h/T³.
+/// C_a·h/T² and the jerk C_j·h/T³. An inertia J that it moves takes at most the power C_Mdyn·J·h²/T³.
+///
+/// | law | C_v | C_a | C_j | C_Mdyn |
+/// |---|---|---|---|---|
+/// | quadratic parabola: trapezoid of halves | 2 | 4 | ∞ | 8 |
+/// | simple sine | π/2 = 1.571 | π²/2 = 4.935 | ∞ | π³/8 = 3.876 |
+/// | cycloidal (Bestehorn) | 2 | 2π = 6.283 | 4π² = 39.48 | 3√3·π/2 = 8.162 |
+/// | modified sine | 1.760 | 5.528 | 69.47 | 5.458 |
+/// | modified trapezoid | 2 | 4.888 | 61.43 | 8.090 |
+/// | Gutman | 2 | 5.130 | 6π² = 59.22 | 8.125 |
+/// | 3-4-5 polynomial | 1.875 | 5.774 | 60 | 6.694 |
+/// | 4-5-6-7 polynomial | 2.188 | 7.513 | 52.5 | 10.75 |
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Characteristic {
@@ -47,6 +61,8 @@ pub struct Characteristic {
     pub acceleration: f64,
     /// C_j; `None` where the acceleration jumps.
     pub jerk: Option<f64>,
+    /// C_Mdyn, the largest product S′·S″.
+    pub dynamic_torque: f64,
 }
 
 impl<R: Real> Law<R> {
@@ -67,6 +83,7 @@ impl<R: Real> Law<R> {
             Self::SimpleSine => Law::SimpleSine,
             Self::Polynomial4567 => Law::Polynomial4567,
             Self::ModifiedTrapezoid => Law::ModifiedTrapezoid,
+            Self::Gutman => Law::Gutman,
         }
     }
 
@@ -112,42 +129,76 @@ impl<R: Real> Law<R> {
             }
             Self::ModifiedSine => [Some(0.125), Some(0.875), None, None],
             Self::ModifiedTrapezoid => [Some(0.125), Some(0.375), Some(0.625), Some(0.875)],
-            Self::Polynomial345 | Self::Polynomial4567 | Self::Cycloidal | Self::SimpleSine => {
-                [None; 4]
-            }
+            Self::Polynomial345
+            | Self::Polynomial4567
+            | Self::Cycloidal
+            | Self::SimpleSine
+            | Self::Gutman => [None; 4],
         }
     }
 
-    /// C_v, C_a, C_j in closed form. The test `coefficients_of_vdi_2143` compares them with the law's own extremes.
+    /// C_v, C_a, C_j, C_Mdyn in closed form. The test `coefficients_of_vdi_2143` compares them with the law's own extremes.
     #[must_use]
     pub fn characteristic(self) -> Characteristic {
         use core::f64::consts::PI;
-        let (velocity, acceleration, jerk) = match self {
+        let (velocity, acceleration, jerk, dynamic_torque) = match self {
             Self::Trapezoid {
                 accelerate,
                 decelerate,
             } => {
                 let (a, d) = (accelerate.to_f64(), decelerate.to_f64());
                 let speed = 1.0 / (1.0 - f64::midpoint(a, d));
-                (speed, speed / a.min(d), None)
+                let most = speed / a.min(d);
+                (speed, most, None, speed * most)
             }
-            Self::Polynomial345 => (1.875, 5.773_502_691_896_258, Some(60.0)), // 10/√3
-            Self::Cycloidal => (2.0, 2.0 * PI, Some(4.0 * PI * PI)),
+            // 10/√3; 1800·w³·√(1 − 4w) at w = z·(1 − z) = 3/14.
+            Self::Polynomial345 => (
+                1.875,
+                5.773_502_691_896_258,
+                Some(60.0),
+                6.694_268_727_495_788,
+            ),
+            // sin·(1 − cos) is largest, 3√3/4, at a third of a turn.
+            Self::Cycloidal => (
+                2.0,
+                2.0 * PI,
+                Some(4.0 * PI * PI),
+                1.5 * PI * 1.732_050_807_568_877_2,
+            ),
+            // sin θ·(1 − 3·cos θ) is largest at cos θ = (1 − √73)/12.
             Self::ModifiedSine => {
                 let share = 4.0 * PI / (4.0 + PI);
-                (share, PI * share, Some(4.0 * PI * PI * share))
+                let most = PI * share;
+                let product = share * most / 4.0 * 2.244_369_709_690_986;
+                (share, most, Some(4.0 * PI * most), product)
             }
-            Self::SimpleSine => (PI / 2.0, PI * PI / 2.0, None),
-            Self::Polynomial4567 => (2.1875, 7.513_188_404_399_293, Some(52.5)), // 84/(5·√5)
+            Self::SimpleSine => (PI / 2.0, PI * PI / 2.0, None, PI * PI * PI / 8.0),
+            // 84/(5·√5); 58800·w⁵·√(1 − 4w) at w = 5/22.
+            Self::Polynomial4567 => (
+                2.1875,
+                7.513_188_404_399_293,
+                Some(52.5),
+                10.750_226_164_702_64,
+            ),
+            // (1 + π + s)·√(1 − s²) is largest at 2s² + (1 + π)·s = 1.
             Self::ModifiedTrapezoid => {
                 let share = 8.0 * PI / (2.0 + PI);
-                (2.0, share, Some(4.0 * PI * share))
+                let product = share * share / (4.0 * PI) * 4.254_739_528_362_83;
+                (2.0, share, Some(4.0 * PI * share), product)
             }
+            // (3π/2)·(1 − (3c + c³)/4)·(1 + c²)·√(1 − c²) is largest at c = cos 2πz = −0.743013….
+            Self::Gutman => (
+                2.0,
+                2.0 * PI * 0.816_496_580_927_726,
+                Some(6.0 * PI * PI),
+                8.124_857_839_101_943,
+            ),
         };
         Characteristic {
             velocity,
             acceleration,
             jerk,
+            dynamic_torque,
         }
     }
 
@@ -188,6 +239,17 @@ impl<R: Real> Law<R> {
             }),
             Self::Polynomial4567 => mirrored(z, polynomial_4567),
             Self::ModifiedTrapezoid => mirrored(z, modified_trapezoid),
+            Self::Gutman => {
+                use core::f64::consts::PI;
+                // sin 3x = sin x·(3 − 4·sin² x), cos 3x = cos x·(4·cos² x − 3).
+                let (sin, cos) = (c(2.0 * PI) * z).sin_cos();
+                let square = sin * sin;
+                [
+                    z - sin * (c(12.0) - square) / c(24.0 * PI),
+                    c(1.0) - cos * (c(4.0) - square) / c(4.0),
+                    c(1.5 * PI) * sin * (c(2.0) - square),
+                ]
+            }
         }
     }
 
@@ -227,6 +289,10 @@ impl<R: Real> Law<R> {
                 } else {
                     c(0.0)
                 }
+            }
+            Self::Gutman => {
+                let (sin, cos) = (c(2.0 * PI) * z).sin_cos();
+                c(3.0 * PI * PI) * cos * (c(2.0) - c(3.0) * sin * sin)
             }
         }
     }

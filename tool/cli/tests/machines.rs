@@ -18,6 +18,8 @@ fn a_drive_is_found() {
         "ball-screw.toml",
         "cam-oscillating.toml",
         "cam-translating.toml",
+        "drawing-press.toml",
+        "flying-shear.toml",
         "four-bar.toml",
         "geneva.toml",
         "hoist.toml",

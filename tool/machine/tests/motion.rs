@@ -1,5 +1,7 @@
 //! The prescribed motion: segments between speeds, limits, laws.
 
+mod course;
+mod join;
 mod limits;
 mod repeats;
 mod segments;

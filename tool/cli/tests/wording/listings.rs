@@ -214,6 +214,8 @@ fn check() {
         "four-bar.toml",
         "linkage-press.toml",
         "variator-press.toml",
+        "drawing-press.toml",
+        "flying-shear.toml",
     ];
     let desk = Desk::new().with_machines(&machines);
     let commands: Vec<[&str; 2]> = machines.map(|machine| ["check", machine]).into();

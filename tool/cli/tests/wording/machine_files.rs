@@ -283,6 +283,45 @@ fn motions_and_rules() {
                 "type = \"profile\"\nfile = \"turn.csv\"",
             ),
             ("type = \"cycle\"", "type = \"cycle\"\nduty_type = \"S4\""),
+            ("\"polynomial-345\"", "\"constant-speed\""),
+            (
+                "\"polynomial-345\"",
+                "\"polynomial-5\"\nend_speed = \"10 rpm\"",
+            ),
+            ("\"polynomial-345\"", "\"polynomial-6\""),
+            (
+                "\"polynomial-345\"",
+                "\"cycloidal\"\nmax_speed = \"10 rpm\"",
+            ),
+            (
+                "law = \"polynomial-345\"\nmove = \"360 deg\"\nduration = \"0.4 s\"",
+                "law = \"jerk-limited\"\nmove = \"360 deg\"\nmax_speed = \"60 rpm\"\nmax_acceleration = \"9 rad/s^2\"",
+            ),
+            (
+                "law = \"polynomial-345\"\nmove = \"360 deg\"\nduration = \"0.4 s\"",
+                "law = \"trapezoid\"\nmove = \"60 deg\"\nmax_speed = \"60 rpm\"\nmax_acceleration = \"9 rad/s^2\"\nstart_speed = \"50 rpm\"",
+            ),
+        ],
+    );
+    mistakes(
+        "machine-tool-motions",
+        "drawing-press.toml",
+        "size",
+        &[
+            ("near = \"300 deg\"", "near = \"0 deg\""),
+            ("near = \"300 deg\"\n", ""),
+            ("along = \"x\"", "along = \"z\""),
+            (", along = \"x\"", ""),
+            ("point = \"slider\", along = \"x\"", "link = \"slider\""),
+            ("point = \"slider\", along = \"x\"", "slide = \"crank pin\""),
+            ("start = \"195 mm\"", "start = \"145 mm\""),
+            ("move = \"11 mm\"", "move = \"17 mm\""),
+            ("law = \"join\"\nto = \"180 deg\"", "law = \"join\""),
+            (
+                "law = \"join\"\nto = \"180 deg\"",
+                "law = \"join\"\nto = \"180 mm\"",
+            ),
+            ("of = { point", "# of = { point"),
         ],
     );
     let rules = |text: &'static str| ("[simulation]", text);

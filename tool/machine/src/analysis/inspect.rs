@@ -19,11 +19,13 @@ use crate::number::rounding::short;
 
 mod agreement;
 mod centres;
+mod course;
 mod driving;
 mod transmission;
 
 pub use agreement::{Agreement, Inertia};
 pub use centres::Travel;
+pub use course::{MotionFindings, SegmentFinding};
 use transmission::{Index, Structure};
 
 /// Below this index a mechanism is too close to a dead point.
@@ -110,6 +112,8 @@ pub struct Findings {
     pub inertia: Inertia,
     /// Agreement of the methods.
     pub agreement: Agreement,
+    /// The motion; `None` without one.
+    pub motion: Option<MotionFindings>,
     /// Figures of its kind.
     pub facts: Vec<Fact>,
     /// Remarks.
@@ -140,6 +144,7 @@ impl Findings {
             transmission: transmission(file)?,
             inertia: agreement::inertia(&machine)?,
             agreement: agreement::agreement(file, &machine)?,
+            motion: MotionFindings::of(file),
             facts: facts(file)?,
             notes: crate::model::variator::integrability_text(file)
                 .into_iter()

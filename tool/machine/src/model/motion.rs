@@ -3,18 +3,24 @@
 use std::convert::Infallible;
 use std::sync::Arc;
 
-use jred::machine::motion::{Law, Move, Polynomial, State};
+use jred::machine::motion::{Move, Polynomial, State};
 use jred::number::RangeError;
 
 use crate::number::numerics;
-use crate::number::spline::{Fault, Spline};
+use crate::number::spline::Fault;
+use piece::{Kind, Piece};
 
+mod course;
 mod limits;
+mod piece;
 mod recording;
+mod segment;
 mod tool;
 
+pub use course::SegmentCourse;
 pub use limits::{Limits, TooShort, change, fastest};
 pub use recording::{Closing, Recording};
+pub use segment::{Course, Phase, Segment};
 pub use tool::{Measure, Standstill, ToolCoordinate};
 
 /// A motion in consecutive pieces.
@@ -27,46 +33,6 @@ pub struct Motion {
     pub cyclic: bool,
 }
 
-#[derive(Clone, Debug)]
-struct Piece {
-    /// Number of its segment.
-    segment: usize,
-    start: f64,
-    duration: f64,
-    kind: Kind,
-}
-
-impl Piece {
-    fn end(&self) -> f64 {
-        self.start + self.duration
-    }
-}
-
-#[derive(Clone, Debug)]
-enum Kind {
-    Polynomial {
-        start: f64,
-        course: Polynomial,
-    },
-    Move(Move<f64>),
-    /// φ is the curve and a steady advance.
-    Positions {
-        curve: Spline,
-        /// rad/s
-        advance: f64,
-        /// Speeds (rad/s) below this are standstill.
-        standstill: f64,
-    },
-    /// ω is the curve and a constant; φ its integral.
-    Speeds {
-        curve: Spline,
-        start: f64,
-        /// rad/s
-        advance: f64,
-        standstill: f64,
-    },
-}
-
 /// Share of a recorded motion's largest speed below which it stands still: the curve through the positions of a dwell
 /// swings around zero by a few roundings, and friction must not take that for motion.
 const STANDSTILL: f64 = 1e-6;
@@ -77,98 +43,17 @@ const TURNS: u32 = 64;
 /// Parts of a recorded motion at whose ends it is looked at.
 const RECORDED: u32 = 10_000;
 
-/// One segment of a segmented motion.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Segment {
-    /// Distance (rad, or m); zero for a dwell.
-    pub distance: f64,
-    /// How it is covered.
-    pub course: Course,
-}
-
-/// How a segment goes from one end to the other.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Course {
-    /// By a motion law, from rest to rest.
-    Law {
-        /// The law.
-        law: Law,
-        /// Duration (s).
-        duration: f64,
-    },
-    /// By polynomials one after another.
-    Phases(Vec<Phase>),
-}
-
-/// One polynomial over the time since its start.
+/// A place of a motion that may be an extreme.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Phase {
-    /// Duration (s).
-    pub duration: f64,
-    /// Displacement over the time.
-    pub polynomial: Polynomial,
-}
-
-impl Segment {
-    /// A pause (s).
-    pub fn dwell(duration: f64) -> Self {
-        Self::law(0.0, duration, Law::default())
-    }
-
-    /// A move (rad, or m) by a motion law in a duration (s).
-    pub const fn law(distance: f64, duration: f64, law: Law) -> Self {
-        let course = Course::Law { law, duration };
-        Self { distance, course }
-    }
-
-    /// Polynomials one after another, which cover the distance together.
-    pub const fn phases(distance: f64, phases: Vec<Phase>) -> Self {
-        let course = Course::Phases(phases);
-        Self { distance, course }
-    }
-
-    /// A move by one polynomial.
-    pub fn polynomial(distance: f64, duration: f64, polynomial: Polynomial) -> Self {
-        let phase = Phase {
-            duration,
-            polynomial,
-        };
-        Self::phases(distance, vec![phase])
-    }
-
-    /// A move at constant speed.
-    pub fn constant_speed(distance: f64, duration: f64, speed: f64) -> Self {
-        let steady = Polynomial::constant_jerk([speed, 0.0, 0.0]);
-        Self::polynomial(distance, duration, steady)
-    }
-
-    /// Duration (s).
-    pub fn duration(&self) -> f64 {
-        match &self.course {
-            Course::Law { duration, .. } => *duration,
-            Course::Phases(phases) => phases.iter().map(|phase| phase.duration).sum(),
-        }
-    }
-
-    /// Speed and acceleration at the start and at the end.
-    pub fn ends(&self) -> [[f64; 2]; 2] {
-        match &self.course {
-            Course::Law { law, duration } => {
-                let bend = self.distance / (duration * duration);
-                [0.0, 1.0].map(|z| [0.0, law.at(z)[2] * bend])
-            }
-            Course::Phases(phases) => {
-                let at = |phase: Option<&Phase>, end: bool| {
-                    phase.map_or([0.0; 2], |phase| {
-                        let t = if end { phase.duration } else { 0.0 };
-                        let [_, v, a, _] = phase.polynomial.at(t);
-                        [v, a]
-                    })
-                };
-                [at(phases.first(), false), at(phases.last(), true)]
-            }
-        }
-    }
+pub struct Reach {
+    /// Number of the segment.
+    pub segment: usize,
+    /// Whether it is the drive link's position, not the tool's.
+    pub of_drive: bool,
+    /// Time (s).
+    pub t: f64,
+    /// The prescribed position (rad, or m).
+    pub position: f64,
 }
 
 impl Motion {
@@ -182,6 +67,7 @@ impl Motion {
         Self {
             pieces: vec![Piece {
                 segment: 0,
+                of_drive: false,
                 start: 0.0,
                 duration,
                 kind,
@@ -200,15 +86,19 @@ impl Motion {
         segments: &[Segment],
         cyclic: bool,
     ) -> Result<Self, (usize, RangeError)> {
-        let (mut t, mut phi) = (0.0, start);
+        let (mut t, mut phi, mut of_drive) = (0.0, start, false);
         let mut pieces = Vec::with_capacity(segments.len());
         for (index, segment) in segments.iter().enumerate() {
+            if let Some(from) = segment.from {
+                (phi, of_drive) = (from, true);
+            }
             match &segment.course {
                 Course::Law { law, duration } => {
                     let step = Move::new(*law, phi, segment.distance, *duration)
                         .map_err(|error| (index, error))?;
                     pieces.push(Piece {
                         segment: index,
+                        of_drive,
                         start: t,
                         duration: *duration,
                         kind: Kind::Move(step),
@@ -220,6 +110,7 @@ impl Motion {
                     for phase in phases {
                         pieces.push(Piece {
                             segment: index,
+                            of_drive,
                             start: t,
                             duration: phase.duration,
                             kind: Kind::Polynomial {
@@ -302,6 +193,7 @@ impl Motion {
         Self {
             pieces: vec![Piece {
                 segment: 0,
+                of_drive: false,
                 start: 0.0,
                 duration,
                 kind,
@@ -316,36 +208,42 @@ impl Motion {
         self.pieces.last().map_or(0.0, |p| p.end())
     }
 
-    /// When segment number `index` ends (s).
-    pub fn end_of(&self, index: usize) -> f64 {
-        let pieces = self.pieces.iter().filter(|piece| piece.segment <= index);
-        pieces.map(Piece::end).fold(0.0, f64::max)
-    }
-
-    /// The times (s) at which the prescribed position may be at an extreme, each with the number of its segment: the ends of the pieces,
-    /// where a polynomial turns back, and a dense row of a recorded motion.
-    pub fn reaches(&self) -> Vec<(usize, f64)> {
-        let mut times = Vec::new();
+    /// Where the prescribed position may be at an extreme: the ends of the pieces, where a polynomial turns back, and a dense row of a
+    /// recorded motion.
+    pub fn reaches(&self) -> Vec<Reach> {
+        let mut reaches = Vec::new();
         for piece in &self.pieces {
-            if let Kind::Polynomial { course, .. } = &piece.kind {
-                let speed = |t: f64| course.at(t)[1];
-                let place = |k: u32| piece.duration * f64::from(k) / f64::from(TURNS);
-                for k in 0..TURNS {
-                    let [a, b] = [place(k), place(k + 1)];
-                    if speed(a) * speed(b) < 0.0 {
-                        let ahead = |t: f64| Ok::<_, Infallible>(speed(t) * speed(a) > 0.0);
-                        let Ok(t) = numerics::edge(ahead, a, b);
-                        times.push((piece.segment, piece.start + t));
+            let mut reach = |t: f64| {
+                reaches.push(Reach {
+                    segment: piece.segment,
+                    of_drive: piece.of_drive || self.tool.is_none(),
+                    t: piece.start + t,
+                    position: piece.at(t).phi,
+                });
+            };
+            reach(0.0);
+            match &piece.kind {
+                Kind::Polynomial { course, .. } => {
+                    let speed = |t: f64| course.at(t)[1];
+                    let place = |k: u32| piece.duration * f64::from(k) / f64::from(TURNS);
+                    for k in 0..TURNS {
+                        let [a, b] = [place(k), place(k + 1)];
+                        if speed(a) * speed(b) < 0.0 {
+                            let ahead = |t: f64| Ok::<_, Infallible>(speed(t) * speed(a) > 0.0);
+                            let Ok(t) = numerics::edge(ahead, a, b);
+                            reach(t);
+                        }
                     }
                 }
+                Kind::Positions { .. } | Kind::Speeds { .. } => {
+                    let place = |k: u32| piece.duration * f64::from(k) / f64::from(RECORDED);
+                    (1..RECORDED).for_each(|k| reach(place(k)));
+                }
+                Kind::Move(_) => {}
             }
-            if let Kind::Positions { .. } | Kind::Speeds { .. } = &piece.kind {
-                let place = |k: u32| piece.duration * f64::from(k) / f64::from(RECORDED);
-                times.extend((0..RECORDED).map(|k| (piece.segment, piece.start + place(k))));
-            }
-            times.push((piece.segment, piece.end()));
+            reach(piece.duration);
         }
-        times
+        reaches
     }
 
     /// The smooth stretches of the motion as (start, end) in s: between them the acceleration may jump.
@@ -382,61 +280,25 @@ impl Motion {
 
     /// The drive link's state at `t` (s), clamped to the motion.
     pub fn at(&self, t: f64) -> State<f64> {
-        let prescribed = self.prescribed(t);
-        match &self.tool {
-            Some(tool) => tool.drive(prescribed),
-            None => prescribed,
-        }
-    }
-
-    /// The state of what is prescribed, the tool or the drive link, at `t` (s), clamped to the motion.
-    pub fn prescribed(&self, t: f64) -> State<f64> {
-        let index = self.pieces.partition_point(|p| p.start <= t).max(1) - 1;
-        let Some(piece) = self.pieces.get(index) else {
+        let Some(piece) = self.piece(t) else {
             return State::default();
         };
-        let t = (t - piece.start).clamp(0.0, piece.duration);
-        match &piece.kind {
-            Kind::Polynomial { start, course } => {
-                let [way, omega, alpha, _] = course.at(t);
-                State {
-                    phi: start + way,
-                    omega,
-                    alpha,
-                }
-            }
-            Kind::Move(step) => step.at(t),
-            Kind::Positions {
-                curve,
-                advance,
-                standstill,
-            } => {
-                // The end of a period is its beginning, a cycle later.
-                let [value, d1, d2, _] = curve.at(t);
-                State {
-                    phi: value + advance * t,
-                    omega: moving(d1 + advance, *standstill),
-                    alpha: d2,
-                }
-            }
-            Kind::Speeds {
-                curve,
-                start,
-                advance,
-                standstill,
-            } => {
-                let [speed, alpha, ..] = curve.at(t);
-                State {
-                    phi: start + curve.integral(t) + advance * t,
-                    omega: moving(speed + advance, *standstill),
-                    alpha,
-                }
-            }
+        let prescribed = piece.at(t - piece.start);
+        match &self.tool {
+            Some(tool) if !piece.of_drive => tool.drive(prescribed),
+            _ => prescribed,
         }
     }
-}
 
-/// A speed, or zero below `standstill`.
-fn moving(speed: f64, standstill: f64) -> f64 {
-    if speed.abs() > standstill { speed } else { 0.0 }
+    /// The state of what is prescribed at `t` (s), clamped to the motion: of the tool, or of the drive link.
+    pub fn prescribed(&self, t: f64) -> State<f64> {
+        let piece = self.piece(t);
+        piece.map_or(State::default(), |piece| piece.at(t - piece.start))
+    }
+
+    /// The piece of the time `t`, the later one where two meet.
+    fn piece(&self, t: f64) -> Option<&Piece> {
+        let index = self.pieces.partition_point(|p| p.start <= t).max(1) - 1;
+        self.pieces.get(index)
+    }
 }

@@ -8,7 +8,7 @@ use crate::text::section::Section;
 use crate::units::kind::SHARE;
 
 /// The motion laws, as machine files write them.
-pub(super) const LAWS: [&str; 7] = [
+pub(super) const LAWS: [&str; 9] = [
     "trapezoid",
     "polynomial-345",
     "cycloidal",
@@ -16,6 +16,8 @@ pub(super) const LAWS: [&str; 7] = [
     "modified-trapezoid",
     "polynomial-4567",
     "simple-sine",
+    "parabola",
+    "gutman",
 ];
 
 /// The law of a segment, with the shares of a trapezoid.
@@ -57,6 +59,11 @@ pub(super) fn read(section: &Section) -> Result<Law> {
         3 => Law::ModifiedSine,
         4 => Law::ModifiedTrapezoid,
         5 => Law::Polynomial4567,
-        _ => Law::SimpleSine,
+        6 => Law::SimpleSine,
+        7 => Law::Trapezoid {
+            accelerate: 0.5,
+            decelerate: 0.5,
+        },
+        _ => Law::Gutman,
     })
 }

@@ -13,6 +13,7 @@ use super::profile;
 
 pub(super) mod closed;
 mod ends;
+mod join;
 mod segment;
 mod segments;
 mod tool;
@@ -41,10 +42,7 @@ pub(super) fn read(
         2 => segments::read(&section, false, &prescribed)?,
         _ => profile::read(&section, files, &prescribed)?,
     };
-    Ok(Some(match prescribed.tool {
-        Some(tool) => motion.of_tool(tool),
-        None => motion,
-    }))
+    Ok(Some(motion))
 }
 
 /// Reports keys that the type of motion does not have.
@@ -102,5 +100,5 @@ fn constant_speed(section: &Section, prescribed: &Prescribed) -> Result<Motion> 
             )
             .help("a negative speed turns clockwise; for a machine at rest, remove [motion]"));
     }
-    Ok(Motion::constant_speed(start, speed.si, per_turn))
+    Ok(prescribed.of_tool(Motion::constant_speed(start, speed.si, per_turn)))
 }

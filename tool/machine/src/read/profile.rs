@@ -241,6 +241,7 @@ fn curve(
     if prescribed.tool.is_none() {
         check_stroke(&motion, &times, columns, drive)?;
     }
+    let motion = prescribed.of_tool(motion);
     prescribed.check_reach(&motion, |_, what| {
         Problem::new(format!("the recorded motion {what}"))
             .at(csv::header_place(text), "in this file")

@@ -12,7 +12,7 @@ use crate::every_machine::machines;
 use crate::reading::{read, refuses, text_of};
 
 /// The machine `name` with another motion.
-fn with(name: &str, motion: &str) -> String {
+pub(super) fn with(name: &str, motion: &str) -> String {
     let text = text_of(name);
     let head = text.split("\n[motion]").next().unwrap();
     format!("{head}\n[motion]\n{}\n", motion.replace("; ", "\n"))
@@ -149,10 +149,10 @@ fn every_mechanism_is_inverted() {
         for joint in 0..mechanism.joint_names().len() {
             measures.push((Measure::Slide { joint }, "slide"));
         }
-        // A third of them, each on another branch: all take two minutes.
+        // A seventh of them, each on another branch: all take two minutes.
         for (index, (measure, kind)) in measures.into_iter().enumerate() {
-            if index % 3 == 0 {
-                let share = [0.11, 0.52, 0.83][index / 3 % 3];
+            if index % 7 == 0 {
+                let share = [0.11, 0.52, 0.83][index / 7 % 3];
                 let place = mechanism.domain().position(share);
                 let Ok(tool) = ToolCoordinate::new(mechanism, measure, kind.to_owned(), place)
                 else {
@@ -189,7 +189,7 @@ fn every_mechanism_is_inverted() {
     println!("{counts:?}");
     for kind in ["position", "path", "angle", "slide"] {
         assert!(
-            counts.get(kind).is_some_and(|count| *count >= 10),
+            counts.get(kind).is_some_and(|count| *count >= 5),
             "{counts:?}"
         );
     }

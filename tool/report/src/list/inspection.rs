@@ -6,9 +6,9 @@ use jred::Domain;
 use serde_json::{Value, json};
 
 use crate::table::output::text_table;
-use jred_machine::analysis::inspect::{Findings, NEAR_DEAD_POINT, RECOMMENDED};
+use jred_machine::analysis::inspect::{Findings, MotionFindings, NEAR_DEAD_POINT, RECOMMENDED};
 use jred_machine::model::coordinate::Coordinate;
-use jred_machine::number::rounding::short;
+use jred_machine::number::rounding::{short, shown};
 
 jred_machine::words! {
     /// How findings are written.
@@ -118,6 +118,9 @@ pub(crate) fn untitled(findings: &Findings) -> String {
             exponent(balance)
         );
     }
+    if let Some(motion) = &findings.motion {
+        write_segments(motion, c, &mut text);
+    }
     for note in &findings.notes {
         let _ = writeln!(text, "{note}");
     }
@@ -167,6 +170,65 @@ fn write_motion(findings: &Findings, text: &mut String) {
     }
 }
 
+/// The motion, segment by segment, with the characteristic values of VDI 2143.
+fn write_segments(motion: &MotionFindings, drive: Coordinate, text: &mut String) {
+    let rate = |coordinate: Coordinate, value: f64, order: &str| {
+        let unit = match coordinate {
+            Coordinate::Angle => "rad",
+            Coordinate::Length => "m",
+        };
+        format!("{} {unit}/s{order}", short(value))
+    };
+    let of = if motion.of == "drive link" {
+        String::new()
+    } else {
+        format!(" of the {}", motion.of)
+    };
+    let _ = writeln!(
+        text,
+        "motion{of}: {} s{}; the drive link goes on by {} {}, at up to {} and {}",
+        short(motion.duration),
+        if motion.cyclic { ", repeated" } else { "" },
+        shown(drive.shown(motion.advance), drive.shown(1.0)),
+        drive.unit(),
+        rate(drive, motion.speed, ""),
+        rate(drive, motion.acceleration, "^2")
+    );
+    let mut table = text_table(&[
+        "segment",
+        "duration",
+        "distance",
+        "speed",
+        "acceleration",
+        "jerk",
+        "C_v",
+        "C_a",
+        "C_j",
+        "C_Mdyn",
+    ]);
+    for (k, segment) in motion.segments.iter().enumerate() {
+        let c = segment.coordinate();
+        let mut cells = vec![
+            (k + 1).to_string(),
+            format!("{} s", short(segment.duration)),
+        ];
+        match segment.coefficients {
+            None => cells.extend(std::iter::repeat_n(String::new(), 8)),
+            Some(values) => {
+                cells.push(format!("{} {}", short(c.shown(segment.distance)), c.unit()));
+                cells.push(rate(c, segment.speed, ""));
+                cells.push(rate(c, segment.acceleration, "^2"));
+                let jumps = || "jumps".to_owned();
+                cells.push(segment.jerk.map_or_else(jumps, |jerk| rate(c, jerk, "^3")));
+                let known = values.map(|value| value.map_or_else(|| "∞".to_owned(), short));
+                cells.extend(known);
+            }
+        }
+        table.add_row(cells);
+    }
+    let _ = writeln!(text, "{table}");
+}
+
 /// Everything, with every digit.
 pub fn json(findings: &Findings) -> Value {
     let range = match findings.domain {
@@ -188,6 +250,7 @@ pub fn json(findings: &Findings) -> Value {
         "transmission": findings.transmission,
         "inertia": findings.inertia,
         "agreement": findings.agreement,
+        "motion": findings.motion,
         "facts": findings.facts,
         "notes": findings.notes,
         "violations": findings.violations(),

@@ -10,6 +10,7 @@ use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::TIME;
 
+use super::Prescribed;
 use super::ends::Ends;
 
 /// The laws beyond those from rest to rest.
@@ -17,6 +18,7 @@ const CONSTANT_SPEED: &str = "constant-speed";
 const POLYNOMIALS: [&str; 3] = ["polynomial-5", "polynomial-6", "polynomial-7"];
 const JERK_LIMITED: &str = "jerk-limited";
 const TRAPEZOID: &str = "trapezoid";
+pub(super) const JOIN: &str = "join";
 
 /// The keys of limits.
 const LIMITS: [&str; 4] = [
@@ -46,17 +48,29 @@ pub(super) enum Written {
         /// As the file gives the largest speed; a change of speed may do without.
         speed: Option<Value>,
     },
+    /// By a polynomial of the drive link's position to rest at a place of it, or to the start of the cycle.
+    Join { duration: f64, to: Option<Value> },
 }
 
-/// Whether [`Written`] takes speeds at its ends from its neighbours.
 impl Written {
+    /// Whether it takes speeds at its ends from its neighbours.
     pub(super) const fn is_open(&self) -> bool {
         !matches!(self, Self::Known(_))
+    }
+
+    pub(super) const fn is_join(&self) -> bool {
+        matches!(self, Self::Join { .. })
+    }
+
+    /// A pause.
+    pub(super) fn is_dwell(&self) -> bool {
+        matches!(self, Self::Known(segment) if segment.distance == 0.0)
     }
 }
 
 /// One move or one dwell, with what it says of its ends.
-pub(super) fn read(section: &Section, drive: DriveLink) -> Result<(Written, Ends)> {
+pub(super) fn read(section: &Section, prescribed: &Prescribed) -> Result<(Written, Ends)> {
+    let drive = prescribed.axis;
     let law_key = section.get("law");
     let (way, dwell) = (section.get("move"), section.get("dwell"));
     if let (Some(way), Some(dwell)) = (&way, &dwell) {
@@ -72,6 +86,9 @@ pub(super) fn read(section: &Section, drive: DriveLink) -> Result<(Written, Ends
     if let Some(dwell) = dwell {
         let segment = pause(section, &dwell, law_key)?;
         return Ok((Written::Known(segment), Ends::default()));
+    }
+    if law_key.as_ref().is_some_and(|law| law.is_word(JOIN)) {
+        return join(section, way, prescribed.drive);
     }
     let moves_without = law_key.as_ref().is_some_and(|law| {
         law.is_word(CONSTANT_SPEED) || law.is_word(JERK_LIMITED) || law.is_word(TRAPEZOID)
@@ -99,7 +116,7 @@ pub(super) fn read(section: &Section, drive: DriveLink) -> Result<(Written, Ends
     };
     let names = law::LAWS
         .into_iter()
-        .chain([CONSTANT_SPEED, JERK_LIMITED])
+        .chain([CONSTANT_SPEED, JERK_LIMITED, JOIN])
         .chain(POLYNOMIALS);
     let names: Vec<&str> = names.collect();
     let name = names.get(law_key.choice(&names)?).copied();
@@ -174,6 +191,30 @@ pub(super) fn read(section: &Section, drive: DriveLink) -> Result<(Written, Ends
         _ => None,
     })?;
     Ok(read)
+}
+
+/// A polynomial that joins what is before it to what is after it.
+fn join(section: &Section, way: Option<Item>, drive: DriveLink) -> Result<(Written, Ends)> {
+    if let Some(way) = way {
+        return Err(way
+            .problem("is not used by the law \"join\": it goes to `to`, or to the start of the cycle", "remove this")
+            .help("to = \"180 deg\" is the drive link's position at its end, where it is then at rest"));
+    }
+    let duration = section.quantity("duration", &TIME)?.positive()?;
+    let to = section.optional("to", drive.position())?;
+    if let Some(to) = to.as_ref().filter(|to| !drive.reaches(to.si)) {
+        let what = format!("is {}, outside the stroke, {}", to.shown(), drive.range());
+        return Err(to
+            .problem(&what, "out of reach")
+            .help("give a position within the stroke"));
+    }
+    section.finish_with(|key| match key {
+        "start_speed" | "end_speed" | "start_acceleration" | "end_acceleration" => Some(
+            "a join has the speed and acceleration of what it joins; where `to` is given, it ends at rest",
+        ),
+        _ => None,
+    })?;
+    Ok((Written::Join { duration, to }, Ends::default()))
 }
 
 fn pause(section: &Section, dwell: &Item, law: Option<Item>) -> Result<Segment> {

@@ -2,13 +2,14 @@
 
 use jred::machine::motion::{End, Polynomial};
 
-use crate::model::motion::{Motion, Phase, Segment, change, fastest};
+use crate::model::motion::{Motion, Phase, Reach, Segment, change, fastest};
 use crate::read::drive_link::DriveLink;
 use crate::text::item::Value;
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 
 use super::ends::Ends;
+use super::join;
 use super::segment::{self, Written};
 use super::{Prescribed, closed, finish, start};
 
@@ -41,29 +42,31 @@ pub(super) fn read(section: &Section, cyclic: bool, prescribed: &Prescribed) -> 
     }
     let written = parts
         .iter()
-        .map(|part| segment::read(part, drive))
+        .map(|part| segment::read(part, prescribed))
         .collect::<Result<Vec<_>>>()?;
+    join::check(section, &parts, &written, cyclic, prescribed)?;
     let chain = Chain {
         parts: &parts,
         written: &written,
         cyclic,
         drive,
     };
-    let segments = chain.segments()?;
+    let mut segments = chain.segments()?;
     chain.check_speeds(&segments)?;
+    join::resolve(&written, &mut segments, start, prescribed);
     let motion = Motion::segments(start, &segments, cyclic).map_err(|(index, error)| {
         let part = parts.get(index).unwrap_or(section);
         part.problem(format!("{}: {error}", part.title()), "this segment")
             .help(error.cure().to_string())
     })?;
-    if prescribed.tool.is_none() {
-        chain.check_stroke(&motion)?;
-    }
+    let motion = prescribed.of_tool(motion);
+    chain.check_stroke(&motion, prescribed.drive)?;
     prescribed.check_reach(&motion, |index, what| {
         let part = parts.get(index).unwrap_or(section);
         part.problem(format!("{} {what}", part.title()), "this segment")
     })?;
-    if cyclic {
+    // A join at the end closes the cycle by itself.
+    if cyclic && !written.iter().any(|(written, _)| written.is_join()) {
         closed::check(section, &parts, &segments, start, prescribed)?;
     }
     Ok(motion)
@@ -118,6 +121,8 @@ impl Chain<'_> {
             known.push(match written {
                 Written::Known(segment) => Some(segment.clone()),
                 Written::Polynomial { .. } => None,
+                // Its ends are those of the drive link, which are known last.
+                Written::Join { duration, .. } => Some(Segment::dwell(*duration)),
                 Written::Trapezoid {
                     distance,
                     duration,
@@ -263,7 +268,10 @@ impl Chain<'_> {
                 continue;
             };
             let after = ends[next][0];
-            if (after - before).abs() <= CONTINUOUS * most {
+            // A join goes on from whatever is before it, and the last one to the start of the cycle.
+            let joined =
+                self.written[next].0.is_join() || self.written[index].0.is_join() && next < index;
+            if joined || (after - before).abs() <= CONTINUOUS * most {
                 continue;
             }
             let pace = |speed: f64| match speed {
@@ -290,23 +298,26 @@ impl Chain<'_> {
         Ok(())
     }
 
-    /// No move leaves the stroke, at its end or on the way.
-    fn check_stroke(&self, motion: &Motion) -> Result<()> {
-        let drive = self.drive;
-        for (index, t) in motion.reaches() {
-            let position = motion.at(t).phi;
-            if drive.reaches(position) {
+    /// No move leaves the stroke of the drive link, at its end or on the way.
+    fn check_stroke(&self, motion: &Motion, drive: DriveLink) -> Result<()> {
+        for reach in motion.reaches() {
+            let position = reach.position;
+            if !reach.of_drive || drive.reaches(position) {
                 continue;
             }
+            let index = reach.segment;
             let Some(part) = self.parts.get(index) else {
                 continue;
             };
             let place = drive.coordinate.place(position);
-            let what = if t < motion.end_of(index) {
-                format!("{} turns back at {place}", part.title())
+            let of_segment = |other: &Reach| other.segment == index;
+            let end = motion.reaches().into_iter().rfind(of_segment);
+            let verb = if end == Some(reach) {
+                "ends"
             } else {
-                format!("{} ends at {place}", part.title())
+                "turns back"
             };
+            let what = format!("{} {verb} at {place}", part.title());
             return Err(part
                 .problem(
                     format!("{what}, outside the stroke, {}", drive.range()),

@@ -3,11 +3,12 @@
 use std::convert::Infallible;
 use std::f64::consts::TAU;
 
+use jred::machine::motion::State;
 use jred::machine::{Joint, Jointed as _, Mechanism as _};
 use jred::{Domain, Machine};
 
 use crate::model::mechanism::AnyMechanism;
-use crate::model::motion::{Measure, Motion, Standstill, ToolCoordinate};
+use crate::model::motion::{Measure, Motion, Reach, Standstill, ToolCoordinate};
 use crate::number::numerics;
 use crate::number::rounding::figure;
 use crate::read::drive_link::DriveLink;
@@ -26,6 +27,7 @@ const ROUNDING: f64 = 1e-9;
 pub(in crate::read) struct Prescribed<'a> {
     /// Its kind and range: those of the tool's coordinate, if there is one.
     pub(in crate::read) axis: DriveLink,
+    pub(in crate::read) drive: DriveLink,
     pub(in crate::read) tool: Option<ToolCoordinate>,
     pub(in crate::read) machine: &'a Machine<AnyMechanism>,
 }
@@ -45,6 +47,7 @@ impl<'a> Prescribed<'a> {
             }
             return Ok(Self {
                 axis: drive,
+                drive,
                 tool: None,
                 machine,
             });
@@ -87,6 +90,7 @@ impl<'a> Prescribed<'a> {
         };
         Ok(Self {
             axis,
+            drive,
             tool: Some(tool),
             machine,
         })
@@ -129,6 +133,22 @@ impl<'a> Prescribed<'a> {
         }
     }
 
+    /// A motion of this coordinate.
+    pub(in crate::read) fn of_tool(&self, motion: Motion) -> Motion {
+        match &self.tool {
+            Some(tool) => motion.of_tool(tool.clone()),
+            None => motion,
+        }
+    }
+
+    /// The drive link's state where that of the coordinate is this one.
+    pub(in crate::read) fn drive_state(&self, state: State<f64>) -> State<f64> {
+        match &self.tool {
+            Some(tool) => tool.drive(state),
+            None => state,
+        }
+    }
+
     /// How far the drive link goes on while the coordinate goes on by `way` from `start`.
     pub(in crate::read) fn advance(&self, start: f64, way: f64) -> f64 {
         let Some(tool) = &self.tool else {
@@ -161,18 +181,24 @@ impl<'a> Prescribed<'a> {
                 AT_DEAD_CENTRE * way
             }
         });
-        let within = |t: f64| {
-            let value = motion.prescribed(t).phi;
-            (ends[0][1] + low..=ends[1][1] - high).contains(&value)
-        };
+        let within = |value: f64| (ends[0][1] + low..=ends[1][1] - high).contains(&value);
         let mut before = 0.0;
-        for (index, t) in std::iter::once((0, 0.0)).chain(motion.reaches()) {
-            if within(t) {
+        for Reach {
+            segment,
+            of_drive,
+            t,
+            position: value,
+        } in motion.reaches()
+        {
+            if of_drive {
+                continue;
+            }
+            if within(value) {
                 before = t;
                 continue;
             }
-            let Ok(first) = numerics::edge(|t| Ok::<_, Infallible>(within(t)), before, t);
-            let value = motion.prescribed(t).phi;
+            let still = |t: f64| Ok::<_, Infallible>(within(motion.prescribed(t).phi));
+            let Ok(first) = numerics::edge(still, before, t);
             let [phi, end] = ends[usize::from(value > ends[0][1] + 0.5 * way)];
             let drive = mechanism.coordinate();
             let turned = match mechanism.domain() {
@@ -197,7 +223,7 @@ impl<'a> Prescribed<'a> {
                 tool.symbol(),
                 self.axis.distance(end),
             );
-            return Err(problem(index, &message).help(format!(
+            return Err(problem(segment, &message).help(format!(
                 "keep the {} between {least} and {most}{cure}",
                 tool.name()
             )));

@@ -1,0 +1,113 @@
+//! One smooth piece of a motion.
+
+use jred::machine::motion::{Move, Polynomial, State};
+
+use crate::number::spline::Spline;
+
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    /// Number of its segment.
+    pub(super) segment: usize,
+    /// Whether it prescribes the drive link although the motion is of the tool.
+    pub(super) of_drive: bool,
+    pub(super) start: f64,
+    pub(super) duration: f64,
+    pub(super) kind: Kind,
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum Kind {
+    Polynomial {
+        start: f64,
+        course: Polynomial,
+    },
+    Move(Move<f64>),
+    /// φ is the curve and a steady advance.
+    Positions {
+        curve: Spline,
+        /// rad/s
+        advance: f64,
+        /// Speeds (rad/s) below this are standstill.
+        standstill: f64,
+    },
+    /// ω is the curve and a constant; φ its integral.
+    Speeds {
+        curve: Spline,
+        start: f64,
+        /// rad/s
+        advance: f64,
+        standstill: f64,
+    },
+}
+
+impl Piece {
+    pub(super) fn end(&self) -> f64 {
+        self.start + self.duration
+    }
+
+    /// Whether it is a curve through recorded rows.
+    pub(super) const fn is_recorded(&self) -> bool {
+        matches!(self.kind, Kind::Positions { .. } | Kind::Speeds { .. })
+    }
+
+    /// The third derivative at `t` (s) after its start; `None`: the acceleration jumps within the piece or at its ends.
+    pub(super) fn jerk(&self, t: f64) -> Option<f64> {
+        match &self.kind {
+            Kind::Polynomial { course, .. } => Some(course.at(t)[3]),
+            Kind::Move(step) => {
+                step.law().characteristic().jerk?;
+                let duration = step.duration();
+                Some(step.distance() / duration.powi(3) * step.law().jerk(t / duration))
+            }
+            Kind::Positions { curve, .. } => Some(curve.at(t)[3]),
+            Kind::Speeds { curve, .. } => Some(curve.at(t)[2]),
+        }
+    }
+
+    /// The prescribed state at `t` (s) after its start, clamped to it.
+    pub(super) fn at(&self, t: f64) -> State<f64> {
+        let t = t.clamp(0.0, self.duration);
+        match &self.kind {
+            Kind::Polynomial { start, course } => {
+                let [way, omega, alpha, _] = course.at(t);
+                State {
+                    phi: start + way,
+                    omega,
+                    alpha,
+                }
+            }
+            Kind::Move(step) => step.at(t),
+            Kind::Positions {
+                curve,
+                advance,
+                standstill,
+            } => {
+                // The end of a period is its beginning, a cycle later.
+                let [value, d1, d2, _] = curve.at(t);
+                State {
+                    phi: value + advance * t,
+                    omega: moving(d1 + advance, *standstill),
+                    alpha: d2,
+                }
+            }
+            Kind::Speeds {
+                curve,
+                start,
+                advance,
+                standstill,
+            } => {
+                let [speed, alpha, ..] = curve.at(t);
+                State {
+                    phi: start + curve.integral(t) + advance * t,
+                    omega: moving(speed + advance, *standstill),
+                    alpha,
+                }
+            }
+        }
+    }
+}
+
+/// A speed, or zero below `standstill`.
+fn moving(speed: f64, standstill: f64) -> f64 {
+    if speed.abs() > standstill { speed } else { 0.0 }
+}

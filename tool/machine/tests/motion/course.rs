@@ -1,0 +1,86 @@
+//! The figures of a motion: those of its laws, and what its limits say.
+
+use jred::machine::motion::Law;
+
+use super::{motion, near};
+use crate::reading::machine;
+
+#[test]
+fn segments_have_the_values_of_their_laws() {
+    let laws: [(&str, Law); 7] = [
+        ("polynomial-345", Law::Polynomial345),
+        ("polynomial-4567", Law::Polynomial4567),
+        ("cycloidal", Law::Cycloidal),
+        ("modified-sine", Law::ModifiedSine),
+        ("modified-trapezoid", Law::ModifiedTrapezoid),
+        ("simple-sine", Law::SimpleSine),
+        ("gutman", Law::Gutman),
+    ];
+    for (name, law) in laws {
+        let segment = format!("law = \"{name}\"; move = \"-120 deg\"; duration = \"0.35 s\"");
+        let motion = motion("cycle", &[&segment, "dwell = \"0.2 s\""]);
+        let [course, dwell] = motion.courses()[..] else {
+            panic!("{name}");
+        };
+        assert!(dwell.coefficients().is_none() && course.of_drive);
+        let values = law.characteristic();
+        let found = course.coefficients().unwrap();
+        let expected = [
+            Some(values.velocity),
+            Some(values.acceleration),
+            values.jerk,
+            Some(values.dynamic_torque),
+        ];
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert_eq!(found.is_some(), expected.is_some(), "{name}");
+            near(
+                name,
+                found.unwrap_or(0.0),
+                expected.unwrap_or(0.0),
+                1e-9 * 100.0,
+            );
+        }
+    }
+}
+
+#[test]
+fn limits_are_what_is_reached() {
+    let motion = motion(
+        "cycle",
+        &[
+            "law = \"jerk-limited\"; move = \"8 rad\"; max_speed = \"4 rad/s\"; max_acceleration = \"20 rad/s^2\"; max_jerk = \"300 rad/s^3\"",
+            "law = \"trapezoid\"; move = \"-8 rad\"; max_speed = \"4 rad/s\"; max_acceleration = \"20 rad/s^2\"",
+        ],
+    );
+    let [smooth, sudden] = motion.courses()[..] else {
+        panic!();
+    };
+    for course in [smooth, sudden] {
+        near("speed", course.speed, 4.0, 1e-9);
+        near("acceleration", course.acceleration, 20.0, 1e-9);
+    }
+    // Its neighbour's acceleration jumps where they meet.
+    assert!(sudden.jerk.is_none() && smooth.jerk.is_none());
+    near("power", sudden.dynamic, 80.0, 1e-9);
+    let peaks = motion.drive_peaks();
+    near("speed of the drive", peaks[0], 4.0, 1e-8);
+    near("acceleration of the drive", peaks[1], 20.0, 1e-6);
+}
+
+/// The tool's figures and those of the drive link.
+#[test]
+fn a_shear_in_figures() {
+    let motion = machine("flying-shear.toml").motion.unwrap();
+    let [sync, join] = motion.courses()[..] else {
+        panic!();
+    };
+    assert!(!sync.of_drive && join.of_drive);
+    near("speed", sync.speed, 2.0, 1e-12);
+    near("acceleration", sync.acceleration, 0.0, 1e-12);
+    // The knife leaves the strip with an acceleration of the drum, which goes on for a while in the join.
+    let speeds = (0..=75_000).map(|k| motion.at(1e-5 * f64::from(k)).omega);
+    let most = speeds.fold(0.0, f64::max);
+    near("drive", motion.drive_peaks()[0], most, 1e-6);
+    near("join", join.speed, most, 1e-6);
+    near("C_v", sync.coefficients().unwrap()[0].unwrap(), 1.0, 1e-12);
+}
