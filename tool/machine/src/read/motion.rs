@@ -80,7 +80,7 @@ fn constant_speed(section: &Section, prescribed: &Prescribed) -> Result<Motion> 
                 axis.range()
             ),
             Some(tool) => format!(
-                "is \"constant-speed\", but the {} goes from {} only: it cannot move on forever",
+                "is \"constant-speed\", but {} goes from {} only: it cannot move on forever",
                 tool.name(),
                 axis.range()
             ),

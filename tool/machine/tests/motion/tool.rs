@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use jred::machine::{Jointed as _, Mechanism as _};
 use jred::{Domain, Reducible as _};
+use jred_machine::analysis::duty::Duty;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::motion::{Measure, Motion, Segment, ToolCoordinate};
 
@@ -312,21 +313,21 @@ fn what_no_drive_can_do_is_refused() {
     refuses(
         &ram(law),
         &[
-            "at φ = 0 deg the x of slider does not move with the drive link",
+            "at φ = 0 deg, x of slider is at a dead centre",
             "near = \"…\"",
         ],
     );
     refuses(
         &ram(&format!("near = \"90 deg\"; start = \"205 mm\"; {law}")),
         &[
-            "number 1 leads the x of slider to 215 mm: at t = 0.05 s it reaches its dead centre at φ = 0 deg, x = 210 mm",
-            "keep the x of slider between 150 mm and 210 mm",
+            "number 1 leads x of slider to 215 mm: at t = 0.05 s it reaches its dead centre at φ = 0 deg, x = 210 mm",
+            "keep x of slider between 150 mm and 210 mm",
         ],
     );
     refuses(
         &ram(&format!("near = \"90 deg\"; start = \"215 mm\"; {law}")),
         &[
-            "`start` in [motion] is 215 mm, but between two dead centres the x of slider goes from 150 mm to 210 mm",
+            "`start` in [motion] is 215 mm, but between two dead centres x of slider goes from 150 mm to 210 mm",
         ],
     );
     refuses(
@@ -341,11 +342,11 @@ fn what_no_drive_can_do_is_refused() {
             "press.toml",
             "type = \"constant-speed\"; of = { point = \"slider\", along = \"x\" }; near = \"90 deg\"; speed = \"1 m/s\"",
         ),
-        &["the x of slider goes from 150 mm to 210 mm only: it cannot move on forever"],
+        &["x of slider goes from 150 mm to 210 mm only: it cannot move on forever"],
     );
     refuses(
         &with("press.toml", "type = \"cycle\"; of = { link = \"slider\" }"),
-        &["the angle of slider does not move with the drive link"],
+        &["is angle of slider, which does not change when the drive link moves"],
     );
     refuses(
         &with(
@@ -372,4 +373,31 @@ fn what_no_drive_can_do_is_refused() {
         &with("press.toml", "type = \"cycle\"; near = \"90 deg\""),
         &["`near` in [motion] is given without `of`"],
     );
+}
+
+/// The duty of a table that is indexed is the same, whether its motion or that of its motor shaft is given, corners included.
+#[test]
+fn a_duty_does_not_depend_on_what_is_prescribed() {
+    let duty = |motion: &str| {
+        let file = read(&with("turntable.toml", motion));
+        Duty::new(&file, file.motion.as_ref().unwrap(), 400).unwrap()
+    };
+    let segments = |way: &str| {
+        format!(
+            "[[motion.segment]]; law = \"trapezoid\"; move = \"{way}\"; duration = \"0.6 s\"; [[motion.segment]]; dwell = \"0.4 s\""
+        )
+    };
+    let table = duty(&format!(
+        "type = \"cycle\"; of = {{ link = \"shaft-3\" }}; {}",
+        segments("90 deg")
+    ));
+    let shaft = duty(&format!("type = \"cycle\"; {}", segments("1080 deg")));
+    assert_eq!(table.instants.len(), shaft.instants.len());
+    let most = shaft.figures(|i| i.input_torque).max.abs();
+    assert!(most > 1.0);
+    for (a, b) in table.instants.iter().zip(&shaft.instants) {
+        near("t", a.t, b.t, 1e-15);
+        near("torque", a.input_torque, b.input_torque, 1e-11 * most);
+        near("speed", a.input_speed, b.input_speed, 1e-11 * 60.0);
+    }
 }

@@ -182,7 +182,7 @@ fn write_segments(motion: &MotionFindings, drive: Coordinate, text: &mut String)
     let of = if motion.of == "drive link" {
         String::new()
     } else {
-        format!(" of the {}", motion.of)
+        format!(" of {}", motion.of)
     };
     let _ = writeln!(
         text,

@@ -18,6 +18,9 @@ const PLACES: u32 = 1440;
 /// A transfer function below this share of its largest value is zero: there the tool stands whatever the drive link does.
 const STANDS: f64 = 1e-9;
 
+/// A transfer function that is nowhere larger (m or rad, per rad or m) is a rounding: the tool does not move at all.
+const NOWHERE: f64 = 1e-12;
+
 /// The most steps of Newton's method; two are usual, and bisection needs fifty.
 const MOST_STEPS: u32 = 100;
 
@@ -55,7 +58,9 @@ pub enum Measure {
 /// Where the coordinate cannot lead the drive link.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Standstill {
-    /// Near the place where the motion begins, the tool stands.
+    /// It does not move anywhere.
+    Everywhere,
+    /// Near the place that is asked for, the tool stands.
     Here,
     /// The mechanism cannot be placed.
     Unplaced(PoseError),
@@ -105,7 +110,10 @@ impl ToolCoordinate {
         }
         let least = STANDS * most;
         let first = raw.slope(near)?;
-        if first.abs() <= least || most == 0.0 {
+        if most <= NOWHERE {
+            return Err(Standstill::Everywhere);
+        }
+        if first.abs() <= least {
             return Err(Standstill::Here);
         }
         let moves = |phi: f64| Ok::<_, Standstill>(raw.slope(phi)? * first.signum() > least);

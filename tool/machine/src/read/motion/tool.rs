@@ -67,15 +67,21 @@ impl<'a> Prescribed<'a> {
         let tool = made.map_err(|standstill| {
             let problem = |what: &str| match &near {
                 Some(near) => near.problem(what, "here"),
-                None => of.problem(what, "this coordinate"),
+                None => of.problem(what, "`near` is not given"),
             };
             match standstill {
+                Standstill::Everywhere => of
+                    .problem(
+                        &format!("is {name}, which does not change when the drive link moves"),
+                        "stands",
+                    )
+                    .help("name the point, link or guide that does the machine's work"),
                 Standstill::Here => problem(&format!(
-                    "does not do: at {} the {name} does not move with the drive link, so its motion says nothing of that of the drive link",
+                    "needs a place where the tool moves: at {}, {name} is at a dead centre, where it says nothing of the motion of the drive link",
                     drive.coordinate.place(place)
                 ))
                 .help("give near = \"…\", a position of the drive link between two dead centres of the tool, on the branch on which it works; `jred check` lists the dead centres"),
-                Standstill::Unplaced(error) => problem(&format!("does not do: {error}")).help(error.cure().to_string()),
+                Standstill::Unplaced(error) => problem(&format!("cannot be used: {error}")).help(error.cure().to_string()),
             }
         })?;
         let domain = tool
@@ -116,7 +122,7 @@ impl<'a> Prescribed<'a> {
             Some(tool) => start
                 .problem(
                     &format!(
-                        "is {shown}, but between two dead centres the {} goes from {range}",
+                        "is {shown}, but between two dead centres {} goes from {range}",
                         tool.name()
                     ),
                     "out of reach",
@@ -202,6 +208,8 @@ impl<'a> Prescribed<'a> {
             let [phi, end] = ends[usize::from(value > ends[0][1] + 0.5 * way)];
             let drive = mechanism.coordinate();
             let turned = match mechanism.domain() {
+                // What is a rounding before a whole turn is its start.
+                Domain::Turn if (phi / TAU - (phi / TAU).round()).abs() < ROUNDING => 0.0,
                 Domain::Turn => phi.rem_euclid(TAU),
                 Domain::Stroke { .. } => phi,
             };
@@ -215,7 +223,7 @@ impl<'a> Prescribed<'a> {
             };
             let [least, most] = ends.map(|[_, end]| self.axis.distance(end));
             let message = format!(
-                "leads the {} to {}: at t = {} s it reaches {what} at {}, {} = {}, and no position of the drive link takes it further",
+                "leads {} to {}: at t = {} s it reaches {what} at {}, {} = {}, and no position of the drive link takes it further",
                 tool.name(),
                 self.axis.distance(value),
                 figure(first),
@@ -224,7 +232,7 @@ impl<'a> Prescribed<'a> {
                 self.axis.distance(end),
             );
             return Err(problem(segment, &message).help(format!(
-                "keep the {} between {least} and {most}{cure}",
+                "keep {} between {least} and {most}{cure}",
                 tool.name()
             )));
         }
