@@ -257,7 +257,7 @@ fn loads() {
 }
 
 #[test]
-fn motions_and_rules() {
+fn motions() {
     mistakes(
         "machine-motions",
         "press.toml",
@@ -324,6 +324,10 @@ fn motions_and_rules() {
             ("of = { point", "# of = { point"),
         ],
     );
+}
+
+#[test]
+fn rules_and_simulations() {
     let rules = |text: &'static str| ("[simulation]", text);
     mistakes(
         "machine-rules",

@@ -205,7 +205,7 @@ impl Motion {
 
     /// Length of the motion (s).
     pub fn duration(&self) -> f64 {
-        self.pieces.last().map_or(0.0, |p| p.end())
+        self.pieces.last().map_or(0.0, Piece::end)
     }
 
     /// Where the prescribed position may be at an extreme: the ends of the pieces, where a polynomial turns back, and a dense row of a

@@ -1,5 +1,7 @@
 //! Cycles that go on by any angle, where the machine comes round.
 
+use std::fmt::Write as _;
+
 use crate::reading::{read, refuses, text_of};
 
 use super::{motion, near, turning};
@@ -12,9 +14,11 @@ fn dial(loads: &[(f64, f64)], step: f64) -> String {
          driven = { radius = \"4 cm\", inertia = \"6 kg cm^2\" }\n",
     );
     for (from, to) in loads {
-        text.push_str(&format!(
+        write!(
+            text,
             "[[load]]\non = \"shaft-2\"\nopposing_moment = \"3 N m\"\nbetween = [\"{from} deg\", \"{to} deg\"]\nramp = \"1 deg\"\n"
-        ));
+        )
+        .unwrap();
     }
     text + &format!(
         "[motion]\ntype = \"cycle\"\n[[motion.segment]]\nlaw = \"modified-sine\"\nmove = \"{step} deg\"\nduration = \"0.3 s\"\n\
@@ -32,7 +36,7 @@ fn a_machine_that_is_the_same_everywhere_goes_on_by_any_step() {
     let folder = tempfile::tempdir().unwrap();
     let mut csv = String::from("t [s],phi [deg]\n");
     for k in 0..=10 {
-        csv.push_str(&format!("{},{}\n", f64::from(k) / 10.0, 12 * k));
+        writeln!(csv, "{},{}", f64::from(k) / 10.0, 12 * k).unwrap();
     }
     std::fs::write(folder.path().join("feed.csv"), csv).unwrap();
     let text = turning("profile", &[]) + "file = \"feed.csv\"\n";

@@ -1,6 +1,7 @@
 //! Motion prescribed at the tool: what comes out at the tool is what was asked for, in position, speed and acceleration.
 
 use std::f64::consts::{PI, TAU};
+use std::fmt::Write as _;
 
 use jred::machine::{Jointed as _, Mechanism as _};
 use jred::{Domain, Reducible as _};
@@ -281,7 +282,7 @@ fn a_recording_of_the_ram() {
     let mut csv = String::from("t [s],x [m]\n");
     for k in 0..=400 {
         let t = 0.6 * f64::from(k) / 400.0;
-        csv.push_str(&format!("{t},{:e}\n", slider(0.6 + omega * t)[0]));
+        writeln!(csv, "{t},{:e}", slider(0.6 + omega * t)[0]).unwrap();
     }
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("ram.csv"), csv).unwrap();

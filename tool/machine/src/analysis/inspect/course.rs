@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::MachineFile;
-use crate::model::motion::Motion;
+use crate::model::motion::{Motion, ToolCoordinate};
 
 /// The motion in figures (SI).
 #[derive(Clone, Debug, Serialize)]
@@ -68,7 +68,7 @@ impl MotionFindings {
         let [speed, acceleration] = motion.drive_peaks();
         let segments = motion.courses().into_iter().map(|course| {
             let coordinate = tool.filter(|_| !course.of_drive);
-            let coordinate = coordinate.map_or(drive, |tool| tool.coordinate());
+            let coordinate = coordinate.map_or(drive, ToolCoordinate::coordinate);
             SegmentFinding {
                 angle: coordinate == Coordinate::Angle,
                 of_drive: course.of_drive,

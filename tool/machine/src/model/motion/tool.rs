@@ -282,7 +282,7 @@ impl ToolCoordinate {
             } else {
                 low.midpoint(high)
             };
-            if off.abs() <= scale || next == phi || (off == 0.0) {
+            if off.abs() <= scale || (next - phi).abs() <= 0.0 {
                 break;
             }
             phi = next;
@@ -436,7 +436,7 @@ impl Raw<'_> {
                 outside = middle;
             }
         }
-        if inside != place(last) {
+        if (inside - place(last)).abs() > 0.0 {
             places.push(inside);
         }
         Ok(Reach {

@@ -114,13 +114,26 @@ pub(super) fn read(section: &Section, prescribed: &Prescribed) -> Result<(Writte
         section.quantity("duration", &TIME)?.positive()?;
         return Err(section.missing("law", "law = \"polynomial-345\""));
     };
+    let read = by_law(section, &law_key, distance, drive)?;
+    let limited = matches!(read.0, Written::Limited { .. });
+    section.finish_with(|key| explain(key, limited))?;
+    Ok(read)
+}
+
+/// A move by the law that is named.
+fn by_law(
+    section: &Section,
+    law_key: &Item,
+    distance: Option<Value>,
+    drive: DriveLink,
+) -> Result<(Written, Ends)> {
     let names = law::LAWS
         .into_iter()
         .chain([CONSTANT_SPEED, JERK_LIMITED, JOIN])
         .chain(POLYNOMIALS);
     let names: Vec<&str> = names.collect();
     let name = names.get(law_key.choice(&names)?).copied();
-    let read = match name {
+    Ok(match name {
         Some(CONSTANT_SPEED) => (steady(section, distance, drive)?, Ends::default()),
         Some(JERK_LIMITED) => (
             limited(section, distance, true, drive)?,
@@ -137,25 +150,24 @@ pub(super) fn read(section: &Section, prescribed: &Prescribed) -> Result<(Writte
         Some(TRAPEZOID) => {
             let law = law::read(section)?;
             let (distance, duration) = timed(section, distance)?;
-            let [mut accelerate, mut decelerate] = [0.0; 2];
-            if let Law::Trapezoid {
-                accelerate: a,
-                decelerate: d,
-            } = law
-            {
-                [accelerate, decelerate] = [a, d];
-            }
+            let shares = match law {
+                Law::Trapezoid {
+                    accelerate,
+                    decelerate,
+                } => [accelerate, decelerate],
+                _ => [0.5; 2],
+            };
             let written = Written::Trapezoid {
                 distance,
                 duration,
                 law,
-                shares: [accelerate, decelerate],
+                shares,
             };
             (written, Ends::speeds(section, drive)?)
         }
         Some(word) if POLYNOMIALS.contains(&word) => {
             let (distance, duration) = timed(section, distance)?;
-            let ends = Ends::of_polynomial(section, &law_key, word, drive)?;
+            let ends = Ends::of_polynomial(section, law_key, word, drive)?;
             (Written::Polynomial { distance, duration }, ends)
         }
         _ => {
@@ -166,9 +178,12 @@ pub(super) fn read(section: &Section, prescribed: &Prescribed) -> Result<(Writte
                 Ends::default(),
             )
         }
-    };
-    let limited = matches!(read.0, Written::Limited { .. });
-    section.finish_with(|key| match key {
+    })
+}
+
+/// Where a key belongs that a move does not have.
+fn explain(key: &str, limited: bool) -> Option<&'static str> {
+    match key {
         "accelerate" | "decelerate" if limited => {
             Some("shares of a duration are for a trapezoid whose duration is given")
         }
@@ -181,16 +196,15 @@ pub(super) fn read(section: &Section, prescribed: &Prescribed) -> Result<(Writte
         "start_acceleration" | "end_acceleration" => Some(
             "the laws \"polynomial-5\", \"polynomial-6\" and \"polynomial-7\" have accelerations at their ends",
         ),
-        "start_jerk" | "end_jerk" => Some(
-            "\"polynomial-6\" has the jerk at one end, \"polynomial-7\" at both",
-        ),
+        "start_jerk" | "end_jerk" => {
+            Some("\"polynomial-6\" has the jerk at one end, \"polynomial-7\" at both")
+        }
         "max_jerk" if limited => Some("for a limited jerk write law = \"jerk-limited\""),
         key if LIMITS.contains(&key) => {
             Some("limits are for the laws \"trapezoid\" and \"jerk-limited\"")
         }
         _ => None,
-    })?;
-    Ok(read)
+    }
 }
 
 /// A polynomial that joins what is before it to what is after it.

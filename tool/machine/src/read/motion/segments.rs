@@ -128,7 +128,7 @@ impl Chain<'_> {
                     duration,
                     law,
                     shares,
-                } => Some(if speeds == [0.0; 2] {
+                } => Some(if speeds.iter().all(|speed| speed.abs() <= 0.0) {
                     Segment::law(*distance, *duration, *law)
                 } else {
                     trapezoid(*distance, *duration, *shares, speeds)
@@ -194,7 +194,7 @@ impl Chain<'_> {
     ) -> Result<()> {
         let title = self.parts[index].title();
         let drive = self.drive;
-        if distance.is_none() && speeds[0] == speeds[1] {
+        if distance.is_none() && (speeds[1] - speeds[0]).abs() <= 0.0 {
             return Err(self.parts[index]
                 .problem(
                     format!(
