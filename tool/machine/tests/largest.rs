@@ -67,7 +67,7 @@ fn a_peak_between_rows() {
 #[test]
 fn a_peak_at_a_jump() {
     let (value, at) = drive_torque("law = \"trapezoid\"\naccelerate = 0.237\ndecelerate = 0.311");
-    let speed = WAY / TIME / (1.0 - (0.237 + 0.311) / 2.0);
+    let speed = WAY / TIME / (1.0 - f64::midpoint(0.237, 0.311));
     let expected = 3.0 + 0.11 * speed + 0.02 * speed / (0.237 * TIME);
     near("torque", value, expected, budget::LARGEST_AT_JUMP);
     near("time", at, 0.237 * TIME, budget::LARGEST_AT_JUMP);

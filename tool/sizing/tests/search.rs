@@ -36,6 +36,18 @@ fn case(text: &str, steps: usize) -> Case {
     Case { file, duty, cycle }
 }
 
+/// A case of which plain loops know as much as sizing.
+fn sampled(text: &str, steps: usize) -> Case {
+    let case = case(text, steps);
+    let duty = brute::sampled(case.duty);
+    let cycle = Cycle::new(&duty);
+    Case {
+        duty,
+        cycle,
+        ..case
+    }
+}
+
 fn catalogue() -> Catalogue {
     Catalogue::load(None, None).unwrap()
 }
@@ -58,8 +70,7 @@ fn priced() -> Catalogue {
 
 #[test]
 fn ranked_by_what_was_asked_for() {
-    let mut case = case(&press_text(), 200);
-    case.cycle = Cycle::new(&brute::sampled(case.duty.clone()));
+    let case = sampled(&press_text(), 200);
     let catalogue = priced();
     let prepared = catalogue.prepare(&case.file.site);
     let select = || {

@@ -55,10 +55,7 @@ impl Stretches<'_> {
             let sample = &self.samples[k];
             sample.speed() * c.torque(&sample.loads())
         };
-        let sign = |k: usize| {
-            let power = power(k);
-            if power == 0.0 { 0.0 } else { power.signum() }
-        };
+        let sign = |k: usize| power(k).partial_cmp(&0.0);
         let changes = |k: usize| sign(k) != sign(k + 1);
         if !changes(k) {
             return;
