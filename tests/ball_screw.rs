@@ -25,6 +25,7 @@ fn ball_screw_textbook() {
     let (inertia, mass, force) = (0.0008, 120.0, -900.0);
     for lead in [0.01, -0.02] {
         let screw = BallScrew::new(lead, links(inertia, mass)).unwrap();
+        assert_near("h", screw.lead(), lead, 0.0);
         let load = Load::new(NUT, Action::Force([force, 0.0])).unwrap();
         let machine = Machine::new(screw)
             .with_gravity([0.0, -9.81])

@@ -179,6 +179,10 @@ fn conversions_flag_what_does_not_fit() {
         0.5f32.to_bits()
     );
     assert_eq!(
+        scale.omega_si(quantity::<Speed<Q31>>(-0.25)).to_bits(),
+        (-2.5f32).to_bits()
+    );
+    assert_eq!(
         scale
             .alpha_si(quantity::<Acceleration<Q31>>(-0.25))
             .to_bits(),

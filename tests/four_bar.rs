@@ -278,3 +278,29 @@ fn grashof_knows_the_textbook_linkages() {
         assert_eq!(Grashof::of(lengths), kind, "{lengths:?}");
     }
 }
+
+/// Coupler and rocker can fold but never stretch: the crank passes over the far side, from where |AC| = |b − c| to there again.
+#[test]
+fn a_crank_that_can_only_fold_swings_over_the_far_side() {
+    let (crank, coupler, rocker, ground) = (0.3f64, 0.5f64, 0.3f64, 0.3f64);
+    let folded = coupler - rocker;
+    assert!(coupler + rocker > crank + ground && folded > (ground - crank).abs());
+    let theta =
+        ((crank * crank + ground * ground - folded * folded) / (2.0 * crank * ground)).acos();
+    for gamma in [0.0, 0.7, -2.0f64] {
+        let pivot = [ground * gamma.cos(), ground * gamma.sin()];
+        let dimensions = FourBarDimensions {
+            crank,
+            coupler,
+            rocker,
+            pivot,
+        };
+        let refused = FourBar::new(dimensions, Side::Left, links()).unwrap_err();
+        let BuildError::Blocked(jred::mechanism::Blocked::FourBar { reach, .. }) = refused else {
+            panic!("{refused:?}");
+        };
+        let [from, to] = reach;
+        assert_near("from", from, gamma + theta, budget::LIMIT_ANGLE);
+        assert_near("to", to, gamma - theta + TAU, budget::LIMIT_ANGLE);
+    }
+}

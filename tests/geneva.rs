@@ -28,6 +28,8 @@ fn wheel_textbook() {
         let geneva = mechanism(slots);
         let n = f64::from(slots);
         let m = (PI / n).sin();
+        assert_eq!(geneva.slots(), slots);
+        assert_near("distance", geneva.centres(), 0.2, 0.0);
         assert_near("r", geneva.crank(), 0.2 * m, budget::CLOSED_FORM);
         // φ is known to 2⁻⁵³ of thirty turns, which each next derivative enlarges.
         let psi = |phi| geneva.frames(phi).unwrap()[WHEEL].psi;
@@ -304,4 +306,22 @@ fn wrong_dimensions_are_refused() {
         mechanism(4).frames(f64::NAN).unwrap_err(),
         PoseError::Range(RangeError::NotFinite("crank angle"))
     );
+}
+
+/// A mechanism that is lent to a machine engages where it does itself: ∓(π/2 − π/n).
+#[test]
+fn a_mechanism_lent_has_its_edges() {
+    let geneva = mechanism(6);
+    let lent = Machine::new(&geneva);
+    let edges: Vec<f64> = (0..).map_while(|k| lent.edge(k)).collect();
+    assert!(!edges.is_empty());
+    for edge in edges {
+        let off = (edge + PI).rem_euclid(TAU) - PI;
+        assert_near(
+            "engagement",
+            off.abs(),
+            PI / 2.0 - PI / 6.0,
+            budget::CLOSED_FORM * TAU,
+        );
+    }
 }

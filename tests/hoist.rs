@@ -26,6 +26,8 @@ fn hoist_textbook() {
     let drum = link_of(80.0, 1.5, [0.0, 0.0]);
     let (load, counter) = (600.0, 250.0);
     let (rope, other) = (Rope::new(0.2, 2).unwrap(), Rope::new(0.3, 1).unwrap());
+    assert_near("radius", rope.radius(), 0.2, 0.0);
+    assert_eq!([rope, other].map(|rope| rope.falls()), [2, 1]);
     let plain = upright(Hoist::new(
         drum,
         Suspended {

@@ -2,7 +2,7 @@
 
 use crate::support::golden::Case;
 use crate::support::machines::spec;
-use crate::support::{budget, config, forces, jointed, link_of};
+use crate::support::{assert_near, budget, config, forces, jointed, link_of};
 use jred::machine::{Action, Body, Joint, Load, Marker, Mechanism, PoseError};
 use jred::mechanism::linkage::{Assembly, Linkage, LinkageError, Pair, Pose};
 use jred::{Domain, Link, Machine, Reducible};
@@ -167,7 +167,7 @@ fn gears_a_rack_and_a_belt_roll_without_slip() {
     for phi in [-1.0, 0.4, 2.0] {
         let frames = assembly.frames(phi).unwrap();
         let close = |what: &str, found: f64, expected: f64| {
-            crate::support::assert_near(what, found, expected, budget::JOINT_CLOSURE);
+            assert_near(what, found, expected, budget::JOINT_CLOSURE);
         };
         close("gear", frames[1].psi.value, i * phi);
         // The pinion turns clockwise, its lowest point moves to the left: the rack goes along.
@@ -185,7 +185,7 @@ fn gears_a_rack_and_a_belt_roll_without_slip() {
         let forces = machine.forces(phi, 0.0, 100.0).unwrap();
         let tooth = forces.reactions[4].force;
         let size = (tooth[0].powi(2) + tooth[1].powi(2)).sqrt();
-        crate::support::assert_near("tooth force", size, (expected - 0.01) * 100.0 / r0, 1e-9);
+        assert_near("tooth force", size, (expected - 0.01) * 100.0 / r0, 1e-9);
         close(
             "along the tangent",
             tooth[0] * centre[0] + tooth[1] * centre[1],
@@ -236,13 +236,13 @@ fn a_planetary_gear_obeys_willis() {
     let spin = -speed * (ring - planet) / planet;
     for phi in [0.0, 1.3, 3.0] {
         let frames = assembly.frames(phi).unwrap();
-        crate::support::assert_near(
+        assert_near(
             "carrier",
             frames[1].psi.value,
             speed * phi,
             budget::JOINT_CLOSURE,
         );
-        crate::support::assert_near(
+        assert_near(
             "planet",
             frames[2].psi.value,
             spin * phi,
@@ -278,12 +278,12 @@ fn a_guide_can_be_driven() {
     for phi in [0.95, 1.4, 2.1] {
         let forward = crank_driven.frames(phi).unwrap();
         let back = pushed.frames(at(phi)).unwrap();
-        crate::support::assert_near("crank angle", back[0].psi.value, phi, budget::LINKAGE);
+        assert_near("crank angle", back[0].psi.value, phi, budget::LINKAGE);
         // dφ/dx = 1/x′, d²φ/dx² = −x″/x′³.
         let x = forward[2].x;
-        crate::support::assert_near("dφ/dx", back[0].psi.d1 * x.d1, 1.0, budget::LINKAGE);
+        assert_near("dφ/dx", back[0].psi.d1 * x.d1, 1.0, budget::LINKAGE);
         let second = -x.d2 / x.d1.powi(3);
-        crate::support::assert_near(
+        assert_near(
             "d²φ/dx²",
             back[0].psi.d2,
             second,
@@ -297,7 +297,7 @@ fn a_guide_can_be_driven() {
             .reduction(phi)
             .unwrap()
             .inertia;
-        crate::support::assert_near(
+        assert_near(
             "m_red = J/x′²",
             reduced * x.d1 * x.d1,
             heavy,
@@ -316,7 +316,7 @@ fn a_guide_can_be_driven() {
         panic!("{refused}")
     };
     let end = crate::support::largest((0..2000).map(|k| at(f64::from(k) * 1e-3 - 1.0)));
-    crate::support::assert_near("dead centre", phi, end, 1e-6);
+    assert_near("dead centre", phi, end, 1e-6);
 }
 
 /// A slider-crank driven at each of its joints in turn, with the joint's bodies in either order: a rotor geared to the
@@ -356,14 +356,64 @@ fn a_rotor_loads_the_drive_and_no_joint() {
             let [without, with] = [&light, &heavy].map(|m| m.forces(at, omega, alpha).unwrap());
             let scale = with.drive.abs() + without.drive.abs();
             let more = with.drive - without.drive;
-            crate::support::assert_near("drive", more, inertia * alpha, budget::DALEMBERT * scale);
+            assert_near("drive", more, inertia * alpha, budget::DALEMBERT * scale);
             for (a, b) in with.reactions.iter().zip(&without.reactions) {
                 let [a, b] = [a, b].map(|r| [r.force[0], r.force[1], r.moment]);
                 let scale = crate::support::largest(b) + scale;
                 for (a, b) in a.into_iter().zip(b) {
-                    crate::support::assert_near("reaction", a, b, budget::REACTIONS * scale);
+                    assert_near("reaction", a, b, budget::REACTIONS * scale);
                 }
             }
         }
     }
+}
+
+/// Of a coupler and a rocker with pins at their frames' origins it is |sin μ|, with cos μ = (b² + c² − |AC|²)/(2·b·c).
+#[test]
+fn the_quality_of_a_four_bar_is_the_sine_of_its_transmission_angle() {
+    let case = Case::new(include_str!("data/02_four_bar_A.json"));
+    let machine = golden_four_bar(&case);
+    let [a, b, c] = ["/a", "/b", "/c"].map(|name| case.input(name));
+    let pivot = [case.input("/C/0"), case.input("/C/1")];
+    for k in 0..90 {
+        let phi = 0.2 * f64::from(k) - 3.0;
+        let pin = [a * phi.cos() - pivot[0], a * phi.sin() - pivot[1]];
+        let square = pin[0] * pin[0] + pin[1] * pin[1];
+        let cos = (b * b + c * c - square) / (2.0 * b * c);
+        let (quality, pair) = machine.mechanism().quality(phi).unwrap();
+        assert_near(
+            "|sin μ|",
+            quality,
+            (1.0 - cos * cos).sqrt(),
+            budget::LINKAGE,
+        );
+        assert!((1..4).contains(&pair), "not the drive: {pair}");
+    }
+}
+
+/// A new payload in the rocker, of mass m at the distance r from its pivot: J grows by m·r²·ψ′², and nothing moves.
+#[test]
+fn another_mass_of_a_link_changes_the_inertia_alone() {
+    let case = Case::new(include_str!("data/02_four_bar_A.json"));
+    let bare = Link::point_mass(0.0).unwrap();
+    let mut assembly = golden_four_bar(&case).mechanism().clone();
+    assembly.set_link(2, bare).unwrap();
+    let (mass, r) = (3.0, 0.25);
+    let mut heavy = assembly.clone();
+    heavy.set_link(2, link_of(mass, 0.0, [r, 0.0])).unwrap();
+    for phi in [-2.0, 0.3, 1.7, 5.0] {
+        let rocker = assembly.frames(phi).unwrap()[2].psi;
+        let more = mass * r * r * rocker.d1 * rocker.d1;
+        let [before, after] =
+            [&assembly, &heavy].map(|m| Machine::new(m).bare_reduction(phi).unwrap().inertia);
+        assert_near("m·r²·ψ′²", after - before, more, budget::LINKAGE * after);
+        assert_near(
+            "ψ",
+            heavy.frames(phi).unwrap()[2].psi.value,
+            rocker.value,
+            0.0,
+        );
+    }
+    let error = heavy.set_link(3, bare).unwrap_err().to_string();
+    assert!(error.contains("links 0 to 2"), "{error}");
 }

@@ -115,7 +115,9 @@ fn parts_that_are_not_possible() {
         let error = Part::new(&wave, from, to).unwrap_err().to_string();
         assert!(error.contains(words), "{error}");
     }
-    assert!(Part::new(&wave, 1.0, 1.0 + TAU).is_ok());
+    let turn = Part::new(&wave, 1.0, 1.0 + TAU).unwrap();
+    assert!(turn.turns());
+    assert_eq!(turn.start().to_bits(), 1f64.to_bits());
 }
 
 /// A quarter of a turn.

@@ -24,6 +24,7 @@ fn links(inertia: f64, mass: f64) -> [Link; 2] {
 fn rack_textbook() {
     let (r, inertia, mass, force) = (0.04, 0.002, 25.0, -300.0);
     let rack = RackAndPinion::new(r, links(inertia, mass)).unwrap();
+    assert_near("radius", rack.radius(), r, 0.0);
     assert_near("travel", rack.travel(), TAU * r, budget::CLOSED_FORM);
     let load = Load::new(RACK, Action::Force([force, 0.0])).unwrap();
     let machine = Machine::new(rack)

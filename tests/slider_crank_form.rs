@@ -9,7 +9,7 @@ use jred::image::{encode, image_len};
 use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
 use jred::number::Sliding;
 use jred::slider_crank::{STEEPEST, form, set_in_use, terms};
-use jred::table::Shape;
+use jred::table::{Shape, Usage};
 use jred::{
     Image, ImageError, Link, Machine, Phase, Reducible, Set, SliderCrankForm, Spline, Table,
     TableError, Validity, curves,
@@ -265,5 +265,65 @@ fn a_small_machine_keeps_its_small_coefficients() {
             let exact = machine.reduction(phi).unwrap().inertias()[0];
             assert_near(&format!("{size} at {phi}"), found / exact, 1.0, 2e-6);
         }
+    }
+}
+
+/// What a form says it uses is a bound of its curves at every phase; for a rod much longer than the crank it is the size itself, that
+/// of a sine: J₀ + m·r²·sin²φ, m·g·r·sin φ; ½·|J′| ≤ ½·m·r² is counted as |X·X′| ≤ 1, twice that.
+#[test]
+fn usage_bounds_the_curves() {
+    for given in samples(60, 0x5c07, &cranks(0.05, 0.95)) {
+        let machine = given.machine();
+        let (words, set) = words_of(&machine).unwrap();
+        let table = Table::new(&words, Shape::slider_crank(set)).unwrap();
+        let usage = Usage::of::<SliderCrankForm>(&table).unwrap();
+        let bounds = [
+            usage.inertia,
+            usage.velocity,
+            usage.load,
+            usage.viscous,
+            usage.coulomb,
+        ];
+        for phase in phases(200) {
+            let exact = machine.reduction(phase.radians()).unwrap();
+            let sizes = [
+                exact.inertia,
+                0.5 * exact.inertia_slope,
+                exact.load_torque(),
+                exact.viscous,
+                exact.coulomb,
+            ];
+            for (size, bound) in sizes.iter().zip(bounds) {
+                let slack = budget::SLIDER_CRANK_STEEP * f64::from(usage.torque);
+                assert!(size.abs() <= f64::from(bound) + slack, "{size} {bound}");
+            }
+        }
+        let sum: f32 = bounds.iter().sum();
+        assert_near(
+            "sum",
+            usage.torque.into(),
+            sum.into(),
+            1e-6 * f64::from(sum),
+        );
+    }
+    let (r, l, mass, rotor) = (0.05, 50.0, 10.0, 0.004);
+    let lengths = SliderCrankDimensions {
+        crank: r,
+        rod: l,
+        offset: 0.0,
+    };
+    let links = [Link::rotor(rotor), Link::rotor(0.0), Link::point_mass(mass)].map(Result::unwrap);
+    let mechanism = SliderCrank::new(lengths, Branch::Right, links).unwrap();
+    let machine = Machine::new(mechanism).with_gravity([9.81, 0.0]).unwrap();
+    let (words, set) = words_of(&machine).unwrap();
+    let table = Table::new(&words, Shape::slider_crank(set)).unwrap();
+    let usage = Usage::of::<SliderCrankForm>(&table).unwrap();
+    // The margin of 1e-4 of the root twice, and r/l = 1e-3 in X′.
+    for (what, found, expected) in [
+        ("J", usage.inertia, rotor + mass * r * r),
+        ("½·J′", usage.velocity, mass * r * r),
+        ("load", usage.load, mass * 9.81 * r),
+    ] {
+        assert_near(what, found.into(), expected, 2e-3 * expected);
     }
 }

@@ -46,3 +46,34 @@ fn limits_that_cannot_be_meant_are_refused() {
         Err(Error::Negative(_))
     ));
 }
+
+#[test]
+fn what_is_wrong_is_said_with_its_cure() {
+    for (error, words, cure) in [
+        (
+            Error::NotFinite("peak"),
+            "peak is not a finite number",
+            "neither NaN nor infinite",
+        ),
+        (
+            Error::Negative("speed"),
+            "speed must not be negative",
+            "zero or a positive value",
+        ),
+        (
+            Error::NotPositive("step"),
+            "step must be greater than zero",
+            "greater than zero",
+        ),
+        (Error::Points { given: 9 }, "9 points", "1 to 8 points"),
+        (
+            Error::NotRising { point: 3 },
+            "point 3",
+            "order of their speeds",
+        ),
+        (Error::WindowTooShort, "ten ticks", "longer time constant"),
+    ] {
+        assert!(error.to_string().contains(words), "{error}");
+        assert!(error.cure().to_string().contains(cure), "{}", error.cure());
+    }
+}

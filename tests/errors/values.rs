@@ -216,3 +216,58 @@ fn capacities_and_indices_are_named() {
         &["too many stages", "8"],
     );
 }
+
+/// What was wrong is cured by what the error asks for: each kind has its own cure, with the limit in it.
+#[test]
+fn every_quantity_out_of_range_has_its_cure() {
+    let range = |min, max| RangeError::OutOfRange {
+        what: "x",
+        value: 7.0,
+        min,
+        max,
+    };
+    for (error, cure) in [
+        (RangeError::NotFinite("x"), "neither NaN nor infinite"),
+        (RangeError::NotPositive("x", 0.0), "greater than zero"),
+        (RangeError::Negative("x", -1.0), "zero or a positive value"),
+        (range(8.0, f64::INFINITY), "at least 8"),
+        (range(1.5, 2.5), "from 1.5 to 2.5"),
+        (
+            RangeError::TooMany {
+                what: "loads",
+                capacity: 3,
+            },
+            "leave some out",
+        ),
+        (
+            RangeError::BufferTooShort {
+                needed: 12,
+                given: 9,
+            },
+            "give it 12 elements",
+        ),
+    ] {
+        let found = error.cure().to_string();
+        assert!(found.contains(cure), "{error}: \"{found}\"");
+        assert_eq!(format!("{:?}", error.cure()), format!("Cure({found})"));
+    }
+}
+
+/// Three coordinates a link, one degree of freedom wanted: with more left the links must be held, with fewer they are held twice.
+#[test]
+fn a_mechanism_too_free_or_too_stiff_is_cured_the_other_way_round() {
+    let of = |constraints: usize| {
+        MachineError::Mobility {
+            links: 3,
+            constraints,
+        }
+        .cure()
+        .to_string()
+    };
+    for free in [2, 6, 7] {
+        assert!(of(free).starts_with("hold the links"), "{free}");
+    }
+    for stiff in [9, 12] {
+        assert!(of(stiff).starts_with("leave out a joint"), "{stiff}");
+    }
+}

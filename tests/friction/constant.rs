@@ -139,3 +139,42 @@ impl Case {
         assert_eq!(joints.len(), train.joints(self.phi, &frames).unwrap().len());
     }
 }
+
+/// Dry friction has no direction at standstill (sgn 0 = 0), and viscous friction no size: α = Σ j·T/Σ j²·J.
+#[test]
+fn at_standstill_friction_makes_no_torque() {
+    let (ratio, inertias, torques) = (-2.5, [0.3, 0.04], [7.0, -1.5]);
+    let drive = [Stage::new(ratio).unwrap()];
+    let drive = Drive::new(Arrangement::Chain, Contact::Ideal, &drive).unwrap();
+    let shafts = [0, 1].map(|k| {
+        let mut shaft = Shaft::new(inertias[k], torques[k]);
+        (shaft.viscous, shaft.coulomb) = (0.2, 3.0);
+        shaft
+    });
+    let at = |omega| State {
+        t: 0.0,
+        angles: &[0.0; 2],
+        omega,
+    };
+    let inertia = inertias[0] + ratio * ratio * inertias[1];
+    let torque = torques[0] + ratio * torques[1];
+    let resting = drive.forward(at(0.0), &shafts).unwrap();
+    assert_near(
+        "α at rest",
+        resting.alpha,
+        torque / inertia,
+        budget::CLOSED_FORM * torque / inertia,
+    );
+    // Turning, shaft 2 the other way round: each takes its share of what moves it.
+    let omega = 4.0;
+    let friction = |speed: f64| 0.2 * speed + 3.0 * speed.signum();
+    let braking = friction(omega) + ratio * friction(ratio * omega);
+    let expected = (torque - braking) / inertia;
+    let turning = drive.forward(at(omega), &shafts).unwrap();
+    assert_near(
+        "α in motion",
+        turning.alpha,
+        expected,
+        budget::CLOSED_FORM * 10.0 * (torque + braking) / inertia,
+    );
+}

@@ -46,6 +46,8 @@ fn conversions_round_to_the_nearest_and_say_when_they_saturate() {
         scale.torque_si(q15::<Torque<Q15>>(-(1 << 13))).to_bits(),
         (-16f32).to_bits()
     );
+    let speed = scale.omega_si(q15::<Speed<Q15>>(1 << 14));
+    assert_eq!(scale.omega::<Speed<Q15>>(speed), outcome(1 << 14, false));
     assert_eq!(
         scale.alpha_si(q15::<Acceleration<Q15>>(1 << 14)).to_bits(),
         16f32.to_bits()

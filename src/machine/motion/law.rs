@@ -239,17 +239,17 @@ impl<R: Real> Law<R> {
             }),
             Self::Polynomial4567 => mirrored(z, polynomial_4567),
             Self::ModifiedTrapezoid => mirrored(z, modified_trapezoid),
-            Self::Gutman => {
+            Self::Gutman => mirrored(z, |z| {
                 use core::f64::consts::PI;
                 // sin 3x = sin x·(3 − 4·sin² x), cos 3x = cos x·(4·cos² x − 3).
-                let (sin, cos) = (c(2.0 * PI) * z).sin_cos();
+                let [versine, sin] = versine(c(2.0 * PI) * z);
                 let square = sin * sin;
                 [
                     z - sin * (c(12.0) - square) / c(24.0 * PI),
-                    c(1.0) - cos * (c(4.0) - square) / c(4.0),
+                    versine + (c(1.0) - versine) * square / c(4.0),
                     c(1.5 * PI) * sin * (c(2.0) - square),
                 ]
-            }
+            }),
         }
     }
 
