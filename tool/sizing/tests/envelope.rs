@@ -5,6 +5,7 @@
 
 mod circuit;
 mod current;
+mod cuts;
 mod golden;
 mod pieces;
 mod sheet;
