@@ -25,11 +25,11 @@ pub(crate) const DEFAULT_STEPS: f64 = 3e-6;
 /// [5.7e-8].
 pub(crate) const DEFAULT_PEAK: f64 = 3e-7;
 
-/// The torque nearest to the envelope at the default of 2000 steps is not at an extreme: it moves by T′·h with the instant found [7e-5].
-pub(crate) const NEAREST_PEAK: f64 = 3e-4;
+/// The torque where the cycle comes closest to the envelope, at any number of steps, against the nearest of 200 000 samples: it is not at
+/// an extreme, and moves by T′·h with the instant found [1.1e-6].
+pub(crate) const NEAREST_PEAK: f64 = 3e-6;
 
-/// Extremes at 200 000 steps, against the largest of the same number of samples, which lies up to T″·h²/8 lower [2.3e-8];
-/// the torque nearest to the envelope is not itself at an extreme: it moves by T′·h with the instant found [3.4e-7].
+/// Extremes at 200 000 steps, against the largest of the same number of samples, which lies up to T″·h²/8 lower [2.3e-8].
 pub(crate) const FINE_PEAK: f64 = 1e-6;
 
 /// Everything at 200 000 steps, against the same number of trapezoids [1e-12; 2e-10 for the energies].

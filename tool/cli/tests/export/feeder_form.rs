@@ -2,7 +2,7 @@
 // f32, layout slider-crank, 12 coefficients, curves: J_red, load, viscous, coulomb, constant coulomb; 48 bytes of rows, 148 bytes of image
 // machine 0x7995bc09 (of its title; --machine-id sets another)
 // in Rust: image.model::<SliderCrankForm, { curves::LOAD | curves::VISCOUS | curves::COULOMB | curves::CONSTANT_COULOMB | slider_crank::terms::INERTIA_COS | slider_crank::terms::LOAD_SIN | slider_crank::terms::LOAD_COS }>()
-// no table: needs jred's feature micromath, and about 101 instructions a torque on a Cortex-M4F (cubic 50, spline 83); --layout spline, cubic or quadratic asks for a table
+// no table: needs jred's feature micromath, and about 101 instructions a torque on a Cortex-M4F (cubic 48, spline 80); --layout spline, cubic or quadratic asks for a table
 // torque error reached 6.59331e-6 N m of 0.1 N m allowed, at 291.462 deg, for |omega| <= 25.1327 rad/s, |alpha| <= 631.655 rad/s^2
 // measured in ticks: torque within 6.59331e-6 N m (2.011e-7 of the largest, 32.789 N m), alpha within 0.000164797 rad/s^2
 use jred::*;

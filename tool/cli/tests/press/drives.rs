@@ -245,13 +245,12 @@ fn motor_rules(
         let used = points.map(|(t, n)| (t.abs(), limits.short_time(n.abs())));
         let closest = used.max_by(|a, b| (a.0 / a.1).total_cmp(&(b.0 / b.1)));
         let (torque, limit) = closest.unwrap();
-        // The torque nearest to the envelope is not an extreme: it moves by T′·h with the instant found.
-        let nearest = if peak > budget::FINE_PEAK {
-            budget::NEAREST_PEAK
-        } else {
-            peak
-        };
-        rules.push(("peak torque", torque, Some(0.8 * limit), nearest));
+        rules.push((
+            "peak torque",
+            torque,
+            Some(0.8 * limit),
+            budget::NEAREST_PEAK,
+        ));
     }
     rules
 }
