@@ -1,5 +1,6 @@
 //! Machine files of the library mechanisms: what they say in SI units, and what a user is told about a wrong one.
 
+mod axes;
 mod ball_screw;
 mod disc_cam;
 mod four_bar;

@@ -5,7 +5,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use jred::machine::PoseError;
-use jred::machine::{Element, Frames, Jointed, Joints, Load, Mechanism};
+use jred::machine::{Action, Element, Frames, Jointed, Joints, Load, Mechanism};
 use jred::{Domain, Error, Link};
 
 use crate::model::coordinate::Coordinate;
@@ -60,6 +60,8 @@ pub struct AnyMechanism {
     ground_points: Vec<(String, [f64; 2])>,
     elements: Vec<NamedElement>,
     loads: Vec<NamedLoad>,
+    /// Links on guides along x, with their friction coefficient times mass (kg).
+    friction: Vec<(usize, f64)>,
     stand_ins: usize,
     /// The stand-ins, as links, on which the weight of a payload acts.
     pub(super) weights: Vec<usize>,
@@ -89,6 +91,7 @@ impl AnyMechanism {
             ground_points: Vec::new(),
             elements: Vec::new(),
             loads: Vec::new(),
+            friction: Vec::new(),
             stand_ins: 0,
             weights: Vec::new(),
             contacts: Vec::new(),
@@ -120,11 +123,46 @@ impl AnyMechanism {
         self
     }
 
+    /// With loads of its own, such as the pull of a web.
+    #[must_use]
+    pub fn with_loads(mut self, loads: impl IntoIterator<Item = NamedLoad>) -> Self {
+        self.loads.extend(loads);
+        self
+    }
+
     /// With springs of its own, such as that which closes a cam.
     #[must_use]
     pub fn with_elements(mut self, elements: impl IntoIterator<Item = NamedElement>) -> Self {
         self.elements.extend(elements);
         self
+    }
+
+    /// With dry friction in the guide along x of link number `link`: the friction coefficient times the `mass` (kg) that rests
+    /// on the guide.
+    #[must_use]
+    pub(crate) fn with_friction(mut self, link: usize, mass: f64) -> Self {
+        if mass > 0.0 {
+            self.friction.push((link, mass));
+        }
+        self
+    }
+
+    /// With the friction of its guides as loads, in this `gravity` (m/s²): only its component across the guide presses.
+    ///
+    /// # Errors
+    /// A friction force that is not finite.
+    pub(crate) fn with_gravity_on_guides(mut self, gravity: [f64; 2]) -> Result<Self, Error> {
+        for (link, mass) in std::mem::take(&mut self.friction) {
+            let force = mass * gravity[1].abs();
+            if force > 0.0 {
+                let name = self.links.get(link).map_or("", String::as_str);
+                self.loads.push(NamedLoad {
+                    name: format!("guide friction of {name}"),
+                    load: Load::new(link, Action::OpposingForce(force))?,
+                });
+            }
+        }
+        Ok(self)
     }
 
     /// With curves over the drive link's position: each becomes a link with its bearing and gearing, and a load or a spring.

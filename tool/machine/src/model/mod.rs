@@ -13,3 +13,4 @@ pub mod surroundings;
 pub mod tabulated;
 pub mod tolerance;
 pub mod variator;
+pub(crate) mod winder;

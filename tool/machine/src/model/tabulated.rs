@@ -300,7 +300,7 @@ impl Jointed for Tabulated {
     }
 }
 
-/// A single massless drive link that carries tabulated curves.
+/// A single drive link, on its bearing or guide.
 #[derive(Clone, Debug)]
 pub(crate) struct DriveLinkAlone {
     domain: Domain,
@@ -309,11 +309,11 @@ pub(crate) struct DriveLinkAlone {
 }
 
 impl DriveLinkAlone {
-    pub(crate) fn new(domain: Domain, slides: bool) -> Self {
+    pub(crate) fn new(domain: Domain, slides: bool, link: Link) -> Self {
         Self {
             domain,
             slides,
-            links: [Link::MASSLESS],
+            links: [link],
         }
     }
 }

@@ -42,7 +42,7 @@ use crate::model::machine::MachineFile;
 use crate::model::rules::RuleSet;
 use crate::plain;
 use crate::text::file::{self, Files};
-use crate::units::kind::ACCELERATION;
+use crate::units::kind::{ACCELERATION, ANGLE};
 
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
@@ -150,6 +150,32 @@ pub fn parse_around(
     machine(name, text, &files, false).map_err(|problem| problem.into_report(name, text))
 }
 
+/// Gravity (m/s²) at most places, for a file that only gives the inclination.
+const GRAVITY: f64 = 9.81;
+
+/// `gravity`: its components, or by how much the x axis rises.
+fn gravity(root: &Section) -> Result<[f64; 2]> {
+    let item = root.require(
+        "gravity",
+        "gravity = [\"9.81 m/s^2\", \"0 m/s^2\"], its x and y components; gravity = [\"0 m/s^2\", \"0 m/s^2\"] for \
+         a machine that moves in a horizontal plane",
+    )?;
+    if !item.is_table() {
+        return Ok(item
+            .pair([&ACCELERATION, &ACCELERATION])?
+            .map(|value| value.si));
+    }
+    let section = item.section("gravity".to_owned())?;
+    let inclination = section.quantity("inclination", &ANGLE)?.si;
+    let size = match section.optional("acceleration", &ACCELERATION)? {
+        Some(value) => value.not_negative()?,
+        None => GRAVITY,
+    };
+    section.finish()?;
+    let (sin, cos) = inclination.sin_cos();
+    Ok([-size * sin, -size * cos])
+}
+
 fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<MachineFile> {
     if text.len() as u64 > MAX_SIZE {
         let why = file::too_large(&file::size(text.len() as u64), MAX_SIZE);
@@ -170,16 +196,9 @@ fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<Mac
             .file_name()
             .map_or_else(|| name.to_owned(), plain::path),
     };
-    let gravity = root
-        .require(
-            "gravity",
-            "gravity = [\"9.81 m/s^2\", \"0 m/s^2\"], its x and y components; gravity = [\"0 m/s^2\", \"0 m/s^2\"] for \
-             a machine that moves in a horizontal plane",
-        )?
-        .pair([&ACCELERATION, &ACCELERATION])?
-        .map(|value| value.si);
+    let gravity = gravity(&root)?;
     let section = root.section("mechanism")?;
-    let (mechanism, flywheel) = mechanism::read(&section, files)?;
+    let (mechanism, flywheel) = mechanism::read(&section, gravity, files)?;
     let drive_link = DriveLink::of(&mechanism).map_err(|error| {
         section
             .problem(error.to_string(), "in this mechanism")

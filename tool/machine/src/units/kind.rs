@@ -82,6 +82,7 @@ kinds! {
     ENERGY "an energy" "2 kW s" "W s" "W s, kW s" 1e-9 1e12;
     TEMPERATURE "a temperature" "40 degC" "degC" "degC" 1e-9 1e3;
     INERTIA_SLOPE "a moment of inertia per angle" "0.01 kg m^2/rad" "kg m^2/rad" "kg m^2/rad, kg cm^2/deg" 1e-12 1e10;
+    DENSITY "a density" "7850 kg/m^3" "kg/m^3" "kg/m^3, kg/dm^3, g/cm^3" 1e-3 1e6;
     MASS_SLOPE "a mass per length" "2 kg/m" "kg/m" "kg/m, kg/mm" 1e-12 1e10;
     CURRENT "a current" "5.2 A" "A" "A, A rms, A peak, mA" 1e-9 1e6;
     INDUCTANCE "an inductance" "6.5 mH" "mH" "H, mH, uH" 1e-9 1e3;

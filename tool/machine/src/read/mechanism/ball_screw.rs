@@ -17,14 +17,14 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         ));
     }
     let (screw, nut) = (section.section("screw")?, section.section("nut")?);
-    let links = [parts::wheel(&screw)?, parts::slide(&nut)?];
+    let (slide, friction) = parts::guided(&nut)?;
+    let weight = friction * slide.mass();
+    let links = [parts::wheel(&screw)?, slide];
     let mechanism = BallScrew::new(lead.si, links).map_err(|error| core(section, error))?;
     let joints = ["screw bearings", "nut guide", "thread"];
     Ok(
-        AnyMechanism::new(super::BALL_SCREW, mechanism, ["screw", "nut"], joints).with_point(
-            "B",
-            BallScrew::NUT,
-            [0.0, 0.0],
-        ),
+        AnyMechanism::new(super::BALL_SCREW, mechanism, ["screw", "nut"], joints)
+            .with_point("B", BallScrew::NUT, [0.0, 0.0])
+            .with_friction(BallScrew::NUT, weight),
     )
 }

@@ -13,11 +13,14 @@ mod parts;
 mod planetary;
 mod rack;
 mod reduced_curves;
+mod rotary_table;
 mod scotch_yoke;
 mod six_link;
 mod slider_crank;
 mod toggle_press;
+mod traction;
 mod train;
+mod winder;
 
 use jred::machine::MassProperties;
 use jred::{Error, Link};
@@ -48,6 +51,11 @@ const HOIST: &str = "hoist";
 const PLANETARY: &str = "planetary";
 const PARALLEL_SHAFTS: &str = "parallel-shafts";
 const REDUCED_CURVES: &str = "reduced-curves";
+const BELT_AXIS: &str = "belt-axis";
+const CONVEYOR: &str = "conveyor";
+const FEED_ROLL: &str = "feed-roll";
+const ROTARY_TABLE: &str = "rotary-table";
+const WINDER: &str = "winder";
 
 /// A reader of one type of mechanism; keys that it does not read are refused.
 type Reader = fn(&Section) -> Result<AnyMechanism>;
@@ -56,7 +64,7 @@ type Reader = fn(&Section) -> Result<AnyMechanism>;
 type FileReader = fn(&Section, &dyn Files) -> Result<AnyMechanism>;
 
 /// Every type with its reader.
-const TYPES: [(&str, Reader); 17] = [
+const TYPES: [(&str, Reader); 22] = [
     (SLIDER_CRANK, slider_crank::read),
     (GEAR_TRAIN, train::read_gears),
     (BELT, train::read_belt),
@@ -74,6 +82,11 @@ const TYPES: [(&str, Reader); 17] = [
     (PLANETARY, planetary::read),
     (PARALLEL_SHAFTS, parallel_shafts::read),
     (FRICTION_DRIVE, friction_drive::read),
+    (BELT_AXIS, traction::read_belt_axis),
+    (CONVEYOR, traction::read_conveyor),
+    (FEED_ROLL, traction::read_feed_roll),
+    (ROTARY_TABLE, rotary_table::read),
+    (WINDER, winder::read),
 ];
 
 /// Every type that is read from a file of its own.
@@ -85,8 +98,12 @@ pub fn mechanism_types() -> impl Iterator<Item = &'static str> {
     TYPES.iter().map(|(name, _)| *name).chain(files)
 }
 
-/// The mechanism and the inertia of its flywheel (kg·m²).
-pub(super) fn read(section: &Section, files: &dyn Files) -> Result<(AnyMechanism, f64)> {
+/// The mechanism, in this `gravity` (m/s²), and the inertia of its flywheel (kg·m²).
+pub(super) fn read(
+    section: &Section,
+    gravity: [f64; 2],
+    files: &dyn Files,
+) -> Result<(AnyMechanism, f64)> {
     let kind = section
         .require("type", "type = \"slider-crank\"")?
         .choice(&mechanism_types().collect::<Vec<_>>())?;
@@ -103,6 +120,9 @@ pub(super) fn read(section: &Section, files: &dyn Files) -> Result<(AnyMechanism
         _ => None,
     };
     section.finish_with(elsewhere)?;
+    let mechanism = mechanism
+        .with_gravity_on_guides(gravity)
+        .map_err(|error| core(section, error))?;
     Ok((mechanism, flywheel))
 }
 

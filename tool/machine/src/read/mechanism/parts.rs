@@ -9,6 +9,9 @@ use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::{INERTIA, LENGTH, MASS};
 
+/// Largest friction coefficient of a guide.
+const MOST_FRICTION: f64 = 2.0;
+
 /// Mass and centre of mass of a link that slides without turning. The section may contain other keys that were already read.
 pub(super) fn slide(section: &Section) -> Result<Link> {
     let mass = section.quantity("mass", &MASS)?.not_negative()?;
@@ -23,6 +26,14 @@ pub(super) fn slide(section: &Section) -> Result<Link> {
         com,
     })
     .map_err(|error| core(section, error))
+}
+
+/// A link that slides, and the friction coefficient of its guide.
+pub(super) fn guided(section: &Section) -> Result<(Link, f64)> {
+    let friction = section
+        .get("friction")
+        .map_or(Ok(0.0), |item| item.number([0.0, MOST_FRICTION], "0.05"))?;
+    Ok((slide(section)?, friction))
 }
 
 /// Moment of inertia and, for the forces in its bearings, mass of a part that turns about its own axis, on which its centre

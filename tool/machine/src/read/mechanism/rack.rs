@@ -11,14 +11,14 @@ use crate::units::kind::LENGTH;
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let (pinion, rack) = (section.section("pinion")?, section.section("rack")?);
     let radius = pinion.quantity("radius", &LENGTH)?.positive()?;
-    let links = [link(&pinion)?, parts::slide(&rack)?];
+    let (slide, friction) = parts::guided(&rack)?;
+    let weight = friction * slide.mass();
+    let links = [link(&pinion)?, slide];
     let mechanism = RackAndPinion::new(radius, links).map_err(|error| core(section, error))?;
     let joints = ["pinion bearing", "rack guide", "mesh"];
     Ok(
-        AnyMechanism::new(super::RACK, mechanism, ["pinion", "rack"], joints).with_point(
-            "B",
-            RackAndPinion::RACK,
-            [0.0, 0.0],
-        ),
+        AnyMechanism::new(super::RACK, mechanism, ["pinion", "rack"], joints)
+            .with_point("B", RackAndPinion::RACK, [0.0, 0.0])
+            .with_friction(RackAndPinion::RACK, weight),
     )
 }

@@ -1,6 +1,6 @@
 //! `type = "reduced-curves"`: J(φ) and torques from a CSV file.
 
-use jred::Domain;
+use jred::{Domain, Link};
 
 use super::core;
 use crate::model::coordinate::Coordinate;
@@ -81,7 +81,7 @@ pub(super) fn read(section: &Section, files: &dyn Files) -> Result<AnyMechanism>
     let file = CsvFile::open(&item, "curves.csv", files)?;
     let curves = Curves::read(&file.text, turn).map_err(|problem| file.shows(problem))?;
     let slides = curves.drive.slides();
-    let alone = DriveLinkAlone::new(curves.drive.domain, slides);
+    let alone = DriveLinkAlone::new(curves.drive.domain, slides, Link::MASSLESS);
     let joint = if slides {
         "drive guide"
     } else {

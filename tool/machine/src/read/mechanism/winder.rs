@@ -1,0 +1,108 @@
+//! `type = "winder"`: a roll that grows with the web wound onto it.
+
+use std::f64::consts::TAU;
+
+use jred::Error;
+use jred::machine::{Action, Load};
+
+use super::core;
+use crate::model::mechanism::{AnyMechanism, NamedLoad};
+use crate::model::winder::{Roll, Winder};
+use crate::number::rounding::figure;
+use crate::text::problem::Result;
+use crate::text::section::Section;
+use crate::units::kind::{DENSITY, FORCE, INERTIA, LENGTH, SHARE, VELOCITY};
+
+pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
+    let (core_section, web) = (section.section("core")?, section.section("web")?);
+    let diameter = core_section.quantity("diameter", &LENGTH)?;
+    let full = section.quantity("full_diameter", &LENGTH)?;
+    diameter.check_positive()?;
+    if full.si - diameter.si < LENGTH.smallest {
+        let what = format!(
+            "is {}, which is not more than the core's diameter, {}",
+            full.shown(),
+            diameter.shown()
+        );
+        return Err(full
+            .problem(&what, "nothing is wound")
+            .help("give the diameter of the full roll, such as \"800 mm\""));
+    }
+    // The core keeps J above zero on the empty roll.
+    let inertia = core_section.quantity("inertia", &INERTIA)?.positive()?;
+    core_section.finish()?;
+    let thickness = web.quantity("thickness", &LENGTH)?.positive()?;
+    let width = web.quantity("width", &LENGTH)?.positive()?;
+    let density = web.quantity("density", &DENSITY)?.positive()?;
+    let roll = Roll {
+        core: 0.5 * diameter.si,
+        full: 0.5 * full.si,
+        inertia,
+        thickness,
+        web: density * width * thickness,
+    };
+    let loads = pull(&web, &roll)?;
+    web.finish()?;
+    let winder = Winder::new(roll).map_err(|error| core(section, error))?;
+    let names = ["roll", "web", "wound web"];
+    let joints = [
+        "roll bearing",
+        "web guide",
+        "web",
+        "bearing of wound web",
+        "gearing of wound web",
+    ];
+    Ok(AnyMechanism::new(super::WINDER, winder, names, joints)
+        .with_loads(loads)
+        .with_fact("turns on the full roll", figure(roll.turned() / TAU))
+        .with_fact(
+            "web on the full roll",
+            format!(
+                "{} m, {} kg",
+                figure(roll.length()),
+                figure(roll.length() * roll.web)
+            ),
+        ))
+}
+
+/// The web's pull F₀·(1 − t·(1 − r₀/r)): its torque F·r is linear in r, so it is a force on the web and a moment on the roll. The
+/// kinetic energy that the web brings at its speed v is a force ½·μ·v² the other way.
+fn pull(web: &Section, roll: &Roll) -> Result<Vec<NamedLoad>> {
+    let tension = web.quantity("tension", &FORCE)?.not_negative()?;
+    let taper = match web.optional("taper", &SHARE)? {
+        Some(value) if value.si > 0.0 => value.up_to(1.0)?,
+        Some(value) => value.not_negative()?,
+        None => 0.0,
+    };
+    let speed = match web.optional("speed", &VELOCITY)? {
+        Some(value) => value.not_negative()?,
+        None => 0.0,
+    };
+    let brought = 0.5 * roll.web * speed * speed;
+    let acting = [
+        (
+            "web tension",
+            Winder::WEB,
+            Action::Force([-tension * (1.0 - taper), 0.0]),
+        ),
+        (
+            "taper of the web tension",
+            Winder::ROLL,
+            Action::Moment(-tension * taper * roll.core),
+        ),
+        (
+            "kinetic energy of the web",
+            Winder::WEB,
+            Action::Force([brought, 0.0]),
+        ),
+    ];
+    let mut loads = Vec::new();
+    for (name, link, action) in acting {
+        if !matches!(action, Action::Force([0.0, _]) | Action::Moment(0.0)) {
+            let load = Load::new(link, action).map_err(|error| core(web, Error::from(error)))?;
+            let name = name.to_owned();
+            loads.push(NamedLoad { name, load });
+        }
+    }
+    Ok(loads)
+}

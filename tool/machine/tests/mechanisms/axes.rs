@@ -1,0 +1,151 @@
+//! `docs/axes.md`: toothed-belt axis, conveyor, feed roll, rotary table, winder.
+
+use jred::Reducible as _;
+
+use super::{close, machine, parse, refuses_edit};
+
+const DOC: &str = include_str!("../../../../docs/axes.md");
+
+/// The example of a type in the document.
+fn example(kind: &str) -> &'static str {
+    let blocks = DOC.split("\n```toml\n").skip(1);
+    let mut blocks = blocks.filter_map(|rest| rest.split("\n```").next());
+    let wanted = format!("type = \"{kind}\"");
+    blocks.find(|block| block.contains(&wanted)).unwrap()
+}
+
+#[test]
+fn the_belt_axis_is_read_in_si_units() {
+    let file = machine("belt-axis.toml");
+    let axis = file.machine.mechanism();
+    assert_eq!(axis.kind(), "belt-axis");
+    assert_eq!(axis.link_names(), ["pulley", "carriage"]);
+    assert_eq!(
+        axis.joint_names(),
+        ["pulley bearing", "carriage guide", "belt"]
+    );
+    let radius = 0.192 / std::f64::consts::TAU;
+    let reduced = file.machine.reduction(0.4).unwrap();
+    close(reduced.inertia, 4.1e-4 + 3.6e-4 + 18.9 * radius * radius);
+    close(reduced.coulomb, 0.03 * 18.0 * 9.81 * radius);
+    assert_eq!(file.loads[0].name, "guide friction of carriage");
+}
+
+/// Pitch times teeth, and the diameter that they make, are the same axis.
+#[test]
+fn a_pulley_by_its_teeth_or_its_diameter() {
+    let by_teeth = parse(example("belt-axis")).unwrap();
+    let diameter = format!("diameter = \"{} mm\"", 192.0 / std::f64::consts::PI);
+    let text = example("belt-axis").replace("pitch = \"8 mm\", teeth = 24", &diameter);
+    let by_diameter = parse(&text).unwrap();
+    let [a, b] = [by_teeth, by_diameter].map(|file| file.machine.reduction(0.0).unwrap().inertia);
+    close(a, b);
+}
+
+/// Of gravity on an incline one component drives and the other presses.
+#[test]
+fn the_inclination_turns_gravity() {
+    let text = example("belt-axis").replace("0 deg\"", "30 deg\"");
+    let file = parse(&text).unwrap();
+    let radius = 0.192 / std::f64::consts::TAU;
+    let reduced = file.machine.reduction(0.0).unwrap();
+    // The belt's weight balances.
+    close(reduced.potential_slope, 18.0 * 9.81 * 0.5 * radius);
+    close(
+        reduced.coulomb,
+        0.03 * 18.0 * 9.81 * 0.75f64.sqrt() * radius,
+    );
+    let on_the_moon = text.replace("30 deg\"", "30 deg\", acceleration = \"1.62 m/s^2\"");
+    let reduced = parse(&on_the_moon).unwrap().machine.reduction(0.0).unwrap();
+    close(reduced.potential_slope, 18.0 * 1.62 * 0.5 * radius);
+}
+
+/// Rack and screw have the coefficient, too.
+#[test]
+fn other_guides_have_friction() {
+    for (name, part, travel) in [("rack.toml", "mass = \"85 kg\"", 0.03 * 85.0)] {
+        let text = crate::reading::text_of(name);
+        let with = text.replace(part, &format!("{part}\nfriction = 0.1"));
+        let [plain, with] =
+            [text, with].map(|t| parse(&t).unwrap().machine.reduction(0.0).unwrap());
+        close(with.coulomb - plain.coulomb, 0.1 * 9.81 * travel);
+    }
+}
+
+#[test]
+fn wrong_entries_are_refused_with_their_cure() {
+    let edits: [(&str, &str, &str, &[&str]); 11] = [
+        (
+            "belt-axis",
+            "teeth = 24",
+            "diameter = \"60 mm\"",
+            &["`pitch` in", "is not used", "remove this"],
+        ),
+        (
+            "belt-axis",
+            "pitch = \"8 mm\", teeth = 24, ",
+            "",
+            &["`diameter` in [mechanism.pulley] is missing"],
+        ),
+        (
+            "belt-axis",
+            "friction = 0.03",
+            "friction = 3",
+            &["`friction` in [mechanism.carriage] is 3", "between 0 and 2"],
+        ),
+        (
+            "belt-axis",
+            "belt_mass = \"0.9 kg\"",
+            "belt_mass = \"-1 kg\"",
+            &["must not be negative"],
+        ),
+        (
+            "feed-roll",
+            "[mechanism]",
+            "[mechanism]\nbelt_mass = \"1 kg\"",
+            &["unknown key `belt_mass` in [mechanism]"],
+        ),
+        (
+            "conveyor",
+            "inclination = \"12 deg\"",
+            "incline = \"12 deg\"",
+            &["`inclination` in gravity is missing"],
+        ),
+        (
+            "conveyor",
+            "count = 4",
+            "count = 0",
+            &["between 1 and 1000"],
+        ),
+        (
+            "rotary-table",
+            ", mass = \"85 kg\"",
+            "",
+            &["`mass` in [mechanism.table] is missing"],
+        ),
+        (
+            "rotary-table",
+            "diameter = \"900 mm\"",
+            "diameter = \"900 mm\", inertia = \"9 kg m^2\"",
+            &["`diameter` in [mechanism.table] is not used"],
+        ),
+        (
+            "winder",
+            "\"600 mm\"",
+            "\"150 mm\"",
+            &[
+                "`full_diameter` in [mechanism] is 150 mm",
+                "the core's diameter, 152 mm",
+            ],
+        ),
+        (
+            "winder",
+            "\"25 %\"",
+            "\"125 %\"",
+            &["`taper` in [mechanism.web] is 125 %", "100 %"],
+        ),
+    ];
+    for (kind, from, to, words) in edits {
+        refuses_edit(example(kind), from, to, words);
+    }
+}
