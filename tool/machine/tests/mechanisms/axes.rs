@@ -63,12 +63,16 @@ fn the_inclination_turns_gravity() {
 /// Rack and screw have the coefficient, too.
 #[test]
 fn other_guides_have_friction() {
-    for (name, part, travel) in [("rack.toml", "mass = \"85 kg\"", 0.03 * 85.0)] {
-        let text = crate::reading::text_of(name);
-        let with = text.replace(part, &format!("{part}\nfriction = 0.1"));
+    let level = "gravity = [\"0 m/s^2\", \"-9.81 m/s^2\"]";
+    let upright = "gravity = [\"-9.81 m/s^2\", \"0 m/s^2\"]";
+    let lead = 0.02 / std::f64::consts::TAU;
+    for (name, mass, travel) in [("rack.toml", 85.0, 0.03), ("ball-screw.toml", 140.0, lead)] {
+        let text = crate::reading::text_of(name).replace(upright, level);
+        let part = format!("mass = \"{mass} kg\"");
+        let with = text.replace(&part, &format!("{part}\nfriction = 0.1"));
         let [plain, with] =
             [text, with].map(|t| parse(&t).unwrap().machine.reduction(0.0).unwrap());
-        close(with.coulomb - plain.coulomb, 0.1 * 9.81 * travel);
+        close(with.coulomb - plain.coulomb, 0.1 * mass * 9.81 * travel);
     }
 }
 

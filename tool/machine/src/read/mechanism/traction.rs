@@ -11,6 +11,7 @@ use jred::mechanism::RackAndPinion;
 
 use super::{core, parts};
 use crate::model::mechanism::AnyMechanism;
+use crate::text::item::Value;
 use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::{INERTIA, LENGTH, MASS};
@@ -85,7 +86,7 @@ fn read(section: &Section, words: &Words) -> Result<AnyMechanism> {
     let mut on_the_bed = 0.0;
     if let Some(share) = words.belt {
         let belt = section.optional("belt_mass", &MASS)?;
-        let belt = belt.map_or(Ok(0.0), |value| value.not_negative())?;
+        let belt = belt.map_or(Ok(0.0), Value::not_negative)?;
         inertia += belt * radius * radius;
         on_the_bed = share * belt;
     }
