@@ -83,17 +83,12 @@ fn pull(web: &Section, roll: &Roll) -> Result<Vec<NamedLoad>> {
         (
             "web tension",
             Winder::WEB,
-            Action::Force([-tension * (1.0 - taper), 0.0]),
+            Action::Force([brought - tension * (1.0 - taper), 0.0]),
         ),
         (
             "taper of the web tension",
             Winder::ROLL,
             Action::Moment(-tension * taper * roll.core),
-        ),
-        (
-            "kinetic energy of the web",
-            Winder::WEB,
-            Action::Force([brought, 0.0]),
         ),
     ];
     let mut loads = Vec::new();
