@@ -26,9 +26,11 @@ use crate::Phase;
 ///
 /// (test `the_filter_settles_and_smooths_as_stated`): with θ = 0.9 one of 0.013·δ/T and 0.0004·δ/T².
 ///
-/// Integers of 64 bits throughout: the same bits on every processor, no error that grows with the number of turns. Over a turn phases wrap; the
-/// drive link must turn less than half a turn a period, and the residual must stay less than half a turn: from rest a speed of less than
-/// 1.3·(1 − θ) and an acceleration of less than 1.6·(1 − θ)² turns a period (squared).
+/// Integers of 64 bits throughout: the same bits on every processor, no error that grows with the number of turns. Over a turn phases wrap, and the
+/// residual must stay less than half a turn: from rest a speed of less than 1.3·(1 − θ), and of a sixth of a turn, and an acceleration of less than
+/// 1.6·(1 − θ)² turns a period (squared). A speed of a quarter of the range a period or more is none: speed and acceleration begin at 0 anew.
+/// So wrong counts, however many, are forgotten like any other change (test `wrong_counts_are_forgotten`), and at the end of a stroke the speed comes to
+/// rest (test `at_the_end_of_a_stroke_the_speed_comes_to_rest`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Tracker {
@@ -113,9 +115,9 @@ impl Tracker {
     /// As [`update`](Self::update), of a stroke: at its ends phases do not wrap, but stay.
     #[inline]
     pub const fn update_stroke(&mut self, measured: Phase) -> Tracked {
-        let phase = (self.phase as u64)
-            .saturating_add_signed(self.speed)
-            .saturating_add_signed(self.acceleration >> 1);
+        // The prediction may lie beyond an end: limited to it there would be no residual, and a speed at an end would never end.
+        let phase =
+            self.phase as u64 as i128 + self.speed as i128 + (self.acceleration >> 1) as i128;
         let residual = measured.to_bits() as i64 - (phase >> 32) as i64;
         // Half of the stroke is as wrong as any more.
         let residual = if residual > i32::MAX as i64 {
@@ -125,7 +127,12 @@ impl Tracker {
         } else {
             residual as i32
         };
-        self.phase = phase.saturating_add_signed(self.correct(residual)) as i64;
+        let phase = phase + self.correct(residual) as i128;
+        self.phase = match phase >> 64 {
+            0 => phase as i64,
+            ..0 => 0,
+            _ => -1,
+        };
         self.tracked()
     }
 
@@ -142,6 +149,11 @@ impl Tracker {
         self.acceleration = self
             .acceleration
             .wrapping_add((residual * of_acceleration as i64) << 1);
+        // No motion: without this it could follow a wrong one for ever, because differences of phases wrap.
+        if (self.speed ^ self.speed << 1) < 0 {
+            self.speed = 0;
+            self.acceleration = 0;
+        }
         (residual * of_phase as i64) << 1
     }
 

@@ -3,9 +3,10 @@ use core::f64::consts::TAU;
 use jred::axis::{Period, Tracked, Tracker};
 use jred::table::Format;
 use jred::{Domain, Phase, Q15, Q31, Rows16, Scale, Speed, Spline};
+use proptest::prelude::*;
 
 use super::machine::in_units;
-use crate::support::{assert_near, budget, samples, scale_of, value};
+use crate::support::{assert_near, budget, config, samples, scale_of, value};
 
 /// Feeds the phases of φ(k)/2π, k = 1, 2, …
 fn follow(tracker: &mut Tracker, periods: u32, turns: impl Fn(f64) -> f64) -> Tracked {
@@ -31,10 +32,11 @@ fn acceleration(tracked: Tracked) -> f64 {
 #[test]
 fn a_constant_acceleration_is_followed_without_a_lag() {
     for memory in [0.0, 0.5, 0.9, 0.99] {
-        for (omega, alpha) in [(0.3, 0.3), (-0.4, 0.5), (0.4, -0.9), (0.0, 0.0)] {
+        for (omega, alpha) in [(0.7, 0.3), (-0.95, 0.5), (0.95, -0.9), (0.0, 0.0)] {
             // What the filter still follows from rest.
             let rest = 1.0 - f64::from(memory);
-            let (omega, alpha) = (omega * rest, alpha * 1e-3 * rest * rest);
+            let most = (1.3 * rest).min(1.0 / 6.0);
+            let (omega, alpha) = (omega * most, alpha * 1e-3 * rest * rest);
             let periods = 5 + (40.0 / (1.0 - f64::from(memory))) as u32;
             let turns = |k: f64| 0.3 + omega * k + 0.5 * alpha * k * k;
             let mut tracker = Tracker::new(memory)
@@ -226,12 +228,79 @@ fn an_acceleration_beyond_its_range_is_limited() {
     let mut tracker = Tracker::new(0.0).unwrap();
     tracker.update(Phase::default());
     assert_eq!(
-        tracker.update(Phase::from_bits(1 << 30)).acceleration,
+        tracker.update(Phase::from_bits(1 << 28)).acceleration,
         i32::MAX
     );
     let mut tracker = Tracker::new(0.0).unwrap();
     assert_eq!(
-        tracker.update(Phase::from_bits(3 << 30)).acceleration,
+        tracker.update(Phase::from_bits(15 << 28)).acceleration,
         i32::MIN
     );
+}
+
+/// A count beyond the end of the stroke has the phase of the end, for ever: the machine runs into a stop, or the encoder is wrong.
+#[test]
+fn at_the_end_of_a_stroke_the_speed_comes_to_rest() {
+    let from_end = |way: f64, end: u32| {
+        let way = (way * 4_294_967_295.0) as u32;
+        Phase::from_bits(if end == 0 { u32::MAX - way } else { way })
+    };
+    for memory in [0.0, 0.5, 0.9, 0.97] {
+        for end in [0, u32::MAX] {
+            for way in [|k: f64| k / 1000.0, |k: f64| (k / 1000.0).powi(2)] {
+                let mut tracker = Tracker::new(memory).unwrap().at(from_end(0.0, end));
+                for k in 1..1000 {
+                    tracker.update_stroke(from_end(way(k.into()), end));
+                }
+                let moving = tracker.update_stroke(from_end(1.0, end));
+                assert!(speed(moving).abs() > 0.9e-3, "{memory}: {moving:?}");
+                assert!((speed(moving) > 0.0) == (end > 0), "{memory}: {moving:?}");
+                let mut last = moving;
+                for _ in 0..(40.0 / (1.0 - memory)) as u32 {
+                    last = tracker.update_stroke(Phase::from_bits(end));
+                }
+                assert!(
+                    last.phase.to_bits().abs_diff(end) < 10,
+                    "{memory}: {last:?}"
+                );
+                assert!(last.speed.abs() < 10, "{memory}: {last:?}");
+                assert!(acceleration(last).abs() < 1e-9, "{memory}: {last:?}");
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(config(4096, 0x7ac0))]
+
+    /// After any number of them the filter follows the machine again: it finds no other motion with the same phases.
+    #[test]
+    fn wrong_counts_are_forgotten(
+        memory in prop_oneof![Just(0.0_f32), 0.0..=0.99_f32],
+        stroke in any::<bool>(),
+        at in any::<u32>(),
+        moves in -4_294_967..=4_294_967, // up to a thousandth of a turn a period
+        wrong in prop::collection::vec(any::<u32>(), 1..20),
+    ) {
+        let moves = if stroke { 0 } else { moves };
+        let mut tracker = Tracker::new(memory).unwrap().at(Phase::from_bits(at));
+        let mut update = |phase| {
+            let phase = Phase::from_bits(phase);
+            if stroke { tracker.update_stroke(phase) } else { tracker.update(phase) }
+        };
+        for phase in wrong {
+            update(phase);
+        }
+        // In a stroke a residual is limited to half of it, and at its ends the filter waits.
+        let settled = if stroke { 60.0 } else { 20.0 } / (1.0 - memory);
+        let (mut place, mut last) = (at, Tracked::default());
+        for _ in 0..settled as u32 {
+            place = place.wrapping_add_signed(moves);
+            last = update(place);
+        }
+        let off = last.phase.to_bits().wrapping_sub(place).cast_signed();
+        prop_assert!(off.abs() < 1 << 24, "phase: {off}");
+        let off = last.speed.abs_diff(moves);
+        prop_assert!(off < 1 << 22, "speed: {off}");
+    }
 }
