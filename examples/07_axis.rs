@@ -56,7 +56,7 @@ struct Axis<'a> {
     tracker: Tracker,
     tick: Period<f32>,
     lead: Period<f32>,
-    ramp: Ramp,
+    ramp: Ramp<f32>,
     press: FeedForward<'a, Spline<f32>, PRESS>,
     gearbox: Transmission<f32>,
     limits: TorqueLimits<f32>,

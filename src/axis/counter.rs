@@ -4,6 +4,9 @@
 ///
 /// The machine must move less than half the counter's range between two readings: 32 767 counts for 16 bits.
 ///
+/// One wrong reading is corrected by the next right one, unless it is off by half of the range, give or take what the machine moves from the reading before it to the
+/// one after it: the count then is a whole range off, and stays so (test `a_wrong_reading_is_corrected_unless_it_is_half_the_range_off`). An index pulse tells.
+///
 /// ```
 /// use jred::axis::Counter;
 ///

@@ -1,5 +1,7 @@
 //! Feed-forward: the torque that a motion needs, and whether the table was made for that motion.
 
+use core::marker::PhantomData;
+
 use super::error::{positive, within};
 use super::{AxisError, Motion};
 use crate::curve::{AccelerationOf, Format, Set, SpeedOf};
@@ -8,6 +10,8 @@ use crate::{MachineUnits, Model, Phase, Validity};
 
 /// Of the validity.
 const MARGIN: f32 = 1.01;
+/// Of a base: less than the largest number of 16 bits.
+const BELOW_BASE: f32 = 0.9999;
 
 /// What is wrong with a motion: nothing, or the speed, the acceleration, or both are beyond what the table was made for, or no numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -96,13 +100,24 @@ pub struct FeedForward<'a, F: Format, const SET: Set> {
 }
 
 impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
-    /// With a model and what its table was made for ([`Image::validity`](crate::Image::validity)), and a hundredth more: so that the motion that a table was
-    /// made for is valid when it is measured, too. The error of the torque grows by a fiftieth at most there.
+    /// With a model and what its table was made for ([`Image::validity`](crate::Image::validity), of the same image), and a hundredth more: so that the motion that a
+    /// table was made for is valid when it is measured, too. The error of the torque grows by a fiftieth at most there. In fixed point what was limited to
+    /// the range of its numbers is beyond, wherever the range ends.
     #[must_use]
     pub fn new(model: Model<'a, F, SET>, validity: Validity) -> Self {
         let scale = model.table().scale();
-        let omega = scale.omega(validity.omega * MARGIN).value;
-        let alpha = scale.alpha(validity.alpha * MARGIN).value;
+        let within = |most: f32, base: f32| {
+            let most = most * MARGIN;
+            if F::Number::FIXED {
+                most.min(base * BELOW_BASE)
+            } else {
+                most
+            }
+        };
+        let omega = scale.omega(within(validity.omega, scale.speed())).value;
+        let alpha = scale
+            .alpha(within(validity.alpha, scale.acceleration()))
+            .value;
         Self {
             model,
             omega,
@@ -175,20 +190,38 @@ impl<'a, F: Format, const SET: Set> FeedForward<'a, F, SET> {
 }
 
 /// Coulomb friction that rises in a straight line between standstill and a speed, instead of a jump.
+///
+/// One of a model in `Q15` is none for speeds in `Q31`:
+///
+/// ```compile_fail,E0308
+/// # use jred::axis::Ramp;
+/// # use jred::number::Sliding;
+/// # use jred::{Q15, Q31, Speed};
+/// fn friction(ramp: &Ramp<Q15>, omega: Speed<Q31>) -> Sliding<Q31> {
+///     ramp.at(omega)
+/// }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Ramp(Factor);
+pub struct Ramp<N> {
+    share: Factor,
+    number: PhantomData<N>,
+}
 
-impl Ramp {
+impl<N: Number> Ramp<N> {
     /// Up to the speed `width` (rad/s, or m/s), for a model in its machine units.
     ///
     /// # Errors
     /// A width that is not positive and finite, or less than 1e-6 of the speed base.
-    pub fn new(width: f32, model: &impl MachineUnits) -> Result<Self, AxisError> {
+    pub fn new(width: f32, model: &impl MachineUnits<Number = N>) -> Result<Self, AxisError> {
         let base = model.scale().speed();
         let ratio = base / positive("the width of the friction ramp", width)?;
         let factor = (ratio <= 1e6).then(|| Factor::new(ratio)).flatten();
-        factor.map(Self).ok_or(AxisError::OutOfRange {
+        let ramp = |share| Self {
+            share,
+            number: PhantomData,
+        };
+        factor.map(ramp).ok_or(AxisError::OutOfRange {
             what: "the width of the friction ramp",
             value: width,
             range: "at least a millionth of the speed base",
@@ -197,8 +230,8 @@ impl Ramp {
 
     /// How much of c acts at a speed: that of the set-point.
     #[inline]
-    pub fn at<S: Quantity<Number: Number<Speed = S>>>(&self, omega: S) -> Sliding<S::Number> {
-        Sliding::Share(omega.number().times(&self.0).value.to_unit())
+    pub fn at(&self, omega: N::Speed) -> Sliding<N> {
+        Sliding::Share(omega.number().times(&self.share).value.to_unit())
     }
 }
 

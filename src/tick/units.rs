@@ -8,7 +8,8 @@ use crate::{Domain, Scale};
 /// What has machine units and a range of the drive link: a [`Model`], an [`AnyModel`], or [`Pieces`]. Sealed.
 ///
 /// What stands before and after a model, such as a [`Period`](crate::axis::Period) or a [`Transmission`](crate::axis::Transmission), takes its units
-/// from here, and so cannot have those of another table.
+/// from here: no scale is given beside the model that could be that of another table. Used with another model later, they are wrong if its machine units
+/// are others; the compiler tells only the number types apart.
 pub trait MachineUnits: crate::sealed::Sealed {
     /// Numbers that its tick takes and gives.
     type Number: Number<Real = Self::Real>;

@@ -124,6 +124,27 @@ proptest! {
     }
 }
 
+/// Of all readings between two right ones, as many lead to a wrong count as the machine moves counts.
+#[test]
+fn a_wrong_reading_is_corrected_unless_it_is_half_the_range_off() {
+    for (start, moved) in [(0, 0), (70_000, 30), (-32_760, -30), (i64::MAX, 5)] {
+        let right = start.wrapping_add(moved);
+        let mut wrong = 0;
+        for reading in 0..1_u32 << 16 {
+            let mut counter = Counter::<16>::at(start);
+            counter.extend(reading);
+            let off = counter.extend(right as u32 & 0xffff).wrapping_sub(right);
+            assert!([0, 1 << 16, -(1 << 16)].contains(&off), "{reading}: {off}");
+            wrong += u64::from(off != 0);
+            let half = (reading as u16).wrapping_sub(start as u16) ^ 1 << 15;
+            let from_half = half.cast_signed().unsigned_abs();
+            assert!(off == 0 || u64::from(from_half) <= moved.unsigned_abs());
+        }
+        // Half of the range is a count down, and none up.
+        assert!(wrong > 0 && wrong.abs_diff(moved.unsigned_abs()) <= 1);
+    }
+}
+
 #[test]
 fn an_encoder_that_cannot_be_is_refused() {
     let good = Mounting::direct(10_000);

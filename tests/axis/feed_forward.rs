@@ -2,7 +2,7 @@ use core::f64::consts::TAU;
 
 use jred::axis::{FeedForward, Motion, Ramp};
 use jred::number::{Number, Quantity, Sliding};
-use jred::table::Format;
+use jred::table::{AccelerationOf, Format, SpeedOf};
 use jred::{
     Cubic, Domain, Phase, Q15, Q31, Quadratic, Rows16, Scale, Set, Speed, Spline, Validity, curves,
 };
@@ -190,6 +190,42 @@ fn a_motion_beyond_the_table_is_flagged() {
             (of(0.0), Q15::MAX, false, true),
         ],
     );
+}
+
+/// A speed base that ends where the table does: what was limited to it is no motion of the table, though the limits of both are the same number.
+#[test]
+fn a_number_that_was_limited_is_flagged() {
+    fn limited<F: Format>() {
+        let scale = scale_of(150.0, 10.0, 1.5);
+        with_model::<F, { curves::LOAD }>(scale, |model| {
+            let scale = *model.table().scale();
+            for share in [0.995, 1.0, 2.0] {
+                let validity = Validity {
+                    omega: share * scale.speed(),
+                    alpha: share * scale.acceleration(),
+                    torque_error: 0.0,
+                };
+                let feed_forward = FeedForward::new(model, validity);
+                for sign in [-1.0, 1.0] {
+                    let [inside, outside] = [0.999, 1.001].map(|of_base| {
+                        let of_base: f32 = sign * of_base;
+                        let omega = scale.omega::<SpeedOf<F>>(of_base * scale.speed());
+                        let alpha =
+                            scale.alpha::<AccelerationOf<F>>(of_base * scale.acceleration());
+                        assert_eq!([omega.saturated, alpha.saturated], [of_base.abs() > 1.0; 2]);
+                        feed_forward.status(omega.value, alpha.value)
+                    });
+                    assert!(inside.is_valid(), "{share}: {inside:?}");
+                    assert!(
+                        outside.speed_beyond && outside.acceleration_beyond,
+                        "{share}: {outside:?}"
+                    );
+                }
+            }
+        });
+    }
+    limited::<Spline<Q31>>();
+    limited::<Rows16>();
 }
 
 #[test]

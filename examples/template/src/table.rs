@@ -21,7 +21,7 @@ pub struct Table {
 pub struct Units {
     pub tick: Period<Number>,
     pub lead: Period<Number>,
-    pub ramp: Ramp,
+    pub ramp: Ramp<Number>,
     pub gearbox: Transmission<Number>,
     pub limits: TorqueLimits<MotorTorque>,
 }
