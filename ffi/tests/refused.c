@@ -9,6 +9,7 @@ JRED_MODEL(other, spline_f32, 1);
 JRED_MODEL(cubic, cubic_f32, 21);
 JRED_MODEL(fixed, spline_q31, 21);
 JRED_MODEL(halves, rows_q15, 21);
+JRED_MODEL(crank, slider_crank_f32, 49);
 JRED_ANY_MODEL(any, spline_f32);
 
 #define WORDS (sizeof press_words / sizeof press_words[0])
@@ -39,6 +40,7 @@ int main(void) {
     cubic_model cubic;
     fixed_model fixed;
     halves_model halves;
+    crank_model crank;
     any_model any;
     jred_info info;
 
@@ -58,6 +60,10 @@ int main(void) {
     EXPECT(cubic_load_words(&cubic, press_words, WORDS), JRED_LAYOUT);
     EXPECT(fixed_load_words(&fixed, press_words, WORDS), JRED_NUMBER_TYPE);
     EXPECT(halves_load_words(&halves, press_words, WORDS), JRED_NUMBER_TYPE);
+    EXPECT(crank_load_words(&crank, press_words, WORDS), JRED_LAYOUT);
+    EXPECT(crank_load_words(&crank, press_words, 3), JRED_LENGTH);
+    EXPECT(crank_load_words(&crank, NULL, WORDS), JRED_NULL);
+    EXPECT(crank_load_words(NULL, press_words, WORDS), JRED_NULL);
     CLAIM(strcmp(jred_status_name(JRED_CRC), "JRED_CRC") == 0 && strcmp(jred_status_name(-1), "JRED_UNKNOWN") == 0);
 
     /* No model: no torque. */
@@ -65,6 +71,8 @@ int main(void) {
     CLAIM(press_torque(&press, 0x40000000u, 10.0f, 50.0f) == 0.0f);
     CLAIM(fixed_torque(&fixed, 0x40000000u, 1 << 20, 1 << 20) == 0 && halves_torque(&halves, 0x40000000u, 100, 100) == 0);
     CLAIM(cubic_acceleration(&cubic, 0x40000000u, 10.0f, 50.0f) == 0.0f);
+    CLAIM(crank_torque(&crank, 0x40000000u, 10.0f, 50.0f) == 0.0f && crank_torque(NULL, 0, 10.0f, 50.0f) == 0.0f);
+    CLAIM(crank_acceleration_range(NULL, 0, 10.0f, -50.0f, 50.0f).greatest == 0.0f);
 
     EXPECT(press_load(&press), JRED_OK);
     EXPECT(any_load_words(&any, press_words, WORDS), JRED_OK);
