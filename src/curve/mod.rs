@@ -20,7 +20,8 @@ pub(crate) use format::CONSTANTS;
 pub(crate) use format::in_use;
 pub use format::{
     AccelerationOf, Circular, Coefficient, Constants, Cubic, Curve, Format, Harmonic, Kind,
-    MAX_HARMONICS, Quadratic, RowConstants, Rows16, SpeedOf, Spline, Spline16, TorqueOf, terms,
+    MAX_HARMONICS, MotorTorqueOf, Quadratic, RowConstants, Rows16, SpeedOf, Spline, Spline16,
+    TorqueOf, terms,
 };
 #[cfg(feature = "micromath")]
 pub use format::{CrankCoefficient, STEEPEST, SliderCrankForm, crank_terms};

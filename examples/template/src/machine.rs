@@ -1,7 +1,7 @@
 //! Your machine and its drive: what to change first. Here it is the press of `machines/press.toml` behind a gearbox of 20.
 
 use jred::axis::{Counting, Encoder, Gearbox, Mounting};
-use jred::table::Format;
+use jred::table::{Format, MotorTorqueOf};
 use jred::{Image, Phase, Set, curves, include_image};
 
 /// The identifier of the machine that `jred export` prints: an image of another is refused.
@@ -16,7 +16,7 @@ pub type Layout = jred::Spline<f32>;
 pub type Layout = jred::Spline<jred::Q31>;
 /// A number of the tick, and a torque of the motor: with `Q31` a type that is no torque on the crank.
 pub type Number = <Layout as Format>::Number;
-pub type MotorTorque = <Number as jred::number::Number>::MotorTorque;
+pub type MotorTorque = MotorTorqueOf<Layout>;
 
 /// Words of the largest image: `jred export` prints the bytes, four a word.
 pub const WORDS: usize = 320;

@@ -219,6 +219,9 @@ pub type AccelerationOf<F> = <<F as Format>::Number as Number>::Acceleration;
 /// What a model of this format takes for a torque, and gives: `f32` of `f32`, [`Torque<Q31>`](crate::Torque) of `Q31`.
 pub type TorqueOf<F> = <<F as Format>::Number as Number>::Torque;
 
+/// A torque on the motor's shaft, behind a [`Transmission`](crate::axis::Transmission) of such a model: `f32` of `f32`, [`MotorTorque<Q31>`](crate::MotorTorque) of `Q31`.
+pub type MotorTorqueOf<F> = <<F as Format>::Number as Number>::MotorTorque;
+
 /// The bases of torque, speed and inertia in double precision.
 pub(crate) fn bases(scale: &Scale) -> [f64; 3] {
     [scale.torque(), scale.speed(), scale.inertia()].map(f64::from)
