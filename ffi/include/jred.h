@@ -93,7 +93,7 @@ jred_status jred_image_info(const uint32_t *words, size_t length, jred_info *inf
 /* ---- machine units ----------------------------------------------------------------------------------------------- */
 
 /* Fixed point is per unit: INT32_MAX, or INT16_MAX, is just below 1, the base. A number in units of a base of jred_info: JRED_OK, or
- * JRED_LIMITED if it did not fit. */
+ * JRED_LIMITED if it did not fit; of no number (NaN, or 0 of a base of 0) it is 0 and JRED_LIMITED. */
 jred_status jred_q31_from_si(float si, float base, int32_t *number);
 jred_status jred_q15_from_si(float si, float base, int16_t *number);
 /* And back. */
