@@ -325,7 +325,12 @@ mod command {
 
     #[unsafe(no_mangle)]
     #[inline(never)]
-    fn ramp_torque(model: &Model<Cubic<f32>, PRESS>, ramp: &Ramp<f32>, phase: Phase, omega: f32) -> f32 {
+    fn ramp_torque(
+        model: &Model<Cubic<f32>, PRESS>,
+        ramp: &Ramp<f32>,
+        phase: Phase,
+        omega: f32,
+    ) -> f32 {
         model.torque_with(phase, omega, 0.0, ramp.at(omega))
     }
 
