@@ -26,8 +26,8 @@ pub(crate) const DEFAULT_STEPS: f64 = 3e-6;
 pub(crate) const DEFAULT_PEAK: f64 = 3e-7;
 
 /// The torque where the cycle comes closest to the envelope, at any number of steps, against the nearest of 200 000 samples: it is not at
-/// an extreme, and moves by T′·h with the instant found [1.1e-6].
-pub(crate) const NEAREST_PEAK: f64 = 3e-6;
+/// an extreme, and moves by T′·h with the instant found [3.6e-6].
+pub(crate) const NEAREST_PEAK: f64 = 1e-5;
 
 /// Extremes at 200 000 steps, against the largest of the same number of samples, which lies up to T″·h²/8 lower [2.3e-8].
 pub(crate) const FINE_PEAK: f64 = 1e-6;

@@ -184,13 +184,17 @@ fn write_segments(motion: &MotionFindings, drive: Coordinate, text: &mut String)
     } else {
         format!(" of {}", motion.of)
     };
+    let advance = shown(drive.shown(motion.advance), drive.shown(1.0));
+    let way = if advance == "0" {
+        "comes back".to_owned()
+    } else {
+        format!("goes on by {advance} {}", drive.unit())
+    };
     let _ = writeln!(
         text,
-        "motion{of}: {} s{}; the drive link goes on by {} {}, at up to {} and {}",
+        "motion{of}: {} s{}; the drive link {way}, at up to {} and {}",
         short(motion.duration),
         if motion.cyclic { ", repeated" } else { "" },
-        shown(drive.shown(motion.advance), drive.shown(1.0)),
-        drive.unit(),
         rate(drive, motion.speed, ""),
         rate(drive, motion.acceleration, "^2")
     );
