@@ -283,3 +283,30 @@ pub(crate) const LOADS_FOUND: f64 = 1e-3;
 
 /// Rated power and power rate of a data sheet against its torque, speed and inertia, each rounded to two or three digits [3.8 % and 1.4 %].
 pub(crate) const DATA_SHEET_POWER: f64 = 0.05;
+
+/// Energy at the end of a steady turn against that at its start, as a share.
+pub(crate) const STEADY_RESIDUAL: f64 = 1e-12;
+
+/// The same with a load from a table of 1440 rows, at each of which its third derivative jumps: steps end here or there [1.6e-11].
+pub(crate) const STEADY_RESIDUAL_OF_TABLES: f64 = 1e-10;
+
+/// Energy balance of a steady turn as a share of the energy turned over.
+pub(crate) const STEADY_BALANCE: f64 = 1e-10;
+
+/// Figures of a steady cycle with a closed form; a residual of 1e-13 of the energy weighs more the less a turn damps.
+pub(crate) const STEADY: f64 = 1e-10;
+
+/// The same with a load from a table: a spline over steps of 0.25°.
+pub(crate) const STEADY_MADE: f64 = 1e-9;
+
+/// What is left of a deviation after a turn, from a difference quotient over ±1e-3: of the size of its square.
+pub(crate) const STEADY_LEFT_OVER: f64 = 1e-6;
+
+/// A start from rest, whose first 1e-10 of the energy goes with the acceleration at rest.
+pub(crate) const STEADY_START: f64 = 1e-6;
+
+/// A steady cycle against a simulation over the time at a tolerance of 1e-12.
+pub(crate) const STEADY_SIMULATED: f64 = 1e-9;
+
+/// δ with the flywheel found for it.
+pub(crate) const STEADY_FLYWHEEL: f64 = 1e-9;

@@ -17,6 +17,7 @@ mod reading;
 mod rules;
 mod simulate;
 mod spline;
+mod steady;
 mod supply;
 #[path = "../../support/mod.rs"]
 mod support;

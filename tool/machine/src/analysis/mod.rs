@@ -7,3 +7,4 @@ pub mod mechanics;
 pub mod reduce;
 pub mod repeats;
 pub mod simulate;
+pub mod steady;

@@ -4,10 +4,10 @@
 //! balance closes only if motion and reduction agree.
 
 mod error;
-mod machine;
-mod run;
+pub(super) mod machine;
+pub(super) mod run;
 mod variator;
-mod watch;
+pub(super) mod watch;
 
 pub use error::SimulationError;
 
@@ -27,20 +27,6 @@ pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Columns, 
             simulation,
         ),
         None => run::run(&machine::Plant::new(file, simulation), file, simulation),
-    }
-}
-
-/// Motor torque at a speed: straight lines between the points of the file, the end values beyond the ends.
-fn motor_torque(simulation: &Simulation, speed: f64) -> f64 {
-    let points = &simulation.torque;
-    let right = points.partition_point(|p| p.0 < speed);
-    match (
-        right.checked_sub(1).and_then(|k| points.get(k)),
-        points.get(right),
-    ) {
-        (Some(a), Some(b)) => a.1 + (b.1 - a.1) * (speed - a.0) / (b.0 - a.0),
-        (Some(only), None) | (None, Some(only)) => only.1,
-        (None, None) => 0.0,
     }
 }
 

@@ -4,6 +4,7 @@ use jred::machine::Mechanism as _;
 use jred::mechanism::Train;
 use jred::{Error, Machine, Reduction};
 
+use crate::model::characteristic::Characteristic;
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
 use crate::model::motion::Motion;
@@ -63,9 +64,8 @@ pub struct Simulation {
     pub duration: f64,
     /// Distance of the output points (s).
     pub output_step: f64,
-    /// (speed (rad/s), torque (N·m)) at `at`, speeds rising; one point means a constant torque. Between points
-    /// straight lines, beyond the ends the end's torque.
-    pub torque: Vec<(f64, f64)>,
+    /// Torque of the motor over the speed, both at `at`.
+    pub torque: Characteristic,
     /// Where the torque acts.
     pub at: Shaft,
     /// Inertia of the motor's rotor, at the motor shaft (kg·m²).
@@ -75,6 +75,20 @@ pub struct Simulation {
 }
 
 impl Simulation {
+    /// Where nothing but the motor is given: at the motor shaft, without a rotor, from 0 and from rest, for a second.
+    pub const fn of_motor(torque: Characteristic) -> Self {
+        Self {
+            start_angle: 0.0,
+            start_speed: 0.0,
+            duration: 1.0,
+            output_step: 0.01,
+            torque,
+            at: Shaft::Motor,
+            rotor_inertia: 0.0,
+            tolerance: 1e-10,
+        }
+    }
+
     /// Whether the motor drives a link that slides, without a stage that turns: its torque is then a force.
     pub fn drives_a_slide(&self, file: &MachineFile) -> bool {
         let coordinate = file.machine.mechanism().coordinate();

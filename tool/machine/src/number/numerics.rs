@@ -42,6 +42,50 @@ pub fn edge<E>(before: impl Fn(f64) -> Result<bool, E>, mut a: f64, mut b: f64) 
     Ok(a.midpoint(b))
 }
 
+/// The zero of `f` between `a` and `b`, where it has the values `fa` and `fb` of opposite signs, to `share` of its place: inverse
+/// quadratic interpolation, or halving where that is no good (T. R. Chandrupatla, Advances in Engineering Software 28, 1997).
+///
+/// # Errors
+/// Those of `f`.
+pub fn zero<E>(
+    f: impl Fn(f64) -> Result<f64, E>,
+    [mut a, mut b]: [f64; 2],
+    [mut fa, mut fb]: [f64; 2],
+    share: f64,
+) -> Result<f64, E> {
+    let mut t = 0.5;
+    for _ in 0..100 {
+        let x = a + t * (b - a);
+        let fx = f(x)?;
+        let (c, fc);
+        if (fx > 0.0) == (fa > 0.0) {
+            (c, fc) = (a, fa);
+        } else {
+            (c, fc) = (b, fb);
+            (b, fb) = (a, fa);
+        }
+        (a, fa) = (x, fx);
+        let (best, least) = if fa.abs() < fb.abs() {
+            (a, fa)
+        } else {
+            (b, fb)
+        };
+        let part = share * best.abs() / (b - a).abs();
+        if least == 0.0 || part > 0.5 {
+            return Ok(best);
+        }
+        let xi = (a - b) / (c - b);
+        let phi = (fa - fb) / (fc - fb);
+        t = if phi * phi < xi && (1.0 - phi).powi(2) < 1.0 - xi {
+            fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
+        } else {
+            0.5
+        };
+        t = t.clamp(part, 1.0 - part);
+    }
+    Ok(a)
+}
+
 /// The integral of `f` from `a` to `b` to about `tolerance`: Gauss and Legendre's rule with five points over `panels` equal
 /// parts, each halved where its two halves disagree, so that a jump or a bend of the curve is closed in.
 ///
@@ -155,6 +199,22 @@ mod tests {
         };
         sure(integral(noise, [0.0, 1.0], 4, 1e-15));
         assert!(calls.get() < 20 * MOST_HALVINGS + 200, "{}", calls.get());
+    }
+
+    /// A few evaluations for a smooth curve, and no more than halving takes for one that jumps.
+    #[test]
+    fn zeros() {
+        let calls = Cell::new(0u32);
+        let cubic = |x: f64| {
+            calls.set(calls.get() + 1);
+            Ok::<f64, Infallible>(x.powi(3) - 2.0)
+        };
+        let found = sure(zero(cubic, [1.0, 2.0], [-1.0, 6.0], 1e-15));
+        assert!((found - 2f64.cbrt()).abs() < 1e-15, "{found}");
+        assert!(calls.get() <= 12, "{}", calls.get());
+        let step = |x: f64| Ok::<f64, Infallible>(if x < 0.7 { 3.0 } else { -1e-9 });
+        let found = sure(zero(step, [0.0, 1.0], [3.0, -1e-9], 1e-15));
+        assert!((found - 0.7).abs() < 2e-15, "{found}");
     }
 
     #[test]

@@ -51,6 +51,14 @@ pub fn inertia_argument(text: &str) -> Result<f64, String> {
     positive(text, &INERTIA)
 }
 
+/// A torque of either sign, such as "20 N m" (N·m).
+///
+/// # Errors
+/// A message for the command line.
+pub fn torque_argument(text: &str) -> Result<f64, String> {
+    any(text, &TORQUE)
+}
+
 /// A mass greater than zero, such as "12 kg" (kg).
 ///
 /// # Errors

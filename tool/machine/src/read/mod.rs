@@ -29,7 +29,7 @@ mod variator;
 
 pub use argument::{
     Reader, drive_acceleration, drive_effort, drive_positions, drive_speed, inertia_argument,
-    largest_acceleration, largest_speed, mass_argument,
+    largest_acceleration, largest_speed, mass_argument, torque_argument,
 };
 pub use mechanism::mechanism_types;
 

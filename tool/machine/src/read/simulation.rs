@@ -2,15 +2,16 @@
 
 use jred::mechanism::Train;
 
+use crate::model::characteristic::Characteristic;
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::{Shaft, Simulation};
 
 use super::drive_link::DriveLink;
 use crate::number::rounding::figure;
-use crate::text::item::Item;
+use crate::text::item::{Item, Value};
 use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
-use crate::units::kind::{INERTIA, MASS, TIME};
+use crate::units::kind::{ANGULAR_SPEED, INERTIA, MASS, SHARE, TIME, TORQUE};
 
 /// The most output points of a simulation.
 const MAX_STEPS: f64 = 100_000.0;
@@ -134,36 +135,108 @@ fn start(section: &Section, drive: DriveLink) -> Result<f64> {
     Ok(start.si)
 }
 
-/// The torque or force as points over speed.
+/// The torque or force over the speed.
 fn effort(
     section: &Section,
     [key, curve_key]: [&'static str; 2],
     drive: DriveLink,
     [speed, most]: [&str; 2],
-) -> Result<Vec<(f64, f64)>> {
+) -> Result<Characteristic> {
     let no_speed = format!("0 {}", drive.speed().unit);
     let no_effort = format!("0 {}", drive.effort().unit);
     let example = format!("[[\"{no_speed}\", \"{most}\"], [\"{speed}\", \"{no_effort}\"]]");
-    match (section.get(key), section.get(curve_key)) {
-        (Some(constant), None) => Ok(vec![(0.0, constant.quantity(drive.effort())?.si)]),
-        (None, Some(curve)) => points(&curve, drive, &example),
-        (Some(constant), Some(curve)) => Err(Problem::new(format!(
-            "[simulation] has both `{key}` and `{curve_key}`"
-        ))
-        .at(constant.key_span(), format!("a constant {key}"))
-        .at(
-            curve.key_span(),
-            format!("a {key} that depends on the speed"),
-        )
-        .help("keep one of them")),
-        (None, None) => Err(section.missing(
+    // A motor by its formula turns.
+    let formulas: &[&'static str] = if drive.slides() {
+        &[]
+    } else {
+        &["dc_motor", "induction_motor"]
+    };
+    let keys = [key, curve_key].into_iter().chain(formulas.iter().copied());
+    let given: Vec<(&str, Item)> = keys
+        .filter_map(|key| Some((key, section.get(key)?)))
+        .collect();
+    match given.as_slice() {
+        [] => Err(section.missing(
             key,
             &format!(
                 "{key} = \"{}\", or {curve_key} = {example}",
                 drive.effort().example
             ),
         )),
+        [(found, item)] => match *found {
+            "dc_motor" => dc_motor(item),
+            "induction_motor" => induction_motor(item),
+            found if found == key => {
+                Ok(Characteristic::constant(item.quantity(drive.effort())?.si))
+            }
+            _ => Ok(Characteristic::Points(points(item, drive, &example)?)),
+        },
+        [(first, one), (second, other), ..] => {
+            let label = |found: &str| {
+                if found == key {
+                    format!("a constant {key}")
+                } else {
+                    format!("a {key} that depends on the speed")
+                }
+            };
+            Err(
+                Problem::new(format!("[simulation] has both `{first}` and `{second}`"))
+                    .at(one.key_span(), label(first))
+                    .at(other.key_span(), label(second))
+                    .help("keep one of them"),
+            )
+        }
     }
+}
+
+/// The line of a DC motor.
+fn dc_motor(item: &Item) -> Result<Characteristic> {
+    let section = item.section("[simulation.dc_motor]".into())?;
+    let speed = section.quantity("no_load_speed", &ANGULAR_SPEED)?;
+    let torque = section.quantity("stall_torque", &TORQUE)?;
+    section.finish()?;
+    same_way(&speed, &torque)?;
+    Ok(Characteristic::Dc {
+        no_load_speed: speed.si,
+        stall_torque: torque.si,
+    })
+}
+
+/// An induction motor by Kloss' formula.
+fn induction_motor(item: &Item) -> Result<Characteristic> {
+    let section = item.section("[simulation.induction_motor]".into())?;
+    let speed = section.quantity("synchronous_speed", &ANGULAR_SPEED)?;
+    let torque = section.quantity("breakdown_torque", &TORQUE)?;
+    let slip = section.quantity("breakdown_slip", &SHARE)?;
+    section.finish()?;
+    same_way(&speed, &torque)?;
+    if !(slip.si > 0.0 && slip.si <= 1.0) {
+        let what = format!("is {}, but must be above 0 % and up to 100 %", slip.shown());
+        return Err(slip
+            .problem(&what, "no slip of breakdown")
+            .help("10 % to 40 % is usual, such as breakdown_slip = \"20 %\""));
+    }
+    Ok(Characteristic::Induction {
+        breakdown_torque: torque.si,
+        breakdown_slip: slip.si,
+        synchronous_speed: speed.si,
+    })
+}
+
+/// Refuses a motor whose torque does not drive it towards its own speed.
+fn same_way(speed: &Value, torque: &Value) -> Result<()> {
+    if speed.si * torque.si > 0.0 {
+        return Ok(());
+    }
+    let what = format!(
+        "is {} with a speed of {}: they must have the same sign and not be zero",
+        torque.shown(),
+        speed.shown()
+    );
+    Err(torque
+        .problem(&what, "torque")
+        .at(speed.span(), "speed")
+        .help("give both positive; both negative for a motor that runs backwards"))
 }
 
 fn points(curve: &Item, drive: DriveLink, example: &str) -> Result<Vec<(f64, f64)>> {

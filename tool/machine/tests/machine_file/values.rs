@@ -6,6 +6,7 @@ use std::path::Path;
 use jred::Domain;
 use jred::machine::{Action, Load, Mechanism, Window};
 use jred::mechanism::Train;
+use jred_machine::model::characteristic::Characteristic;
 use jred_machine::model::machine::Shaft;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
@@ -85,9 +86,12 @@ fn the_press_is_read_in_si_units() {
     close(simulation.start_angle, PI);
     close(simulation.duration, 1.5);
     close(simulation.output_step, 0.005);
-    assert_eq!(simulation.torque.len(), 3);
-    close(simulation.torque[1].0, 50.0 * PI);
-    close(simulation.torque[1].1, 10.0);
+    let Characteristic::Points(points) = &simulation.torque else {
+        panic!("{:?}", simulation.torque);
+    };
+    assert_eq!(points.len(), 3);
+    close(points[1].0, 50.0 * PI);
+    close(points[1].1, 10.0);
     assert_eq!(simulation.at, Shaft::Motor);
     close(simulation.rotor_inertia, 0.0012);
     close(simulation.tolerance, 1e-10);
@@ -108,7 +112,7 @@ fn a_gear_train_with_every_optional_key_is_read() {
     assert!(!motion.cyclic);
     close(motion.at(0.6).phi, PI);
     let simulation = file.simulation.unwrap();
-    assert_eq!(simulation.torque, [(0.0, 2.5)]);
+    assert_eq!(simulation.torque, Characteristic::constant(2.5));
     assert_eq!(simulation.at, Shaft::DriveLink);
     close(limit(&file.rules, Rule::RmsTorque), 0.7);
     close(limit(&file.rules, Rule::PeakTorque), 0.75);

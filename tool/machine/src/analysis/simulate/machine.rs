@@ -4,31 +4,32 @@ use jred::Error;
 use jred::mechanism::TrainOutput;
 
 use super::run::{self, Row};
-use super::{SimulationError, motor_torque, newton};
+use super::{SimulationError, newton};
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::{MachineFile, Shaft, Simulation};
 use crate::number::columns::{Column, Quantity};
 
 /// φ, ω, work of the motor, work of the process loads, losses.
-type State = [f64; 5];
+pub(in crate::analysis) type State = [f64; 5];
 
 /// The machine with its drive and motor torque.
-pub(super) struct Plant<'a> {
+pub(in crate::analysis) struct Plant<'a> {
     file: &'a MachineFile,
     simulation: &'a Simulation,
     coordinate: Coordinate,
 }
 
 /// Derivatives and forces at one state.
-struct Instant {
-    alpha: f64,
-    motor_power: f64,
-    process_power: f64,
-    loss: f64,
+pub(in crate::analysis) struct Instant {
+    pub(in crate::analysis) alpha: f64,
+    pub(in crate::analysis) motor_torque: f64,
+    pub(in crate::analysis) motor_power: f64,
+    pub(in crate::analysis) process_power: f64,
+    pub(in crate::analysis) loss: f64,
 }
 
 impl<'a> Plant<'a> {
-    pub(super) fn new(file: &'a MachineFile, simulation: &'a Simulation) -> Self {
+    pub(in crate::analysis) fn new(file: &'a MachineFile, simulation: &'a Simulation) -> Self {
         Self {
             file,
             simulation,
@@ -36,20 +37,67 @@ impl<'a> Plant<'a> {
         }
     }
 
+    /// Speed of the shaft at which the motor torque acts, per speed of the drive link.
+    pub(in crate::analysis) fn ratio(&self) -> f64 {
+        match self.simulation.at {
+            Shaft::Motor => self.file.drive_train.ratio(),
+            Shaft::DriveLink => 1.0,
+        }
+    }
+
     /// Motor torque, and the speed of the shaft at which it acts.
-    fn motor(&self, omega: f64) -> [f64; 2] {
-        let speed = match self.simulation.at {
-            Shaft::Motor => omega * self.file.drive_train.ratio(),
-            Shaft::DriveLink => omega,
-        };
-        [motor_torque(self.simulation, speed), speed]
+    pub(in crate::analysis) fn motor(&self, omega: f64) -> [f64; 2] {
+        let speed = omega * self.ratio();
+        [self.simulation.torque.torque(speed), speed]
+    }
+
+    /// Speeds of that shaft at which the motor's characteristic changes.
+    pub(in crate::analysis) fn marks(&self) -> Vec<f64> {
+        self.simulation.torque.marks()
+    }
+
+    /// The motor torque that keeps the speed `omega` at the position `phi`.
+    pub(in crate::analysis) fn keeping(
+        &self,
+        direction: f64,
+        [phi, omega]: [f64; 2],
+    ) -> Result<f64, Error> {
+        let point = self.file.machine.bare_reduction(phi)?;
+        let load = point.load_torque() - point.viscous * omega - point.coulomb * direction;
+        let torque = 0.5 * point.inertia_slope * omega * omega - load;
+        Ok(match self.simulation.at {
+            Shaft::DriveLink => torque,
+            Shaft::Motor => {
+                let output = TrainOutput {
+                    torque,
+                    omega,
+                    direction,
+                    ..TrainOutput::default()
+                };
+                self.file.drive_train.input(&output).torque
+            }
+        })
+    }
+
+    /// Inertia of the machine at `phi`, of the drive train and of the rotor, all at the drive link; and the potential energy.
+    pub(in crate::analysis) fn inertia(&self, phi: f64) -> Result<[f64; 2], Error> {
+        let point = self.file.machine.bare_reduction(phi)?;
+        // The rotor and the drive train turn with the drive link.
+        let train = &self.file.drive_train;
+        let ratio = train.ratio();
+        let drive = (train.inertia_at_input() + self.simulation.rotor_inertia) * ratio * ratio;
+        Ok([point.inertia + drive, point.potential_energy])
     }
 
     /// The acceleration that solves the equation of motion through the losses of the drive train.
     ///
     /// The torque that the motor must give is piecewise linear and monotone in α (each stage's efficiency changes
     /// sides with its power), so Newton's method ends after a few steps.
-    fn instant(&self, direction: f64, [phi, omega, ..]: &State) -> Result<Instant, Error> {
+    pub(in crate::analysis) fn instant(
+        &self,
+        direction: f64,
+        [phi, omega, ..]: &State,
+    ) -> Result<Instant, Error> {
         let omega = *omega;
         let point = self.file.machine.bare_reduction(*phi)?;
         let load = point.load_torque() - point.viscous * omega - point.coulomb * direction;
@@ -81,6 +129,7 @@ impl<'a> Plant<'a> {
         });
         Ok(Instant {
             alpha,
+            motor_torque: torque,
             motor_power: torque * speed,
             process_power: point.process * omega,
             loss: loss + (point.viscous * omega + point.coulomb * direction) * omega,
@@ -152,22 +201,17 @@ impl run::Plant<5> for Plant<'_> {
 
     fn row(&self, direction: f64, t: f64, y: &State) -> Result<Row, Error> {
         let [phi, omega, ..] = *y;
-        let point = self.file.machine.bare_reduction(phi)?;
+        let [inertia, potential] = self.inertia(phi)?;
         let alpha = if direction == 0.0 {
             0.0
         } else {
             self.alpha(direction, t, y)?
         };
-        // The rotor and the drive train turn with the drive link.
-        let train = &self.file.drive_train;
-        let ratio = train.ratio();
-        let drive = (train.inertia_at_input() + self.simulation.rotor_inertia) * ratio * ratio;
-        let inertia = point.inertia + drive;
         let [torque, _] = self.motor(omega);
         Ok(Row {
             figures: vec![self.coordinate.shown(phi), omega, alpha, torque, inertia],
             kinetic: 0.5 * inertia * omega * omega,
-            potential: point.potential_energy,
+            potential,
         })
     }
 }

@@ -19,7 +19,7 @@ const HAIR: f64 = 1e-12;
 /// of the motor, the work of the process loads, and the losses (J).
 ///
 /// `direction` is the one of the drive link, which friction opposes: +1, −1, or 0 where friction holds it.
-pub(super) trait Plant<const N: usize> {
+pub(in crate::analysis) trait Plant<const N: usize> {
     /// The state at the start.
     fn start(&self) -> Result<[f64; N], Error>;
 
@@ -49,12 +49,41 @@ pub(super) trait Plant<const N: usize> {
 }
 
 /// What is written about a state, without the time and the columns of energies.
-pub(super) struct Row {
-    pub(super) figures: Vec<f64>,
+pub(in crate::analysis) struct Row {
+    pub(in crate::analysis) figures: Vec<f64>,
     /// (J)
-    pub(super) kinetic: f64,
+    pub(in crate::analysis) kinetic: f64,
     /// (J)
-    pub(super) potential: f64,
+    pub(in crate::analysis) potential: f64,
+}
+
+/// The columns of a motion: the time, the `figures` of a [`Row`], energies and their balance.
+pub(in crate::analysis) fn heads(figures: Vec<Column>) -> impl Iterator<Item = Column> {
+    let energies = [
+        "kinetic energy",
+        "potential energy",
+        "motor work",
+        "process work",
+        "losses",
+    ]
+    .map(|name| Column::new(Quantity::Energy, name, "J"));
+    let balance = Column::new(Quantity::EnergyBalance, "energy balance", "J");
+    let time = std::iter::once(Column::new(Quantity::Time, "t", "s"));
+    time.chain(figures).chain(energies).chain([balance])
+}
+
+/// A row of these columns at the time `t`, with the work of the motor, of the process loads, and the losses since a start with
+/// the energy `start`; and the balance.
+pub(in crate::analysis) fn cells(
+    t: f64,
+    row: Row,
+    [motor, process, losses]: [f64; 3],
+    start: f64,
+) -> (impl Iterator<Item = f64>, f64) {
+    let balance = row.kinetic + row.potential - start - motor - process + losses;
+    let energies = [row.kinetic, row.potential, motor, process, losses, balance];
+    let cells = std::iter::once(t).chain(row.figures).chain(energies);
+    (cells, balance)
 }
 
 /// Runs a simulation.
@@ -76,18 +105,7 @@ pub(super) fn run<const N: usize>(
     let mut y = plant.start()?;
     run.direction = run.heading(&y)?;
     run.watch.check(run.at(0.0, &y)?)?;
-    let energies = [
-        "kinetic energy",
-        "potential energy",
-        "motor work",
-        "process work",
-        "losses",
-    ]
-    .map(|name| Column::new(Quantity::Energy, name, "J"));
-    let balance = Column::new(Quantity::EnergyBalance, "energy balance", "J");
-    let time = std::iter::once(Column::new(Quantity::Time, "t", "s"));
-    let heads = time.chain(plant.heads()).chain(energies).chain([balance]);
-    let mut columns = Columns::new(heads);
+    let mut columns = Columns::new(heads(plant.heads()));
     let steps = (simulation.duration / simulation.output_step)
         .round()
         .max(1.0) as usize;
@@ -103,10 +121,8 @@ pub(super) fn run<const N: usize>(
         let row = plant.row(run.direction, t, &y)?;
         let energy = row.kinetic + row.potential;
         let start = *start_energy.get_or_insert(energy);
-        let [motor, process, losses] = std::array::from_fn(|i| y[N - 3 + i]);
-        let balance = energy - start - motor - process + losses;
-        let energies = [row.kinetic, row.potential, motor, process, losses, balance];
-        columns.push([t].into_iter().chain(row.figures).chain(energies));
+        let works = std::array::from_fn(|i| y[N - 3 + i]);
+        columns.push(cells(t, row, works, start).0);
     }
     Ok(columns)
 }

@@ -6,7 +6,7 @@ use jred::friction::{Contact, OperatingPoint, Stage};
 use jred::mechanism::TrainOutput;
 
 use super::run::{self, Row};
-use super::{SimulationError, motor_torque, newton};
+use super::{SimulationError, newton};
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::{MachineFile, Shaft, Simulation};
 use crate::model::variator::{Slip, Variator};
@@ -119,7 +119,7 @@ impl<'a> Plant<'a> {
             Shaft::Motor => y[1],
             Shaft::DriveLink => omega,
         };
-        let torque = motor_torque(self.simulation, speed);
+        let torque = self.simulation.torque.torque(speed);
         let (at_motor, at_link) = match self.simulation.at {
             Shaft::Motor => (torque, 0.0),
             Shaft::DriveLink => (0.0, torque),

@@ -1,0 +1,239 @@
+//! The steady cycle: the fixed point of a turn.
+
+use std::f64::consts::TAU;
+
+use super::figures::Figures;
+use super::start::Start;
+use super::turn::{Reached, Turning};
+use super::{SteadyError, speed, torque};
+use crate::number::numerics;
+use crate::number::rounding::short;
+
+/// Speeds of the drive link that are looked at (rad/s).
+const FASTEST: f64 = 1e5;
+const SLOWEST: f64 = 1e-3;
+
+/// From one speed to the next one.
+const STEP: f64 = 1.25;
+
+/// The most turns in which a machine is followed to its standstill.
+const MOST_TURNS: u32 = 2000;
+
+/// A hair of speed (rad/s), on the side of the motion.
+const HAIR: f64 = 1e-12;
+
+/// The motion that repeats with every turn.
+#[derive(Debug)]
+pub struct Cycle {
+    /// Its figures and its course.
+    pub figures: Figures,
+    /// What is left of a small deviation of the energy after a turn, as a share: below 1 the cycle is stable.
+    pub left_over: f64,
+    /// |E(2π) − E(0)|/E(0).
+    pub residual: f64,
+    /// The lowest speed at the start of a turn from which the machine comes to this cycle (rad/s); `None`: from every one.
+    pub caught_from: Option<f64>,
+    /// How it starts from rest.
+    pub start: Start,
+}
+
+impl Cycle {
+    /// The cycle with the highest speed, if there are several: it is the stable one.
+    pub(super) fn of(turning: &Turning, positions: usize) -> Result<Self, SteadyError> {
+        match search(turning)? {
+            Found::Cycle(begin) => Self::at(turning, begin, positions),
+            Found::Loses(from) => Err(standstill(turning, from)?),
+        }
+    }
+
+    /// The cycle that begins with this speed.
+    pub(super) fn at(turning: &Turning, begin: f64, positions: usize) -> Result<Self, SteadyError> {
+        let figures = Figures::of(turning, begin, positions)?;
+        figures.check_contacts(turning)?;
+        // E(2π) from a share of E(0), both as shares of the cycle's.
+        let energy = |share: f64| -> Result<f64, SteadyError> {
+            Ok(share * (1.0 + turning.rise(begin * share.sqrt())?))
+        };
+        let bit = 1e-3;
+        Ok(Self {
+            left_over: (energy(1.0 + bit)? - energy(1.0 - bit)?) / (2.0 * bit),
+            residual: turning.rise(begin)?.abs(),
+            caught_from: caught_from(turning, begin)?,
+            start: Start::of(turning, &figures)?,
+            figures,
+        })
+    }
+}
+
+/// The speeds to look at, falling, with those at which the motor's characteristic changes and some on either side of them.
+fn speeds(turning: &Turning) -> Vec<f64> {
+    let ratio = turning.plant.ratio() * turning.direction;
+    let marks = turning.plant.marks().into_iter().map(|mark| mark / ratio);
+    let mut marks: Vec<f64> = marks.filter(|m| (SLOWEST..FASTEST).contains(m)).collect();
+    marks.sort_by(f64::total_cmp);
+    let middles = marks.windows(2).map(|pair| pair[0].midpoint(pair[1]));
+    let around = marks
+        .iter()
+        .flat_map(|m| [0.96 * m, 0.99 * m, *m, 1.01 * m]);
+    let count = ((FASTEST / SLOWEST).ln() / STEP.ln()) as i32;
+    let grid = (0..=count).map(|k| FASTEST / STEP.powi(k));
+    let mut all: Vec<f64> = grid.chain(middles).chain(around).collect();
+    all.sort_by(|a, b| b.total_cmp(a));
+    all
+}
+
+/// What a search for the fixed point finds.
+pub(super) enum Found {
+    /// The speed at the start of the turn (rad/s) with which it also ends.
+    Cycle(f64),
+    /// At every speed a turn loses energy; this is the lowest one at which the machine still comes round.
+    Loses(f64),
+}
+
+/// The fixed point with the highest speed.
+fn search(turning: &Turning) -> Result<Found, SteadyError> {
+    let speeds = speeds(turning);
+    let mut above = None;
+    let mut best: Option<(usize, f64)> = None;
+    let mut comes_round = FASTEST;
+    for (k, &at) in speeds.iter().enumerate() {
+        let gain = turning.gain(at)?;
+        match above {
+            None if gain > 0.0 => {
+                let [inertia, _] = turning.plant.inertia(turning.at(0.0))?;
+                return Err(SteadyError::Surplus {
+                    speed: speed(at),
+                    surplus: short(gain * 0.5 * inertia * at * at),
+                });
+            }
+            Some((speed, lost)) if gain > 0.0 => {
+                return between(turning, [at, speed], [gain, lost]).map(Found::Cycle);
+            }
+            _ => {}
+        }
+        if gain > -1.0 {
+            comes_round = at;
+            let energy = gain * at * at;
+            if best.is_none_or(|(_, most)| energy > most) {
+                best = Some((k, energy));
+            }
+        }
+        above = Some((at, gain));
+    }
+    // A narrow range of speeds with a surplus may lie between two that were looked at.
+    if let Some((k, _)) = best {
+        let [fast, slow] = [k.saturating_sub(1), (k + 1).min(speeds.len() - 1)].map(|k| speeds[k]);
+        let found = numerics::least(|at| Ok::<_, SteadyError>(-turning.gain(at)?), slow, fast)?;
+        let gain = turning.gain(found)?;
+        if gain > 0.0 {
+            let gains = [gain, turning.gain(fast)?];
+            return between(turning, [found, fast], gains).map(Found::Cycle);
+        }
+    }
+    Ok(Found::Loses(comes_round))
+}
+
+/// The speed in [low, high] with which a turn ends as it began, with a gain at the low one and a loss at the high one.
+fn between(turning: &Turning, ends: [f64; 2], gains: [f64; 2]) -> Result<f64, SteadyError> {
+    if gains[1] == 0.0 {
+        return Err(SteadyError::Indifferent {
+            speed: speed(turning.direction * ends[1]),
+        });
+    }
+    let rises = [turning.rise(ends[0])?, turning.rise(ends[1])?];
+    if rises[0] > 0.0 && rises[1] < 0.0 {
+        numerics::zero(|at| turning.rise(at), ends, rises, 1e-15)
+    } else {
+        // The work of a turn is lost in the digits of the energy.
+        numerics::zero(|at| turning.gain(at), ends, gains, 1e-15)
+    }
+}
+
+/// The fixed point near `guess`, else wherever it is.
+pub(super) fn near(turning: &Turning, guess: Option<f64>) -> Result<Found, SteadyError> {
+    if let Some(guess) = guess {
+        let ends = [guess / 1.1, guess * 1.1];
+        let gains = [turning.gain(ends[0])?, turning.gain(ends[1])?];
+        if gains[0] > 0.0 && gains[1] < 0.0 {
+            return between(turning, ends, gains).map(Found::Cycle);
+        }
+    }
+    search(turning)
+}
+
+/// The lowest speed at the start of a turn from which the machine gains up to this cycle.
+fn caught_from(turning: &Turning, begin: f64) -> Result<Option<f64>, SteadyError> {
+    let mut gains = begin;
+    while gains > 1e-3 * begin {
+        let next = gains / STEP;
+        if turning.gain(next)? <= 0.0 {
+            let (mut low, mut high) = (next, gains);
+            while high - low > 1e-7 * high {
+                let middle = low.midpoint(high);
+                if turning.gain(middle)? > 0.0 {
+                    high = middle;
+                } else {
+                    low = middle;
+                }
+            }
+            return Ok(Some(high));
+        }
+        gains = next;
+    }
+    Ok(None)
+}
+
+/// Follows a machine that loses speed with every turn to where it stops.
+pub(super) fn standstill(turning: &Turning, from: f64) -> Result<SteadyError, SteadyError> {
+    let mut now = from;
+    for _ in 0..MOST_TURNS {
+        match turning.turn(now)? {
+            Reached::Stopped(x) => return stuck(turning, x),
+            Reached::End([z, ..]) => now = (2.0 * z).sqrt(),
+        }
+        if now < SLOWEST {
+            break;
+        }
+    }
+    Ok(SteadyError::Dying {
+        speed: speed(turning.direction * now),
+    })
+}
+
+/// What is missing at the place where the machine stopped.
+fn stuck(turning: &Turning, x: f64) -> Result<SteadyError, SteadyError> {
+    let missing = Missing::at(turning, x)?;
+    Ok(SteadyError::Stuck {
+        place: missing.place,
+        given: torque(missing.given),
+        needed: torque(missing.needed),
+        missing: torque((missing.needed - missing.given).abs()),
+    })
+}
+
+/// A place where the motor is too weak to start or keep the machine moving.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Missing {
+    /// The place in words.
+    pub place: String,
+    /// Position there (rad, from 0 to 2π).
+    pub phi: f64,
+    /// Motor torque at rest (N·m).
+    pub given: f64,
+    /// Motor torque that the loads need there (N·m).
+    pub needed: f64,
+}
+
+impl Missing {
+    pub(super) fn at(turning: &Turning, x: f64) -> Result<Self, SteadyError> {
+        let phi = turning.at(x).rem_euclid(TAU);
+        let state = [phi, turning.direction * HAIR];
+        let coordinate = turning.file.machine.mechanism().coordinate();
+        Ok(Self {
+            place: coordinate.place(phi),
+            phi,
+            given: turning.plant.motor(0.0)[0],
+            needed: turning.plant.keeping(turning.direction, state)?,
+        })
+    }
+}

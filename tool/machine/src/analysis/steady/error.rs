@@ -1,0 +1,128 @@
+//! Why a machine has no steady cycle.
+
+use jred::Error;
+
+use crate::analysis::simulate::SimulationError;
+
+/// Why a machine has no steady cycle, or no flywheel for a fluctuation.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+pub enum SteadyError {
+    /// The machine cannot be placed.
+    #[error("{error}; {cure}", error = .0, cure = .0.cure())]
+    Machine(Error),
+    /// The drive link has a stroke.
+    #[error("the drive link moves on a stroke, {range}: it has no steady cycle of whole turns")]
+    #[diagnostic(help(
+        "a steady cycle is that of a drive link that turns round and round; use `jred simulate` for the motion on a stroke"
+    ))]
+    Stroke {
+        /// The stroke in words.
+        range: String,
+    },
+    /// There is no motor.
+    #[error("the motor gives no torque at rest, nor at any other speed of its characteristic")]
+    #[diagnostic(help(
+        "give a torque other than zero: --torque \"20 N m\", or torque, torque_speed, dc_motor or induction_motor in [simulation]"
+    ))]
+    NoTorque,
+    /// The motor drives the other way.
+    #[error(
+        "the motor torque at rest, {torque}, drives the drive link against its start_speed, {speed}"
+    )]
+    #[diagnostic(help(
+        "change the sign of the torque or of start_speed, or remove start_speed: the machine then turns the way the motor drives it"
+    ))]
+    WrongSign {
+        /// Torque of the motor at rest.
+        torque: String,
+        /// The speed of the file.
+        speed: String,
+    },
+    /// The machine wins energy in each turn at every speed.
+    #[error(
+        "there is no steady cycle: motor and loads have a surplus at every speed; at {speed} still {surplus} J a turn, so that \
+         the machine runs away"
+    )]
+    #[diagnostic(help(
+        "use a torque that falls with the speed (torque_speed, dc_motor or induction_motor in [simulation]), or add the friction \
+         of the machine as a load, such as viscous_moment"
+    ))]
+    Surplus {
+        /// The highest speed looked at.
+        speed: String,
+        /// Energy won in a turn there (J).
+        surplus: String,
+    },
+    /// Nothing changes the speed.
+    #[error(
+        "there is no single steady cycle: at {speed} motor, loads and losses do no work in a turn, so that the machine keeps every \
+         speed from there on"
+    )]
+    #[diagnostic(help(
+        "add the friction of the machine as a load, such as viscous_moment or opposing_moment"
+    ))]
+    Indifferent {
+        /// The speed.
+        speed: String,
+    },
+    /// The machine stops.
+    #[error(
+        "there is no steady cycle: the motor cannot keep the machine turning. It comes to rest at {place}, where the motor gives \
+         {given} and {needed} would be needed: {missing} are missing"
+    )]
+    #[diagnostic(help(
+        "use a stronger motor or a higher ratio, or a flywheel that carries the machine over this position: --delta gives its \
+         inertia, as far as the motor covers the work of a turn"
+    ))]
+    Stuck {
+        /// Where it comes to rest.
+        place: String,
+        /// Motor torque there.
+        given: String,
+        /// Motor torque needed there.
+        needed: String,
+        /// Their difference.
+        missing: String,
+    },
+    /// The speed sinks without end.
+    #[error("there is no steady cycle: the speed falls from turn to turn, below {speed}")]
+    #[diagnostic(help("use a stronger motor, or less load"))]
+    Dying {
+        /// The lowest speed looked at.
+        speed: String,
+    },
+    /// No flywheel smooths the motion as asked.
+    #[error("no flywheel up to {inertia} kg m^2 makes the fluctuation δ = {delta}: {why}")]
+    #[diagnostic(help("use a motor that covers the work of a turn, or another --delta"))]
+    NoFlywheel {
+        /// The fluctuation asked for.
+        delta: String,
+        /// The largest inertia tried.
+        inertia: String,
+        /// What happens with it.
+        why: String,
+    },
+    /// The integrator gave up.
+    #[error("one turn of the machine needs too many integration steps")]
+    #[diagnostic(help(
+        "the machine follows its motor almost at once: give rotor_inertia in [simulation], or a characteristic that is less steep"
+    ))]
+    Integrator,
+    /// A contact separates in the steady cycle.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Parted(SimulationError),
+}
+
+impl<E: Into<Error>> From<E> for SteadyError {
+    fn from(error: E) -> Self {
+        Self::Machine(error.into())
+    }
+}
+
+impl SteadyError {
+    /// Whether more inertia may help.
+    pub(super) const fn is_standstill(&self) -> bool {
+        matches!(self, Self::Stuck { .. } | Self::Dying { .. })
+    }
+}

@@ -1,0 +1,206 @@
+//! The course of a steady cycle and its figures.
+
+use std::f64::consts::TAU;
+
+use super::SteadyError;
+use super::turn::{Reached, State, Turning, starting};
+use crate::analysis::simulate::run::{Plant as _, cells, heads};
+use crate::analysis::simulate::watch::{At, Watch};
+use crate::number::columns::Columns;
+use crate::number::numerics;
+
+/// The fewest positions over a turn at which the motion is looked at.
+const FEWEST: usize = 360;
+
+/// Speeds at which the motor's characteristic is looked at.
+const SPEEDS: u32 = 256;
+
+/// A turn of the steady motion.
+#[derive(Clone, Debug)]
+pub struct Figures {
+    /// Speed at the start of the turn (rad/s), by magnitude.
+    pub begin: f64,
+    /// Duration of a turn (s).
+    pub period: f64,
+    /// Mean over the time, 2π/period (rad/s); negative: the drive link turns clockwise.
+    pub mean_speed: f64,
+    /// Largest and smallest speed (rad/s), by magnitude, each with its position (rad).
+    pub fastest: [f64; 2],
+    /// See `fastest`.
+    pub slowest: [f64; 2],
+    /// δ = (ω_max − ω_min)/ω_mean with the mean over the time.
+    pub delta: f64,
+    /// The same with the mean (ω_max + ω_min)/2.
+    pub delta_of_extremes: f64,
+    /// Mean, RMS and largest magnitude of the motor torque over the time (N·m).
+    pub torque: [f64; 3],
+    /// Mean and largest power of the motor (W).
+    pub power: [f64; 2],
+    /// Mean speed of the motor (rad/s).
+    pub motor_speed: f64,
+    /// Work of the motor, of the process loads, and losses in a turn (J).
+    pub works: [f64; 3],
+    /// The largest energy balance as a share of the energy turned over.
+    pub imbalance: f64,
+    /// The course over the time.
+    pub course: Columns,
+    /// z = ½ω² at equal positions over the turn.
+    pub(super) nodes: Vec<(f64, State)>,
+}
+
+impl Figures {
+    /// The turn that begins with the speed `begin`, with at least `positions` rows.
+    pub(super) fn of(turning: &Turning, begin: f64, positions: usize) -> Result<Self, SteadyError> {
+        let finer = FEWEST.div_ceil(positions);
+        let places = turning.places(positions * finer);
+        let mut nodes: Vec<(f64, State)> = Vec::with_capacity(places.len());
+        let mut listed = Vec::new();
+        let mut even = 0usize;
+        for (x, part) in places {
+            let y = match nodes.last() {
+                None => starting(begin),
+                Some((before, y)) => match turning.advance(*y, [*before, x], begin)? {
+                    Reached::End(y) => y,
+                    // A fixed point that stops by a hair is none.
+                    Reached::Stopped(_) => return Err(SteadyError::Integrator),
+                },
+            };
+            if part {
+                if even.is_multiple_of(finer) {
+                    listed.push(nodes.len());
+                }
+                even += 1;
+            }
+            nodes.push((x, y));
+        }
+        let fastest = extreme(turning, &nodes, begin, 1.0)?;
+        let slowest = extreme(turning, &nodes, begin, -1.0)?;
+        let Some((_, [_, period, motor, process, losses, torques, squares])) =
+            nodes.last().copied()
+        else {
+            return Err(SteadyError::Integrator);
+        };
+        let plant = &turning.plant;
+        let mean = TAU / period;
+        let motor_speed = mean * turning.direction * plant.ratio();
+        let span = [slowest[0], fastest[0]];
+        let torque = |omega: f64| plant.motor(turning.direction * omega)[0];
+        let power = |omega: f64| {
+            let [torque, speed] = plant.motor(turning.direction * omega);
+            torque * speed
+        };
+        let mut course = Columns::new(heads(plant.heads()));
+        let mut start = None;
+        let (mut imbalance, mut turned_over) = (0.0f64, 0.0f64);
+        for (_, (x, y)) in nodes.iter().enumerate().filter(|(k, _)| listed.contains(k)) {
+            let omega = turning.direction * (2.0 * y[0]).sqrt();
+            let state = [turning.at(*x), omega, y[2], y[3], y[4]];
+            let row = plant.row(turning.direction, y[1], &state)?;
+            turned_over = turned_over.max(row.kinetic);
+            let start = *start.get_or_insert(row.kinetic + row.potential);
+            let (cells, balance) = cells(y[1], row, [y[2], y[3], y[4]], start);
+            imbalance = imbalance.max(balance.abs());
+            course.push(cells);
+        }
+        turned_over = [motor, process, losses]
+            .iter()
+            .fold(turned_over, |most, work| most.max(work.abs()));
+        let torque_time = |f: &dyn Fn(f64) -> f64| largest(f, span);
+        Ok(Self {
+            begin,
+            period,
+            mean_speed: turning.direction * mean,
+            fastest: [fastest[0], turning.at(fastest[1])],
+            slowest: [slowest[0], turning.at(slowest[1])],
+            delta: (fastest[0] - slowest[0]) / mean,
+            delta_of_extremes: 2.0 * (fastest[0] - slowest[0]) / (fastest[0] + slowest[0]),
+            torque: [
+                torques / period,
+                (squares / period).sqrt(),
+                torque_time(&|omega| torque(omega).abs()),
+            ],
+            power: [motor / period, torque_time(&power)],
+            motor_speed,
+            works: [motor, process, losses],
+            imbalance: imbalance / turned_over,
+            course,
+            nodes,
+        })
+    }
+
+    /// Refuses a cycle in which a follower leaves its cam or a rope is slack.
+    pub(super) fn check_contacts(&self, turning: &Turning) -> Result<(), SteadyError> {
+        let watch = Watch::new(turning.file);
+        if watch.is_idle() {
+            return Ok(());
+        }
+        for (x, y) in &self.nodes {
+            let speed = (2.0 * y[0]).sqrt();
+            let alpha = turning.instant(*x, speed)?.alpha;
+            let state = [turning.at(*x), turning.direction * speed, alpha];
+            watch
+                .check(At { t: y[1], state })
+                .map_err(SteadyError::Parted)?;
+        }
+        Ok(())
+    }
+}
+
+/// The largest (`side` = 1) or smallest (−1) speed, and how far from the start of the turn it is.
+fn extreme(
+    turning: &Turning,
+    nodes: &[(f64, State)],
+    begin: f64,
+    side: f64,
+) -> Result<[f64; 2], SteadyError> {
+    let mut best = (0, f64::NEG_INFINITY);
+    for (k, (_, y)) in nodes.iter().enumerate() {
+        if side * y[0] > best.1 {
+            best = (k, side * y[0]);
+        }
+    }
+    let (k, _) = best;
+    let mut found = (nodes[k].0, nodes[k].1[0]);
+    // The end of the turn is its start.
+    let last = nodes.len() - 1;
+    let before = if k == 0 { last - 1 } else { k - 1 };
+    let after = if k == last { 0 } else { k };
+    for left in [before, after] {
+        let (Some(from), Some(to)) = (nodes.get(left), nodes.get(left + 1)) else {
+            continue;
+        };
+        let z = |x: f64| -> Result<f64, SteadyError> {
+            if x <= from.0 {
+                return Ok(from.1[0]);
+            }
+            match turning.advance(from.1, [from.0, x], begin)? {
+                Reached::End(y) => Ok(y[0]),
+                Reached::Stopped(_) => Ok(0.0),
+            }
+        };
+        let rising = |x: f64, z: f64| -> Result<bool, SteadyError> {
+            let alpha = turning.instant(x, (2.0 * z).sqrt())?.alpha;
+            Ok(alpha * turning.direction * side > 0.0)
+        };
+        if rising(from.0, from.1[0])? && !rising(to.0, to.1[0])? {
+            let x = numerics::edge(|x| rising(x, z(x)?), from.0, to.0)?;
+            let there = z(x)?;
+            if side * there > side * found.1 {
+                found = (x, there);
+            }
+        }
+    }
+    Ok([(2.0 * found.1).sqrt(), found.0])
+}
+
+/// The largest value of `f` between two speeds.
+fn largest(f: &dyn Fn(f64) -> f64, [low, high]: [f64; 2]) -> f64 {
+    let step = (high - low) / f64::from(SPEEDS);
+    let at = |k: u32| low + step * f64::from(k);
+    let best = (0..=SPEEDS).max_by(|a, b| f(at(*a)).total_cmp(&f(at(*b))));
+    let best = best.map_or(low, at);
+    let negative = |speed: f64| Ok::<f64, std::convert::Infallible>(-f(speed));
+    let around = [(best - step).max(low), (best + step).min(high)];
+    let Ok(found) = numerics::least(negative, around[0], around[1]);
+    f(found).max(f(best))
+}

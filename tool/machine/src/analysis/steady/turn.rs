@@ -1,0 +1,219 @@
+//! One turn of the drive link: the kinetic energy at its end from that at its start, with the angle as the variable.
+//!
+//! With z = ½ω², the equation of motion is dz/dφ = α(φ, ω): one equation of the first order, whose time, works and losses are
+//! quadratures.
+
+use std::f64::consts::TAU;
+
+use jred::{Error, Reducible as _};
+
+use super::SteadyError;
+use crate::analysis::simulate::machine::{Instant, Plant};
+use crate::model::machine::{MachineFile, Simulation};
+use crate::number::numerics::dormand_prince::{Accuracy, Stopped};
+
+/// z = ½ω², time, work of the motor, work of the process loads, losses, ∫T dt and ∫T² dt of the motor.
+pub(super) type State = [f64; 7];
+
+/// The accuracy of each step. Steps beyond these many are those of a machine that follows its motor at once.
+const ACCURACY: Accuracy = Accuracy {
+    tolerance: 1e-14,
+    most_steps: 200_000,
+};
+
+/// Below this share of z at full speed, a three-thousandth of the speed, the drive link has stopped.
+pub(super) const STOPPED: f64 = 1e-7;
+
+/// How far a motion came.
+pub(super) enum Reached {
+    /// Its end.
+    End(State),
+    /// It stopped this far from the start (rad).
+    Stopped(f64),
+}
+
+/// A machine that turns one way, from a position.
+pub(super) struct Turning<'a> {
+    pub(super) file: &'a MachineFile,
+    pub(super) plant: Plant<'a>,
+    /// +1 or −1.
+    pub(super) direction: f64,
+    start: f64,
+    /// Angles from the start at which a load or the mechanism is not smooth; 0 and a turn.
+    edges: Vec<f64>,
+    /// Largest load and Coulomb torque at some positions, and viscous coefficient.
+    load: [f64; 2],
+    /// J at the start.
+    inertia: f64,
+}
+
+impl<'a> Turning<'a> {
+    pub(super) fn new(
+        file: &'a MachineFile,
+        simulation: &'a Simulation,
+        direction: f64,
+    ) -> Result<Self, Error> {
+        let start = simulation.start_angle;
+        let edges = (0..).map_while(|k| file.machine.edge(k));
+        let from_start = edges.map(|phi| ((phi - start) * direction).rem_euclid(TAU));
+        let mut edges: Vec<f64> = from_start.chain([0.0, TAU]).collect();
+        edges.sort_by(f64::total_cmp);
+        edges.dedup_by(|b, a| *b - *a < 1e-9);
+        // An edge a hair before the end of the turn gives way to the end.
+        if let Some(last) = edges.last_mut() {
+            *last = TAU;
+        }
+        let mut load = [0.0f64; 2];
+        for k in 0..24 {
+            let point = file.bare_reduction(start + TAU * f64::from(k) / 24.0)?;
+            load[0] = load[0].max(point.load_torque().abs() + point.coulomb);
+            load[1] = load[1].max(point.viscous);
+        }
+        let plant = Plant::new(file, simulation);
+        let [inertia, _] = plant.inertia(start)?;
+        Ok(Self {
+            file,
+            plant,
+            direction,
+            start,
+            edges,
+            load,
+            inertia,
+        })
+    }
+
+    /// The position (rad) `x` after the start.
+    pub(super) fn at(&self, x: f64) -> f64 {
+        self.start + self.direction * x
+    }
+
+    /// The edges, and `count` equal parts of the turn: each with whether it is one of these.
+    pub(super) fn places(&self, count: usize) -> Vec<(f64, bool)> {
+        let parts = (0..=count).map(|k| (TAU * k as f64 / count as f64, true));
+        let edges = self.edges.iter().map(|x| (*x, false));
+        let mut all: Vec<(f64, bool)> = parts.chain(edges).collect();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+        all.dedup_by(|b, a| {
+            let same = b.0 - a.0 < 1e-9;
+            a.1 |= same && b.1;
+            same
+        });
+        if let Some(last) = all.last_mut() {
+            *last = (TAU, true);
+        }
+        all
+    }
+
+    /// What happens at a position and speed.
+    pub(super) fn instant(&self, x: f64, speed: f64) -> Result<Instant, Error> {
+        let state = [self.at(x), self.direction * speed, 0.0, 0.0, 0.0];
+        self.plant.instant(self.direction, &state)
+    }
+
+    /// Energy turned over in a radian at this speed (J): what works are measured by.
+    pub(super) fn effort(&self, speed: f64) -> f64 {
+        let [torque, _] = self.plant.motor(self.direction * speed);
+        let drive = (torque * self.plant.ratio()).abs();
+        let load = self.load[0] + self.load[1] * speed;
+        drive.max(load).max(1e-9 * self.inertia * speed * speed)
+    }
+
+    /// From one place to the next one, in a motion whose full speed is `speed`, through all edges between.
+    pub(super) fn advance(
+        &self,
+        y: State,
+        [from, to]: [f64; 2],
+        speed: f64,
+    ) -> Result<Reached, SteadyError> {
+        let mut y = y;
+        let mut x = from;
+        let edges = self.edges.iter().copied();
+        for next in edges.filter(|e| *e > from && *e < to).chain([to]) {
+            match self.smooth(y, [x, next], speed)? {
+                Reached::End(end) => y = end,
+                stopped @ Reached::Stopped(_) => return Ok(stopped),
+            }
+            x = next;
+        }
+        Ok(Reached::End(y))
+    }
+
+    fn smooth(&self, y: State, [from, to]: [f64; 2], speed: f64) -> Result<Reached, SteadyError> {
+        let full = 0.5 * speed * speed;
+        let energy = self.effort(speed);
+        let torque = energy / self.plant.ratio().abs();
+        // Every value is measured by its own size, so that the tolerance means the same for each.
+        let sizes = [
+            full,
+            1.0 / speed,
+            energy,
+            energy,
+            energy,
+            torque / speed,
+            torque * torque / speed,
+        ];
+        let least = STOPPED * full;
+        let slope = |x: f64, y: &State| -> Result<State, Error> {
+            let speed = (2.0 * (y[0] * full).max(least)).sqrt();
+            let now = self.instant(from + x, speed)?;
+            let rates = [
+                now.alpha * self.direction * speed,
+                1.0,
+                now.motor_power,
+                now.process_power,
+                now.loss,
+                now.motor_torque,
+                now.motor_torque * now.motor_torque,
+            ];
+            Ok(std::array::from_fn(|i| rates[i] / speed / sizes[i]))
+        };
+        let scaled = std::array::from_fn(|i| y[i] / sizes[i]);
+        let steps = ACCURACY.steps(slope, scaled, to - from, |_, y| Ok(y[0] <= STOPPED));
+        let steps = steps.map_err(|why| match why {
+            Stopped::Function(error) => SteadyError::Machine(error),
+            Stopped::TooManySteps { .. } | Stopped::StepTooSmall { .. } => SteadyError::Integrator,
+        })?;
+        let [.., before, (x, end)] = steps.as_slice() else {
+            return Ok(Reached::End(y));
+        };
+        if end[0] <= STOPPED {
+            // Near rest z falls in a straight line.
+            let share = (before.1[0] / (before.1[0] - end[0])).clamp(0.0, 1.0);
+            return Ok(Reached::Stopped(from + before.0 + share * (x - before.0)));
+        }
+        Ok(Reached::End(std::array::from_fn(|i| end[i] * sizes[i])))
+    }
+
+    /// A whole turn from the start with this speed.
+    pub(super) fn turn(&self, speed: f64) -> Result<Reached, SteadyError> {
+        self.advance(starting(speed), [0.0, TAU], speed)
+    }
+
+    /// By how much E(2π) exceeds E(0) after a turn from the start with this speed, as a share; −1 if the drive link stops.
+    pub(super) fn rise(&self, speed: f64) -> Result<f64, SteadyError> {
+        Ok(match self.turn(speed)? {
+            Reached::End([z, ..]) => z / (0.5 * speed * speed) - 1.0,
+            Reached::Stopped(_) => -1.0,
+        })
+    }
+
+    /// Energy won in a turn from the start with this speed, as a share of the kinetic energy there, from the works; −1 if the drive
+    /// link stops. What is rounding is 0.
+    pub(super) fn gain(&self, speed: f64) -> Result<f64, SteadyError> {
+        let Reached::End([_, _, motor, process, losses, ..]) = self.turn(speed)? else {
+            return Ok(-1.0);
+        };
+        let [inertia, before] = self.plant.inertia(self.at(0.0))?;
+        let [_, after] = self.plant.inertia(self.at(TAU))?;
+        let won = motor + process - losses - (after - before);
+        // Rounding of the sums.
+        let noise = 1e-14 * (motor.abs() + process.abs() + losses.abs() + self.effort(speed));
+        let won = if won.abs() <= noise { 0.0 } else { won };
+        Ok(won / (0.5 * inertia * speed * speed))
+    }
+}
+
+/// The state at the start of a turn.
+pub(super) fn starting(speed: f64) -> State {
+    [0.5 * speed * speed, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+}
