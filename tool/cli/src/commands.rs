@@ -6,6 +6,7 @@ pub mod ratio;
 pub mod sensitivity;
 pub mod size;
 pub mod split;
+pub mod steady;
 pub mod tolerance;
 pub mod vary;
 
@@ -69,6 +70,7 @@ fn dispatch(command: &options::Command) -> Result<Done> {
         options::Command::Merge(options) => vary::run_merge(options),
         options::Command::Bus(options) => bus::run(options),
         options::Command::Simulate(options) => run_simulate(options),
+        options::Command::Steady(options) => steady::steady(options),
         options::Command::Export(options) => run_export(options),
         options::Command::Rules(options) => print(&jred_report::list::rule_list::show(
             options.set.as_deref(),
@@ -92,6 +94,7 @@ const fn doing(command: &options::Command) -> &'static str {
         Command::Merge(_) => "merging rows",
         Command::Bus(_) => "following the DC bus",
         Command::Simulate(_) => "following the motion",
+        Command::Steady(_) => "seeking the steady cycle",
         Command::Export(_) => "seeking the smallest table",
         Command::Rules(_) => "reading rules",
         Command::Split(_) => "dividing the ratio",

@@ -56,6 +56,8 @@ pub enum Command {
     Bus(bus::Bus),
     /// Simulate the free motion under the motor torque in `[simulation]`.
     Simulate(Simulate),
+    /// Find the steady cycle under the motor in `[simulation]`, its fluctuation of speed, and the flywheel that smooths it.
+    Steady(Steady),
     /// Write the smallest firmware table that meets a torque error.
     Export(Export),
     /// List the built-in rule sets, or the limits of one set with their sources.
@@ -198,6 +200,38 @@ pub struct Simulate {
     /// Write plots of speed, torque and energy as one self-contained HTML page.
     #[arg(long, value_name = "HTML", value_parser = output_file())]
     pub plot: Option<PathBuf>,
+}
+
+/// `jred steady`
+#[derive(Debug, Args)]
+#[command(after_help = "Exit codes: 0 done; 2 bad input, or there is no steady cycle.")]
+pub struct Steady {
+    /// Machine file.
+    pub file: PathBuf,
+    /// Coefficient of speed fluctuation that a flywheel is to reach, e.g. 0.02: find its inertia.
+    #[arg(long, value_parser = fluctuation)]
+    pub delta: Option<f64>,
+    /// Constant torque of the motor instead of that in `[simulation]`, e.g. "20 N m".
+    #[arg(long, allow_hyphen_values = true, value_parser = jred_machine::read::torque_argument)]
+    pub torque: Option<f64>,
+    /// Number of positions in the list, which ends with the end of the turn.
+    #[arg(long, default_value_t = 36, value_parser = clap::value_parser!(u32).range(2..=10_000))]
+    pub positions: u32,
+    /// Output format.
+    #[arg(long, value_parser = word::<Format>(), default_value_t)]
+    pub format: Format,
+}
+
+/// A coefficient of speed fluctuation.
+fn fluctuation(text: &str) -> Result<f64, String> {
+    let delta: f64 = text
+        .parse()
+        .map_err(|_| "write a plain number, such as 0.02")?;
+    if (1e-6..=1.0).contains(&delta) {
+        Ok(delta)
+    } else {
+        Err("it must be a number from 0.000001 to 1".to_owned())
+    }
 }
 
 /// `jred export`

@@ -21,6 +21,7 @@ fn csv_and_json_carry_every_digit() {
         vec!["reduce", "--positions", "97", "--links"],
         vec!["reduce", "--positions", "97", "--over", "time"],
         vec!["simulate"],
+        vec!["steady", "--positions", "97"],
     ] {
         let text = |format: &'static str| {
             let mut arguments = arguments.clone();

@@ -17,6 +17,7 @@ fn help_of_every_command() {
         "merge",
         "bus",
         "simulate",
+        "steady",
         "export",
         "rules",
         "split",
@@ -30,5 +31,5 @@ fn help_of_every_command() {
 fn no_command_is_left_out() {
     use clap::CommandFactory as _;
     let commands = jred_cli::options::Cli::command();
-    assert_eq!(commands.get_subcommands().count(), 13);
+    assert_eq!(commands.get_subcommands().count(), 14);
 }

@@ -285,6 +285,26 @@ fn simulate() {
 }
 
 #[test]
+fn steady() {
+    let desk = Desk::new().with_machines(&["eccentric-press.toml", "press.toml"]);
+    compare(
+        "steady",
+        &desk.runs(&[
+            &["steady", "eccentric-press.toml", "--positions", "6"],
+            &[
+                "steady",
+                "eccentric-press.toml",
+                "--delta",
+                "0.05",
+                "--positions",
+                "4",
+            ],
+            &["steady", "press.toml", "--delta", "0.9", "--positions", "4"],
+        ]),
+    );
+}
+
+#[test]
 fn split() {
     let desk = Desk::new();
     let split = ["split", "--ratio", "30", "--stages"];

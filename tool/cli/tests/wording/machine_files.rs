@@ -365,6 +365,15 @@ fn rules_and_simulations() {
             ("output_step = \"5 ms\"", "output_step = \"5 us\""),
             ("rotor_inertia", "tolerance = 1\nrotor_inertia"),
             ("[simulation]", "[motion.simulation]"),
+            ("at = \"motor\"", "dc_motor = {}"),
+            (
+                "torque_speed = [",
+                "dc_motor = { no_load_speed = \"-900 rpm\", stall_torque = \"60 N m\" }\n# [",
+            ),
+            (
+                "torque_speed = [",
+                "induction_motor = { synchronous_speed = \"900 rpm\", breakdown_torque = \"60 N m\", breakdown_slip = \"120 %\" }\n# [",
+            ),
         ],
     );
     mistakes(

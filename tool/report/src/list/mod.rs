@@ -9,4 +9,5 @@ pub mod listing;
 pub mod ratio;
 pub mod rule_list;
 pub mod sensitivity;
+pub mod steady;
 pub mod tolerance;

@@ -1,0 +1,53 @@
+//! `jred steady`: the cycle that repeats, and the flywheel that smooths it.
+
+use miette::{Result, miette};
+
+use crate::commands::Done;
+use crate::options;
+use crate::output::print_parts;
+use jred_machine::analysis::steady::{self, Request};
+use jred_machine::model::characteristic::Characteristic;
+use jred_machine::model::machine::{MachineFile, Simulation};
+use jred_machine::model::variator;
+use jred_machine::plain;
+use jred_machine::read;
+use jred_report::list;
+
+/// Runs the command.
+///
+/// # Errors
+/// Bad input, or no steady cycle.
+pub fn steady(options: &options::Steady) -> Result<Done> {
+    let file = read::read(&options.file)?;
+    variator::refuse(&file, "steady")?;
+    let simulation = simulation(options, &file)?;
+    let request = Request {
+        delta: options.delta,
+        positions: options.positions as usize,
+    };
+    let steady = steady::steady(&file, &simulation, &request)?;
+    print_parts(list::steady::write(&file, &steady, options.format))?;
+    Ok(Done::Holds)
+}
+
+/// That of the file, with the torque of the command line instead of its own.
+fn simulation(options: &options::Steady, file: &MachineFile) -> Result<Simulation> {
+    let Some(torque) = options.torque else {
+        return file.simulation.clone().ok_or_else(|| {
+            miette!(
+                help = "give --torque \"20 N m\", or add a [simulation] with start_angle, duration, output_step and the motor: torque, \
+                        torque_speed, dc_motor or induction_motor; docs/machine-file.md shows how",
+                "{} has no [simulation], which gives the motor",
+                plain::path(&options.file)
+            )
+        });
+    };
+    let torque = Characteristic::constant(torque);
+    Ok(match &file.simulation {
+        Some(own) => Simulation {
+            torque,
+            ..own.clone()
+        },
+        None => Simulation::of_motor(torque),
+    })
+}
