@@ -52,7 +52,7 @@ fn text(file: &MachineFile, steady: &Steady) -> String {
             describe(&mut text, cycle);
         }
         Err(why) => {
-            let _ = writeln!(text, "without a further flywheel: {}", why);
+            let _ = writeln!(text, "without a further flywheel: {why}");
         }
     }
     if let Some(flywheel) = &steady.flywheel {
