@@ -97,3 +97,27 @@ rotor_inertia = "0.002 kg m^2"
 tolerance = 1e-12
 torque = "0 N m"
 "#;
+
+/// A rotor of 0.02 kg m² with 3 N m and 0.11 N m s/rad against it, which moves 12 rad in 0.5 s by a law (its lines).
+pub(crate) fn braked_rotor(law: &str) -> String {
+    format!(
+        r#"
+gravity = ["0 m/s^2", "0 m/s^2"]
+[mechanism]
+type = "gear-train"
+stage = [{{ driver = {{ teeth = 20, inertia = "0.02 kg m^2" }}, driven = {{ teeth = 20, inertia = "0 kg m^2" }} }}]
+[[load]]
+on = "shaft-1"
+opposing_moment = "3 N m"
+[[load]]
+on = "shaft-1"
+viscous_moment = "0.11 N m s/rad"
+[motion]
+type = "point-to-point"
+[[motion.segment]]
+{law}
+move = "12 rad"
+duration = "0.5 s"
+"#
+    )
+}

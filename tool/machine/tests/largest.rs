@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::support::machines::braked_rotor;
 use crate::support::{budget, near};
 use jred_machine::analysis::reduce::{Over, Request, Sets, largest};
 use jred_machine::read;
@@ -18,28 +19,9 @@ fn request(over: Over) -> Request {
     }
 }
 
-/// The drive torque of a rotor of 0.02 kg m² with 3 N m and 0.11 N m s/rad against it, that moves by a law.
+/// The largest drive torque of a rotor that moves by a law, and its time.
 fn drive_torque(law: &str) -> (f64, f64) {
-    let text = format!(
-        r#"
-gravity = ["0 m/s^2", "0 m/s^2"]
-[mechanism]
-type = "gear-train"
-stage = [{{ driver = {{ teeth = 20, inertia = "0.02 kg m^2" }}, driven = {{ teeth = 20, inertia = "0 kg m^2" }} }}]
-[[load]]
-on = "shaft-1"
-opposing_moment = "3 N m"
-[[load]]
-on = "shaft-1"
-viscous_moment = "0.11 N m s/rad"
-[motion]
-type = "point-to-point"
-[[motion.segment]]
-{law}
-move = "12 rad"
-duration = "0.5 s"
-"#
-    );
+    let text = braked_rotor(law);
     let file = read::parse("rotor.toml", &text, Path::new("")).unwrap();
     let found = largest(&file, &request(Over::Time)).unwrap();
     let drive = &found[0];

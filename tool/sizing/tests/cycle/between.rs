@@ -6,6 +6,7 @@
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
+use crate::support::machines::braked_rotor;
 use crate::support::{budget, near};
 use jred_machine::analysis::duty::Duty;
 use jred_machine::read;
@@ -24,25 +25,8 @@ const MOTOR: [f64; 3] = [0.013, 0.04, 0.7];
 const STEPS: usize = 302;
 
 fn duty(steps: usize) -> Duty {
-    let text = r#"
-gravity = ["0 m/s^2", "0 m/s^2"]
-[mechanism]
-type = "gear-train"
-stage = [{ driver = { teeth = 20, inertia = "0.02 kg m^2" }, driven = { teeth = 20, inertia = "0 kg m^2" } }]
-[[load]]
-on = "shaft-1"
-opposing_moment = "3 N m"
-[[load]]
-on = "shaft-1"
-viscous_moment = "0.11 N m s/rad"
-[motion]
-type = "point-to-point"
-[[motion.segment]]
-law = "cycloidal"
-move = "12 rad"
-duration = "0.5 s"
-"#;
-    let file = read::parse("rotor.toml", text, Path::new("")).unwrap();
+    let text = braked_rotor(r#"law = "cycloidal""#);
+    let file = read::parse("rotor.toml", &text, Path::new("")).unwrap();
     Duty::new(&file, file.motion.as_ref().unwrap(), steps).unwrap()
 }
 
