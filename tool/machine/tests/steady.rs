@@ -343,6 +343,30 @@ fn the_classical_flywheel_is_the_limit_of_a_soft_motor() {
     );
 }
 
+/// So it is behind a drive train with losses: the motor feeds them all the time, and no flywheel stores them.
+#[test]
+fn losses_of_a_drive_train_are_in_no_flywheel() {
+    let text = "gravity = [\"0 m/s^2\", \"-9.81 m/s^2\"]\n[mechanism]\ntype = \"linkage\"\ndrive = \"axle\"\n\
+        body = [{ name = \"rotor\", mass = \"20 kg\", inertia = \"0.01 kg m^2\", com = [\"100 mm\", \"0 mm\"], angle = \"0 deg\" }]\n\
+        joint = [{ name = \"axle\", between = [\"ground\", \"rotor\"] }]\n\
+        [[load]]\non = \"rotor\"\nopposing_moment = \"5 N m\"\n\
+        [[drive_train]]\ntype = \"belt\"\ndriver = { radius = \"40 mm\", inertia = \"0 kg m^2\" }\n\
+        driven = { radius = \"80 mm\", inertia = \"0 kg m^2\" }\nefficiency = \"80 %\"\n\
+        [simulation]\nstart_angle = \"-90 deg\"\nduration = \"1 s\"\noutput_step = \"0.1 s\"\nat = \"motor\"\n\
+        dc_motor = { no_load_speed = \"8000 rad/s\", stall_torque = \"3.15625 N m\" }";
+    let flywheel = checked(try_of(text, Some(0.001))).flywheel.unwrap();
+    let classical = flywheel.classical;
+    near("work", classical.work, 2.0 * 20.0 * 9.81 * 0.1, 1e-9);
+    near(
+        "speed",
+        classical.speed,
+        4000.0 * (1.0 - 3.125 / 3.15625),
+        1e-4,
+    );
+    let exact = flywheel.inertia + classical.own;
+    near("inertia", exact, classical.total, 1e-4);
+}
+
 /// An induction motor has two speeds at which its torque is that of a constant load: the cycle is the higher one, and the lower one is
 /// that from which the machine is caught.
 #[test]

@@ -217,7 +217,7 @@ fn wheel(text: &mut String, flywheel: &Flywheel, own: Option<&Cycle>) {
             text,
             "difference",
             &format!(
-                "the classical value is {} {side}: it assumes constant motor torque, speed and inertia, but the torque follows the speed",
+                "the classical value is {} {side}: it assumes constant motor torque, speed and inertia",
                 percent(more.abs())
             ),
         );

@@ -62,9 +62,7 @@ impl<'a> Plant<'a> {
         direction: f64,
         [phi, omega]: [f64; 2],
     ) -> Result<f64, Error> {
-        let point = self.file.machine.bare_reduction(phi)?;
-        let load = point.load_torque() - point.viscous * omega - point.coulomb * direction;
-        let torque = 0.5 * point.inertia_slope * omega * omega - load;
+        let torque = self.resisting(direction, [phi, omega])?;
         Ok(match self.simulation.at {
             Shaft::DriveLink => torque,
             Shaft::Motor => {
@@ -77,6 +75,17 @@ impl<'a> Plant<'a> {
                 self.file.drive_train.input(&output).torque
             }
         })
+    }
+
+    /// The torque at the drive link that keeps the speed `omega` at the position `phi`.
+    pub(in crate::analysis) fn resisting(
+        &self,
+        direction: f64,
+        [phi, omega]: [f64; 2],
+    ) -> Result<f64, Error> {
+        let point = self.file.machine.bare_reduction(phi)?;
+        let load = point.load_torque() - point.viscous * omega - point.coulomb * direction;
+        Ok(0.5 * point.inertia_slope * omega * omega - load)
     }
 
     /// Inertia of the machine at `phi`, of the drive train and of the rotor, all at the drive link; and the potential energy.

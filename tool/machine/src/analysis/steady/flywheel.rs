@@ -32,7 +32,7 @@ pub struct Flywheel {
 /// The flywheel by Wittenbauer's method: constant motor torque, energies at the constant mean speed.
 #[derive(Clone, Copy, Debug)]
 pub struct Classical {
-    /// ΔW: from the least to the largest excess of the motor's work over that of the machine (J).
+    /// ΔW: from the least to the largest excess of the work that reaches the drive link over that of the machine (J).
     pub work: f64,
     /// The constant speed (rad/s).
     pub speed: f64,
@@ -141,11 +141,11 @@ impl Classical {
     /// At the constant `speed` (rad/s).
     fn of(turning: &Turning, delta: f64, speed: f64) -> Result<Self, SteadyError> {
         let plant = &turning.plant;
-        // Torque at the drive link that keeps the speed, in the direction of motion.
+        // Torque at the drive link that keeps the speed, in the direction of motion. What the drive train loses of a constant motor
+        // torque is constant, and no flywheel stores it.
         let asked = |x: f64| -> Result<f64, SteadyError> {
             let state = [turning.at(x), turning.direction * speed];
-            let torque = plant.keeping(turning.direction, state)?;
-            Ok(torque * plant.ratio() * turning.direction)
+            Ok(plant.resisting(turning.direction, state)? * turning.direction)
         };
         let places = turning.places(720);
         let size = turning.effort(speed);
