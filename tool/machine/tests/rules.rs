@@ -7,6 +7,26 @@ mod sets;
 
 use crate::reading::refuses;
 use crate::support::press_text;
+use jred_machine::model::rule::Rule;
+use jred_machine::model::rules::{Finding, RuleSet, Verdict};
+
+/// A mean speed that is 1500 rpm by hand, and rounded up, is at a limit of 1500 rpm; what is more by a millionth is beyond it.
+#[test]
+fn a_figure_at_its_limit_satisfies_the_rule() {
+    let rules = RuleSet::default();
+    let share = |rule| rules.limit(rule).fail.or(rules.limit(rule).warn).unwrap();
+    for (rule, beyond) in [
+        (Rule::GearboxMeanSpeed, 1e-6),
+        (Rule::NaturalFrequency, -1e-6),
+    ] {
+        let rating = 1500.000_000_000_000_2;
+        let limit = share(rule) * rating;
+        let verdict = |value: f64| rules.verdict(rule, Finding::new(value, rating));
+        assert_eq!(verdict(limit), Verdict::Pass);
+        assert_eq!(verdict(limit * (1.0 + beyond * 1e-8)), Verdict::Pass);
+        assert!(verdict(limit * (1.0 + beyond)) > Verdict::Pass);
+    }
+}
 
 #[test]
 fn a_wrong_tool_is_refused() {

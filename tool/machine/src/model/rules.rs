@@ -98,8 +98,8 @@ impl RuleSet {
             share.is_some_and(|share| {
                 let limit = share * finding.rating;
                 match rule.sense() {
-                    Sense::AtMost => finding.value > limit,
-                    Sense::AtLeast => finding.value < limit,
+                    Sense::AtMost => finding.value > limit * (1.0 + ROUNDING),
+                    Sense::AtLeast => finding.value < limit * (1.0 - ROUNDING),
                 }
             })
         };
@@ -124,6 +124,9 @@ impl RuleSet {
         use_of(limit.fail.or(limit.warn), rule, finding)
     }
 }
+
+/// Share of a limit that is rounding: a mean speed of 1500 rpm is at a limit of 1500 rpm, whatever its last digits.
+const ROUNDING: f64 = 1e-12;
 
 #[inline]
 fn use_of(share: Option<f64>, rule: Rule, finding: Finding) -> f64 {
