@@ -19,7 +19,7 @@ fn a_figure_at_its_limit_satisfies_the_rule() {
         (Rule::GearboxMeanSpeed, 1e-6),
         (Rule::NaturalFrequency, -1e-6),
     ] {
-        let rating = 1500.000_000_000_000_2;
+        let rating = 1_500.000_000_000_000_2;
         let limit = share(rule) * rating;
         let verdict = |value: f64| rules.verdict(rule, Finding::new(value, rating));
         assert_eq!(verdict(limit), Verdict::Pass);
