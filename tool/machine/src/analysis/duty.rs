@@ -64,6 +64,9 @@ pub struct Duty {
 /// Default number of time steps of a cycle.
 pub const STEPS: usize = 2000;
 
+/// The ends of a smooth stretch are taken from inside, by this share of it: what jumps there belongs to both sides.
+pub(crate) const INSIDE: f64 = 1e-9;
+
 /// Share of the largest input torque by which a peak between two instants may be missed.
 const PEAK_MISSED: f64 = 1e-5;
 
@@ -213,7 +216,6 @@ impl Duty {
     /// # Errors
     /// Those of the machine.
     pub fn new(file: &MachineFile, motion: &Motion, steps: usize) -> Result<Self, Error> {
-        const INSIDE: f64 = 1e-9;
         let duration = motion.duration();
         let mut instants = Vec::with_capacity(steps + 1024);
         let mut smooth = Smooth::default();

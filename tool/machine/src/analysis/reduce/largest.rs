@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 
 use super::reactions::Reactions;
 use super::{Over, Pass, Place, Request, Set as _, Source};
-use crate::analysis::duty::smooth_stretches;
+use crate::analysis::duty::{INSIDE, smooth_stretches};
 use crate::model::machine::MachineFile;
 use crate::model::motion::Motion;
 use crate::number::columns::{Column, Quantity};
@@ -19,9 +19,6 @@ const SEARCHED: usize = 1440;
 
 /// Fewest steps of a smooth stretch.
 const FEWEST: usize = 16;
-
-/// The ends of a stretch are taken from inside, by this share of it: what jumps there belongs to both sides.
-const INSIDE: f64 = 1e-9;
 
 /// The largest magnitude of one quantity.
 #[derive(Clone, Debug, PartialEq, Serialize)]
