@@ -29,18 +29,3 @@ pub fn simulate(file: &MachineFile, simulation: &Simulation) -> Result<Columns, 
         None => run::run(&machine::Plant::new(file, simulation), file, simulation),
     }
 }
-
-/// The zero of a rising, piecewise linear function, from its value and slope: the efficiencies of the drive train change
-/// sides with its power.
-fn newton(mut f: impl FnMut(f64) -> [f64; 2]) -> f64 {
-    let mut x = 0.0f64;
-    for _ in 0..50 {
-        let [value, slope] = f(x);
-        let step = value / slope;
-        x -= step;
-        if step.abs() <= 1e-15 * x.abs() {
-            break;
-        }
-    }
-    x
-}

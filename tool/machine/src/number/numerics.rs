@@ -10,6 +10,21 @@ const THIRDS: u32 = 80;
 /// The most halvings of one [`integral`]: a curve of roundings alone must not be halved without end.
 const MOST_HALVINGS: u32 = 20_000;
 
+/// The zero of a rising, piecewise linear function, from its value and slope: the efficiencies of the drive train change
+/// sides with its power.
+pub fn newton(mut f: impl FnMut(f64) -> [f64; 2]) -> f64 {
+    let mut x = 0.0f64;
+    for _ in 0..50 {
+        let [value, slope] = f(x);
+        let step = value / slope;
+        x -= step;
+        if step.abs() <= 1e-15 * x.abs() {
+            break;
+        }
+    }
+    x
+}
+
 /// The place of the smallest value of `f` between `low` and `high`, where it has one minimum, by thirds.
 ///
 /// # Errors

@@ -4,10 +4,11 @@ use jred::Error;
 use jred::mechanism::TrainOutput;
 
 use super::run::{self, Row};
-use super::{SimulationError, newton};
+use super::SimulationError;
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::{MachineFile, Shaft, Simulation};
 use crate::number::columns::{Column, Quantity};
+use crate::number::numerics::newton;
 
 /// φ, ω, work of the motor, work of the process loads, losses.
 pub(in crate::analysis) type State = [f64; 5];

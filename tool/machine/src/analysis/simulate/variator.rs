@@ -6,11 +6,12 @@ use jred::friction::{Contact, OperatingPoint, Stage};
 use jred::mechanism::TrainOutput;
 
 use super::run::{self, Row};
-use super::{SimulationError, newton};
+use super::SimulationError;
 use crate::model::coordinate::Coordinate;
 use crate::model::machine::{MachineFile, Shaft, Simulation};
 use crate::model::variator::{Slip, Variator};
 use crate::number::columns::{Column, Quantity};
+use crate::number::numerics::newton;
 
 /// φ₁, ω₁ of the input shaft; φ of the drive link; ω₂ of the output shaft (creep only); work of the motor, work of the
 /// process loads, losses.

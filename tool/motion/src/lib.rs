@@ -1,0 +1,9 @@
+//! Motions made for a machine and its drive.
+//!
+//! Between `jred-sizing`, which knows what a drive can do, and `jred-report`. `jred-machine` says what a *given* motion asks of
+//! the drive; here the motion itself is what is sought. Results are data; nothing is printed.
+//!
+//! 1. [`way`]: the machine and its drive along the way, all quantities counted in the direction of the motion.
+#![forbid(unsafe_code)]
+
+pub mod way;

@@ -1,0 +1,178 @@
+//! The machine and its drive along the way: what the motor must give at a place, a speed and an acceleration, and what it can.
+//!
+//! A motion that goes one way passes each place once, so the place is the variable and the time a quadrature. Everything here is
+//! counted along the way: the speed v is not negative, the acceleration a is positive where v grows, and a torque of the motor is
+//! positive where it drives.
+//!
+//! ```text
+//! T(φ, v, a) = c·x,   x = (i·a, τ₊, τ₋, i·v, 1),   τ = train(J·a + ½·J′·v² + F(φ) + b·v + C)
+//! ```
+//!
+//! with the coefficients c of the drive ([`Coefficients`]), J, J′, load F, viscous friction b and Coulomb friction C of the machine, all
+//! at the drive link, and the losses of the drive train. T rises with a, in straight lines that meet where the power at a stage
+//! changes its direction.
+
+use jred::mechanism::TrainOutput;
+use jred::{Error, Reduction};
+use jred_machine::model::coordinate::Coordinate;
+use jred_machine::model::machine::MachineFile;
+use jred_machine::number::numerics::newton;
+use jred_sizing::catalogue::Drive;
+use jred_sizing::cycle::form::Coefficients;
+use jred_sizing::motor::envelope::Envelope;
+
+/// What moves the machine: a drive at its supply.
+#[derive(Clone, Debug)]
+pub struct Actuator {
+    /// Motor torque as a linear form in the loads at the gearbox output.
+    pub coefficients: Coefficients,
+    /// Motor speed per speed of the gearbox output, positive.
+    pub ratio: f64,
+    /// What the motor can give.
+    pub envelope: Envelope,
+}
+
+impl Actuator {
+    /// A drive of the catalogue within an envelope, which is that of its motor and amplifier at the supply.
+    pub fn new(drive: &Drive<'_>, envelope: Envelope) -> Self {
+        Self {
+            coefficients: drive.coefficients(),
+            ratio: drive.ratio(),
+            envelope,
+        }
+    }
+
+    /// Least and largest motor torque (N·m) at a motor speed (rad/s, not negative): −braking, driving.
+    pub fn torques(&self, speed: f64) -> [f64; 2] {
+        let limit = |braking: bool| self.envelope.limit(braking).torque(speed);
+        [-limit(true), limit(false)]
+    }
+}
+
+/// The machine with its drive, in one direction.
+#[derive(Clone, Debug)]
+pub struct Way<'a> {
+    /// The machine.
+    pub file: &'a MachineFile,
+    /// What moves it.
+    pub actuator: Actuator,
+    /// +1 where φ grows, −1 where it falls.
+    pub direction: f64,
+}
+
+/// The machine at a place, worked out once for all speeds.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// Position of the drive link (rad, or m).
+    pub phi: f64,
+    /// J (kg·m²) of the machine at the drive link, without drive train and drive.
+    pub inertia: f64,
+    /// Its slope along the way (kg·m²/rad).
+    pub inertia_slope: f64,
+    /// F: the torque (N·m) that holds the machine at rest here without friction, positive where weight and loads resist the
+    /// motion.
+    pub load: f64,
+    /// b (N·m·s/rad).
+    pub viscous: f64,
+    /// C (N·m).
+    pub coulomb: f64,
+}
+
+/// The motor torque that a state asks for.
+#[derive(Clone, Copy, Debug)]
+pub struct Demand {
+    /// Torque (N·m), positive where it drives.
+    pub torque: f64,
+    /// Its slope by the acceleration of the drive link (kg·m²), positive.
+    pub per_acceleration: f64,
+}
+
+impl<'a> Way<'a> {
+    /// The way of a machine under a drive; `direction` is +1 or −1.
+    pub const fn new(file: &'a MachineFile, actuator: Actuator, direction: f64) -> Self {
+        Self {
+            file,
+            actuator,
+            direction,
+        }
+    }
+
+    /// Whether the drive link turns or slides.
+    pub fn coordinate(&self) -> Coordinate {
+        self.file.machine.mechanism().coordinate()
+    }
+
+    /// The machine at a position.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed there.
+    pub fn place(&self, phi: f64) -> Result<Place, Error> {
+        let point: Reduction = self.file.machine.bare_reduction(phi)?;
+        Ok(Place {
+            phi,
+            inertia: point.inertia,
+            inertia_slope: point.inertia_slope * self.direction,
+            load: -point.load_torque() * self.direction,
+            viscous: point.viscous,
+            coulomb: point.coulomb,
+        })
+    }
+
+    /// The speed of the motor (rad/s) at a speed of the drive link.
+    pub fn motor_speed(&self, speed: f64) -> f64 {
+        speed * self.file.drive_train.ratio().abs() * self.actuator.ratio
+    }
+
+    /// The motor torque that a place, a speed (not negative) and an acceleration ask for. At rest, friction is that of a motion
+    /// that begins.
+    pub fn demand(&self, place: &Place, speed: f64, acceleration: f64) -> Demand {
+        let train = &self.file.drive_train;
+        let ratio = train.ratio();
+        let sense = ratio.signum();
+        let resisting = 0.5 * place.inertia_slope * speed * speed
+            + place.load
+            + place.viscous * speed
+            + place.coulomb;
+        let input = train.input(&TrainOutput {
+            torque: place.inertia * acceleration + resisting,
+            torque_per_alpha: place.inertia,
+            omega: speed,
+            alpha: acceleration,
+            direction: 1.0,
+        });
+        // In the sense in which the input turns: its torque is positive where power flows to the machine.
+        let (torque, slope) = (input.torque * sense, input.torque_per_alpha * sense);
+        let (torque_loads, share) = if torque < 0.0 {
+            ([0.0, torque], 2)
+        } else {
+            ([torque, 0.0], 1)
+        };
+        let c = &self.actuator.coefficients;
+        let [driving, back] = torque_loads;
+        let ratio = ratio.abs();
+        Demand {
+            torque: c.torque(&[ratio * acceleration, driving, back, ratio * speed, 1.0]),
+            per_acceleration: c.0[0] * ratio + c.0[share] * slope,
+        }
+    }
+
+    /// The acceleration that a motor torque gives: the inverse of [`demand`](Self::demand).
+    pub fn acceleration(&self, place: &Place, speed: f64, torque: f64) -> f64 {
+        newton(|a| {
+            let demand = self.demand(place, speed, a);
+            [demand.torque - torque, demand.per_acceleration]
+        })
+    }
+
+    /// Least and largest acceleration that the motor can give at a place and speed; infinite where no limit is known.
+    pub fn accelerations(&self, place: &Place, speed: f64) -> [f64; 2] {
+        let limits = self.actuator.torques(self.motor_speed(speed));
+        limits.map(|torque| {
+            if torque.is_finite() {
+                self.acceleration(place, speed, torque)
+            } else {
+                torque
+            }
+        })
+    }
+}

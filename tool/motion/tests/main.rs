@@ -1,0 +1,6 @@
+//! The one test program of the package.
+#![allow(clippy::disallowed_methods, reason = "tests show paths that they made")]
+
+#[path = "../../support/mod.rs"]
+mod support;
+mod way;
