@@ -30,6 +30,7 @@ use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
 use jred_machine::plain;
 use jred_machine::read;
+use jred_report::list;
 use jred_report::list::alternatives;
 use jred_report::list::inspection;
 use jred_report::page;
@@ -266,16 +267,19 @@ fn run_simulate(options: &options::Simulate) -> Result<Done> {
             plain::path(&options.file)
         )
     })?;
-    let columns = simulate::simulate(&file, simulation)?;
+    let found = simulate::simulate(&file, simulation)?;
     if let Some(path) = &options.plot {
-        let page = page::simulation_page(&file, simulation, &columns);
+        let page = page::simulation_page(&file, simulation, &found.columns);
         output::write(path, page.as_bytes())?;
     }
-    let title = format!(
-        "{}: free motion, Dormand-Prince 8(5,3), tolerance {:e}",
-        file.title, simulation.tolerance
-    );
-    print_parts(sheet::parts(&columns, options.format, &title))
+    let done = print_parts(list::simulation::write(
+        &file,
+        simulation,
+        &found,
+        options.format,
+    ))?;
+    // The rows up to there are written before the reason is.
+    found.ended.map_or(Ok(done), |error| Err(error.into()))
 }
 
 /// Where the pieces of the table meet; nowhere without `--pieces`.

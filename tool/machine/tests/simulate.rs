@@ -2,13 +2,16 @@
 // Copied figures, counts and zeros are exact.
 #![allow(clippy::float_cmp)]
 
+mod control;
 mod losses;
 mod parting;
 mod pendulum;
+mod stops;
 
 use std::f64::consts::{PI, TAU};
 
 use jred_machine::analysis;
+use jred_machine::analysis::simulate::Simulated;
 use jred_machine::units::RPM;
 use serde_json::Value;
 
@@ -22,7 +25,8 @@ pub(crate) fn run(text: &str) -> Result<Columns, String> {
     let report = |report: miette::Report| rendered(&report);
     let file = parse(text).map_err(report)?;
     let simulation = file.simulation.as_ref().unwrap();
-    let found = analysis::simulate::simulate(&file, simulation).map_err(|e| report(e.into()))?;
+    let found = analysis::simulate::simulate(&file, simulation).and_then(Simulated::whole);
+    let found = found.map_err(|e| report(e.into()))?;
     Ok(Columns {
         names: found.names(),
         rows: found.rows().to_vec(),

@@ -18,7 +18,8 @@ pub use start::Start;
 
 use jred::{Domain, Reducible as _};
 
-use crate::model::machine::{MachineFile, Simulation};
+use crate::model::machine::MachineFile;
+use crate::model::simulation::Simulation;
 use crate::number::rounding::{rounded, short};
 use crate::units::RPM;
 use turn::Turning;

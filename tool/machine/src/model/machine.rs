@@ -4,11 +4,10 @@ use jred::machine::Mechanism as _;
 use jred::mechanism::Train;
 use jred::{Error, Machine, Reduction};
 
-use crate::model::characteristic::Characteristic;
-use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::{AnyMechanism, NamedElement, NamedLoad};
 use crate::model::motion::Motion;
 use crate::model::rules::RuleSet;
+use crate::model::simulation::Simulation;
 use crate::model::site::Site;
 use crate::model::tolerance::Tolerance;
 use crate::model::variator::Variator;
@@ -42,59 +41,6 @@ pub struct MachineFile {
     pub tolerances: Vec<Tolerance>,
     /// Supply, surroundings, stiffness and tool.
     pub site: Site,
-}
-
-/// Where a torque acts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shaft {
-    /// At the motor, in front of the drive train.
-    Motor,
-    /// At the drive link.
-    DriveLink,
-}
-
-/// A free motion under a motor torque.
-#[derive(Clone, Debug)]
-pub struct Simulation {
-    /// φ at the start (rad, or m of a link that slides).
-    pub start_angle: f64,
-    /// ω of the drive link at the start (rad/s).
-    pub start_speed: f64,
-    /// Length (s).
-    pub duration: f64,
-    /// Distance of the output points (s).
-    pub output_step: f64,
-    /// Torque of the motor over the speed, both at `at`.
-    pub torque: Characteristic,
-    /// Where the torque acts.
-    pub at: Shaft,
-    /// Inertia of the motor's rotor, at the motor shaft (kg·m²).
-    pub rotor_inertia: f64,
-    /// Relative tolerance of the integrator.
-    pub tolerance: f64,
-}
-
-impl Simulation {
-    /// Where nothing but the motor is given: at the motor shaft, without a rotor, from 0 and from rest, for a second.
-    pub const fn of_motor(torque: Characteristic) -> Self {
-        Self {
-            start_angle: 0.0,
-            start_speed: 0.0,
-            duration: 1.0,
-            output_step: 0.01,
-            torque,
-            at: Shaft::Motor,
-            rotor_inertia: 0.0,
-            tolerance: 1e-10,
-        }
-    }
-
-    /// Whether the motor drives a link that slides, without a stage that turns: its torque is then a force.
-    pub fn drives_a_slide(&self, file: &MachineFile) -> bool {
-        let coordinate = file.machine.mechanism().coordinate();
-        let direct = self.at == Shaft::DriveLink || file.drive_train.stages().is_empty();
-        coordinate == Coordinate::Length && direct
-    }
 }
 
 impl MachineFile {

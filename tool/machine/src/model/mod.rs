@@ -8,6 +8,7 @@ pub mod motion;
 pub mod operation;
 pub mod rule;
 pub mod rules;
+pub mod simulation;
 pub mod site;
 pub mod supply;
 pub mod surroundings;

@@ -228,7 +228,13 @@ fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<Mac
                 .help(error.cure().to_string())
         })?;
     let motion = motion::read(&root, files, drive_link, &machine)?;
-    let simulation = simulation::read(&root, drive_link, &drive_train)?;
+    let around = simulation::Around {
+        drive: drive_link,
+        drive_train: &drive_train,
+        motion: motion.as_ref(),
+        variator: variator.is_some(),
+    };
+    let simulation = simulation::read(&root, around)?;
     let rules = rules::read(&root, files)?;
     let stiffness = stiffness::read(&root, drive_link, &drive_train)?;
     let tool = tool::read(&root, machine.mechanism())?;

@@ -1,10 +1,12 @@
 //! `[simulation]`: a free motion under a motor torque.
 
-use jred::mechanism::Train;
+mod control;
+
+pub(super) use control::Around;
 
 use crate::model::characteristic::Characteristic;
 use crate::model::coordinate::Coordinate;
-use crate::model::machine::{Shaft, Simulation};
+use crate::model::simulation::{Shaft, Simulation};
 
 use super::drive_link::DriveLink;
 use crate::number::rounding::figure;
@@ -20,19 +22,15 @@ const MAX_STEPS: f64 = 100_000.0;
 const MAX_POINTS: usize = 1000;
 
 /// The simulation for `jred simulate`, if the file has one.
-pub(super) fn read(
-    root: &Section,
-    drive: DriveLink,
-    drive_train: &Train,
-) -> Result<Option<Simulation>> {
+pub(super) fn read(root: &Section, around: Around) -> Result<Option<Simulation>> {
+    let Around {
+        drive, drive_train, ..
+    } = around;
     let Some(item) = root.get("simulation") else {
         return Ok(None);
     };
     let section = item.section("[simulation]".into())?;
-    let start_angle = start(&section, drive)?;
-    let start_speed = section
-        .optional("start_speed", drive.speed())?
-        .map_or(0.0, |value| value.si);
+    let [start_angle, start_speed] = start(&section, around)?;
     let duration = section.quantity("duration", &TIME)?;
     let output_step = section.quantity("output_step", &TIME)?;
     duration.check_positive()?;
@@ -101,6 +99,9 @@ pub(super) fn read(
         Some(item) => item.number([1e-13, 1e-3], "1e-10")?,
         None => 1e-10,
     };
+    let control = control::control(&section, around, at, &torque)?;
+    let halt = control::halt(&section, around)?;
+    let end_stops = control::end_stops(&section, around, start_angle)?;
     section.finish()?;
     Ok(Some(Simulation {
         start_angle,
@@ -108,19 +109,29 @@ pub(super) fn read(
         duration: duration.si,
         output_step: output_step.si,
         torque,
+        control,
+        halt,
+        end_stops,
         at,
         rotor_inertia,
         tolerance,
     }))
 }
 
-/// Where the drive link starts (rad, or m).
-fn start(section: &Section, drive: DriveLink) -> Result<f64> {
+/// Where the drive link starts (rad, or m), and how fast. A controlled machine that is not told so starts as its motion does.
+fn start(section: &Section, around: Around) -> Result<[f64; 2]> {
+    let drive = around.drive;
     let key = if drive.slides() {
         "start_position"
     } else {
         "start_angle"
     };
+    let speed = section.optional("start_speed", drive.speed())?;
+    let reference = around.motion.filter(|_| section.peek("control").is_some());
+    if let (None, Some(motion)) = (section.get(key), reference) {
+        let state = motion.at(0.0);
+        return Ok([state.phi, speed.map_or(state.omega, |speed| speed.si)]);
+    }
     let start = section.quantity(key, drive.position())?;
     if !drive.reaches(start.si) {
         let what = format!(
@@ -132,7 +143,7 @@ fn start(section: &Section, drive: DriveLink) -> Result<f64> {
             .problem(&what, "out of reach")
             .help("start at a position within the stroke"));
     }
-    Ok(start.si)
+    Ok([start.si, speed.map_or(0.0, |speed| speed.si)])
 }
 
 /// The torque or force over the speed.

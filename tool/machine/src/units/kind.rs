@@ -93,6 +93,7 @@ kinds! {
     THERMAL_RESISTANCE "a thermal resistance" "0.4 K/W" "K/W" "K/W" 1e-9 1e6;
     LOSS "a power per current" "8 W/A" "W/A" "W/A" 1e-9 1e6;
     CUTOFF "a frequency" "40 Hz" "Hz" "Hz, kHz" 1e-6 1e6;
+    GAIN "a gain (speed per distance)" "20 1/s" "1/s" "1/s" 1e-6 1e6;
 }
 
 // Over the angle of a cam, of a follower that slides or swings; elsewhere such a quantity has no name.

@@ -98,7 +98,10 @@ fn andrews_mechanism_has_its_published_states() {
 #[test]
 fn andrews_mechanism_arrives_where_it_is_published_to_arrive() {
     let file = mechanism();
-    let run = simulate(&file, file.simulation.as_ref().unwrap()).unwrap();
+    let run = simulate(&file, file.simulation.as_ref().unwrap())
+        .unwrap()
+        .whole()
+        .unwrap();
     let end = run.rows().last().unwrap();
     let named = published("t=0.03");
     for (column, name, unit) in [

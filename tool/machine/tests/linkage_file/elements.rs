@@ -3,7 +3,7 @@
 use jred::Reducible as _;
 use jred::machine::Mechanism as _;
 use jred_machine::analysis::simulate::simulate;
-use jred_machine::model::machine::Shaft;
+use jred_machine::model::simulation::Shaft;
 
 use super::{FOUR_BAR, read, refuses, refuses_edit, within};
 use crate::support::{budget, press_text};
@@ -110,7 +110,7 @@ fn a_press_with_a_counterbalance_spring_keeps_its_energy() {
     let [with, without] = [COUNTERBALANCE, ""].map(|spring| read(&balanced_press(spring)));
     let simulation = with.simulation.as_ref().unwrap();
     assert_eq!(simulation.at, Shaft::Motor);
-    let columns = simulate(&with, simulation).unwrap();
+    let columns = simulate(&with, simulation).unwrap().whole().unwrap();
     let column = |name: &str| -> Vec<f64> {
         let index = columns.names().iter().position(|n| n == name).unwrap();
         columns

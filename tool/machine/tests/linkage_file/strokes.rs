@@ -218,7 +218,10 @@ fn free_motions_of_a_sliding_drive() {
          output_step = \"5 ms\"\nforce = \"0 N\"\ntolerance = 1e-12\n"
     );
     let file = read(&free);
-    let columns = simulate(&file, file.simulation.as_ref().unwrap()).unwrap();
+    let columns = simulate(&file, file.simulation.as_ref().unwrap())
+        .unwrap()
+        .whole()
+        .unwrap();
     assert_eq!(columns.names()[1], "s [mm]");
     assert_eq!(columns.names()[4], "motor force [N]");
     let total: Vec<f64> = columns
@@ -234,7 +237,10 @@ fn free_motions_of_a_sliding_drive() {
         .replace("force = \"0 N\"", "force = \"20 kN\"")
         .replace("0.05 s", "2 s");
     let file = read(&against);
-    let error = simulate(&file, file.simulation.as_ref().unwrap()).unwrap_err();
+    let error = simulate(&file, file.simulation.as_ref().unwrap())
+        .unwrap()
+        .whole()
+        .unwrap_err();
     let text = error.to_string();
     assert!(
         text.contains("end of its stroke, s = 800 mm, before t = 0."),

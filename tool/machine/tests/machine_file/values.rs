@@ -7,9 +7,9 @@ use jred::Domain;
 use jred::machine::{Action, Load, Mechanism, Window};
 use jred::mechanism::Train;
 use jred_machine::model::characteristic::Characteristic;
-use jred_machine::model::machine::Shaft;
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
+use jred_machine::model::simulation::Shaft;
 use jred_machine::read;
 
 use super::{GEARS, PRESS, close, data, parse, rendered};

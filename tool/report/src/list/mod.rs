@@ -9,5 +9,6 @@ pub mod listing;
 pub mod ratio;
 pub mod rule_list;
 pub mod sensitivity;
+pub mod simulation;
 pub mod steady;
 pub mod tolerance;

@@ -6,7 +6,8 @@ use jred::{Error, Reducible as _};
 use super::chart::{Chart, ChartKind};
 use crate::plot::{Axes, Axis, Series, Style, lines};
 use jred_machine::model::coordinate::{Coordinate, whole_range};
-use jred_machine::model::machine::{MachineFile, Simulation};
+use jred_machine::model::machine::MachineFile;
+use jred_machine::model::simulation::Simulation;
 use jred_machine::number::columns::{Columns, Quantity};
 
 /// Intervals of the figures over the range.

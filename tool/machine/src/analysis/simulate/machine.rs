@@ -1,12 +1,13 @@
 //! A machine whose motor drives it through a fixed ratio.
 
-use jred::Error;
 use jred::mechanism::TrainOutput;
+use jred::{Error, Reduction};
 
-use super::run::{self, Row};
 use super::SimulationError;
+use super::run::{self, Row};
 use crate::model::coordinate::Coordinate;
-use crate::model::machine::{MachineFile, Shaft, Simulation};
+use crate::model::machine::MachineFile;
+use crate::model::simulation::{Shaft, Simulation};
 use crate::number::columns::{Column, Quantity};
 use crate::number::numerics::newton;
 
@@ -63,19 +64,63 @@ impl<'a> Plant<'a> {
         direction: f64,
         [phi, omega]: [f64; 2],
     ) -> Result<f64, Error> {
-        let torque = self.resisting(direction, [phi, omega])?;
-        Ok(match self.simulation.at {
-            Shaft::DriveLink => torque,
-            Shaft::Motor => {
-                let output = TrainOutput {
-                    torque,
-                    omega,
-                    direction,
-                    ..TrainOutput::default()
-                };
-                self.file.drive_train.input(&output).torque
+        match self.simulation.at {
+            Shaft::DriveLink => self.resisting(direction, [phi, omega]),
+            Shaft::Motor => self.required(direction, [phi, omega, 0.0]),
+        }
+    }
+
+    /// The torque at the motor shaft that a motion asks for.
+    pub(super) fn required(
+        &self,
+        direction: f64,
+        [phi, omega, alpha]: [f64; 3],
+    ) -> Result<f64, Error> {
+        let resisting = self.resisting(direction, [phi, omega])?;
+        let inertia = if alpha == 0.0 {
+            0.0
+        } else {
+            self.point(phi)?.inertia
+        };
+        Ok(self.at_motor(direction, [omega, alpha], inertia * alpha + resisting))
+    }
+
+    /// The torque at the motor shaft that gives one at the drive link under a speed and an acceleration.
+    pub(super) fn at_motor(&self, direction: f64, [omega, alpha]: [f64; 2], torque: f64) -> f64 {
+        let train = &self.file.drive_train;
+        let output = TrainOutput {
+            torque,
+            omega,
+            alpha,
+            direction,
+            ..TrainOutput::default()
+        };
+        train.input(&output).torque + self.simulation.rotor_inertia * train.ratio() * alpha
+    }
+
+    /// Torque of the motor and of the brake at the time `t`: the motor's is `driving` until it is switched off.
+    pub(super) fn halted(&self, t: f64, direction: f64, driving: impl Fn() -> f64) -> f64 {
+        match self.simulation.halt {
+            Some(halt) if t >= halt.time + halt.brake_delay => {
+                -halt.brake_torque * direction * self.ratio().signum()
             }
-        })
+            Some(halt) if t >= halt.time => 0.0,
+            _ => driving(),
+        }
+    }
+
+    /// The torque at the motor's shaft without a controller.
+    fn torque(&self, t: f64, direction: f64, omega: f64) -> f64 {
+        self.halted(t, direction, || self.motor(omega)[0])
+    }
+
+    /// The reduced link at a position; behind an end stop, into which a step of the integrator may reach, that of the stop.
+    pub(super) fn point(&self, phi: f64) -> Result<Reduction, Error> {
+        let phi = match self.simulation.end_stops {
+            Some(stops) => phi.clamp(stops.from, stops.to),
+            None => phi,
+        };
+        Ok(self.file.machine.bare_reduction(phi)?)
     }
 
     /// The torque at the drive link that keeps the speed `omega` at the position `phi`.
@@ -84,14 +129,14 @@ impl<'a> Plant<'a> {
         direction: f64,
         [phi, omega]: [f64; 2],
     ) -> Result<f64, Error> {
-        let point = self.file.machine.bare_reduction(phi)?;
+        let point = self.point(phi)?;
         let load = point.load_torque() - point.viscous * omega - point.coulomb * direction;
         Ok(0.5 * point.inertia_slope * omega * omega - load)
     }
 
     /// Inertia of the machine at `phi`, of the drive train and of the rotor, all at the drive link; and the potential energy.
     pub(in crate::analysis) fn inertia(&self, phi: f64) -> Result<[f64; 2], Error> {
-        let point = self.file.machine.bare_reduction(phi)?;
+        let point = self.point(phi)?;
         // The rotor and the drive train turn with the drive link.
         let train = &self.file.drive_train;
         let ratio = train.ratio();
@@ -108,11 +153,21 @@ impl<'a> Plant<'a> {
         direction: f64,
         [phi, omega, ..]: &State,
     ) -> Result<Instant, Error> {
-        let omega = *omega;
-        let point = self.file.machine.bare_reduction(*phi)?;
+        let [torque, _] = self.motor(*omega);
+        self.under(direction, [*phi, *omega], torque)
+    }
+
+    /// The same under a torque of the motor.
+    pub(super) fn under(
+        &self,
+        direction: f64,
+        [phi, omega]: [f64; 2],
+        torque: f64,
+    ) -> Result<Instant, Error> {
+        let point = self.point(phi)?;
         let load = point.load_torque() - point.viscous * omega - point.coulomb * direction;
         let resisting = 0.5 * point.inertia_slope * omega * omega - load;
-        let [torque, speed] = self.motor(omega);
+        let speed = omega * self.ratio();
         let train = &self.file.drive_train;
         let ratio = train.ratio();
         let rotor = self.simulation.rotor_inertia;
@@ -145,6 +200,47 @@ impl<'a> Plant<'a> {
             loss: loss + (point.viscous * omega + point.coulomb * direction) * omega,
         })
     }
+
+    /// What happens at a state at the time `t`.
+    fn now(&self, direction: f64, t: f64, [phi, omega, ..]: &State) -> Result<Instant, Error> {
+        self.under(direction, [*phi, *omega], self.torque(t, direction, *omega))
+    }
+
+    /// When the motor is switched off, and when the brake closes.
+    pub(super) fn halts(&self) -> Vec<f64> {
+        let halt = self.simulation.halt;
+        let times = halt.map(|halt| [halt.time, halt.time + halt.brake_delay]);
+        times.into_iter().flatten().collect()
+    }
+
+    /// The columns of a row.
+    pub(super) fn columns(&self) -> [Column; 5] {
+        let coordinate = self.coordinate;
+        let [speed, acceleration] = coordinate.rates();
+        let (motor, unit) = if self.simulation.drives_a_slide(self.file) {
+            ("motor force", "N")
+        } else {
+            ("motor torque", "N m")
+        };
+        let (inertia, inertia_unit) = (coordinate.inertia(), coordinate.inertia_unit());
+        [
+            coordinate.column(),
+            speed,
+            acceleration,
+            Column::new(Quantity::MotorEffort, motor, unit),
+            Column::new(Quantity::ReducedInertia, inertia, inertia_unit),
+        ]
+    }
+
+    /// The row of a state with its motor torque.
+    pub(super) fn written(&self, [phi, omega, alpha]: [f64; 3], torque: f64) -> Result<Row, Error> {
+        let [inertia, potential] = self.inertia(phi)?;
+        Ok(Row {
+            figures: vec![self.coordinate.shown(phi), omega, alpha, torque, inertia],
+            kinetic: 0.5 * inertia * omega * omega,
+            potential,
+        })
+    }
 }
 
 impl run::Plant<5> for Plant<'_> {
@@ -157,11 +253,11 @@ impl run::Plant<5> for Plant<'_> {
         Ok([start_angle, start_speed, 0.0, 0.0, 0.0])
     }
 
-    fn slope(&self, direction: f64, _: f64, y: &State) -> Result<State, Error> {
+    fn slope(&self, direction: f64, t: f64, y: &State) -> Result<State, Error> {
         if direction == 0.0 {
             return Ok([0.0; 5]);
         }
-        let now = self.instant(direction, y)?;
+        let now = self.now(direction, t, y)?;
         Ok([
             y[1],
             now.alpha,
@@ -179,49 +275,29 @@ impl run::Plant<5> for Plant<'_> {
         Ok([phi, omega, y[2], y[3], y[4]])
     }
 
-    fn alpha(&self, direction: f64, _: f64, y: &State) -> Result<f64, Error> {
-        Ok(self.instant(direction, y)?.alpha)
+    fn alpha(&self, direction: f64, t: f64, y: &State) -> Result<f64, Error> {
+        Ok(self.now(direction, t, y)?.alpha)
     }
 
     fn check(&self, _: f64, _: f64, _: &State) -> Result<(), SimulationError> {
         Ok(())
     }
 
-    fn corners(&self) -> impl Iterator<Item = f64> {
-        std::iter::empty()
+    fn corners(&self) -> Vec<f64> {
+        self.halts()
     }
 
     fn heads(&self) -> Vec<Column> {
-        let coordinate = self.coordinate;
-        let [speed, acceleration] = coordinate.rates();
-        let (motor, unit) = if self.simulation.drives_a_slide(self.file) {
-            ("motor force", "N")
-        } else {
-            ("motor torque", "N m")
-        };
-        let (inertia, inertia_unit) = (coordinate.inertia(), coordinate.inertia_unit());
-        vec![
-            coordinate.column(),
-            speed,
-            acceleration,
-            Column::new(Quantity::MotorEffort, motor, unit),
-            Column::new(Quantity::ReducedInertia, inertia, inertia_unit),
-        ]
+        self.columns().to_vec()
     }
 
     fn row(&self, direction: f64, t: f64, y: &State) -> Result<Row, Error> {
-        let [phi, omega, ..] = *y;
-        let [inertia, potential] = self.inertia(phi)?;
         let alpha = if direction == 0.0 {
             0.0
         } else {
             self.alpha(direction, t, y)?
         };
-        let [torque, _] = self.motor(omega);
-        Ok(Row {
-            figures: vec![self.coordinate.shown(phi), omega, alpha, torque, inertia],
-            kinetic: 0.5 * inertia * omega * omega,
-            potential,
-        })
+        let [phi, omega, ..] = *y;
+        self.written([phi, omega, alpha], self.torque(t, direction, omega))
     }
 }

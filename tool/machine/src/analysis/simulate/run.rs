@@ -5,12 +5,19 @@ use jred::{Domain, Error, Reducible as _};
 use super::SimulationError;
 use super::error::stopped;
 use super::watch::{At, Watch};
-use crate::model::machine::{MachineFile, Simulation};
+use crate::model::machine::MachineFile;
+use crate::model::simulation::{EndStops, Halt, Simulation};
 use crate::number::columns::{Column, Columns, Quantity};
 use crate::number::numerics::dormand_prince::{Accuracy, Point};
 
 /// The most steps within one output step.
 const MOST_STEPS: u32 = 1_000_000;
+
+/// A hair beside a corner, per second of time: what jumps there belongs to both sides.
+const EDGE: f64 = 1e-13;
+
+/// A rebound from an end stop that is back within this time (s) is none.
+const BRIEFEST_FLIGHT: f64 = 1e-6;
 
 /// A hair of speed (rad/s): it puts the losses of each stage on the side of the motion to come.
 const HAIR: f64 = 1e-12;
@@ -38,8 +45,8 @@ pub(in crate::analysis) trait Plant<const N: usize> {
     /// Refuses a state that the equations do not describe.
     fn check(&self, direction: f64, t: f64, y: &[f64; N]) -> Result<(), SimulationError>;
 
-    /// Times at which y′ has a corner (s): no step passes over one.
-    fn corners(&self) -> impl Iterator<Item = f64>;
+    /// Times at which y′ has a corner or a jump (s), in any order: no step passes over one.
+    fn corners(&self) -> Vec<f64>;
 
     /// The columns of the figures of a [`Row`].
     fn heads(&self) -> Vec<Column>;
@@ -86,12 +93,50 @@ pub(in crate::analysis) fn cells(
     (cells, balance)
 }
 
+/// A motion, as far as it came.
+#[derive(Debug)]
+pub struct Simulated {
+    /// A row for each output step.
+    pub columns: Columns,
+    /// Where the drive link came to rest first after the motor was switched off.
+    pub rest: Option<Rest>,
+    /// Why the motion ends before its time.
+    pub ended: Option<SimulationError>,
+}
+
+/// Where and when the drive link came to rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rest {
+    /// Time since the motor was switched off (s).
+    pub time: f64,
+    /// Way since then (rad, or m).
+    pub way: f64,
+}
+
+impl Simulated {
+    /// The columns of a motion that came to its end.
+    ///
+    /// # Errors
+    /// Why it did not.
+    pub fn whole(self) -> Result<Columns, SimulationError> {
+        match self.ended {
+            None => Ok(self.columns),
+            Some(error) => Err(error),
+        }
+    }
+}
+
 /// Runs a simulation.
+///
+/// # Errors
+/// The machine cannot be placed at the start, or is not closed there.
 pub(super) fn run<const N: usize>(
     plant: &impl Plant<N>,
     file: &MachineFile,
     simulation: &Simulation,
-) -> Result<Columns, SimulationError> {
+) -> Result<Simulated, SimulationError> {
+    let mut corners = plant.corners();
+    corners.sort_by(f64::total_cmp);
     let mut run = Run {
         plant,
         file,
@@ -100,7 +145,11 @@ pub(super) fn run<const N: usize>(
             most_steps: MOST_STEPS,
         },
         watch: Watch::new(file),
+        stops: simulation.end_stops,
         direction: 0.0,
+        inside: [f64::NEG_INFINITY, f64::INFINITY],
+        halt: None,
+        rest: None,
     };
     let mut y = plant.start()?;
     run.direction = run.heading(&y)?;
@@ -111,20 +160,32 @@ pub(super) fn run<const N: usize>(
         .max(1.0) as usize;
     let mut start_energy = None;
     let mut t = 0.0;
+    let mut ended = None;
     for k in 0..=steps {
         let end = simulation.duration * k as f64 / steps as f64;
-        let corners = plant.corners().filter(|at| *at > t && *at < end);
-        for next in corners.chain([end]).collect::<Vec<f64>>() {
-            y = run.advance(t, next, y)?;
-            t = next;
-        }
-        let row = plant.row(run.direction, t, &y)?;
+        let step = run.output_step(&corners, simulation.halt, [t, end], y);
+        let row = step.and_then(|state| {
+            y = state;
+            Ok(plant.row(run.direction, end, &y)?)
+        });
+        let row = match row {
+            Ok(row) => row,
+            Err(error) => {
+                ended = Some(error);
+                break;
+            }
+        };
+        t = end;
         let energy = row.kinetic + row.potential;
         let start = *start_energy.get_or_insert(energy);
         let works = std::array::from_fn(|i| y[N - 3 + i]);
         columns.push(cells(t, row, works, start).0);
     }
-    Ok(columns)
+    Ok(Simulated {
+        columns,
+        rest: run.rest,
+        ended,
+    })
 }
 
 struct Run<'a, P> {
@@ -133,10 +194,67 @@ struct Run<'a, P> {
     accuracy: Accuracy,
     /// The joints that can let go.
     watch: Watch<'a>,
+    /// What stops the drive link.
+    stops: Option<EndStops>,
     direction: f64,
+    /// The times between the corners around: forces may jump at either, and a step is evaluated inside.
+    inside: [f64; 2],
+    /// When and where the motor was switched off.
+    halt: Option<[f64; 2]>,
+    rest: Option<Rest>,
 }
 
 impl<P> Run<'_, P> {
+    /// Integrates over an output step, from corner to corner.
+    fn output_step<const N: usize>(
+        &mut self,
+        corners: &[f64],
+        halt: Option<Halt>,
+        [mut t, end]: [f64; 2],
+        mut y: [f64; N],
+    ) -> Result<[f64; N], SimulationError>
+    where
+        P: Plant<N>,
+    {
+        loop {
+            let passed = corners.partition_point(|at| *at <= t);
+            let before = passed.checked_sub(1).map(|last| corners[last]);
+            let after = corners.get(passed).copied();
+            let hair = EDGE * (1.0 + t);
+            self.inside = [
+                before.map_or(f64::NEG_INFINITY, |at| at + hair),
+                after.map_or(f64::INFINITY, |at| at - hair),
+            ];
+            if self.halt.is_none() && halt.is_some_and(|halt| halt.time <= t) {
+                let [phi, omega] = self.plant.link(t, &y)?;
+                self.halt = Some([t, phi]);
+                if omega == 0.0 {
+                    self.rests([t, phi]);
+                }
+            }
+            // What was held may go now, or a brake hold what was at rest.
+            if before == Some(t) && self.plant.link(t, &y)?[1] == 0.0 {
+                self.direction = self.start_direction(t, &y)?;
+            }
+            if t >= end {
+                return Ok(y);
+            }
+            let next = after.map_or(end, |at| at.min(end));
+            y = self.advance(t, next, y)?;
+            t = next;
+        }
+    }
+
+    /// The drive link is at rest.
+    fn rests(&mut self, [t, phi]: [f64; 2]) {
+        if let (Some([time, way]), None) = (self.halt, self.rest) {
+            self.rest = Some(Rest {
+                time: t - time,
+                way: phi - way,
+            });
+        }
+    }
+
     /// Integrates from `t` to `end`; where friction changes, it turns round, holds or lets go.
     fn advance<const N: usize>(
         &mut self,
@@ -182,6 +300,11 @@ impl<P> Run<'_, P> {
             }
             self.check(&start, &before)?;
             t = after.0.min(end);
+            let [phi, omega] = self.plant.link(t, &after.1)?;
+            if let Some(stop) = self.stop_behind([phi, omega]) {
+                y = self.impact(t, &after.1, [stop, omega])?;
+                continue;
+            }
             // What was held starts where it is let go; what turns round does so from rest.
             y = if self.direction == 0.0 {
                 after.1
@@ -190,6 +313,7 @@ impl<P> Run<'_, P> {
             };
             let [phi, _] = self.plant.link(t, &y)?;
             y = self.plant.with_link(t, &y, [phi, 0.0])?;
+            self.rests([t, phi]);
             self.direction = self.start_direction(t, &y)?;
         }
         Err(SimulationError::Integrator {
@@ -213,7 +337,7 @@ impl<P> Run<'_, P> {
         }
         // Counted from here, short intervals keep all their digits.
         let steps = self.accuracy.steps(
-            |x, y| self.plant.slope(self.direction, t + x, y),
+            |x, y| self.plant.slope(self.direction, self.within(t + x), y),
             *y,
             end - t,
             |x, y| self.is_over(t + x, y),
@@ -245,7 +369,11 @@ impl<P> Run<'_, P> {
         P: Plant<N>,
     {
         let [phi, _] = self.plant.link(t, y)?;
+        let t = self.within(t);
         for direction in [1.0, -1.0] {
+            if self.is_at_stop(phi, direction) {
+                continue;
+            }
             let moved = self.plant.with_link(t, y, [phi, direction * HAIR])?;
             if self.plant.alpha(direction, t, &moved)? * direction > 0.0 {
                 return Ok(direction);
@@ -262,7 +390,70 @@ impl<P> Run<'_, P> {
         if self.direction == 0.0 {
             return Ok(self.start_direction(t, y)? != 0.0);
         }
-        Ok(self.plant.link(t, y)?[1] * self.direction < 0.0)
+        let [phi, omega] = self.plant.link(t, y)?;
+        Ok(omega * self.direction < 0.0 || self.stop_behind([phi, omega]).is_some())
+    }
+
+    /// A time inside the smooth stretch around.
+    fn within(&self, t: f64) -> f64 {
+        let [from, to] = self.inside;
+        t.max(from).min(to)
+    }
+
+    /// The end stop that a drive link in motion has passed.
+    fn stop_behind(&self, [phi, omega]: [f64; 2]) -> Option<f64> {
+        let stops = self.stops?;
+        if phi > stops.to && omega > 0.0 {
+            Some(stops.to)
+        } else if phi < stops.from && omega < 0.0 {
+            Some(stops.from)
+        } else {
+            None
+        }
+    }
+
+    /// Whether an end stop bars the way in a direction.
+    fn is_at_stop(&self, phi: f64, direction: f64) -> bool {
+        self.stops.is_some_and(|stops| {
+            if direction > 0.0 {
+                phi >= stops.to
+            } else {
+                phi <= stops.from
+            }
+        })
+    }
+
+    /// The state after the drive link has hit an end stop at a position with a speed; the energy of the impact is lost. A rebound that
+    /// would be back at once rests.
+    fn impact<const N: usize>(
+        &mut self,
+        t: f64,
+        y: &[f64; N],
+        [stop, omega]: [f64; 2],
+    ) -> Result<[f64; N], SimulationError>
+    where
+        P: Plant<N>,
+    {
+        let restitution = self.stops.map_or(0.0, |stops| stops.restitution);
+        let kinetic = |y: &[f64; N]| -> Result<f64, Error> {
+            Ok(self.plant.row(self.direction, self.within(t), y)?.kinetic)
+        };
+        let away = -omega.signum();
+        let mut after = self.plant.with_link(t, y, [stop, -restitution * omega])?;
+        let back = self.plant.alpha(away, self.within(t), &after)? * away;
+        let flight = 2.0 * restitution * omega.abs() / -back;
+        let rests = restitution == 0.0 || (back < 0.0 && flight < BRIEFEST_FLIGHT);
+        if rests {
+            after = self.plant.with_link(t, y, [stop, 0.0])?;
+        }
+        after[N - 1] += kinetic(&self.plant.with_link(t, y, [stop, omega])?)? - kinetic(&after)?;
+        if rests {
+            self.rests([t, stop]);
+            self.direction = self.start_direction(t, &after)?;
+        } else {
+            self.direction = away;
+        }
+        Ok(after)
     }
 
     fn at<const N: usize>(&self, t: f64, y: &[f64; N]) -> Result<At, Error>
@@ -309,7 +500,8 @@ impl<P> Run<'_, P> {
         };
         let [phi, omega] = self.plant.link(t, y)?;
         let slack = 1e-9 * (to - from);
-        if (from - slack..=to + slack).contains(&phi) {
+        // Stops lie within the stroke, and a step that passes one is cut there.
+        if self.stops.is_some() || (from - slack..=to + slack).contains(&phi) {
             return Ok(());
         }
         let coordinate = self.file.machine.mechanism().coordinate();

@@ -5,10 +5,11 @@ use jred::Error;
 use jred::friction::{Contact, OperatingPoint, Stage};
 use jred::mechanism::TrainOutput;
 
-use super::run::{self, Row};
 use super::SimulationError;
+use super::run::{self, Row};
 use crate::model::coordinate::Coordinate;
-use crate::model::machine::{MachineFile, Shaft, Simulation};
+use crate::model::machine::MachineFile;
+use crate::model::simulation::{Shaft, Simulation};
 use crate::model::variator::{Slip, Variator};
 use crate::number::columns::{Column, Quantity};
 use crate::number::numerics::newton;
@@ -240,8 +241,8 @@ impl run::Plant<7> for Plant<'_> {
         Ok(())
     }
 
-    fn corners(&self) -> impl Iterator<Item = f64> {
-        self.variator.ratio.breaks()
+    fn corners(&self) -> Vec<f64> {
+        self.variator.ratio.breaks().collect()
     }
 
     fn heads(&self) -> Vec<Column> {

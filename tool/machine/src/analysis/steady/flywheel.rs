@@ -7,7 +7,8 @@ use super::SteadyError;
 use super::cycle::{self, Cycle, Found};
 use super::figures::Figures;
 use super::turn::Turning;
-use crate::model::machine::{MachineFile, Simulation};
+use crate::model::machine::MachineFile;
+use crate::model::simulation::Simulation;
 use crate::number::numerics;
 use crate::number::rounding::short;
 

@@ -9,7 +9,8 @@ use jred::{Error, Reducible as _};
 
 use super::SteadyError;
 use crate::analysis::simulate::machine::{Instant, Plant};
-use crate::model::machine::{MachineFile, Simulation};
+use crate::model::machine::MachineFile;
+use crate::model::simulation::Simulation;
 use crate::number::numerics::dormand_prince::{Accuracy, Stopped};
 
 /// z = ½ω², time, work of the motor, work of the process loads, losses, ∫T dt and ∫T² dt of the motor.

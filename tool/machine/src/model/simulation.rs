@@ -1,0 +1,120 @@
+//! `[simulation]`: the motor of a free motion, its controller, and what stops it.
+
+use crate::model::characteristic::Characteristic;
+use crate::model::coordinate::Coordinate;
+use crate::model::machine::MachineFile;
+
+/// Where a torque acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shaft {
+    /// At the motor, in front of the drive train.
+    Motor,
+    /// At the drive link.
+    DriveLink,
+}
+
+/// A free motion under a motor torque.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    /// φ at the start (rad, or m of a link that slides).
+    pub start_angle: f64,
+    /// ω of the drive link at the start (rad/s).
+    pub start_speed: f64,
+    /// Length (s).
+    pub duration: f64,
+    /// Distance of the output points (s).
+    pub output_step: f64,
+    /// Torque of the motor over the speed, both at `at`. Under a controller, its limit: the same in both directions.
+    pub torque: Characteristic,
+    /// The controller that commands the torque, if there is one.
+    pub control: Option<Control>,
+    /// A stop in the middle of the motion.
+    pub halt: Option<Halt>,
+    /// What stops the drive link at the ends of its way.
+    pub end_stops: Option<EndStops>,
+    /// Where the torque acts.
+    pub at: Shaft,
+    /// Inertia of the motor's rotor, at the motor shaft (kg·m²).
+    pub rotor_inertia: f64,
+    /// Relative tolerance of the integrator.
+    pub tolerance: f64,
+}
+
+impl Simulation {
+    /// Where nothing but the motor is given: at the motor shaft, without a rotor, from 0 and from rest, for a second.
+    pub const fn of_motor(torque: Characteristic) -> Self {
+        Self {
+            start_angle: 0.0,
+            start_speed: 0.0,
+            duration: 1.0,
+            output_step: 0.01,
+            torque,
+            control: None,
+            halt: None,
+            end_stops: None,
+            at: Shaft::Motor,
+            rotor_inertia: 0.0,
+            tolerance: 1e-10,
+        }
+    }
+
+    /// Whether the motor drives a link that slides, without a stage that turns: its torque is then a force.
+    pub fn drives_a_slide(&self, file: &MachineFile) -> bool {
+        let coordinate = file.machine.mechanism().coordinate();
+        let direct = self.at == Shaft::DriveLink || file.drive_train.stages().is_empty();
+        coordinate == Coordinate::Length && direct
+    }
+}
+
+/// A cascade of controllers as servo amplifiers have it, at the shaft where the torque acts: position, then speed.
+///
+/// ```text
+/// n* = n_ref + K_v·(φ_ref − φ)·i
+/// T* = T_ff + K·(n* − n) + z,   z′ = (K·(n* − n) + T − T*)/t_i,   T = T* within the motor's limits
+/// ```
+///
+/// The reference is the motion of the file. Where the torque is limited, the last term keeps the integral z from winding up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Control {
+    /// K_v (1/s); 0: the speed alone is controlled.
+    pub position_gain: f64,
+    /// K (N·m·s/rad), positive.
+    pub speed_gain: f64,
+    /// t_i (s); infinite: no integral.
+    pub integral_time: f64,
+    /// T_ff.
+    pub feed_forward: FeedForward,
+}
+
+/// The torque that a controller is told before there is an error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FeedForward {
+    /// None.
+    None,
+    /// That of the mean inertia under the acceleration of the reference, as most drives have it.
+    MeanInertia,
+    /// All that the reference asks for: J(φ), J′(φ), loads, friction and losses.
+    Model,
+}
+
+/// A stop in the middle of the motion: the motor is switched off, and a brake may close.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Halt {
+    /// When the motor gives no torque any more (s).
+    pub time: f64,
+    /// Torque of the brake at the motor shaft (N·m), against the motion; 0: the machine coasts.
+    pub brake_torque: f64,
+    /// How much later the brake acts (s).
+    pub brake_delay: f64,
+}
+
+/// Rigid stops.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EndStops {
+    /// The lower one (rad, or m).
+    pub from: f64,
+    /// The upper one.
+    pub to: f64,
+    /// Speed after over speed before an impact, below 1.
+    pub restitution: f64,
+}

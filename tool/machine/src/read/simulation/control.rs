@@ -1,0 +1,203 @@
+//! `[simulation.control]`, `[simulation.stop]` and `[simulation.end_stops]`.
+
+use jred::mechanism::Train;
+
+use crate::model::characteristic::Characteristic;
+use crate::model::motion::Motion;
+use crate::model::simulation::{Control, EndStops, FeedForward, Halt, Shaft};
+
+use crate::read::drive_link::DriveLink;
+use crate::text::item::Item;
+use crate::text::problem::{Problem, Result};
+use crate::text::section::Section;
+use crate::units::kind::{FORCE, GAIN, TIME, TORQUE, VISCOUS_FORCE, VISCOUS_MOMENT};
+
+/// A stop that gives back more than this would bounce without end.
+const MOST_RESTITUTION: f64 = 0.99;
+
+/// What the parts of a simulation refer to.
+#[derive(Clone, Copy)]
+pub(in crate::read) struct Around<'a> {
+    pub(in crate::read) drive: DriveLink,
+    pub(in crate::read) drive_train: &'a Train,
+    pub(in crate::read) motion: Option<&'a Motion>,
+    pub(in crate::read) variator: bool,
+}
+
+impl Around<'_> {
+    /// Whether the motor acts on a link that slides, by a force.
+    fn pushes(&self) -> bool {
+        self.drive.slides() && self.drive_train.stages().is_empty()
+    }
+
+    /// A part that a machine with a variator cannot have.
+    fn part<'a>(&self, item: &Item<'a>, title: &str) -> Result<Section<'a>> {
+        if self.variator {
+            return Err(item
+                .problem("cannot be used with a [variator]", "here")
+                .help("a variator is simulated under a torque of its motor only: remove this part, or the [variator]"));
+        }
+        item.section(title.to_owned())
+    }
+}
+
+/// The controller, for a motor at a shaft with a torque over the speed.
+pub(super) fn control(
+    simulation: &Section,
+    around: Around,
+    at: Shaft,
+    torque: &Characteristic,
+) -> Result<Option<Control>> {
+    let Some(item) = simulation.get("control") else {
+        return Ok(None);
+    };
+    let section = around.part(&item, "[simulation.control]")?;
+    if around.motion.is_none() {
+        return Err(section
+            .problem(
+                "[simulation.control] has no motion to follow",
+                "this controller",
+            )
+            .help("add a [motion] to the file: it is the reference"));
+    }
+    if at == Shaft::DriveLink && !around.drive_train.stages().is_empty() {
+        return Err(section
+            .problem(
+                "the controller acts at the motor, but `at` names the drive link",
+                "this controller",
+            )
+            .help("remove `at`: torque, speed and gains are those of the motor shaft"));
+    }
+    limits(&item, torque)?;
+    let kind = if around.pushes() {
+        &VISCOUS_FORCE
+    } else {
+        &VISCOUS_MOMENT
+    };
+    let speed_gain = section.quantity("speed_gain", kind)?.positive()?;
+    let position_gain = match section.optional("position_gain", &GAIN)? {
+        Some(gain) => gain.not_negative()?,
+        None => 0.0,
+    };
+    let integral_time = match section.optional("integral_time", &TIME)? {
+        Some(time) => time.positive()?,
+        None => f64::INFINITY,
+    };
+    let words = ["none", "mean-inertia", "model"];
+    let feed_forward = match section.get("feed_forward") {
+        None => FeedForward::None,
+        Some(item) => match item.choice(&words)? {
+            0 => FeedForward::None,
+            1 => FeedForward::MeanInertia,
+            _ => FeedForward::Model,
+        },
+    };
+    section.finish()?;
+    Ok(Some(Control {
+        position_gain,
+        speed_gain,
+        integral_time,
+        feed_forward,
+    }))
+}
+
+/// Refuses a motor whose torque is no limit for both directions.
+fn limits(control: &Item, torque: &Characteristic) -> Result<()> {
+    let fault = match torque {
+        Characteristic::Points(points) => points
+            .iter()
+            .any(|(speed, torque)| *torque < 0.0 || *speed < 0.0),
+        Characteristic::Dc { stall_torque, .. } => *stall_torque < 0.0,
+        Characteristic::Induction { .. } => true,
+    };
+    if !fault {
+        return Ok(());
+    }
+    Err(Problem::new("under a controller, the motor's torque is the limit in both directions, over the speed's magnitude")
+        .at(control.key_span(), "this controller")
+        .help("give torque, torque_speed or dc_motor with speeds and torques that are not negative"))
+}
+
+/// The stop in the middle of the motion.
+pub(super) fn halt(simulation: &Section, around: Around) -> Result<Option<Halt>> {
+    let Some(item) = simulation.get("stop") else {
+        return Ok(None);
+    };
+    let section = around.part(&item, "[simulation.stop]")?;
+    let time = section.quantity("time", &TIME)?.not_negative()?;
+    let (key, kind) = if around.pushes() {
+        ("brake_force", &FORCE)
+    } else {
+        ("brake_torque", &TORQUE)
+    };
+    let brake_torque = match section.optional(key, kind)? {
+        Some(torque) => torque.not_negative()?,
+        None => 0.0,
+    };
+    let brake_delay = match section.optional("brake_delay", &TIME)? {
+        Some(delay) => delay.not_negative()?,
+        None => 0.0,
+    };
+    section.finish()?;
+    Ok(Some(Halt {
+        time,
+        brake_torque,
+        brake_delay,
+    }))
+}
+
+/// The end stops; `start` is where the motion begins.
+pub(super) fn end_stops(
+    simulation: &Section,
+    around: Around,
+    start: f64,
+) -> Result<Option<EndStops>> {
+    let Some(item) = simulation.get("end_stops") else {
+        return Ok(None);
+    };
+    let section = around.part(&item, "[simulation.end_stops]")?;
+    let kind = around.drive.position();
+    let example = format!("at = [\"{}\", \"{}\"]", kind.example, kind.example);
+    let at = section.require("at", &example)?;
+    let [lower, upper] = at.pair([kind, kind])?;
+    let [from, to] = [lower.si, upper.si];
+    if from >= to {
+        return Err(at
+            .problem(
+                &format!(
+                    "is {} to {}: the first must be below the second",
+                    lower.shown(),
+                    upper.shown()
+                ),
+                "in this order",
+            )
+            .help("give the lower stop first"));
+    }
+    for end in [&lower, &upper] {
+        if !around.drive.reaches(end.si) {
+            let what = format!(
+                "is {}, outside the stroke, {}",
+                end.shown(),
+                around.drive.range()
+            );
+            return Err(end
+                .problem(&what, "out of reach")
+                .help("place the end stops within the stroke"));
+        }
+    }
+    if !(from..=to).contains(&start) {
+        return Err(at
+            .problem("does not contain the start", "between these stops")
+            .help("start between the end stops"));
+    }
+    let restitution = match section.get("restitution") {
+        Some(item) => item.number([0.0, MOST_RESTITUTION], "0.3")?,
+        None => 0.0,
+    };
+    section.finish()?;
+    Ok(Some(EndStops {
+        from,
+        to,
+        restitution,
+    }))
+}

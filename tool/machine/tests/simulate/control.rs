@@ -1,0 +1,155 @@
+//! Motions under a cascade of controllers.
+
+use jred_machine::analysis;
+
+use super::{J, imbalance, simulate, turntable};
+use crate::reading::parse;
+use crate::support::{budget, edited, largest, near, press_text, within};
+
+/// The turntable follows `motion` from rest, under a controller with these keys.
+fn controlled(motion: &str, control: &str, more: &str) -> String {
+    turntable(
+        &format!("{more}\n{motion}"),
+        &format!(
+            "start_speed = \"0 rpm\"\nduration = \"1 s\"\noutput_step = \"10 ms\"\ntorque = \"1000 N m\"\ncontrol = {{ {control} }}"
+        ),
+    )
+}
+
+const STEADY: &str = "[motion]\ntype = \"constant-speed\"\nspeed = \"10 rad/s\"\n";
+
+/// A step of the speed: first order without an integral, second order with one.
+#[test]
+fn a_step_of_the_speed_is_answered_as_the_closed_form_says() {
+    let (wanted, gain) = (10.0, 0.4);
+    let found = simulate(&controlled(STEADY, "speed_gain = \"0.4 N m s/rad\"", ""));
+    for (t, omega) in found
+        .get("t [s]")
+        .into_iter()
+        .zip(found.get("omega [rad/s]"))
+    {
+        let expected = wanted * (1.0 - (-gain * t / J).exp());
+        within("P", omega, expected, budget::CLOSED_MOTION * wanted);
+    }
+    // J·ω″ + K·ω′ + K/t_i·ω = K/t_i·ω*, ω′(0) = K·ω*/J.
+    let integral_time = 0.1;
+    let found = simulate(&controlled(
+        STEADY,
+        "speed_gain = \"0.4 N m s/rad\", integral_time = \"100 ms\"",
+        "",
+    ));
+    let decay: f64 = 0.5 * gain / J;
+    let square = gain / (integral_time * J) - decay * decay;
+    assert!(square > 0.0, "an oscillation");
+    let nu = square.sqrt();
+    for (t, omega) in found
+        .get("t [s]")
+        .into_iter()
+        .zip(found.get("omega [rad/s]"))
+    {
+        // e = ω* − ω: e(0) = ω*, e′(0) = −K·ω*/J = −2·decay·ω*.
+        let error = wanted * (-decay * t).exp() * ((nu * t).cos() - decay / nu * (nu * t).sin());
+        within("PI", omega, wanted - error, budget::CLOSED_MOTION * wanted);
+    }
+    assert!(imbalance(&found) < budget::BALANCE);
+}
+
+/// A start from a wrong angle: the position error falls by J·e″ + K·e′ + K·K_v·e = 0.
+#[test]
+fn the_position_controller_takes_an_error_away() {
+    let (gain, position): (f64, f64) = (1.0, 4.0);
+    let motion =
+        "[motion]\ntype = \"cycle\"\nstart = \"1 rad\"\n[[motion.segment]]\ndwell = \"1 s\"\n";
+    let found = simulate(&controlled(
+        motion,
+        "speed_gain = \"1 N m s/rad\", position_gain = \"4 1/s\"",
+        "",
+    ));
+    let root = (gain * gain - 4.0 * J * gain * position).sqrt();
+    let [slow, fast] = [-1.0, 1.0].map(|sign| (-gain - sign * root) / (2.0 * J));
+    for (t, error) in found
+        .get("t [s]")
+        .into_iter()
+        .zip(found.get("phi error [deg]"))
+    {
+        let expected = (fast * (slow * t).exp() - slow * (fast * t).exp()) / (fast - slow);
+        within("error", error.to_radians(), expected, budget::CLOSED_MOTION);
+    }
+}
+
+/// At the motor's limit the acceleration is constant, and the integral does not wind up: the overshoot stays small.
+#[test]
+fn a_limited_motor_accelerates_evenly_and_does_not_wind_up() {
+    let text = controlled(
+        STEADY,
+        "speed_gain = \"20 N m s/rad\", integral_time = \"20 ms\"",
+        "",
+    );
+    let found = simulate(&edited(&text, "1000 N m", "2 N m"));
+    let speeds = found.get("omega [rad/s]");
+    for (t, omega) in found.get("t [s]").into_iter().zip(&speeds) {
+        if t < 0.2 {
+            within("at the limit", *omega, 2.0 / J * t, budget::CLOSED_MOTION);
+        }
+    }
+    let most = largest(&speeds);
+    assert!((10.0..10.2).contains(&most), "{most}");
+    near(
+        "at the end",
+        *speeds.last().unwrap(),
+        10.0,
+        budget::CLOSED_MOTION,
+    );
+}
+
+/// Friction holds the machine until the integral has grown to it: K·ω*·(1 + t/t_i) = M, on the side of the motor.
+#[test]
+fn friction_holds_until_the_integral_breaks_it_away() {
+    let friction = "[[load]]\non = \"shaft-1\"\nopposing_moment = \"2 N m\"\n";
+    let found = simulate(&controlled(
+        STEADY,
+        "speed_gain = \"0.1 N m s/rad\", integral_time = \"100 ms\"",
+        friction,
+    ));
+    // 0.1·10·(1 + t/0.1) = 2.
+    for (t, omega) in found
+        .get("t [s]")
+        .into_iter()
+        .zip(found.get("omega [rad/s]"))
+    {
+        if t < 0.1 - 1e-9 {
+            assert_eq!(omega, 0.0, "at t = {t}");
+        } else if t > 0.1 + 1e-9 {
+            assert!(omega > 0.0, "at t = {t}: {omega}");
+        }
+    }
+}
+
+/// The torque of the model is what the motion asks for: without any error to begin with there is none later. The mean inertia of the
+/// press, as drives have it, leaves one.
+#[test]
+fn the_model_feeds_forward_all_that_a_press_needs() {
+    let follow = |feed_forward: &str| {
+        let text = press_text();
+        let (text, _) = text.split_once("[simulation]").unwrap();
+        let text = format!(
+            "{text}\n[simulation]\nduration = \"1 s\"\noutput_step = \"5 ms\"\ntorque = \"500 N m\"\nrotor_inertia = \"12 kg cm^2\"\ncontrol = {{ speed_gain = \"0.5 N m s/rad\", position_gain = \"20 1/s\", feed_forward = \"{feed_forward}\" }}\n"
+        );
+        let file = parse(&text).unwrap();
+        let simulation = file.simulation.as_ref().unwrap();
+        let found = analysis::simulate::simulate(&file, simulation)
+            .unwrap()
+            .whole()
+            .unwrap();
+        let error = found
+            .names()
+            .iter()
+            .position(|name| name == "phi error [deg]")
+            .unwrap();
+        let errors: Vec<f64> = found.rows().iter().map(|row| row[error].unwrap()).collect();
+        largest(&errors)
+    };
+    let [none, mean, model] = ["none", "mean-inertia", "model"].map(follow);
+    assert!(model < 1e-7, "{model} deg");
+    assert!(mean > 1e-3 && none > mean, "{none} deg, {mean} deg");
+}
