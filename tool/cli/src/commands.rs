@@ -73,7 +73,7 @@ fn dispatch(command: &options::Command) -> Result<Done> {
         options::Command::Simulate(options) => run_simulate(options),
         options::Command::Steady(options) => steady::steady(options),
         options::Command::Export(options) => run_export(options),
-        options::Command::Rules(options) => print(&jred_report::list::rule_list::show(
+        options::Command::Rules(options) => print(&list::rule_list::show(
             options.set.as_deref(),
             Path::new(""),
             options.format,

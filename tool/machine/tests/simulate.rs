@@ -6,6 +6,7 @@ mod control;
 mod losses;
 mod parting;
 mod pendulum;
+mod refusals;
 mod stops;
 
 use std::f64::consts::{PI, TAU};
@@ -101,7 +102,6 @@ duration = "0.5 s"
 output_step = "0.05 s"
 torque = "{} N m"
 at = "crank"
-tolerance = 1e-12
 "#,
         input("/gravity/0"),
         input("/gravity/1"),

@@ -7,11 +7,12 @@ mod control;
 mod error;
 pub(super) mod machine;
 pub(super) mod run;
+mod simulated;
 mod variator;
 pub(super) mod watch;
 
 pub use error::SimulationError;
-pub use run::{Rest, Simulated};
+pub use simulated::{Rest, Simulated};
 
 use crate::model::machine::MachineFile;
 use crate::model::simulation::Simulation;

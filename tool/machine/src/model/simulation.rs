@@ -54,7 +54,7 @@ impl Simulation {
             end_stops: None,
             at: Shaft::Motor,
             rotor_inertia: 0.0,
-            tolerance: 1e-10,
+            tolerance: 1e-12,
         }
     }
 

@@ -15,6 +15,9 @@ use crate::text::problem::{Problem, Result};
 use crate::text::section::Section;
 use crate::units::kind::{ANGULAR_SPEED, INERTIA, MASS, SHARE, TIME, TORQUE};
 
+/// Of the integrator, unless given: golden motions come out to 3e-10 of their largest (`tests/simulate.rs`).
+const TOLERANCE: f64 = 1e-12;
+
 /// The most output points of a simulation.
 const MAX_STEPS: f64 = 100_000.0;
 
@@ -96,8 +99,8 @@ pub(super) fn read(root: &Section, around: Around) -> Result<Option<Simulation>>
         None => 0.0,
     };
     let tolerance = match section.get("tolerance") {
-        Some(item) => item.number([1e-13, 1e-3], "1e-10")?,
-        None => 1e-10,
+        Some(item) => item.number([1e-13, 1e-3], "1e-12")?,
+        None => TOLERANCE,
     };
     let control = control::control(&section, around, at, &torque)?;
     let halt = control::halt(&section, around)?;

@@ -94,7 +94,7 @@ fn the_press_is_read_in_si_units() {
     close(points[1].1, 10.0);
     assert_eq!(simulation.at, Shaft::Motor);
     close(simulation.rotor_inertia, 0.0012);
-    close(simulation.tolerance, 1e-10);
+    close(simulation.tolerance, 1e-12);
     close(limit(&press.rules, Rule::RmsTorque), 0.8);
 }
 

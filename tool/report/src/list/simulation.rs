@@ -58,9 +58,10 @@ fn rest(simulation: &Simulation, found: &Simulated, coordinate: Coordinate) -> O
     let off = format!("the motor is switched off at {} s", short(halt.time));
     Some(match found.rest {
         Some(rest) => format!(
-            "{off}; the machine comes to rest {} s and {} later",
+            "{off}; the machine comes to rest {} s and {} {} later",
             short(rest.time),
-            coordinate.place(rest.way)
+            short(coordinate.shown(rest.way)),
+            coordinate.unit()
         ),
         None => format!("{off}; the machine has not come to rest by the end"),
     })

@@ -13,8 +13,8 @@ pub enum SimulationError {
     /// The drive link has passed the end of its stroke.
     #[error("the drive link hits the end of its stroke, {end}, before t = {t:.6} s, at {speed}")]
     #[diagnostic(help(
-        "the machine file does not describe a stop: reduce `duration` in [simulation], start elsewhere, or add a \
-         spring or damper as a buffer and a longer stroke"
+        "no stop is given: add end_stops to [simulation], reduce its `duration`, start elsewhere, or add a spring or damper as a \
+         buffer and a longer stroke"
     ))]
     EndOfStroke {
         /// Time reached (s).

@@ -1,9 +1,12 @@
 //! The motion in time, stopped and started again where friction changes its direction.
 
-use jred::{Domain, Error, Reducible as _};
+mod stops;
+
+use jred::Error;
 
 use super::SimulationError;
 use super::error::stopped;
+use super::simulated::{Rest, Simulated};
 use super::watch::{At, Watch};
 use crate::model::machine::MachineFile;
 use crate::model::simulation::{EndStops, Halt, Simulation};
@@ -15,9 +18,6 @@ const MOST_STEPS: u32 = 1_000_000;
 
 /// A hair beside a corner, per second of time: what jumps there belongs to both sides.
 const EDGE: f64 = 1e-13;
-
-/// A rebound from an end stop that is back within this time (s) is none.
-const BRIEFEST_FLIGHT: f64 = 1e-6;
 
 /// A hair of speed (rad/s): it puts the losses of each stage on the side of the motion to come.
 const HAIR: f64 = 1e-12;
@@ -91,39 +91,6 @@ pub(in crate::analysis) fn cells(
     let energies = [row.kinetic, row.potential, motor, process, losses, balance];
     let cells = std::iter::once(t).chain(row.figures).chain(energies);
     (cells, balance)
-}
-
-/// A motion, as far as it came.
-#[derive(Debug)]
-pub struct Simulated {
-    /// A row for each output step.
-    pub columns: Columns,
-    /// Where the drive link came to rest first after the motor was switched off.
-    pub rest: Option<Rest>,
-    /// Why the motion ends before its time.
-    pub ended: Option<SimulationError>,
-}
-
-/// Where and when the drive link came to rest.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rest {
-    /// Time since the motor was switched off (s).
-    pub time: f64,
-    /// Way since then (rad, or m).
-    pub way: f64,
-}
-
-impl Simulated {
-    /// The columns of a motion that came to its end.
-    ///
-    /// # Errors
-    /// Why it did not.
-    pub fn whole(self) -> Result<Columns, SimulationError> {
-        match self.ended {
-            None => Ok(self.columns),
-            Some(error) => Err(error),
-        }
-    }
 }
 
 /// Runs a simulation.
@@ -400,62 +367,6 @@ impl<P> Run<'_, P> {
         t.max(from).min(to)
     }
 
-    /// The end stop that a drive link in motion has passed.
-    fn stop_behind(&self, [phi, omega]: [f64; 2]) -> Option<f64> {
-        let stops = self.stops?;
-        if phi > stops.to && omega > 0.0 {
-            Some(stops.to)
-        } else if phi < stops.from && omega < 0.0 {
-            Some(stops.from)
-        } else {
-            None
-        }
-    }
-
-    /// Whether an end stop bars the way in a direction.
-    fn is_at_stop(&self, phi: f64, direction: f64) -> bool {
-        self.stops.is_some_and(|stops| {
-            if direction > 0.0 {
-                phi >= stops.to
-            } else {
-                phi <= stops.from
-            }
-        })
-    }
-
-    /// The state after the drive link has hit an end stop at a position with a speed; the energy of the impact is lost. A rebound that
-    /// would be back at once rests.
-    fn impact<const N: usize>(
-        &mut self,
-        t: f64,
-        y: &[f64; N],
-        [stop, omega]: [f64; 2],
-    ) -> Result<[f64; N], SimulationError>
-    where
-        P: Plant<N>,
-    {
-        let restitution = self.stops.map_or(0.0, |stops| stops.restitution);
-        let kinetic = |y: &[f64; N]| -> Result<f64, Error> {
-            Ok(self.plant.row(self.direction, self.within(t), y)?.kinetic)
-        };
-        let away = -omega.signum();
-        let mut after = self.plant.with_link(t, y, [stop, -restitution * omega])?;
-        let back = self.plant.alpha(away, self.within(t), &after)? * away;
-        let flight = 2.0 * restitution * omega.abs() / -back;
-        let rests = restitution == 0.0 || (back < 0.0 && flight < BRIEFEST_FLIGHT);
-        if rests {
-            after = self.plant.with_link(t, y, [stop, 0.0])?;
-        }
-        after[N - 1] += kinetic(&self.plant.with_link(t, y, [stop, omega])?)? - kinetic(&after)?;
-        if rests {
-            self.rests([t, stop]);
-            self.direction = self.start_direction(t, &after)?;
-        } else {
-            self.direction = away;
-        }
-        Ok(after)
-    }
-
     fn at<const N: usize>(&self, t: f64, y: &[f64; N]) -> Result<At, Error>
     where
         P: Plant<N>,
@@ -487,32 +398,6 @@ impl<P> Run<'_, P> {
             let y = std::array::from_fn(|i| from.1[i] + share * (to.1[i] - from.1[i]));
             let y = self.plant.with_link(t, &y, link)?;
             Ok(self.plant.alpha(self.direction, t, &y)?)
-        })
-    }
-
-    /// Refuses to go on where the drive link has passed the end of its stroke: what stops it there is not in the file.
-    fn within_stroke<const N: usize>(&self, t: f64, y: &[f64; N]) -> Result<(), SimulationError>
-    where
-        P: Plant<N>,
-    {
-        let Domain::Stroke { from, to } = self.file.machine.domain() else {
-            return Ok(());
-        };
-        let [phi, omega] = self.plant.link(t, y)?;
-        let slack = 1e-9 * (to - from);
-        // Stops lie within the stroke, and a step that passes one is cut there.
-        if self.stops.is_some() || (from - slack..=to + slack).contains(&phi) {
-            return Ok(());
-        }
-        let coordinate = self.file.machine.mechanism().coordinate();
-        Err(SimulationError::EndOfStroke {
-            t,
-            end: coordinate.place(if phi < from { from } else { to }),
-            speed: format!(
-                "{} {}",
-                (omega * 1e6).round() / 1e6,
-                coordinate.speed_unit()
-            ),
         })
     }
 }
