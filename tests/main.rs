@@ -17,6 +17,7 @@ mod fixed_point;
 mod fixed_vs_float;
 mod four_bar;
 mod four_bar_golden;
+mod free_motion;
 mod friction;
 mod geneva;
 mod golden;

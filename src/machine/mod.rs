@@ -9,6 +9,8 @@ pub(crate) mod element;
 #[cfg(feature = "mechanics")]
 pub(crate) mod error;
 #[cfg(feature = "mechanics")]
+mod free_motion;
+#[cfg(feature = "mechanics")]
 pub(crate) mod joint;
 #[cfg(feature = "mechanics")]
 pub(crate) mod kinetostatics;
@@ -28,6 +30,8 @@ pub(crate) mod reduction;
 pub use element::{Element, MAX_ELEMENTS};
 #[cfg(feature = "mechanics")]
 pub use error::{MachineError, PoseError};
+#[cfg(feature = "mechanics")]
+pub use free_motion::FreeMotion;
 #[cfg(feature = "mechanics")]
 pub use joint::{Body, Joint, Joints, MAX_JOINTS, Marker, UnitReactions, Wrench};
 #[cfg(feature = "mechanics")]

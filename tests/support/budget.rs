@@ -442,3 +442,10 @@ pub(crate) const F32_SPLINE: Proven = Proven {
 };
 /// RMS of 200,000 samples of filtered noise, as a share.
 pub(crate) const NOISE: f64 = 0.03;
+
+/// Motion in fixed steps of a few ten-thousandths of what happens, order 2: relative, or in rad near one [3e-9].
+pub(crate) const FREE_MOTION: f64 = 1e-7;
+
+/// Lag of the same motion by the time, in turns each turn, between a thousand turns and a hundred times as many: where in a turn the
+/// first thousand ended [1.3e-6].
+pub(crate) const FREE_MOTION_LAG: f64 = 3e-6;

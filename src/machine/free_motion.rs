@@ -1,0 +1,236 @@
+//! The motion that given torques produce, in fixed steps that keep the energy.
+
+use crate::machine::error::PoseError;
+use crate::machine::reducible::Reducible;
+use crate::machine::reduction::Reduction;
+use crate::math;
+use crate::number::error::{RangeError, finite, positive};
+
+/// A machine in free motion under a torque that is constant over each step.
+///
+/// Its state is the position φ, the direction, and the energy E = ½·J·ω² + U. A step changes E by the work of what is not in U, and the
+/// speed follows from E: without torques and friction E keeps every bit for as many turns as one likes, where a method that
+/// integrates the speed gains or loses a little in each. From one end of a step to the other,
+///
+/// ```text
+/// ½·J₁·ω₁² + U₁ = ½·J₀·ω₀² + U₀ + Q·(φ₁ − φ₀),   φ₁ − φ₀ = ½·h·(ω₀ + ω₁)
+/// ```
+///
+/// with the torque Q of motor, process, viscous and Coulomb friction, the mean of both ends. The method is symmetric and of order 2:
+/// half the step, a quarter of the error in position and time (`tests/free_motion.rs`). Friction stops the machine within a step and
+/// holds it as long as it can.
+///
+/// A step costs five to seven evaluations of [`Reducible::reduction`]; it has no place in a tick, but in a simulated
+/// machine behind a controller, on a host or on a core with doubles.
+///
+/// ```
+/// use jred::machine::FreeMotion;
+/// use jred::mechanism::{Branch, SliderCrank, SliderCrankDimensions};
+/// use jred::{Link, Machine};
+///
+/// # fn main() -> Result<(), jred::Error> {
+/// let dimensions = SliderCrankDimensions { crank: 0.03, rod: 0.18, offset: 0.0 };
+/// let links = [Link::point_mass(0.5)?, Link::point_mass(0.7)?, Link::point_mass(4.0)?];
+/// let machine = Machine::new(SliderCrank::new(dimensions, Branch::Right, links)?).with_flywheel(0.02)?;
+/// let mut motion = FreeMotion::new(&machine, 0.0, 40.0)?;
+/// let energy = motion.energy();
+/// for _ in 0..1000 {
+///     motion.advance(&machine, 0.0, 1e-3)?;
+/// }
+/// assert_eq!(motion.energy(), energy);
+/// assert!(motion.phi() > 30.0);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FreeMotion {
+    phi: f64,
+    omega: f64,
+    energy: f64,
+    /// What the sum of the works has lost by rounding.
+    rounding: f64,
+}
+
+/// Iterations of Newton's method for the speed at the end of a step.
+const ITERATIONS: u32 = 30;
+
+/// A change of the speed, as a share of it, after which the next one is rounding.
+const ENOUGH: f64 = 1e-13;
+
+/// A change that roundings of J and U may make.
+const ROUNDING: f64 = 1e-6;
+
+/// Below this way of a step (rad, or m) J and U change by their slopes: differences have no digits.
+const SHORT: f64 = 1e-5;
+
+/// A machine comes to rest, and starts again, at most so often in a step.
+const RESTS: u32 = 4;
+
+impl FreeMotion {
+    /// From a position (rad, or m) and a speed (rad/s, or m/s).
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed there.
+    pub fn new(machine: &impl Reducible, phi: f64, omega: f64) -> Result<Self, PoseError> {
+        let here = machine.reduction(phi)?;
+        Ok(Self {
+            phi,
+            omega,
+            energy: 0.5 * here.inertia * omega * omega + here.potential_energy,
+            rounding: 0.0,
+        })
+    }
+
+    /// φ (rad, or m).
+    pub const fn phi(&self) -> f64 {
+        self.phi
+    }
+
+    /// ω (rad/s, or m/s).
+    pub const fn omega(&self) -> f64 {
+        self.omega
+    }
+
+    /// E = ½·J·ω² + U (J).
+    pub const fn energy(&self) -> f64 {
+        self.energy
+    }
+
+    /// A step (s, positive) under a torque of the motor (N·m, or N) at the drive link.
+    ///
+    /// # Errors
+    /// The mechanism cannot be placed where the motion leads; a step that is too long for the motion: the machine would turn much of a
+    /// swing within it. The state is then that before the step.
+    pub fn advance(
+        &mut self,
+        machine: &impl Reducible,
+        torque: f64,
+        step: f64,
+    ) -> Result<(), PoseError> {
+        finite("torque", torque)?;
+        positive("step", step)?;
+        let mut now = *self;
+        let mut left = step;
+        for _ in 0..RESTS {
+            let here = machine.reduction(now.phi)?;
+            let force = torque + here.load_torque();
+            let direction = if now.omega == 0.0 {
+                if math::abs(force) <= here.coulomb {
+                    break;
+                }
+                math::sign(force)
+            } else {
+                math::sign(now.omega)
+            };
+            let next = now.step(machine, &here, [torque, direction], left)?;
+            if here.coulomb == 0.0 || next.omega * direction >= 0.0 {
+                now = next;
+                break;
+            }
+            // Friction turns round with the speed: up to there first. It falls in a straight line so near to rest.
+            let share = now.omega / (now.omega - next.omega);
+            let rest = now.step(machine, &here, [torque, direction], share * left)?;
+            now = Self::new(machine, rest.phi, 0.0)?;
+            left *= 1.0 - share;
+        }
+        *self = now;
+        Ok(())
+    }
+
+    /// A step in which friction keeps its direction.
+    fn step(
+        &self,
+        machine: &impl Reducible,
+        here: &Reduction,
+        [torque, direction]: [f64; 2],
+        step: f64,
+    ) -> Result<Self, PoseError> {
+        let push = |at: &Reduction, omega: f64| {
+            torque + at.process - at.viscous * omega - at.coulomb * direction
+        };
+        let mut omega = self.omega;
+        let mut before = f64::INFINITY;
+        for _ in 0..ITERATIONS {
+            let way = 0.5 * step * (self.omega + omega);
+            let there = machine.reduction(self.phi + way)?;
+            let inertia = 0.5 * (here.inertia + there.inertia);
+            // Slopes of J and U between both places, and how these change with the one at the end.
+            let short = math::abs(way) < SHORT;
+            let [inertia_slope, potential_slope] = if short {
+                [
+                    0.5 * (here.inertia_slope + there.inertia_slope),
+                    0.5 * (here.potential_slope + there.potential_slope),
+                ]
+            } else {
+                [
+                    (there.inertia - here.inertia) / way,
+                    (there.potential_energy - here.potential_energy) / way,
+                ]
+            };
+            let push = 0.5 * (push(here, self.omega) + push(&there, omega));
+            let squares = self.omega * self.omega + omega * omega;
+            let missing = inertia * (omega - self.omega) / step
+                + 0.25 * inertia_slope * squares
+                + potential_slope
+                - push;
+            let bends = if short {
+                0.0
+            } else {
+                (0.25 * (there.inertia_slope - inertia_slope) * squares + there.potential_slope
+                    - potential_slope)
+                    * 0.5
+                    * step
+                    / way
+            };
+            let slope = inertia / step
+                + 0.25 * there.inertia_slope * (omega - self.omega)
+                + 0.5 * inertia_slope * omega
+                + bends
+                + 0.5 * there.viscous;
+            let change = missing / slope;
+            omega -= change;
+            let size = math::abs(omega) + math::abs(self.omega);
+            let change = math::abs(change);
+            // Differences of J and U over a short way, far from 0, have few digits: more than these are not to be had.
+            let stuck = change >= before && change <= ROUNDING * size;
+            if change <= ENOUGH * size || stuck {
+                return self.arrived(machine, omega, [step, push]);
+            }
+            before = change;
+        }
+        Err(RangeError::OutOfRange {
+            what: "step",
+            value: step,
+            min: 0.0,
+            max: 0.5 * step,
+        }
+        .into())
+    }
+
+    /// The state at the end of a step, with the speed that its energy gives.
+    fn arrived(
+        &self,
+        machine: &impl Reducible,
+        omega: f64,
+        [step, push]: [f64; 2],
+    ) -> Result<Self, PoseError> {
+        let way = 0.5 * step * (self.omega + omega);
+        let phi = self.phi + way;
+        let there = machine.reduction(phi)?;
+        // Compensated, so that many small works add up.
+        let work = push * way + self.rounding;
+        let energy = self.energy + work;
+        let kinetic = energy - there.potential_energy;
+        let speed = if kinetic > 0.0 {
+            math::sqrt(2.0 * kinetic / there.inertia)
+        } else {
+            0.0
+        };
+        Ok(Self {
+            phi,
+            omega: if omega < 0.0 { -speed } else { speed },
+            energy,
+            rounding: work - (energy - self.energy),
+        })
+    }
+}
