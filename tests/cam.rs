@@ -346,3 +346,33 @@ proptest! {
         assert_eq!(program.acceleration_jumps().count(), 0);
     }
 }
+
+/// However short a segment of a smooth law is, its acceleration does not jump; that of a simple sine does at each end, by h/2·(π/β)².
+#[test]
+fn accelerations_of_short_segments() {
+    for beta in [3.0, 0.3, 1e-4] {
+        let lift = 0.01;
+        let program = |law| {
+            Program::new(&[
+                Segment::law(law, beta, lift),
+                Segment::dwell(0.2),
+                Segment::law(law, beta, -lift),
+                Segment::dwell(TAU - 2.0 * beta - 0.2),
+            ])
+            .unwrap()
+        };
+        for law in [Law::Cycloidal, Law::ModifiedSine, Law::Polynomial345] {
+            let smooth = program(law);
+            assert_eq!(smooth.acceleration_jumps().count(), 0, "{law:?} {beta}");
+        }
+        let height = 0.5 * lift * (PI / beta).powi(2);
+        let jumping = program(Law::SimpleSine);
+        let jumps = jumping
+            .acceleration_jumps()
+            .map(|j| (j.to - j.from) / height);
+        for (found, expected) in jumps.zip([1.0, -1.0, -1.0, 1.0]) {
+            assert_near("jump", found, expected, 1e-9);
+        }
+        assert_eq!(jumping.acceleration_jumps().count(), 4);
+    }
+}

@@ -91,6 +91,53 @@ proptest! {
     }
 }
 
+/// At rest, and where nothing says which way it starts, the drive gives the losses: T/(i·η), and so does every further torque that an
+/// acceleration takes.
+#[test]
+fn a_train_without_a_direction_drives() {
+    let stages = [(-4.0, 0.9), (-2.5, 0.8)]
+        .map(|(i, eta)| Stage::new(i, [0.0; 2]).and_then(|s| s.with_efficiency(eta)));
+    let train = Train::new(&stages.map(Result::unwrap)).unwrap();
+    for (torque, direction) in [
+        (12.0, 0.0),
+        (-12.0, 0.0),
+        (0.0, 1.0),
+        (0.0, -1.0),
+        (12.0, 1.0),
+        (-12.0, -1.0),
+    ] {
+        let input = train.input(&TrainOutput {
+            torque,
+            torque_per_alpha: 0.3,
+            direction,
+            ..TrainOutput::default()
+        });
+        let share = 1.0 / (10.0 * 0.72);
+        assert_near("T", input.torque, torque * share, budget::CLOSED_FORM);
+        // The inertia of the load is felt through the ratio once more.
+        assert_near(
+            "dT/dα",
+            input.torque_per_alpha,
+            0.3 * share,
+            budget::CLOSED_FORM,
+        );
+    }
+    // Braked by the losses: T·η/i.
+    for direction in [1.0, -1.0] {
+        let output = TrainOutput {
+            torque: -12.0 * direction,
+            direction,
+            ..TrainOutput::default()
+        };
+        assert_near(
+            "T",
+            train.input(&output).torque,
+            -1.2 * 0.72 * direction,
+            budget::CLOSED_FORM,
+        );
+    }
+}
+
 const CELLS: u32 = 32;
 
 /// Largest share by which ½·J·ω² + U of the table leaves its start over four turns without drive torque, with
@@ -267,4 +314,23 @@ fn sliding_drive_link_is_the_same_machine() {
         }
     }
     println!("sliding drive link: {worst:.1e} of the largest term");
+}
+
+/// A reduction that is put together by hand: every part where it belongs, and the drive torque made of them.
+#[test]
+fn a_reduction_is_what_it_is_made_of() {
+    let made = Reduction::new([2.0, 0.5, -0.1])
+        .with_potential_energy([7.0, 3.0])
+        .with_process(11.0)
+        .with_viscous(0.25)
+        .with_coulomb(1.5);
+    assert_eq!(made.inertias(), [2.0, 0.5, -0.1]);
+    assert_eq!([made.potential_energy, made.potential_slope], [7.0, 3.0]);
+    assert_near("load", made.load_torque(), 8.0, 0.0);
+    let terms = made.torque(-2.0, 10.0);
+    // J·α + ½·J′·ω² + U′ − process + b·ω + c·sgn ω
+    let parts = [20.0, 1.0, 3.0, -11.0, -0.5, -1.5];
+    assert_eq!(terms.values(), parts);
+    assert_near("T", terms.total(), parts.iter().sum(), 0.0);
+    assert_near("α", made.acceleration(-2.0, terms.total()), 10.0, 1e-15);
 }

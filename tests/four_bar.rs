@@ -304,3 +304,20 @@ fn a_crank_that_can_only_fold_swings_over_the_far_side() {
         assert_near("to", to, gamma - theta + TAU, budget::LIMIT_ANGLE);
     }
 }
+
+/// The kind is that of the shape, whatever the size: sums that differ by 1e-10 of themselves differ, 1e-14 is a rounding.
+#[test]
+fn grashof_does_not_depend_on_the_size() {
+    for power in [-20, -10, 0, 10, 20] {
+        let size = 2.0f64.powi(power);
+        for (more, kind) in [
+            (1.4e-10, Grashof::TripleRocker),
+            (1.4e-14, Grashof::ChangePoint),
+            (-1.4e-14, Grashof::ChangePoint),
+            (-1.4e-10, Grashof::CrankRocker),
+        ] {
+            let lengths = [0.3, 0.5, 0.9, 1.1 * (1.0 + more)].map(|l| l * size);
+            assert_eq!(Grashof::of(lengths), kind, "{lengths:?}");
+        }
+    }
+}

@@ -8,8 +8,8 @@ use crate::support::harmonics::{
 use crate::support::{assert_near, budget, config, largest};
 use jred::harmonic::{Circular, terms};
 use jred::number::{Number, Real};
-use jred::table::Format;
-use jred::{Harmonic, Phase, Reducible, curves};
+use jred::table::{Format, Usage};
+use jred::{Harmonic, Phase, Reducible, Set, curves};
 use proptest::prelude::*;
 
 #[test]
@@ -191,4 +191,72 @@ fn free_machine_keeps_its_energy() {
     let quarter = model.table().at(Phase::from_radians(TAU / 4.0)).inertia
         / model.table().at(Phase::default()).inertia;
     assert!(quarter > 4.0, "{quarter}");
+}
+
+/// J = 2 + Σ bₖ·sin kφ and load of cosines alone: tables of half of the terms, against the sums written out.
+#[test]
+fn curves_of_sines_or_cosines_alone() {
+    let sines = [0.3, -0.2, 0.05];
+    let cosines = [1.5, 0.4, -0.7];
+    const SET: Set = curves::LOAD | terms::INERTIA_SIN | terms::LOAD_COS;
+    let mut words = vec![2.0, 3.0];
+    words.extend(sines.iter().zip(cosines).flat_map(|(b, a)| [*b, a]));
+    let model = model::<f64, SET>(&words).unwrap();
+    let sum = |c: [f64; 3], f: &dyn Fn(f64, f64) -> f64| -> f64 {
+        c.iter()
+            .zip([1.0, 2.0, 3.0])
+            .map(|(c, k)| c * f(k, 1.0))
+            .sum()
+    };
+    for phase in phases(100) {
+        let phi = phase.radians();
+        let read = model.table().at(phase);
+        let near = |what: &str, found: f64, expected: f64| {
+            assert_near(what, found, expected, budget::IDENTITY * 10.0);
+        };
+        near("J", read.inertia, 2.0 + sum(sines, &|k, _| (k * phi).sin()));
+        near(
+            "J′",
+            read.inertia_slope,
+            sum(sines, &|k, _| k * (k * phi).cos()),
+        );
+        near(
+            "load",
+            read.load,
+            3.0 + sum(cosines, &|k, _| (k * phi).cos()),
+        );
+    }
+}
+
+/// Bounds that are reached: all coefficients positive, so that everything is largest at φ = 0.
+#[test]
+fn usage_is_the_sum_of_the_coefficients() {
+    const SET: Set = curves::ALL
+        | curves::CONSTANT_COULOMB
+        | terms::INERTIA_COS
+        | terms::LOAD_COS
+        | terms::VISCOUS_COS
+        | terms::COULOMB_COS;
+    // J, load, b, c and the constant part of c; then a harmonic of each of the four, and another.
+    let words = [
+        2.0, 0.5, 0.2, 0.3, 0.7, 0.4, 1.5, 0.05, 0.1, 0.2, 0.25, 0.02, 0.04,
+    ];
+    let model = model::<f32, SET>(&words).unwrap();
+    let usage = Usage::of(model.table()).unwrap();
+    let read = model.table().at(Phase::default());
+    for (what, found, expected) in [
+        ("J", usage.inertia, read.inertia),
+        ("load", usage.load, read.load),
+        ("b", usage.viscous, read.viscous),
+        ("c", usage.coulomb, read.coulomb),
+        // ½·Σ k·aₖ
+        ("½·J′", usage.velocity, 0.5 * (0.4 + 2.0 * 0.2)),
+        (
+            "T",
+            usage.torque,
+            0.4 + read.inertia + read.load + read.viscous + read.coulomb,
+        ),
+    ] {
+        assert_near(what, found.into(), expected, 1e-5);
+    }
 }

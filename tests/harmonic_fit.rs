@@ -8,7 +8,7 @@ use crate::support::harmonics::{
 };
 use crate::support::machines::{Wave, spec};
 use crate::support::{assert_near, budget, config};
-use jred::harmonic::{HarmonicError, measure, terms};
+use jred::harmonic::{HarmonicError, measure, scratch_len, terms};
 use jred::machine::{Action, Load};
 use jred::mechanism::SliderCrank;
 use jred::{Domain, Error, Phase, Reducible, Reduction, Set, curves};
@@ -251,5 +251,53 @@ fn friction_of_the_ram_is_smooth() {
                 assert_near("torque", torque, exact.torque(omega, ALPHA).total(), asked);
             }
         }
+    }
+}
+
+/// What the machine has beyond the set counts as error, and is no term.
+#[test]
+fn terms_are_those_of_the_set() {
+    let waves = Waves {
+        inertia: vec![[1.0, 0.0], [0.2, 0.0]],
+        load: vec![[3.0, 0.0], [0.0, 0.5]],
+        viscous: 0.1,
+        coulomb: 2.0,
+    };
+    let all = curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+    for set in [0, curves::LOAD, curves::CONSTANT_COULOMB, all] {
+        let load = if set & curves::LOAD == 0 {
+            0
+        } else {
+            terms::LOAD_SIN
+        };
+        assert_eq!(terms_of(&waves, set), Ok(terms::INERTIA_COS | load));
+    }
+}
+
+/// A curve that does not vary has no harmonics, not the roundings of its mean.
+#[test]
+fn a_constant_has_no_harmonics() {
+    let waves = Waves {
+        inertia: vec![[1.0, 0.0], [0.2, 0.1]],
+        load: vec![[0.1, 0.0]],
+        viscous: 0.0,
+        coulomb: 0.0,
+    };
+    const SET: Set = curves::LOAD | terms::GENERAL;
+    let (found, words) = fitted::<f64, SET>(&waves, &request(1e-9, 8)).unwrap();
+    assert_eq!(found.harmonics, 1);
+    assert_near("mean", words[1], 0.1, 1e-16);
+    assert_eq!(words[4..], [0.0, 0.0]);
+}
+
+/// As its documentation says.
+#[test]
+fn scratch_grows_with_the_harmonics() {
+    for harmonics in 0..=8 {
+        assert_eq!(scratch_len(harmonics), 576);
+    }
+    for harmonics in [16, 32, 64, 128] {
+        assert_eq!(scratch_len(harmonics), 72 * harmonics as usize);
+        assert_eq!(scratch_len(harmonics + 1), 144 * harmonics as usize);
     }
 }

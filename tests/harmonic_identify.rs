@@ -262,6 +262,34 @@ fn what_the_samples_do_not_tell_is_named() {
     ));
 }
 
+/// One speed and one acceleration for ever: J·α and b·ω are the same but for a factor, exactly.
+#[test]
+fn coefficients_that_are_alike_are_both_named() {
+    let sample = Sample {
+        phase: Phase::default(),
+        omega: 2.0,
+        alpha: 2.0,
+        torque: 1.0,
+    };
+    let found = identify::<2, { curves::INERTIA | curves::VISCOUS }>(&[sample; 5]);
+    let Err(Error::Harmonic(HarmonicError::NotExcited { coefficient, like })) = found else {
+        panic!("{found:?}")
+    };
+    let mut both = [coefficient.curve, like.unwrap().curve].map(|curve| curve as u8);
+    both.sort_unstable();
+    assert_eq!(both, [Curve::Inertia as u8, Curve::Viscous as u8]);
+    // Another acceleration tells them apart: T = 3·α + 0.5·ω.
+    let truth = [(2.0, 2.0), (2.0, -1.0), (1.0, 4.0)].map(|(omega, alpha)| Sample {
+        omega,
+        alpha,
+        torque: 3.0 * alpha + 0.5 * omega,
+        ..sample
+    });
+    let found = identify::<2, { curves::INERTIA | curves::VISCOUS }>(&truth).unwrap();
+    assert_near("J", found.words[0], 3.0, 1e-12);
+    assert_near("b", found.words[1], 0.5, 1e-12);
+}
+
 #[test]
 fn bad_samples_are_named() {
     // Far enough apart to go through all phases.

@@ -56,6 +56,22 @@ fn lift_off_of_a_circular_cam() {
     }
 }
 
+/// The closed form holds from a follower that hardly presses to one that is pressed on hard: far from the speed at which the search begins.
+#[test]
+fn slow_and_fast_limits_are_exact() {
+    for (k, preload) in [
+        (1e-9, 1e-9),
+        (1e-5, 1e-4),
+        (1.0, 2.0),
+        (4e6, 1e5),
+        (1e9, 1e7),
+    ] {
+        let omega = ((preload + 2.0 * k * E) / (MASS * E)).sqrt();
+        let found = limit(&eccentric_machine(k, preload), 1.0).unwrap();
+        assert_near("ω", found.omega, omega, budget::LIFT_OFF * omega);
+    }
+}
+
 /// With a damper d on the follower N = F₀ + k·s + d·s′·ω + m·s″·ω²: the root of a quadratic at every φ, different for
 /// the two directions only in its place.
 #[test]

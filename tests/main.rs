@@ -69,6 +69,7 @@ mod spline_quadratic;
 mod support;
 mod synthesis;
 mod table;
+mod tabulated;
 mod there_and_back;
 mod toggle_press;
 mod transfer;

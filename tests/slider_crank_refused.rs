@@ -127,6 +127,17 @@ fn words_that_are_no_machine_are_refused() {
             TableError::Range { curve, cell }
         );
     }
+    let set = curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB;
+    for (word, curve) in [(5, 2), (6, 3)] {
+        let mut words = [&sound[..], &[0.1, 0.2]].concat();
+        assert!(model_of(&words, set).is_ok());
+        words[word] = 1e31;
+        let cell = 0;
+        assert_eq!(
+            refused_words(&words, set),
+            TableError::Range { curve, cell }
+        );
+    }
     // The rod: (r + |e|)/l on either side of the limit, whatever the signs.
     for (ratio, offset) in [(STEEPEST, 0.0), (-0.5, -0.45), (0.0, 0.95)] {
         assert!(

@@ -96,18 +96,39 @@ fn friction_of_a_slider_converges_as_a_smooth_curve_does() {
     converges::<Quadratic<f64>>(&stroke, 3);
 }
 
+/// The prediction is a cubic's: of a cubic polynomial it is right even where the sign changes next to the largest value, whichever way.
+#[test]
+fn signs_of_a_cubic_polynomial_are_right_at_once() {
+    let v = |x: f64| (x - 0.5) * (x - 2.5) * (x - 5.3);
+    let domain = Domain::stroke(0.0, 5.0).unwrap();
+    for error in [
+        error::<Cubic<f64>>(&Friction { domain, v }, 5, &Scale::SI),
+        error::<Cubic<f64>>(
+            &Friction {
+                domain,
+                v: |x: f64| v(5.0 - x),
+            },
+            5,
+            &Scale::SI,
+        ),
+    ] {
+        assert!(error < 1e-12, "{error}");
+    }
+}
+
 /// A magnitude that touches zero an odd number of times a turn belongs to no curve that closes: it stays as it is, with its
 /// kink, of order 1.
 #[test]
 fn a_single_kink_a_turn_stays() {
     let odd = Friction {
         domain: Domain::Turn,
-        v: |phi: f64| (0.5 * phi - 0.3).sin(),
+        v: |phi: f64| (0.5 * phi).sin(),
     };
     for cells in [64, 128] {
         let ratio = error::<Spline<f64>>(&odd, cells, &Scale::SI)
             / error::<Spline<f64>>(&odd, 2 * cells, &Scale::SI);
-        assert!((1.0..4.0).contains(&ratio), "{ratio}");
+        // The error of a kink at a knot is in proportion to the cell; a jump's would not fall at all.
+        assert!((1.8..2.2).contains(&ratio), "{ratio}");
     }
     // Over a stroke of the same length nothing need close.
     let stroke = Friction {

@@ -65,3 +65,48 @@ impl Factor {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Factor, ONE};
+
+    /// A factor times its inverse is 1, over the whole range of both; beyond it, where one of the numbers it is made of is
+    /// zero, subnormal or infinite, there is none.
+    #[test]
+    fn factors_and_their_inverses() {
+        // 2⁻¹²⁶ is the least normal number; the ratio's inverse is below 2¹²⁸.
+        for power in -125..=30 {
+            let ratio = 2.0f32.powi(power);
+            let factor = Factor::new(ratio).unwrap();
+            if (-29..=29).contains(&power) {
+                let inverse = Factor::new(1.0 / ratio).unwrap();
+                let there = if power < 0 {
+                    1 << 30
+                } else {
+                    (1 << 30) >> power
+                };
+                let back = inverse.times(factor.times(there).0).0;
+                let lost = 4i64 << (-power).max(0);
+                assert!(i64::from(back - there).abs() <= lost, "2^{power}: {back}");
+            }
+        }
+        let tiny = f32::MIN_POSITIVE;
+        for none in [
+            0.0,
+            -1.0,
+            f32::NAN,
+            f32::INFINITY,
+            0.5 * tiny,
+            2.1e9,
+            2.0f32.powi(127),
+        ] {
+            assert_eq!(Factor::new(none), None, "{none:e}");
+        }
+        // Of a count: the ratio may be smaller by 2³¹, but is itself a number that single precision holds.
+        assert!(Factor::of_count(tiny).is_some());
+        assert_eq!(Factor::of_count(0.5 * tiny), None);
+        // To a count: larger by 2³¹.
+        assert!(Factor::to_count(4.0 * ONE * tiny).is_some());
+        assert_eq!(Factor::to_count(0.9 * ONE * tiny), None);
+    }
+}

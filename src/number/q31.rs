@@ -310,3 +310,40 @@ pub(super) fn whole(factor: f32) -> Option<i32> {
     let off = (factor - nearest as f32).abs();
     (nearest > 0 && factor < 1e6 && off <= ROUNDING * factor).then_some(nearest)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Kernel as _, Q31};
+
+    /// Any step of (c₃·u + c₂)·u + c₁ and of p₀ + …·u stays within 32 bits for u from -½ to ½ and 0 to 1: up to the limit, in any share
+    /// of the three coefficients and with either sign, and not a unit beyond it.
+    #[test]
+    fn a_cell_is_sound_up_to_the_limit() {
+        let limit = i64::from(i32::MAX) - 8;
+        let third = limit / 3;
+        for slopes in [
+            [limit, 0, 0],
+            [0, limit, 0],
+            [0, 0, limit],
+            [third, third, limit - 2 * third],
+            [1, limit - 3, 2],
+        ] {
+            for sign in [1, -1] {
+                let [p1, p2, p3] = slopes.map(|p| sign * p);
+                let constant = limit - limit / 2;
+                for p0 in [constant, -constant] {
+                    assert!(Q31::is_sound([p0, p1, p2, p3]), "{p0} {slopes:?}");
+                    let more = p0 + p0.signum();
+                    assert!(!Q31::is_sound([more, p1, p2, p3]), "{p0} {slopes:?}");
+                }
+                for k in 0..3 {
+                    let mut cell = [0, p1, p2, p3];
+                    assert!(Q31::is_sound(cell));
+                    cell[k + 1] += if cell[k + 1] < 0 { -1 } else { sign };
+                    assert!(!Q31::is_sound(cell), "{cell:?}");
+                }
+            }
+        }
+        assert!(Q31::is_sound([-limit, 1, 0, 0]) && !Q31::is_sound([limit, 0, 2, 0]));
+    }
+}

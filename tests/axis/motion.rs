@@ -68,6 +68,58 @@ fn the_middle_of_a_tick_is_one_order_better() {
     });
 }
 
+/// The middle of a period: the mean of the speeds, half of the way, the change of the speed over the time, in every number type.
+#[test]
+fn the_middle_of_a_tick_is_the_mean() {
+    let scale = scale_of(150.0, 10.0, 1.5);
+    let time = 0.001;
+    let double = in_units::<Spline<f64>>(Domain::Turn, Scale::SI);
+    let long = in_units::<Spline<Q31>>(Domain::Turn, scale);
+    let short = in_units::<Rows16>(Domain::Turn, scale);
+    let double = Period::new(time as f32, &double).unwrap();
+    let long = Period::new(time as f32, &long).unwrap();
+    let short = Period::new(time as f32, &short).unwrap();
+    for (from, to) in [
+        (3.0, 3.02),
+        (-4.0, -4.05),
+        (-0.02, 0.03),
+        (9.9, 9.85),
+        (0.0, 0.0),
+    ] {
+        let check = |name: &str, phase: Phase, [omega, alpha]: [f64; 2], unit: f64| {
+            let moved = f64::from(phase.to_bits().cast_signed()) / 4_294_967_296.0 * TAU;
+            let mean = 0.5 * (from + to);
+            assert_near(&format!("{name} speed"), omega, mean, 10.0 * unit);
+            let way = 0.5 * mean * time;
+            assert_near(
+                &format!("{name} angle"),
+                moved,
+                way,
+                5.0 * unit * time + 5e-9,
+            );
+            // The speeds are rounded before they are subtracted.
+            let gain = (to - from) / time;
+            assert_near(
+                &format!("{name} acceleration"),
+                alpha,
+                gain,
+                10.0 * unit / time + 1e-5 * gain.abs(),
+            );
+        };
+        let middle = double.between(Phase::default(), from, to).value;
+        check("f64", middle.phase, [middle.omega, middle.alpha], 1e-9);
+        let speeds = [from, to].map(|omega| si::<Q31>(&scale, [omega, 0.0]).0);
+        let middle = long.between(Phase::default(), speeds[0], speeds[1]).value;
+        let found = [value(middle.omega) * 10.0, value(middle.alpha) * 100.0];
+        // Single precision makes the speeds.
+        check("q31", middle.phase, found, 1e-7);
+        let speeds = [from, to].map(|omega| si::<Q15>(&scale, [omega, 0.0]).0);
+        let middle = short.between(Phase::default(), speeds[0], speeds[1]).value;
+        let found = [value(middle.omega) * 10.0, value(middle.alpha) * 100.0];
+        check("q15", middle.phase, found, 1.0 / 32_768.0);
+    }
+}
+
 #[test]
 fn a_lead_time_is_made_up_for() {
     let scale = scale_of(150.0, 10.0, 1.5);

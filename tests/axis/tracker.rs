@@ -223,6 +223,22 @@ fn a_stroke_does_not_wrap() {
     }
 }
 
+/// A jump to the other end of a stroke: half of the stroke is taken in, either way the same.
+#[test]
+fn a_jump_over_the_stroke_is_half_a_stroke() {
+    for memory in [0.0f32, 0.5, 0.9] {
+        let jump = |from, to| {
+            let mut tracker = Tracker::new(memory).unwrap().at(Phase::from_bits(from));
+            tracker.update_stroke(Phase::from_bits(to))
+        };
+        let [up, down] = [jump(0, u32::MAX), jump(u32::MAX, 0)];
+        let gain = 1.0 - f64::from(memory).powi(3);
+        let moved = |tracked: Tracked| f64::from(tracked.phase.to_bits()) * UNIT;
+        assert_near("up", moved(up), 0.5 * gain, 1e-7);
+        assert_near("down", 1.0 - moved(down), 0.5 * gain, 1e-7);
+    }
+}
+
 #[test]
 fn an_acceleration_beyond_its_range_is_limited() {
     let mut tracker = Tracker::new(0.0).unwrap();
