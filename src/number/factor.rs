@@ -17,7 +17,7 @@ pub struct Factor {
 const ONE: f32 = 2_147_483_648.0;
 
 impl Factor {
-    /// Of a number: result = ratio·number. `None` if the ratio is more than 2³⁰, or it or its inverse is no positive, normal number.
+    /// Of a number: result = ratio·number. `None` if the ratio is 2³¹ or more, or it or its inverse is no positive, normal number.
     pub(crate) fn new(ratio: f32) -> Option<Self> {
         Self::of(ratio, ratio)
     }
@@ -97,8 +97,8 @@ mod tests {
             f32::NAN,
             f32::INFINITY,
             0.5 * tiny,
-            2.1e9,
-            2.0f32.powi(127),
+            ONE,
+            1.0 / tiny,
         ] {
             assert_eq!(Factor::new(none), None, "{none:e}");
         }

@@ -2,6 +2,7 @@
 
 mod between;
 mod catalogue;
+mod drive;
 pub(crate) mod random;
 mod screen;
 

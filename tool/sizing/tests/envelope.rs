@@ -6,6 +6,7 @@
 mod circuit;
 mod current;
 mod cuts;
+mod direction;
 mod golden;
 mod pieces;
 mod sheet;

@@ -7,6 +7,7 @@ use crate::brute;
 use crate::support::{budget, edited_press, near, press_file};
 use jred_machine::analysis::duty::{Duty, STEPS};
 use jred_machine::model::machine::MachineFile;
+use jred_machine::model::rule::Rule;
 use jred_machine::read;
 use jred_sizing::catalogue::Catalogue;
 use jred_sizing::catalogue::Drive;
@@ -131,4 +132,34 @@ fn sized_figures_are_those_of_the_samples() {
         }
         assert!((of("cycles") - 2.0).abs() < 0.5);
     });
+}
+
+/// The mean torque of the gearbox is monitored where the rule means the same by it, with the exponent 3.
+#[test]
+fn what_the_meter_does_not_monitor_is_named() {
+    for (exponent, monitored) in [("3", true), ("10/3", false)] {
+        let rules = format!("[rules]\ngearbox_mean_exponent = \"{exponent}\"\n\n[motion]");
+        let text = edited_press("[motion]", &rules);
+        let file = read::parse("press.toml", &text, std::path::Path::new("")).unwrap();
+        with_limits(&file, |context, limits| {
+            let unseen = limits.unseen();
+            assert_eq!(
+                !unseen.contains(&Rule::GearboxCubicMean),
+                monitored,
+                "{unseen:?}"
+            );
+            let judged = context.findings(&file.rules);
+            for rule in &unseen {
+                assert!(judged.get(*rule).is_some() && file.rules.limit(*rule).is_set());
+            }
+            for seen in [
+                Rule::RmsTorque,
+                Rule::PeakTorque,
+                Rule::Speed,
+                Rule::GearboxPeak,
+            ] {
+                assert!(!unseen.contains(&seen), "{unseen:?}");
+            }
+        });
+    }
 }

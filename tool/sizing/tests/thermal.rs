@@ -359,3 +359,16 @@ fn the_overload_integral() {
         budget::OVERLOAD,
     );
 }
+
+#[test]
+fn bodies_and_their_times() {
+    let one = Network::one(0.5, 400.0, 0.0);
+    assert!(!one.has_housing());
+    near("one", one.fastest(), 400.0, 1e-15);
+    near("one", one.slowest(), 400.0, 1e-15);
+    // With thermal resistances 0.3 and 0.7 K/W and time constants 60 and 1400 s: capacities of 200 and 2000 J/K.
+    let two = Network::two([0.3, 0.7], [60.0, 1400.0], 0.0);
+    assert!(two.has_housing());
+    near("two", two.fastest(), 60.0, 1e-12);
+    near("two", two.slowest(), 200.0 + 1400.0, 1e-12);
+}

@@ -157,3 +157,58 @@ fn a_resistor_too_small_for_the_amplifier() {
     assert_eq!(unknown.verdict, Verdict::NotChecked);
     assert!(unknown.note.contains("no data"), "{}", unknown.note);
 }
+
+/// The findings of a resistor of 1 MW at this chopper voltage, with these of its other ratings.
+fn unrated(chopper: f64, peak_power: Option<f64>, pulse_energy: Option<f64>) -> [Option<bool>; 3] {
+    let (cycle, motor) = (cycle(), motor());
+    let site = Site {
+        bus_voltage: Some(560.0),
+        supply: Supply {
+            given: true,
+            capacitance: Some(1e-6),
+            chopper_voltage: Some(chopper),
+            max_voltage: Some(1e6),
+            min_resistance: None,
+            regenerative: false,
+            brake_resistor: Some(BrakeResistor {
+                resistance: 20.0,
+                power: 1e6,
+                peak_power,
+                pulse_energy,
+            }),
+        },
+        ..Site::default()
+    };
+    let prepared = Prepared::new(&motor, None, &site);
+    let drive = Drive {
+        motor: &motor,
+        gearbox: None,
+        amplifier: None,
+    };
+    let findings = Context::new(&cycle, &site, drive, &prepared).findings(&RuleSet::default());
+    [
+        Rule::ResistorPeak,
+        Rule::ResistorPulse,
+        Rule::BrakeResistance,
+    ]
+    .map(|rule| findings.get(rule).map(|finding| finding.is_known()))
+}
+
+/// A resistor that comes on is asked for each rating that it does not have; one that never does only for those that it has.
+#[test]
+fn ratings_of_a_resistor_are_asked_for_where_it_comes_on() {
+    let (on, off) = (570.0, 9e5);
+    let known = Some(1e6);
+    assert_eq!(unrated(on, None, None), [Some(false); 3]);
+    assert_eq!(
+        unrated(on, known, None),
+        [Some(true), Some(false), Some(false)]
+    );
+    assert_eq!(
+        unrated(on, None, known),
+        [Some(false), Some(true), Some(false)]
+    );
+    assert_eq!(unrated(off, None, None), [None; 3]);
+    assert_eq!(unrated(off, known, None), [Some(true), None, None]);
+    assert_eq!(unrated(off, None, known), [None, Some(true), None]);
+}

@@ -12,6 +12,7 @@ use rand::rngs::ChaCha8Rng;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::{BUS, budget, near, random_curve};
+use crate::support::within;
 
 /// Two equal axes that brake while the other drives: half a period apart the one takes what the other gives back. Together
 /// they burn it.
@@ -188,6 +189,33 @@ fn four_axes_between_the_places_of_the_grid() {
     near("voltage", voltage.figures.highest, expected, budget::PHASES);
     let found = voltage.phases[1].rem_euclid(short);
     near("phase", found, phase, budget::COARSE_PHASES);
+}
+
+/// Of three axes two have half the period of the third, which stands still: the second takes what the first gives back where it starts 0.35 s later.
+/// No phase short of its whole period may be left out.
+#[test]
+fn phases_of_a_pair_beside_a_longer_cycle() {
+    let brakes = PowerCurve::new([[0.0, -800.0], [0.1, -800.0], [0.1, 0.0], [0.5, 0.0]], 0.5);
+    let drives = PowerCurve::new(
+        [
+            [0.0, 0.0],
+            [0.15, 0.0],
+            [0.15, 800.0],
+            [0.25, 800.0],
+            [0.25, 0.0],
+            [0.5, 0.0],
+        ],
+        0.5,
+    );
+    let rests = PowerCurve::new([[0.0, 0.0], [1.0, 0.0]], 1.0);
+    let bus = Bus {
+        capacitance: 0.0,
+        ..BUS
+    };
+    let axes = Axes::new(bus, vec![brakes, drives, rests]);
+    let [least] = axes.largest(|figures| [-figures.burnt], &()).unwrap();
+    within("burnt", least.figures.burnt, 0.0, 1e-3);
+    within("phase", least.phases[1], 0.35, 1e-5);
 }
 
 /// The three cases of cycles that are to repeat together, and their numbers.

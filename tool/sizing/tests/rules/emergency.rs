@@ -122,3 +122,25 @@ fn the_press_stops() {
             .is_none()
     );
 }
+
+/// Friction of the motor brakes as well: all of it at the largest speed, c + b·n.
+#[test]
+fn viscous_friction_of_the_motor_stops_too() {
+    let mut stand = Stand::press();
+    let with = |stand: &mut Stand, friction: [f64; 2]| {
+        stand.motor.friction = friction;
+        stand.found(true, Rule::GearboxEmergency).value
+    };
+    let plain = with(&mut stand, [0.2, 0.0]);
+    let fastest = stand
+        .duty
+        .instants
+        .iter()
+        .map(|i| i.input_speed.abs())
+        .fold(0.0, f64::max);
+    let viscous = 0.5 / (5.0 * fastest);
+    let both = with(&mut stand, [0.2, viscous]);
+    let coulomb = with(&mut stand, [0.7, 0.0]);
+    near("friction", both, coulomb, budget::SAME_SUMS);
+    assert!(both > plain * 1.001, "{both} {plain}");
+}

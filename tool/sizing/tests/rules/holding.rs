@@ -197,3 +197,27 @@ fn the_press_is_held() {
     let hold = stand.duty.hold_torque;
     within("most", most, hold / 0.97, budget::SAME_SUMS);
 }
+
+/// What a figure is of is said where there is one: a motor with nothing to hold holds against no friction.
+#[test]
+fn the_torque_at_rest_is_explained() {
+    let words = |moment: &str| {
+        let text = HOIST
+            .replace("1 turn", "360 deg")
+            .replace("120 N m", moment);
+        let stand = Stand::new(&text);
+        stand.check(false, &stand.file.rules, Rule::HoldingTorque)
+    };
+    let heavy = words("120 N m");
+    assert!(heavy.value.unwrap() > 0.0);
+    assert!(
+        format!("{heavy:?}").contains("friction against the motor"),
+        "{heavy:?}"
+    );
+    let light = words("0 N m");
+    assert!(light.value.is_none_or(|value| value == 0.0), "{light:?}");
+    assert!(
+        !format!("{light:?}").contains("friction against the motor"),
+        "{light:?}"
+    );
+}
