@@ -376,3 +376,30 @@ fn accelerations_of_short_segments() {
         assert_eq!(jumping.acceleration_jumps().count(), 4);
     }
 }
+
+/// Two segments that meet with accelerations of one sign: the jump is their difference, smaller than either.
+#[test]
+fn a_small_jump_is_a_jump() {
+    let (lift, [rise, fall]) = (0.01, [3.0, TAU - 3.0]);
+    let program = Program::new(&[
+        Segment::law(Law::SimpleSine, rise, lift),
+        Segment::law(Law::SimpleSine, fall, -lift),
+    ])
+    .unwrap();
+    let end = |beta: f64| 0.5 * lift * (PI / beta).powi(2);
+    let jumps: Vec<_> = program.acceleration_jumps().collect();
+    assert_eq!(jumps.len(), 2);
+    assert_near(
+        "at the top",
+        jumps[0].to - jumps[0].from,
+        end(rise) - end(fall),
+        1e-12,
+    );
+    assert_near(
+        "below",
+        jumps[1].to - jumps[1].from,
+        end(rise) - end(fall),
+        1e-12,
+    );
+    assert!(end(rise) - end(fall) < lift / (rise * rise));
+}

@@ -278,6 +278,22 @@ fn coefficients_that_are_alike_are_both_named() {
     let mut both = [coefficient.curve, like.unwrap().curve].map(|curve| curve as u8);
     both.sort_unstable();
     assert_eq!(both, [Curve::Inertia as u8, Curve::Viscous as u8]);
+    // Beside them the mean of the load, of which samples at rest tell.
+    let moves = |omega| Sample {
+        omega,
+        alpha: omega,
+        ..sample
+    };
+    let samples = [2.0, -2.0, 0.0, 0.0].map(moves);
+    let found = identify::<3, { curves::INERTIA | curves::LOAD | curves::VISCOUS }>(&samples);
+    let Err(Error::Harmonic(HarmonicError::NotExcited { coefficient, like })) = found else {
+        panic!("{found:?}")
+    };
+    let both = [coefficient.curve, like.unwrap().curve];
+    assert!(
+        both.contains(&Curve::Inertia) && both.contains(&Curve::Viscous),
+        "{both:?}"
+    );
     // Another acceleration tells them apart: T = 3·α + 0.5·ω.
     let truth = [(2.0, 2.0), (2.0, -1.0), (1.0, 4.0)].map(|(omega, alpha)| Sample {
         omega,

@@ -144,3 +144,27 @@ fn edges_are_those_of_the_mechanism_and_of_the_loads() {
     assert!(jump(0) > 0.1 && jump(1) > 0.1, "{} {}", jump(0), jump(1));
     assert_eq!(geneva.edge(2), None);
 }
+
+/// Places so close together tell nothing about what lies between them: the bound is the largest error there, and little more.
+#[test]
+fn a_narrow_load_does_not_loosen_the_bound() {
+    const CELLS: u32 = 64;
+    const SET: Set = curves::LOAD;
+    let window = Window::new(Domain::Turn, [4.0, 4.0 + 1.8e-5], 8e-6).unwrap();
+    let force = Load::new(SliderCrank::SLIDER, Action::Force([-0.01, 0.0])).unwrap();
+    let machine = press().with_load(force.within(window)).unwrap();
+    let request = Request::new(1.0)
+        .with_omega(0.1)
+        .with_alpha(0.1)
+        .with_max_cells(CELLS);
+    let mut scratch = vec![0.0; scratch_len(CELLS, SET)];
+    let mut words = vec![0.0f64; words_len::<Spline<f64>>(CELLS, SET)];
+    let table =
+        fill::<Spline<f64>>(&machine, SET, CELLS, &Scale::SI, &mut scratch, &mut words).unwrap();
+    let found = measure(&machine, &table, &request).unwrap();
+    assert!(found.torque_error < 1e-3, "{found:?}");
+    assert!(
+        (1.0..1.3).contains(&(found.bound / found.torque_error)),
+        "{found:?}"
+    );
+}

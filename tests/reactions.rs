@@ -3,7 +3,7 @@
 use crate::support::golden::Case;
 use crate::support::machines::{golden_slider_crank, spec};
 use crate::support::{assert_near, budget, config, derivative, forces, jointed};
-use jred::machine::{Element, Jointed, Marker, Mechanism};
+use jred::machine::{Element, Jointed, Marker, Mechanism, PoseError};
 use jred::{Machine, Reducible};
 use proptest::prelude::*;
 
@@ -133,5 +133,23 @@ fn a_spring_pulls_when_longer_and_pushes_when_shorter() {
     assert_eq!(
         refused.to_string(),
         "there is no link 3: the mechanism has links 0 to 2"
+    );
+}
+
+/// A spring has the same length after a turn, and the table of one turn stands for all; one that is wound up by the turns has not.
+#[test]
+fn a_spring_repeats_and_a_wound_one_does_not() {
+    let case = Case::new(include_str!("data/01_slider_crank_A.json"));
+    let bare = || golden_slider_crank(&case);
+    assert_eq!(bare().check_repeats(), Ok(()));
+    let ends = [Marker::ground([-0.3, 0.4]), Marker::on(0, [0.01, 0.02])];
+    let spring = Element::spring(ends, 800.0, 0.1).unwrap();
+    assert_eq!(bare().with_element(spring).unwrap().check_repeats(), Ok(()));
+    let wound = [Marker::ground([0.0, 0.0]), Marker::on(0, [0.0, 0.0])];
+    let spring = Element::torsion_spring(wound, 3.0, 0.2).unwrap();
+    let refused = bare().with_element(spring).unwrap().check_repeats();
+    assert!(
+        matches!(refused, Err(PoseError::NotPeriodic { .. })),
+        "{refused:?}"
     );
 }

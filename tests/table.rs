@@ -10,7 +10,8 @@ use jred::table::{
     Constants, CubicSpline, Format, MAX_CELLS, MIN_CELLS, control_points, fit_periodic, words_len,
 };
 use jred::{
-    Cubic, Domain, Phase, Q31, Quadratic, Reducible, Reduction, Scale, Spline, TableError, curves,
+    Cubic, Domain, Phase, Q31, Quadratic, Reducible, Reduction, Scale, Spline, Spline16,
+    TableError, curves,
 };
 use proptest::prelude::*;
 
@@ -277,6 +278,26 @@ fn a_turn_that_does_not_close_is_refused() {
     assert_eq!(refused(&rows), TableError::NotClosed { curve: 2 });
     rows.words[3 * 5 + 1] = f32::NAN;
     assert_eq!(refused(&rows), TableError::Range { curve: 1, cell: 2 });
+}
+
+/// Of words that hold two curves the first of both is named.
+#[test]
+fn a_turn_of_halves_that_does_not_close_is_refused() {
+    let wave = Wave {
+        load: 0.1,
+        viscous: 0.1,
+        coulomb: 0.1,
+        ..Wave::bare(0.5, 0.1)
+    };
+    let scale = Scale::SI.for_cells(32, std::f64::consts::TAU);
+    let mut rows = Rows::<Spline16>::of(&wave, curves::ALL, 32, &scale).unwrap();
+    for (word, curve) in [(0, 0), (1, 2), (2, 0), (3, 2), (5, 2)] {
+        let before = rows.words[word];
+        rows.words[word] ^= 1;
+        assert_eq!(refused(&rows), TableError::NotClosed { curve }, "{word}");
+        rows.words[word] = before;
+    }
+    assert!(rows.try_table().is_ok());
 }
 
 /// c₁ + 4c₂ + c₃, six times J at the end of the last cell, is −7 units, less than single precision tells apart there.

@@ -4,7 +4,7 @@ use jred::machine::PoseError;
 use jred::number::RangeError;
 use jred::table::{MAX_CELLS, RowConstants, words_len};
 use jred::tabulate::{Request, fill, scratch_len, tabulate};
-use jred::{Domain, Error, Rows16, Scale, Set, TableError, curves};
+use jred::{Domain, Error, Reducible, Reduction, Rows16, Scale, Set, TableError, curves};
 
 use super::{CONSTANT, Short, model, row_words};
 use crate::support::machines::Wave;
@@ -196,7 +196,7 @@ fn a_model_of_another_set_span_or_scale() {
     );
 }
 
-fn filled(machine: &Wave, set: Set, cells: u32, scale: &Scale) -> Error {
+fn filled(machine: &impl Reducible, set: Set, cells: u32, scale: &Scale) -> Error {
     Short::of(machine, set, cells, scale)
         .map(|_| ())
         .unwrap_err()
@@ -281,4 +281,32 @@ fn buffers_and_requests() {
             .try_table()
             .is_err()
     );
+}
+
+/// Where 1/J is largest at the end of a stroke, the last cell is named.
+#[test]
+fn too_small_an_inertia_is_placed() {
+    let scale = scale_of(60.0, 11.0, 2.0);
+    for (slope, cell) in [(1.0, 0), (-1.0, 39)] {
+        // J from 2e-5 to 1 kg·m² over the stroke, or back.
+        let domain = Domain::stroke(0.0, 1.0).unwrap();
+        let machine = Ramp { domain, slope };
+        let error = filled(&machine, curves::RECIPROCAL, 40, &scale);
+        assert_eq!(error, Error::Table(TableError::Reciprocal { cell }));
+    }
+}
+
+struct Ramp {
+    domain: Domain,
+    slope: f64,
+}
+
+impl Reducible for Ramp {
+    fn domain(&self) -> Domain {
+        self.domain
+    }
+    fn reduction(&self, phi: f64) -> Result<Reduction, PoseError> {
+        let along = if self.slope > 0.0 { phi } else { 1.0 - phi };
+        Ok(Reduction::new([2e-5 + along, self.slope, 0.0]))
+    }
 }

@@ -2,9 +2,6 @@
 
 use super::{Curve, Envelope, Limit, Piece, Shape};
 
-#[cfg(test)]
-mod tests;
-
 impl Envelope {
     /// A chord that the limit of the short-time torque does not fall below between two speeds (rad/s, not negative, rising):
     /// its torques at both (N·m). Exact where the limit is straight or bends downwards; elsewhere its least value between them.
@@ -120,3 +117,6 @@ impl Limit {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
