@@ -171,15 +171,6 @@ fn impossible_cams_are_refused() {
         refused(below.unwrap(), 0.02, face),
         "the follower goes down to the cam's axis at φ = 180.00°; make the base radius larger"
     );
-    // A roller of 10 mm on an arm comes as near to the axis as d² + l² − 2·d·l·cos ψ says; from below its radius on it would cover it.
-    let (d, l) = (0.1, 0.105);
-    let angle = |prime: f64| ((d * d + l * l - prime * prime) / (2.0 * d * l)).acos();
-    for (nearest, covers) in [(0.0099, true), (0.0101, false)] {
-        let fall = angle(0.03 + 0.01) - angle(nearest);
-        let made = DiscCam::new(four(-fall), 0.03, arm([d, 0.0], l), links());
-        let found = matches!(made, Err(CamError::BelowAxis { .. }));
-        assert_eq!(found, covers, "{nearest}: {made:?}");
-    }
     // A rise of 1 rad within 0.9 rad by a law with C_v = 2: twice as fast as the cam.
     let fast = Program::new(&[
         Segment::law(Law::Cycloidal, 0.9, 1.0),
@@ -199,4 +190,23 @@ fn impossible_cams_are_refused() {
         message.contains("but must be larger than 0 m; make the base radius larger than 0."),
         "{message}"
     );
+}
+
+/// An arm takes its roller of 10 mm as near to the cam's axis as d² + l² − 2·d·l·cos ψ says: nearer than its radius it would cover the axis.
+#[test]
+fn a_roller_does_not_cover_the_axis() {
+    let (d, l) = (0.1, 0.105);
+    let follower = Follower::OscillatingRoller {
+        pivot: [d, 0.0],
+        arm: l,
+        swing: Swing::Clockwise,
+        roller: roller_of(0.01, 0.1, 1e-5).unwrap(),
+    };
+    let angle = |prime: f64| ((d * d + l * l - prime * prime) / (2.0 * d * l)).acos();
+    for (nearest, covers) in [(0.0099, true), (0.0101, false)] {
+        let fall = angle(0.03 + 0.01) - angle(nearest);
+        let made = DiscCam::new(four(-fall), 0.03, follower, links());
+        let found = matches!(made, Err(CamError::BelowAxis { .. }));
+        assert_eq!(found, covers, "{nearest}: {made:?}");
+    }
 }

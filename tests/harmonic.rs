@@ -196,17 +196,15 @@ fn free_machine_keeps_its_energy() {
 /// J = 2 + Σ bₖ·sin kφ and load of cosines alone: tables of half of the terms, against the sums written out.
 #[test]
 fn curves_of_sines_or_cosines_alone() {
+    const SET: Set = curves::LOAD | terms::INERTIA_SIN | terms::LOAD_COS;
     let sines = [0.3, -0.2, 0.05];
     let cosines = [1.5, 0.4, -0.7];
-    const SET: Set = curves::LOAD | terms::INERTIA_SIN | terms::LOAD_COS;
     let mut words = vec![2.0, 3.0];
     words.extend(sines.iter().zip(cosines).flat_map(|(b, a)| [*b, a]));
     let model = model::<f64, SET>(&words).unwrap();
-    let sum = |c: [f64; 3], f: &dyn Fn(f64, f64) -> f64| -> f64 {
-        c.iter()
-            .zip([1.0, 2.0, 3.0])
-            .map(|(c, k)| c * f(k, 1.0))
-            .sum()
+    let sum = |c: [f64; 3], f: &dyn Fn(f64) -> f64| -> f64 {
+        let terms = c.iter().zip([1.0, 2.0, 3.0]);
+        terms.map(|(c, k)| c * f(k)).sum()
     };
     for phase in phases(100) {
         let phi = phase.radians();
@@ -214,17 +212,13 @@ fn curves_of_sines_or_cosines_alone() {
         let near = |what: &str, found: f64, expected: f64| {
             assert_near(what, found, expected, budget::IDENTITY * 10.0);
         };
-        near("J", read.inertia, 2.0 + sum(sines, &|k, _| (k * phi).sin()));
+        near("J", read.inertia, 2.0 + sum(sines, &|k| (k * phi).sin()));
         near(
             "J′",
             read.inertia_slope,
-            sum(sines, &|k, _| k * (k * phi).cos()),
+            sum(sines, &|k| k * (k * phi).cos()),
         );
-        near(
-            "load",
-            read.load,
-            3.0 + sum(cosines, &|k, _| (k * phi).cos()),
-        );
+        near("load", read.load, 3.0 + sum(cosines, &|k| (k * phi).cos()));
     }
 }
 

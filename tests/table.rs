@@ -289,7 +289,7 @@ fn a_turn_of_halves_that_does_not_close_is_refused() {
         coulomb: 0.1,
         ..Wave::bare(0.5, 0.1)
     };
-    let scale = Scale::SI.for_cells(32, std::f64::consts::TAU);
+    let scale = Scale::SI.for_cells(32, TAU);
     let mut rows = Rows::<Spline16>::of(&wave, curves::ALL, 32, &scale).unwrap();
     for (word, curve) in [(0, 0), (1, 2), (2, 0), (3, 2), (5, 2)] {
         let before = rows.words[word];

@@ -79,6 +79,17 @@ fn figures_of_a_large_table_are_those_of_all_its_places() {
     }
 }
 
+fn holds<F: Format>(wave: &Wave, scale: Scale, torque_error: f64) {
+    let request = request(torque_error, 400);
+    for set in [
+        curves::ALL,
+        curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB,
+    ] {
+        let [said, _] = found::<F>(wave, set, &request, &scale);
+        assert!(said.torque_error <= torque_error, "{} {said:?}", F::NAME);
+    }
+}
+
 /// A table of 16 bits in machine units: every curve counts in the units of its own, b in those of torque over speed.
 #[test]
 fn errors_are_in_si_units_in_every_format() {
@@ -90,22 +101,12 @@ fn errors_are_in_si_units_in_every_format() {
         coulomb: 0.5,
         domain: Domain::Turn,
     };
-    fn check<F: Format>(wave: &Wave, scale: Scale, torque_error: f64) {
-        let request = request(torque_error, 400);
-        for set in [
-            curves::ALL,
-            curves::LOAD | curves::CONSTANT_VISCOUS | curves::CONSTANT_COULOMB,
-        ] {
-            let [said, _] = found::<F>(wave, set, &request, &scale);
-            assert!(said.torque_error <= torque_error, "{} {said:?}", F::NAME);
-        }
-    }
     // Full torque of 60 N·m; what a word of 16 bits rounds counts at full speed and acceleration.
     let scale = scale_of(60.0, 8.0, 1.6);
-    check::<Spline<f64>>(&wave, Scale::SI, 1e-3);
-    check::<Cubic<f32>>(&wave, Scale::SI, 1e-3);
-    check::<Quadratic<Q31>>(&wave, scale, 1e-2);
-    check::<Rows16>(&wave, scale, 0.05);
+    holds::<Spline<f64>>(&wave, Scale::SI, 1e-3);
+    holds::<Cubic<f32>>(&wave, Scale::SI, 1e-3);
+    holds::<Quadratic<Q31>>(&wave, scale, 1e-2);
+    holds::<Rows16>(&wave, scale, 0.05);
 }
 
 /// A winder: J grows with every turn; or its load does, or one of the frictions.

@@ -336,11 +336,11 @@ mod tests {
                     let more = p0 + p0.signum();
                     assert!(!Q31::is_sound([more, p1, p2, p3]), "{p0} {slopes:?}");
                 }
-                for k in 0..3 {
-                    let mut cell = [0, p1, p2, p3];
-                    assert!(Q31::is_sound(cell));
-                    cell[k + 1] += if cell[k + 1] < 0 { -1 } else { sign };
-                    assert!(!Q31::is_sound(cell), "{cell:?}");
+                assert!(Q31::is_sound([0, p1, p2, p3]), "{slopes:?}");
+                let more = |p: i64| if p < 0 { p - 1 } else { p + 1 };
+                for beyond in [[more(p1), p2, p3], [p1, more(p2), p3], [p1, p2, more(p3)]] {
+                    let [p1, p2, p3] = beyond;
+                    assert!(!Q31::is_sound([0, p1, p2, p3]), "{beyond:?}");
                 }
             }
         }

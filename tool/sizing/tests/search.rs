@@ -285,19 +285,19 @@ fn temperatures_are_compared_as_shares() {
 #[test]
 fn an_empty_front_says_what_is_missing() {
     let case = case(&press_text(), 200);
-    let select = |catalogue: &Catalogue, objectives: &[Objective]| {
-        let prepared = catalogue.prepare(&case.file.site);
+    let select = |from: &Catalogue, objectives: &[Objective]| {
+        let prepared = from.prepare(&case.file.site);
         let (cycle, site, rules) = (&case.cycle, &case.file.site, &case.file.rules);
-        let selection = Selection::new(catalogue, &prepared, cycle, site, rules);
+        let selection = Selection::new(from, &prepared, cycle, site, rules);
         let front = Front::new(&selection, objectives);
         (front.fit, front.obstacle().map(|report| report.to_string()))
     };
-    let catalogue = Catalogue {
+    let bare = Catalogue {
         amplifiers: Vec::new(),
-        ..self::catalogue()
+        ..catalogue()
     };
     let objectives = [Objective::Power, Objective::Price];
-    let (fit, words) = select(&catalogue, &objectives);
+    let (fit, words) = select(&bare, &objectives);
     let words = words.unwrap();
     assert!(
         words.starts_with(&format!("{fit} drives are suitable")),

@@ -76,14 +76,12 @@ fn figures_at_the_motor_are_those_of_its_instants() {
         let power = |i: &Instant| torque(i) * speed(i);
         let own = gearbox.map_or(0.0, |g| g.inertia) / 8e-4;
         let load = |i: &Instant| own + i.input_inertia / (ratio * ratio * 8e-4);
-        let figures: [(&str, _, &dyn Fn(&Instant) -> f64); 4] = [
-            ("torque", found.torque, &torque),
-            ("speed", found.speed, &speed),
-            ("power", found.power, &power),
-            ("inertia ratio", found.inertia_ratio, &load),
-        ];
-        for (what, found, of) in figures {
-            let expected = duty.figures(of);
+        for (what, found, expected) in [
+            ("torque", found.torque, duty.figures(torque)),
+            ("speed", found.speed, duty.figures(speed)),
+            ("power", found.power, duty.figures(power)),
+            ("inertia ratio", found.inertia_ratio, duty.figures(load)),
+        ] {
             let size = expected.max.abs().max(expected.min.abs());
             for (found, expected) in [
                 (found.min, expected.min),

@@ -52,7 +52,7 @@ fn no_torque_is_below_the_floor() {
                     .iter()
                     .all(|d| d.abs() < 1e-12);
                 assert!(
-                    near || limit.pieces().iter().any(|p| p.to == from),
+                    near || limit.pieces().iter().any(|p| (p.to - from).abs() < 1e-12),
                     "{from} {to}: {start} {end}"
                 );
                 exact += 1;
@@ -62,18 +62,23 @@ fn no_torque_is_below_the_floor() {
     assert!(exact > 1000, "{exact}");
 }
 
+#[track_caller]
+fn near(found: [f64; 2], expected: [f64; 2]) {
+    let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs());
+    assert!(
+        off.fold(0.0, f64::max) < 1e-12,
+        "{found:?}, not {expected:?}"
+    );
+}
+
 /// Over a corner that bends down the chord from end to end is the floor; over one that bends up the least torque is.
 #[test]
 fn chords_over_corners() {
     let limit = &limits()[2];
     // At 5, 20 and 45 rad/s: 8, 5.5 and 1.5 N·m.
-    assert_eq!(limit.floor([5.0, 20.0]), [8.0, 5.5]);
-    let [start, end] = limit.floor([20.0, 45.0]);
-    assert!(
-        (start - 1.5).abs() < 1e-12 && (end - 1.5).abs() < 1e-12,
-        "{start} {end}"
-    );
-    assert_eq!(limit.floor([20.0, 61.0]), [0.0; 2]);
+    near(limit.floor([5.0, 20.0]), [8.0, 5.5]);
+    near(limit.floor([20.0, 45.0]), [1.5; 2]);
+    near(limit.floor([20.0, 61.0]), [0.0; 2]);
 }
 
 /// Below that speed there is torque; at it, or just beyond, there is none.
@@ -85,7 +90,7 @@ fn torque_up_to_its_end() {
     {
         let found = limit.positive_below();
         assert!((found - end).abs() <= 1e-8 * end, "{found} {end}");
-        for k in 0..100 {
+        for k in 0..if found > 0.0 { 100 } else { 0 } {
             let speed = found * f64::from(k) / 100.0;
             assert!(limit.torque(speed) > 0.0, "{speed}");
         }
