@@ -208,7 +208,7 @@ pub struct Simulate {
 pub struct Steady {
     /// Machine file.
     pub file: PathBuf,
-    /// Coefficient of speed fluctuation that a flywheel is to reach, e.g. 0.02: find its inertia.
+    /// Coefficient of speed fluctuation that a flywheel is to reach, e.g. 0.02 or 2%: find its inertia.
     #[arg(long, value_parser = fluctuation)]
     pub delta: Option<f64>,
     /// Constant torque of the motor instead of that in `[simulation]`, e.g. "20 N m".
@@ -224,13 +224,18 @@ pub struct Steady {
 
 /// A coefficient of speed fluctuation.
 fn fluctuation(text: &str) -> Result<f64, String> {
-    let delta: f64 = text
+    let (number, scale) = match text.trim().strip_suffix('%') {
+        Some(percent) => (percent.trim_end(), 0.01),
+        None => (text, 1.0),
+    };
+    let delta: f64 = number
         .parse()
-        .map_err(|_| "write a plain number, such as 0.02")?;
+        .map_err(|_| "write a number or a percentage, such as 0.02 or 2%")?;
+    let delta = delta * scale;
     if (1e-6..=1.0).contains(&delta) {
         Ok(delta)
     } else {
-        Err("it must be a number from 0.000001 to 1".to_owned())
+        Err("it must be a number from 0.000001 to 1, or a percentage up to 100%".to_owned())
     }
 }
 

@@ -197,3 +197,78 @@ fn the_next_smaller_motor_says_why_not() {
         "{name}: {reasons}"
     );
 }
+
+/// On 400 V mains the best drive with the maker's own figures is larger than others that violate no rule. Every form names the smallest
+/// of each class of certainty, with its rank and the number of the class.
+#[test]
+fn smaller_motors_of_less_certain_data_are_not_hidden() {
+    let folder = Folder::new();
+    let axis = std::fs::read_to_string(machine("belt-axis.toml")).unwrap();
+    let file = folder.file(
+        "axis.toml",
+        format!("{axis}\n[supply]\nmains_voltage = \"400 V\"\n"),
+    );
+    let all = jred([&"size", &file, &"--all", &"--format", &"json"]).json();
+    check(&all);
+    let fit = all["fit"].as_array().unwrap();
+    let classes = all["certainties"].as_array().unwrap();
+    let power = |drive: &Value| drive["rated power [W]"].as_f64().unwrap();
+    let words = ["makers-figures", "other-figures", "voltage-unknown"];
+    assert_eq!(classes.len(), 3);
+    let text = jred([&"size", &file]).ends(0).out;
+    let csv = jred([&"size", &file, &"--top", &"1", &"--format", &"csv"])
+        .ends(0)
+        .out;
+    let mut least = f64::INFINITY;
+    for (class, word) in classes.iter().zip(words) {
+        assert_eq!(class["certainty"], word);
+        let members = || fit.iter().filter(|drive| drive["certainty"] == word);
+        assert_eq!(class["drives"], members().count());
+        let smallest = members().map(power).fold(f64::INFINITY, f64::min);
+        let first = &class["first"];
+        assert_eq!(power(first), smallest);
+        let rank = class["rank"].as_u64().unwrap();
+        assert_eq!(&fit[rank as usize - 1], first);
+        // The maker's own document, and a voltage, are what the classes are made of.
+        let unknown = first["motor largest bus voltage [V]"].is_null();
+        assert_eq!(unknown, word == "voltage-unknown");
+        assert!(word != "other-figures" || first["figures from"] == "other");
+        let motor = first["motor"].as_str().unwrap();
+        assert!(text.contains(&format!("the first is rank {rank}: {motor}")));
+        let row = format!("{rank},{motor},");
+        let mut rows = csv.lines().filter(|line| line.starts_with(&row));
+        assert!(
+            rows.next().is_some_and(|line| line.ends_with(word)),
+            "{row}"
+        );
+        if smallest < least && rank > 1 {
+            assert!(
+                text.contains(&format!("{motor} + ")) || text.contains(&format!("{motor}, direct"))
+            );
+            assert!(text.contains(&format!(
+                "violates no rule either, but ranks lower ({rank})"
+            )));
+        }
+        least = least.min(smallest);
+    }
+    // The trap that this is about: the best drive is not the smallest.
+    assert!(power(&fit[0]) > 2.0 * least);
+    // Each rule that is not checked, counted a second time.
+    let gaps = all["not checked"].as_array().unwrap();
+    assert!(!gaps.is_empty());
+    for gap in gaps {
+        let open = fit.iter().filter(|drive| {
+            let mut checks = drive["checks"].as_array().unwrap().iter();
+            checks.any(|c| c["id"] == gap["id"] && c["verdict"] == "not-checked")
+        });
+        assert_eq!(gap["drives"], open.count(), "{}", gap["rule"]);
+        assert!(!gap["cure"].as_str().unwrap().is_empty());
+    }
+    let report = folder.path("report.html");
+    jred([&"size", &file, &"--report", &report]).ends(0);
+    let page = std::fs::read_to_string(report).unwrap();
+    for class in classes {
+        let motor = class["first"]["motor"].as_str().unwrap();
+        assert!(page.contains(&format!("the first is rank {}: {motor}", class["rank"])));
+    }
+}

@@ -6,7 +6,7 @@
 use askama::Template;
 use jred::Error;
 
-use crate::list::listing::Explanation;
+use crate::list::listing::{self, Explanation};
 use jred_machine::analysis::duty::Duty;
 use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
@@ -86,11 +86,13 @@ struct Page {
     energy: String,
     fit_count: usize,
     all_count: usize,
-    partly: usize,
     fit: Vec<FitRow>,
     fit_more: usize,
     ranking: String,
-    next_smaller: String,
+    smaller: Vec<String>,
+    classes: Vec<String>,
+    warnings: Vec<String>,
+    gaps: Vec<String>,
     refused_count: usize,
     refused: Vec<(String, String)>,
     rule_set: String,
@@ -107,11 +109,15 @@ pub fn page(
     file: &MachineFile,
     duty: &Duty,
     selection: &Selection,
+    warnings: &[String],
 ) -> Result<Option<String>, Error> {
     let Some(candidate) = selection.fit.first().or(selection.refused.first()) else {
         return Ok(None);
     };
-    let page = Page::of(name, file, duty, selection, candidate)?;
+    let page = Page {
+        warnings: warnings.to_vec(),
+        ..Page::of(name, file, duty, selection, candidate)?
+    };
     // Rendering into a string fails only if a template is wrong, which the tests would show.
     Ok(Some(page.render().unwrap_or_default()))
 }
@@ -187,7 +193,7 @@ impl Page {
                 .iter()
                 .map(|refused| ChangeRow::of(refused, duty.duration))
                 .collect(),
-            duty: rows::duty_rows(best, duty, link, words),
+            duty: rows::duty_rows(best, duty, file.input_name(), link, words),
             energy: format!(
                 "Over a cycle the motor supplies {} J and feeds back {} J; the brake resistor or the DC bus takes at \
                  most the latter.",
@@ -196,11 +202,19 @@ impl Page {
             ),
             fit_count: selection.fit.len(),
             all_count,
-            partly: selection.partly_checked(),
             fit: ranked(selection),
             fit_more: selection.fit.len().saturating_sub(LISTED),
             ranking: selection.ranking(words),
-            next_smaller: crate::list::listing::next_smaller(selection).unwrap_or_default(),
+            smaller: listing::smaller(selection),
+            classes: selection
+                .classes()
+                .iter()
+                .map(listing::class_text)
+                .collect(),
+            warnings: Vec::new(),
+            gaps: (selection.gaps().iter())
+                .map(|gap| listing::gap_text(gap, words))
+                .collect(),
             refused_count: selection.refused.len(),
             refused: (selection.first_refused(REFUSED))
                 .iter()
@@ -214,9 +228,9 @@ impl Page {
 }
 
 fn ranked(selection: &Selection) -> Vec<FitRow> {
-    let listed = selection.first_fit(LISTED).into_iter().enumerate();
+    let listed = listing::ranked(selection, LISTED).into_iter();
     listed
-        .map(|(k, candidate)| FitRow::of(k + 1, &selection.judged(&candidate)))
+        .map(|(rank, candidate)| FitRow::of(rank, &selection.judged(&candidate)))
         .collect()
 }
 

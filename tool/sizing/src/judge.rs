@@ -14,7 +14,9 @@ use jred_machine::model::rules::{Finding, RuleSet, Verdict};
 use jred_machine::model::site::Site;
 use jred_machine::units::Vocabulary;
 
+mod bits;
 pub mod check;
+mod cure;
 mod electric;
 mod gearbox;
 mod judged;
@@ -26,6 +28,8 @@ mod stiffness;
 mod thermal;
 mod voltage;
 
+pub use bits::RuleBits;
+pub use cure::cure;
 pub use judged::Judged;
 pub use outcome::Outcome;
 pub(crate) use screen::Screen;
@@ -34,17 +38,15 @@ pub(crate) use screen::Screen;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Findings {
     found: [Finding; Rule::COUNT],
-    /// A bit for each rule that applies.
-    apply: u32,
+    /// The rules that apply.
+    apply: RuleBits,
 }
-
-const _: () = assert!(Rule::COUNT <= u32::BITS as usize, "a bit for each rule");
 
 impl Default for Findings {
     fn default() -> Self {
         Self {
             found: [Finding::new(0.0, 0.0); Rule::COUNT],
-            apply: 0,
+            apply: RuleBits::NONE,
         }
     }
 }
@@ -65,26 +67,21 @@ impl Findings {
     /// Sets the finding of a rule, which thereby applies.
     pub const fn set(&mut self, rule: Rule, finding: Finding) {
         self.found[rule as usize] = finding;
-        self.apply |= 1 << rule as u32;
+        self.apply.add(rule);
     }
 
     /// The finding of a rule, if it applies.
     pub const fn get(&self, rule: Rule) -> Option<Finding> {
-        if self.apply & 1 << rule as u32 == 0 {
-            None
-        } else {
+        if self.apply.has(rule) {
             Some(self.found[rule as usize])
+        } else {
+            None
         }
     }
 
     /// The rules that apply, with their findings, in the order of reports.
     pub fn iter(&self) -> impl Iterator<Item = (Rule, Finding)> {
-        let mut rest = self.apply;
-        std::iter::from_fn(move || {
-            let place = rest.trailing_zeros() as usize;
-            rest &= rest.wrapping_sub(1);
-            Some((*Rule::ALL.get(place)?, self.found[place]))
-        })
+        (self.apply.iter()).map(|rule| (rule, self.found[rule as usize]))
     }
 }
 
@@ -148,6 +145,7 @@ impl<'a> Context<'a> {
         if self.drive.gearbox.is_some_and(|g| g.efficiency_assumed) {
             assumptions.push("gearbox efficiency not given; using 87 % per stage".to_owned());
         }
+        assumptions.extend(motor::unheld(self));
         assumptions.extend(self.motor.envelope.assumptions());
         assumptions
     }
@@ -201,14 +199,26 @@ impl<'a> Context<'a> {
             .collect()
     }
 
+    /// What is missing for a rule that is not checked, without the figures of this drive.
+    pub fn missing(&self, rules: &RuleSet, rule: Rule) -> Option<String> {
+        let finding = self.findings(rules).get(rule)?;
+        Some(self.words(rules, rule, finding).rating)
+    }
+
     fn check(&self, rules: &RuleSet, rule: Rule, finding: Finding) -> Check {
+        let mut check = Check::new(rules, rule, finding, self.words(rules, rule, finding));
+        check.rule = rule.named(self.vocabulary());
+        check
+    }
+
+    fn words(&self, rules: &RuleSet, rule: Rule, finding: Finding) -> Words {
         use Rule::{
             AmplifierVoltage, Backlash, BrakeTorque, ConstantTorque, GearboxCubicMean,
             GearboxCycles, GearboxEmergency, GearboxMeanSpeed, GearboxPeak, GearboxSpeed,
             HoldingTorque, HousingTemperature, InertiaRatio, MotorVoltage, NaturalFrequency,
             PeakTorque, RmsTorque, Speed, WindingTemperature,
         };
-        let words = match rule {
+        match rule {
             RmsTorque | PeakTorque | Speed | HoldingTorque | ConstantTorque | BrakeTorque
             | InertiaRatio => motor::words(self, rules, rule, finding),
             GearboxPeak | GearboxCubicMean | GearboxEmergency | GearboxMeanSpeed | GearboxSpeed
@@ -217,10 +227,7 @@ impl<'a> Context<'a> {
             MotorVoltage | AmplifierVoltage => voltage::words(self, rules, rule, finding),
             NaturalFrequency | Backlash => stiffness::words(self, rule, finding),
             _ => electric::words(self, rule, finding),
-        };
-        let mut check = Check::new(rules, rule, finding, words);
-        check.rule = rule.named(self.vocabulary());
-        check
+        }
     }
 
     /// The worst verdict and the largest use of a limit. Rules that follow time are checked only if all others are

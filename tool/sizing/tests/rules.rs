@@ -90,6 +90,13 @@ impl Stand {
         alone.prepare(&self.file.site).remove(0)
     }
 
+    /// Assumptions and warnings that go with the result.
+    fn warnings(&self, geared: bool) -> Vec<String> {
+        let prepared = self.prepared();
+        let drive = self.drive(geared);
+        Context::new(&self.cycle, &self.file.site, drive, &prepared).assumptions()
+    }
+
     /// What a rule found, if it applies.
     fn finding(&self, geared: bool, rules: &RuleSet, rule: Rule) -> Option<Finding> {
         let prepared = self.prepared();

@@ -19,7 +19,7 @@ use jred_sizing::catalogue::{Catalogue, MotorKind};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::select::pareto::Front;
 use jred_sizing::select::rank::{Objective, rank};
-use jred_sizing::select::size::Selection;
+use jred_sizing::select::size::{Certainty, Selection};
 
 const RACK: &str = include_str!("../../../machines/rack.toml");
 
@@ -102,7 +102,7 @@ fn ranked_by_what_was_asked_for() {
         // What is in doubt comes last, then what is unknown.
         let doubts = selection.fit.known().iter();
         let doubts: Vec<_> = doubts
-            .map(|c| [c.outcome.voltage_unknown, !c.drive.from_makers()])
+            .map(|c| Certainty::of(&c.drive, &c.outcome))
             .collect();
         assert!(doubts.is_sorted());
         assert_eq!(

@@ -10,6 +10,7 @@ use crate::commands::{Done, print};
 use crate::options::Size;
 use crate::output;
 use jred_machine::analysis::duty::Duty;
+use jred_machine::analysis::warnings::warnings;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::variator;
 use jred_machine::number::words::counted;
@@ -43,6 +44,7 @@ pub fn size(options: &Size) -> Result<Done> {
     fit_input(&mut catalogue, &file)?;
     let duty = Duty::new(&file, motion, options.supply.steps as usize).map_err(core_report)?;
     let cycle = Cycle::new(&duty);
+    let warnings = warnings(&file).map_err(core_report)?;
     let motors = catalogue.prepare(&file.site);
     let mut selection = Selection::parallel(&catalogue, &motors, &cycle, &file.site, &file.rules);
     let gaps = options.search.apply(&filter, &mut selection);
@@ -75,7 +77,7 @@ pub fn size(options: &Size) -> Result<Done> {
     }
     if let Some(path) = &options.report {
         let name = plain::path(&options.file);
-        let page = page::page(&name, &file, &duty, &selection).map_err(core_report)?;
+        let page = page::page(&name, &file, &duty, &selection, &warnings).map_err(core_report)?;
         let page = page.ok_or_else(|| none_left(options, catalogue.count(), &[]))?;
         output::write(path, page.as_bytes())?;
     }
@@ -103,6 +105,7 @@ pub fn size(options: &Size) -> Result<Done> {
                 &file,
                 &duty,
                 &selection,
+                &warnings,
                 asked,
                 explanation,
             ))?;
@@ -120,7 +123,15 @@ pub fn size(options: &Size) -> Result<Done> {
             output::print_parts(listing::csv(list, &selection, asked))?;
         }
         Format::Json => {
-            let parts = listing::json(list, &file, &duty, &selection, asked, explanation);
+            let parts = listing::json(
+                list,
+                &file,
+                &duty,
+                &selection,
+                &warnings,
+                asked,
+                explanation,
+            );
             output::print_parts(parts)?;
         }
     }

@@ -78,7 +78,7 @@ fn sizes_agree_between_csv_and_json() {
     let names = rows.headers().unwrap().clone();
     assert_eq!(
         names.iter().collect::<Vec<_>>().join(","),
-        "rank,motor,gearbox,amplifier,ratio,verdict,rule,figure,limit,unit,note"
+        "rank,motor,gearbox,amplifier,ratio,verdict,rule,figure,limit,unit,note,certainty"
     );
     let mut records = rows.records();
     for (k, drive) in drives.enumerate() {

@@ -70,6 +70,10 @@ pub(crate) const INSIDE: f64 = 1e-9;
 /// Share of the largest input torque by which a peak between two instants may be missed.
 const PEAK_MISSED: f64 = 1e-5;
 
+/// Share of the largest torque of the motion below which weight and loads do not move the machine: the motor's own friction
+/// and cogging hold that.
+const UNHELD: f64 = 0.01;
+
 /// Most parts of a step where the torque bends sharply.
 const MOST_PARTS: f64 = 64.0;
 
@@ -251,16 +255,32 @@ impl Duty {
         }
         insert_extremes(&mut moving, &mut instants, &mut smooth)?;
         let ratio = file.drive_train.ratio();
-        let mut hold_torque = 0.0f64;
+        let (mut hold_torque, mut unheld) = (0.0f64, 0.0f64);
         for phi in coordinate::positions(file.machine.domain(), 720) {
-            let slope = file.bare_reduction(phi)?.potential_slope;
-            hold_torque = hold_torque.max((slope / ratio).abs());
+            let reduction = file.bare_reduction(phi)?;
+            let slope = reduction.potential_slope.abs();
+            hold_torque = hold_torque.max(slope / ratio.abs());
+            unheld = unheld.max(slope - reduction.coulomb);
         }
         let at_rest = instants.iter().filter(|i| i.omega == 0.0);
         let held = at_rest.map(|i| ((i.terms.potential + i.terms.process) / ratio).abs());
         let hold_torque = held.fold(hold_torque, f64::max);
+        let mut place = f64::NAN;
+        for at_rest in instants.iter().filter(|i| i.omega == 0.0) {
+            if at_rest.phi != place {
+                place = at_rest.phi;
+                let terms = &at_rest.terms;
+                let held = file.bare_reduction(place)?.coulomb;
+                unheld = unheld.max((terms.potential + terms.process).abs() - held);
+            }
+        }
+        let largest = (instants.iter()).fold(0.0, |most, i| f64::max(most, i.terms.total().abs()));
+        let mechanics = Mechanics {
+            falls: unheld > UNHELD * largest,
+            ..Mechanics::new(file, &instants, duration, hold_torque)
+        };
         Ok(Self {
-            mechanics: Mechanics::new(file, &instants, duration, hold_torque),
+            mechanics,
             instants,
             duration,
             hold_torque,

@@ -11,6 +11,7 @@ use jred::mechanism::cam::lift_off;
 use jred::{Domain, Error};
 use serde::Serialize;
 
+use crate::analysis::warnings::warnings;
 use crate::model::coordinate::{Coordinate, whole_range};
 use crate::model::machine::MachineFile;
 use crate::model::mechanism::{AnyMechanism, Fact};
@@ -20,7 +21,6 @@ use crate::number::rounding::short;
 mod agreement;
 mod centres;
 mod course;
-mod driving;
 mod transmission;
 
 pub use agreement::{Agreement, Inertia};
@@ -148,7 +148,11 @@ impl Findings {
             facts: facts(file)?,
             notes: crate::model::variator::integrability_text(file)
                 .into_iter()
-                .chain(driving::notes(file)?)
+                .chain(
+                    warnings(file)?
+                        .iter()
+                        .map(|words| format!("warning: {words}")),
+                )
                 .collect(),
         })
     }
@@ -161,6 +165,23 @@ impl Findings {
     /// Freedoms that the joints take.
     pub fn constraints(&self) -> usize {
         self.joints.iter().map(|joint| joint.constraints).sum()
+    }
+
+    /// What was checked, in words.
+    pub fn checked(&self) -> Vec<&'static str> {
+        let all = [
+            (true, "one degree of freedom"),
+            (self.closure.is_some(), "closure after a turn"),
+            (
+                self.transmission.is_some(),
+                "distance from dead points, branch",
+            ),
+            (true, "two ways to the drive torque"),
+            (self.agreement.energy.is_some(), "energy over the motion"),
+        ];
+        all.into_iter()
+            .filter_map(|(done, what)| done.then_some(what))
+            .collect()
     }
 
     /// The rules that are violated, in words.

@@ -28,6 +28,9 @@ pub struct Mechanics {
     /// Largest torque of weight, springs and friction over the motion (N·m), where they resist it and where they drive it:
     /// without acceleration and process loads.
     pub constant: [f64; 2],
+    /// Whether weight or springs, anywhere in the range, or weight and process loads, where the motion rests, move the machine against
+    /// its own friction when nothing holds it.
+    pub falls: bool,
     /// States from which an emergency stop may begin.
     pub stop: Stop,
     /// Drive ratio: speed at the input over that of the drive link, without sign.
@@ -89,6 +92,7 @@ impl Mechanics {
             drive_frequency: self.drive_frequency / time,
             holding: hold_torque / efficiency,
             constant,
+            falls: self.falls,
             stop: Stop::of(instants, ratio),
             train_ratio: ratio,
             tool_slope: self.tool_slope,

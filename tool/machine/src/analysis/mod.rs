@@ -8,3 +8,4 @@ pub mod reduce;
 pub mod repeats;
 pub mod simulate;
 pub mod steady;
+pub mod warnings;

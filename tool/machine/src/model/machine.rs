@@ -44,6 +44,15 @@ pub struct MachineFile {
 }
 
 impl MachineFile {
+    /// What the shaft is called at which a motor or its gearbox drives the machine.
+    pub fn input_name(&self) -> &'static str {
+        if self.drive_train.stages().is_empty() {
+            "drive link"
+        } else {
+            "input of the drive train"
+        }
+    }
+
     /// The motion of a file that must have one.
     ///
     /// # Errors

@@ -9,6 +9,7 @@ use jred::machine::{Action, Element, Frames, Jointed, Joints, Load, Mechanism};
 use jred::{Domain, Error, Link};
 
 use crate::model::coordinate::Coordinate;
+use crate::model::on_stroke::OnStroke;
 use crate::model::tabulated::{Course, StandIn, Tabulated};
 
 /// A mechanism that knows its joints and can be kept in a machine.
@@ -60,6 +61,8 @@ pub struct AnyMechanism {
     ground_points: Vec<(String, [f64; 2])>,
     elements: Vec<NamedElement>,
     loads: Vec<NamedLoad>,
+    /// Number of the first of them that may drive the machine as well as resist it: the pull of a web.
+    pulls: usize,
     /// Links on guides along x, with their friction coefficient times mass (kg).
     friction: Vec<(usize, f64)>,
     stand_ins: usize,
@@ -67,6 +70,8 @@ pub struct AnyMechanism {
     pub(super) weights: Vec<usize>,
     contacts: Vec<Contact>,
     ropes: Vec<usize>,
+    /// The link whose way ends somewhere, though the file does not say where.
+    open_ended: Option<usize>,
     facts: Vec<Fact>,
 }
 
@@ -91,11 +96,13 @@ impl AnyMechanism {
             ground_points: Vec::new(),
             elements: Vec::new(),
             loads: Vec::new(),
+            pulls: 0,
             friction: Vec::new(),
             stand_ins: 0,
             weights: Vec::new(),
             contacts: Vec::new(),
             ropes: Vec::new(),
+            open_ended: None,
             facts: Vec::new(),
         }
     }
@@ -123,10 +130,31 @@ impl AnyMechanism {
         self
     }
 
+    /// On a part of its range only.
+    #[must_use]
+    pub(crate) fn on_stroke(mut self, domain: Domain) -> Self {
+        let inner = Arc::clone(&self.inner);
+        self.inner = Arc::new(OnStroke { inner, domain });
+        self
+    }
+
+    /// With a link whose way ends somewhere, though the file does not say where.
+    #[must_use]
+    pub(crate) const fn open_ended(mut self, link: usize) -> Self {
+        self.open_ended = Some(link);
+        self
+    }
+
+    /// The link whose way ends somewhere, though the file does not say where.
+    pub const fn open_end(&self) -> Option<usize> {
+        self.open_ended
+    }
+
     /// With loads of its own, such as the pull of a web.
     #[must_use]
     pub fn with_loads(mut self, loads: impl IntoIterator<Item = NamedLoad>) -> Self {
         self.loads.extend(loads);
+        self.pulls = self.loads.len();
         self
     }
 
@@ -200,6 +228,11 @@ impl AnyMechanism {
     /// Whether a load is the weight of a payload: a part of the machine, not of its process.
     pub fn is_weight(&self, load: &Load) -> bool {
         self.weights.contains(&load.link())
+    }
+
+    /// Number of the first of its own loads that drive the machine as often as they resist it.
+    pub(crate) const fn pulls(&self) -> usize {
+        self.pulls
     }
 
     /// The mechanism's own loads.

@@ -5,6 +5,7 @@ pub mod coordinate;
 pub mod machine;
 pub mod mechanism;
 pub mod motion;
+mod on_stroke;
 pub mod operation;
 pub mod rule;
 pub mod rules;

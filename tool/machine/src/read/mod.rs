@@ -227,7 +227,7 @@ fn machine(name: &str, text: &str, files: &dyn Files, moves: bool) -> Result<Mac
                 .problem(error.to_string(), "in this machine")
                 .help(error.cure().to_string())
         })?;
-    let motion = motion::read(&root, files, drive_link, &machine)?;
+    let motion = motion::read(&root, files, drive_link, (&machine, &loads))?;
     let around = simulation::Around {
         drive: drive_link,
         drive_train: &drive_train,

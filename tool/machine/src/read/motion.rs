@@ -2,7 +2,7 @@
 
 use jred::Machine;
 
-use crate::model::mechanism::AnyMechanism;
+use crate::model::mechanism::{AnyMechanism, NamedLoad};
 use crate::model::motion::Motion;
 use crate::text::file::Files;
 use crate::text::problem::Result;
@@ -20,12 +20,12 @@ mod tool;
 
 pub(super) use tool::Prescribed;
 
-/// The prescribed motion, if the file has one. A profile's file is looked for among `files`.
+/// The prescribed motion of a machine and its loads, if the file has one. A profile's file is looked for among `files`.
 pub(super) fn read(
     root: &Section,
     files: &dyn Files,
     drive: DriveLink,
-    machine: &Machine<AnyMechanism>,
+    loaded: (&Machine<AnyMechanism>, &[NamedLoad]),
 ) -> Result<Option<Motion>> {
     let Some(item) = root.get("motion") else {
         return Ok(None);
@@ -35,7 +35,7 @@ pub(super) fn read(
     let kind = section
         .require("type", "type = \"cycle\"")?
         .choice(&types)?;
-    let prescribed = Prescribed::read(&section, drive, machine)?;
+    let prescribed = Prescribed::read(&section, drive, loaded)?;
     let motion = match kind {
         0 => constant_speed(&section, &prescribed)?,
         1 => segments::read(&section, true, &prescribed)?,

@@ -221,7 +221,8 @@ fn induction_motor(item: &Item) -> Result<Characteristic> {
     let section = item.section("[simulation.induction_motor]".into())?;
     let speed = section.quantity("synchronous_speed", &ANGULAR_SPEED)?;
     let torque = section.quantity("breakdown_torque", &TORQUE)?;
-    let slip = section.quantity("breakdown_slip", &SHARE)?;
+    let slip =
+        (section.require("breakdown_slip", "breakdown_slip = \"20 %\"")?).quantity(&SHARE)?;
     section.finish()?;
     same_way(&speed, &torque)?;
     if !(slip.si > 0.0 && slip.si <= 1.0) {

@@ -1,15 +1,24 @@
 //! A table of the machine file. It records which keys were read, so that the others can be reported.
 
-use std::cell::RefCell;
+use std::borrow::Cow;
+use std::cell::{Cell, RefCell};
+use std::fmt::Write as _;
 use std::ops::Range;
 
+use toml::Spanned;
 use toml::de::DeTable;
 
 use super::item::{Item, Value};
 use super::problem::{Problem, Result};
 use crate::plain;
 use crate::units::kind::Kind;
-use crate::units::{self, closest};
+use crate::units::{self, closest, meant};
+
+/// Where all keys are listed.
+const KEYS: &str = "docs/machine-file.md or docs/catalogue.md";
+
+/// Most unknown keys that a message about a missing one names.
+const MOST_UNKNOWN: usize = 3;
 
 /// A table with its name for messages.
 #[derive(Debug)]
@@ -20,6 +29,8 @@ pub struct Section<'a> {
     header: Range<usize>,
     table: &'a DeTable<'a>,
     known: RefCell<Vec<&'static str>>,
+    /// Whether all its keys are known, so that any other is a mistake.
+    complete: Cell<bool>,
 }
 
 impl<'a> Section<'a> {
@@ -30,6 +41,7 @@ impl<'a> Section<'a> {
             header,
             table,
             known: RefCell::default(),
+            complete: Cell::new(false),
         }
     }
 
@@ -64,6 +76,24 @@ impl<'a> Section<'a> {
         }
     }
 
+    /// Registers `keys` as all keys that the table can have besides those read so far: a message about a missing key then names
+    /// the keys that are unknown as well.
+    pub(crate) fn expects_only(&self, keys: &[&'static str]) {
+        self.expects(keys);
+        self.complete.set(true);
+    }
+
+    /// The keys that were not read, in the order of the text.
+    fn unread(&self) -> Vec<&Spanned<Cow<'a, str>>> {
+        let known = self.known.borrow();
+        let keys = self.table.iter().map(|(key, _)| key);
+        let mut unread: Vec<_> = keys
+            .filter(|key| !known.contains(&key.get_ref().as_ref()))
+            .collect();
+        unread.sort_by_key(|key| key.span().start);
+        unread
+    }
+
     /// The value of `key`, if the table has it.
     pub fn get(&self, key: &'static str) -> Option<Item<'a>> {
         let mut known = self.known.borrow_mut();
@@ -86,23 +116,34 @@ impl<'a> Section<'a> {
 
     /// The problem of a missing key; names a key that looks like a misspelling of it.
     pub(crate) fn missing(&self, key: &'static str, example: &str) -> Problem {
-        let known = self.known.borrow();
-        let others = self
-            .table
-            .iter()
-            .filter(|(k, _)| !known.contains(&k.get_ref().as_ref()));
-        for (other, _) in others {
+        let unread = self.unread();
+        for other in &unread {
             if closest(other.get_ref(), &[key]).is_some() {
                 return Problem::new(format!("unknown key {}", self.name(other.get_ref())))
                     .at(other.span(), format!("did you mean \"{key}\"?"))
                     .help(format!("write {example}"));
             }
         }
-        self.problem(
+        let mut problem = self.problem(
             format!("{} is missing", self.name(key)),
             &format!("`{key}` belongs here"),
-        )
-        .help(format!("add {example}"))
+        );
+        let mut help = format!("add {example}");
+        if self.complete.get() && !unread.is_empty() {
+            let mut words = Vec::new();
+            for other in unread.iter().take(MOST_UNKNOWN) {
+                problem = problem.at(other.span(), "unknown key");
+                words.push(format!("`{}`", plain::cut(other.get_ref())));
+            }
+            let known = self.known.borrow();
+            let others = units::known(key, &known, KEYS);
+            let _ = write!(
+                help,
+                "; unknown here: {}; known here: {others}",
+                words.join(", ")
+            );
+        }
+        problem.help(help)
     }
 
     /// A quantity that must be there.
@@ -128,8 +169,8 @@ impl<'a> Section<'a> {
     pub fn entries(&self) -> Vec<(&'a str, Item<'a>)> {
         let mut entries: Vec<_> = self.table.iter().collect();
         entries.sort_by_key(|(key, _)| key.span().start);
-        let entry = |(key, value): (&'a toml::Spanned<_>, _)| {
-            let name: &'a str = std::borrow::Cow::as_ref(key.get_ref());
+        let entry = |(key, value): (&'a Spanned<_>, _)| {
+            let name: &'a str = Cow::as_ref(key.get_ref());
             (name, Item::new(self.name(name), "point", key.span(), value))
         };
         entries.into_iter().map(entry).collect()
@@ -160,18 +201,17 @@ impl<'a> Section<'a> {
     /// # Errors
     /// The first of them, with a word like it.
     pub fn finish_with(&self, explain: impl Fn(&str) -> Option<&'static str>) -> Result<()> {
-        let known = self.known.borrow();
-        let unknown = self.table.iter().map(|(key, _)| key);
-        let unknown = unknown.filter(|key| !known.contains(&key.get_ref().as_ref()));
-        let Some(key) = unknown.min_by_key(|key| key.span().start) else {
+        let unread = self.unread();
+        let Some(key) = unread.first() else {
             return Ok(());
         };
+        let known = self.known.borrow();
         let word = key.get_ref().as_ref();
-        let label = match closest(word, &known) {
+        let label = match meant(word, &known) {
             Some(near) => format!("did you mean \"{near}\"?"),
             None => "not a key of this table".to_owned(),
         };
-        let others = units::known(word, &known, "docs/machine-file.md or docs/catalogue.md");
+        let others = units::known(word, &known, KEYS);
         let help = explain(word).map_or_else(
             || format!("known here: {others}"),
             |reason| format!("{reason}; known here: {others}"),

@@ -38,13 +38,35 @@ pub fn closest<S: AsRef<str>>(wrong: &str, words: &[S]) -> Option<String> {
         let near = word.chars().count().abs_diff(length) <= allowed;
         near.then(|| strsim::damerau_levenshtein(&lower, &word.to_lowercase()))
     };
-    words
-        .iter()
+    (words.iter())
         .filter_map(|word| Some((distance(word.as_ref())?, word.as_ref())))
         .filter(|(distance, _)| *distance <= allowed)
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, word)| word.to_owned())
 }
+
+/// The word that is meant where one of `words` must stand: [`closest`], or else one that is a part of the other, such as "rack" and
+/// "rack-and-pinion".
+pub(crate) fn meant<S: AsRef<str>>(wrong: &str, words: &[S]) -> Option<String> {
+    let plain = |word: &str| -> String {
+        let letters = word.chars().filter(|c| c.is_alphanumeric());
+        letters.flat_map(char::to_lowercase).collect()
+    };
+    let own = plain(wrong);
+    let part = || {
+        let long = |word: &str| word.chars().count() >= SHORTEST_PART;
+        let words = words.iter().map(AsRef::as_ref).filter(|word: &&str| {
+            let other = plain(word);
+            long(&own) && long(&other) && (other.contains(&own) || own.contains(&other))
+        });
+        let near = words.min_by_key(|word| word.chars().count().abs_diff(wrong.chars().count()));
+        near.map(ToOwned::to_owned)
+    };
+    closest(wrong, words).or_else(part)
+}
+
+/// Letters of the shortest word that is looked for within another.
+const SHORTEST_PART: usize = 4;
 
 /// More words than a message lists.
 const MANY: usize = 12;
@@ -63,5 +85,5 @@ pub(crate) fn known<S: AsRef<str>>(wrong: &str, words: &[S], place: &str) -> Str
 
 /// The beginning of a cure that names this word: `did you mean "…"? `; empty if there is none.
 pub fn did_you_mean<S: AsRef<str>>(wrong: &str, words: &[S]) -> String {
-    closest(wrong, words).map_or_else(String::new, |near| format!("did you mean \"{near}\"? "))
+    meant(wrong, words).map_or_else(String::new, |near| format!("did you mean \"{near}\"? "))
 }

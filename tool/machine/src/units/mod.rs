@@ -14,8 +14,8 @@ pub mod unit;
 mod vocabulary;
 mod word;
 
-pub(crate) use fault::known;
 pub use fault::{Fault, closest, did_you_mean};
+pub(crate) use fault::{known, meant};
 pub use vocabulary::{Sentence, Term, Vocabulary};
 pub use word::Dimension;
 

@@ -364,3 +364,57 @@ fn a_force_that_does_not_repeat_with_the_drive_link_is_refused() {
         ],
     );
 }
+
+/// What is missing and what is unknown is said in one answer, and no key that will be read is called unknown: not where any one line of
+/// any example is left out.
+#[test]
+fn missing_and_unknown_keys_in_one_answer() {
+    let screw = "gravity = { inclination = \"0 deg\" }\n[mechanism]\ntype = \"ball-screw\"\npitch = \"10 mm\"\nturns = 3\n\
+                 screw = { inertia = \"1 kg cm^2\" }\nnut = { mass = \"1 kg\" }\n";
+    refuses(
+        screw,
+        &[
+            "`lead` in [mechanism] is missing",
+            "unknown here: `pitch`, `turns`",
+            "known here: type, flywheel, lead, screw, nut, stroke",
+        ],
+    );
+    let mut said = 0;
+    for (path, _) in crate::every_machine::machines() {
+        let (name, text) = (
+            path.display().to_string(),
+            std::fs::read_to_string(&path).unwrap(),
+        );
+        let lines: Vec<&str> = text.lines().collect();
+        let mechanism = lines.iter().position(|line| line.trim() == "[mechanism]");
+        let from = mechanism.unwrap() + 1;
+        for left_out in from..lines.len() {
+            if lines[left_out].trim_start().starts_with('[') && left_out > from {
+                break;
+            }
+            let mut rest = lines.clone();
+            rest.remove(left_out);
+            if let Err(report) = crate::reading::parse_as(&name, &rest.join("\n")) {
+                let words = crate::reading::rendered(&report);
+                assert!(!words.contains("unknown here"), "{name}: {words}");
+                said += usize::from(words.contains("is missing"));
+            }
+        }
+    }
+    assert!(said > 20, "{said}");
+}
+
+/// A word that is a part of the right one is known as well.
+#[test]
+fn a_part_of_a_word_is_understood() {
+    let screw = "gravity = { inclination = \"0 deg\" }\n[mechanism]\ntype = \"screw\"\n";
+    refuses(screw, &["did you mean \"ball-screw\"?"]);
+    for (law, meant) in [("sine", "simple-sine"), ("modified sine", "modified-sine")] {
+        refuses_edit(
+            PRESS,
+            "law = \"polynomial-345\"",
+            &format!("law = \"{law}\""),
+            &[&format!("did you mean \"{meant}\"?")],
+        );
+    }
+}

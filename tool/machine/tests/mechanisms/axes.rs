@@ -1,8 +1,10 @@
 //! `docs/axes.md`: toothed-belt axis, conveyor, feed roll, rotary table, winder.
 
-use jred::Reducible as _;
+use jred::{Domain, Reducible as _};
 
-use super::{close, machine, parse, refuses_edit};
+use jred_machine::analysis::warnings::warnings;
+
+use super::{close, machine, parse, refuses, refuses_edit};
 
 const DOC: &str = include_str!("../../../../docs/axes.md");
 
@@ -152,4 +154,135 @@ fn wrong_entries_are_refused_with_their_cure() {
     for (kind, from, to, words) in edits {
         refuses_edit(example(kind), from, to, words);
     }
+}
+
+/// The stroke of an axis in lengths is one of its drive link in radians: x = r·φ, whichever way the screw turns.
+#[test]
+fn an_axis_may_end() {
+    let radius = 0.192 / std::f64::consts::TAU;
+    let text = crate::reading::text_of("belt-axis.toml");
+    let ends = text.replace(
+        "type = \"belt-axis\"",
+        "type = \"belt-axis\"\nstroke = [\"-20 mm\", \"600 mm\"]",
+    );
+    let file = parse(&ends.replace(
+        "of = { point = \"carriage\", along = \"x\" }",
+        "of = { point = \"carriage\", along = \"x\" }\nstart = \"0 mm\"",
+    ))
+    .unwrap();
+    let Domain::Stroke { from, to } = file.machine.domain() else {
+        panic!("a turn");
+    };
+    close(from, -0.02 / radius);
+    close(to, 0.6 / radius);
+    assert_eq!(file.machine.mechanism().open_end(), None);
+    // Nothing else is another machine.
+    let endless = parse(&text).unwrap();
+    assert_eq!(endless.machine.domain(), Domain::Turn);
+    let [a, b] = [&file, &endless].map(|file| file.machine.reduction(7.0).unwrap());
+    close(a.inertia, b.inertia);
+    close(a.coulomb, b.coulomb);
+    let screw = crate::reading::text_of("vertical-axis.toml");
+    for (lead, from) in [("10 mm", -0.34), ("-10 mm", -0.1)] {
+        let text = screw
+            .replace(
+                "lead = \"10 mm\"",
+                &format!("lead = \"{lead}\"\nstroke = [\"-340 mm\", \"100 mm\"]"),
+            )
+            .replace("along = \"x\" }", "along = \"x\" }\nstart = \"0 mm\"");
+        let Domain::Stroke { from: found, .. } = parse(&text).unwrap().machine.domain() else {
+            panic!("a turn");
+        };
+        close(found, from / 0.01 * std::f64::consts::TAU);
+    }
+    let hoist = crate::reading::text_of("hoist.toml");
+    let text = hoist.replace(
+        "type = \"hoist\"",
+        "type = \"hoist\"\nstroke = [\"0 m\", \"1 m\"]",
+    );
+    refuses(&text, &["stroke"]);
+    for (stroke, words) in [
+        ("[\"0 mm\", \"599 mm\"]", "x = 599 mm"),
+        ("[\"0 mm\", \"0 mm\"]", "zero or backwards"),
+        ("[\"0 deg\", \"20 deg\"]", "must be a length"),
+    ] {
+        let text = text_with(&ends, stroke);
+        refuses(&text, &[words]);
+    }
+}
+
+fn text_with(text: &str, stroke: &str) -> String {
+    text.replace("[\"-20 mm\", \"600 mm\"]", stroke)
+        .replace("along = \"x\" }", "along = \"x\" }\nstart = \"0 mm\"")
+}
+
+/// A move back that is missing or too short is a warning where nothing says that the axis ends, and an error where it does.
+#[test]
+fn an_axis_that_never_comes_back_is_a_warning() {
+    let said = |text: &str| warnings(&parse(text).unwrap()).unwrap();
+    for (name, back, wrong) in [
+        ("belt-axis.toml", "move = \"-600 mm\"", "move = \"-60 mm\""),
+        (
+            "rack.toml",
+            "move = \"-1909.86 deg\"",
+            "move = \"1909.86 deg\"",
+        ),
+        (
+            "vertical-axis.toml",
+            "move = \"340 mm\"",
+            "move = \"34 mm\"",
+        ),
+    ] {
+        let text = crate::reading::text_of(name);
+        assert_eq!(said(&text), [""; 0], "{name}");
+        let forgotten = text.replace(back, wrong);
+        assert_ne!(forgotten, text);
+        let found = said(&forgotten);
+        let [warning] = found.as_slice() else {
+            panic!("{name}: {found:?}");
+        };
+        assert!(warning.contains("never comes back"), "{warning}");
+        assert!(warning.contains("stroke"), "{warning}");
+    }
+    // 600 mm - 60 mm.
+    let text = crate::reading::text_of("belt-axis.toml").replace("-600 mm", "-60 mm");
+    assert!(said(&text)[0].contains("carriage goes on by 540 mm"));
+    let ends = text.replace(
+        "type = \"belt-axis\"",
+        "type = \"belt-axis\"\nstroke = [\"0 mm\", \"600 mm\"]",
+    );
+    refuses(&ends, &["add up to 540 mm", "add a move of -540 mm"]);
+    // A conveyor goes on as it should.
+    assert_eq!(
+        said(&crate::reading::text_of("belt-conveyor.toml")),
+        [""; 0]
+    );
+}
+
+/// Check says how the axis lies, and where the belt's mass is.
+#[test]
+fn facts_of_an_axis() {
+    let fact = |text: &str, label: &str| {
+        let file = parse(text).unwrap();
+        let facts = file.machine.mechanism().facts();
+        let fact = facts.iter().find(|fact| fact.label == label);
+        fact.map_or(String::new(), |fact| fact.text.clone())
+    };
+    let text = crate::reading::text_of("belt-axis.toml");
+    for (gravity, words) in [
+        ("{ inclination = \"0 deg\" }", "horizontal, by"),
+        ("{ inclination = \"90 deg\" }", "vertical, x upwards, by"),
+        ("{ inclination = \"-90 deg\" }", "vertical, x downwards, by"),
+        ("{ inclination = \"30 deg\" }", "x rises by 30 deg, by"),
+        ("[\"0 m/s^2\", \"-9.81 m/s^2\"]", "horizontal, by"),
+        ("[\"0 m/s^2\", \"0 m/s^2\"]", "without gravity"),
+    ] {
+        let text = text.replace("{ inclination = \"0 deg\" }", gravity);
+        let found = fact(&text, "axis");
+        assert!(found.starts_with(words), "{found}");
+    }
+    assert_eq!(
+        fact(&text, "mass of the belt"),
+        "0.9 kg, as inertia of the pulley"
+    );
 }

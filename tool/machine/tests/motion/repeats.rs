@@ -65,13 +65,24 @@ fn the_step_of_a_dial_is_that_of_its_curves() {
             "add up to 60 deg",
             "the machine is not the same there: the friction torque is",
             "a cycle later",
-            "add a move of -60 deg to reach 0 deg",
+            "by the load \"opposing moment on shaft-2\"",
+            "write the segments 6 times, for the whole turn",
+            "a load with `between` acts in its part of each turn",
         ],
     );
     // A load as narrow as a third of the grid, once.
     refuses(
         &dial(&[(10.1, 12.1)], 120.0),
-        &["the friction torque is", "3 N m"],
+        &[
+            "the friction torque is",
+            "3 N m",
+            "write the segments 3 times",
+        ],
+    );
+    // No part of a turn: back to where it began would be a move of nothing.
+    refuses(
+        &dial(&thirds, 70.0),
+        &["add a move of 290 deg to reach 360 deg"],
     );
     // A Geneva wheel repeats after a slot, but its crank needs a turn for it.
     let geneva = text_of("geneva.toml");

@@ -325,6 +325,22 @@ fn what_no_drive_can_do_is_refused() {
             "keep x of slider between 150 mm and 210 mm",
         ],
     );
+    // A full stroke begins and ends at dead centres.
+    let back = law.replace("10 mm", "-60 mm");
+    refuses(
+        &ram(&format!("near = \"90 deg\"; start = \"210 mm\"; {back}")),
+        &[
+            "number 1 starts with x of slider at its dead centre, at φ = 0 deg, x = 210 mm",
+            "a full stroke, and whatever passes a dead centre, is a motion of the drive link",
+        ],
+    );
+    let back = law.replace("10 mm", "-30 mm");
+    refuses(
+        &ram(&format!("near = \"90 deg\"; start = \"180 mm\"; {back}")),
+        &[
+            "number 1 leads x of slider to its dead centre, at φ = 180 deg, x = 150 mm, at t = 0.1 s",
+        ],
+    );
     refuses(
         &ram(&format!("near = \"90 deg\"; start = \"215 mm\"; {law}")),
         &[
@@ -400,5 +416,40 @@ fn a_duty_does_not_depend_on_what_is_prescribed() {
         near("t", a.t, b.t, 1e-15);
         near("torque", a.input_torque, b.input_torque, 1e-11 * most);
         near("speed", a.input_speed, b.input_speed, 1e-11 * 60.0);
+    }
+}
+
+/// Close to a dead centre the crank goes far for little of the ram: the warning has the distance and the factor.
+#[test]
+fn near_a_dead_centre_is_a_warning() {
+    let said = |distance: f64| {
+        let motion = format!(
+            "type = \"cycle\"; of = {{ point = \"slider\", along = \"x\" }}; near = \"90 deg\"; start = \"180 mm\"; \
+             [[motion.segment]]; law = \"modified-sine\"; move = \"{0} mm\"; duration = \"0.2 s\"; \
+             [[motion.segment]]; law = \"modified-sine\"; move = \"-{0} mm\"; duration = \"0.2 s\"",
+            30.0 - distance
+        );
+        let file = read(&with("press.toml", &motion));
+        let found = jred_machine::analysis::warnings::warnings(&file).unwrap();
+        found
+            .into_iter()
+            .find(|words| words.contains("dead centre"))
+    };
+    assert_eq!(said(1.0), None);
+    let warning = said(0.01).unwrap();
+    // Where x = 209.99 mm: (x² + r² − l²)/(2·x·r) = cos φ by the law of cosines.
+    let (r, l, x) = (0.03f64, 0.18f64, 0.20999f64);
+    let phi = ((x * x + r * r - l * l) / (2.0 * x * r)).acos();
+    let slope = slider(phi)[1].abs();
+    let most = (0..=9000).map(|k| slider(f64::from(k) * PI / 9000.0)[1].abs());
+    let most = most.fold(0.0, f64::max);
+    assert!(most / slope > 20.0);
+    for words in [
+        "x of slider comes within 0.01 mm of its dead centre".to_owned(),
+        format!("φ = {:.4} deg", phi.to_degrees()),
+        format!("the drive link goes {:.2}", (0.001 / slope).to_degrees()),
+        format!(" {:.2} times", most / slope),
+    ] {
+        assert!(warning.contains(&words), "{words:?} is not in {warning}");
     }
 }

@@ -62,7 +62,7 @@ pub(crate) fn untitled(findings: &Findings) -> String {
     }
     let _ = writeln!(text, "{table}\n");
     let range = match findings.domain {
-        Domain::Turn => "a full turn".to_owned(),
+        Domain::Turn => "it turns without end".to_owned(),
         Domain::Stroke { from, to } => format!(
             "{} = {} to {} {}",
             c.symbol(),
@@ -126,7 +126,11 @@ pub(crate) fn untitled(findings: &Findings) -> String {
     }
     let violations = findings.violations();
     if violations.is_empty() {
-        text += "\nevery rule is satisfied\n";
+        let _ = writeln!(
+            text,
+            "\nevery check is satisfied: {}; `jred size` judges drives",
+            findings.checked().join(", ")
+        );
     }
     for violation in violations {
         let _ = writeln!(text, "\nviolated: {violation}");

@@ -205,6 +205,7 @@ pub(super) fn rule_rows(rules: &RuleSet, words: &Vocabulary) -> Vec<[String; 4]>
 pub(super) fn duty_rows(
     best: &Judged,
     duty: &Duty,
+    input: &str,
     link: &Vocabulary,
     words: &Vocabulary,
 ) -> Vec<(String, Vec<String>)> {
@@ -229,7 +230,7 @@ pub(super) fn duty_rows(
             link.speed.scale,
         ),
         row(
-            format!("{word} at the drive train's input [{torque}]"),
+            format!("{word} at the {input}, losses and drive train included [{torque}]"),
             duty.figures(|i| i.input_torque),
             1.0,
         ),

@@ -61,6 +61,12 @@ pub enum CatalogueError {
         "add at least one row below the header; docs/catalogue.md shows the columns"
     ))]
     Empty(String, &'static str),
+    /// The catalogue has no motor but broken ones, which were skipped.
+    #[error("the catalogue {0} has no motor left: {1} broken and skipped")]
+    #[diagnostic(help(
+        "leave out --skip-broken-rows to see what is wrong with each, and correct at least one motor"
+    ))]
+    Skipped(String, String),
 }
 
 /// Several broken rows.

@@ -332,7 +332,11 @@ impl Loader {
         catalogue.warnings = self.remarks.into_lines();
         if catalogue.motors.is_empty() {
             let names: Vec<&str> = self.texts.iter().map(|t| t.name.as_str()).collect();
-            return Err(CatalogueError::Empty(names.join(", "), "motors"));
+            let names = names.join(", ");
+            return Err(match broken {
+                0 => CatalogueError::Empty(names, "motors"),
+                n => CatalogueError::Skipped(names, counted(n, "row is", "rows are")),
+            });
         }
         Ok(catalogue)
     }

@@ -78,7 +78,7 @@ impl Effect {
             Self::Springs => "springs".to_owned(),
             Self::Process => "process".to_owned(),
             Self::Viscous => "viscous".to_owned(),
-            Self::Coulomb => "Coulomb".to_owned(),
+            Self::Coulomb => "dry friction".to_owned(),
             Self::Train => format!("drive train, {inertia}"),
             Self::TrainLoss => "drive train, losses".to_owned(),
             Self::Gearbox => format!("gearbox, {inertia}"),

@@ -112,14 +112,6 @@ pub(super) fn follow(context: &Context, peak_current: Option<f64>, findings: &mu
     }
 }
 
-/// Whether nothing that [`follow`] finds can be worse than a figure that is missing: without an amplifier, and without the
-/// highest voltage of the bus, none of its rules has both figure and rating.
-pub(super) fn only_misses_figures(context: &Context) -> bool {
-    let data = data(context);
-    let resistance = data.resistor.is_some() && data.min_resistance.is_some();
-    context.drive.amplifier.is_none() && data.max_voltage.is_none() && !resistance
-}
-
 fn overload(context: &Context, peak: f64, findings: &mut impl Record) {
     let Some(amplifier) = context.drive.amplifier else {
         return;

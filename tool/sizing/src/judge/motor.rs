@@ -56,9 +56,10 @@ pub(super) fn measure_torques(context: &Context, findings: &mut impl Record) {
     findings.set(Rule::HoldingTorque, Finding::new(held, standstill));
     let constant = Finding::new(constant(context), standstill);
     findings.set(Rule::ConstantTorque, constant);
-    if let Some(brake) = context.drive.motor.brake {
-        let against = Finding::new(braked(context), brake.torque);
-        findings.set(Rule::BrakeTorque, against);
+    let brake = context.drive.motor.brake;
+    if brake.is_some() || falls(context) {
+        let torque = brake.map(|brake| brake.torque);
+        findings.set(Rule::BrakeTorque, Finding::against(braked(context), torque));
     }
 }
 
@@ -113,6 +114,25 @@ fn braked(context: &Context) -> f64 {
     }
 }
 
+/// Whether weight, springs or loads move the machine when the motor is without current.
+fn falls(context: &Context) -> bool {
+    context.cycle.mechanics().falls && !locks(context)
+}
+
+/// A warning for a motor without a brake, if the machine does not stay where it is without current.
+pub(super) fn unheld(context: &Context) -> Option<String> {
+    let unheld = context.drive.motor.brake.is_none() && falls(context);
+    let words = context.vocabulary();
+    unheld.then(|| {
+        format!(
+            "weight or loads move the machine when the motor is switched off, and the catalogue states no holding brake of \
+             this motor; choose it with a brake of at least {} {}, or hold the machine in another way",
+            short(braked(context) / words.torque.scale),
+            words.torque.unit
+        )
+    })
+}
+
 /// Torque of weight, springs and friction at the motor (N·m), the motor's and the gearbox's friction included at the largest
 /// speed.
 fn constant(context: &Context) -> f64 {
@@ -141,6 +161,10 @@ pub(super) fn words(context: &Context, rules: &RuleSet, rule: Rule, finding: Fin
         Rule::PeakTorque => format!("peak {torque} at that speed"),
         Rule::Speed => "maximum speed".to_owned(),
         Rule::HoldingTorque | Rule::ConstantTorque => format!("standstill {torque}"),
+        Rule::BrakeTorque if finding.rating.is_nan() => {
+            "holding brake of the motor, without which the machine moves when it is switched off"
+                .to_owned()
+        }
         Rule::BrakeTorque => format!("brake {torque}"),
         _ => format!("times the {rotor}'s {inertia}"),
     };

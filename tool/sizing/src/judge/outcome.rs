@@ -1,6 +1,6 @@
 //! Result of a drive in numbers.
 
-use super::{Findings, Record};
+use super::{Findings, Record, RuleBits};
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Finding;
 use jred_machine::model::rules::RuleSet;
@@ -18,8 +18,8 @@ pub struct Outcome {
     pub worst_rule: Option<Rule>,
     /// Number of rules with a warning.
     pub warnings: u8,
-    /// Number of rules that could not be checked: data missing.
-    pub not_checked: u8,
+    /// The rules that could not be checked: data missing.
+    pub not_checked: RuleBits,
     /// Whether nobody states what voltage the motor or the amplifier is made for.
     pub voltage_unknown: bool,
     /// Number of rules violated with a limit of zero, where no share of the limit can be given.
@@ -33,7 +33,7 @@ impl Outcome {
         worst_use: 0.0,
         worst_rule: None,
         warnings: 0,
-        not_checked: 0,
+        not_checked: RuleBits::NONE,
         voltage_unknown: false,
         beyond_all_limits: 0,
     };
@@ -84,9 +84,10 @@ impl Record for Tally<'_> {
         }
         outcome.verdict = outcome.verdict.max(verdict);
         outcome.warnings += u8::from(verdict == Verdict::Warn);
-        outcome.not_checked += u8::from(verdict == Verdict::NotChecked);
-        outcome.voltage_unknown |=
-            verdict == Verdict::NotChecked && rule.is_of_voltage() && finding.rating.is_nan();
+        if verdict == Verdict::NotChecked {
+            outcome.not_checked.add(rule);
+            outcome.voltage_unknown |= rule.is_of_voltage() && finding.rating.is_nan();
+        }
         let used = self.rules.use_of_limit(rule, finding);
         if used.is_infinite() {
             outcome.beyond_all_limits += 1;

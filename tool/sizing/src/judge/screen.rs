@@ -57,7 +57,7 @@ impl<'c> Screen<'c> {
     }
 
     /// Whether a drive fits, and its outcome as far as that took. The verdict is the drive's own; if it fits, so is whether a rule
-    /// gives a warning, and whether one could not be checked. No share of a limit is larger than in [`Context::outcome`], nor
+    /// gives a warning, and which could not be checked. No share of a limit is larger than in [`Context::outcome`], nor
     /// are more limits of zero passed.
     pub(crate) fn judge(&self, id: DriveId, drive: Drive<'c>, limits: &'c Prepared) -> Outcome {
         let alone = match id.gearbox() {
@@ -91,10 +91,7 @@ impl<'c> Screen<'c> {
             return tally.outcome;
         }
         thermal::follow(&context, &mut tally);
-        // One missing value is enough here.
-        if tally.outcome.not_checked == 0 || !electric::only_misses_figures(&context) {
-            electric::follow(&context, current, &mut tally);
-        }
+        electric::follow(&context, current, &mut tally);
         tally.outcome
     }
 

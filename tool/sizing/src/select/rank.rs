@@ -1,6 +1,6 @@
 //! Objectives for ranking and comparing drives.
 
-use crate::select::size::{Candidate, Doubt, Group, Selection};
+use crate::select::size::{Candidate, Certainty, Group, Selection};
 use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::Finding;
 use jred_machine::units::{Sentence, Vocabulary};
@@ -52,24 +52,23 @@ impl Objective {
     pub const fn ranking(self) -> Sentence {
         match self {
             Self::Power => |Vocabulary { torque, .. }| {
-                format!("suitable drives, smallest motor first (rated {torque} times rated speed)")
+                format!("the smallest motor first (rated {torque} times rated speed)")
             },
             Self::Mass => |_| {
-                "suitable drives, lightest first (motor, gearbox and amplifier), unknown mass last"
-                    .to_owned()
+                "the lightest first (motor, gearbox and amplifier), unknown mass last".to_owned()
             },
             Self::Price => |_| {
-                "suitable drives, cheapest first (motor, gearbox and amplifier), unknown price last"
-                    .to_owned()
+                "the cheapest first (motor, gearbox and amplifier), unknown price last".to_owned()
             },
             Self::Energy => |_| {
-                "suitable drives, least energy supplied per cycle first (regenerated energy is not deducted)".to_owned()
+                "the least energy supplied per cycle first (regenerated energy is not deducted)"
+                    .to_owned()
             },
-            Self::Margin => |_| {
-                "suitable drives, largest margin first (of the limit that is closest)".to_owned()
-            },
+            Self::Margin => {
+                |_| "the largest margin first (of the limit that is closest)".to_owned()
+            }
             Self::Temperature => {
-                |_| "suitable drives, coolest winding first, unknown temperature last".to_owned()
+                |_| "the coolest winding first, unknown temperature last".to_owned()
             }
         }
     }
@@ -124,7 +123,7 @@ fn sum(parts: [Option<f64>; 3]) -> Option<f64> {
     parts.into_iter().sum()
 }
 
-/// Ranks the suitable drives by an objective, after what is in doubt. Of equal doubt, drives without data come last in their previous order; equal ones keep their
+/// Ranks the suitable drives by an objective, the more certain first. Of equal certainty, drives without data come last in their previous order; equal ones keep their
 /// order; if no drive has data, the ranking does not change. Returns the number of drives without data.
 pub fn rank(selection: &mut Selection, objective: Objective) -> usize {
     selection.complete();
@@ -141,13 +140,13 @@ pub fn rank(selection: &mut Selection, objective: Objective) -> usize {
     };
     // A known cost that is infinite comes before an unknown one.
     let is_unknown = |k: &usize| costs.get(*k).copied().flatten().is_none();
-    let doubt = |k: &usize| {
+    let certainty = |k: &usize| {
         let candidate = selection.fit.known().get(*k);
-        candidate.map(|c| Doubt::of(&c.drive, &c.outcome))
+        candidate.map(|c| Certainty::of(&c.drive, &c.outcome))
     };
     order.sort_by(|a, b| {
-        doubt(a)
-            .cmp(&doubt(b))
+        certainty(a)
+            .cmp(&certainty(b))
             .then_with(|| is_unknown(a).cmp(&is_unknown(b)))
             .then_with(|| cost(a).total_cmp(&cost(b)))
     });

@@ -6,29 +6,31 @@ use crate::judge::Judged;
 use crate::judge::{Context, Outcome, Screen};
 use crate::motor::envelope::Prepared;
 use crate::threads;
+use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::model::site::Site;
 use jred_machine::units::{Sentence, Vocabulary};
 
 mod group;
 mod order;
+mod survey;
 
 pub use group::{FIRST, Group};
 use group::{Placed, Unranked};
-pub(super) use order::Doubt;
+pub use order::Certainty;
 use order::Order;
 
 /// How drives are ranked unless something else was asked for.
 fn by_size(Vocabulary { torque, .. }: &Vocabulary) -> String {
     format!(
-        "suitable drives, smallest motor first (rated {torque} times rated speed); equal motors: without warnings \
-         first, then by largest margin"
+        "the smallest motor first (rated {torque} times rated speed); equal motors: without warnings first, then by \
+         largest margin"
     )
 }
 
-/// What comes last in every ranking.
-const LAST: &str =
-    "; drives whose figures are not the makers' own, and those of unknown voltage, last";
+/// What comes first in every ranking.
+const FIRST_OF_ALL: &str = "drives with the makers' own figures first, then those with figures of others, then those of \
+                            unknown voltage; among each of them ";
 
 /// Smallest number of motors per unit of parallel work.
 const SHARE: usize = 16;
@@ -47,10 +49,39 @@ pub struct Candidate<'c> {
 }
 
 impl Candidate<'_> {
+    /// How certain it is that the drive can be bought as it is; `None`: it is refused.
+    pub fn certainty(&self) -> Option<Certainty> {
+        (!self.outcome.fails()).then(|| Certainty::of(&self.drive, &self.outcome))
+    }
+
     /// Whether both are the same drive of the catalogue.
     pub fn is_same_drive(&self, other: &Candidate) -> bool {
         self.id == other.id
     }
+}
+
+/// The suitable drives of one certainty.
+#[derive(Clone, Copy, Debug)]
+pub struct Class<'c> {
+    /// How certain they are.
+    pub certainty: Certainty,
+    /// Number of drives.
+    pub count: usize,
+    /// Rank of the first of them.
+    pub rank: usize,
+    /// The first of them: the smallest, unless they are ranked by something else.
+    pub first: Candidate<'c>,
+}
+
+/// A rule that is not checked for some of the suitable drives.
+#[derive(Clone, Debug)]
+pub struct Gap {
+    /// The rule.
+    pub rule: Rule,
+    /// Number of drives.
+    pub count: usize,
+    /// What is missing for one of them.
+    pub missing: String,
 }
 
 /// All drives with their results.
@@ -73,11 +104,6 @@ pub struct Selection<'c> {
     /// Drives that violate a rule, closest first.
     pub refused: Group<'c>,
     motors: &'c [Prepared],
-}
-
-/// Whether a drive fits as far as was checked, but not every rule could be.
-const fn is_open(outcome: &Outcome) -> bool {
-    !outcome.fails() && outcome.not_checked > 0
 }
 
 impl<'c> Selection<'c> {
@@ -146,9 +172,7 @@ impl<'c> Selection<'c> {
 
     /// How the drives that fit are ranked, for a kind of motor.
     pub fn ranking(&self, words: &Vocabulary) -> String {
-        let mut ranking = self.ranking.unwrap_or(by_size)(words);
-        ranking += LAST;
-        ranking
+        FIRST_OF_ALL.to_owned() + &self.ranking.unwrap_or(by_size)(words)
     }
 
     fn screen(&self, catalogue: &'c Catalogue) -> Screen<'c> {
@@ -164,7 +188,7 @@ impl<'c> Selection<'c> {
             } else {
                 &mut self.fit
             };
-            group.add(unranked, is_open(&outcome));
+            group.add(unranked, &outcome);
         });
     }
 
@@ -183,7 +207,8 @@ impl<'c> Selection<'c> {
     }
 
     fn in_order(mut self, screen: &Screen<'c>) -> Self {
-        let mut groups = [&mut self.fit, &mut self.refused].map(std::mem::take);
+        let mut groups =
+            [&mut self.fit, &mut self.refused].map(|group| std::mem::replace(group, Group::none()));
         for group in &mut groups {
             group.rank(
                 |drive| self.in_full(drive),
@@ -253,6 +278,44 @@ impl<'c> Selection<'c> {
         })
     }
 
+    /// The suitable drives of each certainty that there are any of, the most certain first, which is the order of the ranking.
+    pub fn classes(&self) -> Vec<Class<'c>> {
+        let mut rank = 1;
+        let mut classes = Vec::new();
+        for certainty in Certainty::ALL {
+            let class = self.fit.survey().class(certainty);
+            let known = self.fit.known().get(rank - 1).copied();
+            let first = known.or_else(|| {
+                let smallest = class.smallest.iter().map(|drive| self.in_full(drive));
+                smallest.min_by_key(Order::of)
+            });
+            if let Some(first) = first.filter(|_| class.count > 0) {
+                classes.push(Class {
+                    certainty,
+                    count: class.count,
+                    rank,
+                    first,
+                });
+            }
+            rank += class.count;
+        }
+        classes
+    }
+
+    /// The rules that are not checked for some of the suitable drives.
+    pub fn gaps(&self) -> Vec<Gap> {
+        let gaps = self.fit.survey().gaps().filter_map(|(rule, gap)| {
+            let example = gap.example?.placed();
+            let context = self.context_of(example.drive, &self.motors[example.id.motor()]);
+            Some(Gap {
+                rule,
+                count: gap.count,
+                missing: context.missing(self.rules, rule)?,
+            })
+        });
+        gaps.collect()
+    }
+
     /// The refused drive with the motor of the next smaller rated power below every motor that fits, the one that misses by
     /// least if it has several; `None` where none fits, or none is smaller.
     pub fn next_smaller(&self) -> Option<Candidate<'c>> {
@@ -266,7 +329,7 @@ impl<'c> Selection<'c> {
 
     /// Number of suitable drives that are not fully checked.
     pub fn partly_checked(&self) -> usize {
-        self.fit.partly_checked()
+        self.fit.survey().partly_checked()
     }
 
     /// A candidate by every rule, in words.

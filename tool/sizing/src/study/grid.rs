@@ -126,11 +126,11 @@ impl GridStudy<'_> {
             (Some(best), _) => {
                 let mut cells = vec![Verdict::Fits.word().into(), (fit as f64).into()];
                 cells.extend(drive_cells(&selection, best));
-                cells.push(match best.outcome.not_checked {
+                cells.push(match best.outcome.not_checked.count() {
                     0 => Cell::Empty,
                     n => format!(
                         "{} not checked: data missing in the catalogue or the machine file",
-                        counted(n as usize, "rule", "rules")
+                        counted(n, "rule", "rules")
                     )
                     .into(),
                 });

@@ -3,6 +3,7 @@
 use std::cell::Cell;
 
 use jred_machine::analysis::duty::Duty;
+use jred_machine::model::rule::Rule;
 use jred_machine::model::rules::RuleSet;
 use jred_machine::model::rules::Verdict;
 use jred_machine::model::site::Site;
@@ -33,7 +34,10 @@ fn plainly(
         lists[usize::from(outcome.verdict == Verdict::Fail)].push((drive, outcome));
     }
     let power = |drive: &Drive| drive.motor.rated_power().unwrap_or(f64::INFINITY);
-    let doubt = |drive: &Drive, found: &Outcome| (found.voltage_unknown, !drive.from_makers());
+    let doubt = |drive: &Drive, found: &Outcome| match found.voltage_unknown {
+        true => 2,
+        false => i32::from(!drive.from_makers()),
+    };
     let [fit, refused] = &mut lists;
     // Both sorts are stable: equal drives stay in the order of the catalogue.
     fit.sort_by(|(a, x), (b, y)| {
@@ -90,8 +94,11 @@ fn compare(catalogue: &Catalogue, cycle: &Cycle, site: &Site, rules: &RuleSet) -
         }
         let partly = expected[0]
             .iter()
-            .filter(|(_, found)| found.not_checked > 0);
+            .filter(|(_, found)| !found.not_checked.is_empty());
         assert_eq!(selection.partly_checked(), partly.count());
+    }
+    for selection in [&one, &all] {
+        survey(selection, &expected[0]);
     }
     // More than stand in order, and all.
     for count in [FIRST + 1, 3 * FIRST, usize::MAX] {
@@ -106,6 +113,33 @@ fn compare(catalogue: &Catalogue, cycle: &Cycle, site: &Site, rules: &RuleSet) -
     same(&named(one.fit.known()), &expected[0]);
     same(&named(one.refused.known()), &expected[1]);
     expected.map(|list| list.len())
+}
+
+/// Counts, ranks and first drives of each certainty, and how often a rule is not checked, are those of the whole list.
+fn survey(selection: &Selection, fit: &[(String, Outcome)]) {
+    let classes = selection.classes();
+    assert_eq!(
+        classes.iter().map(|class| class.count).sum::<usize>(),
+        fit.len()
+    );
+    let mut rank = 1;
+    for class in &classes {
+        assert_eq!(class.rank, rank);
+        assert_eq!(class.first.certainty(), Some(class.certainty));
+        assert_eq!(class.first.drive.name(), fit[rank - 1].0);
+        rank += class.count;
+    }
+    assert!(classes.is_sorted_by(|a, b| a.certainty < b.certainty));
+    let counted = |rule: Rule| {
+        let open = fit.iter().filter(|(_, found)| found.not_checked.has(rule));
+        open.count()
+    };
+    let expected = Rule::ALL.map(|rule| (rule, counted(rule)));
+    let expected: Vec<_> = expected.into_iter().filter(|(_, n)| *n > 0).collect();
+    let gaps = selection.gaps();
+    let found: Vec<_> = gaps.iter().map(|gap| (gap.rule, gap.count)).collect();
+    assert_eq!(found, expected);
+    assert!(gaps.iter().all(|gap| !gap.missing.is_empty()));
 }
 
 /// The same duty with its largest torque and speed at these (N·m, rad/s).

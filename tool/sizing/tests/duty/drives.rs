@@ -10,7 +10,7 @@ use jred_sizing::catalogue::{Catalogue, Gearbox, Motor};
 use jred_sizing::cycle::Cycle;
 use jred_sizing::judge::Judged;
 use jred_sizing::motor::envelope::Prepared;
-use jred_sizing::select::size::{Candidate, Selection};
+use jred_sizing::select::size::{Candidate, Certainty, Selection};
 
 use super::{catalogue, duty_of, read};
 use crate::brute;
@@ -293,7 +293,7 @@ fn ranking() {
     for pair in fit.windows(2) {
         let key = |c: &Candidate| {
             (
-                [c.outcome.voltage_unknown, !c.drive.from_makers()],
+                Certainty::of(&c.drive, &c.outcome),
                 c.drive.motor.rated_power(),
                 c.outcome.warnings > 0,
                 c.outcome.worst_use,

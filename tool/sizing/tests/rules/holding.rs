@@ -1,7 +1,7 @@
 //! Torque at rest, and what a gearbox does with torque that flows back.
 
 use jred_machine::model::rule::Rule;
-use jred_machine::model::rules::RuleSet;
+use jred_machine::model::rules::{RuleSet, Verdict};
 use jred_sizing::catalogue::Drive;
 use jred_sizing::cycle::form::Coefficients;
 use proptest::prelude::*;
@@ -81,12 +81,34 @@ fn a_weight_is_held() {
         let check = stand.check(true, &RuleSet::default(), Rule::BrakeTorque);
         assert!(check.note.contains("holds by itself"), "{}", check.note);
     }
+}
+
+/// A motor without a brake lets a weight fall that neither the machine's friction nor the gearbox holds: a warning says with how
+/// much, and the rule is not checked.
+#[test]
+fn what_falls_without_a_brake_is_said() {
+    let rules = RuleSet::default();
+    let mut stand = hoist();
+    assert!(stand.warnings(true).iter().all(|w| !w.contains("brake")));
     stand.motor.brake = None;
-    assert!(
-        stand
-            .finding(true, &RuleSet::default(), Rule::BrakeTorque)
-            .is_none()
-    );
+    let warning = stand.warnings(true).remove(0);
+    // 120 N m over 3 and 5.
+    assert!(warning.contains("at least 8 N m"), "{warning}");
+    let check = stand.check(true, &rules, Rule::BrakeTorque);
+    assert_eq!(check.verdict, Verdict::NotChecked);
+    assert!(check.note.contains("holding brake"), "{}", check.note);
+    stand.gearbox.back_efficiency = 0.0;
+    assert!(stand.finding(true, &rules, Rule::BrakeTorque).is_none());
+    assert!(stand.warnings(true).iter().all(|w| !w.contains("brake")));
+    // 7 N m of friction do not hold 120 N m, 121 N m do.
+    let text = HOIST.replace("1 turn", "360 deg");
+    let mut held = Stand::new(&text.replace("\"7 N m\"", "\"121 N m\""));
+    held.motor.brake = None;
+    assert!(held.finding(true, &rules, Rule::BrakeTorque).is_none());
+    assert!(held.warnings(true).iter().all(|w| !w.contains("brake")));
+    let mut falls = Stand::new(&text.replace("\"7 N m\"", "\"118 N m\""));
+    falls.motor.brake = None;
+    assert!(falls.finding(true, &rules, Rule::BrakeTorque).is_some());
 }
 
 /// At rest the torque of the time course lies within the band that friction allows, at the end that the rule judges.

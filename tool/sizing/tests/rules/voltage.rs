@@ -9,7 +9,7 @@ use jred_sizing::bus::supply::BusData;
 use jred_sizing::catalogue::{Amplifier, Basis, Catalogue, Drive, Motor};
 use jred_sizing::motor::envelope::{Envelope, Prepared};
 use jred_sizing::select::rank::{Objective, rank};
-use jred_sizing::select::size::Selection;
+use jred_sizing::select::size::{Certainty, Selection};
 
 fn motor(mains: Option<f64>, figures: Option<f64>, largest: Option<f64>) -> Motor {
     Motor {
@@ -295,17 +295,37 @@ fn what_is_in_doubt_ranks_last() {
             .filter(|c| c.drive.gearbox.is_some());
         known.map(|c| c.drive.motor.key.clone()).collect::<Vec<_>>()
     };
-    let expected = ["sure", "other", "unknown", "unknown-other"];
+    // What is to be asked of the maker is asked with its figures: of unknown voltages the smaller comes first.
+    let expected = ["sure", "other", "unknown-other", "unknown"];
     assert_eq!(keys(&selection), expected);
     for objective in [Objective::Mass, Objective::Power, Objective::Energy] {
         rank(&mut selection, objective);
         assert_eq!(keys(&selection), expected, "{objective:?}");
     }
-    assert!(
-        selection
-            .ranking(stand.motor.kind.vocabulary())
-            .ends_with("last")
+    let classes = selection.classes();
+    let classes: Vec<_> = classes
+        .iter()
+        .map(|class| {
+            let first = class.first.drive.motor.key.as_str();
+            (class.certainty, class.count, class.rank, first)
+        })
+        .collect();
+    assert_eq!(
+        classes,
+        [
+            (Certainty::Makers, 1, 1, "sure"),
+            (Certainty::Others, 1, 2, "other"),
+            (Certainty::Voltage, 2, 3, "unknown-other")
+        ]
     );
+    let ranking = selection.ranking(stand.motor.kind.vocabulary());
+    let said = [
+        "makers' own figures first",
+        "figures of others",
+        "unknown voltage",
+    ];
+    let said = said.map(|words| ranking.find(words).unwrap());
+    assert!(said.is_sorted(), "{ranking}");
     let refused = selection.refused.known().iter();
     assert!(refused.clone().any(|c| c.drive.motor.key == "wrong"));
     assert!(

@@ -70,10 +70,14 @@ pub(super) fn travels(mechanism: &AnyMechanism) -> Result<Vec<Travel>, Error> {
                 Ok(frames.get(link).map_or(Transfer::default(), |f| f.psi))
             }
         };
-        travels.push(Travel {
-            link: name,
-            ..travel(mechanism.domain(), slides, &coordinate)?
-        });
+        let travel = travel(mechanism.domain(), slides, &coordinate)?;
+        // What does not move at all, as a wound web by itself, has no travel.
+        if travel.stroke.abs() > 0.0 || !travel.dead_centres.is_empty() {
+            travels.push(Travel {
+                link: name,
+                ..travel
+            });
+        }
     }
     Ok(travels)
 }

@@ -22,9 +22,8 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let links = [parts::wheel(&screw)?, slide];
     let mechanism = BallScrew::new(lead.si, links).map_err(|error| core(section, error))?;
     let joints = ["screw bearings", "nut guide", "thread"];
-    Ok(
-        AnyMechanism::new(super::BALL_SCREW, mechanism, ["screw", "nut"], joints)
-            .with_point("B", BallScrew::NUT, [0.0, 0.0])
-            .with_friction(BallScrew::NUT, weight),
-    )
+    let mechanism = AnyMechanism::new(super::BALL_SCREW, mechanism, ["screw", "nut"], joints)
+        .with_point("B", BallScrew::NUT, [0.0, 0.0])
+        .with_friction(BallScrew::NUT, weight);
+    parts::linear_stroke(section, mechanism, BallScrew::NUT, 0)
 }

@@ -12,7 +12,6 @@ use crate::units::kind::INERTIA;
 const RATIOS: [f64; 2] = [-1e3, 1e3];
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
-    section.expects(&["arrangement", "inertia", "power_flow", "stage"]);
     let arrangements = ["chain", "fan"];
     let arrangement = match section
         .require("arrangement", "arrangement = \"chain\" or \"fan\"")?

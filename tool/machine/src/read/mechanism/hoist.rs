@@ -14,11 +14,10 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let Some(item) = section.get("counterweight") else {
         let joints = ["drum bearing", "guide of the load", "rope of the load"];
         let names = ["drum", "load"];
-        return Ok(
-            AnyMechanism::new(super::HOIST, Hoist::new(drum, load), names, joints)
-                .with_point("L", Hoist::LOAD, [0.0, 0.0])
-                .with_rope(2),
-        );
+        let mechanism = AnyMechanism::new(super::HOIST, Hoist::new(drum, load), names, joints)
+            .with_point("L", Hoist::LOAD, [0.0, 0.0])
+            .with_rope(2);
+        return parts::linear_stroke(section, mechanism, Hoist::LOAD, 1);
     };
     let counterweight = hanging(&item.section("[mechanism.counterweight]".to_owned())?)?;
     let mechanism = Hoist::with_counterweight(drum, load, counterweight);
@@ -30,11 +29,12 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
         "rope of the counterweight",
     ];
     let names = ["drum", "load", "counterweight"];
-    Ok(AnyMechanism::new(super::HOIST, mechanism, names, joints)
+    let mechanism = AnyMechanism::new(super::HOIST, mechanism, names, joints)
         .with_point("L", Hoist::LOAD, [0.0, 0.0])
         .with_point("G", Hoist::COUNTERWEIGHT, [0.0, 0.0])
         .with_rope(3)
-        .with_rope(4))
+        .with_rope(4);
+    parts::linear_stroke(section, mechanism, Hoist::LOAD, 1)
 }
 
 /// A rope and the mass that hangs on it.

@@ -13,7 +13,6 @@ use jred::{Domain, Link};
 
 use crate::model::coordinate::Coordinate;
 use crate::model::mechanism::AnyMechanism;
-use crate::text::item::Item;
 use crate::text::problem::Result;
 use crate::text::section::Section;
 use crate::units::kind::{ANGLE, LENGTH};
@@ -51,7 +50,6 @@ impl Jointed for Boxed {
 }
 
 pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
-    section.expects(&["drive", "drawn_at", "stroke", "ground", "body", "joint"]);
     let bodies = Bodies::read(section)?;
     let mut joints = joints::read(section, &bodies)?;
     let drive = drive(section, &joints)?;
@@ -168,19 +166,8 @@ fn domain(section: &Section, coordinate: Coordinate) -> Result<Domain> {
         }
         return Ok(Domain::Turn);
     };
-    let [from, to] = item.pair([kind, kind])?;
-    if to.si - from.si < kind.smallest {
-        return Err(stroke_problem(&item, &from.shown(), &to.shown())
-            .help(format!("the second end must be the larger one: {example}")));
-    }
-    Domain::stroke(from.si, to.si).map_err(|error| super::core(section, error))
-}
-
-fn stroke_problem(item: &Item, from: &str, to: &str) -> crate::text::problem::Problem {
-    item.problem(
-        &format!("runs from {from} to {to}, which is zero or backwards"),
-        "check these ends",
-    )
+    let [from, to] = super::parts::ends(&item, kind, example)?;
+    Domain::stroke(from, to).map_err(|error| super::core(section, error))
 }
 
 /// A body that turns needs a moment of inertia, even if it is zero.

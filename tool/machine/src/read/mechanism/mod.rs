@@ -26,6 +26,7 @@ use jred::machine::MassProperties;
 use jred::{Error, Link};
 
 use crate::model::mechanism::AnyMechanism;
+use crate::number::rounding::figure;
 use crate::text::file::Files;
 
 use crate::text::problem::{Problem, Result};
@@ -63,30 +64,98 @@ type Reader = fn(&Section) -> Result<AnyMechanism>;
 /// A reader of one that names a file in the machine file's folder.
 type FileReader = fn(&Section, &dyn Files) -> Result<AnyMechanism>;
 
-/// Every type with its reader.
-const TYPES: [(&str, Reader); 22] = [
-    (SLIDER_CRANK, slider_crank::read),
-    (GEAR_TRAIN, train::read_gears),
-    (BELT, train::read_belt),
-    (LINKAGE, linkage::read),
-    (SCOTCH_YOKE, scotch_yoke::read),
-    (INVERTED_SLIDER_CRANK, inverted_slider_crank::read),
-    (GENEVA, geneva::read),
-    (FOUR_BAR, four_bar::read),
-    (SIX_LINK, six_link::read),
-    (TOGGLE_PRESS, toggle_press::read),
-    (DISC_CAM, disc_cam::read),
-    (RACK, rack::read),
-    (BALL_SCREW, ball_screw::read),
-    (HOIST, hoist::read),
-    (PLANETARY, planetary::read),
-    (PARALLEL_SHAFTS, parallel_shafts::read),
-    (FRICTION_DRIVE, friction_drive::read),
-    (BELT_AXIS, traction::read_belt_axis),
-    (CONVEYOR, traction::read_conveyor),
-    (FEED_ROLL, traction::read_feed_roll),
-    (ROTARY_TABLE, rotary_table::read),
-    (WINDER, winder::read),
+/// Every type with all its keys besides those of every type, where they do not depend on others, and its reader.
+const TYPES: [(&str, &[&str], Reader); 22] = [
+    (
+        SLIDER_CRANK,
+        &["branch", "offset", "crank", "rod", "slider"],
+        slider_crank::read,
+    ),
+    (GEAR_TRAIN, &[], train::read_gears),
+    (BELT, &[], train::read_belt),
+    (
+        LINKAGE,
+        &["drive", "drawn_at", "stroke", "ground", "body", "joint"],
+        linkage::read,
+    ),
+    (
+        SCOTCH_YOKE,
+        &["slot_angle", "crank", "yoke"],
+        scotch_yoke::read,
+    ),
+    (INVERTED_SLIDER_CRANK, &[], inverted_slider_crank::read),
+    (
+        GENEVA,
+        &["slots", "centre_distance", "crank", "wheel"],
+        geneva::read,
+    ),
+    (
+        FOUR_BAR,
+        &["pivot", "side", "stroke", "crank", "coupler", "rocker"],
+        four_bar::read,
+    ),
+    (
+        SIX_LINK,
+        &[
+            "centres", "guide", "branch", "crank", "block", "rocker", "rod", "slider",
+        ],
+        six_link::read,
+    ),
+    (
+        TOGGLE_PRESS,
+        &[
+            "pivot", "guide", "knee", "branch", "crank", "rod", "upper", "lower", "ram",
+        ],
+        toggle_press::read,
+    ),
+    (DISC_CAM, &[], disc_cam::read),
+    (RACK, &["pinion", "rack", "stroke"], rack::read),
+    (
+        BALL_SCREW,
+        &["lead", "screw", "nut", "stroke"],
+        ball_screw::read,
+    ),
+    (
+        HOIST,
+        &["drum", "load", "counterweight", "stroke"],
+        hoist::read,
+    ),
+    (
+        PLANETARY,
+        &[
+            "input",
+            "fixed",
+            "centre_distance",
+            "sun",
+            "carrier",
+            "ring",
+            "planets",
+        ],
+        planetary::read,
+    ),
+    (PARALLEL_SHAFTS, &["drive", "driven"], parallel_shafts::read),
+    (
+        FRICTION_DRIVE,
+        &["arrangement", "inertia", "power_flow", "stage"],
+        friction_drive::read,
+    ),
+    (
+        BELT_AXIS,
+        &["pulley", "idler", "belt_mass", "carriage", "stroke"],
+        traction::read_belt_axis,
+    ),
+    (
+        CONVEYOR,
+        &["drum", "idler", "belt_mass", "goods"],
+        traction::read_conveyor,
+    ),
+    (
+        FEED_ROLL,
+        &["roll", "idler", "strip"],
+        traction::read_feed_roll,
+    ),
+    (ROTARY_TABLE, &["table", "parts"], rotary_table::read),
+    (WINDER, &["core", "web", "full_diameter"], winder::read),
 ];
 
 /// Every type that is read from a file of its own.
@@ -95,7 +164,7 @@ const FILE_TYPES: [(&str, FileReader); 1] = [(REDUCED_CURVES, reduced_curves::re
 /// The types of mechanism that machine files can name.
 pub fn mechanism_types() -> impl Iterator<Item = &'static str> {
     let files = FILE_TYPES.iter().map(|(name, _)| *name);
-    TYPES.iter().map(|(name, _)| *name).chain(files)
+    TYPES.iter().map(|(name, ..)| *name).chain(files)
 }
 
 /// The mechanism, in this `gravity` (m/s²), and the inertia of its flywheel (kg·m²).
@@ -113,18 +182,53 @@ pub(super) fn read(
     };
     let mechanism = match (TYPES.get(kind), kind.checked_sub(TYPES.len())) {
         (None, Some(file)) => FILE_TYPES[file].1(section, files)?,
-        (reader, _) => reader.unwrap_or(&TYPES[0]).1(section)?,
+        (kind, _) => {
+            let (_, keys, read) = kind.unwrap_or(&TYPES[0]);
+            if !keys.is_empty() {
+                section.expects_only(keys);
+            }
+            read(section)?
+        }
     };
     let elsewhere = |key: &str| match key {
         "efficiency" => Some("efficiency belongs to [[drive_train]]"),
         _ => None,
     };
     section.finish_with(elsewhere)?;
-    let mechanism = mechanism
+    let mut mechanism = mechanism
         .with_gravity_on_guides(gravity)
         .map_err(|error| core(section, error))?;
+    if AXES.contains(&mechanism.kind()) {
+        mechanism = mechanism.with_fact("axis", inclination(gravity));
+    }
     Ok((mechanism, flywheel))
 }
+
+/// The types whose part slides along x.
+const AXES: [&str; 5] = [RACK, BALL_SCREW, BELT_AXIS, CONVEYOR, FEED_ROLL];
+
+/// How the x axis lies in this `gravity` (m/s²).
+fn inclination([x, y]: [f64; 2]) -> String {
+    let lies = if x == 0.0 && y == 0.0 {
+        return "without gravity".to_owned();
+    } else if x.abs() <= LEVEL * y.abs() {
+        "horizontal".to_owned()
+    } else if y.abs() <= LEVEL * x.abs() {
+        "vertical".to_owned()
+    } else {
+        let rises = (-x).atan2(y.abs()).to_degrees();
+        format!("x rises by {} deg", figure(rises))
+    };
+    let upwards = match (lies == "vertical", x > 0.0) {
+        (true, false) => ", x upwards",
+        (true, true) => ", x downwards",
+        _ => "",
+    };
+    format!("{lies}{upwards}, by the key gravity, as in gravity = {{ inclination = \"90 deg\" }}")
+}
+
+/// Share of gravity below which a component is a rounding.
+const LEVEL: f64 = 1e-12;
 
 /// Mass, moment of inertia and centre of mass of a crank or a rod.
 fn link(section: &Section) -> Result<Link> {

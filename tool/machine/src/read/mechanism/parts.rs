@@ -1,13 +1,14 @@
 //! Parts that several mechanisms have: links that only slide, and wheels that only turn.
 
-use jred::Link;
-use jred::machine::MassProperties;
+use jred::machine::{MassProperties, Mechanism as _};
+use jred::{Domain, Link};
 
 use super::core;
-use crate::text::item::Value;
+use crate::model::mechanism::AnyMechanism;
+use crate::text::item::{Item, Value};
 use crate::text::problem::Result;
 use crate::text::section::Section;
-use crate::units::kind::{INERTIA, LENGTH, MASS};
+use crate::units::kind::{INERTIA, Kind, LENGTH, MASS};
 
 /// Largest friction coefficient of a guide.
 const MOST_FRICTION: f64 = 2.0;
@@ -58,4 +59,41 @@ pub(super) fn mass(section: &Section) -> Result<f64> {
     section
         .optional("mass", &MASS)?
         .map_or(Ok(0.0), Value::not_negative)
+}
+
+/// The two ends of a stroke.
+pub(super) fn ends(item: &Item, kind: &'static Kind, example: &str) -> Result<[f64; 2]> {
+    let [from, to] = item.pair([kind, kind])?;
+    if to.si - from.si >= kind.smallest {
+        return Ok([from.si, to.si]);
+    }
+    let (from, to) = (from.shown(), to.shown());
+    let what = format!("runs from {from} to {to}, which is zero or backwards");
+    Err(item
+        .problem(&what, "check these ends")
+        .help(format!("the second end must be the larger one: {example}")))
+}
+
+/// A linear axis on the `stroke` of link number `link` along x (0) or y (1), if the file gives one. The link's way is
+/// proportional to the drive link's.
+pub(super) fn linear_stroke(
+    section: &Section,
+    mechanism: AnyMechanism,
+    link: usize,
+    axis: usize,
+) -> Result<AnyMechanism> {
+    let Some(item) = section.get("stroke") else {
+        return Ok(mechanism.open_ended(link));
+    };
+    let ends = ends(&item, &LENGTH, "stroke = [\"0 mm\", \"800 mm\"]")?;
+    let frames = mechanism
+        .frames(0.0)
+        .map_err(|error| core(section, error))?;
+    let Some(frame) = frames.get(link) else {
+        return Ok(mechanism);
+    };
+    let way = [frame.x, frame.y][axis];
+    let [a, b] = ends.map(|end| (end - way.value) / way.d1);
+    let domain = Domain::stroke(a.min(b), a.max(b)).map_err(|error| core(section, error))?;
+    Ok(mechanism.on_stroke(domain))
 }

@@ -16,9 +16,8 @@ pub(super) fn read(section: &Section) -> Result<AnyMechanism> {
     let links = [link(&pinion)?, slide];
     let mechanism = RackAndPinion::new(radius, links).map_err(|error| core(section, error))?;
     let joints = ["pinion bearing", "rack guide", "mesh"];
-    Ok(
-        AnyMechanism::new(super::RACK, mechanism, ["pinion", "rack"], joints)
-            .with_point("B", RackAndPinion::RACK, [0.0, 0.0])
-            .with_friction(RackAndPinion::RACK, weight),
-    )
+    let mechanism = AnyMechanism::new(super::RACK, mechanism, ["pinion", "rack"], joints)
+        .with_point("B", RackAndPinion::RACK, [0.0, 0.0])
+        .with_friction(RackAndPinion::RACK, weight);
+    parts::linear_stroke(section, mechanism, RackAndPinion::RACK, 0)
 }

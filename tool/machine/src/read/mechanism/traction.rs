@@ -11,6 +11,7 @@ use jred::mechanism::RackAndPinion;
 
 use super::{core, parts};
 use crate::model::mechanism::AnyMechanism;
+use crate::number::rounding::figure;
 use crate::text::item::Value;
 use crate::text::problem::Result;
 use crate::text::section::Section;
@@ -27,6 +28,8 @@ struct Words {
     joints: [&'static str; 3],
     /// Whether a belt runs round the wheels, and which share of it slides on its bed.
     belt: Option<f64>,
+    /// Whether its way ends: a conveyor and a feed roll go on without end.
+    ends: bool,
 }
 
 pub(super) fn read_belt_axis(section: &Section) -> Result<AnyMechanism> {
@@ -38,6 +41,7 @@ pub(super) fn read_belt_axis(section: &Section) -> Result<AnyMechanism> {
             slide: "carriage",
             joints: ["pulley bearing", "carriage guide", "belt"],
             belt: Some(0.0),
+            ends: true,
         },
     )
 }
@@ -52,6 +56,7 @@ pub(super) fn read_conveyor(section: &Section) -> Result<AnyMechanism> {
             slide: "goods",
             joints: ["drum bearing", "slide bed", "belt"],
             belt: Some(0.5),
+            ends: false,
         },
     )
 }
@@ -65,6 +70,7 @@ pub(super) fn read_feed_roll(section: &Section) -> Result<AnyMechanism> {
             slide: "strip",
             joints: ["roll bearing", "strip guide", "nip"],
             belt: None,
+            ends: false,
         },
     )
 }
@@ -83,10 +89,10 @@ fn read(section: &Section, words: &Words) -> Result<AnyMechanism> {
             inertia += idler_inertia(&idler, diameter)?;
         }
     }
-    let mut on_the_bed = 0.0;
+    let (mut on_the_bed, mut belt) = (0.0, 0.0);
     if let Some(share) = words.belt {
-        let belt = section.optional("belt_mass", &MASS)?;
-        let belt = belt.map_or(Ok(0.0), Value::not_negative)?;
+        let given = section.optional("belt_mass", &MASS)?;
+        belt = given.map_or(Ok(0.0), Value::not_negative)?;
         inertia += belt * radius * radius;
         on_the_bed = share * belt;
     }
@@ -102,11 +108,20 @@ fn read(section: &Section, words: &Words) -> Result<AnyMechanism> {
     let mechanism =
         RackAndPinion::new(radius, [pinion, link]).map_err(|error| core(section, error))?;
     let names = [words.wheel, words.slide];
-    Ok(
-        AnyMechanism::new(words.kind, mechanism, names, words.joints)
-            .with_point("B", RackAndPinion::RACK, [0.0, 0.0])
-            .with_friction(RackAndPinion::RACK, friction * pressed),
-    )
+    let mechanism = AnyMechanism::new(words.kind, mechanism, names, words.joints)
+        .with_point("B", RackAndPinion::RACK, [0.0, 0.0])
+        .with_friction(RackAndPinion::RACK, friction * pressed);
+    let mechanism = match belt {
+        belt if belt > 0.0 => mechanism.with_fact(
+            "mass of the belt",
+            format!("{} kg, as inertia of the {}", figure(belt), words.wheel),
+        ),
+        _ => mechanism,
+    };
+    if !words.ends {
+        return Ok(mechanism);
+    }
+    parts::linear_stroke(section, mechanism, RackAndPinion::RACK, 0)
 }
 
 /// The effective diameter (m): given, or pitch times teeth over π.

@@ -1,7 +1,10 @@
 //! Whether a cycle ends where it began.
 
+use jred::machine::Mechanism as _;
+
 use crate::analysis::repeats::{self, Difference};
 use crate::model::coordinate::Coordinate;
+use crate::model::mechanism::NamedLoad;
 use crate::model::motion::Segment;
 use crate::number::rounding::shown;
 use crate::read::drive_link::DriveLink;
@@ -57,8 +60,7 @@ pub(super) fn check(
     };
     let sum = segments.iter().map(|s| s.distance).sum::<f64>();
     let turns = sum / per_turn;
-    let missing = turns.round() - turns;
-    if missing.abs() <= CLOSED * segments.len() as f64 {
+    if (turns.round() - turns).abs() <= CLOSED * segments.len() as f64 {
         return Ok(());
     }
     let Some(difference) = difference(section, prescribed, start, sum)? else {
@@ -66,10 +68,11 @@ pub(super) fn check(
     };
     let mut problem = section.problem(
         format!(
-            "the moves of this cycle add up to {}, which is not a whole number of turns{}, and the machine is not the same there: {}",
+            "the moves of this cycle add up to {}, which is not a whole number of turns{}, and the machine is not the same there: {}{}",
             axis.distance(sum),
             of_the_drive(prescribed),
-            in_words(&difference)
+            in_words(&difference),
+            of_load(prescribed, &difference, start, sum)
         ),
         "a cycle must close",
     );
@@ -80,11 +83,50 @@ pub(super) fn check(
     for (part, segment) in moves.take(20) {
         problem = problem.at(part.header(), axis.distance(segment.distance));
     }
+    // What is indexed by a part of a turn comes round after some cycles.
+    let repeats = (1.0 / turns).abs();
+    let cure = if repeats > 1.5 && (repeats - repeats.round()).abs() < CLOSED * repeats {
+        format!(
+            "write the segments {} times, for the whole turn",
+            repeats.round()
+        )
+    } else {
+        let whole = turns.round()
+            + if turns.round() == 0.0 {
+                turns.signum()
+            } else {
+                0.0
+            };
+        format!(
+            "add a move of {} to reach {}",
+            axis.distance((whole - turns) * per_turn),
+            axis.distance(whole * per_turn)
+        )
+    };
     Err(problem.help(format!(
-        "add a move of {} to reach {}, or use type = \"point-to-point\" for a motion that does not repeat",
-        axis.distance(missing * per_turn),
-        axis.distance(turns.round() * per_turn)
+        "{cure}, or use type = \"point-to-point\" for a motion that does not repeat; a load with `between` acts in its part of each turn of the drive link, whatever the motion does"
     )))
+}
+
+/// The process load that differs most, by its name.
+fn of_load(prescribed: &Prescribed, difference: &Difference, start: f64, way: f64) -> String {
+    let mechanism = prescribed.machine.mechanism();
+    let there = difference.phi + prescribed.advance(start, way);
+    let at = |named: &NamedLoad, phi: f64| {
+        let frames = mechanism.frames(phi).ok()?;
+        let parts = named.load.reduce(frames.get(named.load.link())?, phi);
+        Some([parts.process, parts.viscous, parts.coulomb])
+    };
+    let changes = prescribed.loads.iter().filter_map(|named| {
+        let [here, there] = [at(named, difference.phi)?, at(named, there)?];
+        let apart = here.iter().zip(there).map(|(a, b)| (a - b).abs());
+        Some((apart.fold(0.0, f64::max), named))
+    });
+    let most = changes.max_by(|a, b| a.0.total_cmp(&b.0));
+    most.filter(|(apart, _)| *apart > 0.0)
+        .map_or_else(String::new, |(_, named)| {
+            format!(", by the load \"{}\"", named.name)
+        })
 }
 
 /// " of the drive link" where something else is prescribed.

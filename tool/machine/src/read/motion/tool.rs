@@ -7,7 +7,7 @@ use jred::machine::motion::State;
 use jred::machine::{Joint, Jointed as _, Mechanism as _};
 use jred::{Domain, Machine};
 
-use crate::model::mechanism::AnyMechanism;
+use crate::model::mechanism::{AnyMechanism, NamedLoad};
 use crate::model::motion::{Measure, Motion, Reach, Standstill, ToolCoordinate};
 use crate::number::numerics;
 use crate::number::rounding::figure;
@@ -30,13 +30,15 @@ pub(in crate::read) struct Prescribed<'a> {
     pub(in crate::read) drive: DriveLink,
     pub(in crate::read) tool: Option<ToolCoordinate>,
     pub(in crate::read) machine: &'a Machine<AnyMechanism>,
+    /// Its loads with their names.
+    pub(in crate::read) loads: &'a [NamedLoad],
 }
 
 impl<'a> Prescribed<'a> {
     pub(super) fn read(
         section: &Section,
         drive: DriveLink,
-        machine: &'a Machine<AnyMechanism>,
+        (machine, loads): (&'a Machine<AnyMechanism>, &'a [NamedLoad]),
     ) -> Result<Self> {
         let near = section.optional("near", drive.position())?;
         let Some(of) = section.get("of") else {
@@ -50,6 +52,7 @@ impl<'a> Prescribed<'a> {
                 drive,
                 tool: None,
                 machine,
+                loads,
             });
         };
         let mechanism = machine.mechanism();
@@ -99,6 +102,7 @@ impl<'a> Prescribed<'a> {
             drive,
             tool: Some(tool),
             machine,
+            loads,
         })
     }
 
@@ -218,19 +222,34 @@ impl<'a> Prescribed<'a> {
             } else {
                 (
                     "its dead centre",
-                    "; what passes a dead centre is prescribed at the drive link: law = \"join\", or a motion without `of`",
+                    "; a full stroke, and whatever passes a dead centre, is a motion of the drive link: law = \"join\", or a motion without `of`",
                 )
             };
             let [least, most] = ends.map(|[_, end]| self.axis.distance(end));
-            let message = format!(
-                "leads {} to {}: at t = {} s it reaches {what} at {}, {} = {}, and no position of the drive link takes it further",
-                tool.name(),
-                self.axis.distance(value),
-                figure(first),
+            let name = tool.name();
+            let place = format!(
+                "{}, {} = {}",
                 drive.place(turned),
                 tool.symbol(),
-                self.axis.distance(end),
+                self.axis.distance(end)
             );
+            let beyond = (value - end).abs() > AT_DEAD_CENTRE * way;
+            let message = if first <= 0.0 && !within(motion.prescribed(0.0).phi) {
+                format!(
+                    "starts with {name} at {what}, at {place}, where the drive link's motion does not follow from it"
+                )
+            } else if beyond {
+                format!(
+                    "leads {name} to {}: at t = {} s it reaches {what} at {place}, and no position of the drive link takes it further",
+                    self.axis.distance(value),
+                    figure(first),
+                )
+            } else {
+                format!(
+                    "leads {name} to {what}, at {place}, at t = {} s, where the drive link's motion does not follow from it",
+                    figure(t),
+                )
+            };
             return Err(problem(segment, &message).help(format!(
                 "keep {} between {least} and {most}{cure}",
                 tool.name()

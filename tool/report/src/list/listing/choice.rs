@@ -22,8 +22,16 @@ pub struct List {
 impl List {
     /// The ranked drives to list.
     pub fn fit<'c>(&self, selection: &Selection<'c>) -> Vec<Candidate<'c>> {
-        let count = if self.all { usize::MAX } else { self.top };
-        selection.first_fit(count)
+        selection.first_fit(self.count())
+    }
+
+    /// The same with their ranks, and after them the first drive of each certainty that is not among them.
+    pub fn ranked<'c>(&self, selection: &Selection<'c>) -> Vec<(usize, Candidate<'c>)> {
+        ranked(selection, self.count())
+    }
+
+    const fn count(&self) -> usize {
+        if self.all { usize::MAX } else { self.top }
     }
 
     /// The refused drives to list, those that miss by least first.
@@ -33,6 +41,16 @@ impl List {
         }
         selection.first_refused(self.nearest)
     }
+}
+
+/// The first drives, and after them the first of each certainty that is not among them, with their ranks.
+pub(crate) fn ranked<'c>(selection: &Selection<'c>, count: usize) -> Vec<(usize, Candidate<'c>)> {
+    let mut listed: Vec<_> = (1..).zip(selection.first_fit(count)).collect();
+    let last = listed.len();
+    let firsts = selection.classes().into_iter();
+    let lower = firsts.filter(|class| last > 0 && class.rank > last);
+    listed.extend(lower.map(|class| (class.rank, class.first)));
+    listed
 }
 
 /// The drive to be explained: the one called `name`, or the best one, or, if none is suitable, the closest one. `None` if

@@ -3,10 +3,10 @@
 use super::{Asked, List};
 use jred_machine::number::csv;
 use jred_sizing::judge::Judged;
-use jred_sizing::select::size::{Candidate, Selection};
+use jred_sizing::select::size::{Candidate, Certainty, Selection};
 
 /// Columns, a row for every rule of every drive that is listed.
-const COLUMNS: [&str; 11] = [
+const COLUMNS: [&str; 12] = [
     "rank",
     "motor",
     "gearbox",
@@ -18,19 +18,20 @@ const COLUMNS: [&str; 11] = [
     "limit",
     "unit",
     "note",
+    "certainty",
 ];
 
-/// Every rule of every drive that is listed as a row, part by part, a drive each; "verdict" is the rule's. The drive asked for comes
+/// Every rule of every drive that is listed as a row, part by part, a drive each; "verdict" is the rule's, and "certainty" that of a drive that fits. The drive asked for comes
 /// first, with its rank if it fits, and is left out of the list.
 pub fn csv<'c>(
     list: List,
     selection: &'c Selection<'c>,
     asked: Option<&Asked<'c>>,
 ) -> impl Iterator<Item = String> {
-    let (fit, refused) = (list.fit(selection), list.refused(selection));
-    let ranks = (1..=fit.len()).map(|k| k.to_string());
-    let ranks = ranks.chain(std::iter::repeat(String::new()));
-    let listed = ranks.zip(fit.into_iter().chain(refused));
+    let fit = list.ranked(selection).into_iter();
+    let refused = list.refused(selection).into_iter();
+    let listed = (fit.map(|(rank, candidate)| (rank.to_string(), candidate)))
+        .chain(refused.map(|candidate| (String::new(), candidate)));
     let first = asked.map(|asked| {
         let rank = asked.rank.map_or_else(String::new, |rank| rank.to_string());
         (rank, asked.candidate)
@@ -40,11 +41,14 @@ pub fn csv<'c>(
         move |candidate: &Candidate| asked.is_some_and(|asked| asked.is_same_drive(candidate));
     let listed = listed.filter(move |(_, candidate)| !is_first(candidate));
     let drives = first.into_iter().chain(listed);
-    let drives = drives.map(|(rank, candidate)| rows(&rank, &selection.judged(&candidate)));
+    let drives = drives.map(|(rank, candidate)| {
+        let certainty = candidate.certainty().map_or("", Certainty::word);
+        rows(&rank, certainty, &selection.judged(&candidate))
+    });
     std::iter::once(csv::row(COLUMNS)).chain(drives)
 }
 
-fn rows(rank: &str, judged: &Judged) -> String {
+fn rows(rank: &str, certainty: &str, judged: &Judged) -> String {
     let drive = &judged.drive;
     let rows = judged.checks.iter().map(|check| {
         [
@@ -59,6 +63,7 @@ fn rows(rank: &str, judged: &Judged) -> String {
             csv::known(check.limit),
             check.unit.to_owned(),
             check.note.clone(),
+            certainty.to_owned(),
         ]
     });
     csv::rows(rows)

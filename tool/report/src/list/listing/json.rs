@@ -9,7 +9,8 @@ use jred_machine::model::coordinate::Coordinate;
 use jred_machine::model::machine::MachineFile;
 use jred_machine::model::rule::Rule;
 use jred_sizing::catalogue::MotorKind;
-use jred_sizing::select::size::{Candidate, Selection};
+use jred_sizing::judge::cure;
+use jred_sizing::select::size::{Candidate, Certainty, Selection};
 
 /// Name and version of the form. The number is raised whenever a key is removed or changes its meaning.
 pub const SCHEMA: &str = "jred-size/3";
@@ -21,6 +22,7 @@ pub fn json<'c>(
     file: &MachineFile,
     duty: &Duty,
     selection: &'c Selection,
+    warnings: &[String],
     asked: Option<&Asked>,
     explanation: Option<&Explanation>,
 ) -> impl Iterator<Item = String> {
@@ -42,6 +44,23 @@ pub fn json<'c>(
         Coordinate::Angle => ["drive link torque [N m]", "drive link speed [rad/s]"],
         Coordinate::Length => ["drive link force [N]", "drive link speed [m/s]"],
     };
+    let classes = selection.classes().into_iter().map(|class| {
+        object!({
+            "certainty": class.certainty.word(),
+            "drives": class.count,
+            "rank": class.rank,
+            "first": drive(selection, &class.first),
+        })
+    });
+    let gaps = selection.gaps().into_iter().map(|gap| {
+        object!({
+            "rule": gap.rule.named(kind.vocabulary()),
+            "id": gap.rule,
+            "drives": gap.count,
+            "missing": gap.missing,
+            "cure": cure(gap.rule),
+        })
+    });
     let mut value = object!({
         "schema": SCHEMA,
         "version": env!("CARGO_PKG_VERSION"),
@@ -55,6 +74,7 @@ pub fn json<'c>(
         "holding torque [N m]": duty.hold_torque,
         "supply": { "mains voltage [V]": file.site.mains_voltage, "bus voltage [V]": file.site.bus_voltage },
         "rules": { "set": selection.rules.name, "title": selection.rules.title, "limits": limits },
+        "warnings": warnings,
         "ranking": selection.ranking(kind.vocabulary()),
         "counts": {
             "drives": selection.fit.len() + selection.refused.len(),
@@ -62,6 +82,8 @@ pub fn json<'c>(
             "fit, not all rules checked": selection.partly_checked(),
             "refused": selection.refused.len(),
         },
+        "certainties": classes.collect::<Vec<_>>(),
+        "not checked": gaps.collect::<Vec<_>>(),
         "fit": Value::Null,
         "refused": Value::Null,
     });
@@ -98,6 +120,7 @@ fn drive(selection: &Selection, candidate: &Candidate) -> Value {
         "rated power [W]": judged.rated_power(),
         "motor mains voltage [V]": drive.motor.mains_voltage,
         "motor largest bus voltage [V]": drive.motor.made_for().map(|made| made.largest),
+        "certainty": candidate.certainty().map(Certainty::word),
         "figures from": if drive.from_makers() { "maker" } else { "other" },
         "verdict": judged.verdict(),
         "duty": judged.duty,

@@ -14,9 +14,9 @@ use jred_machine::number::rounding::{rounded, short, significant};
 use jred_machine::number::words::counted;
 use jred_machine::units::Vocabulary;
 use jred_sizing::catalogue::MotorKind;
-use jred_sizing::judge::Judged;
 use jred_sizing::judge::check::Check;
-use jred_sizing::select::size::Selection;
+use jred_sizing::judge::{Judged, cure};
+use jred_sizing::select::size::{Candidate, Certainty, Class, Gap, Selection};
 
 /// Width of the column "limit is".
 const NOTE_WIDTH: u16 = 72;
@@ -28,6 +28,7 @@ pub fn text(
     file: &MachineFile,
     duty: &Duty,
     selection: &Selection,
+    warnings: &[String],
     asked: Option<&Asked>,
     explanation: Option<&Explanation>,
 ) -> String {
@@ -50,10 +51,13 @@ pub fn text(
             words.inertia.scale,
         ),
     ]);
+    let warnings = warnings.iter().map(|words| format!("\nwarning: {words}"));
     let mut parts = vec![format!(
-        "{}\n\n{}\n\nDuty at the input of the drive train, cycle {} s\n{input}\n",
+        "{}\n\n{}{}\n\nDuty at the {}, cycle {} s\n{input}\n",
         file.title,
         supply(&file.site),
+        warnings.collect::<String>(),
+        file.input_name(),
         rounded(duty.duration)
     )];
     let all = selection.fit.len() + selection.refused.len();
@@ -66,24 +70,11 @@ pub fn text(
             best.drive.name(),
             drive_text(best)
         ));
-        let open = match selection.partly_checked() {
-            0 => String::new(),
-            open => {
-                format!("; not fully checked (data missing): {open}")
-            }
-        };
-        parts.push(format!(
-            "\n{} of {} {} no rule{open}",
-            selection.fit.len(),
-            counted(all, "drive", "drives"),
-            if selection.fit.len() == 1 {
-                "violates"
-            } else {
-                "violate"
-            }
-        ));
+        parts.push(String::new());
+        parts.push(counts(selection));
+        parts.extend(not_checked(selection, words));
         parts.push(ranking(list, selection, words));
-        parts.extend(next_smaller(selection));
+        parts.extend(smaller(selection));
     } else if let Some(nearest) = selection.refused.first() {
         let nearest = &selection.judged(nearest);
         parts.push(format!(
@@ -142,8 +133,123 @@ fn asked_text(asked: &Asked, selection: &Selection) -> String {
     )
 }
 
+/// How many drives violate no rule, and how certain their data are; the first drive of each certainty.
+fn counts(selection: &Selection) -> String {
+    let all = selection.fit.len() + selection.refused.len();
+    let mut text = format!(
+        "{} of {} {} no rule:",
+        selection.fit.len(),
+        counted(all, "drive", "drives"),
+        if selection.fit.len() == 1 {
+            "violates"
+        } else {
+            "violate"
+        }
+    );
+    for class in selection.classes() {
+        text += "\n  ";
+        text += &class_text(&class);
+    }
+    text
+}
+
+/// The suitable drives of one certainty in a line.
+pub(crate) fn class_text(class: &Class) -> String {
+    let drive = &class.first.drive;
+    let power = drive.motor.rated_power();
+    let power = power.map_or_else(String::new, |power| {
+        format!(", {} kW", significant(power / 1000.0, 3))
+    });
+    format!(
+        "{} {}; the first is rank {}: {}{power}",
+        class.count,
+        certainty(class.certainty),
+        class.rank,
+        drive.name()
+    )
+}
+
+/// What is known of a drive.
+const fn certainty(certainty: Certainty) -> &'static str {
+    match certainty {
+        Certainty::Makers => "with the makers' own figures, of known voltage",
+        Certainty::Others => "with figures that are not all the makers' own (*), of known voltage",
+        Certainty::Voltage => "of unknown voltage (–)",
+    }
+}
+
+/// Why a drive ranks lower than others.
+const fn doubt(certainty: Certainty) -> &'static str {
+    match certainty {
+        Certainty::Makers => "it is larger",
+        Certainty::Others => {
+            "its figures are not all the makers' own; check them against the data sheets"
+        }
+        Certainty::Voltage => {
+            "the catalogue does not state what voltage it is made for; ask the makers"
+        }
+    }
+}
+
+/// The rules that are not checked for some of the suitable drives, and what would cure it.
+fn not_checked(selection: &Selection, words: &Vocabulary) -> Option<String> {
+    let gaps = selection.gaps();
+    if gaps.is_empty() {
+        return None;
+    }
+    let whole = selection.fit.len() - selection.partly_checked();
+    let mut text = format!(
+        "checked by all rules: {}; not checked, because data are missing:",
+        counted(whole, "drive", "drives")
+    );
+    for gap in &gaps {
+        text += "\n  ";
+        text += &gap_text(gap, words);
+    }
+    Some(text)
+}
+
+/// A rule that is not checked for some drives in a line.
+pub(crate) fn gap_text(gap: &Gap, words: &Vocabulary) -> String {
+    format!(
+        "{}: {} (no data: {}); needs {}",
+        gap.rule.named(words),
+        counted(gap.count, "drive", "drives"),
+        gap.missing,
+        cure(gap.rule)
+    )
+}
+
+/// The smaller motors that violate no rule and rank lower, because less is certain of them; why no still smaller motor will do:
+/// the next smaller one, and the rules that it violates.
+pub(crate) fn smaller(selection: &Selection) -> Vec<String> {
+    let power = |candidate: &Candidate| candidate.drive.motor.rated_power();
+    let mut least = selection
+        .fit
+        .first()
+        .and_then(power)
+        .unwrap_or(f64::INFINITY);
+    let mut lines = Vec::new();
+    // Ranked by something else, the first of a class is not its smallest.
+    let by_size = selection.ranking.is_none();
+    for class in selection.classes().iter().filter(|_| by_size) {
+        if let Some(power) = power(&class.first).filter(|power| *power < least) {
+            least = power;
+            lines.push(format!(
+                "smaller motor, {} kW: {} violates no rule either, but ranks lower ({}): {}",
+                significant(power / 1e3, 3),
+                class.first.drive.name(),
+                class.rank,
+                doubt(class.certainty)
+            ));
+        }
+    }
+    lines.extend(next_smaller(selection));
+    lines
+}
+
 /// Why no smaller motor will do: the next smaller one, and the rules that it violates.
-pub(crate) fn next_smaller(selection: &Selection) -> Option<String> {
+fn next_smaller(selection: &Selection) -> Option<String> {
     let next = &selection.judged(&selection.next_smaller()?);
     Some(format!(
         "next smaller motor, {} kW: {} is refused: {}",
@@ -165,17 +271,20 @@ fn ranking(list: List, selection: &Selection, words: &Vocabulary) -> String {
         "speed used",
         "λ max",
     ]);
-    let shown = list.fit(selection);
-    for (k, candidate) in shown.iter().enumerate() {
-        table.add_row(rank_row(k + 1, &selection.judged(candidate)));
+    let shown = list.ranked(selection);
+    for (rank, candidate) in &shown {
+        table.add_row(rank_row(*rank, &selection.judged(candidate)));
     }
-    let others = shown.iter().any(|candidate| !candidate.drive.from_makers());
-    let remark = if others { OTHERS } else { "" };
-    format!("{table}\nranked: {}{remark}", selection.ranking(words))
+    let drives = || shown.iter().map(|(_, candidate)| candidate.drive);
+    let mut remarks = String::new();
+    if drives().any(|drive| !drive.from_makers()) {
+        remarks += "\n* figures not from the maker's own document";
+    }
+    if drives().any(|drive| drive.motor.made_for().is_none()) {
+        remarks += "\n– voltage that the motor is made for not stated in the catalogue";
+    }
+    format!("{table}\nranked: {}{remarks}", selection.ranking(words))
 }
-
-/// What the mark in the ranking means.
-const OTHERS: &str = "\n* figures not from the maker's own document";
 
 /// A key of the catalogue, marked if its figures are not from the maker's own document.
 fn marked(key: &str, from_maker: bool) -> String {
@@ -188,7 +297,7 @@ fn figures_table(rows: &[(String, Figures, f64)]) -> String {
     let mut table = text_table(&["", "min", "mean", "max", "RMS"]);
     for (name, figures, unit) in rows {
         // Rounding errors compared with the largest value are shown as zero.
-        let noise = 1e-12 * figures.peak();
+        let noise = 1e-10 * figures.peak();
         let cells = figures
             .values()
             .map(|x| rounded(if x.abs() <= noise { 0.0 } else { x / unit }));

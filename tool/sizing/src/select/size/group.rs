@@ -1,8 +1,10 @@
 //! Drives of one kind, suitable or refused, of which the first are sorted.
 
+use super::Candidate;
 use super::order::Order;
-use super::{Candidate, is_open};
+use super::survey::Survey;
 use crate::catalogue::{Drive, DriveId};
+use crate::judge::Outcome;
 
 /// Number of suitable and of refused drives that are fully evaluated and sorted; see [`Selection`](super::Selection).
 pub const FIRST: usize = 64;
@@ -11,7 +13,7 @@ pub const FIRST: usize = 64;
 const NEAR: usize = 2 * FIRST;
 
 /// Drives of one kind.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Group<'c> {
     first: Vec<Candidate<'c>>,
     /// Candidates for the first ranks while drives are checked.
@@ -19,8 +21,8 @@ pub struct Group<'c> {
     /// Lower bound on the rank of every drive in `rest`; `None` if `rest` is empty.
     limit: Option<Order>,
     pub(super) rest: Vec<Placed<'c>>,
-    /// Number of drives in `rest` that are suitable but not fully checked.
-    partly_checked: usize,
+    /// Of all drives; of refused ones nothing is counted.
+    survey: Survey<'c>,
 }
 
 /// A drive and its id: small, for of a large catalogue nearly all are no more than this.
@@ -38,6 +40,13 @@ pub(super) struct Unranked<'c> {
 }
 
 impl<'c> Unranked<'c> {
+    fn of(candidate: &Candidate<'c>) -> Self {
+        Self {
+            drive: candidate.drive,
+            bound: Order::of(candidate),
+        }
+    }
+
     pub(super) const fn placed(&self) -> Placed<'c> {
         Placed {
             drive: self.drive,
@@ -48,25 +57,36 @@ impl<'c> Unranked<'c> {
 
 impl<'c> Group<'c> {
     /// All of a kind, in order.
-    pub(crate) const fn of(all: Vec<Candidate<'c>>) -> Self {
-        Self {
-            first: all,
-            near: Vec::new(),
-            limit: None,
-            rest: Vec::new(),
-            partly_checked: 0,
+    pub(crate) fn of(all: Vec<Candidate<'c>>) -> Self {
+        let mut group = Self::none();
+        for candidate in &all {
+            group.count(&Unranked::of(candidate), &candidate.outcome);
         }
+        group.first = all;
+        group
     }
 
     /// An empty group, without allocation.
     pub(super) const fn none() -> Self {
-        Self::of(Vec::new())
+        Self {
+            first: Vec::new(),
+            near: Vec::new(),
+            limit: None,
+            rest: Vec::new(),
+            survey: Survey::EMPTY,
+        }
     }
 
-    /// Adds a drive that is not fully evaluated, and whether it is suitable but not fully checked.
-    pub(super) fn add(&mut self, drive: Unranked<'c>, partly_checked: bool) {
-        self.partly_checked += usize::from(partly_checked);
+    /// Adds a drive that is not fully evaluated, and its outcome as far as it is known.
+    pub(super) fn add(&mut self, drive: Unranked<'c>, outcome: &Outcome) {
+        self.count(&drive, outcome);
         self.put(drive);
+    }
+
+    fn count(&mut self, drive: &Unranked<'c>, outcome: &Outcome) {
+        if !outcome.fails() {
+            self.survey.add(drive, outcome);
+        }
     }
 
     fn put(&mut self, drive: Unranked<'c>) {
@@ -86,7 +106,7 @@ impl<'c> Group<'c> {
 
     /// Joins two unsorted groups.
     pub(super) fn join(&mut self, other: Self) {
-        self.partly_checked += other.partly_checked;
+        self.survey.join(other.survey);
         for drive in other.near {
             self.put(drive);
         }
@@ -128,8 +148,6 @@ impl<'c> Group<'c> {
                 id: c.id,
             }));
         }
-        let first = self.first.iter().filter(|c| is_open(&c.outcome));
-        self.partly_checked -= first.count();
     }
 
     /// Number of drives.
@@ -158,9 +176,8 @@ impl<'c> Group<'c> {
         first.chain(self.rest.iter().map(|u| u.drive))
     }
 
-    /// Number of suitable drives that are not fully checked: data missing.
-    pub fn partly_checked(&self) -> usize {
-        let first = self.first.iter().filter(|c| is_open(&c.outcome));
-        self.partly_checked + first.count()
+    /// What the suitable drives have in common.
+    pub(super) const fn survey(&self) -> &Survey<'c> {
+        &self.survey
     }
 }

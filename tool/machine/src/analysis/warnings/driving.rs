@@ -14,9 +14,9 @@ const STEPS: usize = 720;
 /// direction gives back over a cycle what it takes.
 const BALANCED: f64 = 1e-3;
 
-/// A remark for each process load that drives the machine by more than it resists: over the motion, or, without one, towards
+/// A warning for each process load that drives the machine by more than it resists: over the motion, or, without one, towards
 /// growing positions. Loads that stand for weights are none.
-pub(super) fn notes(file: &MachineFile) -> Result<Vec<String>, Error> {
+pub(super) fn of(file: &MachineFile) -> Result<Vec<String>, Error> {
     let mechanism = file.machine.mechanism();
     let coordinate = mechanism.coordinate();
     let states: Vec<[f64; 2]> = match &file.motion {
@@ -29,7 +29,9 @@ pub(super) fn notes(file: &MachineFile) -> Result<Vec<String>, Error> {
             .collect(),
     };
     let loads = file.machine.loads().iter().zip(&file.loads);
+    // A web pulls whether it is wound or unwound.
     let loads: Vec<_> = loads
+        .skip(mechanism.pulls())
         .filter(|(load, _)| !mechanism.is_weight(load))
         .collect();
     // Position of the largest driving power, that power, the sum of all powers and of their magnitudes.
@@ -58,7 +60,7 @@ pub(super) fn notes(file: &MachineFile) -> Result<Vec<String>, Error> {
                 format!("most at {}", coordinate.place(*place))
             };
             format!(
-                "warning: the process load \"{}\" drives the machine {most}: if it should resist, turn its sign",
+                "the process load \"{}\" drives the machine {most}: if it should resist, turn its sign",
                 named.name
             )
         })

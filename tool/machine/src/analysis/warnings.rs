@@ -1,0 +1,20 @@
+//! What may be a mistake in a machine file, though it can be computed.
+
+use jred::Error;
+
+use crate::model::machine::MachineFile;
+
+mod driving;
+mod endless;
+mod near_centre;
+
+/// The warnings, in sentences.
+///
+/// # Errors
+/// The mechanism cannot be placed somewhere in its range.
+pub fn warnings(file: &MachineFile) -> Result<Vec<String>, Error> {
+    let mut warnings = driving::of(file)?;
+    warnings.extend(endless::of(file)?);
+    warnings.extend(near_centre::of(file)?);
+    Ok(warnings)
+}

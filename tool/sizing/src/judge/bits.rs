@@ -1,0 +1,44 @@
+//! Some of the rules, a bit for each.
+
+use jred_machine::model::rule::Rule;
+
+/// Some of the rules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RuleBits(u32);
+
+const _: () = assert!(Rule::COUNT <= u32::BITS as usize, "a bit for each rule");
+
+impl RuleBits {
+    /// No rule.
+    pub const NONE: Self = Self(0);
+
+    /// Adds a rule.
+    pub const fn add(&mut self, rule: Rule) {
+        self.0 |= 1 << rule as u32;
+    }
+
+    /// Whether a rule is one of them.
+    pub const fn has(self, rule: Rule) -> bool {
+        self.0 & 1 << rule as u32 != 0
+    }
+
+    /// Whether there is none.
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// Number of rules.
+    pub const fn count(self) -> usize {
+        self.0.count_ones() as usize
+    }
+
+    /// The rules, in the order of reports.
+    pub fn iter(self) -> impl Iterator<Item = Rule> {
+        let mut rest = self.0;
+        std::iter::from_fn(move || {
+            let place = rest.trailing_zeros() as usize;
+            rest &= rest.wrapping_sub(1);
+            Rule::ALL.get(place).copied()
+        })
+    }
+}

@@ -1,0 +1,48 @@
+//! Which data a rule needs that is not checked, and where they belong.
+
+use jred_machine::model::rule::Rule;
+
+/// Keys that let a rule be checked: columns of the catalogue (docs/catalogue.md), or keys of the machine file.
+pub const fn cure(rule: Rule) -> &'static str {
+    match rule {
+        Rule::RmsTorque => "rated_torque and rated_speed of the motor in the catalogue",
+        Rule::PeakTorque => "peak_torque of the motor in the catalogue",
+        Rule::Speed => "max_speed of the motor in the catalogue",
+        Rule::HoldingTorque | Rule::ConstantTorque => {
+            "standstill_torque of the motor in the catalogue"
+        }
+        Rule::BrakeTorque => "brake_torque of the motor with its holding brake in the catalogue",
+        Rule::InertiaRatio => "inertia_ratio in [rules]",
+        Rule::WindingTemperature | Rule::HousingTemperature => {
+            "thermal resistances, time constants and winding data of the motor in the catalogue"
+        }
+        Rule::GearboxPeak => "peak_output_torque of the gearbox in the catalogue",
+        Rule::GearboxCubicMean => "rated_output_torque of the gearbox in the catalogue",
+        Rule::GearboxEmergency => "emergency_output_torque of the gearbox in the catalogue",
+        Rule::GearboxMeanSpeed => "rated_input_speed of the gearbox in the catalogue",
+        Rule::GearboxSpeed => "max_input_speed of the gearbox in the catalogue",
+        Rule::GearboxCycles => "shock_factors of the gearbox in the catalogue",
+        Rule::RmsCurrent => {
+            "amplifiers in the catalogue, and torque_constant or rated_current of the motor"
+        }
+        Rule::PeakCurrent => "torque_constant or rated_current of the motor in the catalogue",
+        Rule::Overload => {
+            "peak_time of the amplifier and torque_constant of the motor in the catalogue"
+        }
+        Rule::MotorVoltage => {
+            "mains_voltage or max_bus_voltage of the motor in the catalogue, and mains_voltage in [supply]"
+        }
+        Rule::AmplifierVoltage => {
+            "mains_voltage or bus_voltage of the amplifier in the catalogue, and mains_voltage in [supply]"
+        }
+        Rule::BusVoltage => "mains_voltage, capacitance and max_voltage in [supply]",
+        Rule::BrakeResistance => "min_resistance in [supply], or of the amplifier",
+        Rule::ResistorPower | Rule::ResistorPeak | Rule::ResistorPulse => {
+            "power, peak_power and pulse_energy of brake_resistor in [supply]"
+        }
+        Rule::NaturalFrequency => {
+            "stiffness of the gearbox in the catalogue; for a direct drive shaft in [stiffness]"
+        }
+        Rule::Backlash => "backlash of the gearbox in the catalogue",
+    }
+}
